@@ -7,9 +7,11 @@ use rayon::prelude::*;
 use super::finished_run::{FinishedRun, LowTotals, outputs_kept, row_inputs};
 use super::measures::FirstRows;
 use super::output::{FailureCount, NoIndices, OutputAnalysis};
+use super::rare_levels::{rare_levels, withdraw};
 use super::result::{Aggregate, Analysis, LowRuns, Stopped};
 use super::series::{series, single_outputs, together};
-use super::{unlikely, warnings};
+use super::unlikely;
+use super::warnings::{self, RareLevel};
 use crate::design::Design;
 use crate::estimate::{CentralMoments, MomentParts, PointOutputs, Scaling, merged};
 use crate::model::{MANY_OUTPUTS, Output, RowFailure};
@@ -118,7 +120,9 @@ pub(crate) fn surrogates(
         let all = alone.into_iter().chain(lows.iter().filter_map(of_low));
         all.min_by(|a, b| a.squared_error().total_cmp(&b.squared_error()))
     };
-    alone.into_iter().enumerate().map(best).collect()
+    let misses_levels = rare_levels(&study.space, design).iter().any(RareLevel::is_missed);
+    let of_rows = |of: SurrogateEstimates| SurrogateEstimates { misses_levels, ..of };
+    alone.into_iter().enumerate().map(|place| best(place).map(of_rows)).collect()
 }
 
 /// What surrogates and cheaper models make of every output, in the end and at every stage of the run.
@@ -126,6 +130,8 @@ struct Corrections {
     whole: Vec<Option<SurrogateEstimates>>,
     /// By the base points of a replicate.
     stages: BTreeMap<u64, Vec<Option<SurrogateEstimates>>>,
+    /// What the rows hardly met.
+    rare: Vec<RareLevel>,
 }
 
 impl Corrections {
@@ -144,7 +150,7 @@ impl Corrections {
                 }
             }
         }
-        Self { whole, stages }
+        Self { whole, stages, rare: rare_levels(&study.space, design) }
     }
 }
 
@@ -163,18 +169,22 @@ fn output_analysis(
     let surrogate = corrected.whole.get(number).and_then(Option::as_ref);
     let options = IntervalOptions { points: KeptPoints::all(run.design, &kept), surrogate, ..interval_options(study) };
     let used = merged(&parts.iter().map(MomentParts::whole).collect::<Vec<_>>());
-    let (mean, variance) = moments_of_all_rows(&totals.values, output_moments(&parts, &options), used.count());
     let failure = |(failure, tally): (RowFailure, Tally)| failure_count(run, &failure, tally);
     let share = totals.runs_failed as f64 / run.design.rows() as f64;
     let layout = study.layout();
-    let indices = if share > study.analysis.max_failed {
+    let mut indices = if share > study.analysis.max_failed {
         Err(NoIndices::TooManyFailed { share, allowed: study.analysis.max_failed })
     } else {
         output_indices(&parts, &layout, &options).map_err(NoIndices::from)
     };
+    let is_refused = indices.as_ref().is_ok_and(|of| of.surrogate.as_ref().is_some_and(|used| used.refusal.is_some()));
+    let of_moments = IntervalOptions { surrogate: surrogate.filter(|_| !is_refused), ..options };
+    let (mean, variance) = moments_of_all_rows(&totals.values, output_moments(&parts, &of_moments), used.count());
     let mut warnings = warnings::of_runs(run, totals.runs_failed, used.fewest());
     warnings.extend(warnings::of_flags(run.model, whole));
-    if let Ok(indices) = &indices {
+    warnings.extend(warnings::of_rare_levels(study, &corrected.rare));
+    if let Ok(indices) = &mut indices {
+        withdraw(indices, &corrected.rare);
         warnings.extend(warnings::of_digits(&totals.values));
         warnings.extend(warnings::of_values(&totals.values));
         warnings.extend(warnings::of_indices(study, indices));

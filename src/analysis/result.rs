@@ -127,6 +127,13 @@ pub enum StopReason {
         /// Base samples that it has none of.
         base_samples: u64,
     },
+    /// Every interval is as narrow as asked for, but rows have hardly met a level of a factor.
+    RareLevels {
+        /// The largest half width.
+        widest: f64,
+        /// Base samples with which they would meet it ten times.
+        base_samples: f64,
+    },
     /// There are no more points.
     EndOfSequence,
     /// The outputs of twice the runs would not fit into memory.
@@ -157,6 +164,11 @@ impl fmt::Display for StopReason {
                 f,
                 "there are indices or intervals missing with {base_samples} base samples, and nothing says that more runs would bring \
                  them: see what is said of the outputs, or begin with more base samples"
+            ),
+            Self::RareLevels { widest, base_samples } => write!(
+                f,
+                "every half width is {widest:.2e} or less, but rows hardly met a level of a factor, so that nothing can be promised: \
+                 some {base_samples:.0} base samples would meet it ten times"
             ),
             Self::EndOfSequence => f.write_str("the sequence of points has come to its end"),
             Self::Memory => {

@@ -9,7 +9,7 @@ use crate::model::Model;
 use crate::run::Totals;
 use crate::study::Study;
 use crate::uncertainty::{
-    EffectEstimates, Estimate, Interval, IntervalMethod, NoiseIndices, OutputIndices, differs_clearly,
+    EffectEstimates, Estimate, Interval, IntervalMethod, NoiseIndices, OutputIndices, Refusal, differs_clearly,
 };
 
 /// Why numbers of an output may be wrong, or less sure than they look.
@@ -104,6 +104,50 @@ pub enum Warning {
          corrected indices hold those of the plain ones too"
     )]
     HeavyTailedSurrogate,
+    /// Corrected and plain indices are apart, within what the intervals hold.
+    #[error(
+        "the indices corrected by surrogates and the plain ones of the same rows are apart by more than their errors make \
+         likely: the intervals hold both"
+    )]
+    DoubtedSurrogate,
+    /// Corrected indices contradict plain ones, which are the result.
+    #[error(
+        "the indices corrected by surrogates contradict the plain ones of the same rows by {times:.1} times what their errors \
+         allow: the rows do not represent a factor, and the plain ones are the result"
+    )]
+    ContradictedSurrogate {
+        /// The distance over what both errors allow.
+        times: f64,
+    },
+    /// Surrogates claim more variance than the rows show; the plain indices are the result.
+    #[error(
+        "the surrogates claim {times:.1} times the variance that the rows show of a factor: the rows do not represent it, and \
+         the plain indices are the result"
+    )]
+    InflatedSurrogate {
+        /// The variance claimed over that of the rows.
+        times: f64,
+    },
+    /// A level of a factor that hardly any row has.
+    #[error(
+        "{factor}: {level} (probability {probability:.2e}) is in {} of the {values} values drawn, so that its effect on the \
+         output is not known, and the indices may be anything: some {:.0} base samples meet it once, and {:.0} ten times",
+        if *draws == 0 { "none".to_owned() } else { draws.to_string() },
+        0.5 / probability,
+        5.0 / probability
+    )]
+    RareLevel {
+        /// The factor.
+        factor: String,
+        /// A value, a label, or a range.
+        level: String,
+        /// Its probability.
+        probability: f64,
+        /// How many of the values of the factor in A and B are this level.
+        draws: u64,
+        /// How many values there are.
+        values: u64,
+    },
     /// Rows for surrogates, which explain little.
     #[error(
         "the surrogates explain {:.0} % of the variance of runs that they were not fitted to, so that plain rows, which only \
@@ -261,6 +305,10 @@ impl Warning {
             Self::FewDigits { .. } => "few-digits",
             Self::NoIntervals => "no-intervals",
             Self::HeavyTailedSurrogate => "heavy-tailed-surrogate",
+            Self::DoubtedSurrogate => "doubted-surrogate",
+            Self::ContradictedSurrogate { .. } => "contradicted-surrogate",
+            Self::InflatedSurrogate { .. } => "inflated-surrogate",
+            Self::RareLevel { .. } => "rare-level",
             Self::PoorSurrogate { .. } => "poor-surrogate",
             Self::DependentSteps { .. } => "dependent-steps",
             Self::NoNoise { .. } => "no-noise",
@@ -293,6 +341,45 @@ pub(super) fn of_runs(run: &FinishedRun<'_>, failed: u64, base_points_used: u64)
     }
     warnings.extend(run.study.analysis.design_warnings(design));
     warnings
+}
+
+/// A level of a factor that rows hardly met.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct RareLevel {
+    /// The number of the factor.
+    pub factor: usize,
+    /// The level: a value, a label, or a range.
+    pub level: String,
+    /// Its probability.
+    pub probability: f64,
+    /// How many of the values of the factor in A and B are this level.
+    pub draws: u64,
+    /// How many values there are.
+    pub all: u64,
+}
+
+impl RareLevel {
+    /// Whether so few rows have it, or none, that surrogates cannot know of it.
+    pub fn is_missed(&self) -> bool {
+        self.draws < 3
+    }
+
+    /// Base samples with which the level is drawn that often in the mean.
+    pub fn base_samples(&self, draws: f64) -> f64 {
+        draws / (2.0 * self.probability)
+    }
+}
+
+/// Levels that rows hardly met.
+pub(super) fn of_rare_levels(study: &Study, rare: &[RareLevel]) -> Vec<Warning> {
+    let warning = |rare: &RareLevel| Warning::RareLevel {
+        factor: study.space.factors()[rare.factor].name.clone(),
+        level: rare.level.clone(),
+        probability: rare.probability,
+        draws: rare.draws,
+        values: rare.all,
+    };
+    rare.iter().map(warning).collect()
 }
 
 /// Warnings that the model has raised.
@@ -359,6 +446,11 @@ pub(super) fn of_indices(study: &Study, indices: &OutputIndices) -> Vec<Warning>
     }
     if let Some(used) = &indices.surrogate {
         warnings.extend(used.is_heavy_tailed.then_some(Warning::HeavyTailedSurrogate));
+        warnings.extend(used.is_doubted.then_some(Warning::DoubtedSurrogate));
+        warnings.extend(used.refusal.map(|refusal| match refusal {
+            Refusal::Contradiction { times } => Warning::ContradictedSurrogate { times },
+            Refusal::Growth { times } => Warning::InflatedSurrogate { times },
+        }));
         let is_poor = study.design.plain_rows() > 0 && used.explained < MIN_EXPLAINED;
         warnings.extend(is_poor.then_some(Warning::PoorSurrogate { explained: used.explained }));
     }

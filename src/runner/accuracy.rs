@@ -14,7 +14,7 @@ use crate::design::{Design, DesignSettings, Rows};
 use crate::model::{Batch, RunContext};
 use crate::run::{Job, RowValues, RunError, Store};
 use crate::study::{LowFidelity, Study, SurrogateChoice, Target};
-use crate::uncertainty::{Estimate, OutputIndices};
+use crate::uncertainty::OutputIndices;
 
 /// Base points of each replicate in a trial without plain rows, the fewest that surrogates are fitted to.
 const TRIAL_POINTS: u64 = 4;
@@ -222,11 +222,7 @@ fn explained(analysis: &Analysis) -> f64 {
 fn plain_runs(analysis: &Analysis, accuracy: f64) -> Option<u64> {
     let of_output = |indices: &OutputIndices| match &indices.surrogate {
         None => indices.largest_half_width(),
-        Some(used) => {
-            let plain = used.plain_first_order.iter().chain(&used.plain_total);
-            let half = |estimate: &Estimate| estimate.interval.map(|i| (i.high - i.low) / 2.0);
-            plain.map(half).try_fold(0.0, |widest: f64, half| Some(widest.max(half?)))
-        }
+        Some(used) => used.plain_half_width(),
     };
     let mut widest = analysis.outputs.iter().filter_map(|output| output.indices.as_ref().ok()).map(of_output);
     let widest = widest.try_fold(0.0, |widest: f64, half| Some(widest.max(half?)))?;

@@ -2,7 +2,7 @@
 
 use super::Runner;
 use super::low_fidelity::LowRun;
-use crate::analysis::{StopReason, Stopped, interval_options, surrogates};
+use crate::analysis::{StopReason, Stopped, enough_base_samples, interval_options, rare_levels, surrogates};
 use crate::clock::Instant;
 use crate::design::Design;
 use crate::estimate::{MomentParts, PointOutputs, Undefined};
@@ -19,6 +19,12 @@ const FEW_BASE_SAMPLES_OF_FAILURES: u64 = 1 << 8;
 
 /// Why a run that grew has ended, and what surrogates and cheaper models make of every output.
 pub(super) type Grown = (Stopped, Vec<Option<SurrogateEstimates>>);
+
+/// Base samples to which a run goes on for the rare levels of factors.
+const MOST_FOR_RARE_LEVELS: f64 = (1 << 14) as f64;
+
+/// Half width of plain indices from which on they could contradict corrected ones.
+const MOST_PLAIN_HALF_WIDTH: f64 = 0.5;
 
 /// Part of the squared error that cheaper models need not go below.
 const ENOUGH: f64 = 1.0 / 16.0;
@@ -49,10 +55,10 @@ impl Runner<'_> {
         let mut seconds = run.elapsed().as_secs_f64() - lows.iter().flat_map(LowRun::seconds).sum::<f64>();
         if self.study.target.accuracy.is_some() && !lows.is_empty() {
             // Where the first runs are enough, cheaper models need not run.
-            let Stage { widest, surrogates, .. } = run.install(|| stage(self.study, run, &[]));
-            if let Some(stopped) = reason_to_stop(self.study, run, longest, widest).filter(is_met) {
+            let first = run.install(|| stage(self.study, run, &[]));
+            if let Some(stopped) = reason_to_stop(self.study, run, longest, &first).filter(is_met) {
                 lows.clear();
-                return Ok((stopped, surrogates));
+                return Ok((stopped, first.surrogates));
             }
             self.begin_lows(run, lows)?;
             let best = run.install(|| best_low(self.study, run, lows, seconds));
@@ -63,9 +69,9 @@ impl Runner<'_> {
             });
         }
         loop {
-            let Stage { widest, squared_errors: [own, of_low], surrogates } =
-                run.install(|| stage(self.study, run, lows));
-            let stopped = reason_to_stop(self.study, run, longest, widest);
+            let reached = run.install(|| stage(self.study, run, lows));
+            let stopped = reason_to_stop(self.study, run, longest, &reached);
+            let [own, of_low] = reached.squared_errors;
             if let ([low], false) = (&mut lows[..], stopped.as_ref().is_some_and(is_met)) {
                 let [shared, cost] = low.seconds();
                 let pays = of_low * (seconds + shared) > own * cost && of_low > ENOUGH * own;
@@ -75,7 +81,7 @@ impl Runner<'_> {
                 }
             }
             if let Some(stopped) = stopped {
-                return Ok((stopped, surrogates));
+                return Ok((stopped, reached.surrogates));
             }
             let start = Instant::now();
             run.grow_to(run.points_per_replicate() * 2, on_progress)?;
@@ -103,6 +109,8 @@ fn best_low(study: &Study, run: &GrowingRun<'_>, lows: &[LowRun<'_>], seconds: f
 struct Stage {
     /// Largest half width of the indices of all outputs; `None` if some are missing.
     widest: Option<f64>,
+    /// Whether plain indices are known well enough to contradict those that surrogates have corrected.
+    is_checked: bool,
     /// Of the output that it belongs to, the squared errors that come from the rows of the model, and those that come from the
     /// runs of a cheaper model.
     squared_errors: [f64; 2],
@@ -114,7 +122,7 @@ struct Stage {
 fn stage(study: &Study, run: &GrowingRun<'_>, lows: &[LowRun<'_>]) -> Stage {
     let outputs = run.totals().first().map_or(0, |totals| totals.outputs.len());
     let (layout, options) = (study.layout(), interval_options(study));
-    let mut all = Stage { widest: None, squared_errors: [0.0; 2], surrogates: Vec::new() };
+    let mut all = Stage { widest: None, is_checked: true, squared_errors: [0.0; 2], surrogates: Vec::new() };
     let Ok(design) = run.design().with_points(run.points_per_replicate()) else { return all };
     let lows: Vec<_> = lows.iter().map(LowRun::totals).collect();
     let mut is_known = true;
@@ -125,7 +133,11 @@ fn stage(study: &Study, run: &GrowingRun<'_>, lows: &[LowRun<'_>]) -> Stage {
         let surrogate = all.surrogates.get(number).and_then(Option::as_ref);
         let points = KeptPoints::all(&design, &kept);
         let options = IntervalOptions { points, surrogate, ranks: false, ..options };
-        match output_indices(&parts, &layout, &options).map(|indices| indices.largest_half_width()) {
+        let found = output_indices(&parts, &layout, &options);
+        if let Some(used) = found.as_ref().ok().and_then(|indices| indices.surrogate.as_ref()) {
+            all.is_checked &= used.plain_half_width().is_some_and(|half| half <= MOST_PLAIN_HALF_WIDTH);
+        }
+        match found.map(|indices| indices.largest_half_width()) {
             Ok(Some(widest)) if all.widest.is_none_or(|before| widest > before) => {
                 all.widest = Some(widest);
                 all.squared_errors = surrogate.map_or([1.0, 0.0], |surrogate| surrogate.squared_errors());
@@ -139,7 +151,8 @@ fn stage(study: &Study, run: &GrowingRun<'_>, lows: &[LowRun<'_>]) -> Stage {
 }
 
 /// Why the run should not be doubled once more; `None` if it should.
-fn reason_to_stop(study: &Study, run: &GrowingRun<'_>, longest: &Design, widest: Option<f64>) -> Option<Stopped> {
+fn reason_to_stop(study: &Study, run: &GrowingRun<'_>, longest: &Design, stage: &Stage) -> Option<Stopped> {
+    let widest = stage.widest;
     let Target { accuracy, max_time, max_runs } = study.target;
     let next = run.points_per_replicate() * 2;
     let replicates = longest.settings().replicates;
@@ -150,9 +163,15 @@ fn reason_to_stop(study: &Study, run: &GrowingRun<'_>, longest: &Design, widest:
     let has_none =
         replicates < 2 && matches!(study.analysis.intervals, IntervalMethod::Nets | IntervalMethod::Replicates);
     let has_too_few = base_samples >= FEW_BASE_SAMPLES_OF_FAILURES && fails_too_often(study, run);
+    let is_met = stage.is_checked && accuracy.zip(widest).is_some_and(|(target, widest)| widest <= target);
+    let design = is_met.then(|| longest.with_points(run.points_per_replicate()).ok()).flatten();
+    let rare = design.map_or_else(Vec::new, |design| rare_levels(&study.space, &design));
     let reason = match (accuracy, widest) {
         (Some(_), _) if has_too_few => StopReason::NoIntervals { base_samples },
-        (Some(target), Some(widest)) if widest <= target => StopReason::TargetMet { widest, target },
+        (Some(target), Some(widest)) if is_met && rare.is_empty() => StopReason::TargetMet { widest, target },
+        (Some(_), Some(widest)) if enough_base_samples(&rare) > MOST_FOR_RARE_LEVELS => {
+            StopReason::RareLevels { widest, base_samples: enough_base_samples(&rare) }
+        }
         (Some(_), None) if has_none || base_samples >= FEW_BASE_SAMPLES => StopReason::NoIntervals { base_samples },
         _ if next > longest.points_per_replicate() => StopReason::EndOfSequence,
         _ if run.room_for(next).is_err() => StopReason::Memory,

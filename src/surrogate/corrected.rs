@@ -30,6 +30,9 @@ pub struct Contributions {
     pub mean: Vec<f64>,
     /// Mean square and mean fourth power of e, what the surrogate leaves unexplained.
     pub residual: (f64, f64),
+    /// Of every swap, and of all factors last, the variance of the part of the surrogate that they have to do with: as it claims it, and
+    /// as the rows show it.
+    pub claims: Vec<[f64; 2]>,
     /// Rows.
     pub rows: usize,
 }
@@ -64,6 +67,34 @@ pub(super) fn values_and_rest(net: &Net, expansion: &Expansion) -> (Vec<Vec<f64>
     (surrogate, e)
 }
 
+/// See [`Contributions::claims`].
+fn claims(net: &Net, expansion: &Expansion, swaps: &[Vec<usize>]) -> Vec<[f64; 2]> {
+    let acts = |term: &[(usize, usize)], place: usize| {
+        !term.is_empty() && swaps.get(place).is_none_or(|swap| touches(term, swap))
+    };
+    let terms = || expansion.terms.iter().zip(&expansion.coefficients);
+    let mut sums = vec![[0.0; 2]; swaps.len() + 1];
+    let mut values = Vec::new();
+    for run in 0..net.runs() {
+        let mut parts = vec![vec![0.0; net.points()]; sums.len()];
+        for (term, b) in terms() {
+            net.fill(term, run, &mut values);
+            for (_, part) in parts.iter_mut().enumerate().filter(|(place, _)| acts(term, *place)) {
+                part.iter_mut().zip(&values).for_each(|(sum, value)| *sum += b * value);
+            }
+        }
+        for (sums, part) in sums.iter_mut().zip(&parts) {
+            part.iter().for_each(|value| *sums = [sums[0] + value, sums[1] + value * value]);
+        }
+    }
+    let rows = (net.points() * net.runs()).max(1) as f64;
+    let claim = |(place, [sum, square]): (usize, &[f64; 2])| {
+        let claimed = terms().filter(|(term, _)| acts(term, place)).map(|(_, b)| b * b).sum();
+        [claimed, square / rows - (sum / rows).powi(2)]
+    };
+    sums.iter().enumerate().map(claim).collect()
+}
+
 impl Contributions {
     /// Nothing yet, of that many swaps and pairs at the points of `net`.
     pub(super) fn zeros(swaps: usize, pairs: usize, net: &Net) -> Self {
@@ -76,6 +107,7 @@ impl Contributions {
             variance: vec![0.0; points],
             mean: vec![0.0; points],
             residual: (0.0, 0.0),
+            claims: Vec::new(),
             rows: points * net.runs(),
         }
     }
@@ -91,6 +123,7 @@ impl Contributions {
         let (surrogate, e) = values_and_rest(net, expansion);
         let mut all = Self::zeros(swaps.len(), pairs.len(), net);
         all.residual = (mean_power(&e, 2), mean_power(&e, 4));
+        all.claims = claims(net, expansion, swaps);
         all.add_surrogate(net, expansion, &e, swaps, pairs);
         all.add_residual(design, net, &surrogate, &e, swaps.len(), pairs);
         all
@@ -205,5 +238,25 @@ impl Contributions {
                 *sum += (product(j, k, p) + product(k, j, p)) / 2.0;
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::surrogate::basis::{Family, polynomials};
+
+    #[test]
+    fn rows_that_do_not_stand_for_a_factor_show_less_than_an_expansion_claims() {
+        // The second factor stays within a twentieth of its range: its polynomial hardly varies.
+        let u: Vec<f64> = (0..100).map(|i| (f64::from(i) + 0.5) / 100.0).collect();
+        let narrow: Vec<f64> = u.iter().map(|u| 0.95 + 0.05 * u).collect();
+        let columns = [&u, &narrow].map(|u| polynomials(&Family::Legendre, u, 1)).to_vec();
+        let net = Net::of_rows(columns, vec![0.0; 100]);
+        let expansion =
+            Expansion { terms: vec![vec![], vec![(0, 1)], vec![(1, 1)]], coefficients: vec![7.0, 1.0, 0.5] };
+        let claims = claims(&net, &expansion, &[vec![0], vec![1]]);
+        assert_eq!(claims.iter().map(|claim| claim[0]).collect::<Vec<_>>(), [1.0, 0.25, 1.25]);
+        assert!((claims[0][1] - 1.0).abs() < 1e-3 && (claims[1][1] * 400.0 - 0.25).abs() < 1e-3, "{claims:?}");
     }
 }

@@ -1,6 +1,7 @@
 //! Sparse polynomial chaos expansions: few terms, chosen by greedy least squares, their number by leaving out a net.
 
-use super::basis::{Caps, Term, first_terms, neighbours};
+use super::basis::{Term, first_terms, neighbours};
+use super::carried::Carried;
 use super::gram::{Path, Square, lower_factor, solve};
 use super::net::Net;
 use crate::sum::product;
@@ -78,8 +79,9 @@ pub fn selection_rows(nets: usize) -> usize {
 }
 
 /// The candidates of the first round, if that many rows choose among them.
-pub fn first_candidates(caps: Caps<'_>, rows: usize) -> Vec<Term> {
-    first_terms(caps, caps.terms.min(20.max(2 * rows)))
+pub fn first_candidates(carried: &Carried<'_>, rows: usize) -> Vec<Term> {
+    let caps = carried.caps();
+    carried.of(first_terms(caps, caps.terms.min(20.max(2 * rows))))
 }
 
 /// Expansions of one output or of many, which share their terms.
@@ -100,14 +102,15 @@ impl Expansions {
 
 /// The expansions fitted to the nets `training`; `first` holds the candidates of the first round and their sums over each of
 /// these nets. Terms are chosen for all outputs together, and for each output how many of them it takes.
-pub fn fit(training: &[&Training<'_>], first: (&[Term], &[&NetSums]), caps: Caps<'_>) -> Expansions {
+pub fn fit(training: &[&Training<'_>], first: (&[Term], &[&NetSums]), carried: &Carried<'_>) -> Expansions {
+    let caps = carried.caps();
     let rounds = if caps.families.len() <= 10 { 3 } else { 2 };
     let rows = selection_rows(training.len());
     let mut found = vec![chosen(first.0, first.1)];
     let mut candidates = first.0.to_vec();
     let mut best = 0;
     for round in 1..rounds {
-        let next = neighbours(&found[best].terms, &found[best].weights, caps);
+        let next = carried.of(neighbours(&found[best].terms, &found[best].weights, caps));
         if next.iter().all(|term| candidates.contains(term)) {
             break;
         }

@@ -6,6 +6,7 @@
 
 pub mod basis;
 pub mod beyond;
+mod carried;
 pub mod corrected;
 pub mod fit;
 pub mod gram;
@@ -24,6 +25,7 @@ use crate::space::Space;
 use crate::uncertainty::{Influenced, Layout, PartInfluences, SurrogateEstimates, SurrogateTerm, in_parts};
 use basis::{Caps, Family, Term};
 use beyond::Beyond;
+use carried::Carried;
 use corrected::Contributions;
 use fit::{Expansion, Expansions, NetSums, Training, first_candidates, fit, selection_rows};
 use net::Net;
@@ -51,6 +53,9 @@ const CLEARLY_LESS: f64 = 0.25;
 /// and below which corrected intervals must hold the plain ones too: what is missing from the runs is missing from a fit to them.
 const RESIDUAL: f64 = 1e-3;
 const FEW_ROWS: f64 = 50.0;
+
+/// Share of the variance by which a factor matters.
+const MATTERS: f64 = 0.02;
 
 /// Terms that are told of.
 const TOLD_TERMS: usize = 12;
@@ -213,27 +218,29 @@ pub fn cross_fitted<T: Send>(
 
 /// For every net the expansions fitted to the `training` runs of the others.
 fn fitted_to_others(nets: &[Net], training: &[Training<'_>], caps: Caps<'_>) -> Vec<Expansions> {
-    let (candidates, rows) = first_round(nets, caps);
+    let carried = Carried::new(nets, caps);
+    let (candidates, rows) = first_round(nets, &carried);
     let sums: Vec<NetSums> = training.par_iter().map(|net| NetSums::new(net, &candidates, rows)).collect();
-    let of_net = |k: usize| fit(&without(training, k), (&candidates, &without(&sums, k)), caps);
+    let of_net = |k: usize| fit(&without(training, k), (&candidates, &without(&sums, k)), &carried);
     (0..nets.len()).into_par_iter().map(of_net).collect()
 }
 
 /// The candidates of the first round, and the rows of each net that choose among them.
-fn first_round(nets: &[Net], caps: Caps<'_>) -> (Vec<Term>, usize) {
+fn first_round(nets: &[Net], carried: &Carried<'_>) -> (Vec<Term>, usize) {
     let training = nets.len() - 1;
     let rows = selection_rows(training);
     let all_rows = nets.iter().map(|net| rows.min(net.points() * net.runs())).sum::<usize>() * training / nets.len();
-    (first_candidates(caps, all_rows), rows)
+    (first_candidates(carried, all_rows), rows)
 }
 
 /// The expansion fitted to all nets but number `k`.
 fn expansion_without(nets: &[Net], k: usize, caps: Caps<'_>) -> Expansion {
-    let (candidates, rows) = first_round(nets, caps);
+    let carried = Carried::new(nets, caps);
+    let (candidates, rows) = first_round(nets, &carried);
     let others: Vec<Training<'_>> = without(nets, k).into_iter().map(Training::new).collect();
     let sums: Vec<NetSums> = others.iter().map(|net| NetSums::new(net, &candidates, rows)).collect();
     let (others, sums): (Vec<&Training<'_>>, Vec<&NetSums>) = (others.iter().collect(), sums.iter().collect());
-    fit(&others, (&candidates, &sums), caps).of_output(0)
+    fit(&others, (&candidates, &sums), &carried).of_output(0)
 }
 
 /// The factors of every swap in rising order.
@@ -322,11 +329,24 @@ fn estimates(corrected: &Corrected, low: &[Contributions], (mean, sd): (f64, f64
         mean: scaled(gathered(&|net| &net.mean, beyond.mean), mean, sd),
         explained: 1.0 - corrected.residual() / variance.estimate,
         is_heavy_tailed: corrected.is_heavy_tailed(),
+        misses_levels: false,
+        growth: growth(nets),
         terms: told_terms(expansions, variance.estimate),
         term_count: expansions.iter().map(|e| e.terms.len() as f64).sum::<f64>() / expansions.len() as f64,
         variance: scaled(variance, 0.0, sd * sd),
         low: None,
     }
+}
+
+/// Of all factors, and of those that matter, the largest variance that surrogates claim over that which the rows of `nets` show.
+fn growth(nets: &[Contributions]) -> f64 {
+    let claims = |place: usize| {
+        nets.iter().fold([0.0; 2], |sum, net| [sum[0] + net.claims[place][0], sum[1] + net.claims[place][1]])
+    };
+    let count = nets.iter().map(|net| net.claims.len()).min().unwrap_or(0);
+    let all = count.checked_sub(1).map_or(0.0, |last| claims(last)[0]);
+    let ratio = |[claimed, seen]: [f64; 2]| if claimed > MATTERS * all { claimed / seen } else { 0.0 };
+    (0..count).map(|place| ratio(claims(place))).fold(0.0, f64::max)
 }
 
 /// The weight of the second form of the total indices with which the spread within the nets is least, over all swaps.

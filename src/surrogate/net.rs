@@ -91,6 +91,15 @@ impl Net {
         &self.columns[self.matrices[run][factor] * self.factors + factor][degree - 1]
     }
 
+    /// Of the polynomials of every degree of `factor` their mean and their mean square over the columns of all matrices.
+    pub fn spreads(&self, factor: usize) -> Vec<(f64, f64)> {
+        let matrices = self.columns.len() / self.factors;
+        let columns = |degree: usize| (0..matrices).map(move |m| &self.columns[m * self.factors + factor][degree]);
+        let count = (matrices * self.points).max(1) as f64;
+        let mean = |degree: usize, of: fn(&f64) -> f64| columns(degree).flatten().map(of).sum::<f64>() / count;
+        (0..self.columns[factor].len()).map(|k| (mean(k, |x| *x), mean(k, |x| x * x))).collect()
+    }
+
     /// The values of `term` at every base point of `run`, into `values`.
     pub fn fill(&self, term: &Term, run: usize, values: &mut Vec<f64>) {
         values.clear();

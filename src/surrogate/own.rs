@@ -108,6 +108,11 @@ impl OwnPolynomials {
         self.recurrence.degree()
     }
 
+    /// Whether the distribution has few values.
+    pub fn has_levels(&self) -> bool {
+        self.distribution.levels().is_some()
+    }
+
     /// The polynomials of degree 1, 2, ... at the quantiles of `u`, a column for each.
     pub fn columns(&self, u: &[f64]) -> Vec<Vec<f64>> {
         let mut x = vec![0.0; u.len()];

@@ -72,8 +72,11 @@ impl AggregateIndices {
     /// of every one of them, the plain ones stay.
     #[must_use]
     pub fn corrected(self, surrogates: &[&SurrogateEstimates]) -> Self {
+        if surrogates.iter().any(|of_output| of_output.refusal().is_some()) {
+            return self;
+        }
         let Some((first_order, total)) = Self::by_surrogates(surrogates) else { return self };
-        let is_heavy_tailed = surrogates.iter().any(|of_output| of_output.is_heavy_tailed);
+        let is_heavy_tailed = surrogates.iter().any(|of_output| of_output.is_heavy_tailed || of_output.misses_levels);
         let better = |plain: Vec<Estimate>, numbers: &[Influenced], skewed: bool| -> Vec<Estimate> {
             // A factor that changes no row stays what it is.
             let settled = |plain: &Estimate| plain.interval.is_some_and(|interval| interval.low == interval.high);

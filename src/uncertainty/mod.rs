@@ -28,7 +28,7 @@ mod unseen;
 pub use aggregate::{AggregateIndices, aggregate_indices};
 #[cfg(feature = "study")]
 pub use convergence::{Stage, points_of_stages, stages};
-pub use corrected::{LowFidelityUse, SurrogateEstimates, SurrogateTerm, SurrogateUse};
+pub use corrected::{LowFidelityUse, Refusal, SurrogateEstimates, SurrogateTerm, SurrogateUse};
 pub use effects::{DependentEstimates, EffectEstimates, OtherEstimates, OutputIndices, OutputMoments};
 pub use estimates::{BesideNoise, Layout, NoiseLayout};
 pub use influence::{Influenced, Influences};

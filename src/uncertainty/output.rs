@@ -61,7 +61,9 @@ pub fn output_moments(replicates: &[MomentParts], options: &IntervalOptions<'_>)
         }
     };
     let mut estimates = [judged.estimates[0], judged.estimates[1]];
-    if let Some(surrogate) = options.surrogate.filter(|surrogate| !surrogate.is_heavy_tailed) {
+    if let Some(surrogate) =
+        options.surrogate.filter(|surrogate| !surrogate.is_heavy_tailed && !surrogate.misses_levels)
+    {
         for (place, (estimate, error, _)) in surrogate.moments().into_iter().enumerate() {
             if error.error < judged.errors[place].error {
                 estimates[place] = estimate;

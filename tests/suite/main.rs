@@ -41,6 +41,7 @@ mod names;
 mod noise;
 mod page;
 mod points;
+mod rare_levels;
 mod remote_workers;
 mod reproduce;
 mod run_measures;

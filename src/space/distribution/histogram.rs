@@ -119,6 +119,11 @@ impl Distribution {
 }
 
 impl Histogram {
+    /// The bins of positive weight: where each begins and ends in the unit interval, and its edges.
+    pub(crate) fn bins(&self) -> impl Iterator<Item = (f64, f64, [f64; 2])> {
+        self.bins.iter().map(|bin| (bin.before, bin.before + bin.probability, [bin.min, bin.max]))
+    }
+
     /// What is left of the bins between two bounds.
     pub(super) fn between(&self, min: f64, max: f64) -> Result<Distribution, DistributionError> {
         let (mut edges, mut weights) = (Vec::new(), Vec::new());

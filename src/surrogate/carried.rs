@@ -1,0 +1,147 @@
+//! Which terms the rows of the nets can carry.
+//!
+//! Polynomials are orthonormal in the distribution of their factor, and over the rows only as far as these stand for it. Of a
+//! rare level that no row has, or a thin tail, one of them is constant over the rows, or two are the same column; a fit takes
+//! either, and the variance that it claims is that of the distribution, (1 - p)/p times too large for a level of probability p.
+//! A term with levels in it is therefore a candidate only where its mean square over the rows of every net is close to 1, and a
+//! factor with a thin tail has polynomials only where that of degree 1 is over all nets together.
+
+use super::basis::{Caps, Family, Term};
+use super::net::Net;
+
+/// Least and largest mean square over the rows of a net of a term that these can carry. Of a level that half as many rows have
+/// as there should be, the polynomial has a mean square of a half.
+const LEAST: f64 = 0.5;
+const MOST: f64 = 2.0;
+
+/// Rows of a net that products of polynomials are judged by, at most.
+const ROWS: usize = 2000;
+
+/// The candidates that the rows of some nets can carry.
+pub struct Carried<'a> {
+    nets: &'a [Net],
+    caps: Caps<'a>,
+    /// Of each factor the highest degree up to which the rows of every net can carry all of them.
+    degrees: Vec<usize>,
+    /// Of each net the rows that products are judged by.
+    rows: Vec<Vec<(usize, usize)>>,
+}
+
+impl<'a> Carried<'a> {
+    /// By the rows of `nets`.
+    pub fn new(nets: &'a [Net], caps: Caps<'a>) -> Self {
+        let of_factor = |(factor, family): (usize, &Family)| {
+            let spreads: Vec<_> = nets.iter().map(|net| net.spreads(factor)).collect();
+            match family {
+                Family::Own(own) if own.has_levels() => {
+                    spreads.iter().map(|net| carried_degrees(net)).min().unwrap_or(0)
+                }
+                // What polynomials of high degree say of thin tails is a part of their error.
+                Family::Own(_) if carried_degrees(&[mean_of_first(&spreads)]) == 0 => 0,
+                _ => usize::MAX,
+            }
+        };
+        let degrees = caps.families.iter().enumerate().map(of_factor).collect();
+        let rows = nets.iter().map(|net| net.spaced_rows(ROWS)).collect();
+        Self { nets, caps, degrees, rows }
+    }
+
+    /// What limits the terms besides.
+    pub fn caps(&self) -> Caps<'a> {
+        self.caps
+    }
+
+    /// Those of `terms` that the rows can carry.
+    pub fn of(&self, terms: Vec<Term>) -> Vec<Term> {
+        terms.into_iter().filter(|term| self.carries(term)).collect()
+    }
+
+    fn carries(&self, term: &Term) -> bool {
+        let has_levels =
+            |(factor, _): &(usize, usize)| matches!(&self.caps.families[*factor], Family::Own(own) if own.has_levels());
+        if !term.iter().all(|(factor, degree)| *degree <= self.degrees[*factor]) {
+            return false;
+        }
+        if term.len() < 2 || !term.iter().any(has_levels) {
+            return true;
+        }
+        self.nets.iter().zip(&self.rows).all(|(net, rows)| {
+            let square = net.at(term, rows).iter().map(|value| value * value).sum::<f64>() / rows.len() as f64;
+            (LEAST..=MOST).contains(&square)
+        })
+    }
+}
+
+/// How many of the first degrees have a mean square that is close to 1, given those of every degree, and the squares of the
+/// means, over some rows: none of a column that is constant.
+fn carried_degrees(spreads: &[(f64, f64)]) -> usize {
+    spreads.iter().take_while(|(mean, square)| square - mean * mean >= LEAST && *square <= MOST).count()
+}
+
+/// Mean and mean square of the polynomial of degree 1 over all nets.
+fn mean_of_first(spreads: &[Vec<(f64, f64)>]) -> (f64, f64) {
+    let first = spreads.iter().filter_map(|net| net.first());
+    let (mean, square) = first.fold((0.0, 0.0), |sum, of| (sum.0 + of.0, sum.1 + of.1));
+    (mean / spreads.len() as f64, square / spreads.len() as f64)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::basis::{first_terms, polynomials};
+    use super::*;
+    use crate::space::Distribution;
+
+    /// A net of plain rows with these quantiles of every factor.
+    fn net(families: &[Family], rows: &[Vec<f64>]) -> Net {
+        let columns = families.iter().zip(rows).map(|(family, u)| polynomials(family, u, 6)).collect();
+        Net::of_rows(columns, vec![0.0; rows[0].len()])
+    }
+
+    fn boolean(p: f64) -> Family {
+        Family::new(&Distribution::boolean(p).unwrap())
+    }
+
+    fn even(count: u32) -> Vec<f64> {
+        (0..count).map(|i| (f64::from(i) + 0.5) / f64::from(count)).collect()
+    }
+
+    #[test]
+    fn a_level_that_no_row_has_gives_no_polynomial() {
+        let families = [boolean(0.001), boolean(0.5), Family::Legendre];
+        let rows = [even(64), even(64), even(64)];
+        let nets = [net(&families, &rows)];
+        let carried = Carried::new(&nets, Caps { terms: 50, degree: 6, hermite_degree: 0, families: &families });
+        assert!(!carried.carries(&vec![(0, 1)]) && !carried.carries(&vec![(0, 1), (2, 1)]));
+        assert!(carried.carries(&vec![(1, 1)]) && carried.carries(&vec![(2, 6)]));
+    }
+
+    #[test]
+    fn one_net_without_the_level_is_enough() {
+        let families = [boolean(0.02)];
+        let with = net(&families, &[even(100)]);
+        let without = net(&families, &[even(100).into_iter().map(|u| 0.9 * u).collect()]);
+        let caps = Caps { terms: 50, degree: 6, hermite_degree: 0, families: &families };
+        let nets = [with, without];
+        assert!(Carried::new(&nets[..1], caps).carries(&vec![(0, 1)]));
+        assert!(!Carried::new(&nets, caps).carries(&vec![(0, 1)]));
+    }
+
+    #[test]
+    fn two_rare_levels_that_never_meet_do_not_interact() {
+        // Two rows in a hundred have either level, and none has both.
+        let families = [boolean(0.02), boolean(0.02)];
+        let turned: Vec<f64> = even(100).into_iter().map(|u| (u + 0.5) % 1.0).collect();
+        let nets = [net(&families, &[even(100), turned])];
+        let carried = Carried::new(&nets, Caps { terms: 50, degree: 6, hermite_degree: 0, families: &families });
+        assert!(carried.carries(&vec![(0, 1)]) && carried.carries(&vec![(1, 1)]));
+        assert!(!carried.carries(&vec![(0, 1), (1, 1)]));
+    }
+
+    #[test]
+    fn all_terms_of_uniform_and_normal_factors_stay() {
+        let families = [Family::Legendre, Family::Hermite];
+        let nets = [net(&families, &[even(8), even(8)])];
+        let caps = Caps { terms: 50, degree: 6, hermite_degree: 4, families: &families };
+        assert_eq!(Carried::new(&nets, caps).of(first_terms(caps, 50)), first_terms(caps, 50));
+    }
+}
