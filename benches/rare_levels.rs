@@ -9,7 +9,7 @@ use std::fmt::Write as _;
 use std::path::Path;
 use std::sync::Arc;
 
-use apportion::model::{Batch, Model, Output, RunContext, Worker};
+use apportion::model::{Model, Output, RunContext, Worker};
 use apportion::{Analysis, AnalysisOptions, Distribution, Sampler, Study, SurrogateChoice, Target, function_model};
 use rayon::prelude::*;
 

@@ -60,7 +60,9 @@ pub(super) fn plan(study: &Study, file: &Path, pilot: Option<&Pilot>) -> String 
         ));
     }
     let warnings = pilot.into_iter().flat_map(|pilot| pilot_warnings(study, pilot));
-    let warnings = warnings.chain(analysis.design_warnings(design)).chain(correlated_pairs(design));
+    let warnings = warnings
+        .chain(analysis.design_warnings(design).into_iter().map(|warning| warning.to_string()))
+        .chain(correlated_pairs(design));
     lines.extend(warnings.map(|warning| format!("warning: {warning}")));
     lines.join("\n") + "\n"
 }

@@ -349,11 +349,6 @@ fn say(line: &str) {
     let _ = writeln!(std::io::stderr(), "{}", printable(line));
 }
 
-/// The columns of the terminal that standard error is.
-fn stderr_width() -> Option<usize> {
-    comfy_table::Table::new().use_stderr().width().map(usize::from).filter(|width| *width > 0)
-}
-
 /// A text without characters that would change the terminal: names and titles are the user's, or somebody else's.
 fn printable(text: &str) -> String {
     text.chars()

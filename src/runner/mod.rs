@@ -328,7 +328,7 @@ impl<'a> Runner<'a> {
     ) -> Result<Option<Grown>, RunError> {
         let target = &self.study.target;
         run.grow_to(self.study.design.points_per_replicate(), on_progress)?;
-        if !target.is_free {
+        if target.accuracy.is_none() {
             self.begin_lows(run, lows)?;
         }
         if target.grows() { self.grow(run, lows, on_progress).map(Some) } else { Ok(None) }

@@ -6,7 +6,7 @@
 
 pub mod basis;
 pub mod beyond;
-mod carried;
+pub mod carried;
 pub mod corrected;
 pub mod fit;
 pub mod gram;

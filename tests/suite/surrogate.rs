@@ -295,7 +295,7 @@ fn intervals_hold_where_polynomials_blow_up_in_the_tails() {
             let indices = result.outputs[0].indices.as_ref().unwrap();
             assert!(indices.surrogate.is_some());
             for (factor, exact) in indices.factors.iter().zip(exact) {
-                for estimate in [factors.first_order, factor.total] {
+                for estimate in [factor.first_order, factor.total] {
                     let interval = estimate.interval.unwrap();
                     held += usize::from(interval.low <= exact && exact <= interval.high);
                     all += 1;

@@ -84,7 +84,6 @@ fn a_new_study_comes_with_its_program() {
     let study = folder.path().join("mine.toml");
     succeed(&["new", text(&study), "--model", "command", "--factors", "a,the \"b\"", "--outputs", "y,z"]);
     let program = std::fs::read_to_string(folder.path().join("my_model.py")).unwrap();
-    let written = std::fs::read_to_string(&study).unwrap();
     let out = folder.path().join("out");
     let shown = succeed(&["run", text(&study), "--base-samples", "64", "--out", text(&out)]);
     contains(&shown, &["the \"b\"", "\ny\n", "\nz\n"]);
