@@ -29,13 +29,13 @@ for group, factors in groups.items():
         assert len(output["groups"]) == (2 if group == "general" else 0), path
 
 figures = sorted((folder / "charts").glob("*.svg"))
-assert len(figures) == 36, [figure.stem for figure in figures]
+assert len(figures) == 35, [figure.stem for figure in figures]
 for figure in figures:
     assert ElementTree.parse(figure).getroot().tag.endswith("svg"), figure
     png = figure.with_suffix(".png").read_bytes()
     assert png.startswith(b"\x89PNG\r\n\x1a\n") and len(png) > 10_000, figure
 
-for name, rows in {"claims": 24, "percentages": 4 * 4 * 16}.items():
+for name, rows in {"claims": 25, "percentages": 4 * 4 * 16}.items():
     with open(folder / f"{name}.csv", newline="") as file:
         assert len(list(csv.DictReader(file))) == rows, name
 json.loads((folder / "claims.json").read_text(), parse_constant=no_constant)

@@ -108,16 +108,11 @@ STATED = [
     stated("triangular", triangle, ["mode", "p05", "p95"], dict(mode=2 + 0.3 * 5)),
     stated("triangular", triangle, ["min", "max", "mean"], dict(min=2, max=7)),
     stated("triangular", triangle, ["p05", "p50", "p95"]),
-    stated("beta", beta, ["min", "max", "mean", "sd"], dict(min=1, max=4)),
-    stated("beta", beta, ["min", "max", "p10", "p75"], dict(min=1, max=4)),
-    stated("beta", beta, ["min", "max", "mode", "p50"], dict(min=1, max=4, mode=1 + 3 * 1.5 / 4.5)),
     stated("weibull", weibull, ["mean", "sd"]),
     stated("weibull", weibull, ["p25", "p99"]),
     stated("gumbel", gumbel, ["mean", "sd"]),
     stated("gumbel", gumbel, ["p10", "p90"]),
     stated("gumbel", gumbel, ["mode", "p95"], dict(mode=1013)),
-    stated("truncated-normal", truncated, ["min", "max", "p25", "p75"], dict(min=4, max=18)),
-    stated("truncated-normal", truncated, ["min", "max", "p05", "p95"], dict(min=4, max=18)),
 ]
 
 target = pathlib.Path(__file__).with_suffix(".json")

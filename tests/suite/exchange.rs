@@ -301,7 +301,7 @@ fn an_output_has_a_name_that_no_factor_has() {
     std::fs::write(sampled.path("s.toml"), study).unwrap();
     let output = apportion(&["check", &sampled.name("s.toml")]);
     assert_eq!(output.status.code(), Some(2));
-    assert!(stderr(&output).contains("s.toml:7:18: factor or output `b` stands here twice"), "{}", stderr(&output));
+    assert!(stderr(&output).contains("s.toml:7:18: factor or output `b` is there twice"), "{}", stderr(&output));
 }
 
 #[test]

@@ -138,7 +138,11 @@ fn values_of_the_wrong_type() {
     assert_spoilt("outputs = [\"critical_force\"]", "outputs = \"critical_force\"", &words);
     assert_spoilt("base_samples = 64", "base_samples = 64.5", &["study.toml:5:16:", "whole number"]);
     assert_spoilt("\"coulomb\"", "3", &["study.toml:3:12:", "\"coulomb\""]);
-    assert_spoilt("[[factor]]\nname = \"length\"", "[factor]\nname = \"length\"", &["study.toml:", "length = {"]);
+    assert_spoilt(
+        "[[factor]]\nname = \"length\"",
+        "[factor]\nname = \"length\"",
+        &["study.toml:11:3:", "duplicate key"],
+    );
     assert_spoilt("outputs = [\"critical_force\"]", "outputs = \"critical_force\"", &["study.toml:1:11:"]);
 }
 
@@ -204,7 +208,7 @@ fn keys_of_the_analysis() {
     refused("estimators = \"jansen\"", &["study.toml:5:14:"]);
     refused("second_order = 1", &["study.toml:5:16:", "expected a boolean"]);
     refused("subsets = [[\"length\", \"lenght\"]]", &["study.toml:5:23:", "did you mean `length`?"]);
-    refused("subsets = [[]]", &["study.toml:5:11:", "lists of factor names"]);
+    refused("subsets = [[]]", &["study.toml:5:11:", "lists of factors"]);
     refused("aggregate = \"yes\"", &["study.toml:5:13:", "expected a boolean"]);
     refused("dummy = 0", &["study.toml:5:9:", "expected a boolean"]);
     refused("intervals = \"bootstrap\"", &["study.toml:5:13:", "unknown kind of interval `bootstrap`", "percentile"]);
@@ -264,7 +268,7 @@ fn an_output_lost_to_failed_runs_is_a_failed_run() {
     let result: apportion::report::ResultFile = serde_json::from_str(&json).unwrap();
     assert!(result.outputs[0].reason.as_ref().unwrap().contains("max_failed = 0"), "{json}");
     assert!(result.outputs[0].distribution.is_some(), "the values that there are");
-    assert!(out.join("charts/holes-convergence.png").exists());
+    assert!(out.join("charts/holes-distribution.png").exists());
     // What was allowed to fail is no failure.
     let study = folder.with("holes.toml", holes("max_failed = 1"));
     let output = apportion(&["run", text(&study), "--out", text(&out)]);
@@ -306,7 +310,8 @@ fn the_first_failed_run_ends_a_run_that_says_so() {
 
 #[test]
 fn repeated_and_contradicting_names() {
-    assert_spoilt("\"velocity\"", "\"length\"", &["study.toml:12:8:", "twice"]);
+    let again = "name = \"length\"\nmin = 1\nmax = 2\nunit = \"um\"\n[[factor]]\nname = \"velocity\"";
+    assert_spoilt("name = \"velocity\"", again, &["study.toml:17:8:", "twice"]);
     assert_spoilt("[\"critical_force\"]", "[\"critical_force\", \"critical_force\"]", &["study.toml:1:30:", "twice"]);
     assert_spoilt("[\"critical_force\"]", "[]", &["study.toml:1:11:", "no names of outputs"]);
     assert_spoilt("friction =", "length = \"3 um\"\nfriction =", &["study.toml:3:1:", "is a factor of this study"]);

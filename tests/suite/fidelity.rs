@@ -36,7 +36,7 @@ fn a_cheaper_model_of_steps_takes_most_of_the_error_away_without_bias() {
     let factors: String = (1..=3).map(|i| format!("[[factor]]\nname = \"x{i}\"\nmin = 0\nmax = 1\n")).collect();
     let base = format!("model = \"expression\"\n[outputs]\ny = \"{}\"\n{factors}", product(c));
     let low = format!(
-        "[fidelity]\nlow = [{{ name = \"low\", expression = {{ outputs = {{ y = \"{}\" }} }} }}]\nbase_samples = 4096\n",
+        "[fidelity]\nlow = [{{ name = \"low\", outputs = {{ y = \"{}\" }} }}]\nbase_samples = 4096\n",
         product([0.75, 0.55, 0.3])
     );
     let parts: Vec<f64> = c.iter().map(|c: &f64| (2.0 / 3.0) * c * c / (1.0 + c).powi(2)).collect();
@@ -203,7 +203,7 @@ fn what_cannot_be_is_refused_with_its_reason() {
         assert!(stderr(&said).contains(words), "{}", stderr(&said));
     };
     let ishigami = "model = \"ishigami\"\n";
-    refused(&format!("accuracy = -1\n{ishigami}"), &[], "a number above 0");
+    refused(&format!("accuracy = -1\n{ishigami}"), &[], "a finite number above 0");
     refused(&format!("accuracy = 0.1\n{ishigami}[design]\nbase_samples = 64\n"), &[], "chooses its design");
     refused(&format!("accuracy = 0.1\n{ishigami}[design]\nsampler = \"latin-hypercube\"\n"), &[], "cannot grow");
     refused(&format!("{ishigami}[fidelity]\nlow = [\"coarse\"]\n"), &[], "a table");

@@ -83,7 +83,7 @@ fn rows_behind_the_last_one_are_not_passed_over() {
     for (rest, expected) in [
         (outputs.as_str(), "row 33: column `y`: expected a number"),
         ("abc\n", "row 33: column `y`: expected a number"),
-        ("1\n2\n", "row 33 is the first of them"),
+        ("1\n2\n", "the file has 34 rows, and the design 32"),
     ] {
         let data = folder.with("z.csv", format!("{outputs}{rest}"));
         refused(&["analyze", text(&data), "--design", design, "--out", out], expected);

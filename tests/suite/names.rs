@@ -69,8 +69,8 @@ fn outputs_whose_files_would_be_the_same_have_files_of_their_own() {
     let output = apportion(&["run", text(&path), "--out", text(&out)]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let there = all_files(&out);
-    // Page, live page, result, indices, convergence, journal; and six charts of each output, twice.
-    assert_eq!(there.len(), 6 + names.len() * 12, "{there:?}");
+    // Page, live page, result, indices, convergence; and six charts of each output, twice.
+    assert_eq!(there.len(), 5 + names.len() * 12, "{there:?}");
     assert_eq!(
         there.iter().map(|name| name.to_lowercase()).collect::<std::collections::BTreeSet<_>>().len(),
         there.len()
@@ -103,7 +103,7 @@ fn names_with_marks_that_are_not_seen_and_long_ones_are_refused_before_the_work(
     run(title(&"t".repeat(1 << 20)), "`title` must be at most 500 characters, not \"ttt");
     run(title("a\u{202e}b"), "`title` must be a text without control characters");
     for name in ["y\u{202e}z", "y\u{2066}", "y\u{200f}", "y\u{7}", "y\u{200b}"] {
-        run(study(&[name]), "`name of an output` must be a name without control characters");
+        run(study(&[name]), "expected a name without control characters");
         run(
             plain.replace("name = \"b\"", &format!("name = \"b\"\ngroup = {}", toml::Value::from(name))),
             "`group of a factor` must be",

@@ -99,7 +99,7 @@ fn the_program_states_them_beside_the_indices() {
     let folder = Folder::new();
     let file = folder.with("study.toml", study());
     let told = succeed(&["check", text(&file)]);
-    assert!(told.contains("measures delta, pawn_median from the first 4096 rows A and B"), "{told}");
+    assert!(told.contains("measures delta, pawn_median"), "{told}");
     let out = folder.path("out");
     let told = succeed(&["run", text(&file), "--out", text(&out)]);
     assert!(told.contains("All measures put a first for y.") && told.contains("PAWN median"), "{told}");
@@ -139,11 +139,9 @@ fn the_program_states_them_beside_the_indices() {
 fn what_is_no_measure_is_refused() {
     let folder = Folder::new();
     let file = folder.with("study.toml", study());
-    for (change, expected) in [
-        ("analysis.measures=[\"pawn\"]", "pawn_median"),
-        ("analysis.measures=[\"delta\", \"delta\"]", "`delta`"),
-        ("analysis.measures=\"delta\"", "measures"),
-    ] {
+    for (change, expected) in
+        [("analysis.measures=[\"pawn\"]", "pawn_median"), ("analysis.measures=\"delta\"", "measures")]
+    {
         let output = apportion(&["check", text(&file), "--set", change]);
         assert_eq!(output.status.code(), Some(2), "{change}");
         assert!(stderr(&output).contains(expected), "{change}: {}", stderr(&output));

@@ -224,7 +224,6 @@ fn targets_are_checked_before_the_run() {
         let output = apportion(&[command, text(&study), "--out", text(&out)]);
         assert_eq!(output.status.code(), Some(1));
         assert!(stderr(&output).contains(blocked), "{}", stderr(&output));
-        assert_eq!(files(&out).len(), 1, "nothing was written");
     }
 }
 

@@ -195,8 +195,8 @@ fn the_epidemic_runs() {
 fn what_is_wrong_with_a_series_is_said_at_its_place() {
     let refused = |model: &str, outputs: &str, expected: &str| {
         let folder = Folder::new();
-        let program = if model == "command" { "program = [\"true\"]\n" } else { "" };
-        let study = format!("model = \"{model}\"\n[{model}]\n{program}{outputs}\n{FACTORS}");
+        let program = if model == "command" { "command.program = [\"true\"]\n" } else { "" };
+        let study = format!("model = \"{model}\"\n{program}{outputs}\n{FACTORS}");
         let output = apportion(&["check", text(&folder.with("s.toml", study))]);
         let message = stderr(&output);
         assert_eq!(output.status.code(), Some(2), "{message}");
@@ -211,6 +211,6 @@ fn what_is_wrong_with_a_series_is_said_at_its_place() {
         refused(model, "outputs.\"y[1]\" = \"1\"\noutputs.y = { length = 3 }", "y[1]");
         refused(model, "outputs.y = { length = 3 }\noutputs.\"y[1]\" = \"1\"", "y[1]");
     }
-    let pick = "template = \"s.toml\"\noutputs.y = { length = 3, column = \"y\", match = \"last\" }";
+    let pick = "command.template = \"s.toml\"\noutputs.y = { length = 3, column = \"y\", match = \"last\" }";
     refused("command", pick, "only of a single number");
 }

@@ -183,8 +183,8 @@ fn the_program_tells_how_effects_were_found() {
     let folder = Folder::new();
     let file = folder.with("twelve.toml", twelve());
     let told = succeed(&["check", text(&file)]);
-    assert!(told.contains("Shapley effects of the factors"), "{told}");
-    assert!(told.contains("11 rows along a random order of the factors, for Shapley effects"), "{told}");
+    assert!(told.contains("Shapley effects"), "{told}");
+    assert!(told.contains("11 rows along a random order, for Shapley effects"), "{told}");
     let out = folder.path("out");
     let told = succeed(&["run", text(&file), "--out", text(&out)]);
     assert!(told.contains("Shapley effect"), "{told}");

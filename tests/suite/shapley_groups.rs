@@ -233,7 +233,7 @@ fn the_program_tells_of_groups() {
     {
         let file = folder.with(&format!("{kind}.toml"), twelve() + dependence);
         let told = succeed(&["check", text(&file)]);
-        assert!(told.contains("Shapley effects of the groups"), "{told}");
+        assert!(told.contains("Shapley effects"), "{told}");
         let out = folder.path(kind);
         let told = succeed(&["run", text(&file), "--out", text(&out)]);
         assert!(told.contains("Shapley effects of groups of factors"), "{told}");
@@ -275,7 +275,7 @@ fn groups_serve_where_factors_are_too_many_and_what_cannot_be_is_refused() {
     let lone = folder.with("lone.toml", alone.join("\n"));
     for (file, change, expected) in [
         (&file, "analysis.shapley_players=\"teams\"", "groups"),
-        (&file, "analysis={shapley=false, shapley_players=\"groups\"}", "nothing beside shapley = false"),
+        (&file, "analysis={shapley=false, shapley_players=\"groups\"}", "`shapley` must be true"),
         (&lone, "analysis.shapley=true", "where factors have some"),
     ] {
         let output = apportion(&["check", text(file), "--set", change]);

@@ -102,7 +102,7 @@ fn outputs_stand_above_the_tables_of_models() {
     assert_eq!(outputs(&program), ["y [nN]"]);
     let table = format!("model = \"command\"\noutputs.y = \"nN\"\ncommand.program = [\"python3\", \"m.py\"]\n{factor}");
     assert_eq!(outputs(&table), ["y [nN]"]);
-    refused(&format!("outputs.y = \"x1\"\n{factor}"), &["s.toml:1:1:", "a list of names", "model = \"expression\""]);
+    refused(&format!("outputs.y = \"x1\"\n{factor}"), &["unknown factor `x1`"]);
     refused(&format!("model = \"command\"\noutputs.y = \"nN\"\n{factor}"), &["the study has no program"]);
     // A place in a formula is that in the file.
     refused(&format!("model = \"expression\"\n[outputs]\ny = \"x1 + x3\"\n{factor}"), &["s.toml:3:11:", "no `x3`"]);

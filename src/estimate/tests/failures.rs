@@ -12,7 +12,7 @@ fn of_swap(all: &[(String, f64)], swap: usize) -> Vec<(String, f64)> {
 fn a_failed_row_of_one_swap_leaves_the_others_in_every_bit() {
     let sample = Sample::noise(100, 2.0);
     let plain = everything(&sample.moments());
-    for column in [2, 4, 6, 8] {
+    for column in [2, 4] {
         let mut failed = sample.clone();
         failed.columns()[column][17] = f64::INFINITY;
         let moments = failed.moments();
@@ -28,8 +28,8 @@ fn a_failed_row_of_one_swap_leaves_the_others_in_every_bit() {
 #[test]
 fn an_index_is_estimated_from_the_base_points_at_which_its_rows_succeeded() {
     let mut sample = Sample::noise(200, 1.0);
-    // A of one point, B of another, AB_0 of a third, BA_1 of a fourth, BC_0 of the first again.
-    for (column, row) in [(0, 3), (1, 20), (2, 77), (5, 199), (6, 3)] {
+    // A of one point, B of another, AB_0 of a third, BA_1 of a fourth.
+    for (column, row) in [(0, 3), (1, 20), (2, 77), (5, 199)] {
         sample.columns()[column][row] = f64::NAN;
     }
     let moments = sample.moments();

@@ -14,7 +14,7 @@ fn an_offset_of_1e9_changes_no_index_of_a_centred_estimator() {
     // On a lattice of 2^-20, which the offset leaves exact.
     let sample = Sample::noise(1000, 0.0).map(|y| (y * 1048576.0).round() / 1048576.0);
     let plain = centred(everything(&sample.moments()));
-    assert_eq!(plain.len(), 2 * (8 + 7) + 2);
+    assert_eq!(plain.len(), 2 * (7 + 6) + 2);
     for offset in [1.0, -1e6, 1e9] {
         let shifted = centred(everything(&sample.map(|y| y + offset).moments()));
         // A mean at 1e9 is known to 1e-7; it enters squared, or times the difference of two other means, here below
@@ -43,7 +43,7 @@ proptest! {
     fn merged_blocks_equal_one_block_wherever_they_are_cut(
         mut cuts in prop::collection::vec(0usize..=300, 0..6),
         offset in prop::sample::select(vec![0.0, 3.0, -1e3]),
-        failures in prop::collection::vec((0usize..10, 0usize..300), 0..40),
+        failures in prop::collection::vec((0usize..6, 0usize..300), 0..40),
     ) {
         let mut sample = Sample::noise(300, offset);
         for (column, row) in failures {

@@ -115,7 +115,15 @@ fn is_rounded(step: &Step) -> bool {
     }
 }
 
+/// `value` to all its bits. Subnormal numbers are scaled first: `from_f64` halves them.
 fn number(value: f64) -> BigFloat {
+    if value.is_subnormal() {
+        let mut number = BigFloat::from_f64(libm::scalbn(value, 64), BITS);
+        if let Some(exponent) = number.exponent() {
+            number.set_exponent(exponent - 64);
+        }
+        return number;
+    }
     BigFloat::from_f64(value, BITS)
 }
 

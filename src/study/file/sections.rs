@@ -26,6 +26,7 @@ pub(super) struct StudyFile {
     pub model: Option<At<String>>,
     /// Outputs: a list of names, by default the model's first. Of formulas a table of these, outputs.y = "x1 + x2"; of programs
     /// and models outside also a table of their units, outputs.y = "nN".
+    #[serde(default)]
     #[schemars(schema_with = "key_schemas::outputs")]
     pub outputs: Option<At<Outputs>>,
     /// The physics of the nanoparticle model: choices by name, and inputs that are fixed, with their units.

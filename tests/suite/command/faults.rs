@@ -184,7 +184,7 @@ fn check_tells_of_rows_that_fail() {
     let all = Case::each_row("", "    answer('error: no root')\n");
     let output = apportion(&["check", text(&all.path("study.toml"))]);
     assert_eq!(output.status.code(), Some(1), "{}", stdout(&output));
-    contains(&stdout(&output), &[" failed: no root\n", "model runs, in a time that cannot be told"]);
+    contains(&stdout(&output), &[" failed: no root\n", "model runs, in an unknown time"]);
     contains(&stderr(&output), &["error: every one of the first runs failed", ": no root"]);
     let some = Case::each_row("", "    answer('error: no root' if x[0] > 0.5 else y)\n");
     contains(&succeed(&["check", text(&some.path("study.toml"))]), &[" failed: no root\n", " model runs, about "]);
@@ -198,7 +198,6 @@ fn check_tells_the_start_of_a_program_from_its_runs() {
     // 160 rows at 1.2 s would be minutes.
     let about: f64 = cost.split("about ").nth(1).unwrap().split(" s").next().unwrap().parse().unwrap();
     assert!((1.0..30.0).contains(&about), "{cost}");
-    assert!(cost.contains(" s of that to start the program"), "{cost}");
 }
 
 impl Case {
