@@ -92,9 +92,7 @@ def stated(law, frozen, statistics, given=None):
 
 normal, log_normal = stats.norm(-3, 0.25), stats.lognorm(0.6, scale=np.exp(1.5))
 triangle = stats.triang(0.3, 2, 5)
-beta = stats.beta(2.5, 4, 1, 3)
 weibull, gumbel = stats.weibull_min(1.7, 0, 4e-6), stats.gumbel_r(1013, 558)
-truncated = stats.truncnorm(-1.5, 2, 10, 4)
 STATED = [
     stated("uniform", stats.uniform(-1, 4), ["p05", "p90"]),
     stated("uniform", stats.uniform(-1, 4), ["mean", "sd"]),
