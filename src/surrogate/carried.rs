@@ -11,8 +11,8 @@ use super::net::Net;
 
 /// Least and largest mean square over the rows of a net of a term that these can carry. Of a level that half as many rows have
 /// as there should be, the polynomial has a mean square of a half.
-const LEAST: f64 = 0.5;
-const MOST: f64 = 2.0;
+const MIN_MEAN_SQUARE: f64 = 0.5;
+const MAX_MEAN_SQUARE: f64 = 2.0;
 
 /// Rows of a net that products of polynomials are judged by, at most.
 const ROWS: usize = 2000;
@@ -52,7 +52,7 @@ impl<'a> Carried<'a> {
     }
 
     /// Those of `terms` that the rows can carry.
-    pub fn of(&self, terms: Vec<Term>) -> Vec<Term> {
+    pub fn retain(&self, terms: Vec<Term>) -> Vec<Term> {
         terms.into_iter().filter(|term| self.carries(term)).collect()
     }
 
@@ -67,7 +67,7 @@ impl<'a> Carried<'a> {
         }
         self.nets.iter().zip(&self.rows).all(|(net, rows)| {
             let square = net.at(term, rows).iter().map(|value| value * value).sum::<f64>() / rows.len() as f64;
-            (LEAST..=MOST).contains(&square)
+            (MIN_MEAN_SQUARE..=MAX_MEAN_SQUARE).contains(&square)
         })
     }
 }
@@ -75,7 +75,10 @@ impl<'a> Carried<'a> {
 /// How many of the first degrees have a mean square that is close to 1, given those of every degree, and the squares of the
 /// means, over some rows: none of a column that is constant.
 fn carried_degrees(spreads: &[(f64, f64)]) -> usize {
-    spreads.iter().take_while(|(mean, square)| square - mean * mean >= LEAST && *square <= MOST).count()
+    spreads
+        .iter()
+        .take_while(|(mean, square)| square - mean * mean >= MIN_MEAN_SQUARE && *square <= MAX_MEAN_SQUARE)
+        .count()
 }
 
 /// Mean and mean square of the polynomial of degree 1 over all nets.
@@ -142,6 +145,6 @@ mod tests {
         let families = [Family::Legendre, Family::Hermite];
         let nets = [net(&families, &[even(8), even(8)])];
         let caps = Caps { terms: 50, degree: 6, hermite_degree: 4, families: &families };
-        assert_eq!(Carried::new(&nets, caps).of(first_terms(caps, 50)), first_terms(caps, 50));
+        assert_eq!(Carried::new(&nets, caps).retain(first_terms(caps, 50)), first_terms(caps, 50));
     }
 }

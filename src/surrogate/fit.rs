@@ -81,7 +81,7 @@ pub fn selection_rows(nets: usize) -> usize {
 /// The candidates of the first round, if that many rows choose among them.
 pub fn first_candidates(carried: &Carried<'_>, rows: usize) -> Vec<Term> {
     let caps = carried.caps();
-    carried.of(first_terms(caps, caps.terms.min(20.max(2 * rows))))
+    carried.retain(first_terms(caps, caps.terms.min(20.max(2 * rows))))
 }
 
 /// Expansions of one output or of many, which share their terms.
@@ -110,7 +110,7 @@ pub fn fit(training: &[&Training<'_>], first: (&[Term], &[&NetSums]), carried: &
     let mut candidates = first.0.to_vec();
     let mut best = 0;
     for round in 1..rounds {
-        let next = carried.of(neighbours(&found[best].terms, &found[best].weights, caps));
+        let next = carried.retain(neighbours(&found[best].terms, &found[best].weights, caps));
         if next.iter().all(|term| candidates.contains(term)) {
             break;
         }

@@ -94,7 +94,7 @@ fn faults_are_named_with_line_and_column() {
     refused(formula, "{ formula = \"x1\", unit = \"parsec\" }", &["study.toml:3:5:", "parsec"]);
     refused(formula, "{ formula = \"x1\", units = \"N\" }", &["study.toml:3:5:", "`y` must be a formula", "`units`"]);
     refused(formula, "3", &["study.toml:3:5:", "`y` must be a formula", "not integer"]);
-    refused("constants.a = 7\n", "", &["study.toml:3:8:", "there is no `a`"]);
+    refused("constants.a = 7\n", "", &["study.toml:3:16:", "there is no `a`"]);
     refused("constants.a = 7", "constants.a = \"7 parsecs\"", &["study.toml:5:15:", "parsecs"]);
     refused("constants.a = 7", "constants.a = [7]", &["study.toml:5:15:", "a finite number or a quantity"]);
     refused("constants.a", "constants.x1", &["study.toml:5:11:", "`x1` stands here twice"]);

@@ -92,7 +92,7 @@ fn columns_are_chosen_and_methods_too() {
     let output = &result.outputs[1];
     assert_eq!(output.name, "x3");
     let index = &output.indices.as_ref().unwrap()[0];
-    assert!(index.rank.is_none() && index.binned.is_some_and(|binned| binned.bins == 10));
+    assert!(index.rank.is_none() && index.binned.is_some_and(|binned| binned.bins == 6));
     Run::of(&content, &["--outputs", "z"]).refused("no column is called `z`");
     Run::of(&content, &["--outputs", "y", "--method", "kernel"]).refused("expected one of rank, binned, both");
     Run::of(&content, &["--outputs", "y,,"]).refused("expected names of columns");

@@ -149,5 +149,5 @@ fn what_is_no_measure_is_refused() {
     let outputs: String = (0..101).map(|k| format!("y{k} = \"a + {k}*b\"\n")).collect();
     let many = study().replace("y = \"3*a + 2*b*b\"\nz = \"b\"\n", &outputs);
     let output = apportion(&["check", text(&folder.with("many.toml", many))]);
-    assert!(stderr(&output).contains("none of more than 100 outputs"), "{}", stderr(&output));
+    assert!(stderr(&output).contains("at most 100 outputs"), "{}", stderr(&output));
 }

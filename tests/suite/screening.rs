@@ -7,7 +7,7 @@ use apportion::report::screening::{ScreeningFile, screening_json};
 use apportion::report::sweep::{SweepFile, sweep_json};
 use apportion::screening::Reading;
 
-use crate::common::{Folder, all_files, apportion, files, stderr, stdout, study_path, succeed, text};
+use crate::common::{Folder, all_files, apportion, stderr, stdout, study_path, succeed, text};
 
 fn read(folder: &Path, name: &str) -> String {
     std::fs::read_to_string(folder.join(name)).unwrap()

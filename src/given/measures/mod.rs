@@ -319,7 +319,7 @@ impl<'a> Job<'a> {
     /// Delta, of which `plain` is the estimate with all of its noise. An input without influence has d_0, the mean over
     /// permutations, of which d is freed: sqrt((d^2 - d_0^2)/(1 - d_0^2)), for what is certain has no noise. The interval is
     /// that of resamples of the rows; its upper end is as high as narrower kernels in finer classes say, with what they
-    /// leave, and no lower than `plain`.
+    /// leave, and no lower than that of `plain`.
     fn delta(&self, classes: &Classes, plain: f64, chance: &Chance, input: u64) -> Estimate {
         let noise = chance.measures.iter().map(|measures| measures[Measure::Delta as usize]).sum::<f64>();
         let noise = noise / chance.measures.len() as f64;
@@ -342,8 +342,8 @@ impl<'a> Job<'a> {
         let around_finer = half_width(&classes.delta[1], NARROWER);
         let left = LEFT * (freed(finer, chance.finer_delta) - estimate);
         let high = freed(plain + around, noise).max(freed(finer + around_finer, chance.finer_delta) + left);
-        // Where an input acts, chance adds less than where none does: the plain estimate bounds delta from above.
-        let high = high.max(plain);
+        // Where an input acts, chance adds less than where none does.
+        let high = high.max(plain + around);
         // No delta is above 1.
         Estimate {
             estimate,

@@ -66,7 +66,10 @@ pub(super) fn of(context: &Context<'_>, section: &At<FactorSection>) -> Result<D
 /// One distribution of a mixture, whose unit is that of the factor.
 fn component(context: &Context<'_>, section: &At<FactorSection>) -> Result<Distribution, Fault> {
     let fields = section.get_ref();
+    // A name that is not written stands where the component does.
+    let own_name = Some(fields.name.span()).filter(|span| *span != section.span());
     let spans = [
+        ("name", own_name),
         ("unit", fields.unit.as_ref().map(At::span)),
         ("group", fields.group.as_ref().map(At::span)),
         ("nominal", fields.nominal.as_ref().map(At::span)),

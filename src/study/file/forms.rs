@@ -157,8 +157,10 @@ fn name_components(root: &mut DeTable<'_>) {
         for component in components.iter_mut() {
             let span = component.span();
             if let DeValue::Table(fields) = component.get_mut() {
-                let text = Spanned::new(span.clone(), DeValue::String(Cow::Owned(name.to_owned())));
-                fields.insert(key("name", span), text);
+                if !fields.contains_key("name") {
+                    let text = Spanned::new(span.clone(), DeValue::String(Cow::Owned(name.to_owned())));
+                    fields.insert(key("name", span), text);
+                }
                 name_inside(fields, name);
             }
         }
