@@ -93,7 +93,8 @@ pub(super) fn leader(contenders: &[Contender], of: &str, measure: &str, unit: &s
     Some(match leaders.len() {
         _ if lead.total.estimate <= 0.0 => format!("{of}, no {measure} is above 0."),
         1 => {
-            let chance = |p: f64| chance(Some(p)).replace('>', "more than ");
+            // An estimated probability is never certain.
+            let chance = |p: f64| chance(Some(p.min(1.0 - f64::EPSILON))).replace('>', "more than ");
             let sure = lead.probability.map(|p| format!(", the largest with a probability of {}", chance(p)));
             let sure = sure.unwrap_or_default();
             format!("{of}, {} matters most: its {measure} is {}{sure}.", lead.label, size(lead))

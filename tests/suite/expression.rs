@@ -100,7 +100,7 @@ fn faults_are_named_with_line_and_column() {
     refused("constants.a", "constants.x1", &["study.toml:5:11:", "`x1` stands here twice"]);
     refused("constants.a", "constants.sin", &["study.toml:5:11:", "no function or number of the formula language"]);
     refused("name = \"x3\"", "name = \"x 3\"", &["study.toml:18:8:", "it stands in formulas"]);
-    refused("name = \"x3\"", "name = \"x1\"", &["study.toml:18:8:", "`x1` is there twice"]);
+    refused("name = \"x3\"", "name = \"x1\"", &["study.toml:3:32:", "there is no `x3`"]);
     refused("[outputs]", "[afm]\n[outputs]", &["study.toml:2:1:", "unknown key `afm`"]);
     refused("model = \"expression\"", "model = \"ishigami\"", &["unknown key `expression`"]);
     refused(

@@ -354,7 +354,7 @@ fn what_makes_no_family_is_refused_with_its_place() {
     refused_family("\"1\" = 5", "\"0.9\" = 5", &["study.toml:37:13:", "no value for the probability 1"]);
     refused_family("edges = [0, 1, 3]", "edges = [0, 1, 1]", &["study.toml:40:9:", "`edges[2]` is 1"]);
     refused_family("value = 0 }", "value = 0, unit = \"m\" }", &["study.toml:45:62:", "belongs to the whole factor"]);
-    refused_family("value = 0 }", "name = \"u\", value = 0 }", &["study.toml:45:44:", "belongs to the whole factor"]);
+    refused_family("value = 0 }", "name = \"u\", value = 0 }", &["study.toml:45:51:", "belongs to the whole factor"]);
     refused_family(
         "\"constant\", value = 0",
         "\"boolean\"",

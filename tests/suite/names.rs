@@ -109,7 +109,7 @@ fn names_with_marks_that_are_not_seen_and_long_ones_are_refused_before_the_work(
             "expected a name without control characters",
         );
     }
-    run(study(&[&"y".repeat(1 << 20)]), "`name of an output` must be at most 200 characters");
+    run(study(&[&"y".repeat(1 << 20)]), "expected at most 200 characters");
     run(format!("name = \"{}\"\n{plain}", "n".repeat(300)), "at most 120 bytes");
     // The longest that are allowed are drawn.
     let long = "w".repeat(200);
