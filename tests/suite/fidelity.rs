@@ -205,7 +205,11 @@ fn what_cannot_be_is_refused_with_its_reason() {
     let ishigami = "model = \"ishigami\"\n";
     refused(&format!("accuracy = -1\n{ishigami}"), &[], "a finite number above 0");
     refused(&format!("accuracy = 0.1\n{ishigami}[design]\nbase_samples = 64\n"), &[], "must be alone");
-    refused(&format!("accuracy = 0.1\n{ishigami}[design]\nsampler = \"latin-hypercube\"\n"), &[], "for a run that grows");
+    refused(
+        &format!("accuracy = 0.1\n{ishigami}[design]\nsampler = \"latin-hypercube\"\n"),
+        &[],
+        "for a run that grows",
+    );
     refused(&format!("{ishigami}[fidelity]\nlow = [\"coarse\"]\n"), &[], "a table");
     refused(
         "[fidelity]\nlow = [\"closed\"]\n[afm]\nfidelity = \"dynamic\"\n[[factor]]\nname = \"length\"\nmin = 200\nmax = 700\nunit = \"um\"\n",
