@@ -5,6 +5,7 @@ use std::collections::HashSet;
 use crate::names::file_part;
 
 /// The folder of the charts, below that of the page.
+#[cfg(feature = "page")]
 pub(super) const CHARTS: &str = "charts";
 
 /// A format of charts.

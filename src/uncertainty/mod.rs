@@ -26,7 +26,6 @@ mod special;
 mod unseen;
 
 pub use aggregate::{AggregateIndices, aggregate_indices};
-#[cfg(feature = "study")]
 pub use convergence::{Stage, points_of_stages, stages};
 pub use corrected::{LowFidelityUse, Refusal, SurrogateEstimates, SurrogateTerm, SurrogateUse};
 pub use effects::{DependentEstimates, EffectEstimates, OtherEstimates, OutputIndices, OutputMoments};
