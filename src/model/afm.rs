@@ -2,12 +2,12 @@
 
 mod history;
 mod output;
-#[cfg(feature = "study")]
+#[cfg(feature = "extremes")]
 mod second;
 
 pub use history::{AfmHistory, AfmMoments};
 pub use output::AfmOutput;
-#[cfg(feature = "study")]
+#[cfg(feature = "extremes")]
 pub(crate) use second::AfmSecond;
 
 use std::ops::Range;

@@ -16,12 +16,12 @@ mod external;
 mod function;
 mod known;
 mod repeated;
-#[cfg_attr(not(feature = "study"), allow(dead_code, reason = "only subjects of study files have a second calculation"))]
+#[cfg_attr(not(feature = "extremes"), allow(dead_code, reason = "only the program has second calculations"))]
 mod second;
 mod series;
 pub(crate) mod shorten;
 
-#[cfg(feature = "study")]
+#[cfg(feature = "extremes")]
 pub(crate) use afm::AfmSecond;
 pub use afm::{AfmHistory, AfmModel, AfmMoments, AfmOutput, EVALUATIONS, LARGEST_ERROR, RUNGS, edge_unit};
 pub use batch::{Batch, GiveUp, RowFailure};
@@ -33,7 +33,7 @@ pub use command::{
 };
 pub use context::{Messages, RunContext};
 pub use counter::{Counter, CounterKind, Counts};
-#[cfg(feature = "study")]
+#[cfg(feature = "extremes")]
 pub(crate) use expression::PreciseFormulas;
 pub use expression::{Expression, ExpressionError, ExpressionModel, ExpressionProblem, Symbol};
 pub use external::ExternalModel;

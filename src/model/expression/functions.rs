@@ -3,8 +3,8 @@
 /// A function of one argument.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct OfOne {
-    // Read by the second calculation, which studies in files have.
-    #[cfg_attr(not(feature = "study"), allow(dead_code))]
+    // Read by the second calculation of formulas alone.
+    #[cfg_attr(not(feature = "extremes"), allow(dead_code))]
     pub name: &'static str,
     pub value: fn(f64) -> f64,
 }
@@ -12,8 +12,8 @@ pub(super) struct OfOne {
 /// A function of two arguments.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct OfTwo {
-    // Read by the second calculation, which studies in files have.
-    #[cfg_attr(not(feature = "study"), allow(dead_code))]
+    // Read by the second calculation of formulas alone.
+    #[cfg_attr(not(feature = "extremes"), allow(dead_code))]
     pub name: &'static str,
     pub value: fn(f64, f64) -> f64,
 }

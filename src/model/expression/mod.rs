@@ -7,13 +7,13 @@
 mod error;
 mod functions;
 mod parse;
-#[cfg(feature = "study")]
+#[cfg(feature = "extremes")]
 mod precise;
 mod program;
 mod token;
 
 pub use error::{ExpressionError, ExpressionProblem};
-#[cfg(feature = "study")]
+#[cfg(feature = "extremes")]
 pub(crate) use precise::{PreciseFormulas, reference};
 
 use super::{Batch, Model, Output, RowFailure, RunContext, Worker};

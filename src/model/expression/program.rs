@@ -92,6 +92,7 @@ impl Program {
     }
 
     #[cfg(feature = "study")]
+    #[cfg(feature = "extremes")]
     pub fn steps(&self) -> &[Step] {
         &self.steps
     }

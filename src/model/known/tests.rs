@@ -312,6 +312,7 @@ fn parameters_that_make_no_sense_are_refused() {
 }
 
 /// The formula is another way to the value: what the two have in common is the paper.
+#[cfg(feature = "extremes")]
 #[test]
 fn every_formula_gives_the_value() {
     for answer in KnownAnswer::all() {

@@ -7,10 +7,12 @@ use serde_json::{Value, json};
 
 use crate::afm::{Fidelity, Options, Parameter, Scene};
 use crate::model::{
-    AfmHistory, AfmModel, AfmMoments, AfmOutput, AfmSecond, CommandModel, CommandSettings, Expression, ExpressionModel,
+    AfmHistory, AfmModel, AfmMoments, AfmOutput, CommandModel, CommandSettings, Expression, ExpressionModel,
     ExternalModel, Form, Input, KnownFunction, KnownModel, Model, ModelKind, Output, OutputSeries, ParameterValue,
-    PreciseFormulas, SecondCalculation, edge_unit, known_inputs, program_files,
+    edge_unit, known_inputs, program_files,
 };
+#[cfg(feature = "extremes")]
+use crate::model::{AfmSecond, PreciseFormulas, SecondCalculation};
 use crate::quantity::{Quantity, Unit};
 use crate::space::{Distribution, Factor, Space};
 use crate::study::{LowFidelity, Rung, Subject};
@@ -194,6 +196,7 @@ impl Subject for AfmSubject {
         constants.map(constant).collect()
     }
 
+    #[cfg(feature = "extremes")]
     fn second_calculation(&self, space: &Space) -> Result<Box<dyn SecondCalculation>, &'static str> {
         if !self.histories.is_empty() {
             return Err("there is no second calculation of a history");
@@ -232,6 +235,7 @@ impl Subject for ExpressionSubject {
         vec![("formulas", Value::Object(texts.collect()))]
     }
 
+    #[cfg(feature = "extremes")]
     fn second_calculation(&self, space: &Space) -> Result<Box<dyn SecondCalculation>, &'static str> {
         let formulas = self.formulas.iter().map(|formula| formula.expression.clone()).collect();
         let factors = space.factors().len();
@@ -314,6 +318,7 @@ impl Subject for KnownSubject {
         Some((indices.first_order, indices.total))
     }
 
+    #[cfg(feature = "extremes")]
     fn second_calculation(&self, space: &Space) -> Result<Box<dyn SecondCalculation>, &'static str> {
         let (base, factors) = self.inputs(space);
         Ok(Box::new(PreciseFormulas::new(vec![self.function.expression()], base, factors)))
