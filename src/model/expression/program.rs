@@ -91,7 +91,6 @@ impl Program {
         self.steps.pop();
     }
 
-    #[cfg(feature = "study")]
     #[cfg(feature = "extremes")]
     pub fn steps(&self) -> &[Step] {
         &self.steps
