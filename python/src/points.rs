@@ -106,6 +106,6 @@ pub fn salib_indices(
         found.factors.iter().map(|factor| triple(factor.first_order)).collect(),
         found.factors.iter().map(|factor| triple(factor.total)).collect(),
         pairs.collect(),
-        unlikely.into_iter().chain(output.warnings).collect(),
+        unlikely.into_iter().chain(output.warnings.iter().map(ToString::to_string)).collect(),
     ))
 }

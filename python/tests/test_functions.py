@@ -149,13 +149,13 @@ def test_a_journal_knows_the_distributions_of_scipy(tmp_path):
 @pytest.mark.parametrize("style", ["columns", "matrix"])
 def test_a_function_may_change_its_arguments(style):
     def good(x1, x2):
-        if np.any(x2 > 0.9):
+        if np.any(x2 > 0.95):
             raise ValueError("too large")
         return (x1 + 1) ** 2 + x2
 
     def in_place(*arguments):
         x1, x2 = arguments if style == "columns" else arguments[0].T
-        is_bad = np.any(x2 > 0.9)
+        is_bad = np.any(x2 > 0.95)
         x1 += 1
         if is_bad:
             raise ValueError("too large")
@@ -175,11 +175,11 @@ def test_points_of_the_user_are_in_units_whatever_the_distribution():
 
 
 def masked(x1, x2):
-    return np.ma.masked_where(np.asarray(x1) > 0.8, x1 + x2)
+    return np.ma.masked_where(np.asarray(x1) > 0.95, x1 + x2)
 
 
 def missing(x1, x2):
-    return np.where(np.asarray(x1) > 0.8, np.nan, x1 + x2)
+    return np.where(np.asarray(x1) > 0.95, np.nan, x1 + x2)
 
 
 def test_masked_and_missing_values_fail_their_rows():
@@ -187,12 +187,12 @@ def test_masked_and_missing_values_fail_their_rows():
     expected = ap.analyse(missing, UNIT, base_samples=64)
 
     def with_na(x1, x2):
-        return pandas.Series(x1 + x2, dtype="Float64").mask(x1 > 0.8)
+        return pandas.Series(x1 + x2, dtype="Float64").mask(x1 > 0.95)
 
     for f in (masked, lambda x1, x2: {"y": masked(x1, x2)}, lambda x1, x2: (masked(x1, x2),), with_na):
         result = ap.analyse(f, UNIT, base_samples=64)
         assert result["y"].runs_failed == expected["y"].runs_failed > 0 and dict(result.total) == dict(expected.total)
-    one_by_one = ap.analyse(lambda x1, x2: np.ma.masked if x1 > 0.8 else x1 + x2, UNIT, base_samples=64, vectorised=False)
+    one_by_one = ap.analyse(lambda x1, x2: np.ma.masked if x1 > 0.95 else x1 + x2, UNIT, base_samples=64, vectorised=False)
     assert dict(one_by_one.total) == dict(expected.total)
     study = ap.Study(None, UNIT, base_samples=64)
     told = study.analyse(masked(*study.sample().T))
@@ -200,7 +200,7 @@ def test_masked_and_missing_values_fail_their_rows():
 
 
 def test_none_fails_one_row_of_a_function_of_one_row():
-    result = ap.analyse(lambda x1, x2: None if x1 > 0.8 else x1 + x2, UNIT, base_samples=64, vectorised=False)
+    result = ap.analyse(lambda x1, x2: None if x1 > 0.95 else x1 + x2, UNIT, base_samples=64, vectorised=False)
     expected = ap.analyse(missing, UNIT, base_samples=64)
     assert dict(result.total) == dict(expected.total)
     assert result["y"].record["failures"][0]["reason"] == "the function returned None"
@@ -222,8 +222,8 @@ def test_a_row_that_fails_first_is_a_row_that_fails():
     result = ap.analyse(first_fails, UNIT, base_samples=64, vectorised=False)
     assert result["y"].runs_failed == 1
     assert result["y"].record["failures"][0]["reason"] == "RuntimeError: the simulator has crashed"
-    # Rows of the trial are not asked again.
-    assert len(calls) == result.runs
+    # Rows of the trial are not asked again; at the end some rows are, to see whether they have the same answer.
+    assert result.runs <= len(calls) <= 1.01 * result.runs
 
     study = ap.Study(changed := Linear(1.0), UNIT, base_samples=16, vectorised=False)
     study.run()

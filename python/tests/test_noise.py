@@ -47,14 +47,15 @@ def test_repetitions_give_mean_and_variance_as_in_the_engine():
         return (x1 + 2 * x2) * seed / 2147483648
 
     assert list(formula.outputs) == ["y_mean", "y_variance"]
-    # A row at a time is asked once more, for the names of the outputs.
     for function, vectorised in [(one, False), (lambda x1, x2, seed: (x1 + 2 * x2) * seed / 2147483648, True)]:
         result = ap.analyse(function, factors, vectorised=vectorised, **options)
         assert list(result.outputs) == list(formula.outputs)
         for name in result.outputs:
             for own, expected in zip(result[name].total.values(), formula[name].total.values()):
                 assert own.estimate == pytest.approx(expected.estimate, abs=1e-12)
-    assert len(calls) == 5 * formula.to_dict()["provenance"]["model_runs"] + 1
+    # A row at a time is asked once more, for the names of the outputs, and some rows at the end, for the same answer.
+    runs = 5 * formula.to_dict()["provenance"]["model_runs"]
+    assert runs + 1 <= len(calls) <= 1.01 * runs + 1
     with pytest.raises(ap.StudyError, match="from 1 to 1000"):
         ap.Study(one, factors, noise={"repetitions": 0}, vectorised=False)
 
