@@ -4,8 +4,8 @@
 //! factor alone, EE_j = (f(.., b_j, ..) - f(.., a_j, ..)) / (b_j - a_j) (Morris 1991, Technometrics 33, 161-174). Since
 //! the step is a part of the unit interval, effects are in units of the output per full range of the factor, and
 //! factors of different units compare. A factor that is not uniform has the bend of its quantile function in sigma,
-//! even where the model is linear in it. A discrete factor steps by its rank among its values, all of them equally
-//! likely: one step apart is 1 / (number of values - 1) of its range, and every step changes the value.
+//! even where the model is linear in it. A discrete factor steps by its rank among its values, between two
+//! different ones drawn by their probabilities: one rank is 1 / (number of values - 1) of its range.
 //!
 //! In the derivative design the steps are short, and effects are derivatives times the range of the factor: beside the other measures
 //! stands the mean square of the derivative, and the bound on the total index that follows from it ([`DerivativeMeasures`]).

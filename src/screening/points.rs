@@ -43,12 +43,26 @@ enum Shape {
 enum Grid {
     /// Anywhere in the unit interval.
     Continuous,
-    /// At given coordinates, of equal distance as far as effects are concerned.
+    /// On a grid of coordinates of equal distance.
     Levels(Vec<f64>),
+    /// At the levels of a discrete factor, each as often as its probability says, of equal distance as far as effects are concerned.
+    Discrete(Vec<Level>),
     /// Anywhere in the unit interval, with short steps towards its middle.
     Derivative,
     /// Anywhere, of seeds: these have no distance, and every step is one.
     Seeds,
+}
+
+/// One value of a discrete factor: the part of the unit interval that stands for it.
+struct Level {
+    low: f64,
+    middle: f64,
+}
+
+impl Level {
+    fn width(&self) -> f64 {
+        2.0 * (self.middle - self.low)
+    }
 }
 
 impl Trajectories {
@@ -110,22 +124,17 @@ impl Trajectories {
                     ([a, a + step], step)
                 }
                 Grid::Seeds => ([a, b], 1.0),
-                Grid::Levels(levels) => {
-                    let count = levels.len();
-                    let level = |u: f64| ((u * count as f64) as usize).min(count - 1);
-                    let (from, mut to) = (level(a), level(b));
-                    if from == to {
-                        to = (from + count.div_ceil(2)) % count;
-                    }
-                    between(levels, from, to)
-                }
+                Grid::Discrete(levels) => two_levels(levels, a, b),
+                // Only walks have grids.
+                Grid::Levels(levels) => between(levels, 0, levels.len() - 1),
             };
             Move { u, step, rows: [0, j + 1] }
         };
         self.grids.iter().enumerate().map(place).collect()
     }
 
-    /// One of Morris's walks. Each level is as likely as any other, as is each order of the factors.
+    /// One of Morris's walks. Each level of a grid is as likely as any other to be the first one, as is each order of the factors. Every
+    /// other walk has steps of a third of the grid: an output of a period that is Morris's step, half of the grid, looks constant to it.
     fn walk(&self, number: u64) -> Vec<Move> {
         let mut rng = ChaCha8Rng::seed_from_u64(self.seed);
         rng.set_stream(number);
@@ -138,10 +147,12 @@ impl Trajectories {
                 // A factor that cannot move: its coordinate is of no account.
                 Grid::Continuous | Grid::Derivative => ([0.5, 0.5], 1.0),
                 Grid::Seeds => ([0; 2].map(|_| rng.random_range(SMALLEST_U..=LARGEST_U)), 1.0),
+                Grid::Discrete(levels) => two_levels(levels, rng.random(), rng.random()),
                 Grid::Levels(levels) => {
-                    let (count, stride) = (levels.len(), levels.len() / 2);
+                    let count = levels.len();
+                    let stride = if number % 2 == 0 { count / 2 } else { (count / 3).max(1) };
                     let from = rng.random_range(0..count);
-                    // Of two ways, which the middle of an odd number of levels has, either.
+                    // Where there are two ways, either.
                     let up = from + stride < count && (from < stride || rng.random_bool(0.5));
                     between(levels, from, if up { from + stride } else { from - stride })
                 }
@@ -157,6 +168,21 @@ fn between(levels: &[f64], from: usize, to: usize) -> ([f64; 2], f64) {
     ([levels[from], levels[to]], (to as f64 - from as f64) / (levels.len() - 1) as f64)
 }
 
+/// Two different levels, drawn by their probabilities: the one at the quantile `a`, and of the others the one at their quantile `b`.
+fn two_levels(levels: &[Level], a: f64, b: f64) -> ([f64; 2], f64) {
+    let at = |u: f64| levels.partition_point(|level| level.low <= u).saturating_sub(1);
+    let from = at(a);
+    let Level { low, .. } = levels[from];
+    let rest = b * (1.0 - levels[from].width());
+    let mut to = at(if rest < low { rest } else { rest + levels[from].width() });
+    // Rounding may lead back to where the first level begins or ends.
+    if to == from {
+        to = if from + 1 < levels.len() { from + 1 } else { from - 1 };
+    }
+    let step = (to as f64 - from as f64) / (levels.len() - 1) as f64;
+    ([levels[from].middle, levels[to].middle], step)
+}
+
 /// The coordinate half a range further on, round the ends.
 fn half_way_round(u: f64) -> f64 {
     (if u < 0.5 { u + 0.5 } else { u - 0.5 }).clamp(SMALLEST_U, LARGEST_U)
@@ -168,8 +194,15 @@ impl Grid {
             return Self::Seeds;
         }
         if let Some(levels) = factor.distribution().levels() {
-            let levels: Vec<f64> = levels.iter().map(|(_, u)| *u).collect();
-            return if levels.len() < 2 { Self::Continuous } else { Self::Levels(levels) };
+            let mut low = 0.0;
+            // Each ends as far above its middle as it begins below.
+            let level = |(_, middle): &(f64, f64)| {
+                let level = Level { low, middle: *middle };
+                low += level.width();
+                level
+            };
+            let levels: Vec<Level> = levels.iter().map(level).collect();
+            return if levels.len() < 2 { Self::Continuous } else { Self::Discrete(levels) };
         }
         match (factor.distribution(), design) {
             (Distribution::Constant(_), _) | (_, ScreeningDesign::Radial { .. }) => Self::Continuous,

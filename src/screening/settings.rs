@@ -39,7 +39,8 @@ pub enum ScreeningDesign {
         sampler: Sampler,
     },
     /// Morris's own trajectories (Morris 1991, Technometrics 33, 161-174): a random walk on a grid of p levels, in
-    /// which every factor in turn, in random order, makes one step of p / (2 (p - 1)) of its range.
+    /// which every factor in turn, in random order, makes one step of p / (2 (p - 1)) of its range; in every other
+    /// trajectory one of a third of the levels, which sees what has the period of the first step.
     Trajectory {
         /// Levels p of the grid, even; 4 is usual.
         levels: u32,

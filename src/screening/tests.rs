@@ -107,9 +107,12 @@ fn ranks(screening: &Screening) -> Vec<usize> {
 fn a_parabola_and_a_product_have_their_known_moments() {
     // x^2 on (0, 1): the effect is a + b, of mean 1 and, for independent a and b, variance 1/6. The part 2 h - h^2 of
     // the steps that are below h become steps of a half: 2 a on (0, 2) becomes 2 a +- 1/2 on (1/2, 3/2), the variance
-    // of that part falls from 1/3 to 1/12, and the mean stays. On Morris's grid of 4 levels the effect is 2/3 or 4/3.
+    // of that part falls from 1/3 to 1/12, and the mean stays. On Morris's grid of 4 levels the effect is 2/3 or 4/3; in every
+    // other walk, whose steps are of one level, it is 1/3, 1 or 5/3, of probabilities 3/8, 1/4, 3/8: variances 1/9 and 1/3.
     let moved = MIN_STEP * (2.0 - MIN_STEP);
-    for (design, sigma, slack) in [(SOBOL, (1.0 / 6.0 - moved / 4.0).sqrt(), 0.005), (WALK, 1.0 / 3.0, 0.01)] {
+    for (design, sigma, slack) in
+        [(SOBOL, (1.0 / 6.0 - moved / 4.0).sqrt(), 0.005), (WALK, (2.0f64 / 9.0).sqrt(), 0.01)]
+    {
         let screening = screened(&unit_cube(1), settings(design, 4096), |x| Some(x[0] * x[0]));
         let m = measured(&screening)[0];
         // Standard error 0.4/sqrt(4096) = 0.006 for independent points.
@@ -204,7 +207,8 @@ fn a_walk_visits_all_levels_and_orders() {
         let moves = points.moves(number);
         orders.insert(moves.iter().map(|m| m.rows[0]).collect::<Vec<_>>());
         starts[(moves[0].u[0] * 3.0).round() as usize] += 1;
-        assert!(moves.iter().all(|m| (m.step.abs() - 2.0 / 3.0).abs() < 1e-15));
+        let step = if number % 2 == 0 { 2.0 / 3.0 } else { 1.0 / 3.0 };
+        assert!(moves.iter().all(|m| (m.step.abs() - step).abs() < 1e-15));
     }
     assert_eq!(orders.len(), 6);
     // A quarter of some 600 each, standard deviation 11.
@@ -224,6 +228,36 @@ fn discrete_factors_step_by_rank_and_constants_do_not_step() {
         assert_eq!(found, [4.0, -6.0, 0.0, 0.0], "{design:?}");
         assert!(m.iter().all(|m| m.sigma.estimate == 0.0));
         assert_eq!(screening.idle, [0, 0, 32, 32]);
+    }
+}
+
+#[test]
+fn an_output_of_the_period_of_the_step_is_not_fixed() {
+    for levels in [4, 6, 8, 10, 20, 100] {
+        let step = f64::from(levels / 2) / f64::from(levels - 1);
+        let design = ScreeningDesign::Trajectory { levels };
+        let space = unit_cube(2);
+        let screening = screened(&space, settings(design, 32), |x| {
+            Some(libm::sin(2.0 * std::f64::consts::PI * (x[0] / step + 0.1)) + x[1])
+        });
+        assert_eq!(screening.outputs[0].factors[0].could_be_fixed, Some(false), "{levels} levels");
+    }
+}
+
+#[test]
+fn levels_are_met_as_often_as_they_are_likely() {
+    // Of two different levels drawn by their probabilities p, one is the third with probability p3 + p1 p3/(1 - p1) + p2 p3/(1 - p2).
+    let law = Distribution::discrete(&[0.0, 1.0, 2.0], Some(&[0.499, 0.499, 0.002])).unwrap();
+    let expected = 0.002 * (1.0 + 2.0 * 0.499 / 0.501);
+    for design in [SOBOL, RANDOM, WALK] {
+        let (settings, parts) = settings(design, 1 << 14).in_force(1).unwrap();
+        let points = Trajectories::new(&space([law.clone()]), &settings, parts).unwrap();
+        let is_rare = |number: &u64| points.moves(*number)[0].u.iter().any(|u| *u > 0.998);
+        let found = (0..settings.trajectories).filter(is_rare).count() as f64 / settings.trajectories as f64;
+        // Standard error 6e-4 for independent draws.
+        assert!((found - expected).abs() < 2e-3, "{design:?}: {found} for {expected}");
+        let steps = (0..64).map(|number| points.moves(number)[0]);
+        assert!(steps.into_iter().all(|m| m.u[0] != m.u[1] && m.step != 0.0));
     }
 }
 
