@@ -4,7 +4,7 @@ use thiserror::Error;
 
 use super::finished_run::{FinishedRun, names_of_swaps};
 use super::output::{LOST, error_of_rounding};
-use crate::estimate::CentralMoments;
+use crate::estimate::{CentralMoments, Moments};
 use crate::model::Model;
 use crate::run::Totals;
 use crate::study::Study;
@@ -34,6 +34,19 @@ pub enum Warning {
         runs: u64,
         /// Base points that an index does without, at most.
         left_out: u64,
+        /// All base points.
+        base_samples: u64,
+    },
+    /// Runs fail by several factors together.
+    #[error(
+        "{points} of {base_samples} base points have a run that failed although it takes each factor from one of two runs that \
+         succeeded: several factors together (or chance) decide what fails, so the factors depend on each other where runs succeed, \
+         and these indices are not defined there, however many runs there are; narrow the ranges until no run fails, study an output \
+         that is 1 where a run fails and 0 elsewhere, or pass the rows that succeed (--save-outputs) to given-data"
+    )]
+    JointFailures {
+        /// Base points whose rows A and B succeeded, and another row did not.
+        points: u64,
         /// All base points.
         base_samples: u64,
     },
@@ -297,6 +310,7 @@ impl Warning {
         match self {
             Self::AllRunsFailed { .. } => "all-runs-failed",
             Self::RunsFailed { .. } => "runs-failed",
+            Self::JointFailures { .. } => "joint-failures",
             Self::Unbalanced { .. } => "unbalanced",
             Self::SingleReplicate => "single-replicate",
             Self::SingleNet => "single-net",
@@ -329,18 +343,44 @@ impl Warning {
 }
 
 /// Warnings about the runs behind an output.
-pub(super) fn of_runs(run: &FinishedRun<'_>, failed: u64, base_points_used: u64) -> Vec<Warning> {
+///
+/// If failures depended on each factor by itself, the rows AB_j of two rows that succeed would succeed too: `used` counts both.
+pub(super) fn of_runs(run: &FinishedRun<'_>, failed: u64, used: &Moments) -> Vec<Warning> {
     let mut warnings = Vec::new();
     let (design, settings) = (run.design, run.design.settings());
     let (runs, base_samples) = (design.rows(), settings.base_samples);
     if failed > 0 && failed == runs {
         warnings.push(Warning::AllRunsFailed { runs });
     } else if failed > 0 {
-        let left_out = base_samples - base_points_used;
+        let left_out = base_samples - used.fewest();
         warnings.push(Warning::RunsFailed { failed, runs, left_out, base_samples });
+        let points = used.count() - used.fewest();
+        warnings.extend((points > 0).then_some(Warning::JointFailures { points, base_samples }));
     }
     warnings.extend(run.study.analysis.design_warnings(design));
     warnings
+}
+
+/// Drops the advice to take more samples where joint failures are why indices contradict each other.
+pub(super) fn without_consequences(warnings: &mut Vec<Warning>) {
+    let is_cause = |warning: &Warning| matches!(warning, Warning::JointFailures { points, base_samples } if 1000 * points >= *base_samples);
+    if warnings.iter().any(is_cause) {
+        let is_consequence = |warning: &Warning| {
+            use Warning::{
+                AboveTotal, Contradictory, FirstOrderAboveOne, FormulasDiffer, TotalAboveOne, TotalsBelowOne,
+            };
+            matches!(
+                warning,
+                AboveTotal { .. }
+                    | Contradictory { .. }
+                    | FormulasDiffer { .. }
+                    | FirstOrderAboveOne { .. }
+                    | TotalsBelowOne { .. }
+                    | TotalAboveOne { .. }
+            )
+        };
+        warnings.retain(|warning| !is_consequence(warning));
+    }
 }
 
 /// A level of a factor that rows hardly met.

@@ -25,6 +25,21 @@ fn a_constant_output_has_a_reason_and_no_indices() {
 }
 
 #[test]
+fn failures_by_several_factors_are_told_from_those_by_one() {
+    let codes = |formula: &str| -> Vec<String> {
+        let factors = "[factors]\nx = { min = 0, max = 1 }\ny = { min = 0, max = 1 }\n";
+        let output =
+            format!("model = \"expression\"\noutputs.z.formula = \"{formula}\"\n[design]\nbase_samples = 16384\n");
+        analysed(&format!("{output}{factors}")).outputs[0].warning_codes.clone()
+    };
+    // The samples are many: the advice to take more would be wrong.
+    assert_eq!(codes("if(x/y > 10, sqrt(-1), x + y)"), ["runs-failed", "joint-failures"]);
+    assert_eq!(codes("if((x > 0.5) + (y > 0.9) > 1, sqrt(-1), x*y)"), ["runs-failed", "joint-failures"]);
+    // Where runs succeed the factors are independent, of smaller ranges.
+    assert_eq!(codes("if(x > 0.9, sqrt(-1), if(y < 0.05, sqrt(-1), x + y))"), ["runs-failed"]);
+}
+
+#[test]
 fn one_factor_is_everything_for_two_runs_a_base_sample() {
     let result = analysed("model = \"linear\"\n[[factor]]\nname = \"x1\"\n[analysis]\nsecond_order = true");
     assert_eq!(result.provenance.model_runs, 2 * result.provenance.base_samples);
