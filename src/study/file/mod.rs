@@ -12,6 +12,7 @@ mod distribution;
 mod distribution_forms;
 mod error;
 mod expression;
+#[cfg_attr(target_family = "wasm", allow(dead_code, reason = "a page starts no programs"))]
 mod external;
 mod fidelity;
 mod forms;

@@ -73,9 +73,7 @@ pub(super) const TABLES: [ModelTable; 5] = [
         name: "external",
         span: |_| None,
         inputs: |reading| external::inputs(reading.context, &reading.file.factor),
-        subject: |Reading { context, file, .. }, _| {
-            Ok((Arc::new(external::subject(context, file.outputs.as_ref())?), Vec::new()))
-        },
+        subject: outside,
         guide: Some(include_str!("../../../templates/guides/external.txt")),
     },
     ModelTable {
@@ -93,7 +91,15 @@ fn program(Reading { context, file, .. }: &Reading<'_>, space: &Space) -> Subjec
     Ok((Arc::new(subject), notes))
 }
 
-/// A page starts no programs, and does not carry what would speak with them.
+#[cfg(not(target_family = "wasm"))]
+fn outside(Reading { context, file, .. }: &Reading<'_>, _: &Space) -> Subjects {
+    Ok((Arc::new(external::subject(context, file.outputs.as_ref())?), Vec::new()))
+}
+
+/// A page starts no programs, and does not carry what would read their answers.
+#[cfg(target_family = "wasm")]
+use program as outside;
+
 #[cfg(target_family = "wasm")]
 fn program(Reading { context, .. }: &Reading<'_>, _: &Space) -> Subjects {
     Err(context.fault(0..0, command::NO_PROGRAM))
