@@ -24,6 +24,10 @@ use crate::uncertainty::{
     points_of_stages, stages,
 };
 
+/// Share of the variance that surrogates of quick runs may leave: where it is more, runs in place of the fit would be as good. A row is
+/// corrected in the time of some three quick runs, and errors of plain indices fall by as much as the number of runs rises.
+const MAX_LEFT: f64 = 0.03;
+
 /// The result of a run; `stopped` tells why a growing one ended.
 pub(crate) fn analysis(run: &FinishedRun<'_>, stopped: Option<Stopped>) -> Analysis {
     let FinishedRun { model, replicates, .. } = *run;
@@ -97,11 +101,13 @@ pub(crate) fn surrogates(
     }
     let kept: Vec<Vec<&PointOutputs>> = kept.iter().map(|replicates| replicates.iter().collect()).collect();
     let (families, layout) = (families(&study.space), study.layout());
+    let gains = gains_of_trial(study, design, &kept);
     // Polynomials go on where runs fail, and the numbers are those of the part of the space where they succeed.
-    let is_left_out = |outputs: &Vec<&PointOutputs>| {
-        study.analysis.surrogate != SurrogateChoice::On && outputs.iter().any(|outputs| outputs.has_failures())
+    let is_left_out = |(outputs, gains): (&Vec<&PointOutputs>, &bool)| {
+        !gains
+            || study.analysis.surrogate != SurrogateChoice::On && outputs.iter().any(|outputs| outputs.has_failures())
     };
-    let left_out: Vec<bool> = kept.iter().map(is_left_out).collect();
+    let left_out: Vec<bool> = kept.iter().zip(&gains).map(is_left_out).collect();
     let whole: Vec<Vec<&PointOutputs>> =
         kept.iter().zip(&left_out).filter(|(_, left_out)| !**left_out).map(|(outputs, _)| outputs.clone()).collect();
     let mut of_whole = surrogates_together(design, &families, &layout, &whole).into_iter();
@@ -123,6 +129,18 @@ pub(crate) fn surrogates(
     let misses_levels = rare_levels(&study.space, design).iter().any(RareLevel::is_missed);
     let of_rows = |of: SurrogateEstimates| SurrogateEstimates { misses_levels, ..of };
     alone.into_iter().enumerate().map(|place| best(place).map(of_rows)).collect()
+}
+
+/// Whether surrogates of each output are worth their time: where this is not known beforehand, by a fit to some of the rows.
+fn gains_of_trial(study: &Study, design: &Design, kept: &[Vec<&PointOutputs>]) -> Vec<bool> {
+    let Some(points) = study.trial_points(design) else { return vec![true; kept.len()] };
+    let Ok(trial) = design.with_points(points) else { return vec![false; kept.len()] };
+    let first: Vec<Vec<PointOutputs>> =
+        kept.iter().map(|replicates| replicates.iter().map(|kept| kept.prefix(points)).collect()).collect();
+    let first: Vec<Vec<&PointOutputs>> = first.iter().map(|replicates| replicates.iter().collect()).collect();
+    let found = surrogates_together(&trial, &families(&study.space), &study.layout(), &first);
+    let gains = |of: &Option<SurrogateEstimates>| of.as_ref().is_some_and(|of| 1.0 - of.explained < MAX_LEFT);
+    found.iter().map(gains).collect()
 }
 
 /// What surrogates and cheaper models make of every output, in the end and at every stage of the run.
@@ -180,7 +198,7 @@ fn output_analysis(
     let is_refused = indices.as_ref().is_ok_and(|of| of.surrogate.as_ref().is_some_and(|used| used.refusal.is_some()));
     let of_moments = IntervalOptions { surrogate: surrogate.filter(|_| !is_refused), ..options };
     let (mean, variance) = moments_of_all_rows(&totals.values, output_moments(&parts, &of_moments), used.count());
-    let mut warnings = warnings::of_runs(run, totals.runs_failed, used.fewest());
+    let mut warnings = warnings::of_runs(run, totals.runs_failed, &used);
     warnings.extend(warnings::of_flags(run.model, whole));
     warnings.extend(warnings::of_rare_levels(study, &corrected.rare));
     if let Ok(indices) = &mut indices {
@@ -188,6 +206,7 @@ fn output_analysis(
         warnings.extend(warnings::of_digits(&totals.values));
         warnings.extend(warnings::of_values(&totals.values));
         warnings.extend(warnings::of_indices(study, indices));
+        warnings::without_consequences(&mut warnings);
     }
     let samples: Vec<Vec<f64>> = run.replicates.iter().map(|totals| totals.outputs[number].sample.clone()).collect();
     // Of a table all rows are looked at when it is read.

@@ -138,7 +138,8 @@ impl AnalysisOptions {
 pub enum SurrogateChoice {
     /// No.
     Off,
-    /// Where the fit takes no more than a second or so, of up to 2^16 rows times outputs, and of programs up to 2^22.
+    /// Of up to 2^16 rows times outputs, and of programs up to 2^22; of up to 2^20 of quick models where a fit to some of the rows
+    /// explains most of the variance, so that more runs in the time of the correction would gain less.
     #[default]
     Auto,
     /// Of every run whose points are Sobol' nets or random, and whose outputs fit into memory.
@@ -161,6 +162,12 @@ impl SurrogateChoice {
 
 /// Rows times outputs up to which surrogates are fitted without being asked for.
 pub(super) const MOST_AUTOMATIC_VALUES: u64 = 1 << 16;
+
+/// The same where a trial on fewer rows explains the output.
+pub(super) const MOST_AUTOMATIC_VALUES_AFTER_TRIAL: u64 = 1 << 20;
+
+/// Rows of that trial.
+pub(super) const TRIAL_ROWS: u64 = 1 << 13;
 
 /// The same for programs, whose runs take longer than any fit: all outputs must fit into memory.
 pub(super) const MOST_AUTOMATIC_VALUES_OF_PROGRAMS: u64 = 1 << 22;

@@ -198,6 +198,12 @@ impl Contributions {
 
     /// Appends the points that follow.
     pub(super) fn append(&mut self, mut following: Self) {
+        let (mine, theirs) = (self.rows as f64, following.rows as f64);
+        let mean = |a: f64, b: f64| (mine * a + theirs * b) / (mine + theirs).max(1.0);
+        let (two, four) = following.residual;
+        self.residual = (mean(self.residual.0, two), mean(self.residual.1, four));
+        let claims = self.claims.iter_mut().zip(&following.claims);
+        claims.for_each(|([_, shown], [_, more])| *shown = mean(*shown, *more));
         self.rows += following.rows;
         self.columns_mut().zip(following.columns_mut()).for_each(|(column, more)| column.append(more));
     }

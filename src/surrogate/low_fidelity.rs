@@ -19,18 +19,12 @@ use super::corrected::{Contributions, mean_power, values_and_rest};
 use super::fit::Expansion;
 use super::net::Net;
 use super::{
-    Corrected, FEW_HERMITE_DEGREES, cross_fitted, estimates, expansion_without, fewest_points, scaled, sorted_swaps,
-    takes_surrogates,
+    Corrected, FEW_HERMITE_DEGREES, MAX_FITTED_ROWS, cross_fitted, estimates, expansion_without, fewest_points,
+    in_chunks, scaled, sorted_swaps, takes_surrogates,
 };
 use crate::design::Design;
 use crate::estimate::PointOutputs;
 use crate::uncertainty::{Layout, LowFidelityUse, SurrogateEstimates};
-
-/// Rows of the cheaper model up to which its own indices are corrected by surrogates.
-const MOST_FITTED_ROWS: u64 = 1 << 16;
-
-/// Base points of the cheaper model that are worked on at a time.
-const CHUNK: usize = 1 << 13;
 
 /// One output of a cheaper model.
 #[derive(Clone)]
@@ -67,13 +61,13 @@ impl OwnOutputs {
         let (outputs, scale) = scaled(replicates, design.runs().len(), None)?;
         let caps = Caps::new(families, FEW_HERMITE_DEGREES);
         let mut nets = Vec::new();
-        if design.rows() <= MOST_FITTED_ROWS {
+        if design.rows() <= MAX_FITTED_ROWS {
             let net = |(number, outputs)| Net::new(design, number as u64, families, caps.degree, outputs);
             nets = outputs.par_iter().enumerate().map(|(number, outputs)| net((number, outputs))).collect::<Vec<Net>>();
         }
         let is_fitted = !nets.is_empty() && nets.iter().all(|net| net.points() >= fewest_points(design));
         let nets = if is_fitted {
-            let expansions = cross_fitted(&nets, caps, |_, _| ()).into_iter().map(|(_, expansion)| expansion);
+            let expansions = cross_fitted(&nets, caps, |_, _, _| ()).into_iter().map(|(_, expansion)| expansion);
             let expansions: Vec<Expansion> = expansions.collect();
             OwnNets::Fitted(nets.into_iter().zip(expansions).collect())
         } else {
@@ -285,18 +279,11 @@ fn own_contributions(
     let degree = crossed.iter().flat_map(|(term, _)| term.iter().map(|(_, degree)| *degree)).max().unwrap_or(1);
     let nothing = Expansion { terms: vec![Vec::new()], coefficients: vec![0.0] };
     let of_net = |(number, outputs): (usize, &Vec<Vec<f64>>)| {
-        let points = outputs.first().map_or(0, Vec::len);
-        let mut whole: Option<Contributions> = None;
-        for first in (0..points).step_by(CHUNK) {
-            let part: Vec<&[f64]> = outputs.iter().map(|run| &run[first..points.min(first + CHUNK)]).collect();
-            let net = Net::of_points(&own.design, number as u64, first as u64, families, degree, &part);
-            let part = of_chunk(&net, &nothing);
-            match &mut whole {
-                Some(whole) => whole.append(part),
-                None => whole = Some(part),
-            }
-        }
-        whole
+        in_chunks(outputs.first().map_or(0, Vec::len), |points| {
+            let part: Vec<&[f64]> = outputs.iter().map(|run| &run[points.clone()]).collect();
+            let net = Net::of_points(&own.design, number as u64, points.start as u64, families, degree, &part);
+            of_chunk(&net, &nothing)
+        })
     };
-    outputs.par_iter().enumerate().filter_map(of_net).collect()
+    outputs.par_iter().enumerate().map(of_net).collect()
 }

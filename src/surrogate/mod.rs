@@ -57,6 +57,13 @@ const FEW_ROWS: f64 = 50.0;
 /// Share of the variance by which a factor matters.
 const MATTERS: f64 = 0.02;
 
+/// Rows of all nets together that surrogates are fitted to, at most: more of them hardly change the coefficients of some hundred terms,
+/// and what an expansion leaves is taken from all rows.
+pub const MAX_FITTED_ROWS: u64 = 1 << 16;
+
+/// Base points that are corrected at a time where there are more than the surrogates are fitted to.
+const CHUNK: usize = 1 << 13;
+
 /// Terms that are told of.
 const TOLD_TERMS: usize = 12;
 
@@ -181,19 +188,44 @@ impl Corrected {
 impl Job<'_> {
     fn corrected(&self, families: &[Family], hermite_degree: usize) -> Option<Corrected> {
         let (design, caps) = (self.design, Caps::new(families, hermite_degree));
-        let net = |(number, outputs): (usize, &Vec<Vec<f64>>)| {
-            Net::new(design, number as u64, families, caps.degree, outputs)
+        let fitted = fitted_design(design);
+        let of_points = |number: usize, points: std::ops::Range<usize>| {
+            let outputs: Vec<&[f64]> = self.outputs[number].iter().map(|run| &run[points.clone()]).collect();
+            Net::of_points(design, number as u64, points.start as u64, families, caps.degree, &outputs)
         };
-        let nets: Vec<Net> = self.outputs.par_iter().enumerate().map(net).collect();
+        let points = fitted.points_per_replicate() as usize;
+        let nets: Vec<Net> =
+            (0..self.outputs.len()).into_par_iter().map(|number| of_points(number, 0..points)).collect();
         if nets.iter().any(|net| net.points() < fewest_points(design)) {
             return None;
         }
         let swaps = sorted_swaps(design);
-        let contributions =
-            |net: &Net, expansion: &Expansion| Contributions::new(design, net, expansion, &swaps, self.pairs);
+        let contributions = |number: usize, net: &Net, expansion: &Expansion| {
+            let of = |net: &Net| Contributions::new(design, net, expansion, &swaps, self.pairs);
+            let all = design.points_per_replicate() as usize;
+            if all == points { of(net) } else { in_chunks(all, |chunk| of(&of_points(number, chunk))) }
+        };
         let (nets, expansions) = cross_fitted(&nets, caps, contributions).into_iter().unzip();
-        Some(Corrected::new(design, nets, expansions, families, self.pairs))
+        Some(Corrected::new(&fitted, nets, expansions, families, self.pairs))
     }
+}
+
+/// The first base points of `design` of at most [`MAX_FITTED_ROWS`] rows in all: a power of two of them, or all.
+fn fitted_design(design: &Design) -> Design {
+    let most = MAX_FITTED_ROWS * design.points_per_replicate() / design.rows().max(1);
+    if design.rows() <= MAX_FITTED_ROWS || most == 0 {
+        return design.clone();
+    }
+    design.with_points(1 << most.ilog2()).unwrap_or_else(|_| design.clone())
+}
+
+/// What the base points up to number `points` contribute, some of them at a time.
+fn in_chunks(points: usize, of: impl Fn(std::ops::Range<usize>) -> Contributions) -> Contributions {
+    let mut all = of(0..points.min(CHUNK));
+    for first in (CHUNK..points).step_by(CHUNK) {
+        all.append(of(first..points.min(first + CHUNK)));
+    }
+    all
 }
 
 /// Mean square and mean fourth power of what surrogates leave of `nets`.
@@ -202,18 +234,18 @@ fn residual_powers(nets: &[Contributions]) -> (f64, f64) {
     (two / nets.len() as f64, four / nets.len() as f64)
 }
 
-/// For every net the expansion fitted to the others, and what `of` makes of both.
+/// For every net the expansion fitted to the others, and what `of` makes of its number and both.
 pub fn cross_fitted<T: Send>(
     nets: &[Net],
     caps: Caps<'_>,
-    of: impl Fn(&Net, &Expansion) -> T + Sync,
+    of: impl Fn(usize, &Net, &Expansion) -> T + Sync,
 ) -> Vec<(T, Expansion)> {
     let training: Vec<Training<'_>> = nets.iter().map(Training::new).collect();
-    let with = |(net, expansions): (&Net, Expansions)| {
+    let with = |(number, (net, expansions)): (usize, (&Net, Expansions))| {
         let expansion = expansions.of_output(0);
-        (of(net, &expansion), expansion)
+        (of(number, net, &expansion), expansion)
     };
-    nets.par_iter().zip(fitted_to_others(nets, &training, caps)).map(with).collect()
+    nets.par_iter().zip(fitted_to_others(nets, &training, caps)).enumerate().map(with).collect()
 }
 
 /// For every net the expansions fitted to the `training` runs of the others.

@@ -240,7 +240,7 @@ impl Job<'_> {
         };
         let nets: Vec<Net> = self.folds.iter().map(net).collect();
         drop(columns);
-        let of_fold = |net: &Net, expansion: &Expansion| {
+        let of_fold = |_: usize, net: &Net, expansion: &Expansion| {
             let mut contributions = Contributions::new(net, expansion);
             if self.own_distributions {
                 marginals::add(net, expansion, &mut contributions);
