@@ -1,26 +1,23 @@
 //! The papers reproduced: their studies, figures, claims and percentages.
 //!
-//! [`reproduce()`] computes, [`document()`] makes the page and its files of it, [`in_words`] says it on a terminal.
+//! [`reproduce()`] computes, [`document()`] makes the page, its files and the text for a terminal of it.
 
 pub mod claims;
-mod compare;
 mod document;
 pub mod figures;
 mod order;
 pub mod percentages;
 mod published;
 mod reproduction;
-mod terminal;
+mod shares;
 
 use std::path::PathBuf;
 
 use thiserror::Error;
 
-pub use compare::{comparison_table, shares_csv};
 pub use document::document;
 pub use published::{Published, published};
 pub use reproduction::{Event, Reproduction, Request, Topic, reproduce};
-pub use terminal::in_words;
 
 use apportion::report::ResultFile;
 use apportion::report::chart::Colour;

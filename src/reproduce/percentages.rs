@@ -4,7 +4,7 @@
 //! the critical force and of its logarithm, under each friction model and under LuGre friction with the viscous
 //! coefficient that brings the velocity to its printed share. Nothing is tuned beyond that one coefficient.
 
-use super::published::published;
+use super::published::{PRINTED, published};
 use super::{Effort, FRICTIONS, GROUPS, QUICK, ReproduceError, STUDIES};
 use apportion::report::csv::{Csv, fields};
 use apportion::report::document::{Cell, Column, Table, Value};
@@ -13,9 +13,6 @@ use apportion::study::Study;
 
 /// Within so many percentage points a distance counts as met: three times the rounding of the printed numbers.
 const MET: f64 = 1.5;
-
-/// The friction model whose percentages are printed.
-const PRINTED: &str = "lugre";
 
 /// The viscous coefficient at which the velocity has its printed share, in place of the printed 1e-7 N s/m.
 const VISCOUS: &str = "afm.viscous_friction=0.3 N s/m";
@@ -75,14 +72,15 @@ impl Percentages {
     }
 }
 
-fn thickness_part(share: impl Fn(&str) -> Option<f64>) -> Option<f64> {
+/// The part of the thickness among thickness, length and width, in percent.
+pub(super) fn thickness_part(share: impl Fn(&str) -> Option<f64>) -> Option<f64> {
     let [t, l, w] = ["thickness", "length", "width"].map(share);
     Some(100.0 * t? / (t? + l? + w?))
 }
 
 /// The printed percentage of a factor in the study of `group`, where there is one.
 fn printed(group: &str, factor: &str) -> Option<f64> {
-    published(group, PRINTED).shares.iter().find(|(name, _)| *name == factor).map(|(_, share)| *share)
+    published(group, PRINTED).share(factor)
 }
 
 /// The distance of `shares`, percentages of all factors of the study `group`, to those that LG prints, in percentage

@@ -89,5 +89,5 @@ pub(super) fn section() -> Section {
             .with_rows(study.space().factors().iter().map(row));
         parts.push(Part::Details { summary: "The ranges of the factors".to_owned(), parts: vec![Part::Table(table)] });
     }
-    Section::new("constants", "Constants: printed, used, and why", parts)
+    Section::new("constants", "Constants: printed, used, and why", vec![Part::OnPage(parts)])
 }

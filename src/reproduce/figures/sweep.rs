@@ -3,9 +3,9 @@
 use rayon::prelude::*;
 
 use super::curve::{Curve, crossing};
-use super::sweep_list::{Line, SWEEPS, SweepFigure, Variant};
+use super::list::{Line, SweepFigure, Variant};
 use super::table::Table;
-use super::{FiguresError, PaperFigure, edge};
+use super::{FiguresError, edge};
 use crate::reproduce::{Effort, STUDIES};
 use apportion::afm::{Fidelity, Options, Parameter, critical_force};
 use apportion::report::chart::{Axis, Chart, Mark, Panel, Series, Stroke};
@@ -23,33 +23,29 @@ const FLAT: f64 = 1e-3;
 /// The study whose factors have all ranges.
 const GENERAL: &str = "coulomb-general";
 
-/// The figures of [`SWEEPS`].
-pub(super) fn sweeps(effort: Effort) -> Result<Vec<PaperFigure>, FiguresError> {
+/// The study that has the ranges of all factors.
+pub(super) fn general() -> Result<Study, FiguresError> {
     let text = STUDIES.iter().find(|(name, _)| *name == GENERAL).map_or("", |(_, text)| text);
-    let study = Study::parse(text, format!("studies/{GENERAL}.toml").as_ref(), &[])?;
-    let points = match effort {
-        Effort::Full => 201,
-        Effort::Quick => 41,
-    };
-    SWEEPS.par_iter().map(|figure| one(figure, study.space(), points)).collect()
+    Ok(Study::parse(text, format!("studies/{GENERAL}.toml").as_ref(), &[])?)
 }
 
-fn one(figure: &SweepFigure, space: &Space, points: usize) -> Result<PaperFigure, FiguresError> {
-    let number = find(space, figure.factor)?;
-    // The march's saw needs finer teeth.
-    let is_marched = figure.lines.iter().any(|line| line.variant == Variant::NaiveMarch);
-    let points = if is_marched { 4 * points - 3 } else { points };
-    let values = FactorValues::over_range(space, number, points)?.values;
-    let parameter = Parameter::from_name(figure.factor).ok_or(FiguresError::NoParameter { name: figure.factor })?;
-    let swept = Swept { figure, factor: &space.factors()[number], parameter, values };
-    let lines: Vec<Drawn> = figure.lines.iter().map(|line| swept.line(line)).collect();
-    Ok(PaperFigure {
-        stem: figure.stem,
-        label: figure.label,
-        theirs: figure.theirs,
-        chart: swept.chart(&lines),
-        csv: swept.csv(&lines),
-    })
+impl SweepFigure {
+    /// The chart over the range of the factor in `space`.
+    pub fn drawn(&self, space: &Space, effort: Effort) -> Result<super::Drawn, FiguresError> {
+        let number = find(space, self.factor)?;
+        let points = match effort {
+            Effort::Full => 201,
+            Effort::Quick => 41,
+        };
+        // The march's saw needs finer teeth.
+        let is_marched = self.lines.iter().any(|line| line.variant == Variant::NaiveMarch);
+        let points = if is_marched { 4 * points - 3 } else { points };
+        let values = FactorValues::over_range(space, number, points)?.values;
+        let parameter = Parameter::from_name(self.factor).ok_or(FiguresError::NoParameter { name: self.factor })?;
+        let swept = Swept { figure: self, factor: &space.factors()[number], parameter, values };
+        let lines: Vec<Drawn> = self.lines.iter().map(|line| swept.line(line)).collect();
+        Ok((swept.chart(&lines), swept.csv(&lines)))
+    }
 }
 
 /// A figure with the values of its factor.
