@@ -16,6 +16,7 @@ mod own;
 mod together;
 
 pub use together::surrogates_together;
+use together::{good_points, of_neighbours};
 
 use rayon::prelude::*;
 
@@ -76,14 +77,8 @@ pub fn surrogate_estimates(
     if !takes_surrogates(design, replicates.len()) {
         return None;
     }
-    let (outputs, scale) = scaled(replicates, design.runs().len(), None)?;
-    let pairs = if layout.second_order { layout.pair_list() } else { Vec::new() };
-    let job = Job { design, outputs: &outputs, pairs: &pairs };
-    let mut best: Option<Corrected> = None;
-    for Trial { families, hermite_degree, ratio } in trials(families) {
-        best = Corrected::better(best, job.corrected(&families, hermite_degree)?, ratio);
-    }
-    Some(estimates(&best?, &[], scale))
+    let scaled = scaled(replicates, design.runs().len(), None)?;
+    of_neighbours(design, families, layout, &good_points(&scaled), &[&scaled]).pop().flatten()
 }
 
 /// Whether there are enough nets, and points that are nets.
@@ -122,13 +117,6 @@ pub fn trials(families: &[Family]) -> Vec<Trial> {
         trials.push(trial(families, MANY_HERMITE_DEGREES, CLEARLY_LESS));
     }
     trials
-}
-
-/// What surrogates are fitted to: the outputs of every replicate and run, scaled.
-struct Job<'a> {
-    design: &'a Design,
-    outputs: &'a [Vec<Vec<f64>>],
-    pairs: &'a [(usize, usize)],
 }
 
 /// Every net, corrected by a surrogate of the others.
@@ -178,42 +166,16 @@ impl Corrected {
     }
 }
 
-impl Job<'_> {
-    fn corrected(&self, families: &[Family], hermite_degree: usize) -> Option<Corrected> {
-        let (design, caps) = (self.design, Caps::new(families, hermite_degree));
-        let net = |(number, outputs): (usize, &Vec<Vec<f64>>)| {
-            Net::new(design, number as u64, families, caps.degree, outputs)
-        };
-        let nets: Vec<Net> = self.outputs.par_iter().enumerate().map(net).collect();
-        if nets.iter().any(|net| net.points() < fewest_points(design)) {
-            return None;
-        }
-        let swaps = sorted_swaps(design);
-        let contributions =
-            |net: &Net, expansion: &Expansion| Contributions::new(design, net, expansion, &swaps, self.pairs);
-        let (nets, expansions) = cross_fitted(&nets, caps, contributions).into_iter().unzip();
-        Some(Corrected::new(design, nets, expansions, families, self.pairs))
-    }
-}
-
 /// Mean square and mean fourth power of what surrogates leave of `nets`.
 fn residual_powers(nets: &[Contributions]) -> (f64, f64) {
     let (two, four) = nets.iter().fold((0.0, 0.0), |sum, net| (sum.0 + net.residual.0, sum.1 + net.residual.1));
     (two / nets.len() as f64, four / nets.len() as f64)
 }
 
-/// For every net the expansion fitted to the others, and what `of` makes of both.
-pub fn cross_fitted<T: Send>(
-    nets: &[Net],
-    caps: Caps<'_>,
-    of: impl Fn(&Net, &Expansion) -> T + Sync,
-) -> Vec<(T, Expansion)> {
+/// For every net the expansion fitted to the others.
+pub fn cross_fitted(nets: &[Net], caps: Caps<'_>) -> Vec<Expansion> {
     let training: Vec<Training<'_>> = nets.iter().map(Training::new).collect();
-    let with = |(net, expansions): (&Net, Expansions)| {
-        let expansion = expansions.of_output(0);
-        (of(net, &expansion), expansion)
-    };
-    nets.par_iter().zip(fitted_to_others(nets, &training, caps)).map(with).collect()
+    fitted_to_others(nets, &training, caps).iter().map(|expansions| expansions.of_output(0)).collect()
 }
 
 /// For every net the expansions fitted to the `training` runs of the others.

@@ -41,8 +41,8 @@ pub fn surrogates_together(
         outputs.par_iter().map(|replicates| scaled(replicates, design.runs().len(), None)).collect();
     // By the points at which all runs have a value.
     let mut groups: BTreeMap<Vec<Vec<usize>>, Vec<usize>> = BTreeMap::new();
-    for (number, (scaled, _)) in all.iter().enumerate().filter_map(|(number, all)| Some((number, all.as_ref()?))) {
-        groups.entry(scaled.iter().map(|runs| good_points(runs)).collect()).or_default().push(number);
+    for (number, scaled) in all.iter().enumerate().filter_map(|(number, all)| Some((number, all.as_ref()?))) {
+        groups.entry(good_points(scaled)).or_default().push(number);
     }
     let mut found: Vec<Option<SurrogateEstimates>> = vec![None; outputs.len()];
     for (good, members) in groups {
@@ -61,14 +61,17 @@ pub fn surrogates_together(
     found
 }
 
-/// The base points at which every run has a value.
-fn good_points(runs: &[Vec<f64>]) -> Vec<usize> {
-    let points = runs.first().map_or(0, Vec::len);
-    (0..points).filter(|&point| runs.iter().all(|run| run[point].is_finite())).collect()
+/// The base points of every replicate at which all runs have a value.
+pub(super) fn good_points((replicates, _): &Scaled) -> Vec<Vec<usize>> {
+    let of_replicate = |runs: &Vec<Vec<f64>>| {
+        let points = runs.first().map_or(0, Vec::len);
+        (0..points).filter(|&point| runs.iter().all(|run| run[point].is_finite())).collect()
+    };
+    replicates.iter().map(of_replicate).collect()
 }
 
-/// Of outputs that have values at the `good` points of every replicate.
-fn of_neighbours(
+/// Of outputs that have values at the `good` points of every replicate, and choose their terms together.
+pub(super) fn of_neighbours(
     design: &Design,
     families: &[Family],
     layout: &Layout,
@@ -94,7 +97,7 @@ fn of_neighbours(
             let of_net = |((net, runs), expansion): ((&Net, &Vec<Vec<f64>>), _)| {
                 Contributions::new(design, &net.with_outputs(runs.clone()), expansion, &swaps, &pairs)
             };
-            let nets = nets.iter().zip(&runs[number]).zip(&expansions).map(of_net).collect();
+            let nets = nets.par_iter().zip(&runs[number]).zip(&expansions).map(of_net).collect();
             best = Corrected::better(best, Corrected::new(design, nets, expansions, families, &pairs), *ratio);
         }
         Some(estimates(&best?, &[], outputs[number].1))
