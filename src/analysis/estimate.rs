@@ -11,7 +11,7 @@ use super::rare_levels::{rare_levels, withdraw};
 use super::result::{Aggregate, Analysis, LowRuns, Stopped};
 use super::series::{series, single_outputs, together};
 use super::unlikely;
-use super::warnings::{self, RareLevel};
+use super::warnings::{self, RareLevel, Warning};
 use crate::design::Design;
 use crate::estimate::{CentralMoments, MomentParts, PointOutputs, Scaling, merged};
 use crate::model::{MANY_OUTPUTS, Output, RowFailure};
@@ -182,7 +182,7 @@ fn output_analysis(
     let (mean, variance) = moments_of_all_rows(&totals.values, output_moments(&parts, &of_moments), used.count());
     let mut warnings = warnings::of_runs(run, totals.runs_failed, used.fewest());
     warnings.extend(warnings::of_flags(run.model, whole));
-    warnings.extend(warnings::of_rare_levels(study, &corrected.rare));
+    warnings.extend(corrected.rare.iter().cloned().map(Warning::RareLevel));
     if let Ok(indices) = &mut indices {
         withdraw(indices, &corrected.rare);
         warnings.extend(warnings::of_digits(&totals.values));
