@@ -5,11 +5,10 @@
 //! coefficient that brings the velocity to its printed share. Nothing is tuned beyond that one coefficient.
 
 use super::published::{PRINTED, published};
-use super::{Effort, FRICTIONS, GROUPS, QUICK, ReproduceError, STUDIES};
+use super::{Effort, FRICTIONS, GROUPS, QUICK, ReproduceError, study};
 use apportion::report::csv::{Csv, fields};
 use apportion::report::document::{Cell, Column, Table, Value};
 use apportion::report::{EffectRecord, fixed};
-use apportion::study::Study;
 
 /// Within so many percentage points a distance counts as met: three times the rounding of the printed numbers.
 const MET: f64 = 1.5;
@@ -112,8 +111,7 @@ pub fn percentages(effort: Effort, threads: usize) -> Result<Vec<Percentages>, R
             rows.extend(MEASURES.map(row));
         }
         for group in GROUPS {
-            let name = format!("{key}-{}", group.key);
-            let of_study = shares_of_study(&name, group.key, settings, effort, threads)?;
+            let of_study = shares_of_study(key, group.key, settings, effort, threads)?;
             rows[first..].iter_mut().zip(of_study).for_each(|(row, shares)| row.studies.push(shares));
         }
     }
@@ -122,20 +120,19 @@ pub fn percentages(effort: Effort, threads: usize) -> Result<Vec<Percentages>, R
 
 /// The shares of one study: for each output, by each measure.
 fn shares_of_study(
-    name: &str,
+    friction: &str,
     group: &'static str,
     settings: &[&str],
     effort: Effort,
     threads: usize,
 ) -> Result<Vec<StudyShares>, ReproduceError> {
-    let text = STUDIES.iter().find(|(study, _)| *study == name).map_or("", |(_, text)| text);
     let names = OUTPUTS.map(|(output, _)| format!("{output:?}")).join(", ");
     let quick = if effort == Effort::Quick { &QUICK[..] } else { &[] };
     let overrides: Vec<String> = [format!("outputs=[{names}]")]
         .into_iter()
         .chain(settings.iter().chain(quick).map(|setting| (*setting).to_owned()))
         .collect();
-    let study = Study::parse(text, format!("studies/{name}.toml").as_ref(), &overrides)?;
+    let study = study(friction, group, &overrides)?;
     let result = apportion::report::ResultFile::new(&study, &study.runner().threads(threads).run()?);
     let mut of_study = Vec::new();
     for output in &result.outputs {
@@ -143,7 +140,7 @@ fn shares_of_study(
             let indices = output.indices.iter().flatten();
             let shares = indices.map(|index| Some((index.factor.clone(), share(&index.effect)?))).collect();
             let shares: Vec<(String, f64)> = Option::filter(shares, |shares: &Vec<_>| !shares.is_empty())
-                .ok_or_else(|| ReproduceError::NoPercentages { study: name.to_owned(), measure })?;
+                .ok_or_else(|| ReproduceError::NoPercentages { study: study.name().to_owned(), measure })?;
             let distance = distance(group, shares.iter().map(|(factor, share)| (factor.as_str(), *share)));
             of_study.push(StudyShares { group, shares, distance });
         }

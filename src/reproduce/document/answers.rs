@@ -35,7 +35,7 @@ pub(super) fn table(studies: &[Reproduced]) -> Table {
     };
     let row = |group: &StudyGroup| {
         let cells = FRICTIONS.iter().map(|friction| cell(*group, *friction));
-        [Cell::marked(title(*group), Mark::Strong)].into_iter().chain(cells).collect()
+        [Cell::marked(group.title, Mark::Strong)].into_iter().chain(cells).collect()
     };
     let caption = "The leading factor of each study: the part of the variance of the critical force that it explains alone \
                    (first-order index S_1) and with all its interactions (total index S_T), and the factors that follow \
@@ -43,15 +43,6 @@ pub(super) fn table(studies: &[Reproduced]) -> Table {
     let frictions = FRICTIONS.iter().map(|friction| Column::text(format!("{} friction", friction.name)));
     let columns = [Column::text("")].into_iter().chain(frictions);
     Table { on_phone: OnPhone::StackLabelled, ..Table::new(caption, columns).with_rows(GROUPS.iter().map(row)) }
-}
-
-/// What varies in a group of studies.
-fn title(group: StudyGroup) -> &'static str {
-    match group.key {
-        "dimensional" => "the cantilever's dimensions",
-        "environmental" => "the environment",
-        _ => "all eight factors",
-    }
 }
 
 fn leader(study: &Reproduced) -> Cell {
@@ -92,11 +83,6 @@ fn where_it_holds(studies: &[Reproduced]) -> String {
 
 /// `Thickness explains 33 % of the variance of the critical force alone and 67 % with its interactions (Coulomb); ...`.
 fn sentence(studies: &[Reproduced], group: StudyGroup) -> Option<String> {
-    let among = match group.key {
-        "dimensional" => "Among the dimensions alone",
-        "environmental" => "Among the factors of the environment alone",
-        _ => "Of all eight factors together",
-    };
     // Friction models with the same factor and the same numbers are named together.
     let mut groups: Vec<(&str, (String, String), Vec<&str>)> = Vec::new();
     for study in studies.iter().filter(|study| study.group == group) {
@@ -122,7 +108,7 @@ fn sentence(studies: &[Reproduced], group: StudyGroup) -> Option<String> {
             }
         })
         .collect();
-    (!said.is_empty()).then(|| format!("{among}, {}.", said.join("; ")))
+    (!said.is_empty()).then(|| format!("{}, {}.", group.among, said.join("; ")))
 }
 
 /// What a careful reader should know of each study, a sentence each.

@@ -22,7 +22,7 @@ pub use animation::{ANIMATION_STEM, Animation, animation};
 
 use rayon::prelude::*;
 
-use super::{Effort, Reproduced};
+use super::{Effort, Reproduced, general_study};
 use apportion::afm::Failure;
 use apportion::report::chart::{Chart, ChartError};
 use apportion::report::document::DocumentError;
@@ -90,7 +90,7 @@ pub enum FiguresError {
 /// # Ok::<(), apportion::reproduce::figures::FiguresError>(())
 /// ```
 pub fn figures(studies: &[Reproduced], effort: Effort) -> Result<Vec<PaperFigure>, FiguresError> {
-    let general = sweep::general()?;
+    let general = general_study()?;
     let draw = |&(stem, ref ours, theirs): &(&'static str, Ours, &'static str)| {
         let drawn = match ours {
             Ours::Sweep(figure) => figure.drawn(general.space(), effort).map(Some),

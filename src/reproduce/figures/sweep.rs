@@ -6,13 +6,12 @@ use super::curve::{Curve, crossing};
 use super::list::{Line, SweepFigure, Variant};
 use super::table::Table;
 use super::{FiguresError, edge};
-use crate::reproduce::{Effort, STUDIES};
+use crate::reproduce::Effort;
 use apportion::afm::{Fidelity, Options, Parameter, critical_force};
 use apportion::report::chart::{Axis, Chart, Mark, Panel, Series, Stroke};
 use apportion::report::format::three_digits as short;
 use apportion::report::{capitalised, listed};
 use apportion::space::{Factor, Space};
-use apportion::study::Study;
 use apportion::sweep::{FactorValues, find};
 
 const NANO: f64 = 1e9;
@@ -20,14 +19,6 @@ const NANO: f64 = 1e9;
 const VISIBLE: f64 = 5e-3;
 /// A force that changes by less than this part of its size counts as having no range but its size.
 const FLAT: f64 = 1e-3;
-/// The study whose factors have all ranges.
-const GENERAL: &str = "coulomb-general";
-
-/// The study that has the ranges of all factors.
-pub(super) fn general() -> Result<Study, FiguresError> {
-    let text = STUDIES.iter().find(|(name, _)| *name == GENERAL).map_or("", |(_, text)| text);
-    Ok(Study::parse(text, format!("studies/{GENERAL}.toml").as_ref(), &[])?)
-}
 
 impl SweepFigure {
     /// The chart over the range of the factor in `space`.
