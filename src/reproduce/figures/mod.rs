@@ -6,7 +6,6 @@
 
 mod animation;
 mod curve;
-mod edge;
 mod history;
 mod list;
 mod modes;

@@ -5,11 +5,11 @@ use rayon::prelude::*;
 use super::curve::{Curve, crossing};
 use super::list::{Line, SweepFigure, Variant};
 use super::table::Table;
-use super::{FiguresError, edge};
+use super::FiguresError;
 use crate::reproduce::Effort;
 use apportion::afm::{Fidelity, Options, Parameter, critical_force};
 use apportion::report::chart::{Axis, Chart, Mark, Panel, Series, Stroke};
-use apportion::report::format::three_digits as short;
+use apportion::report::format::{three_digits as short, unit};
 use apportion::report::{capitalised, listed};
 use apportion::space::{Factor, Space};
 use apportion::sweep::{FactorValues, find};
@@ -76,7 +76,7 @@ impl Swept<'_> {
     }
 
     fn csv(&self, lines: &[Drawn]) -> String {
-        let unit = edge::column(self.factor.unit().symbol());
+        let unit = self.factor.unit().symbol().replace('/', "_per_");
         let mut table = Table::default().with(&format!("{}_{unit}", self.figure.factor), self.values.iter().copied());
         for drawn in lines {
             table = table.with(&format!("{}_nN", drawn.line.key), drawn.force.iter().copied());
@@ -90,7 +90,7 @@ impl Swept<'_> {
     }
 
     fn chart(&self, lines: &[Drawn]) -> Chart {
-        let unit = edge::printed(self.factor.unit().symbol());
+        let unit = unit(self.factor.unit().symbol());
         let points = |force: &[f64]| self.values.iter().copied().zip(force.iter().copied()).collect();
         let range = range(lines);
         let mut all = Vec::new();
@@ -105,7 +105,8 @@ impl Swept<'_> {
                 all.push(Series::new(name, colour).stroke(Stroke::Dashed).line(points(force)));
             }
         }
-        let label = format!("{}, {}", capitalised(self.parameter.description), edge::symbol(self.parameter));
+        let symbol = self.parameter.symbol.replace("omega", "ω");
+        let label = format!("{}, {symbol}", capitalised(self.parameter.description));
         let nominal = Mark::rule(self.factor.nominal, format!("nominal: {} {unit}", self.factor.nominal));
         let panel =
             Panel::new(Axis::new(label, unit), Axis::new("Critical force F_cr", "nN")).with(all).with([nominal]);
@@ -114,7 +115,7 @@ impl Swept<'_> {
     }
 
     fn caption(&self, lines: &[Drawn], range: f64) -> String {
-        let unit = format!(" {}", edge::printed(self.factor.unit().symbol()));
+        let unit = format!(" {}", unit(self.factor.unit().symbol()));
         let (Some(from), Some(to)) = (self.values.first(), self.values.last()) else { return String::new() };
         let mut courses: Vec<String> = Vec::new();
         for drawn in lines {
