@@ -35,7 +35,9 @@ fn every_index(moments: &Moments) -> f64 {
     let swaps = || 0..moments.swaps();
     let first: f64 = FirstOrder::ALL.iter().flat_map(|e| swaps().map(|j| e.estimate(moments, j))).sum();
     let total: f64 = Total::ALL.iter().flat_map(|e| swaps().map(|j| e.estimate(moments, j))).sum();
-    let second: f64 = SecondOrder::ALL.iter().flat_map(|e| e.all(moments)).map(|pair| pair.index).sum();
+    let swaps = moments.pairs().map_or(&[][..], |pairs| pairs.swaps());
+    let pairs = || swaps.iter().flat_map(|j| swaps.iter().filter(move |k| *k > j).map(move |k| (*j, *k)));
+    let second: f64 = SecondOrder::ALL.iter().flat_map(|e| pairs().map(|(j, k)| e.estimate(moments, j, k))).sum();
     first + total + second
 }
 

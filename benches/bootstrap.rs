@@ -32,7 +32,7 @@ fn bootstrap(criterion: &mut Criterion) {
         let kept: Vec<&PointOutputs> = totals.iter().map(|totals| &totals.outputs[0].point_outputs).collect();
         let parts: Vec<MomentParts> = totals.iter().map(|totals| totals.outputs[0].moments.clone()).collect();
         let points = KeptPoints::all(&design, &kept);
-        for method in [IntervalMethod::Delta, IntervalMethod::Percentile, IntervalMethod::Bca] {
+        for method in [IntervalMethod::Delta, IntervalMethod::Percentile] {
             let options = IntervalOptions {
                 method,
                 threshold: 0.05,

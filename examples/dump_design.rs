@@ -58,7 +58,9 @@ fn indices(moments: &Moments) -> Value {
     let total: Map<_, _> =
         Total::ALL.into_iter().map(|e| (e.name().into(), of_swaps(&|j| e.estimate(moments, j)))).collect();
     let pairs = |e: SecondOrder| -> Value {
-        e.all(moments).iter().map(|pair| json!([pair.swaps.0, pair.swaps.1, pair.index])).collect()
+        let swaps = moments.pairs().map_or(&[][..], |pairs| pairs.swaps());
+        let pairs = swaps.iter().flat_map(|&j| swaps.iter().filter(move |k| **k > j).map(move |&k| (j, k)));
+        pairs.map(|(j, k)| json!([j, k, e.estimate(moments, j, k)])).collect()
     };
     let second: Map<_, _> = SecondOrder::ALL.into_iter().map(|e| (e.name().into(), pairs(e))).collect();
     json!({ "first_order": first, "total": total, "second_order": second })

@@ -115,8 +115,8 @@ pub mod uncertainty;
 // The modules that are hidden are open to the program, which is a crate of its own, and promise nothing.
 pub use analysis::MOST_ROWS_OF_MEASURES;
 pub use analysis::{
-    Aggregate, Analysis, FailureCount, LookupError, LowRuns, NoIndices, OutputAnalysis, RunMeasures, SeriesAnalysis,
-    Spending, StopReason, Stopped, Warning,
+    Aggregate, Analysis, FailureCount, LookupError, LowRuns, NoIndices, OutputAnalysis, RareLevel, RunMeasures,
+    SeriesAnalysis, Spending, StopReason, Stopped, Warning,
 };
 #[doc(hidden)]
 pub use analysis::{Unlikely, unlikely_outputs};

@@ -11,7 +11,7 @@ use super::rare_levels::{rare_levels, withdraw};
 use super::result::{Aggregate, Analysis, LowRuns, Stopped};
 use super::series::{series, single_outputs, together};
 use super::unlikely;
-use super::warnings::{self, RareLevel};
+use super::warnings::{self, RareLevel, Warning};
 use crate::design::Design;
 use crate::estimate::{CentralMoments, MomentParts, PointOutputs, Scaling, merged};
 use crate::model::{MANY_OUTPUTS, Output, RowFailure};
@@ -24,9 +24,12 @@ use crate::uncertainty::{
     points_of_stages, stages,
 };
 
-/// Share of the variance that surrogates of quick runs may leave: where it is more, runs in place of the fit would be as good. A row is
-/// corrected in the time of some three quick runs, and errors of plain indices fall by as much as the number of runs rises.
-const MAX_LEFT: f64 = 0.03;
+/// Rows on which surrogates of a quick model are tried.
+const TRIAL_ROWS: u64 = 1 << 13;
+
+/// How many times smaller errors must be there with surrogates than without. A run is corrected in the time of some ten runs of a closed
+/// form, and errors of plain indices fall a little faster than the number of runs rises.
+const MIN_GAIN: f64 = 15.0;
 
 /// The result of a run; `stopped` tells why a growing one ended.
 pub(crate) fn analysis(run: &FinishedRun<'_>, stopped: Option<Stopped>) -> Analysis {
@@ -83,12 +86,14 @@ pub(crate) fn interval_options(study: &Study) -> IntervalOptions<'static> {
 }
 
 /// What surrogates and cheaper models make of every output of the runs of `design`, the first of `replicates`, if the study
-/// asks for it and the outputs have been kept: of each the one with the smallest errors.
+/// asks for it and the outputs have been kept: of each the one with the smallest errors. `longer` has what they made of a longer run
+/// of the same points, if there was one: of its outputs the same ones are corrected, in the same terms.
 pub(crate) fn surrogates(
     study: &Study,
     design: &Design,
     replicates: &[Totals],
     lows: &[LowTotals<'_>],
+    longer: &[Option<SurrogateEstimates>],
 ) -> Vec<Option<SurrogateEstimates>> {
     let outputs = replicates.first().map_or(0, |totals| totals.outputs.len());
     let first = |replicates: &[Totals], number: usize| -> Vec<PointOutputs> {
@@ -101,7 +106,10 @@ pub(crate) fn surrogates(
     }
     let kept: Vec<Vec<&PointOutputs>> = kept.iter().map(|replicates| replicates.iter().collect()).collect();
     let (families, layout) = (families(&study.space), study.layout());
-    let gains = gains_of_trial(study, design, &kept);
+    let gains = match longer {
+        [] => gains_of_trial(study, design, replicates, &kept),
+        longer => longer.iter().map(Option::is_some).collect(),
+    };
     // Polynomials go on where runs fail, and the numbers are those of the part of the space where they succeed.
     let is_left_out = |(outputs, gains): (&Vec<&PointOutputs>, &bool)| {
         !gains
@@ -110,7 +118,9 @@ pub(crate) fn surrogates(
     let left_out: Vec<bool> = kept.iter().zip(&gains).map(is_left_out).collect();
     let whole: Vec<Vec<&PointOutputs>> =
         kept.iter().zip(&left_out).filter(|(_, left_out)| !**left_out).map(|(outputs, _)| outputs.clone()).collect();
-    let mut of_whole = surrogates_together(design, &families, &layout, &whole).into_iter();
+    let longer: Vec<Option<SurrogateEstimates>> =
+        longer.iter().zip(&left_out).filter(|(_, left_out)| !**left_out).map(|(of, _)| of.clone()).collect();
+    let mut of_whole = surrogates_together(design, &families, &layout, &whole, &longer).into_iter();
     let alone: Vec<Option<SurrogateEstimates>> =
         left_out.iter().map(|left_out| if *left_out { None } else { of_whole.next().flatten() }).collect();
     let best = |(number, alone): (usize, Option<SurrogateEstimates>)| {
@@ -131,16 +141,34 @@ pub(crate) fn surrogates(
     alone.into_iter().enumerate().map(|place| best(place).map(of_rows)).collect()
 }
 
-/// Whether surrogates of each output are worth their time: where this is not known beforehand, by a fit to some of the rows.
-fn gains_of_trial(study: &Study, design: &Design, kept: &[Vec<&PointOutputs>]) -> Vec<bool> {
-    let Some(points) = study.trial_points(design) else { return vec![true; kept.len()] };
+/// Whether surrogates of each output are worth their time: where this is not known beforehand, by a fit to some of the base points.
+fn gains_of_trial(study: &Study, design: &Design, replicates: &[Totals], kept: &[Vec<&PointOutputs>]) -> Vec<bool> {
+    if !study.tries_surrogates(design) {
+        return vec![true; kept.len()];
+    }
+    let moments = |number: usize| replicates.iter().map(move |totals| &totals.outputs[number].moments);
+    let parts = moments(0).map(|all| all.prefix(parts_of_trial(all, design)));
+    let points = parts.map(|parts| parts.points()).min().unwrap_or(0);
     let Ok(trial) = design.with_points(points) else { return vec![false; kept.len()] };
     let first: Vec<Vec<PointOutputs>> =
         kept.iter().map(|replicates| replicates.iter().map(|kept| kept.prefix(points)).collect()).collect();
     let first: Vec<Vec<&PointOutputs>> = first.iter().map(|replicates| replicates.iter().collect()).collect();
-    let found = surrogates_together(&trial, &families(&study.space), &study.layout(), &first);
-    let gains = |of: &Option<SurrogateEstimates>| of.as_ref().is_some_and(|of| 1.0 - of.explained < MAX_LEFT);
-    found.iter().map(gains).collect()
+    let found = surrogates_together(&trial, &families(&study.space), &study.layout(), &first, &[]);
+    let gains = |(number, of): (usize, &Option<SurrogateEstimates>)| {
+        let parts: Vec<MomentParts> = moments(number).map(|all| all.prefix(parts_of_trial(all, design))).collect();
+        let options = IntervalOptions { surrogate: of.as_ref(), ranks: false, ..interval_options(study) };
+        let used = output_indices(&parts, &study.layout(), &options).ok().and_then(|indices| indices.surrogate);
+        let gains = used.map(|used| [used.gain_first_order, used.gain_total].map(|gain| gain.unwrap_or(0.0).sqrt()));
+        gains.is_some_and(|gains| gains.iter().all(|gain| *gain > MIN_GAIN))
+    };
+    found.iter().enumerate().map(gains).collect()
+}
+
+/// How many of the parts of a replicate the trial takes.
+fn parts_of_trial(all: &MomentParts, design: &Design) -> usize {
+    let parts = all.parts().len() as u64;
+    let wanted = (TRIAL_ROWS * parts).div_ceil(design.rows()).next_power_of_two();
+    wanted.min(parts) as usize
 }
 
 /// What surrogates and cheaper models make of every output, in the end and at every stage of the run.
@@ -156,7 +184,7 @@ impl Corrections {
     fn of(run: &FinishedRun<'_>) -> Self {
         let FinishedRun { study, design, replicates, lows, .. } = *run;
         let known = run.surrogates.map(<[_]>::to_vec);
-        let whole = known.unwrap_or_else(|| surrogates(study, design, replicates, lows));
+        let whole = known.unwrap_or_else(|| surrogates(study, design, replicates, lows, &[]));
         let mut stages = BTreeMap::new();
         if study.analysis.convergence && whole.iter().any(Option::is_some) {
             // All outputs have the same parts.
@@ -164,7 +192,7 @@ impl Corrections {
                 replicates.iter().filter_map(|totals| Some(&totals.outputs.first()?.moments)).collect();
             for points in points_of_stages(&parts) {
                 if let Ok(design) = design.with_points(points) {
-                    stages.insert(points, surrogates(study, &design, replicates, lows));
+                    stages.insert(points, surrogates(study, &design, replicates, lows, &whole));
                 }
             }
         }
@@ -200,7 +228,7 @@ fn output_analysis(
     let (mean, variance) = moments_of_all_rows(&totals.values, output_moments(&parts, &of_moments), used.count());
     let mut warnings = warnings::of_runs(run, totals.runs_failed, &used);
     warnings.extend(warnings::of_flags(run.model, whole));
-    warnings.extend(warnings::of_rare_levels(study, &corrected.rare));
+    warnings.extend(corrected.rare.iter().cloned().map(Warning::RareLevel));
     if let Ok(indices) = &mut indices {
         withdraw(indices, &corrected.rare);
         warnings.extend(warnings::of_digits(&totals.values));

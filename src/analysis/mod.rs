@@ -20,4 +20,4 @@ pub(crate) use rare_levels::{enough_base_samples, rare_levels};
 pub use result::{Aggregate, Analysis, LowRuns, Spending, StopReason, Stopped};
 pub use series::SeriesAnalysis;
 pub use unlikely::{Unlikely, unlikely_outputs};
-pub use warnings::Warning;
+pub use warnings::{RareLevel, Warning};

@@ -39,11 +39,12 @@ pub(crate) fn rare_levels(space: &Space, design: &Design) -> Vec<RareLevel> {
     let draws = if space.copula().is_none() { counts(design, &parts) } else { expected(all, &parts) };
     let rare = parts.into_iter().zip(draws).filter(|(_, draws)| *draws < MIN_DRAWS);
     let level = |((factor, part), draws): ((usize, Part), u64)| RareLevel {
-        factor,
+        number: factor,
+        factor: space.factors()[factor].name.clone(),
         level: part.name,
         probability: part.high - part.low,
         draws,
-        all,
+        values: all,
     };
     rare.map(level).collect()
 }
@@ -57,7 +58,7 @@ pub(crate) fn enough_base_samples(rare: &[RareLevel]) -> f64 {
 /// effect.
 pub(super) fn withdraw(indices: &mut OutputIndices, rare: &[RareLevel]) {
     for level in rare {
-        let Some(effect) = indices.factors.get_mut(level.factor) else { continue };
+        let Some(effect) = indices.factors.get_mut(level.number) else { continue };
         effect.probability_above = None;
         if level.draws == 0 && effect.total.estimate == 0.0 {
             let anything = Some(Interval { low: 0.0, high: 1.0 });
@@ -154,7 +155,7 @@ mod tests {
     fn levels_are_counted_by_their_probabilities() {
         let rare = found(Distribution::boolean(0.03).unwrap(), 128);
         assert_eq!(rare.len(), 1);
-        assert_eq!((rare[0].level.as_str(), rare[0].all), ("true", 256));
+        assert_eq!((rare[0].level.as_str(), rare[0].values), ("true", 256));
         assert!((rare[0].probability - 0.03).abs() < 1e-12 && (4..10).contains(&rare[0].draws), "{rare:?}");
         assert!((enough_base_samples(&rare) - 166.7).abs() < 0.1);
         assert!(found(Distribution::boolean(0.03).unwrap(), 512).is_empty());

@@ -1,6 +1,6 @@
 //! What a run of a study has found: numbers with their intervals, counts and reasons, in SI units.
 
-use std::fmt;
+use thiserror::Error;
 
 use super::output::{LookupError, OutputAnalysis};
 use super::series::SeriesAnalysis;
@@ -112,10 +112,11 @@ pub struct Stopped {
 }
 
 /// Why a growing run was not doubled once more.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
 #[non_exhaustive]
 pub enum StopReason {
     /// Every interval is as narrow as asked for.
+    #[error("every half width is {widest:.2e} or less: the target of {target} is met")]
     TargetMet {
         /// The largest half width.
         widest: f64,
@@ -123,11 +124,19 @@ pub enum StopReason {
         target: f64,
     },
     /// An output has no indices or no intervals, and nothing says that more runs would bring them.
+    #[error(
+        "there are indices or intervals missing with {base_samples} base samples, and nothing says that more runs would bring \
+         them: see what is said of the outputs, or begin with more base samples"
+    )]
     NoIntervals {
         /// Base samples that it has none of.
         base_samples: u64,
     },
     /// Every interval is as narrow as asked for, but rows have hardly met a level of a factor.
+    #[error(
+        "every half width is {widest:.2e} or less, but rows hardly met a level of a factor, so that nothing can be promised: \
+         some {base_samples:.0} base samples would meet it ten times"
+    )]
     RareLevels {
         /// The largest half width.
         widest: f64,
@@ -135,10 +144,13 @@ pub enum StopReason {
         base_samples: f64,
     },
     /// There are no more points.
+    #[error("the sequence of points has come to its end")]
     EndOfSequence,
     /// The outputs of twice the runs would not fit into memory.
+    #[error("the outputs of twice the runs would not fit: these intervals need all of them at once")]
     Memory,
     /// Twice the runs would be too many.
+    #[error("twice the runs would be {runs}, more than max_runs = {most}")]
     MaxRuns {
         /// Twice the runs.
         runs: u128,
@@ -146,40 +158,13 @@ pub enum StopReason {
         most: u64,
     },
     /// Twice the runs would take too long.
+    #[error("twice the runs would take some {seconds:.1} s, more than the budget of {budget} s")]
     Budget {
         /// The seconds that twice the runs would take.
         seconds: f64,
         /// The seconds that the run might take.
         budget: f64,
     },
-}
-
-impl fmt::Display for StopReason {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::TargetMet { widest, target } => {
-                write!(f, "every half width is {widest:.2e} or less: the target of {target} is met")
-            }
-            Self::NoIntervals { base_samples } => write!(
-                f,
-                "there are indices or intervals missing with {base_samples} base samples, and nothing says that more runs would bring \
-                 them: see what is said of the outputs, or begin with more base samples"
-            ),
-            Self::RareLevels { widest, base_samples } => write!(
-                f,
-                "every half width is {widest:.2e} or less, but rows hardly met a level of a factor, so that nothing can be promised: \
-                 some {base_samples:.0} base samples would meet it ten times"
-            ),
-            Self::EndOfSequence => f.write_str("the sequence of points has come to its end"),
-            Self::Memory => {
-                f.write_str("the outputs of twice the runs would not fit: these intervals need all of them at once")
-            }
-            Self::MaxRuns { runs, most } => write!(f, "twice the runs would be {runs}, more than max_runs = {most}"),
-            Self::Budget { seconds, budget } => {
-                write!(f, "twice the runs would take some {seconds:.1} s, more than the budget of {budget} s")
-            }
-        }
-    }
 }
 
 impl Analysis {

@@ -142,25 +142,8 @@ pub enum Warning {
         times: f64,
     },
     /// A level of a factor that hardly any row has.
-    #[error(
-        "{factor}: {level} (probability {probability:.2e}) is in {} of the {values} values drawn, so that its effect on the \
-         output is not known, and the indices may be anything: some {:.0} base samples meet it once, and {:.0} ten times",
-        if *draws == 0 { "none".to_owned() } else { draws.to_string() },
-        0.5 / probability,
-        5.0 / probability
-    )]
-    RareLevel {
-        /// The factor.
-        factor: String,
-        /// A value, a label, or a range.
-        level: String,
-        /// Its probability.
-        probability: f64,
-        /// How many of the values of the factor in A and B are this level.
-        draws: u64,
-        /// How many values there are.
-        values: u64,
-    },
+    #[error("{0}")]
+    RareLevel(RareLevel),
     /// Rows for surrogates, which explain little.
     #[error(
         "the surrogates explain {:.0} % of the variance of runs that they were not fitted to, so that plain rows, which only \
@@ -322,7 +305,7 @@ impl Warning {
             Self::DoubtedSurrogate => "doubted-surrogate",
             Self::ContradictedSurrogate { .. } => "contradicted-surrogate",
             Self::InflatedSurrogate { .. } => "inflated-surrogate",
-            Self::RareLevel { .. } => "rare-level",
+            Self::RareLevel(_) => "rare-level",
             Self::PoorSurrogate { .. } => "poor-surrogate",
             Self::DependentSteps { .. } => "dependent-steps",
             Self::NoNoise { .. } => "no-noise",
@@ -384,10 +367,20 @@ pub(super) fn without_consequences(warnings: &mut Vec<Warning>) {
 }
 
 /// A level of a factor that rows hardly met.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct RareLevel {
+#[derive(Debug, Clone, PartialEq, Error)]
+#[error(
+    "{factor}: {level} (probability {probability:.2e}) is in {} of the {values} values drawn, so that its effect on the \
+     output is not known, and the indices may be anything: some {:.0} base samples meet it once, and {:.0} ten times",
+    if *draws == 0 { "none".to_owned() } else { draws.to_string() },
+    self.base_samples(1.0),
+    self.base_samples(10.0)
+)]
+#[non_exhaustive]
+pub struct RareLevel {
     /// The number of the factor.
-    pub factor: usize,
+    pub number: usize,
+    /// The factor.
+    pub factor: String,
     /// The level: a value, a label, or a range.
     pub level: String,
     /// Its probability.
@@ -395,7 +388,7 @@ pub(crate) struct RareLevel {
     /// How many of the values of the factor in A and B are this level.
     pub draws: u64,
     /// How many values there are.
-    pub all: u64,
+    pub values: u64,
 }
 
 impl RareLevel {
@@ -408,18 +401,6 @@ impl RareLevel {
     pub fn base_samples(&self, draws: f64) -> f64 {
         draws / (2.0 * self.probability)
     }
-}
-
-/// Levels that rows hardly met.
-pub(super) fn of_rare_levels(study: &Study, rare: &[RareLevel]) -> Vec<Warning> {
-    let warning = |rare: &RareLevel| Warning::RareLevel {
-        factor: study.space.factors()[rare.factor].name.clone(),
-        level: rare.level.clone(),
-        probability: rare.probability,
-        draws: rare.draws,
-        values: rare.all,
-    };
-    rare.iter().map(warning).collect()
 }
 
 /// Warnings that the model has raised.

@@ -65,11 +65,11 @@ pub fn stem(table: &Path) -> String {
     table.file_stem().map_or_else(|| "table".to_owned(), |stem| stem.to_string_lossy().into_owned())
 }
 
-/// Writes the files of `document`, prints `text`, and says where the files are.
-pub fn deliver_with(artefacts: &Artefacts, document: &Document, text: &str) -> Result<(), Failure> {
+/// Writes the files of `document`, prints it as text, and says where the files are.
+pub fn deliver(artefacts: &Artefacts, document: &Document) -> Result<(), Failure> {
     stop::writing()?;
     let written = artefacts.write_until(document, stop::on_signal())?;
-    print(text)?;
+    print(&document.text())?;
     let ends_with = |path: &Path, ending: &str| path.extension().is_some_and(|of| of == ending);
     let (live, data): (Vec<&PathBuf>, Vec<&PathBuf>) = written.data.iter().partition(|path| is_live(path));
     let names = live.iter().filter_map(|path| path.file_name()).map(|name| name.to_string_lossy());
@@ -93,11 +93,6 @@ pub fn deliver_with(artefacts: &Artefacts, document: &Document, text: &str) -> R
 /// Whether a file is a page to try other ranges in, and not an animation.
 fn is_live(path: &Path) -> bool {
     path.file_name().is_some_and(|name| name.to_string_lossy().ends_with("live.html"))
-}
-
-/// The same with the text of the document.
-pub fn deliver(artefacts: &Artefacts, document: &Document) -> Result<(), Failure> {
-    deliver_with(artefacts, document, &document.text())
 }
 
 #[cfg(test)]

@@ -3,10 +3,10 @@
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
-use crate::reproduce::{Effort, Event, ReproduceError, Request, Topic, document, in_words, reproduce as run};
+use crate::reproduce::{Effort, Event, ReproduceError, Request, Topic, document, reproduce as run};
 use apportion::study::Study;
 
-use super::output::{ChartArguments, deliver_with};
+use super::output::{ChartArguments, deliver};
 use super::progress::Meter;
 use super::stop::on_signal;
 use super::{DesignChanges, Failure, Threads};
@@ -69,7 +69,7 @@ pub fn reproduce(arguments: &Arguments) -> Result<(), Failure> {
         let page = live_page(&live_study()?, request.threads, on_signal())?;
         put_beside(&mut document, LIVE, page);
     }
-    deliver_with(&artefacts, &document, &in_words(&reproduction))
+    deliver(&artefacts, &document)
 }
 
 /// The study that the live page begins with: all eight factors.

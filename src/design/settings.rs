@@ -2,31 +2,23 @@
 
 use serde::Serialize;
 
+use crate::names::named;
+
+named! {
 /// Where the points of a design come from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Sampler {
     /// Owen-scrambled Sobol' points: the default, and the most accurate one for most models.
-    Sobol,
+    Sobol = "sobol",
     /// Independent uniform points.
-    Random,
+    Random = "random",
     /// Latin hypercube points.
-    LatinHypercube,
+    LatinHypercube = "latin-hypercube",
+}
 }
 
 impl Sampler {
-    /// All samplers, the default first.
-    pub const ALL: [Self; 3] = [Self::Sobol, Self::Random, Self::LatinHypercube];
-
-    /// The name used in study files and results.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Sobol => "sobol",
-            Self::Random => "random",
-            Self::LatinHypercube => "latin-hypercube",
-        }
-    }
-
     /// Whether its points are scrambled digital nets, complete at powers of two.
     pub fn is_digital(self) -> bool {
         self == Self::Sobol

@@ -37,7 +37,7 @@ pub use parts::{MAX_PARTS, MomentParts, merged, part_length};
 pub use point_outputs::PointOutputs;
 pub use products::{ProductWork, Products};
 pub(crate) use salib::second_order_of_salib;
-pub use second_order::{PairIndex, SecondOrder};
+pub use second_order::SecondOrder;
 pub use shapley::{MAX_SHAPLEY_FACTORS, ShapleyMethod, ShapleyPlayers, proper_subsets, shapley_effects};
 pub use shapley_moments::{ShapleyMoments, contributions};
 pub use swap_moments::{BaMoments, SwapMoments};

@@ -1,54 +1,33 @@
 //! Shapley effects: the share of the variance that each player accounts for, dependent or not, adding up to all of it. The players
 //! are the factors, or the groups of them.
 
+use crate::names::named;
+
 /// Most players whose Shapley effects are found from all of their subsets: every base point costs 2^p runs of p players.
 pub const MAX_SHAPLEY_FACTORS: usize = 8;
 
+named! {
 /// How Shapley effects are found.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ShapleyMethod {
     /// From all subsets of the players, at most [`MAX_SHAPLEY_FACTORS`]: 2^p runs for each base sample, and the smaller errors.
-    Subsets,
+    Subsets = "subsets",
     /// Along a random order of the players at each base sample: p - 1 more runs for each.
-    Permutations,
+    Permutations = "permutations",
+}
 }
 
-impl ShapleyMethod {
-    /// Both.
-    pub const ALL: [Self; 2] = [Self::Subsets, Self::Permutations];
-
-    /// The name in study files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Subsets => "subsets",
-            Self::Permutations => "permutations",
-        }
-    }
-}
-
+named! {
 /// Who shares out the variance in Shapley effects.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Default)]
 pub enum ShapleyPlayers {
     /// Every factor by itself.
     #[default]
-    Factors,
+    Factors = "factors",
     /// The groups of factors, and the factors without a group each by itself: the effect of a group is what all its factors add
     /// at once to the players before it, the value of the game between unions (Owen 1977, in Mathematical Economics and Game
     /// Theory, Springer, 76-88).
-    Groups,
+    Groups = "groups",
 }
-
-impl ShapleyPlayers {
-    /// Both, the default first.
-    pub const ALL: [Self; 2] = [Self::Factors, Self::Groups];
-
-    /// The name in study files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Factors => "factors",
-            Self::Groups => "groups",
-        }
-    }
 }
 
 /// The subsets of `factors` factors with two of them or more, but not all: in rising order of the number whose bits they are.

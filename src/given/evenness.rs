@@ -24,22 +24,10 @@ const MOST_PAIRS: usize = 500;
 pub enum PointSet {
     /// Nothing speaks against independent draws. (A Latin hypercube counts as such.)
     Independent,
-    /// Too even for independent draws: quasi-random points.
-    TooEven(Evidence),
+    /// Too even for independent draws: quasi-random points. What gave them away, in words.
+    TooEven(String),
     /// Every combination of the values of the inputs, once.
     Grid,
-}
-
-/// What gave quasi-random points away.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Evidence {
-    /// Counts of rows in a grid over two inputs (pooled over all pairs if no names are given), which are more even than
-    /// independent draws allow: by so many standard deviations of a normal number.
-    Inputs(Option<(String, String)>, f64),
-    /// Counts of rows in a grid over row number and input (pooled over all inputs if no name is given).
-    Rows(Option<String>, f64),
-    /// From row to row the rank of this input moves by one of a few steps, as in a lattice.
-    Steps(String, usize),
 }
 
 impl PointSet {
@@ -49,26 +37,8 @@ impl PointSet {
             Self::Independent => None,
             Self::Grid => Some("the rows are a full grid of the inputs' values, not independent draws".to_owned()),
             Self::TooEven(evidence) => Some(format!(
-                "the rows are quasi-random points (Sobol', Halton, lattice) or as even as such: {}",
-                evidence.words()
+                "the rows are quasi-random points (Sobol', Halton, lattice) or as even as such: {evidence}"
             )),
-        }
-    }
-}
-
-impl Evidence {
-    fn words(&self) -> String {
-        let counts = |place: String, z: f64| {
-            format!("counts over a grid of {place} are too even for independent draws (z = {z:.1}; chance ends at -6)")
-        };
-        match self {
-            Self::Inputs(Some((a, b)), z) => counts(format!("`{a}` and `{b}`"), *z),
-            Self::Inputs(None, z) => counts("pairs of inputs".to_owned(), *z),
-            Self::Rows(Some(a), z) => counts(format!("row number and `{a}`"), *z),
-            Self::Rows(None, z) => counts("row number and each input".to_owned(), *z),
-            Self::Steps(a, steps) => {
-                format!("from row to row the rank of `{a}` moves by one of only {steps} different steps")
-            }
         }
     }
 }
@@ -95,7 +65,9 @@ pub(super) fn point_set(inputs: &[(&str, &Order)], rows: usize) -> PointSet {
         }
     }
     let steps = inputs.iter().find_map(|(name, order)| Some((name, few_steps(order, rows)?)));
-    steps.map_or(PointSet::Independent, |(name, steps)| PointSet::TooEven(Evidence::Steps((*name).to_owned(), steps)))
+    steps.map_or(PointSet::Independent, |(name, steps)| {
+        PointSet::TooEven(format!("from row to row the rank of `{name}` moves by one of only {steps} different steps"))
+    })
 }
 
 /// Whether there are as many different rows as combinations of values.
@@ -119,27 +91,31 @@ pub(super) fn is_grid(inputs: &[(&str, &Order)], rows: usize) -> bool {
 /// Rows in classes by an input, and the number of classes.
 type Classes = (Vec<usize>, usize);
 
-fn too_even(inputs: &[(&str, &Order)], rows: usize, grid: usize) -> Option<Evidence> {
+/// Where the counts of rows over a grid are too even, and by how many standard deviations.
+fn too_even(inputs: &[(&str, &Order)], rows: usize, grid: usize) -> Option<String> {
     let classes: Vec<Classes> = inputs.iter().map(|(_, order)| order.classes(grid)).collect();
     let row_classes = ((0..rows).map(|row| row * grid / rows).collect(), grid);
     let mut pooled = Deviation::default();
     let mut by_row = Deviation::default();
+    let counts = |place: String, z: f64| {
+        format!("counts over a grid of {place} are too even for independent draws (z = {z:.1}; chance ends at -6)")
+    };
     for ((name, _), classes) in inputs.iter().zip(&classes) {
         let Some(one) = deviation(&row_classes, classes) else { continue };
         if let Some(z) = one.too_even() {
-            return Some(Evidence::Rows(Some((*name).to_owned()), z));
+            return Some(counts(format!("row number and `{name}`"), z));
         }
         by_row.add(one);
     }
     for (i, j) in nearest_pairs(inputs.len()) {
         let Some(one) = deviation(&classes[i], &classes[j]) else { continue };
         if let Some(z) = one.too_even() {
-            return Some(Evidence::Inputs(Some((inputs[i].0.to_owned(), inputs[j].0.to_owned())), z));
+            return Some(counts(format!("`{}` and `{}`", inputs[i].0, inputs[j].0), z));
         }
         pooled.add(one);
     }
-    let rows = by_row.too_even().map(|z| Evidence::Rows(None, z));
-    rows.or_else(|| pooled.too_even().map(|z| Evidence::Inputs(None, z)))
+    let rows = by_row.too_even().map(|z| counts("row number and each input".to_owned(), z));
+    rows.or_else(|| pooled.too_even().map(|z| counts("pairs of inputs".to_owned(), z)))
 }
 
 /// Pairs of column numbers, neighbours first, as many as are looked at.

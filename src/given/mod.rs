@@ -27,7 +27,6 @@ pub use column::{Column, NoVariance};
 #[doc(hidden)]
 pub use dependence::{Dependence, PairDependence};
 #[doc(hidden)]
-pub use evenness::Evidence;
 pub use evenness::PointSet;
 pub(crate) use measures::measures_of_rows;
 pub use measures::{InputMeasures, MOST_ROWS_OF_KERNELS, Measure, Measured, PERMUTATIONS, measures};

@@ -1,26 +1,21 @@
 //! The papers reproduced: their studies, figures, claims and percentages.
 //!
-//! [`reproduce()`] computes, [`document()`] makes the page and its files of it, [`in_words`] says it on a terminal.
+//! [`reproduce()`] computes, [`document()`] makes the page, its files and the text for a terminal of it.
 
 pub mod claims;
-mod compare;
 mod document;
 pub mod figures;
 mod order;
 pub mod percentages;
 mod published;
 mod reproduction;
-mod terminal;
-
-use std::path::PathBuf;
+mod shares;
 
 use thiserror::Error;
 
-pub use compare::{comparison_table, shares_csv};
 pub use document::document;
 pub use published::{Published, published};
 pub use reproduction::{Event, Reproduction, Request, Topic, reproduce};
-pub use terminal::in_words;
 
 use apportion::report::ResultFile;
 use apportion::report::chart::Colour;
@@ -67,13 +62,32 @@ pub struct StudyGroup {
     pub key: &'static str,
     /// The figures of the papers that it reproduces.
     pub figures: &'static str,
+    /// What varies.
+    pub title: &'static str,
+    /// The same at the beginning of a sentence.
+    pub among: &'static str,
 }
 
 /// The groups, in the order of the papers.
 pub const GROUPS: [StudyGroup; 3] = [
-    StudyGroup { key: "dimensional", figures: "CHK fig. 10, LG fig. 4a" },
-    StudyGroup { key: "environmental", figures: "CHK fig. 15, LG fig. 4b" },
-    StudyGroup { key: "general", figures: "CHK fig. 16, LG fig. 4c" },
+    StudyGroup {
+        key: "dimensional",
+        figures: "CHK fig. 10, LG fig. 4a",
+        title: "the cantilever's dimensions",
+        among: "Among the dimensions alone",
+    },
+    StudyGroup {
+        key: "environmental",
+        figures: "CHK fig. 15, LG fig. 4b",
+        title: "the environment",
+        among: "Among the factors of the environment alone",
+    },
+    StudyGroup {
+        key: "general",
+        figures: "CHK fig. 16, LG fig. 4c",
+        title: "all eight factors",
+        among: "Of all eight factors together",
+    },
 ];
 
 /// The study files, by name: part of the program, so that it reproduces the papers wherever it is installed.
@@ -134,17 +148,20 @@ pub struct Reproduced {
 /// # Errors
 /// [`StudyError`] if an override makes no sense.
 pub fn studies(overrides: &[String]) -> Result<Vec<(StudyGroup, Friction, Study)>, StudyError> {
-    let mut studies = Vec::with_capacity(STUDIES.len());
-    for group in GROUPS {
-        for friction in FRICTIONS {
-            let name = format!("{}-{}", friction.key, group.key);
-            if let Some((_, text)) = STUDIES.iter().find(|(study, _)| *study == name) {
-                let path = PathBuf::from(format!("studies/{name}.toml"));
-                studies.push((group, friction, Study::parse(text, &path, overrides)?));
-            }
-        }
-    }
-    Ok(studies)
+    let all = GROUPS.into_iter().flat_map(|group| FRICTIONS.map(|friction| (group, friction)));
+    all.map(|(group, friction)| Ok((group, friction, study(friction.key, group.key, overrides)?))).collect()
+}
+
+/// The study of a group under a friction model, by their keys.
+fn study(friction: &str, group: &str, overrides: &[String]) -> Result<Study, StudyError> {
+    let name = format!("{friction}-{group}");
+    let text = STUDIES.iter().find(|(study, _)| *study == name).map_or("", |(_, text)| text);
+    Study::parse(text, format!("studies/{name}.toml").as_ref(), overrides)
+}
+
+/// The study that has all factors with their ranges.
+fn general_study() -> Result<Study, StudyError> {
+    study("coulomb", "general", &[])
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! Whether our order of the factors is the published one, as far as our intervals decide it.
 
-use super::{Published, Reproduced, published};
+use super::shares::indices;
+use super::{Reproduced, published};
 use apportion::report::{EstimateRecord, IndexRecord};
 
 /// A factor counts as having a share from this many percent on: less would be printed as 0 in whole percents, which is
@@ -117,22 +118,14 @@ impl<'a> OrderVerdict<'a> {
     }
 }
 
-/// The total shares of a study.
-fn total_shares(member: &Reproduced) -> Vec<FactorShare<'_>> {
-    let indices = member.result.outputs.first().and_then(|output| output.indices.as_deref()).unwrap_or_default();
-    indices
-        .iter()
-        .filter_map(|IndexRecord { factor, effect }| {
-            let interval = effect.share_total_interval.map(|i| (i.low, i.high));
-            Some(FactorShare { factor, share: effect.share_total?, interval })
-        })
-        .collect()
-}
-
 /// The order of a study's factors by total shares against the published one.
-pub(super) fn order_of(member: &Reproduced) -> (OrderVerdict<'_>, Published) {
-    let print = published(member.group.key, member.friction.key);
-    (order_verdict(&total_shares(member), print.ranking), print)
+pub(super) fn order_of(member: &Reproduced) -> OrderVerdict<'_> {
+    let shares = indices(member).iter().filter_map(|IndexRecord { factor, effect }| {
+        let interval = effect.share_total_interval.map(|i| (i.low, i.high));
+        Some(FactorShare { factor, share: effect.share_total?, interval })
+    });
+    let shares: Vec<FactorShare<'_>> = shares.collect();
+    order_verdict(&shares, published(member.group.key, member.friction.key).ranking)
 }
 
 /// The total indices of the dimensional and the environmental factors of a general study, and whether the first is the

@@ -4,18 +4,14 @@
 //! the critical force and of its logarithm, under each friction model and under LuGre friction with the viscous
 //! coefficient that brings the velocity to its printed share. Nothing is tuned beyond that one coefficient.
 
-use super::published::published;
-use super::{Effort, FRICTIONS, GROUPS, QUICK, ReproduceError, STUDIES};
+use super::published::{PRINTED, published};
+use super::{Effort, FRICTIONS, GROUPS, QUICK, ReproduceError, study};
 use apportion::report::csv::{Csv, fields};
 use apportion::report::document::{Cell, Column, Table, Value};
 use apportion::report::{EffectRecord, fixed};
-use apportion::study::Study;
 
 /// Within so many percentage points a distance counts as met: three times the rounding of the printed numbers.
 const MET: f64 = 1.5;
-
-/// The friction model whose percentages are printed.
-const PRINTED: &str = "lugre";
 
 /// The viscous coefficient at which the velocity has its printed share, in place of the printed 1e-7 N s/m.
 const VISCOUS: &str = "afm.viscous_friction=0.3 N s/m";
@@ -75,14 +71,15 @@ impl Percentages {
     }
 }
 
-fn thickness_part(share: impl Fn(&str) -> Option<f64>) -> Option<f64> {
+/// The part of the thickness among thickness, length and width, in percent.
+pub(super) fn thickness_part(share: impl Fn(&str) -> Option<f64>) -> Option<f64> {
     let [t, l, w] = ["thickness", "length", "width"].map(share);
     Some(100.0 * t? / (t? + l? + w?))
 }
 
 /// The printed percentage of a factor in the study of `group`, where there is one.
 fn printed(group: &str, factor: &str) -> Option<f64> {
-    published(group, PRINTED).shares.iter().find(|(name, _)| *name == factor).map(|(_, share)| *share)
+    published(group, PRINTED).share(factor)
 }
 
 /// The distance of `shares`, percentages of all factors of the study `group`, to those that LG prints, in percentage
@@ -114,8 +111,7 @@ pub fn percentages(effort: Effort, threads: usize) -> Result<Vec<Percentages>, R
             rows.extend(MEASURES.map(row));
         }
         for group in GROUPS {
-            let name = format!("{key}-{}", group.key);
-            let of_study = shares_of_study(&name, group.key, settings, effort, threads)?;
+            let of_study = shares_of_study(key, group.key, settings, effort, threads)?;
             rows[first..].iter_mut().zip(of_study).for_each(|(row, shares)| row.studies.push(shares));
         }
     }
@@ -124,20 +120,19 @@ pub fn percentages(effort: Effort, threads: usize) -> Result<Vec<Percentages>, R
 
 /// The shares of one study: for each output, by each measure.
 fn shares_of_study(
-    name: &str,
+    friction: &str,
     group: &'static str,
     settings: &[&str],
     effort: Effort,
     threads: usize,
 ) -> Result<Vec<StudyShares>, ReproduceError> {
-    let text = STUDIES.iter().find(|(study, _)| *study == name).map_or("", |(_, text)| text);
     let names = OUTPUTS.map(|(output, _)| format!("{output:?}")).join(", ");
     let quick = if effort == Effort::Quick { &QUICK[..] } else { &[] };
     let overrides: Vec<String> = [format!("outputs=[{names}]")]
         .into_iter()
         .chain(settings.iter().chain(quick).map(|setting| (*setting).to_owned()))
         .collect();
-    let study = Study::parse(text, format!("studies/{name}.toml").as_ref(), &overrides)?;
+    let study = study(friction, group, &overrides)?;
     let result = apportion::report::ResultFile::new(&study, &study.runner().threads(threads).run()?);
     let mut of_study = Vec::new();
     for output in &result.outputs {
@@ -145,7 +140,7 @@ fn shares_of_study(
             let indices = output.indices.iter().flatten();
             let shares = indices.map(|index| Some((index.factor.clone(), share(&index.effect)?))).collect();
             let shares: Vec<(String, f64)> = Option::filter(shares, |shares: &Vec<_>| !shares.is_empty())
-                .ok_or_else(|| ReproduceError::NoPercentages { study: name.to_owned(), measure })?;
+                .ok_or_else(|| ReproduceError::NoPercentages { study: study.name().to_owned(), measure })?;
             let distance = distance(group, shares.iter().map(|(factor, share)| (factor.as_str(), *share)));
             of_study.push(StudyShares { group, shares, distance });
         }

@@ -15,13 +15,23 @@ pub struct Published {
     pub shares: &'static [(&'static str, f64)],
 }
 
+impl Published {
+    /// The printed percentage of a factor, where there is one.
+    pub fn share(&self, factor: &str) -> Option<f64> {
+        self.shares.iter().find(|(name, _)| *name == factor).map(|(_, share)| *share)
+    }
+}
+
+/// The friction model whose percentages are printed.
+pub(super) const PRINTED: &str = "lugre";
+
 const DIMENSIONAL: &[&str] = &["thickness", "length", "width", "height"];
 const ENVIRONMENTAL: &[&str] = &["elastic_modulus", "velocity", "adhesion"];
 const GENERAL: &[&str] = &["thickness", "length", "width", "elastic_modulus", "velocity", "adhesion"];
 
 /// What is published about the study of `group` (`dimensional`, `environmental`, `general`) under `friction`.
 pub fn published(group: &str, friction: &str) -> Published {
-    let lugre = friction == "lugre";
+    let lugre = friction == PRINTED;
     let (ranking, chk, lg, shares): (_, _, _, &[_]) = match group {
         "dimensional" => (DIMENSIONAL, "CHK fig. 10", "LG fig. 4a", &[("thickness", 76.0)]),
         "environmental" => {

@@ -1,7 +1,5 @@
 //! The whole reproduction: studies, figures, claims and percentages, in this order.
 
-use std::time::Instant;
-
 use super::claims::{Claim, claims};
 use super::figures::{Animation, PaperFigure, animation, figures};
 use super::percentages::{Percentages, percentages};
@@ -31,7 +29,7 @@ pub enum Topic {
 }
 
 /// A reproduction that has taken place.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct Reproduction {
     /// How much was computed.
     pub effort: Effort,
@@ -45,8 +43,6 @@ pub struct Reproduction {
     pub claims: Vec<Claim>,
     /// Our shares beside the printed percentages, if claims were asked for.
     pub percentages: Vec<Percentages>,
-    /// Seconds that each part took.
-    pub seconds: Vec<(&'static str, f64)>,
 }
 
 /// What happens during a reproduction.
@@ -79,36 +75,17 @@ pub enum Event<'a> {
 pub fn reproduce(request: &Request, on_event: &(dyn Fn(Event<'_>) + Sync)) -> Result<Reproduction, ReproduceError> {
     let Request { effort, only, threads, .. } = *request;
     let asked = |topic: Topic| only.is_none_or(|only| only == topic);
-    let mut seconds = Vec::new();
-    let mut clock = Instant::now();
-    let mut lap = |part: &'static str| {
-        seconds.push((part, clock.elapsed().as_secs_f64()));
-        clock = Instant::now();
-    };
     let studies = run_studies(request, on_event)?;
-    lap("studies");
-    let mut drawn = Vec::new();
-    let mut moving = None;
+    let mut reproduction = Reproduction { effort, studies, ..Reproduction::default() };
     if asked(Topic::Figures) {
-        drawn = figures(&studies, effort)?;
-        moving = Some(animation()?);
-        lap("figures");
+        reproduction.figures = figures(&reproduction.studies, effort)?;
+        reproduction.animation = Some(animation()?);
     }
-    let (mut answered, mut shares) = (Vec::new(), Vec::new());
     if asked(Topic::Claims) {
-        answered = claims(&studies, effort)?;
-        shares = percentages(effort, threads)?;
-        lap("claims");
+        reproduction.claims = claims(&reproduction.studies, effort)?;
+        reproduction.percentages = percentages(effort, threads)?;
     }
-    Ok(Reproduction {
-        effort,
-        studies,
-        figures: drawn,
-        animation: moving,
-        claims: answered,
-        percentages: shares,
-        seconds,
-    })
+    Ok(reproduction)
 }
 
 fn run_studies(request: &Request, on_event: &(dyn Fn(Event<'_>) + Sync)) -> Result<Vec<Reproduced>, ReproduceError> {

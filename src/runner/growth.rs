@@ -126,7 +126,7 @@ fn stage(study: &Study, run: &GrowingRun<'_>, lows: &[LowRun<'_>]) -> Stage {
     let Ok(design) = run.design().with_points(run.points_per_replicate()) else { return all };
     let lows: Vec<_> = lows.iter().map(LowRun::totals).collect();
     let mut is_known = true;
-    all.surrogates = surrogates(study, &design, run.totals(), &lows);
+    all.surrogates = surrogates(study, &design, run.totals(), &lows, &[]);
     for number in 0..outputs {
         let parts: Vec<MomentParts> = run.totals().iter().map(|t| t.outputs[number].moments.clone()).collect();
         let kept: Vec<&PointOutputs> = run.totals().iter().map(|t| &t.outputs[number].point_outputs).collect();

@@ -238,9 +238,8 @@ impl StudyBuilder {
         if analysis.surrogate == SurrogateChoice::On && replicates < FEWEST_NETS as u64 {
             notes.push(format!("`surrogate` has no effect with fewer than {FEWEST_NETS} replicates"));
         }
-        let is_bootstrap = matches!(analysis.intervals, IntervalMethod::Percentile | IntervalMethod::Bca);
-        if analysis.resamples != DEFAULT_RESAMPLES && !is_bootstrap {
-            notes.push("`resamples` has no effect but with intervals = \"percentile\" or \"bca\"".to_owned());
+        if analysis.resamples != DEFAULT_RESAMPLES && analysis.intervals != IntervalMethod::Percentile {
+            notes.push("`resamples` has no effect but with intervals = \"percentile\"".to_owned());
         }
         if analysis.aggregate && outputs < 2 {
             notes.push("`aggregate` has no effect with a single output".to_owned());

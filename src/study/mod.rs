@@ -35,9 +35,7 @@ use crate::surrogate::{FEWEST_NETS, fewest_points};
 use crate::uncertainty::{IntervalMethod, Layout, NoiseLayout};
 #[cfg(feature = "charts")]
 pub(crate) use options::rows;
-use options::{
-    MOST_AUTOMATIC_VALUES, MOST_AUTOMATIC_VALUES_AFTER_TRIAL, MOST_AUTOMATIC_VALUES_OF_PROGRAMS, TRIAL_ROWS,
-};
+use options::{MOST_AUTOMATIC_VALUES, MOST_AUTOMATIC_VALUES_AFTER_TRIAL, MOST_AUTOMATIC_VALUES_OF_PROGRAMS};
 
 /// A checked study: a subject, the space of its factors, and the design that explores it.
 #[derive(Debug, Clone)]
@@ -230,21 +228,16 @@ impl Study {
         }
     }
 
-    /// Base points of each replicate on which surrogates are to be tried before they are fitted to a run of `design`; `None` where
-    /// they are worth their time in any case.
-    pub(crate) fn trial_points(&self, design: &Design) -> Option<u64> {
+    /// Whether surrogates are to be tried on a part of a run of `design` before they are fitted to it: of quick models, which might do
+    /// more runs in that time.
+    pub(crate) fn tries_surrogates(&self, design: &Design) -> bool {
         let is_chosen = self.analysis.surrogate != SurrogateChoice::Auto
             || design.plain_rows() > 0
             || !self.lows.is_empty()
             || self.target.grows();
         let model = self.subject.model(&self.space);
         let values = design.rows().saturating_mul(model.outputs().len() as u64);
-        if is_chosen || model.concurrency().is_some() || values <= MOST_AUTOMATIC_VALUES {
-            return None;
-        }
-        let points = TRIAL_ROWS * design.points_per_replicate() / design.rows();
-        let points = points.max(fewest_points(design) as u64).min(design.points_per_replicate());
-        Some(1 << points.ilog2())
+        !is_chosen && model.concurrency().is_none() && values > MOST_AUTOMATIC_VALUES
     }
 
     /// Whether the estimates need the outputs of every run, and not their sums alone.

@@ -166,9 +166,6 @@ pub(super) const MOST_AUTOMATIC_VALUES: u64 = 1 << 16;
 /// The same where a trial on fewer rows explains the output.
 pub(super) const MOST_AUTOMATIC_VALUES_AFTER_TRIAL: u64 = 1 << 20;
 
-/// Rows of that trial.
-pub(super) const TRIAL_ROWS: u64 = 1 << 13;
-
 /// The same for programs, whose runs take longer than any fit: all outputs must fit into memory.
 pub(super) const MOST_AUTOMATIC_VALUES_OF_PROGRAMS: u64 = 1 << 22;
 

@@ -103,8 +103,18 @@ impl Expansions {
 /// The expansions fitted to the nets `training`; `first` holds the candidates of the first round and their sums over each of
 /// these nets. Terms are chosen for all outputs together, and for each output how many of them it takes.
 pub fn fit(training: &[&Training<'_>], first: (&[Term], &[&NetSums]), carried: &Carried<'_>) -> Expansions {
+    let rounds = if carried.caps().families.len() <= 10 { 3 } else { 2 };
+    fit_in_rounds(training, first, carried, rounds)
+}
+
+/// The same in so many rounds, each with the neighbours of what the best one before it has chosen.
+pub fn fit_in_rounds(
+    training: &[&Training<'_>],
+    first: (&[Term], &[&NetSums]),
+    carried: &Carried<'_>,
+    rounds: usize,
+) -> Expansions {
     let caps = carried.caps();
-    let rounds = if caps.families.len() <= 10 { 3 } else { 2 };
     let rows = selection_rows(training.len());
     let mut found = vec![chosen(first.0, first.1)];
     let mut candidates = first.0.to_vec();

@@ -67,8 +67,7 @@ impl OwnOutputs {
         }
         let is_fitted = !nets.is_empty() && nets.iter().all(|net| net.points() >= fewest_points(design));
         let nets = if is_fitted {
-            let expansions = cross_fitted(&nets, caps, |_, _, _| ()).into_iter().map(|(_, expansion)| expansion);
-            let expansions: Vec<Expansion> = expansions.collect();
+            let expansions = cross_fitted(&nets, caps);
             OwnNets::Fitted(nets.into_iter().zip(expansions).collect())
         } else {
             OwnNets::Kept(outputs)

@@ -16,18 +16,21 @@ mod own;
 mod together;
 
 pub use together::surrogates_together;
+use together::{good_points, of_neighbours};
 
 use rayon::prelude::*;
 
 use crate::design::{Design, Sampler};
 use crate::estimate::PointOutputs;
 use crate::space::Space;
-use crate::uncertainty::{Influenced, Layout, PartInfluences, SurrogateEstimates, SurrogateTerm, in_parts};
+use crate::uncertainty::{
+    ChosenTerms, Influenced, Layout, PartInfluences, SurrogateEstimates, SurrogateTerm, in_parts,
+};
 use basis::{Caps, Family, Term};
 use beyond::Beyond;
 use carried::Carried;
 use corrected::Contributions;
-use fit::{Expansion, Expansions, NetSums, Training, first_candidates, fit, selection_rows};
+use fit::{Expansion, Expansions, NetSums, Training, first_candidates, fit, fit_in_rounds, selection_rows};
 use net::Net;
 
 /// Fewest nets: a surrogate of the others has its number of terms by leaving out one of them.
@@ -72,25 +75,21 @@ pub fn families(space: &Space) -> Vec<Family> {
     space.factors().iter().map(|factor| Family::new(factor.distribution())).collect()
 }
 
-/// The indices of `layout` from the outputs of every run of `design`, corrected by surrogates; `None` where there are too
-/// few nets or points, points that are no Sobol' nets, or an output without variance.
+/// The indices of `layout` from the outputs of every run of `design`, corrected by surrogates, in the terms that a longer run has
+/// `chosen` if there is one; `None` where there are too few nets or points, points that are no Sobol' nets, or an output without
+/// variance.
 pub fn surrogate_estimates(
     design: &Design,
     families: &[Family],
     layout: &Layout,
     replicates: &[&PointOutputs],
+    chosen: Option<&ChosenTerms>,
 ) -> Option<SurrogateEstimates> {
     if !takes_surrogates(design, replicates.len()) {
         return None;
     }
-    let (outputs, scale) = scaled(replicates, design.runs().len(), None)?;
-    let pairs = if layout.second_order { layout.pair_list() } else { Vec::new() };
-    let job = Job { design, outputs: &outputs, pairs: &pairs };
-    let mut best: Option<Corrected> = None;
-    for Trial { families, hermite_degree, ratio } in trials(families) {
-        best = Corrected::better(best, job.corrected(&families, hermite_degree)?, ratio);
-    }
-    Some(estimates(&best?, &[], scale))
+    let scaled = scaled(replicates, design.runs().len(), None)?;
+    of_neighbours(design, families, layout, &good_points(&scaled), &[&scaled], chosen).pop().flatten()
 }
 
 /// Whether there are enough nets, and points that are nets.
@@ -131,13 +130,6 @@ pub fn trials(families: &[Family]) -> Vec<Trial> {
     trials
 }
 
-/// What surrogates are fitted to: the outputs of every replicate and run, scaled.
-struct Job<'a> {
-    design: &'a Design,
-    outputs: &'a [Vec<Vec<f64>>],
-    pairs: &'a [(usize, usize)],
-}
-
 /// Every net, corrected by a surrogate of the others.
 struct Corrected {
     nets: Vec<Contributions>,
@@ -160,12 +152,6 @@ impl Corrected {
         Self { nets, expansions, beyond }
     }
 
-    /// The `next` of two trials if it leaves less than `ratio` times what the `best` one does.
-    fn better(best: Option<Self>, next: Self, ratio: f64) -> Option<Self> {
-        let is_better = best.as_ref().is_none_or(|best| next.unknown() < ratio * best.unknown());
-        if is_better { Some(next) } else { best }
-    }
-
     /// Mean square of what the surrogates leave.
     fn residual(&self) -> f64 {
         residual_powers(&self.nets).0
@@ -182,31 +168,6 @@ impl Corrected {
         let rows: usize = self.nets.iter().map(|net| net.rows).sum();
         // Outputs have variance 1.
         two > RESIDUAL && 3.0 * rows as f64 * two * two < FEW_ROWS * four
-    }
-}
-
-impl Job<'_> {
-    fn corrected(&self, families: &[Family], hermite_degree: usize) -> Option<Corrected> {
-        let (design, caps) = (self.design, Caps::new(families, hermite_degree));
-        let fitted = fitted_design(design);
-        let of_points = |number: usize, points: std::ops::Range<usize>| {
-            let outputs: Vec<&[f64]> = self.outputs[number].iter().map(|run| &run[points.clone()]).collect();
-            Net::of_points(design, number as u64, points.start as u64, families, caps.degree, &outputs)
-        };
-        let points = fitted.points_per_replicate() as usize;
-        let nets: Vec<Net> =
-            (0..self.outputs.len()).into_par_iter().map(|number| of_points(number, 0..points)).collect();
-        if nets.iter().any(|net| net.points() < fewest_points(design)) {
-            return None;
-        }
-        let swaps = sorted_swaps(design);
-        let contributions = |number: usize, net: &Net, expansion: &Expansion| {
-            let of = |net: &Net| Contributions::new(design, net, expansion, &swaps, self.pairs);
-            let all = design.points_per_replicate() as usize;
-            if all == points { of(net) } else { in_chunks(all, |chunk| of(&of_points(number, chunk))) }
-        };
-        let (nets, expansions) = cross_fitted(&nets, caps, contributions).into_iter().unzip();
-        Some(Corrected::new(&fitted, nets, expansions, families, self.pairs))
     }
 }
 
@@ -234,18 +195,10 @@ fn residual_powers(nets: &[Contributions]) -> (f64, f64) {
     (two / nets.len() as f64, four / nets.len() as f64)
 }
 
-/// For every net the expansion fitted to the others, and what `of` makes of its number and both.
-pub fn cross_fitted<T: Send>(
-    nets: &[Net],
-    caps: Caps<'_>,
-    of: impl Fn(usize, &Net, &Expansion) -> T + Sync,
-) -> Vec<(T, Expansion)> {
+/// For every net the expansion fitted to the others.
+pub fn cross_fitted(nets: &[Net], caps: Caps<'_>) -> Vec<Expansion> {
     let training: Vec<Training<'_>> = nets.iter().map(Training::new).collect();
-    let with = |(number, (net, expansions)): (usize, (&Net, Expansions))| {
-        let expansion = expansions.of_output(0);
-        (of(number, net, &expansion), expansion)
-    };
-    nets.par_iter().zip(fitted_to_others(nets, &training, caps)).enumerate().map(with).collect()
+    fitted_to_others(nets, &training, caps).iter().map(|expansions| expansions.of_output(0)).collect()
 }
 
 /// For every net the expansions fitted to the `training` runs of the others.
@@ -254,6 +207,18 @@ fn fitted_to_others(nets: &[Net], training: &[Training<'_>], caps: Caps<'_>) -> 
     let (candidates, rows) = first_round(nets, &carried);
     let sums: Vec<NetSums> = training.par_iter().map(|net| NetSums::new(net, &candidates, rows)).collect();
     let of_net = |k: usize| fit(&without(training, k), (&candidates, &without(&sums, k)), &carried);
+    (0..nets.len()).into_par_iter().map(of_net).collect()
+}
+
+/// The same in some of the terms that a longer run has `chosen` for each net: one round of few candidates.
+fn fitted_among(nets: &[Net], training: &[Training<'_>], caps: Caps<'_>, chosen: &[Vec<Term>]) -> Vec<Expansions> {
+    let carried = Carried::new(nets, caps);
+    let rows = selection_rows(nets.len() - 1);
+    let of_net = |k: usize| {
+        let (terms, others) = (carried.retain(chosen[k].clone()), without(training, k));
+        let sums: Vec<NetSums> = others.iter().map(|net| NetSums::new(net, &terms, rows)).collect();
+        fit_in_rounds(&others, (&terms, &sums.iter().collect::<Vec<_>>()), &carried, 1)
+    };
     (0..nets.len()).into_par_iter().map(of_net).collect()
 }
 
@@ -361,6 +326,7 @@ fn estimates(corrected: &Corrected, low: &[Contributions], (mean, sd): (f64, f64
         mean: scaled(gathered(&|net| &net.mean, beyond.mean), mean, sd),
         explained: 1.0 - corrected.residual() / variance.estimate,
         is_heavy_tailed: corrected.is_heavy_tailed(),
+        chosen: None,
         misses_levels: false,
         growth: growth(nets),
         terms: told_terms(expansions, variance.estimate),

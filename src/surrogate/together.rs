@@ -6,17 +6,17 @@ use std::collections::BTreeMap;
 
 use rayon::prelude::*;
 
-use super::basis::{Caps, Family};
+use super::basis::{Caps, Family, Term};
 use super::corrected::Contributions;
-use super::fit::{Expansions, Training};
+use super::fit::{Expansion, Expansions, Training};
 use super::net::Net;
 use super::{
-    Corrected, Scaled, Trial, estimates, fewest_points, fitted_to_others, scaled, sorted_swaps, surrogate_estimates,
-    takes_surrogates, trials,
+    Corrected, Scaled, Trial, estimates, fewest_points, fitted_among, fitted_design, fitted_to_others, in_chunks,
+    scaled, sorted_swaps, surrogate_estimates, takes_surrogates, trials,
 };
 use crate::design::Design;
 use crate::estimate::PointOutputs;
-use crate::uncertainty::{Layout, SurrogateEstimates};
+use crate::uncertainty::{ChosenTerms, Layout, SurrogateEstimates};
 
 /// Outputs up to which each has terms of its own: what that gains is worth its time.
 const MOST_ALONE: usize = 32;
@@ -24,25 +24,29 @@ const MOST_ALONE: usize = 32;
 /// About as many neighbours share their terms. Outputs of a series change slowly along it.
 const NEIGHBOURS: usize = 64;
 
-/// What [`surrogate_estimates`] makes of each of `outputs`, which have the outputs of every replicate; of more than 32 by
-/// terms that neighbours share.
+/// What [`surrogate_estimates`] makes of each of `outputs`, which have the outputs of every replicate, by the terms of the same
+/// output in `longer`, the estimates of a longer run, if these are known; of more than 32 by terms that neighbours share.
 pub fn surrogates_together(
     design: &Design,
     families: &[Family],
     layout: &Layout,
     outputs: &[Vec<&PointOutputs>],
+    longer: &[Option<SurrogateEstimates>],
 ) -> Vec<Option<SurrogateEstimates>> {
-    let alone = |replicates: &Vec<&PointOutputs>| surrogate_estimates(design, families, layout, replicates);
+    let alone = |(number, replicates): (usize, &Vec<&PointOutputs>)| {
+        let chosen = longer.get(number).and_then(|of| of.as_ref()?.chosen.as_ref());
+        surrogate_estimates(design, families, layout, replicates, chosen)
+    };
     let replicates = outputs.first().map_or(0, Vec::len);
     if outputs.len() <= MOST_ALONE || !takes_surrogates(design, replicates) {
-        return outputs.iter().map(alone).collect();
+        return outputs.iter().enumerate().map(alone).collect();
     }
     let all: Vec<Option<Scaled>> =
         outputs.par_iter().map(|replicates| scaled(replicates, design.runs().len(), None)).collect();
     // By the points at which all runs have a value.
     let mut groups: BTreeMap<Vec<Vec<usize>>, Vec<usize>> = BTreeMap::new();
-    for (number, (scaled, _)) in all.iter().enumerate().filter_map(|(number, all)| Some((number, all.as_ref()?))) {
-        groups.entry(scaled.iter().map(|runs| good_points(runs)).collect()).or_default().push(number);
+    for (number, scaled) in all.iter().enumerate().filter_map(|(number, all)| Some((number, all.as_ref()?))) {
+        groups.entry(good_points(scaled)).or_default().push(number);
     }
     let mut found: Vec<Option<SurrogateEstimates>> = vec![None; outputs.len()];
     for (good, members) in groups {
@@ -50,10 +54,10 @@ pub fn surrogates_together(
         let length = members.len().div_ceil(members.len().div_ceil(NEIGHBOURS));
         for members in members.chunks(length) {
             let of_members: Vec<Option<SurrogateEstimates>> = if members.len() <= MOST_ALONE {
-                members.par_iter().map(|&number| alone(&outputs[number])).collect()
+                members.par_iter().map(|&number| alone((number, &outputs[number]))).collect()
             } else {
                 let scaled: Vec<&Scaled> = members.iter().filter_map(|&number| all[number].as_ref()).collect();
-                of_neighbours(design, families, layout, &good, &scaled)
+                of_neighbours(design, families, layout, &good, &scaled, None)
             };
             members.iter().zip(of_members).for_each(|(number, of)| found[*number] = of);
         }
@@ -61,43 +65,66 @@ pub fn surrogates_together(
     found
 }
 
-/// The base points at which every run has a value.
-fn good_points(runs: &[Vec<f64>]) -> Vec<usize> {
-    let points = runs.first().map_or(0, Vec::len);
-    (0..points).filter(|&point| runs.iter().all(|run| run[point].is_finite())).collect()
+/// The base points of every replicate at which all runs have a value.
+pub(super) fn good_points((replicates, _): &Scaled) -> Vec<Vec<usize>> {
+    let of_replicate = |runs: &Vec<Vec<f64>>| {
+        let points = runs.first().map_or(0, Vec::len);
+        (0..points).filter(|&point| runs.iter().all(|run| run[point].is_finite())).collect()
+    };
+    replicates.iter().map(of_replicate).collect()
 }
 
-/// Of outputs that have values at the `good` points of every replicate.
-fn of_neighbours(
+/// Of outputs that have values at the `good` points of every replicate, and choose their terms together, or have them `chosen`.
+pub(super) fn of_neighbours(
     design: &Design,
     families: &[Family],
     layout: &Layout,
     good: &[Vec<usize>],
     outputs: &[&Scaled],
+    chosen: Option<&ChosenTerms>,
 ) -> Vec<Option<SurrogateEstimates>> {
+    let fitted = fitted_design(design);
+    let (points, all) = (fitted.points_per_replicate() as usize, design.points_per_replicate() as usize);
+    let good: Vec<&[usize]> = good.iter().map(|good| &good[..good.partition_point(|&point| point < points)]).collect();
     if good.iter().any(|points| points.len() < fewest_points(design)) {
         return vec![None; outputs.len()];
     }
     let at_good = |output: &&Scaled| -> Vec<Vec<Vec<f64>>> {
-        let of_replicate = |(runs, good): (&Vec<Vec<f64>>, &Vec<usize>)| {
+        let of_replicate = |(runs, good): (&Vec<Vec<f64>>, &&[usize])| {
             runs.iter().map(|run| good.iter().map(|&point| run[point]).collect()).collect()
         };
-        output.0.iter().zip(good).map(of_replicate).collect()
+        output.0.iter().zip(&good).map(of_replicate).collect()
     };
     let runs: Vec<Vec<Vec<Vec<f64>>>> = outputs.par_iter().map(at_good).collect();
-    let fits: Vec<Fit> = trials(families).into_iter().map(|trial| Fit::new(design, trial, outputs[0], &runs)).collect();
+    let trials = trials(families).into_iter().enumerate().filter(|(kind, _)| chosen.is_none_or(|of| of.kind == *kind));
+    let of_nets = chosen.map(|chosen| chosen.of_nets.as_slice());
+    let fits: Vec<(usize, Fit)> =
+        trials.map(|(kind, trial)| (kind, Fit::new(&fitted, trial, outputs[0], &runs, of_nets))).collect();
     let (swaps, pairs) = (sorted_swaps(design), if layout.second_order { layout.pair_list() } else { Vec::new() });
     let of_output = |number: usize| {
-        let mut best: Option<Corrected> = None;
-        for Fit { nets, families, expansions, ratio } in &fits {
+        let mut best: Option<(usize, Corrected)> = None;
+        for (kind, Fit { nets, families, degree, expansions, ratio }) in &fits {
             let expansions: Vec<_> = expansions.iter().map(|of_net| of_net.of_output(number)).collect();
-            let of_net = |((net, runs), expansion): ((&Net, &Vec<Vec<f64>>), _)| {
-                Contributions::new(design, &net.with_outputs(runs.clone()), expansion, &swaps, &pairs)
+            let of = |net: &Net, expansion: &Expansion| Contributions::new(design, net, expansion, &swaps, &pairs);
+            let of_net = |k: usize| {
+                if points == all {
+                    return of(&nets[k].with_outputs(runs[number][k].clone()), &expansions[k]);
+                }
+                in_chunks(all, |chunk| {
+                    let rows: Vec<&[f64]> = outputs[number].0[k].iter().map(|run| &run[chunk.clone()]).collect();
+                    of(&Net::of_points(design, k as u64, chunk.start as u64, families, *degree, &rows), &expansions[k])
+                })
             };
-            let nets = nets.iter().zip(&runs[number]).zip(&expansions).map(of_net).collect();
-            best = Corrected::better(best, Corrected::new(design, nets, expansions, families, &pairs), *ratio);
+            let nets = (0..nets.len()).into_par_iter().map(of_net).collect();
+            let next = Corrected::new(&fitted, nets, expansions, families, &pairs);
+            let is_better = best.as_ref().is_none_or(|(_, best)| next.unknown() < ratio * best.unknown());
+            best = if is_better { Some((*kind, next)) } else { best };
         }
-        Some(estimates(&best?, &[], outputs[number].1))
+        let (kind, best) = best?;
+        let terms = |of: &Expansion| of.terms.clone();
+        let chosen =
+            (outputs.len() == 1).then(|| ChosenTerms { kind, of_nets: best.expansions.iter().map(terms).collect() });
+        Some(SurrogateEstimates { chosen, ..estimates(&best, &[], outputs[number].1) })
     };
     (0..outputs.len()).into_par_iter().map(of_output).collect()
 }
@@ -106,24 +133,38 @@ fn of_neighbours(
 struct Fit {
     nets: Vec<Net>,
     families: Vec<Family>,
+    degree: usize,
     expansions: Vec<Expansions>,
     ratio: f64,
 }
 
 impl Fit {
-    /// `first` is one of the outputs, all points included; `runs` has all of them at the good ones.
-    fn new(design: &Design, trial: Trial, first: &Scaled, runs: &[Vec<Vec<Vec<f64>>>]) -> Self {
+    /// `first` is one of the outputs, all points included; `runs` has all of them at the good ones. The terms are those of each
+    /// net in `chosen`, if there are some.
+    fn new(
+        design: &Design,
+        trial: Trial,
+        first: &Scaled,
+        runs: &[Vec<Vec<Vec<f64>>>],
+        chosen: Option<&[Vec<Term>]>,
+    ) -> Self {
         let caps = Caps::new(&trial.families, trial.hermite_degree);
+        let points = design.points_per_replicate() as usize;
         let net = |(number, outputs): (usize, &Vec<Vec<f64>>)| {
-            Net::new(design, number as u64, &trial.families, caps.degree, outputs)
+            let outputs: Vec<&[f64]> = outputs.iter().map(|run| &run[..points]).collect();
+            Net::of_points(design, number as u64, 0, &trial.families, caps.degree, &outputs)
         };
         let nets: Vec<Net> = first.0.par_iter().enumerate().map(net).collect();
         let of_net = |number: usize| runs.iter().map(|of_output| of_output[number].as_slice()).collect();
         let training = nets.iter().enumerate().map(|(number, net)| Training::of_outputs(net, of_net(number)));
         let training: Vec<Training<'_>> = training.collect();
-        let expansions = fitted_to_others(&nets, &training, caps);
+        let expansions = match chosen {
+            Some(chosen) => fitted_among(&nets, &training, caps, chosen),
+            None => fitted_to_others(&nets, &training, caps),
+        };
         drop(training);
-        Self { nets, families: trial.families, expansions, ratio: trial.ratio }
+        let degree = caps.degree;
+        Self { nets, families: trial.families, degree, expansions, ratio: trial.ratio }
     }
 }
 
@@ -163,9 +204,9 @@ mod tests {
             .map(|k| kept(&design, |u| libm::exp(1.0 + u[0] * time(k)) * (1.0 + u[1]) + u[2] * u[2] * (1.0 - time(k))))
             .collect();
         let refs: Vec<Vec<&PointOutputs>> = outputs.iter().map(|of| of.iter().collect()).collect();
-        let together = surrogates_together(&design, &families, &layout, &refs);
+        let together = surrogates_together(&design, &families, &layout, &refs, &[]);
         for (k, (of, together)) in refs.iter().zip(&together).enumerate() {
-            let alone = surrogate_estimates(&design, &families, &layout, of).unwrap();
+            let alone = surrogate_estimates(&design, &families, &layout, of, None).unwrap();
             let together = together.as_ref().unwrap();
             assert!(together.explained > 1.0 - 1e-6, "{k}: {} {}", together.explained, alone.explained);
             for (a, b) in alone.total.iter().zip(&together.total) {
@@ -173,7 +214,7 @@ mod tests {
             }
         }
         // Fewer are fitted one by one, to the same bits.
-        let few = surrogates_together(&design, &families, &layout, &refs[..3]);
-        assert_eq!(few[1], surrogate_estimates(&design, &families, &layout, &refs[1]));
+        let few = surrogates_together(&design, &families, &layout, &refs[..3], &[]);
+        assert_eq!(few[1], surrogate_estimates(&design, &families, &layout, &refs[1], None));
     }
 }

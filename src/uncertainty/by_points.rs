@@ -7,7 +7,6 @@ use super::net_decay::StandardError;
 use super::points::KeptPoints;
 use super::{Interval, LEVEL, t_interval};
 use crate::estimate::{Moments, Products};
-use crate::special::{normal_below, normal_quantile};
 
 /// Share of resamples in which a quantity may be undefined before it has no interval.
 const UNDEFINED: f64 = 0.01;
@@ -34,14 +33,10 @@ impl ByPoints<'_> {
     ) -> Vec<Bounds> {
         let products = Products::of(whole);
         let none = (StandardError { error: f64::NAN, freedom: 0.0 }, None);
-        let influences = match self.method {
-            IntervalMethod::Percentile => None,
-            _ => influence_sums(self.points, &products, quantities),
-        };
         if self.method == IntervalMethod::Delta {
+            let sums = influence_sums(self.points, &products, quantities).unwrap_or_default();
             let bounds = |(estimate, sums): (&f64, &InfluenceSums)| (sums.error(), t_interval(*estimate, sums.error()));
-            let influences = influences.iter().flatten();
-            let mut all: Vec<Bounds> = estimates.iter().zip(influences).map(bounds).collect();
+            let mut all: Vec<Bounds> = estimates.iter().zip(&sums).map(bounds).collect();
             all.resize(estimates.len(), none);
             return all;
         }
@@ -56,16 +51,8 @@ impl ByPoints<'_> {
             }
             sorted.sort_by(f64::total_cmp);
             let error = StandardError { error: deviation(&sorted, *estimate), freedom };
-            let tails = match self.method {
-                IntervalMethod::Bca => {
-                    let acceleration = influences.as_ref().map_or(f64::NAN, |sums| sums[q].acceleration());
-                    bca_tails(&sorted, *estimate, acceleration)
-                }
-                _ => Some([(1.0 - LEVEL) / 2.0, (1.0 + LEVEL) / 2.0]),
-            };
-            let interval =
-                tails.map(|[low, high]| Interval { low: quantile(&sorted, low), high: quantile(&sorted, high) });
-            (error, interval)
+            let [low, high] = [(1.0 - LEVEL) / 2.0, (1.0 + LEVEL) / 2.0].map(|p| quantile(&sorted, p));
+            (error, Some(Interval { low, high }))
         };
         estimates.iter().enumerate().map(of_quantity).collect()
     }
@@ -90,24 +77,6 @@ pub(crate) fn quantile(sorted: &[f64], p: f64) -> f64 {
     let below = place as usize;
     let above = (below + 1).min(sorted.len() - 1);
     sorted[below] + (sorted[above] - sorted[below]) * (place - below as f64)
-}
-
-/// The two probabilities at which the BCa interval reads the resampled values (Efron 1987): the bias correction is the
-/// normal quantile of the share of them below the estimate, where equal ones count half and at least half a value is on
-/// either side. `None` if the acceleration is unknown.
-fn bca_tails(sorted: &[f64], estimate: f64, acceleration: f64) -> Option<[f64; 2]> {
-    let below = sorted.partition_point(|x| *x < estimate);
-    let equal = sorted.partition_point(|x| *x <= estimate) - below;
-    let n = sorted.len() as f64;
-    let share = (below as f64 + equal as f64 / 2.0).clamp(0.5, n - 0.5) / n;
-    let bias = normal_quantile(share);
-    let tail = |p: f64| {
-        let z = bias + normal_quantile(p);
-        let left = 1.0 - acceleration * z;
-        // Beyond its pole the transformation has run off to the end.
-        if left > 0.0 { normal_below(bias + z / left) } else { f64::from(u8::from(z > 0.0)) }
-    };
-    acceleration.is_finite().then(|| [tail((1.0 - LEVEL) / 2.0), tail((1.0 + LEVEL) / 2.0)])
 }
 
 #[cfg(test)]

@@ -60,6 +60,8 @@ pub struct SurrogateEstimates {
     pub growth: f64,
     /// The terms that carry most of the variance.
     pub terms: Vec<SurrogateTerm>,
+    /// All terms, for runs of some of these rows; `None` of outputs that share theirs.
+    pub chosen: Option<ChosenTerms>,
     /// Number of terms, of all surrogates on average.
     pub term_count: f64,
     /// The cheaper model that stands in beside the surrogates, if there is one.
@@ -80,6 +82,15 @@ pub struct LowFidelityUse {
     pub shared_runs: u64,
     /// Its runs at points of their own.
     pub own_runs: u64,
+}
+
+/// The terms of the surrogates of every net.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ChosenTerms {
+    /// Number of the kind of polynomials.
+    pub kind: usize,
+    /// Of each net the terms of the surrogate of the others: the factors in each, by number, with their degrees.
+    pub of_nets: Vec<Vec<Vec<(usize, usize)>>>,
 }
 
 /// A term of a surrogate.

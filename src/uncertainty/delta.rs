@@ -16,7 +16,6 @@ pub(super) struct InfluenceSums {
     unit: f64,
     sum: f64,
     squares: f64,
-    cubes: f64,
 }
 
 impl InfluenceSums {
@@ -29,11 +28,6 @@ impl InfluenceSums {
         }
         let squares = (self.squares - self.sum * self.sum / n).max(0.0);
         StandardError { error: self.unit * (squares / (n * (n - 1.0))).sqrt(), freedom: n - 1.0 }
-    }
-
-    /// Acceleration sum U^3/(6 (sum U^2)^(3/2)) of the BCa bootstrap (Efron 1987, J. Am. Stat. Assoc. 82, 171-185).
-    pub fn acceleration(&self) -> f64 {
-        if self.squares > 0.0 { self.cubes / (6.0 * libm::pow(self.squares, 1.5)) } else { 0.0 }
     }
 }
 
@@ -64,18 +58,18 @@ pub(super) fn influence_sums(
     for (mut column, unit) in scaled.column_iter_mut().zip(&units) {
         column.iter_mut().for_each(|g| *g = if *unit > 0.0 { *g * n / unit } else { *g });
     }
-    let powers_of = |matrix: &DMatrix<f64>| -> Vec<[f64; 3]> {
+    let powers_of = |matrix: &DMatrix<f64>| -> Vec<[f64; 2]> {
         let influences = matrix * &scaled;
         let powers = |column: nalgebra::DVectorView<'_, f64>| {
-            column.iter().fold([0.0; 3], |[sum, squares, cubes], u| [sum + u, squares + u * u, cubes + u * u * u])
+            column.iter().fold([0.0; 2], |[sum, squares], u| [sum + u, squares + u * u])
         };
         influences.column_iter().map(powers).collect()
     };
-    let powers: Vec<Vec<[f64; 3]>> =
+    let powers: Vec<Vec<[f64; 2]>> =
         chunks.par_iter().map(|chunk| powers_of(&chunk.products(points.design, products))).collect();
     let of_quantity = |(q, unit): (usize, &f64)| {
         let sum = |power: usize| powers.iter().map(|chunk| chunk[q][power]).sum::<f64>();
-        InfluenceSums { points: n, unit: *unit, sum: sum(0), squares: sum(1), cubes: sum(2) }
+        InfluenceSums { points: n, unit: *unit, sum: sum(0), squares: sum(1) }
     };
     Some(units.iter().enumerate().map(of_quantity).collect())
 }

@@ -2,40 +2,25 @@
 
 use super::net_decay::{PartInfluences, StandardError, net_errors};
 use crate::design::Sampler;
+use crate::names::named;
 
+named! {
 /// How the error of an estimate is found.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum IntervalMethod {
     /// From few long scrambled nets: their spread, and how the error falls inside them ([`net_errors`]).
-    Nets,
+    Nets = "nets",
     /// Student's t on independent replicates.
-    Replicates,
+    Replicates = "replicates",
     /// Student's t on parts of a random design, which are as good as independent.
-    Batches,
+    Batches = "batches",
     /// The delta method: the variance of the influence of every point of a random design.
-    Delta,
+    Delta = "delta",
     /// The percentile bootstrap over the points of a random design.
-    Percentile,
-    /// The bias-corrected and accelerated bootstrap over the points of a random design.
-    Bca,
+    Percentile = "percentile",
+}
 }
 
 impl IntervalMethod {
-    /// All of them.
-    pub const ALL: [Self; 6] = [Self::Nets, Self::Replicates, Self::Batches, Self::Delta, Self::Percentile, Self::Bca];
-
-    /// The name in study files and results.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Nets => "nets",
-            Self::Replicates => "replicates",
-            Self::Batches => "batches",
-            Self::Delta => "delta",
-            Self::Percentile => "percentile",
-            Self::Bca => "bca",
-        }
-    }
-
     /// The one that serves points of `sampler` best.
     pub fn default_for(sampler: Sampler) -> Self {
         match sampler {
@@ -50,7 +35,7 @@ impl IntervalMethod {
         match self {
             Self::Nets => sampler.is_digital(),
             Self::Replicates => true,
-            Self::Batches | Self::Delta | Self::Percentile | Self::Bca => sampler == Sampler::Random,
+            Self::Batches | Self::Delta | Self::Percentile => sampler == Sampler::Random,
         }
     }
 
@@ -59,13 +44,13 @@ impl IntervalMethod {
         match self {
             Self::Nets => 4,
             Self::Replicates => 16,
-            Self::Batches | Self::Delta | Self::Percentile | Self::Bca => 1,
+            Self::Batches | Self::Delta | Self::Percentile => 1,
         }
     }
 
     /// Whether it needs the outputs of every run, and so memory that grows with their number.
     pub fn keeps_outputs(self) -> bool {
-        matches!(self, Self::Delta | Self::Percentile | Self::Bca)
+        matches!(self, Self::Delta | Self::Percentile)
     }
 
     /// What an interval of this kind is, in a sentence.
@@ -101,10 +86,6 @@ impl IntervalMethod {
                      together by batches of them"
                 )
             }
-            Self::Bca => format!(
-                "95 % bias-corrected and accelerated (BCa) bootstrap interval, {resamples} resamples of the random points; \
-                 indices over all outputs together by batches of them"
-            ),
         }
     }
 
@@ -119,7 +100,7 @@ impl IntervalMethod {
                 net_errors(&known, pooled)
             }
             Self::Replicates => quantities.iter().map(|parts| spread(&means(parts))).collect(),
-            Self::Batches | Self::Delta | Self::Percentile | Self::Bca => {
+            Self::Batches | Self::Delta | Self::Percentile => {
                 quantities.iter().map(|parts| spread(&complete(parts))).collect()
             }
         };

@@ -27,7 +27,7 @@ mod unseen;
 
 pub use aggregate::{AggregateIndices, aggregate_indices};
 pub use convergence::{Stage, points_of_stages, stages};
-pub use corrected::{LowFidelityUse, Refusal, SurrogateEstimates, SurrogateTerm, SurrogateUse};
+pub use corrected::{ChosenTerms, LowFidelityUse, Refusal, SurrogateEstimates, SurrogateTerm, SurrogateUse};
 pub use effects::{DependentEstimates, EffectEstimates, OtherEstimates, OutputIndices, OutputMoments};
 pub use estimates::{BesideNoise, Layout, NoiseLayout};
 pub use influence::{Influenced, Influences};

@@ -127,7 +127,7 @@ fn what_cannot_be_built_says_why() {
         change(&mut options);
         key(two().analysis(options))
     };
-    assert_eq!(with(|o| o.intervals = IntervalMethod::Bca), "intervals");
+    assert_eq!(with(|o| o.intervals = IntervalMethod::Percentile), "intervals");
     assert_eq!(with(|o| o.resamples = 0), "resamples");
     assert_eq!(with(|o| o.subsets = vec![vec![2]]), "subsets");
     assert_eq!(with(|o| o.subsets = vec![vec![]]), "subsets");

@@ -212,7 +212,7 @@ fn keys_of_the_analysis() {
     refused("aggregate = \"yes\"", &["study.toml:5:13:", "expected a boolean"]);
     refused("dummy = 0", &["study.toml:5:9:", "expected a boolean"]);
     refused("intervals = \"bootstrap\"", &["study.toml:5:13:", "unknown kind of interval `bootstrap`", "percentile"]);
-    refused("intervals = \"bca\"", &["study.toml:5:13:", "for points of the sampler \"sobol\"", "nets"]);
+    refused("intervals = \"percentile\"", &["study.toml:5:13:", "for points of the sampler \"sobol\"", "nets"]);
     refused("resamples = 5", &["study.toml:5:13:", "from 100 to 1000000"]);
     refused("threshold = 2.0", &["study.toml:5:13:", "`threshold` must be a number from 0 to 1, not 2"]);
     refused("threshold = nan", &["study.toml:5:13:", "from 0 to 1"]);

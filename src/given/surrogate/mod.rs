@@ -240,15 +240,15 @@ impl Job<'_> {
         };
         let nets: Vec<Net> = self.folds.iter().map(net).collect();
         drop(columns);
-        let of_fold = |_: usize, net: &Net, expansion: &Expansion| {
+        let expansions = cross_fitted(&nets, caps);
+        let of_fold = |(net, expansion): (&Net, &Expansion)| {
             let mut contributions = Contributions::new(net, expansion);
             if self.own_distributions {
                 marginals::add(net, expansion, &mut contributions);
             }
             contributions.in_parts()
         };
-        let (folds, expansions): (Vec<FoldSums>, Vec<Expansion>) =
-            cross_fitted(&nets, caps, of_fold).into_iter().unzip();
+        let folds: Vec<FoldSums> = nets.par_iter().zip(&expansions).map(of_fold).collect();
         let (rows, inputs) =
             (self.folds.iter().sum::<usize>() as u64, (0..caps.families.len()).map(|input| vec![input]));
         let beyond =

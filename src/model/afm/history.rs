@@ -6,44 +6,37 @@ use super::output::edge;
 use crate::afm::history::{Sample, at_times};
 use crate::afm::{Failure, Options, Scene};
 use crate::model::{Batch, Output, OutputSeries, SeriesAxis, SeriesError};
+use crate::names::named;
 
+named! {
 /// A quantity of the push against time: the tip drags the particle along until it slips, and holds it still from then on
 /// (Tafazzoli and Sitti 2004), see [`crate::afm::history`]. The slip is that of the quasi-static rung whatever the fidelity.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum AfmHistory {
     /// F_T, the tip force.
-    Force,
+    Force = "force_history",
     /// The travel of the particle.
-    Position,
+    Position = "position_history",
     /// Radius of the contact between particle and substrate.
-    SubstrateContact,
+    SubstrateContact = "substrate_contact_history",
     /// Radius of the contact between tip and particle; 0 where the tip force pulls it apart.
-    TipContact,
+    TipContact = "tip_contact_history",
+}
 }
 
 impl AfmHistory {
-    /// All of them.
-    pub const ALL: [Self; 4] = [Self::Force, Self::Position, Self::SubstrateContact, Self::TipContact];
-
-    /// The name in study files and results.
-    pub fn name(self) -> &'static str {
-        self.row().0
-    }
-
     /// What it is, as an output.
     pub fn info(self) -> Output {
-        let (name, unit, description) = self.row();
-        Output::new(name, edge(unit), description)
+        let (unit, description) = self.row();
+        Output::new(self.name(), edge(unit), description)
     }
 
-    fn row(self) -> (&'static str, &'static str, &'static str) {
+    /// Unit and description.
+    fn row(self) -> (&'static str, &'static str) {
         match self {
-            Self::Force => ("force_history", "nN", "tip force F_T against time"),
-            Self::Position => ("position_history", "nm", "travel of the particle against time"),
-            Self::SubstrateContact => {
-                ("substrate_contact_history", "nm", "radius of the contact with the substrate against time")
-            }
-            Self::TipContact => ("tip_contact_history", "nm", "radius of the contact with the tip against time"),
+            Self::Force => ("nN", "tip force F_T against time"),
+            Self::Position => ("nm", "travel of the particle against time"),
+            Self::SubstrateContact => ("nm", "radius of the contact with the substrate against time"),
+            Self::TipContact => ("nm", "radius of the contact with the tip against time"),
         }
     }
 
@@ -125,7 +118,7 @@ impl Histories {
         let all = self.which.iter().zip(&self.series);
         all.flat_map(|(history, series)| {
             let Output { unit, .. } = history.info();
-            series.outputs(&unit, history.row().2).collect::<Vec<Output>>()
+            series.outputs(&unit, history.row().1).collect::<Vec<Output>>()
         })
         .collect()
     }
@@ -162,7 +155,7 @@ mod tests {
         {
             assert!(AfmMoments::new(duration, points).is_err(), "{duration} {points}");
         }
-        AfmHistory::ALL.iter().for_each(|history| assert!(Unit::parse(history.row().1).is_ok()));
+        AfmHistory::ALL.iter().for_each(|history| assert!(Unit::parse(history.row().0).is_ok()));
     }
 
     /// Values stand after the outputs; a bad row fails in all of them, once each, and costs the others nothing.

@@ -5,55 +5,40 @@ use crate::afm::{
     force::{ClosedForms, Column, Slips},
 };
 use crate::model::Output;
+use crate::names::named;
 use crate::quantity::Unit;
 
-/// An output of the critical-force computation.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+named! {
+/// An output of the critical-force computation, the default one first.
 pub enum AfmOutput {
     /// F_cr, the tip force at which the particle slips.
-    CriticalForce,
+    CriticalForce = "critical_force",
     /// F_Y, the lateral part of it.
-    LateralForce,
+    LateralForce = "lateral_force",
     /// F_Z, the normal part of it.
-    NormalForce,
+    NormalForce = "normal_force",
     /// t_cr, the time until it is reached.
-    CriticalTime,
+    CriticalTime = "critical_time",
     /// ln F_cr, F_cr in newtons.
-    LogCriticalForce,
+    LogCriticalForce = "log_critical_force",
     /// psi, the angle of the tip force from the vertical.
-    ForceAngle,
+    ForceAngle = "force_angle",
     /// a, radius of the contact between particle and substrate.
-    ContactRadius,
+    ContactRadius = "contact_radius",
     /// d_s, indentation of that contact.
-    Indentation,
+    Indentation = "indentation",
+}
 }
 
 impl AfmOutput {
-    /// All outputs, the default one first.
-    pub const ALL: [Self; 8] = [
-        Self::CriticalForce,
-        Self::LateralForce,
-        Self::NormalForce,
-        Self::CriticalTime,
-        Self::LogCriticalForce,
-        Self::ForceAngle,
-        Self::ContactRadius,
-        Self::Indentation,
-    ];
-
-    /// The name in study files and results.
-    pub fn name(self) -> &'static str {
-        self.row().0
-    }
-
     /// The unit in which it is reported.
     pub fn unit(self) -> Unit {
-        edge(self.row().1)
+        edge(self.row().0)
     }
 
     /// One line for people.
     pub fn description(self) -> &'static str {
-        self.row().2
+        self.row().1
     }
 
     /// The same for a [`Model`](crate::Model).
@@ -61,16 +46,17 @@ impl AfmOutput {
         Output::new(self.name(), self.unit(), self.description())
     }
 
-    fn row(self) -> (&'static str, &'static str, &'static str) {
+    /// Unit and description.
+    fn row(self) -> (&'static str, &'static str) {
         match self {
-            Self::CriticalForce => ("critical_force", "nN", "tip force F_cr at which the particle slips"),
-            Self::LateralForce => ("lateral_force", "nN", "lateral part F_Y of the critical force"),
-            Self::NormalForce => ("normal_force", "nN", "normal part F_Z of the critical force"),
-            Self::CriticalTime => ("critical_time", "s", "time t_cr until the particle slips; none at velocity 0"),
-            Self::LogCriticalForce => ("log_critical_force", "1", "natural logarithm of the critical force in newtons"),
-            Self::ForceAngle => ("force_angle", "rad", "angle psi of the critical force from the vertical"),
-            Self::ContactRadius => ("contact_radius", "nm", "radius a of the contact between particle and substrate"),
-            Self::Indentation => ("indentation", "nm", "indentation d_s of the contact between particle and substrate"),
+            Self::CriticalForce => ("nN", "tip force F_cr at which the particle slips"),
+            Self::LateralForce => ("nN", "lateral part F_Y of the critical force"),
+            Self::NormalForce => ("nN", "normal part F_Z of the critical force"),
+            Self::CriticalTime => ("s", "time t_cr until the particle slips; none at velocity 0"),
+            Self::LogCriticalForce => ("1", "natural logarithm of the critical force in newtons"),
+            Self::ForceAngle => ("rad", "angle psi of the critical force from the vertical"),
+            Self::ContactRadius => ("nm", "radius a of the contact between particle and substrate"),
+            Self::Indentation => ("nm", "indentation d_s of the contact between particle and substrate"),
         }
     }
 
@@ -124,7 +110,7 @@ mod tests {
     #[test]
     fn every_unit_is_known() {
         for output in AfmOutput::ALL {
-            assert!(Unit::parse(output.row().1).is_ok());
+            assert!(Unit::parse(output.row().0).is_ok());
         }
     }
 }

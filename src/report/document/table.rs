@@ -101,7 +101,7 @@ impl Table {
     }
 
     /// The rows as CSV.
-    pub(crate) fn csv(&self) -> String {
+    pub fn csv(&self) -> String {
         csv([self])
     }
 

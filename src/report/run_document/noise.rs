@@ -1,7 +1,7 @@
 //! The noise of a stochastic model: what it is of a single run, and the indices of the mean over it.
 
 use super::lead::complement;
-use super::tables::{FACTORS, largest};
+use super::tables::{FACTORS, first_rows};
 use crate::report::document::{Cell, Column, Part, Table};
 use crate::report::format::{name, percent};
 use crate::report::leading::by_total;
@@ -40,10 +40,7 @@ fn table(output: &OutputRecord, noise: &NoiseRecord) -> Table {
             of_mean.and_then(|of_mean| of_mean.total).into(),
         ]
     };
-    let caption = format!(
-        "Indices of the values and of the mean over the noise, each of its own variance.{}",
-        largest(order.len().min(FACTORS), order.len(), "factors, all in the JSON file")
-    );
+    let caption = "Indices of the values and of the mean over the noise, each of its own variance.";
     let columns = Column::list(1, &["factor", "S_1 of a value", "S_1 of the mean", "S_T of the mean"]);
-    Table::new(caption, columns).with_rows(order.iter().take(FACTORS).map(row))
+    first_rows(caption, columns, order.iter().map(row), (FACTORS, "factors, all in the JSON file"))
 }

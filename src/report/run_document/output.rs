@@ -57,11 +57,14 @@ fn mind(output: &OutputRecord, is_only: bool) -> Vec<Part> {
         let points = count(output.base_points_used, "base point", "base points");
         parts.push(Part::Text(format!("{failed} of {all} ({share}) had no value; {points} are left.")));
     }
-    let failed = output.failures.iter();
-    parts.extend(failures(
-        failed.map(|f| (&*f.reason, format!("row {}: {}", f.first_row, inputs(&f.first_inputs)), f.runs)),
-    ));
+    parts.extend(failed_runs(output));
     parts
+}
+
+/// Why runs of an output failed.
+pub(super) fn failed_runs(output: &OutputRecord) -> Option<Part> {
+    let failed = output.failures.iter();
+    failures(failed.map(|f| (&*f.reason, format!("row {}: {}", f.first_row, inputs(&f.first_inputs)), f.runs)))
 }
 
 /// How well polynomials stand in for the model, what they gained, and what they consist of.

@@ -1,7 +1,8 @@
 //! What the document says of many outputs: an overview, and a table of every output.
 
 use super::figures::Figures;
-use super::output::definitions;
+use super::output::{definitions, failed_runs};
+use super::tables::{IN_CSV, first_rows, largest};
 use super::warnings::grouped_warnings;
 use crate::report::document::{Cell, Column, Part, Section, Table};
 use crate::report::format::{give_or_take, name, short, value};
@@ -9,10 +10,7 @@ use crate::report::leading::{Contender, by_total, leader_of_all, may_lead, of_wh
 use crate::report::listed;
 use crate::report::result::{OutputRecord, ResultFile};
 use crate::report::run_charts::{map_chart, overall_order, together_chart};
-use crate::report::study_sections::{failures, inputs};
 
-/// Factors in the table of all.
-const FACTORS: usize = 50;
 /// Factors beside each output in the table of outputs, and outputs in it.
 const COLUMNS: usize = 8;
 const OUTPUTS: usize = 200;
@@ -84,13 +82,10 @@ pub(super) fn factors(result: &ResultFile) -> Table {
             totals.last().map_or_else(dash, |(_, at)| name(at).into()),
         ]
     };
-    let order = overall_order(result);
-    let caption = format!(
-        "Indices of all together, for how many a factor surely matters most, and the median and largest of its total indices.{}",
-        super::tables::largest(order.len().min(FACTORS), order.len(), "factors, all in the CSV file")
-    );
+    let caption = "Indices of all together, for how many a factor surely matters most, and the median and largest of its \
+                   total indices.";
     let headings = ["factor", "S_1 together", "S_T together", "first of", "median S_T", "largest S_T", "at"];
-    Table::new(caption, Column::list(1, &headings)).with_rows(order.iter().take(FACTORS).map(row))
+    first_rows(caption, Column::list(1, &headings), overall_order(result).iter().map(row), IN_CSV)
 }
 
 /// Which outputs have no indices, what the run warns of, and why runs failed.
@@ -109,10 +104,7 @@ pub(super) fn mind(result: &ResultFile) -> Vec<Part> {
     warnings.extend((more > 0).then(|| format!("{more} more warnings are in the JSON file")));
     parts.extend(Part::warnings(&warnings));
     let worst = result.outputs.iter().max_by_key(|output| output.runs_failed);
-    let failed = worst.into_iter().flat_map(|output| &output.failures);
-    parts.extend(failures(
-        failed.map(|f| (&*f.reason, format!("row {}: {}", f.first_row, inputs(&f.first_inputs)), f.runs)),
-    ));
+    parts.extend(worst.and_then(failed_runs));
     parts
 }
 
@@ -134,7 +126,7 @@ pub(super) fn every_output(result: &ResultFile) -> Part {
     let all = result.outputs.len();
     let caption = format!(
         "Mean, standard deviation and total indices S_T of every output.{}{}",
-        super::tables::largest(factors.len(), result.factors.len(), "factors, all in the CSV file"),
+        largest(factors.len(), result.factors.len(), IN_CSV.1),
         if all > OUTPUTS { format!(" The first {OUTPUTS} of {all} outputs.") } else { String::new() }
     );
     let table = Table::new(caption, columns).with_rows(result.outputs.iter().take(OUTPUTS).map(row));

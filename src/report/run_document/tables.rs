@@ -12,6 +12,8 @@ use crate::report::result::{
 
 /// Factors in a table; the files have all of them.
 pub(super) const FACTORS: usize = 50;
+/// The same with what the caption says of the others.
+pub(super) const IN_CSV: (usize, &str) = (FACTORS, "factors, all in the CSV file");
 /// Pairs of factors in a table.
 const PAIRS: usize = 20;
 /// Factors in a table of estimators.
@@ -20,6 +22,17 @@ pub(super) const FACTORS_OF_ESTIMATORS: usize = 20;
 /// `which` of how many are shown, if not all.
 pub(super) fn largest(shown: usize, all: usize, what: &str) -> String {
     if shown < all { format!(" The {shown} largest of {all} {what}.") } else { String::new() }
+}
+
+/// A table of the first rows, which are at most `most`; the caption says how many there are of `what`.
+pub(super) fn first_rows(
+    caption: &str,
+    columns: Vec<Column>,
+    rows: impl ExactSizeIterator<Item = Vec<Cell>>,
+    (most, what): (usize, &str),
+) -> Table {
+    let caption = format!("{caption}{}", largest(rows.len().min(most), rows.len(), what));
+    Table::new(caption, columns).with_rows(rows.take(most))
 }
 
 /// What the noise of that name is called.
@@ -171,12 +184,9 @@ pub(super) fn shares(output: &OutputRecord) -> Option<Part> {
             share(effect.share_total, effect.share_total_interval).into(),
         ]
     };
-    let caption = format!(
-        "Shares in percent of the sums of the indices of all factors, with their 95 % intervals.{}",
-        largest(order.len().min(FACTORS), order.len(), "factors, all in the CSV file")
-    );
+    let caption = "Shares in percent of the sums of the indices of all factors, with their 95 % intervals.";
     let columns = Column::list(1, &["factor", "of the sum of S_1", "of the sum of S_T"]);
-    Some(Table::new(caption, columns).with_rows(order.iter().take(FACTORS).map(row)).into())
+    Some(first_rows(caption, columns, order.iter().map(row), IN_CSV).into())
 }
 
 /// Joint indices of groups of factors.
@@ -223,12 +233,9 @@ pub(super) fn players(output: &OutputRecord) -> Option<Part> {
     let row = |player: &&PlayerRecord| {
         vec![name(&player.player).into(), joined(&player.factors).into(), player.shapley.into()]
     };
-    let columns = [Column::text("group"), Column::text("factors"), Column::number("Shapley effect")];
-    let caption = format!(
-        "Shapley effects of groups of factors.{}",
-        largest(order.len().min(FACTORS), order.len(), "groups, all in the CSV file")
-    );
-    Some(Table::new(caption, columns).with_rows(order.iter().take(FACTORS).map(row)).into())
+    let columns = Column::list(2, &["group", "factors", "Shapley effect"]);
+    let shown = (FACTORS, "groups, all in the CSV file");
+    Some(first_rows("Shapley effects of groups of factors.", columns, order.iter().map(row), shown).into())
 }
 
 /// The largest second-order indices.
@@ -276,7 +283,6 @@ pub(super) fn estimators(output: &OutputRecord) -> Vec<Part> {
         ("First-order indices S_1", |other| other.first_order, |effect| effect.first_order),
         ("Total indices S_T", |other| other.total, |effect| effect.total),
     ];
-    let shown = &order[..order.len().min(FACTORS_OF_ESTIMATORS)];
     let mut parts = Vec::new();
     for (what, of, default) in kinds {
         let has = |index: &OtherIndexRecord| of(index).is_some();
@@ -291,9 +297,8 @@ pub(super) fn estimators(output: &OutputRecord) -> Vec<Part> {
             let all = [Some(default(&index.effect))].into_iter().chain(others);
             [name(&index.factor).into()].into_iter().chain(all.map(Cell::from)).collect()
         };
-        let caption =
-            format!("{what} by estimator.{}", largest(shown.len(), order.len(), "factors, all in the CSV file"));
-        parts.push(Table::new(caption, Column::list(1, &headings)).with_rows(shown.iter().map(row)).into());
+        let (caption, shown) = (format!("{what} by estimator."), (FACTORS_OF_ESTIMATORS, IN_CSV.1));
+        parts.push(first_rows(&caption, Column::list(1, &headings), order.iter().map(row), shown).into());
     }
     parts
 }

@@ -1,6 +1,6 @@
 //! The values of one output, and the surrogate that was fitted to them.
 
-use super::tables::{FACTORS_OF_ESTIMATORS, largest};
+use super::tables::{FACTORS_OF_ESTIMATORS, first_rows};
 use crate::report::document::{Cell, Column, Part, Table};
 use crate::report::format::{among_with_unit, axis_unit, grouped, index, minus, name, significant, value};
 use crate::report::leading::by_total;
@@ -85,7 +85,6 @@ pub(super) fn surrogate(output: &OutputRecord, record: &SurrogateRecord) -> Vec<
     let mut parts =
         vec![Part::Table(Table::new(caption, Column::list(1, &["term", "of the variance"])).with_rows(rows))];
     if let Some(order) = by_total(output) {
-        let shown = &order[..order.len().min(FACTORS_OF_ESTIMATORS)];
         let row = |&(number, index): &(usize, &IndexRecord)| -> Vec<Cell> {
             let plain = record.plain.get(number);
             let effect = &index.effect;
@@ -98,9 +97,8 @@ pub(super) fn surrogate(output: &OutputRecord, record: &SurrogateRecord) -> Vec<
             ]
         };
         let headings = ["factor", "S_1", "S_1 plain", "S_T", "S_T plain"];
-        let caption =
-            format!("Indices with and without the surrogate.{}", largest(shown.len(), order.len(), "factors"));
-        parts.push(Part::Table(Table::new(caption, Column::list(1, &headings)).with_rows(shown.iter().map(row))));
+        let (caption, shown) = ("Indices with and without the surrogate.", (FACTORS_OF_ESTIMATORS, "factors"));
+        parts.push(first_rows(caption, Column::list(1, &headings), order.iter().map(row), shown).into());
     }
     parts
 }

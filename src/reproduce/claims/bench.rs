@@ -4,7 +4,7 @@ use super::ClaimsError;
 use super::curve::{Curve, grid};
 use super::judge::{Holding, Share};
 use super::numbers::number;
-use crate::reproduce::{Effort, studies};
+use crate::reproduce::{Effort, general_study};
 use apportion::afm::history::{History, history};
 use apportion::afm::modes::Pushing;
 use apportion::afm::{Critical, Failure, Fidelity, FrictionLaw, Options, Parameter, Scene, critical_force};
@@ -104,8 +104,7 @@ pub(super) struct Bench<'a> {
 impl<'a> Bench<'a> {
     /// With the ranges of the general study.
     pub fn new(physics: Physics<'a>, effort: Effort) -> Result<Self, ClaimsError> {
-        let (_, _, study) =
-            studies(&[])?.into_iter().find(|(group, ..)| group.key == "general").ok_or(ClaimsError::NoRanges)?;
+        let study = general_study()?;
         let parameters = study.space().factors().iter().map(|factor| Parameter::from_name(&factor.name)).collect();
         let parameters: Option<Vec<_>> = parameters;
         let parameters = parameters.ok_or(ClaimsError::NoRanges)?;

@@ -123,7 +123,7 @@ fn width(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
 pub(super) fn straightness(curve: &Curve) -> String {
     let (bend, r_squared) = curve.bend();
     let r_squared = if r_squared > 0.999_95 { "above 0.9999".to_owned() } else { format!("{r_squared:.4}") };
-    format!("{}, off a straight line by {} of the rise, R^2 {r_squared}", from_to(curve), change(bend))
+    format!("{}, off a straight line by {} of the rise, R² {r_squared}", from_to(curve), change(bend))
 }
 
 /// Claim 10.

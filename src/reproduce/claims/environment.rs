@@ -122,7 +122,7 @@ fn contact_modulus(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
         verdict: judge(&holdings),
         range: over_ranges(&holdings),
         finding: format!(
-            "From {} F_cr goes {} under Coulomb friction, a change of {} by its term tau pi a^2, and {} under Hurtado-Kim \
+            "From {} F_cr goes {} under Coulomb friction, a change of {} by its term τ π a², and {} under Hurtado-Kim \
              friction, a change of {}, at the nominal scene.",
             sweep.words(),
             from_to(&flat),
@@ -189,7 +189,7 @@ fn frozen(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
     let loaded = Options { adhesion_in_load: true, ..options };
     let mut holdings = Vec::new();
     let mut findings = Vec::new();
-    for (name, symbol) in [("equivalent_modulus", "K"), ("adhesion", "omega")] {
+    for (name, symbol) in [("equivalent_modulus", "K"), ("adhesion", "ω")] {
         let sweep = bench.over(name)?;
         let rule = |scene: &Scene| Ok(bench.curve(&sweep, scene, &options)?.spread() < NO_EFFECT);
         holdings.push(bench.holding(format!("{symbol} invisible"), bench.sizes.points, &rule)?);

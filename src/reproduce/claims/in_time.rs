@@ -54,7 +54,7 @@ fn run(bench: &Bench<'_>) -> Result<[Claim; 2], ClaimsError> {
         format!("with G = {}, as CHK and LG print: {} ({value})", giga(&other), verdict.word())
     };
     let setting = format!(
-        "Exact geometry, Coulomb friction, JKR, nominal scene at V = 100 nm/s, {DURATION} s, with G = {} = E/(2 (1 + nu)), \
+        "Exact geometry, Coulomb friction, JKR, nominal scene at V = 100 nm/s, {DURATION} s, with G = {} = E/(2 (1 + ν)), \
          which TS04 prints in its table 2",
         giga(&nominal)
     );
@@ -73,15 +73,15 @@ fn run(bench: &Bench<'_>) -> Result<[Claim; 2], ClaimsError> {
         Claim {
             number: 1,
             source: "TS04",
-            statement: "After 0.4 s the particle has moved -21 nm relative to the substrate.",
+            statement: "After 0.4 s the particle has moved −21 nm relative to the substrate.",
             verdict: verdict(moved, DISPLACEMENT),
             range: beside(&verdict(other_moved, DISPLACEMENT), nano(other_moved, "m")),
             finding: format!(
-                "It has moved {}. At 100 nm/s, -21 nm belong to a slip at {}.",
+                "It has moved {}. At 100 nm/s, −21 nm belong to a slip at {}.",
                 nano(moved, "m"),
                 number(needed, "s")
             ),
-            setting: format!("{setting}; -21 nm means to 1 nm."),
+            setting: format!("{setting}; −21 nm means to 1 nm."),
             figures: &["ts04-10"],
         },
     ])
@@ -149,7 +149,7 @@ fn delay(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
     let options = closed(FrictionLaw::Coulomb);
     let slip_time = |scene: &Scene| (bench.physics.force)(scene, &options)?.critical_time;
     let rule = |scene: &Scene| Ok(bench.curve_of(&sweep, scene, &slip_time)?.rises());
-    let holdings = [bench.holding("later slip with higher mu_s", bench.sizes.points, &rule)?];
+    let holdings = [bench.holding("later slip with higher μ_s", bench.sizes.points, &rule)?];
     let nominal = bench.curve_of(&sweep, &Scene::default(), &slip_time)?;
     Ok(Claim {
         number: 3,
@@ -158,12 +158,12 @@ fn delay(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
         verdict: judge(&holdings),
         range: over_ranges(&holdings),
         finding: format!(
-            "At the nominal scene the slip comes after {} with mu_s = 0.1 and after {} with mu_s = 1.2.",
+            "At the nominal scene the slip comes after {} with μ_s = 0.1 and after {} with μ_s = 1.2.",
             number(nominal.first(), "s"),
             number(nominal.last(), "s")
         ),
         setting: format!(
-            "Closed form, Coulomb friction (that of TS04; Hurtado-Kim friction knows no mu_s), {} values of mu_s from 0.1 \
+            "Closed form, Coulomb friction (that of TS04; Hurtado-Kim friction knows no μ_s), {} values of μ_s from 0.1 \
              to 1.2 at the nominal scene and at {} points of the general study's box.",
             sweep.count, bench.sizes.points
         ),
@@ -195,7 +195,7 @@ fn contacts(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
     ];
     let nominal = history(&Scene::default())?;
     let (start, held) = ends(&nominal.samples);
-    let square_nano = |area: f64| number(area * 1e18, "nm2");
+    let square_nano = |area: f64| number(area * 1e18, "nm²");
     let tip_finding = match (start.tip_contact, held.tip_contact) {
         (Some(before), Some(after)) => format!(
             "the tip's contact grows from {} to {} and its indentation from {} to {}",

@@ -20,7 +20,7 @@ mod shares;
 #[cfg(test)]
 mod tests;
 
-pub use export::{claims_csv, claims_json};
+pub use export::claims_json;
 
 use std::fmt;
 

@@ -42,8 +42,8 @@ fn angle(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
     let against_contact_angle = |scene: &Scene| Ok(bench.curve(&sweep, scene, &options)?.falls());
     let points = bench.sizes.slow_points;
     let holdings = [
-        bench.holding("fall of F*_ss with the angle psi of the tip force", points, &against_force_angle)?,
-        bench.holding("fall of F_cr with the contact angle phi", points, &against_contact_angle)?,
+        bench.holding("fall of F_ss* with the angle ψ of the tip force", points, &against_force_angle)?,
+        bench.holding("fall of F_cr with the contact angle φ", points, &against_contact_angle)?,
     ];
     let nominal = Scene::default();
     let ends = |adhesion_in_load| -> Result<String, Failure> {
@@ -51,7 +51,7 @@ fn angle(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
         let words = |point: Option<&(f64, Option<f64>)>| {
             point.map_or_else(String::new, |(angle, force)| {
                 let force = force.map_or_else(|| "no bound".to_owned(), |force| nano(force, "N"));
-                format!("{force} at {}", number(angle.to_degrees(), "deg"))
+                format!("{force} at {}°", number(angle.to_degrees(), ""))
             })
         };
         Ok(format!("{} to {}", words(points.first()), words(points.last())))
@@ -64,14 +64,14 @@ fn angle(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
         verdict: judge(&holdings),
         range: over_ranges(&holdings),
         finding: format!(
-            "At the nominal scene the mode diagram's F*_ss falls with psi from {} (with the pull-off force in the load: \
-             {}). The contact angle phi from 0 to 90 deg changes F_cr by {}: the preload sets the normal force.",
+            "At the nominal scene the mode diagram's F_ss* falls with ψ from {} (with the pull-off force in the load: \
+             {}). The contact angle φ from 0° to 90° changes F_cr by {}: the preload sets the normal force.",
             ends(false)?,
             ends(true)?,
             change(unmoved)
         ),
         setting: format!(
-            "Coulomb friction, JKR; F*_ss(psi) at {} angles from 2.9 deg above the angle of friction to 90 deg, with and \
+            "Coulomb friction, JKR; F_ss*(ψ) at {} angles from 2.9° above the angle of friction to 90°, with and \
              without adhesion in the load; F_cr by exact geometry at {} contact angles; nominal scene and {points} points \
              of the general study's box.",
             bench.sizes.curve, sweep.count
@@ -119,7 +119,7 @@ fn rolling(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
         finding: format!(
             "TS04 prints no criterion for rolling. By a moment criterion of ours, at the nominal scene rolling sets in {}, \
              sliding {}, slip at the tip {}: the preload alone drives rolling with {} times what resists it, and would not \
-             with xi above {}. Held between a tip that stands still and a moving substrate, the particle rolls only if the \
+             with ξ above {}. Held between a tip that stands still and a moving substrate, the particle rolls only if the \
              tip slips too: then rolling starts {}.",
             at(roll),
             at(slide),
@@ -131,8 +131,8 @@ fn rolling(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
         ),
         setting: format!(
             "Tip force of constant F_Z and rising F_Y, each motion from where its drive first exceeds its resistance; \
-             Coulomb friction, JKR; rolling resisted at either contact by 4 F_ad (a/a0)^1.5 xi (Dominik and Tielens 1997) \
-             with xi = {}; friction at the tip {} (both ours); nominal scene and {points} points of the general study's \
+             Coulomb friction, JKR; rolling resisted at either contact by 4 F_ad (a/a0)^1.5 ξ (Dominik and Tielens 1997) \
+             with ξ = {}; friction at the tip {} (both ours); nominal scene and {points} points of the general study's \
              box.",
             nano(pushing.constants.rolling_shift, "m"),
             pushing.constants.tip_friction

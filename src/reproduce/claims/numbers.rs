@@ -1,5 +1,6 @@
 //! Numbers of findings.
 
+use apportion::report::format::minus;
 use apportion::report::{fixed, significant, with_unit};
 
 /// To three significant digits: the scene's constants bear no more.
@@ -16,9 +17,9 @@ pub(super) fn nano(value: f64, unit: &str) -> String {
 pub(super) fn number(value: f64, unit: &str) -> String {
     const TINY: f64 = 1e-4;
     if value != 0.0 && value.abs() < TINY {
-        return format!("{value:.1e} {unit}").trim_end().to_owned();
+        return minus(format!("{value:.1e} {unit}").trim_end());
     }
-    with_unit(rounded(value), unit)
+    minus(&with_unit(rounded(value), unit))
 }
 
 /// A share in percent without the sign, to one decimal; two where it is close to 0 or 100 and neither.
@@ -31,10 +32,9 @@ pub(super) fn percent_of(share: f64) -> String {
 pub(super) fn change(relative: f64) -> String {
     let percent = 100.0 * relative;
     if percent != 0.0 && percent.abs() < 1e-3 {
-        format!("{percent:.0e} %")
+        minus(&format!("{percent:.0e} %"))
     } else {
-        let digits: f64 = format!("{percent:.2e}").parse().unwrap_or(percent);
-        with_unit(digits, "%")
+        minus(&with_unit(rounded(percent), "%"))
     }
 }
 
@@ -45,7 +45,7 @@ mod tests {
     #[test]
     fn findings_have_few_digits() {
         assert_eq!(nano(631.3456e-9, "N"), "631 nN");
-        assert_eq!(nano(-19.044e-9, "m"), "-19 nm");
+        assert_eq!(nano(-19.044e-9, "m"), "−19 nm");
         assert_eq!(number(0.209_47, "s"), "0.209 s");
         assert_eq!((number(2.99, ""), number(3.0411e-5, "nN")), ("2.99".into(), "3.0e-5 nN".into()));
         assert_eq!(

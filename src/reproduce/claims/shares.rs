@@ -5,8 +5,8 @@ use super::dimensions::NO_EFFECT;
 use super::numbers::{change, nano};
 use super::{Claim, ClaimsError, Verdict};
 use crate::reproduce::order::{Agreement, OrderVerdict, Standing, VISIBLE, order_of, outweighing};
-use crate::reproduce::published::CLOSE;
-use crate::reproduce::{FRICTIONS, Friction, GROUPS, Reproduced, published};
+use crate::reproduce::published::{CLOSE, PRINTED};
+use crate::reproduce::{FRICTIONS, Friction, GROUPS, Published, Reproduced, published};
 use apportion::afm::{Failure, FrictionLaw, Scene};
 use apportion::report::{EffectRecord, EstimateRecord, IndexRecord, fixed, give_or_take, share};
 
@@ -16,9 +16,6 @@ const PRODUCT: f64 = 1e-3;
 
 /// What a percentage in whole numbers may have been before rounding.
 const ROUNDED: f64 = 0.5;
-
-/// The friction model whose percentages are printed.
-const PRINTED: &str = "lugre";
 
 pub(super) fn claims(bench: &Bench<'_>, studies: &[Reproduced]) -> Result<Vec<Claim>, ClaimsError> {
     let studies = Studies(studies);
@@ -99,7 +96,7 @@ impl<'a> Studies<'a> {
         let mut findings = Vec::new();
         for friction in FRICTIONS {
             let (study, indices) = self.find(claim.group, friction)?;
-            let (order, _) = order_of(study);
+            let order = order_of(study);
             agreements.push(order.agreement());
             let phrase = stands(&order);
             match phrases.iter_mut().find(|(known, _)| *known == phrase) {
@@ -170,33 +167,30 @@ fn shares_in_words(indices: &[IndexRecord], order: &OrderVerdict<'_>) -> String 
 }
 
 /// The verdict on printed percentages and under which reading it stands: all have to be ours under one reading.
-fn percentages(indices: &[IndexRecord], printed: &[(&str, f64)]) -> (Verdict, String) {
+fn percentages(indices: &[IndexRecord], printed: &Published) -> (Verdict, String) {
     let close = |reading: fn(&EffectRecord) -> Option<f64>| {
-        printed.iter().all(|(factor, percent)| {
+        printed.shares.iter().all(|(factor, percent)| {
             let ours = indices.iter().find(|index| index.factor == *factor).and_then(|index| reading(&index.effect));
             ours.is_some_and(|ours| (ours - percent).abs() <= CLOSE)
         })
     };
-    let (verdict, reading) = match (close(|effect| effect.share_first_order), close(|effect| effect.share_total)) {
-        (true, true) => (Verdict::Reproduced, "as shares by first-order and by total index"),
-        (true, false) => (Verdict::Reproduced, "as shares by first-order index, not by total index"),
-        (false, true) => (Verdict::Reproduced, "as shares by total index, not by first-order index"),
-        (false, false) => (Verdict::NotReproduced, "neither as shares by first-order nor by total index"),
+    let reading = match (close(|effect| effect.share_first_order), close(|effect| effect.share_total)) {
+        (true, true) => "as shares by first-order and by total index",
+        (true, false) => "as shares by first-order index, not by total index",
+        (false, true) => "as shares by total index, not by first-order index",
+        (false, false) => {
+            return (Verdict::NotReproduced, "neither as shares by first-order nor by total index".to_owned());
+        }
     };
-    (verdict, reading.to_owned())
+    (Verdict::Reproduced, reading.to_owned())
 }
 
 /// The printed percentages beside ours.
-fn side_by_side(indices: &[IndexRecord], printed: &[(&str, f64)]) -> String {
-    let each = printed.iter().filter_map(|(factor, percent)| {
+fn side_by_side(indices: &[IndexRecord], printed: &Published) -> String {
+    let each = printed.shares.iter().filter_map(|(factor, percent)| {
         let effect = &indices.iter().find(|index| index.factor == *factor)?.effect;
-        let (first, total) = (effect.share_first_order?, effect.share_total?);
-        Some(format!(
-            "{} {} and {} % ({percent} % printed)",
-            factor.replace('_', " "),
-            fixed(first, 1),
-            fixed(total, 1)
-        ))
+        let (first, total) = (fixed(effect.share_first_order?, 1), fixed(effect.share_total?, 1));
+        Some(format!("{} {first} and {total} % ({percent} % printed)", factor.replace('_', " ")))
     });
     each.collect::<Vec<_>>().join(", ")
 }
@@ -213,15 +207,15 @@ fn percentage_setting(studies: &Studies<'_>, group: &'static str) -> Result<Stri
 /// Claim 17, second half.
 fn dimensional_percentage(studies: &Studies<'_>) -> Result<Claim, ClaimsError> {
     let (_, indices) = studies.printed("dimensional")?;
-    let printed = published("dimensional", PRINTED).shares;
-    let (verdict, range) = percentages(indices, printed);
+    let printed = published("dimensional", PRINTED);
+    let (verdict, range) = percentages(indices, &printed);
     Ok(Claim {
         number: 17,
         source: "LG fig. 4a",
         statement: "Under LuGre friction the thickness has a share of 76 % among the dimensions.",
         verdict,
         range,
-        finding: format!("Our shares by first order and by total index: {}.", side_by_side(indices, printed)),
+        finding: format!("Our shares by first order and by total index: {}.", side_by_side(indices, &printed)),
         setting: percentage_setting(studies, "dimensional")?,
         figures: &["lg-4a", "dimensional"],
     })
@@ -230,9 +224,9 @@ fn dimensional_percentage(studies: &Studies<'_>) -> Result<Claim, ClaimsError> {
 /// Claim 17, what LG's text says of the width. A printed percentage above half is that of the most effective factor.
 fn most_effective(studies: &Studies<'_>) -> Result<Claim, ClaimsError> {
     let (study, indices) = studies.printed("dimensional")?;
-    let printed = published("dimensional", PRINTED).shares;
-    let (order, _) = order_of(study);
-    let most = printed.iter().find(|(factor, percent)| *percent > 50.0 && *factor != "width");
+    let order = order_of(study);
+    let most =
+        published("dimensional", PRINTED).shares.iter().find(|(factor, percent)| *percent > 50.0 && *factor != "width");
     let verdict = match most {
         Some((factor, percent)) => Verdict::Contradicted { own: format!("{percent} % for the {factor} (LG fig. 4a)") },
         None if order.ours.first() == Some(&"width") => Verdict::Reproduced,
@@ -256,8 +250,8 @@ fn most_effective(studies: &Studies<'_>) -> Result<Claim, ClaimsError> {
 /// Claim 18, second half.
 fn environmental_percentages(bench: &Bench<'_>, studies: &Studies<'_>) -> Result<Claim, ClaimsError> {
     let (_, indices) = studies.printed("environmental")?;
-    let printed = published("environmental", PRINTED).shares;
-    let percent = |name: &str| printed.iter().find(|(factor, _)| *factor == name).map_or(f64::NAN, |(_, share)| *share);
+    let printed = published("environmental", PRINTED);
+    let percent = |name: &str| printed.share(name).unwrap_or(f64::NAN);
     let (nominal, options) = (Scene::default(), closed(FrictionLaw::LuGre));
     let over = |name: &str| -> Result<f64, ClaimsError> {
         let curve = bench.curve(&bench.over(name)?, &nominal, &options)?;
@@ -266,7 +260,7 @@ fn environmental_percentages(bench: &Bench<'_>, studies: &Studies<'_>) -> Result
     let (by_modulus, by_velocity) = (over("elastic_modulus")?, over("velocity")?);
     // Variances of straight lines are to each other as the squares of their rises.
     let needed = by_modulus * (percent("velocity") / percent("elastic_modulus")).sqrt();
-    let (verdict, range) = percentages(indices, printed);
+    let (verdict, range) = percentages(indices, &printed);
     let visible = needed / bench.force(&nominal, &options)? > NO_EFFECT;
     let verdict = match verdict {
         Verdict::NotReproduced if visible => {
@@ -283,7 +277,7 @@ fn environmental_percentages(bench: &Bench<'_>, studies: &Studies<'_>) -> Result
         finding: format!(
             "Our shares by first order and by total index: {}. Over its range Young's modulus changes F_cr by {}; for the \
              printed ratio the velocity would have to change it by about {}, and changes it by {}.",
-            side_by_side(indices, printed),
+            side_by_side(indices, &printed),
             nano(by_modulus, "N"),
             nano(needed, "N"),
             nano(by_velocity, "N")
@@ -312,8 +306,8 @@ fn is_product(bench: &Bench<'_>) -> Result<bool, Failure> {
 
 /// Share in percent of the thickness among thickness, length and width, as printed for the general study, and between
 /// which values rounding leaves it.
-fn thickness_among(printed: &[(&str, f64)]) -> (f64, (f64, f64)) {
-    let percent = |name: &str| printed.iter().find(|(factor, _)| *factor == name).map_or(0.0, |(_, share)| *share);
+fn thickness_among(printed: &Published) -> (f64, (f64, f64)) {
+    let percent = |name: &str| printed.share(name).unwrap_or(0.0);
     let (thickness, others) = (percent("thickness"), percent("length") + percent("width"));
     let share = |by: f64| 100.0 * (thickness + by) / ((thickness + by) + (others - 2.0 * by));
     (share(0.0), (share(-ROUNDED), share(ROUNDED)))
@@ -322,13 +316,12 @@ fn thickness_among(printed: &[(&str, f64)]) -> (f64, (f64, f64)) {
 /// Claim 19, second half.
 fn general_percentages(bench: &Bench<'_>, studies: &Studies<'_>) -> Result<Claim, ClaimsError> {
     let (_, indices) = studies.printed("general")?;
-    let printed = published("general", PRINTED).shares;
-    let dimensional = published("dimensional", PRINTED).shares;
-    let alone = dimensional.iter().find(|(factor, _)| *factor == "thickness").map_or(f64::NAN, |(_, share)| *share);
-    let (among, (low, high)) = thickness_among(printed);
+    let printed = published("general", PRINTED);
+    let alone = published("dimensional", PRINTED).share("thickness").unwrap_or(f64::NAN);
+    let (among, (low, high)) = thickness_among(&printed);
     let product = is_product(bench)?;
     let apart = low > alone + ROUNDED || high < alone - ROUNDED;
-    let (verdict, range) = percentages(indices, printed);
+    let (verdict, range) = percentages(indices, &printed);
     let verdict = match verdict {
         Verdict::NotReproduced if product && apart => {
             Verdict::Contradicted { own: format!("{alone} % for the thickness among the dimensions (LG fig. 4a)") }
@@ -357,7 +350,7 @@ fn general_percentages(bench: &Bench<'_>, studies: &Studies<'_>) -> Result<Claim
         range,
         finding: format!(
             "Our shares by first order and by total index: {}. {consequence}.",
-            side_by_side(indices, printed)
+            side_by_side(indices, &printed)
         ),
         setting: format!(
             "{} Whether F_cr is a product is asked at {} points of the general study's box.",

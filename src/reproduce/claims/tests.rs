@@ -38,8 +38,12 @@ fn the_verdicts_are_those_reviewed() {
         );
         assert!(!claim.figures.is_empty());
     }
-    let csv = claims_csv(&claims);
-    assert_eq!(csv::Reader::from_reader(csv.as_bytes()).records().count(), claims.len());
+    let json: serde_json::Value = serde_json::from_str(&claims_json(&claims).unwrap()).unwrap();
+    assert_eq!(json["format"], "apportion-claims");
+    for (place, verdict) in [(17, "reproduced"), (18, "not-reproduced"), (19, "contradicted")] {
+        let claim = &json["claims"][place];
+        assert_eq!((claim["verdict"].as_str(), claim.get("own").is_some()), (Some(verdict), verdict == "contradicted"));
+    }
 }
 
 /// More points sharpen the shares of the box; no verdict hangs on them.

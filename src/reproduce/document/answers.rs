@@ -1,28 +1,20 @@
 //! The answer in short: which factor leads in each study, how sure that is, and in what order the rest follow.
 
 use crate::reproduce::order::VISIBLE;
+use crate::reproduce::shares::{indices, ranked};
 use crate::reproduce::{FRICTIONS, Friction, GROUPS, Reproduced, StudyGroup};
 use apportion::report::document::{Cell, Column, Mark, OnPhone, Part, Table};
-use apportion::report::format::{give_or_take, words};
+use apportion::report::format::words;
 use apportion::report::{EffectRecord, IndexRecord, fixed, listed, share_of_runs};
-
-/// The factors of a study, the largest total share first.
-fn ranked(study: &Reproduced) -> Vec<(&IndexRecord, f64)> {
-    let indices = study.result.outputs.first().and_then(|output| output.indices.as_deref()).unwrap_or_default();
-    let mut ranked: Vec<(&IndexRecord, f64)> =
-        indices.iter().filter_map(|index| Some((index, index.effect.share_total?))).collect();
-    ranked.sort_by(|a, b| b.1.total_cmp(&a.1));
-    ranked
-}
 
 /// An index in percent of the variance, to a whole percent; one decimal below 10 %.
 fn percent(index: f64) -> String {
     format!("{} %", fixed(100.0 * index, if index < 0.0995 { 1 } else { 0 }))
 }
 
-/// A share in percent in a column whose heading has the unit.
-fn share(share: Option<f64>) -> Cell {
-    share.map_or_else(|| "–".to_owned(), |share| fixed(share, 1)).into()
+/// What a factor explains alone and with its interactions.
+fn explained(effect: &EffectRecord) -> (String, String) {
+    (percent(effect.first_order.estimate), percent(effect.total.estimate))
 }
 
 /// How sure it is that the leader leads.
@@ -43,7 +35,7 @@ pub(super) fn table(studies: &[Reproduced]) -> Table {
     };
     let row = |group: &StudyGroup| {
         let cells = FRICTIONS.iter().map(|friction| cell(*group, *friction));
-        [Cell::marked(title(*group), Mark::Strong)].into_iter().chain(cells).collect()
+        [Cell::marked(group.title, Mark::Strong)].into_iter().chain(cells).collect()
     };
     let caption = "The leading factor of each study: the part of the variance of the critical force that it explains alone \
                    (first-order index S_1) and with all its interactions (total index S_T), and the factors that follow \
@@ -53,30 +45,17 @@ pub(super) fn table(studies: &[Reproduced]) -> Table {
     Table { on_phone: OnPhone::StackLabelled, ..Table::new(caption, columns).with_rows(GROUPS.iter().map(row)) }
 }
 
-/// What varies in a group of studies.
-fn title(group: StudyGroup) -> &'static str {
-    match group.key {
-        "dimensional" => "the cantilever's dimensions",
-        "environmental" => "the environment",
-        _ => "all eight factors",
-    }
-}
-
 fn leader(study: &Reproduced) -> Cell {
-    let ranked = ranked(study);
-    let Some((first, rest)) = ranked.split_first() else { return "no indices".into() };
-    let explained = |index: &IndexRecord| {
-        let EffectRecord { first_order, total, .. } = &index.effect;
-        format!("{} alone, {} with interactions", percent(first_order.estimate), percent(total.estimate))
-    };
-    let others = rest.iter().filter(|(_, share)| *share >= VISIBLE);
-    let others: Vec<String> = others
-        .map(|(index, _)| format!("{} ({})", words(&index.factor), percent(index.effect.total.estimate)))
-        .collect();
+    let mut ranked = ranked(study).into_iter().map(|place| &indices(study)[place]);
+    let Some(IndexRecord { factor, effect }) = ranked.next() else { return "no indices".into() };
+    let others = ranked.filter(|index| index.effect.share_total.is_some_and(|share| share >= VISIBLE));
+    let others: Vec<String> =
+        others.map(|index| format!("{} ({})", words(&index.factor), percent(index.effect.total.estimate))).collect();
     let followed = if others.is_empty() { "nothing else".to_owned() } else { others.join(", ") };
+    let (alone, together) = explained(effect);
     Cell {
-        note: format!("{}; {}; then {followed}", explained(first.0), certainty(&first.0.effect)),
-        ..Cell::marked(words(&first.0.factor), Mark::Strong)
+        note: format!("{alone} alone, {together} with interactions; {}; then {followed}", certainty(effect)),
+        ..Cell::marked(words(factor), Mark::Strong)
     }
 }
 
@@ -104,26 +83,14 @@ fn where_it_holds(studies: &[Reproduced]) -> String {
 
 /// `Thickness explains 33 % of the variance of the critical force alone and 67 % with its interactions (Coulomb); ...`.
 fn sentence(studies: &[Reproduced], group: StudyGroup) -> Option<String> {
-    let leaders: Vec<(Friction, &IndexRecord)> = studies
-        .iter()
-        .filter(|study| study.group == group)
-        .filter_map(|study| ranked(study).first().map(|(index, _)| (study.friction, *index)))
-        .collect();
-    let among = match group.key {
-        "dimensional" => "Among the dimensions alone",
-        "environmental" => "Among the factors of the environment alone",
-        _ => "Of all eight factors together",
-    };
-    let numbers = |index: &IndexRecord| {
-        let EffectRecord { first_order, total, .. } = &index.effect;
-        (percent(first_order.estimate), percent(total.estimate))
-    };
     // Friction models with the same factor and the same numbers are named together.
     let mut groups: Vec<(&str, (String, String), Vec<&str>)> = Vec::new();
-    for (friction, index) in &leaders {
-        match groups.iter_mut().find(|(factor, same, _)| *factor == index.factor && *same == numbers(index)) {
-            Some((.., frictions)) => frictions.push(friction.name),
-            None => groups.push((&index.factor, numbers(index), vec![friction.name])),
+    for study in studies.iter().filter(|study| study.group == group) {
+        let Some(&leader) = ranked(study).first() else { continue };
+        let IndexRecord { factor, effect } = &indices(study)[leader];
+        match groups.iter_mut().find(|(known, same, _)| known == factor && *same == explained(effect)) {
+            Some((.., frictions)) => frictions.push(study.friction.name),
+            None => groups.push((factor, explained(effect), vec![study.friction.name])),
         }
     }
     let said: Vec<String> = groups
@@ -141,32 +108,7 @@ fn sentence(studies: &[Reproduced], group: StudyGroup) -> Option<String> {
             }
         })
         .collect();
-    (!said.is_empty()).then(|| format!("{among}, {}.", said.join("; ")))
-}
-
-/// Every share of every study beside the published one, for the table of all shares.
-pub(super) fn all_shares(studies: &[Reproduced]) -> Vec<Vec<Cell>> {
-    let mut rows = Vec::new();
-    for study in studies {
-        let print = crate::reproduce::published(study.group.key, study.friction.key);
-        for (place, (index, _)) in ranked(study).into_iter().enumerate() {
-            let IndexRecord { factor, effect } = index;
-            let printed = print.shares.iter().find(|(name, _)| name == factor);
-            rows.push(vec![
-                match place {
-                    0 => Cell { note: study.friction.name.to_owned(), ..study.group.key.into() },
-                    _ => Cell::default(),
-                },
-                words(factor).into(),
-                give_or_take(effect.first_order).into(),
-                give_or_take(effect.total).into(),
-                share(effect.share_first_order),
-                share(effect.share_total),
-                printed.map_or_else(String::new, |(_, share)| share.to_string()).into(),
-            ]);
-        }
-    }
-    rows
+    (!said.is_empty()).then(|| format!("{}, {}.", group.among, said.join("; ")))
 }
 
 /// What a careful reader should know of each study, a sentence each.

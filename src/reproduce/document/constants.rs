@@ -1,6 +1,6 @@
 //! The constants that the papers print, those that are used, and why; and the ranges of the factors.
 
-use crate::reproduce::studies;
+use crate::reproduce::general_study;
 use apportion::afm::Scene;
 use apportion::afm::modes::ModeConstants;
 use apportion::report::document::{Column, Part, Section, Table};
@@ -77,8 +77,7 @@ pub(super) fn section() -> Section {
     let table = Table::new(caption, ["constant", "printed", "used", "why"].map(Column::text))
         .with_rows(constants().into_iter().map(|row| row.map(Into::into).into()));
     let mut parts = vec![Part::Table(table)];
-    let general = studies(&[]).ok().and_then(|all| all.into_iter().find(|(group, ..)| group.key == "general"));
-    if let Some((_, _, study)) = general {
+    if let Ok(study) = general_study() {
         let row = |factor: &apportion::space::Factor| {
             let (low, high) = factor.distribution().support();
             let group = factor.group.clone().unwrap_or_default();
@@ -89,5 +88,5 @@ pub(super) fn section() -> Section {
             .with_rows(study.space().factors().iter().map(row));
         parts.push(Part::Details { summary: "The ranges of the factors".to_owned(), parts: vec![Part::Table(table)] });
     }
-    Section::new("constants", "Constants: printed, used, and why", parts)
+    Section::new("constants", "Constants: printed, used, and why", vec![Part::OnPage(parts)])
 }

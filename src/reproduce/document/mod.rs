@@ -4,14 +4,14 @@ mod answers;
 mod constants;
 mod figures;
 mod provenance;
-mod typeset;
 mod verdicts;
 
-use super::claims::{claims_csv, claims_json};
+use super::claims::claims_json;
 use super::figures::ANIMATION_STEM;
 use super::percentages::{self, percentages_csv};
-use super::{ReproduceError, Reproduction, shares_csv};
-use apportion::report::document::{Column, DataFile, Document, Part, Section, Table};
+use super::shares::shares_table;
+use super::{ReproduceError, Reproduced, Reproduction};
+use apportion::report::document::{DataFile, Document, Part, Section, Table};
 use apportion::report::result_json;
 
 /// The document about `reproduction`; what was not asked for is left out. But for the times in the results, its files are
@@ -40,18 +40,15 @@ pub fn document(reproduction: &Reproduction) -> Result<Document, ReproduceError>
     })
 }
 
-/// The files for programs: results, shares, claims and percentages, and the numbers of every figure.
+/// The files for programs: results, claims and percentages, and the numbers of every figure. Two tables of the page are
+/// files too: the claims and the shares.
 fn files(reproduction: &Reproduction) -> Result<Vec<DataFile>, ReproduceError> {
     let mut files = Vec::new();
     let mut add = |name: String, text: String| files.push(DataFile { name, text });
     for study in &reproduction.studies {
         add(format!("{}-{}.json", study.friction.key, study.group.key), result_json(&study.result));
     }
-    if !reproduction.studies.is_empty() {
-        add("shares.csv".to_owned(), shares_csv(&reproduction.studies));
-    }
     if !reproduction.claims.is_empty() {
-        add("claims.csv".to_owned(), claims_csv(&reproduction.claims));
         add("claims.json".to_owned(), claims_json(&reproduction.claims)?);
     }
     if !reproduction.percentages.is_empty() {
@@ -101,8 +98,8 @@ fn claims_section(reproduction: &Reproduction) -> Option<Section> {
     if reproduction.claims.is_empty() {
         return None;
     }
-    let parts =
-        vec![verdicts::table(&reproduction.claims), verdicts::details(&reproduction.claims, &reproduction.figures)];
+    let details = verdicts::details(&reproduction.claims, &reproduction.figures);
+    let parts = vec![verdicts::table(&reproduction.claims).into(), Part::OnPage(vec![details])];
     Some(Section::new("claims", "Are the papers right?", parts))
 }
 
@@ -120,18 +117,8 @@ fn shares_section(reproduction: &Reproduction) -> Option<Section> {
     if studies.is_empty() {
         return None;
     }
-    let caption = "First-order and total indices of every study with their 95 % intervals, their shares, and the \
-                   percentages that LG prints; the CSV file has the intervals of the shares too.";
-    let columns = [
-        Column::text("study"),
-        Column::text("factor"),
-        Column::number("S_1"),
-        Column::number("S_T"),
-        Column::number("% of S_1"),
-        Column::number("% of S_T"),
-        Column::number("printed"),
-    ];
-    let table = Table::new(caption, columns).with_rows(answers::all_shares(studies));
+    let table = shares_table(&studies.iter().collect::<Vec<&Reproduced>>());
+    let table = Table { file: "shares.csv".to_owned(), ..table };
     let mut parts = vec![Part::Details {
         summary: "The indices and shares of every study".to_owned(),
         parts: vec![Part::Table(table)],
@@ -148,5 +135,5 @@ fn shares_section(reproduction: &Reproduction) -> Option<Section> {
 }
 
 fn provenance_section(reproduction: &Reproduction) -> Section {
-    Section::new("provenance", "How this page was made", vec![provenance::table(reproduction)])
+    Section::new("provenance", "How this page was made", vec![Part::OnPage(vec![provenance::table(reproduction)])])
 }

@@ -25,9 +25,6 @@ pub(super) fn table(reproduction: &Reproduction) -> Part {
             format!("{} model runs in {seconds:.2} s on {} threads", grouped(runs), study.result.provenance.threads),
         ));
     }
-    rows.extend(
-        reproduction.seconds.iter().map(|(part, seconds)| (format!("time of the {part}"), format!("{seconds:.1} s"))),
-    );
     let caption = "How this page was made. The numbers are the same on every machine and for any number of threads; only the \
                    times differ.";
     Part::Table(Table::pairs(caption, rows))

@@ -1,7 +1,7 @@
 //! The scene in time: CHK figure 5 and the histories of TS04.
 
 use super::table::Table;
-use super::{FiguresError, PaperFigure};
+use super::{Drawn, FiguresError};
 use crate::scene::charts::{contacts, forces, positions, pushing};
 use crate::scene::simulation::scene_story;
 use crate::scene::{SceneSample, SceneStory};
@@ -26,46 +26,33 @@ pub(super) fn story(law: FrictionLaw, change: impl FnOnce(&mut Scene)) -> Result
     scene_story("Pushing a gold particle on silicon oxide".to_owned(), &scene, &options, DURATION)
 }
 
-/// CHK figure 5 and TS04 figures 8 to 11 and 13.
-pub(super) fn histories() -> Result<Vec<PaperFigure>, FiguresError> {
-    let coulomb = story(FrictionLaw::Coulomb, |_| ())?;
-    let printed = story(FrictionLaw::Coulomb, |scene| scene.shear_modulus = Some(PRINTED_SHEAR_MODULUS))?;
-    Ok(vec![
-        two_laws(&coulomb)?,
-        PaperFigure {
-            stem: "ts04-8",
-            label: "TS04 fig. 8",
-            theirs: "The lateral force grows, the normal force stays nearly constant, and the tip force rises to the \
-                     critical force and stays there.",
-            chart: forces(&coulomb),
-            csv: table(&coulomb, &[TIP_FORCE, LATERAL_FORCE, NORMAL_FORCE]).csv(),
-        },
-        PaperFigure {
-            stem: "ts04-9",
-            label: "TS04 fig. 9",
-            theirs: "The pushing force rises to the critical force and stays there.",
-            chart: pushing(&coulomb),
-            csv: table(&coulomb, &[TIP_FORCE])
-                .with("critical_force_nN", coulomb.samples.iter().map(|_| NANO * coulomb.critical.critical_force))
-                .csv(),
-        },
-        PaperFigure {
-            stem: "ts04-10",
-            label: "TS04 fig. 10",
-            theirs: "The particle rides on the substrate, slips near 0.2 s, and stands 21 nm behind it after 0.4 s.",
-            chart: with_printed(&coulomb, &printed),
-            csv: positions_csv(&coulomb, &printed),
-        },
-        coefficients()?,
-        PaperFigure {
-            stem: "ts04-13",
-            label: "TS04 fig. 13",
-            theirs: "While the particle is pushed, contact area and indentation grow at the tip and shrink at the \
-                     substrate.",
-            chart: contacts(&coulomb),
-            csv: table(&coulomb, &[TIP_RADIUS, SUBSTRATE_RADIUS, TIP_INDENTATION, SUBSTRATE_INDENTATION]).csv(),
-        },
-    ])
+fn coulomb() -> Result<SceneStory, Failure> {
+    story(FrictionLaw::Coulomb, |_| ())
+}
+
+/// The same with the shear modulus that the papers print.
+fn printed(law: FrictionLaw) -> Result<SceneStory, Failure> {
+    story(law, |scene| scene.shear_modulus = Some(PRINTED_SHEAR_MODULUS))
+}
+
+/// TS04 figure 8.
+pub(super) fn forces_in_time() -> Result<Drawn, FiguresError> {
+    let story = coulomb()?;
+    Ok((forces(&story), table(&story, &[TIP_FORCE, LATERAL_FORCE, NORMAL_FORCE]).csv()))
+}
+
+/// TS04 figure 9.
+pub(super) fn tip_force() -> Result<Drawn, FiguresError> {
+    let story = coulomb()?;
+    let critical = story.samples.iter().map(|_| NANO * story.critical.critical_force);
+    Ok((pushing(&story), table(&story, &[TIP_FORCE]).with("critical_force_nN", critical).csv()))
+}
+
+/// TS04 figure 13.
+pub(super) fn contact_areas() -> Result<Drawn, FiguresError> {
+    let story = coulomb()?;
+    let columns = [TIP_RADIUS, SUBSTRATE_RADIUS, TIP_INDENTATION, SUBSTRATE_INDENTATION];
+    Ok((contacts(&story), table(&story, &columns).csv()))
 }
 
 /// A column's name with its unit, and what stands in it.
@@ -110,11 +97,10 @@ fn slip(story: &SceneStory) -> String {
 }
 
 /// CHK figure 5.
-fn two_laws(coulomb: &SceneStory) -> Result<PaperFigure, FiguresError> {
-    let hk = story(FrictionLaw::HurtadoKim, |_| ())?;
-    let softer = |law| story(law, |scene| scene.shear_modulus = Some(PRINTED_SHEAR_MODULUS));
-    let printed = [softer(FrictionLaw::HurtadoKim)?, softer(FrictionLaw::Coulomb)?];
-    let laws = [(coulomb, "Coulomb", Stroke::Solid), (&hk, "Hurtado-Kim", Stroke::Dashed)];
+pub(super) fn two_laws() -> Result<Drawn, FiguresError> {
+    let (coulomb, hk) = (coulomb()?, story(FrictionLaw::HurtadoKim, |_| ())?);
+    let printed = [printed(FrictionLaw::HurtadoKim)?, printed(FrictionLaw::Coulomb)?];
+    let laws = [(&coulomb, "Coulomb", Stroke::Solid), (&hk, "Hurtado-Kim", Stroke::Dashed)];
     let tip_force = |&(story, name, stroke): &(&SceneStory, &str, Stroke)| {
         line(format!("{name}, tip force"), (story.colour, stroke), curve(story, TIP_FORCE.1))
     };
@@ -136,50 +122,42 @@ fn two_laws(coulomb: &SceneStory) -> Result<PaperFigure, FiguresError> {
          the papers print it slips {} and {}.",
         coulomb.samples.first().map_or_else(String::new, |start| force(start.tip_force)),
         reached(&hk, "Hurtado-Kim"),
-        reached(coulomb, "Coulomb"),
+        reached(&coulomb, "Coulomb"),
         PRINTED_SHEAR_MODULUS / 1e9,
         slip(&printed[0]),
         slip(&printed[1]),
     );
-    let both = [("coulomb".to_owned(), coulomb), ("hk".to_owned(), &hk)];
-    Ok(PaperFigure {
-        stem: "chk-5",
-        label: "CHK fig. 5",
-        theirs: "The tip force rises to the critical force and then stays; the critical force is lower under Hurtado-Kim \
-                 than under Coulomb friction.",
-        chart: Chart::new("Tip force against time", caption).panels([panel]),
-        csv: stacked("friction", &both, &[TIP_FORCE, LATERAL_FORCE, NORMAL_FORCE]),
-    })
+    let both = [("coulomb".to_owned(), &coulomb), ("hk".to_owned(), &hk)];
+    let chart = Chart::new("Tip force against time", caption).panels([panel]);
+    Ok((chart, stacked("friction", &both, &[TIP_FORCE, LATERAL_FORCE, NORMAL_FORCE])))
 }
 
 /// TS04 figure 10, with the relative position at the printed shear modulus beside ours.
-fn with_printed(story: &SceneStory, printed: &SceneStory) -> Chart {
-    let ours = positions(story);
+pub(super) fn displacement() -> Result<Drawn, FiguresError> {
+    let (story, printed) = (coulomb()?, printed(FrictionLaw::Coulomb)?);
+    let ours = positions(&story);
     let modulus = PRINTED_SHEAR_MODULUS / 1e9;
     let look = (Colour::Series(4), Stroke::Dashed);
-    let other = line(format!("the same with G = {modulus} GPa as printed"), look, curve(printed, RELATIVE.1));
+    let other = line(format!("the same with G = {modulus} GPa as printed"), look, curve(&printed, RELATIVE.1));
     let end = printed.samples.last().map_or(f64::NAN, |end| end.relative_position);
     let caption = format!(
         "{}, and {} if the shear modulus is the {modulus} GPa that the papers print, with which it slips {}.",
         ours.caption().trim_end_matches('.'),
         length(end),
-        slip(printed)
+        slip(&printed)
     );
     let mut panels = ours.all_panels().to_vec();
     if let Some(panel) = panels.first_mut() {
         // After its own line, the third of the chart.
         panel.marks.insert(panel.marks.len().min(3), other);
     }
-    Chart::new(ours.title(), caption).panels(panels)
-}
-
-fn positions_csv(story: &SceneStory, printed: &SceneStory) -> String {
-    let both = [("E/(2(1+nu))".to_owned(), story), (format!("{} GPa", PRINTED_SHEAR_MODULUS / 1e9), printed)];
-    stacked("shear_modulus", &both, &[SUBSTRATE, PARTICLE, RELATIVE, BASE])
+    let both = [("E/(2(1+nu))".to_owned(), &story), (format!("{modulus} GPa"), &printed)];
+    let csv = stacked("shear_modulus", &both, &[SUBSTRATE, PARTICLE, RELATIVE, BASE]);
+    Ok((Chart::new(ours.title(), caption).panels(panels), csv))
 }
 
 /// TS04 figure 11.
-fn coefficients() -> Result<PaperFigure, FiguresError> {
+pub(super) fn coefficients() -> Result<Drawn, FiguresError> {
     // All follow one line until they slip: in this order each is seen.
     let told = COEFFICIENTS.map(|coefficient| story(FrictionLaw::Coulomb, |scene| scene.static_friction = coefficient));
     let told = told.into_iter().collect::<Result<Vec<_>, _>>()?;
@@ -205,12 +183,6 @@ fn coefficients() -> Result<PaperFigure, FiguresError> {
         "The particle slips"
     };
     let stories: Vec<(String, &SceneStory)> = COEFFICIENTS.iter().map(|mu| mu.to_string()).zip(&told).collect();
-    Ok(PaperFigure {
-        stem: "ts04-11",
-        label: "TS04 fig. 11",
-        theirs: "A higher coefficient of friction delays the slip.",
-        chart: Chart::new("Effect of the coefficient of friction", format!("{seen}: after {}.", listed(&slips)))
-            .panels(panels),
-        csv: stacked("static_friction", &stories, &[TIP_FORCE, RELATIVE]),
-    })
+    let chart = Chart::new("Effect of the coefficient of friction", format!("{seen}: after {}.", listed(&slips)));
+    Ok((chart.panels(panels), stacked("static_friction", &stories, &[TIP_FORCE, RELATIVE])))
 }

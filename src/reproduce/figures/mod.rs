@@ -6,12 +6,11 @@
 
 mod animation;
 mod curve;
-mod edge;
 mod history;
+mod list;
 mod modes;
 mod shares;
 mod sweep;
-mod sweep_list;
 mod table;
 #[cfg(test)]
 mod tests;
@@ -20,12 +19,15 @@ use thiserror::Error;
 
 pub use animation::{ANIMATION_STEM, Animation, animation};
 
-use super::{Effort, Reproduced};
+use rayon::prelude::*;
+
+use super::{Effort, Reproduced, general_study};
 use apportion::afm::Failure;
 use apportion::report::chart::{Chart, ChartError};
 use apportion::report::document::DocumentError;
 use apportion::study::StudyError;
 use apportion::sweep::SweepError;
+use list::{FIGURES, Ours};
 
 /// One figure of the papers, from our computation.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,7 +35,7 @@ pub struct PaperFigure {
     /// Name of its files without extension, and its anchor on the page, such as `chk-6`.
     pub stem: &'static str,
     /// What it is called, such as `CHK fig. 6`.
-    pub label: &'static str,
+    pub label: String,
     /// What the paper's figure shows, in a short statement.
     pub theirs: &'static str,
     /// Ours.
@@ -68,43 +70,6 @@ pub enum FiguresError {
     Page(#[from] DocumentError),
 }
 
-/// The stems of all figures, in the order of the papers: CHK, LG, TS04, then the friction models side by side.
-const ORDER: [&str; 33] = [
-    "chk-5",
-    "chk-6",
-    "chk-7",
-    "chk-8",
-    "chk-9",
-    "chk-10",
-    "chk-11",
-    "chk-12",
-    "chk-13",
-    "chk-14",
-    "chk-15",
-    "chk-16",
-    "lg-2a",
-    "lg-2b",
-    "lg-2c",
-    "lg-2d",
-    "lg-3a",
-    "lg-3b",
-    "lg-3c",
-    "lg-3d",
-    "lg-4a",
-    "lg-4b",
-    "lg-4c",
-    "ts04-8",
-    "ts04-9",
-    "ts04-10",
-    "ts04-11",
-    "ts04-12",
-    "ts04-12-contact-angle",
-    "ts04-13",
-    "dimensional",
-    "environmental",
-    "general",
-];
-
 /// Every figure, in the order of the papers: CHK, LG, TS04, then each group of studies with all friction models side by
 /// side. The charts of shares are made of `studies`; those of a group of which none was run are left out. The same on
 /// every run and any number of threads.
@@ -124,10 +89,24 @@ const ORDER: [&str; 33] = [
 /// # Ok::<(), apportion::reproduce::figures::FiguresError>(())
 /// ```
 pub fn figures(studies: &[Reproduced], effort: Effort) -> Result<Vec<PaperFigure>, FiguresError> {
-    let mut figures = sweep::sweeps(effort)?;
-    figures.extend(history::histories()?);
-    figures.extend(modes::modes(effort)?);
-    figures.extend(shares::shares(studies));
-    figures.sort_by_key(|figure| ORDER.iter().position(|stem| *stem == figure.stem));
-    Ok(figures)
+    let general = general_study()?;
+    let draw = |&(stem, ref ours, theirs): &(&'static str, Ours, &'static str)| {
+        let drawn = match ours {
+            Ours::Sweep(figure) => figure.drawn(general.space(), effort).map(Some),
+            Ours::Scene(drawn) => drawn().map(Some),
+            Ours::Shares(group, is_shown) => Ok(shares::drawn(*group, *is_shown, studies)),
+        };
+        drawn.map(|drawn| drawn.map(|(chart, csv)| PaperFigure { stem, label: label(stem), theirs, chart, csv }))
+    };
+    FIGURES.par_iter().filter_map(|figure| draw(figure).transpose()).collect()
+}
+
+/// A chart with its data as CSV.
+type Drawn = (Chart, String);
+
+/// What the papers call the figure with a stem: `CHK fig. 6`, `TS04 fig. 12, contact angle`.
+fn label(stem: &str) -> String {
+    let Some((paper, figure)) = stem.split_once('-') else { return "All friction models".to_owned() };
+    let figure = figure.replacen('-', ", ", 1).replace('-', " ");
+    format!("{} fig. {figure}", paper.to_uppercase())
 }

@@ -1,8 +1,8 @@
 //! TS04 figure 12: what moves the particle in which way, against the angle of the force and of the contact.
 
 use super::table::Table;
-use super::{FiguresError, PaperFigure};
-use crate::reproduce::{COULOMB, Effort};
+use super::{Drawn, FiguresError};
+use crate::reproduce::COULOMB;
 use crate::scene::simulation::{pushing, scene_modes};
 use crate::scene::{ModeDiagram, mode_diagram_chart};
 use apportion::afm::modes::Mode;
@@ -13,14 +13,11 @@ use apportion::report::format::{force, three_digits as short};
 const NANO: f64 = 1e9;
 /// Contact angles: about the nominal 60 degrees.
 const CONTACT_ANGLES: (f64, f64) = (40.0, 70.0);
-const THEIRS: &str = "A larger contact angle lowers the force at which the particle slides.";
+/// Steps between them.
+const STEPS: u32 = 120;
 
-/// Both figures.
-pub(super) fn modes(effort: Effort) -> Result<Vec<PaperFigure>, FiguresError> {
-    Ok(vec![against_force_angle()?, against_contact_angle(effort)?])
-}
-
-fn against_force_angle() -> Result<PaperFigure, FiguresError> {
+/// TS04 figure 12.
+pub(super) fn against_force_angle() -> Result<Drawn, FiguresError> {
     let diagram = scene_modes(&Scene::default(), &Options::default())?;
     let mut chart = mode_diagram_chart(&diagram)?;
     if let Some(said) = sliding(&diagram) {
@@ -31,7 +28,7 @@ fn against_force_angle() -> Result<PaperFigure, FiguresError> {
         let column = format!("{}_nN", line.mode.replace('-', "_"));
         table = table.with(&column, line.force.iter().map(|force| NANO * force.unwrap_or(f64::NAN)));
     }
-    Ok(PaperFigure { stem: "ts04-12", label: "TS04 fig. 12", theirs: THEIRS, chart, csv: table.csv() })
+    Ok((chart, table.csv()))
 }
 
 /// How the force of sliding goes with the angle.
@@ -63,13 +60,10 @@ struct Against {
     force: Vec<Option<f64>>,
 }
 
-fn against_contact_angle(effort: Effort) -> Result<PaperFigure, FiguresError> {
-    let steps = match effort {
-        Effort::Full => 120,
-        Effort::Quick => 30,
-    };
+/// The same against the angle of the contact.
+pub(super) fn against_contact_angle() -> Result<Drawn, FiguresError> {
     let (from, to) = CONTACT_ANGLES;
-    let degrees: Vec<f64> = (0..=steps).map(|i| from + (to - from) * f64::from(i) / f64::from(steps)).collect();
+    let degrees: Vec<f64> = (0..=STEPS).map(|i| from + (to - from) * f64::from(i) / f64::from(STEPS)).collect();
     let over = |read: &dyn Fn(Scene) -> Result<Option<f64>, Failure>| {
         let scene = |angle: &f64| Scene { contact_angle: angle.to_radians(), ..Scene::default() };
         degrees.iter().map(|angle| read(scene(angle))).collect::<Result<Vec<_>, Failure>>()
@@ -106,13 +100,7 @@ fn against_contact_angle(effort: Effort) -> Result<PaperFigure, FiguresError> {
     for line in &lines {
         table = table.with(&line.key, line.force.iter().map(|force| NANO * force.unwrap_or(f64::NAN)));
     }
-    Ok(PaperFigure {
-        stem: "ts04-12-contact-angle",
-        label: "TS04 fig. 12, contact angle",
-        theirs: THEIRS,
-        chart: chart(&degrees, &lines),
-        csv: table.csv(),
-    })
+    Ok((chart(&degrees, &lines), table.csv()))
 }
 
 fn chart(degrees: &[f64], lines: &[Against]) -> Chart {

@@ -1,93 +1,21 @@
 //! The charts of shares, from the studies that were run.
 
-use super::PaperFigure;
-use crate::reproduce::{GROUPS, Reproduced, StudyGroup, published, shares_csv};
+use super::Drawn;
+use crate::reproduce::shares::shares_table;
+use crate::reproduce::{Reproduced, StudyGroup, published};
 use apportion::report::chart::{Chart, Series};
 use apportion::report::{SharesSeries, capitalised, listed, shares_chart};
 
-/// For each group, in the order of [`GROUPS`]: the figure of CHK and that of LG.
-const PAPERS: [[Paper; 2]; 3] = [
-    [
-        Paper {
-            stem: "chk-10",
-            label: "CHK fig. 10",
-            theirs: "Bars without numbers: thickness before length before width before height under both friction models.",
-        },
-        Paper {
-            stem: "lg-4a",
-            label: "LG fig. 4a",
-            theirs: "Thickness before length before width before height; the text gives the thickness 76 %.",
-        },
-    ],
-    [
-        Paper {
-            stem: "chk-15",
-            label: "CHK fig. 15",
-            theirs: "Bars without numbers: elastic modulus before velocity before adhesion under both friction models.",
-        },
-        Paper {
-            stem: "lg-4b",
-            label: "LG fig. 4b",
-            theirs: "Elastic modulus before velocity before adhesion; the text gives 74 % and 26 % to the first two.",
-        },
-    ],
-    [
-        Paper {
-            stem: "chk-16",
-            label: "CHK fig. 16",
-            theirs: "Bars without numbers: thickness before length, width, elastic modulus, velocity and adhesion under both \
-                     friction models.",
-        },
-        Paper {
-            stem: "lg-4c",
-            label: "LG fig. 4c",
-            theirs: "Thickness before length, width and elastic modulus; the text gives them 80, 12, 5 and 3 %.",
-        },
-    ],
-];
-
-/// What one paper shows of a group.
-struct Paper {
-    stem: &'static str,
-    label: &'static str,
-    theirs: &'static str,
-}
-
-/// The charts of the papers, then those with all friction models side by side; none of a group without studies.
-pub(super) fn shares(studies: &[Reproduced]) -> Vec<PaperFigure> {
-    let mut figures = Vec::new();
-    let members = |group: StudyGroup, of: fn(&str) -> bool| -> Vec<&Reproduced> {
-        studies.iter().filter(|study| study.group == group && of(study.friction.key)).collect()
-    };
-    for (group, papers) in GROUPS.into_iter().zip(&PAPERS) {
-        let own: [fn(&str) -> bool; 2] = [|friction| friction != "lugre", |friction| friction == "lugre"];
-        for (paper, of) in papers.iter().zip(own) {
-            figures.extend(figure(paper, group, &members(group, of)));
-        }
-    }
-    for group in GROUPS {
-        let paper = Paper {
-            stem: group.key,
-            label: "All friction models",
-            theirs: "The papers show them in separate figures.",
-        };
-        figures.extend(figure(&paper, group, &members(group, |_| true)));
-    }
-    figures
-}
-
-fn figure(paper: &Paper, group: StudyGroup, members: &[&Reproduced]) -> Option<PaperFigure> {
-    (!members.is_empty()).then(|| PaperFigure {
-        stem: paper.stem,
-        label: paper.label,
-        theirs: paper.theirs,
-        chart: group_chart(group, members),
-        csv: shares_csv(members.iter().copied()),
-    })
+/// The shares in the studies of a group under these friction models; nothing if none of them was run.
+pub(super) fn drawn(group: &str, is_shown: fn(&str) -> bool, studies: &[Reproduced]) -> Option<Drawn> {
+    let is_member = |study: &&Reproduced| study.group.key == group && is_shown(study.friction.key);
+    let members: Vec<&Reproduced> = studies.iter().filter(is_member).collect();
+    let group = members.first()?.group;
+    Some((group_chart(group, &members), shares_table(&members).csv()))
 }
 
 /// The shares of all factors in the studies `members` of one group, side by side.
-pub(in crate::reproduce) fn group_chart(group: StudyGroup, members: &[&Reproduced]) -> Chart {
+fn group_chart(group: StudyGroup, members: &[&Reproduced]) -> Chart {
     let factors: Vec<&str> =
         members.first().map_or_else(Vec::new, |m| m.result.factors.iter().map(|f| f.name.as_str()).collect());
     let series: Vec<SharesSeries<'_>> = members

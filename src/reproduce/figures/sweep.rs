@@ -2,17 +2,16 @@
 
 use rayon::prelude::*;
 
+use super::FiguresError;
 use super::curve::{Curve, crossing};
-use super::sweep_list::{Line, SWEEPS, SweepFigure, Variant};
+use super::list::{Line, SweepFigure, Variant};
 use super::table::Table;
-use super::{FiguresError, PaperFigure, edge};
-use crate::reproduce::{Effort, STUDIES};
+use crate::reproduce::Effort;
 use apportion::afm::{Fidelity, Options, Parameter, critical_force};
 use apportion::report::chart::{Axis, Chart, Mark, Panel, Series, Stroke};
-use apportion::report::format::three_digits as short;
+use apportion::report::format::{three_digits as short, unit};
 use apportion::report::{capitalised, listed};
 use apportion::space::{Factor, Space};
-use apportion::study::Study;
 use apportion::sweep::{FactorValues, find};
 
 const NANO: f64 = 1e9;
@@ -20,36 +19,24 @@ const NANO: f64 = 1e9;
 const VISIBLE: f64 = 5e-3;
 /// A force that changes by less than this part of its size counts as having no range but its size.
 const FLAT: f64 = 1e-3;
-/// The study whose factors have all ranges.
-const GENERAL: &str = "coulomb-general";
 
-/// The figures of [`SWEEPS`].
-pub(super) fn sweeps(effort: Effort) -> Result<Vec<PaperFigure>, FiguresError> {
-    let text = STUDIES.iter().find(|(name, _)| *name == GENERAL).map_or("", |(_, text)| text);
-    let study = Study::parse(text, format!("studies/{GENERAL}.toml").as_ref(), &[])?;
-    let points = match effort {
-        Effort::Full => 201,
-        Effort::Quick => 41,
-    };
-    SWEEPS.par_iter().map(|figure| one(figure, study.space(), points)).collect()
-}
-
-fn one(figure: &SweepFigure, space: &Space, points: usize) -> Result<PaperFigure, FiguresError> {
-    let number = find(space, figure.factor)?;
-    // The march's saw needs finer teeth.
-    let is_marched = figure.lines.iter().any(|line| line.variant == Variant::NaiveMarch);
-    let points = if is_marched { 4 * points - 3 } else { points };
-    let values = FactorValues::over_range(space, number, points)?.values;
-    let parameter = Parameter::from_name(figure.factor).ok_or(FiguresError::NoParameter { name: figure.factor })?;
-    let swept = Swept { figure, factor: &space.factors()[number], parameter, values };
-    let lines: Vec<Drawn> = figure.lines.iter().map(|line| swept.line(line)).collect();
-    Ok(PaperFigure {
-        stem: figure.stem,
-        label: figure.label,
-        theirs: figure.theirs,
-        chart: swept.chart(&lines),
-        csv: swept.csv(&lines),
-    })
+impl SweepFigure {
+    /// The chart over the range of the factor in `space`.
+    pub fn drawn(&self, space: &Space, effort: Effort) -> Result<super::Drawn, FiguresError> {
+        let number = find(space, self.factor)?;
+        let points = match effort {
+            Effort::Full => 201,
+            Effort::Quick => 41,
+        };
+        // The march's saw needs finer teeth.
+        let is_marched = self.lines.iter().any(|line| line.variant == Variant::NaiveMarch);
+        let points = if is_marched { 4 * points - 3 } else { points };
+        let values = FactorValues::over_range(space, number, points)?.values;
+        let parameter = Parameter::from_name(self.factor).ok_or(FiguresError::NoParameter { name: self.factor })?;
+        let swept = Swept { figure: self, factor: &space.factors()[number], parameter, values };
+        let lines: Vec<Drawn> = self.lines.iter().map(|line| swept.line(line)).collect();
+        Ok((swept.chart(&lines), swept.csv(&lines)))
+    }
 }
 
 /// A figure with the values of its factor.
@@ -89,7 +76,7 @@ impl Swept<'_> {
     }
 
     fn csv(&self, lines: &[Drawn]) -> String {
-        let unit = edge::column(self.factor.unit().symbol());
+        let unit = self.factor.unit().symbol().replace('/', "_per_");
         let mut table = Table::default().with(&format!("{}_{unit}", self.figure.factor), self.values.iter().copied());
         for drawn in lines {
             table = table.with(&format!("{}_nN", drawn.line.key), drawn.force.iter().copied());
@@ -103,7 +90,7 @@ impl Swept<'_> {
     }
 
     fn chart(&self, lines: &[Drawn]) -> Chart {
-        let unit = edge::printed(self.factor.unit().symbol());
+        let unit = unit(self.factor.unit().symbol());
         let points = |force: &[f64]| self.values.iter().copied().zip(force.iter().copied()).collect();
         let range = range(lines);
         let mut all = Vec::new();
@@ -118,7 +105,8 @@ impl Swept<'_> {
                 all.push(Series::new(name, colour).stroke(Stroke::Dashed).line(points(force)));
             }
         }
-        let label = format!("{}, {}", capitalised(self.parameter.description), edge::symbol(self.parameter));
+        let symbol = self.parameter.symbol.replace("omega", "ω");
+        let label = format!("{}, {symbol}", capitalised(self.parameter.description));
         let nominal = Mark::rule(self.factor.nominal, format!("nominal: {} {unit}", self.factor.nominal));
         let panel =
             Panel::new(Axis::new(label, unit), Axis::new("Critical force F_cr", "nN")).with(all).with([nominal]);
@@ -127,7 +115,7 @@ impl Swept<'_> {
     }
 
     fn caption(&self, lines: &[Drawn], range: f64) -> String {
-        let unit = format!(" {}", edge::printed(self.factor.unit().symbol()));
+        let unit = format!(" {}", unit(self.factor.unit().symbol()));
         let (Some(from), Some(to)) = (self.values.first(), self.values.last()) else { return String::new() };
         let mut courses: Vec<String> = Vec::new();
         for drawn in lines {

@@ -75,13 +75,13 @@ fn drawn_soundly(figure: &PaperFigure) {
 
 #[test]
 fn every_figure_is_there_once_and_in_order() {
-    let labels: Vec<&str> = QUICK.iter().map(|figure| figure.label).collect();
+    let labels: Vec<&str> = QUICK.iter().map(|figure| figure.label.as_str()).collect();
     assert_eq!(labels, COMPUTED);
     let all = figures(&reproduced(), Effort::Quick).unwrap();
     let stems: Vec<&str> = all.iter().map(|figure| figure.stem).collect();
-    assert_eq!(stems, ORDER);
+    assert!(stems.iter().eq(FIGURES.iter().map(|(stem, ..)| stem)), "{stems:?}");
     assert_eq!(stems.iter().collect::<HashSet<_>>().len(), stems.len());
-    let labels: Vec<&str> = all.iter().map(|figure| figure.label).collect();
+    let labels: Vec<&str> = all.iter().map(|figure| figure.label.as_str()).collect();
     assert!(COMPUTED.iter().chain(&OF_STUDIES).all(|label| labels.contains(label)));
     assert_eq!(labels.iter().filter(|label| **label == "All friction models").count(), 3);
     for figure in &all {

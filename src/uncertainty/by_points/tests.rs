@@ -3,7 +3,6 @@ use crate::design::{Design, DesignSettings, Rows, Sampler};
 use crate::estimate::{BlockOutputs, Estimator, PointOutputs, ShapleyMethod, Workspace, contributions};
 use crate::uncertainty::bootstrap::counts_of;
 use crate::uncertainty::estimates::{Layout, quantities};
-use statrs::distribution::{ContinuousCDF, Normal};
 
 /// Outputs of a made-up model at the rows of a design of three factors.
 struct Sample {
@@ -189,7 +188,7 @@ fn the_error_of_a_mean_is_the_textbook_one() {
 #[test]
 fn the_inert_factor_has_intervals_of_no_width() {
     let sample = Sample::new(300, false, 0.0);
-    for method in [IntervalMethod::Delta, IntervalMethod::Percentile, IntervalMethod::Bca] {
+    for method in [IntervalMethod::Delta, IntervalMethod::Percentile] {
         let (estimates, bounds) = sample.bounds(method);
         let inert = sample.layout.swap(2);
         for place in [inert, inert + 1] {
@@ -207,7 +206,7 @@ fn the_inert_factor_has_intervals_of_no_width() {
 #[test]
 fn the_same_bits_on_any_number_of_threads() {
     let sample = Sample::new(9000, true, 0.0).with_failures();
-    for method in [IntervalMethod::Delta, IntervalMethod::Percentile, IntervalMethod::Bca] {
+    for method in [IntervalMethod::Delta, IntervalMethod::Percentile] {
         let on = |threads| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
             let (_, bounds) = pool.install(|| sample.bounds(method));
@@ -226,7 +225,7 @@ fn the_same_bits_on_any_number_of_threads() {
 #[test]
 fn two_points_give_what_they_can() {
     let sample = Sample::new(2, false, 0.0);
-    for method in [IntervalMethod::Delta, IntervalMethod::Percentile, IntervalMethod::Bca] {
+    for method in [IntervalMethod::Delta, IntervalMethod::Percentile] {
         let (estimates, bounds) = sample.bounds(method);
         assert_eq!(estimates.len(), bounds.len());
         for (_, interval) in bounds {
@@ -241,7 +240,7 @@ fn scale_of_the_output_does_not_matter() {
     for scale in [1e-120, 1e-18, 1e120] {
         let mut scaled = Sample::new(300, false, 0.0);
         scaled.columns.iter_mut().flatten().for_each(|y| *y *= scale);
-        for method in [IntervalMethod::Delta, IntervalMethod::Percentile, IntervalMethod::Bca] {
+        for method in [IntervalMethod::Delta, IntervalMethod::Percentile] {
             let (expected, got) = (base.bounds(method).1, scaled.bounds(method).1);
             let lows =
                 |bounds: &[Bounds]| bounds[2..].iter().map(|b| b.1.map_or(f64::NAN, |i| i.low)).collect::<Vec<_>>();
@@ -259,7 +258,7 @@ fn constant_outputs_have_a_certain_mean_and_no_indices() {
     let replicates = [&kept];
     let points = KeptPoints::all(&sample.design, &replicates).unwrap();
     let moments = |moments: &Moments| Some(vec![moments.mean(), moments.variance()]);
-    for method in [IntervalMethod::Delta, IntervalMethod::Percentile, IntervalMethod::Bca] {
+    for method in [IntervalMethod::Delta, IntervalMethod::Percentile] {
         let by_points = ByPoints { method, points, seed: 0, resamples: 100 };
         let bounds = by_points.bounds(sample.whole().without_swaps(), &[0.1, 0.0], &moments);
         assert_eq!(bounds[0].1, Some(Interval { low: 0.1, high: 0.1 }), "{method:?}");
@@ -304,7 +303,7 @@ fn coverage(function: &str, method: IntervalMethod) -> f64 {
 fn ninety_five_percent_is_about_that() {
     // 600 intervals or more, in groups that come from one sample: the standard error of the share is about 1.4 %.
     let mut shares = Vec::new();
-    for method in [IntervalMethod::Delta, IntervalMethod::Percentile, IntervalMethod::Bca] {
+    for method in [IntervalMethod::Delta, IntervalMethod::Percentile] {
         for function in ["ishigami", "linear"] {
             let share = coverage(function, method);
             shares.push((function, method, share));
@@ -321,15 +320,4 @@ fn quantiles_and_tails_by_hand() {
     assert_eq!(quantile(&values, 0.5), 20.0);
     assert_eq!(quantile(&values, 0.0), 1.0);
     assert_eq!(quantile(&values, 1.0), 39.0);
-    // No bias, no acceleration: the percentile interval.
-    let [low, high] = bca_tails(&values, 20.0, 0.0).unwrap();
-    assert!((low - 0.025).abs() < 1e-9 && (high - 0.975).abs() < 1e-9);
-    // A bias alone moves both normal quantiles by twice itself; an acceleration pushes both up.
-    let shifted = bca_tails(&values, 25.0, 0.0).unwrap();
-    let normal = Normal::new(0.0, 1.0).unwrap();
-    let bias = normal.inverse_cdf(24.5 / 39.0);
-    assert!((shifted[0] - normal.cdf(2.0 * bias + normal.inverse_cdf(0.025))).abs() < 1e-9);
-    let pushed = bca_tails(&values, 20.0, 0.1).unwrap();
-    assert!(pushed[0] > low && pushed[1] > high);
-    assert_eq!(bca_tails(&values, 20.0, f64::NAN), None);
 }
