@@ -53,7 +53,7 @@ pub use file_names::ChartFormat;
 pub use read::{ReadError, parse_result, read_result};
 pub use result::ResultFile;
 pub use run_charts::{
-    convergence_chart, distribution_chart, indices_chart, interactions_chart, pairs_chart, scatter_chart,
+    convergence_chart, distribution_chart, indices_chart, pairs_chart, scatter_chart,
 };
 pub use run_document::run_document;
 pub use schema::result_schema;

@@ -66,9 +66,8 @@ impl Chart {
             let said = match shape {
                 Shape::Line(_) => series.name.clone(),
                 Shape::Dots(dots) => format!("{}: {} points", series.name, dots.len()),
-                Shape::Point(point) => point_in_words(&series.name, point),
+                Shape::Point(Point { x, y, label }) => format!("{label}, {}: {x}, {y}", series.name),
                 Shape::Bar(bar) => self.bar_in_words(panel, &series.name, bar),
-                Shape::Note(row, note) => format!("{}: {note}", name(panel, *row)),
                 Shape::Rule(x, label) if !label.trim().is_empty() => {
                     let place = panel.x.names.get(*x as usize).cloned();
                     format!("{label} at {}", place.unwrap_or_else(|| x.to_string()))
@@ -114,8 +113,3 @@ fn name(panel: &Panel, row: usize) -> &str {
     panel.y.names.get(row).map_or("", String::as_str)
 }
 
-fn point_in_words(series: &str, Point { x, y, label, x_interval, y_interval }: &Point) -> String {
-    let interval =
-        |interval: &Option<(f64, f64)>| interval.map_or_else(String::new, |(low, high)| format!(" ({low} to {high})"));
-    format!("{label}, {series}: {x}{}, {y}{}", interval(x_interval), interval(y_interval))
-}

@@ -10,8 +10,8 @@ use crate::study::Study;
 
 type Draw = fn(&ResultFile, &OutputRecord) -> Chart;
 
-const CHARTS: [Draw; 6] =
-    [indices_chart, interactions_chart, pairs_chart, scatter_chart, distribution_chart, convergence_chart];
+const CHARTS: [Draw; 5] =
+    [indices_chart, pairs_chart, scatter_chart, distribution_chart, convergence_chart];
 
 fn analysed(text: &str) -> ResultFile {
     let study = Study::parse(text, Path::new("charts.toml"), &[]).unwrap_or_else(|error| panic!("{error}"));

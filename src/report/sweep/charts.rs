@@ -2,6 +2,7 @@
 
 use super::super::Drawing;
 use super::super::chart::{Axis, Bar, Chart, Colour, Mark, Panel, Series, Shape, Spacing, Stroke};
+use super::super::factor_bars::{MOST, not_drawn};
 use super::super::format::{axis_unit, name, printed, short_with_unit, words};
 use crate::report::{file_stems, listed};
 
@@ -11,8 +12,6 @@ use super::{CurveRecord, FactorSweepRecord, NominalRecord, SweepEffectRecord, Sw
 const FEW_VALUES: usize = 12;
 /// A logarithmic axis from this ratio of the largest to the least value on.
 const WIDE: f64 = 50.0;
-/// Most bars in a chart; the rest are counted in its caption.
-const MOST_BARS: usize = 40;
 /// Colours at the low and the high end of a factor, and of whole ranges.
 const LOW_END: Colour = Colour::Series(5);
 const HIGH_END: Colour = Colour::Series(1);
@@ -141,44 +140,41 @@ fn from_to(sweep: &FactorSweepRecord) -> String {
 }
 
 fn ranges(file: &SweepFile, number: usize, nominal: &NominalRecord) -> Chart {
-    let mut sweeps: Vec<(&FactorSweepRecord, &SweepEffectRecord)> =
-        file.sweeps.iter().filter_map(|sweep| Some((sweep, sweep.effects.get(number)?))).collect();
-    sweeps.sort_by(|a, b| b.1.width().total_cmp(&a.1.width()));
-    let beyond = match sweeps.len().saturating_sub(MOST_BARS) {
-        0 => String::new(),
-        more => format!(" {more} factors of less effect are not shown."),
-    };
+    let sweeps = || file.sweeps.iter().filter_map(|sweep| Some((sweep, sweep.effects.get(number)?)));
     let output = name(&nominal.output);
-    sweeps.truncate(MOST_BARS);
     let caption = format!(
         "Values of {output} with one factor at either end of its range and every other at its nominal value; the percentages are \
-         of the nominal value.{beyond}"
+         of the nominal value.{}",
+        not_drawn(file.sweeps.len(), MOST)
     );
     let x = Axis::new(words(&nominal.output), axis_unit(&nominal.unit));
-    let rows = Axis::from_names("", sweeps.iter().map(|(sweep, _)| words(&sweep.factor)).collect());
+    let row_name = |(sweep, effect): (&FactorSweepRecord, &SweepEffectRecord)| {
+        let percent = effect.percent.map_or_else(String::new, |percent| format!(": {} %", printed(percent)));
+        format!("{}, {}{percent}", words(&sweep.factor), from_to(sweep))
+    };
+    let rows = Axis::from_names("", sweeps().map(row_name).collect());
     let label = |value| format!("nominal: {}", short_with_unit(value, &nominal.unit));
-    let marks = sweeps.iter().enumerate();
+    let marks = sweeps().enumerate();
     let marks = marks.flat_map(|(row, (sweep, effect))| row_marks(row, sweep, effect, nominal.value));
+    let keys: Vec<f64> = sweeps().map(|(_, effect)| effect.width()).collect();
     let panel = Panel::new(x, rows).with(nominal.value.map(|value| Mark::rule(value, label(value)))).with(marks);
-    Chart::new(format!("{}: how far each factor moves {output}", file.study.headline()), caption).panels([panel])
+    let title = format!("{}: how far each factor moves {output}", file.study.headline());
+    Chart::new(title, caption).panels([panel.ranked(&keys, MOST)])
 }
 
-/// The bars of a factor, and how far it moves the output: its ends, or its whole range where these are not the extremes.
+/// The bars of a factor: its ends, or its whole range where these are not the extremes.
 fn row_marks(row: usize, sweep: &FactorSweepRecord, effect: &SweepEffectRecord, nominal: Option<f64>) -> Vec<Mark> {
     let bar = |name: &str, colour, from, to| {
         Series::new(name, colour).mark(Shape::Bar(Bar { row, from, to, ..Bar::default() }))
     };
     let ends = || [effect.first, effect.last, nominal].into_iter().flatten();
     let beyond = |low: f64, high: f64| ends().all(|end| end > low) || ends().all(|end| end < high);
-    let mut marks = match (nominal, effect.low.zip(effect.high)) {
+    match (nominal, effect.low.zip(effect.high)) {
         (_, None) => Vec::new(),
         (Some(from), Some((low, high))) if sweep.labels.is_none() && !beyond(low, high) => vec![
             bar("factor at its low end", LOW_END, from, effect.first.unwrap_or(f64::NAN)),
             bar("factor at its high end", HIGH_END, from, effect.last.unwrap_or(f64::NAN)),
         ],
         (_, Some((low, high))) => vec![bar("whole range, where the ends are not the extremes", WHOLE_RANGE, low, high)],
-    };
-    let percent = effect.percent.map_or_else(String::new, |percent| format!("{} %: ", printed(percent)));
-    marks.push(Mark::note(row, percent + &from_to(sweep)));
-    marks
+    }
 }

@@ -49,17 +49,14 @@ fn any_mark() -> impl Strategy<Value = Mark> {
             ..Bar::default()
         },
     );
-    let point = (any_number(), any_number(), text(), interval(), interval())
-        .prop_map(|(x, y, label, x_interval, y_interval)| Point { x, y, label, x_interval, y_interval });
+    let point = (any_number(), any_number(), text()).prop_map(|(x, y, label)| Point { x, y, label });
     let shape = prop_oneof![
         1 => pairs().prop_map(Shape::Line),
         1 => triples.prop_map(Shape::Band),
         1 => pairs().prop_map(Shape::Dots),
         1 => point.prop_map(Shape::Point),
         4 => bar.prop_map(Shape::Bar),
-        1 => (0_usize..8, text()).prop_map(|(row, note)| Shape::Note(row, note)),
         1 => (any_number(), text()).prop_map(|(x, label)| Shape::Rule(x, label)),
-        1 => (any::<f64>(), text()).prop_map(|(slope, label)| Shape::Slope(slope, label)),
     ];
     let strokes = [Stroke::Solid, Stroke::Dashed, Stroke::Dotted, Stroke::SolidWithPoints, Stroke::Points];
     (shape, any::<String>(), 0_usize..20, prop::sample::select(strokes.to_vec()))
@@ -103,8 +100,7 @@ fn nothing_to_show_is_said() {
     let cases = [
         empty.clone(),
         empty.clone().with([series(0).line(gap.clone())]),
-        empty.clone().with([series(0).mark(Shape::Dots(gap))]),
-        empty.with([Mark::slope(1.0, "equal")]),
+        empty.with([series(0).mark(Shape::Dots(gap))]),
         Panel::new(Axis::new("x", ""), rows.clone()),
         Panel::new(Axis::new("x", ""), rows).with([missing]),
     ];
@@ -142,7 +138,6 @@ fn text_of_users_is_escaped() {
             to: 1.0,
             ..Bar::default()
         })),
-        Mark::note(0, nasty),
         Mark::rule(0.0, nasty),
     ];
     let chart = Chart::new(nasty, nasty).panels([panel.titled(nasty).with(marks)]);

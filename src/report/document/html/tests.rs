@@ -1,10 +1,10 @@
 use super::*;
-use crate::report::chart::{Axis, Chart, Colour, Mark as ChartMark, Panel, Point, Series, Shape};
+use crate::report::chart::{Axis, Chart, Colour, Panel, Point, Series, Shape};
 use crate::report::document::Column;
 
 fn scatter(title: &str) -> Chart {
-    let point = Point { x: 1.0, y: 2.0, label: "a point".to_owned(), ..Point::default() };
-    let marks = [Series::new("s", Colour::Series(0)).mark(Shape::Point(point)), ChartMark::slope(1.0, "equal")];
+    let point = Point { x: 1.0, y: 2.0, label: "a point".to_owned() };
+    let marks = [Series::new("s", Colour::Series(0)).mark(Shape::Point(point))];
     Chart::new(title, "One point.").panels([Panel::new(Axis::default(), Axis::default()).with(marks)])
 }
 
