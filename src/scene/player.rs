@@ -8,7 +8,6 @@ use super::charts::{LATERAL, NORMAL, SUBSTRATE};
 use super::columns::scene_value;
 use super::view::View;
 use apportion::report::chart::Colour;
-use apportion::report::document::DocumentError;
 
 /// The parts of the page's script, each using those before it.
 const SCRIPT: [&str; 4] = [
@@ -37,10 +36,7 @@ struct Player<'a> {
 /// The animation as a page of HTML: probe, particle and contacts beside the growing force curve, moved by a slider, the
 /// keyboard or on its own. It loads nothing from anywhere and works without a network; inside the frame of another page it
 /// leaves out its title.
-///
-/// # Errors
-/// [`DocumentError`] if the template cannot be rendered.
-pub fn player_page(story: &SceneStory) -> Result<String, DocumentError> {
+pub fn player_page(story: &SceneStory) -> String {
     let view = View::of(story);
     let page = Player {
         story,
@@ -59,7 +55,7 @@ pub fn player_page(story: &SceneStory) -> Result<String, DocumentError> {
         view: script_json(&view.value()),
         version: env!("CARGO_PKG_VERSION"),
     };
-    page.render().map_err(|error| DocumentError::Template(error.to_string()))
+    page.render().expect("texts and numbers, into memory")
 }
 
 /// A sentence in which numbers stay on one line with their units.
@@ -79,7 +75,7 @@ mod tests {
     use super::*;
 
     fn page(story: &SceneStory) -> String {
-        player_page(story).unwrap()
+        player_page(story)
     }
 
     /// The JSON of a script element.

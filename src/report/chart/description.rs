@@ -112,4 +112,3 @@ impl Chart {
 fn name(panel: &Panel, row: usize) -> &str {
     panel.y.names.get(row).map_or("", String::as_str)
 }
-

@@ -1,5 +1,6 @@
 //! Draws a chart: its panels one after the other, and the marks on axes of numbers.
 
+use super::Arrangement;
 use super::figure::{Figure, Words};
 use super::flags::{self, Flag};
 use super::labels::{self, Area, Label};
@@ -11,7 +12,6 @@ use super::series::Series;
 use super::style::{ChartWidth, MUTED, Medium, PANEL_TITLE, TICK};
 use super::svg::{Anchor, Attributes, Canvas, Text};
 use super::text::shorten;
-use super::{Arrangement, ChartError};
 
 /// Room above a plot, px.
 const HEAD: f64 = 8.0;
@@ -22,18 +22,12 @@ const MOST_LABELS: usize = 60;
 
 impl Chart {
     /// The chart as an SVG document for a page column, the same bytes for the same chart.
-    ///
-    /// # Errors
-    /// [`ChartError::NoPanels`] if there is nothing to draw.
-    pub fn svg(&self) -> Result<String, ChartError> {
+    pub fn svg(&self) -> String {
         self.svg_at(ChartWidth::Wide)
     }
 
     /// The chart as an SVG document for `width`.
-    ///
-    /// # Errors
-    /// [`ChartError`], as for [`svg`](Self::svg).
-    pub fn svg_at(&self, width: ChartWidth) -> Result<String, ChartError> {
+    pub fn svg_at(&self, width: ChartWidth) -> String {
         self.drawn(Medium { width, inline: false })
     }
 
@@ -48,31 +42,24 @@ impl Chart {
     /// let bar = Series::new("effect", Colour::Series(0)).mark(Shape::Bar(Bar { to: 4.0, ..Bar::default() }));
     /// let chart = Chart::new("Effects", "x1 matters.")
     ///     .panels([Panel::new(Axis::new("effect", "nN"), rows).with([bar])]);
-    /// let svg = chart.inline(ChartWidth::Narrow)?;
+    /// let svg = chart.inline(ChartWidth::Narrow);
     /// assert!(svg.starts_with("<svg") && svg.contains("viewBox=\"0 0 360 "));
-    /// # Ok::<(), apportion::report::chart::ChartError>(())
     /// ```
-    ///
-    /// # Errors
-    /// [`ChartError`], as for [`svg`](Self::svg).
-    pub fn inline(&self, width: ChartWidth) -> Result<String, ChartError> {
+    pub fn inline(&self, width: ChartWidth) -> String {
         self.drawn(Medium { width, inline: true })
     }
 
-    fn drawn(&self, medium: Medium) -> Result<String, ChartError> {
-        if self.panels.is_empty() {
-            return Err(ChartError::NoPanels { chart: self.title.clone() });
-        }
+    fn drawn(&self, medium: Medium) -> String {
         let words = Words { title: &self.title, caption: &self.caption };
         let mut figure = Figure::begin(medium, words, &self.legend());
         let bottom = self.draw_panels(&mut figure, medium.width);
-        Ok(figure.finish(bottom, &self.data()))
+        figure.finish(bottom, &self.data())
     }
 
     /// Draws all panels from the figure's free room on; gives the lower edge.
     fn draw_panels(&self, figure: &mut Figure, page: ChartWidth) -> f64 {
         let layout = Layout::new(self, page);
-        let last = layout.cells.len() - 1;
+        let last = layout.cells.len().saturating_sub(1);
         let mut top = figure.top + 4.0;
         let mut bottom = top;
         for (row, cells) in layout.cells.chunks(layout.columns).enumerate() {

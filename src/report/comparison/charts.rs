@@ -73,5 +73,9 @@ fn caption(output: &ComparedOutput) -> String {
     }
     let singles = single_factors(output);
     let sure = singles.iter().filter(|factor| factor.total.differs == Some(true)).count();
-    format!("{sure} of {} total indices differ by more than the errors of both.{}", singles.len(), not_drawn(singles.len(), MOST))
+    format!(
+        "{sure} of {} total indices differ by more than the errors of both.{}",
+        singles.len(),
+        not_drawn(singles.len(), MOST)
+    )
 }

@@ -44,23 +44,6 @@ pub struct Document {
     pub files: Vec<DataFile>,
 }
 
-/// Why a page could not be made.
-#[cfg(feature = "page")]
-#[derive(Debug, thiserror::Error)]
-pub enum DocumentError {
-    /// A template cannot be rendered.
-    #[error("cannot make the page: {0}")]
-    Template(String),
-    /// A chart cannot be drawn.
-    #[error("cannot draw figure {figure:?} of the page: {source}")]
-    Chart {
-        /// Anchor of the figure.
-        figure: String,
-        /// Why.
-        source: crate::report::chart::ChartError,
-    },
-}
-
 /// A file for programs.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DataFile {

@@ -6,8 +6,7 @@ use crate::report::document::{Figure, Part};
 use crate::report::format::name as words;
 use crate::report::result::{OutputRecord, ResultFile};
 use crate::report::{
-    convergence_chart, distribution_chart, file_stems, indices_chart, pairs_chart, scatter_chart,
-    study_chart,
+    convergence_chart, distribution_chart, file_stems, indices_chart, pairs_chart, scatter_chart, study_chart,
 };
 
 /// A chart of an output.

@@ -63,7 +63,8 @@ fn scatter(file: &ScreeningFile, output: &OutputScreeningRecord) -> Chart {
         leader(output)
     );
     let (right, top) = known.iter().fold((0.0, 0.0), |(right, top), (_, x, y)| (x.max(right), y.max(top)));
-    let slopes = [(1.0, "σ = μ*", Stroke::Solid), (0.5, "σ = 0.5 μ*", Stroke::Dashed), (0.1, "σ = 0.1 μ*", Stroke::Dotted)];
+    let slopes =
+        [(1.0, "σ = μ*", Stroke::Solid), (0.5, "σ = 0.5 μ*", Stroke::Dashed), (0.1, "σ = 0.1 μ*", Stroke::Dotted)];
     let slopes = slopes.map(|(slope, name, stroke)| {
         let end = f64::min(right, top / slope);
         Series::new(name, Colour::Reference).stroke(stroke).line(vec![(0.0, 0.0), (end, slope * end)])

@@ -22,8 +22,7 @@ pub use animation::{ANIMATION_STEM, Animation, animation};
 
 use super::{Effort, Reproduced};
 use apportion::afm::Failure;
-use apportion::report::chart::{Chart, ChartError};
-use apportion::report::document::DocumentError;
+use apportion::report::chart::Chart;
 use apportion::study::StudyError;
 use apportion::sweep::SweepError;
 
@@ -60,12 +59,6 @@ pub enum FiguresError {
         /// Its name.
         name: &'static str,
     },
-    /// The data of a chart do not fit together.
-    #[error(transparent)]
-    Chart(#[from] ChartError),
-    /// The animation's page cannot be made.
-    #[error(transparent)]
-    Page(#[from] DocumentError),
 }
 
 /// The stems of all figures, in the order of the papers: CHK, LG, TS04, then the friction models side by side.
@@ -110,7 +103,7 @@ const ORDER: [&str; 33] = [
 /// every run and any number of threads.
 ///
 /// # Errors
-/// [`FiguresError`] if a scene has no answer, or the data of a chart do not fit together.
+/// [`FiguresError`] if a scene has no answer.
 ///
 /// # Example
 /// ```

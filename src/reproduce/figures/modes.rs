@@ -22,7 +22,7 @@ pub(super) fn modes(effort: Effort) -> Result<Vec<PaperFigure>, FiguresError> {
 
 fn against_force_angle() -> Result<PaperFigure, FiguresError> {
     let diagram = scene_modes(&Scene::default(), &Options::default())?;
-    let mut chart = mode_diagram_chart(&diagram)?;
+    let mut chart = mode_diagram_chart(&diagram);
     if let Some(said) = sliding(&diagram) {
         chart.set_caption(format!("{}; {said}.", chart.caption().trim_end_matches('.')));
     }

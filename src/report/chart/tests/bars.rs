@@ -71,7 +71,7 @@ fn marks_stand_at_their_values(bars: &[Bar], svg: &str) {
 
 #[test]
 fn bars_whiskers_and_diamonds_stand_at_their_values() {
-    let svg = sample().svg().expect("a chart");
+    let svg = sample().svg();
     let all: Vec<Bar> = sample().all_panels()[0].bars().map(|(_, bar)| bar.clone()).collect();
     // Row by row.
     marks_stand_at_their_values(&[0, 2, 1, 3].map(|number: usize| all[number].clone()), &svg);
@@ -85,7 +85,7 @@ fn bars_whiskers_and_diamonds_stand_at_their_values() {
 
 #[test]
 fn a_small_chart_looks_as_reviewed() {
-    insta::assert_snapshot!(sample().svg().expect("a chart"));
+    insta::assert_snapshot!(sample().svg());
 }
 
 #[test]
@@ -101,7 +101,7 @@ fn rows_are_ranked_and_the_least_left_out() {
 fn two_bars_share_a_row_about_the_rule() {
     let bar = |number: usize, to| series(number).mark(Shape::Bar(Bar { from: 40.0, to, ..Bar::default() }));
     let marks = [Mark::rule(40.0, "nominal"), bar(0, 10.0), bar(1, 20.0)];
-    let svg = chart(vec![panel(names(1, "x"), marks)]).svg().expect("a chart");
+    let svg = chart(vec![panel(names(1, "x"), marks)]).svg();
     let document = Document::parse(&svg).expect("well-formed");
     let rects = elements(&document, "bars");
     let (y, height) = (number(&rects[0], "y"), number(&rects[0], "height"));
@@ -116,9 +116,9 @@ fn two_bars_share_a_row_about_the_rule() {
 #[test]
 fn panels_with_the_same_rows_name_them_once() {
     let chart = chart(vec![panel(names(3, "x"), [bar(0, 0, 1.0, 0.5, 1.5)]); 2]).side_by_side();
-    let svg = chart.svg().expect("a chart");
+    let svg = chart.svg();
     assert_eq!(svg.matches(">x 1<").count(), 1);
-    assert_eq!(chart.svg_at(ChartWidth::Narrow).expect("a chart").matches(">x 1<").count(), 2);
+    assert_eq!(chart.svg_at(ChartWidth::Narrow).matches(">x 1<").count(), 2);
 }
 
 proptest! {
@@ -130,6 +130,6 @@ proptest! {
         };
         let bars: Vec<Bar> = values.iter().enumerate().map(bar).collect();
         let marks = bars.iter().map(|bar| series(0).mark(Shape::Bar(bar.clone())));
-        marks_stand_at_their_values(&bars, &chart(vec![panel(names(values.len(), "name"), marks)]).svg().expect("a chart"));
+        marks_stand_at_their_values(&bars, &chart(vec![panel(names(values.len(), "name"), marks)]).svg());
     }
 }
