@@ -82,12 +82,12 @@ pub fn mode_document(diagram: &ModeDiagram, study: &str, title: &str) -> Documen
 
 #[cfg(test)]
 mod tests {
-    use super::super::fixture;
+    use super::super::nominal_story;
     use super::*;
 
     #[test]
     fn a_scene_has_a_page() {
-        let mut story = fixture::story();
+        let mut story = nominal_story();
         let document = scene_document(&story, "s");
         assert!(document.lead[1].contains("lateral") && document.html().contains("srcdoc="));
         story.samples.clear();

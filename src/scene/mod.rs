@@ -7,8 +7,6 @@
 pub(crate) mod charts;
 mod columns;
 mod document;
-#[cfg(test)]
-mod fixture;
 pub(crate) mod mode_diagram;
 mod player;
 pub mod simulation;
@@ -20,6 +18,7 @@ pub use document::{mode_document, scene_document};
 pub use mode_diagram::{ModeDiagram, ModeLine, mode_diagram_chart};
 pub use player::player_page;
 
+use apportion::afm::Scene;
 use apportion::report::chart::Colour;
 use apportion::report::format;
 
@@ -30,33 +29,14 @@ pub struct SceneStory {
     pub title: String,
     /// What was chosen, as label and value with unit, such as ("friction", "coulomb"): the page's table of settings.
     pub setting: Vec<(String, String)>,
-    /// What is drawn to scale.
-    pub geometry: SceneGeometry,
+    /// The scene, whose lengths are drawn to scale.
+    pub scene: Scene,
     /// When and at which forces the particle slips.
     pub critical: CriticalInstant,
     /// The colour of the pushing force: that of the friction law, see [`law_colour`].
     pub colour: Colour,
     /// The states in the order of time; unevenly spaced, and as few as one or none.
     pub samples: Vec<SceneSample>,
-}
-
-/// Lengths of probe and particle.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SceneGeometry {
-    /// Particle radius R_p (m).
-    pub particle_radius: f64,
-    /// Radius of the tip apex, R_t (m).
-    pub tip_radius: f64,
-    /// Tip height H (m).
-    pub height: f64,
-    /// Angle of the tip-particle contact from the vertical, phi (rad).
-    pub contact_angle: f64,
-    /// Cantilever length L (m).
-    pub length: f64,
-    /// Cantilever width w (m).
-    pub width: f64,
-    /// Cantilever thickness t (m).
-    pub thickness: f64,
 }
 
 /// The instant at which the particle slips.
@@ -143,13 +123,20 @@ impl SceneStory {
     }
 }
 
+/// The nominal scene under Coulomb friction, for tests.
+#[cfg(test)]
+fn nominal_story() -> SceneStory {
+    let title = "A gold particle pushed on silicon oxide".to_owned();
+    simulation::scene_story(title, &Scene::default(), &Default::default(), 0.4).expect("a scene with an answer")
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn the_outcome_is_said_for_every_story() {
-        let story = fixture::story();
+        let story = nominal_story();
         assert_eq!(story.outcome(), "The particle slips after 0.131 s, at a tip force of 631 nN.");
         let mut early = story.clone();
         early.samples.retain(|sample| sample.time < 0.1);

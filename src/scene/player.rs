@@ -71,7 +71,7 @@ fn script_json(value: &Value) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::fixture;
+    use super::super::nominal_story;
     use super::*;
 
     fn page(story: &SceneStory) -> String {
@@ -86,7 +86,7 @@ mod tests {
 
     #[test]
     fn the_page_needs_nothing_else() {
-        let page = page(&fixture::story());
+        let page = page(&nominal_story());
         let own = page.replace("http://www.w3.org/2000/svg", "");
         for outside in ["http:", "https:", "src=", "@import", "url(", "//cdn", "fetch("] {
             assert!(!own.contains(outside), "{outside}");
@@ -98,7 +98,7 @@ mod tests {
 
     #[test]
     fn texts_cannot_break_out() {
-        let mut story = fixture::story();
+        let mut story = nominal_story();
         let evil = "</script><script>alert('&\"')</script><!--";
         story.title = evil.to_owned();
         let page = page(&story);
@@ -110,7 +110,7 @@ mod tests {
 
     #[test]
     fn the_data_are_those_of_the_file() {
-        let story = fixture::story();
+        let story = nominal_story();
         let page = page(&story);
         let file: Value = serde_json::from_str(&super::super::scene_json(&story)).unwrap();
         assert_eq!(embedded(&page, "scene-data"), file);
@@ -119,12 +119,12 @@ mod tests {
 
     #[test]
     fn degenerate_stories_have_pages() {
-        let whole = fixture::story();
+        let whole = nominal_story();
         for count in 0..3 {
             let mut story = whole.clone();
             story.samples.truncate(count);
             story.critical.time = None;
-            story.geometry.particle_radius = f64::NAN;
+            story.scene.particle_radius = f64::NAN;
             let page = page(&story);
             assert!(!page.contains("NaN"), "{count}");
             assert_eq!(page.contains("id=\"player\""), count > 0);

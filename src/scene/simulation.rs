@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-use crate::scene::{CriticalInstant, ModeDiagram, ModeLine, SceneGeometry, SceneSample, SceneStory, law_colour};
+use crate::scene::{CriticalInstant, ModeDiagram, ModeLine, SceneSample, SceneStory, law_colour};
 use apportion::afm::history::{Sample, history};
 use apportion::afm::modes::{Mode, Pushing, TipForce};
 use apportion::afm::{Failure, Fidelity, Options, Parameter, Scene, critical_force};
@@ -75,15 +75,7 @@ pub fn scene_story(title: String, scene: &Scene, options: &Options, duration: f6
     Ok(SceneStory {
         title,
         setting: setting(scene, options),
-        geometry: SceneGeometry {
-            particle_radius: scene.particle_radius,
-            tip_radius: scene.tip_radius,
-            height: scene.height,
-            contact_angle: scene.contact_angle,
-            length: scene.length,
-            width: scene.width,
-            thickness: scene.thickness,
-        },
+        scene: *scene,
         critical: CriticalInstant {
             time: told.critical.critical_time.ok(),
             critical_force: told.critical.critical_force,
