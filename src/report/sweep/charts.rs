@@ -6,7 +6,8 @@ use super::super::factor_bars::{MOST, not_drawn};
 use super::super::format::{axis_unit, name, printed, short_with_unit, words};
 use crate::report::{file_stems, listed};
 
-use super::{CurveRecord, FactorSweepRecord, NominalRecord, SweepEffectRecord, SweepFile, gap_lines};
+use super::{SweepFile, gap_lines};
+use crate::sweep::{NominalOutput, Sweep, SweepCurve, SweepEffect};
 
 /// Up to so many values, each is marked by a point.
 const FEW_VALUES: usize = 12;
@@ -31,7 +32,7 @@ pub fn sweep_charts(file: &SweepFile) -> Vec<Drawing> {
     charts.chain(of_outputs).zip(suffixes).map(|(chart, suffix)| Drawing { suffix, chart }).collect()
 }
 
-fn lines(file: &SweepFile, sweep: &FactorSweepRecord) -> Chart {
+fn lines(file: &SweepFile, sweep: &Sweep) -> Chart {
     let logarithmic = sweep.spacing == "logarithmic" && sweep.values.iter().all(|value| *value > 0.0);
     // With a family, the curve at nominal values would only be in its way.
     let drawn = if sweep.curves.len() > 1 { &sweep.curves[1..] } else { &sweep.curves[..] };
@@ -44,7 +45,7 @@ fn lines(file: &SweepFile, sweep: &FactorSweepRecord) -> Chart {
             Spacing::Linear
         }),
     };
-    let panel = |(number, nominal): (usize, &NominalRecord)| {
+    let panel = |(number, nominal): (usize, &NominalOutput)| {
         let spacing = if is_wide(drawn, number) { Spacing::Logarithmic } else { Spacing::Linear };
         let y = Axis::new(words(&nominal.output), axis_unit(&nominal.unit)).spaced(spacing);
         let curves = drawn.iter().enumerate().map(|(place, curve)| line(sweep, curve, place, number));
@@ -71,7 +72,7 @@ fn lines(file: &SweepFile, sweep: &FactorSweepRecord) -> Chart {
 }
 
 /// Where a value stands on the horizontal axis: categories side by side, numbers where they are.
-fn place_of(sweep: &FactorSweepRecord, value: f64) -> Option<f64> {
+fn place_of(sweep: &Sweep, value: f64) -> Option<f64> {
     match &sweep.labels {
         Some(_) => sweep.values.iter().position(|other| *other == value).map(|place| place as f64),
         None => Some(value),
@@ -79,14 +80,14 @@ fn place_of(sweep: &FactorSweepRecord, value: f64) -> Option<f64> {
 }
 
 /// Whether an output spans so much over its curves that a linear axis would hide the lower ones.
-fn is_wide(curves: &[CurveRecord], number: usize) -> bool {
+fn is_wide(curves: &[SweepCurve], number: usize) -> bool {
     let values = || curves.iter().flat_map(|curve| curve.outputs[number].values.iter().copied().flatten());
     let (low, high) = values().fold((f64::INFINITY, 0.0f64), |(low, high), y| (low.min(y), high.max(y)));
     low > 0.0 && high / low > WIDE
 }
 
 /// The curve at `place` of an output by its number.
-fn line(sweep: &FactorSweepRecord, curve: &CurveRecord, place: usize, number: usize) -> Mark {
+fn line(sweep: &Sweep, curve: &SweepCurve, place: usize, number: usize) -> Mark {
     let points = sweep.values.iter().zip(&curve.outputs[number].values);
     let points = points.filter_map(|(x, y)| Some((place_of(sweep, *x)?, y.unwrap_or(f64::NAN))));
     let (name, stroke) = match &curve.against {
@@ -106,7 +107,7 @@ fn line(sweep: &FactorSweepRecord, curve: &CurveRecord, place: usize, number: us
 }
 
 /// What is seen: how far each output goes, and what is missing.
-fn caption(sweep: &FactorSweepRecord) -> String {
+fn caption(sweep: &Sweep) -> String {
     let factor = words(&sweep.factor);
     let family = match sweep.curves.iter().find_map(|curve| curve.against.as_ref()) {
         Some(against) => format!(" for {} values of {}", sweep.curves.len() - 1, name(&against.factor)),
@@ -126,7 +127,7 @@ fn caption(sweep: &FactorSweepRecord) -> String {
 }
 
 /// The ends of a sweep with their unit.
-fn from_to(sweep: &FactorSweepRecord) -> String {
+fn from_to(sweep: &Sweep) -> String {
     if let Some(labels) = &sweep.labels {
         return labels.join(", ");
     }
@@ -139,7 +140,7 @@ fn from_to(sweep: &FactorSweepRecord) -> String {
     }
 }
 
-fn ranges(file: &SweepFile, number: usize, nominal: &NominalRecord) -> Chart {
+fn ranges(file: &SweepFile, number: usize, nominal: &NominalOutput) -> Chart {
     let sweeps = || file.sweeps.iter().filter_map(|sweep| Some((sweep, sweep.effects.get(number)?)));
     let output = name(&nominal.output);
     let caption = format!(
@@ -148,7 +149,7 @@ fn ranges(file: &SweepFile, number: usize, nominal: &NominalRecord) -> Chart {
         not_drawn(file.sweeps.len(), MOST)
     );
     let x = Axis::new(words(&nominal.output), axis_unit(&nominal.unit));
-    let row_name = |(sweep, effect): (&FactorSweepRecord, &SweepEffectRecord)| {
+    let row_name = |(sweep, effect): (&Sweep, &SweepEffect)| {
         let percent = effect.percent.map_or_else(String::new, |percent| format!(": {} %", printed(percent)));
         format!("{}, {}{percent}", words(&sweep.factor), from_to(sweep))
     };
@@ -163,7 +164,7 @@ fn ranges(file: &SweepFile, number: usize, nominal: &NominalRecord) -> Chart {
 }
 
 /// The bars of a factor: its ends, or its whole range where these are not the extremes.
-fn row_marks(row: usize, sweep: &FactorSweepRecord, effect: &SweepEffectRecord, nominal: Option<f64>) -> Vec<Mark> {
+fn row_marks(row: usize, sweep: &Sweep, effect: &SweepEffect, nominal: Option<f64>) -> Vec<Mark> {
     let bar = |name: &str, colour, from, to| {
         Series::new(name, colour).mark(Shape::Bar(Bar { row, from, to, ..Bar::default() }))
     };
