@@ -53,7 +53,7 @@ impl Chart {
         let words = Words { title: &self.title, caption: &self.caption };
         let mut figure = Figure::begin(medium, words, &self.legend());
         let bottom = self.draw_panels(&mut figure, medium.width);
-        figure.finish(bottom, &self.data())
+        figure.finish(bottom, &self.axes())
     }
 
     /// Draws all panels from the figure's free room on; gives the lower edge.
