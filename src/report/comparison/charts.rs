@@ -2,7 +2,6 @@
 
 use super::index::ComparedIndex;
 use super::record::{ComparedFactor, ComparedOutput, ComparisonFile};
-use crate::report::Drawing;
 use crate::report::chart::{Chart, Colour, Series};
 use crate::report::factor_bars::{INDEX, MOST, both_orders, difference_panel, index_panel, not_drawn};
 use crate::report::file_stems;
@@ -10,13 +9,11 @@ use crate::report::format::name;
 
 /// For every output its indices side by side, then the differences. Of more than 20 factors, those with the largest total
 /// indices in either result.
-pub fn comparison_charts(file: &ComparisonFile) -> Vec<Drawing> {
+pub fn comparison_charts(file: &ComparisonFile) -> Vec<(String, Chart)> {
     let names: Vec<&str> = file.outputs.iter().map(|output| output.name.as_str()).collect();
     let drawn = file.outputs.iter().zip(file_stems("", &names, &["", "-differences"])).flat_map(|(output, stem)| {
-        [
-            Drawing { suffix: stem.clone(), chart: side_by_side(file, output) },
-            Drawing { suffix: format!("{stem}-differences"), chart: differences(file, output) },
-        ]
+        let of_differences = format!("{stem}-differences");
+        [(stem, side_by_side(file, output)), (of_differences, differences(file, output))]
     });
     drawn.collect()
 }

@@ -261,6 +261,19 @@ impl Figure {
         }
     }
 
+    /// Figures numbered from 1: charts with what the names of their files end in after `name`, whose numbers are in the file
+    /// `data`, below the title `headline`.
+    pub(crate) fn numbered(
+        charts: impl IntoIterator<Item = (String, Chart)>,
+        (name, headline): (&str, &str),
+        data: &str,
+    ) -> Vec<Self> {
+        let charts = charts.into_iter().zip(1..);
+        let figure =
+            |((suffix, chart), number)| Self::new(number, chart, format!("{name}{suffix}"), data).below(headline);
+        charts.map(figure).collect()
+    }
+
     /// The same without the title of the document before that of the chart.
     pub(crate) fn below(self, title: &str) -> Self {
         let own = self.chart.title().strip_prefix(title).and_then(|rest| rest.strip_prefix(": "));

@@ -1,6 +1,5 @@
 //! The charts of a screening: mu* against sigma, and mu* with its intervals.
 
-use super::super::Drawing;
 use super::super::chart::{Axis, Bar, Chart, Colour, Panel, Point, Series, Shape, Stroke};
 use super::super::factor_bars::{MOST, not_drawn};
 use super::super::format::{axis_unit, index, name, words};
@@ -11,13 +10,13 @@ use crate::report::result::EstimateRecord;
 use crate::screening::{FIXABLE, Reading};
 
 /// The charts of every output: `-screen` (mu* against sigma) and `-screen-bars`, with the output's name in between
-/// where there are several.
-pub fn screening_charts(file: &ScreeningFile) -> Vec<Drawing> {
+/// where there are several; each with what the names of its files end in.
+pub fn screening_charts(file: &ScreeningFile) -> Vec<(String, Chart)> {
     let names: Vec<&str> = file.outputs.iter().map(|output| output.name.as_str()).collect();
     let stems = file_stems("-screen", &names, &["", "-bars"]);
     let drawn = file.outputs.iter().zip(stems).flat_map(|(output, stem)| {
         let of_bars = format!("{stem}-bars");
-        [Drawing { chart: scatter(file, output), suffix: stem }, Drawing { chart: bars(file, output), suffix: of_bars }]
+        [(stem, scatter(file, output)), (of_bars, bars(file, output))]
     });
     drawn.collect()
 }

@@ -1,6 +1,5 @@
 //! The charts of sweeps: every output against each factor, and how far each factor moves each output.
 
-use super::super::Drawing;
 use super::super::chart::{Axis, Bar, Chart, Colour, Mark, Panel, Series, Shape, Spacing, Stroke};
 use super::super::factor_bars::{MOST, not_drawn};
 use super::super::format::{axis_unit, name, printed, short_with_unit, words};
@@ -18,18 +17,18 @@ const LOW_END: Colour = Colour::Series(5);
 const HIGH_END: Colour = Colour::Series(1);
 const WHOLE_RANGE: Colour = Colour::Series(6);
 
-/// One line chart per factor, `-sweep-FACTOR`, with a panel per output; then per output the ranges of all factors,
-/// `-sweep-ranges`, with the output's name at the end where there are several.
-pub fn sweep_charts(file: &SweepFile) -> Vec<Drawing> {
-    let charts = file.sweeps.iter().map(|sweep| lines(file, sweep));
+/// Per output the ranges of all factors, `-sweep-ranges`, with the output's name at the end where there are several; then one
+/// line chart per factor, `-sweep-FACTOR`, with a panel per output.
+pub fn sweep_charts(file: &SweepFile) -> Vec<(String, Chart)> {
     let of_outputs = file.nominal.iter().enumerate().map(|(number, nominal)| ranges(file, number, nominal));
+    let charts = of_outputs.chain(file.sweeps.iter().map(|sweep| lines(file, sweep)));
     let ranges = file.nominal.iter().map(|nominal| match file.nominal.len() {
         1 => "ranges".to_owned(),
         _ => format!("ranges-{}", nominal.output),
     });
-    let names: Vec<String> = file.sweeps.iter().map(|sweep| sweep.factor.clone()).chain(ranges).collect();
+    let names: Vec<String> = ranges.chain(file.sweeps.iter().map(|sweep| sweep.factor.clone())).collect();
     let suffixes = file_stems("-sweep", &names.iter().map(String::as_str).collect::<Vec<_>>(), &[""]);
-    charts.chain(of_outputs).zip(suffixes).map(|(chart, suffix)| Drawing { suffix, chart }).collect()
+    suffixes.into_iter().zip(charts).collect()
 }
 
 fn lines(file: &SweepFile, sweep: &Sweep) -> Chart {

@@ -14,23 +14,15 @@ use crate::sweep::{Against, NominalOutput, Sweep, SweepEffect};
 /// The document of sweeps.
 pub fn sweep_document(file: &SweepFile) -> Document {
     let study = &file.study.name;
-    // Those of the factors come before those of the outputs, which come first in the document.
-    let (factors, outputs) = (file.sweeps.len(), file.nominal.len());
-    let mut charts = sweep_charts(file).into_iter().enumerate().map(|(place, drawing)| {
-        let number = if place < factors { outputs + place } else { place - factors };
-        let (stem, data) = (format!("{study}{}", drawing.suffix), format!("{study}-sweep.csv"));
-        Figure::new(number + 1, drawing.chart, stem, data).below(file.study.headline())
-    });
-    let curves: Vec<Figure> = charts.by_ref().take(factors).collect();
-    let mut of_outputs = Vec::new();
-    for (place, (nominal, ranges)) in file.nominal.iter().zip(charts).enumerate() {
-        let parts = vec![
-            Part::Text(at_nominal(nominal)),
-            Part::Table(effects(file, nominal, place)),
-            Part::Figure(Box::new(ranges)),
-        ];
-        of_outputs.push((heading(&nominal.output, &nominal.unit), parts));
-    }
+    let outputs = file.nominal.len();
+    let mut figures =
+        Figure::numbered(sweep_charts(file), (study, file.study.headline()), &format!("{study}-sweep.csv"));
+    let curves = figures.split_off(outputs);
+    let of_output = |(place, (nominal, ranges)): (usize, (&NominalOutput, Figure))| {
+        let parts = vec![Part::Text(at_nominal(nominal)), effects(file, nominal, place).into(), ranges.into()];
+        (heading(&nominal.output, &nominal.unit), parts)
+    };
+    let of_outputs = file.nominal.iter().zip(figures).enumerate().map(of_output).collect();
     let mut sections = Document::sections_of_outputs(of_outputs);
     let answers = (0..outputs).map(|place| widest(file, &file.nominal[place], place));
     let mut lead = first_answers(answers.collect());

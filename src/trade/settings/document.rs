@@ -20,10 +20,9 @@ pub fn settings_document(file: &SettingsFile) -> Document {
     let study = &file.study.name;
     let headline = file.study.headline();
     let data = format!("{study}-trade.csv");
-    let figures = [("-trade", chart(file, headline)), ("-trade-formulas", formulas_chart(file, headline))];
-    let mut figures = figures.into_iter().enumerate().map(|(place, (suffix, chart))| {
-        Figure::new(place + 1, chart, format!("{study}{suffix}"), data.clone()).below(headline)
-    });
+    let charts = [("-trade", chart(file, headline)), ("-trade-formulas", formulas_chart(file, headline))];
+    let charts = charts.map(|(suffix, chart)| (suffix.to_owned(), chart));
+    let mut figures = Figure::numbered(charts, (study, headline), &data).into_iter();
     let mut advice: Vec<Part> = vec![advice_table(file).into()];
     advice.extend(figures.next().map(Part::from));
     let mut others: Vec<Part> = figures.map(Part::from).collect();
