@@ -43,13 +43,13 @@ fn numbers(story: &SceneStory) -> Option<String> {
     let critical = &story.critical;
     let value = |x: f64, unit: &str| minus(&with_unit(x, unit));
     let force = |newtons: f64| value(newtons * 1e9, "nN");
-    let mut text = format!(
-        "The critical tip force is {} (lateral {}, normal {})",
+    let text = format!(
+        "The critical tip force is {} (lateral {}, normal {}), reached after {}",
         force(critical.critical_force),
         force(critical.lateral_force),
-        force(critical.normal_force)
+        force(critical.normal_force),
+        value(critical.time, "s")
     );
-    text.push_str(&critical.time.map_or_else(String::new, |time| format!(", reached after {}", value(time, "s"))));
     let end = story.samples.last()?;
     let moved = value(end.relative_position * 1e9, "nm");
     Some(format!("{text}; after {} the particle has moved {moved} relative to the substrate.", value(end.time, "s")))

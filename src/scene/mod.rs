@@ -42,8 +42,8 @@ pub struct SceneStory {
 /// The instant at which the particle slips.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CriticalInstant {
-    /// Critical time t_cr (s); `None` if it does not exist, as at velocity 0.
-    pub time: Option<f64>,
+    /// Critical time t_cr (s).
+    pub time: f64,
     /// Critical force F_cr, the tip force at that instant (N).
     pub critical_force: f64,
     /// Lateral force F_Y at that instant (N).
@@ -98,7 +98,7 @@ pub struct SceneSample {
 impl SceneStory {
     /// The critical time if the samples reach it: only then can it be drawn.
     fn slip(&self) -> Option<f64> {
-        let time = self.critical.time?;
+        let time = self.critical.time;
         let (first, last) = (self.samples.first()?.time, self.samples.last()?.time);
         (first <= time && time <= last).then_some(time)
     }
@@ -111,14 +111,10 @@ impl SceneStory {
     /// The outcome in one sentence.
     fn outcome(&self) -> String {
         let at = format::force(self.critical.critical_force);
-        match (self.critical.time.filter(|time| time.is_finite()), self.slip()) {
-            (_, Some(time)) => format!("The particle slips after {}, at a tip force of {at}.", format::time(time)),
-            (Some(time), None) => {
-                format!("The particle slips at {}, outside the time shown, at a tip force of {at}.", format::time(time))
-            }
-            (None, None) => {
-                format!("The particle does not slip in a finite time; its critical force would be {at}.")
-            }
+        let time = format::time(self.critical.time);
+        match self.slip() {
+            Some(_) => format!("The particle slips after {time}, at a tip force of {at}."),
+            None => format!("The particle slips at {time}, outside the time shown, at a tip force of {at}."),
         }
     }
 }
@@ -138,13 +134,8 @@ mod tests {
     fn the_outcome_is_said_for_every_story() {
         let story = nominal_story();
         assert_eq!(story.outcome(), "The particle slips after 0.131 s, at a tip force of 631 nN.");
-        let mut early = story.clone();
+        let mut early = story;
         early.samples.retain(|sample| sample.time < 0.1);
         assert!(early.outcome().contains("0.131 s, outside the time shown"), "{}", early.outcome());
-        let mut never = story;
-        never.critical.time = None;
-        assert!(never.outcome().starts_with("The particle does not slip"), "{}", never.outcome());
-        never.critical.time = Some(f64::INFINITY);
-        assert!(never.outcome().starts_with("The particle does not slip"), "{}", never.outcome());
     }
 }

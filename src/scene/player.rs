@@ -123,7 +123,6 @@ mod tests {
         for count in 0..3 {
             let mut story = whole.clone();
             story.samples.truncate(count);
-            story.critical.time = None;
             story.scene.particle_radius = f64::NAN;
             let page = page(&story);
             assert!(!page.contains("NaN"), "{count}");

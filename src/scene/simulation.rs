@@ -64,7 +64,7 @@ pub fn simulate(study: &Study, duration: Option<f64>) -> Result<SceneStory, Simu
 /// use apportion::simulation::scene_story;
 ///
 /// let story = scene_story("Nominal".to_owned(), &Scene::default(), &Options::default(), 0.4)?;
-/// assert!(story.critical.time.is_some_and(|slip| slip < 0.4));
+/// assert!(story.critical.time < 0.4);
 /// assert!(story.samples.last().is_some_and(|end| end.slipping));
 /// # Ok::<(), apportion::afm::Failure>(())
 /// ```
@@ -77,7 +77,7 @@ pub fn scene_story(title: String, scene: &Scene, options: &Options, duration: f6
         setting: setting(scene, options),
         scene: *scene,
         critical: CriticalInstant {
-            time: told.critical.critical_time.ok(),
+            time: told.critical.critical_time?,
             critical_force: told.critical.critical_force,
             lateral_force: told.critical.lateral_force,
             normal_force: told.critical.normal_force,
@@ -174,5 +174,5 @@ pub fn scene_modes(scene: &Scene, options: &Options) -> Result<ModeDiagram, Fail
         let force = angle.iter().map(sets_in).collect::<Result<Vec<_>, Failure>>()?;
         lines.push(ModeLine { mode: mode.name().to_owned(), colour, force });
     }
-    Ok(ModeDiagram { angle, forces: lines, current: Some((critical.force_angle(), critical.critical_force)) })
+    Ok(ModeDiagram { angle, forces: lines, current: (critical.force_angle(), critical.critical_force) })
 }
