@@ -63,9 +63,8 @@ fn heavy_tails_leave_the_middle_visible() {
 #[test]
 fn degenerate_samples_are_results() {
     let unit = Unit::dimensionless();
-    assert_eq!(OutputDistribution::of(&[], &unit), Err(DistributionError::NoValues));
-    let error = OutputDistribution::of(&[1.0, f64::INFINITY], &unit).unwrap_err();
-    assert_eq!(error, DistributionError::NotFinite { number: 2 });
+    assert_eq!(OutputDistribution::of(&[], &unit), None);
+    assert_eq!(OutputDistribution::of(&[1.0, f64::INFINITY], &unit), None);
     for value in [0.0, 0.1, 1e300, -1e-300, 5e-324] {
         for n in [1, 2, 50] {
             let d = of(&vec![value; n]);
