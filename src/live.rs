@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 
 use apportion::model::ModelKind;
-use apportion::report::document::{DataFile, Document, DocumentError, Link, Part, Section, symbols};
+use apportion::report::document::{DataFile, Document, Link, Part, Section, symbols};
 use apportion::report::{ResultFile, TRY, one_output, run_document};
 use apportion::run::RunError;
 use apportion::study::{Study, StudyError, edited};
@@ -44,9 +44,6 @@ pub enum LiveError {
     /// The run of its first result has ended.
     #[error(transparent)]
     Run(#[from] RunError),
-    /// A part of the page cannot be drawn.
-    #[error(transparent)]
-    Document(#[from] DocumentError),
     /// The template cannot be rendered.
     #[error("cannot make the page: {0}")]
     Template(#[from] askama::Error),
@@ -192,11 +189,11 @@ fn page(study: &Study, text: &str, result: &ResultFile) -> Result<String, LiveEr
             }
         }
     }
-    let ranges = ranges(&document)?;
+    let ranges = ranges(&document);
     let mut sections = Vec::new();
     let document = document.excerpt(&SECTIONS);
     for id in SECTIONS {
-        let body = document.section_html(id)?;
+        let body = document.section_html(id);
         let title = document.sections.iter().find(|section| section.id == id).map(|section| symbols(&section.title));
         sections.extend(body.zip(title).map(|(body, title)| SectionView { id, title, body }));
     }
@@ -231,12 +228,12 @@ fn compact(text: &str) -> String {
 }
 
 /// The tables of what was asked, for those who see no controls: on paper, and without scripts.
-fn ranges(document: &Document) -> Result<String, DocumentError> {
+fn ranges(document: &Document) -> String {
     let mut document = document.clone().excerpt(&["study"]);
     for part in document.sections.iter_mut().flat_map(|section| &mut section.parts) {
         if let Part::OnPage(parts) = part {
             parts.retain(|part| matches!(part, Part::Table(_)));
         }
     }
-    Ok(document.section_html("study")?.unwrap_or_default())
+    document.section_html("study").unwrap_or_default()
 }

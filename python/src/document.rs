@@ -47,7 +47,7 @@ impl Document {
     }
 
     fn html(&self) -> PyResult<String> {
-        self.document.html().map_err(failed)
+        Ok(self.document.html())
     }
 
     /// The charts as (title, SVG), in the order of the page.
@@ -77,7 +77,7 @@ fn collect(parts: &[Part], charts: &mut Vec<(String, String)>) -> PyResult<()> {
     for part in parts {
         match part {
             Part::Figure(figure) => {
-                charts.push((figure.chart.title().to_owned(), figure.chart.svg().map_err(failed)?));
+                charts.push((figure.chart.title().to_owned(), figure.chart.svg()));
             }
             Part::Details { parts, .. } | Part::OnPage(parts) => collect(parts, charts)?,
             _ => (),

@@ -314,7 +314,7 @@ impl Study {
         self.with_function(py, function, stop, &Listeners::default(), |study, _| {
             let (model, context) = (study.model(), RunContext::new(Some(stop.flag()), |_| ()));
             let sweeps = sweep_in(study.space(), model.as_ref(), &request, &context).map_err(failed)?;
-            let file = build_sweep(study, model.as_ref(), &sweeps);
+            let file = build_sweep(study, model.as_ref(), sweeps);
             Ok(Document::new(sweep_document(&file)))
         })
     }

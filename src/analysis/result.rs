@@ -2,6 +2,9 @@
 
 use thiserror::Error;
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
 use super::output::{LookupError, OutputAnalysis};
 use super::series::SeriesAnalysis;
 use super::warnings::Warning;
@@ -76,7 +79,8 @@ pub struct Spending {
 }
 
 /// The runs of a cheaper model beside those of the model.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[schemars(rename = "LowRecord")]
 #[non_exhaustive]
 pub struct LowRuns {
     /// Its name.

@@ -52,7 +52,7 @@ impl From<LiveError> for Failure {
                 Self::Input(error.into())
             }
             LiveError::Run(error) => error.into(),
-            LiveError::Document(_) | LiveError::Template(_) => Self::Run(error.into()),
+            LiveError::Template(_) => Self::Run(error.into()),
         }
     }
 }

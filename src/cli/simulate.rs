@@ -48,16 +48,15 @@ pub fn simulate(arguments: &Arguments) -> Result<(), Failure> {
     let study = arguments.study.load()?;
     let folder = arguments.out.clone().unwrap_or_else(|| default_folder(study.name()));
     let artefacts = arguments.charts.artefacts(folder);
-    let failed = |error: anyhow::Error| Failure::Run(error);
     let document = if arguments.mode_diagram {
         let diagram = mode_diagram(&study)?;
         artefacts.prepare()?;
         let title = study.title().unwrap_or(study.name());
-        mode_document(&diagram, study.name(), title).map_err(|error| failed(error.into()))?
+        mode_document(&diagram, study.name(), title)
     } else {
         artefacts.prepare()?;
         let story = simulate_scene(&study, arguments.duration)?;
-        scene_document(&story, study.name()).map_err(|error| failed(error.into()))?
+        scene_document(&story, study.name())
     };
     deliver(&artefacts, &document)
 }

@@ -109,5 +109,5 @@ pub fn sweep(arguments: &Arguments) -> Result<(), Failure> {
     artefacts.prepare()?;
     let context = RunContext::new(Some(on_signal()), say);
     let sweeps = sweep_in(study.space(), model.as_ref(), &request, &context)?;
-    deliver(&artefacts, &sweep_document(&build_sweep(&study, model.as_ref(), &sweeps)))
+    deliver(&artefacts, &sweep_document(&build_sweep(&study, model.as_ref(), sweeps)))
 }

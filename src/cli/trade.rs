@@ -80,5 +80,5 @@ fn trade_settings(study: &Study, arguments: &Arguments, artefacts: &Artefacts) -
     };
     let comparison = compare_settings(&job).map_err(|error: RunError| Failure::from(error))?;
     let threads = threads_in_force(arguments.threads.number());
-    deliver(artefacts, &settings_document(&build_settings(study, threads, &comparison)))
+    deliver(artefacts, &settings_document(&build_settings(study, threads, comparison)))
 }

@@ -8,12 +8,12 @@ use rayon::prelude::*;
 use thiserror::Error;
 
 use super::atomic_write::{WriteError, prepare_folder, write_atomically};
-use super::chart::{ChartError, ChartWidth};
+use super::chart::ChartWidth;
 #[cfg(feature = "pdf")]
-use super::chart::{PdfError, pdf};
+use super::chart::pdf;
 #[cfg(feature = "png")]
-use super::chart::{PngError, png};
-use super::document::{Document, DocumentError};
+use super::chart::png;
+use super::document::Document;
 use super::file_names::{CHARTS, ChartFormat};
 
 /// Why the files of a document were not written.
@@ -22,41 +22,14 @@ pub enum ArtefactError {
     /// A file cannot be written.
     #[error(transparent)]
     Write(#[from] WriteError),
-    /// The page cannot be made.
-    #[error(transparent)]
-    Document(#[from] DocumentError),
-    /// A chart cannot be drawn.
+    /// A chart cannot be drawn in a format.
     #[error("cannot draw {file}: {source}")]
     Chart {
         /// The chart.
         file: String,
         /// Why.
-        source: ChartError,
+        source: Box<dyn std::error::Error + Send + Sync>,
     },
-    /// A chart cannot be turned into pixels.
-    #[cfg(feature = "png")]
-    #[error("cannot draw {file}: {source}")]
-    Png {
-        /// The chart.
-        file: String,
-        /// Why.
-        source: PngError,
-    },
-    /// A chart cannot be turned into a page.
-    #[cfg(feature = "pdf")]
-    #[error("cannot draw {file}: {source}")]
-    Pdf {
-        /// The chart.
-        file: String,
-        /// Why.
-        source: PdfError,
-    },
-    /// PDF is asked for, and the library was built without the feature that writes it.
-    #[error("charts in PDF need the feature `pdf`, which this build does not have")]
-    WithoutPdf,
-    /// PNG is asked for, and the library was built without the feature that draws it.
-    #[error("charts in PNG need the feature `png`, which this build does not have")]
-    WithoutPng,
     /// A file would take the place of one that must stay.
     #[error("{path}: this is the input itself; choose another folder", path = path.display())]
     Input {
@@ -173,31 +146,15 @@ impl Artefacts {
             if self.formats.is_empty() || stop.load(Ordering::SeqCst) {
                 return Ok(());
             }
-            let svg = figure
-                .chart
-                .svg_at(self.width)
-                .map_err(|source| ArtefactError::Chart { file: figure.stem.clone(), source })?;
+            let svg = figure.chart.svg_at(self.width);
             self.formats.iter().try_for_each(|format| {
-                let bytes = || match format {
-                    ChartFormat::Svg => Ok(Cow::Borrowed(svg.as_bytes())),
-                    #[cfg(not(feature = "png"))]
-                    ChartFormat::Png => Err(ArtefactError::WithoutPng),
-                    #[cfg(feature = "png")]
-                    ChartFormat::Png => png(&svg)
-                        .map(|picture| Cow::Owned(picture.bytes))
-                        .map_err(|source| ArtefactError::Png { file: figure.stem.clone(), source }),
-                    #[cfg(not(feature = "pdf"))]
-                    ChartFormat::Pdf => Err(ArtefactError::WithoutPdf),
-                    #[cfg(feature = "pdf")]
-                    ChartFormat::Pdf => pdf(&svg)
-                        .map(Cow::Owned)
-                        .map_err(|source| ArtefactError::Pdf { file: figure.stem.clone(), source }),
-                };
-                self.put(&format!("{CHARTS}/{}.{}", figure.stem, format.ending()), stop, bytes).map(|_| ())
+                let file = format!("{CHARTS}/{}.{}", figure.stem, format.ending());
+                let failed = |source| ArtefactError::Chart { file: figure.stem.clone(), source };
+                self.put(&file, stop, || picture(&svg, *format).map_err(failed)).map(|_| ())
             })
         })?;
         let page = self.put(&format!("{}.html", document.name), stop, || {
-            Ok(Cow::Owned(document.html_in_folder(&self.formats)?.into_bytes()))
+            Ok(Cow::Owned(document.html_in_folder(&self.formats).into_bytes()))
         })?;
         Ok(Written { page, data, charts: has_charts.then_some((charts, figures.len())) })
     }
@@ -219,6 +176,19 @@ impl Artefacts {
         }
         write_atomically(&path, &bytes()?)?;
         Ok(path)
+    }
+}
+
+/// A chart in a format, or why there is none.
+fn picture(svg: &str, format: ChartFormat) -> Result<Cow<'_, [u8]>, Box<dyn std::error::Error + Send + Sync>> {
+    match format {
+        ChartFormat::Svg => Ok(Cow::Borrowed(svg.as_bytes())),
+        #[cfg(feature = "png")]
+        ChartFormat::Png => Ok(Cow::Owned(png(svg)?.bytes)),
+        #[cfg(feature = "pdf")]
+        ChartFormat::Pdf => Ok(Cow::Owned(pdf(svg)?)),
+        #[cfg(not(all(feature = "png", feature = "pdf")))]
+        other => Err(format!("this build lacks the feature `{}`", other.ending()).into()),
     }
 }
 

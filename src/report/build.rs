@@ -8,10 +8,10 @@ use serde_json::Value;
 use super::build_output::OutputRecords;
 use super::records::dependence_record;
 use super::result::{
-    AggregateIndexRecord, AggregateRecord, ConstantRecord, EffortRecord, FactorRecord, LowRecord, Provenance,
-    ResultFile, RungRecord, SeriesRecord, SpendingRecord, StoppingRecord, StudyRecord, ValidityRecord, estimate_record,
+    AggregateIndexRecord, AggregateRecord, ConstantRecord, EffortRecord, FactorRecord, Provenance, ResultFile,
+    RungRecord, SeriesRecord, SpendingRecord, StoppingRecord, StudyRecord, ValidityRecord, estimate_record,
 };
-use crate::analysis::{Analysis, LowRuns, SeriesAnalysis, Spending};
+use crate::analysis::{Analysis, SeriesAnalysis, Spending};
 use crate::estimate::{FirstOrder, Scaling, Total};
 use crate::model::{EVALUATIONS, LARGEST_ERROR, RUNGS};
 use crate::study::Study;
@@ -53,7 +53,7 @@ impl ResultFile {
             series: analysis.series.iter().map(|series| series_record(study, analysis, series)).collect(),
             stopping: stopping_record(study, analysis),
             spending: spending_record(study, analysis),
-            lows: analysis.lows.iter().map(low_record).collect(),
+            lows: analysis.lows.clone(),
         }
     }
 }
@@ -87,15 +87,6 @@ fn spending_record(study: &Study, analysis: &Analysis) -> Option<SpendingRecord>
         lines.push_str(&format!("base_samples = {}\n", low.own_base_samples));
     }
     Some(SpendingRecord { accuracy: *accuracy, runs: *runs, plain_runs: *plain_runs, reasons: reasons.clone(), lines })
-}
-
-fn low_record(low: &LowRuns) -> LowRecord {
-    LowRecord {
-        name: low.name.clone(),
-        shared_runs: low.shared_runs,
-        own_base_samples: low.own_base_samples,
-        own_runs: low.own_runs,
-    }
 }
 
 fn effort_record(analysis: &Analysis) -> Option<EffortRecord> {

@@ -5,7 +5,7 @@ use super::format::{fixed, index as of_error, minus, name, two_digits};
 use super::leading::leader_of;
 use super::result::{EffectRecord, EstimateRecord, IntervalRecord, OutputRecord, ResultFile};
 
-/// Most factors in a chart; the rest are summed in a last row.
+/// Most factors in a chart.
 pub(super) const MOST: usize = 20;
 /// The axis of indices.
 pub(super) const INDEX: &str = "Sobol' index: part of the variance";
@@ -45,23 +45,24 @@ pub(super) fn pair_panel(
     keys: &[f64],
 ) -> Panel {
     let with_others = Series::new("S_T − S_1: only together with others", Colour::Series(5));
-    let alone: Vec<Option<f64>> = first_order.iter().map(|index| index.map(|index| index.estimate)).collect();
-    bars(INDEX, INDICES, factors, both_orders(first_order, total), keys, &|bar, (number, rows)| {
-        // That of the last row is of the sums.
-        let split: f64 = rows.iter().filter_map(|&factor| alone[factor]).sum();
-        (number == 1).then(|| (split.max(0.0).min(bar.to.max(0.0)), with_others.clone()))
-    })
+    let alone: Vec<f64> = first_order.iter().map(|index| index.map_or(0.0, |index| index.estimate.max(0.0))).collect();
+    let [(of_first, first_order), (of_total, total)] = both_orders(first_order, total);
+    let split = total.into_iter().zip(&alone).enumerate().map(|(row, (total, alone))| {
+        let bar = index_bar(row, total, INDICES);
+        let beyond = Some((alone.min(bar.to.max(0.0)), with_others.clone()));
+        of_total.mark(Shape::Bar(Bar { beyond, ..bar }))
+    });
+    panel(INDEX, factors, bars((of_first, first_order), INDICES).chain(split), keys)
 }
 
-/// A panel with a row for each factor, those with the largest keys on top, and bars of their indices. What the indices of the
-/// least ones sum to is a row of its own.
+/// A panel with a row for each factor, those with the largest keys on top, and bars of their indices.
 pub(super) fn index_panel(
     label: &str,
     factors: Vec<String>,
     series: impl IntoIterator<Item = IndexSeries>,
     keys: &[f64],
 ) -> Panel {
-    bars(label, INDICES, factors, series, keys, &|_, _| None)
+    panel(label, factors, series.into_iter().flat_map(|series| bars(series, INDICES)), keys)
 }
 
 /// The same of differences of indices.
@@ -71,75 +72,23 @@ pub(super) fn difference_panel(
     series: impl IntoIterator<Item = IndexSeries>,
     keys: &[f64],
 ) -> Panel {
-    bars(label, DIFFERENCES, factors, series, keys, &|_, _| None)
+    panel(label, factors, series.into_iter().flat_map(|series| bars(series, DIFFERENCES)), keys)
 }
 
-/// What a bar is of: the number of its series, and the factors that it sums.
-type Of<'a> = (usize, &'a [usize]);
-
-/// From where on a bar is of another series, and of which.
-type Beyond<'a> = dyn Fn(&Bar, Of<'_>) -> Option<(f64, Series)> + 'a;
-
-fn bars(
-    label: &str,
-    possible: (f64, f64),
-    factors: Vec<String>,
-    series: impl IntoIterator<Item = IndexSeries>,
-    keys: &[f64],
-    beyond: &Beyond<'_>,
-) -> Panel {
-    let rows = rows(keys, factors.len());
-    let names = rows.iter().map(|row| match row[..] {
-        [one] => factors[one].clone(),
-        ref rest => others(rest.len()),
-    });
-    let names = names.collect();
-    let mut marks: Vec<Mark> = Vec::new();
-    for (number, (series, values)) in series.into_iter().enumerate() {
-        for (place, row) in rows.iter().enumerate() {
-            let value = sum(row.iter().map(|&factor| values.get(factor).copied().flatten()));
-            // Sums may be anything.
-            let mut bar = index_bar(place, value, (row.len() == 1).then_some(possible));
-            bar.beyond = beyond(&bar, (number, row));
-            marks.push(series.mark(Shape::Bar(bar)));
-        }
-    }
-    Panel::new(Axis::new(label, ""), Axis::from_names("", names)).with(marks)
+fn panel(label: &str, factors: Vec<String>, marks: impl Iterator<Item = Mark>, keys: &[f64]) -> Panel {
+    Panel::new(Axis::new(label, ""), Axis::from_names("", factors)).with(marks).ranked(keys, MOST)
 }
 
-/// The name of a row that is the sum of so many factors.
-fn others(count: usize) -> String {
-    format!("{count} others, summed")
+fn bars((series, values): IndexSeries, possible: (f64, f64)) -> impl Iterator<Item = Mark> {
+    let bars = values.into_iter().enumerate();
+    bars.map(move |(row, value)| series.mark(Shape::Bar(index_bar(row, value, possible))))
 }
 
-/// The factors of each row: one, those with the largest keys first; then all that have no row of their own.
-fn rows(keys: &[f64], all: usize) -> Vec<Vec<usize>> {
-    let key = |factor: usize| keys.get(factor).copied().filter(|key| !key.is_nan()).unwrap_or(f64::NEG_INFINITY);
-    let mut order: Vec<usize> = (0..all).collect();
-    order.sort_by(|&a, &b| key(b).total_cmp(&key(a)));
-    let rest = order.split_off(order.len().min(if all == MOST + 1 { all } else { MOST }));
-    order.into_iter().map(|factor| vec![factor]).chain((!rest.is_empty()).then_some(rest)).collect()
-}
-
-/// One value as it is; of several the sum, whose error is not known.
-fn sum(values: impl ExactSizeIterator<Item = Option<EstimateRecord>>) -> Option<EstimateRecord> {
-    let (count, mut known) = (values.len(), values.flatten());
-    let first = known.next()?;
-    match count {
-        1 => Some(first),
-        _ => {
-            let estimate = first.estimate + known.map(|value| value.estimate).sum::<f64>();
-            Some(EstimateRecord { estimate, low: None, high: None })
-        }
-    }
-}
-
-/// The bar of an index, or of a sum of several, which has no bounds. One of which nothing is known says so: its bar would be
-/// read all the same.
-fn index_bar(row: usize, value: Option<EstimateRecord>, possible: Option<(f64, f64)>) -> Bar {
+/// The bar of an index. One of which nothing is known says so: its bar would be read all the same.
+fn index_bar(row: usize, value: Option<EstimateRecord>, possible: (f64, f64)) -> Bar {
     let Some(index) = value else { return Bar { row, to: f64::NAN, ..Bar::default() } };
     let length = index.low.zip(index.high).map(|(low, high)| high - low);
-    let is_possible = possible.is_none_or(|(low, high)| (low..=high).contains(&index.estimate));
+    let is_possible = (possible.0..=possible.1).contains(&index.estimate);
     if !is_possible || length.is_some_and(|length| length > LONGEST) {
         return Bar { row, to: f64::NAN, label: UNKNOWN.to_owned(), ..Bar::default() };
     }
@@ -151,29 +100,14 @@ fn index_bar(row: usize, value: Option<EstimateRecord>, possible: Option<(f64, f
         true => minus(&fixed(index.estimate, DECIMALS)),
         false => printed.to_owned(),
     };
-    let ends = possible.unwrap_or((f64::NEG_INFINITY, f64::INFINITY));
     let interval = index.low.zip(index.high);
-    let interval = interval.map(|(low, high)| (low.max(ends.0 - BEYOND), high.min(ends.1 + BEYOND)));
+    let interval = interval.map(|(low, high)| (low.max(possible.0 - BEYOND), high.min(possible.1 + BEYOND)));
     Bar { row, to: index.estimate, interval, label, said, ..Bar::default() }
-}
-
-/// What a caption says of the factors that are not drawn.
-pub(super) fn left_out(all: usize) -> String {
-    if all <= MOST + 1 {
-        return String::new();
-    }
-    format!(
-        " Of {all} factors, the {MOST} with the largest total indices have bars, and the {} others one of their sums.",
-        all - MOST
-    )
 }
 
 /// What a caption says where only the `most` largest factors are drawn.
 pub(super) fn not_drawn(all: usize, most: usize) -> String {
-    match all > most {
-        true => format!(" Of {all} factors, the {most} with the largest total indices are drawn."),
-        false => String::new(),
-    }
+    if all > most { format!(" The {most} largest of {all} factors are drawn.") } else { String::new() }
 }
 
 /// One study in a chart of shares.
@@ -188,7 +122,7 @@ pub struct SharesSeries<'a> {
 }
 
 /// The shares of `factors` in each of `series`: first order on the left, total on the right, the factor with the largest
-/// total share on top. Of more than 21 factors, the first 20, and the sums of the others.
+/// total share on top. Of more than 20 factors, the first 20.
 pub fn shares_chart(title: &str, caption: &str, factors: &[&str], series: &[SharesSeries<'_>]) -> Chart {
     let total: ShareOf = |e| (e.share_total, e.share_total_interval);
     let largest = |factor: &&str| {
@@ -196,34 +130,23 @@ pub fn shares_chart(title: &str, caption: &str, factors: &[&str], series: &[Shar
         shares.fold(f64::NEG_INFINITY, f64::max)
     };
     let keys: Vec<f64> = factors.iter().map(largest).collect();
-    let rows = rows(&keys, factors.len());
     let panel = |title: &str, of: ShareOf| {
-        let names = rows.iter().map(|row| match row[..] {
-            [one] => name(factors[one]),
-            ref rest => others(rest.len()),
-        });
-        let names = Axis::from_names("", names.collect());
+        let names = Axis::from_names("", factors.iter().map(|factor| name(factor)).collect());
         let bars = series.iter().flat_map(|series| {
-            rows.iter().enumerate().map(move |(place, row)| {
-                let shares: Vec<_> = row.iter().map(|&factor| share(series, factors[factor], of)).collect();
-                let published = |factor: usize| series.published.iter().find(|(name, _)| *name == factors[factor]);
-                let bar = match (&row[..], &shares[..]) {
-                    ([factor], [(value, interval)]) => {
-                        let published = published(*factor).map(|(_, share)| *share);
-                        Bar { published, ..share_bar(place, *value, *interval) }
-                    }
-                    _ => share_bar(place, shares.iter().map(|(value, _)| *value).sum(), None),
-                };
-                series.series.mark(Shape::Bar(bar))
+            factors.iter().enumerate().map(move |(row, factor)| {
+                let (value, interval) = share(series, factor, of);
+                let published = series.published.iter().find(|(name, _)| name == factor).map(|(_, share)| *share);
+                series.series.mark(Shape::Bar(Bar { published, ..share_bar(row, value, interval) }))
             })
         });
-        Panel::new(Axis::new("share of the sum of indices (%)", ""), names).titled(title).with(bars)
+        let panel = Panel::new(Axis::new("share of the sum of indices (%)", ""), names).titled(title).with(bars);
+        panel.ranked(&keys, MOST)
     };
     let panels = [
         panel("First-order indices", |e| (e.share_first_order, e.share_first_order_interval)),
         panel("Total indices", total),
     ];
-    Chart::new(title, format!("{caption}{}", left_out(factors.len()))).side_by_side().panels(panels)
+    Chart::new(title, format!("{caption}{}", not_drawn(factors.len(), MOST))).side_by_side().panels(panels)
 }
 
 /// Shares beyond these bounds, in percent, and intervals longer than this mean nothing.
@@ -291,22 +214,17 @@ mod tests {
     }
 
     #[test]
-    fn the_rest_of_many_factors_is_summed() {
+    fn the_largest_of_many_factors_are_drawn() {
         let names: Vec<String> = (0..30).map(|k| format!("x{k}")).collect();
         let keys: Vec<f64> = (0..30).map(f64::from).collect();
         let values = |scale: f64| (0..30).map(|k| about(scale * f64::from(k), 1e-4)).collect::<Vec<_>>();
-        let panel = pair_panel(names.clone(), values(0.01), values(0.02), &keys);
-        assert_eq!(panel.y.names.len(), 21);
-        assert_eq!((panel.y.names[0].as_str(), panel.y.names[20].as_str()), ("x29", "10 others, summed"));
+        let panel = pair_panel(names, values(0.01), values(0.02), &keys);
+        assert_eq!((panel.y.names.len(), panel.y.names[0].as_str(), panel.y.names[19].as_str()), (20, "x29", "x10"));
         let bars = drawn(&panel);
-        assert_eq!((bars.len(), bars[0].label.as_str()), (42, "0.2900"));
-        // 0 + 1 + ... + 9 = 45, of which nothing is known of the error.
-        assert!((bars[41].to - 0.9).abs() < 1e-12 && bars[41].interval.is_none());
-        let split = bars[41].beyond.as_ref().map(|(split, _)| *split).unwrap_or_default();
-        assert!((split - 0.45).abs() < 1e-12 && bars[20].beyond.is_none());
-        // One more than fit has a row of its own.
-        let panel = pair_panel(names[..21].to_vec(), values(0.01), values(0.02), &keys[..21]);
-        assert_eq!(panel.y.names.last().map(String::as_str), Some("x0"));
+        let of_x29: Vec<&Bar> = bars.iter().filter(|bar| bar.row == 0).collect();
+        assert_eq!((bars.len(), of_x29[0].label.as_str(), of_x29[0].beyond.is_none()), (40, "0.2900", true));
+        let split = of_x29[1].beyond.as_ref().map(|(split, _)| *split).unwrap_or_default();
+        assert!((split - 0.29).abs() < 1e-12 && (of_x29[1].to - 0.58).abs() < 1e-12);
     }
 
     #[test]

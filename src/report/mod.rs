@@ -44,17 +44,13 @@ mod validity;
 pub use artefacts::{ArtefactError, Artefacts};
 pub use atomic_write::{WriteError, write_atomically};
 pub use build::result_json;
-pub use chart::{Chart, ChartError};
+pub use chart::Chart;
 pub use document::Document;
-#[cfg(feature = "page")]
-pub use document::DocumentError;
 pub use factor_bars::{shares_chart, study_chart};
 pub use file_names::ChartFormat;
 pub use read::{ReadError, parse_result, read_result};
 pub use result::ResultFile;
-pub use run_charts::{
-    convergence_chart, distribution_chart, indices_chart, interactions_chart, pairs_chart, scatter_chart,
-};
+pub use run_charts::{convergence_chart, distribution_chart, indices_chart, pairs_chart, scatter_chart};
 pub use run_document::run_document;
 pub use schema::result_schema;
 
@@ -79,7 +75,7 @@ pub use {
     format::{fixed, give_or_take, grouped, share, share_of_runs, significant, two_digits, with_unit},
     interval_widths::{indices_measured, widest_interval},
     read::ReadProblem,
-    records::{Drawing, FactorSetup, StudySetup},
+    records::{FactorSetup, StudySetup},
     result::*,
     run_document::{TRY, one_output},
     text_table::{TextTable, table},

@@ -3,7 +3,6 @@
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
-use super::chart::Chart;
 use super::result::{ConstantRecord, CorrelationRecord, FactorRecord, ResultFile, StudyRecord, ValidityRecord};
 use crate::model::Model;
 use crate::space::Dependence;
@@ -49,15 +48,6 @@ pub struct FactorSetup {
     /// Its group, which the files of screenings and sweeps do not tell.
     #[serde(skip)]
     pub group: Option<String>,
-}
-
-/// A chart that becomes files.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Drawing {
-    /// What is added to the study's name for the names of its files.
-    pub suffix: String,
-    /// The chart.
-    pub chart: Chart,
 }
 
 pub fn study_setup(study: &Study) -> StudySetup {

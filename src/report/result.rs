@@ -15,12 +15,13 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::distribution::OutputDistribution;
+use crate::analysis::LowRuns;
 pub use indices::*;
 pub use measures::MeasuresRecord;
 pub use noise::{MeanIndexRecord, NoiseRecord};
 pub use scatter::*;
 pub use series::*;
-pub use spending::{EffortRecord, LowRecord, LowUseRecord, RungRecord, SpendingRecord, StoppingRecord};
+pub use spending::{EffortRecord, LowUseRecord, RungRecord, SpendingRecord, StoppingRecord};
 pub use surrogate::*;
 
 /// The result of a run of apportion.
@@ -60,7 +61,7 @@ pub struct ResultFile {
     pub spending: Option<SpendingRecord>,
     /// Cheaper models that were run beside the model.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub lows: Vec<LowRecord>,
+    pub lows: Vec<LowRuns>,
 }
 
 /// What was asked.

@@ -22,12 +22,10 @@ const PARTICLE: Colour = Colour::Series(1);
 const RELATIVE: Colour = Colour::Series(4);
 const TIP: Colour = Colour::Series(5);
 
-/// From SI to nN and nm, to degrees, to mrad, to percent.
+/// From SI to nN and nm.
 const NANO: f64 = 1e9;
-const DEGREES: f64 = 180.0 / std::f64::consts::PI;
-const MILLI: f64 = 1e3;
 
-/// The story's charts: forces, pushing against critical force, positions, contacts, angles, each against time
+/// The story's charts: forces, pushing against critical force, positions, contacts, each against time
 /// with the slip marked. The caption of each says in one sentence what came out.
 pub fn scene_charts(story: &SceneStory) -> Vec<SceneChart> {
     let charts = [
@@ -35,7 +33,6 @@ pub fn scene_charts(story: &SceneStory) -> Vec<SceneChart> {
         ("scene-pushing", pushing(story)),
         ("scene-positions", positions(story)),
         ("scene-contacts", contacts(story)),
-        ("scene-angles", angles(story)),
     ];
     charts.into_iter().map(|(stem, chart)| SceneChart { stem, chart }).collect()
 }
@@ -228,28 +225,6 @@ fn contacts_caption(story: &SceneStory) -> String {
     )
 }
 
-fn angles(story: &SceneStory) -> Chart {
-    let psi = [Curve {
-        name: "angle of the tip force from the vertical, ψ",
-        look: (story.colour, Stroke::Solid),
-        read: &|s| DEGREES * s.force_angle,
-    }];
-    let theta = [Curve { name: "twist of the cantilever, θ", look: (TIP, Stroke::Solid), read: &|s| MILLI * s.twist }];
-    let mut panels =
-        vec![panel(story, Axis::new("Force angle", "°"), &psi), panel(story, Axis::new("Twist", "mrad"), &theta)];
-    clear_rule_labels(&mut panels[1..]);
-    let caption = match (story.samples.first(), story.samples.last()) {
-        (Some(first), Some(last)) => format!(
-            "The tip force turns from {}° to {}° from the vertical, while the cantilever twists by {} mrad.",
-            short(DEGREES * first.force_angle),
-            short(DEGREES * last.force_angle),
-            short(MILLI * (last.twist - first.twist))
-        ),
-        _ => NO_SAMPLES.to_owned(),
-    };
-    Chart::new("Force angle and twist", caption).panels(panels)
-}
-
 const NO_SAMPLES: &str = "The story holds no sample.";
 
 /// A relative size in words.
@@ -264,16 +239,16 @@ fn spread(values: impl Iterator<Item = f64>) -> Option<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::fixture;
+    use super::super::nominal_story;
     use super::*;
     use resvg::usvg::roxmltree::Document;
 
     #[test]
     fn charts_are_sound_and_mark_the_slip() {
-        let charts = scene_charts(&fixture::story());
-        assert_eq!(charts.len(), 5);
+        let charts = scene_charts(&nominal_story());
+        assert_eq!(charts.len(), 4);
         for chart in &charts {
-            let svg = chart.chart.svg().unwrap();
+            let svg = chart.chart.svg();
             let document = Document::parse(&svg).unwrap();
             assert!(document.descendants().any(|node| node.text() == Some("slip at 0.131 s")), "{}", chart.stem);
         }
@@ -281,7 +256,7 @@ mod tests {
 
     #[test]
     fn captions_are_computed() {
-        let story = fixture::story();
+        let story = nominal_story();
         assert_eq!(
             forces(&story).caption(),
             "The tip force goes from 489 nN to 631 nN, at which the particle slips after 0.131 s, and then differs from \
@@ -302,14 +277,14 @@ mod tests {
 
     #[test]
     fn degenerate_stories_have_charts() {
-        let whole = fixture::story();
+        let whole = nominal_story();
         for count in 0..3 {
-            for time in [None, Some(0.0), whole.critical.time, Some(f64::NAN)] {
+            for time in [0.0, whole.critical.time, f64::NAN] {
                 let mut story = whole.clone();
                 story.samples.truncate(count);
                 story.critical.time = time;
                 for chart in scene_charts(&story) {
-                    let svg = chart.chart.svg().unwrap();
+                    let svg = chart.chart.svg();
                     Document::parse(&svg).unwrap();
                     assert!(!svg.contains("NaN") && !svg.contains("inf"), "{svg}");
                 }
@@ -319,13 +294,13 @@ mod tests {
 
     #[test]
     fn numbers_that_do_not_exist_are_gaps() {
-        let mut story = fixture::story();
+        let mut story = nominal_story();
         let broken: Vec<SceneSample> = story.samples.clone();
         for (sample, whole) in story.samples.iter_mut().zip(broken).step_by(3) {
             *sample = SceneSample { tip_force: f64::NAN, tip_indentation: f64::INFINITY, twist: f64::NAN, ..whole };
         }
         for chart in scene_charts(&story) {
-            let svg = chart.chart.svg().unwrap();
+            let svg = chart.chart.svg();
             assert!(!svg.contains("NaN") && !svg.contains("inf"), "{svg}");
         }
     }

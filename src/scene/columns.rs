@@ -70,7 +70,7 @@ pub fn scene_json(story: &SceneStory) -> String {
 pub(super) fn scene_value(story: &SceneStory) -> Value {
     let setting: Vec<Value> =
         story.setting.iter().map(|(label, value)| json!({ "label": label, "value": value })).collect();
-    let (geometry, critical) = (&story.geometry, &story.critical);
+    let (scene, critical) = (&story.scene, &story.critical);
     let nano = |value: f64| json!(NANO * value);
     json!({
         "format": "apportion-scene",
@@ -78,13 +78,13 @@ pub(super) fn scene_value(story: &SceneStory) -> Value {
         "title": story.title,
         "setting": setting,
         "geometry": {
-            "particle_radius_nm": nano(geometry.particle_radius),
-            "tip_radius_nm": nano(geometry.tip_radius),
-            "height_nm": nano(geometry.height),
-            "contact_angle_rad": json!(geometry.contact_angle),
-            "length_nm": nano(geometry.length),
-            "width_nm": nano(geometry.width),
-            "thickness_nm": nano(geometry.thickness),
+            "particle_radius_nm": nano(scene.particle_radius),
+            "tip_radius_nm": nano(scene.tip_radius),
+            "height_nm": nano(scene.height),
+            "contact_angle_rad": json!(scene.contact_angle),
+            "length_nm": nano(scene.length),
+            "width_nm": nano(scene.width),
+            "thickness_nm": nano(scene.thickness),
         },
         "critical": {
             "time_s": json!(critical.time),
@@ -110,12 +110,12 @@ fn samples(samples: &[SceneSample]) -> Map<String, Value> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::fixture;
+    use super::super::nominal_story;
     use super::*;
 
     #[test]
     fn csv_reads_back_to_the_same_bits() {
-        let story = fixture::story();
+        let story = nominal_story();
         let text = scene_csv(&story);
         let mut reader = csv::Reader::from_reader(text.as_bytes());
         let header = reader.headers().unwrap().clone();
@@ -135,11 +135,11 @@ mod tests {
 
     #[test]
     fn json_reads_back_to_the_same_bits() {
-        let story = fixture::story();
+        let story = nominal_story();
         let value: Value = serde_json::from_str(&scene_json(&story)).unwrap();
         assert_eq!((&value["format"], &value["version"]), (&json!("apportion-scene"), &json!(1)));
-        assert_eq!(value["critical"]["time_s"].as_f64(), story.critical.time);
-        assert_eq!(value["geometry"]["height_nm"].as_f64(), Some(1e9 * story.geometry.height));
+        assert_eq!(value["critical"]["time_s"].as_f64(), Some(story.critical.time));
+        assert_eq!(value["geometry"]["height_nm"].as_f64(), Some(1e9 * story.scene.height));
         assert_eq!(value["setting"][0]["label"], json!(story.setting[0].0));
         let twist = value["samples"]["twist_rad"].as_array().unwrap();
         let read: Vec<f64> = twist.iter().map(|number| number.as_f64().unwrap()).collect();
@@ -149,11 +149,11 @@ mod tests {
 
     #[test]
     fn what_is_not_finite_is_empty_or_null() {
-        let mut story = fixture::story();
+        let mut story = nominal_story();
         story.samples.truncate(1);
         story.samples[0].force_angle = f64::NAN;
         story.samples[0].tip_force = f64::INFINITY;
-        story.critical.time = None;
+        story.critical.time = f64::NAN;
         let text = scene_csv(&story);
         let row: Vec<&str> = text.lines().nth(1).unwrap().split(',').collect();
         assert_eq!((row[3], row[4]), ("", ""));

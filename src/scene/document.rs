@@ -1,20 +1,16 @@
 //! A scene, and the diagram of its modes, as documents.
 
 use super::{ModeDiagram, SceneStory, mode_diagram_chart, player_page, scene_charts, scene_csv, scene_json};
-use apportion::report::chart::ChartError;
 use apportion::report::csv::{Csv, Field};
-use apportion::report::document::{DataFile, Document, DocumentError, Figure, Part, Section, Table, Value};
+use apportion::report::document::{DataFile, Document, Figure, Part, Section, Table, Value};
 use apportion::report::format::{minus, with_unit};
 
 /// The document of a scene of the study called `study`.
-///
-/// # Errors
-/// [`DocumentError`] if the animation cannot be made.
-pub fn scene_document(story: &SceneStory, study: &str) -> Result<Document, DocumentError> {
+pub fn scene_document(story: &SceneStory, study: &str) -> Document {
     let name = format!("{study}-scene");
     let mut sections = Vec::new();
     if !story.samples.is_empty() {
-        let frame = Part::Frame { title: "The scene as an animation".to_owned(), html: player_page(story)? };
+        let frame = Part::Frame { title: "The scene as an animation".to_owned(), html: player_page(story) };
         sections.push(Section::new("animation", "The scene", vec![frame]));
     }
     let charts = scene_charts(story).into_iter().enumerate().map(|(place, chart)| {
@@ -27,7 +23,7 @@ pub fn scene_document(story: &SceneStory, study: &str) -> Result<Document, Docum
         let details = Part::Details { summary: "Every constant of the scene".to_owned(), parts: vec![table] };
         sections.push(Section::new("setting", "Setting", vec![Part::OnPage(vec![details])]));
     }
-    Ok(Document {
+    Document {
         name: name.clone(),
         kicker: "A scene in time".to_owned(),
         title: story.title.clone(),
@@ -39,7 +35,7 @@ pub fn scene_document(story: &SceneStory, study: &str) -> Result<Document, Docum
             DataFile::new(format!("{name}.csv"), scene_csv(story)),
         ],
         ..Document::default()
-    })
+    }
 }
 
 /// Forces at the slip, and how far the particle has come in the end.
@@ -47,25 +43,22 @@ fn numbers(story: &SceneStory) -> Option<String> {
     let critical = &story.critical;
     let value = |x: f64, unit: &str| minus(&with_unit(x, unit));
     let force = |newtons: f64| value(newtons * 1e9, "nN");
-    let mut text = format!(
-        "The critical tip force is {} (lateral {}, normal {})",
+    let text = format!(
+        "The critical tip force is {} (lateral {}, normal {}), reached after {}",
         force(critical.critical_force),
         force(critical.lateral_force),
-        force(critical.normal_force)
+        force(critical.normal_force),
+        value(critical.time, "s")
     );
-    text.push_str(&critical.time.map_or_else(String::new, |time| format!(", reached after {}", value(time, "s"))));
     let end = story.samples.last()?;
     let moved = value(end.relative_position * 1e9, "nm");
     Some(format!("{text}; after {} the particle has moved {moved} relative to the substrate.", value(end.time, "s")))
 }
 
 /// The document of the modes of motion in the study called `study`, whose title is `title`.
-///
-/// # Errors
-/// [`ChartError`] if the diagram cannot be drawn.
-pub fn mode_document(diagram: &ModeDiagram, study: &str, title: &str) -> Result<Document, ChartError> {
+pub fn mode_document(diagram: &ModeDiagram, study: &str, title: &str) -> Document {
     let name = format!("{study}-modes");
-    let chart = mode_diagram_chart(diagram)?;
+    let chart = mode_diagram_chart(diagram);
     let of_mode = |mode: &str| Field::new(format!("{mode}_N"));
     let fields = diagram.forces.iter().map(|line| of_mode(&line.mode));
     let mut csv = Csv::new([Field::new("angle_rad")].into_iter().chain(fields));
@@ -75,7 +68,7 @@ pub fn mode_document(diagram: &ModeDiagram, study: &str, title: &str) -> Result<
     }
     let (lead, data) = (vec![chart.caption().to_owned()], format!("{name}.csv"));
     let figure = Figure::new(1, chart, &name, &data);
-    Ok(Document {
+    Document {
         name,
         kicker: "Modes of motion".to_owned(),
         title: title.to_owned(),
@@ -84,20 +77,20 @@ pub fn mode_document(diagram: &ModeDiagram, study: &str, title: &str) -> Result<
         footer: format!("Made by apportion {}.", env!("CARGO_PKG_VERSION")),
         files: vec![DataFile::new(data, csv.text())],
         ..Document::default()
-    })
+    }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::fixture;
+    use super::super::nominal_story;
     use super::*;
 
     #[test]
     fn a_scene_has_a_page() {
-        let mut story = fixture::story();
-        let document = scene_document(&story, "s").unwrap();
-        assert!(document.lead[1].contains("lateral") && document.html().unwrap().contains("srcdoc="));
+        let mut story = nominal_story();
+        let document = scene_document(&story, "s");
+        assert!(document.lead[1].contains("lateral") && document.html().contains("srcdoc="));
         story.samples.clear();
-        assert_eq!(scene_document(&story, "s").unwrap().lead.len(), 1);
+        assert_eq!(scene_document(&story, "s").lead.len(), 1);
     }
 }

@@ -1,6 +1,6 @@
 //! The mode diagram: which force moves the particle in which way, against the angle of the force.
 
-use apportion::report::chart::{Axis, Chart, ChartError, Colour, Mark, Panel, Series, Spacing, Stroke};
+use apportion::report::chart::{Axis, Chart, Colour, Mark, Panel, Series, Spacing, Stroke};
 use apportion::report::format::{force, three_digits as short};
 
 /// The forces at which the modes set in, against the angle of the tip force (TS04 figure 12).
@@ -11,8 +11,8 @@ pub struct ModeDiagram {
     pub angle: Vec<f64>,
     /// The modes.
     pub forces: Vec<ModeLine>,
-    /// Angle (rad) and tip force (N) of the scene when it slips, if it does.
-    pub current: Option<(f64, f64)>,
+    /// Angle (rad) and tip force (N) of the scene when it slips.
+    pub current: (f64, f64),
 }
 
 /// The force at which a mode sets in.
@@ -30,38 +30,23 @@ const DEGREES: f64 = 180.0 / std::f64::consts::PI;
 
 /// The diagram, forces on a logarithmic axis.
 ///
-/// # Errors
-/// [`ChartError::Length`] if a mode has not as many forces as there are angles.
-///
 /// # Example
 /// ```
 /// use apportion::report::chart::Colour;
 /// use apportion::report::scene::{ModeDiagram, ModeLine, mode_diagram_chart};
 ///
 /// let sliding = ModeLine { mode: "sliding".into(), colour: Colour::Series(0), force: vec![None, Some(80e-9), Some(9e-9)] };
-/// let diagram = ModeDiagram { angle: vec![0.5, 1.0, 1.5], forces: vec![sliding], current: Some((1.0, 50e-9)) };
-/// assert!(mode_diagram_chart(&diagram)?.caption().contains("80.0 nN"));
-/// # Ok::<(), apportion::report::chart::ChartError>(())
+/// let diagram = ModeDiagram { angle: vec![0.5, 1.0, 1.5], forces: vec![sliding], current: (1.0, 50e-9) };
+/// assert!(mode_diagram_chart(&diagram).caption().contains("80.0 nN"));
 /// ```
-pub fn mode_diagram_chart(diagram: &ModeDiagram) -> Result<Chart, ChartError> {
-    const TITLE: &str = "Modes of motion";
-    for line in &diagram.forces {
-        if line.force.len() != diagram.angle.len() {
-            return Err(ChartError::Length {
-                panel: TITLE.to_owned(),
-                series: line.mode.clone(),
-                what: "forces",
-                expected: diagram.angle.len(),
-                found: line.force.len(),
-            });
-        }
-    }
+pub fn mode_diagram_chart(diagram: &ModeDiagram) -> Chart {
     let scene = Series::new("this scene at its slip", Colour::Reference).stroke(Stroke::Points);
-    let scene = diagram.current.map(|(angle, force)| scene.line(vec![(DEGREES * angle, 1e9 * force)]));
+    let (angle, force) = diagram.current;
+    let scene = scene.line(vec![(DEGREES * angle, 1e9 * force)]);
     let x = Axis::new("Angle of the tip force from the vertical, ψ", "°");
     let y = Axis::new("Force at which the mode sets in", "nN").spaced(Spacing::Logarithmic);
     let lines = diagram.forces.iter().map(|line| mode_line(diagram, line));
-    Ok(Chart::new(TITLE, caption(diagram)).panels([Panel::new(x, y).with(lines).with(scene)]))
+    Chart::new("Modes of motion", caption(diagram)).panels([Panel::new(x, y).with(lines).with([scene])])
 }
 
 fn mode_line(diagram: &ModeDiagram, line: &ModeLine) -> Mark {
@@ -69,38 +54,16 @@ fn mode_line(diagram: &ModeDiagram, line: &ModeLine) -> Mark {
     Series::new(&line.mode, line.colour).line(diagram.angle.iter().map(|angle| DEGREES * angle).zip(forces).collect())
 }
 
-/// Which mode needs the least force, at the scene's own angle or over the diagram.
+/// Which modes set in at the scene's own angle, the one of the least force first.
 fn caption(diagram: &ModeDiagram) -> String {
-    if let Some((angle, scene_force)) = diagram.current
-        && let Some(place) = nearest(&diagram.angle, angle)
-    {
-        let mut modes: Vec<(&str, f64)> = diagram.forces.iter().filter_map(|line| at(line, place)).collect();
-        modes.sort_by(|a, b| a.1.total_cmp(&b.1));
-        let said: Vec<String> = modes.iter().map(|(mode, least)| format!("{mode} at {}", force(*least))).collect();
-        let here = short(DEGREES * diagram.angle[place]);
-        let modes = if said.is_empty() { "no mode".to_owned() } else { said.join(", ") };
-        let scene = format!("{}° and {}", short(DEGREES * angle), force(scene_force));
-        return format!("At {here}° set in: {modes}; the scene slips at {scene}.");
-    }
-    let least: Vec<Option<&str>> = (0..diagram.angle.len())
-        .map(|place| {
-            let modes = diagram.forces.iter().filter_map(|line| at(line, place));
-            modes.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(mode, _)| mode)
-        })
-        .collect();
-    let ranges: Vec<String> = least
-        .chunk_by(|a, b| a == b)
-        .scan(0, |from, run| {
-            let (first, last) = (diagram.angle[*from], diagram.angle[*from + run.len() - 1]);
-            *from += run.len();
-            let mode = run[0].unwrap_or("no mode");
-            Some(format!("{mode} from {}° to {}°", short(DEGREES * first), short(DEGREES * last)))
-        })
-        .collect();
-    match ranges.is_empty() {
-        true => "The diagram holds no angle.".to_owned(),
-        false => format!("The least force sets in: {}.", ranges.join(", ")),
-    }
+    let (angle, scene_force) = diagram.current;
+    let Some(place) = nearest(&diagram.angle, angle) else { return "The diagram holds no angle.".to_owned() };
+    let mut modes: Vec<(&str, f64)> = diagram.forces.iter().filter_map(|line| at(line, place)).collect();
+    modes.sort_by(|a, b| a.1.total_cmp(&b.1));
+    let said: Vec<String> = modes.iter().map(|(mode, least)| format!("{mode} at {}", force(*least))).collect();
+    let here = short(DEGREES * diagram.angle[place]);
+    let modes = if said.is_empty() { "no mode".to_owned() } else { said.join(", ") };
+    format!("At {here}° set in: {modes}; the scene slips at {}° and {}.", short(DEGREES * angle), force(scene_force))
 }
 
 /// A mode with its force at a place, where it has one.
@@ -134,13 +97,13 @@ mod tests {
                 ModeLine { mode: "rolling".to_owned(), colour: Colour::Series(1), force: rolling },
             ],
             angle,
-            current: Some((39.2_f64.to_radians(), 631e-9)),
+            current: (39.2_f64.to_radians(), 631e-9),
         }
     }
 
     #[test]
     fn the_diagram_is_drawn_and_says_what_it_shows() {
-        let svg = mode_diagram_chart(&diagram()).unwrap().svg().unwrap();
+        let svg = mode_diagram_chart(&diagram()).svg();
         Document::parse(&svg).unwrap();
         assert!(!svg.contains("NaN") && !svg.contains("inf"));
         let said = caption(&diagram());
@@ -153,23 +116,8 @@ mod tests {
     }
 
     #[test]
-    fn without_a_scene_the_ranges_are_said() {
-        let mut diagram = diagram();
-        diagram.current = None;
-        let said = caption(&diagram);
-        assert!(said.contains("rolling from 0° to") && said.contains("sliding from"), "{said}");
-        diagram.forces.clear();
-        assert_eq!(caption(&diagram), "The least force sets in: no mode from 0° to 90.0°.");
-        mode_diagram_chart(&diagram).unwrap().svg().unwrap();
-    }
-
-    #[test]
-    fn an_empty_diagram_is_drawn_and_unequal_lengths_are_refused() {
-        let empty = ModeDiagram { angle: Vec::new(), forces: Vec::new(), current: Some((0.1, f64::NAN)) };
-        assert!(!mode_diagram_chart(&empty).unwrap().svg().unwrap().contains("NaN"));
-        let mut unequal = diagram();
-        unequal.forces[0].force.pop();
-        let error = mode_diagram_chart(&unequal).unwrap_err();
-        assert!(error.to_string().contains("has 90 forces"), "{error}");
+    fn an_empty_diagram_is_drawn() {
+        let empty = ModeDiagram { angle: Vec::new(), forces: Vec::new(), current: (0.1, f64::NAN) };
+        assert!(!mode_diagram_chart(&empty).svg().contains("NaN"));
     }
 }

@@ -8,7 +8,6 @@ use super::charts::{LATERAL, NORMAL, SUBSTRATE};
 use super::columns::scene_value;
 use super::view::View;
 use apportion::report::chart::Colour;
-use apportion::report::document::DocumentError;
 
 /// The parts of the page's script, each using those before it.
 const SCRIPT: [&str; 4] = [
@@ -37,10 +36,7 @@ struct Player<'a> {
 /// The animation as a page of HTML: probe, particle and contacts beside the growing force curve, moved by a slider, the
 /// keyboard or on its own. It loads nothing from anywhere and works without a network; inside the frame of another page it
 /// leaves out its title.
-///
-/// # Errors
-/// [`DocumentError`] if the template cannot be rendered.
-pub fn player_page(story: &SceneStory) -> Result<String, DocumentError> {
+pub fn player_page(story: &SceneStory) -> String {
     let view = View::of(story);
     let page = Player {
         story,
@@ -59,7 +55,7 @@ pub fn player_page(story: &SceneStory) -> Result<String, DocumentError> {
         view: script_json(&view.value()),
         version: env!("CARGO_PKG_VERSION"),
     };
-    page.render().map_err(|error| DocumentError::Template(error.to_string()))
+    page.render().expect("texts and numbers, into memory")
 }
 
 /// A sentence in which numbers stay on one line with their units.
@@ -75,11 +71,11 @@ fn script_json(value: &Value) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::fixture;
+    use super::super::nominal_story;
     use super::*;
 
     fn page(story: &SceneStory) -> String {
-        player_page(story).unwrap()
+        player_page(story)
     }
 
     /// The JSON of a script element.
@@ -90,7 +86,7 @@ mod tests {
 
     #[test]
     fn the_page_needs_nothing_else() {
-        let page = page(&fixture::story());
+        let page = page(&nominal_story());
         let own = page.replace("http://www.w3.org/2000/svg", "");
         for outside in ["http:", "https:", "src=", "@import", "url(", "//cdn", "fetch("] {
             assert!(!own.contains(outside), "{outside}");
@@ -102,7 +98,7 @@ mod tests {
 
     #[test]
     fn texts_cannot_break_out() {
-        let mut story = fixture::story();
+        let mut story = nominal_story();
         let evil = "</script><script>alert('&\"')</script><!--";
         story.title = evil.to_owned();
         let page = page(&story);
@@ -114,7 +110,7 @@ mod tests {
 
     #[test]
     fn the_data_are_those_of_the_file() {
-        let story = fixture::story();
+        let story = nominal_story();
         let page = page(&story);
         let file: Value = serde_json::from_str(&super::super::scene_json(&story)).unwrap();
         assert_eq!(embedded(&page, "scene-data"), file);
@@ -123,12 +119,11 @@ mod tests {
 
     #[test]
     fn degenerate_stories_have_pages() {
-        let whole = fixture::story();
+        let whole = nominal_story();
         for count in 0..3 {
             let mut story = whole.clone();
             story.samples.truncate(count);
-            story.critical.time = None;
-            story.geometry.particle_radius = f64::NAN;
+            story.scene.particle_radius = f64::NAN;
             let page = page(&story);
             assert!(!page.contains("NaN"), "{count}");
             assert_eq!(page.contains("id=\"player\""), count > 0);

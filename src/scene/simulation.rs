@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-use crate::scene::{CriticalInstant, ModeDiagram, ModeLine, SceneGeometry, SceneSample, SceneStory, law_colour};
+use crate::scene::{CriticalInstant, ModeDiagram, ModeLine, SceneSample, SceneStory, law_colour};
 use apportion::afm::history::{Sample, history};
 use apportion::afm::modes::{Mode, Pushing, TipForce};
 use apportion::afm::{Failure, Fidelity, Options, Parameter, Scene, critical_force};
@@ -64,7 +64,7 @@ pub fn simulate(study: &Study, duration: Option<f64>) -> Result<SceneStory, Simu
 /// use apportion::simulation::scene_story;
 ///
 /// let story = scene_story("Nominal".to_owned(), &Scene::default(), &Options::default(), 0.4)?;
-/// assert!(story.critical.time.is_some_and(|slip| slip < 0.4));
+/// assert!(story.critical.time < 0.4);
 /// assert!(story.samples.last().is_some_and(|end| end.slipping));
 /// # Ok::<(), apportion::afm::Failure>(())
 /// ```
@@ -75,17 +75,9 @@ pub fn scene_story(title: String, scene: &Scene, options: &Options, duration: f6
     Ok(SceneStory {
         title,
         setting: setting(scene, options),
-        geometry: SceneGeometry {
-            particle_radius: scene.particle_radius,
-            tip_radius: scene.tip_radius,
-            height: scene.height,
-            contact_angle: scene.contact_angle,
-            length: scene.length,
-            width: scene.width,
-            thickness: scene.thickness,
-        },
+        scene: *scene,
         critical: CriticalInstant {
-            time: told.critical.critical_time.ok(),
+            time: told.critical.critical_time?,
             critical_force: told.critical.critical_force,
             lateral_force: told.critical.lateral_force,
             normal_force: told.critical.normal_force,
@@ -182,5 +174,5 @@ pub fn scene_modes(scene: &Scene, options: &Options) -> Result<ModeDiagram, Fail
         let force = angle.iter().map(sets_in).collect::<Result<Vec<_>, Failure>>()?;
         lines.push(ModeLine { mode: mode.name().to_owned(), colour, force });
     }
-    Ok(ModeDiagram { angle, forces: lines, current: Some((critical.force_angle(), critical.critical_force)) })
+    Ok(ModeDiagram { angle, forces: lines, current: (critical.force_angle(), critical.critical_force) })
 }

@@ -21,10 +21,10 @@ impl View {
             let sizes = story.samples.iter().map(|sample| read(sample).abs()).filter(|size| size.is_finite());
             sizes.fold(0.0, f64::max)
         };
-        let lean = largest(|s| s.twist).max(largest(|s| s.base_lateral) / story.geometry.height);
+        let lean = largest(|s| s.twist).max(largest(|s| s.base_lateral) / story.scene.height);
         let particle = largest(|s| s.particle_position);
         let travel = if particle > 0.0 { particle } else { largest(|s| s.substrate_position) };
-        Self { probe: round_below(0.25 / lean), travel: round_below(0.8 * story.geometry.particle_radius / travel) }
+        Self { probe: round_below(0.25 / lean), travel: round_below(0.8 * story.scene.particle_radius / travel) }
     }
 
     /// The factors for the page's script.
@@ -69,7 +69,7 @@ fn round_below(limit: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::fixture;
+    use super::super::nominal_story;
     use super::*;
 
     #[test]
@@ -84,7 +84,7 @@ mod tests {
 
     #[test]
     fn the_nominal_scene_is_seen() {
-        let view = View::of(&fixture::story());
+        let view = View::of(&nominal_story());
         assert_eq!(view, View { probe: 200.0, travel: 2.0 });
         assert!(view.sentence().contains("exaggerated 200 times"), "{}", view.sentence());
         assert_eq!(factor(0.02), "reduced 50 times");
@@ -93,7 +93,7 @@ mod tests {
 
     #[test]
     fn a_story_without_motion_is_to_scale() {
-        let mut story = fixture::story();
+        let mut story = nominal_story();
         story.samples.clear();
         assert_eq!(View::of(&story), View { probe: 1.0, travel: 1.0 });
     }

@@ -4,7 +4,6 @@ use thiserror::Error;
 
 use super::request::range;
 use super::rows::Bench;
-use crate::model::RowFailure;
 use crate::run::Halt;
 use crate::space::{Distribution, Factor};
 
@@ -14,7 +13,7 @@ const STEP: f64 = 0.01;
 
 /// How one output answers to a small change of one factor at the nominal point.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct LocalSensitivity {
+pub(super) struct LocalSensitivity {
     /// dy/dx, in the output's unit per factor's unit.
     pub derivative: f64,
     /// How far `derivative` may be off: the change that the last extrapolation made, and the rounding of the output.
@@ -29,13 +28,13 @@ pub struct LocalSensitivity {
 
 /// Why there is no derivative.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
-pub enum NoDerivative {
+pub(super) enum NoDerivative {
     /// The factor takes single values.
     #[error("the factor is {0}, so that no small change of it has a meaning")]
     NotContinuous(&'static str),
     /// A run failed, at the nominal point or beside it.
     #[error("a run at or beside the nominal point failed: {0}")]
-    Failed(RowFailure),
+    Failed(String),
     /// The difference is not finite.
     #[error("the derivative is beyond double precision")]
     Overflow,
@@ -65,10 +64,10 @@ pub(super) fn local(
     };
     let values = points.as_ref().map_or_else(|| vec![x], |points| points.values.clone());
     let curves = bench.curve(number, &values, None)?;
-    let of_output = |curve: super::CurveOutput| {
+    let of_output = |curve: super::OutputCurve| {
         let Some(points) = &points else { return Err(NoDerivative::NotContinuous(distribution.name())) };
-        if let Some((_, reason)) = curve.failures.first() {
-            return Err(NoDerivative::Failed(reason.clone()));
+        if let Some(gap) = curve.gaps.first() {
+            return Err(NoDerivative::Failed(gap.reason.clone()));
         }
         let y: Vec<f64> = curve.values.into_iter().flatten().collect();
         points.derivative(&y).filter(|local| local.derivative.is_finite()).ok_or(NoDerivative::Overflow)

@@ -10,21 +10,23 @@ mod rows;
 #[cfg(test)]
 mod tests;
 
-pub use local::{LocalSensitivity, NoDerivative};
 pub use request::{FactorValues, SweepError, SweepRequest};
 #[doc(hidden)]
 pub use request::{MAX_POINTS, TAIL, find, is_logarithmic};
 
+use serde::{Deserialize, Serialize};
+
 use crate::model::{Model, RowFailure, RunContext};
 use crate::run::Halt;
 use crate::space::Space;
+use local::{LocalSensitivity, NoDerivative};
 use rows::Bench;
 
 /// Sweeps that have taken place.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sweeps {
-    /// Every output at the nominal point, in its unit, or why it has none.
-    pub nominal: Vec<Result<f64, RowFailure>>,
+    /// Every output at the nominal point.
+    pub nominal: Vec<NominalOutput>,
     /// One entry per factor asked for.
     pub sweeps: Vec<Sweep>,
     /// Model runs.
@@ -33,57 +35,117 @@ pub struct Sweeps {
     pub flags: Vec<u64>,
 }
 
-/// One factor moved over some values.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Sweep {
-    /// The number of the factor in its space.
-    pub factor: usize,
-    /// Its values, in its unit.
-    pub values: Vec<f64>,
-    /// Every output over the values, all other factors at their nominal values.
-    pub nominal: Vec<CurveOutput>,
-    /// The same for each value of the factor that the sweep is against.
-    pub family: Vec<FamilyCurve>,
-    /// For each output: how far it goes over the sweep at nominal values; `None` if every run failed.
-    pub extents: Vec<Option<Extent>>,
-    /// For each output: its slope at the nominal point.
-    pub local: Vec<Result<LocalSensitivity, NoDerivative>>,
+/// An output at the nominal point.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct NominalOutput {
+    /// The output.
+    pub output: String,
+    /// Its unit.
+    pub unit: String,
+    /// Its value.
+    pub value: Option<f64>,
+    /// Why there is no value, where there is none.
+    pub reason: Option<String>,
 }
 
-/// One curve of a family.
-#[derive(Debug, Clone, PartialEq)]
-pub struct FamilyCurve {
-    /// The number of the factor that the sweep is against.
-    pub factor: usize,
-    /// Its value for this curve, in its unit.
+/// One factor moved over its values.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Sweep {
+    /// The factor.
+    pub factor: String,
+    /// Its unit.
+    pub unit: String,
+    /// Its nominal value in `unit`.
+    pub nominal: f64,
+    /// `linear` or `logarithmic`: how its axis is best divided.
+    pub spacing: String,
+    /// Its values in `unit`.
+    pub values: Vec<f64>,
+    /// Whether these were asked for, and are not those over its range.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub given: bool,
+    /// What the values stand for, of a factor of categories.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub labels: Option<Vec<String>>,
+    /// The outputs over the values: first with all other factors nominal, then the curves of the family, if any.
+    pub curves: Vec<SweepCurve>,
+    /// One entry per output: how far it goes over the first curve, and its slope at the nominal point.
+    pub effects: Vec<SweepEffect>,
+}
+
+/// One curve of each output.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct SweepCurve {
+    /// The other factor that is not nominal; `null` for the curve at nominal values.
+    pub against: Option<Against>,
+    /// One entry per output.
+    pub outputs: Vec<OutputCurve>,
+}
+
+/// The factor that tells the curves of a family apart.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Against {
+    /// The factor.
+    pub factor: String,
+    /// Its value in `unit`.
     pub value: f64,
-    /// Every output over the values of the sweep.
-    pub outputs: Vec<CurveOutput>,
+    /// What the value stands for, of a factor of categories.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub label: Option<String>,
+    /// Its unit.
+    pub unit: String,
 }
 
 /// One output over the values of a sweep.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct CurveOutput {
-    /// Its values in its unit; `None` where the run failed.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct OutputCurve {
+    /// The output.
+    pub name: String,
+    /// Its unit.
+    pub unit: String,
+    /// Its values in `unit`; `null` where the run failed.
     pub values: Vec<Option<f64>>,
-    /// The places of the failed runs in `values`, with their reasons.
-    pub failures: Vec<(usize, RowFailure)>,
+    /// The runs that failed.
+    pub gaps: Vec<Gap>,
 }
 
-/// How far an output goes over a sweep, in its unit.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Extent {
-    /// The least value.
-    pub low: f64,
-    /// The largest value.
-    pub high: f64,
-    /// The value at the first place of the sweep, if its run succeeded.
+/// A run that failed.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Gap {
+    /// Its place in `values`, from 0.
+    pub place: usize,
+    /// Why it failed.
+    pub reason: String,
+}
+
+/// How one output answers to one factor.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct SweepEffect {
+    /// The output.
+    pub output: String,
+    /// Its unit.
+    pub unit: String,
+    /// Its least value over the sweep.
+    pub low: Option<f64>,
+    /// Its largest value over the sweep.
+    pub high: Option<f64>,
+    /// Its value at the first place of the sweep.
     pub first: Option<f64>,
-    /// The value at the last place of the sweep, if its run succeeded.
+    /// Its value at the last place of the sweep.
     pub last: Option<f64>,
     /// 100 (high - low)/|nominal|: by so many percent of its nominal value the output moves; `None` where the nominal
     /// value is 0 or does not exist, or is in a unit such as `degC`, of which 1 % has no meaning.
     pub percent: Option<f64>,
+    /// dy/dx at the nominal point, in `unit` per unit of the factor.
+    pub derivative: Option<f64>,
+    /// How far `derivative` may be off.
+    pub derivative_error: Option<f64>,
+    /// (x/y) dy/dx at the nominal point.
+    pub elasticity: Option<f64>,
+    /// How far `elasticity` may be off.
+    pub elasticity_error: Option<f64>,
+    /// Why there is no derivative, where there is none.
+    pub reason: Option<String>,
 }
 
 /// Sweeps factors of `space` through `model` as `request` asks. The result is the same on every run.
@@ -98,10 +160,9 @@ pub struct Extent {
 /// let sizes = FactorValues::parse("particle_radius=20,40,60 nm", study.space())?;
 /// let request = SweepRequest { factors: vec![thickness], against: Some(sizes) };
 /// let sweeps = sweep(study.space(), study.model().as_ref(), &request)?;
-/// assert_eq!(sweeps.sweeps[0].family.len(), 3);
+/// assert_eq!(sweeps.sweeps[0].curves.len(), 1 + 3);
 /// // The stiffness goes with the third power of the thickness, and at these dimensions the force with it.
-/// let elasticity = sweeps.sweeps[0].local[0].as_ref().map(|local| local.elasticity);
-/// assert!(elasticity.is_ok_and(|e| e.is_some_and(|e| (1.0..3.0).contains(&e))));
+/// assert!(sweeps.sweeps[0].effects[0].elasticity.is_some_and(|e| (1.0..3.0).contains(&e)));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
@@ -131,8 +192,7 @@ pub fn sweep_in(
     request.check(space)?;
     let mut bench = Bench::new(space, model, context);
     let first = space.factors().first().map_or(f64::NAN, |factor| factor.nominal);
-    let nominal: Vec<Result<f64, RowFailure>> =
-        bench.curve(0, &[first], None)?.into_iter().map(CurveOutput::single).collect();
+    let nominal: Vec<NominalOutput> = bench.curve(0, &[first], None)?.into_iter().map(NominalOutput::new).collect();
     let sweeps = request.factors.iter().map(|asked| one(&mut bench, space, asked, &nominal, request));
     let sweeps = sweeps.collect::<Result<_, _>>()?;
     context.messages().finish();
@@ -143,48 +203,73 @@ fn one(
     bench: &mut Bench<'_>,
     space: &Space,
     asked: &FactorValues,
-    nominal: &[Result<f64, RowFailure>],
+    nominal: &[NominalOutput],
     request: &SweepRequest,
 ) -> Result<Sweep, Halt> {
-    let FactorValues { factor, values } = asked.clone();
-    let curves = bench.curve(factor, &values, None)?;
-    let against = request.against.iter().filter(|against| against.factor != factor);
-    let family = against.flat_map(|against| against.values.iter().map(|value| (against.factor, *value)));
-    let family = family
-        .map(|(other, value)| {
-            let outputs = bench.curve(factor, &values, Some((other, value)))?;
-            Ok(FamilyCurve { factor: other, value, outputs })
-        })
-        .collect::<Result<_, Halt>>()?;
-    let offsets = bench.offsets();
-    let extents = curves.iter().zip(nominal).zip(&offsets);
+    let FactorValues { factor: number, values } = asked.clone();
+    let factor = &space.factors()[number];
+    let mut curves = vec![SweepCurve { against: None, outputs: bench.curve(number, &values, None)? }];
+    let against = request.against.iter().filter(|against| against.factor != number);
+    for (other, value) in against.flat_map(|against| against.values.iter().map(|value| (against.factor, *value))) {
+        let outputs = bench.curve(number, &values, Some((other, value)))?;
+        let other = &space.factors()[other];
+        let against = Against {
+            factor: other.name.clone(),
+            value,
+            label: other.distribution().label(value).map(str::to_owned),
+            unit: other.unit().to_string(),
+        };
+        curves.push(SweepCurve { against: Some(against), outputs });
+    }
     // Of a temperature in degC there are no percent.
-    let extents =
-        extents.map(|((curve, nominal), offset)| Extent::of(curve, nominal.as_ref().ok().filter(|_| !offset)));
+    let offsets = bench.offsets();
+    let nominal = nominal.iter().zip(offsets).map(|(nominal, offset)| nominal.value.filter(|_| !offset));
+    let local = local::local(bench, number, factor)?;
+    let effects = curves[0].outputs.iter().zip(nominal).zip(local);
+    let over_range = FactorValues::over_range(space, number, values.len().max(2));
     Ok(Sweep {
-        factor,
-        extents: extents.collect(),
-        family,
-        local: local::local(bench, factor, &space.factors()[factor])?,
-        nominal: curves,
+        factor: factor.name.clone(),
+        unit: factor.unit().to_string(),
+        nominal: factor.nominal,
+        spacing: if is_logarithmic(factor.distribution()) { "logarithmic" } else { "linear" }.to_owned(),
+        given: over_range.map_or(true, |range| range.values != values),
+        labels: values.iter().map(|value| factor.distribution().label(*value).map(str::to_owned)).collect(),
+        effects: effects.map(|((curve, nominal), local)| SweepEffect::new(curve, nominal, local)).collect(),
+        curves,
         values,
     })
 }
 
-impl CurveOutput {
-    /// The only value, or why it failed.
-    fn single(self) -> Result<f64, RowFailure> {
-        let reason = self.failures.into_iter().next().map_or_else(RowFailure::not_finite, |(_, reason)| reason);
-        self.values.into_iter().next().flatten().ok_or(reason)
+impl NominalOutput {
+    /// That of a curve of one value.
+    fn new(curve: OutputCurve) -> Self {
+        let value = curve.values.into_iter().next().flatten();
+        let failure = curve.gaps.into_iter().next().map(|gap| gap.reason);
+        let reason = value.is_none().then(|| failure.unwrap_or_else(|| RowFailure::not_finite().to_string()));
+        Self { output: curve.name, unit: curve.unit, value, reason }
     }
 }
 
-impl Extent {
-    fn of(curve: &CurveOutput, nominal: Option<&f64>) -> Option<Self> {
+impl SweepEffect {
+    fn new(curve: &OutputCurve, nominal: Option<f64>, local: Result<LocalSensitivity, NoDerivative>) -> Self {
         let values = || curve.values.iter().copied().flatten();
-        let (low, high) = (values().reduce(f64::min)?, values().reduce(f64::max)?);
-        let percent = nominal.map(|nominal| 100.0 * ((high - low) / nominal.abs())).filter(|p| p.is_finite());
-        let end = |value: Option<&Option<f64>>| value.copied().flatten();
-        Some(Self { low, high, first: end(curve.values.first()), last: end(curve.values.last()), percent })
+        let (low, high) = (values().reduce(f64::min), values().reduce(f64::max));
+        let width = low.zip(high).map(|(low, high)| high - low);
+        let percent = width.zip(nominal).map(|(width, nominal)| 100.0 * (width / nominal.abs()));
+        let slope = local.as_ref().ok();
+        Self {
+            output: curve.name.clone(),
+            unit: curve.unit.clone(),
+            low,
+            high,
+            first: curve.values.first().copied().flatten(),
+            last: curve.values.last().copied().flatten(),
+            percent: percent.filter(|percent| percent.is_finite()),
+            derivative: slope.map(|slope| slope.derivative),
+            derivative_error: slope.map(|slope| slope.derivative_error),
+            elasticity: slope.and_then(|slope| slope.elasticity),
+            elasticity_error: slope.and_then(|slope| slope.elasticity_error),
+            reason: local.err().map(|error| error.to_string()),
+        }
     }
 }

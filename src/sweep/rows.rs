@@ -1,7 +1,7 @@
 //! Runs of a model around the nominal point.
 
-use super::CurveOutput;
-use crate::model::{Batch, Model, RunContext};
+use super::{Gap, OutputCurve};
+use crate::model::{Batch, Model, Output, RunContext};
 use crate::run::{Executor, Halt};
 use crate::space::Space;
 
@@ -42,13 +42,19 @@ impl<'a> Bench<'a> {
         factor: usize,
         values: &[f64],
         moved: Option<(usize, f64)>,
-    ) -> Result<Vec<CurveOutput>, Halt> {
+    ) -> Result<Vec<OutputCurve>, Halt> {
         let unit = self.space.factors()[factor].unit();
         let mut base = self.nominal.clone();
         if let Some((other, value)) = moved {
             base[other] = self.space.factors()[other].unit().to_si(value);
         }
-        let mut outputs = vec![CurveOutput::default(); self.model.outputs().len()];
+        let empty = |output: &Output| OutputCurve {
+            name: output.name.to_string(),
+            unit: output.unit.to_string(),
+            values: Vec::new(),
+            gaps: Vec::new(),
+        };
+        let mut outputs: Vec<OutputCurve> = self.model.outputs().iter().map(empty).collect();
         let most = self.executor.rows_at_once();
         for (block, values) in values.chunks(most).enumerate() {
             let mut columns: Vec<Vec<f64>> = base.iter().map(|value| vec![*value; values.len()]).collect();
@@ -66,7 +72,7 @@ impl<'a> Bench<'a> {
                 curve.values.extend(values);
             }
             for (output, row, reason) in self.batch.failures() {
-                outputs[*output].failures.push((block * most + row, reason.clone()));
+                outputs[*output].gaps.push(Gap { place: block * most + row, reason: reason.to_string() });
             }
         }
         Ok(outputs)

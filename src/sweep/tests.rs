@@ -67,13 +67,13 @@ fn curves_extents_and_slopes_are_exact() {
     let swept = sweep(&space, &powers(), &SweepRequest { factors: all(&space, 5), against: None }).unwrap();
     // (200e-6)^3/2^2 N = 2e-12 N = 2e-3 nN.
     let close = |a: f64, b: f64, tolerance: f64| (a - b).abs() <= tolerance * b.abs();
-    assert!(close(*swept.nominal[0].as_ref().unwrap(), 2e-3, 1e-14));
+    assert!(close(swept.nominal[0].value.unwrap(), 2e-3, 1e-14));
     let length = &swept.sweeps[0];
     assert_eq!(length.values, [100.0, 150.0, 200.0, 250.0, 300.0]);
-    let extent = length.extents[0].unwrap();
-    assert_eq!((extent.first, extent.last), (Some(extent.low), Some(extent.high)));
-    assert!(close(extent.high / extent.low, 27.0, 1e-14));
-    assert!(close(extent.percent.unwrap(), 100.0 * (1.5f64.powi(3) - 0.5f64.powi(3)), 1e-13));
+    let effect = &length.effects[0];
+    assert_eq!((effect.first, effect.last), (effect.low, effect.high));
+    assert!(close(effect.high.unwrap() / effect.low.unwrap(), 27.0, 1e-14));
+    assert!(close(effect.percent.unwrap(), 100.0 * (1.5f64.powi(3) - 0.5f64.powi(3)), 1e-13));
     let stiffness = &swept.sweeps[1];
     for (value, expected) in
         stiffness.values.iter().zip([0.1, libm::pow(10f64, -0.5), 1.0, libm::pow(10f64, 0.5), 10.0])
@@ -82,15 +82,15 @@ fn curves_extents_and_slopes_are_exact() {
     }
     // Extrapolated central differences are exact for cubics; for x^-2 they are off by some 5 (h/x)^4 = 5e-8.
     for (sweep, power, tolerance) in [(length, 3.0, 1e-12), (stiffness, -2.0, 1e-7)] {
-        let local = sweep.local[0].as_ref().unwrap();
+        let local = &sweep.effects[0];
         assert!(close(local.elasticity.unwrap(), power, tolerance), "{local:?}");
         assert!((local.elasticity.unwrap() - power).abs() <= local.elasticity_error.unwrap());
         assert!(local.elasticity_error.unwrap() < 1e-3);
     }
-    assert!(close(length.local[0].as_ref().unwrap().derivative, 3.0 * 2e-3 / 200.0, 1e-12));
+    assert!(close(length.effects[0].derivative.unwrap(), 3.0 * 2e-3 / 200.0, 1e-12));
     // z = x^2 at 0, the end of the range: a one-sided difference, exact for a parabola.
-    let share = swept.sweeps[2].local[1].as_ref().unwrap();
-    assert!(share.derivative.abs() < 1e-15 && share.elasticity.is_none());
+    let share = &swept.sweeps[2].effects[1];
+    assert!(share.derivative.unwrap().abs() < 1e-15 && share.elasticity.is_none());
     assert_eq!(swept.runs, 1 + 15 + 5 + 5 + 4);
 }
 
@@ -98,20 +98,19 @@ fn curves_extents_and_slopes_are_exact() {
 fn failed_runs_are_gaps_with_reasons() {
     let space = space();
     let swept = sweep(&space, &powers(), &SweepRequest { factors: all(&space, 11), against: None }).unwrap();
-    let z = &swept.sweeps[2].nominal[1];
-    let places: Vec<usize> = z.failures.iter().map(|(place, _)| *place).collect();
-    assert_eq!(places, [9, 10]);
-    assert_eq!(z.failures[0].1.to_string(), "too far");
+    let z = &swept.sweeps[2].curves[0].outputs[1];
+    assert_eq!(z.gaps, [9, 10].map(|place| Gap { place, reason: "too far".to_owned() }));
     assert_eq!((z.values[8].is_some(), z.values[9], z.values.len()), (true, None, 11));
-    let extent = swept.sweeps[2].extents[1].unwrap();
-    assert_eq!((extent.first, extent.last, extent.percent), (Some(0.0), None, None));
+    let effect = &swept.sweeps[2].effects[1];
+    assert_eq!((effect.first, effect.last, effect.percent), (Some(0.0), None, None));
     let mut far = space.factors().to_vec();
     far[2].nominal = 0.9;
     let far = Space::new(far);
     let swept = sweep(&far, &powers(), &SweepRequest { factors: all(&far, 3), against: None }).unwrap();
-    assert_eq!(swept.nominal[1], Err(RowFailure::new("too far")));
-    assert_eq!(swept.sweeps[0].extents[1], None);
-    assert_eq!(swept.sweeps[0].local[1], Err(NoDerivative::Failed(RowFailure::new("too far"))));
+    assert_eq!((swept.nominal[1].value, swept.nominal[1].reason.as_deref()), (None, Some("too far")));
+    let effect = &swept.sweeps[0].effects[1];
+    let reason = "a run at or beside the nominal point failed: too far";
+    assert_eq!((effect.low, effect.derivative, effect.reason.as_deref()), (None, None, Some(reason)));
 }
 
 #[test]
@@ -119,13 +118,13 @@ fn a_family_moves_one_more_factor() {
     let space = space();
     let against = Some(FactorValues::parse("stiffness=1,2 N/m", &space).unwrap());
     let swept = sweep(&space, &powers(), &SweepRequest { factors: all(&space, 3), against: against.clone() }).unwrap();
-    let family = &swept.sweeps[0].family;
-    assert_eq!(family.iter().map(|curve| curve.value).collect::<Vec<_>>(), [1.0, 2.0]);
+    let (nominal, family) = swept.sweeps[0].curves.split_first().unwrap();
+    assert_eq!(family.iter().map(|curve| curve.against.as_ref().unwrap().value).collect::<Vec<_>>(), [1.0, 2.0]);
     // The second value is the nominal one.
-    assert_eq!(family[1].outputs, swept.sweeps[0].nominal);
+    assert_eq!(family[1].outputs, nominal.outputs);
     let ratio = family[0].outputs[0].values[1].unwrap() / family[1].outputs[0].values[1].unwrap();
     assert!((ratio - 4.0).abs() < 1e-14);
-    assert!(swept.sweeps[1].family.is_empty(), "a factor is not swept against itself");
+    assert!(swept.sweeps[1].curves.len() == 1, "a factor is not swept against itself");
     let itself = SweepRequest { factors: all(&space, 3)[1..2].to_vec(), against };
     assert!(sweep(&space, &powers(), &itself).unwrap_err().to_string().contains("`stiffness` cannot be swept"));
     let twice = SweepRequest { factors: [all(&space, 3), all(&space, 3)].concat(), against: None };

@@ -40,6 +40,9 @@ pub use output::{IntervalOptions, differs_clearly, output_indices, output_moment
 pub use points::KeptPoints;
 pub use ranks::{probability_above, probability_first};
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
 use crate::special::t_quantile_outside;
 
 /// Confidence level of every interval.
@@ -49,7 +52,8 @@ pub const LEVEL: f64 = 0.95;
 pub(crate) const NORMAL_QUANTILE: f64 = 1.959_963_984_540_054;
 
 /// A two-sided confidence interval.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(rename = "IntervalRecord")]
 pub struct Interval {
     /// Lower bound.
     pub low: f64,

@@ -254,7 +254,6 @@ fn other_measures_stand_beside_the_indices() {
     }
     let csv = std::fs::read_to_string(run.out().join("table-measures.csv")).unwrap();
     assert!(csv.starts_with("output,input,fourier,fourier_low,fourier_high,fourier_p,delta,"), "{csv}");
-    assert!(run.out().join("charts/table-measures.svg").exists());
     // The rows of a net are no independent draws.
     let even = Run::of(&table(&sobol(3, 512, 0)), &["--outputs", "y", "--measures"]);
     let result: GivenFile =

@@ -81,10 +81,8 @@ impl Request {
                     (name.clone(), Value::from(text.as_str()))
                 });
                 let charts = document.figures().into_iter().map(|figure| {
-                    let svg = figure.chart.svg().map_err(|error| error.to_string())?;
-                    Ok((format!("{}.svg", figure.stem), Value::from(svg)))
+                    (format!("{}.svg", figure.stem), Value::from(figure.chart.svg()))
                 });
-                let charts: Vec<(String, Value)> = charts.collect::<Result<_, String>>()?;
                 Ok(Value::Object(files.chain(charts).collect()))
             }
         }
@@ -116,7 +114,7 @@ fn view(result: &ResultFile, sections: &[String]) -> Result<Value, String> {
     let ids: Vec<&str> = sections.iter().map(String::as_str).collect();
     let document = run_document(result).excerpt(&ids);
     let section = |id: &String| {
-        let html = document.section_html(id).map_err(|error| error.to_string())?;
+        let html = document.section_html(id);
         let title = document.sections.iter().find(|section| section.id == *id).map(|section| symbols(&section.title));
         Ok(html.map(|html| json!({ "id": id, "title": title, "html": html })))
     };

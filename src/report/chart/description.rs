@@ -1,8 +1,8 @@
-//! What a chart says of itself besides title and caption: its legend, and its data in words.
+//! What a chart says of itself besides title and caption: its legend, its axes, and its bars in words.
 
 use super::bar::Bar;
 use super::figure::{Entry, Key};
-use super::model::{Chart, Mark, Panel, Point, Shape};
+use super::model::{Chart, Mark, Panel, Shape};
 use super::text::percent;
 
 impl Chart {
@@ -42,80 +42,34 @@ impl Chart {
         entries
     }
 
-    /// What the chart shows in words: its caption, then axes, series and, where they are few, all numbers.
-    pub fn description(&self) -> String {
-        format!("{} {}", self.caption, self.data()).trim().to_owned()
-    }
-
-    /// Axes, series and numbers in words.
-    pub(super) fn data(&self) -> String {
-        self.all_panels().iter().map(|panel| self.panel_data(panel)).collect::<Vec<_>>().join(" ")
-    }
-
-    fn panel_data(&self, panel: &Panel) -> String {
-        let title = panel.title.trim();
-        let mut text = if title.is_empty() { String::new() } else { format!("{title}: ") };
-        text.push_str(&format!("horizontal axis {}", panel.x.title(0)));
-        if panel.y.names.is_empty() {
-            text.push_str(&format!(", vertical axis {}", panel.y.title(0)));
-        }
-        if !panel.x.names.is_empty() {
-            text.push_str(&format!(" (places: {})", panel.x.names.join(", ")));
-        }
-        for Mark { series, shape } in &panel.marks {
-            let said = match shape {
-                Shape::Line(_) => series.name.clone(),
-                Shape::Dots(dots) => format!("{}: {} points", series.name, dots.len()),
-                Shape::Point(point) => point_in_words(&series.name, point),
-                Shape::Bar(bar) => self.bar_in_words(panel, &series.name, bar),
-                Shape::Note(row, note) => format!("{}: {note}", name(panel, *row)),
-                Shape::Rule(x, label) if !label.trim().is_empty() => {
-                    let place = panel.x.names.get(*x as usize).cloned();
-                    format!("{label} at {}", place.unwrap_or_else(|| x.to_string()))
-                }
-                _ => continue,
+    /// The axes of its panels in words; numbers stand in tables.
+    pub(super) fn axes(&self) -> String {
+        let panel = |panel: &Panel| {
+            let title = if panel.title.trim().is_empty() { String::new() } else { format!("{}: ", panel.title.trim()) };
+            let vertical = match panel.y.names.is_empty() {
+                true => format!(", vertical axis {}", panel.y.title(0)),
+                false => format!(", rows {}", panel.y.names.join(", ")),
             };
-            text.push_str(&format!("; {said}"));
-        }
-        for (row, name) in panel.y.names.iter().enumerate() {
-            let letters: Vec<&str> =
-                panel.tiles().filter(|(_, tile)| tile.row == row).map(|(_, tile)| tile.letter.as_str()).collect();
-            if !letters.is_empty() {
-                text.push_str(&format!("; {name}: {}", letters.join(" ")));
-            }
-        }
-        text + "."
+            format!("{title}horizontal axis {}{vertical}.", panel.x.title(0))
+        };
+        self.panels.iter().map(panel).collect::<Vec<_>>().join(" ")
     }
 
-    /// A bar in words: names, value, interval, published value.
+    /// A bar that is drawn in words: names, value, interval, published value.
     pub(super) fn bar_in_words(&self, panel: &Panel, series: &str, bar: &Bar) -> String {
         let number = |value: f64| if bar.label.is_empty() { value.to_string() } else { percent(value) };
-        let value = match bar.drawn() {
-            None if bar.label.is_empty() => "no value".to_owned(),
-            None => bar.label.clone(),
-            Some(_) if !bar.said.is_empty() => bar.said.clone(),
-            Some(drawn) => {
-                let interval = drawn.interval.map(|(low, high)| format!(" ({} to {})", number(low), number(high)));
-                let from = if bar.from == 0.0 || bar.from == bar.to {
-                    String::new()
-                } else {
-                    format!("{} to ", number(bar.from))
-                };
-                from + &number(bar.to) + &interval.unwrap_or_default()
+        let mut value = bar.said.clone();
+        if value.is_empty() {
+            if bar.from != 0.0 && bar.from != bar.to {
+                value.push_str(&format!("{} to ", number(bar.from)));
             }
-        };
+            value.push_str(&number(bar.to));
+            if let Some((low, high)) = bar.interval {
+                value.push_str(&format!(" ({} to {})", number(low), number(high)));
+            }
+        }
         let published = bar.diamond().map(|value| format!(", {} {}", self.published_name, number(value)));
-        format!("{}, {series}: {value}{}", name(panel, bar.row), published.unwrap_or_default())
+        let row = panel.y.names.get(bar.row).map_or("", String::as_str);
+        format!("{row}, {series}: {value}{}", published.unwrap_or_default())
     }
-}
-
-/// The name of a row.
-fn name(panel: &Panel, row: usize) -> &str {
-    panel.y.names.get(row).map_or("", String::as_str)
-}
-
-fn point_in_words(series: &str, Point { x, y, label, x_interval, y_interval }: &Point) -> String {
-    let interval =
-        |interval: &Option<(f64, f64)>| interval.map_or_else(String::new, |(low, high)| format!(" ({low} to {high})"));
-    format!("{label}, {series}: {x}{}, {y}{}", interval(x_interval), interval(y_interval))
 }

@@ -1,23 +1,20 @@
 //! Draws a chart: its panels one after the other, and the marks on axes of numbers.
 
+use super::Arrangement;
 use super::figure::{Figure, Words};
 use super::flags::{self, Flag};
 use super::labels::{self, Area, Label};
-use super::layout::{Cell, Layout, slope_label};
+use super::layout::{Cell, Layout};
 use super::model::{Chart, Mark, Point, Shape};
 use super::path::{closed, open, runs, thin};
 use super::plot::Plot;
-use super::scale::Scale;
 use super::series::Series;
 use super::style::{ChartWidth, MUTED, Medium, PANEL_TITLE, TICK};
 use super::svg::{Anchor, Attributes, Canvas, Text};
-use super::symbols::Ends;
 use super::text::shorten;
-use super::{Arrangement, ChartError};
 
-/// Room above a plot, px, and above one with slopes, whose labels may stand there.
+/// Room above a plot, px.
 const HEAD: f64 = 8.0;
-const SLOPE_HEAD: f64 = 18.0;
 /// Longest label of a point on a phone, px.
 const LONGEST_LABEL: f64 = 110.0;
 /// Most points that are labelled: more would be a thicket.
@@ -25,18 +22,12 @@ const MOST_LABELS: usize = 60;
 
 impl Chart {
     /// The chart as an SVG document for a page column, the same bytes for the same chart.
-    ///
-    /// # Errors
-    /// [`ChartError::NoPanels`] if there is nothing to draw.
-    pub fn svg(&self) -> Result<String, ChartError> {
+    pub fn svg(&self) -> String {
         self.svg_at(ChartWidth::Wide)
     }
 
     /// The chart as an SVG document for `width`.
-    ///
-    /// # Errors
-    /// [`ChartError`], as for [`svg`](Self::svg).
-    pub fn svg_at(&self, width: ChartWidth) -> Result<String, ChartError> {
+    pub fn svg_at(&self, width: ChartWidth) -> String {
         self.drawn(Medium { width, inline: false })
     }
 
@@ -51,31 +42,24 @@ impl Chart {
     /// let bar = Series::new("effect", Colour::Series(0)).mark(Shape::Bar(Bar { to: 4.0, ..Bar::default() }));
     /// let chart = Chart::new("Effects", "x1 matters.")
     ///     .panels([Panel::new(Axis::new("effect", "nN"), rows).with([bar])]);
-    /// let svg = chart.inline(ChartWidth::Narrow)?;
+    /// let svg = chart.inline(ChartWidth::Narrow);
     /// assert!(svg.starts_with("<svg") && svg.contains("viewBox=\"0 0 360 "));
-    /// # Ok::<(), apportion::report::chart::ChartError>(())
     /// ```
-    ///
-    /// # Errors
-    /// [`ChartError`], as for [`svg`](Self::svg).
-    pub fn inline(&self, width: ChartWidth) -> Result<String, ChartError> {
+    pub fn inline(&self, width: ChartWidth) -> String {
         self.drawn(Medium { width, inline: true })
     }
 
-    fn drawn(&self, medium: Medium) -> Result<String, ChartError> {
-        if self.panels.is_empty() {
-            return Err(ChartError::NoPanels { chart: self.title.clone() });
-        }
+    fn drawn(&self, medium: Medium) -> String {
         let words = Words { title: &self.title, caption: &self.caption };
         let mut figure = Figure::begin(medium, words, &self.legend());
         let bottom = self.draw_panels(&mut figure, medium.width);
-        Ok(figure.finish(bottom, &self.data()))
+        figure.finish(bottom, &self.axes())
     }
 
     /// Draws all panels from the figure's free room on; gives the lower edge.
     fn draw_panels(&self, figure: &mut Figure, page: ChartWidth) -> f64 {
         let layout = Layout::new(self, page);
-        let last = layout.cells.len() - 1;
+        let last = layout.cells.len().saturating_sub(1);
         let mut top = figure.top + 4.0;
         let mut bottom = top;
         for (row, cells) in layout.cells.chunks(layout.columns).enumerate() {
@@ -119,8 +103,7 @@ impl<'a> Sheet<'a> {
 
     /// Room between the plot and the title of the panel.
     fn rise(&self) -> f64 {
-        let least = if self.cell.panel.has_slopes() { SLOPE_HEAD } else { HEAD };
-        flags::room(&self.flags).max(least)
+        flags::room(&self.flags).max(HEAD)
     }
 
     fn head(&self) -> f64 {
@@ -160,7 +143,6 @@ impl<'a> Sheet<'a> {
     /// The marks on axes of numbers: what covers much first.
     fn marks(&self, canvas: &mut Canvas) {
         let marks = &self.cell.panel.marks;
-        self.slopes(canvas);
         for Mark { series, shape } in marks {
             if let Shape::Dots(dots) = shape {
                 let dots: Vec<_> = dots.iter().filter_map(|&dot| self.at(dot)).collect();
@@ -242,41 +224,6 @@ impl<'a> Sheet<'a> {
         canvas.close("g");
     }
 
-    fn slopes(&self, canvas: &mut Canvas) {
-        let Some(origin) = self.at((0.0, 0.0)).filter(|_| self.cell.panel.has_slopes()) else { return };
-        let (width, height) = (self.plot.right() - origin.0, origin.1 - self.plot.top);
-        let (Some(x_px), Some(y_px)) =
-            (px_per_unit(&self.cell.x, self.plot.width), px_per_unit(&self.cell.y, self.plot.height))
-        else {
-            return;
-        };
-        canvas.open("g", &[("class", &"slopes")]);
-        for mark in &self.cell.panel.marks {
-            let Shape::Slope(slope, whole) = &mark.shape else { continue };
-            let rise = slope * (y_px / x_px);
-            if !(rise.is_finite() && rise > 0.0) {
-                continue;
-            }
-            let is_steep = rise > height / width;
-            let end = if is_steep {
-                (origin.0 + height / rise, self.plot.top)
-            } else {
-                (self.plot.right(), origin.1 - rise * width)
-            };
-            canvas.open("g", &[("stroke", &MUTED), ("stroke-width", &"1"), ("stroke-dasharray", &"5 4")]);
-            canvas.line(origin, end);
-            canvas.close("g");
-            let label = slope_label(whole, self.layout.page);
-            let text = if is_steep {
-                Text::new(&label, (end.0, end.1 - 4.0), TICK).anchor(Anchor::Middle)
-            } else {
-                Text::new(&label, (end.0 + 4.0, end.1 + TICK.cap_height() / 2.0), TICK)
-            };
-            canvas.text(&text.fill(MUTED).whole(whole));
-        }
-        canvas.close("g");
-    }
-
     /// The labels of points, those of larger x first.
     fn labels(&self, canvas: &mut Canvas, points: &[(&Series, &Point)]) {
         let mut shown: Vec<(&Point, (f64, f64))> =
@@ -295,14 +242,9 @@ impl<'a> Sheet<'a> {
                 Label { at: *at, width, height: TICK.cap_height() }
             })
             .collect();
-        let whiskers = shown.iter().flat_map(|(point, (x, y))| {
-            let (level, upright) = self.whiskers(point);
-            let level = level.map(|ends| Area::between(ends, (y - 1.0, y + 1.0)));
-            level.into_iter().chain(upright.map(|ends| Area::between((x - 1.0, x + 1.0), ends)))
-        });
         let plot = &self.plot;
         let bounds = Area { left: plot.left, right: plot.right() + 2.0, top: plot.top, bottom: plot.bottom() };
-        let places = labels::place(&wanted, &whiskers.collect::<Vec<_>>(), bounds);
+        let places = labels::place(&wanted, bounds);
         canvas.open("g", &[("class", &"labels")]);
         for ((point, _), place) in shown.iter().zip(places) {
             let Some(labels::Place { area, leader }) = place else { continue };
@@ -318,22 +260,13 @@ impl<'a> Sheet<'a> {
         canvas.close("g");
     }
 
-    /// The places of a point's interval ends, along the axes.
-    fn whiskers(&self, point: &Point) -> (Ends, Ends) {
-        let x = |(low, high)| Some((self.plot.x(&self.cell.x, low)?, self.plot.x(&self.cell.x, high)?));
-        let y = |(low, high)| Some((self.plot.y(&self.cell.y, low)?, self.plot.y(&self.cell.y, high)?));
-        (point.x_interval.and_then(x), point.y_interval.and_then(y))
-    }
-
-    /// The points, series by series: first the intervals.
+    /// The points, series by series.
     fn points(&self, canvas: &mut Canvas, points: &[(&Series, &Point)]) {
         for of_series in points.chunk_by(|a, b| a.0 == b.0) {
-            let shown = || of_series.iter().filter_map(|(_, point)| Some((self.at((point.x, point.y))?, *point)));
-            let colour = of_series[0].0.colour;
             canvas.open("g", &[("class", &"series")]);
             canvas.content("title", &[], &of_series[0].0.name);
-            shown().for_each(|(at, point)| canvas.thin_whiskers(at, self.whiskers(point), colour));
-            shown().for_each(|(at, _)| canvas.point(at, colour));
+            let shown = of_series.iter().filter_map(|(_, point)| self.at((point.x, point.y)));
+            shown.for_each(|at| canvas.point(at, of_series[0].0.colour));
             canvas.close("g");
         }
     }
@@ -344,10 +277,4 @@ fn as_point(mark: &Mark) -> Option<(&Series, &Point)> {
         Shape::Point(point) => Some((&mark.series, point)),
         _ => None,
     }
-}
-
-/// Length of one unit of a linear scale that is so many px long.
-fn px_per_unit(scale: &Scale, length: f64) -> Option<f64> {
-    let [first, second] = [scale.ticks.first()?.value, scale.ticks.get(1)?.value];
-    Some((scale.place(second)? - scale.place(first)?) * length / (second - first))
 }

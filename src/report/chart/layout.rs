@@ -3,7 +3,7 @@
 use super::bar::Bar;
 use super::model::{Arrangement, Chart, Mark, Panel, Shape, Tile};
 use super::plot::{TICK_GAP, tick_room, title_room};
-use super::scale::{Scale, ScaleOptions, Spacing};
+use super::scale::{Scale, ScaleOptions};
 use super::style::{ChartWidth, MARGIN, TICK, VALUE, drawable};
 use super::text::shorten;
 
@@ -19,10 +19,8 @@ const GAP: f64 = 16.0;
 pub(super) const TEXT_GAP: f64 = 6.0;
 /// Positive values whose ratio is below this are shown from zero on.
 const NEAR_ZERO: f64 = 0.4;
-/// Longest name of a row, note and label of a slope, px; longer ones are shortened.
+/// Longest name of a row, px; longer ones are shortened.
 const LONGEST_NAME: f64 = 220.0;
-const LONGEST_NOTE: f64 = 150.0;
-const LONGEST_SLOPE: (f64, f64) = (120.0, 64.0);
 /// Height of a bar among several in a row, of one with a label or a published value, and least height of the bars of a row,
 /// px.
 const LANE: f64 = 6.0;
@@ -78,18 +76,17 @@ impl<'a> Layout<'a> {
         let names = panels.iter().flat_map(|panel| &panel.y.names).map(|name| TICK.width(&row_name(name)) + TEXT_GAP);
         let names = page.choose(names.fold(0.0, f64::max), 0.0);
         let left = MARGIN + (titles.fold(0.0, f64::max) + ticks).max(names);
-        let right = MARGIN + widest_at_right(panels, page);
         let width = |(left, right, gap): (f64, f64, f64)| {
             ((page.px() - left - right - (columns - 1) as f64 * gap) / columns as f64).max(10.0)
         };
         // Half of the outer tick labels may reach beyond the plot.
-        let x = x_scales(chart, width((left, right, GAP)));
+        let x = x_scales(chart, width((left, MARGIN, GAP)));
         let labels = || panels.iter().zip(&x).filter(|(panel, _)| panel.x.names.is_empty()).map(|(_, x)| &x.ticks);
         let half = |label: &str| TICK.width(label) / 2.0;
         let first = labels().filter_map(|ticks| Some(half(&ticks.first()?.label) + 2.0)).fold(0.0, f64::max);
         let last = labels().filter_map(|ticks| Some(half(&ticks.last()?.label) + 4.0)).fold(0.0, f64::max);
         let widest = labels().flatten().map(|tick| TICK.width(&tick.label)).fold(0.0, f64::max);
-        let (left, right, gap) = (left.max(first), right.max(last), GAP.max(widest + 8.0));
+        let (left, right, gap) = (left.max(first), MARGIN.max(last), GAP.max(widest + 8.0));
         let width = width((left, right, gap));
         let cells = panels.iter().zip(x_scales(chart, width)).zip(y).zip(heights);
         let cells = cells.map(|(((panel, x), y), height)| Cell { panel, x, y, height }).collect();
@@ -151,8 +148,9 @@ impl Panel {
         self.rules().find_map(|(x, _)| drawable(x)).unwrap_or(0.0)
     }
 
-    pub(super) fn has_slopes(&self) -> bool {
-        self.marks.iter().any(|mark| matches!(mark.shape, Shape::Slope(..)))
+    /// Whether it has labelled points, which need more room than lines.
+    fn has_points(&self) -> bool {
+        self.marks.iter().any(|mark| matches!(mark.shape, Shape::Point(_)))
     }
 
     /// The coordinates of all marks; of those that have one only, the other is 0.
@@ -161,17 +159,12 @@ impl Panel {
         let of_mark = |mark: &Mark| match &mark.shape {
             Shape::Line(points) | Shape::Dots(points) => points.clone(),
             Shape::Band(edges) => edges.iter().flat_map(|&(x, low, high)| [(x, low), (x, high)]).collect(),
-            Shape::Point(point) => {
-                let beside = point.x_interval.map(|(low, high)| [(low, point.y), (high, point.y)]);
-                let above = point.y_interval.map(|(low, high)| [(point.x, low), (point.x, high)]);
-                [Some([(point.x, point.y); 2]), beside, above].into_iter().flatten().flatten().collect()
-            }
+            Shape::Point(point) => vec![(point.x, point.y)],
             Shape::Bar(bar) => match bar.drawn() {
                 Some(bar) => bar.ends().into_iter().map(level).collect(),
                 None => bar.diamond().into_iter().map(level).collect(),
             },
-            Shape::Slope(..) => vec![(0.0, 0.0)],
-            Shape::Tile(_) | Shape::Note(..) | Shape::Rule(..) => Vec::new(),
+            Shape::Tile(_) | Shape::Rule(..) => Vec::new(),
         };
         self.marks.iter().flat_map(of_mark).collect()
     }
@@ -220,7 +213,7 @@ fn height(panel: &Panel, alone: bool, rows: Rows, page: ChartWidth) -> f64 {
     let (lone, several) = page.choose(HEIGHTS, NARROW_HEIGHTS);
     match alone {
         _ if panel.has_rows() => rows.pitch * panel.y.names.len() as f64,
-        true if panel.has_slopes() => page.choose(LABELLED_HEIGHTS.0, LABELLED_HEIGHTS.1),
+        true if panel.has_points() => page.choose(LABELLED_HEIGHTS.0, LABELLED_HEIGHTS.1),
         true => lone,
         false => several,
     }
@@ -245,9 +238,9 @@ fn x_scale(first: &Panel, panels: &[Panel], width: f64) -> Scale {
     let marks = || panels.iter().flat_map(|panel| &panel.marks);
     let air = match () {
         () if panels.iter().any(Panel::has_rows) => 0.03,
-        () if panels.iter().any(Panel::has_slopes) => 0.06,
+        () if panels.iter().any(Panel::has_points) => 0.06,
         // Points need air at the ends; lines run from edge to edge.
-        () if marks().any(|mark| matches!(mark.shape, Shape::Dots(_) | Shape::Point(_))) => 0.02,
+        () if marks().any(|mark| matches!(mark.shape, Shape::Dots(_))) => 0.02,
         () if marks().any(|mark| mark.series.stroke.has_points()) => 0.02,
         () => 0.0,
     };
@@ -257,12 +250,8 @@ fn x_scale(first: &Panel, panels: &[Panel], width: f64) -> Scale {
 
 /// The value up to which an axis must go for the labels after its bars.
 fn room_for_labels(panels: &[Panel], values: &[f64], width: f64) -> Option<f64> {
-    let spacing = panels.first().map(|panel| panel.x.spacing).unwrap_or_default();
-    let low = values.iter().copied().filter(|value| spacing.shows(*value)).reduce(f64::min)?;
-    let beyond = |right: f64, room: f64| match spacing {
-        Spacing::Linear => low + (right - low) * width / (width - room),
-        Spacing::Logarithmic => low * libm::pow(right / low, width / (width - room)),
-    };
+    let low = values.iter().copied().filter_map(drawable).reduce(f64::min)?;
+    let beyond = |right: f64, room: f64| low + (right - low) * width / (width - room);
     let needed = panels.iter().flat_map(Panel::bars).filter_map(|(_, bar)| {
         let room = (VALUE.width(&bar.label) + LABEL_ROOM).min(0.5 * width);
         let bar = bar.drawn().filter(|bar| !bar.label.is_empty())?;
@@ -295,8 +284,7 @@ fn y_scale(first: &Panel, panels: &[Panel], height: f64) -> Scale {
     let (low, high) = shown.fold((f64::INFINITY, 0.0_f64), |(l, h), y| (l.min(*y), h.max(*y)));
     // Zero belongs to the picture unless it would take much of it. A logarithmic scale passes over it.
     values.extend((low > 0.0 && low < NEAR_ZERO * high).then_some(0.0));
-    let air = if first.has_slopes() { 0.06 } else { 0.05 };
-    Scale::over(values, ScaleOptions { spacing: first.y.spacing, air, steps: steps(height, 45.0, 6) })
+    Scale::over(values, ScaleOptions { spacing: first.y.spacing, air: 0.05, steps: steps(height, 45.0, 6) })
 }
 
 /// About how many steps between ticks an axis of a length has: one for so many px, but at most so many.
@@ -304,27 +292,7 @@ fn steps(length: f64, px: f64, most: usize) -> usize {
     ((length / px).round() as usize).clamp(3, most)
 }
 
-/// Width of what stands right of the plots, px: notes, and labels of slopes.
-fn widest_at_right(panels: &[Panel], page: ChartWidth) -> f64 {
-    let width = |mark: &Mark| match &mark.shape {
-        Shape::Note(_, text) => page.choose(VALUE.width(&row_note(text)) + TEXT_GAP, 0.0),
-        Shape::Slope(_, label) => TICK.width(&slope_label(label, page)) + 4.0,
-        _ => 0.0,
-    };
-    panels.iter().flat_map(|panel| &panel.marks).map(width).fold(0.0, f64::max)
-}
-
 /// The name of a row as it stands beside the plot.
 pub(super) fn row_name(name: &str) -> String {
     shorten(name, LONGEST_NAME, TICK)
-}
-
-/// A note as it stands beside the plot.
-pub(super) fn row_note(note: &str) -> String {
-    shorten(note, LONGEST_NOTE, VALUE)
-}
-
-/// The label of a slope, shortened if need be: it takes its room from the plot.
-pub(super) fn slope_label(label: &str, page: ChartWidth) -> String {
-    shorten(label, page.choose(LONGEST_SLOPE.0, LONGEST_SLOPE.1), TICK)
 }

@@ -9,7 +9,6 @@
 mod bar;
 mod description;
 mod draw;
-mod error;
 mod figure;
 mod flags;
 mod font;
@@ -35,7 +34,6 @@ mod text;
 mod tests;
 
 pub use bar::Bar;
-pub use error::ChartError;
 pub use model::{Arrangement, Axis, Chart, Mark, Panel, Point, Shape, Tile};
 pub use palette::Colour;
 #[cfg(feature = "pdf")]

@@ -1,20 +1,15 @@
-//! Draws level bars in rows, with their names, intervals and notes.
-
-use std::fmt::Display;
+//! Draws level bars in rows, with their names and intervals.
 
 use super::bar::Bar;
 use super::draw::Sheet;
-use super::layout::{ROW_GAP, TEXT_GAP, row_name, row_note};
+use super::layout::{ROW_GAP, TEXT_GAP, row_name};
 use super::model::{Mark, Panel, Shape};
-use super::scale::Spacing;
 use super::series::Series;
 use super::style::{INK, MARGIN, MUTED, PAPER, TICK, VALUE};
 use super::svg::{Anchor, Canvas, Px, Text};
 use super::symbols::HALF_DIAMOND;
 use super::text::shorten;
 
-/// Most that a dot is in radius, px.
-const DOT: f64 = 4.5;
 /// Between two cells of a map, px.
 const TILE_GAP: f64 = 2.0;
 
@@ -34,7 +29,7 @@ impl Lane<'_> {
 }
 
 impl<'a> Sheet<'a> {
-    /// All rows. On a page names stand left of the bars and notes right of them, on a phone both above them.
+    /// All rows. On a page names stand left of the bars, on a phone above them.
     pub(super) fn rows(&self, canvas: &mut Canvas) {
         let panel = self.cell.panel;
         let rows = 0..panel.y.names.len();
@@ -90,17 +85,6 @@ impl<'a> Sheet<'a> {
                 let Some((left, right)) = self.x(from).zip(self.x(to)) else { continue };
                 let fill = series.colour.hex();
                 let words = self.chart.bar_in_words(self.cell.panel, &lane.series.name, &bar);
-                if self.cell.panel.x.spacing == Spacing::Logarithmic {
-                    let radius = DOT.min(0.5 * lane.height - 0.5);
-                    let place = [
-                        ("cx", &Px(right) as &dyn Display),
-                        ("cy", &Px(lane.middle())),
-                        ("r", &Px(radius)),
-                        ("fill", &fill),
-                    ];
-                    canvas.tipped("circle", &place, &words);
-                    continue;
-                }
                 canvas.tipped(
                     "rect",
                     &[
@@ -186,9 +170,7 @@ impl<'a> Sheet<'a> {
                 None if lane.bar.label.is_empty() => (self.cell.panel.base(), "no value", MUTED),
                 None => (self.cell.panel.base(), lane.bar.label.as_str(), MUTED),
             };
-            // A logarithmic axis has no zero where the bar would begin.
-            let left = (self.cell.panel.x.spacing == Spacing::Logarithmic).then_some(self.plot.left);
-            if let Some(x) = self.x(end).or(left).filter(|_| !label.is_empty()) {
+            if let Some(x) = self.x(end).filter(|_| !label.is_empty()) {
                 // A published value that would stand in it goes before it.
                 let diamond = lane.bar.diamond().and_then(|value| self.x(value)).map(|at| at + HALF_DIAMOND);
                 let covered = x..x + 2.0 * (TEXT_GAP + HALF_DIAMOND) + VALUE.width(label);
@@ -199,15 +181,10 @@ impl<'a> Sheet<'a> {
         canvas.close("g");
     }
 
-    /// Name and notes of a row, and that there is no value where nothing else is.
+    /// Name of a row, and that there is no value where nothing else is.
     fn texts(&self, canvas: &mut Canvas, row: usize) {
         let panel = self.cell.panel;
         let name = panel.y.names[row].as_str();
-        let note = panel.marks.iter().find_map(|mark| match &mark.shape {
-            Shape::Note(of, text) if *of == row => Some(text.as_str()),
-            _ => None,
-        });
-        let note = note.unwrap_or_default();
         let middle = self.middle(row);
         let baseline = middle + TICK.cap_height() / 2.0;
         let is_empty = !panel.marks.iter().any(|mark| match &mark.shape {
@@ -219,24 +196,13 @@ impl<'a> Sheet<'a> {
             canvas.text(&Text::new("no value", (self.plot.left + TEXT_GAP, baseline), VALUE).fill(MUTED));
         }
         if self.layout.page.is_narrow() {
-            // Each as long as the other leaves room; with a white rim, since a rule may run through them.
-            let page = self.layout.page.px();
-            let room = page - 2.0 * MARGIN - 2.0 * TEXT_GAP;
-            let name_line = shorten(name, room - VALUE.width(note).min(room / 2.0), TICK);
-            let note_line = shorten(note, room - TICK.width(&name_line), VALUE);
+            // With a white rim, since a rule may run through it.
+            let line = shorten(name, self.layout.page.px() - 2.0 * MARGIN, TICK);
             let baseline = middle - self.layout.rows.bars / 2.0 - 4.0;
-            canvas.text(&Text::new(&name_line, (MARGIN, baseline), TICK).halo().whole(name));
-            let at = (page - MARGIN, baseline);
-            canvas.text(&Text::new(&note_line, at, VALUE).anchor(Anchor::End).halo().whole(note));
-            return;
-        }
-        if self.is_first_column {
+            canvas.text(&Text::new(&line, (MARGIN, baseline), TICK).halo().whole(name));
+        } else if self.is_first_column {
             let at = (self.plot.left - TEXT_GAP, baseline);
             canvas.text(&Text::new(&row_name(name), at, TICK).anchor(Anchor::End).whole(name));
-        }
-        if !note.is_empty() {
-            let at = (self.plot.right() + TEXT_GAP, baseline);
-            canvas.text(&Text::new(&row_note(note), at, VALUE).whole(note));
         }
     }
 }

@@ -4,9 +4,6 @@ use super::palette::{Colour, DOTS_OPACITY};
 use super::style::{INK, PAPER};
 use super::svg::{Canvas, Px};
 
-/// The ends of an interval, px.
-pub(super) type Ends = Option<(f64, f64)>;
-
 /// Half the diagonal of a diamond, px.
 pub(super) const HALF_DIAMOND: f64 = 4.2;
 
@@ -52,21 +49,6 @@ impl Canvas {
                 ("stroke-opacity", &DOTS_OPACITY),
             ],
         );
-    }
-
-    /// Thin lines without caps from a point's interval ends, level and upright.
-    pub fn thin_whiskers(&mut self, (x, y): (f64, f64), (level, upright): (Ends, Ends), colour: Colour) {
-        let mut d = String::new();
-        if let Some((from, to)) = level {
-            d.push_str(&format!("M{} {}H{}", Px(from), Px(y), Px(to)));
-        }
-        if let Some((from, to)) = upright {
-            d.push_str(&format!("M{} {}V{}", Px(x), Px(from), Px(to)));
-        }
-        if !d.is_empty() {
-            let (stroke, class) = (colour.hex(), "whisker");
-            self.leaf("path", &[("class", &class), ("d", &d), ("fill", &"none"), ("stroke", &stroke)]);
-        }
     }
 
     /// A filled point with colour and, for print in grey, symbol of its series.

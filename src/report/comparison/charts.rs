@@ -2,21 +2,18 @@
 
 use super::index::ComparedIndex;
 use super::record::{ComparedFactor, ComparedOutput, ComparisonFile};
-use crate::report::Drawing;
 use crate::report::chart::{Chart, Colour, Series};
-use crate::report::factor_bars::{INDEX, both_orders, difference_panel, index_panel, left_out};
+use crate::report::factor_bars::{INDEX, MOST, both_orders, difference_panel, index_panel, not_drawn};
 use crate::report::file_stems;
 use crate::report::format::name;
 
-/// For every output its indices side by side, then the differences. Of more than 21 factors, those with the largest total
+/// For every output its indices side by side, then the differences. Of more than 20 factors, those with the largest total
 /// indices in either result.
-pub fn comparison_charts(file: &ComparisonFile) -> Vec<Drawing> {
+pub fn comparison_charts(file: &ComparisonFile) -> Vec<(String, Chart)> {
     let names: Vec<&str> = file.outputs.iter().map(|output| output.name.as_str()).collect();
     let drawn = file.outputs.iter().zip(file_stems("", &names, &["", "-differences"])).flat_map(|(output, stem)| {
-        [
-            Drawing { suffix: stem.clone(), chart: side_by_side(file, output) },
-            Drawing { suffix: format!("{stem}-differences"), chart: differences(file, output) },
-        ]
+        let of_differences = format!("{stem}-differences");
+        [(stem, side_by_side(file, output)), (of_differences, differences(file, output))]
     });
     drawn.collect()
 }
@@ -73,6 +70,9 @@ fn caption(output: &ComparedOutput) -> String {
     }
     let singles = single_factors(output);
     let sure = singles.iter().filter(|factor| factor.total.differs == Some(true)).count();
-    let left_out = left_out(singles.len());
-    format!("{sure} of {} total indices differ by more than the errors of both.{left_out}", singles.len())
+    format!(
+        "{sure} of {} total indices differ by more than the errors of both.{}",
+        singles.len(),
+        not_drawn(singles.len(), MOST)
+    )
 }

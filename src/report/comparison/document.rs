@@ -17,14 +17,11 @@ pub fn comparison_document(file: &ComparisonFile, files: &str) -> Document {
     lead.push(legend(file));
     let mut sections = vec![Section::new("sides", "What is compared", sides(file))];
     let mut of_outputs = Vec::new();
-    // Two charts for each output: the indices side by side, and their differences.
-    let mut charts = comparison_charts(file).into_iter().enumerate().map(|(place, drawing)| {
-        let (stem, data) = (format!("{files}{}", drawing.suffix), format!("{files}.csv"));
-        Part::from(Figure::new(place + 1, drawing.chart, stem, data))
-    });
+    let mut figures = Figure::numbered(comparison_charts(file), (files, ""), &format!("{files}.csv")).into_iter();
     for output in &file.outputs {
         let mut parts = output_parts(output);
-        parts.extend(charts.by_ref().take(2));
+        // Two charts for each output: the indices side by side, and their differences.
+        parts.extend(figures.by_ref().take(2).map(Part::from));
         of_outputs.push((heading(&output.name, &output.unit), parts));
     }
     sections.extend(Document::sections_of_outputs(of_outputs));

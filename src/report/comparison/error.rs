@@ -5,20 +5,14 @@ use thiserror::Error;
 /// Why two results cannot be compared.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum CompareError {
-    /// They have no output in common.
-    #[error("there is nothing to compare, the results have no output in common: A has {a}, B has {b}")]
-    NoCommonOutput {
-        /// The outputs of A.
+    /// They have no output, or no factor, in common.
+    #[error("there is nothing to compare, the results have no {what} in common: A has {a}, B has {b}")]
+    NothingInCommon {
+        /// `output` or `factor`.
+        what: &'static str,
+        /// Those of A.
         a: String,
-        /// The outputs of B.
-        b: String,
-    },
-    /// They have no factor in common.
-    #[error("there is nothing to compare, the results have no factor in common: A has {a}, B has {b}")]
-    NoCommonFactor {
-        /// The factors of A.
-        a: String,
-        /// The factors of B.
+        /// Those of B.
         b: String,
     },
     /// An output of one name is a quantity of two kinds.

@@ -126,16 +126,8 @@ pub struct NamedResult<'a> {
 /// [`CompareError`] if they have no output or no factor in common, or an output of one name is a quantity of another kind.
 pub fn compare_results(a: &NamedResult<'_>, b: &NamedResult<'_>) -> Result<ComparisonFile, CompareError> {
     let (first, second) = (a.result, b.result);
-    let outputs_left_out = one_sided(&output_names(first), &output_names(second));
-    let factors_left_out = one_sided(&factor_names(first), &factor_names(second));
-    if outputs_left_out.a.len() == first.outputs.len() {
-        let (a, b) = (listed(&output_names(first)), listed(&output_names(second)));
-        return Err(CompareError::NoCommonOutput { a, b });
-    }
-    if factors_left_out.a.len() == first.factors.len() {
-        let (a, b) = (listed(&factor_names(first)), listed(&factor_names(second)));
-        return Err(CompareError::NoCommonFactor { a, b });
-    }
+    let outputs_left_out = one_sided("output", &output_names(first), &output_names(second))?;
+    let factors_left_out = one_sided("factor", &factor_names(first), &factor_names(second))?;
     let names: Vec<String> = factor_names(first).into_iter().chain(factors_left_out.b.iter().cloned()).collect();
     let mut outputs = Vec::new();
     for output in &first.outputs {
@@ -187,9 +179,16 @@ fn listed(names: &[String]) -> String {
     if names.is_empty() { "none".to_owned() } else { names.join(", ") }
 }
 
-fn one_sided(a: &[String], b: &[String]) -> OneSided {
-    let without = |all: &[String], others: &[String]| all.iter().filter(|n| !others.contains(n)).cloned().collect();
-    OneSided { a: without(a, b), b: without(b, a) }
+/// The names that only one of them has, of which there must be others.
+fn one_sided(what: &'static str, a: &[String], b: &[String]) -> Result<OneSided, CompareError> {
+    let without = |all: &[String], others: &[String]| -> Vec<String> {
+        all.iter().filter(|name| !others.contains(name)).cloned().collect()
+    };
+    let found = OneSided { a: without(a, b), b: without(b, a) };
+    match found.a.len() == a.len() {
+        true => Err(CompareError::NothingInCommon { what, a: listed(a), b: listed(b) }),
+        false => Ok(found),
+    }
 }
 
 fn compared(names: &[String], a: &OutputRecord, b: &OutputRecord) -> Result<ComparedOutput, CompareError> {

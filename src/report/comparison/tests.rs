@@ -106,8 +106,8 @@ fn one_sided_factors_and_missing_indices_have_their_place() {
     assert_eq!(file.outputs[0].reasons, [None, Some("zero variance".to_owned())]);
     let text = comparison_document(&file, "a-vs-b").text();
     assert!(text.contains("no indices: There are none in B: zero variance") && text.contains("no intervals"), "{text}");
-    for drawing in comparison_charts(&file) {
-        drawing.chart.svg().unwrap();
+    for (_, chart) in comparison_charts(&file) {
+        chart.svg();
     }
     let document = comparison_document(&file, "a-vs-b");
     let files = document.data_files();

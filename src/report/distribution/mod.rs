@@ -6,7 +6,6 @@ mod quantile;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use thiserror::Error;
 
 pub use chart::histogram_chart;
 pub use quantile::{PERCENTS, quantile};
@@ -67,26 +66,9 @@ pub struct Histogram {
     pub above: u64,
 }
 
-/// Why a sample has no distribution.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
-pub enum DistributionError {
-    /// There are no values.
-    #[error("there are no values")]
-    NoValues,
-    /// A value is NaN or infinite.
-    #[error("value {number} (from 1) is not finite")]
-    NotFinite {
-        /// Its number, from 1.
-        number: usize,
-    },
-}
-
 impl OutputDistribution {
     /// The distribution of `values`, which are in SI; the record is in `unit`. Any finite values will do, however large,
-    /// small or equal. Costs O(n log n) time and a copy of the values.
-    ///
-    /// # Errors
-    /// [`DistributionError`] if there are no values, or one is not finite.
+    /// small or equal; `None` if there are none, or one is not finite. Costs O(n log n) time and a copy of the values.
     ///
     /// # Example
     /// ```
@@ -94,26 +76,24 @@ impl OutputDistribution {
     /// use apportion::report::distribution::OutputDistribution;
     ///
     /// let forces: Vec<f64> = (0..=100).map(|k| f64::from(k) / 1e9).collect();
-    /// let distribution = OutputDistribution::of(&forces, &Unit::parse("nN")?)?;
+    /// let distribution = OutputDistribution::of(&forces, &Unit::parse("nN")?).expect("finite values");
     /// assert!((distribution.mean - 50.0).abs() < 1e-12);
     /// assert_eq!(distribution.max, 100.0);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn of(values: &[f64], unit: &Unit) -> Result<Self, DistributionError> {
-        if let Some(place) = values.iter().position(|value| !value.is_finite()) {
-            return Err(DistributionError::NotFinite { number: place + 1 });
+    pub fn of(values: &[f64], unit: &Unit) -> Option<Self> {
+        if !values.iter().all(|value| value.is_finite()) {
+            return None;
         }
         let (mut sorted, exponent) = rescaled(values);
         sorted.sort_unstable_by(f64::total_cmp);
-        let (Some(&min), Some(&max)) = (sorted.first(), sorted.last()) else {
-            return Err(DistributionError::NoValues);
-        };
+        let (min, max) = (*sorted.first()?, *sorted.last()?);
         let scale = Scale { exponent, unit };
         let moments = Moments::of(&sorted);
         let varied = max - min > ROUNDING;
         let sample = varied.then(|| Sample::of(&sorted, moments.sd));
         let histogram = sample.as_ref().map(|sample| histogram::of(sample));
-        Ok(Self {
+        Some(Self {
             unit: unit.clone(),
             count: sorted.len() as u64,
             mean: scale.value(moments.mean.clamp(min, max)),

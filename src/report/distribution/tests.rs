@@ -63,9 +63,8 @@ fn heavy_tails_leave_the_middle_visible() {
 #[test]
 fn degenerate_samples_are_results() {
     let unit = Unit::dimensionless();
-    assert_eq!(OutputDistribution::of(&[], &unit), Err(DistributionError::NoValues));
-    let error = OutputDistribution::of(&[1.0, f64::INFINITY], &unit).unwrap_err();
-    assert_eq!(error, DistributionError::NotFinite { number: 2 });
+    assert_eq!(OutputDistribution::of(&[], &unit), None);
+    assert_eq!(OutputDistribution::of(&[1.0, f64::INFINITY], &unit), None);
     for value in [0.0, 0.1, 1e300, -1e-300, 5e-324] {
         for n in [1, 2, 50] {
             let d = of(&vec![value; n]);
@@ -85,11 +84,11 @@ fn degenerate_samples_are_results() {
 fn charts_draw_every_kind_of_sample() {
     let cases = [normal(500), vec![1e300, -1e300, 3e299], vec![2e-300, 1e-300], vec![0.0; 9], vec![7.0]];
     for values in cases {
-        let svg = histogram_chart(&of(&values), "Distribution", "force").svg().unwrap();
+        let svg = histogram_chart(&of(&values), "Distribution", "force").svg();
         assert!(!svg.contains("NaN") && !svg.contains("inf"), "{svg}");
         assert!(png(&svg).is_ok());
     }
-    let svg = histogram_chart(&of(&normal(500)), "Distribution", "force").svg().unwrap();
+    let svg = histogram_chart(&of(&normal(500)), "Distribution", "force").svg();
     for text in ["2.5 % \u{2212}1.9", "median", "mean", "97.5 % 1.9", "95 % of the 500 values of force lie between"] {
         assert!(svg.contains(text), "{text}");
     }

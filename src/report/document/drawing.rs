@@ -1,6 +1,6 @@
 //! Charts inside a page: the drawings of each, named for screen readers.
 
-use crate::report::chart::{Chart, ChartError, ChartWidth};
+use crate::report::chart::{Chart, ChartWidth};
 
 /// The drawings of a chart; the page shows one of them.
 #[derive(Default)]
@@ -13,22 +13,19 @@ pub(super) struct Drawings {
 
 impl Drawings {
     /// The drawings of `chart` as elements whose identifiers begin with `id`.
-    pub fn of(id: &str, chart: &Chart) -> Result<Self, ChartError> {
-        Ok(Self { wide: wide(id, chart)?, narrow: narrow(id, chart)? })
+    pub fn of(id: &str, chart: &Chart) -> Self {
+        Self { wide: drawn(id, chart, ChartWidth::Wide), ..Self::small(id, chart) }
     }
 
     /// The small one alone.
-    pub fn small(id: &str, chart: &Chart) -> Result<Self, ChartError> {
-        Ok(Self { narrow: narrow(id, chart)?, ..Self::default() })
+    pub fn small(id: &str, chart: &Chart) -> Self {
+        Self { narrow: drawn(id, chart, ChartWidth::Narrow), ..Self::default() }
     }
 }
 
-fn wide(id: &str, chart: &Chart) -> Result<String, ChartError> {
-    Ok(named(&chart.inline(ChartWidth::Wide)?, &format!("{id}-wide")))
-}
-
-fn narrow(id: &str, chart: &Chart) -> Result<String, ChartError> {
-    Ok(named(&chart.inline(ChartWidth::Narrow)?, &format!("{id}-narrow")))
+fn drawn(id: &str, chart: &Chart, width: ChartWidth) -> String {
+    let kind = if width == ChartWidth::Wide { "wide" } else { "narrow" };
+    named(&chart.inline(width), &format!("{id}-{kind}"))
 }
 
 /// The picture with its title and description tied to it by identifiers, which not every browser does by itself.

@@ -5,8 +5,8 @@ use askama::Template;
 use super::anchors::href;
 use super::drawing::Drawings;
 use super::symbols::{clean, escaped, symbols};
-use super::{Cell, Document, DocumentError, Figure, Link, Mark, OnPhone, Part, Section, Table};
-use crate::report::chart::{Chart, ChartError};
+use super::{Cell, Document, Figure, Link, Mark, OnPhone, Part, Section, Table};
+use crate::report::chart::Chart;
 use crate::report::file_names::{CHARTS, ChartFormat};
 use crate::report::format::minus;
 
@@ -87,9 +87,6 @@ impl Document {
     /// are inside. The same document gives the same bytes. Texts are escaped, so that none can break out of its place;
     /// charts are drawn twice, for a page column and for a phone.
     ///
-    /// # Errors
-    /// [`DocumentError`] if a chart cannot be drawn, or a template not be filled.
-    ///
     /// # Example
     /// ```
     /// use apportion::report::document::{Document, Part, Section};
@@ -100,47 +97,37 @@ impl Document {
     ///     sections: vec![Section::new("shares", "Shares", vec![Part::Text("F_cr grows with the thickness.".into())])],
     ///     ..Document::default()
     /// };
-    /// let html = document.html()?;
+    /// let html = document.html();
     /// assert!(html.starts_with("<!DOCTYPE html>"));
     /// assert!(html.contains("<var>F</var><sub>cr</sub> grows"));
-    /// # Ok::<(), apportion::report::document::DocumentError>(())
     /// ```
-    pub fn html(&self) -> Result<String, DocumentError> {
+    pub fn html(&self) -> String {
         self.page(&Surroundings { formats: &[], has_files: false })
     }
 
     /// The page as it stands in its folder: with links to the other files, the charts in these `formats`.
-    pub(crate) fn html_in_folder(&self, formats: &[ChartFormat]) -> Result<String, DocumentError> {
+    pub(crate) fn html_in_folder(&self, formats: &[ChartFormat]) -> String {
         self.page(&Surroundings { formats, has_files: true })
     }
 
     /// The body of the section `id` as it stands on the page, without its heading; `None` if there is no such section.
-    ///
-    /// # Errors
-    /// [`DocumentError`] if a chart of it cannot be drawn.
-    pub fn section_html(&self, id: &str) -> Result<Option<String>, DocumentError> {
+    pub fn section_html(&self, id: &str) -> Option<String> {
         let section = self.sections.iter().find(|section| section.id == id);
-        section.map(|section| Surroundings { formats: &[], has_files: false }.parts(&section.parts)).transpose()
+        section.map(|section| Surroundings { formats: &[], has_files: false }.parts(&section.parts))
     }
 
-    fn page(&self, around: &Surroundings<'_>) -> Result<String, DocumentError> {
+    fn page(&self, around: &Surroundings<'_>) -> String {
         // Figures have links to their own files.
         let data = if around.has_files { self.data_names() } else { Vec::new() };
         let links = data.into_iter().filter(|name| !name.contains('/')).map(|name| Link::new(name.clone(), name));
         let links: Vec<Link> = links.collect();
         let files = (!links.is_empty()).then(|| Section::new("files", "Files", vec![Part::Links(links)]));
-        let all: Vec<&Section> = self.sections.iter().chain(&files).collect();
-        let mut sections = Vec::with_capacity(all.len());
-        for section in &all {
-            let body = around.parts(&section.parts)?;
-            sections.push(SectionView { id: &section.id, title: symbols(&section.title), body });
-        }
         let view = PageView {
             page_title: clean(&self.title),
             kicker: symbols(&self.kicker),
             title: symbols(&self.title),
             lead: self.lead.iter().map(|text| symbols(text)).collect(),
-            sections,
+            sections: self.sections.iter().chain(&files).map(|section| around.section(section)).collect(),
             footer: symbols(&self.footer),
             style: include_str!("../../../templates/page/page.css"),
             script: concat!(
@@ -160,11 +147,15 @@ struct Surroundings<'a> {
 }
 
 impl Surroundings<'_> {
-    fn parts(&self, parts: &[Part]) -> Result<String, DocumentError> {
+    fn section<'a>(&self, section: &'a Section) -> SectionView<'a> {
+        SectionView { id: &section.id, title: symbols(&section.title), body: self.parts(&section.parts) }
+    }
+
+    fn parts(&self, parts: &[Part]) -> String {
         parts.iter().map(|part| self.part(part)).collect()
     }
 
-    fn part(&self, part: &Part) -> Result<String, DocumentError> {
+    fn part(&self, part: &Part) -> String {
         let all = |texts: &[String]| texts.iter().map(|text| symbols(text)).collect();
         let view = match part {
             Part::OnPage(parts) => return self.parts(parts),
@@ -178,28 +169,23 @@ impl Surroundings<'_> {
             }
             Part::Frame { title, html } => PartView::Frame { title: clean(title), html: clean(html) },
             Part::Details { summary, parts } => {
-                PartView::Details { summary: symbols(summary), body: self.parts(parts)? }
+                PartView::Details { summary: symbols(summary), body: self.parts(parts) }
             }
             Part::OnScreen { instead, parts } => {
-                PartView::OnScreen { instead: symbols(instead), body: self.parts(parts)? }
+                PartView::OnScreen { instead: symbols(instead), body: self.parts(parts) }
             }
-            Part::Figure(figure) => self.figure(figure, Drawings::of)?,
+            Part::Figure(figure) => self.figure(figure, Drawings::of),
             Part::Gallery(figures) => {
-                let small = figures.iter().map(|figure| Ok(rendered(&self.figure(figure, Drawings::small)?)? + "\n"));
-                PartView::Gallery { body: small.collect::<Result<_, DocumentError>>()? }
+                let small = figures.iter().map(|figure| rendered(&self.figure(figure, Drawings::small)) + "\n");
+                PartView::Gallery { body: small.collect() }
             }
             Part::Table(table) => PartView::Table(table_view(table)),
         };
-        Ok(rendered(&view)?.trim_start().to_owned() + "\n")
+        rendered(&view).trim_start().to_owned() + "\n"
     }
 
-    fn figure<'a>(
-        &self,
-        figure: &'a Figure,
-        drawings: fn(&str, &Chart) -> Result<Drawings, ChartError>,
-    ) -> Result<PartView<'a>, DocumentError> {
-        let drawings = drawings(&figure.id, &figure.chart)
-            .map_err(|source| DocumentError::Chart { figure: figure.id.clone(), source })?;
+    fn figure<'a>(&self, figure: &'a Figure, drawings: fn(&str, &Chart) -> Drawings) -> PartView<'a> {
+        let drawings = drawings(&figure.id, &figure.chart);
         let words = FigureWords {
             label: symbols(&figure.label),
             title: symbols(figure.title.as_deref().unwrap_or(figure.chart.title())),
@@ -217,7 +203,7 @@ impl Surroundings<'_> {
         if self.has_files && !figure.data.is_empty() {
             links.push(Link::new("CSV", &figure.data));
         }
-        Ok(PartView::Figure { id: &figure.id, words, drawings, links: link_views(&links) })
+        PartView::Figure { id: &figure.id, words, drawings, links: link_views(&links) }
     }
 }
 
@@ -284,8 +270,8 @@ impl Mark {
     }
 }
 
-fn rendered(template: &impl Template) -> Result<String, DocumentError> {
-    template.render().map_err(|error| DocumentError::Template(error.to_string()))
+fn rendered(template: &impl Template) -> String {
+    template.render().expect("texts, into memory")
 }
 
 #[cfg(test)]

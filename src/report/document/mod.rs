@@ -44,23 +44,6 @@ pub struct Document {
     pub files: Vec<DataFile>,
 }
 
-/// Why a page could not be made.
-#[cfg(feature = "page")]
-#[derive(Debug, thiserror::Error)]
-pub enum DocumentError {
-    /// A template cannot be rendered.
-    #[error("cannot make the page: {0}")]
-    Template(String),
-    /// A chart cannot be drawn.
-    #[error("cannot draw figure {figure:?} of the page: {source}")]
-    Chart {
-        /// Anchor of the figure.
-        figure: String,
-        /// Why.
-        source: crate::report::chart::ChartError,
-    },
-}
-
 /// A file for programs.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DataFile {
@@ -276,6 +259,19 @@ impl Figure {
             stem: stem.into(),
             data: data.into(),
         }
+    }
+
+    /// Figures numbered from 1: charts with what the names of their files end in after `name`, whose numbers are in the file
+    /// `data`, below the title `headline`.
+    pub(crate) fn numbered(
+        charts: impl IntoIterator<Item = (String, Chart)>,
+        (name, headline): (&str, &str),
+        data: &str,
+    ) -> Vec<Self> {
+        let charts = charts.into_iter().zip(1..);
+        let figure =
+            |((suffix, chart), number)| Self::new(number, chart, format!("{name}{suffix}"), data).below(headline);
+        charts.map(figure).collect()
     }
 
     /// The same without the title of the document before that of the chart.

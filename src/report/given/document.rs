@@ -31,7 +31,7 @@ pub fn given_document(result: &GivenFile, name: &str) -> Document {
     }
     sections.extend(Document::sections_of_outputs(of_outputs));
     lead = first_answers(lead);
-    sections.extend(measures::section(result, name, result.outputs.len()));
+    sections.extend(measures::section(result, name));
     let notes = result.notes.iter().map(|note| format!("{}.", crate::report::capitalised(note))).collect();
     let note = Part::Notice { mark: Mark::Plain, kind: "Note".to_owned(), texts: notes };
     sections.push(Section::new("limits", "What these indices cannot say", vec![note]));

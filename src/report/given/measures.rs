@@ -2,12 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use super::record::{GivenFile, GivenOutputRecord};
+use super::record::GivenFile;
 use crate::given::{InputMeasures, MOST_ROWS_OF_KERNELS, Measure, NoVariance, PERMUTATIONS};
-use crate::report::chart::{Axis, Chart, Colour, Panel, Series, Shape, Tile};
 use crate::report::csv::Field;
-use crate::report::document::{Cell, Column, Figure, Part, Section, Table, Value};
-use crate::report::factor_bars::MOST;
+use crate::report::document::{Cell, Column, Part, Section, Table, Value};
 use crate::report::format::{fixed, index as of_error};
 use crate::report::result::measures::{GivenMeasuresRecord, SIGNIFICANT};
 
@@ -26,48 +24,36 @@ fn record(of: &InputMeasures) -> GivenMeasuresRecord {
     GivenMeasuresRecord::of(of, &Measure::ALL)
 }
 
-/// The section of the measures of all outputs; `None` if there are none. `figures` counts the figures before it.
-pub(super) fn section(result: &GivenFile, name: &str, figures: usize) -> Option<Section> {
-    let outputs: Vec<(&GivenOutputRecord, &[GivenMeasuresRecord])> =
-        result.outputs.iter().filter_map(|output| Some((output, output.measures.as_deref()?))).collect();
+/// The section of the measures of all outputs; `None` if there are none.
+pub(super) fn section(result: &GivenFile, name: &str) -> Option<Section> {
     let mut parts = Vec::new();
-    for (number, (output, inputs)) in outputs.iter().enumerate() {
+    for output in &result.outputs {
+        let Some(inputs) = output.measures.as_deref() else { continue };
         parts.push(Part::Text(agreement(&output.name, inputs, &Measure::ALL)));
         let mut table = table(&output.name, ("input", inputs), &Measure::ALL);
-        table.file = file_name(name);
+        table.file = format!("{name}-measures.csv");
         parts.push(table.into());
-        let stem = if result.outputs.len() == 1 { String::new() } else { format!("-{}", number + 1) };
-        let chart = chart(output, inputs);
-        parts.push(Figure::new(figures + number + 1, chart, format!("{name}-measures{stem}"), file_name(name)).into());
     }
     (!parts.is_empty()).then(|| Section::new("measures", "Other measures", parts))
 }
 
-fn file_name(name: &str) -> String {
-    format!("{name}-measures.csv")
-}
-
-/// The rank of every input by a measure, 1 for the largest.
-fn ranks(inputs: &[GivenMeasuresRecord], measure: Measure) -> Vec<usize> {
+/// The input with the largest measure.
+fn first(inputs: &[GivenMeasuresRecord], measure: Measure) -> Option<usize> {
     let value = |k: usize| inputs[k].get(measure).map_or(f64::NEG_INFINITY, |found| found.estimate.estimate);
-    let mut order: Vec<usize> = (0..inputs.len()).collect();
-    order.sort_by(|&a, &b| value(b).total_cmp(&value(a)));
-    let mut ranks = vec![0; inputs.len()];
-    order.into_iter().enumerate().for_each(|(rank, input)| ranks[input] = rank + 1);
-    ranks
+    (0..inputs.len()).rev().max_by(|&a, &b| value(a).total_cmp(&value(b)))
 }
 
 /// Whether the measures agree on the input that matters most, and which inputs none of them tells from chance.
 pub(in crate::report) fn agreement(output: &str, inputs: &[GivenMeasuresRecord], measures: &[Measure]) -> String {
-    let mut first: BTreeMap<usize, Vec<&str>> = BTreeMap::new();
+    let mut leading: BTreeMap<usize, Vec<&str>> = BTreeMap::new();
     let is_known = |measure: &&Measure| inputs.iter().any(|of| of.get(**measure).is_some());
     let measures: Vec<Measure> = measures.iter().filter(is_known).copied().collect();
     for &measure in &measures {
-        if let Some(lead) = ranks(inputs, measure).iter().position(|rank| *rank == 1) {
-            first.entry(lead).or_default().push(measure.heading());
+        if let Some(lead) = first(inputs, measure) {
+            leading.entry(lead).or_default().push(measure.heading());
         }
     }
-    let mut leads: Vec<(usize, Vec<&str>)> = first.into_iter().collect();
+    let mut leads: Vec<(usize, Vec<&str>)> = leading.into_iter().collect();
     leads.sort_by_key(|(_, by)| std::cmp::Reverse(by.len()));
     let mut text = match &leads[..] {
         [(lead, _)] if measures.len() > 1 => format!("All measures put {} first for {output}.", inputs[*lead].input),
@@ -139,47 +125,4 @@ pub(in crate::report) fn table(
         }
     }
     Table::new(caption, columns).with_rows(inputs.iter().map(row))
-}
-
-/// The rank of every input by every measure.
-fn chart(output: &GivenOutputRecord, inputs: &[GivenMeasuresRecord]) -> Chart {
-    const KINDS: [(&str, Colour); 5] = [
-        ("first", Colour::Series(3)),
-        ("second", Colour::Series(5)),
-        ("third", Colour::Series(9)),
-        ("further down", Colour::Series(10)),
-        ("may be chance", Colour::Series(6)),
-    ];
-    let by_measure: Vec<Vec<usize>> = Measure::ALL.iter().map(|measure| ranks(inputs, *measure)).collect();
-    let mut tiles = Vec::new();
-    for (row, of) in inputs.iter().enumerate() {
-        for (column, measure) in Measure::ALL.into_iter().enumerate() {
-            let rank = by_measure[column][row];
-            let kind = if of.may_be_chance(measure) { 4 } else { rank.min(4) - 1 };
-            let value = of.get(measure).map_or(f64::NAN, |found| found.estimate.estimate);
-            let tip = format!("{} of {}: {}", measure.heading(), of.input, fixed(value, 3));
-            tiles.push((kind, Tile { row, column, letter: rank.to_string(), tip }));
-        }
-    }
-    // The legend is in the order of the marks.
-    tiles.sort_by_key(|(kind, _)| *kind);
-    let marks = tiles.into_iter().map(|(kind, tile)| {
-        let (words, colour) = KINDS[kind];
-        Series::new(words, colour).mark(Shape::Tile(tile))
-    });
-    // Narrow columns show the beginning of a name.
-    let column = |measure: Measure| match measure {
-        Measure::PawnMedian => "median PAWN",
-        Measure::PawnMax => "largest PAWN",
-        other => other.heading(),
-    };
-    let columns = Measure::ALL.map(|measure| column(measure).to_owned()).to_vec();
-    let rows = inputs.iter().map(|of| of.input.clone()).collect();
-    let keys: Vec<f64> =
-        (0..inputs.len()).map(|input| -by_measure.iter().map(|ranks| ranks[input] as f64).sum::<f64>()).collect();
-    let panel = Panel::new(Axis::from_names("measure", columns), Axis::from_names("", rows)).with(marks);
-    let caption =
-        "Numbers are ranks by each measure, 1 for the largest; what may be chance is so in 5 of 100 tables or more.";
-    Chart::new(format!("Ranks of the inputs of {} by measure", output.name), caption)
-        .panels([panel.ranked(&keys, MOST)])
 }

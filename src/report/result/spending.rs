@@ -20,20 +20,6 @@ pub struct SpendingRecord {
     pub lines: String,
 }
 
-/// The runs of a cheaper model beside those of the model.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[doc(hidden)]
-pub struct LowRecord {
-    /// Its name.
-    pub name: String,
-    /// Runs at the rows of the model.
-    pub shared_runs: u64,
-    /// Base samples of its own design.
-    pub own_base_samples: u64,
-    /// Runs of that.
-    pub own_runs: u64,
-}
-
 /// What a cheaper model did to the indices of an output.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[doc(hidden)]

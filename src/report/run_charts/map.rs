@@ -1,7 +1,7 @@
 //! Many outputs at a glance: a map of factors and outputs, and the bars of all outputs together.
 
 use super::super::chart::{Axis, Chart, Colour, Panel, Series, Shape, Tile};
-use super::super::factor_bars::{left_out, not_drawn, pair_panel};
+use super::super::factor_bars::{MOST, not_drawn, pair_panel};
 use super::super::format::{fixed, index, name};
 use super::super::result::{AggregateIndexRecord, EstimateRecord, IndexRecord, ResultFile};
 use super::headline;
@@ -90,8 +90,8 @@ pub(super) fn short(index: f64) -> String {
     }
 }
 
-/// First-order and total indices of all outputs together, the largest total index on top; of more than 21 factors, the
-/// first 20 and the sums of the others.
+/// First-order and total indices of all outputs together, the largest total index on top; of more than 20 factors, the
+/// first 20.
 pub(in crate::report) fn together_chart(result: &ResultFile) -> Chart {
     let indices = result.aggregate.as_ref().and_then(|aggregate| aggregate.indices.as_deref()).unwrap_or_default();
     let factors: Vec<String> = result.factors.iter().map(|factor| name(&factor.name)).collect();
@@ -105,7 +105,7 @@ pub(in crate::report) fn together_chart(result: &ResultFile) -> Chart {
     let caption = match &result.aggregate {
         Some(aggregate) if aggregate.indices.is_some() => {
             let count = aggregate.outputs.len();
-            format!("Over {count} outputs: {}.{}", aggregate.weighting, left_out(result.factors.len()))
+            format!("Over {count} outputs: {}.{}", aggregate.weighting, not_drawn(result.factors.len(), MOST))
         }
         aggregate => {
             let reason = aggregate.as_ref().and_then(|aggregate| aggregate.reason.as_deref());

@@ -1,4 +1,4 @@
-//! Charts of a run besides that of the shares, all from the result alone: the indices, what acts together, also two by two, the output
+//! Charts of a run besides that of the shares, all from the result alone: the indices, also two by two, the output
 //! over its factors, how it is distributed, how the indices settled, and many outputs or a series at a glance.
 
 mod categories;
@@ -12,7 +12,7 @@ mod series;
 
 pub use convergence::convergence_chart;
 pub use distribution::distribution_chart;
-pub use indices::{indices_chart, interactions_chart};
+pub use indices::indices_chart;
 pub(super) use map::{map_chart, overall_order, together_chart};
 pub use pairs::pairs_chart;
 pub use scatter::scatter_chart;

@@ -6,8 +6,7 @@ use crate::report::document::{Figure, Part};
 use crate::report::format::name as words;
 use crate::report::result::{OutputRecord, ResultFile};
 use crate::report::{
-    convergence_chart, distribution_chart, file_stems, indices_chart, interactions_chart, pairs_chart, scatter_chart,
-    study_chart,
+    convergence_chart, distribution_chart, file_stems, indices_chart, pairs_chart, scatter_chart, study_chart,
 };
 
 /// A chart of an output.
@@ -24,8 +23,6 @@ pub(super) struct Kind {
 
 pub(super) const SHARES: Kind = Kind { suffix: "", name: "shares", draw: study_chart, data: ".csv" };
 pub(super) const INDICES: Kind = Kind { suffix: "-indices", name: "indices", draw: indices_chart, data: ".csv" };
-pub(super) const INTERACTIONS: Kind =
-    Kind { suffix: "-interactions", name: "interactions", draw: interactions_chart, data: ".csv" };
 pub(super) const SCATTER: Kind = Kind { suffix: "-scatter", name: "scatter", draw: scatter_chart, data: "" };
 pub(super) const DISTRIBUTION: Kind =
     Kind { suffix: "-distribution", name: "distribution", draw: distribution_chart, data: "" };
@@ -56,7 +53,7 @@ impl Stems {
         }
         let count = names.len();
         names.extend(result.series.iter().map(|series| series.name.as_str()));
-        let kinds = [SHARES, INDICES, INTERACTIONS, SCATTER, DISTRIBUTION, CONVERGENCE, PAIRS].map(|kind| kind.suffix);
+        let kinds = [SHARES, INDICES, SCATTER, DISTRIBUTION, CONVERGENCE, PAIRS].map(|kind| kind.suffix);
         let mut single = file_stems(&result.study.name, &names, &[&kinds[..], &SERIES_SUFFIXES[..]].concat());
         let series = single.split_off(count);
         let series = series.iter().map(|stem| SERIES_SUFFIXES.map(|suffix| format!("{stem}{suffix}")));

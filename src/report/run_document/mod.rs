@@ -22,9 +22,10 @@ use crate::study::edited;
 use super::document::{DataFile, Document, Mark, Part, Section, Table};
 use super::format::{grouped, name, significant};
 use super::records::StudySetup;
-use super::result::{AggregateRecord, LowRecord, ResultFile, SpendingRecord};
+use super::result::{AggregateRecord, ResultFile, SpendingRecord};
 use super::study_sections::{study_section, validity_section};
 use super::{capitalised, listed, result_json};
+use crate::analysis::LowRuns;
 
 /// The document of a result. Everything in it comes from the result, so that it can be made again from the JSON file.
 /// With one output every topic is a section; with several every output is; with 12 or more there is an overview, and what
@@ -158,7 +159,7 @@ fn cost(result: &ResultFile) -> Vec<Part> {
         ];
         parts.push(Table::pairs("Which fidelities answered.", rows).into());
     }
-    let low = |low: &LowRecord| {
+    let low = |low: &LowRuns| {
         format!(
             "{} ({} at the rows of the model, {} of its own)",
             low.name,

@@ -1,6 +1,6 @@
 //! What the document says about one output, topic by topic.
 
-use super::figures::{CONVERGENCE, DISTRIBUTION, Figures, INDICES, INTERACTIONS, Numbered, PAIRS, SCATTER, SHARES};
+use super::figures::{CONVERGENCE, DISTRIBUTION, Figures, INDICES, Numbered, PAIRS, SCATTER, SHARES};
 use super::measures::measures;
 use super::noise::noise;
 use super::warnings::grouped_warnings;
@@ -162,7 +162,7 @@ fn interactions(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
     let Some(text) = lead::interactions(output).filter(|_| output.indices.iter().flatten().count() > 1) else {
         return Vec::new();
     };
-    let mut parts = vec![Part::Text(text), figures.draw(of, INTERACTIONS)];
+    let mut parts = vec![Part::Text(text)];
     if let Some(table) = tables::pairs(output) {
         parts.extend([figures.draw(of, PAIRS), table.into()]);
     }

@@ -1,7 +1,7 @@
 //! The charts of a screening: mu* against sigma, and mu* with its intervals.
 
-use super::super::Drawing;
-use super::super::chart::{Axis, Bar, Chart, Colour, Mark, Panel, Point, Series, Shape};
+use super::super::chart::{Axis, Bar, Chart, Colour, Panel, Point, Series, Shape, Stroke};
+use super::super::factor_bars::{MOST, not_drawn};
 use super::super::format::{axis_unit, index, name, words};
 use super::super::leading::{self, Contender};
 use super::{FactorScreeningRecord, OutputScreeningRecord, ScreeningFile};
@@ -9,17 +9,14 @@ use crate::report::file_stems;
 use crate::report::result::EstimateRecord;
 use crate::screening::{FIXABLE, Reading};
 
-/// Most bars in a chart; the rest are counted in its caption.
-const MOST_BARS: usize = 40;
-
 /// The charts of every output: `-screen` (mu* against sigma) and `-screen-bars`, with the output's name in between
-/// where there are several.
-pub fn screening_charts(file: &ScreeningFile) -> Vec<Drawing> {
+/// where there are several; each with what the names of its files end in.
+pub fn screening_charts(file: &ScreeningFile) -> Vec<(String, Chart)> {
     let names: Vec<&str> = file.outputs.iter().map(|output| output.name.as_str()).collect();
     let stems = file_stems("-screen", &names, &["", "-bars"]);
     let drawn = file.outputs.iter().zip(stems).flat_map(|(output, stem)| {
         let of_bars = format!("{stem}-bars");
-        [Drawing { chart: scatter(file, output), suffix: stem }, Drawing { chart: bars(file, output), suffix: of_bars }]
+        [(stem, scatter(file, output)), (of_bars, bars(file, output))]
     });
     drawn.collect()
 }
@@ -45,17 +42,17 @@ fn axis(symbol: &str, output: &OutputScreeningRecord) -> Axis {
 }
 
 fn scatter(file: &ScreeningFile, output: &OutputScreeningRecord) -> Chart {
-    let readings = Reading::ALL.iter().rev().map(|&reading| Some(reading)).chain([None]);
-    let points = readings.flat_map(|reading| {
-        let own = output.factors.iter().filter(move |factor| factor.reading == reading && factor.mu_star.is_some());
-        own.map(move |factor| {
-            series(reading).mark(Shape::Point(Point {
-                x: factor.mu_star.map_or(f64::NAN, |estimate| estimate.estimate),
-                y: factor.sigma.map_or(f64::NAN, |estimate| estimate.estimate),
-                // Those without effect all lie at the origin; the caption names them.
-                label: reading.map_or_else(String::new, |_| words(&factor.factor)),
-                ..Point::default()
-            }))
+    let known: Vec<(&FactorScreeningRecord, f64, f64)> = output
+        .factors
+        .iter()
+        .filter_map(|factor| Some((factor, factor.mu_star?.estimate, factor.sigma?.estimate)))
+        .collect();
+    let points = readings().flat_map(|reading| {
+        let own = known.iter().filter(move |(factor, ..)| factor.reading == reading);
+        own.map(move |&(factor, x, y)| {
+            // Those without effect all lie at the origin; the caption names them.
+            let label = reading.map_or_else(String::new, |_| words(&factor.factor));
+            series(reading).mark(Shape::Point(Point { x, y, label }))
         })
     });
     let caption = format!(
@@ -64,45 +61,45 @@ fn scatter(file: &ScreeningFile, output: &OutputScreeningRecord) -> Chart {
         file.provenance.trajectories,
         leader(output)
     );
-    let slopes = [(1.0, "σ = μ*"), (0.5, "σ = 0.5 μ*"), (0.1, "σ = 0.1 μ*")];
+    let (right, top) = known.iter().fold((0.0, 0.0), |(right, top), (_, x, y)| (x.max(right), y.max(top)));
+    let slopes =
+        [(1.0, "σ = μ*", Stroke::Solid), (0.5, "σ = 0.5 μ*", Stroke::Dashed), (0.1, "σ = 0.1 μ*", Stroke::Dotted)];
+    let slopes = slopes.map(|(slope, name, stroke)| {
+        let end = f64::min(right, top / slope);
+        Series::new(name, Colour::Reference).stroke(stroke).line(vec![(0.0, 0.0), (end, slope * end)])
+    });
     let of = if is_derivative(file) { "derivatives" } else { "effects" };
     let x = axis(&format!("μ*, mean size of the {of}"), output);
     let y = axis(&format!("σ, standard deviation of the {of}"), output);
-    let slopes = slopes.map(|(slope, label)| Mark::slope(slope, label));
     Chart::new(title(file, output), caption).panels([Panel::new(x, y).with(points).with(slopes)])
 }
 
+/// The readings, that of factors without effect last.
+fn readings() -> impl Iterator<Item = Option<Reading>> {
+    Reading::ALL.into_iter().rev().map(Some).chain([None])
+}
+
 fn bars(file: &ScreeningFile, output: &OutputScreeningRecord) -> Chart {
-    let mut ranked: Vec<&FactorScreeningRecord> = output.factors.iter().collect();
-    ranked.sort_by_key(|factor| factor.rank);
-    let beyond = match ranked.len().saturating_sub(MOST_BARS) {
-        0 => String::new(),
-        more => format!(" {more} factors of less effect are not shown."),
-    };
-    ranked.truncate(MOST_BARS);
-    let readings = Reading::ALL.iter().rev().map(|&reading| Some(reading)).chain([None]);
-    let ranked = &ranked;
-    let bars = readings.flat_map(|reading| {
-        let own = ranked.iter().enumerate().filter(move |(_, factor)| factor.reading == reading);
+    let bars = readings().flat_map(|reading| {
+        let own = output.factors.iter().enumerate().filter(move |(_, factor)| factor.reading == reading);
         own.filter_map(move |(row, factor)| {
             let mu_star = factor.mu_star?;
+            let fixed = if factor.could_be_fixed == Some(true) { ", could be fixed" } else { "" };
+            let label = of_unit(mu_star, &output.unit) + fixed;
+            let (to, interval, said) = (mu_star.estimate, mu_star.low.zip(mu_star.high), label.clone());
+            let bar = Bar { row, to, interval, label, said, ..Bar::default() };
             // A bar of no length would still be a colour in the legend.
-            let (to, interval) = (mu_star.estimate, mu_star.low.zip(mu_star.high));
-            let bar = Bar { row, to, interval, ..Bar::default() };
-            reading.map(|_| series(reading).mark(Shape::Bar(bar)))
+            let series = if reading.is_some() { series(reading) } else { Series::default() };
+            Some(series.mark(Shape::Bar(bar)))
         })
-    });
-    let notes = ranked.iter().enumerate().filter_map(|(row, factor)| {
-        let mu_star = of_unit(factor.mu_star?, &output.unit);
-        let fixed = if factor.could_be_fixed == Some(true) { ", could be fixed" } else { "" };
-        Some(Mark::note(row, mu_star + fixed))
     });
     let caption = format!(
         "Mean size μ* of the {}. A factor could be fixed where the upper bound of μ* lies below {} % of the largest μ*. \
-         {}{beyond}",
+         {}{}",
         effects_of(file),
         100.0 * FIXABLE,
-        leader(output)
+        leader(output),
+        not_drawn(output.factors.len(), MOST)
     );
     let x = axis(
         if is_derivative(file) {
@@ -112,8 +109,9 @@ fn bars(file: &ScreeningFile, output: &OutputScreeningRecord) -> Chart {
         },
         output,
     );
-    let rows = Axis::from_names("", ranked.iter().map(|factor| words(&factor.factor)).collect());
-    Chart::new(title(file, output), caption).panels([Panel::new(x, rows).with(bars).with(notes)])
+    let rows = Axis::from_names("", output.factors.iter().map(|factor| words(&factor.factor)).collect());
+    let keys: Vec<f64> = output.factors.iter().map(|factor| -(factor.rank as f64)).collect();
+    Chart::new(title(file, output), caption).panels([Panel::new(x, rows).with(bars).ranked(&keys, MOST)])
 }
 
 /// An effect with its error and unit.

@@ -15,18 +15,15 @@ use crate::screening::FIXABLE;
 pub fn screening_document(file: &ScreeningFile) -> Document {
     let study = &file.study.name;
     let mut of_outputs = Vec::new();
-    // Two charts for each output: mu* against sigma, and mu* with its intervals.
-    let mut charts = screening_charts(file).into_iter().enumerate().map(|(place, drawing)| {
-        Figure::new(place + 1, drawing.chart, format!("{study}{}", drawing.suffix), format!("{study}-screen.csv"))
-            .below(file.study.headline())
-    });
+    let names = (study.as_str(), file.study.headline());
+    let mut figures = Figure::numbered(screening_charts(file), names, &format!("{study}-screen.csv")).into_iter();
     for output in &file.outputs {
-        let figures: Vec<Figure> = charts.by_ref().take(2).collect();
         let mut parts: Vec<Part> = Part::warnings(&output.warnings).into_iter().collect();
         let failed = output.failures.iter();
         parts.extend(failures(failed.map(|f| (&*f.reason, inputs(&f.first_inputs), f.runs))));
         parts.push(Part::Table(effects(file, output)));
-        parts.extend(figures.into_iter().map(|figure| figure.into()));
+        // Two charts for each output: mu* against sigma, and mu* with its intervals.
+        parts.extend(figures.by_ref().take(2).map(Part::from));
         of_outputs.push((heading(&output.name, &output.unit), parts));
     }
     let mut sections = Document::sections_of_outputs(of_outputs);

@@ -1,38 +1,37 @@
 //! The charts of sweeps: every output against each factor, and how far each factor moves each output.
 
-use super::super::Drawing;
 use super::super::chart::{Axis, Bar, Chart, Colour, Mark, Panel, Series, Shape, Spacing, Stroke};
+use super::super::factor_bars::{MOST, not_drawn};
 use super::super::format::{axis_unit, name, printed, short_with_unit, words};
 use crate::report::{file_stems, listed};
 
-use super::{CurveRecord, FactorSweepRecord, NominalRecord, SweepEffectRecord, SweepFile, gap_lines};
+use super::{SweepFile, gap_lines};
+use crate::sweep::{NominalOutput, Sweep, SweepCurve, SweepEffect};
 
 /// Up to so many values, each is marked by a point.
 const FEW_VALUES: usize = 12;
 /// A logarithmic axis from this ratio of the largest to the least value on.
 const WIDE: f64 = 50.0;
-/// Most bars in a chart; the rest are counted in its caption.
-const MOST_BARS: usize = 40;
 /// Colours at the low and the high end of a factor, and of whole ranges.
 const LOW_END: Colour = Colour::Series(5);
 const HIGH_END: Colour = Colour::Series(1);
 const WHOLE_RANGE: Colour = Colour::Series(6);
 
-/// One line chart per factor, `-sweep-FACTOR`, with a panel per output; then per output the ranges of all factors,
-/// `-sweep-ranges`, with the output's name at the end where there are several.
-pub fn sweep_charts(file: &SweepFile) -> Vec<Drawing> {
-    let charts = file.sweeps.iter().map(|sweep| lines(file, sweep));
+/// Per output the ranges of all factors, `-sweep-ranges`, with the output's name at the end where there are several; then one
+/// line chart per factor, `-sweep-FACTOR`, with a panel per output.
+pub fn sweep_charts(file: &SweepFile) -> Vec<(String, Chart)> {
     let of_outputs = file.nominal.iter().enumerate().map(|(number, nominal)| ranges(file, number, nominal));
+    let charts = of_outputs.chain(file.sweeps.iter().map(|sweep| lines(file, sweep)));
     let ranges = file.nominal.iter().map(|nominal| match file.nominal.len() {
         1 => "ranges".to_owned(),
         _ => format!("ranges-{}", nominal.output),
     });
-    let names: Vec<String> = file.sweeps.iter().map(|sweep| sweep.factor.clone()).chain(ranges).collect();
+    let names: Vec<String> = ranges.chain(file.sweeps.iter().map(|sweep| sweep.factor.clone())).collect();
     let suffixes = file_stems("-sweep", &names.iter().map(String::as_str).collect::<Vec<_>>(), &[""]);
-    charts.chain(of_outputs).zip(suffixes).map(|(chart, suffix)| Drawing { suffix, chart }).collect()
+    suffixes.into_iter().zip(charts).collect()
 }
 
-fn lines(file: &SweepFile, sweep: &FactorSweepRecord) -> Chart {
+fn lines(file: &SweepFile, sweep: &Sweep) -> Chart {
     let logarithmic = sweep.spacing == "logarithmic" && sweep.values.iter().all(|value| *value > 0.0);
     // With a family, the curve at nominal values would only be in its way.
     let drawn = if sweep.curves.len() > 1 { &sweep.curves[1..] } else { &sweep.curves[..] };
@@ -45,7 +44,7 @@ fn lines(file: &SweepFile, sweep: &FactorSweepRecord) -> Chart {
             Spacing::Linear
         }),
     };
-    let panel = |(number, nominal): (usize, &NominalRecord)| {
+    let panel = |(number, nominal): (usize, &NominalOutput)| {
         let spacing = if is_wide(drawn, number) { Spacing::Logarithmic } else { Spacing::Linear };
         let y = Axis::new(words(&nominal.output), axis_unit(&nominal.unit)).spaced(spacing);
         let curves = drawn.iter().enumerate().map(|(place, curve)| line(sweep, curve, place, number));
@@ -72,7 +71,7 @@ fn lines(file: &SweepFile, sweep: &FactorSweepRecord) -> Chart {
 }
 
 /// Where a value stands on the horizontal axis: categories side by side, numbers where they are.
-fn place_of(sweep: &FactorSweepRecord, value: f64) -> Option<f64> {
+fn place_of(sweep: &Sweep, value: f64) -> Option<f64> {
     match &sweep.labels {
         Some(_) => sweep.values.iter().position(|other| *other == value).map(|place| place as f64),
         None => Some(value),
@@ -80,14 +79,14 @@ fn place_of(sweep: &FactorSweepRecord, value: f64) -> Option<f64> {
 }
 
 /// Whether an output spans so much over its curves that a linear axis would hide the lower ones.
-fn is_wide(curves: &[CurveRecord], number: usize) -> bool {
+fn is_wide(curves: &[SweepCurve], number: usize) -> bool {
     let values = || curves.iter().flat_map(|curve| curve.outputs[number].values.iter().copied().flatten());
     let (low, high) = values().fold((f64::INFINITY, 0.0f64), |(low, high), y| (low.min(y), high.max(y)));
     low > 0.0 && high / low > WIDE
 }
 
 /// The curve at `place` of an output by its number.
-fn line(sweep: &FactorSweepRecord, curve: &CurveRecord, place: usize, number: usize) -> Mark {
+fn line(sweep: &Sweep, curve: &SweepCurve, place: usize, number: usize) -> Mark {
     let points = sweep.values.iter().zip(&curve.outputs[number].values);
     let points = points.filter_map(|(x, y)| Some((place_of(sweep, *x)?, y.unwrap_or(f64::NAN))));
     let (name, stroke) = match &curve.against {
@@ -107,7 +106,7 @@ fn line(sweep: &FactorSweepRecord, curve: &CurveRecord, place: usize, number: us
 }
 
 /// What is seen: how far each output goes, and what is missing.
-fn caption(sweep: &FactorSweepRecord) -> String {
+fn caption(sweep: &Sweep) -> String {
     let factor = words(&sweep.factor);
     let family = match sweep.curves.iter().find_map(|curve| curve.against.as_ref()) {
         Some(against) => format!(" for {} values of {}", sweep.curves.len() - 1, name(&against.factor)),
@@ -127,7 +126,7 @@ fn caption(sweep: &FactorSweepRecord) -> String {
 }
 
 /// The ends of a sweep with their unit.
-fn from_to(sweep: &FactorSweepRecord) -> String {
+fn from_to(sweep: &Sweep) -> String {
     if let Some(labels) = &sweep.labels {
         return labels.join(", ");
     }
@@ -140,45 +139,42 @@ fn from_to(sweep: &FactorSweepRecord) -> String {
     }
 }
 
-fn ranges(file: &SweepFile, number: usize, nominal: &NominalRecord) -> Chart {
-    let mut sweeps: Vec<(&FactorSweepRecord, &SweepEffectRecord)> =
-        file.sweeps.iter().filter_map(|sweep| Some((sweep, sweep.effects.get(number)?))).collect();
-    sweeps.sort_by(|a, b| b.1.width().total_cmp(&a.1.width()));
-    let beyond = match sweeps.len().saturating_sub(MOST_BARS) {
-        0 => String::new(),
-        more => format!(" {more} factors of less effect are not shown."),
-    };
+fn ranges(file: &SweepFile, number: usize, nominal: &NominalOutput) -> Chart {
+    let sweeps = || file.sweeps.iter().filter_map(|sweep| Some((sweep, sweep.effects.get(number)?)));
     let output = name(&nominal.output);
-    sweeps.truncate(MOST_BARS);
     let caption = format!(
         "Values of {output} with one factor at either end of its range and every other at its nominal value; the percentages are \
-         of the nominal value.{beyond}"
+         of the nominal value.{}",
+        not_drawn(file.sweeps.len(), MOST)
     );
     let x = Axis::new(words(&nominal.output), axis_unit(&nominal.unit));
-    let rows = Axis::from_names("", sweeps.iter().map(|(sweep, _)| words(&sweep.factor)).collect());
+    let row_name = |(sweep, effect): (&Sweep, &SweepEffect)| {
+        let percent = effect.percent.map_or_else(String::new, |percent| format!(": {} %", printed(percent)));
+        format!("{}, {}{percent}", words(&sweep.factor), from_to(sweep))
+    };
+    let rows = Axis::from_names("", sweeps().map(row_name).collect());
     let label = |value| format!("nominal: {}", short_with_unit(value, &nominal.unit));
-    let marks = sweeps.iter().enumerate();
+    let marks = sweeps().enumerate();
     let marks = marks.flat_map(|(row, (sweep, effect))| row_marks(row, sweep, effect, nominal.value));
+    let keys: Vec<f64> = sweeps().map(|(_, effect)| effect.width()).collect();
     let panel = Panel::new(x, rows).with(nominal.value.map(|value| Mark::rule(value, label(value)))).with(marks);
-    Chart::new(format!("{}: how far each factor moves {output}", file.study.headline()), caption).panels([panel])
+    let title = format!("{}: how far each factor moves {output}", file.study.headline());
+    Chart::new(title, caption).panels([panel.ranked(&keys, MOST)])
 }
 
-/// The bars of a factor, and how far it moves the output: its ends, or its whole range where these are not the extremes.
-fn row_marks(row: usize, sweep: &FactorSweepRecord, effect: &SweepEffectRecord, nominal: Option<f64>) -> Vec<Mark> {
+/// The bars of a factor: its ends, or its whole range where these are not the extremes.
+fn row_marks(row: usize, sweep: &Sweep, effect: &SweepEffect, nominal: Option<f64>) -> Vec<Mark> {
     let bar = |name: &str, colour, from, to| {
         Series::new(name, colour).mark(Shape::Bar(Bar { row, from, to, ..Bar::default() }))
     };
     let ends = || [effect.first, effect.last, nominal].into_iter().flatten();
     let beyond = |low: f64, high: f64| ends().all(|end| end > low) || ends().all(|end| end < high);
-    let mut marks = match (nominal, effect.low.zip(effect.high)) {
+    match (nominal, effect.low.zip(effect.high)) {
         (_, None) => Vec::new(),
         (Some(from), Some((low, high))) if sweep.labels.is_none() && !beyond(low, high) => vec![
             bar("factor at its low end", LOW_END, from, effect.first.unwrap_or(f64::NAN)),
             bar("factor at its high end", HIGH_END, from, effect.last.unwrap_or(f64::NAN)),
         ],
         (_, Some((low, high))) => vec![bar("whole range, where the ends are not the extremes", WHOLE_RANGE, low, high)],
-    };
-    let percent = effect.percent.map_or_else(String::new, |percent| format!("{} %: ", printed(percent)));
-    marks.push(Mark::note(row, percent + &from_to(sweep)));
-    marks
+    }
 }

@@ -1,7 +1,7 @@
 //! Sweeps as a document.
 
 use super::charts::sweep_charts;
-use super::{AgainstRecord, FactorSweepRecord, NominalRecord, SweepEffectRecord, SweepFile, gap_lines, sweep_json};
+use super::{SweepFile, gap_lines, sweep_json};
 use crate::model::MANY_OUTPUTS;
 use crate::report::csv::{Csv, fields};
 use crate::report::document::{Cell, Column, DataFile, Document, Figure, Mark, Part, Section, Table, Value};
@@ -9,32 +9,25 @@ use crate::report::format::{axis_unit, grouped, heading, name, short, short_with
 use crate::report::leading::first_answers;
 use crate::report::study_sections::{study_section, validity_section};
 use crate::report::validity;
+use crate::sweep::{Against, NominalOutput, Sweep, SweepEffect};
 
 /// The document of sweeps.
 pub fn sweep_document(file: &SweepFile) -> Document {
     let study = &file.study.name;
-    // Those of the factors come before those of the outputs, which come first in the document.
-    let (factors, outputs) = (file.sweeps.len(), file.nominal.len());
-    let mut charts = sweep_charts(file).into_iter().enumerate().map(|(place, drawing)| {
-        let number = if place < factors { outputs + place } else { place - factors };
-        let (stem, data) = (format!("{study}{}", drawing.suffix), format!("{study}-sweep.csv"));
-        Figure::new(number + 1, drawing.chart, stem, data).below(file.study.headline())
-    });
-    let curves: Vec<Figure> = charts.by_ref().take(factors).collect();
-    let mut of_outputs = Vec::new();
-    for (place, (nominal, ranges)) in file.nominal.iter().zip(charts).enumerate() {
-        let parts = vec![
-            Part::Text(at_nominal(nominal)),
-            Part::Table(effects(file, nominal, place)),
-            Part::Figure(Box::new(ranges)),
-        ];
-        of_outputs.push((heading(&nominal.output, &nominal.unit), parts));
-    }
+    let outputs = file.nominal.len();
+    let mut figures =
+        Figure::numbered(sweep_charts(file), (study, file.study.headline()), &format!("{study}-sweep.csv"));
+    let curves = figures.split_off(outputs);
+    let of_output = |(place, (nominal, ranges)): (usize, (&NominalOutput, Figure))| {
+        let parts = vec![Part::Text(at_nominal(nominal)), effects(file, nominal, place).into(), ranges.into()];
+        (heading(&nominal.output, &nominal.unit), parts)
+    };
+    let of_outputs = file.nominal.iter().zip(figures).enumerate().map(of_output).collect();
     let mut sections = Document::sections_of_outputs(of_outputs);
     let answers = (0..outputs).map(|place| widest(file, &file.nominal[place], place));
     let mut lead = first_answers(answers.collect());
     lead.extend(validity::sentence(&file.validity));
-    let curve = |(figure, sweep): (Figure, &FactorSweepRecord)| match outputs {
+    let curve = |(figure, sweep): (Figure, &Sweep)| match outputs {
         ..MANY_OUTPUTS => figure.into(),
         _ => Part::Details { summary: name(&sweep.factor), parts: vec![figure.into()] },
     };
@@ -69,10 +62,10 @@ pub fn sweep_document(file: &SweepFile) -> Document {
 }
 
 /// Which factor moves an output most.
-fn widest(file: &SweepFile, nominal: &NominalRecord, number: usize) -> String {
+fn widest(file: &SweepFile, nominal: &NominalOutput, number: usize) -> String {
     let output = name(&nominal.output);
     match by_width(file, number).first() {
-        Some((sweep, SweepEffectRecord { low: Some(low), high: Some(high), .. })) if high > low => format!(
+        Some((sweep, SweepEffect { low: Some(low), high: Some(high), .. })) if high > low => format!(
             "Over {}, with all others nominal, {} moves {output} most: between {} and {}.",
             if sweep.given { "the given values" } else { "its range" },
             name(&sweep.factor),
@@ -85,14 +78,14 @@ fn widest(file: &SweepFile, nominal: &NominalRecord, number: usize) -> String {
 }
 
 /// The sweeps with what they do to an output, the widest first.
-fn by_width(file: &SweepFile, number: usize) -> Vec<(&FactorSweepRecord, &SweepEffectRecord)> {
-    let mut sweeps: Vec<(&FactorSweepRecord, &SweepEffectRecord)> =
+fn by_width(file: &SweepFile, number: usize) -> Vec<(&Sweep, &SweepEffect)> {
+    let mut sweeps: Vec<(&Sweep, &SweepEffect)> =
         file.sweeps.iter().filter_map(|sweep| Some((sweep, sweep.effects.get(number)?))).collect();
     sweeps.sort_by(|a, b| b.1.width().total_cmp(&a.1.width()));
     sweeps
 }
 
-fn at_nominal(nominal: &NominalRecord) -> String {
+fn at_nominal(nominal: &NominalOutput) -> String {
     match (nominal.value, &nominal.reason) {
         (Some(value), _) => {
             format!(
@@ -110,9 +103,9 @@ fn at_nominal(nominal: &NominalRecord) -> String {
 }
 
 /// How far each factor moves an output, the widest first.
-fn effects(file: &SweepFile, nominal: &NominalRecord, number: usize) -> Table {
+fn effects(file: &SweepFile, nominal: &NominalOutput, number: usize) -> Table {
     let said = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), short);
-    let row = |(sweep, effect): (&FactorSweepRecord, &SweepEffectRecord)| {
+    let row = |(sweep, effect): (&Sweep, &SweepEffect)| {
         let last = sweep.values.len().saturating_sub(1);
         let texts = [name(&sweep.factor), sweep.value_in_words(0), sweep.value_in_words(last)];
         let numbers = [effect.first, effect.last, effect.low, effect.high, effect.percent, effect.elasticity].map(said);
@@ -143,7 +136,7 @@ fn sweep_csv(file: &SweepFile) -> String {
     for sweep in &file.sweeps {
         for curve in &sweep.curves {
             let against = curve.against.as_ref();
-            let text = |read: fn(&AgainstRecord) -> &String| against.map_or(Value::Empty, |a| read(a).into());
+            let text = |read: fn(&Against) -> &String| against.map_or(Value::Empty, |a| read(a).into());
             let against_value = against.map_or(Value::Empty, |a| match &a.label {
                 Some(label) => label.into(),
                 None => a.value.into(),

@@ -6,10 +6,9 @@ mod record;
 
 pub use charts::sweep_charts;
 pub use document::sweep_document;
-pub use record::{
-    AgainstRecord, CurveRecord, FactorSweepRecord, GapRecord, NominalRecord, OutputCurveRecord, SweepEffectRecord,
-    SweepFile, SweepProvenance, build_sweep,
-};
+pub use record::{SweepFile, SweepProvenance, build_sweep};
+
+use crate::sweep::Sweep;
 
 /// The sweeps as JSON text, ending in a newline.
 pub fn sweep_json(file: &SweepFile) -> String {
@@ -17,7 +16,7 @@ pub fn sweep_json(file: &SweepFile) -> String {
 }
 
 /// For each output and reason: at how many points of the sweep it has no value, over all curves.
-fn gap_lines(sweep: &FactorSweepRecord) -> Vec<String> {
+fn gap_lines(sweep: &Sweep) -> Vec<String> {
     let mut counts: Vec<(&str, &str, usize)> = Vec::new();
     for output in sweep.curves.iter().flat_map(|curve| &curve.outputs) {
         for gap in &output.gaps {

@@ -33,5 +33,5 @@ pub struct Animation {
 /// ```
 pub fn animation() -> Result<Animation, FiguresError> {
     let story = story(FrictionLaw::Coulomb, |_| ())?;
-    Ok(Animation { html: player_page(&story)?, csv: scene_csv(&story), json: scene_json(&story) })
+    Ok(Animation { html: player_page(&story), csv: scene_csv(&story), json: scene_json(&story) })
 }

@@ -23,8 +23,7 @@ use rayon::prelude::*;
 
 use super::{Effort, Reproduced, general_study};
 use apportion::afm::Failure;
-use apportion::report::chart::{Chart, ChartError};
-use apportion::report::document::DocumentError;
+use apportion::report::chart::Chart;
 use apportion::study::StudyError;
 use apportion::sweep::SweepError;
 use list::{FIGURES, Ours};
@@ -62,12 +61,6 @@ pub enum FiguresError {
         /// Its name.
         name: &'static str,
     },
-    /// The data of a chart do not fit together.
-    #[error(transparent)]
-    Chart(#[from] ChartError),
-    /// The animation's page cannot be made.
-    #[error(transparent)]
-    Page(#[from] DocumentError),
 }
 
 /// Every figure, in the order of the papers: CHK, LG, TS04, then each group of studies with all friction models side by
@@ -75,7 +68,7 @@ pub enum FiguresError {
 /// every run and any number of threads.
 ///
 /// # Errors
-/// [`FiguresError`] if a scene has no answer, or the data of a chart do not fit together.
+/// [`FiguresError`] if a scene has no answer.
 ///
 /// # Example
 /// ```

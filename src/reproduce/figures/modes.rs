@@ -19,7 +19,7 @@ const STEPS: u32 = 120;
 /// TS04 figure 12.
 pub(super) fn against_force_angle() -> Result<Drawn, FiguresError> {
     let diagram = scene_modes(&Scene::default(), &Options::default())?;
-    let mut chart = mode_diagram_chart(&diagram)?;
+    let mut chart = mode_diagram_chart(&diagram);
     if let Some(said) = sliding(&diagram) {
         chart.set_caption(format!("{}; {said}.", chart.caption().trim_end_matches('.')));
     }

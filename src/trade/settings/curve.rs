@@ -1,19 +1,25 @@
 //! What is compared: a study's settings, each at a growing number of base samples.
 
+use serde::{Deserialize, Serialize};
+
 use crate::design::{Design, DesignError, DesignSettings, Sampler};
 use crate::estimate::Estimator;
+use crate::names::named;
 use crate::study::{AnalysisOptions, Rung, Study, SurrogateChoice, Target};
 use crate::uncertainty::IntervalMethod;
 
+named! {
 /// What varies along a curve.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Axis {
     /// How faithful the model is, with and without surrogates.
-    Fidelity,
+    Fidelity = "fidelity",
     /// Where points come from.
-    Sampler,
+    Sampler = "sampler",
     /// The formulas of the indices.
-    Estimator,
+    Estimator = "estimator",
+}
 }
 
 /// Settings that stay the same while base samples grow.

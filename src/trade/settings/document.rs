@@ -1,6 +1,8 @@
 //! A comparison of settings as a document.
 
-use super::record::{AdviceRecord, SettingRecord, SettingsFile};
+use super::Measured;
+use super::curve::Axis as Varied;
+use super::record::{AdviceRecord, SettingsFile};
 use crate::report::chart::{Axis, Chart, Colour, Panel, Series, Spacing, Stroke};
 use crate::report::csv::{Field, Value};
 use crate::report::document::{Cell, Column, DataFile, Document, Figure, Part, Section, Table};
@@ -18,10 +20,9 @@ pub fn settings_document(file: &SettingsFile) -> Document {
     let study = &file.study.name;
     let headline = file.study.headline();
     let data = format!("{study}-trade.csv");
-    let figures = [("-trade", chart(file, headline)), ("-trade-formulas", formulas_chart(file, headline))];
-    let mut figures = figures.into_iter().enumerate().map(|(place, (suffix, chart))| {
-        Figure::new(place + 1, chart, format!("{study}{suffix}"), data.clone()).below(headline)
-    });
+    let charts = [("-trade", chart(file, headline)), ("-trade-formulas", formulas_chart(file, headline))];
+    let charts = charts.map(|(suffix, chart)| (suffix.to_owned(), chart));
+    let mut figures = Figure::numbered(charts, (study, headline), &data).into_iter();
     let mut advice: Vec<Part> = vec![advice_table(file).into()];
     advice.extend(figures.next().map(Part::from));
     let mut others: Vec<Part> = figures.map(Part::from).collect();
@@ -47,12 +48,12 @@ pub fn settings_document(file: &SettingsFile) -> Document {
     }
 }
 
-fn setting<'a>(file: &'a SettingsFile, advice: &AdviceRecord) -> Option<&'a SettingRecord> {
+fn setting<'a>(file: &'a SettingsFile, advice: &AdviceRecord) -> Option<&'a Measured> {
     file.settings.get(advice.setting?)
 }
 
 /// A setting in words.
-fn said(of: &SettingRecord) -> String {
+fn said(of: &Measured) -> String {
     format!("{} with {} base samples", of.curve, grouped(of.base_samples))
 }
 
@@ -78,7 +79,7 @@ fn lead(file: &SettingsFile) -> Vec<String> {
             short_error(error)
         ),
     };
-    let found: Vec<(&AdviceRecord, &SettingRecord)> =
+    let found: Vec<(&AdviceRecord, &Measured)> =
         file.advice.iter().filter_map(|advice| Some((advice, setting(file, advice)?))).collect();
     let cheapest = match found.iter().find(|(advice, _)| advice.accuracy <= 0.01).or(found.last()) {
         Some((advice, of)) => format!(
@@ -141,9 +142,9 @@ fn lines(file: &SettingsFile) -> Vec<Part> {
 }
 
 /// The settings of one curve after the other.
-fn curves<'a>(file: &'a SettingsFile, axes: &[&str]) -> Vec<Vec<&'a SettingRecord>> {
-    let mut curves: Vec<Vec<&SettingRecord>> = Vec::new();
-    for of in file.settings.iter().filter(|of| axes.contains(&&*of.axis)) {
+fn curves<'a>(file: &'a SettingsFile, axis: Varied) -> Vec<Vec<&'a Measured>> {
+    let mut curves: Vec<Vec<&Measured>> = Vec::new();
+    for of in file.settings.iter().filter(|of| of.axis == axis) {
         match curves.last_mut() {
             Some(curve) if curve[0].curve == of.curve => curve.push(of),
             _ => curves.push(vec![of]),
@@ -157,14 +158,14 @@ fn least_drawn(file: &SettingsFile) -> f64 {
     file.truth.error.unwrap_or(0.0).max(LEAST_ERROR)
 }
 
-fn points(file: &SettingsFile, curve: &[&SettingRecord]) -> Vec<(f64, f64)> {
+fn points(file: &SettingsFile, curve: &[&Measured]) -> Vec<(f64, f64)> {
     let least = least_drawn(file);
     curve.iter().filter_map(|of| Some((of.seconds, of.error?.max(least)))).collect()
 }
 
 /// Seconds of a run on a curve: what more runs take more, so that the estimates do not count; of a rung so slow that it was
 /// measured once, all of it.
-fn seconds_of_run(curve: &[&SettingRecord]) -> Option<f64> {
+fn seconds_of_run(curve: &[&Measured]) -> Option<f64> {
     let (first, last) = (curve.first()?, curve.last()?);
     let (seconds, runs) = match curve.len() {
         1 => (last.seconds, last.runs),
@@ -175,10 +176,10 @@ fn seconds_of_run(curve: &[&SettingRecord]) -> Option<f64> {
 
 /// The rungs without surrogates; `None` where there is a single one.
 fn rung_table(file: &SettingsFile) -> Option<Table> {
-    let curves = curves(file, &["fidelity"]).into_iter().filter(|curve| !curve[0].surrogate);
+    let curves = curves(file, Varied::Fidelity).into_iter().filter(|curve| !curve[0].has_surrogate);
     let rungs: Vec<_> = curves.filter_map(|curve| Some((seconds_of_run(&curve)?, curve))).collect();
     let cheapest = rungs.iter().map(|(seconds, _)| *seconds).fold(f64::INFINITY, f64::min);
-    let row = |(of_run, curve): &(f64, Vec<&SettingRecord>)| -> Vec<Cell> {
+    let row = |(of_run, curve): &(f64, Vec<&Measured>)| -> Vec<Cell> {
         let least = curve.iter().filter_map(|of| of.error).reduce(f64::min);
         let times = format!("{:.1e}", of_run / cheapest).parse().unwrap_or(f64::INFINITY);
         vec![
@@ -216,16 +217,16 @@ fn floor(file: &SettingsFile) -> Option<crate::report::chart::Mark> {
 fn chart(file: &SettingsFile, headline: &str) -> Chart {
     let mut rungs: Vec<String> = Vec::new();
     let mut panels = [panel().titled("Without surrogates"), panel().titled("With surrogates")];
-    for curve in curves(file, &["fidelity"]) {
+    for curve in curves(file, Varied::Fidelity) {
         let rung = curve[0].curve.strip_suffix(SURROGATES).unwrap_or(&curve[0].curve).to_owned();
         let place = rungs.iter().position(|other| *other == rung).unwrap_or_else(|| {
             rungs.push(rung.clone());
             rungs.len() - 1
         });
         let series = Series::new(rung, Colour::Series(place)).stroke(Stroke::SolidWithPoints);
-        panels[usize::from(curve[0].surrogate)].marks.push(series.line(points(file, &curve)));
+        panels[usize::from(curve[0].has_surrogate)].marks.push(series.line(points(file, &curve)));
     }
-    let mut front: Vec<&SettingRecord> = file.settings.iter().filter(|of| of.is_on_front).collect();
+    let mut front: Vec<&Measured> = file.settings.iter().filter(|of| of.is_on_front).collect();
     front.sort_by(|a, b| a.seconds.total_cmp(&b.seconds));
     let best = Series::new("nothing is both quicker and better", Colour::Reference);
     for panel in &mut panels {
@@ -241,8 +242,8 @@ fn chart(file: &SettingsFile, headline: &str) -> Chart {
 }
 
 fn formulas_chart(file: &SettingsFile, headline: &str) -> Chart {
-    let of_axis = |axis: &str, title: &str| {
-        let lines = curves(file, &[axis]).into_iter().enumerate();
+    let of_axis = |axis, title: &str| {
+        let lines = curves(file, axis).into_iter().enumerate();
         let lines = lines.map(|(place, curve)| {
             let series = Series::new(curve[0].curve.clone(), Colour::Series(place));
             series
@@ -254,7 +255,7 @@ fn formulas_chart(file: &SettingsFile, headline: &str) -> Chart {
     let caption = "The same model and no surrogates throughout; the study's own sampler and formulas are among the curves of the \
                    other figure.";
     Chart::new(format!("{headline}: samplers and estimators"), caption)
-        .panels([of_axis("sampler", "Samplers"), of_axis("estimator", "Estimators")])
+        .panels([of_axis(Varied::Sampler, "Samplers"), of_axis(Varied::Estimator, "Estimators")])
 }
 
 fn all(file: &SettingsFile, data: &str) -> Table {
@@ -267,10 +268,10 @@ fn all(file: &SettingsFile, data: &str) -> Table {
         Column::number("largest error").named(Field::new("largest_error")),
         Column::text("on the front").named(Field::new("is_on_front")),
     ];
-    let row = |of: &SettingRecord| {
+    let row = |of: &Measured| {
         vec![
             Cell::from(of.curve.clone()),
-            Cell::from(of.axis.clone()),
+            Cell::from(of.axis.name()),
             Cell::valued(grouped(of.base_samples), Value::Count(of.base_samples)),
             Cell::valued(grouped(of.runs), Value::Count(of.runs)),
             Cell::valued(seconds(of.seconds), Value::Number(of.seconds)),

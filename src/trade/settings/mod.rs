@@ -11,6 +11,8 @@ mod truth;
 
 use std::sync::atomic::AtomicBool;
 
+use serde::{Deserialize, Serialize};
+
 pub use curve::Axis;
 pub use document::settings_document;
 pub use record::{SettingsFile, build_settings};
@@ -63,12 +65,12 @@ pub struct Comparison {
 }
 
 /// What the errors are distances from.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct TruthFound {
     /// What it is, in words.
     pub words: String,
-    /// Its own error: the largest half width of its intervals, 0 if it is exact.
-    pub error: f64,
+    /// Its own error: the largest half width of its intervals, 0 if it is exact; `None` if it has no intervals.
+    pub error: Option<f64>,
     /// Model runs that it took.
     pub runs: u64,
     /// Seconds that it took.
@@ -76,13 +78,14 @@ pub struct TruthFound {
 }
 
 /// A setting with what it costs and how far it errs.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Measured {
     /// The name of its curve.
     pub curve: String,
     /// What the curve stands for.
     pub axis: Axis,
     /// Whether surrogates are fitted.
+    #[serde(rename = "surrogate")]
     pub has_surrogate: bool,
     /// Base samples.
     pub base_samples: u64,
@@ -90,21 +93,31 @@ pub struct Measured {
     pub runs: u64,
     /// Seconds, fits and estimates included: the least of all seeds.
     pub seconds: f64,
-    /// Largest error of a first-order or total index of any output, over all seeds.
-    pub error: f64,
+    /// Largest error of a first-order or total index of any output, over all seeds; `None` without indices.
+    pub error: Option<f64>,
+    /// Whether no other setting is both quicker and more accurate.
+    pub is_on_front: bool,
     /// The lines of a study that ask for it.
     pub lines: String,
 }
 
 impl Comparison {
+    fn new(truth: TruthFound, settings: Vec<Measured>) -> Self {
+        let mut comparison = Self { truth, settings };
+        for place in comparison.front() {
+            comparison.settings[place].is_on_front = true;
+        }
+        comparison
+    }
+
     /// The settings that nothing beats in both time and error, by number, the quickest first. Errors below that of the truth
     /// are all the same.
     pub fn front(&self) -> Vec<usize> {
-        let mut order: Vec<usize> = (0..self.settings.len()).filter(|&k| self.settings[k].error.is_finite()).collect();
+        let mut order: Vec<usize> = (0..self.settings.len()).filter(|&k| self.settings[k].error.is_some()).collect();
         order.sort_by(|&a, &b| self.settings[a].seconds.total_cmp(&self.settings[b].seconds));
         let mut best = f64::INFINITY;
         order.retain(|&k| {
-            let error = self.settings[k].error.max(self.truth.error);
+            let error = self.settings[k].error.unwrap_or(f64::INFINITY).max(self.truth_error());
             let is_better = error < best;
             best = best.min(error);
             is_better
@@ -112,9 +125,13 @@ impl Comparison {
         order
     }
 
+    fn truth_error(&self) -> f64 {
+        self.truth.error.unwrap_or(f64::INFINITY)
+    }
+
     /// The cheapest setting that errs by no more than `accuracy`, what is not known of the truth included.
     pub fn cheapest(&self, accuracy: f64) -> Option<usize> {
-        self.front().into_iter().find(|&k| self.settings[k].error + self.truth.error <= accuracy)
+        self.front().into_iter().find(|&k| self.settings[k].error.is_some_and(|e| e + self.truth_error() <= accuracy))
     }
 }
 
@@ -134,7 +151,7 @@ pub fn compare_settings(job: &SettingsJob<'_>) -> Result<Comparison, RunError> {
         let share = (job.seconds - done).max(0.0) / (curves.len() - number) as f64;
         settings.extend(measured(job, curve, &truth, share)?);
     }
-    Ok(Comparison { truth: truth.found, settings })
+    Ok(Comparison::new(truth.found, settings))
 }
 
 /// The points of `curve` that fit into so many seconds, at least the first.
@@ -170,10 +187,11 @@ fn measured(job: &SettingsJob<'_>, curve: &Curve, truth: &Truth, seconds: f64) -
                 runs,
                 seconds,
                 error,
+                is_on_front: false,
                 lines: curve.lines(settings),
             });
             point.seconds = point.seconds.min(seconds);
-            point.error = point.error.max(error);
+            point.error = point.error.zip(error).map(|(one, other)| one.max(other));
         }
         all.extend(point);
         let spent = start.elapsed().as_secs_f64();
@@ -185,8 +203,8 @@ fn measured(job: &SettingsJob<'_>, curve: &Curve, truth: &Truth, seconds: f64) -
     Ok(all)
 }
 
-/// The largest error of an index; infinite if there are none.
-fn error(analysis: &Analysis, estimator: Estimator, truth: &Truth) -> f64 {
+/// The largest error of an index; `None` if one is missing, or all are.
+fn error(analysis: &Analysis, estimator: Estimator, truth: &Truth) -> Option<f64> {
     let mut largest = 0.0_f64;
     for (output, truth) in analysis.outputs.iter().zip(&truth.outputs) {
         let (Ok(indices), Some(truth)) = (&output.indices, truth) else { continue };
@@ -203,14 +221,14 @@ fn error(analysis: &Analysis, estimator: Estimator, truth: &Truth) -> f64 {
         }
     }
     let has_any = analysis.outputs.iter().any(|output| output.indices.is_ok());
-    if has_any { largest } else { f64::INFINITY }
+    Some(largest).filter(|error| has_any && error.is_finite())
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn measured(seconds: f64, error: f64) -> Measured {
+    fn measured(seconds: f64, error: Option<f64>) -> Measured {
         Measured {
             curve: String::new(),
             axis: Axis::Fidelity,
@@ -219,15 +237,15 @@ mod tests {
             runs: 96,
             seconds,
             error,
+            is_on_front: false,
             lines: String::new(),
         }
     }
 
     fn comparison(error_of_truth: f64, settings: &[(f64, f64)]) -> Comparison {
-        Comparison {
-            truth: TruthFound { words: String::new(), error: error_of_truth, runs: 0, seconds: 0.0 },
-            settings: settings.iter().map(|&(seconds, error)| measured(seconds, error)).collect(),
-        }
+        let truth = TruthFound { words: String::new(), error: Some(error_of_truth), runs: 0, seconds: 0.0 };
+        let known = |error: f64| Some(error).filter(|error| error.is_finite());
+        Comparison::new(truth, settings.iter().map(|&(seconds, error)| measured(seconds, known(error))).collect())
     }
 
     #[test]

@@ -24,8 +24,12 @@ impl Truth {
         let study = job.study;
         if let Some((first, total)) = study.subject.exact_indices(&study.space) {
             let indices = first.into_iter().zip(total).map(|(first, total)| [first, total]).collect();
-            let found =
-                TruthFound { words: "the exact indices of the function".to_owned(), error: 0.0, runs: 0, seconds: 0.0 };
+            let found = TruthFound {
+                words: "the exact indices of the function".to_owned(),
+                error: Some(0.0),
+                runs: 0,
+                seconds: 0.0,
+            };
             return Ok(Self { outputs: vec![Some(indices)], found });
         }
         let mut finest = study.clone();
@@ -45,7 +49,9 @@ impl Truth {
         }
         let analysis = runner.run()?;
         let widths = analysis.outputs.iter().filter_map(|output| output.indices.as_ref().ok());
-        let error = widths.map(|indices| indices.largest_half_width().unwrap_or(f64::INFINITY)).fold(0.0, f64::max);
+        let error = widths
+            .map(|indices| indices.largest_half_width())
+            .try_fold(0.0, |largest, width| Some(f64::max(largest, width?)));
         let of_output = |output: &OutputAnalysis| {
             let indices = output.indices.as_ref().ok()?;
             Some(indices.factors.iter().map(|f| [f.first_order.estimate, f.total.estimate]).collect())

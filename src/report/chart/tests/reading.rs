@@ -82,10 +82,10 @@ fn extent(svg: &str) -> ([f32; 4], [f32; 2]) {
 /// Asserts that a phone's drawing is 360 px wide and that nothing sticks out of it, as a document and on a page.
 #[track_caller]
 pub(super) fn assert_narrow(chart: &Chart) {
-    let inline = chart.inline(ChartWidth::Narrow).expect("a figure");
+    let inline = chart.inline(ChartWidth::Narrow);
     let root = inline.split('>').next().expect("a root");
     assert!(root.contains("role=\"img\"") && root.contains("aria-label=") && !root.contains(" width="), "{root}");
-    for svg in [chart.svg_at(ChartWidth::Narrow).expect("a figure"), inline] {
+    for svg in [chart.svg_at(ChartWidth::Narrow), inline] {
         let ([left, top, right, bottom], [width, height]) = extent(&svg);
         assert_eq!(width, 360.0);
         // 0.01 px: single precision.
