@@ -1,8 +1,8 @@
-//! What a study has behind it: its journal and its last result.
+//! What a study has behind it: the runs in its journal.
 
 use std::path::Path;
 
-use apportion::report::{ResultFile, indices_measured, read_result, two_digits, widest_interval};
+use apportion::report::two_digits;
 use apportion::study::Study;
 
 use super::Failure;
@@ -25,17 +25,5 @@ pub fn past_runs(study: &Study, folder: &Path) -> Result<String, Failure> {
             Err(error) => format!("on record: nothing of use: {error}\n"),
         });
     }
-    if let Ok(result) = read_result(&folder.join(format!("{}.json", study.name()))) {
-        text.push_str(&last_result(&result));
-    }
     Ok(text)
-}
-
-fn last_result(result: &ResultFile) -> String {
-    let base_samples = result.provenance.base_samples;
-    let Some(width) = widest_interval(result) else {
-        return format!("last result: {base_samples} base samples, without intervals\n");
-    };
-    let which = indices_measured(&result.outputs);
-    format!("last result: {base_samples} base samples; {which} is known to \u{b1}{} or better\n", two_digits(width))
 }

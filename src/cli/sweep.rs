@@ -1,7 +1,5 @@
 //! `apportion sweep`: one factor at a time around the nominal point.
 
-use std::path::PathBuf;
-
 use anyhow::anyhow;
 use apportion::model::{GiveUp, RunContext};
 use apportion::report::sweep::{build_sweep, sweep_document};
@@ -10,7 +8,7 @@ use apportion::space::Space;
 use apportion::study::Study;
 use apportion::sweep::{FactorValues, MAX_POINTS, SweepError, SweepRequest, find, sweep_in};
 
-use super::output::{ChartArguments, default_folder, deliver};
+use super::output::{OutputArguments, deliver};
 use super::stop::on_signal;
 use super::{Failure, StudyArguments, say};
 
@@ -27,11 +25,8 @@ pub struct Arguments {
     /// Repeat each sweep for values of another factor, one curve for each: length='300,450,600 um'
     #[arg(long, value_name = "NAME=VALUES")]
     against: Option<String>,
-    /// Folder for the results [default: results/NAME]
-    #[arg(long, value_name = "DIR")]
-    out: Option<PathBuf>,
     #[command(flatten)]
-    charts: ChartArguments,
+    output: OutputArguments,
 }
 
 fn parse_points(text: &str) -> Result<usize, String> {
@@ -103,9 +98,8 @@ pub fn sweep(arguments: &Arguments) -> Result<(), Failure> {
     let study = arguments.study.load()?;
     let request = arguments.request(&study)?;
     request.check(study.space())?;
-    let folder = arguments.out.clone().unwrap_or_else(|| default_folder(study.name()));
     let model = study.model();
-    let artefacts = arguments.charts.artefacts(folder);
+    let artefacts = arguments.output.artefacts(study.name());
     artefacts.prepare()?;
     let context = RunContext::new(Some(on_signal()), say);
     let sweeps = sweep_in(study.space(), model.as_ref(), &request, &context)?;

@@ -5,14 +5,7 @@ use serde_json::{Map, Value, json};
 
 use super::distribution_forms::FORMS;
 use crate::afm::{ContactTheory, Fidelity, FrictionLaw, LuGreParameters, Parameter, Torsion};
-use crate::design::Sampler;
-use crate::estimate::{Estimator, ShapleyMethod, ShapleyPlayers};
-use crate::given::Measure;
-use crate::model::{KnownAnswer, Match, ModelKind, Protocol, edge_unit};
-use crate::run::FailurePolicy;
-use crate::space::CorrelationMeasure;
-use crate::study::SurrogateChoice;
-use crate::uncertainty::IntervalMethod;
+use crate::model::{KnownAnswer, Match, ModelKind, edge_unit};
 
 pub(super) const CHOICES: [&str; 10] = [
     "friction",
@@ -31,58 +24,18 @@ pub(super) fn models() -> Vec<&'static str> {
     ModelKind::all().into_iter().map(|kind| kind.name).collect()
 }
 
-pub(super) fn samplers() -> Vec<&'static str> {
-    names(&Sampler::ALL, Sampler::name)
-}
-
 /// The schema of the cheaper models.
 pub(super) fn lows(_: &mut SchemaGenerator) -> Schema {
     let table = json!({ "type": "object", "required": ["name"], "properties": { "name": { "type": "string" } } });
     schemars::json_schema!({ "type": "array", "items": { "anyOf": [{ "type": "string" }, table] } })
 }
 
-/// The schema of an estimator's name.
-pub(super) fn estimators() -> Value {
-    json!({ "enum": names(&Estimator::ALL, Estimator::name) })
-}
-
-pub(super) fn measures() -> Value {
-    json!({ "enum": names(&Measure::ALL, Measure::name) })
-}
-
-pub(super) fn correlation_measures() -> Vec<&'static str> {
-    names(&CorrelationMeasure::ALL, CorrelationMeasure::name)
-}
-
-pub(super) fn surrogates() -> Vec<&'static str> {
-    names(&SurrogateChoice::ALL, SurrogateChoice::name)
-}
-
-pub(super) fn shapley_methods() -> Vec<&'static str> {
-    names(&ShapleyMethod::ALL, ShapleyMethod::name)
-}
-
-pub(super) fn shapley_players() -> Vec<&'static str> {
-    names(&ShapleyPlayers::ALL, ShapleyPlayers::name)
-}
-
-pub(super) fn intervals() -> Vec<&'static str> {
-    names(&IntervalMethod::ALL, IntervalMethod::name)
-}
-
-pub(super) fn failure_policies() -> Vec<&'static str> {
-    names(&FailurePolicy::ALL, FailurePolicy::name)
-}
-
-pub(super) fn protocols() -> Vec<&'static str> {
-    names(&Protocol::ALL, Protocol::name)
-}
-
 pub(super) fn distributions() -> Vec<&'static str> {
     FORMS.iter().map(|form| form.name).collect()
 }
 
-fn names<T: Copy>(all: &[T], name: fn(T) -> &'static str) -> Vec<&'static str> {
+/// The names of all values of a kind.
+pub(super) fn names<T: Copy>(all: &[T], name: fn(T) -> &'static str) -> Vec<&'static str> {
     all.iter().map(|&choice| name(choice)).collect()
 }
 

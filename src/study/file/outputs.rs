@@ -8,8 +8,8 @@ use serde_json::{Value as Json, json};
 use toml::Value;
 
 use super::at::{At, ListOrTable, in_order};
-use super::context::{Context, Fault, wrong};
-use super::error::{Problem, meant};
+use super::context::{Context, Fault, unknown_key, wrong};
+use super::error::Problem;
 use super::sections::Outputs;
 use super::series::{self, SERIES_KEYS};
 use super::units::output_unit;
@@ -107,9 +107,7 @@ fn output(
         Value::Table(table) => {
             let known = || KEYS.into_iter().chain(SERIES_KEYS);
             if let Some(unknown) = table.keys().find(|key| !known().any(|known| known == key.as_str())) {
-                let expected = known().map(str::to_owned).collect();
-                let nearest = meant(unknown, known());
-                return Err(fault(Problem::UnknownKey { name: unknown.clone(), nearest, expected }));
+                return Err(fault(unknown_key(unknown, known())));
             }
             let axis = series::axis(&key, table).map_err(fault)?;
             let texts = || table.iter().filter(|(name, _)| KEYS.contains(&name.as_str()));
