@@ -17,17 +17,20 @@ pub(super) fn study_file(context: &Context<'_>) -> Result<StudyFile, Fault> {
 }
 
 fn syntax(context: &Context<'_>, error: &toml::de::Error) -> Fault {
+    context.fault(error.span().unwrap_or(0..0), problem(error))
+}
+
+/// What the reader of TOML says in the words of studies.
+pub(super) fn problem(error: &toml::de::Error) -> Problem {
     let message = error.message();
-    let span = error.span().unwrap_or(0..0);
     let quoted: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
-    let problem = match &quoted[..] {
+    match &quoted[..] {
         [name, expected @ ..] if message.starts_with("unknown field") => unknown_key(name, expected),
         _ if message.contains("unquoted key") => {
             Problem::Syntax(format!("{message}: a key of other letters stands in quotes, as in \"größe\" = 2"))
         }
         _ => Problem::Syntax(in_words(message)),
-    };
-    context.fault(span, problem)
+    }
 }
 
 /// A key that its table does not have: perhaps that of another table.
