@@ -116,7 +116,7 @@ fn three_steps_give_the_bits_of_one_run_in_every_format() {
     succeed(&["evaluate", text(&study), text(&at("design.csv")), "-o", text(&at("y.csv"))]);
     let (points, y) = (columns(&at("design.csv")), columns(&at("y.csv")));
     for format in Format::ALL {
-        let ending = format.ending();
+        let ending = format.name();
         let (design, outputs) = (at(&format!("d.{ending}")), at(&format!("outputs.{ending}")));
         succeed(&["sample", text(&study), "--base-samples", "512", "-o", text(&design)]);
         assert_eq!(columns(&design), points, "{format:?}");
@@ -319,7 +319,7 @@ fn points_and_outputs_of_a_run_are_saved_in_every_format() {
     let study = study_path("ishigami");
     let mut all = Vec::new();
     for format in Format::ALL {
-        let saved = folder.path().join(format!("saved.{}", format.ending()));
+        let saved = folder.path().join(format!("saved.{}", format.name()));
         let out = folder.path().join("out");
         let journal: &[&str] = if format == Format::Csv { &["--no-journal"] } else { &[] };
         let run = ["run", text(&study), "--base-samples", "256", "--out", text(&out), "--save-outputs", text(&saved)];

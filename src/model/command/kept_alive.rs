@@ -51,7 +51,7 @@ enum Fault {
 
 impl<'a> KeptAliveWorker<'a> {
     pub(super) fn new(model: &'a CommandModel, context: &'a RunContext<'a>, protocol: Protocol) -> Self {
-        let writer = RowWriter::new(protocol, &model.factors).with_numbers();
+        let writer = RowWriter::new(protocol, &model.factors);
         Self { model, context, protocol, writer, session: None }
     }
 

@@ -12,10 +12,10 @@ use tempfile::TempDir;
 
 use super::pick::{MOST_BYTES, PickError, Source, Texts};
 use super::program::{Running, status_in_words};
-use super::row::{RowWriter, ValueWriter};
+use super::row::ValueWriter;
 use super::standard_error::listen;
 use super::template::InputTemplate;
-use super::{CommandModel, Protocol, not_a_value};
+use super::{CommandModel, not_a_value};
 use crate::model::shorten::{masked, seconds};
 use crate::model::{Batch, RowFailure, RunContext, Worker};
 
@@ -47,7 +47,6 @@ pub(super) struct PerRunWorker<'a> {
     context: &'a RunContext<'a>,
     form: &'a PerRun,
     values: ValueWriter,
-    rows: RowWriter,
 }
 
 /// Why a run has no outputs.
@@ -60,8 +59,7 @@ enum Fault {
 
 impl<'a> PerRunWorker<'a> {
     pub(super) fn new(model: &'a CommandModel, context: &'a RunContext<'a>, form: &'a PerRun) -> Self {
-        let (values, rows) = (ValueWriter::new(&model.factors), RowWriter::new(Protocol::Csv, &model.factors));
-        Self { model, context, form, values, rows }
+        Self { model, context, form, values: ValueWriter::new(&model.factors) }
     }
 
     /// Runs the program on one row, again if it fails, and sets what it gives.
@@ -89,8 +87,7 @@ impl<'a> PerRunWorker<'a> {
         let Some(keep) = &self.form.keep else {
             return Ok(Directory::Temporary(tempfile::Builder::new().prefix("apportion-run-").tempdir()?));
         };
-        let mut text = self.rows.header();
-        self.rows.write(inputs, row, 0, &mut text);
+        let text = self.values.table(inputs, row);
         // The same point has the same directory, whatever the order of runs.
         let digest = Sha256::digest(text.as_bytes());
         let name: String = digest.iter().take(8).map(|byte| format!("{byte:02x}")).collect();

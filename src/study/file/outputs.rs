@@ -101,14 +101,12 @@ pub(super) fn own_outputs(context: &Context<'_>, key: Option<&At<Outputs>>) -> R
     match key.get_ref() {
         ListOrTable::List(names) => {
             for name in names {
-                refuse_name(context, name)?;
                 let output = CommandOutput { name: name.get_ref().clone(), unit: Unit::dimensionless(), pick: None };
                 all.outputs.push(output);
             }
         }
         ListOrTable::Table(table) => {
             for (name, value) in in_order(table) {
-                refuse_name(context, name)?;
                 let (output, axis) = output(context, name, value)?;
                 if output.pick.is_some() && all.first_pick.is_none() {
                     all.first_pick = Some(value.span());
@@ -125,14 +123,6 @@ pub(super) fn own_outputs(context: &Context<'_>, key: Option<&At<Outputs>>) -> R
     }
     all.refuse_repeated().map_err(|problem| context.fault(key.span(), problem))?;
     Ok(all)
-}
-
-fn refuse_name(context: &Context<'_>, name: &At<String>) -> Result<(), Fault> {
-    if !name.get_ref().trim().is_empty() && !name.get_ref().contains(char::is_control) {
-        return Ok(());
-    }
-    let expected = "not empty, and without line breaks and control characters";
-    Err(context.fault(name.span(), wrong("name of an output", expected, format!("{:?}", name.get_ref()))))
 }
 
 /// An output, and the axis of one that is a series.
