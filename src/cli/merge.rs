@@ -56,20 +56,13 @@ pub fn merge(arguments: &Arguments) -> Result<(), Failure> {
 
 /// The journals of shards in `folder`, in the order of their names.
 fn in_folder(folder: &Path, name: &str) -> Result<Vec<PathBuf>, Failure> {
-    let unreadable = |error| Failure::Input(anyhow!("{}: cannot look for journals: {error}", folder.display()));
     let begin = format!("{name}-shard-");
-    let mut found = Vec::new();
-    let entries = match std::fs::read_dir(folder) {
-        Err(error) if error.kind() == std::io::ErrorKind::NotFound => None,
-        entries => Some(entries.map_err(unreadable)?),
-    };
-    for entry in entries.into_iter().flatten() {
-        let path = entry.map_err(unreadable)?.path();
+    let is_part = |path: &PathBuf| {
         let file = path.file_name().and_then(|file| file.to_str()).unwrap_or_default();
-        if file.starts_with(&begin) && file.ends_with(".journal") {
-            found.push(path);
-        }
-    }
+        file.starts_with(&begin) && file.ends_with(".journal")
+    };
+    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    let mut found: Vec<PathBuf> = entries.map(|entry| entry.path()).filter(is_part).collect();
     found.sort();
     if found.is_empty() {
         let what = format!("no {begin}I-of-N.journal is here: `apportion run STUDY --shard I/N` writes them");

@@ -112,7 +112,8 @@ pub fn run(arguments: &Arguments, others: Option<&dyn Ranks>) -> Result<(), Fail
             // A job has a rank for every core, unless it says otherwise.
             let threads = arguments.threads.number().max(1);
             others.begin(&study, &arguments.study.study, threads);
-            say(&format!("note: {} ranks with {}", others.count_all(), workers(threads)));
+            let workers = if threads == 1 { "a worker".to_owned() } else { format!("{threads} workers") };
+            say(&format!("note: {} ranks with {workers} each", others.count_all()));
             runner.threads(threads).remote_workers(others)
         }
     };
@@ -146,10 +147,6 @@ pub fn run(arguments: &Arguments, others: Option<&dyn Ranks>) -> Result<(), Fail
         save(&study, &result, store, path, format)?;
     }
     deliver(&study, &artefacts, &result, &arguments.live)
-}
-
-fn workers(threads: usize) -> String {
-    if threads == 1 { "a worker each".to_owned() } else { format!("{threads} workers each") }
 }
 
 /// The journal of the study called `name`, or of one of its shards, in `folder`.

@@ -10,7 +10,7 @@ use apportion::sweep::{FactorValues, MAX_POINTS, SweepError, SweepRequest, find,
 
 use super::output::{OutputArguments, deliver};
 use super::stop::on_signal;
-use super::{Failure, StudyArguments, say};
+use super::{Failure, StudyArguments, number_in, say};
 
 #[derive(clap::Args)]
 pub struct Arguments {
@@ -20,20 +20,13 @@ pub struct Arguments {
     #[arg(long = "factor", value_name = "NAME[=VALUES]")]
     factors: Vec<String>,
     /// Points over the range of each factor
-    #[arg(long, value_name = "N", default_value_t = 101, value_parser = parse_points)]
+    #[arg(long, value_name = "N", default_value_t = 101, value_parser = |text: &str| number_in(text, 2..=MAX_POINTS))]
     points: usize,
     /// Repeat each sweep for values of another factor, one curve for each: length='300,450,600 um'
     #[arg(long, value_name = "NAME=VALUES")]
     against: Option<String>,
     #[command(flatten)]
     output: OutputArguments,
-}
-
-fn parse_points(text: &str) -> Result<usize, String> {
-    match text.parse() {
-        Ok(points) if (2..=MAX_POINTS).contains(&points) => Ok(points),
-        _ => Err(format!("expected a whole number from 2 to {MAX_POINTS}")),
-    }
 }
 
 impl From<SweepError> for Failure {

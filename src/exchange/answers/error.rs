@@ -25,7 +25,7 @@ pub enum AnswersError {
         known: String,
     },
     /// A factor asked for as an output, or an output twice.
-    #[error("`{name}` is asked for as an output{}", if *.factor { ", but is a factor of the study" } else { " twice" })]
+    #[error("`{name}` is asked for as an output{}", if *.factor { ", but is a factor" } else { " twice" })]
     NoOutput {
         /// The column.
         name: String,

@@ -3,6 +3,7 @@
 mod columns;
 mod error;
 
+pub use columns::{first_output, output_columns};
 pub use error::AnswersError;
 
 use columns::{Columns, subject};

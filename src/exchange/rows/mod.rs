@@ -267,6 +267,18 @@ fn expanded(names: &[String]) -> Vec<String> {
     all
 }
 
+/// The names of `width` columns, if there are any.
+fn names_of_columns(names: Vec<String>, width: usize) -> Result<Option<Vec<String>>, RowsError> {
+    if names.is_empty() {
+        return Ok(None);
+    }
+    if names.len() != width {
+        return Err(RowsError::OtherWidth { width, names: names.len() });
+    }
+    check_names(&names)?;
+    Ok(Some(names))
+}
+
 /// Names that are all there and all different.
 fn check_names(names: &[String]) -> Result<(), RowsError> {
     if names.iter().all(String::is_empty) {

@@ -66,9 +66,9 @@ impl<'a> PerRunWorker<'a> {
     fn row(&self, inputs: &[&[f64]], row: usize, batch: &mut Batch) -> Result<(), RowFailure> {
         let mut tries = 0;
         let reason = loop {
-            let directory = self.directory(inputs, row).map_err(|error| self.unwritable(&error))?;
-            match self.run_in(directory.path(), inputs, row) {
-                Ok(()) => return self.pick(directory.path(), row, batch),
+            let (directory, _temporary) = self.directory(inputs, row).map_err(|error| self.unwritable(&error))?;
+            match self.run_in(&directory, inputs, row) {
+                Ok(()) => return self.pick(&directory, row, batch),
                 Err(Fault::Fatal(reason)) => return Err(reason),
                 Err(Fault::Run(reason)) if tries == self.model.settings.retries => break reason,
                 Err(Fault::Run(_)) => tries += 1,
@@ -83,9 +83,11 @@ impl<'a> PerRunWorker<'a> {
         RowFailure::new(&format!("cannot prepare the directory of a run in {}: {error}", place.display()))
     }
 
-    fn directory(&self, inputs: &[&[f64]], row: usize) -> io::Result<Directory> {
+    /// A directory for a run, which is removed with what comes beside it unless it is kept.
+    fn directory(&self, inputs: &[&[f64]], row: usize) -> io::Result<(PathBuf, Option<TempDir>)> {
         let Some(keep) = &self.form.keep else {
-            return Ok(Directory::Temporary(tempfile::Builder::new().prefix("apportion-run-").tempdir()?));
+            let temporary = tempfile::Builder::new().prefix("apportion-run-").tempdir()?;
+            return Ok((temporary.path().to_owned(), Some(temporary)));
         };
         let text = self.values.table(inputs, row);
         // The same point has the same directory, whatever the order of runs.
@@ -97,7 +99,7 @@ impl<'a> PerRunWorker<'a> {
             _ => std::fs::create_dir_all(&path)?,
         }
         std::fs::write(path.join("factors.csv"), text)?;
-        Ok(Directory::Kept(path))
+        Ok((path, None))
     }
 
     fn prepare(&self, directory: &Path, inputs: &[&[f64]], row: usize) -> io::Result<(File, File)> {
@@ -213,20 +215,4 @@ impl Worker for PerRunWorker<'_> {
 /// Whether a run has not written a file that was copied for it.
 fn is_from_before(path: &Path) -> bool {
     std::fs::metadata(path).and_then(|data| data.modified()).is_ok_and(|time| time == BEFORE)
-}
-
-/// The directory of one run.
-enum Directory {
-    /// Removed after the run.
-    Temporary(TempDir),
-    Kept(PathBuf),
-}
-
-impl Directory {
-    fn path(&self) -> &Path {
-        match self {
-            Self::Temporary(folder) => folder.path(),
-            Self::Kept(path) => path,
-        }
-    }
 }
