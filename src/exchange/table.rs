@@ -72,9 +72,8 @@ pub enum TableError {
 
 /// Why columns of text are no inputs, and what would make them so.
 fn why(skipped: &[TextColumn]) -> String {
-    let reason = |column: &TextColumn| format!("{}: {}", column.reason(), column.kind().remedy());
-    let reasons: Vec<String> = skipped.iter().map(reason).collect();
-    if reasons.is_empty() { String::new() } else { format!(": {}", reasons.join("; ")) }
+    let reason = |column: &TextColumn| format!("; {}: {}", column.reason(), column.kind().remedy());
+    skipped.iter().map(reason).collect()
 }
 
 fn advice(found: &str, chosen: bool) -> String {
