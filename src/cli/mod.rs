@@ -12,7 +12,6 @@ mod merge;
 mod models;
 mod new;
 mod output;
-mod past_runs;
 mod progress;
 mod ranks;
 mod report;

@@ -69,7 +69,8 @@ fn key(name: &'static str, span: Range<usize>) -> Spanned<Cow<'static, str>> {
 fn factors(context: &Context<'_>, root: &mut DeTable<'_>) -> Result<(), Fault> {
     let Some((plural, value)) = root.remove_entry("factors") else { return Ok(()) };
     if root.contains_key("factor") {
-        return Err(context.fault(plural.span(), Problem::TwoForms));
+        let right = "factors stand in `[[factor]]` too: keep one of the two".to_owned();
+        return Err(context.fault(plural.span(), Problem::Misplaced { name: "factors".to_owned(), right }));
     }
     let span = value.span();
     let DeValue::Table(table) = value.into_inner() else {

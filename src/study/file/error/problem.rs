@@ -32,9 +32,6 @@ pub enum Problem {
         /// Where it belongs, or what to write.
         right: String,
     },
-    /// Factors in both forms.
-    #[error("factors stand both in `[factors]` and in `[[factor]]`: keep one of the two")]
-    TwoForms,
     /// A form of former versions.
     #[error("{form}: factors and outputs are written in another way today")]
     OldForm {
