@@ -25,12 +25,11 @@ use session::{LONGEST, Lookup, Session};
 const TEXT: usize = 1 << 15;
 /// How long it may take until an interruption is seen.
 const ATTENTION: Duration = Duration::from_millis(100);
-/// A process that is silent for so long, and for so many times the longest time that it has taken before, may have skipped a
+/// A process that is silent for so long, and for so many times the longest time that an answer has taken, may have skipped a
 /// row: its input is closed, upon which it answers what it has read and ends.
-const QUIET: Duration = Duration::from_millis(500);
+const QUIET: Duration = Duration::from_secs(2);
 const TIMES: u32 = 5;
-/// The same until the first answer of a process, and until the first of all.
-const QUIET_START: Duration = Duration::from_secs(2);
+/// The same until the first answer of all.
 const FIRST_START: Duration = Duration::from_secs(60);
 
 pub(super) struct KeptAliveWorker<'a> {
@@ -142,9 +141,7 @@ impl<'a> KeptAliveWorker<'a> {
                         Ok(Answer::Failed(reason)) => rows.fail(row, &reason),
                         Err(words) => rows.fail(row, &format!("not an answer: {words}")),
                     }
-                    if let Some(first) = session.note_answer() {
-                        model.state.note_first_answer(first);
-                    }
+                    model.state.note_answer(session.note_answer());
                     return Ok(());
                 }
                 Lookup::Answered => {
@@ -184,12 +181,9 @@ impl<'a> KeptAliveWorker<'a> {
         // Others that it has started may hold its output open.
         session.process.clear_away();
         let silent_for = session.silent_for();
-        let quiet = if session.has_answered {
-            QUIET.max(TIMES * session.slowest)
-        } else if state.has_answered() {
-            QUIET_START.max(TIMES * Duration::from_micros(state.first_answer.load(Ordering::Relaxed)))
-        } else {
-            FIRST_START
+        let quiet = match state.has_answered() {
+            true => QUIET.max(TIMES * Duration::from_micros(state.slowest.load(Ordering::Relaxed))),
+            false => FIRST_START,
         };
         if !state.has_answered() && silent_for > self.model.silence {
             State::send_once(

@@ -192,7 +192,7 @@ impl<'a> PerRunWorker<'a> {
             }
         }
         if found {
-            self.model.state.note_answer();
+            self.model.state.note_answer(Duration::ZERO);
         }
         missing.map_or(Ok(()), |reason| self.model.state.note_failure(&reason))
     }
