@@ -1,10 +1,10 @@
 //! `apportion check`: what a study means and what it will cost, without running it.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
-use apportion::model::{ModelKind, Output, RunContext, imported_neighbours};
-use apportion::report::{significant, table, with_unit};
+use apportion::model::{ModelKind, Output, RunContext};
+use apportion::report::{significant, table, two_digits, with_unit};
 use apportion::run::{Job, Pilot};
 use apportion::space::distribution::Parameter;
 use apportion::space::{Distribution, Factor};
@@ -12,7 +12,7 @@ use apportion::study::Study;
 
 use super::check_plan::{counted, plan};
 use super::output::default_folder;
-use super::past_runs::past_runs;
+use super::run::journal_path;
 use super::stop::on_signal;
 use super::{DesignChanges, Failure, StudyArguments, print, say, say_notes};
 
@@ -35,7 +35,7 @@ pub fn check(arguments: &Arguments) -> Result<(), Failure> {
     let mut text = subject(&study);
     text.push_str(&factors(&study));
     text.push_str(&plan(&study, &arguments.study.study, pilot.as_ref()));
-    text.push_str(&past_runs(&study, &folder)?);
+    text.push_str(&past_runs(&study, &folder));
     text.push_str(&format!(
         "\nwill be written to {}: the page {}.html, tables, charts\n",
         folder.display(),
@@ -74,14 +74,6 @@ fn subject(study: &Study) -> String {
     if study.subject().name() == ModelKind::COMMAND.name {
         let names = if files.is_empty() { "none".to_owned() } else { file_names_of(&files) };
         text.push_str(&format!("files that a journal knows it by: {names}\n"));
-    }
-    let imported = imported_neighbours(&files);
-    if !imported.is_empty() {
-        text.push_str(&format!(
-            "warning: the program imports {}, which a journal does not know: if it changes, runs of before are used as if it had \
-             not; list it in `depends_on` of [command]\n",
-            file_names_of(&imported)
-        ));
     }
     for (name, value) in study.settings() {
         match value.as_object() {
@@ -176,4 +168,24 @@ fn parameters(factor: &Factor) -> String {
         _ => None,
     });
     words.collect::<Vec<_>>().join(", ")
+}
+
+/// The lines on the journal in the folder of the results.
+fn past_runs(study: &Study, folder: &Path) -> String {
+    let path = journal_path(folder, study.name(), None);
+    let runner = study.runner().journal(&path);
+    let megabytes = study.design().rows() as f64 * study.model().outputs().len() as f64 * 8e-6;
+    let (size, path_text) = (two_digits(megabytes.max(0.01)), path.display());
+    let when = if study.model().is_slow() { "" } else { ", if the run takes longer than 10 s" };
+    let mut text = format!("disk: about {size} MB for the journal {path_text}{when}\n");
+    if path.exists() {
+        text.push_str(&match runner.recorded_runs() {
+            Ok(rows) => {
+                let total = study.design().rows();
+                format!("on record: {} of {total} runs, which a run does not repeat\n", rows.min(total))
+            }
+            Err(error) => format!("on record: nothing of use: {error}\n"),
+        });
+    }
+    text
 }

@@ -7,7 +7,7 @@ use apportion::report::comparison::{NamedResult, compare_results, comparison_doc
 use apportion::report::{file_part, read_result, refused_name};
 
 use super::Failure;
-use super::output::{ChartArguments, default_folder, deliver};
+use super::output::{OutputArguments, deliver};
 
 #[derive(clap::Args)]
 pub struct Arguments {
@@ -23,11 +23,8 @@ pub struct Arguments {
     /// What B is called in tables and charts
     #[arg(long, value_name = "TEXT")]
     label_b: Option<String>,
-    /// Folder for tables and charts [default: results/A-vs-B]
-    #[arg(long, value_name = "DIR")]
-    out: Option<PathBuf>,
     #[command(flatten)]
-    charts: ChartArguments,
+    output: OutputArguments,
 }
 
 pub fn compare(arguments: &Arguments) -> Result<(), Failure> {
@@ -49,8 +46,7 @@ pub fn compare(arguments: &Arguments) -> Result<(), Failure> {
     let file = compare_results(&a, &b)
         .map_err(|error| Failure::Input(anyhow!("A is {}, B is {}: {error}", files[0], files[1])))?;
     let name = format!("{}-vs-{}", file_part(&told_a), file_part(&told_b));
-    let folder = arguments.out.clone().unwrap_or_else(|| default_folder(&name));
-    deliver(&arguments.charts.artefacts(folder), &comparison_document(&file, &name))
+    deliver(&arguments.output.artefacts(&name), &comparison_document(&file, &name))
 }
 
 /// Two names that are not the same: the studies', the files', their folders', or else A and B.

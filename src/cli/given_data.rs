@@ -11,7 +11,7 @@ use apportion::{Distribution, Study};
 use sha2::{Digest, Sha256};
 
 use super::Failure;
-use super::output::{ChartArguments, default_folder, deliver, stem};
+use super::output::{OutputArguments, deliver, stem};
 use super::table::{TableArguments, say_of_table};
 
 #[derive(clap::Args)]
@@ -50,11 +50,8 @@ pub struct Arguments {
     /// Seed of the order of equal inputs in the intervals by ranks; the estimates do not depend on it
     #[arg(long, value_name = "S", default_value_t = 0)]
     seed: u64,
-    /// Folder for the results [default: results/NAME of the table]
-    #[arg(long, value_name = "DIR")]
-    out: Option<PathBuf>,
     #[command(flatten)]
-    charts: ChartArguments,
+    output: OutputArguments,
 }
 
 fn column_name(text: &str) -> Result<String, String> {
@@ -89,8 +86,7 @@ pub fn given_data(arguments: &Arguments) -> Result<(), Failure> {
     let fit = || surrogate_indices(&inputs, &outputs, &indices, distributions.as_deref());
     let surrogates = arguments.surrogate.then(fit);
     let name = stem(&arguments.table);
-    let folder = arguments.out.clone().unwrap_or_else(|| default_folder(&name));
-    let artefacts = arguments.charts.artefacts(folder).beside_input(&arguments.table);
+    let artefacts = arguments.output.artefacts(&name).beside_input(&arguments.table);
     let facts = GivenFacts {
         file: path.to_string(),
         sha256,

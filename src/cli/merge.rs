@@ -7,9 +7,9 @@ use apportion::report::ResultFile;
 use apportion::run::RunError;
 
 use super::live::LiveArguments;
-use super::output::{ChartArguments, default_folder};
+use super::output::OutputArguments;
 use super::run::{deliver, journal_path};
-use super::{DesignChanges, Failure, StudyArguments, Threads, quoted, say};
+use super::{DesignChanges, Failure, StudyArguments, Threads, say};
 
 #[derive(clap::Args)]
 pub struct Arguments {
@@ -19,11 +19,8 @@ pub struct Arguments {
     journals: Vec<PathBuf>,
     #[command(flatten)]
     design: DesignChanges,
-    /// Folder for the results [default: results/NAME]
-    #[arg(long, value_name = "DIR")]
-    out: Option<PathBuf>,
     #[command(flatten)]
-    charts: ChartArguments,
+    output: OutputArguments,
     #[command(flatten)]
     live: LiveArguments,
     #[command(flatten)]
@@ -32,19 +29,18 @@ pub struct Arguments {
 
 pub fn merge(arguments: &Arguments) -> Result<(), Failure> {
     let study = arguments.study.load_with(&arguments.design.overrides())?;
-    let folder = arguments.out.clone().unwrap_or_else(|| default_folder(study.name()));
+    let folder = arguments.output.folder(study.name());
     let journals =
         if arguments.journals.is_empty() { in_folder(&folder, study.name())? } else { arguments.journals.clone() };
-    let artefacts = arguments.charts.artefacts(&folder);
+    let artefacts = arguments.output.artefacts(study.name());
     artefacts.prepare()?;
     let path = journal_path(&folder, study.name(), None);
     let runner = study.runner().threads(arguments.threads.number()).on_message(say).journal(&path);
     let result = runner.merge(&journals).map_err(|error| match error {
         RunError::Incomplete { .. } => Failure::Run(anyhow!(
-            "{error}\nthose that are there are kept in {}: merge again with the missing parts, or let \
-             `{}` evaluate them here",
+            "{error}\nthose that are there are kept in {}: merge again with the missing parts, or evaluate them here by the same \
+             arguments after `apportion run` and --resume",
             path.display(),
-            going_on(arguments),
         )),
         error => error.into(),
     })?;
@@ -58,32 +54,15 @@ pub fn merge(arguments: &Arguments) -> Result<(), Failure> {
     deliver(&study, &artefacts, &ResultFile::new(&study, &result), &arguments.live)
 }
 
-/// The command that evaluates here what the parts lack.
-fn going_on(arguments: &Arguments) -> String {
-    let Arguments { study: StudyArguments { study, set }, design, out, .. } = arguments;
-    let changes = set.iter().cloned().chain(design.overrides());
-    let changes = changes.map(|change| format!(" --set {}", quoted(&change)));
-    let out = out.iter().map(|folder| format!(" --out {}", quoted(&folder.display().to_string())));
-    let changes: String = changes.chain(out).collect();
-    format!("apportion run {}{changes} --resume", quoted(&study.display().to_string()))
-}
-
 /// The journals of shards in `folder`, in the order of their names.
 fn in_folder(folder: &Path, name: &str) -> Result<Vec<PathBuf>, Failure> {
-    let unreadable = |error| Failure::Input(anyhow!("{}: cannot look for journals: {error}", folder.display()));
     let begin = format!("{name}-shard-");
-    let mut found = Vec::new();
-    let entries = match std::fs::read_dir(folder) {
-        Err(error) if error.kind() == std::io::ErrorKind::NotFound => None,
-        entries => Some(entries.map_err(unreadable)?),
-    };
-    for entry in entries.into_iter().flatten() {
-        let path = entry.map_err(unreadable)?.path();
+    let is_part = |path: &PathBuf| {
         let file = path.file_name().and_then(|file| file.to_str()).unwrap_or_default();
-        if file.starts_with(&begin) && file.ends_with(".journal") {
-            found.push(path);
-        }
-    }
+        file.starts_with(&begin) && file.ends_with(".journal")
+    };
+    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    let mut found: Vec<PathBuf> = entries.map(|entry| entry.path()).filter(is_part).collect();
     found.sort();
     if found.is_empty() {
         let what = format!("no {begin}I-of-N.journal is here: `apportion run STUDY --shard I/N` writes them");

@@ -12,7 +12,6 @@ mod merge;
 mod models;
 mod new;
 mod output;
-mod past_runs;
 mod progress;
 mod ranks;
 mod report;
@@ -29,6 +28,7 @@ mod trade;
 mod trade_extremes;
 
 use std::io::{Error, ErrorKind, IsTerminal, Write};
+use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -173,7 +173,7 @@ fn say_notes(study: &Study) {
 #[derive(Args)]
 struct Threads {
     /// Worker threads, and processes of a program at most; one per core if not given. The result does not depend on it
-    #[arg(long, value_name = "T", value_parser = parse_threads)]
+    #[arg(long, value_name = "T", value_parser = |text: &str| number_in(text, 1..=1024))]
     threads: Option<usize>,
 }
 
@@ -184,12 +184,10 @@ impl Threads {
     }
 }
 
-fn parse_threads(text: &str) -> Result<usize, String> {
-    const MOST: usize = 1024;
-    match text.parse() {
-        Ok(threads) if (1..=MOST).contains(&threads) => Ok(threads),
-        _ => Err(format!("expected a whole number from 1 to {MOST}")),
-    }
+/// A whole number in `range`.
+fn number_in(text: &str, range: RangeInclusive<usize>) -> Result<usize, String> {
+    let number = text.parse().ok().filter(|number| range.contains(number));
+    number.ok_or_else(|| format!("expected a whole number from {} to {}", range.start(), range.end()))
 }
 
 /// Why a command did not do what was asked, with its exit code.

@@ -1,7 +1,7 @@
 //! `apportion models`: what can be studied.
 
 use apportion::estimate::{Estimator, FirstOrder, Total};
-use apportion::model::{Basis, Exact, ExactIndices, Input, KnownAnswer, KnownFunction, ModelKind, known_inputs};
+use apportion::model::{Basis, Exact, Input, KnownAnswer, KnownFunction, ModelKind, known_inputs};
 use apportion::report::{significant, table};
 use apportion::study::{Problem, model_guide, nearest};
 
@@ -141,7 +141,6 @@ fn function(answer: KnownAnswer) -> String {
     }
     text.push_str(&inputs(&function));
     text.push_str(&exact(&function));
-    text.push_str(&example(&function));
     text
 }
 
@@ -179,43 +178,6 @@ fn exact(function: &KnownFunction) -> String {
     for (input, (first, total)) in known_inputs(function).iter().zip(indices.first_order.iter().zip(&indices.total)) {
         rows.add_row([input.name.clone(), significant(*first), significant(*total)]);
     }
-    text.push_str(&format!("{rows}\n{}", second_order(function, &indices)));
-    text
-}
-
-/// The largest second-order indices.
-fn second_order(function: &KnownFunction, indices: &ExactIndices) -> String {
-    const SHOWN: usize = 8;
-    let Some(second) = &indices.second_order else { return String::new() };
-    let mut pairs: Vec<_> = second.pairs().filter(|(_, _, index)| *index > 0.0).collect();
-    if pairs.is_empty() {
-        return "no interactions of two factors\n".to_owned();
-    }
-    pairs.sort_by(|(_, _, a), (_, _, b)| b.total_cmp(a));
-    let names = known_inputs(function);
-    let shown = pairs.iter().take(SHOWN);
-    let words = shown.map(|&(i, j, index)| format!("{}-{} {}", names[i].name, names[j].name, significant(index)));
-    let rest = pairs.len().saturating_sub(SHOWN);
-    let more = if rest > 0 { format!(", {rest} more") } else { String::new() };
-    format!("second order: {}{more}\n", words.collect::<Vec<_>>().join(", "))
-}
-
-/// A study file, complete as it is.
-fn example(function: &KnownFunction) -> String {
-    let mut text =
-        format!("\nA study of it, complete with its first line alone:\n\n  model = \"{}\"\n", function.answer().name());
-    let parameters = function.parameters();
-    if !parameters.is_empty() {
-        text.push_str("\n  [function]\n");
-        for (name, value) in parameters {
-            text.push_str(&format!("  {name} = {value}\n"));
-        }
-    }
-    if let Some(input) = known_inputs(function).first() {
-        text.push_str(&format!(
-            "\n  [factors]            # without this table all inputs vary\n  {} = {{}}\n",
-            input.name
-        ));
-    }
+    text.push_str(&format!("{rows}\n"));
     text
 }

@@ -6,7 +6,8 @@ use apportion::report::chart::{ChartWidth, PaperWidth};
 use apportion::report::document::Document;
 use apportion::report::{ArtefactError, Artefacts, ChartFormat};
 
-use super::{Failure, print, say, stop};
+use super::stop::on_signal;
+use super::{Failure, print, say};
 
 #[derive(clap::Args)]
 pub struct ChartArguments {
@@ -17,6 +18,28 @@ pub struct ChartArguments {
     /// a paper has, letters of 7 to 9 pt at that width, PNG with 600 dpi, PDF in that size [default: a page column, with title and caption]
     #[arg(long, value_name = "WIDTH")]
     chart_width: Option<PaperWidth>,
+}
+
+/// Where the files of a command go, and its charts.
+#[derive(clap::Args)]
+pub struct OutputArguments {
+    /// Folder for the results [default: results/NAME]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    #[command(flatten)]
+    charts: ChartArguments,
+}
+
+impl OutputArguments {
+    /// The folder for what is called `name`.
+    pub fn folder(&self, name: &str) -> PathBuf {
+        self.out.clone().unwrap_or_else(|| default_folder(name))
+    }
+
+    /// The files of a document about what is called `name`.
+    pub fn artefacts(&self, name: &str) -> Artefacts {
+        self.charts.artefacts(self.folder(name))
+    }
 }
 
 #[derive(Clone)]
@@ -67,8 +90,7 @@ pub fn stem(table: &Path) -> String {
 
 /// Writes the files of `document`, prints it as text, and says where the files are.
 pub fn deliver(artefacts: &Artefacts, document: &Document) -> Result<(), Failure> {
-    stop::writing()?;
-    let written = artefacts.write_until(document, stop::on_signal())?;
+    let written = artefacts.write_until(document, on_signal())?;
     print(&document.text())?;
     let ends_with = |path: &Path, ending: &str| path.extension().is_some_and(|of| of == ending);
     let (live, data): (Vec<&PathBuf>, Vec<&PathBuf>) = written.data.iter().partition(|path| is_live(path));

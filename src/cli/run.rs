@@ -13,7 +13,7 @@ use apportion::run::{RunError, Shard, Store};
 use apportion::study::Study;
 
 use super::live::LiveArguments;
-use super::output::{self, ChartArguments, default_folder};
+use super::output::{self, OutputArguments};
 use super::progress::Meter;
 use super::ranks::{self, Ranks};
 use super::stop::Stoppable;
@@ -25,11 +25,8 @@ pub struct Arguments {
     study: StudyArguments,
     #[command(flatten)]
     design: DesignChanges,
-    /// Folder for the results [default: results/NAME]
-    #[arg(long, value_name = "DIR")]
-    out: Option<PathBuf>,
     #[command(flatten)]
-    charts: ChartArguments,
+    output: OutputArguments,
     #[command(flatten)]
     threads: Threads,
     /// Also write the points and outputs of all runs to a file (.csv or .npy)
@@ -86,8 +83,8 @@ pub fn run(arguments: &Arguments, others: Option<&dyn Ranks>) -> Result<(), Fail
         ranks::refuse_copies()?;
     }
     let study = study_of(arguments)?;
-    let folder = folder_of(arguments, &study);
-    let artefacts = arguments.charts.artefacts(&folder);
+    let folder = arguments.output.folder(study.name());
+    let artefacts = arguments.output.artefacts(study.name());
     let asked = &arguments.record;
     artefacts.prepare()?;
     if asked.shard.is_some() && study.target().grows() {
@@ -115,7 +112,8 @@ pub fn run(arguments: &Arguments, others: Option<&dyn Ranks>) -> Result<(), Fail
             // A job has a rank for every core, unless it says otherwise.
             let threads = arguments.threads.number().max(1);
             others.begin(&study, &arguments.study.study, threads);
-            say(&format!("note: {} ranks with {}", others.count_all(), workers(threads)));
+            let workers = if threads == 1 { "a worker".to_owned() } else { format!("{threads} workers") };
+            say(&format!("note: {} ranks with {workers} each", others.count_all()));
             runner.threads(threads).remote_workers(others)
         }
     };
@@ -138,7 +136,6 @@ pub fn run(arguments: &Arguments, others: Option<&dyn Ranks>) -> Result<(), Fail
         return Ok(());
     }
     let analysis = runner.run().map_err(failed)?;
-    stop::writing()?;
     let result = ResultFile::new(&study, &analysis);
     drop(analysis);
     let (runs, seconds) = (result.provenance.model_runs, result.provenance.wall_seconds);
@@ -150,13 +147,6 @@ pub fn run(arguments: &Arguments, others: Option<&dyn Ranks>) -> Result<(), Fail
         save(&study, &result, store, path, format)?;
     }
     deliver(&study, &artefacts, &result, &arguments.live)
-}
-
-/// Most outputs without indices that are named.
-const NAMED: usize = 12;
-
-fn workers(threads: usize) -> String {
-    if threads == 1 { "a worker each".to_owned() } else { format!("{threads} workers each") }
 }
 
 /// The journal of the study called `name`, or of one of its shards, in `folder`.
@@ -185,7 +175,7 @@ fn study_of(arguments: &Arguments) -> Result<Study, Failure> {
     if !double && !retry_failed || arguments.design.base_samples.is_some() {
         return Ok(study);
     }
-    let json = folder_of(arguments, &study).join(format!("{}.json", study.name()));
+    let json = arguments.output.folder(study.name()).join(format!("{}.json", study.name()));
     let result = match read_result(&json) {
         Ok(result) => result,
         Err(_) if !double => return Ok(study),
@@ -201,14 +191,9 @@ fn study_of(arguments: &Arguments) -> Result<Study, Failure> {
         Some(spending) => {
             let (option, accuracy) =
                 if double { ("--double", spending.accuracy / 2.0) } else { ("--retry-failed", spending.accuracy) };
-            let what = "a run that was asked for an accuracy, and chose its design by itself";
-            let right = if double {
-                "ask for a smaller one in its place, which goes on with its runs"
-            } else {
-                "ask for it again"
-            };
             return Err(Failure::Input(anyhow!(
-                "{option}: {} is of {what}: {right}: --accuracy {accuracy}",
+                "{option}: {} is of a run that was asked for an accuracy, and chose its design by itself: ask for one again, \
+                 which goes on with its runs: --accuracy {accuracy}",
                 json.display()
             )));
         }
@@ -223,30 +208,19 @@ fn study_of(arguments: &Arguments) -> Result<Study, Failure> {
     study.with_base_samples(wanted).map_err(|error| Failure::Input(error.into()))
 }
 
-fn folder_of(arguments: &Arguments, study: &Study) -> PathBuf {
-    arguments.out.clone().unwrap_or_else(|| default_folder(study.name()))
-}
-
 /// Writes the files of a result, and says what came out.
 pub fn deliver(study: &Study, artefacts: &Artefacts, result: &ResultFile, live: &LiveArguments) -> Result<(), Failure> {
     let mut document = run_document(result);
     live.put_beside(&mut document, result);
     output::deliver(artefacts, &document)?;
     let lost: Vec<&OutputRecord> = result.outputs.iter().filter(|output| lost(study, output)).collect();
-    if lost.is_empty() {
-        return Ok(());
-    }
-    let more = lost.len().saturating_sub(NAMED);
-    let more = if more > 0 { format!(" and {more} more outputs") } else { String::new() };
-    let max_failed = study.analysis().max_failed;
-    let limit = if lost.iter().all(|output| share_failed(output) > max_failed) {
-        format!("more than max_failed = {max_failed} of them in [analysis]")
-    } else {
-        "so that hardly any base point has all of its runs".to_owned()
-    };
-    let names: Vec<&str> = lost.iter().take(NAMED).map(|output| output.name.as_str()).collect();
-    let (names, what) = (names.join(", "), "too many runs failed");
-    Err(Failure::Run(anyhow!("no indices of {names}{more}: {what}, {limit} (the result says which and why)")))
+    let Some(first) = lost.first() else { return Ok(()) };
+    let others = if lost.len() > 1 { format!(" and of {} more outputs", lost.len() - 1) } else { String::new() };
+    Err(Failure::Run(anyhow!(
+        "no indices of {}{others}: too many runs failed (max_failed = {} in [analysis]; the result says which and why)",
+        first.name,
+        study.analysis().max_failed
+    )))
 }
 
 /// What was done before an error is of use to the user.
@@ -274,12 +248,9 @@ fn with_journal(study: &Study, error: RunError, journal: Option<&Path>) -> Failu
 
 /// Whether an output has no indices because runs failed, and not because it does not vary.
 fn lost(study: &Study, output: &OutputRecord) -> bool {
-    let too_many = share_failed(output) > study.analysis().max_failed || output.base_points_used < 2;
+    let share = output.runs_failed as f64 / (output.runs_ok + output.runs_failed) as f64;
+    let too_many = share > study.analysis().max_failed || output.base_points_used < 2;
     output.indices.is_none() && output.runs_failed > 0 && too_many
-}
-
-fn share_failed(output: &OutputRecord) -> f64 {
-    output.runs_failed as f64 / (output.runs_ok + output.runs_failed) as f64
 }
 
 /// A row that failed is of use to the user by its inputs.

@@ -3,7 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
-use apportion::exchange::{Format, Manifest, ReadOptions, open_table, random_points, sample as write_sample};
+use apportion::exchange::{
+    Format, Manifest, ReadOptions, open_table, random_design, sample as write_sample, write_rows,
+};
 use apportion::files::read_text;
 use apportion::report::{prepare_file, stream_atomically, write_atomically};
 
@@ -61,17 +63,8 @@ pub fn sample(arguments: &Arguments) -> Result<(), Failure> {
     let factors = study.space().factors().len();
     let factors = if factors == 1 { "1 factor".to_owned() } else { format!("{factors} factors") };
     if let Some(rows) = arguments.random {
-        let mut refused = None;
-        let written = stream_atomically(&path, |out| {
-            random_points(&study, rows, format, &mut Stoppable::new(out)).unwrap_or_else(|error| {
-                refused = Some(error);
-                Err(std::io::Error::other("no points"))
-            })
-        });
-        if let Some(error) = refused {
-            return Err(Failure::Input(error.into()));
-        }
-        written?;
+        let design = random_design(&study, rows).map_err(|error| Failure::Input(error.into()))?;
+        stream_atomically(&path, |out| write_rows(&study, &design, rows, format, &mut Stoppable::new(out)).map(drop))?;
         say(&format!("wrote {rows} random points of {factors} to {}", path.display()));
         return Ok(());
     }

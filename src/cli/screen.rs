@@ -1,6 +1,5 @@
 //! `apportion screen`: which of many factors matter, for a few runs each.
 
-use std::path::PathBuf;
 use std::time::Instant;
 
 use anyhow::anyhow;
@@ -12,7 +11,7 @@ use apportion::screening::{MAX_LEVELS, MIN_TRAJECTORIES, ScreeningDesign, Screen
 use apportion::screening::{ScreeningSettings, screen_in};
 use apportion::study::Study;
 
-use super::output::{ChartArguments, default_folder, deliver};
+use super::output::{OutputArguments, deliver};
 use super::progress::Meter;
 use super::stop::on_signal;
 use super::{Failure, StudyArguments, Threads, say, whole_number};
@@ -34,11 +33,8 @@ pub struct Arguments {
     /// Seed of the points [default: the study's]
     #[arg(long, value_name = "S", value_parser = whole_number, allow_negative_numbers = true)]
     seed: Option<u64>,
-    /// Folder for the results [default: results/NAME]
-    #[arg(long, value_name = "DIR")]
-    out: Option<PathBuf>,
     #[command(flatten)]
-    charts: ChartArguments,
+    output: OutputArguments,
     #[command(flatten)]
     threads: Threads,
 }
@@ -90,9 +86,8 @@ pub fn screen(arguments: &Arguments) -> Result<(), Failure> {
         let (asked, used) = (settings.trajectories, in_force.trajectories);
         say(&format!("note: {asked} trajectories do not make equal parts for the intervals: {used} are used"));
     }
-    let folder = arguments.out.clone().unwrap_or_else(|| default_folder(study.name()));
     let model = study.model();
-    let artefacts = arguments.charts.artefacts(folder);
+    let artefacts = arguments.output.artefacts(study.name());
     artefacts.prepare()?;
     let runs = in_force.trajectories * (study.space().factors().len() as u64 + 1);
     let meter = Meter::new(study.name(), runs);

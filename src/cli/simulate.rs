@@ -1,29 +1,24 @@
 //! `apportion simulate`: one scene of a study in time.
 
-use std::path::PathBuf;
-
 use crate::scene::simulation::{SimulationError, mode_diagram, simulate as simulate_scene};
 use crate::scene::{mode_document, scene_document};
 use apportion::quantity::{Dimension, Quantity};
 
-use super::output::{ChartArguments, default_folder, deliver};
+use super::output::{OutputArguments, deliver};
 use super::{Failure, StudyArguments};
 
 #[derive(clap::Args)]
 pub struct Arguments {
     #[command(flatten)]
     study: StudyArguments,
-    /// Folder for the results [default: results/NAME]
-    #[arg(long, value_name = "DIR")]
-    out: Option<PathBuf>,
+    #[command(flatten)]
+    output: OutputArguments,
     /// How long to simulate, as in "0.4 s" [default: twice the critical time]
     #[arg(long, value_name = "TIME", value_parser = parse_time, allow_hyphen_values = true)]
     duration: Option<f64>,
     /// Draw the mode diagram instead: the force at which the particle slides, slips at the tip, rolls or spins
     #[arg(long, conflicts_with = "duration")]
     mode_diagram: bool,
-    #[command(flatten)]
-    charts: ChartArguments,
 }
 
 fn parse_time(text: &str) -> Result<f64, String> {
@@ -46,8 +41,7 @@ impl From<SimulationError> for Failure {
 /// Simulates the scene in which every factor stands at its nominal value.
 pub fn simulate(arguments: &Arguments) -> Result<(), Failure> {
     let study = arguments.study.load()?;
-    let folder = arguments.out.clone().unwrap_or_else(|| default_folder(study.name()));
-    let artefacts = arguments.charts.artefacts(folder);
+    let artefacts = arguments.output.artefacts(study.name());
     let document = if arguments.mode_diagram {
         let diagram = mode_diagram(&study)?;
         artefacts.prepare()?;

@@ -4,27 +4,14 @@ use std::io::Write;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use anyhow::anyhow;
-use apportion::report::remove_unfinished;
-
-use super::Failure;
-
 static STOP: AtomicBool = AtomicBool::new(false);
 
-/// Whether all that is left to do is to write files, each of which is whole or not there.
-static WRITING: AtomicBool = AtomicBool::new(false);
-
-/// The flag that Ctrl-C, SIGTERM and SIGHUP set from now on. The second of them ends the program at once; so does the first
-/// while files are [written](writing).
+/// The flag that Ctrl-C, SIGTERM and SIGHUP set from now on. The second of them ends the program at once.
 pub fn on_signal() -> &'static AtomicBool {
     static INSTALLED: OnceLock<()> = OnceLock::new();
     INSTALLED.get_or_init(|| {
         let handler = || {
-            if WRITING.load(Ordering::SeqCst) {
-                end_at_once();
-            }
             if STOP.swap(true, Ordering::SeqCst) {
-                remove_unfinished();
                 std::process::exit(1);
             }
             super::say("stopping: what is under way is brought to an end (once more ends the program at once)");
@@ -42,33 +29,6 @@ pub fn leave_to_another() {
     if let Err(error) = ctrlc::set_handler(|| ()) {
         super::say(&format!("warning: Ctrl-C will end this rank at once: {error}"));
     }
-}
-
-/// From now on a signal ends the program at once: the model has been run, and what is left is drawing, which nobody
-/// needs to wait for.
-///
-/// # Errors
-/// [`Failure::Run`] if a signal has come already.
-pub fn writing() -> Result<(), Failure> {
-    on_signal();
-    WRITING.store(true, Ordering::SeqCst);
-    unless_stopped()
-}
-
-/// Nothing, unless a signal has come.
-///
-/// # Errors
-/// [`Failure::Run`] if one has.
-pub fn unless_stopped() -> Result<(), Failure> {
-    if STOP.load(Ordering::SeqCst) { Err(Failure::Run(anyhow!("{INTERRUPTED}"))) } else { Ok(()) }
-}
-
-const INTERRUPTED: &str = "interrupted while files were written: those that are there are whole, others are missing";
-
-fn end_at_once() -> ! {
-    remove_unfinished();
-    super::say(&format!("error: {INTERRUPTED}"));
-    std::process::exit(1);
 }
 
 /// Lets a write beyond the limit of file sizes (`ulimit -f`) fail with its reason, as any other that fails: by default the

@@ -1,7 +1,5 @@
 //! `apportion sweep`: one factor at a time around the nominal point.
 
-use std::path::PathBuf;
-
 use anyhow::anyhow;
 use apportion::model::{GiveUp, RunContext};
 use apportion::report::sweep::{build_sweep, sweep_document};
@@ -10,9 +8,9 @@ use apportion::space::Space;
 use apportion::study::Study;
 use apportion::sweep::{FactorValues, MAX_POINTS, SweepError, SweepRequest, find, sweep_in};
 
-use super::output::{ChartArguments, default_folder, deliver};
+use super::output::{OutputArguments, deliver};
 use super::stop::on_signal;
-use super::{Failure, StudyArguments, say};
+use super::{Failure, StudyArguments, number_in, say};
 
 #[derive(clap::Args)]
 pub struct Arguments {
@@ -22,23 +20,13 @@ pub struct Arguments {
     #[arg(long = "factor", value_name = "NAME[=VALUES]")]
     factors: Vec<String>,
     /// Points over the range of each factor
-    #[arg(long, value_name = "N", default_value_t = 101, value_parser = parse_points)]
+    #[arg(long, value_name = "N", default_value_t = 101, value_parser = |text: &str| number_in(text, 2..=MAX_POINTS))]
     points: usize,
     /// Repeat each sweep for values of another factor, one curve for each: length='300,450,600 um'
     #[arg(long, value_name = "NAME=VALUES")]
     against: Option<String>,
-    /// Folder for the results [default: results/NAME]
-    #[arg(long, value_name = "DIR")]
-    out: Option<PathBuf>,
     #[command(flatten)]
-    charts: ChartArguments,
-}
-
-fn parse_points(text: &str) -> Result<usize, String> {
-    match text.parse() {
-        Ok(points) if (2..=MAX_POINTS).contains(&points) => Ok(points),
-        _ => Err(format!("expected a whole number from 2 to {MAX_POINTS}")),
-    }
+    output: OutputArguments,
 }
 
 impl From<SweepError> for Failure {
@@ -103,9 +91,8 @@ pub fn sweep(arguments: &Arguments) -> Result<(), Failure> {
     let study = arguments.study.load()?;
     let request = arguments.request(&study)?;
     request.check(study.space())?;
-    let folder = arguments.out.clone().unwrap_or_else(|| default_folder(study.name()));
     let model = study.model();
-    let artefacts = arguments.charts.artefacts(folder);
+    let artefacts = arguments.output.artefacts(study.name());
     artefacts.prepare()?;
     let context = RunContext::new(Some(on_signal()), say);
     let sweeps = sweep_in(study.space(), model.as_ref(), &request, &context)?;

@@ -1,14 +1,12 @@
 //! `apportion trade`: accuracy against time, and what becomes of a study at its extremes.
 
-use std::path::PathBuf;
-
 use anyhow::anyhow;
 use apportion::Study;
 use apportion::report::Artefacts;
 use apportion::run::{RunError, threads_in_force};
 use apportion::trade::settings::{SettingsJob, build_settings, compare_settings, settings_document};
 
-use super::output::{ChartArguments, default_folder, deliver};
+use super::output::{OutputArguments, deliver};
 use super::stop::on_signal;
 use super::trade_extremes::{ExtremesArguments, trade_extremes};
 use super::{Failure, StudyArguments, Threads, say};
@@ -35,11 +33,8 @@ pub struct Arguments {
     /// Seeds of every setting; the largest of their errors counts
     #[arg(long, value_name = "N", default_value_t = 3, conflicts_with = "extremes", value_parser = clap::value_parser!(u64).range(1..=1000))]
     seeds: u64,
-    /// Folder for the results [default: results/NAME]
-    #[arg(long, value_name = "DIR")]
-    pub out: Option<PathBuf>,
     #[command(flatten)]
-    pub charts: ChartArguments,
+    pub output: OutputArguments,
     #[command(flatten)]
     pub threads: Threads,
 }
@@ -57,8 +52,7 @@ pub fn trade(arguments: &Arguments) -> Result<(), Failure> {
              serves independent ones: expected a study without [[dependence]]"
         )));
     }
-    let folder = arguments.out.clone().unwrap_or_else(|| default_folder(study.name()));
-    let artefacts = arguments.charts.artefacts(folder);
+    let artefacts = arguments.output.artefacts(study.name());
     if arguments.extremes {
         trade_extremes(&study, &arguments.of_extremes, &artefacts, arguments.threads.number())
     } else {

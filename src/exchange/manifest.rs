@@ -125,15 +125,8 @@ pub enum ManifestError {
         expected: String,
     },
     /// The study makes another design than the manifest says.
-    #[error("{what}: the manifest says {stated}, but its study means {meant}")]
-    OtherDesign {
-        /// Which part of the design.
-        what: String,
-        /// In the manifest.
-        stated: String,
-        /// By the study.
-        meant: String,
-    },
+    #[error("the design of the manifest is not that of its study: it was changed since `sample` wrote it")]
+    OtherDesign,
     /// The study makes other points than those of the file.
     #[error(
         "the points of this manifest are not those that version {here} makes of its study (it was written by version \
@@ -246,9 +239,8 @@ impl Manifest {
         if study.sha256 != *sha256 {
             return Err(ManifestError::ChangedStudy { found: study.sha256, expected: sha256.clone() });
         }
-        let (stated, meant) = (&self.design, Self::new(&study, Path::new(file), self.design.sha256.clone()).design);
-        if let Some((what, stated, meant)) = first_difference(stated, &meant)? {
-            return Err(ManifestError::OtherDesign { what, stated, meant });
+        if self.design != Self::new(&study, Path::new(file), self.design.sha256.clone()).design {
+            return Err(ManifestError::OtherDesign);
         }
         study.target = Target::default();
         Ok(study)
@@ -265,18 +257,6 @@ impl Manifest {
         let (here, written) = (env!("CARGO_PKG_VERSION").to_owned(), self.apportion_version.clone());
         Err(ManifestError::OtherPoints { here, written })
     }
-}
-
-/// The first field in which two designs differ, and its values in JSON.
-fn first_difference(
-    stated: &ManifestDesign,
-    meant: &ManifestDesign,
-) -> serde_json::Result<Option<(String, String, String)>> {
-    let [stated, meant] = [serde_json::to_value(stated)?, serde_json::to_value(meant)?];
-    let fields = meant.as_object().into_iter().flatten();
-    let mut fields = fields.map(|(field, meant)| (field, &stated[field], meant));
-    let found = fields.find(|(_, stated, meant)| stated != meant);
-    Ok(found.map(|(field, stated, meant)| (field.clone(), stated.to_string(), meant.to_string())))
 }
 
 fn matrix(matrix: Matrix) -> String {

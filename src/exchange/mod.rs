@@ -19,15 +19,15 @@ pub use answers::{AnswersError, AnswersRequest, MissingOutputs, read_answers};
 pub use evaluate::{EvaluateError, Evaluated, evaluate};
 pub use manifest::{Manifest, ManifestError};
 pub use rows::{Format, ReadOptions, RowReader, RowsError, open_table};
-pub use sample::{random_points, sample};
-pub use save::{SaveError, save_outputs};
+pub use sample::{random_design, sample, write_rows};
+pub use save::save_outputs;
 pub use table::{Missing, Selection, Table, TableError, read_table};
-pub use text_column::{LeftOut, TextColumn, TextKind};
+pub use text_column::{TextColumn, TextKind};
 
 // What the program and the tests use beside it.
 #[doc(hidden)]
 pub use {
-    answers::Answers,
+    answers::{Answers, first_output, output_columns},
     design_rows::{DesignRows, RowBlock, factor_column},
     evaluate::evaluate_in,
     manifest::{ManifestDesign, ManifestFactor, ManifestRun, ManifestStudy},

@@ -5,7 +5,7 @@ use thiserror::Error;
 use super::design_rows::factor_column;
 use super::rows::{ColumnKind, RowReader, RowsError};
 use crate::space::{Factor, Space};
-use crate::study::nearest;
+use crate::study::{did_you_mean, nearest};
 
 /// What is wrong with a file of points.
 #[derive(Debug, Error)]
@@ -22,7 +22,7 @@ pub enum PointsError {
         known: String,
     },
     /// A column that is no factor.
-    #[error("column {column}: `{name}` is no factor of the study{}; its factors are {known}", hint(.nearest))]
+    #[error("column {column}: `{name}` is no factor of the study{}; its factors are {known}", did_you_mean(.nearest))]
     UnknownColumn {
         /// Number of the column, from 1.
         column: usize,
@@ -47,10 +47,6 @@ pub enum PointsError {
         /// What stands there, in words.
         found: String,
     },
-}
-
-fn hint(nearest: &Option<String>) -> String {
-    nearest.as_ref().map_or_else(String::new, |name| format!(": did you mean `{name}`?"))
 }
 
 /// Reads points block by block.

@@ -15,21 +15,16 @@ use crate::study::Study;
 /// # Errors
 /// Whatever the file's system says.
 pub fn sample(study: &Study, study_file: &Path, format: Format, out: &mut dyn Write) -> std::io::Result<Manifest> {
-    let digest = write(study, &study.design, study.design.rows(), format, out)?;
+    let digest = write_rows(study, &study.design, study.design.rows(), format, out)?;
     Ok(Manifest::new(study, study_file, digest))
 }
 
-/// Writes `rows` random points of the factors of `study` to `out`, independent of each other, a column for each factor in its
-/// unit: a table for [`crate::given`], not a design of the study. They follow from the seed of the study.
+/// The design whose first `rows` rows are random points of the factors of `study`, independent of each other. They follow from
+/// the seed of the study.
 ///
 /// # Errors
-/// [`DesignError`] if that is no row, or more than 2^33, and whatever the file's system says.
-pub fn random_points(
-    study: &Study,
-    rows: u64,
-    format: Format,
-    out: &mut dyn Write,
-) -> Result<std::io::Result<()>, DesignError> {
+/// [`DesignError`] if that is no row, or more than 2^33.
+pub fn random_design(study: &Study, rows: u64) -> Result<Design, DesignError> {
     // The rows A and B of a design without any other.
     let settings = DesignSettings {
         sampler: Sampler::Random,
@@ -38,12 +33,21 @@ pub fn random_points(
         seed: study.design.settings().seed,
     };
     let of_design = Rows { copula: study.design.asked().copula.clone(), ..Rows::default() };
-    let design = Design::new(settings, study.design.factors(), of_design)?;
-    Ok(write(study, &design, rows, format, out).map(|_| ()))
+    Design::new(settings, study.design.factors(), of_design)
 }
 
-/// Writes the first `most` rows of `design`, and returns their digest.
-fn write(study: &Study, design: &Design, most: u64, format: Format, out: &mut dyn Write) -> std::io::Result<String> {
+/// Writes the first `most` rows of `design`, a column for each factor of `study` in its unit, and returns the SHA-256 of their
+/// numbers. Those of a [`random_design`] are a table for [`crate::given`], not a design of the study.
+///
+/// # Errors
+/// Whatever the file's system says.
+pub fn write_rows(
+    study: &Study,
+    design: &Design,
+    most: u64,
+    format: Format,
+    out: &mut dyn Write,
+) -> std::io::Result<String> {
     let space = &study.space;
     let kinds = space.factors().iter().map(factor_column).collect();
     let mut writer = row_writer(format, out, kinds, most)?;

@@ -4,10 +4,9 @@ use thiserror::Error;
 
 use super::points::in_words;
 use super::rows::{ColumnKind, RowReader, RowsError};
-use super::text_column::{LeftOut, TextColumn, TextKind};
+use super::text_column::{TextColumn, TextKind};
 use crate::given::Column;
-use crate::study::nearest;
-use crate::text::listed;
+use crate::study::{did_you_mean, nearest};
 
 /// What is wrong with a table.
 #[derive(Debug, Error)]
@@ -22,7 +21,7 @@ pub enum TableError {
         width: usize,
     },
     /// An input or output that is no column.
-    #[error("no column is called `{name}`{}; the columns are {known}", hint(.nearest))]
+    #[error("no column is called `{name}`{}; the columns are {known}", did_you_mean(.nearest))]
     UnknownColumn {
         /// The name asked for.
         name: String,
@@ -71,15 +70,10 @@ pub enum TableError {
     },
 }
 
-fn hint(nearest: &Option<String>) -> String {
-    nearest.as_ref().map_or_else(String::new, |name| format!(": did you mean `{name}`?"))
-}
-
 /// Why columns of text are no inputs, and what would make them so.
 fn why(skipped: &[TextColumn]) -> String {
-    let kinds = LeftOut::of(skipped);
-    let reasons: Vec<String> = kinds.iter().map(|kind| format!("{}: {}", kind.reason(), kind.remedy())).collect();
-    if reasons.is_empty() { String::new() } else { format!(": {}", listed(&reasons)) }
+    let reason = |column: &TextColumn| format!("; {}: {}", column.reason(), column.kind().remedy());
+    skipped.iter().map(reason).collect()
 }
 
 fn advice(found: &str, chosen: bool) -> String {

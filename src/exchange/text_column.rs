@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crate::text::listed;
+use crate::model::shorten::cut;
 
 /// A column that is no input because its cells are no numbers.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -24,22 +24,20 @@ pub enum TextKind {
     Text,
 }
 
-/// A warning of columns that were left out, of one kind each: that they were, why, and what to do.
-pub struct LeftOut<'a> {
-    kind: TextKind,
-    columns: Vec<&'a TextColumn>,
-}
-
 impl TextColumn {
     /// What kind of text it holds, as far as its example tells.
     pub fn kind(&self) -> TextKind {
         self.example.as_deref().map_or(TextKind::Text, TextKind::of)
     }
+
+    /// What it holds: ``the column `a` holds text (red)``.
+    pub(super) fn reason(&self) -> String {
+        let example = self.example.as_ref().map_or_else(String::new, |cell| format!(" ({})", cut(cell, LONGEST)));
+        format!("the column `{}` holds {}{example}", self.name, self.kind().what())
+    }
 }
 
 impl TextKind {
-    const ALL: [Self; 3] = [Self::DecimalComma, Self::Unit, Self::Text];
-
     /// That of a cell which is no number.
     pub fn of(cell: &str) -> Self {
         let is_number = |text: &str| text.parse::<f64>().is_ok_and(f64::is_finite);
@@ -81,43 +79,14 @@ fn is_unit(text: &str) -> bool {
     begins && text.chars().count() <= 12 && !text.contains([' ', ':', '_'])
 }
 
-impl<'a> LeftOut<'a> {
-    /// The columns, told apart by their kind.
-    pub fn of(columns: &'a [TextColumn]) -> Vec<Self> {
-        let of_kind = |kind| Self { kind, columns: columns.iter().filter(|column| column.kind() == kind).collect() };
-        TextKind::ALL.into_iter().map(of_kind).filter(|left_out| !left_out.columns.is_empty()).collect()
-    }
-
-    /// What would make numbers of them.
-    pub fn remedy(&self) -> &'static str {
-        self.kind.remedy()
-    }
-
-    /// The columns and what they hold: ``the column `a` holds text (red)``.
-    pub fn reason(&self) -> String {
-        let names: Vec<String> = self.columns.iter().map(|column| format!("`{}`", column.name)).collect();
-        let (columns, hold) = if names.len() == 1 { ("column", "holds") } else { ("columns", "hold") };
-        let example = self.columns.iter().find_map(|column| column.example.as_ref());
-        let example = example.map_or_else(String::new, |cell| {
-            let short: String = cell.chars().take(LONGEST).collect();
-            format!(" ({short}{})", if short.len() < cell.len() { "..." } else { "" })
-        });
-        format!("the {columns} {} {hold} {}{example}", listed(&names), self.kind.what())
-    }
-}
-
 /// Most characters of a cell in a sentence.
 const LONGEST: usize = 24;
 
-impl fmt::Display for LeftOut<'_> {
+/// The warning that it was left out.
+impl fmt::Display for TextColumn {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let were = if self.columns.len() == 1 { "was" } else { "were" };
-        write!(
-            f,
-            "{}, and {were} left out: the indices are those of the other inputs alone; {}",
-            self.reason(),
-            self.remedy()
-        )
+        let (reason, remedy) = (self.reason(), self.kind().remedy());
+        write!(f, "{reason}, and was left out: the indices are those of the other inputs alone; {remedy}")
     }
 }
 

@@ -2,7 +2,6 @@
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
 use tempfile::NamedTempFile;
@@ -43,7 +42,7 @@ pub fn stream_atomically(
         if existing.as_ref().is_some_and(|metadata| !metadata.is_file() && !metadata.is_dir()) {
             return write(&mut std::fs::OpenOptions::new().write(true).open(&target)?);
         }
-        let (mut file, _registered) = Unfinished::create(folder_of(&target))?;
+        let mut file = temporary_in(folder_of(&target))?;
         write(file.as_file_mut())?;
         if let Some(metadata) = existing {
             file.as_file().set_permissions(metadata.permissions())?;
@@ -119,42 +118,6 @@ fn remove_left_overs(folder: &Path) {
             && std::fs::File::open(entry.path()).is_ok_and(|file| file.try_lock().is_ok())
         {
             let _ = std::fs::remove_file(entry.path());
-        }
-    }
-}
-
-/// The temporary files of this process that are being written.
-static UNFINISHED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
-
-/// Removes the files that are being written and are not whole yet: for a process that is about to end at once. Threads that
-/// would begin another wait for the end.
-pub fn remove_unfinished() {
-    let Ok(files) = UNFINISHED.lock() else { return };
-    for file in &*files {
-        // It may have become a result in the meantime.
-        let _ = std::fs::remove_file(file);
-    }
-    std::mem::forget(files);
-}
-
-/// A file registered as being written, as long as this lives.
-struct Unfinished(PathBuf);
-
-impl Unfinished {
-    /// A new file in `folder` and its registration: both or none for [`remove_unfinished`].
-    fn create(folder: &Path) -> std::io::Result<(NamedTempFile, Self)> {
-        let mut files = UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner);
-        let file = temporary_in(folder)?;
-        files.push(file.path().to_owned());
-        let registered = Self(file.path().to_owned());
-        Ok((file, registered))
-    }
-}
-
-impl Drop for Unfinished {
-    fn drop(&mut self) {
-        if let Ok(mut files) = UNFINISHED.lock() {
-            files.retain(|file| *file != self.0);
         }
     }
 }

@@ -67,7 +67,7 @@ pub use artefacts::Written;
 pub use {
     crate::names::{file_part, refused_name},
     crate::text::{capitalised, listed},
-    atomic_write::{prepare_file, prepare_folder, remove_unfinished, stream_atomically},
+    atomic_write::{prepare_file, prepare_folder, stream_atomically},
     build::RunFacts,
     build_output::inputs_in_words,
     factor_bars::SharesSeries,

@@ -11,24 +11,11 @@ use crate::clock::Instant;
 use crate::model::{Model, RunContext, Worker};
 
 /// What `evaluate` makes of every number below `count` with a worker of `model`, in order, on so many threads (0: one per
-/// core).
-///
-/// # Errors
-/// None but those of the workers' run.
-pub fn run_each<T: Send>(
-    model: &dyn Model,
-    threads: usize,
-    count: u64,
-    evaluate: impl Fn(&mut dyn Worker, u64) -> T + Sync,
-) -> Result<Vec<T>, RunError> {
-    run_each_in(model, threads, &RunContext::default(), count, evaluate, &|_| ())
-}
-
-/// The same in the run of a context, which may be ended; `on_progress` is told of it.
+/// core), in the run of `context`.
 ///
 /// # Errors
 /// [`RunError::Interrupted`] if the run is asked to end.
-pub fn run_each_in<T: Send>(
+pub fn run_each<T: Send>(
     model: &dyn Model,
     threads: usize,
     context: &RunContext<'_>,

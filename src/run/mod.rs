@@ -29,7 +29,7 @@ mod tracker;
 
 use std::time::Duration;
 
-pub use each::{run_each, run_each_in};
+pub use each::run_each;
 pub use error::RunError;
 pub(crate) use executor::Executor;
 pub use failures::{Failures, MOST_REASONS, Place, Tally};
@@ -49,6 +49,7 @@ pub use totals::{OutputTotals, SAMPLE, Totals};
 
 use crate::design::Design;
 use crate::model::{Model, RunContext};
+use crate::names::named;
 use crate::space::Space;
 
 /// Base points in a block: their columns stay in the cache, and a block takes long enough to be worth a task.
@@ -128,25 +129,13 @@ pub fn threads_in_force(threads: usize) -> usize {
     if threads == 0 { std::thread::available_parallelism().map_or(1, usize::from) } else { threads }
 }
 
-/// What happens when a row fails.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum FailurePolicy {
-    /// The indices that need the row do without its base point.
-    DropBlock,
-    /// The run is given up.
-    Fail,
-}
-
-impl FailurePolicy {
-    /// Both, the default first.
-    pub const ALL: [Self; 2] = [Self::DropBlock, Self::Fail];
-
-    /// The name in study files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::DropBlock => "drop-block",
-            Self::Fail => "fail",
-        }
+named! {
+    /// What happens when a row fails; the default first.
+    pub enum FailurePolicy {
+        /// The indices that need the row do without its base point.
+        DropBlock = "drop-block",
+        /// The run is given up.
+        Fail = "fail",
     }
 }
 

@@ -14,8 +14,7 @@ use crate::model::Messages;
 use crate::run::journal::{Contents, Journal, JournalError, differences, read_journal_file, with_ending};
 use crate::run::{OutputSink, Piece, Progress, RunError, Shard, Store};
 use crate::study::Study;
-pub(super) use recall::recorded;
-use recall::rows_on_record;
+pub(super) use recall::{recorded, rows_on_record};
 
 /// Runs that are expected to take longer than this are worth a journal.
 const LONG_RUN: Duration = Duration::from_secs(10);

@@ -49,14 +49,14 @@ pub(super) fn merged(
         }
     }
     record.sync()?;
-    let missing = missing(study, store);
-    if missing.is_empty() {
+    let (total, present) = (study.design.rows(), journal::rows_on_record(study, store));
+    if present == total {
         return Ok(record);
     }
     Err(RunError::Incomplete {
-        missing: missing.iter().map(|(_, rows)| rows.end - rows.start).sum(),
-        total: study.design.rows(),
-        places: shards.in_words().unwrap_or_else(|| in_words(study, &missing)),
+        missing: total - present,
+        total,
+        places: shards.in_words().unwrap_or_else(|| "the journals are not the parts of one division".to_owned()),
     })
 }
 
@@ -78,33 +78,6 @@ fn files_of_all(study: &Study, journals: &[PathBuf]) -> Result<Value, RunError> 
         }
     }
     Ok(first.map_or(Value::Null, |(_, files)| files))
-}
-
-/// Rows of the design that the store lacks.
-fn missing(study: &Study, store: &Store) -> Vec<(u64, std::ops::Range<u64>)> {
-    let rows = study.design.points_per_replicate() * study.design.rows_per_point();
-    let replicates = 0..study.design.settings().replicates;
-    replicates
-        .flat_map(|replicate| store.missing(replicate, 0..rows).into_iter().map(move |r| (replicate, r)))
-        .collect()
-}
-
-fn in_words(study: &Study, missing: &[(u64, std::ops::Range<u64>)]) -> String {
-    const SHOWN: usize = 3;
-    let per_point = study.design.rows_per_point();
-    let place = |(replicate, rows): &(u64, std::ops::Range<u64>)| {
-        format!(
-            "base points {} to {} of replicate {}",
-            rows.start / per_point,
-            (rows.end - 1) / per_point,
-            replicate + 1
-        )
-    };
-    let mut places: Vec<String> = missing.iter().take(SHOWN).map(place).collect();
-    if missing.len() > SHOWN {
-        places.push("and more".to_owned());
-    }
-    places.join(", ")
 }
 
 /// The parts that were found: how many of their runs each lacks, by the number of parts and their own.

@@ -1,6 +1,5 @@
 //! Studies made in code, of models that no file can name.
 
-use std::fmt::Write;
 use std::sync::Arc;
 
 use sha2::{Digest, Sha256};
@@ -189,7 +188,7 @@ impl StudyBuilder {
     /// [`BuildError`] with what is wrong and what would be right.
     pub fn build(self) -> Result<Study, BuildError> {
         let mut study = self.checked()?;
-        study.source = in_words(&study.name, &study.design, &study.space);
+        study.source = in_words(&study);
         study.sha256 = Sha256::digest(study.source.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect();
         Ok(study)
     }
@@ -262,36 +261,10 @@ impl StudyBuilder {
     }
 }
 
-/// What stands in the result in the place of a study file.
-fn in_words(name: &str, design: &Design, space: &Space) -> String {
-    let settings = design.settings();
-    let size = match design.plain_rows() {
-        0 => format!("base_samples = {}", settings.base_samples),
-        _ => format!("runs = {}", design.rows()),
-    };
-    let mut text = format!(
-        "# A study built in code: its model is part of a program.\nname = \"{name}\"\n\n[design]\nsampler = \"{}\"\n\
-         {size}\nreplicates = {}\nseed = {}\n",
-        settings.sampler.name(),
-        settings.replicates,
-        settings.seed
-    );
-    for factor in space.factors() {
-        let law = serde_json::to_string(factor.distribution()).unwrap_or_default();
-        // Escapes of JSON are escapes of TOML.
-        let name = serde_json::to_string(&factor.name).unwrap_or_default();
-        let unit = factor.unit();
-        // Into a string, which takes everything.
-        let _ = write!(text, "\n[[factor]]\nname = {name}\n# {law} ({unit}), nominal {}\n", factor.nominal);
-    }
-    for dependence in space.dependences() {
-        let (factors, correlation) = (dependence.factors(), dependence.correlation());
-        let measure = dependence.measure_in_force().name();
-        // Debug forms of lists of texts and numbers are TOML.
-        let _ = write!(
-            text,
-            "\n[[dependence]]\nfactors = {factors:?}\ncorrelation = {correlation:?}\nmeasure = {measure:?}\n"
-        );
-    }
-    text
+/// What stands in the result in the place of a study file: comments, since no file can name the model.
+fn in_words(study: &Study) -> String {
+    let (base_samples, identity) = (study.design.settings().base_samples, study.identity());
+    let lines =
+        format!("A study built in code: its model is part of a program.\nbase_samples = {base_samples}\n{identity:#}");
+    lines.lines().map(|line| format!("# {line}\n")).collect()
 }

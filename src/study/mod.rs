@@ -67,6 +67,12 @@ pub struct Study {
     pub(crate) notes: Vec<String>,
 }
 
+/// The end of a message about a name that does not exist, where one like it does.
+#[cfg(feature = "study")]
+pub(crate) fn did_you_mean(nearest: &Option<String>) -> String {
+    nearest.as_ref().map_or_else(String::new, |name| format!(": did you mean `{name}`?"))
+}
+
 impl Study {
     /// Begins a study of a model that is part of a program: a function (see
     /// [`function_model`](crate::model::function_model) and [`FunctionModel`](crate::model::FunctionModel)), or any other

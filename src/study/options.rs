@@ -6,6 +6,7 @@ use crate::analysis::Warning;
 use crate::design::{Design, DesignSettings, MAX_PLAIN_ROWS, Rows, Sampler, Swap};
 use crate::estimate::{Estimator, MAX_SHAPLEY_FACTORS, ShapleyMethod, ShapleyPlayers, proper_subsets};
 use crate::given::Measure;
+use crate::names::named;
 use crate::run::FailurePolicy;
 use crate::space::Space;
 use crate::surrogate::FEWEST_NETS;
@@ -132,31 +133,19 @@ impl AnalysisOptions {
     }
 }
 
-/// Whether indices are corrected by surrogates: polynomials fitted to the runs, whose indices are known exactly, so that the
-/// runs need only show the rest ([`crate::surrogate`]).
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum SurrogateChoice {
-    /// No.
-    Off,
-    /// Of up to 2^16 rows times outputs, and of programs up to 2^22; of up to 2^20 of quick models where a fit to some of the rows
-    /// explains most of the variance, so that more runs in the time of the correction would gain less.
-    #[default]
-    Auto,
-    /// Of every run whose points are Sobol' nets or random, and whose outputs fit into memory.
-    On,
-}
-
-impl SurrogateChoice {
-    /// All choices.
-    pub const ALL: [Self; 3] = [Self::Off, Self::Auto, Self::On];
-
-    /// The name in study files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Off => "off",
-            Self::Auto => "auto",
-            Self::On => "on",
-        }
+named! {
+    /// Whether indices are corrected by surrogates: polynomials fitted to the runs, whose indices are known exactly, so that the
+    /// runs need only show the rest ([`crate::surrogate`]).
+    #[derive(Default)]
+    pub enum SurrogateChoice {
+        /// No.
+        Off = "off",
+        /// Of up to 2^16 rows times outputs, and of programs up to 2^22; of up to 2^20 of quick models where a fit to some of the
+        /// rows explains so much that more runs in the time of the correction would gain less.
+        #[default]
+        Auto = "auto",
+        /// Of every run whose points are Sobol' nets or random, and whose outputs fit into memory.
+        On = "on",
     }
 }
 

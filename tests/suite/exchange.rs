@@ -116,7 +116,7 @@ fn three_steps_give_the_bits_of_one_run_in_every_format() {
     succeed(&["evaluate", text(&study), text(&at("design.csv")), "-o", text(&at("y.csv"))]);
     let (points, y) = (columns(&at("design.csv")), columns(&at("y.csv")));
     for format in Format::ALL {
-        let ending = format.ending();
+        let ending = format.name();
         let (design, outputs) = (at(&format!("d.{ending}")), at(&format!("outputs.{ending}")));
         succeed(&["sample", text(&study), "--base-samples", "512", "-o", text(&design)]);
         assert_eq!(columns(&design), points, "{format:?}");
@@ -204,14 +204,14 @@ fn a_file_that_does_not_belong_to_the_design_is_refused_with_the_reason() {
     );
     let mut swapped = good.clone();
     swapped.swap(5, 17);
-    refused(&swapped, "it is row 17 of the design: rows are missing, or in another order");
+    refused(&swapped, "rows are missing, repeated or in another order");
     let mut missing = good.clone();
     missing.remove(5);
     refused(&missing, "row 5, column `a`: ");
     refused(&good[..good.len() - 2], "the file has 318 rows, and the design 320");
     let mut repeated = good.clone();
     repeated.insert(9, good[4].clone());
-    refused(&repeated, "it is row 4 of the design: rows are repeated, or in another order");
+    refused(&repeated, "rows are missing, repeated or in another order");
     let more = [&good[..], &[good[1].clone(), good[2].clone()]].concat();
     refused(&more, "the file has 322 rows, and the design 320");
     refused(
@@ -257,7 +257,7 @@ fn a_manifest_that_does_not_fit_is_refused() {
         sampled.refused("data.csv", &[], expected);
     };
     refused(&manifest.replace("max = 3,", "max = 4,"), "the study in the manifest has been changed");
-    refused(&manifest.replace("\"seed\": 3", "\"seed\": 4"), "seed: the manifest says 4, but its study means 3");
+    refused(&manifest.replace("\"seed\": 3", "\"seed\": 4"), "the design of the manifest is not that of its study");
     refused(&manifest.replace("apportion-design", "else"), "its format is \"else\"");
     refused(&manifest.replace("\"version\": 1", "\"version\": 2"), "version 2 of the manifest's format is not known");
     refused("{", "not a manifest of a design");
@@ -319,7 +319,7 @@ fn points_and_outputs_of_a_run_are_saved_in_every_format() {
     let study = study_path("ishigami");
     let mut all = Vec::new();
     for format in Format::ALL {
-        let saved = folder.path().join(format!("saved.{}", format.ending()));
+        let saved = folder.path().join(format!("saved.{}", format.name()));
         let out = folder.path().join("out");
         let journal: &[&str] = if format == Format::Csv { &["--no-journal"] } else { &[] };
         let run = ["run", text(&study), "--base-samples", "256", "--out", text(&out), "--save-outputs", text(&saved)];

@@ -301,5 +301,5 @@ fn columns_of_text_are_warned_of_with_their_remedy() {
     }
     // Nothing is left.
     Run::of("a;y\n1,5;2\n2,5;3\n", &["--outputs", "y"])
-        .refused("no column of numbers is left as an input: the column `a` holds numbers with a decimal comma (1,5)");
+        .refused("no column of numbers is left as an input; the column `a` holds numbers with a decimal comma (1,5)");
 }

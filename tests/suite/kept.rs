@@ -64,9 +64,12 @@ fn a_run_that_chose_its_design_is_not_doubled_but_made_more_accurate() {
     let before = files(Path::new(out));
     refused(
         &["run", study, "--double", "--out", out],
-        "ask for a smaller one in its place, which goes on with its runs: --accuracy 0.025",
+        "ask for one again, which goes on with its runs: --accuracy 0.025",
     );
-    refused(&["run", study, "--retry-failed", "--out", out], "ask for it again: --accuracy 0.05");
+    refused(
+        &["run", study, "--retry-failed", "--out", out],
+        "ask for one again, which goes on with its runs: --accuracy 0.05",
+    );
     assert_eq!(files(Path::new(out)), before);
     succeed(&["run", study, "--accuracy", "0.025", "--out", out, "--charts", "none"]);
     assert_eq!(files(Path::new(out)), before);

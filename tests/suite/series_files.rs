@@ -204,7 +204,7 @@ fn what_is_wrong_with_a_series_is_said_at_its_place() {
     };
     for model in ["command", "external"] {
         refused(model, "outputs.y = { length = 1 }", "2 to 10000 values");
-        refused(model, "outputs.y = { length = 1e9 }", "how many values the series has");
+        refused(model, "outputs.y = { length = 1e9 }", "expected a whole number");
         refused(model, "outputs.y = { axis = \"day\" }", "length = 365");
         refused(model, "outputs.y = { length = 3, positions = [3, 2, 1] }", "finite numbers in rising order");
         refused(model, "outputs.y = { lenght = 3 }", "did you mean `length`?");

@@ -70,7 +70,7 @@ fn tables_of_every_format_give_the_same_indices() {
         let mut writer = row_writer(format, &mut bytes, kinds.clone(), 200).unwrap();
         writer.write(&columns.iter().map(Vec::as_slice).collect::<Vec<_>>()).unwrap();
         writer.finish().unwrap();
-        folder.with(&format!("t.{}", format.ending()), bytes);
+        folder.with(&format!("t.{}", format.name()), bytes);
     }
     let plain = std::fs::read_to_string(folder.path("t.csv")).unwrap();
     folder.with("t.txt", plain.replace(',', ";"));

@@ -14,7 +14,7 @@ use apportion::study::Study;
 use apportion::{Warning, unlikely_outputs};
 
 use super::live::LiveArguments;
-use super::output::{ChartArguments, default_folder};
+use super::output::OutputArguments;
 use super::run::{deliver, with_inputs};
 use super::table::{TableArguments, say_of_table};
 use super::{Failure, Threads, say, say_notes};
@@ -48,11 +48,8 @@ pub struct Arguments {
     layout: Option<String>,
     #[command(flatten)]
     salib: salib::SalibArguments,
-    /// Folder for the results [default: results/NAME]
-    #[arg(long, value_name = "DIR")]
-    out: Option<PathBuf>,
     #[command(flatten)]
-    charts: ChartArguments,
+    output: OutputArguments,
     #[command(flatten)]
     live: LiveArguments,
     #[command(flatten)]
@@ -76,8 +73,7 @@ pub fn analyze(arguments: &Arguments) -> Result<(), Failure> {
     let read = if arguments.layout.is_some() { salib::study(arguments)? } else { of_design(arguments)? };
     let Read { study, store, unlikely } = read;
     say_notes(&study);
-    let folder = arguments.out.clone().unwrap_or_else(|| default_folder(study.name()));
-    let artefacts = arguments.charts.artefacts(folder).beside_input(&arguments.data);
+    let artefacts = arguments.output.artefacts(study.name()).beside_input(&arguments.data);
     artefacts.prepare()?;
     let runner = study.runner().threads(arguments.threads.number()).store(&store);
     let mut analysis = runner.run().map_err(|error| with_inputs(&study, error))?;

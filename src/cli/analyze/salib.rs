@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
 use apportion::Unlikely;
-use apportion::exchange::{ColumnKind, RowReader, open_table};
+use apportion::exchange::{ColumnKind, RowReader, first_output, open_table, output_columns};
 use apportion::files::read_text;
 use apportion::given::Column;
 use apportion::salib::{SalibLayout, SalibProblem, recognise, salib_study};
@@ -12,7 +12,7 @@ use apportion::study::Study;
 
 use super::super::output::stem;
 use super::super::table::say_of_table;
-use super::super::{Failure, say};
+use super::super::{Failure, number_in, say};
 
 #[derive(clap::Args)]
 pub struct SalibArguments {
@@ -37,11 +37,7 @@ pub struct SalibArguments {
 }
 
 fn resamples(text: &str) -> Result<usize, String> {
-    const MOST: usize = 1_000_000;
-    match text.parse() {
-        Ok(n) if n == 0 || (100..=MOST).contains(&n) => Ok(n),
-        _ => Err(format!("expected 0, or a whole number from 100 to {MOST}")),
-    }
+    if text == "0" { Ok(0) } else { number_in(text, 100..=1_000_000).map_err(|error| format!("{error}, or 0")) }
 }
 
 /// The columns of a file.
@@ -132,12 +128,18 @@ fn columns(
     inputs: Option<Vec<String>>,
     outputs: &[String],
 ) -> anyhow::Result<(Places, Places)> {
-    let Some(names) = reader.names() else { return unnamed(reader.width(), inputs, outputs) };
-    let place = |name: &String| {
-        let place = names.iter().position(|known| known == name);
-        place.ok_or_else(|| anyhow!("no column is called `{name}`; the columns are {}", names.join(", ")))
+    let Some(names) = reader.names() else {
+        let Some(inputs) = inputs else {
+            anyhow::bail!("the columns have no names: name the inputs (--names, --problem)")
+        };
+        let width = reader.width();
+        let is_one = outputs.is_empty() && (width == 1 || width == inputs.len() + 1);
+        let outputs = if is_one { &["y".to_owned()] } else { outputs };
+        let first = first_output(width, inputs.len(), outputs.len())?;
+        let inputs = inputs.into_iter().take(first).enumerate().collect();
+        return Ok((inputs, (first..).zip(outputs.iter().cloned()).collect()));
     };
-    let is_input = |name: &&String| inputs.iter().flatten().any(|input| input == *name);
+    let is_input = |name: &str| inputs.iter().flatten().any(|input| input == name);
     let asked: Vec<String> = match (outputs, &inputs) {
         ([], Some(_)) => names.iter().filter(|name| !is_input(name)).cloned().collect(),
         ([], None) => {
@@ -145,36 +147,12 @@ fn columns(
         }
         (asked, _) => asked.to_vec(),
     };
-    if asked.is_empty() {
-        anyhow::bail!("all columns are inputs: {}", names.join(", "));
-    }
-    if let Some(k) = (0..asked.len()).find(|&k| is_input(&&asked[k]) || asked[..k].contains(&asked[k])) {
-        anyhow::bail!("`{}` is asked for as an output, but is an input, or asked for twice", asked[k]);
-    }
-    let is_output = |name: &&String| asked.contains(*name);
-    let inputs = inputs.unwrap_or_else(|| names.iter().filter(|name| !is_output(name)).cloned().collect());
+    let outputs = output_columns(names, &asked, &is_input)?;
+    let inputs = inputs.unwrap_or_else(|| names.iter().filter(|name| !asked.contains(name)).cloned().collect());
     if inputs.is_empty() {
         anyhow::bail!("how many inputs are there? the file holds outputs only: name the inputs (--names, --problem)");
     }
-    let outputs = asked.iter().map(|name| Ok((place(name)?, name.clone()))).collect::<anyhow::Result<Places>>()?;
-    let there: Option<Places> = inputs.iter().map(|name| Some((place(name).ok()?, name.clone()))).collect();
+    let place = |name: &String| Some((names.iter().position(|known| known == name)?, name.clone()));
+    let there: Option<Places> = inputs.iter().map(place).collect();
     Ok((there.unwrap_or_default(), outputs))
-}
-
-/// The same for a file without names.
-fn unnamed(width: usize, inputs: Option<Vec<String>>, outputs: &[String]) -> anyhow::Result<(Places, Places)> {
-    let Some(inputs) = inputs else {
-        anyhow::bail!("the columns have no names: name the inputs (--names, --problem)");
-    };
-    let d = inputs.len();
-    let outputs = if outputs.is_empty() && (width == 1 || width == d + 1) { &["y".to_owned()] } else { outputs };
-    let first = match width.checked_sub(outputs.len()) {
-        Some(before) if !outputs.is_empty() && (before == 0 || before == d) => before,
-        _ => anyhow::bail!(
-            "{width} columns without names: expected the outputs, or the {d} inputs and then the outputs; name the \
-             outputs (--outputs)"
-        ),
-    };
-    let inputs = if first == 0 { Vec::new() } else { inputs };
-    Ok((inputs.into_iter().enumerate().collect(), (first..).zip(outputs.iter().cloned()).collect()))
 }

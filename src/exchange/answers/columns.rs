@@ -25,38 +25,18 @@ impl Columns {
         let factors = study.space.factors();
         let Some(names) = reader.names() else {
             let outputs = if request.outputs.is_empty() { own } else { request.outputs.to_vec() };
-            let (width, count) = (reader.width(), factors.len());
-            let first = match width.checked_sub(outputs.len()) {
-                Some(0) => 0,
-                Some(before) if before == count => count,
-                _ => return Err(AnswersError::WrongWidth { width, factors: count, outputs: outputs.len() }),
-            };
+            let first = first_output(reader.width(), factors.len(), outputs.len())?;
             let factors = (0..first).map(|place| (place, place)).collect();
             return Ok(Self { outputs: (first..).zip(outputs).collect(), factors });
         };
         let is_factor = |name: &str| factors.iter().position(|factor| factor.name == name);
-        let place = |name: &String| {
-            names.iter().position(|known| known == name).ok_or_else(|| AnswersError::UnknownOutput {
-                name: name.clone(),
-                nearest: nearest(name, names.iter().map(String::as_str)),
-                known: names.join(", "),
-            })
-        };
         let own_are_there = own.iter().all(|name| names.contains(name) && is_factor(name).is_none());
         let asked = match request.outputs {
             [] if own_are_there || study.subject.is_external() => own,
             [] => names.iter().filter(|name| is_factor(name).is_none()).cloned().collect(),
             asked => asked.to_vec(),
         };
-        if asked.is_empty() {
-            return Err(AnswersError::FactorsOnly { known: names.join(", ") });
-        }
-        for (number, name) in asked.iter().enumerate() {
-            if is_factor(name).is_some() || asked[..number].contains(name) {
-                return Err(AnswersError::NoOutput { name: name.clone(), factor: is_factor(name).is_some() });
-            }
-        }
-        let outputs = asked.into_iter().map(|name| Ok((place(&name)?, name))).collect::<Result<_, AnswersError>>()?;
+        let outputs = output_columns(names, &asked, &|name| is_factor(name).is_some())?;
         let factors = names.iter().enumerate().filter_map(|(place, name)| Some((place, is_factor(name)?))).collect();
         Ok(Self { outputs, factors })
     }
@@ -66,6 +46,43 @@ impl Columns {
         let outputs = self.outputs.iter().map(|(place, name)| (*place, ColumnKind::numbers(name)));
         let factors = self.factors.iter().map(|(place, factor)| (*place, factor_column(&space.factors()[*factor])));
         outputs.chain(factors).collect()
+    }
+}
+
+/// The columns of the outputs `asked`, none of which is an input or asked for twice.
+///
+/// # Errors
+/// [`AnswersError`] if there is none, or one is not among `names`.
+pub fn output_columns(
+    names: &[String],
+    asked: &[String],
+    is_input: &dyn Fn(&str) -> bool,
+) -> Result<Vec<(usize, String)>, AnswersError> {
+    if asked.is_empty() {
+        return Err(AnswersError::FactorsOnly { known: names.join(", ") });
+    }
+    let column = |(number, name): (usize, &String)| {
+        if is_input(name) || asked[..number].contains(name) {
+            return Err(AnswersError::NoOutput { name: name.clone(), factor: is_input(name) });
+        }
+        let place = names.iter().position(|known| known == name).ok_or_else(|| AnswersError::UnknownOutput {
+            name: name.clone(),
+            nearest: nearest(name, names.iter().map(String::as_str)),
+            known: names.join(", "),
+        });
+        Ok((place?, name.clone()))
+    };
+    asked.iter().enumerate().map(column).collect()
+}
+
+/// The first column that is an output, of a file without names of columns.
+///
+/// # Errors
+/// [`AnswersError::WrongWidth`] if it holds neither the outputs alone nor the factors before them.
+pub fn first_output(width: usize, factors: usize, outputs: usize) -> Result<usize, AnswersError> {
+    match width.checked_sub(outputs) {
+        Some(before) if outputs > 0 && (before == 0 || before == factors) => Ok(before),
+        _ => Err(AnswersError::WrongWidth { width, factors, outputs }),
     }
 }
 

@@ -3,6 +3,7 @@
 use thiserror::Error;
 
 use crate::exchange::{ManifestError, RowsError};
+use crate::study::did_you_mean;
 
 /// What is wrong with a file of outputs.
 #[derive(Debug, Error)]
@@ -14,7 +15,7 @@ pub enum AnswersError {
     #[error(transparent)]
     Rows(#[from] RowsError),
     /// An output that is no column.
-    #[error("no column is called `{name}`{}; the columns are {known}", hint(.nearest))]
+    #[error("no column is called `{name}`{}; the columns are {known}", did_you_mean(.nearest))]
     UnknownOutput {
         /// The output.
         name: String,
@@ -24,7 +25,7 @@ pub enum AnswersError {
         known: String,
     },
     /// A factor asked for as an output, or an output twice.
-    #[error("`{name}` is asked for as an output{}", if *.factor { ", but is a factor of the study" } else { " twice" })]
+    #[error("`{name}` is asked for as an output{}", if *.factor { ", but is a factor" } else { " twice" })]
     NoOutput {
         /// The column.
         name: String,
@@ -84,7 +85,10 @@ pub enum AnswersError {
         outputs: usize,
     },
     /// A row with another value than that of the design.
-    #[error("row {row}, column `{name}`: {found} stands where the design has {expected}: {}", cause(*.row, *.is))]
+    #[error(
+        "row {row}, column `{name}`: {found} stands where the design has {expected}: rows are missing, repeated or in another \
+         order, or the points have been changed, printed with less than ten digits, or belong to another design"
+    )]
     OtherRow {
         /// Row of the file, from 1.
         row: u64,
@@ -94,8 +98,6 @@ pub enum AnswersError {
         found: String,
         /// In the design.
         expected: String,
-        /// The row of the design with the values of this one, from 1.
-        is: Option<u64>,
     },
     /// More or fewer rows than the design has.
     #[error("the file has {found} rows, and the design {expected}")]
@@ -118,19 +120,4 @@ pub enum AnswersError {
         /// What stands there.
         found: f64,
     },
-}
-
-fn hint(nearest: &Option<String>) -> String {
-    nearest.as_ref().map_or_else(String::new, |name| format!(": did you mean `{name}`?"))
-}
-
-/// What may have happened to a row that is row `is` of the design.
-fn cause(row: u64, is: Option<u64>) -> String {
-    match is {
-        None => {
-            "the points have been changed, or printed with less than ten digits, or belong to another design".to_owned()
-        }
-        Some(is) if is > row => format!("it is row {is} of the design: rows are missing, or in another order"),
-        Some(is) => format!("it is row {is} of the design: rows are repeated, or in another order"),
-    }
 }

@@ -3,6 +3,7 @@
 mod columns;
 mod error;
 
+pub use columns::{first_output, output_columns};
 pub use error::AnswersError;
 
 use columns::{Columns, subject};
@@ -138,7 +139,7 @@ impl Reading<'_> {
     }
 
     /// Whether the first `count` rows found are those of the design.
-    fn compare(&mut self, points: &[Vec<f64>], found: &[Vec<f64>], count: usize) -> Result<(), AnswersError> {
+    fn compare(&self, points: &[Vec<f64>], found: &[Vec<f64>], count: usize) -> Result<(), AnswersError> {
         let differs = |row: usize| {
             let pairs = self.columns.factors.iter().zip(found);
             pairs.into_iter().find(|((_, factor), column)| !is_same(column[row], points[*factor][row]))
@@ -152,35 +153,12 @@ impl Reading<'_> {
             true => "nothing".to_owned(),
             false => factor.in_words(value, |number| number.to_string()),
         };
-        let there: Vec<f64> = found.iter().map(|column| column[row]).collect();
         Err(AnswersError::OtherRow {
             row: self.row + row as u64 + 1,
             name: factor.name.clone(),
             found: words(column[row]),
             expected: words(points[number][row]),
-            is: self.find(&there).map(|is| is + 1),
         })
-    }
-
-    /// The row of the design with these values of the factors in the file, from 0.
-    fn find(&self, there: &[f64]) -> Option<u64> {
-        let mut rows = DesignRows::new(&self.study.space, &self.study.design);
-        let mut points = vec![Vec::new(); self.study.design.factors()];
-        let mut before = 0;
-        while let Some(block) = rows.next_block(&mut points) {
-            let is_it = |row: &usize| {
-                self.columns
-                    .factors
-                    .iter()
-                    .zip(there)
-                    .all(|((_, factor), value)| is_same(*value, points[*factor][*row]))
-            };
-            if let Some(row) = (0..block.rows).find(is_it) {
-                return Some(before + row as u64);
-            }
-            before += block.rows as u64;
-        }
-        None
     }
 
     /// Rows of the file that have not been read.

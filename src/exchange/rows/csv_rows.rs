@@ -4,7 +4,10 @@ use std::collections::VecDeque;
 use std::io::{BufWriter, Read, Write};
 
 use super::lines::Lines;
-use super::{ColumnKind, ReadOptions, RowReader, RowWriter, RowsError, check_names, expanded, is_error_word, number};
+use super::{
+    ColumnKind, ReadOptions, RowReader, RowWriter, RowsError, check_names, expanded, is_error_word, names_of_columns,
+    number,
+};
 use crate::text::{csv_field, plain_field};
 
 /// Rows that are looked at to tell columns of text from those of numbers.
@@ -84,15 +87,8 @@ impl CsvRows {
             return Ok(());
         }
         let names = if options.names.is_empty() && !options.no_header { comment } else { options.names.clone() };
-        let names = expanded(&names);
         self.width = record.len();
-        if !names.is_empty() {
-            if names.len() != self.width {
-                return Err(RowsError::OtherWidth { width: self.width, names: names.len() });
-            }
-            check_names(&names)?;
-            self.names = Some(names);
-        }
+        self.names = names_of_columns(expanded(&names), self.width)?;
         self.ahead.push_back((record, line));
         Ok(())
     }

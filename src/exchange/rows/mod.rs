@@ -22,29 +22,19 @@ pub use error::RowsError;
 
 use crate::files::read_opened;
 use crate::model::items_of_header;
-use crate::names::refused_name;
+use crate::names::{named, refused_name};
 
-/// How a table is written down.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Format {
-    /// Text: a header of names, then one line per row.
-    Csv,
-    /// NumPy's array file: numbers in rows and columns, without names.
-    Npy,
+named! {
+    /// How a table is written down, known by the ending of a file's name.
+    pub enum Format {
+        /// Text: a header of names, then one line per row.
+        Csv = "csv",
+        /// NumPy's array file: numbers in rows and columns, without names.
+        Npy = "npy",
+    }
 }
 
 impl Format {
-    /// Both, each known by the ending of a file's name.
-    pub const ALL: [Self; 2] = [Self::Csv, Self::Npy];
-
-    /// The ending of file names, without the dot.
-    pub fn ending(self) -> &'static str {
-        match self {
-            Self::Csv => "csv",
-            Self::Npy => "npy",
-        }
-    }
-
     /// The format that the ending of `path` says, in capitals or not.
     ///
     /// ```
@@ -59,7 +49,7 @@ impl Format {
     /// [`RowsError::UnknownEnding`] for any other.
     pub fn of(path: &Path) -> Result<Self, RowsError> {
         let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
-        let known = |format: &Self| ending.as_deref() == Some(format.ending());
+        let known = |format: &Self| ending.as_deref() == Some(format.name());
         Self::ALL.into_iter().find(known).ok_or_else(|| RowsError::UnknownEnding { path: path.to_owned() })
     }
 }
@@ -275,6 +265,18 @@ fn expanded(names: &[String]) -> Vec<String> {
         }
     }
     all
+}
+
+/// The names of `width` columns, if there are any.
+fn names_of_columns(names: Vec<String>, width: usize) -> Result<Option<Vec<String>>, RowsError> {
+    if names.is_empty() {
+        return Ok(None);
+    }
+    if names.len() != width {
+        return Err(RowsError::OtherWidth { width, names: names.len() });
+    }
+    check_names(&names)?;
+    Ok(Some(names))
 }
 
 /// Names that are all there and all different.

@@ -5,7 +5,7 @@
 
 use std::io::{BufWriter, Read, Seek, SeekFrom, Write};
 
-use super::{ColumnKind, ReadOptions, RowReader, RowWriter, RowsError, check_names, expanded};
+use super::{ColumnKind, ReadOptions, RowReader, RowWriter, RowsError, expanded, names_of_columns};
 
 /// The first bytes of such a file.
 pub(super) const MAGIC: &[u8; 6] = b"\x93NUMPY";
@@ -113,14 +113,7 @@ impl<R: Read + Seek> NpyRows<R> {
             )));
         }
         let width = usize::try_from(width).map_err(|_| refused("it has too many columns"))?;
-        let names = expanded(&options.names);
-        if !names.is_empty() {
-            if names.len() != width {
-                return Err(RowsError::OtherWidth { width, names: names.len() });
-            }
-            check_names(&names)?;
-        }
-        let (names, missing) = (Some(names).filter(|names| !names.is_empty()), options.missing.clone());
+        let (names, missing) = (names_of_columns(expanded(&options.names), width)?, options.missing.clone());
         Ok(Self { reader, names, missing, element, fortran, rows, width, start, read: 0, bytes: Vec::new() })
     }
 

@@ -11,7 +11,6 @@ use std::process::ExitStatus;
 use std::sync::atomic::Ordering;
 use std::time::Duration;
 
-use super::line_to_change::line_to_change;
 use super::process::{Ending, Event, Process};
 use super::program::status_in_words;
 use super::protocol::{Answer, is_answer_without_number, parse_answer};
@@ -26,12 +25,11 @@ use session::{LONGEST, Lookup, Session};
 const TEXT: usize = 1 << 15;
 /// How long it may take until an interruption is seen.
 const ATTENTION: Duration = Duration::from_millis(100);
-/// A process that is silent for so long, and for so many times the longest time that it has taken before, may have skipped a
+/// A process that is silent for so long, and for so many times the longest time that an answer has taken, may have skipped a
 /// row: its input is closed, upon which it answers what it has read and ends.
-const QUIET: Duration = Duration::from_millis(500);
+const QUIET: Duration = Duration::from_secs(2);
 const TIMES: u32 = 5;
-/// The same until the first answer of a process, and until the first of all.
-const QUIET_START: Duration = Duration::from_secs(2);
+/// The same until the first answer of all.
 const FIRST_START: Duration = Duration::from_secs(60);
 
 pub(super) struct KeptAliveWorker<'a> {
@@ -52,7 +50,7 @@ enum Fault {
 
 impl<'a> KeptAliveWorker<'a> {
     pub(super) fn new(model: &'a CommandModel, context: &'a RunContext<'a>, protocol: Protocol) -> Self {
-        let writer = RowWriter::new(protocol, &model.factors).with_numbers();
+        let writer = RowWriter::new(protocol, &model.factors);
         Self { model, context, protocol, writer, session: None }
     }
 
@@ -143,9 +141,7 @@ impl<'a> KeptAliveWorker<'a> {
                         Ok(Answer::Failed(reason)) => rows.fail(row, &reason),
                         Err(words) => rows.fail(row, &format!("not an answer: {words}")),
                     }
-                    if let Some(first) = session.note_answer() {
-                        model.state.note_first_answer(first);
-                    }
+                    model.state.note_answer(session.note_answer());
                     return Ok(());
                 }
                 Lookup::Answered => {
@@ -161,12 +157,11 @@ impl<'a> KeptAliveWorker<'a> {
             },
         };
         if !model.state.has_answered() || is_answer_without_number(protocol, &model.names, line) {
-            let program = &model.settings.program;
-            let change = line_to_change(program, protocol, &model.names);
             let reason = format!(
                 "the program printed a line without the number of its row: {words}. Each row begins with its number, `id`, and each \
-                 answer with that of its row: {change}. All other output belongs on standard error \
-                 (docs/worker-protocol.md)"
+                 answer with that of its row: in Python {}. All other output belongs on standard error \
+                 (docs/worker-protocol.md)",
+                protocol.line_in_python()
             );
             return Err(Fault::GiveUp(GiveUp { reason: RowFailure::new(&reason), is_bad_input: true }));
         }
@@ -186,12 +181,9 @@ impl<'a> KeptAliveWorker<'a> {
         // Others that it has started may hold its output open.
         session.process.clear_away();
         let silent_for = session.silent_for();
-        let quiet = if session.has_answered {
-            QUIET.max(TIMES * session.slowest)
-        } else if state.has_answered() {
-            QUIET_START.max(TIMES * Duration::from_micros(state.first_answer.load(Ordering::Relaxed)))
-        } else {
-            FIRST_START
+        let quiet = match state.has_answered() {
+            true => QUIET.max(TIMES * Duration::from_micros(state.slowest.load(Ordering::Relaxed))),
+            false => FIRST_START,
         };
         if !state.has_answered() && silent_for > self.model.silence {
             State::send_once(

@@ -6,7 +6,6 @@
 
 mod json_answer;
 mod kept_alive;
-mod line_to_change;
 mod per_run;
 mod pick;
 mod process;
@@ -23,7 +22,7 @@ use std::time::Duration;
 pub use per_run::PerRun;
 pub use pick::{Match, Pick, PickError, Source, Way};
 pub use program::Program;
-pub use program_files::{imported_neighbours, program_files};
+pub use program_files::program_files;
 pub use protocol::{Answer, Protocol, parse_answer};
 pub use template::{InputTemplate, TemplateError, TemplateProblem};
 
@@ -124,8 +123,8 @@ struct State {
     has_answered: AtomicBool,
     /// Rows that failed before it ever did.
     failed_first: AtomicU32,
-    /// The longest that a process took to its first answer, in microseconds.
-    first_answer: AtomicU64,
+    /// The longest that an answer took, the start of its process included, in microseconds.
+    slowest: AtomicU64,
     /// Whether its silence, and lines that are no answers, have been spoken of.
     hinted: AtomicBool,
     strayed: AtomicBool,
@@ -142,14 +141,10 @@ impl State {
         self.has_answered.load(Ordering::Relaxed)
     }
 
-    fn note_answer(&self) {
+    /// The program has answered, after so long.
+    fn note_answer(&self, took: Duration) {
         self.has_answered.store(true, Ordering::Relaxed);
-    }
-
-    /// A process has given its first answer, after so long.
-    fn note_first_answer(&self, took: Duration) {
-        self.note_answer();
-        self.first_answer.fetch_max(took.as_micros() as u64, Ordering::Relaxed);
+        self.slowest.fetch_max(took.as_micros() as u64, Ordering::Relaxed);
     }
 
     /// Counts a row that failed without an answer. It is an error that ends the run if the first rows all do.

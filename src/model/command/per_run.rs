@@ -12,10 +12,10 @@ use tempfile::TempDir;
 
 use super::pick::{MOST_BYTES, PickError, Source, Texts};
 use super::program::{Running, status_in_words};
-use super::row::{RowWriter, ValueWriter};
+use super::row::ValueWriter;
 use super::standard_error::listen;
 use super::template::InputTemplate;
-use super::{CommandModel, Protocol, not_a_value};
+use super::{CommandModel, not_a_value};
 use crate::model::shorten::{masked, seconds};
 use crate::model::{Batch, RowFailure, RunContext, Worker};
 
@@ -47,7 +47,6 @@ pub(super) struct PerRunWorker<'a> {
     context: &'a RunContext<'a>,
     form: &'a PerRun,
     values: ValueWriter,
-    rows: RowWriter,
 }
 
 /// Why a run has no outputs.
@@ -60,17 +59,16 @@ enum Fault {
 
 impl<'a> PerRunWorker<'a> {
     pub(super) fn new(model: &'a CommandModel, context: &'a RunContext<'a>, form: &'a PerRun) -> Self {
-        let (values, rows) = (ValueWriter::new(&model.factors), RowWriter::new(Protocol::Csv, &model.factors));
-        Self { model, context, form, values, rows }
+        Self { model, context, form, values: ValueWriter::new(&model.factors) }
     }
 
     /// Runs the program on one row, again if it fails, and sets what it gives.
     fn row(&self, inputs: &[&[f64]], row: usize, batch: &mut Batch) -> Result<(), RowFailure> {
         let mut tries = 0;
         let reason = loop {
-            let directory = self.directory(inputs, row).map_err(|error| self.unwritable(&error))?;
-            match self.run_in(directory.path(), inputs, row) {
-                Ok(()) => return self.pick(directory.path(), row, batch),
+            let (directory, _temporary) = self.directory(inputs, row).map_err(|error| self.unwritable(&error))?;
+            match self.run_in(&directory, inputs, row) {
+                Ok(()) => return self.pick(&directory, row, batch),
                 Err(Fault::Fatal(reason)) => return Err(reason),
                 Err(Fault::Run(reason)) if tries == self.model.settings.retries => break reason,
                 Err(Fault::Run(_)) => tries += 1,
@@ -85,12 +83,13 @@ impl<'a> PerRunWorker<'a> {
         RowFailure::new(&format!("cannot prepare the directory of a run in {}: {error}", place.display()))
     }
 
-    fn directory(&self, inputs: &[&[f64]], row: usize) -> io::Result<Directory> {
+    /// A directory for a run, which is removed with what comes beside it unless it is kept.
+    fn directory(&self, inputs: &[&[f64]], row: usize) -> io::Result<(PathBuf, Option<TempDir>)> {
         let Some(keep) = &self.form.keep else {
-            return Ok(Directory::Temporary(tempfile::Builder::new().prefix("apportion-run-").tempdir()?));
+            let temporary = tempfile::Builder::new().prefix("apportion-run-").tempdir()?;
+            return Ok((temporary.path().to_owned(), Some(temporary)));
         };
-        let mut text = self.rows.header();
-        self.rows.write(inputs, row, 0, &mut text);
+        let text = self.values.table(inputs, row);
         // The same point has the same directory, whatever the order of runs.
         let digest = Sha256::digest(text.as_bytes());
         let name: String = digest.iter().take(8).map(|byte| format!("{byte:02x}")).collect();
@@ -100,7 +99,7 @@ impl<'a> PerRunWorker<'a> {
             _ => std::fs::create_dir_all(&path)?,
         }
         std::fs::write(path.join("factors.csv"), text)?;
-        Ok(Directory::Kept(path))
+        Ok((path, None))
     }
 
     fn prepare(&self, directory: &Path, inputs: &[&[f64]], row: usize) -> io::Result<(File, File)> {
@@ -193,7 +192,7 @@ impl<'a> PerRunWorker<'a> {
             }
         }
         if found {
-            self.model.state.note_answer();
+            self.model.state.note_answer(Duration::ZERO);
         }
         missing.map_or(Ok(()), |reason| self.model.state.note_failure(&reason))
     }
@@ -216,20 +215,4 @@ impl Worker for PerRunWorker<'_> {
 /// Whether a run has not written a file that was copied for it.
 fn is_from_before(path: &Path) -> bool {
     std::fs::metadata(path).and_then(|data| data.modified()).is_ok_and(|time| time == BEFORE)
-}
-
-/// The directory of one run.
-enum Directory {
-    /// Removed after the run.
-    Temporary(TempDir),
-    Kept(PathBuf),
-}
-
-impl Directory {
-    fn path(&self) -> &Path {
-        match self {
-            Self::Temporary(folder) => folder.path(),
-            Self::Kept(path) => path,
-        }
-    }
 }

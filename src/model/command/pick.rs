@@ -111,17 +111,9 @@ pub enum PickError {
     /// The regular expression matches nothing.
     #[error("nothing in {0} matches the regex")]
     NoMatch(String),
-    /// The regular expression matches less often than a series has values.
-    #[error("the regex has no match {number} in {of}")]
-    FewMatches {
-        /// What was read.
-        of: String,
-        /// The match that is missing, from 1.
-        number: usize,
-    },
-    /// The table has no such column, or no row with a cell in it.
+    /// There is less in it: no such column, no row with a cell in that, fewer matches than a series has values.
     #[error("{of} has no {missing}")]
-    NoCell {
+    Missing {
         /// What was read.
         of: String,
         /// What is missing.
@@ -130,14 +122,6 @@ pub enum PickError {
     /// The text is not JSON.
     #[error("{0} is not JSON")]
     NotJson(String),
-    /// The pointer leads nowhere.
-    #[error("{of} has nothing at `{pointer}`")]
-    Nothing {
-        /// What was read.
-        of: String,
-        /// The pointer.
-        pointer: String,
-    },
     /// What was found is no number.
     #[error("what was found in {of} is not a number: `{found}`")]
     NotANumber {
@@ -233,12 +217,13 @@ impl Way {
     /// # Errors
     /// [`PickError`] if there is none.
     pub fn number(&self, text: &str, of: String) -> Result<f64, PickError> {
+        let missing = |missing: String| PickError::Missing { of: of.clone(), missing };
         let found = match self {
             Self::Regex(regex, which) => {
                 let groups = which.of(regex.captures_iter(text));
                 let found = groups.and_then(|groups| groups.get(1).or_else(|| groups.get(0)));
                 let none = || match which {
-                    Match::Number(number) => PickError::FewMatches { of: of.clone(), number: number + 1 },
+                    Match::Number(_) => missing(which.in_words("match of the regex")),
                     Match::First | Match::Last => PickError::NoMatch(of.clone()),
                 };
                 found.ok_or_else(none)?.as_str().to_owned()
@@ -246,8 +231,7 @@ impl Way {
             Self::Column(column, which) => cell(text, column, *which, &of)?,
             Self::Pointer(pointer) => {
                 let value: Value = serde_json::from_str(text).map_err(|_| PickError::NotJson(of.clone()))?;
-                let nothing = || PickError::Nothing { of: of.clone(), pointer: pointer.clone() };
-                match value.pointer(pointer).ok_or_else(nothing)? {
+                match value.pointer(pointer).ok_or_else(|| missing(format!("value at `{pointer}`")))? {
                     Value::Null => return Ok(f64::NAN),
                     Value::String(text) => text.clone(),
                     other => other.to_string(),
@@ -266,7 +250,7 @@ fn number(text: &str) -> Option<f64> {
 
 /// The cell of a column in one row of a CSV table.
 fn cell(text: &str, column: &str, which: Match, of: &str) -> Result<String, PickError> {
-    let missing = |missing: String| PickError::NoCell { of: of.to_owned(), missing };
+    let missing = |missing: String| PickError::Missing { of: of.to_owned(), missing };
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).flexible(true).from_reader(text.as_bytes());
     let place = reader.headers().ok().and_then(|names| names.iter().position(|name| name == column));
@@ -324,7 +308,7 @@ mod tests {
         assert_eq!(found(pointer("/a~1b/1/y"), text), Ok(2.5e-3));
         assert_eq!(found(pointer("/a~1b/1/s"), text), Ok(7.0));
         assert!(found(pointer("/a~1b/1/n"), text).unwrap().is_nan());
-        assert_eq!(found(pointer("/a/b"), text).unwrap_err(), "it has nothing at `/a/b`");
+        assert_eq!(found(pointer("/a/b"), text).unwrap_err(), "it has no value at `/a/b`");
         assert_eq!(found(pointer("/a~1b/1/l"), text).unwrap_err(), "what was found in it is not a number: `[#]`");
         assert_eq!(found(pointer("/a"), "{").unwrap_err(), "it is not JSON");
     }
@@ -339,10 +323,10 @@ mod tests {
         assert_eq!(value(&column, 1, "t,y\n0,1\n1\n").unwrap_err(), "it has no cell of column `y` in its row 2");
         let regex = pick(regex(r"y = (\S+)", Match::Last));
         assert_eq!(value(&regex, 1, "y = 1\ny = 2\ny = 3\n"), Ok(2.0));
-        assert_eq!(value(&regex, 3, "y = 1\ny = 2\ny = 3\n").unwrap_err(), "the regex has no match 4 in it");
+        assert_eq!(value(&regex, 3, "y = 1\ny = 2\ny = 3\n").unwrap_err(), "it has no match of the regex 4");
         let pointer = pick(Way::Pointer("/y".to_owned()));
         assert_eq!(value(&pointer, 1, "{\"y\": [1, 2]}"), Ok(2.0));
-        assert_eq!(value(&pointer, 2, "{\"y\": [1, 2]}").unwrap_err(), "it has nothing at `/y/2`");
+        assert_eq!(value(&pointer, 2, "{\"y\": [1, 2]}").unwrap_err(), "it has no value at `/y/2`");
     }
 
     #[test]

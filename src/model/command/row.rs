@@ -10,8 +10,6 @@ use crate::space::{Distribution, Factor};
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct RowWriter {
     protocol: Protocol,
-    /// Whether each row begins with its number.
-    numbered: bool,
     columns: Vec<Column>,
 }
 
@@ -40,13 +38,7 @@ impl RowWriter {
             Protocol::JsonLines => in_json(text),
         };
         let columns = factors.iter().map(|factor| Column::new(factor, &quoted)).collect();
-        Self { protocol, numbered: false, columns }
-    }
-
-    /// The same with the number of each row in front.
-    #[must_use]
-    pub(super) fn with_numbers(self) -> Self {
-        Self { numbered: true, ..self }
+        Self { protocol, columns }
     }
 
     /// What is written before the first row.
@@ -54,28 +46,24 @@ impl RowWriter {
         match self.protocol {
             Protocol::Csv => {
                 let names = self.columns.iter().map(|column| column.name.as_str());
-                let names: Vec<&str> = self.numbered.then_some(ROW_NUMBER).into_iter().chain(names).collect();
+                let names: Vec<&str> = std::iter::once(ROW_NUMBER).chain(names).collect();
                 names.join(",") + "\n"
             }
             Protocol::JsonLines => String::new(),
         }
     }
 
-    /// One row of SI values as a line; `number` is written if rows have numbers.
+    /// One row of SI values as a line that begins with its number.
     pub(super) fn write(&self, inputs: &[&[f64]], row: usize, number: u64, out: &mut String) {
         let (open, close) = if self.protocol == Protocol::JsonLines { ("{", "}\n") } else { ("", "\n") };
         out.push_str(open);
-        if self.numbered {
-            // Into a string, which takes everything.
-            let _ = match self.protocol {
-                Protocol::Csv => write!(out, "{number}"),
-                Protocol::JsonLines => write!(out, "\"{ROW_NUMBER}\":{number}"),
-            };
-        }
-        for (place, (column, values)) in self.columns.iter().zip(inputs).enumerate() {
-            if place > 0 || self.numbered {
-                out.push(',');
-            }
+        // Into a string, which takes everything.
+        let _ = match self.protocol {
+            Protocol::Csv => write!(out, "{number}"),
+            Protocol::JsonLines => write!(out, "\"{ROW_NUMBER}\":{number}"),
+        };
+        for (column, values) in self.columns.iter().zip(inputs) {
+            out.push(',');
             if self.protocol == Protocol::JsonLines {
                 out.push_str(&column.name);
                 out.push(':');
@@ -93,6 +81,17 @@ pub(super) struct ValueWriter(Vec<Column>);
 impl ValueWriter {
     pub(super) fn new(factors: &[Factor]) -> Self {
         Self(factors.iter().map(|factor| Column::new(factor, &str::to_owned)).collect())
+    }
+
+    /// A row of SI values as a table of CSV with a header.
+    pub(super) fn table(&self, inputs: &[&[f64]], row: usize) -> String {
+        let values = self.0.iter().zip(inputs).map(|(column, values)| {
+            let mut cell = String::new();
+            column.write(values[row], &mut cell);
+            in_csv(&cell)
+        });
+        let names = self.0.iter().map(|column| in_csv(&column.name));
+        format!("{}\n{}\n", names.collect::<Vec<_>>().join(","), values.collect::<Vec<_>>().join(","))
     }
 
     /// The SI value of the factor of that number.
@@ -163,35 +162,27 @@ mod tests {
         let writer = RowWriter::new(protocol, &factors());
         let mut text = writer.header();
         let inputs: [&[f64]; 4] = [&[225e-6, 1e-13], &[3.0, 4.0], &[0.0, 1.0], &[1.0, 0.0]];
-        writer.write(&inputs, 0, 0, &mut text);
-        writer.write(&inputs, 1, 0, &mut text);
+        writer.write(&inputs, 0, 100_000, &mut text);
+        writer.write(&inputs, 1, 100_001, &mut text);
         text
     }
 
     #[test]
-    fn numbers_stand_in_front() {
-        let factors = &factors()[..1];
-        for (protocol, expected) in
-            [(Protocol::Csv, "id,length\n100003,225.0\n"), (Protocol::JsonLines, "{\"id\":100003,\"length\":225.0}\n")]
-        {
-            let writer = RowWriter::new(protocol, factors).with_numbers();
-            let mut text = writer.header();
-            writer.write(&[&[225e-6]], 0, 100_003, &mut text);
-            assert_eq!(text, expected);
-        }
-    }
-
-    #[test]
     fn rows_are_in_the_units_of_the_study_with_labels() {
-        assert_eq!(rows(Protocol::Csv), "length,n,made of,wet\n225.0,3,steel,true\n1e-7,4,\"glass, thin\",false\n");
+        assert_eq!(
+            rows(Protocol::Csv),
+            "id,length,n,made of,wet\n100000,225.0,3,steel,true\n100001,1e-7,4,\"glass, thin\",false\n"
+        );
         assert_eq!(
             rows(Protocol::JsonLines),
-            "{\"length\":225.0,\"n\":3,\"made of\":\"steel\",\"wet\":true}\n\
-             {\"length\":1e-7,\"n\":4,\"made of\":\"glass, thin\",\"wet\":false}\n"
+            "{\"id\":100000,\"length\":225.0,\"n\":3,\"made of\":\"steel\",\"wet\":true}\n\
+             {\"id\":100001,\"length\":1e-7,\"n\":4,\"made of\":\"glass, thin\",\"wet\":false}\n"
         );
-        let mut text = String::new();
-        ValueWriter::new(&factors()).write(2, 1.0, &mut text);
+        let (mut text, values) = (String::new(), ValueWriter::new(&factors()));
+        values.write(2, 1.0, &mut text);
         assert_eq!(text, "glass, thin");
+        let inputs: [&[f64]; 4] = [&[1e-13], &[4.0], &[1.0], &[0.0]];
+        assert_eq!(values.table(&inputs, 0), "length,n,made of,wet\n1e-7,4,\"glass, thin\",false\n");
     }
 
     proptest::proptest! {
@@ -201,7 +192,7 @@ mod tests {
             for protocol in Protocol::ALL {
                 let mut text = String::new();
                 RowWriter::new(protocol, std::slice::from_ref(&factor)).write(&[&[value]], 0, 0, &mut text);
-                let number = text.trim().trim_start_matches("{\"x\":").trim_end_matches('}');
+                let number = text.trim().trim_start_matches("{\"id\":0,\"x\":").trim_start_matches("0,").trim_end_matches('}');
                 proptest::prop_assert_eq!(number.parse::<f64>().unwrap().to_bits(), value.to_bits());
             }
         }

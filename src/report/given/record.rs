@@ -7,7 +7,7 @@ use super::surrogate::{
     GivenSurrogateOutput, GivenSurrogateRecord, SurrogateResult, surrogate_output, surrogate_record,
 };
 use crate::analysis::Unlikely;
-use crate::exchange::{LeftOut, TextColumn, TextKind};
+use crate::exchange::{TextColumn, TextKind};
 use crate::given::{
     Binned, Column, GivenIndices, InputIndices, Method, NoVariance, OutputIndices, PointSet, SurrogateOutput,
 };
@@ -95,7 +95,7 @@ impl GivenFile {
     #[must_use]
     pub fn without(mut self, columns: &[TextColumn]) -> Self {
         self.table.columns_left_out = columns.iter().map(column_left_out).collect();
-        self.warnings.splice(0..0, LeftOut::of(columns).iter().map(ToString::to_string));
+        self.warnings.splice(0..0, columns.iter().map(ToString::to_string));
         self
     }
 }

@@ -21,7 +21,7 @@ pub(in crate::runner) fn recorded(study: &Study, contents: &Contents) -> Store {
 }
 
 /// Rows of the design that are in `store`.
-pub(super) fn rows_on_record(study: &Study, store: &Store) -> u64 {
+pub(in crate::runner) fn rows_on_record(study: &Study, store: &Store) -> u64 {
     let rows = study.design.points_per_replicate() * study.design.rows_per_point();
     (0..study.design.settings().replicates).map(|replicate| store.count(replicate, 0..rows).0).sum()
 }

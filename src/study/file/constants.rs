@@ -4,14 +4,13 @@ use std::collections::BTreeMap;
 
 use toml::Value;
 
-use super::context::{Context, Fault};
+use super::context::{Context, Fault, unknown_key, unknown_name, wrong};
 use super::error::Problem;
 use super::key_schemas::CHOICES;
 use super::sections::At;
 use super::units::{in_words_of_units, with_unit};
 use crate::afm::{ContactTheory, Fidelity, FrictionLaw, LuGreParameters, Options, Parameter, Scene, Torsion};
 use crate::model::{AfmMoments, MOST_VALUES, edge_unit};
-use crate::names::nearest;
 use crate::quantity::{Dimension, Quantity, Unit};
 
 /// Reads the table into a scene and options, starting from the defaults. `is_factor` tells the names that must not be
@@ -25,32 +24,40 @@ pub(super) fn afm(
     for (key, value) in table {
         let name = key.get_ref().as_str();
         let fault = |problem| context.fault(value.span(), problem);
+        let found = || value.get_ref().type_str().to_owned();
         match name {
-            "friction" => options.friction = choice(value, name, FrictionLaw::ALL, FrictionLaw::name).map_err(fault)?,
-            "contact" => {
-                options.contact = choice(value, name, ContactTheory::ALL, ContactTheory::name).map_err(fault)?
+            "friction" => {
+                options.friction = choice(context, value, name, "friction law", FrictionLaw::ALL, FrictionLaw::name)?;
             }
-            "fidelity" => options.fidelity = choice(value, name, Fidelity::ALL, Fidelity::name).map_err(fault)?,
-            "torsion" => options.torsion = choice(value, name, Torsion::ALL, Torsion::name).map_err(fault)?,
+            "contact" => {
+                options.contact =
+                    choice(context, value, name, "contact theory", ContactTheory::ALL, ContactTheory::name)?;
+            }
+            "fidelity" => options.fidelity = choice(context, value, name, "fidelity", Fidelity::ALL, Fidelity::name)?,
+            "torsion" => {
+                options.torsion = choice(context, value, name, "torsion formula", Torsion::ALL, Torsion::name)?
+            }
             "lugre_parameters" => {
-                options.lugre = choice(value, name, LuGreParameters::ALL, LuGreParameters::name).map_err(fault)?;
+                let what = "source of LuGre parameters";
+                options.lugre = choice(context, value, name, what, LuGreParameters::ALL, LuGreParameters::name)?;
             }
             "tolerance" => options.tolerance = positive(name, "1e-6", value.get_ref()).map_err(fault)?,
             "step" => options.step = positive(name, "\"10 ms\"", value.get_ref()).map_err(fault)?,
             "step_budget" => {
                 let budget = value.get_ref().as_integer().and_then(|steps| u64::try_from(steps).ok());
                 let budget = budget.filter(|&steps| steps > 0);
-                options.step_budget = budget.ok_or_else(|| fault(wrong_type(name, "a whole number from 1", value)))?;
+                options.step_budget = budget.ok_or_else(|| fault(wrong(name, "a whole number from 1", found())))?;
             }
             "adhesion_in_load" => {
-                options.adhesion_in_load =
-                    value.get_ref().as_bool().ok_or_else(|| fault(wrong_type(name, "true or false", value)))?;
+                let typed = value.get_ref().as_bool();
+                options.adhesion_in_load = typed.ok_or_else(|| fault(wrong(name, "true or false", found())))?;
             }
             // See `moments`.
             "history" => (),
             _ => {
                 let Some(parameter) = Parameter::from_name(name) else {
-                    return Err(context.fault(key.span(), unknown_key(name)));
+                    let known = CHOICES.into_iter().chain(Parameter::ALL.iter().map(|parameter| parameter.name));
+                    return Err(context.fault(key.span(), unknown_key(name, known)));
                 };
                 if is_factor(name) {
                     return Err(context.fault(key.span(), Problem::FixedFactor(name.to_owned())));
@@ -72,27 +79,19 @@ pub(super) fn moments(context: &Context<'_>, table: &BTreeMap<At<String>, At<Val
     let (mut duration, mut points) = (DURATION, POINTS);
     let fault = |problem| context.fault(entry.map_or(0..0, At::span), problem);
     if let Some(value) = entry {
-        let example = "a table such as { duration = \"0.4 s\", points = 40 }";
-        let known = ["duration", "points"];
-        for (key, value_of) in value.get_ref().as_table().ok_or_else(|| fault(wrong_type("history", example, value)))? {
+        let expected = "a table such as { duration = \"0.4 s\", points = 40 }";
+        let table = value.get_ref().as_table();
+        let table = table.ok_or_else(|| fault(wrong("history", expected, value.get_ref().type_str().to_owned())))?;
+        for (key, typed) in table {
             match key.as_str() {
-                "duration" => duration = positive("history.duration", "\"0.4 s\"", value_of).map_err(fault)?,
+                "duration" => duration = positive("history.duration", "\"0.4 s\"", typed).map_err(fault)?,
                 "points" => {
-                    let number = value_of.as_integer().and_then(|points| usize::try_from(points).ok());
-                    let wrong = || Problem::WrongType {
-                        key: "history.points".to_owned(),
-                        expected: "a whole number from 2 to 10000".to_owned(),
-                        found: value_of.to_string(),
-                    };
-                    points =
-                        number.filter(|points| (2..=MOST_VALUES).contains(points)).ok_or_else(|| fault(wrong()))?;
+                    let number = typed.as_integer().and_then(|points| usize::try_from(points).ok());
+                    points = number.filter(|points| (2..=MOST_VALUES).contains(points)).ok_or_else(|| {
+                        fault(wrong("history.points", "a whole number from 2 to 10000", typed.to_string()))
+                    })?;
                 }
-                other => {
-                    let expected = known.map(str::to_owned).to_vec();
-                    let problem =
-                        Problem::UnknownKey { name: other.to_owned(), nearest: nearest(other, known), expected };
-                    return Err(fault(problem));
-                }
+                other => return Err(fault(unknown_key(other, ["duration", "points"].into_iter()))),
             }
         }
     }
@@ -119,33 +118,26 @@ pub(super) fn idle(table: &BTreeMap<At<String>, At<Value>>, options: &Options, h
     notes.chain(of_history).collect()
 }
 
-fn unknown_key(name: &str) -> Problem {
-    let expected: Vec<&str> = CHOICES.into_iter().chain(Parameter::ALL.iter().map(|p| p.name)).collect();
-    Problem::UnknownKey {
-        name: name.to_owned(),
-        nearest: nearest(name, expected.iter().copied()),
-        expected: expected.into_iter().map(str::to_owned).collect(),
-    }
-}
-
-fn choice<T: Copy>(value: &At<Value>, key: &str, all: &[T], name: fn(T) -> &'static str) -> Result<T, Problem> {
-    let names = || all.iter().map(|&variant| name(variant));
-    let Some(text) = value.get_ref().as_str() else {
-        let expected = format!("one of {}", names().map(|n| format!("{n:?}")).collect::<Vec<_>>().join(", "));
-        return Err(wrong_type(key, &expected, value));
-    };
-    all.iter().copied().find(|&variant| name(variant) == text).ok_or_else(|| Problem::UnknownName {
-        what: match key {
-            "friction" => "friction law",
-            "contact" => "contact theory",
-            "fidelity" => "fidelity",
-            "torsion" => "torsion formula",
-            _ => "source of LuGre parameters",
+fn choice<T: Copy>(
+    context: &Context<'_>,
+    value: &At<Value>,
+    key: &str,
+    what: &'static str,
+    all: &[T],
+    name: fn(T) -> &'static str,
+) -> Result<T, Fault> {
+    let names = all.iter().map(|&variant| name(variant));
+    let problem = match value.get_ref().as_str() {
+        None => {
+            let quoted: Vec<String> = names.map(|name| format!("{name:?}")).collect();
+            wrong(key, &format!("one of {}", quoted.join(", ")), value.get_ref().type_str().to_owned())
+        }
+        Some(text) => match all.iter().find(|&&variant| name(variant) == text) {
+            Some(variant) => return Ok(*variant),
+            None => unknown_name(what, text, names),
         },
-        name: text.to_owned(),
-        nearest: nearest(text, names()),
-        expected: names().map(str::to_owned).collect(),
-    })
+    };
+    Err(context.fault(value.span(), problem))
 }
 
 /// The SI value of a constant given as `"0.7 deg"`, or as a bare number where the parameter has no dimension.
@@ -160,7 +152,10 @@ fn constant(parameter: &Parameter, value: &At<Value>) -> Result<f64, Problem> {
         Value::String(text) => Quantity::parse(text)?,
         Value::Integer(number) => Quantity { value: *number as f64, unit: Unit::dimensionless() },
         Value::Float(number) => Quantity { value: *number, unit: Unit::dimensionless() },
-        _ => return Err(wrong_type(parameter.name, &format!("a quantity, as in {}", example()), value)),
+        other => {
+            let expected = format!("a quantity, as in {}", example());
+            return Err(wrong(parameter.name, &expected, other.type_str().to_owned()));
+        }
     };
     if !quantity.unit.compatible(&unit) {
         let name = format!("`{}`", parameter.name);
@@ -195,18 +190,7 @@ fn positive(key: &str, example: &str, value: &Value) -> Result<f64, Problem> {
         Value::Float(number) if !is_time => Some(*number),
         _ => None,
     };
-    let expected = || format!("greater than 0, as in {key} = {example}");
-    number.filter(|number| *number > 0.0 && number.is_finite()).ok_or_else(|| Problem::WrongType {
-        key: key.to_owned(),
-        expected: expected(),
-        found: value.to_string(),
-    })
-}
-
-fn wrong_type(key: &str, expected: &str, value: &At<Value>) -> Problem {
-    Problem::WrongType {
-        key: key.to_owned(),
-        expected: expected.to_owned(),
-        found: value.get_ref().type_str().to_owned(),
-    }
+    number
+        .filter(|number| *number > 0.0 && number.is_finite())
+        .ok_or_else(|| wrong(key, &format!("greater than 0, as in {key} = {example}"), value.to_string()))
 }

@@ -4,7 +4,8 @@ use std::ops::Range;
 use std::path::PathBuf;
 
 use super::at::At;
-use super::error::{Diagnostic, Problem, meant};
+use super::error::{Diagnostic, Problem};
+use crate::names::nearest;
 
 /// A diagnostic on its way up.
 pub(super) type Fault = Box<Diagnostic>;
@@ -29,7 +30,16 @@ pub(super) fn unknown_name<'a>(
     Problem::UnknownName {
         what,
         name: name.to_owned(),
-        nearest: meant(name, known.clone()),
+        nearest: nearest(name, known.clone()),
+        expected: known.map(str::to_owned).collect(),
+    }
+}
+
+/// A key that the table does not have.
+pub(super) fn unknown_key<'a>(name: &str, known: impl Iterator<Item = &'a str> + Clone) -> Problem {
+    Problem::UnknownKey {
+        name: name.to_owned(),
+        nearest: nearest(name, known.clone()),
         expected: known.map(str::to_owned).collect(),
     }
 }
@@ -43,14 +53,8 @@ pub(super) fn choice<T: Copy>(
 ) -> Result<T, Fault> {
     let found = all.iter().copied().find(|&choice| name(choice) == typed.get_ref());
     found.ok_or_else(|| {
-        let names = || all.iter().map(|&choice| name(choice));
-        let problem = Problem::UnknownName {
-            what,
-            name: typed.get_ref().clone(),
-            nearest: meant(typed.get_ref(), names()),
-            expected: names().map(str::to_owned).collect(),
-        };
-        context.fault(typed.span(), problem)
+        let names = all.iter().map(|&choice| name(choice));
+        context.fault(typed.span(), unknown_name(what, typed.get_ref(), names))
     })
 }
 

@@ -4,9 +4,10 @@ use std::ops::Range;
 
 use super::context::{Context, Fault, wrong};
 use super::distribution_forms::{FORMS, Form, Takes};
-use super::error::{Problem, meant};
+use super::error::Problem;
 use super::measured;
 use super::sections::{At, FactorSection};
+use crate::names::nearest;
 use crate::space::distribution::{Law, Pareto, Statistic, StudentT};
 use crate::space::{Distribution, DistributionError};
 
@@ -48,7 +49,7 @@ pub(super) fn of(context: &Context<'_>, section: &At<FactorSection>) -> Result<D
         let problem = Problem::UnknownName {
             what: "distribution",
             name: typed.to_owned(),
-            nearest: meant(typed, FORMS.iter().map(|form| form.name)),
+            nearest: nearest(typed, FORMS.iter().map(|form| form.name)),
             expected: FORMS.iter().map(|form| form.name.to_owned()).collect(),
         };
         return Err(context.fault(span, problem));

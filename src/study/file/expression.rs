@@ -7,6 +7,7 @@ use toml::Value;
 use super::at::{At, Choices, ListOrTable, in_order};
 use super::context::{Context, Fault};
 use super::error::Problem;
+use super::outputs::OutputTable;
 use super::sections::{ExpressionSection, FactorSection, Outputs};
 use super::subjects::{ExpressionConstant, ExpressionSubject, Formula};
 use super::units::own_inputs;
@@ -95,23 +96,19 @@ fn formula(
         let expected = "a formula, or { formula = \"...\", unit = \"...\" }".to_owned();
         context.fault(value.span(), Problem::WrongType { key, expected, found })
     };
-    let (text, unit) = match value.get_ref() {
-        Value::String(text) => (text, None),
-        Value::Table(table) => {
-            if let Some(key) = table.keys().find(|key| !matches!(key.as_str(), "formula" | "unit")) {
-                return Err(wrong(format!("a table with `{key}`")));
-            }
-            let formula = table.get("formula").and_then(Value::as_str);
-            let (Some(Value::String(text)), true) =
-                (table.get("formula"), formula.is_some() && table.get("unit").is_none_or(Value::is_str))
-            else {
-                return Err(wrong("a table without such texts".to_owned()));
-            };
-            (text, table.get("unit").and_then(Value::as_str))
-        }
+    let table = match value.get_ref() {
+        Value::String(text) => OutputTable { formula: Some(text.clone()), ..OutputTable::default() },
+        Value::Table(typed) => OutputTable::read(context, value, typed)?,
         other => return Err(wrong(other.type_str().to_owned())),
     };
-    let unit = Unit::parse(unit.unwrap_or("1")).map_err(|error| context.fault(value.span(), error.into()))?;
+    let OutputTable { formula: Some(text), unit, .. } = &table else {
+        return Err(wrong("a table without a formula".to_owned()));
+    };
+    if table != (OutputTable { formula: Some(text.clone()), unit: unit.clone(), ..OutputTable::default() }) {
+        return Err(wrong("a table with other keys, which are those of programs".to_owned()));
+    }
+    let unit =
+        Unit::parse(unit.as_deref().unwrap_or("1")).map_err(|error| context.fault(value.span(), error.into()))?;
     let symbol = |name: &str| {
         let factor = space.factors().iter().position(|factor| factor.name == name).map(Symbol::Input);
         let constant = || constants.iter().find(|constant| constant.name == name);

@@ -6,7 +6,6 @@ use super::context::{Context, Fault};
 use super::error::Problem;
 use super::sections::{At, Choices};
 use crate::model::{KnownAnswer, KnownFunction, ParameterError, ParameterValue};
-use crate::names::nearest;
 
 /// The function with the parameters of the table.
 pub(super) fn known(
@@ -36,16 +35,11 @@ pub(super) fn known(
 }
 
 fn unknown_key(answer: KnownAnswer, name: &str) -> Problem {
-    let known = || answer.parameters().iter().map(|parameter| parameter.name);
     if answer.parameters().is_empty() {
         let error = ParameterError::Unknown { parameter: name.to_owned(), known: Vec::new() };
         return Problem::Parameter(error);
     }
-    Problem::UnknownKey {
-        name: name.to_owned(),
-        nearest: nearest(name, known()),
-        expected: known().map(str::to_owned).collect(),
-    }
+    super::context::unknown_key(name, answer.parameters().iter().map(|parameter| parameter.name))
 }
 
 fn number(value: &Value) -> Option<f64> {

@@ -4,15 +4,9 @@ use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde_json::{Map, Value, json};
 
 use super::distribution_forms::FORMS;
+use super::outputs::OutputTable;
 use crate::afm::{ContactTheory, Fidelity, FrictionLaw, LuGreParameters, Parameter, Torsion};
-use crate::design::Sampler;
-use crate::estimate::{Estimator, ShapleyMethod, ShapleyPlayers};
-use crate::given::Measure;
-use crate::model::{KnownAnswer, Match, ModelKind, Protocol, edge_unit};
-use crate::run::FailurePolicy;
-use crate::space::CorrelationMeasure;
-use crate::study::SurrogateChoice;
-use crate::uncertainty::IntervalMethod;
+use crate::model::{KnownAnswer, ModelKind, edge_unit};
 
 pub(super) const CHOICES: [&str; 10] = [
     "friction",
@@ -31,58 +25,18 @@ pub(super) fn models() -> Vec<&'static str> {
     ModelKind::all().into_iter().map(|kind| kind.name).collect()
 }
 
-pub(super) fn samplers() -> Vec<&'static str> {
-    names(&Sampler::ALL, Sampler::name)
-}
-
 /// The schema of the cheaper models.
 pub(super) fn lows(_: &mut SchemaGenerator) -> Schema {
     let table = json!({ "type": "object", "required": ["name"], "properties": { "name": { "type": "string" } } });
     schemars::json_schema!({ "type": "array", "items": { "anyOf": [{ "type": "string" }, table] } })
 }
 
-/// The schema of an estimator's name.
-pub(super) fn estimators() -> Value {
-    json!({ "enum": names(&Estimator::ALL, Estimator::name) })
-}
-
-pub(super) fn measures() -> Value {
-    json!({ "enum": names(&Measure::ALL, Measure::name) })
-}
-
-pub(super) fn correlation_measures() -> Vec<&'static str> {
-    names(&CorrelationMeasure::ALL, CorrelationMeasure::name)
-}
-
-pub(super) fn surrogates() -> Vec<&'static str> {
-    names(&SurrogateChoice::ALL, SurrogateChoice::name)
-}
-
-pub(super) fn shapley_methods() -> Vec<&'static str> {
-    names(&ShapleyMethod::ALL, ShapleyMethod::name)
-}
-
-pub(super) fn shapley_players() -> Vec<&'static str> {
-    names(&ShapleyPlayers::ALL, ShapleyPlayers::name)
-}
-
-pub(super) fn intervals() -> Vec<&'static str> {
-    names(&IntervalMethod::ALL, IntervalMethod::name)
-}
-
-pub(super) fn failure_policies() -> Vec<&'static str> {
-    names(&FailurePolicy::ALL, FailurePolicy::name)
-}
-
-pub(super) fn protocols() -> Vec<&'static str> {
-    names(&Protocol::ALL, Protocol::name)
-}
-
 pub(super) fn distributions() -> Vec<&'static str> {
     FORMS.iter().map(|form| form.name).collect()
 }
 
-fn names<T: Copy>(all: &[T], name: fn(T) -> &'static str) -> Vec<&'static str> {
+/// The names of all values of a kind.
+pub(super) fn names<T: Copy>(all: &[T], name: fn(T) -> &'static str) -> Vec<&'static str> {
     all.iter().map(|&choice| name(choice)).collect()
 }
 
@@ -141,44 +95,14 @@ pub(super) fn expression_constants(_: &mut SchemaGenerator) -> Schema {
     schemars::json_schema!({ "type": "object", "additionalProperties": { "type": ["number", "string"] } })
 }
 
-/// What makes an output a series.
-fn series_properties() -> Map<String, Value> {
-    let number = json!({ "type": "number" });
-    let properties = json!({
-        "length": { "type": "integer", "minimum": 2, "maximum": 10000,
-            "description": "The output is a series of so many values along an axis." },
-        "axis": { "type": "string", "default": "index", "description": "What the axis is called." },
-        "axis_unit": { "type": "string", "description": "Unit of the positions." },
-        "positions": { "type": "array", "items": number,
-            "description": "The first position and the step, or the position of every value; 0, 1, 2, ... if not said." }
-    });
-    properties.as_object().cloned().unwrap_or_default()
-}
-
 /// `quantiles`: values by the probabilities below them.
 pub(super) fn quantiles(_: &mut SchemaGenerator) -> Schema {
     schemars::json_schema!({ "type": "object", "additionalProperties": { "type": "number" } })
 }
 
 /// `outputs`: names, or for each a formula or its unit, or a table of more.
-pub(super) fn outputs(_: &mut SchemaGenerator) -> Schema {
-    let text = |description: &str| json!({ "type": "string", "description": description });
-    let own = json!({
-            "formula": text("Formula of the factors."),
-            "unit": text("Unit of the output's numbers."),
-            "file": text("File that a run leaves in its directory; its standard output if not said."),
-            "regex": text("Regular expression, whose first group is the number."),
-            "column": text("Column of a CSV table with a header."),
-            "pointer": text("JSON pointer (RFC 6901), as in \"/result/force\"."),
-            "match": {
-                "enum": names(&Match::ALL, Match::name),
-                "default": "last",
-                "description": "Which match of the regex, or row of the table, is taken; of a series every one."
-            }
-    });
-    let mut properties = series_properties();
-    properties.extend(own.as_object().cloned().unwrap_or_default());
-    let table = json!({ "type": "object", "properties": properties, "additionalProperties": false });
+pub(super) fn outputs(generator: &mut SchemaGenerator) -> Schema {
+    let table = generator.subschema_for::<OutputTable>();
     let list = json!({ "type": "array", "items": { "type": "string" }, "minItems": 1 });
     let entries = json!({ "type": "object", "additionalProperties": { "anyOf": [{ "type": "string" }, table] } });
     schemars::json_schema!({ "anyOf": [list, entries] })

@@ -9,6 +9,7 @@ use super::context::{Context, Fault, unknown_name};
 use super::error::Problem;
 use super::sections::{At, StudyFile};
 use super::subjects::{AfmSubject, KnownSubject};
+use super::units::own_inputs;
 use super::{command, constants, expression, external, function};
 use crate::model::{AfmHistory, AfmOutput, Expression, Input, KnownFunction, ModelKind, known_inputs};
 use crate::space::Space;
@@ -79,7 +80,7 @@ pub(super) const TABLES: [ModelTable; 5] = [
     ModelTable {
         name: "command",
         span: |file| file.command.as_ref().map(At::span),
-        inputs: |reading| command::inputs(reading.context, &reading.file.factor),
+        inputs: |reading| own_inputs(reading.context, &reading.file.factor),
         subject: program,
         guide: Some(include_str!("../../../templates/guides/command.txt")),
     },

@@ -4,19 +4,60 @@
 use std::ops::Range;
 
 use regex::Regex;
+use schemars::JsonSchema;
+use serde::Deserialize;
 use serde_json::{Value as Json, json};
 use toml::Value;
 
 use super::at::{At, ListOrTable, in_order};
 use super::context::{Context, Fault, wrong};
-use super::error::{Problem, meant};
+use super::error::Problem;
+use super::key_schemas::names;
+use super::read;
 use super::sections::Outputs;
-use super::series::{self, SERIES_KEYS};
+use super::series;
 use super::units::output_unit;
 use crate::model::{CommandOutput, Match, OutputSeries, Pick, SeriesAxis, Source, Way};
 use crate::quantity::Unit;
 
-const KEYS: [&str; 6] = ["unit", "file", "regex", "column", "pointer", "match"];
+/// What a table says of an output: its formula, where its number stands after a run, along which axis it is a series.
+#[derive(Debug, Clone, Default, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct OutputTable {
+    /// Formula of the factors.
+    pub formula: Option<String>,
+    /// Unit of the output's numbers.
+    pub unit: Option<String>,
+    /// File that a run leaves in its directory; its standard output if not said.
+    pub file: Option<String>,
+    /// Regular expression, whose first group is the number.
+    pub regex: Option<String>,
+    /// Column of a CSV table with a header.
+    pub column: Option<String>,
+    /// JSON pointer (RFC 6901), as in "/result/force".
+    pub pointer: Option<String>,
+    /// Which match of the regex, or row of the table, is taken; of a series every one.
+    #[serde(rename = "match")]
+    #[schemars(extend("enum" = names(&Match::ALL, Match::name), "default" = "last"))]
+    pub which: Option<String>,
+    /// The output is a series of so many values along an axis.
+    #[schemars(range(min = 2, max = 10000))]
+    pub length: Option<u64>,
+    /// What the axis is called.
+    #[schemars(extend("default" = "index"))]
+    pub axis: Option<String>,
+    /// Unit of the positions.
+    pub axis_unit: Option<String>,
+    /// The first position and the step, or the position of every value; 0, 1, 2, ... if not said.
+    pub positions: Option<Vec<f64>>,
+}
+
+impl OutputTable {
+    /// The table `typed`, which is the value of an output.
+    pub(super) fn read(context: &Context<'_>, value: &At<Value>, typed: &toml::Table) -> Result<Self, Fault> {
+        typed.clone().try_into().map_err(|error| context.fault(value.span(), read::problem(&error)))
+    }
+}
 
 /// What a model of the user's own gives.
 #[derive(Default)]
@@ -60,14 +101,12 @@ pub(super) fn own_outputs(context: &Context<'_>, key: Option<&At<Outputs>>) -> R
     match key.get_ref() {
         ListOrTable::List(names) => {
             for name in names {
-                refuse_name(context, name)?;
                 let output = CommandOutput { name: name.get_ref().clone(), unit: Unit::dimensionless(), pick: None };
                 all.outputs.push(output);
             }
         }
         ListOrTable::Table(table) => {
             for (name, value) in in_order(table) {
-                refuse_name(context, name)?;
                 let (output, axis) = output(context, name, value)?;
                 if output.pick.is_some() && all.first_pick.is_none() {
                     all.first_pick = Some(value.span());
@@ -86,14 +125,6 @@ pub(super) fn own_outputs(context: &Context<'_>, key: Option<&At<Outputs>>) -> R
     Ok(all)
 }
 
-fn refuse_name(context: &Context<'_>, name: &At<String>) -> Result<(), Fault> {
-    if !name.get_ref().trim().is_empty() && !name.get_ref().contains(char::is_control) {
-        return Ok(());
-    }
-    let expected = "not empty, and without line breaks and control characters";
-    Err(context.fault(name.span(), wrong("name of an output", expected, format!("{:?}", name.get_ref()))))
-}
-
 /// An output, and the axis of one that is a series.
 fn output(
     context: &Context<'_>,
@@ -103,63 +134,57 @@ fn output(
     let key = format!("outputs.{}", name.get_ref());
     let fault = |problem| context.fault(value.span(), problem);
     let (unit, pick, axis) = match value.get_ref() {
-        Value::String(unit) => (unit.as_str(), None, None),
-        Value::Table(table) => {
-            let known = || KEYS.into_iter().chain(SERIES_KEYS);
-            if let Some(unknown) = table.keys().find(|key| !known().any(|known| known == key.as_str())) {
-                let expected = known().map(str::to_owned).collect();
-                let nearest = meant(unknown, known());
-                return Err(fault(Problem::UnknownKey { name: unknown.clone(), nearest, expected }));
+        Value::String(unit) => (unit.clone(), None, None),
+        Value::Table(typed) => {
+            let table = OutputTable::read(context, value, typed)?;
+            if table.formula.is_some() {
+                let expected = "only of model = \"expression\"";
+                return Err(fault(wrong(&format!("{key}.formula"), expected, "of another model".to_owned())));
             }
-            let axis = series::axis(&key, table).map_err(fault)?;
-            let texts = || table.iter().filter(|(name, _)| KEYS.contains(&name.as_str()));
-            if let Some((name, other)) = texts().find(|(_, value)| !value.is_str()) {
-                return Err(fault(wrong(&format!("{key}.{name}"), "a text", other.type_str().to_owned())));
-            }
-            let text = |key: &str| table.get(key).and_then(Value::as_str);
-            let pick = pick(&key, &text).map_err(fault)?;
-            if axis.is_some() && table.contains_key("match") {
+            let axis = series::axis(&key, &table).map_err(fault)?;
+            let pick = pick(&key, &table).map_err(fault)?;
+            if axis.is_some() && table.which.is_some() {
                 let expected = "only of a single number: a series takes every match or row, from the first on";
                 return Err(fault(wrong(&format!("{key}.match"), expected, "beside `length`".to_owned())));
             }
-            (text("unit").unwrap_or_default(), pick, axis)
+            (table.unit.unwrap_or_default(), pick, axis)
         }
         other => {
             let expected = "a unit, as in \"nN\" or \"1\", or a table such as { unit = \"nN\" }";
             return Err(fault(wrong(&key, expected, other.type_str().to_owned())));
         }
     };
-    let unit = output_unit(context, value, unit)?;
+    let unit = output_unit(context, value, &unit)?;
     Ok((CommandOutput { name: name.get_ref().clone(), unit, pick }, axis))
 }
 
-fn pick<'a>(key: &str, text: &dyn Fn(&str) -> Option<&'a str>) -> Result<Option<Pick>, Problem> {
-    let which = match text("match") {
+fn pick(key: &str, table: &OutputTable) -> Result<Option<Pick>, Problem> {
+    let OutputTable { file, regex, column, pointer, which, .. } = table;
+    let taken = match which {
         None => Match::Last,
         Some(name) => Match::ALL
             .into_iter()
-            .find(|which| which.name() == name)
+            .find(|taken| taken.name() == name)
             .ok_or_else(|| wrong(&format!("{key}.match"), "\"first\" or \"last\"", format!("{name:?}")))?,
     };
-    let way = match (text("regex"), text("column"), text("pointer")) {
+    let way = match (regex, column, pointer) {
         (Some(regex), None, None) => {
             let regex = Regex::new(regex).map_err(|error| {
                 let reason = error.to_string();
                 let reason = reason.lines().last().unwrap_or_default().trim_start_matches("error: ").to_owned();
                 wrong(&format!("{key}.regex"), "a regular expression", format!("{regex:?}: {reason}"))
             })?;
-            Way::Regex(regex, which)
+            Way::Regex(regex, taken)
         }
-        (None, Some(column), None) => Way::Column(column.to_owned(), which),
-        (None, None, Some(pointer)) if pointer.is_empty() || pointer.starts_with('/') => {
-            Way::Pointer(pointer.to_owned())
-        }
+        (None, Some(column), None) => Way::Column(column.clone(), taken),
+        (None, None, Some(pointer)) if pointer.is_empty() || pointer.starts_with('/') => Way::Pointer(pointer.clone()),
         (None, None, Some(pointer)) => {
             let expected = "a JSON pointer, which begins with a slash, as in \"/result/force\"";
             return Err(wrong(&format!("{key}.pointer"), expected, format!("{pointer:?}")));
         }
         (None, None, None) => {
-            if let Some(left) = ["file", "match"].into_iter().find(|key| text(key).is_some()) {
+            let alone = [("file", file), ("match", which)].into_iter().find(|(_, text)| text.is_some());
+            if let Some((left, _)) = alone {
                 let expected = "only beside `regex`, `column` or `pointer`";
                 return Err(wrong(&format!("{key}.{left}"), expected, "without one of them".to_owned()));
             }
@@ -169,10 +194,10 @@ fn pick<'a>(key: &str, text: &dyn Fn(&str) -> Option<&'a str>) -> Result<Option<
             return Err(wrong(key, "a table with one of `regex`, `column`, `pointer`", "one with several".to_owned()));
         }
     };
-    if let (Way::Pointer(_), Some(_)) = (&way, text("match")) {
+    if let (Way::Pointer(_), Some(_)) = (&way, which) {
         return Err(wrong(&format!("{key}.match"), "only beside `regex` or `column`", "beside `pointer`".to_owned()));
     }
-    let source = text("file").map_or(Source::Stdout, |file| Source::File(file.to_owned()));
+    let source = file.clone().map_or(Source::Stdout, Source::File);
     Ok(Some(Pick { source, way }))
 }
 

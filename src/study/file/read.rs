@@ -3,8 +3,8 @@
 use serde::Deserialize;
 use toml::de::{DeTable, Deserializer};
 
-use super::context::{Context, Fault};
-use super::error::{Problem, meant};
+use super::context::{self, Context, Fault};
+use super::error::Problem;
 use super::forms::normalise;
 use super::schema::study_schema;
 use super::sections::StudyFile;
@@ -17,35 +17,28 @@ pub(super) fn study_file(context: &Context<'_>) -> Result<StudyFile, Fault> {
 }
 
 fn syntax(context: &Context<'_>, error: &toml::de::Error) -> Fault {
+    context.fault(error.span().unwrap_or(0..0), problem(error))
+}
+
+/// What the reader of TOML says in the words of studies.
+pub(super) fn problem(error: &toml::de::Error) -> Problem {
     let message = error.message();
-    let span = error.span().unwrap_or(0..0);
-    let mut quoted = message.split('`').skip(1).step_by(2).map(str::to_owned);
-    let problem = match quoted.next() {
-        Some(name) if message.starts_with("unknown field") => unknown_key(name, quoted.collect()),
+    let quoted: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
+    match &quoted[..] {
+        [name, expected @ ..] if message.starts_with("unknown field") => unknown_key(name, expected),
         _ if message.contains("unquoted key") => {
             Problem::Syntax(format!("{message}: a key of other letters stands in quotes, as in \"größe\" = 2"))
         }
         _ => Problem::Syntax(in_words(message)),
-    };
-    context.fault(span, problem)
+    }
 }
 
-/// A key of no meaning where it stands: of another table perhaps, by our name or by another one.
-fn unknown_key(name: String, expected: Vec<String>) -> Problem {
-    let nearest = meant(&name, expected.iter().map(String::as_str));
-    if nearest.is_none() {
-        let tables = keys_of_tables();
-        let all = || tables.iter().flat_map(|(_, keys)| keys.iter().map(String::as_str));
-        let home = |key: &str| tables.iter().find(|(_, keys)| keys.iter().any(|known| known == key));
-        if let Some(((place, _), ours)) = meant(&name, all()).and_then(|ours| Some((home(&ours)?, ours))) {
-            let right = match ours == name {
-                true => format!("it stands {place}"),
-                false => format!("did you mean `{ours}`, which stands {place}?"),
-            };
-            return Problem::Misplaced { name, right };
-        }
+/// A key that its table does not have: perhaps that of another table.
+fn unknown_key(name: &str, expected: &[&str]) -> Problem {
+    match keys_of_tables().into_iter().find(|(_, keys)| keys.iter().any(|key| key == name)) {
+        Some((place, _)) => Problem::Misplaced { name: name.to_owned(), right: format!("it stands {place}") },
+        None => context::unknown_key(name, expected.iter().copied()),
     }
-    Problem::UnknownKey { name, nearest, expected }
 }
 
 /// Where keys stand in a study file, in words, and the keys, by the schema.

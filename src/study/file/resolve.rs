@@ -11,7 +11,7 @@ use super::models::{ModelTable, Reading, TABLES, table_of};
 use super::sections::{At, FactorSection, StudyFile};
 use super::units::{in_words_of_units, refuse_unit_of_own, unit_of_factor, with_unit};
 use super::{analysis, distribution, noise, nominal, read};
-use crate::design::{DesignError, MAX_FACTORS};
+use crate::design::DesignError;
 use crate::model::{Input, ModelKind};
 use crate::names::file_part;
 use crate::quantity::Unit;
@@ -22,11 +22,6 @@ use crate::study::{BuildError, Study};
 /// The study that the text of `context` means.
 pub(super) fn study(context: &Context<'_>) -> Result<Study, Fault> {
     let file = read::study_file(context)?;
-    // Before anything that takes time for each of them, or for pairs.
-    if file.factor.len() > MAX_FACTORS {
-        let problem = DesignError::FarTooManyFactors { factors: file.factor.len() };
-        return Err(context.fault(file.factor[MAX_FACTORS].span(), BuildError::Design(problem).into()));
-    }
     let kind = model_kind(context, file.model.as_ref())?;
     refuse_tables_of_others(context, kind, &file)?;
     let (table, reading) = (table_of(kind), Reading { context, file: &file, kind });

@@ -6,11 +6,19 @@ use std::collections::BTreeMap;
 
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
+use serde_json::json;
 
 use super::at::ListOrTable;
 pub(super) use super::at::{At, Choices};
 use super::command::file::CommandKey;
-use super::key_schemas;
+use super::key_schemas::{self, names};
+use crate::design::Sampler;
+use crate::estimate::{Estimator, ShapleyMethod, ShapleyPlayers};
+use crate::given::Measure;
+use crate::run::FailurePolicy;
+use crate::space::CorrelationMeasure;
+use crate::study::SurrogateChoice;
+use crate::uncertainty::IntervalMethod;
 
 /// A study of apportion: a model, the factors whose influence is asked for, and how many runs answer it.
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -104,7 +112,7 @@ pub(super) struct DependenceSection {
     pub correlation: Option<At<Correlation>>,
     /// What the numbers are correlations of: of the values ("pearson"), of the ranks ("spearman", "kendall"), or of the normal scores
     /// ("normal"), which are the parameters of the copula.
-    #[schemars(extend("enum" = key_schemas::correlation_measures(), "default" = "pearson"))]
+    #[schemars(extend("enum" = names(&CorrelationMeasure::ALL, CorrelationMeasure::name), "default" = "pearson"))]
     pub measure: Option<At<String>>,
     /// In the place of `correlation`: a CSV file of joint measurements, relative to the study, with a column of the name of each
     /// factor. The correlations are those of the normal scores of its ranks.
@@ -143,7 +151,7 @@ pub(super) struct NoiseSection {
 #[serde(deny_unknown_fields, expecting = "a table [design]")]
 pub(super) struct DesignSection {
     /// How points are chosen.
-    #[schemars(extend("enum" = key_schemas::samplers(), "default" = "sobol"))]
+    #[schemars(extend("enum" = names(&Sampler::ALL, Sampler::name), "default" = "sobol"))]
     pub sampler: Option<At<String>>,
     /// Base samples in all, best a power of two for each replicate; a run costs base_samples x (2 + factors).
     pub base_samples: Option<At<u64>>,
@@ -168,7 +176,7 @@ pub(super) type NameList = At<Vec<At<String>>>;
 #[serde(deny_unknown_fields, expecting = "a table [analysis]")]
 pub(super) struct AnalysisSection {
     /// Estimators whose indices stand beside those of the default ones.
-    #[schemars(extend("items" = key_schemas::estimators()))]
+    #[schemars(extend("items" = json!({ "enum": names(&Estimator::ALL, Estimator::name) })))]
     pub estimators: Option<At<Vec<At<String>>>>,
     /// Second-order indices of all pairs; nearly twice the runs.
     pub second_order: Option<At<bool>>,
@@ -179,14 +187,14 @@ pub(super) struct AnalysisSection {
     pub shapley: Option<At<bool>>,
     /// How Shapley effects are found: from all subsets of up to 8 factors, or along random permutations, with fewer runs for each
     /// base sample and larger errors.
-    #[schemars(extend("enum" = key_schemas::shapley_methods()))]
+    #[schemars(extend("enum" = names(&ShapleyMethod::ALL, ShapleyMethod::name)))]
     pub shapley_method: Option<At<String>>,
     /// Who shares out the variance in Shapley effects: every factor, or the groups with the factors that have none. The counts of
     /// factors and runs above are then those of the groups.
-    #[schemars(extend("enum" = key_schemas::shapley_players(), "default" = "factors"))]
+    #[schemars(extend("enum" = names(&ShapleyPlayers::ALL, ShapleyPlayers::name), "default" = "factors"))]
     pub shapley_players: Option<At<String>>,
     /// Other measures of the influence of every factor beside Sobol' indices, from the first 4096 rows A and B; of at most 100 outputs.
-    #[schemars(extend("items" = key_schemas::measures()))]
+    #[schemars(extend("items" = json!({ "enum": names(&Measure::ALL, Measure::name) })))]
     pub measures: Option<At<Vec<At<String>>>>,
     /// Indices over all outputs together.
     pub aggregate: Option<At<bool>>,
@@ -197,11 +205,11 @@ pub(super) struct AnalysisSection {
     #[schemars(extend("default" = true))]
     pub convergence: Option<At<bool>>,
     /// How intervals are found; by default as the sampler allows.
-    #[schemars(extend("enum" = key_schemas::intervals()))]
+    #[schemars(extend("enum" = names(&IntervalMethod::ALL, IntervalMethod::name)))]
     pub intervals: Option<At<String>>,
     /// Whether indices are corrected by surrogates: polynomials fitted to the runs. More accurate, by orders of magnitude for
     /// smooth models; takes time, and memory for all outputs.
-    #[schemars(extend("enum" = key_schemas::surrogates(), "default" = "off"))]
+    #[schemars(extend("enum" = names(&SurrogateChoice::ALL, SurrogateChoice::name), "default" = "off"))]
     pub surrogate: Option<At<String>>,
     /// Resamples of a bootstrap.
     #[schemars(range(min = 100, max = 1_000_000))]
@@ -210,7 +218,7 @@ pub(super) struct AnalysisSection {
     #[schemars(extend("minimum" = 0, "maximum" = 1))]
     pub threshold: Option<At<f64>>,
     /// What happens when a run fails.
-    #[schemars(extend("enum" = key_schemas::failure_policies()))]
+    #[schemars(extend("enum" = names(&FailurePolicy::ALL, FailurePolicy::name)))]
     pub failures: Option<At<String>>,
     /// Largest share of the runs that may fail before there are no indices.
     #[schemars(extend("minimum" = 0, "maximum" = 1))]

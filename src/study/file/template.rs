@@ -149,19 +149,11 @@ fn of_model(request: &TemplateRequest) -> Result<(String, Vec<String>), Problem>
     if let Some(name) = request.outputs.iter().find(|name| !is_known(name)) {
         return Err(unknown_name("output", name, outputs.iter().map(|output| &*output.name)));
     }
-    let (asked, others): (Vec<&Output>, Vec<&Output>) =
-        outputs.iter().enumerate().fold((Vec::new(), Vec::new()), |(mut asked, mut others), (place, output)| {
-            let is_asked = match &request.outputs[..] {
-                [] => place == 0,
-                names => names.iter().any(|name| *name == *output.name),
-            };
-            if is_asked {
-                asked.push(output)
-            } else {
-                others.push(output)
-            }
-            (asked, others)
-        });
+    let is_asked = |output: &&Output| match &request.outputs[..] {
+        [] => output.name == outputs[0].name,
+        names => names.iter().any(|name| *name == *output.name),
+    };
+    let (asked, others): (Vec<&Output>, Vec<&Output>) = outputs.iter().partition(is_asked);
     let names = |outputs: &[&Output]| outputs.iter().map(|o| format!("\"{}\"", o.name)).collect::<Vec<_>>().join(", ");
     let mut text = format!("outputs = [{}]\n", names(&asked));
     if !others.is_empty() {

@@ -15,7 +15,7 @@ use crate::model::{
     Answered, Batch, GiveUp, LARGEST_ERROR, Model, Reference, RowFailure, RunContext, SecondCalculation, Unchecked,
     Worker,
 };
-use crate::run::{Progress, RunError, run_each_in};
+use crate::run::{Progress, RunError, run_each};
 use crate::space::Space;
 use crate::study::Study;
 use map::Collector;
@@ -89,7 +89,7 @@ pub fn extremes(job: &ExtremesJob<'_>) -> Result<Extremes, RunError> {
     let second = study.subject().second_calculation(&space);
     let points = points(&space, job.settings.points, job.settings.seed);
     let gave_up = OnceLock::new();
-    let found = run_each_in(
+    let found = run_each(
         model.as_ref(),
         job.threads,
         &context,

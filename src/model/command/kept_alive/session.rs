@@ -22,13 +22,10 @@ pub(super) struct Session {
     pub sent: u64,
     /// Those without an answer, by their numbers.
     pub asked: BTreeMap<u64, usize>,
-    pub has_answered: bool,
     /// Whether its input is closed.
     pub is_closed: bool,
     /// When it answered last, or was asked something after a pause.
     heard: Instant,
-    /// The longest that it took to an answer, its start included.
-    pub slowest: Duration,
     /// Bytes of lines that were no answers, since the last that was one; and what the last of them was.
     pub strayed: usize,
     pub stray: Option<String>,
@@ -51,10 +48,8 @@ impl Session {
             credit: IN_TRANSIT,
             sent: 0,
             asked: BTreeMap::new(),
-            has_answered: false,
             is_closed: false,
             heard: Instant::now(),
-            slowest: Duration::ZERO,
             strayed: 0,
             stray: None,
             line: Vec::new(),
@@ -97,13 +92,12 @@ impl Session {
         self.heard.elapsed()
     }
 
-    /// An answer has come; how long it took, if it is the first.
-    pub(super) fn note_answer(&mut self) -> Option<Duration> {
+    /// An answer has come; how long it took, the start of the process included.
+    pub(super) fn note_answer(&mut self) -> Duration {
         let took = self.silent_for();
-        self.slowest = self.slowest.max(took);
         self.heard = Instant::now();
         self.strayed = 0;
-        (!std::mem::replace(&mut self.has_answered, true)).then_some(took)
+        took
     }
 
     /// A line of `length` bytes is no answer.

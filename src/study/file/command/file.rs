@@ -5,8 +5,9 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use crate::model::Protocol;
 use crate::study::file::at::{At, ListOrTable};
-use crate::study::file::key_schemas;
+use crate::study::file::key_schemas::names;
 
 /// The program alone, or a table.
 pub type CommandKey = ListOrTable<Box<CommandSection>>;
@@ -19,7 +20,7 @@ pub struct CommandSection {
     #[schemars(length(min = 1))]
     pub program: Option<At<Vec<At<String>>>>,
     /// How rows are handed over to a program that is kept alive.
-    #[schemars(extend("enum" = key_schemas::protocols(), "default" = "csv"))]
+    #[schemars(extend("enum" = names(&Protocol::ALL, Protocol::name), "default" = "csv"))]
     pub protocol: Option<At<String>>,
     /// Every row has a number (`id`: the first column of CSV, a key of a JSON object), which the program writes back with its
     /// answer. Studies need not say so any more, and cannot say otherwise.

@@ -18,33 +18,13 @@ use super::context::{choice, wrong};
 use super::error::Problem;
 use super::outputs::{outputs_as_settings, own_outputs};
 use super::paths::{Reach, folder, refuse_outside_of_run, resolve};
-use super::sections::{At, FactorSection, Outputs};
+use super::sections::{At, Outputs};
 use super::subjects::CommandSubject;
-use super::units::own_inputs;
-use crate::model::{CommandOutput, CommandSettings, Form, Input, Pick, Program, Protocol, Source};
+use crate::model::{CommandOutput, CommandSettings, Form, Pick, Program, Protocol, Source};
 use crate::space::Space;
-
-/// The inputs of a program: the factors of the study, each in its own unit.
-pub(super) fn inputs(context: &Context<'_>, factors: &[At<FactorSection>]) -> Result<Vec<Input>, Fault> {
-    for section in factors {
-        let fields = section.get_ref();
-        let names = std::iter::once(fields.name.get_ref());
-        if let Some(name) = names.chain(fields.labels.iter().flat_map(|l| l.get_ref())).find(|name| !fits_a_line(name))
-        {
-            let expected = "without line breaks and control characters (it is written into lines for the program)";
-            let problem = wrong("name or label of a factor", expected, format!("{name:?}"));
-            return Err(context.fault(fields.name.span(), problem));
-        }
-    }
-    own_inputs(context, factors)
-}
 
 pub(super) const NO_PROGRAM: Problem =
     Problem::Missing { what: "program", example: "command = [\"python3\", \"my_model.py\"]" };
-
-fn fits_a_line(name: &str) -> bool {
-    !name.trim().is_empty() && !name.contains(char::is_control)
-}
 
 /// The program with all that is said of it, and notes on what has no effect.
 pub(super) fn subject(
@@ -67,12 +47,6 @@ pub(super) fn subject(
         Some(typed) => existing_directory(context, section, typed)?,
     };
     let environment: Vec<(String, String)> = section.env.clone().into_iter().collect();
-    if let Some((name, _)) =
-        environment.iter().find(|(name, value)| name.is_empty() || name.contains(['=', '\0']) || value.contains('\0'))
-    {
-        let problem = wrong("env", "variables whose names are without \"=\"", format!("{name:?}"));
-        return Err(context.fault(key.span(), problem));
-    }
     let all = own_outputs(context, outputs)?;
     for Pick { source, .. } in all.outputs.iter().filter_map(|output| output.pick.as_ref()) {
         if let Source::File(file) = source {
@@ -134,9 +108,6 @@ fn arguments(context: &Context<'_>, key: &At<CommandKey>, program: &[At<String>]
     if program.first().is_none_or(|name| name.get_ref().trim().is_empty()) {
         let span = program.first().map_or_else(|| key.span(), At::span);
         return Err(context.fault(span, NO_PROGRAM));
-    }
-    if let Some(typed) = program.iter().find(|argument| argument.get_ref().contains('\0')) {
-        return Err(context.fault(typed.span(), wrong("program", "without NUL characters", "one with them".to_owned())));
     }
     Ok(program.iter().map(|argument| argument.get_ref().clone()).collect())
 }

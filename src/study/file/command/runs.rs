@@ -8,6 +8,7 @@ use crate::files::read_text;
 use crate::model::{CommandOutput, InputTemplate, PerRun, TemplateProblem};
 use crate::names::nearest;
 use crate::space::Space;
+use crate::study::did_you_mean;
 use crate::study::file::at::At;
 use crate::study::file::context::wrong;
 use crate::study::file::error::Problem;
@@ -61,29 +62,25 @@ pub(super) fn refuse_without_pick(
 }
 
 fn read_template(path: &Path, space: &Space) -> Result<InputTemplate, Problem> {
-    let problem = |place: String, reason: String, help: String| Problem::File { place, reason, help };
-    let text = read_text(path).map_err(|error| {
-        let reason = format!("cannot read the template: {error}");
-        problem(
-            path.display().to_string(),
-            reason,
-            "it is a text in UTF-8; its path is relative to the study".to_owned(),
-        )
+    let text = read_text(path).map_err(|error| Problem::File {
+        place: path.display().to_string(),
+        reason: format!("cannot read the template: {error}"),
+        help: "it is a text in UTF-8; its path is relative to the study".to_owned(),
     })?;
     let names = || space.factors().iter().map(|factor| factor.name.as_str());
     InputTemplate::parse(&text, &|name| names().position(|known| known == name)).map_err(|error| {
-        let place = format!("{}:{}:{}", path.display(), error.line, error.column);
         let near = match &error.problem {
             TemplateProblem::Unknown(name) => nearest(name, names()),
             TemplateProblem::Open => None,
         };
-        let near = near.map_or_else(String::new, |name| format!(": did you mean `{name}`?"));
-        let known = names().collect::<Vec<_>>().join(", ");
-        problem(
-            place,
-            format!("{error}{near}"),
-            format!("factors: {known}; write `{{{{{{{{` for two braces of the text"),
-        )
+        Problem::File {
+            place: format!("{}:{}:{}", path.display(), error.line, error.column),
+            reason: format!("{error}{}", did_you_mean(&near)),
+            help: format!(
+                "factors: {}; write `{{{{{{{{` for two braces of the text",
+                names().collect::<Vec<_>>().join(", ")
+            ),
+        }
     })
 }
 

@@ -2,7 +2,6 @@
 
 mod diagnostic;
 mod problem;
-mod synonyms;
 
 use std::path::PathBuf;
 
@@ -10,8 +9,8 @@ use thiserror::Error;
 
 pub use diagnostic::Diagnostic;
 pub use problem::Problem;
-pub(super) use synonyms::meant;
-use synonyms::suggestion;
+
+use crate::study::did_you_mean;
 
 /// A study that cannot be read or makes no sense.
 #[derive(Debug, Error)]
@@ -50,7 +49,7 @@ pub enum OverrideProblem {
     #[error("the key has {0} parts, more than any key of a study: expected names joined by dots, as in afm.friction")]
     TooDeep(usize),
     /// `factor.NAME` names no factor of the file.
-    #[error("the study has no factor `{name}`{}", suggestion(.nearest))]
+    #[error("the study has no factor `{name}`{}", did_you_mean(.nearest))]
     NoFactor {
         /// The name given.
         name: String,

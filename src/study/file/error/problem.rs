@@ -2,11 +2,11 @@
 
 use thiserror::Error;
 
-use super::synonyms::suggestion;
 use crate::model::{ExpressionError, ParameterError};
 use crate::quantity::UnitError;
 use crate::space::DistributionError;
 use crate::study::BuildError;
+use crate::study::did_you_mean;
 
 /// What is wrong at a place of a study file.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -15,7 +15,7 @@ pub enum Problem {
     #[error("{0}")]
     Syntax(String),
     /// A key that the study format does not have.
-    #[error("unknown key `{name}`{}", suggestion(.nearest))]
+    #[error("unknown key `{name}`{}", did_you_mean(.nearest))]
     UnknownKey {
         /// The key as typed.
         name: String,
@@ -32,22 +32,19 @@ pub enum Problem {
         /// Where it belongs, or what to write.
         right: String,
     },
-    /// Factors in both forms.
-    #[error("factors stand both in `[factors]` and in `[[factor]]`: keep one of the two")]
-    TwoForms,
     /// A form of former versions.
     #[error("{form}: factors and outputs are written in another way today")]
     OldForm {
         /// What was written.
-        form: String,
-        /// The lines that say the same.
-        lines: String,
+        form: &'static str,
+        /// How it is written today.
+        lines: &'static str,
     },
     /// A file that is called a model.
     #[error("unknown model `{0}`: a program of your own is a `command`")]
     ModelFile(String),
     /// A name that stands for nothing.
-    #[error("unknown {what} `{name}`{}", suggestion(.nearest))]
+    #[error("unknown {what} `{name}`{}", did_you_mean(.nearest))]
     UnknownName {
         /// What the name should be of, such as "factor".
         what: &'static str,
@@ -91,7 +88,7 @@ pub enum Problem {
         help: String,
     },
     /// A formula that cannot be read.
-    #[error("{source}{}", suggestion(.nearest))]
+    #[error("{source}{}", did_you_mean(.nearest))]
     Expression {
         /// What is wrong.
         source: ExpressionError,
