@@ -3,8 +3,9 @@
 use std::collections::BTreeSet;
 
 use super::discrete::Discrete;
-use super::error::within;
+use super::error::{entry, list, within};
 use super::family::{Family, Parameter, numbers_of_law};
+use super::keys::{Entry, PLAIN, keys};
 use super::{Distribution, DistributionError};
 use crate::quantity::Unit;
 
@@ -47,22 +48,25 @@ impl Distribution {
         let mut seen = BTreeSet::new();
         for (index, label) in labels.iter().enumerate() {
             if label.trim().is_empty() {
-                return Err(DistributionError::EmptyLabel { index });
+                return Err(list("labels", format!("`labels[{index}]` is empty, but every category needs a label")));
             }
             if !seen.insert(label) {
-                return Err(DistributionError::RepeatedLabel { label: label.clone() });
+                return Err(list("labels", format!("the label \"{label}\" stands in `labels` twice")));
             }
         }
         let places = || (0..labels.len()).map(|place| place as f64).collect();
         let values: Vec<f64> = values.map_or_else(places, <[f64]>::to_vec);
         if values.len() != labels.len() {
-            return Err(DistributionError::Labels { labels: labels.len(), values: values.len() });
+            let (values, labels) = (values.len(), labels.len());
+            let problem = format!("there are {values} `values` for {labels} `labels`, but there must be one for each");
+            return Err(list("values", problem));
         }
         // 0 and -0 are one number. What is no number is refused with its place below.
         let mut seen = BTreeSet::new();
         let is_repeated = |value: &f64| value.is_finite() && !seen.insert((value + 0.0).to_bits());
         if let Some(index) = values.iter().position(is_repeated) {
-            return Err(DistributionError::RepeatedValue { index, value: values[index] });
+            let must = "differ from those before it: every label needs a value of its own".to_owned();
+            return Err(entry("values", index, values[index], must));
         }
         let law = Discrete::new(&values, weights)?;
         Self::Categorical(Categorical { labels, values, law, truth: None }).finite()
@@ -130,9 +134,31 @@ impl Categorical {
     }
 }
 
+pub(super) const ENTRIES: &[Entry] = &[
+    Entry {
+        name: "categorical",
+        summary: "Labels with weights; the model gets a number for each.",
+        ways: &[keys(&["labels"]).perhaps(&["weights", "values"])],
+        build: |given| match given.get("labels") {
+            Some(Parameter::Texts(labels)) => {
+                Distribution::categorical(labels, given.list_if("values"), given.list_if("weights"))
+            }
+            _ => Err(given.refused("`labels`".to_owned())),
+        },
+        ..PLAIN
+    },
+    Entry {
+        name: "boolean",
+        summary: "True with a probability; the model gets 1 or 0.",
+        ways: &[keys(&[]).perhaps(&["probability"])],
+        build: |given| Distribution::boolean(given.number_or("probability", 0.5)),
+        ..PLAIN
+    },
+];
+
 impl Family for Categorical {
-    fn name(&self) -> &'static str {
-        if self.truth.is_some() { "boolean" } else { "categorical" }
+    fn name(&self, own: &'static str) -> &'static str {
+        if self.truth.is_some() { ENTRIES[1].name } else { own }
     }
 
     numbers_of_law!();
@@ -146,7 +172,7 @@ impl Family for Categorical {
         parameters
     }
 
-    fn to_si(&self, unit: &Unit) -> Result<Distribution, DistributionError> {
+    fn in_si(&self, _own: &'static Entry, unit: &Unit) -> Result<Distribution, DistributionError> {
         let values: Vec<f64> = self.values.iter().map(|&value| unit.to_si(value)).collect();
         let law = Discrete::new(&values, self.law.weights())?;
         Ok(Distribution::Categorical(Self { labels: self.labels.clone(), values, law, truth: self.truth }))

@@ -4,8 +4,9 @@
 
 use super::error::{finite, positive, within};
 use super::family::{Family, Parameter};
+use super::keys::{Entry, MOMENTS, PLAIN, TWO_QUANTILES, keys};
+use super::solved::{Shape, Solved};
 use super::{Distribution, DistributionError};
-use crate::quantity::Unit;
 
 /// Shapes beyond are refused: the series would need thousands of terms, or all values are next to 0.
 const SHAPES: (f64, f64) = (1e-3, 1e5);
@@ -53,23 +54,29 @@ impl Distribution {
     }
 }
 
-impl Gamma {
-    fn at(&self, u: f64, v: f64) -> f64 {
-        self.location + self.scale * self.split.solve(u, v)
-    }
-}
+impl Gamma {}
+
+pub(super) const ENTRIES: &[Entry] = &[Entry {
+    name: "gamma",
+    summary: "Sums of waiting times, and positive quantities of moderate scatter.",
+    ways: &[
+        keys(&["shape", "scale"]).perhaps(&["location"]),
+        MOMENTS.perhaps(&["location"]),
+        TWO_QUANTILES.perhaps(&["location"]),
+    ],
+    solved: Some(Solved {
+        shape: Shape::Between(1e5, 1e-3, 300),
+        make: |_, [location, scale, shape]| Distribution::gamma(shape, scale, location),
+    }),
+    build: |given| {
+        Distribution::gamma(given.number("shape")?, given.number("scale")?, given.number_or("location", 0.0))
+    },
+    ..PLAIN
+}];
 
 impl Family for Gamma {
-    fn name(&self) -> &'static str {
-        "gamma"
-    }
-
-    fn quantile(&self, u: f64) -> f64 {
-        self.at(u, 1.0 - u)
-    }
-
-    fn upper_quantile(&self, v: f64) -> f64 {
-        self.at(1.0 - v, v)
+    fn at(&self, u: f64, v: f64) -> f64 {
+        self.location + self.scale * self.split.solve(u, v)
     }
 
     fn tails(&self, x: f64) -> (f64, f64) {
@@ -90,10 +97,6 @@ impl Family for Gamma {
 
     fn parameters(&self) -> Vec<(&'static str, Parameter)> {
         vec![("shape", self.shape.into()), ("scale", self.scale.into()), ("location", self.location.into())]
-    }
-
-    fn to_si(&self, unit: &Unit) -> Result<Distribution, DistributionError> {
-        Distribution::gamma(self.shape, unit.span_to_si(self.scale), unit.to_si(self.location))
     }
 }
 

@@ -3,7 +3,6 @@
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde_json::{Map, Value, json};
 
-use super::distribution_forms::FORMS;
 use crate::afm::{ContactTheory, Fidelity, FrictionLaw, LuGreParameters, Parameter, Torsion};
 use crate::design::Sampler;
 use crate::estimate::{Estimator, ShapleyMethod, ShapleyPlayers};
@@ -11,6 +10,7 @@ use crate::given::Measure;
 use crate::model::{KnownAnswer, Match, ModelKind, Protocol, edge_unit};
 use crate::run::FailurePolicy;
 use crate::space::CorrelationMeasure;
+use crate::space::distribution::{Key, KeyKind, Kind};
 use crate::study::SurrogateChoice;
 use crate::uncertainty::IntervalMethod;
 
@@ -79,7 +79,7 @@ pub(super) fn protocols() -> Vec<&'static str> {
 }
 
 pub(super) fn distributions() -> Vec<&'static str> {
-    FORMS.iter().map(|form| form.name).collect()
+    Kind::all().map(Kind::name).collect()
 }
 
 fn names<T: Copy>(all: &[T], name: fn(T) -> &'static str) -> Vec<&'static str> {
@@ -155,9 +155,22 @@ fn series_properties() -> Map<String, Value> {
     properties.as_object().cloned().unwrap_or_default()
 }
 
-/// `quantiles`: values by the probabilities below them.
-pub(super) fn quantiles(_: &mut SchemaGenerator) -> Schema {
-    schemars::json_schema!({ "type": "object", "additionalProperties": { "type": "number" } })
+/// A key of distributions.
+pub(super) fn distribution_key(key: &Key) -> Value {
+    let (number, text) = (json!({ "type": "number" }), json!({ "type": "string" }));
+    let mut schema = match key.kind {
+        KeyKind::Number => number,
+        KeyKind::Numbers => json!({ "type": "array", "items": number }),
+        KeyKind::Bounds => json!({ "type": "array", "items": number, "minItems": 2, "maxItems": 2 }),
+        KeyKind::Text => text,
+        KeyKind::Texts => json!({ "type": "array", "items": text }),
+        KeyKind::Quantiles => json!({ "type": "object", "additionalProperties": number }),
+        KeyKind::Distributions => {
+            json!({ "type": "array", "items": { "$ref": "#/definitions/ComponentSection" }, "minItems": 1 })
+        }
+    };
+    schema["description"] = json!(key.description);
+    schema
 }
 
 /// `outputs`: names, or for each a formula or its unit, or a table of more.

@@ -18,19 +18,23 @@ use super::context::{choice, wrong};
 use super::error::Problem;
 use super::outputs::{outputs_as_settings, own_outputs};
 use super::paths::{Reach, folder, refuse_outside_of_run, resolve};
-use super::sections::{At, FactorSection, Outputs};
+use super::sections::{At, FactorSection, Outputs, TypedValue};
 use super::subjects::CommandSubject;
 use super::units::own_inputs;
 use crate::model::{CommandOutput, CommandSettings, Form, Input, Pick, Program, Protocol, Source};
 use crate::space::Space;
+use crate::space::distribution::Parameter;
 
 /// The inputs of a program: the factors of the study, each in its own unit.
 pub(super) fn inputs(context: &Context<'_>, factors: &[At<FactorSection>]) -> Result<Vec<Input>, Fault> {
     for section in factors {
         let fields = section.get_ref();
-        let names = std::iter::once(fields.name.get_ref());
-        if let Some(name) = names.chain(fields.labels.iter().flat_map(|l| l.get_ref())).find(|name| !fits_a_line(name))
-        {
+        let labels = fields.keys.iter().filter_map(|typed| match &typed.value {
+            TypedValue::Parameter(Parameter::Texts(labels)) => Some(labels),
+            _ => None,
+        });
+        let mut names = std::iter::once(fields.name.get_ref()).chain(labels.flatten());
+        if let Some(name) = names.find(|name| !fits_a_line(name)) {
             let expected = "without line breaks and control characters (it is written into lines for the program)";
             let problem = wrong("name or label of a factor", expected, format!("{name:?}"));
             return Err(context.fault(fields.name.span(), problem));
