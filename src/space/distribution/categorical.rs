@@ -13,8 +13,7 @@ use crate::quantity::Unit;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Categorical {
     labels: Vec<String>,
-    /// The number of each label, distinct.
-    values: Vec<f64>,
+    /// The number of each label, distinct, with its weight.
     law: Discrete,
     /// The probability of `true`, of the two categories false and true.
     truth: Option<f64>,
@@ -69,7 +68,7 @@ impl Distribution {
             return Err(entry("values", index, values[index], must));
         }
         let law = Discrete::new(&values, weights)?;
-        Self::Categorical(Categorical { labels, values, law, truth: None }).finite()
+        Self::Categorical(Categorical { labels, law, truth: None }).finite()
     }
 
     /// 1 (`true`) with this probability, else 0 (`false`).
@@ -87,10 +86,9 @@ impl Distribution {
     /// ```
     pub fn boolean(probability: f64) -> Result<Self, DistributionError> {
         within("probability", probability, (0.0, 1.0))?;
-        let values = vec![0.0, 1.0];
-        let law = Discrete::new(&values, Some(&[1.0 - probability, probability]))?;
+        let law = Discrete::new(&[0.0, 1.0], Some(&[1.0 - probability, probability]))?;
         let labels = vec!["false".to_owned(), "true".to_owned()];
-        Self::Categorical(Categorical { labels, values, law, truth: Some(probability) }).finite()
+        Self::Categorical(Categorical { labels, law, truth: Some(probability) }).finite()
     }
 }
 
@@ -102,12 +100,13 @@ impl Categorical {
 
     /// Each label with its number and its probability, as given.
     pub fn categories(&self) -> impl Iterator<Item = (&str, f64, f64)> {
-        self.labels.iter().zip(&self.values).map(|(label, &value)| (label.as_str(), value, self.law.probability(value)))
+        let pairs = self.labels.iter().zip(self.law.values());
+        pairs.map(|(label, &value)| (label.as_str(), value, self.law.probability(value)))
     }
 
     /// Whether the numbers are the places of the labels, 0, 1, 2 and so on, which measure nothing.
     pub fn are_places(&self) -> bool {
-        self.values.iter().enumerate().all(|(place, value)| *value == place as f64)
+        self.law.values().iter().enumerate().all(|(place, value)| *value == place as f64)
     }
 
     /// The numbers of the labels that occur, in ascending order, each with a `u` at which it is the quantile.
@@ -117,14 +116,14 @@ impl Categorical {
 
     /// The label whose number is `value`.
     pub fn label(&self, value: f64) -> Option<&str> {
-        let place = self.values.iter().position(|other| *other == value)?;
+        let place = self.law.values().iter().position(|other| *other == value)?;
         self.labels.get(place).map(String::as_str)
     }
 
     /// The number of `label`.
     pub fn value_of(&self, label: &str) -> Option<f64> {
         let place = self.labels.iter().position(|other| other == label)?;
-        self.values.get(place).copied()
+        self.law.values().get(place).copied()
     }
 
     /// The number of the most probable label, the first one of equals: where a factor stands that nobody placed.
@@ -173,8 +172,8 @@ impl Family for Categorical {
     }
 
     fn in_si(&self, _own: &'static Entry, unit: &Unit) -> Result<Distribution, DistributionError> {
-        let values: Vec<f64> = self.values.iter().map(|&value| unit.to_si(value)).collect();
+        let values: Vec<f64> = self.law.values().iter().map(|&value| unit.to_si(value)).collect();
         let law = Discrete::new(&values, self.law.weights())?;
-        Ok(Distribution::Categorical(Self { labels: self.labels.clone(), values, law, truth: self.truth }))
+        Ok(Distribution::Categorical(Self { law, ..self.clone() }))
     }
 }

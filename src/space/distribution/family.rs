@@ -124,4 +124,9 @@ pub(super) trait Family {
     fn in_si(&self, own: &'static Entry, unit: &Unit) -> Result<Distribution, DistributionError> {
         in_si(own, self.parameters(), unit)
     }
+
+    /// Refuses what has no variance, by its parameters.
+    fn refuse_infinite_variance(&self) -> Result<(), DistributionError> {
+        Ok(())
+    }
 }

@@ -170,20 +170,10 @@ impl Split {
         let curvature = slope * (slope + self.x - self.a);
         let parabola = 2.0 * target / (slope + (slope * slope - 2.0 * curvature * target).max(0.0).sqrt());
         let tangent = (target + libm::log(self.series) - self.x) / self.a;
-        let mut d = tangent.max(parabola).min(0.0);
-        for _ in 0..MOST_STEPS {
-            let x = self.x * libm::exp(d);
+        self.halley(tangent.max(parabola).min(0.0), target, (f64::NEG_INFINITY, 0.0), |x| {
             let series = series(self.a, x);
-            let residual = self.a * d - self.x * libm::expm1(d) + libm::log(series / self.series) - target;
-            let slope = self.a / series;
-            let step = residual / slope;
-            let bend = 0.5 * step * (self.a - x - slope);
-            d = (d - step / (1.0 - bend).max(0.5)).min(0.0);
-            if residual.abs().max(step.abs()) < CLOSE {
-                break;
-            }
-        }
-        d
+            (libm::log(series / self.series), self.a / series)
+        })
     }
 
     /// d at which ln Q has risen by `target` from the split, which is not positive.
@@ -193,15 +183,22 @@ impl Split {
         let curvature = slope * (slope + self.a - self.x);
         let parabola = -2.0 * target / (slope + (slope * slope - 2.0 * curvature * target).max(0.0).sqrt());
         let exponential = libm::log1p(-target / (self.x * (slope / self.x).min(1.0)));
-        let mut d = exponential.min(parabola).max(0.0);
+        self.halley(exponential.min(parabola).max(0.0), target, (0.0, f64::INFINITY), |x| {
+            let fraction = continued_fraction(self.a, x);
+            (libm::log(fraction / self.fraction), -1.0 / fraction)
+        })
+    }
+
+    /// d between two bounds at which the logarithm of P or Q has risen by `target`, from a first guess; `side` gives that of the series
+    /// or fraction over its value at the split, and the slope.
+    fn halley(&self, mut d: f64, target: f64, (low, high): (f64, f64), side: impl Fn(f64) -> (f64, f64)) -> f64 {
         for _ in 0..MOST_STEPS {
             let x = self.x * libm::exp(d);
-            let fraction = continued_fraction(self.a, x);
-            let residual = self.a * d - self.x * libm::expm1(d) + libm::log(fraction / self.fraction) - target;
-            let slope = -1.0 / fraction;
+            let (log, slope) = side(x);
+            let residual = self.a * d - self.x * libm::expm1(d) + log - target;
             let step = residual / slope;
             let bend = 0.5 * step * (self.a - x - slope);
-            d = (d - step / (1.0 - bend).max(0.5)).max(0.0);
+            d = (d - step / (1.0 - bend).max(0.5)).max(low).min(high);
             if residual.abs().max(step.abs()) < CLOSE {
                 break;
             }

@@ -288,11 +288,7 @@ impl Distribution {
 
     /// Refuses what has no variance, or overflows within the promised range of `u`.
     fn finite(self) -> Result<Self, DistributionError> {
-        match &self {
-            Self::StudentT(student) => student.refuse_infinite_variance()?,
-            Self::Pareto(pareto) => pareto.refuse_infinite_variance()?,
-            _ => (),
-        }
+        self.family().refuse_infinite_variance()?;
         let figures = [self.quantile(SMALLEST_U), self.quantile(LARGEST_U), self.mean(), self.sd()];
         match figures.iter().all(|figure| figure.is_finite()) {
             true => Ok(self),

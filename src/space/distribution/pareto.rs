@@ -49,10 +49,6 @@ impl Pareto {
     pub(super) fn beginning_at(&self, min: f64) -> Result<Distribution, DistributionError> {
         Distribution::pareto(self.shape, min)
     }
-
-    pub(super) fn refuse_infinite_variance(&self) -> Result<(), DistributionError> {
-        of_finite_variance("shape", self.shape, 2.0)
-    }
 }
 
 pub(super) const ENTRIES: &[Entry] = &[Entry {
@@ -69,6 +65,10 @@ pub(super) const ENTRIES: &[Entry] = &[Entry {
 }];
 
 impl Family for Pareto {
+    fn refuse_infinite_variance(&self) -> Result<(), DistributionError> {
+        of_finite_variance("shape", self.shape, 2.0)
+    }
+
     fn quantile(&self, u: f64) -> f64 {
         (self.min * libm::exp(-libm::log1p(-u) / self.shape)).max(self.min)
     }

@@ -64,10 +64,6 @@ impl StudentT {
         Ok(Self { df, location, scale, tails, middle })
     }
 
-    pub(super) fn refuse_infinite_variance(&self) -> Result<(), DistributionError> {
-        of_finite_variance("df", self.df, 2.0)
-    }
-
     /// The same of what a truncation leaves between the bounds.
     pub(super) fn refuse_one_long_tail(&self, (min, max): (f64, f64)) -> Result<(), DistributionError> {
         let least = if min.is_finite() && max.is_finite() { 0.0 } else { LEAST_OF_ONE_TAIL };
@@ -113,6 +109,10 @@ pub(super) const ENTRIES: &[Entry] = &[Entry {
 }];
 
 impl Family for StudentT {
+    fn refuse_infinite_variance(&self) -> Result<(), DistributionError> {
+        of_finite_variance("df", self.df, 2.0)
+    }
+
     fn quantile(&self, u: f64) -> f64 {
         self.location - self.deviation(u)
     }

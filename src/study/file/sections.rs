@@ -14,7 +14,7 @@ use super::at::ListOrTable;
 pub(super) use super::at::{At, Choices};
 use super::command::file::CommandKey;
 use super::key_schemas;
-use crate::space::distribution::{KEYS, Key, KeyKind, Parameter};
+use crate::space::distribution::{KEYS, Key, KeyKind, Kind, Parameter};
 
 /// A study of apportion: a model, the factors whose influence is asked for, and how many runs answer it.
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -229,6 +229,7 @@ pub(super) struct FactorSection {
     pub name: At<String>,
     /// How it varies.
     #[schemars(extend("enum" = key_schemas::distributions(), "default" = "uniform"))]
+    #[schemars(extend("enumDescriptions" = Kind::all().map(Kind::summary).collect::<Vec<_>>()))]
     pub distribution: Option<At<String>>,
     /// Unit of all numbers of this factor, as in "um".
     pub unit: Option<At<String>>,
@@ -315,10 +316,7 @@ fn typed_value<'de, A: MapAccess<'de>>(kind: KeyKind, map: &mut A) -> Result<(Ra
     Ok(match kind {
         KeyKind::Number => parts(map.next_value()?, |number| plain(Parameter::Number(number))),
         KeyKind::Numbers => parts(map.next_value()?, |list| plain(Parameter::List(list))),
-        KeyKind::Text => {
-            let text: At<String> = map.next_value()?;
-            (text.span(), TypedValue::Text(text))
-        }
+        KeyKind::Text => map.next_value().map(|text: At<String>| (text.span(), TypedValue::Text(text)))?,
         KeyKind::Texts => parts(map.next_value()?, |texts| plain(Parameter::Texts(texts))),
         KeyKind::Bounds => parts(map.next_value()?, TypedValue::Bounds),
         KeyKind::Quantiles => parts(map.next_value()?, TypedValue::Quantiles),
