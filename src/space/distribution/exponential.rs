@@ -3,7 +3,7 @@
 use super::error::{finite, positive};
 use super::family::{Family, Parameter};
 use super::keys::{Entry, MOMENTS, PLAIN, TWO_QUANTILES, keys, solved_keys};
-use super::solved::{Shape, Solved};
+use super::solved::Shape;
 use super::{Distribution, DistributionError};
 
 /// The distribution of waiting times between events that come by chance.
@@ -51,10 +51,8 @@ pub(super) const ENTRIES: &[Entry] = &[Entry {
         MOMENTS,
         TWO_QUANTILES,
     ],
-    solved: Some(Solved {
-        shape: Shape::None,
-        make: |_, [location, scale, _]| Distribution::exponential(scale, location),
-    }),
+    shape: Shape::None,
+    make: |_, [location, scale, _]| Distribution::exponential(scale, location),
     build: |given| Distribution::exponential(given.number("scale")?, given.number_or("location", 0.0)),
     ..PLAIN
 }];

@@ -5,7 +5,7 @@
 use super::error::{finite, positive, within};
 use super::family::{Family, Parameter};
 use super::keys::{Entry, MOMENTS, PLAIN, TWO_QUANTILES, keys};
-use super::solved::{Shape, Solved};
+use super::solved::Shape;
 use super::{Distribution, DistributionError};
 
 /// Shapes beyond are refused: the series would need thousands of terms, or all values are next to 0.
@@ -64,10 +64,8 @@ pub(super) const ENTRIES: &[Entry] = &[Entry {
         MOMENTS.perhaps(&["location"]),
         TWO_QUANTILES.perhaps(&["location"]),
     ],
-    solved: Some(Solved {
-        shape: Shape::Between(1e5, 1e-3, 300),
-        make: |_, [location, scale, shape]| Distribution::gamma(shape, scale, location),
-    }),
+    shape: Shape::Between(1e5, 1e-3, 300),
+    make: |_, [location, scale, shape]| Distribution::gamma(shape, scale, location),
     build: |given| {
         Distribution::gamma(given.number("shape")?, given.number("scale")?, given.number_or("location", 0.0))
     },

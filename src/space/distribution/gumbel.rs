@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use super::error::{finite, positive};
 use super::family::{Family, Parameter};
 use super::keys::{Entry, MOMENTS, PLAIN, TWO_QUANTILES, keys};
-use super::solved::{Shape, Solved};
+use super::solved::Shape;
 use super::{Distribution, DistributionError};
 
 /// Euler's constant.
@@ -54,7 +54,8 @@ pub(super) const ENTRIES: &[Entry] = &[Entry {
     name: "gumbel",
     summary: "The largest of many values.",
     ways: &[keys(&["location", "scale"]), MOMENTS, TWO_QUANTILES],
-    solved: Some(Solved { shape: Shape::None, make: |_, [location, scale, _]| Distribution::gumbel(location, scale) }),
+    shape: Shape::None,
+    make: |_, [location, scale, _]| Distribution::gumbel(location, scale),
     build: |given| Distribution::gumbel(given.number("location")?, given.number("scale")?),
     ..PLAIN
 }];

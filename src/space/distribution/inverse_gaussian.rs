@@ -8,7 +8,7 @@ use super::error::{positive, within};
 use super::family::{Family, Parameter};
 use super::keys::{Entry, MOMENTS, PLAIN, TWO_QUANTILES, keys};
 use super::quadrature::short_integral;
-use super::solved::{Shape, Solved};
+use super::solved::Shape;
 use super::{Distribution, DistributionError, solve};
 use crate::special::normal_below;
 
@@ -98,10 +98,8 @@ pub(super) const ENTRIES: &[Entry] = &[Entry {
     summary: "First passage times of a drifting random walk.",
     ways: &[keys(&["mean", "scale"]), MOMENTS, TWO_QUANTILES],
     of_ratios: true,
-    solved: Some(Solved {
-        shape: Shape::Between(1e-5, 1e5, 300),
-        make: |_, [_, mean, variation]| Distribution::inverse_gaussian(mean, mean / (variation * variation)),
-    }),
+    shape: Shape::Between(1e-5, 1e5, 300),
+    make: |_, [_, mean, variation]| Distribution::inverse_gaussian(mean, mean / (variation * variation)),
     build: |given| Distribution::inverse_gaussian(given.number("mean")?, given.number("scale")?),
     ..PLAIN
 }];

@@ -3,7 +3,7 @@
 
 use super::error::{finite, refuse_offset};
 use super::family::Parameter;
-use super::solved::Solved;
+use super::solved::{Shape, solved};
 use super::{Distribution, DistributionError, ENTRIES};
 use crate::quantity::Unit;
 
@@ -121,18 +121,11 @@ pub static KEYS: [Key; 33] = {
     ]
 };
 
-/// The quantiles that have a key, with their probabilities.
-pub(super) const QUANTILES: [(&str, f64); 9] = [
-    ("p01", 0.01),
-    ("p05", 0.05),
-    ("p10", 0.10),
-    ("p25", 0.25),
-    ("p50", 0.5),
-    ("p75", 0.75),
-    ("p90", 0.90),
-    ("p95", 0.95),
-    ("p99", 0.99),
-];
+/// The probability below the quantile of that key, `p05` for instance.
+fn probability(key: &str) -> Option<f64> {
+    let percent: u8 = key.strip_prefix('p')?.parse().ok()?;
+    Some(f64::from(percent) / 100.0)
+}
 
 /// Keys that determine a distribution together.
 #[derive(Debug)]
@@ -174,8 +167,7 @@ impl Way {
     }
 
     fn takes(&self, key: &str) -> bool {
-        let is_quantile = || QUANTILES.iter().any(|(name, _)| *name == key);
-        self.needs.contains(&key) || self.may.contains(&key) || self.has_quantiles && is_quantile()
+        self.needs.contains(&key) || self.may.contains(&key) || self.has_quantiles && probability(key).is_some()
     }
 
     /// What is missing among `given`, in words.
@@ -203,8 +195,10 @@ pub(super) struct Entry {
     pub ways: &'static [Way],
     /// Whether it is made of ratios of values above 0, which have no meaning in a unit with a zero of its own.
     pub of_ratios: bool,
-    /// How its parameters are solved for, in ways where they are.
-    pub solved: Option<Solved>,
+    /// The parameter beside location and scale, where the parameters are solved for.
+    pub shape: Shape,
+    /// From a location, a scale and a shape, where these are solved for; other parameters are as given.
+    pub make: fn(&Given<'_>, [f64; 3]) -> Result<Distribution, DistributionError>,
     /// From its parameters; it may have no finite variance before it is truncated.
     pub build: fn(&Given<'_>) -> Result<Distribution, DistributionError>,
 }
@@ -215,7 +209,8 @@ pub(super) const PLAIN: Entry = Entry {
     summary: "",
     ways: &[],
     of_ratios: false,
-    solved: None,
+    shape: Shape::None,
+    make: |given, _| (given.entry.build)(given),
     build: |given| Err(given.refused("nothing".to_owned())),
 };
 
@@ -253,7 +248,7 @@ impl<'a> Given<'a> {
 
     /// The quantiles that have a key: key, probability and value, in rising order of the probabilities.
     pub fn quantiles(&self) -> impl Iterator<Item = (&'static str, f64, f64)> {
-        QUANTILES.into_iter().filter_map(|(key, probability)| Some((key, probability, self.number_if(key)?)))
+        KEYS.iter().filter_map(|key| Some((key.name, probability(key.name)?, self.number_if(key.name)?)))
     }
 
     pub fn refused(&self, needed: String) -> DistributionError {
@@ -312,9 +307,9 @@ impl Kind {
     pub fn make(self, parameters: &[(&'static str, Parameter)]) -> Result<Distribution, DistributionError> {
         let given = Given { entry: self.0, values: parameters };
         let way = self.way(&given)?;
-        let made = match &self.0.solved {
-            Some(solved) if way.is_solved => solved.distribution(&given, way.may.contains(&"location"))?,
-            _ => (self.0.build)(&given)?,
+        let made = match way.is_solved {
+            true => solved(&given, way.may.contains(&"location"))?,
+            false => (self.0.build)(&given)?,
         };
         match given.get("truncate") {
             Some(Parameter::Bounds(min, max)) => made.truncated(*min, *max),

@@ -3,7 +3,7 @@
 use super::error::{finite, positive};
 use super::family::{Family, Parameter};
 use super::keys::{Entry, PLAIN, TWO_QUANTILES, keys};
-use super::solved::{Shape, Solved};
+use super::solved::Shape;
 use super::{Distribution, DistributionError};
 use crate::special::{normal_below, normal_quantile};
 
@@ -82,10 +82,8 @@ pub(super) const ENTRIES: &[Entry] = &[Entry {
     summary: "The logarithm is normal.",
     ways: &[keys(&["mean", "sd"]), keys(&["log_mean", "log_sd"]), TWO_QUANTILES],
     of_ratios: true,
-    solved: Some(Solved {
-        shape: Shape::Between(1e-9, 26.0, 500),
-        make: |_, [_, median, log_sd]| Distribution::log_normal_of_logs(libm::log(median), log_sd),
-    }),
+    shape: Shape::Between(1e-9, 26.0, 500),
+    make: |_, [_, median, log_sd]| Distribution::log_normal_of_logs(libm::log(median), log_sd),
     build: |given| match given.number_if("log_mean") {
         Some(log_mean) => Distribution::log_normal_of_logs(log_mean, given.number("log_sd")?),
         None => Distribution::log_normal(given.number("mean")?, given.number("sd")?),

@@ -3,7 +3,7 @@
 use super::error::{bounds, positive};
 use super::family::{Family, Parameter};
 use super::keys::{Entry, MOMENTS, PLAIN, TWO_QUANTILES, keys};
-use super::solved::{Shape, Solved};
+use super::solved::Shape;
 use super::{Distribution, DistributionError};
 
 /// The logarithm is uniform between the logarithms of two positive bounds.
@@ -56,10 +56,8 @@ pub(super) const ENTRIES: &[Entry] = &[Entry {
     summary: "The logarithm is uniform: every decade between two bounds is equally likely.",
     ways: &[keys(&["min", "max"]), MOMENTS, TWO_QUANTILES],
     of_ratios: true,
-    solved: Some(Solved {
-        shape: Shape::Between(1e-9, 700.0, 500),
-        make: |_, [_, min, log]| Distribution::log_uniform(min, min * libm::exp(log)),
-    }),
+    shape: Shape::Between(1e-9, 700.0, 500),
+    make: |_, [_, min, log]| Distribution::log_uniform(min, min * libm::exp(log)),
     build: |given| Distribution::log_uniform(given.number("min")?, given.number("max")?),
     ..PLAIN
 }];

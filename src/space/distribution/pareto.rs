@@ -3,7 +3,7 @@
 use super::error::{of_finite_variance, positive};
 use super::family::{Family, Parameter};
 use super::keys::{Entry, MOMENTS, PLAIN, TWO_QUANTILES, keys};
-use super::solved::{Shape, Solved};
+use super::solved::Shape;
 use super::{Distribution, DistributionError};
 
 /// A power law from a least value on: sizes, incomes, losses.
@@ -56,10 +56,8 @@ pub(super) const ENTRIES: &[Entry] = &[Entry {
     summary: "A power law from a least value on.",
     ways: &[keys(&["shape", "min"]), MOMENTS, TWO_QUANTILES],
     of_ratios: true,
-    solved: Some(Solved {
-        shape: Shape::Between(1e6, 2.0001, 500),
-        make: |_, [_, min, shape]| Distribution::pareto(shape, min),
-    }),
+    shape: Shape::Between(1e6, 2.0001, 500),
+    make: |_, [_, min, shape]| Distribution::pareto(shape, min),
     build: |given| Pareto::new(given.number("shape")?, given.number("min")?).map(Distribution::Pareto),
     ..PLAIN
 }];

@@ -9,13 +9,6 @@ use super::family::Parameter;
 use super::keys::Given;
 use super::{Distribution, DistributionError};
 
-/// How the parameters of a family are solved for.
-pub(super) struct Solved {
-    pub shape: Shape,
-    /// The distribution of a location, a scale and a shape, other parameters being as given.
-    pub make: fn(&Given<'_>, [f64; 3]) -> Result<Distribution, DistributionError>,
-}
-
 /// The parameter beside location and scale.
 pub(super) enum Shape {
     /// There is none.
@@ -31,70 +24,64 @@ pub(super) enum Shape {
 /// A statement: coefficients of location and scale, and the value.
 type Line = [f64; 3];
 
-impl Solved {
-    /// The distribution with the mean and standard deviation, or the quantiles, that are given: the narrowest where there are
-    /// several. A family that `begins` somewhere does so at `location`, by default 0.
-    pub fn distribution(&self, given: &Given<'_>, begins: bool) -> Result<Distribution, DistributionError> {
-        check(given)?;
-        let found = match self.shape {
-            Shape::None => self.at(f64::NAN, given, begins),
-            Shape::Given(key) => self.at(given.number(key)?, given, begins),
-            Shape::Mode => {
-                let shapes = evenly(0.0, 1.0, 401);
-                first_zero(
-                    shapes,
-                    |shape| self.determinant(shape, given, begins),
-                    |shape| self.at(shape, given, begins),
-                )
-            }
-            Shape::Between(narrow, wide, count) => {
-                let logs = evenly(libm::log(narrow), libm::log(wide), count);
-                let determinant = |log: f64| self.determinant(libm::exp(log), given, begins);
-                first_zero(logs, determinant, |log| self.at(libm::exp(log), given, begins))
-            }
-        };
-        found.ok_or_else(|| {
-            let words: Vec<String> = given.values.iter().filter_map(in_words).collect();
-            let key = given.values.first().map_or("", |(key, _)| *key);
-            let statements = words.join(" and ");
-            DistributionError::NoSuchDistribution { distribution: given.entry.name, statements, key }
-        })
-    }
-
-    /// The distribution of this shape, if it is as stated: to 1e-9 of its standard deviation, to which the last digits of a value
-    /// far from 0 may add a few.
-    fn at(&self, shape: f64, given: &Given<'_>, begins: bool) -> Option<Distribution> {
-        let (lines, origin) = self.lines(shape, given, begins)?;
-        let (location, scale) = located(&lines)?;
-        let place = if begins { given.number_or("location", 0.0) } else { origin + location };
-        let found = (self.make)(given, [place, scale, shape]).ok()?;
-        let tolerance = 1e-9 * found.sd() + 1e-13 * origin.abs();
-        let is_met = |[a, b, value]: Line| (a * location + b * scale - value).abs() <= tolerance + 1e-13 * value.abs();
-        lines.into_iter().all(is_met).then_some(found)
-    }
-
-    /// The statements as lines for one shape, and what was taken off their values, so that those far from 0 keep their digits.
-    fn lines(&self, shape: f64, given: &Given<'_>, begins: bool) -> Option<(Vec<Line>, f64)> {
-        let standard = (self.make)(&Given { values: &[], ..*given }, [0.0, 1.0, shape]).ok()?;
-        let mut lines = Vec::with_capacity(3);
-        if begins || given.entry.of_ratios {
-            lines.push([1.0, 0.0, given.number_or("location", 0.0)]);
+/// The distribution with the mean and standard deviation, or the quantiles, that are given: the narrowest where there are
+/// several. A family that `begins` somewhere does so at `location`, by default 0.
+pub(super) fn solved(given: &Given<'_>, begins: bool) -> Result<Distribution, DistributionError> {
+    check(given)?;
+    let found = match given.entry.shape {
+        Shape::None => at(f64::NAN, given, begins),
+        Shape::Given(key) => at(given.number(key)?, given, begins),
+        Shape::Mode => {
+            let shapes = evenly(0.0, 1.0, 401);
+            first_zero(shapes, |shape| determinant(shape, given, begins), |shape| at(shape, given, begins))
         }
-        if matches!(self.shape, Shape::Mode) {
-            lines.push([1.0, shape, given.number_if("mode")?]);
+        Shape::Between(narrow, wide, count) => {
+            let logs = evenly(libm::log(narrow), libm::log(wide), count);
+            let determinant = |log: f64| determinant(libm::exp(log), given, begins);
+            first_zero(logs, determinant, |log| at(libm::exp(log), given, begins))
         }
-        lines.extend(stated(given, &standard).map(|(of_location, of_scale, value)| [of_location, of_scale, value]));
-        let origin = lines.iter().find(|line| line[0] == 1.0).map_or(0.0, |line| line[2]);
-        lines.iter_mut().for_each(|line| line[2] -= line[0] * origin);
-        Some((lines, origin))
-    }
+    };
+    found.ok_or_else(|| {
+        let words: Vec<String> = given.values.iter().filter_map(in_words).collect();
+        let key = given.values.first().map_or("", |(key, _)| *key);
+        let statements = words.join(" and ");
+        DistributionError::NoSuchDistribution { distribution: given.entry.name, statements, key }
+    })
+}
 
-    /// Zero where three statements agree; NaN where the standard distribution does not exist.
-    fn determinant(&self, shape: f64, given: &Given<'_>, begins: bool) -> f64 {
-        let Some((lines, _)) = self.lines(shape, given, begins) else { return f64::NAN };
-        let [a, b, c] = lines[..] else { return f64::NAN };
-        a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) + a[2] * (b[0] * c[1] - b[1] * c[0])
+/// The distribution of this shape, if it is as stated: to 1e-9 of its standard deviation, to which the last digits of a value
+/// far from 0 may add a few.
+fn at(shape: f64, given: &Given<'_>, begins: bool) -> Option<Distribution> {
+    let (lines, origin) = lines(shape, given, begins)?;
+    let (location, scale) = located(&lines)?;
+    let place = if begins { given.number_or("location", 0.0) } else { origin + location };
+    let found = (given.entry.make)(given, [place, scale, shape]).ok()?;
+    let tolerance = 1e-9 * found.sd() + 1e-13 * origin.abs();
+    let is_met = |[a, b, value]: Line| (a * location + b * scale - value).abs() <= tolerance + 1e-13 * value.abs();
+    lines.into_iter().all(is_met).then_some(found)
+}
+
+/// The statements as lines for one shape, and what was taken off their values, so that those far from 0 keep their digits.
+fn lines(shape: f64, given: &Given<'_>, begins: bool) -> Option<(Vec<Line>, f64)> {
+    let standard = (given.entry.make)(&Given { values: &[], ..*given }, [0.0, 1.0, shape]).ok()?;
+    let mut lines = Vec::with_capacity(3);
+    if begins || given.entry.of_ratios {
+        lines.push([1.0, 0.0, given.number_or("location", 0.0)]);
     }
+    if matches!(given.entry.shape, Shape::Mode) {
+        lines.push([1.0, shape, given.number_if("mode")?]);
+    }
+    lines.extend(stated(given, &standard).map(|(of_location, of_scale, value)| [of_location, of_scale, value]));
+    let origin = lines.iter().find(|line| line[0] == 1.0).map_or(0.0, |line| line[2]);
+    lines.iter_mut().for_each(|line| line[2] -= line[0] * origin);
+    Some((lines, origin))
+}
+
+/// Zero where three statements agree; NaN where the standard distribution does not exist.
+fn determinant(shape: f64, given: &Given<'_>, begins: bool) -> f64 {
+    let Some((lines, _)) = lines(shape, given, begins) else { return f64::NAN };
+    let [a, b, c] = lines[..] else { return f64::NAN };
+    a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) + a[2] * (b[0] * c[1] - b[1] * c[0])
 }
 
 /// The mean, standard deviation and quantiles that are given: whether each moves with the location, what it is of `distribution`, and

@@ -4,7 +4,7 @@ use super::beta::{Side, tails_of_sides};
 use super::error::{finite, of_finite_variance, positive, within};
 use super::family::{Family, Parameter};
 use super::keys::{Entry, PLAIN, keys, solved_keys, two_quantiles_and};
-use super::solved::{Shape, Solved};
+use super::solved::Shape;
 use super::{Distribution, DistributionError};
 
 /// Degrees of freedom beyond are refused: fewer mean nothing, with more it is a normal distribution.
@@ -97,10 +97,8 @@ pub(super) const ENTRIES: &[Entry] = &[Entry {
     name: "student-t",
     summary: "Symmetric, with tails that fall by a power.",
     ways: &[keys(&["df", "location", "scale"]), solved_keys(&["df", "mean", "sd"]), two_quantiles_and(&["df"])],
-    solved: Some(Solved {
-        shape: Shape::Given("df"),
-        make: |_, [location, scale, df]| Distribution::student_t(df, location, scale),
-    }),
+    shape: Shape::Given("df"),
+    make: |_, [location, scale, df]| Distribution::student_t(df, location, scale),
     build: |given| {
         let (df, location) = (given.number("df")?, given.number("location")?);
         StudentT::new(df, location, given.number("scale")?).map(Distribution::StudentT)

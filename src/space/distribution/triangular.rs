@@ -3,7 +3,7 @@
 use super::error::{bounds, number};
 use super::family::{Family, Parameter};
 use super::keys::{Entry, PLAIN, keys, two_quantiles_and};
-use super::solved::{Shape, Solved};
+use super::solved::Shape;
 use super::{Distribution, DistributionError};
 
 /// The density rises linearly from `min` to `mode` and falls linearly to `max`.
@@ -64,14 +64,12 @@ pub(super) const ENTRIES: &[Entry] = &[Entry {
     name: "triangular",
     summary: "The density rises from `min` to `mode`, and falls to `max`.",
     ways: &[keys(&["min", "mode", "max"]), two_quantiles_and(&["mode"])],
-    solved: Some(Solved {
-        shape: Shape::Mode,
-        make: |given, [min, width, share]| {
-            let max = min + width;
-            let mode = given.number_or("mode", min + width * share);
-            Distribution::triangular(min, mode.clamp(min, max), max)
-        },
-    }),
+    shape: Shape::Mode,
+    make: |given, [min, width, share]| {
+        let max = min + width;
+        let mode = given.number_or("mode", min + width * share);
+        Distribution::triangular(min, mode.clamp(min, max), max)
+    },
     build: |given| Distribution::triangular(given.number("min")?, given.number("mode")?, given.number("max")?),
     ..PLAIN
 }];

@@ -3,7 +3,7 @@
 use super::error::{finite, positive};
 use super::family::{Family, Parameter};
 use super::keys::{Entry, MOMENTS, PLAIN, TWO_QUANTILES, keys};
-use super::solved::{Shape, Solved};
+use super::solved::Shape;
 use super::{Distribution, DistributionError};
 
 /// The distribution of strengths and lifetimes.
@@ -53,10 +53,8 @@ pub(super) const ENTRIES: &[Entry] = &[Entry {
         MOMENTS.perhaps(&["location"]),
         TWO_QUANTILES.perhaps(&["location"]),
     ],
-    solved: Some(Solved {
-        shape: Shape::Between(1e4, 0.015, 500),
-        make: |_, [location, scale, shape]| Distribution::weibull(shape, scale, location),
-    }),
+    shape: Shape::Between(1e4, 0.015, 500),
+    make: |_, [location, scale, shape]| Distribution::weibull(shape, scale, location),
     build: |given| {
         Distribution::weibull(given.number("shape")?, given.number("scale")?, given.number_or("location", 0.0))
     },
