@@ -149,7 +149,11 @@ pub fn t_above(t: f64, freedom: f64) -> f64 {
     // x^a (1 - x)^(1/2) / B(a, 1/2); log1p where x is nearly 1.
     let log_x = if rest < 0.5 { libm::log1p(-rest) } else { libm::log(x) };
     let front = libm::exp(a * log_x) * rest.sqrt() * root_ratio(a) / PI.sqrt();
-    if x < (a + 1.0) / (a + 2.5) { 0.5 * front * fraction(x, a, 0.5) / a } else { 0.5 - front * fraction(rest, 0.5, a) }
+    if x < (a + 1.0) / (a + 2.5) {
+        0.5 * front * beta_fraction(x, a, 0.5, 1e-16) / a
+    } else {
+        0.5 - front * beta_fraction(rest, 0.5, a, 1e-16)
+    }
 }
 
 /// The t at which P(|T| > t) is `outside`, of Student's t distribution with `freedom` > 0 degrees of freedom; infinite where it
@@ -195,13 +199,13 @@ fn root_ratio(a: f64) -> f64 {
     factor * a.sqrt() * libm::exp(log)
 }
 
-/// The continued fraction of the incomplete beta function (Abramowitz and Stegun 1964, 26.5.8), by Lentz's algorithm.
-fn fraction(x: f64, a: f64, b: f64) -> f64 {
+/// The continued fraction of the incomplete beta function I_x(a, b) (Abramowitz and Stegun 1964, 26.5.8), up to a relative change of
+/// less than `least_change`, by the modified Lentz algorithm (Press et al. 2007, Numerical Recipes, section 6.4). Some sqrt(a) terms are needed.
+pub fn beta_fraction(x: f64, a: f64, b: f64, least_change: f64) -> f64 {
     const LEAST: f64 = 1e-300;
     let away = |value: f64| if value.abs() < LEAST { LEAST } else { value };
     let (mut c, mut d) = (1.0, 1.0 / away(1.0 - (a + b) * x / (a + 1.0)));
     let mut value = d;
-    // Some sqrt(a) terms are needed.
     for m in 1..100_000 {
         let m = f64::from(m);
         let even = m * (b - m) * x / ((a + 2.0 * m - 1.0) * (a + 2.0 * m));
@@ -213,7 +217,7 @@ fn fraction(x: f64, a: f64, b: f64) -> f64 {
         c = away(1.0 + odd / c);
         let change = d * c;
         value *= change;
-        if (change - 1.0).abs() < 1e-16 {
+        if (change - 1.0).abs() < least_change {
             break;
         }
     }

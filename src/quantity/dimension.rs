@@ -7,15 +7,10 @@ use std::fmt;
 /// The angle is a dimension of its own, so that a length given for an angle is found out.
 /// `Display` names the kind for error texts: "a length", "a pressure".
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default)]
-pub struct Dimension {
-    length: i8,
-    mass: i8,
-    time: i8,
-    current: i8,
-    temperature: i8,
-    amount: i8,
-    angle: i8,
-}
+pub struct Dimension([i8; 7]);
+
+/// The units that these are exponents of.
+const BASES: [&str; 7] = ["m", "kg", "s", "A", "K", "mol", "rad"];
 
 impl Dimension {
     /// A pure number.
@@ -53,23 +48,23 @@ impl Dimension {
     /// Watt.
     pub const POWER: Self = Self::of(2, 1, -3);
     /// Ampere.
-    pub const CURRENT: Self = Self { current: 1, ..Self::NUMBER };
+    pub const CURRENT: Self = Self([0, 0, 0, 1, 0, 0, 0]);
     /// Coulomb.
-    pub const CHARGE: Self = Self { current: 1, ..Self::TIME };
+    pub const CHARGE: Self = Self([0, 0, 1, 1, 0, 0, 0]);
     /// Volt.
-    pub const VOLTAGE: Self = Self { current: -1, ..Self::POWER };
+    pub const VOLTAGE: Self = Self([2, 1, -3, -1, 0, 0, 0]);
     /// Ohm.
-    pub const RESISTANCE: Self = Self { current: -2, ..Self::POWER };
+    pub const RESISTANCE: Self = Self([2, 1, -3, -2, 0, 0, 0]);
     /// Farad.
-    pub const CAPACITANCE: Self = Self { current: 2, ..Self::of(-2, -1, 4) };
+    pub const CAPACITANCE: Self = Self([-2, -1, 4, 2, 0, 0, 0]);
     /// Tesla.
-    pub const FLUX_DENSITY: Self = Self { current: -1, ..Self::of(0, 1, -2) };
+    pub const FLUX_DENSITY: Self = Self([0, 1, -2, -1, 0, 0, 0]);
     /// Kelvin.
-    pub const TEMPERATURE: Self = Self { temperature: 1, ..Self::NUMBER };
+    pub const TEMPERATURE: Self = Self([0, 0, 0, 0, 1, 0, 0]);
     /// Mole.
-    pub const AMOUNT: Self = Self { amount: 1, ..Self::NUMBER };
+    pub const AMOUNT: Self = Self([0, 0, 0, 0, 0, 1, 0]);
     /// Radian.
-    pub const ANGLE: Self = Self { angle: 1, ..Self::NUMBER };
+    pub const ANGLE: Self = Self([0, 0, 0, 0, 0, 0, 1]);
 
     const NAMES: [(Self, &'static str); 26] = [
         (Self::NUMBER, "a pure number"),
@@ -101,21 +96,16 @@ impl Dimension {
     ];
 
     const fn of(length: i8, mass: i8, time: i8) -> Self {
-        Self { length, mass, time, current: 0, temperature: 0, amount: 0, angle: 0 }
+        Self([length, mass, time, 0, 0, 0, 0])
     }
 
     /// `self * other^power`, `None` past the range of `i8`.
     pub(super) fn times(self, other: Self, power: i8) -> Option<Self> {
-        let combine = |a: i8, b: i8| a.checked_add(b.checked_mul(power)?);
-        Some(Self {
-            length: combine(self.length, other.length)?,
-            mass: combine(self.mass, other.mass)?,
-            time: combine(self.time, other.time)?,
-            current: combine(self.current, other.current)?,
-            temperature: combine(self.temperature, other.temperature)?,
-            amount: combine(self.amount, other.amount)?,
-            angle: combine(self.angle, other.angle)?,
-        })
+        let mut powers = self.0;
+        for (own, other) in powers.iter_mut().zip(other.0) {
+            *own = own.checked_add(other.checked_mul(power)?)?;
+        }
+        Some(Self(powers))
     }
 }
 
@@ -125,17 +115,8 @@ impl fmt::Display for Dimension {
             return f.write_str(name);
         }
         f.write_str("a quantity in")?;
-        let bases = [
-            (self.length, "m"),
-            (self.mass, "kg"),
-            (self.time, "s"),
-            (self.current, "A"),
-            (self.temperature, "K"),
-            (self.amount, "mol"),
-            (self.angle, "rad"),
-        ];
-        bases
-            .into_iter()
+        let powers = self.0.into_iter().zip(BASES);
+        powers
             .filter(|(power, _)| *power != 0)
             .try_for_each(|(power, base)| if power == 1 { write!(f, " {base}") } else { write!(f, " {base}^{power}") })
     }

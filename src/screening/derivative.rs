@@ -5,7 +5,6 @@ use std::f64::consts::PI;
 use super::ScreenedFactor;
 use super::points::TAIL;
 use crate::space::Distribution;
-use crate::space::distribution::Parameter;
 use crate::sum::{centred_product, mean};
 use crate::uncertainty::{Estimate, jackknife};
 
@@ -44,12 +43,9 @@ pub fn poincare_constant(distribution: &Distribution) -> Option<f64> {
         Distribution::Constant(_) => Some(0.0),
         Distribution::Uniform(_) | Distribution::Triangular(_) => Some(of_interval()),
         Distribution::Normal(_) => Some(distribution.sd().powi(2)),
-        Distribution::TruncatedNormal(_) => {
-            let parameters = distribution.parameters();
+        Distribution::Truncated(truncated) if matches!(truncated.law(), Distribution::Normal(_)) => {
             // Of the normal distribution, not of what is left of it.
-            let sd = parameters.into_iter().find(|(name, _)| *name == "sd");
-            let normal = if let Some((_, Parameter::Number(sd))) = sd { sd * sd } else { f64::INFINITY };
-            Some(normal.min(of_interval())).filter(|constant| constant.is_finite())
+            Some(truncated.law().sd().powi(2).min(of_interval())).filter(|constant| constant.is_finite())
         }
         Distribution::Exponential(_) => Some(4.0 * distribution.sd().powi(2)),
         _ => None,

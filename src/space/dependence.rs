@@ -8,38 +8,26 @@ use nalgebra::DMatrix;
 use super::copula::GaussianCopula;
 use super::distribution::Distribution;
 use super::{Factor, Space};
+use crate::names::named;
 use crate::special::normal_quantile;
 pub use error::DependenceError;
 use nataf::of_normal_scores;
 
+named! {
 /// What a correlation is a correlation of.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Default)]
 pub enum CorrelationMeasure {
     /// Of the values themselves: Pearson's. The normal scores get the correlation that brings it about (Nataf's model, Liu and Der
     /// Kiureghian 1986, Probab. Eng. Mech. 1, 105-112), found by quadrature to some 1e-6 for continuous distributions.
     #[default]
-    Pearson,
+    Pearson = "pearson",
     /// Of the ranks: Spearman's rho = 6/pi arcsin(r/2) of normal scores with correlation r.
-    Spearman,
+    Spearman = "spearman",
     /// Kendall's tau = 2/pi arcsin(r).
-    Kendall,
+    Kendall = "kendall",
     /// Of the normal scores Phi^-1(u) themselves: the parameter of the copula.
-    Normal,
+    Normal = "normal",
 }
-
-impl CorrelationMeasure {
-    /// All measures, the default first.
-    pub const ALL: [Self; 4] = [Self::Pearson, Self::Spearman, Self::Kendall, Self::Normal];
-
-    /// The name in study files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Pearson => "pearson",
-            Self::Spearman => "spearman",
-            Self::Kendall => "kendall",
-            Self::Normal => "normal",
-        }
-    }
 }
 
 /// Factors that depend on each other, by a Gaussian copula with these correlations.

@@ -144,16 +144,16 @@ fn refused(from: &str, to: &str, expected: &[&str]) {
 
 #[test]
 fn what_determines_nothing_is_refused_with_its_place() {
-    refused("p95 = 5\n", "", &["study.toml:11:7:", "is determined by three of min, mode, max", "2 of these are given"]);
-    refused("p95 = 5", "p95 = 5\nmean = 3", &["study.toml:13:8:", "but 4 of these are given"]);
-    refused("p95 = 5", "p95 = 0.5", &["study.toml:12:7:", "`p05` is 1 and `p95` is 0.5"]);
+    refused("p95 = 5\n", "", &["study.toml:9:8:", "needs two quantiles", "it takes min and mode and max; or mode"]);
+    refused("p95 = 5", "p95 = 5\nmean = 3", &["study.toml:13:8:", "the triangular distribution has no `mean`"]);
+    refused("p95 = 5", "p95 = 0.5", &["study.toml:11:7:", "`p05` is 1 and `p95` is 0.5"]);
     refused(
         "mode = 3",
         "mode = 5.5",
-        &["study.toml:10:8:", "no triangular distribution", "mode = 5.5, p05 = 1 and p95 = 5"],
+        &["study.toml:10:8:", "no triangular distribution", "mode = 5.5 and p05 = 1 and p95 = 5"],
     );
     refused("p05 = 1", "p06 = 1", &["study.toml:11:1:", "unknown key `p06`: did you mean `p0"]);
-    refused("p05 = 1", "log_sd = 1", &["study.toml:11:10:", "has no `log_sd`", "it takes three of min, mode, max"]);
+    refused("p05 = 1", "log_sd = 1", &["study.toml:11:10:", "has no `log_sd`", "it takes min and mode and max"]);
     refused("min = 1", "min = 1.5", &["study.toml:16:7:", "`min` is 1.5, but must be a whole number"]);
     refused("max = 6", "max = 0", &["study.toml:16:7:", "`min` must be below `max`"]);
     refused("probability = 0.25", "probability = 25", &["study.toml:21:15:", "must lie between 0.0 and 1.0"]);

@@ -5,8 +5,9 @@
 
 use super::error::{bounds, finite, positive, within};
 use super::family::{Family, Parameter};
+use super::keys::{Entry, PLAIN, keys};
 use super::{Distribution, DistributionError};
-use crate::quantity::Unit;
+use crate::special::beta_fraction;
 
 /// Shapes beyond are refused: the continued fraction would need thousands of terms, or all values lie on a bound.
 const SHAPES: (f64, f64) = (1e-3, 1e5);
@@ -69,14 +70,29 @@ impl Distribution {
         let c = m * (1.0 - m) / (spread * spread) - 1.0;
         if c.is_nan() || c <= 0.0 {
             let statements = format!("mean = {mean} and sd = {sd}");
-            return Err(DistributionError::NoSuchDistribution { distribution: "beta", statements, first: "mean" });
+            return Err(DistributionError::NoSuchDistribution { distribution: "beta", statements, key: "mean" });
         }
         Self::beta(c * m, c * (1.0 - m), min, max)
     }
 }
 
-impl Beta {
-    /// The quantile at `u`, `v` being 1 - `u`.
+impl Beta {}
+
+pub(super) const ENTRIES: &[Entry] = &[Entry {
+    name: "beta",
+    summary: "The beta distribution between two bounds.",
+    ways: &[keys(&["alpha", "beta", "min", "max"]), keys(&["mean", "sd", "min", "max"])],
+    build: |given| {
+        let (min, max) = (given.number("min")?, given.number("max")?);
+        match given.number_if("alpha") {
+            Some(alpha) => Distribution::beta(alpha, given.number("beta")?, min, max),
+            None => Distribution::beta_of_mean(given.number("mean")?, given.number("sd")?, min, max),
+        }
+    },
+    ..PLAIN
+}];
+
+impl Family for Beta {
     fn at(&self, u: f64, v: f64) -> f64 {
         let value = if u <= 0.0 {
             self.min
@@ -92,16 +108,6 @@ impl Beta {
         // Rounding may lead an ulp past a bound.
         value.clamp(self.min, self.max)
     }
-}
-
-impl Family for Beta {
-    fn name(&self) -> &'static str {
-        "beta"
-    }
-
-    fn quantile(&self, u: f64) -> f64 {
-        self.at(u, 1.0 - u)
-    }
 
     fn tails(&self, x: f64) -> (f64, f64) {
         let (x, y) = ((x - self.min) / self.width, (self.max - x) / self.width);
@@ -112,10 +118,6 @@ impl Family for Beta {
         } else {
             tails_of_sides(&self.lower, &self.upper, (x, y))
         }
-    }
-
-    fn upper_quantile(&self, v: f64) -> f64 {
-        self.at(1.0 - v, v)
     }
 
     fn mean(&self) -> f64 {
@@ -138,10 +140,6 @@ impl Family for Beta {
             ("min", self.min.into()),
             ("max", self.max.into()),
         ]
-    }
-
-    fn to_si(&self, unit: &Unit) -> Result<Distribution, DistributionError> {
-        Distribution::beta(self.alpha, self.beta, unit.to_si(self.min), unit.to_si(self.max))
     }
 }
 
@@ -175,8 +173,8 @@ impl Side {
     pub fn new(a: f64, b: f64) -> Self {
         let sum = a + b + 2.0;
         let (x, y) = ((a + 1.0) / sum, (b + 1.0) / sum);
-        let fraction = continued_fraction(a, b, x);
-        let (here, there) = (fraction / a, continued_fraction(b, a, y) / b);
+        let fraction = beta_fraction(x, a, b, f64::EPSILON);
+        let (here, there) = (fraction / a, beta_fraction(y, b, a, f64::EPSILON) / b);
         let mass = here / (here + there);
         Self { a, b, x, y, mass, ln_mass: libm::log(mass), fraction }
     }
@@ -191,7 +189,7 @@ impl Side {
     fn below(&self, (x, y): (f64, f64)) -> f64 {
         let d = libm::log(x / y) - libm::log(self.x / self.y);
         let growth = libm::log1p(self.x * libm::expm1(d));
-        let fraction = continued_fraction(self.a, self.b, x);
+        let fraction = beta_fraction(x, self.a, self.b, f64::EPSILON);
         libm::exp(self.ln_mass + self.a * d - (self.a + self.b) * growth + libm::log(fraction / self.fraction))
     }
 
@@ -206,7 +204,7 @@ impl Side {
         let mut steps = 0;
         while steps < MOST_STEPS {
             let (x, y) = self.point(d);
-            let fraction = continued_fraction(self.a, self.b, x);
+            let fraction = beta_fraction(x, self.a, self.b, f64::EPSILON);
             // ln(y_s / y)
             let growth = libm::log1p(self.x * libm::expm1(d));
             steps += 1;
@@ -249,33 +247,6 @@ pub(super) fn tails_of_sides(lower: &Side, upper: &Side, (x, y): (f64, f64)) -> 
         let above = upper.below((y, x)).min(1.0);
         (1.0 - above, above)
     }
-}
-
-/// The continued fraction of the incomplete beta function (Abramowitz and Stegun 1964, 26.5.8), by the modified
-/// Lentz algorithm (Press et al. 2007, Numerical Recipes, section 6.4).
-fn continued_fraction(a: f64, b: f64, x: f64) -> f64 {
-    // Enough for shapes of 1e5 at the split, where it is slowest.
-    const TERMS: u32 = 5000;
-    const TINY: f64 = 1e-300;
-    let away = |value: f64| if value.abs() < TINY { TINY } else { value };
-    let mut c = 1.0;
-    let mut d = away(1.0 - (a + b) * x / (a + 1.0)).recip();
-    let mut fraction = d;
-    for m in (1..=TERMS).map(f64::from) {
-        let even = m * (b - m) * x / ((a + 2.0 * m - 1.0) * (a + 2.0 * m));
-        d = away(1.0 + even * d).recip();
-        c = away(1.0 + even / c);
-        fraction *= c * d;
-        let odd = -(a + m) * (a + b + m) * x / ((a + 2.0 * m) * (a + 2.0 * m + 1.0));
-        d = away(1.0 + odd * d).recip();
-        c = away(1.0 + odd / c);
-        let change = c * d;
-        fraction *= change;
-        if (change - 1.0).abs() < f64::EPSILON {
-            break;
-        }
-    }
-    fraction
 }
 
 #[cfg(test)]

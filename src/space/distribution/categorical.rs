@@ -3,8 +3,9 @@
 use std::collections::BTreeSet;
 
 use super::discrete::Discrete;
-use super::error::within;
+use super::error::{entry, list, within};
 use super::family::{Family, Parameter, numbers_of_law};
+use super::keys::{Entry, PLAIN, keys};
 use super::{Distribution, DistributionError};
 use crate::quantity::Unit;
 
@@ -12,8 +13,7 @@ use crate::quantity::Unit;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Categorical {
     labels: Vec<String>,
-    /// The number of each label, distinct.
-    values: Vec<f64>,
+    /// The number of each label, distinct, with its weight.
     law: Discrete,
     /// The probability of `true`, of the two categories false and true.
     truth: Option<f64>,
@@ -47,25 +47,28 @@ impl Distribution {
         let mut seen = BTreeSet::new();
         for (index, label) in labels.iter().enumerate() {
             if label.trim().is_empty() {
-                return Err(DistributionError::EmptyLabel { index });
+                return Err(list("labels", format!("`labels[{index}]` is empty, but every category needs a label")));
             }
             if !seen.insert(label) {
-                return Err(DistributionError::RepeatedLabel { label: label.clone() });
+                return Err(list("labels", format!("the label \"{label}\" stands in `labels` twice")));
             }
         }
         let places = || (0..labels.len()).map(|place| place as f64).collect();
         let values: Vec<f64> = values.map_or_else(places, <[f64]>::to_vec);
         if values.len() != labels.len() {
-            return Err(DistributionError::Labels { labels: labels.len(), values: values.len() });
+            let (values, labels) = (values.len(), labels.len());
+            let problem = format!("there are {values} `values` for {labels} `labels`, but there must be one for each");
+            return Err(list("values", problem));
         }
         // 0 and -0 are one number. What is no number is refused with its place below.
         let mut seen = BTreeSet::new();
         let is_repeated = |value: &f64| value.is_finite() && !seen.insert((value + 0.0).to_bits());
         if let Some(index) = values.iter().position(is_repeated) {
-            return Err(DistributionError::RepeatedValue { index, value: values[index] });
+            let must = "differ from those before it: every label needs a value of its own".to_owned();
+            return Err(entry("values", index, values[index], must));
         }
         let law = Discrete::new(&values, weights)?;
-        Self::Categorical(Categorical { labels, values, law, truth: None }).finite()
+        Self::Categorical(Categorical { labels, law, truth: None }).finite()
     }
 
     /// 1 (`true`) with this probability, else 0 (`false`).
@@ -83,10 +86,9 @@ impl Distribution {
     /// ```
     pub fn boolean(probability: f64) -> Result<Self, DistributionError> {
         within("probability", probability, (0.0, 1.0))?;
-        let values = vec![0.0, 1.0];
-        let law = Discrete::new(&values, Some(&[1.0 - probability, probability]))?;
+        let law = Discrete::new(&[0.0, 1.0], Some(&[1.0 - probability, probability]))?;
         let labels = vec!["false".to_owned(), "true".to_owned()];
-        Self::Categorical(Categorical { labels, values, law, truth: Some(probability) }).finite()
+        Self::Categorical(Categorical { labels, law, truth: Some(probability) }).finite()
     }
 }
 
@@ -98,12 +100,13 @@ impl Categorical {
 
     /// Each label with its number and its probability, as given.
     pub fn categories(&self) -> impl Iterator<Item = (&str, f64, f64)> {
-        self.labels.iter().zip(&self.values).map(|(label, &value)| (label.as_str(), value, self.law.probability(value)))
+        let pairs = self.labels.iter().zip(self.law.values());
+        pairs.map(|(label, &value)| (label.as_str(), value, self.law.probability(value)))
     }
 
     /// Whether the numbers are the places of the labels, 0, 1, 2 and so on, which measure nothing.
     pub fn are_places(&self) -> bool {
-        self.values.iter().enumerate().all(|(place, value)| *value == place as f64)
+        self.law.values().iter().enumerate().all(|(place, value)| *value == place as f64)
     }
 
     /// The numbers of the labels that occur, in ascending order, each with a `u` at which it is the quantile.
@@ -113,14 +116,14 @@ impl Categorical {
 
     /// The label whose number is `value`.
     pub fn label(&self, value: f64) -> Option<&str> {
-        let place = self.values.iter().position(|other| *other == value)?;
+        let place = self.law.values().iter().position(|other| *other == value)?;
         self.labels.get(place).map(String::as_str)
     }
 
     /// The number of `label`.
     pub fn value_of(&self, label: &str) -> Option<f64> {
         let place = self.labels.iter().position(|other| other == label)?;
-        self.values.get(place).copied()
+        self.law.values().get(place).copied()
     }
 
     /// The number of the most probable label, the first one of equals: where a factor stands that nobody placed.
@@ -130,9 +133,31 @@ impl Categorical {
     }
 }
 
+pub(super) const ENTRIES: &[Entry] = &[
+    Entry {
+        name: "categorical",
+        summary: "Labels with weights; the model gets a number for each.",
+        ways: &[keys(&["labels"]).perhaps(&["weights", "values"])],
+        build: |given| match given.get("labels") {
+            Some(Parameter::Texts(labels)) => {
+                Distribution::categorical(labels, given.list_if("values"), given.list_if("weights"))
+            }
+            _ => Err(given.refused("`labels`".to_owned())),
+        },
+        ..PLAIN
+    },
+    Entry {
+        name: "boolean",
+        summary: "True with a probability; the model gets 1 or 0.",
+        ways: &[keys(&[]).perhaps(&["probability"])],
+        build: |given| Distribution::boolean(given.number_or("probability", 0.5)),
+        ..PLAIN
+    },
+];
+
 impl Family for Categorical {
-    fn name(&self) -> &'static str {
-        if self.truth.is_some() { "boolean" } else { "categorical" }
+    fn name(&self, own: &'static str) -> &'static str {
+        if self.truth.is_some() { ENTRIES[1].name } else { own }
     }
 
     numbers_of_law!();
@@ -146,9 +171,9 @@ impl Family for Categorical {
         parameters
     }
 
-    fn to_si(&self, unit: &Unit) -> Result<Distribution, DistributionError> {
-        let values: Vec<f64> = self.values.iter().map(|&value| unit.to_si(value)).collect();
+    fn in_si(&self, _own: &'static Entry, unit: &Unit) -> Result<Distribution, DistributionError> {
+        let values: Vec<f64> = self.law.values().iter().map(|&value| unit.to_si(value)).collect();
         let law = Discrete::new(&values, self.law.weights())?;
-        Ok(Distribution::Categorical(Self { labels: self.labels.clone(), values, law, truth: self.truth }))
+        Ok(Distribution::Categorical(Self { law, ..self.clone() }))
     }
 }

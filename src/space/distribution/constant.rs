@@ -2,8 +2,8 @@
 
 use super::error::finite;
 use super::family::{Family, Parameter};
+use super::keys::{Entry, PLAIN, keys};
 use super::{Distribution, DistributionError};
-use crate::quantity::Unit;
 
 /// One value with certainty.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,11 +29,15 @@ impl Distribution {
     }
 }
 
-impl Family for Constant {
-    fn name(&self) -> &'static str {
-        "constant"
-    }
+pub(super) const ENTRIES: &[Entry] = &[Entry {
+    name: "constant",
+    summary: "One value with certainty.",
+    ways: &[keys(&["value"])],
+    build: |given| Distribution::constant(given.number("value")?),
+    ..PLAIN
+}];
 
+impl Family for Constant {
     fn quantile(&self, _u: f64) -> f64 {
         self.value
     }
@@ -56,9 +60,5 @@ impl Family for Constant {
 
     fn parameters(&self) -> Vec<(&'static str, Parameter)> {
         vec![("value", self.value.into())]
-    }
-
-    fn to_si(&self, unit: &Unit) -> Result<Distribution, DistributionError> {
-        Distribution::constant(unit.to_si(self.value))
     }
 }

@@ -1,8 +1,9 @@
 //! The discrete distribution on given values.
 
+use super::error::{finite_entries, list, sum_of_weights};
 use super::family::{Family, Parameter};
+use super::keys::{Entry, PLAIN, keys};
 use super::{Distribution, DistributionError};
-use crate::quantity::Unit;
 
 /// Finitely many values with their probabilities.
 #[derive(Clone, Debug, PartialEq)]
@@ -49,18 +50,11 @@ impl Distribution {
 impl Discrete {
     pub(super) fn new(values: &[f64], weights: Option<&[f64]>) -> Result<Self, DistributionError> {
         if values.is_empty() {
-            return Err(DistributionError::NoValues);
+            return Err(list("values", "`values` is empty, but must hold at least one number"));
         }
-        check("values", values)?;
-        let count = values.len();
+        finite_entries("values", values)?;
         if let Some(weights) = weights {
-            if weights.len() != count {
-                return Err(DistributionError::Lengths { values: count, weights: weights.len() });
-            }
-            check("weights", weights)?;
-            if let Some((index, &value)) = weights.iter().enumerate().find(|(_, weight)| **weight < 0.0) {
-                return Err(DistributionError::NegativeWeight { index, value });
-            }
+            sum_of_weights(weights, values.len(), "values")?;
         }
         let weight = |index: usize| weights.and_then(|weights| weights.get(index)).copied().unwrap_or(1.0);
         let mut pairs: Vec<(f64, f64)> =
@@ -75,12 +69,6 @@ impl Discrete {
                 total
             })
             .collect();
-        if pairs.is_empty() {
-            return Err(DistributionError::ZeroWeights);
-        }
-        if total.is_infinite() {
-            return Err(DistributionError::WeightSum);
-        }
         Ok(Self {
             values: values.to_vec(),
             weights: weights.map(<[f64]>::to_vec),
@@ -98,11 +86,11 @@ impl Discrete {
             let pairs = self.values.iter().zip(weights).filter(|(value, _)| is_left(value));
             pairs.map(|(_, weight)| *weight).collect::<Vec<f64>>()
         });
-        match Distribution::discrete(&values, weights.as_deref()) {
-            Err(DistributionError::NoValues | DistributionError::ZeroWeights) => {
-                Err(DistributionError::NothingLeft { distribution: "discrete", min, max })
-            }
-            made => made,
+        let is_nothing =
+            weights.as_ref().map_or(values.is_empty(), |weights| weights.iter().all(|weight| *weight == 0.0));
+        match is_nothing {
+            true => Err(DistributionError::NothingLeft { distribution: "discrete", min, max }),
+            false => Distribution::discrete(&values, weights.as_deref()),
         }
     }
 
@@ -149,24 +137,21 @@ impl Discrete {
     }
 }
 
-pub(super) fn check(list: &'static str, entries: &[f64]) -> Result<(), DistributionError> {
-    match entries.iter().enumerate().find(|(_, value)| !value.is_finite()) {
-        Some((index, &value)) => Err(DistributionError::EntryNotFinite { list, index, value }),
-        None => Ok(()),
-    }
-}
-
 impl Discrete {
     fn expectation(&self, function: impl Fn(f64) -> f64) -> f64 {
         self.sorted.iter().zip(&self.probabilities).map(|(&value, probability)| function(value) * probability).sum()
     }
 }
 
-impl Family for Discrete {
-    fn name(&self) -> &'static str {
-        "discrete"
-    }
+pub(super) const ENTRIES: &[Entry] = &[Entry {
+    name: "discrete",
+    summary: "One of some values, with weights.",
+    ways: &[keys(&["values"]).perhaps(&["weights"])],
+    build: |given| Distribution::discrete(given.list("values")?, given.list_if("weights")),
+    ..PLAIN
+}];
 
+impl Family for Discrete {
     fn quantile(&self, u: f64) -> f64 {
         let index = self.cumulative.partition_point(|&probability| probability <= u);
         // The last entry is 1, which only a `u` out of range reaches.
@@ -196,10 +181,5 @@ impl Family for Discrete {
         let mut parameters = vec![("values", self.values.as_slice().into())];
         parameters.extend(self.weights.as_deref().map(|weights| ("weights", weights.into())));
         parameters
-    }
-
-    fn to_si(&self, unit: &Unit) -> Result<Distribution, DistributionError> {
-        let values: Vec<f64> = self.values.iter().map(|&value| unit.to_si(value)).collect();
-        Distribution::discrete(&values, self.weights.as_deref())
     }
 }

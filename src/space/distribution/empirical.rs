@@ -2,6 +2,7 @@
 
 use super::discrete::Discrete;
 use super::family::{Family, Parameter, numbers_of_law};
+use super::keys::{Entry, PLAIN, keys};
 use super::{Distribution, DistributionError};
 use crate::quantity::Unit;
 
@@ -55,20 +56,26 @@ impl Empirical {
     /// The measured values between `min` and `max`, both included.
     pub(super) fn between(&self, min: f64, max: f64) -> Result<Distribution, DistributionError> {
         let values = self.law.values().iter().copied().filter(|value| (min..=max).contains(value));
-        match Distribution::empirical(&values.collect::<Vec<f64>>(), self.source.clone()) {
-            Err(DistributionError::NoValues) => {
-                Err(DistributionError::NothingLeft { distribution: "empirical", min, max })
-            }
-            made => made,
+        let values: Vec<f64> = values.collect();
+        match values.is_empty() {
+            true => Err(DistributionError::NothingLeft { distribution: "empirical", min, max }),
+            false => Distribution::empirical(&values, self.source.clone()),
         }
     }
 }
 
-impl Family for Empirical {
-    fn name(&self) -> &'static str {
-        "empirical"
-    }
+pub(super) const ENTRIES: &[Entry] = &[Entry {
+    name: "empirical",
+    summary: "Measured values, each as likely as any other.",
+    ways: &[keys(&["values"]), keys(&["file"]).perhaps(&["column"])],
+    build: |given| match given.get("file") {
+        Some(Parameter::Measured(values, source)) => Distribution::empirical(values, Some(source.clone())),
+        _ => Distribution::empirical(given.list("values")?, None),
+    },
+    ..PLAIN
+}];
 
+impl Family for Empirical {
     numbers_of_law!();
 
     fn parameters(&self) -> Vec<(&'static str, Parameter)> {
@@ -80,7 +87,7 @@ impl Family for Empirical {
         parameters
     }
 
-    fn to_si(&self, unit: &Unit) -> Result<Distribution, DistributionError> {
+    fn in_si(&self, _own: &'static Entry, unit: &Unit) -> Result<Distribution, DistributionError> {
         let values: Vec<f64> = self.law.values().iter().map(|&value| unit.to_si(value)).collect();
         Distribution::empirical(&values, self.source.clone())
     }

@@ -5,198 +5,79 @@ use crate::quantity::Unit;
 /// Why a distribution was refused; the text says what was wrong and what would be right.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum DistributionError {
-    /// A parameter is infinite or not a number.
-    #[error("`{parameter}` is {value}, but must be a finite number")]
-    NotFinite {
-        /// Its name.
-        parameter: &'static str,
+    /// A number that cannot be.
+    #[error("`{key}` is {value:?}, but must {must}")]
+    Parameter {
+        /// Its key.
+        key: &'static str,
         /// Its value.
         value: f64,
+        /// What it must, such as "be greater than 0".
+        must: String,
     },
-    /// A parameter is zero or negative.
-    #[error("`{parameter}` is {value:?}, but must be greater than 0")]
-    NotPositive {
-        /// Its name.
-        parameter: &'static str,
-        /// Its value.
-        value: f64,
-    },
-    /// A shape parameter is beyond what can be computed well.
-    #[error("`{parameter}` is {value:?}, but must lie between {min:?} and {max:?}")]
-    OutOfRange {
-        /// Its name.
-        parameter: &'static str,
-        /// Its value.
-        value: f64,
-        /// The smallest value.
-        min: f64,
-        /// The largest value.
-        max: f64,
-    },
-    /// The bounds are equal or the wrong way round.
-    #[error("`min` is {min} and `max` is {max}, but `min` must be below `max`")]
-    Bounds {
-        /// The lower bound.
-        min: f64,
-        /// The upper bound.
-        max: f64,
-    },
-    /// The mode of a triangular distribution lies outside its bounds.
-    #[error("`mode` is {mode}, but must lie between `min` ({min}) and `max` ({max})")]
-    Mode {
-        /// The mode.
-        mode: f64,
-        /// The lower bound.
-        min: f64,
-        /// The upper bound.
-        max: f64,
-    },
-    /// A normal distribution has next to no probability between the bounds it is truncated to.
-    #[error(
-        "a normal distribution of mean {mean} and sd {sd} has no probability between `min` ({min}) and `max` ({max}): \
-         move the bounds within 35 sd of the mean"
-    )]
-    Truncation {
-        /// The mean before truncation.
-        mean: f64,
-        /// The standard deviation before truncation.
-        sd: f64,
-        /// The lower bound.
-        min: f64,
-        /// The upper bound.
-        max: f64,
-    },
-    /// A Gumbel distribution has next to no probability between the bounds it is truncated to.
-    #[error(
-        "a Gumbel distribution of location {location} and scale {scale} has no probability between `min` ({min}) and \
-         `max` ({max}): move the bounds to between 6 scales below and 600 above the location"
-    )]
-    GumbelTruncation {
-        /// The location before truncation.
-        location: f64,
-        /// The scale before truncation.
-        scale: f64,
-        /// The lower bound.
-        min: f64,
-        /// The upper bound.
-        max: f64,
-    },
-    /// A discrete distribution without values.
-    #[error("`values` is empty, but must hold at least one number")]
-    NoValues,
-    /// An entry of a list is infinite or not a number.
-    #[error("`{list}[{index}]` is {value}, but must be a finite number")]
-    EntryNotFinite {
-        /// The name of the list.
-        list: &'static str,
+    /// A number of a list that cannot be.
+    #[error("`{key}[{index}]` is {value}, but must {must}")]
+    Entry {
+        /// The key of the list.
+        key: &'static str,
         /// The entry, from 0.
         index: usize,
         /// Its value.
         value: f64,
+        /// What it must, such as "be a finite number".
+        must: String,
     },
-    /// A discrete distribution with more or fewer weights than values.
-    #[error("there are {weights} `weights` for {values} `values`, but there must be one weight for each value")]
-    Lengths {
-        /// How many values.
-        values: usize,
-        /// How many weights.
-        weights: usize,
+    /// A list that cannot be as a whole.
+    #[error("{problem}")]
+    List {
+        /// Its key.
+        key: &'static str,
+        /// What is wrong, and what would be right.
+        problem: String,
     },
-    /// A negative weight.
-    #[error("`weights[{index}]` is {value}, but must not be negative")]
-    NegativeWeight {
-        /// The entry, from 0.
-        index: usize,
-        /// Its value.
-        value: f64,
-    },
-    /// All weights are zero.
-    #[error("all `weights` are 0, but at least one must be greater")]
-    ZeroWeights,
-    /// Weights whose sum is no number.
-    #[error("`weights` sum to more than 1.8e308: divide all of them by the same number, such as the largest")]
-    WeightSum,
-    /// A bound of whole numbers that is none.
-    #[error("`{parameter}` is {value:?}, but must be a whole number between -2^53 and 2^53")]
-    NotWhole {
-        /// Its name.
-        parameter: &'static str,
-        /// Its value.
-        value: f64,
-    },
-    /// A category without a label.
-    #[error("`labels[{index}]` is empty, but every category needs a label")]
-    EmptyLabel {
-        /// The entry, from 0.
-        index: usize,
-    },
-    /// Two categories of one label.
-    #[error("the label \"{label}\" stands in `labels` twice")]
-    RepeatedLabel {
-        /// The label.
-        label: String,
-    },
-    /// Categories with more or fewer numbers than labels.
-    #[error("there are {values} `values` for {labels} `labels`, but there must be one value for each label")]
-    Labels {
-        /// How many labels.
-        labels: usize,
-        /// How many values.
-        values: usize,
-    },
-    /// Two categories of one number.
-    #[error("`values[{index}]` is {value}, as is one before it, but every label needs a value of its own")]
-    RepeatedValue {
-        /// The entry, from 0.
-        index: usize,
-        /// Its value.
-        value: f64,
-    },
-    /// Something is stated that the family does not have.
-    #[error("{} distribution cannot be given by `{statistic}`", named(.distribution))]
-    NotStated {
-        /// The name of the family.
-        distribution: &'static str,
-        /// What was stated.
-        statistic: &'static str,
-    },
-    /// The same thing is stated twice.
-    #[error("`{statistic}` is stated twice")]
-    StatedTwice {
-        /// What was stated.
-        statistic: &'static str,
-    },
-    /// Too little or too much is stated.
-    #[error("{name} distribution is determined by {needed}, but {given} of these {verb} given", name = named(.distribution), verb = if *.given == 1 { "is" } else { "are" })]
-    Determined {
-        /// The name of the family.
-        distribution: &'static str,
-        /// How many statements of which it takes, in words.
-        needed: &'static str,
-        /// How many there are.
-        given: usize,
-    },
-    /// Two values that are the wrong way round.
+    /// Two numbers that are equal or the wrong way round.
     #[error("`{lower}` is {low} and `{upper}` is {high}, but `{lower}` must be below `{upper}`")]
     Order {
-        /// What should be lower.
+        /// The key of what should be lower.
         lower: &'static str,
         /// Its value.
         low: f64,
-        /// What should be higher.
+        /// The key of what should be higher.
         upper: &'static str,
         /// Its value.
         high: f64,
     },
-    /// The statements contradict each other, or say one thing twice.
+    /// A key that the family needs is not there.
+    #[error("the {distribution} distribution needs {needed}")]
+    Missing {
+        /// The name of the family.
+        distribution: &'static str,
+        /// What is missing.
+        needed: String,
+        /// The keys that determine it, in words.
+        takes: String,
+    },
+    /// A key that the family does not have, or not beside another one.
+    #[error("the {distribution} distribution has no `{key}`{}", .beside.map_or_else(String::new, |key| format!(" beside `{key}`")))]
+    Foreign {
+        /// The name of the family.
+        distribution: &'static str,
+        /// The key.
+        key: &'static str,
+        /// The key beside which it cannot stand.
+        beside: Option<&'static str>,
+        /// The keys that determine it, in words.
+        takes: String,
+    },
+    /// The mean and standard deviation, or the quantiles, of no distribution of the family.
     #[error("there is no {distribution} distribution, or more than one, with {statements}")]
     NoSuchDistribution {
         /// The name of the family.
         distribution: &'static str,
         /// What was stated.
         statements: String,
-        /// What was stated first.
-        first: &'static str,
+        /// The key that was stated first.
+        key: &'static str,
     },
     /// The parameters are sound one by one, but lead beyond the range of `f64`.
     #[error(
@@ -208,26 +89,9 @@ pub enum DistributionError {
         /// The name of the family.
         distribution: &'static str,
     },
-    /// All indices rest on variances, and this distribution has none.
-    #[error(
-        "{name} distribution with `{parameter}` = {value:?} has no finite variance, of which indices are shares: \
-         `{parameter}` must be greater than {least:?}, or both tails cut off, as in truncate = [a, b]",
-        name = named(.distribution)
-    )]
-    InfiniteVariance {
-        /// The name of the family.
-        distribution: &'static str,
-        /// The parameter that decides.
-        parameter: &'static str,
-        /// Its value.
-        value: f64,
-        /// What it must exceed.
-        least: f64,
-    },
     /// Next to no probability is left by a truncation.
     #[error(
-        "`truncate` leaves nothing of this {distribution} distribution: next to none of its values lie between {min} and \
-         {max}"
+        "truncation leaves nothing of this {distribution} distribution: next to none of its values lie between {min} and {max}"
     )]
     NothingLeft {
         /// The name of the family.
@@ -237,77 +101,40 @@ pub enum DistributionError {
         /// The upper bound.
         max: f64,
     },
-    /// A truncation from a lower to an upper value that are no such.
-    #[error("`truncate` is [{min}, {max}], but must be two numbers, the lower one first; inf and -inf cut nothing off")]
-    TruncationBounds {
-        /// The lower bound.
-        min: f64,
-        /// The upper bound.
-        max: f64,
-    },
-    /// A mixture of nothing.
-    #[error("`components` is empty, but must hold at least one distribution")]
-    NoComponents,
-    /// A mixture with more or fewer weights than components.
-    #[error("there are {weights} `weights` for {components} `components`, but there must be one weight for each")]
-    Components {
-        /// How many components.
-        components: usize,
-        /// How many weights.
-        weights: usize,
-    },
-    /// Labels and seeds, which have no order, cannot be truncated, nor be a part of a mixture.
-    #[error("{} distribution has {}, which have no order: it cannot be {what}", named(.distribution), unordered(.distribution))]
-    NoOrder {
-        /// The name of the family.
-        distribution: &'static str,
-        /// What was asked for.
-        what: &'static str,
-    },
-    /// A list that must rise, and does not.
-    #[error("`{list}[{index}]` is {value}, which is not above the one before it, {before}")]
-    NotRising {
-        /// The name of the list.
-        list: &'static str,
-        /// The entry, from 0.
-        index: usize,
-        /// Its value.
-        value: f64,
-        /// The one before it.
-        before: f64,
-    },
-    /// Edges of a histogram that do not go with its weights.
-    #[error("there are {edges} `edges` for {weights} `weights`, but n bins have n + 1 edges, at least 2")]
-    Edges {
-        /// How many edges.
-        edges: usize,
-        /// How many weights.
-        weights: usize,
-    },
-    /// Quantiles that do not determine a histogram.
-    #[error(
-        "`quantiles` has {found}, but must have rising values for probabilities from 0 to 1, the lowest and highest value among them, as in {{ \"0\" = 1, \"0.5\" = 2, \"1\" = 5 }}"
-    )]
-    Quantiles {
-        /// What is wrong.
-        found: String,
-    },
-    /// Seeds of a stochastic model are pure numbers.
-    #[error("a seed is a pure number, and cannot be in {unit}: leave the unit out")]
-    UnitOfSeed {
-        /// The unit.
-        unit: String,
-    },
-    /// Ratios of values have no meaning in a unit whose zero is not that of SI.
-    #[error("{} distribution cannot be in {unit}, whose 0 is not that of SI: state it in {absolute}", named(.distribution))]
-    OffsetUnit {
+    /// A unit in which values of the family have no meaning.
+    #[error("{} distribution cannot be in {unit}{right}", named(.distribution))]
+    Unit {
         /// The name of the family.
         distribution: &'static str,
         /// The unit.
         unit: String,
-        /// A unit that serves.
-        absolute: &'static str,
+        /// Why, and what would be right.
+        right: &'static str,
     },
+}
+
+impl DistributionError {
+    /// The key of the parameter that is wrong, where it is one.
+    pub fn key(&self) -> Option<&'static str> {
+        match self {
+            Self::Parameter { key, .. } | Self::Entry { key, .. } | Self::List { key, .. } => Some(key),
+            Self::Foreign { key, .. } | Self::NoSuchDistribution { key, .. } => Some(key),
+            Self::Order { lower, .. } => Some(lower),
+            Self::NothingLeft { .. } => Some("truncate"),
+            Self::Missing { .. } | Self::Overflow { .. } | Self::Unit { .. } => None,
+        }
+    }
+
+    /// What would be right, where the message does not say it yet.
+    pub fn help(&self) -> Option<String> {
+        match self {
+            Self::Missing { takes, .. } | Self::Foreign { takes, .. } => Some(format!("it takes {takes}")),
+            Self::Order { lower: "min", low, high, .. } if low == high => {
+                Some(format!("for a fixed value: distribution = \"constant\", value = {low}"))
+            }
+            _ => None,
+        }
+    }
 }
 
 /// The name of a family with its article.
@@ -316,33 +143,54 @@ fn named(distribution: &str) -> String {
     format!("{article} {distribution}")
 }
 
-/// What a family without an order has for values.
-fn unordered(distribution: &str) -> &'static str {
-    if distribution == "seed" { "seeds" } else { "labels" }
-}
-
 /// Refuses a unit with an offset, such as `degC`, to a family that is made of ratios.
 pub(super) fn refuse_offset(distribution: &'static str, unit: &Unit) -> Result<(), DistributionError> {
+    let right = ", whose 0 is not that of SI: state it in K";
     match unit.has_offset() {
-        true => Err(DistributionError::OffsetUnit { distribution, unit: unit.to_string(), absolute: "K" }),
+        true => Err(DistributionError::Unit { distribution, unit: unit.to_string(), right }),
         false => Ok(()),
     }
 }
 
-/// The value, if it is finite.
-pub(super) fn finite(parameter: &'static str, value: f64) -> Result<f64, DistributionError> {
+/// Refuses labels and seeds, for `what` under `key`, which needs an order.
+pub(super) fn no_order(distribution: &'static str, key: &'static str, what: &str) -> DistributionError {
+    let values = if distribution == "seed" { "seeds" } else { "labels" };
+    let named = named(distribution);
+    let problem = format!("{named} distribution has {values}, which have no order: it cannot be {what}");
+    DistributionError::List { key, problem }
+}
+
+/// The value, if `is_right`, else an error with what it `must`.
+pub(super) fn number(key: &'static str, value: f64, is_right: bool, must: &str) -> Result<f64, DistributionError> {
     match value.is_finite() {
-        true => Ok(value),
-        false => Err(DistributionError::NotFinite { parameter, value }),
+        true if is_right => Ok(value),
+        true => Err(DistributionError::Parameter { key, value, must: must.to_owned() }),
+        false => Err(DistributionError::Parameter { key, value, must: "be a finite number".to_owned() }),
     }
 }
 
+/// The value, if it is finite.
+pub(super) fn finite(key: &'static str, value: f64) -> Result<f64, DistributionError> {
+    number(key, value, true, "")
+}
+
 /// The value, if it is finite and greater than 0.
-pub(super) fn positive(parameter: &'static str, value: f64) -> Result<f64, DistributionError> {
-    match finite(parameter, value)? > 0.0 {
-        true => Ok(value),
-        false => Err(DistributionError::NotPositive { parameter, value }),
-    }
+pub(super) fn positive(key: &'static str, value: f64) -> Result<f64, DistributionError> {
+    number(key, value, value > 0.0, "be greater than 0")
+}
+
+/// The value, if it is finite and within the range.
+pub(super) fn within(key: &'static str, value: f64, (min, max): (f64, f64)) -> Result<f64, DistributionError> {
+    number(key, value, (min..=max).contains(&value), &format!("lie between {min:?} and {max:?}"))
+}
+
+/// The value of a parameter of a power law, if it is great enough for a finite variance.
+pub(super) fn of_finite_variance(key: &'static str, value: f64, least: f64) -> Result<(), DistributionError> {
+    let must = format!(
+        "be greater than {least:?}, or both tails be cut off, as in truncate = [a, b]: else it has no finite variance, of which \
+         indices are shares"
+    );
+    number(key, value, value > least, &must).map(|_| ())
 }
 
 /// Two finite bounds in order, and the finite width between them.
@@ -350,26 +198,47 @@ pub(super) fn bounds(min: f64, max: f64, distribution: &'static str) -> Result<f
     finite("min", min)?;
     finite("max", max)?;
     match max - min {
-        width if width <= 0.0 => Err(DistributionError::Bounds { min, max }),
+        width if width <= 0.0 => Err(DistributionError::Order { lower: "min", low: min, upper: "max", high: max }),
         width if width.is_infinite() => Err(DistributionError::Overflow { distribution }),
         width => Ok(width),
     }
 }
 
-/// Bounds of which one or both may be infinite, in SI.
-pub(super) fn bounds_to_si((min, max): (f64, f64), unit: &Unit) -> Result<(f64, f64), DistributionError> {
-    let in_si = |parameter: &'static str, bound: f64| match bound.is_finite() {
-        true => finite(parameter, unit.to_si(bound)),
-        false => Ok(bound),
-    };
-    Ok((in_si("min", min)?, in_si("max", max)?))
+/// Refuses a list with an entry that is infinite or not a number.
+pub(super) fn finite_entries(key: &'static str, entries: &[f64]) -> Result<(), DistributionError> {
+    match entries.iter().enumerate().find(|(_, value)| !value.is_finite()) {
+        Some((index, &value)) => Err(entry(key, index, value, "be a finite number".to_owned())),
+        None => Ok(()),
+    }
 }
 
-/// The value, if it is finite and within the range.
-pub(super) fn within(parameter: &'static str, value: f64, range: (f64, f64)) -> Result<f64, DistributionError> {
-    let (min, max) = range;
-    match (min..=max).contains(&finite(parameter, value)?) {
-        true => Ok(value),
-        false => Err(DistributionError::OutOfRange { parameter, value, min, max }),
+pub(super) fn entry(key: &'static str, index: usize, value: f64, must: String) -> DistributionError {
+    DistributionError::Entry { key, index, value, must }
+}
+
+pub(super) fn list(key: &'static str, problem: impl Into<String>) -> DistributionError {
+    DistributionError::List { key, problem: problem.into() }
+}
+
+/// The sum of `weights`, one for each of `count` entries of the list `of`: finite, none of them negative, not all of them 0.
+pub(super) fn sum_of_weights(weights: &[f64], count: usize, of: &str) -> Result<f64, DistributionError> {
+    if weights.len() != count {
+        let given = weights.len();
+        return Err(list(
+            "weights",
+            format!("there are {given} `weights` for {count} `{of}`, but there must be one for each"),
+        ));
+    }
+    finite_entries("weights", weights)?;
+    if let Some((index, &value)) = weights.iter().enumerate().find(|(_, weight)| **weight < 0.0) {
+        return Err(entry("weights", index, value, "not be negative".to_owned()));
+    }
+    match weights.iter().sum::<f64>() {
+        0.0 => Err(list("weights", "all `weights` are 0, but at least one must be greater")),
+        sum if sum.is_infinite() => {
+            let advice = "divide all of them by the same number, such as the largest";
+            Err(list("weights", format!("`weights` sum to more than 1.8e308: {advice}")))
+        }
+        sum => Ok(sum),
     }
 }

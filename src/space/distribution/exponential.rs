@@ -2,8 +2,9 @@
 
 use super::error::{finite, positive};
 use super::family::{Family, Parameter};
+use super::keys::{Entry, MOMENTS, PLAIN, TWO_QUANTILES, keys, solved_keys};
+use super::solved::Shape;
 use super::{Distribution, DistributionError};
-use crate::quantity::Unit;
 
 /// The distribution of waiting times between events that come by chance.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,11 +42,22 @@ impl Distribution {
     }
 }
 
-impl Family for Exponential {
-    fn name(&self) -> &'static str {
-        "exponential"
-    }
+pub(super) const ENTRIES: &[Entry] = &[Entry {
+    name: "exponential",
+    summary: "Waiting times between events that come by chance.",
+    ways: &[
+        keys(&["scale"]).perhaps(&["location"]),
+        solved_keys(&["mean"]).perhaps(&["location"]),
+        MOMENTS,
+        TWO_QUANTILES,
+    ],
+    shape: Shape::None,
+    make: |_, [location, scale, _]| Distribution::exponential(scale, location),
+    build: |given| Distribution::exponential(given.number("scale")?, given.number_or("location", 0.0)),
+    ..PLAIN
+}];
 
+impl Family for Exponential {
     fn quantile(&self, u: f64) -> f64 {
         self.location - self.scale * libm::log1p(-u)
     }
@@ -73,9 +85,5 @@ impl Family for Exponential {
 
     fn parameters(&self) -> Vec<(&'static str, Parameter)> {
         vec![("scale", self.scale.into()), ("location", self.location.into())]
-    }
-
-    fn to_si(&self, unit: &Unit) -> Result<Distribution, DistributionError> {
-        Distribution::exponential(unit.span_to_si(self.scale), unit.to_si(self.location))
     }
 }

@@ -3,6 +3,8 @@
 use serde::Serialize;
 use serde::ser::{SerializeSeq, Serializer};
 
+use super::empirical::MeasuredFile;
+use super::keys::{Entry, in_si};
 use super::{Distribution, DistributionError};
 use crate::quantity::Unit;
 
@@ -23,6 +25,12 @@ pub enum Parameter {
     Bounds(f64, f64),
     /// A list of distributions.
     Laws(Vec<Distribution>),
+    /// Values by their probabilities; results have the bins that they make.
+    #[serde(skip)]
+    Quantiles(Vec<(f64, f64)>),
+    /// Measured values and the file that they come from; results have the name of the file.
+    #[serde(skip)]
+    Measured(Vec<f64>, MeasuredFile),
 }
 
 fn bounds<S: Serializer>(min: &f64, max: &f64, serializer: S) -> Result<S::Ok, S::Error> {
@@ -75,26 +83,50 @@ macro_rules! numbers_of_law {
 
 pub(super) use numbers_of_law;
 
-/// One family; [`Distribution`] describes each of these.
+/// One family; [`Distribution`] describes each of these. A family has [`quantile`](Self::quantile) or [`at`](Self::at).
 pub(super) trait Family {
-    fn name(&self) -> &'static str;
-    fn quantile(&self, u: f64) -> f64;
     /// P(X <= x) and P(X > x), each with its own last digits where the distribution is continuous.
     fn tails(&self, x: f64) -> (f64, f64);
     fn mean(&self) -> f64;
     fn sd(&self) -> f64;
-    fn support(&self) -> (f64, f64);
     fn parameters(&self) -> Vec<(&'static str, Parameter)>;
-    fn to_si(&self, unit: &Unit) -> Result<Distribution, DistributionError>;
+
+    fn support(&self) -> (f64, f64) {
+        (f64::NEG_INFINITY, f64::INFINITY)
+    }
+
+    /// Its name in study files; `own` is that of its first entry.
+    fn name(&self, own: &'static str) -> &'static str {
+        own
+    }
+
+    /// The quantile at `u`, `v` being 1 - `u`, with its last digits where either is small.
+    fn at(&self, u: f64, _v: f64) -> f64 {
+        self.quantile(u)
+    }
+
+    fn quantile(&self, u: f64) -> f64 {
+        self.at(u, 1.0 - u)
+    }
 
     /// The quantile at 1 - `v`, with its last digits where `v` is small.
     fn upper_quantile(&self, v: f64) -> f64 {
-        self.quantile(1.0 - v)
+        self.at(1.0 - v, v)
     }
 
     fn fill(&self, u: &[f64], out: &mut [f64]) {
         for (value, &u) in out.iter_mut().zip(u) {
             *value = self.quantile(u);
         }
+    }
+
+    /// The same quantity in SI, before its variance is looked at, of which a part of it may have one.
+    fn in_si(&self, own: &'static Entry, unit: &Unit) -> Result<Distribution, DistributionError> {
+        in_si(own, self.parameters(), unit)
+    }
+
+    /// Refuses what has no variance, by its parameters.
+    fn refuse_infinite_variance(&self) -> Result<(), DistributionError> {
+        Ok(())
     }
 }

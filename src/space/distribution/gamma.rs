@@ -4,8 +4,9 @@
 
 use super::error::{finite, positive, within};
 use super::family::{Family, Parameter};
+use super::keys::{Entry, MOMENTS, PLAIN, TWO_QUANTILES, keys};
+use super::solved::Shape;
 use super::{Distribution, DistributionError};
-use crate::quantity::Unit;
 
 /// Shapes beyond are refused: the series would need thousands of terms, or all values are next to 0.
 const SHAPES: (f64, f64) = (1e-3, 1e5);
@@ -53,23 +54,27 @@ impl Distribution {
     }
 }
 
-impl Gamma {
-    fn at(&self, u: f64, v: f64) -> f64 {
-        self.location + self.scale * self.split.solve(u, v)
-    }
-}
+impl Gamma {}
+
+pub(super) const ENTRIES: &[Entry] = &[Entry {
+    name: "gamma",
+    summary: "Sums of waiting times, and positive quantities of moderate scatter.",
+    ways: &[
+        keys(&["shape", "scale"]).perhaps(&["location"]),
+        MOMENTS.perhaps(&["location"]),
+        TWO_QUANTILES.perhaps(&["location"]),
+    ],
+    shape: Shape::Between(1e5, 1e-3, 300),
+    make: |_, [location, scale, shape]| Distribution::gamma(shape, scale, location),
+    build: |given| {
+        Distribution::gamma(given.number("shape")?, given.number("scale")?, given.number_or("location", 0.0))
+    },
+    ..PLAIN
+}];
 
 impl Family for Gamma {
-    fn name(&self) -> &'static str {
-        "gamma"
-    }
-
-    fn quantile(&self, u: f64) -> f64 {
-        self.at(u, 1.0 - u)
-    }
-
-    fn upper_quantile(&self, v: f64) -> f64 {
-        self.at(1.0 - v, v)
+    fn at(&self, u: f64, v: f64) -> f64 {
+        self.location + self.scale * self.split.solve(u, v)
     }
 
     fn tails(&self, x: f64) -> (f64, f64) {
@@ -90,10 +95,6 @@ impl Family for Gamma {
 
     fn parameters(&self) -> Vec<(&'static str, Parameter)> {
         vec![("shape", self.shape.into()), ("scale", self.scale.into()), ("location", self.location.into())]
-    }
-
-    fn to_si(&self, unit: &Unit) -> Result<Distribution, DistributionError> {
-        Distribution::gamma(self.shape, unit.span_to_si(self.scale), unit.to_si(self.location))
     }
 }
 
@@ -167,20 +168,10 @@ impl Split {
         let curvature = slope * (slope + self.x - self.a);
         let parabola = 2.0 * target / (slope + (slope * slope - 2.0 * curvature * target).max(0.0).sqrt());
         let tangent = (target + libm::log(self.series) - self.x) / self.a;
-        let mut d = tangent.max(parabola).min(0.0);
-        for _ in 0..MOST_STEPS {
-            let x = self.x * libm::exp(d);
+        self.halley(tangent.max(parabola).min(0.0), target, (f64::NEG_INFINITY, 0.0), |x| {
             let series = series(self.a, x);
-            let residual = self.a * d - self.x * libm::expm1(d) + libm::log(series / self.series) - target;
-            let slope = self.a / series;
-            let step = residual / slope;
-            let bend = 0.5 * step * (self.a - x - slope);
-            d = (d - step / (1.0 - bend).max(0.5)).min(0.0);
-            if residual.abs().max(step.abs()) < CLOSE {
-                break;
-            }
-        }
-        d
+            (libm::log(series / self.series), self.a / series)
+        })
     }
 
     /// d at which ln Q has risen by `target` from the split, which is not positive.
@@ -190,15 +181,22 @@ impl Split {
         let curvature = slope * (slope + self.a - self.x);
         let parabola = -2.0 * target / (slope + (slope * slope - 2.0 * curvature * target).max(0.0).sqrt());
         let exponential = libm::log1p(-target / (self.x * (slope / self.x).min(1.0)));
-        let mut d = exponential.min(parabola).max(0.0);
+        self.halley(exponential.min(parabola).max(0.0), target, (0.0, f64::INFINITY), |x| {
+            let fraction = continued_fraction(self.a, x);
+            (libm::log(fraction / self.fraction), -1.0 / fraction)
+        })
+    }
+
+    /// d between two bounds at which the logarithm of P or Q has risen by `target`, from a first guess; `side` gives that of the series
+    /// or fraction over its value at the split, and the slope.
+    fn halley(&self, mut d: f64, target: f64, (low, high): (f64, f64), side: impl Fn(f64) -> (f64, f64)) -> f64 {
         for _ in 0..MOST_STEPS {
             let x = self.x * libm::exp(d);
-            let fraction = continued_fraction(self.a, x);
-            let residual = self.a * d - self.x * libm::expm1(d) + libm::log(fraction / self.fraction) - target;
-            let slope = -1.0 / fraction;
+            let (log, slope) = side(x);
+            let residual = self.a * d - self.x * libm::expm1(d) + log - target;
             let step = residual / slope;
             let bend = 0.5 * step * (self.a - x - slope);
-            d = (d - step / (1.0 - bend).max(0.5)).max(0.0);
+            d = (d - step / (1.0 - bend).max(0.5)).max(low).min(high);
             if residual.abs().max(step.abs()) < CLOSE {
                 break;
             }

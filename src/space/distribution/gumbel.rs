@@ -4,8 +4,9 @@ use std::f64::consts::PI;
 
 use super::error::{finite, positive};
 use super::family::{Family, Parameter};
+use super::keys::{Entry, MOMENTS, PLAIN, TWO_QUANTILES, keys};
+use super::solved::Shape;
 use super::{Distribution, DistributionError};
-use crate::quantity::Unit;
 
 /// Euler's constant.
 const EULER_GAMMA: f64 = 0.577_215_664_901_532_9;
@@ -13,8 +14,8 @@ const EULER_GAMMA: f64 = 0.577_215_664_901_532_9;
 /// The limit of the largest of many values: long tail to the right.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Gumbel {
-    location: f64,
-    scale: f64,
+    pub(super) location: f64,
+    pub(super) scale: f64,
 }
 
 impl Distribution {
@@ -39,23 +40,27 @@ impl Distribution {
     /// # Ok::<(), apportion::DistributionError>(())
     /// ```
     pub fn gumbel(location: f64, scale: f64) -> Result<Self, DistributionError> {
-        finite("location", location)?;
-        positive("scale", scale)?;
-        Self::Gumbel(Gumbel { location, scale }).finite()
+        Self::Gumbel(Gumbel::new(location, scale)?).finite()
     }
 }
 
 impl Gumbel {
-    pub(super) fn between(&self, min: f64, max: f64) -> Result<Distribution, DistributionError> {
-        Distribution::gumbel_between(self.location, self.scale, (min, max))
+    pub(super) fn new(location: f64, scale: f64) -> Result<Self, DistributionError> {
+        Ok(Self { location: finite("location", location)?, scale: positive("scale", scale)? })
     }
 }
 
-impl Family for Gumbel {
-    fn name(&self) -> &'static str {
-        "gumbel"
-    }
+pub(super) const ENTRIES: &[Entry] = &[Entry {
+    name: "gumbel",
+    summary: "The largest of many values.",
+    ways: &[keys(&["location", "scale"]), MOMENTS, TWO_QUANTILES],
+    shape: Shape::None,
+    make: |_, [location, scale, _]| Distribution::gumbel(location, scale),
+    build: |given| Distribution::gumbel(given.number("location")?, given.number("scale")?),
+    ..PLAIN
+}];
 
+impl Family for Gumbel {
     fn quantile(&self, u: f64) -> f64 {
         self.location - self.scale * libm::log(-libm::log(u))
     }
@@ -77,15 +82,7 @@ impl Family for Gumbel {
         PI / 6f64.sqrt() * self.scale
     }
 
-    fn support(&self) -> (f64, f64) {
-        (f64::NEG_INFINITY, f64::INFINITY)
-    }
-
     fn parameters(&self) -> Vec<(&'static str, Parameter)> {
         vec![("location", self.location.into()), ("scale", self.scale.into())]
-    }
-
-    fn to_si(&self, unit: &Unit) -> Result<Distribution, DistributionError> {
-        Distribution::gumbel(unit.to_si(self.location), unit.span_to_si(self.scale))
     }
 }

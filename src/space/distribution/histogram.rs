@@ -1,9 +1,9 @@
 //! The histogram: bins of constant density.
 
-use super::discrete::check;
+use super::error::{entry, finite_entries, list, sum_of_weights};
 use super::family::{Family, Parameter};
+use super::keys::{Entry, PLAIN, keys};
 use super::{Distribution, DistributionError};
-use crate::quantity::Unit;
 
 /// Adjoining bins with their probabilities, each of constant density: a piecewise linear distribution function.
 #[derive(Clone, Debug, PartialEq)]
@@ -42,25 +42,18 @@ impl Distribution {
     /// # Ok::<(), apportion::DistributionError>(())
     /// ```
     pub fn histogram(edges: &[f64], weights: &[f64]) -> Result<Self, DistributionError> {
-        if weights.is_empty() || edges.len() != weights.len() + 1 {
-            return Err(DistributionError::Edges { edges: edges.len(), weights: weights.len() });
+        let (bins, count) = (weights.len(), edges.len());
+        if bins == 0 || count != bins + 1 {
+            let problem =
+                format!("there are {count} `edges` for {bins} `weights`, but n bins have n + 1 edges, at least 2");
+            return Err(list("edges", problem));
         }
-        check("edges", edges)?;
-        check("weights", weights)?;
-        if let Some(index) = (1..edges.len()).find(|&k| edges[k] <= edges[k - 1]) {
-            let (value, before) = (edges[index], edges[index - 1]);
-            return Err(DistributionError::NotRising { list: "edges", index, value, before });
+        finite_entries("edges", edges)?;
+        if let Some(index) = (1..count).find(|&k| edges[k] <= edges[k - 1]) {
+            let must = format!("be above the one before it, {}", edges[index - 1]);
+            return Err(entry("edges", index, edges[index], must));
         }
-        if let Some((index, &value)) = weights.iter().enumerate().find(|(_, weight)| **weight < 0.0) {
-            return Err(DistributionError::NegativeWeight { index, value });
-        }
-        let total: f64 = weights.iter().sum();
-        if total == 0.0 {
-            return Err(DistributionError::ZeroWeights);
-        }
-        if total.is_infinite() {
-            return Err(DistributionError::WeightSum);
-        }
+        let total = sum_of_weights(weights, bins, "bins")?;
         let mut before = 0.0;
         let mut bins: Vec<Bin> = Vec::with_capacity(weights.len());
         for (edges, weight) in edges.windows(2).zip(weights).filter(|(_, weight)| **weight > 0.0) {
@@ -92,7 +85,11 @@ impl Distribution {
     /// # Ok::<(), apportion::DistributionError>(())
     /// ```
     pub fn histogram_of_quantiles(quantiles: &[(f64, f64)]) -> Result<Self, DistributionError> {
-        let refused = |found: String| Err(DistributionError::Quantiles { found });
+        let refused = |found: String| {
+            let example = r#"{ "0" = 1, "0.5" = 2, "1" = 5 }"#;
+            let must = "must have rising values for probabilities from 0 to 1, the lowest and highest value among them";
+            Err(list("quantiles", format!("`quantiles` has {found}, but {must}, as in {example}")))
+        };
         let mut quantiles = quantiles.to_vec();
         quantiles.sort_by(|a, b| a.0.total_cmp(&b.0));
         if let Some((p, _)) = quantiles.iter().find(|(p, _)| !(0.0..=1.0).contains(p)) {
@@ -144,7 +141,20 @@ impl Histogram {
             Distribution::histogram(&edges, &weights)
         }
     }
+}
 
+pub(super) const ENTRIES: &[Entry] = &[Entry {
+    name: "histogram",
+    summary: "Bins of constant density.",
+    ways: &[keys(&["edges", "weights"]), keys(&["quantiles"])],
+    build: |given| match given.get("quantiles") {
+        Some(Parameter::Quantiles(quantiles)) => Distribution::histogram_of_quantiles(quantiles),
+        _ => Distribution::histogram(given.list("edges")?, given.list("weights")?),
+    },
+    ..PLAIN
+}];
+
+impl Family for Histogram {
     fn at(&self, u: f64, v: f64) -> f64 {
         let place = self.bins.partition_point(|bin| bin.before + bin.probability <= u).min(self.bins.len() - 1);
         let bin = &self.bins[place];
@@ -155,20 +165,6 @@ impl Histogram {
             bin.max - (bin.max - bin.min) * above.max(0.0)
         };
         value.clamp(bin.min, bin.max)
-    }
-}
-
-impl Family for Histogram {
-    fn name(&self) -> &'static str {
-        "histogram"
-    }
-
-    fn quantile(&self, u: f64) -> f64 {
-        self.at(u, 1.0 - u)
-    }
-
-    fn upper_quantile(&self, v: f64) -> f64 {
-        self.at(1.0 - v, v)
     }
 
     fn tails(&self, x: f64) -> (f64, f64) {
@@ -198,10 +194,5 @@ impl Family for Histogram {
 
     fn parameters(&self) -> Vec<(&'static str, Parameter)> {
         vec![("edges", self.edges.as_slice().into()), ("weights", self.weights.as_slice().into())]
-    }
-
-    fn to_si(&self, unit: &Unit) -> Result<Distribution, DistributionError> {
-        let edges: Vec<f64> = self.edges.iter().map(|&edge| unit.to_si(edge)).collect();
-        Distribution::histogram(&edges, &self.weights)
     }
 }

@@ -1,7 +1,8 @@
 //! The uniform distribution on whole numbers.
 
-use super::error::finite;
+use super::error::number;
 use super::family::{Family, Parameter};
+use super::keys::{Entry, PLAIN, keys};
 use super::{Distribution, DistributionError};
 use crate::quantity::Unit;
 
@@ -40,13 +41,11 @@ impl Distribution {
     /// ```
     pub fn integer(min: f64, max: f64) -> Result<Self, DistributionError> {
         for (parameter, value) in [("min", min), ("max", max)] {
-            finite(parameter, value)?;
-            if value.fract() != 0.0 || value.abs() > LARGEST {
-                return Err(DistributionError::NotWhole { parameter, value });
-            }
+            let is_whole = value.fract() == 0.0 && value.abs() <= LARGEST;
+            number(parameter, value, is_whole, "be a whole number between -2^53 and 2^53")?;
         }
         if min > max {
-            return Err(DistributionError::Bounds { min, max });
+            return Err(DistributionError::Order { lower: "min", low: min, upper: "max", high: max });
         }
         Self::Integer(Integer { min, count: max - min + 1.0, units: Vec::new() }).finite()
     }
@@ -85,11 +84,15 @@ impl Integer {
     }
 }
 
-impl Family for Integer {
-    fn name(&self) -> &'static str {
-        "integer"
-    }
+pub(super) const ENTRIES: &[Entry] = &[Entry {
+    name: "integer",
+    summary: "Whole numbers from `min` to `max`, both included, equally likely.",
+    ways: &[keys(&["min", "max"])],
+    build: |given| Distribution::integer(given.number("min")?, given.number("max")?),
+    ..PLAIN
+}];
 
+impl Family for Integer {
     fn quantile(&self, u: f64) -> f64 {
         // The product may be rounded up to the count itself.
         self.in_unit(self.min + (self.count * u).floor().clamp(0.0, self.count - 1.0))
@@ -122,7 +125,7 @@ impl Family for Integer {
         vec![("min", self.in_unit(self.min).into()), ("max", self.in_unit(self.max()).into())]
     }
 
-    fn to_si(&self, unit: &Unit) -> Result<Distribution, DistributionError> {
+    fn in_si(&self, _own: &'static Entry, unit: &Unit) -> Result<Distribution, DistributionError> {
         let units = self.units.iter().chain([unit]).cloned().collect();
         Distribution::Integer(Self { units, ..*self }).finite()
     }

@@ -4,11 +4,12 @@ use std::f64::consts::{FRAC_1_SQRT_2, PI};
 
 use libm::erfc;
 
-use super::error::{positive, refuse_offset, within};
+use super::error::{positive, within};
 use super::family::{Family, Parameter};
+use super::keys::{Entry, MOMENTS, PLAIN, TWO_QUANTILES, keys};
 use super::quadrature::short_integral;
+use super::solved::Shape;
 use super::{Distribution, DistributionError, solve};
-use crate::quantity::Unit;
 use crate::special::normal_below;
 
 /// Ratios of `scale` to `mean` beyond are refused: scatter of 1e6 means, or of a millionth of one.
@@ -57,18 +58,6 @@ impl Distribution {
 }
 
 impl InverseGaussian {
-    fn at(&self, u: f64, v: f64) -> f64 {
-        if u <= 0.0 {
-            return 0.0;
-        }
-        if v <= 0.0 {
-            return f64::INFINITY;
-        }
-        // exp(-ratio / (2 x)) below and exp(-ratio x / 2 + ratio) above bound the tails, down to the smallest double.
-        let ends = (self.ratio.min(1.0) / 2000.0, 4.0 + 2000.0 / self.ratio);
-        self.mean * solve::quantile(u, v, ends, |x| self.tails_at(x))
-    }
-
     /// P(X <= x mean) and P(X > x mean).
     fn tails_at(&self, x: f64) -> (f64, f64) {
         let root = (self.ratio / x).sqrt();
@@ -104,17 +93,28 @@ fn scaled(t: f64) -> f64 {
     (2.0 / PI).sqrt() / fraction
 }
 
+pub(super) const ENTRIES: &[Entry] = &[Entry {
+    name: "inverse-gaussian",
+    summary: "First passage times of a drifting random walk.",
+    ways: &[keys(&["mean", "scale"]), MOMENTS, TWO_QUANTILES],
+    of_ratios: true,
+    shape: Shape::Between(1e-5, 1e5, 300),
+    make: |_, [_, mean, variation]| Distribution::inverse_gaussian(mean, mean / (variation * variation)),
+    build: |given| Distribution::inverse_gaussian(given.number("mean")?, given.number("scale")?),
+    ..PLAIN
+}];
+
 impl Family for InverseGaussian {
-    fn name(&self) -> &'static str {
-        "inverse-gaussian"
-    }
-
-    fn quantile(&self, u: f64) -> f64 {
-        self.at(u, 1.0 - u)
-    }
-
-    fn upper_quantile(&self, v: f64) -> f64 {
-        self.at(1.0 - v, v)
+    fn at(&self, u: f64, v: f64) -> f64 {
+        if u <= 0.0 {
+            return 0.0;
+        }
+        if v <= 0.0 {
+            return f64::INFINITY;
+        }
+        // exp(-ratio / (2 x)) below and exp(-ratio x / 2 + ratio) above bound the tails, down to the smallest double.
+        let ends = (self.ratio.min(1.0) / 2000.0, 4.0 + 2000.0 / self.ratio);
+        self.mean * solve::quantile(u, v, ends, |x| self.tails_at(x))
     }
 
     fn tails(&self, x: f64) -> (f64, f64) {
@@ -135,10 +135,5 @@ impl Family for InverseGaussian {
 
     fn parameters(&self) -> Vec<(&'static str, Parameter)> {
         vec![("mean", self.mean.into()), ("scale", self.scale.into())]
-    }
-
-    fn to_si(&self, unit: &Unit) -> Result<Distribution, DistributionError> {
-        refuse_offset(self.name(), unit)?;
-        Distribution::inverse_gaussian(unit.to_si(self.mean), unit.to_si(self.scale))
     }
 }

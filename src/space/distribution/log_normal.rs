@@ -1,9 +1,10 @@
 //! The log-normal distribution.
 
-use super::error::{finite, positive, refuse_offset};
+use super::error::{finite, positive};
 use super::family::{Family, Parameter};
+use super::keys::{Entry, PLAIN, TWO_QUANTILES, keys};
+use super::solved::Shape;
 use super::{Distribution, DistributionError};
-use crate::quantity::Unit;
 use crate::special::{normal_below, normal_quantile};
 
 /// The logarithm is normal.
@@ -76,11 +77,21 @@ impl Distribution {
     }
 }
 
-impl Family for LogNormal {
-    fn name(&self) -> &'static str {
-        "log-normal"
-    }
+pub(super) const ENTRIES: &[Entry] = &[Entry {
+    name: "log-normal",
+    summary: "The logarithm is normal.",
+    ways: &[keys(&["mean", "sd"]), keys(&["log_mean", "log_sd"]), TWO_QUANTILES],
+    of_ratios: true,
+    shape: Shape::Between(1e-9, 26.0, 500),
+    make: |_, [_, median, log_sd]| Distribution::log_normal_of_logs(libm::log(median), log_sd),
+    build: |given| match given.number_if("log_mean") {
+        Some(log_mean) => Distribution::log_normal_of_logs(log_mean, given.number("log_sd")?),
+        None => Distribution::log_normal(given.number("mean")?, given.number("sd")?),
+    },
+    ..PLAIN
+}];
 
+impl Family for LogNormal {
     fn quantile(&self, u: f64) -> f64 {
         libm::exp(self.log_mean + self.log_sd * normal_quantile(u))
     }
@@ -116,14 +127,6 @@ impl Family for LogNormal {
         match self.moments {
             Some((mean, sd)) => vec![("mean", mean.into()), ("sd", sd.into())],
             None => vec![("log_mean", self.log_mean.into()), ("log_sd", self.log_sd.into())],
-        }
-    }
-
-    fn to_si(&self, unit: &Unit) -> Result<Distribution, DistributionError> {
-        refuse_offset(self.name(), unit)?;
-        match self.moments {
-            Some((mean, sd)) => Distribution::log_normal(unit.to_si(mean), unit.to_si(sd)),
-            None => Distribution::log_normal_of_logs(self.log_mean + libm::log(unit.to_si(1.0)), self.log_sd),
         }
     }
 }

@@ -1,9 +1,10 @@
 //! The log-uniform (reciprocal) distribution.
 
-use super::error::{bounds, positive, refuse_offset};
+use super::error::{bounds, positive};
 use super::family::{Family, Parameter};
+use super::keys::{Entry, MOMENTS, PLAIN, TWO_QUANTILES, keys};
+use super::solved::Shape;
 use super::{Distribution, DistributionError};
-use crate::quantity::Unit;
 
 /// The logarithm is uniform between the logarithms of two positive bounds.
 #[derive(Clone, Debug, PartialEq)]
@@ -50,11 +51,18 @@ impl Distribution {
     }
 }
 
-impl Family for LogUniform {
-    fn name(&self) -> &'static str {
-        "log-uniform"
-    }
+pub(super) const ENTRIES: &[Entry] = &[Entry {
+    name: "log-uniform",
+    summary: "The logarithm is uniform: every decade between two bounds is equally likely.",
+    ways: &[keys(&["min", "max"]), MOMENTS, TWO_QUANTILES],
+    of_ratios: true,
+    shape: Shape::Between(1e-9, 700.0, 500),
+    make: |_, [_, min, log]| Distribution::log_uniform(min, min * libm::exp(log)),
+    build: |given| Distribution::log_uniform(given.number("min")?, given.number("max")?),
+    ..PLAIN
+}];
 
+impl Family for LogUniform {
     fn quantile(&self, u: f64) -> f64 {
         // From the centre, where the argument of exp stays within its range and rounds least.
         (self.centre * libm::exp((2.0 * u - 1.0) * self.half)).clamp(self.min, self.max)
@@ -94,10 +102,5 @@ impl Family for LogUniform {
 
     fn parameters(&self) -> Vec<(&'static str, Parameter)> {
         vec![("min", self.min.into()), ("max", self.max.into())]
-    }
-
-    fn to_si(&self, unit: &Unit) -> Result<Distribution, DistributionError> {
-        refuse_offset(self.name(), unit)?;
-        Distribution::log_uniform(unit.to_si(self.min), unit.to_si(self.max))
     }
 }

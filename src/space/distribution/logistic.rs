@@ -4,8 +4,9 @@ use std::f64::consts::PI;
 
 use super::error::{finite, positive};
 use super::family::{Family, Parameter};
+use super::keys::{Entry, MOMENTS, PLAIN, TWO_QUANTILES, keys};
+use super::solved::Shape;
 use super::{Distribution, DistributionError};
-use crate::quantity::Unit;
 
 /// Symmetric like a normal distribution, with longer tails.
 #[derive(Clone, Debug, PartialEq)]
@@ -42,11 +43,17 @@ impl Distribution {
     }
 }
 
-impl Family for Logistic {
-    fn name(&self) -> &'static str {
-        "logistic"
-    }
+pub(super) const ENTRIES: &[Entry] = &[Entry {
+    name: "logistic",
+    summary: "Like a normal distribution, with longer tails.",
+    ways: &[keys(&["location", "scale"]), MOMENTS, TWO_QUANTILES],
+    shape: Shape::None,
+    make: |_, [location, scale, _]| Distribution::logistic(location, scale),
+    build: |given| Distribution::logistic(given.number("location")?, given.number("scale")?),
+    ..PLAIN
+}];
 
+impl Family for Logistic {
     fn quantile(&self, u: f64) -> f64 {
         self.location + self.scale * (libm::log(u) - libm::log1p(-u))
     }
@@ -68,15 +75,7 @@ impl Family for Logistic {
         PI / 3f64.sqrt() * self.scale
     }
 
-    fn support(&self) -> (f64, f64) {
-        (f64::NEG_INFINITY, f64::INFINITY)
-    }
-
     fn parameters(&self) -> Vec<(&'static str, Parameter)> {
         vec![("location", self.location.into()), ("scale", self.scale.into())]
-    }
-
-    fn to_si(&self, unit: &Unit) -> Result<Distribution, DistributionError> {
-        Distribution::logistic(unit.to_si(self.location), unit.span_to_si(self.scale))
     }
 }

@@ -1,9 +1,9 @@
 //! Mixtures of distributions.
 
-use super::discrete::check;
+use super::error::{list, no_order, sum_of_weights};
 use super::family::{Family, Parameter};
+use super::keys::{Entry, PLAIN, keys};
 use super::{Distribution, DistributionError, solve};
-use crate::quantity::Unit;
 
 /// A value of one distribution or another, by chance.
 #[derive(Clone, Debug, PartialEq)]
@@ -43,25 +43,12 @@ impl Distribution {
     /// ```
     pub fn mixture(components: &[Self], weights: Option<&[f64]>) -> Result<Self, DistributionError> {
         if components.is_empty() {
-            return Err(DistributionError::NoComponents);
+            return Err(list("components", "`components` is empty, but must hold at least one distribution"));
         }
         let weights = weights.map_or_else(|| vec![1.0; components.len()], <[f64]>::to_vec);
-        if weights.len() != components.len() {
-            return Err(DistributionError::Components { components: components.len(), weights: weights.len() });
-        }
-        check("weights", &weights)?;
-        if let Some((index, &value)) = weights.iter().enumerate().find(|(_, weight)| **weight < 0.0) {
-            return Err(DistributionError::NegativeWeight { index, value });
-        }
+        let total = sum_of_weights(&weights, components.len(), "components")?;
         if let Some(labelled) = components.iter().find(|component| component.has_no_order()) {
-            return Err(DistributionError::NoOrder { distribution: labelled.name(), what: "a part of a mixture" });
-        }
-        let total: f64 = weights.iter().sum();
-        if total == 0.0 {
-            return Err(DistributionError::ZeroWeights);
-        }
-        if total.is_infinite() {
-            return Err(DistributionError::WeightSum);
+            return Err(no_order(labelled.name(), "components", "a part of a mixture"));
         }
         let shares = weights.iter().map(|weight| weight / total).collect();
         Self::Mixture(Mixture { components: components.to_vec(), weights, shares }).finite()
@@ -94,6 +81,23 @@ impl Mixture {
         }
     }
 
+    fn expectation(&self, of: impl Fn(&Distribution) -> f64) -> f64 {
+        self.components().map(|(component, share)| share * of(component)).sum()
+    }
+}
+
+pub(super) const ENTRIES: &[Entry] = &[Entry {
+    name: "mixture",
+    summary: "A value of one distribution or another, by chance.",
+    ways: &[keys(&["components"]).perhaps(&["weights"])],
+    build: |given| match given.get("components") {
+        Some(Parameter::Laws(components)) => Distribution::mixture(components, given.list_if("weights")),
+        _ => Err(given.refused("`components`".to_owned())),
+    },
+    ..PLAIN
+}];
+
+impl Family for Mixture {
     fn at(&self, u: f64, v: f64) -> f64 {
         let (least, largest) = self.support();
         if u <= 0.0 || v <= 0.0 {
@@ -104,24 +108,6 @@ impl Mixture {
         let ends = self.components().map(|(component, _)| own(component));
         let (low, high) = ends.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
         solve::quantile(u, v, (low, high), |x| self.tails(x))
-    }
-
-    fn expectation(&self, of: impl Fn(&Distribution) -> f64) -> f64 {
-        self.components().map(|(component, share)| share * of(component)).sum()
-    }
-}
-
-impl Family for Mixture {
-    fn name(&self) -> &'static str {
-        "mixture"
-    }
-
-    fn quantile(&self, u: f64) -> f64 {
-        self.at(u, 1.0 - u)
-    }
-
-    fn upper_quantile(&self, v: f64) -> f64 {
-        self.at(1.0 - v, v)
     }
 
     fn tails(&self, x: f64) -> (f64, f64) {
@@ -147,11 +133,5 @@ impl Family for Mixture {
 
     fn parameters(&self) -> Vec<(&'static str, Parameter)> {
         vec![("weights", self.weights.as_slice().into()), ("components", Parameter::Laws(self.components.clone()))]
-    }
-
-    fn to_si(&self, unit: &Unit) -> Result<Distribution, DistributionError> {
-        let components =
-            self.components.iter().map(|component| component.to_si(unit)).collect::<Result<Vec<_>, _>>()?;
-        Distribution::mixture(&components, Some(&self.weights))
     }
 }

@@ -4,8 +4,8 @@
 //! distribution function. Every distribution is checked when it is made: after that, every quantile for `u` in
 //! [[`SMALLEST_U`], [`LARGEST_U`]], the mean and the standard deviation are finite.
 //!
-//! To add a distribution: one file here with a struct, its constructor on [`Distribution`] and its `Family`; one
-//! variant below; one case in `tests/oracle/distributions.py`.
+//! To add a distribution: one file here with a struct, its constructor on [`Distribution`], its `Family` and its entries for
+//! study files; one line in the list of families below; one case in `tests/oracle/distributions.py`.
 
 mod beta;
 mod categorical;
@@ -20,6 +20,7 @@ mod gumbel;
 mod histogram;
 mod integer;
 mod inverse_gaussian;
+mod keys;
 mod log_normal;
 mod log_uniform;
 mod logistic;
@@ -30,12 +31,10 @@ mod poisson;
 mod quadrature;
 mod seed;
 mod solve;
-mod stated;
+mod solved;
 mod student_t;
 mod triangular;
 mod truncated;
-mod truncated_gumbel;
-mod truncated_normal;
 mod uniform;
 mod weibull;
 
@@ -44,147 +43,85 @@ use serde::ser::{Serialize, SerializeMap, Serializer};
 use crate::quantity::Unit;
 use family::Family;
 
-pub use beta::Beta;
-pub use categorical::Categorical;
-pub use constant::Constant;
-pub use discrete::Discrete;
-pub use empirical::{Empirical, MeasuredFile};
+pub use empirical::MeasuredFile;
 pub use error::DistributionError;
-pub use exponential::Exponential;
 pub use family::Parameter;
-pub use gamma::Gamma;
-pub use gumbel::Gumbel;
-pub use histogram::Histogram;
-pub use integer::Integer;
-pub use inverse_gaussian::InverseGaussian;
-pub use log_normal::LogNormal;
-pub use log_uniform::LogUniform;
-pub use logistic::Logistic;
-pub use mixture::Mixture;
-pub use normal::Normal;
-pub use pareto::Pareto;
-pub use poisson::Poisson;
-pub use seed::Seed;
+pub use keys::{KEYS, Key, KeyKind, Kind};
 pub(crate) use seed::{mixed, seed_of};
-pub use stated::{Law, Statistic};
-pub use student_t::StudentT;
-pub use triangular::Triangular;
-pub use truncated::Truncated;
-pub use truncated_gumbel::TruncatedGumbel;
-pub use truncated_normal::TruncatedNormal;
-pub use uniform::Uniform;
-pub use weibull::Weibull;
 
 /// The smallest `u` at which quantiles are promised to be finite, 2^-64.
 pub const SMALLEST_U: f64 = 1.0 / (1u128 << 64) as f64;
 /// The largest `u` below 1, 1 - 2^-53.
 pub const LARGEST_U: f64 = 1.0 - f64::EPSILON / 2.0;
 
-/// A univariate distribution with its parameters, immutable and checked.
-///
-/// Made by the constructors named after the families; as JSON it is a map of `name` (its
-/// [`name`](Self::name)) and its [`parameters`](Self::parameters).
-///
-/// ```
-/// use apportion::Distribution;
-///
-/// let length = Distribution::uniform(1.0, 3.0)?;
-/// assert_eq!(length.quantile(0.25), 1.5);
-/// assert_eq!(length.mean(), 2.0);
-/// assert_eq!(
-///     Distribution::uniform(3.0, 1.0).unwrap_err().to_string(),
-///     "`min` is 3 and `max` is 1, but `min` must be below `max`"
-/// );
-/// # Ok::<(), apportion::DistributionError>(())
-/// ```
-#[derive(Clone, Debug, PartialEq)]
-pub enum Distribution {
-    /// See [`Distribution::uniform`].
-    Uniform(Uniform),
-    /// See [`Distribution::log_uniform`].
-    LogUniform(LogUniform),
-    /// See [`Distribution::normal`].
-    Normal(Normal),
-    /// See [`Distribution::truncated_normal`].
-    TruncatedNormal(TruncatedNormal),
-    /// See [`Distribution::log_normal`] and [`Distribution::log_normal_of_logs`].
-    LogNormal(LogNormal),
-    /// See [`Distribution::triangular`].
-    Triangular(Triangular),
-    /// See [`Distribution::beta`].
-    Beta(Beta),
-    /// See [`Distribution::weibull`].
-    Weibull(Weibull),
-    /// See [`Distribution::gumbel`].
-    Gumbel(Gumbel),
-    /// See [`Distribution::truncated_gumbel`].
-    TruncatedGumbel(TruncatedGumbel),
-    /// See [`Distribution::gamma`].
-    Gamma(Gamma),
-    /// See [`Distribution::exponential`].
-    Exponential(Exponential),
-    /// See [`Distribution::poisson`].
-    Poisson(Poisson),
-    /// See [`Distribution::student_t`].
-    StudentT(StudentT),
-    /// See [`Distribution::logistic`].
-    Logistic(Logistic),
-    /// See [`Distribution::pareto`].
-    Pareto(Pareto),
-    /// See [`Distribution::inverse_gaussian`].
-    InverseGaussian(InverseGaussian),
-    /// See [`Distribution::histogram`] and [`Distribution::histogram_of_quantiles`].
-    Histogram(Histogram),
-    /// See [`Distribution::mixture`].
-    Mixture(Mixture),
-    /// See [`Distribution::truncated`].
-    Truncated(Truncated),
-    /// See [`Distribution::discrete`].
-    Discrete(Discrete),
-    /// See [`Distribution::integer`].
-    Integer(Integer),
-    /// See [`Distribution::categorical`] and [`Distribution::boolean`].
-    Categorical(Categorical),
-    /// See [`Distribution::empirical`].
-    Empirical(Empirical),
-    /// See [`Distribution::seed`].
-    Seed(Seed),
-    /// See [`Distribution::constant`].
-    Constant(Constant),
-}
+/// Declares a variant of [`Distribution`] for each family, and the list of their entries.
+macro_rules! families {
+    ($($module:ident::$family:ident,)+) => {
+        $(pub use $module::$family;)+
 
-/// Evaluates `$body` with `$family` bound to the family inside.
-macro_rules! each {
-    ($distribution:expr, $family:ident => $body:expr) => {
-        match $distribution {
-            Distribution::Uniform($family) => $body,
-            Distribution::LogUniform($family) => $body,
-            Distribution::Normal($family) => $body,
-            Distribution::TruncatedNormal($family) => $body,
-            Distribution::LogNormal($family) => $body,
-            Distribution::Triangular($family) => $body,
-            Distribution::Beta($family) => $body,
-            Distribution::Weibull($family) => $body,
-            Distribution::Gumbel($family) => $body,
-            Distribution::TruncatedGumbel($family) => $body,
-            Distribution::Gamma($family) => $body,
-            Distribution::Exponential($family) => $body,
-            Distribution::Poisson($family) => $body,
-            Distribution::StudentT($family) => $body,
-            Distribution::Logistic($family) => $body,
-            Distribution::Pareto($family) => $body,
-            Distribution::InverseGaussian($family) => $body,
-            Distribution::Histogram($family) => $body,
-            Distribution::Mixture($family) => $body,
-            Distribution::Truncated($family) => $body,
-            Distribution::Discrete($family) => $body,
-            Distribution::Integer($family) => $body,
-            Distribution::Categorical($family) => $body,
-            Distribution::Empirical($family) => $body,
-            Distribution::Seed($family) => $body,
-            Distribution::Constant($family) => $body,
+        /// A univariate distribution with its parameters, immutable and checked.
+        ///
+        /// Made by the constructors named after the families; as JSON it is a map of `name` (its
+        /// [`name`](Self::name)) and its [`parameters`](Self::parameters).
+        ///
+        /// ```
+        /// use apportion::Distribution;
+        ///
+        /// let length = Distribution::uniform(1.0, 3.0)?;
+        /// assert_eq!(length.quantile(0.25), 1.5);
+        /// assert_eq!(length.mean(), 2.0);
+        /// assert_eq!(
+        ///     Distribution::uniform(3.0, 1.0).unwrap_err().to_string(),
+        ///     "`min` is 3 and `max` is 1, but `min` must be below `max`"
+        /// );
+        /// # Ok::<(), apportion::DistributionError>(())
+        /// ```
+        #[derive(Clone, Debug, PartialEq)]
+        pub enum Distribution {
+            $(#[doc = concat!("See [`", stringify!($family), "`].")] $family($family),)+
+        }
+
+        /// What study files call the families, the default first.
+        static ENTRIES: &[&[keys::Entry]] = &[$($module::ENTRIES),+];
+
+        impl Distribution {
+            fn family(&self) -> &dyn Family {
+                match self { $(Self::$family(family) => family),+ }
+            }
+
+            /// The first entry of its family.
+            fn entry(&self) -> &'static keys::Entry {
+                match self { $(Self::$family(_) => &$module::ENTRIES[0]),+ }
+            }
         }
     };
+}
+
+families! {
+    uniform::Uniform,
+    log_uniform::LogUniform,
+    normal::Normal,
+    truncated::Truncated,
+    log_normal::LogNormal,
+    triangular::Triangular,
+    beta::Beta,
+    weibull::Weibull,
+    gumbel::Gumbel,
+    gamma::Gamma,
+    exponential::Exponential,
+    poisson::Poisson,
+    student_t::StudentT,
+    logistic::Logistic,
+    pareto::Pareto,
+    inverse_gaussian::InverseGaussian,
+    histogram::Histogram,
+    mixture::Mixture,
+    discrete::Discrete,
+    integer::Integer,
+    categorical::Categorical,
+    empirical::Empirical,
+    seed::Seed,
+    constant::Constant,
 }
 
 impl Distribution {
@@ -195,7 +132,7 @@ impl Distribution {
     /// to the last few bits of the result; the [`seed`](Self::seed)s of a stochastic model have no order. Outside (0, 1) it
     /// means nothing, but does not panic.
     pub fn quantile(&self, u: f64) -> f64 {
-        each!(self, family => family.quantile(u))
+        self.family().quantile(u)
     }
 
     /// The quantiles of a whole column: `out[i] = quantile(u[i])`, the very same bits.
@@ -205,17 +142,17 @@ impl Distribution {
     /// If the two slices are of different lengths.
     pub fn fill(&self, u: &[f64], out: &mut [f64]) {
         assert_eq!(u.len(), out.len(), "a column and its quantiles are of one length");
-        each!(self, family => family.fill(u, out));
+        self.family().fill(u, out);
     }
 
     /// The mean.
     pub fn mean(&self) -> f64 {
-        each!(self, family => family.mean())
+        self.family().mean()
     }
 
     /// The standard deviation.
     pub fn sd(&self) -> f64 {
-        each!(self, family => family.sd())
+        self.family().sd()
     }
 
     /// The median.
@@ -225,7 +162,7 @@ impl Distribution {
 
     /// The smallest closed interval that holds every value; its ends may be infinite.
     pub fn support(&self) -> (f64, f64) {
-        each!(self, family => family.support())
+        self.family().support()
     }
 
     /// The values of a factor that takes single ones by design, ascending, each with a `u` at which it is the quantile:
@@ -269,12 +206,14 @@ impl Distribution {
         }
     }
 
+    /// The categories of a categorical or boolean distribution.
+    fn categories(&self) -> Option<&Categorical> {
+        if let Self::Categorical(categories) = self { Some(categories) } else { None }
+    }
+
     /// The labels of a categorical or boolean distribution, as given.
     pub fn labels(&self) -> Option<&[String]> {
-        match self {
-            Self::Categorical(categorical) => Some(categorical.labels()),
-            _ => None,
-        }
+        self.categories().map(Categorical::labels)
     }
 
     /// Whether one value is no more than another: of labels and seeds.
@@ -284,36 +223,27 @@ impl Distribution {
 
     /// The label that `value` stands for, in a categorical or boolean distribution.
     pub fn label(&self, value: f64) -> Option<&str> {
-        match self {
-            Self::Categorical(categorical) => categorical.label(value),
-            _ => None,
-        }
+        self.categories()?.label(value)
     }
 
     /// The value that stands for `label`, in a categorical or boolean distribution.
     pub fn value_of(&self, label: &str) -> Option<f64> {
-        match self {
-            Self::Categorical(categorical) => categorical.value_of(label),
-            _ => None,
-        }
+        self.categories()?.value_of(label)
     }
 
     /// Where a factor stands that nobody placed: the most probable category, else the median.
     pub fn central(&self) -> f64 {
-        match self {
-            Self::Categorical(categorical) => categorical.most_probable(),
-            other => other.median(),
-        }
+        self.categories().map_or_else(|| self.median(), Categorical::most_probable)
     }
 
     /// The name of the family, as in study files: `log-uniform`.
     pub fn name(&self) -> &'static str {
-        each!(self, family => family.name())
+        self.family().name(self.entry().name)
     }
 
     /// The parameters by which it was made, with their names.
     pub fn parameters(&self) -> Vec<(&'static str, Parameter)> {
-        each!(self, family => family.parameters())
+        self.family().parameters()
     }
 
     /// The distribution of the same quantity in SI, this one being in `unit`.
@@ -339,7 +269,7 @@ impl Distribution {
 
     /// The same before its variance is looked at, of which a part of it may have one.
     fn in_si(&self, unit: &Unit) -> Result<Self, DistributionError> {
-        each!(self, family => family.to_si(unit))
+        self.family().in_si(self.entry(), unit)
     }
 
     /// P(X <= x) and P(X > x).
@@ -347,22 +277,18 @@ impl Distribution {
         match x.is_infinite() {
             true if x > 0.0 => (1.0, 0.0),
             true => (0.0, 1.0),
-            false => each!(self, family => family.tails(x)),
+            false => self.family().tails(x),
         }
     }
 
     /// The quantile at 1 - `v`, with its last digits where `v` is small.
     fn upper_quantile(&self, v: f64) -> f64 {
-        each!(self, family => family.upper_quantile(v))
+        self.family().upper_quantile(v)
     }
 
     /// Refuses what has no variance, or overflows within the promised range of `u`.
     fn finite(self) -> Result<Self, DistributionError> {
-        match &self {
-            Self::StudentT(student) => student.refuse_infinite_variance()?,
-            Self::Pareto(pareto) => pareto.refuse_infinite_variance()?,
-            _ => (),
-        }
+        self.family().refuse_infinite_variance()?;
         let figures = [self.quantile(SMALLEST_U), self.quantile(LARGEST_U), self.mean(), self.sd()];
         match figures.iter().all(|figure| figure.is_finite()) {
             true => Ok(self),

@@ -2,15 +2,16 @@
 
 use super::error::{finite, positive};
 use super::family::{Family, Parameter};
+use super::keys::{Entry, PLAIN, TWO_QUANTILES, keys};
+use super::solved::Shape;
 use super::{Distribution, DistributionError};
-use crate::quantity::Unit;
 use crate::special::{normal_below, normal_quantile};
 
 /// The normal (Gaussian) distribution.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Normal {
-    mean: f64,
-    sd: f64,
+    pub(super) mean: f64,
+    pub(super) sd: f64,
 }
 
 impl Distribution {
@@ -34,23 +35,27 @@ impl Distribution {
     /// # Ok::<(), apportion::DistributionError>(())
     /// ```
     pub fn normal(mean: f64, sd: f64) -> Result<Self, DistributionError> {
-        finite("mean", mean)?;
-        positive("sd", sd)?;
-        Self::Normal(Normal { mean, sd }).finite()
+        Self::Normal(Normal::new(mean, sd)?).finite()
     }
 }
 
 impl Normal {
-    pub(super) fn between(&self, min: f64, max: f64) -> Result<Distribution, DistributionError> {
-        Distribution::normal_between(self.mean, self.sd, (min, max))
+    pub(super) fn new(mean: f64, sd: f64) -> Result<Self, DistributionError> {
+        Ok(Self { mean: finite("mean", mean)?, sd: positive("sd", sd)? })
     }
 }
 
-impl Family for Normal {
-    fn name(&self) -> &'static str {
-        "normal"
-    }
+pub(super) const ENTRIES: &[Entry] = &[Entry {
+    name: "normal",
+    summary: "The normal (Gaussian) distribution.",
+    ways: &[keys(&["mean", "sd"]), TWO_QUANTILES],
+    shape: Shape::None,
+    make: |_, [mean, sd, _]| Distribution::normal(mean, sd),
+    build: |given| Distribution::normal(given.number("mean")?, given.number("sd")?),
+    ..PLAIN
+}];
 
+impl Family for Normal {
     fn quantile(&self, u: f64) -> f64 {
         self.mean + self.sd * normal_quantile(u)
     }
@@ -72,15 +77,7 @@ impl Family for Normal {
         self.sd
     }
 
-    fn support(&self) -> (f64, f64) {
-        (f64::NEG_INFINITY, f64::INFINITY)
-    }
-
     fn parameters(&self) -> Vec<(&'static str, Parameter)> {
         vec![("mean", self.mean.into()), ("sd", self.sd.into())]
-    }
-
-    fn to_si(&self, unit: &Unit) -> Result<Distribution, DistributionError> {
-        Distribution::normal(unit.to_si(self.mean), unit.span_to_si(self.sd))
     }
 }

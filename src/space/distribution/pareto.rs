@@ -1,9 +1,10 @@
 //! The Pareto distribution.
 
-use super::error::{positive, refuse_offset};
+use super::error::{of_finite_variance, positive};
 use super::family::{Family, Parameter};
+use super::keys::{Entry, MOMENTS, PLAIN, TWO_QUANTILES, keys};
+use super::solved::Shape;
 use super::{Distribution, DistributionError};
-use crate::quantity::Unit;
 
 /// A power law from a least value on: sizes, incomes, losses.
 #[derive(Clone, Debug, PartialEq)]
@@ -48,17 +49,22 @@ impl Pareto {
     pub(super) fn beginning_at(&self, min: f64) -> Result<Distribution, DistributionError> {
         Distribution::pareto(self.shape, min)
     }
-
-    pub(super) fn refuse_infinite_variance(&self) -> Result<(), DistributionError> {
-        let (distribution, parameter, value, least) = ("pareto", "shape", self.shape, 2.0);
-        let error = DistributionError::InfiniteVariance { distribution, parameter, value, least };
-        if self.shape > least { Ok(()) } else { Err(error) }
-    }
 }
 
+pub(super) const ENTRIES: &[Entry] = &[Entry {
+    name: "pareto",
+    summary: "A power law from a least value on.",
+    ways: &[keys(&["shape", "min"]), MOMENTS, TWO_QUANTILES],
+    of_ratios: true,
+    shape: Shape::Between(1e6, 2.0001, 500),
+    make: |_, [_, min, shape]| Distribution::pareto(shape, min),
+    build: |given| Pareto::new(given.number("shape")?, given.number("min")?).map(Distribution::Pareto),
+    ..PLAIN
+}];
+
 impl Family for Pareto {
-    fn name(&self) -> &'static str {
-        "pareto"
+    fn refuse_infinite_variance(&self) -> Result<(), DistributionError> {
+        of_finite_variance("shape", self.shape, 2.0)
     }
 
     fn quantile(&self, u: f64) -> f64 {
@@ -88,10 +94,5 @@ impl Family for Pareto {
 
     fn parameters(&self) -> Vec<(&'static str, Parameter)> {
         vec![("shape", self.shape.into()), ("min", self.min.into())]
-    }
-
-    fn to_si(&self, unit: &Unit) -> Result<Distribution, DistributionError> {
-        refuse_offset(self.name(), unit)?;
-        Ok(Distribution::Pareto(Self::new(self.shape, unit.to_si(self.min))?))
     }
 }

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use super::error::{finite, within};
 use super::family::{Family, Parameter};
+use super::keys::{Entry, PLAIN, keys};
 use super::{Distribution, DistributionError};
 use crate::quantity::Unit;
 
@@ -115,17 +116,6 @@ impl Poisson {
     fn in_unit(&self, whole: f64) -> f64 {
         self.units.iter().fold(whole, |value, unit| unit.to_si(value))
     }
-
-    fn at(&self, u: f64, v: f64) -> f64 {
-        let (low, high) = self.bounds;
-        if u <= 0.0 {
-            return self.in_unit(low);
-        }
-        if v <= 0.0 {
-            return self.in_unit(high);
-        }
-        self.in_unit(self.table.first + self.table.place(u, v) as f64)
-    }
 }
 
 impl Table {
@@ -191,17 +181,24 @@ impl Table {
     }
 }
 
+pub(super) const ENTRIES: &[Entry] = &[Entry {
+    name: "poisson",
+    summary: "Numbers of events that come by chance.",
+    ways: &[keys(&["mean"])],
+    build: |given| Distribution::poisson(given.number("mean")?),
+    ..PLAIN
+}];
+
 impl Family for Poisson {
-    fn name(&self) -> &'static str {
-        "poisson"
-    }
-
-    fn quantile(&self, u: f64) -> f64 {
-        self.at(u, 1.0 - u)
-    }
-
-    fn upper_quantile(&self, v: f64) -> f64 {
-        self.at(1.0 - v, v)
+    fn at(&self, u: f64, v: f64) -> f64 {
+        let (low, high) = self.bounds;
+        if u <= 0.0 {
+            return self.in_unit(low);
+        }
+        if v <= 0.0 {
+            return self.in_unit(high);
+        }
+        self.in_unit(self.table.first + self.table.place(u, v) as f64)
     }
 
     fn tails(&self, x: f64) -> (f64, f64) {
@@ -244,7 +241,7 @@ impl Family for Poisson {
         parameters
     }
 
-    fn to_si(&self, unit: &Unit) -> Result<Distribution, DistributionError> {
+    fn in_si(&self, _own: &'static Entry, unit: &Unit) -> Result<Distribution, DistributionError> {
         let units = self.units.iter().chain([unit]).cloned().collect();
         Distribution::Poisson(Self { units, ..self.clone() }).finite()
     }

@@ -1,6 +1,7 @@
 //! The seeds of a stochastic model.
 
 use super::family::{Family, Parameter};
+use super::keys::{Entry, PLAIN, keys};
 use super::{Distribution, DistributionError};
 use crate::quantity::Unit;
 
@@ -45,11 +46,15 @@ pub(crate) fn seed_of(mixed: u64) -> f64 {
     (mixed >> 33) as f64
 }
 
-impl Family for Seed {
-    fn name(&self) -> &'static str {
-        "seed"
-    }
+pub(super) const ENTRIES: &[Entry] = &[Entry {
+    name: "seed",
+    summary: "The seed of a stochastic model.",
+    ways: &[keys(&[])],
+    build: |_| Ok(Distribution::seed()),
+    ..PLAIN
+}];
 
+impl Family for Seed {
     fn quantile(&self, u: f64) -> f64 {
         seed_of(mixed(u.to_bits()))
     }
@@ -75,9 +80,10 @@ impl Family for Seed {
         Vec::new()
     }
 
-    fn to_si(&self, unit: &Unit) -> Result<Distribution, DistributionError> {
+    fn in_si(&self, _own: &'static Entry, unit: &Unit) -> Result<Distribution, DistributionError> {
         if [0.0, 1.0].iter().any(|&x| unit.to_si(x) != x) {
-            return Err(DistributionError::UnitOfSeed { unit: unit.to_string() });
+            let right = ": a seed is a pure number, so leave the unit out";
+            return Err(DistributionError::Unit { distribution: "seed", unit: unit.to_string(), right });
         }
         Ok(Distribution::Seed(Self))
     }
@@ -104,6 +110,6 @@ mod tests {
         assert_eq!(seed.tails(high), (1.0, 0.0));
         assert_eq!(seed.tails(2f64.powi(30) - 1.0), (0.5, 0.5));
         let lengths = Unit::parse("um").map(|unit| seed.to_si(&unit));
-        assert!(matches!(lengths, Ok(Err(DistributionError::UnitOfSeed { .. }))));
+        assert!(matches!(lengths, Ok(Err(DistributionError::Unit { .. }))));
     }
 }

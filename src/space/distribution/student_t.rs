@@ -1,10 +1,11 @@
 //! Student's t distribution.
 
 use super::beta::{Side, tails_of_sides};
-use super::error::{finite, positive, within};
+use super::error::{finite, of_finite_variance, positive, within};
 use super::family::{Family, Parameter};
+use super::keys::{Entry, PLAIN, keys, solved_keys, two_quantiles_and};
+use super::solved::Shape;
 use super::{Distribution, DistributionError};
-use crate::quantity::Unit;
 
 /// Degrees of freedom beyond are refused: fewer mean nothing, with more it is a normal distribution.
 const DEGREES: (f64, f64) = (0.01, 2e5);
@@ -63,19 +64,10 @@ impl StudentT {
         Ok(Self { df, location, scale, tails, middle })
     }
 
-    pub(super) fn refuse_infinite_variance(&self) -> Result<(), DistributionError> {
-        self.refuse_up_to(2.0)
-    }
-
     /// The same of what a truncation leaves between the bounds.
     pub(super) fn refuse_one_long_tail(&self, (min, max): (f64, f64)) -> Result<(), DistributionError> {
-        if min.is_finite() && max.is_finite() { Ok(()) } else { self.refuse_up_to(LEAST_OF_ONE_TAIL) }
-    }
-
-    fn refuse_up_to(&self, least: f64) -> Result<(), DistributionError> {
-        let (distribution, parameter, value) = ("student-t", "df", self.df);
-        let error = DistributionError::InfiniteVariance { distribution, parameter, value, least };
-        if self.df > least { Ok(()) } else { Err(error) }
+        let least = if min.is_finite() && max.is_finite() { 0.0 } else { LEAST_OF_ONE_TAIL };
+        of_finite_variance("df", self.df, least)
     }
 
     /// t beyond which there is the probability `tail`, at most 1/2, on one side; `rest` is 1/2 - `tail`.
@@ -101,9 +93,22 @@ impl StudentT {
     }
 }
 
+pub(super) const ENTRIES: &[Entry] = &[Entry {
+    name: "student-t",
+    summary: "Symmetric, with tails that fall by a power.",
+    ways: &[keys(&["df", "location", "scale"]), solved_keys(&["df", "mean", "sd"]), two_quantiles_and(&["df"])],
+    shape: Shape::Given("df"),
+    make: |_, [location, scale, df]| Distribution::student_t(df, location, scale),
+    build: |given| {
+        let (df, location) = (given.number("df")?, given.number("location")?);
+        StudentT::new(df, location, given.number("scale")?).map(Distribution::StudentT)
+    },
+    ..PLAIN
+}];
+
 impl Family for StudentT {
-    fn name(&self) -> &'static str {
-        "student-t"
+    fn refuse_infinite_variance(&self) -> Result<(), DistributionError> {
+        of_finite_variance("df", self.df, 2.0)
     }
 
     fn quantile(&self, u: f64) -> f64 {
@@ -130,16 +135,7 @@ impl Family for StudentT {
         self.scale * (self.df / (self.df - 2.0)).sqrt()
     }
 
-    fn support(&self) -> (f64, f64) {
-        (f64::NEG_INFINITY, f64::INFINITY)
-    }
-
     fn parameters(&self) -> Vec<(&'static str, Parameter)> {
         vec![("df", self.df.into()), ("location", self.location.into()), ("scale", self.scale.into())]
-    }
-
-    fn to_si(&self, unit: &Unit) -> Result<Distribution, DistributionError> {
-        let law = Self::new(self.df, unit.to_si(self.location), unit.span_to_si(self.scale))?;
-        Ok(Distribution::StudentT(law))
     }
 }

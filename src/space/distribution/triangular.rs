@@ -1,9 +1,10 @@
 //! The triangular distribution.
 
-use super::error::{bounds, finite};
+use super::error::{bounds, number};
 use super::family::{Family, Parameter};
+use super::keys::{Entry, PLAIN, keys, two_quantiles_and};
+use super::solved::Shape;
 use super::{Distribution, DistributionError};
-use crate::quantity::Unit;
 
 /// The density rises linearly from `min` to `mode` and falls linearly to `max`.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,10 +41,8 @@ impl Distribution {
     /// ```
     pub fn triangular(min: f64, mode: f64, max: f64) -> Result<Self, DistributionError> {
         let width = bounds(min, max, "triangular")?;
-        finite("mode", mode)?;
-        if !(min..=max).contains(&mode) {
-            return Err(DistributionError::Mode { mode, min, max });
-        }
+        let must = format!("lie between `min` ({min}) and `max` ({max})");
+        number("mode", mode, (min..=max).contains(&mode), &must)?;
         let (below, above) = ((mode - min) / width, (max - mode) / width);
         Self::Triangular(Triangular { min, mode, max, width, below, above }).finite()
     }
@@ -61,11 +60,21 @@ impl Triangular {
     }
 }
 
-impl Family for Triangular {
-    fn name(&self) -> &'static str {
-        "triangular"
-    }
+pub(super) const ENTRIES: &[Entry] = &[Entry {
+    name: "triangular",
+    summary: "The density rises from `min` to `mode`, and falls to `max`.",
+    ways: &[keys(&["min", "mode", "max"]), two_quantiles_and(&["mode"])],
+    shape: Shape::Mode,
+    make: |given, [min, width, share]| {
+        let max = min + width;
+        let mode = given.number_or("mode", min + width * share);
+        Distribution::triangular(min, mode.clamp(min, max), max)
+    },
+    build: |given| Distribution::triangular(given.number("min")?, given.number("mode")?, given.number("max")?),
+    ..PLAIN
+}];
 
+impl Family for Triangular {
     fn quantile(&self, u: f64) -> f64 {
         // The two branches meet at the mode, past which rounding must not lead either.
         if u <= self.below {
@@ -108,9 +117,5 @@ impl Family for Triangular {
 
     fn parameters(&self) -> Vec<(&'static str, Parameter)> {
         vec![("min", self.min.into()), ("mode", self.mode.into()), ("max", self.max.into())]
-    }
-
-    fn to_si(&self, unit: &Unit) -> Result<Distribution, DistributionError> {
-        Distribution::triangular(unit.to_si(self.min), unit.to_si(self.mode), unit.to_si(self.max))
     }
 }

@@ -1,10 +1,18 @@
 //! Truncation of any distribution.
 
-use super::error::bounds_to_si;
+use std::f64::consts::FRAC_1_SQRT_2;
+
+use libm::erf;
+
+use super::error::{bounds, list, no_order};
 use super::family::{Family, Parameter};
+use super::gumbel::Gumbel;
+use super::keys::{Entry, PLAIN, bounds_to_si, keys};
+use super::normal::Normal;
 use super::quadrature::{integral, moments};
 use super::{Distribution, DistributionError};
 use crate::quantity::Unit;
+use crate::special::{normal_below, normal_quantile, normal_quantile_beside_median};
 
 /// Below this probability between the bounds, probabilities of single values would leave the range of `f64`.
 const LEAST_MASS: f64 = 1e-280;
@@ -21,8 +29,21 @@ pub struct Truncated {
     above: f64,
     /// Probability between the bounds.
     mass: f64,
+    quantiles: Quantiles,
     mean: f64,
     sd: f64,
+}
+
+/// How quantiles are found.
+#[derive(Clone, Debug, PartialEq)]
+enum Quantiles {
+    /// From the nearer tail.
+    Tails,
+    /// Of a normal distribution, from the centre too: 2 P(0 < z < (min - mean) / sd), negative if `min` is below the mean.
+    Normal { centre: f64 },
+    /// Of a Gumbel distribution, from -ln F(min), infinite where F(min) is 0, from -ln F(max), 0 where F(max) is 1, and from
+    /// ln(F(max) / F(min)), found from the width of the interval.
+    Gumbel { log_min: f64, log_max: f64, ratio: f64 },
 }
 
 impl Distribution {
@@ -31,8 +52,7 @@ impl Distribution {
     /// the result are those after it.
     ///
     /// Where a family stays itself (uniform, log-uniform, discrete, integer, empirical, histogram, mixture, Poisson; Pareto
-    /// from below) the result is of that family; of a normal and a Gumbel distribution it is that of
-    /// [`truncated_normal`](Self::truncated_normal) and [`truncated_gumbel`](Self::truncated_gumbel).
+    /// from below) the result is of that family.
     ///
     /// # Formula
     ///
@@ -57,35 +77,25 @@ impl Distribution {
     pub fn truncated(&self, min: f64, max: f64) -> Result<Self, DistributionError> {
         let distribution = self.name();
         if min.is_nan() || max.is_nan() || min > max {
-            return Err(DistributionError::TruncationBounds { min, max });
+            let must = "must be two numbers, the lower one first; inf and -inf cut nothing off";
+            return Err(list("truncate", format!("`truncate` is [{min}, {max}], but {must}")));
         }
         if self.has_no_order() {
-            return Err(DistributionError::NoOrder { distribution, what: "truncated" });
+            return Err(no_order(distribution, "truncate", "truncated"));
         }
         let (low, high) = self.support();
         if min <= low && high <= max {
             return self.clone().finite();
         }
-        let bounds = (min.max(low), max.min(high));
         let nothing = DistributionError::NothingLeft { distribution, min, max };
         let is_single = matches!(self, Self::Discrete(_) | Self::Integer(_) | Self::Poisson(_) | Self::Empirical(_));
-        if bounds.0 > bounds.1 || bounds.0 == bounds.1 && !is_single && !matches!(self, Self::Mixture(_)) {
+        let (min, max) = (min.max(low), max.min(high));
+        if min > max || min == max && !is_single && !matches!(self, Self::Mixture(_)) {
             return Err(nothing);
         }
-        let (min, max) = bounds;
-        let of_mass = |made: Result<Self, DistributionError>| match made {
-            Err(DistributionError::Truncation { .. } | DistributionError::GumbelTruncation { .. }) => {
-                Err(nothing.clone())
-            }
-            made => made,
-        };
         match self {
             Self::Uniform(_) => Self::uniform(min, max),
             Self::LogUniform(_) => Self::log_uniform(min, max),
-            Self::Normal(normal) => of_mass(normal.between(min, max)),
-            Self::TruncatedNormal(normal) => of_mass(normal.between(min, max)),
-            Self::Gumbel(gumbel) => of_mass(gumbel.between(min, max)),
-            Self::TruncatedGumbel(gumbel) => of_mass(gumbel.between(min, max)),
             Self::Discrete(discrete) => discrete.between(min, max),
             Self::Empirical(empirical) => empirical.between(min, max),
             Self::Integer(integer) => integer.between(min, max),
@@ -103,6 +113,46 @@ impl Distribution {
         }
     }
 
+    /// Normal with mean `mean` and standard deviation `sd` *before* it is [`truncated`](Self::truncated) to [`min`, `max`].
+    ///
+    /// # Errors
+    ///
+    /// If a parameter is not finite, `sd <= 0`, `min >= max`, or the probability between the bounds is below
+    /// 1e-280: both bounds beyond some 35 sd from the mean on one side.
+    ///
+    /// ```
+    /// use apportion::Distribution;
+    ///
+    /// let tail = Distribution::truncated_normal(0.0, 1.0, 8.0, 9.0)?;
+    /// assert!((tail.median() - 8.084888899018166).abs() < 1e-13);
+    /// # Ok::<(), apportion::DistributionError>(())
+    /// ```
+    pub fn truncated_normal(mean: f64, sd: f64, min: f64, max: f64) -> Result<Self, DistributionError> {
+        let normal = Normal::new(mean, sd)?;
+        bounds(min, max, "truncated-normal")?;
+        Self::Normal(normal).truncated(min, max)
+    }
+
+    /// Gumbel of maximum type with mode `location` and scale `scale` *before* it is [`truncated`](Self::truncated) to [`min`, `max`].
+    ///
+    /// # Errors
+    ///
+    /// If a parameter is not finite, `scale <= 0`, `min >= max`, or the probability between the bounds is below 1e-280:
+    /// both bounds some 6 scales below or 640 scales above the location.
+    ///
+    /// ```
+    /// use apportion::Distribution;
+    ///
+    /// let flow = Distribution::truncated_gumbel(1013.0, 558.0, 500.0, 3000.0)?;
+    /// assert!((flow.median() - 1261.1).abs() < 0.1);
+    /// # Ok::<(), apportion::DistributionError>(())
+    /// ```
+    pub fn truncated_gumbel(location: f64, scale: f64, min: f64, max: f64) -> Result<Self, DistributionError> {
+        let gumbel = Gumbel::new(location, scale)?;
+        bounds(min, max, "truncated-gumbel")?;
+        Self::Gumbel(gumbel).truncated(min, max)
+    }
+
     /// P(min <= X <= max), without the loss of digits by a difference from 1.
     pub(super) fn share_between(&self, min: f64, max: f64) -> f64 {
         let (below, above) = (self.tails(min.next_down()), self.tails(max));
@@ -117,16 +167,64 @@ impl Distribution {
     }
 }
 
+impl Normal {
+    /// P(min < X < max): the difference of two tails on one side, or of two central parts, whichever loses no digits.
+    fn share_between(&self, min: f64, max: f64) -> f64 {
+        let [a, b] = [min, max].map(|x| (x - self.mean) / self.sd);
+        if a > 0.5 {
+            normal_below(-a) - normal_below(-b)
+        } else if b < -0.5 {
+            normal_below(b) - normal_below(a)
+        } else {
+            0.5 * (erf(b * FRAC_1_SQRT_2) - erf(a * FRAC_1_SQRT_2))
+        }
+    }
+}
+
+impl Gumbel {
+    /// -ln F(min), -ln F(max) and ln(F(max) / F(min)).
+    fn logs(&self, min: f64, max: f64) -> (f64, f64, f64) {
+        let [log_min, log_max] = [min, max].map(|bound| libm::exp(-(bound - self.location) / self.scale));
+        let width = (max - min) / self.scale;
+        // exp(-a) - exp(-b), which cancels nothing; where exp(-a) overflows, F(min) is 0.
+        let ratio = if log_min.is_finite() { log_min * -libm::expm1(-width) } else { f64::INFINITY };
+        (log_min, log_max, ratio)
+    }
+}
+
 impl Truncated {
     fn new(law: &Distribution, (min, max): (f64, f64)) -> Option<Self> {
-        let mass = law.share_between(min, max);
+        let mass = share(law, min, max);
+        // NaN where the bounds are one number as seen from the distribution.
         if mass.is_nan() || mass < LEAST_MASS {
             return None;
         }
+        let quantiles = match law {
+            Distribution::Normal(Normal { mean, sd }) => {
+                Quantiles::Normal { centre: erf((min - mean) / sd * FRAC_1_SQRT_2) }
+            }
+            Distribution::Gumbel(gumbel) => {
+                let (log_min, log_max, ratio) = gumbel.logs(min, max);
+                Quantiles::Gumbel { log_min, log_max, ratio }
+            }
+            _ => Quantiles::Tails,
+        };
         let (below, above) = (law.tails(min).0, law.tails(max).1);
         let law = Box::new(law.clone());
-        let mut truncated = Self { law, min, max, below, above, mass, mean: 0.0, sd: 0.0 };
-        (truncated.mean, truncated.sd) = match &*truncated.law {
+        let mut truncated = Self { law, min, max, below, above, mass, quantiles, mean: 0.0, sd: 0.0 };
+        (truncated.mean, truncated.sd) = truncated.moments();
+        Some(truncated)
+    }
+
+    /// The distribution before truncation.
+    pub fn law(&self) -> &Distribution {
+        &self.law
+    }
+
+    /// Mean and standard deviation, by quadrature: formulas cancel where the bounds are far out or close together.
+    fn moments(&self) -> (f64, f64) {
+        let Self { min, max, mass, .. } = *self;
+        match &*self.law {
             Distribution::Triangular(triangular) => {
                 // The density is linear on either side of the mode.
                 let mode = triangular.mode().clamp(min, max);
@@ -137,50 +235,131 @@ impl Truncated {
                 let mean = mode + over(&|x| x - mode);
                 (mean, over(&|x| (x - mean) * (x - mean)).sqrt())
             }
-            _ => moments(|u, v| truncated.at(u, v), &[]),
-        };
-        Some(truncated)
-    }
-
-    pub(super) fn law(&self) -> &Distribution {
-        &self.law
-    }
-
-    fn at(&self, u: f64, v: f64) -> f64 {
-        if u <= 0.0 || v <= 0.0 {
-            return if u <= 0.0 { self.min } else { self.max };
+            // Where a density has fallen below exp(-45) of its maximum, nothing is left.
+            Distribution::Normal(Normal { mean, sd }) => {
+                let mode = mean.clamp(min, max);
+                let z = (mode - mean) / sd;
+                let reach = 90.0 / (z.abs() + (z * z + 90.0).sqrt());
+                self.moments_around(mode, *sd, (-reach, reach), |t| libm::exp(-t * (0.5 * t + z)))
+            }
+            Distribution::Gumbel(Gumbel { location, scale }) => {
+                let mode = location.clamp(min, max);
+                let log = libm::exp(-((mode - location) / scale));
+                let reach = (-libm::log1p(45.0 / log), 46.0);
+                self.moments_around(mode, *scale, reach, |t| libm::exp(-t - log * libm::expm1(-t)))
+            }
+            _ => moments(|u, v| self.at(u, v), &[]),
         }
-        // The quadrature of the moments asks for less than a double can hold.
-        let part = |beyond: f64, part: f64| (beyond + part * self.mass).max(f64::MIN_POSITIVE);
-        let (lower, upper) = (part(self.below, u), part(self.above, v));
-        let value = if lower < upper { self.law.quantile(lower) } else { self.law.upper_quantile(upper) };
-        // Rounding may lead past a bound.
-        value.clamp(self.min, self.max)
+    }
+
+    /// Mean and standard deviation by the density of (x - mode) / scale, within `reach` of it.
+    fn moments_around(&self, mode: f64, scale: f64, reach: (f64, f64), density: impl Fn(f64) -> f64) -> (f64, f64) {
+        let (from, to) = (((self.min - mode) / scale).max(reach.0), ((self.max - mode) / scale).min(reach.1));
+        let mass = integral(from, to, &density);
+        let mean = integral(from, to, |t| t * density(t)) / mass;
+        let variance = integral(from, to, |t| (t - mean) * (t - mean) * density(t)) / mass;
+        (mode + scale * mean, scale * variance.sqrt())
     }
 }
 
+/// The probability of `law` between two bounds.
+fn share(law: &Distribution, min: f64, max: f64) -> f64 {
+    match law {
+        Distribution::Normal(normal) => normal.share_between(min, max),
+        Distribution::Gumbel(gumbel) => {
+            let (_, log_max, ratio) = gumbel.logs(min, max);
+            libm::exp(-log_max) * -libm::expm1(-ratio)
+        }
+        law => law.share_between(min, max),
+    }
+}
+
+/// The short forms of a normal and a Gumbel distribution with `truncate`.
+pub(super) const ENTRIES: &[Entry] = &[
+    Entry {
+        name: "truncated-normal",
+        summary: "Normal between two bounds; mean and standard deviation are those before truncation.",
+        ways: &[keys(&["mean", "sd", "min", "max"])],
+        build: |given| {
+            let (mean, sd) = (given.number("mean")?, given.number("sd")?);
+            Distribution::truncated_normal(mean, sd, given.number("min")?, given.number("max")?)
+        },
+        ..PLAIN
+    },
+    Entry {
+        name: "truncated-gumbel",
+        summary: "Gumbel between two bounds; location and scale are those before truncation.",
+        ways: &[keys(&["location", "scale", "min", "max"])],
+        build: |given| {
+            let (location, scale) = (given.number("location")?, given.number("scale")?);
+            Distribution::truncated_gumbel(location, scale, given.number("min")?, given.number("max")?)
+        },
+        ..PLAIN
+    },
+];
+
 impl Family for Truncated {
-    fn name(&self) -> &'static str {
-        self.law.name()
+    fn name(&self, own: &'static str) -> &'static str {
+        match &*self.law {
+            Distribution::Normal(_) => own,
+            Distribution::Gumbel(_) => ENTRIES[1].name,
+            law => law.name(),
+        }
     }
 
-    fn quantile(&self, u: f64) -> f64 {
-        self.at(u, 1.0 - u)
-    }
-
-    fn upper_quantile(&self, v: f64) -> f64 {
-        self.at(1.0 - v, v)
+    fn at(&self, u: f64, v: f64) -> f64 {
+        let Self { min, max, below, above, mass, .. } = *self;
+        if u <= 0.0 || v <= 0.0 {
+            return if u <= 0.0 { min } else { max };
+        }
+        let value = match (&self.quantiles, &*self.law) {
+            (Quantiles::Normal { centre }, Distribution::Normal(Normal { mean, sd })) => {
+                // From the tail or the centre where the probability has the most digits.
+                let (lower, upper) = (below + u * mass, above + (1.0 - u) * mass);
+                let z = if lower < 0.25 {
+                    normal_quantile(lower)
+                } else if upper < 0.25 {
+                    -normal_quantile(upper)
+                } else {
+                    normal_quantile_beside_median(0.5 * centre + u * mass)
+                };
+                mean + sd * z
+            }
+            (Quantiles::Gumbel { log_min, log_max, ratio }, Distribution::Gumbel(Gumbel { location, scale })) => {
+                // -ln F as a share of that of `min`, lost on the way up; overflows only where F(min) is far below u.
+                let fall = libm::log1p(u * libm::expm1(*ratio)) / log_min;
+                if fall < 0.5 {
+                    min - scale * libm::log1p(-fall)
+                } else {
+                    // -ln (F / F(max)), a positive number like -ln F(max), so that their sum keeps its digits.
+                    let above = match u < 0.5 {
+                        true => -libm::log(u + (1.0 - u) * libm::exp(-ratio)),
+                        false => -libm::log1p((1.0 - u) * libm::expm1(-ratio)),
+                    };
+                    match above < *log_max {
+                        true => max - scale * libm::log1p(above / log_max),
+                        false => location - scale * libm::log(log_max + above),
+                    }
+                }
+            }
+            (_, law) => {
+                // The quadrature of the moments asks for less than a double can hold.
+                let part = |beyond: f64, part: f64| (beyond + part * mass).max(f64::MIN_POSITIVE);
+                let (lower, upper) = (part(below, u), part(above, v));
+                if lower < upper { law.quantile(lower) } else { law.upper_quantile(upper) }
+            }
+        };
+        // Rounding may lead an ulp past a bound.
+        value.clamp(min, max)
     }
 
     fn tails(&self, x: f64) -> (f64, f64) {
-        if x < self.min {
-            return (0.0, 1.0);
+        let part = |from: f64, to: f64| (share(&self.law, from, to) / self.mass).clamp(0.0, 1.0);
+        match x {
+            x if x < self.min => (0.0, 1.0),
+            x if x >= self.max => (1.0, 0.0),
+            x => (part(self.min, x), part(x, self.max)),
         }
-        if x >= self.max {
-            return (1.0, 0.0);
-        }
-        let (below, above) = (self.law.share_between(self.min, x), self.law.share_between(x, self.max));
-        ((below / self.mass).clamp(0.0, 1.0), (above / self.mass).clamp(0.0, 1.0))
     }
 
     fn mean(&self) -> f64 {
@@ -197,11 +376,17 @@ impl Family for Truncated {
 
     fn parameters(&self) -> Vec<(&'static str, Parameter)> {
         let mut parameters = self.law.parameters();
-        parameters.push(("truncate", Parameter::Bounds(self.min, self.max)));
+        match self.quantiles {
+            Quantiles::Tails => parameters.push(("truncate", Parameter::Bounds(self.min, self.max))),
+            _ => {
+                let bounds = [("min", self.min), ("max", self.max)].into_iter().filter(|(_, bound)| bound.is_finite());
+                parameters.extend(bounds.map(|(key, bound)| (key, bound.into())));
+            }
+        }
         parameters
     }
 
-    fn to_si(&self, unit: &Unit) -> Result<Distribution, DistributionError> {
+    fn in_si(&self, _own: &'static Entry, unit: &Unit) -> Result<Distribution, DistributionError> {
         let (min, max) = bounds_to_si((self.min, self.max), unit)?;
         self.law.in_si(unit)?.truncated(min, max)
     }

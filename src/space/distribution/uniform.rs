@@ -2,8 +2,9 @@
 
 use super::error::bounds;
 use super::family::{Family, Parameter};
+use super::keys::{Entry, MOMENTS, PLAIN, TWO_QUANTILES, keys};
+use super::solved::Shape;
 use super::{Distribution, DistributionError};
-use crate::quantity::Unit;
 
 /// Every value between two bounds is equally likely.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,11 +39,17 @@ impl Distribution {
     }
 }
 
-impl Family for Uniform {
-    fn name(&self) -> &'static str {
-        "uniform"
-    }
+pub(super) const ENTRIES: &[Entry] = &[Entry {
+    name: "uniform",
+    summary: "Every value between two bounds is equally likely.",
+    ways: &[keys(&["min", "max"]), MOMENTS, TWO_QUANTILES],
+    shape: Shape::None,
+    make: |_, [least, width, _]| Distribution::uniform(least, least + width),
+    build: |given| Distribution::uniform(given.number("min")?, given.number("max")?),
+    ..PLAIN
+}];
 
+impl Family for Uniform {
     fn quantile(&self, u: f64) -> f64 {
         // Never past `max`: the width is rounded up by half an ulp at most, and u <= 1 - 2^-53 takes a whole one off.
         self.min + self.width * u
@@ -66,9 +73,5 @@ impl Family for Uniform {
 
     fn parameters(&self) -> Vec<(&'static str, Parameter)> {
         vec![("min", self.min.into()), ("max", self.max.into())]
-    }
-
-    fn to_si(&self, unit: &Unit) -> Result<Distribution, DistributionError> {
-        Distribution::uniform(unit.to_si(self.min), unit.to_si(self.max))
     }
 }

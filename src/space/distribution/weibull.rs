@@ -2,8 +2,9 @@
 
 use super::error::{finite, positive};
 use super::family::{Family, Parameter};
+use super::keys::{Entry, MOMENTS, PLAIN, TWO_QUANTILES, keys};
+use super::solved::Shape;
 use super::{Distribution, DistributionError};
-use crate::quantity::Unit;
 
 /// The distribution of strengths and lifetimes.
 #[derive(Clone, Debug, PartialEq)]
@@ -44,11 +45,23 @@ impl Distribution {
     }
 }
 
-impl Family for Weibull {
-    fn name(&self) -> &'static str {
-        "weibull"
-    }
+pub(super) const ENTRIES: &[Entry] = &[Entry {
+    name: "weibull",
+    summary: "Strengths and lifetimes.",
+    ways: &[
+        keys(&["shape", "scale"]).perhaps(&["location"]),
+        MOMENTS.perhaps(&["location"]),
+        TWO_QUANTILES.perhaps(&["location"]),
+    ],
+    shape: Shape::Between(1e4, 0.015, 500),
+    make: |_, [location, scale, shape]| Distribution::weibull(shape, scale, location),
+    build: |given| {
+        Distribution::weibull(given.number("shape")?, given.number("scale")?, given.number_or("location", 0.0))
+    },
+    ..PLAIN
+}];
 
+impl Family for Weibull {
     fn quantile(&self, u: f64) -> f64 {
         self.location + self.scale * libm::pow(-libm::log1p(-u), 1.0 / self.shape)
     }
@@ -76,10 +89,6 @@ impl Family for Weibull {
 
     fn parameters(&self) -> Vec<(&'static str, Parameter)> {
         vec![("shape", self.shape.into()), ("scale", self.scale.into()), ("location", self.location.into())]
-    }
-
-    fn to_si(&self, unit: &Unit) -> Result<Distribution, DistributionError> {
-        Distribution::weibull(self.shape, unit.span_to_si(self.scale), unit.to_si(self.location))
     }
 }
 

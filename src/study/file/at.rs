@@ -23,6 +23,11 @@ impl<T> At<T> {
         self.0.get_ref()
     }
 
+    /// The value, without its place.
+    pub fn into_inner(self) -> T {
+        self.0.into_inner()
+    }
+
     /// Its byte range in the file.
     pub fn span(&self) -> Range<usize> {
         self.0.span()

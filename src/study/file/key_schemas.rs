@@ -3,10 +3,10 @@
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde_json::{Map, Value, json};
 
-use super::distribution_forms::FORMS;
 use super::outputs::OutputTable;
 use crate::afm::{ContactTheory, Fidelity, FrictionLaw, LuGreParameters, Parameter, Torsion};
 use crate::model::{KnownAnswer, ModelKind, edge_unit};
+use crate::space::distribution::{Key, KeyKind, Kind};
 
 pub(super) const CHOICES: [&str; 10] = [
     "friction",
@@ -32,7 +32,7 @@ pub(super) fn lows(_: &mut SchemaGenerator) -> Schema {
 }
 
 pub(super) fn distributions() -> Vec<&'static str> {
-    FORMS.iter().map(|form| form.name).collect()
+    Kind::all().map(Kind::name).collect()
 }
 
 /// The names of all values of a kind.
@@ -95,9 +95,22 @@ pub(super) fn expression_constants(_: &mut SchemaGenerator) -> Schema {
     schemars::json_schema!({ "type": "object", "additionalProperties": { "type": ["number", "string"] } })
 }
 
-/// `quantiles`: values by the probabilities below them.
-pub(super) fn quantiles(_: &mut SchemaGenerator) -> Schema {
-    schemars::json_schema!({ "type": "object", "additionalProperties": { "type": "number" } })
+/// A key of distributions.
+pub(super) fn distribution_key(key: &Key) -> Value {
+    let (number, text) = (json!({ "type": "number" }), json!({ "type": "string" }));
+    let mut schema = match key.kind {
+        KeyKind::Number => number,
+        KeyKind::Numbers => json!({ "type": "array", "items": number }),
+        KeyKind::Bounds => json!({ "type": "array", "items": number, "minItems": 2, "maxItems": 2 }),
+        KeyKind::Text => text,
+        KeyKind::Texts => json!({ "type": "array", "items": text }),
+        KeyKind::Quantiles => json!({ "type": "object", "additionalProperties": number }),
+        KeyKind::Distributions => {
+            json!({ "type": "array", "items": { "$ref": "#/definitions/ComponentSection" }, "minItems": 1 })
+        }
+    };
+    schema["description"] = json!(key.description);
+    schema
 }
 
 /// `outputs`: names, or for each a formula or its unit, or a table of more.

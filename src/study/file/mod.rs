@@ -9,7 +9,6 @@ mod constants;
 mod context;
 mod dependence;
 mod distribution;
-mod distribution_forms;
 mod error;
 mod expression;
 #[cfg_attr(target_family = "wasm", allow(dead_code, reason = "a page starts no programs"))]

@@ -155,10 +155,10 @@ fn factor(context: &Context<'_>, section: &At<FactorSection>, input: &Input) -> 
     };
     let (low, high) = distribution.support();
     let least = if distribution.is_open_below() { low.next_up() } else { low };
-    for (bound, reached, field) in [(low, least, &fields.min), (high, high, &fields.max)] {
+    for (bound, reached, key) in [(low, least, "min"), (high, high, "max")] {
         // Unbounded distributions reach everywhere: their rare rows outside the domain fail by name and are counted.
         if bound.is_finite() && !in_domain(reached) {
-            let span = field.as_ref().map_or(place.clone(), At::span);
+            let span = fields.place(key).unwrap_or_else(|| place.clone());
             return Err(outside(span, format!("its values reach {}", with_unit(bound, unit.symbol()))));
         }
     }
@@ -176,7 +176,7 @@ fn factor(context: &Context<'_>, section: &At<FactorSection>, input: &Input) -> 
     let mut factor = made(input, unit, distribution).map_err(|problem| context.fault(place, problem))?;
     factor.nominal = nominal;
     factor.group = fields.group.as_ref().map(|group| group.get_ref().clone());
-    factor.determined = distribution::is_determined(fields);
+    factor.determined = distribution::is_determined(fields, factor.distribution());
     Ok(factor)
 }
 

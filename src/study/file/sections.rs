@@ -1,11 +1,14 @@
 //! What was typed: the study file as TOML sees it, every value with its place in the text, once [`forms`](super::forms) has
 //! brought what can be written in several ways to one. The comments on its fields are what editors show, by the schema.
 
-use std::borrow::Cow;
 use std::collections::BTreeMap;
+use std::fmt;
+use std::ops::Range;
+use std::sync::LazyLock;
 
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
+use serde::de::{Deserializer, Error, MapAccess, Visitor};
 use serde_json::json;
 
 use super::at::ListOrTable;
@@ -17,6 +20,7 @@ use crate::estimate::{Estimator, ShapleyMethod, ShapleyPlayers};
 use crate::given::Measure;
 use crate::run::FailurePolicy;
 use crate::space::CorrelationMeasure;
+use crate::space::distribution::{KEYS, Key, KeyKind, Kind, Parameter};
 use crate::study::SurrogateChoice;
 use crate::uncertainty::IntervalMethod;
 
@@ -226,13 +230,14 @@ pub(super) struct AnalysisSection {
 }
 
 /// An input whose influence is asked for, and how it varies.
-#[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, expecting = "a table, as in { min = 0, max = 1 }")]
+#[derive(Debug, JsonSchema)]
+#[schemars(deny_unknown_fields)]
 pub(super) struct FactorSection {
     /// The input of the model.
     pub name: At<String>,
     /// How it varies.
     #[schemars(extend("enum" = key_schemas::distributions(), "default" = "uniform"))]
+    #[schemars(extend("enumDescriptions" = Kind::all().map(Kind::summary).collect::<Vec<_>>()))]
     pub distribution: Option<At<String>>,
     /// Unit of all numbers of this factor, as in "um".
     pub unit: Option<At<String>>,
@@ -240,79 +245,109 @@ pub(super) struct FactorSection {
     pub group: Option<At<String>>,
     /// Value at which it stands in scenes and sweeps of other factors; of a category its label.
     pub nominal: Option<At<Nominal>>,
-    /// Lower bound.
-    pub min: Option<At<f64>>,
-    /// Upper bound.
-    pub max: Option<At<f64>>,
-    /// Mean: of the factor itself; before truncation of a truncated distribution.
-    pub mean: Option<At<f64>>,
-    /// Standard deviation, as the mean.
-    pub sd: Option<At<f64>>,
-    /// Mean of the natural logarithm, of a log-normal distribution.
-    pub log_mean: Option<At<f64>>,
-    /// Standard deviation of the natural logarithm, of a log-normal distribution.
-    pub log_sd: Option<At<f64>>,
-    /// The most probable value.
-    pub mode: Option<At<f64>>,
-    /// First shape parameter of a beta distribution.
-    pub alpha: Option<At<f64>>,
-    /// Second shape parameter of a beta distribution.
-    pub beta: Option<At<f64>>,
-    /// Shape parameter of a Weibull, gamma or Pareto distribution.
-    pub shape: Option<At<f64>>,
-    /// Scale parameter of a Weibull, gamma, exponential, Gumbel, logistic or Student t distribution; lambda of an inverse
-    /// Gaussian one.
-    pub scale: Option<At<f64>>,
-    /// Location parameter of a Gumbel, logistic or Student t distribution; where a Weibull, gamma or exponential one begins.
-    pub location: Option<At<f64>>,
-    /// Degrees of freedom of a Student t distribution.
-    pub df: Option<At<f64>>,
-    /// Quantile: 1 % of the values lie below it.
-    pub p01: Option<At<f64>>,
-    /// Quantile: 5 % of the values lie below it.
-    pub p05: Option<At<f64>>,
-    /// Quantile: 10 % of the values lie below it.
-    pub p10: Option<At<f64>>,
-    /// Quantile: 25 % of the values lie below it.
-    pub p25: Option<At<f64>>,
-    /// Quantile: half of the values lie below it.
-    pub p50: Option<At<f64>>,
-    /// Quantile: 75 % of the values lie below it.
-    pub p75: Option<At<f64>>,
-    /// Quantile: 90 % of the values lie below it.
-    pub p90: Option<At<f64>>,
-    /// Quantile: 95 % of the values lie below it.
-    pub p95: Option<At<f64>>,
-    /// Quantile: 99 % of the values lie below it.
-    pub p99: Option<At<f64>>,
-    /// Probability of true, of a boolean.
-    pub probability: Option<At<f64>>,
-    /// The one value of a constant.
-    pub value: Option<At<f64>>,
-    /// The values of a discrete distribution.
-    pub values: Option<At<Vec<f64>>>,
-    /// The weights of values, bins or components; equal by default (but of bins).
-    pub weights: Option<At<Vec<f64>>>,
-    /// The edges of the bins of a histogram, one more than weights.
-    pub edges: Option<At<Vec<f64>>>,
-    /// Quantiles that a histogram goes through: values by their probabilities from 0 to 1, as in { "0" = 1, "0.5" = 2, "1" = 5 }.
-    #[serde(default)]
-    #[schemars(schema_with = "key_schemas::quantiles")]
-    pub quantiles: Option<At<BTreeMap<At<String>, At<f64>>>>,
-    /// The distributions of a mixture, each with its own keys.
-    #[serde(default)]
-    #[schemars(schema_with = "components")]
-    pub components: Option<At<Vec<At<FactorSection>>>>,
-    /// What is cut off: only values between these two occur, inf and -inf cut nothing off. All other keys say what the
-    /// distribution is before that.
-    #[schemars(length(min = 2, max = 2))]
-    pub truncate: Option<At<Vec<f64>>>,
-    /// The labels of the categories.
-    pub labels: Option<At<Vec<String>>>,
-    /// A file of measured values, relative to the study.
-    pub file: Option<At<String>>,
-    /// The column of that file, where it has several.
-    pub column: Option<At<String>>,
+    /// The keys of its distribution.
+    #[schemars(skip)]
+    pub keys: Vec<TypedKey>,
+}
+
+/// A key of a distribution.
+#[derive(Debug)]
+pub(super) struct TypedKey {
+    pub key: &'static Key,
+    /// Where its value stands.
+    pub span: Range<usize>,
+    pub value: TypedValue,
+}
+
+/// The value of a distribution's key.
+#[derive(Debug)]
+pub(super) enum TypedValue {
+    Parameter(Parameter),
+    Text(At<String>),
+    Bounds(Vec<f64>),
+    Quantiles(BTreeMap<At<String>, At<f64>>),
+    Components(Vec<At<FactorSection>>),
+}
+
+impl FactorSection {
+    /// The place of a key of its distribution.
+    pub fn place(&self, key: &str) -> Option<Range<usize>> {
+        self.keys.iter().find(|typed| typed.key.name == key).map(|typed| typed.span.clone())
+    }
+}
+
+impl<'de> Deserialize<'de> for FactorSection {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_map(FactorVisitor)
+    }
+}
+
+/// A visitor, because the keys of distributions are those of a table.
+struct FactorVisitor;
+
+impl<'de> Visitor<'de> for FactorVisitor {
+    type Value = FactorSection;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a table, as in { min = 0, max = 1 }")
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<FactorSection, A::Error> {
+        let (mut name, mut distribution, mut unit, mut group, mut nominal) = (None, None, None, None, None);
+        let mut keys = Vec::new();
+        while let Some(FactorKey(key)) = map.next_key()? {
+            match key {
+                "name" => name = Some(map.next_value()?),
+                "distribution" => distribution = Some(map.next_value()?),
+                "unit" => unit = Some(map.next_value()?),
+                "group" => group = Some(map.next_value()?),
+                "nominal" => nominal = Some(map.next_value()?),
+                own => {
+                    let key = KEYS.iter().find(|key| key.name == own);
+                    let key = key.ok_or_else(|| A::Error::unknown_field(own, &FACTOR_KEYS))?;
+                    let (span, value) = typed_value(key.kind, &mut map)?;
+                    keys.push(TypedKey { key, span, value });
+                }
+            }
+        }
+        keys.sort_by_key(|typed| typed.span.start);
+        let name = name.ok_or_else(|| A::Error::missing_field("name"))?;
+        Ok(FactorSection { name, distribution, unit, group, nominal, keys })
+    }
+}
+
+fn typed_value<'de, A: MapAccess<'de>>(kind: KeyKind, map: &mut A) -> Result<(Range<usize>, TypedValue), A::Error> {
+    fn parts<T>(value: At<T>, of: impl FnOnce(T) -> TypedValue) -> (Range<usize>, TypedValue) {
+        (value.span(), of(value.into_inner()))
+    }
+    let plain = TypedValue::Parameter;
+    Ok(match kind {
+        KeyKind::Number => parts(map.next_value()?, |number| plain(Parameter::Number(number))),
+        KeyKind::Numbers => parts(map.next_value()?, |list| plain(Parameter::List(list))),
+        KeyKind::Text => map.next_value().map(|text: At<String>| (text.span(), TypedValue::Text(text)))?,
+        KeyKind::Texts => parts(map.next_value()?, |texts| plain(Parameter::Texts(texts))),
+        KeyKind::Bounds => parts(map.next_value()?, TypedValue::Bounds),
+        KeyKind::Quantiles => parts(map.next_value()?, TypedValue::Quantiles),
+        KeyKind::Distributions => parts(map.next_value()?, TypedValue::Components),
+    })
+}
+
+/// Keys of a factor that are not about its distribution; the components of a mixture do not have them.
+pub(super) const OF_FACTORS: [&str; 4] = ["name", "unit", "group", "nominal"];
+
+/// All keys of a factor.
+static FACTOR_KEYS: LazyLock<Vec<&str>> =
+    LazyLock::new(|| OF_FACTORS.into_iter().chain(["distribution"]).chain(KEYS.iter().map(|key| key.name)).collect());
+
+/// A key that a factor has.
+struct FactorKey(&'static str);
+
+impl<'de> Deserialize<'de> for FactorKey {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let typed = String::deserialize(deserializer)?;
+        let known = FACTOR_KEYS.iter().find(|key| **key == typed);
+        known.map(|key| Self(key)).ok_or_else(|| D::Error::unknown_field(&typed, &FACTOR_KEYS))
+    }
 }
 
 /// Where a factor stands when it does not vary: a number, a category, or true or false.
@@ -322,32 +357,4 @@ pub(super) enum Nominal {
     Truth(bool),
     Number(f64),
     Label(String),
-}
-
-/// A distribution in a mixture: the keys of a factor that are about its distribution.
-struct ComponentSection;
-
-impl JsonSchema for ComponentSection {
-    fn schema_name() -> Cow<'static, str> {
-        "ComponentSection".into()
-    }
-
-    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-        let mut schema = FactorSection::json_schema(generator);
-        schema.remove("required");
-        schema.insert("description".to_owned(), "A distribution in a mixture.".into());
-        if let Some(properties) = schema.get_mut("properties").and_then(serde_json::Value::as_object_mut) {
-            properties.retain(|key, _| !OF_FACTORS.contains(&key.as_str()));
-        }
-        schema
-    }
-}
-
-/// Keys of a factor that the components of a mixture do not have.
-pub(super) const OF_FACTORS: [&str; 4] = ["name", "unit", "group", "nominal"];
-
-/// `components`: tables in a list.
-fn components(generator: &mut SchemaGenerator) -> Schema {
-    let component = generator.subschema_for::<ComponentSection>();
-    schemars::json_schema!({ "type": "array", "items": component, "minItems": 1 })
 }

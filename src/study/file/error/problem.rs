@@ -97,30 +97,6 @@ pub enum Problem {
         /// All names that could stand here; empty where no name is wrong.
         expected: String,
     },
-    /// A parameter that the distribution needs is missing.
-    #[error("factor `{factor}`: the {distribution} distribution needs `{parameter}`")]
-    MissingParameter {
-        /// The factor's name.
-        factor: String,
-        /// The distribution's name.
-        distribution: &'static str,
-        /// The missing key.
-        parameter: &'static str,
-        /// The keys it takes, in words.
-        takes: &'static str,
-    },
-    /// A parameter that the distribution does not have.
-    #[error("factor `{factor}`: the {distribution} distribution has no `{parameter}`")]
-    ForeignParameter {
-        /// The factor's name.
-        factor: String,
-        /// The distribution's name.
-        distribution: &'static str,
-        /// The key that does not belong.
-        parameter: &'static str,
-        /// The keys it takes, in words.
-        takes: &'static str,
-    },
     /// The distribution's parameters make no sense.
     #[error("factor `{factor}`: {source}")]
     Distribution {
@@ -216,10 +192,7 @@ impl Problem {
             Self::Expression { expected, .. } if expected.is_empty() => return None,
             Self::Expression { expected, .. } => expected.clone(),
             Self::File { help, .. } => help.clone(),
-            Self::MissingParameter { takes, .. } | Self::ForeignParameter { takes, .. } => format!("it takes {takes}"),
-            Self::Distribution { source: DistributionError::Bounds { min, max }, .. } if min == max => {
-                format!("for a fixed value: distribution = \"constant\", value = {min}")
-            }
+            Self::Distribution { source, .. } => return source.help(),
             Self::NotAValue { values, .. } => format!("it takes {values}"),
             Self::UnitOfOwn { .. } => "remove the unit, or give the distribution too".to_owned(),
             Self::MissingUnit { example, .. } | Self::WrongUnit { example, .. } => format!("write {example}"),

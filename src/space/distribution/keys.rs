@@ -1,0 +1,379 @@
+//! The keys by which distributions are given, and the families that take them: one table each, from which the reader of study
+//! files, the JSON schema and the messages come.
+
+use super::error::{finite, refuse_offset};
+use super::family::Parameter;
+use super::solved::{Shape, solved};
+use super::{Distribution, DistributionError, ENTRIES};
+use crate::quantity::Unit;
+
+/// A key of a distribution in a study file.
+#[derive(Debug)]
+pub struct Key {
+    /// The key as typed.
+    pub name: &'static str,
+    /// The type of its value.
+    pub kind: KeyKind,
+    /// What it says, for editors.
+    pub description: &'static str,
+    measure: Measure,
+}
+
+/// The type of a key's value.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum KeyKind {
+    /// A number.
+    Number,
+    /// A list of numbers.
+    Numbers,
+    /// Two numbers.
+    Bounds,
+    /// A text.
+    Text,
+    /// A list of texts.
+    Texts,
+    /// A table of values by probabilities.
+    Quantiles,
+    /// A list of distributions.
+    Distributions,
+}
+
+/// How a number becomes one of SI.
+#[derive(Clone, Copy, Debug)]
+enum Measure {
+    /// A value, perhaps from a zero of its unit.
+    Value,
+    /// A difference of two values.
+    Span,
+    /// The natural logarithm of a value.
+    Log,
+    /// A pure number.
+    Pure,
+}
+
+const fn key(name: &'static str, kind: KeyKind, measure: Measure, description: &'static str) -> Key {
+    Key { name, kind, description, measure }
+}
+
+const fn quantile(name: &'static str, description: &'static str) -> Key {
+    key(name, KeyKind::Number, Measure::Value, description)
+}
+
+/// All keys of distributions.
+pub static KEYS: [Key; 33] = {
+    use KeyKind::{Bounds, Distributions, Number, Numbers, Quantiles, Text, Texts};
+    use Measure::{Log, Pure, Span, Value};
+    [
+        key("min", Number, Value, "Lower bound."),
+        key("max", Number, Value, "Upper bound."),
+        key("mean", Number, Value, "Mean: of the factor itself; before truncation of a truncated distribution."),
+        key("sd", Number, Span, "Standard deviation, as the mean."),
+        key("log_mean", Number, Log, "Mean of the natural logarithm, of a log-normal distribution."),
+        key("log_sd", Number, Pure, "Standard deviation of the natural logarithm, of a log-normal distribution."),
+        key("mode", Number, Value, "The most probable value."),
+        key("alpha", Number, Pure, "First shape parameter of a beta distribution."),
+        key("beta", Number, Pure, "Second shape parameter of a beta distribution."),
+        key("shape", Number, Pure, "Shape parameter of a Weibull, gamma or Pareto distribution."),
+        key(
+            "scale",
+            Number,
+            Span,
+            "Scale parameter of a distribution that has one; lambda of an inverse Gaussian one.",
+        ),
+        key(
+            "location",
+            Number,
+            Value,
+            "Location parameter; where a Weibull, gamma or exponential distribution begins.",
+        ),
+        key("df", Number, Pure, "Degrees of freedom of a Student t distribution."),
+        quantile("p01", "Quantile: 1 % of the values lie below it."),
+        quantile("p05", "Quantile: 5 % of the values lie below it."),
+        quantile("p10", "Quantile: 10 % of the values lie below it."),
+        quantile("p25", "Quantile: 25 % of the values lie below it."),
+        quantile("p50", "Quantile: half of the values lie below it."),
+        quantile("p75", "Quantile: 75 % of the values lie below it."),
+        quantile("p90", "Quantile: 90 % of the values lie below it."),
+        quantile("p95", "Quantile: 95 % of the values lie below it."),
+        quantile("p99", "Quantile: 99 % of the values lie below it."),
+        key("probability", Number, Pure, "Probability of true, of a boolean; 0.5 by default."),
+        key("value", Number, Value, "The one value of a constant."),
+        key("values", Numbers, Value, "The values of a discrete distribution, measured ones, or those of labels."),
+        key("weights", Numbers, Pure, "The weights of values, bins or components; equal by default (but of bins)."),
+        key("edges", Numbers, Value, "The edges of the bins of a histogram, one more than weights."),
+        key(
+            "quantiles",
+            Quantiles,
+            Value,
+            "Quantiles that a histogram goes through: values by their probabilities from 0 to 1, as in { \"0\" = 1, \"1\" = 5 }.",
+        ),
+        key("components", Distributions, Value, "The distributions of a mixture, each with its own keys."),
+        key(
+            "truncate",
+            Bounds,
+            Value,
+            "What is cut off: only values between these two occur, inf and -inf cut nothing off. All other keys say what the \
+             distribution is before that.",
+        ),
+        key("labels", Texts, Pure, "The labels of the categories."),
+        key("file", Text, Pure, "A file of measured values, relative to the study."),
+        key("column", Text, Pure, "The column of that file, where it has several."),
+    ]
+};
+
+/// The probability below the quantile of that key, `p05` for instance.
+fn probability(key: &str) -> Option<f64> {
+    let percent: u8 = key.strip_prefix('p')?.parse().ok()?;
+    Some(f64::from(percent) / 100.0)
+}
+
+/// Keys that determine a distribution together.
+#[derive(Debug)]
+pub(super) struct Way {
+    needs: &'static [&'static str],
+    /// Keys that may stand beside these.
+    may: &'static [&'static str],
+    /// Whether two quantiles belong to them.
+    has_quantiles: bool,
+    /// Whether its parameters are solved for.
+    is_solved: bool,
+}
+
+/// These keys, all of them.
+pub(super) const fn keys(needs: &'static [&'static str]) -> Way {
+    Way { needs, may: &[], has_quantiles: false, is_solved: false }
+}
+
+/// These keys, from which the parameters are solved for.
+pub(super) const fn solved_keys(needs: &'static [&'static str]) -> Way {
+    Way { is_solved: true, ..keys(needs) }
+}
+
+/// Mean and standard deviation, where they are not the parameters themselves.
+pub(super) const MOMENTS: Way = solved_keys(&["mean", "sd"]);
+
+/// Two quantiles.
+pub(super) const TWO_QUANTILES: Way = two_quantiles_and(&[]);
+
+/// Two quantiles and these keys.
+pub(super) const fn two_quantiles_and(needs: &'static [&'static str]) -> Way {
+    Way { has_quantiles: true, ..solved_keys(needs) }
+}
+
+impl Way {
+    /// The same, and perhaps these keys too.
+    pub const fn perhaps(self, may: &'static [&'static str]) -> Self {
+        Self { may, ..self }
+    }
+
+    fn takes(&self, key: &str) -> bool {
+        self.needs.contains(&key) || self.may.contains(&key) || self.has_quantiles && probability(key).is_some()
+    }
+
+    /// What is missing among `given`, in words.
+    fn missing(&self, given: &Given<'_>) -> Option<String> {
+        let key = self.needs.iter().find(|key| given.get(key).is_none()).map(|key| format!("`{key}`"));
+        let few = self.has_quantiles && given.quantiles().count() != 2;
+        key.or_else(|| few.then(|| "two quantiles, such as `p05` and `p95`".to_owned()))
+    }
+
+    fn in_words(&self) -> String {
+        let mut parts: Vec<&str> = self.needs.to_vec();
+        if self.has_quantiles {
+            parts.push("two of p01, p05, p10, p25, p50, p75, p90, p95, p99");
+        }
+        let may = if self.may.is_empty() { String::new() } else { format!("perhaps {}", self.may.join(", ")) };
+        [parts.join(" and "), may].into_iter().filter(|words| !words.is_empty()).collect::<Vec<_>>().join(", ")
+    }
+}
+
+/// What the list of families holds of each.
+pub(super) struct Entry {
+    pub name: &'static str,
+    pub summary: &'static str,
+    /// The ways to give one, the first of them by its own parameters.
+    pub ways: &'static [Way],
+    /// Whether it is made of ratios of values above 0, which have no meaning in a unit with a zero of its own.
+    pub of_ratios: bool,
+    /// The parameter beside location and scale, where the parameters are solved for.
+    pub shape: Shape,
+    /// From a location, a scale and a shape, where these are solved for; other parameters are as given.
+    pub make: fn(&Given<'_>, [f64; 3]) -> Result<Distribution, DistributionError>,
+    /// From its parameters; it may have no finite variance before it is truncated.
+    pub build: fn(&Given<'_>) -> Result<Distribution, DistributionError>,
+}
+
+/// What most entries have beside their own.
+pub(super) const PLAIN: Entry = Entry {
+    name: "",
+    summary: "",
+    ways: &[],
+    of_ratios: false,
+    shape: Shape::None,
+    make: |given, _| (given.entry.build)(given),
+    build: |given| Err(given.refused("nothing".to_owned())),
+};
+
+/// Parameters by key.
+#[derive(Clone, Copy)]
+pub(super) struct Given<'a> {
+    pub entry: &'static Entry,
+    pub values: &'a [(&'static str, Parameter)],
+}
+
+impl<'a> Given<'a> {
+    pub fn get(&self, key: &str) -> Option<&'a Parameter> {
+        self.values.iter().find(|(name, _)| *name == key).map(|(_, value)| value)
+    }
+
+    pub fn number_if(&self, key: &str) -> Option<f64> {
+        if let Some(Parameter::Number(number)) = self.get(key) { Some(*number) } else { None }
+    }
+
+    pub fn number_or(&self, key: &str, default: f64) -> f64 {
+        self.number_if(key).unwrap_or(default)
+    }
+
+    pub fn number(&self, key: &str) -> Result<f64, DistributionError> {
+        self.number_if(key).ok_or_else(|| self.refused(format!("`{key}`")))
+    }
+
+    pub fn list_if(&self, key: &str) -> Option<&'a [f64]> {
+        if let Some(Parameter::List(list)) = self.get(key) { Some(list) } else { None }
+    }
+
+    pub fn list(&self, key: &str) -> Result<&'a [f64], DistributionError> {
+        self.list_if(key).ok_or_else(|| self.refused(format!("`{key}`")))
+    }
+
+    /// The quantiles that have a key: key, probability and value, in rising order of the probabilities.
+    pub fn quantiles(&self) -> impl Iterator<Item = (&'static str, f64, f64)> {
+        KEYS.iter().filter_map(|key| Some((key.name, probability(key.name)?, self.number_if(key.name)?)))
+    }
+
+    pub fn refused(&self, needed: String) -> DistributionError {
+        DistributionError::Missing { distribution: self.entry.name, needed, takes: Kind(self.entry).takes() }
+    }
+}
+
+/// A family of distributions, before its parameters are chosen.
+#[derive(Clone, Copy)]
+pub struct Kind(&'static Entry);
+
+impl Kind {
+    /// All of them, the default of study files first.
+    pub fn all() -> impl Iterator<Item = Self> + Clone {
+        ENTRIES.iter().copied().flatten().map(Self)
+    }
+
+    /// The family of that name.
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::all().find(|kind| kind.name() == name)
+    }
+
+    /// The name in study files.
+    pub fn name(self) -> &'static str {
+        self.0.name
+    }
+
+    /// One line for people.
+    pub fn summary(self) -> &'static str {
+        self.0.summary
+    }
+
+    /// The keys that determine one, in words.
+    pub fn takes(self) -> String {
+        let ways: Vec<String> = self.0.ways.iter().map(Way::in_words).collect();
+        if ways == [""] { "no keys".to_owned() } else { ways.join("; or ") }
+    }
+
+    /// The distribution that these parameters by key determine, as in a study file: its own parameters, or a mean and a standard
+    /// deviation, or two quantiles; cut off where `truncate` says so.
+    ///
+    /// What is solved for holds to 1e-9 standard deviations.
+    ///
+    /// ```
+    /// use apportion::space::distribution::{Kind, Parameter};
+    ///
+    /// let family = Kind::from_name("log-normal").ok_or("no such family")?;
+    /// let roughness = family.make(&[("p05", Parameter::Number(1.0)), ("p95", Parameter::Number(4.0))])?;
+    /// assert!((roughness.median() - 2.0).abs() < 1e-12);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`DistributionError`] if a key is missing, or too much; if no distribution of the family has that mean and standard
+    /// deviation or these quantiles; or as the constructor of the family.
+    pub fn make(self, parameters: &[(&'static str, Parameter)]) -> Result<Distribution, DistributionError> {
+        let given = Given { entry: self.0, values: parameters };
+        let way = self.way(&given)?;
+        let made = match way.is_solved {
+            true => solved(&given, way.may.contains(&"location"))?,
+            false => (self.0.build)(&given)?,
+        };
+        match given.get("truncate") {
+            Some(Parameter::Bounds(min, max)) => made.truncated(*min, *max),
+            _ => made.finite(),
+        }
+    }
+
+    /// The way that is meant by the keys that are given.
+    fn way(self, given: &Given<'_>) -> Result<&'static Way, DistributionError> {
+        let keys = || given.values.iter().map(|(key, _)| *key).filter(|key| *key != "truncate");
+        let fits = |way: &&Way| keys().all(|key| way.takes(key));
+        let fitting = || self.0.ways.iter().filter(fits);
+        if let Some(way) = fitting().find(|way| way.missing(given).is_none()) {
+            return Ok(way);
+        }
+        if let Some(missing) = fitting().next().and_then(|way| way.missing(given)) {
+            return Err(given.refused(missing));
+        }
+        // The way that most keys belong to says which one does not.
+        let fitted = |way: &&Way| keys().filter(|key| way.takes(key)).count();
+        let nearest = self.0.ways.iter().rev().max_by_key(fitted);
+        let foreign = keys().find(|key| nearest.is_none_or(|way| !way.takes(key))).unwrap_or_default();
+        let is_known = self.0.ways.iter().any(|way| way.takes(foreign));
+        let beside = if is_known { keys().find(|key| nearest.is_some_and(|way| way.takes(key))) } else { None };
+        Err(DistributionError::Foreign { distribution: self.0.name, key: foreign, beside, takes: self.takes() })
+    }
+}
+
+/// The distribution with `parameters`, which are in `unit`, in SI.
+pub(super) fn in_si(
+    entry: &'static Entry,
+    mut parameters: Vec<(&'static str, Parameter)>,
+    unit: &Unit,
+) -> Result<Distribution, DistributionError> {
+    if entry.of_ratios {
+        refuse_offset(entry.name, unit)?;
+    }
+    for (name, parameter) in &mut parameters {
+        let measure = KEYS.iter().find(|key| key.name == *name).map_or(Measure::Pure, |key| key.measure);
+        let number = |number: &mut f64| match measure {
+            Measure::Value => *number = unit.to_si(*number),
+            Measure::Span => *number = unit.span_to_si(*number),
+            Measure::Log => *number += libm::log(unit.to_si(1.0)),
+            Measure::Pure => (),
+        };
+        match parameter {
+            Parameter::Number(value) => number(value),
+            Parameter::List(list) => list.iter_mut().for_each(number),
+            Parameter::Laws(laws) => {
+                for law in laws {
+                    *law = law.to_si(unit)?;
+                }
+            }
+            _ => (),
+        }
+    }
+    (entry.build)(&Given { entry, values: &parameters })
+}
+
+/// Bounds of which one or both may be infinite, in SI.
+pub(super) fn bounds_to_si((min, max): (f64, f64), unit: &Unit) -> Result<(f64, f64), DistributionError> {
+    let in_si = |key: &'static str, bound: f64| match bound.is_finite() {
+        true => finite(key, unit.to_si(bound)),
+        false => Ok(bound),
+    };
+    Ok((in_si("min", min)?, in_si("max", max)?))
+}
