@@ -2,10 +2,10 @@
 
 use rayon::prelude::*;
 
+use super::FiguresError;
 use super::curve::{Curve, crossing};
 use super::list::{Line, SweepFigure, Variant};
 use super::table::Table;
-use super::FiguresError;
 use crate::reproduce::Effort;
 use apportion::afm::{Fidelity, Options, Parameter, critical_force};
 use apportion::report::chart::{Axis, Chart, Mark, Panel, Series, Stroke};
