@@ -82,7 +82,7 @@ pub fn figures(studies: &[Reproduced], effort: Effort) -> Result<Vec<PaperFigure
         let drawn = match ours {
             Ours::Sweep(figure) => figure.drawn(general.space(), effort).map(Some),
             Ours::Scene(drawn) => drawn().map(Some),
-            Ours::Shares(group, is_shown) => Ok(shares::drawn(*group, *is_shown, studies)),
+            Ours::Shares(group, is_shown) => Ok(shares::drawn(group, *is_shown, studies)),
         };
         drawn.map(|drawn| drawn.map(|(chart, csv)| PaperFigure { stem, label: label(stem), theirs, chart, csv }))
     };
