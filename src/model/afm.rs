@@ -296,13 +296,8 @@ impl AfmWorker<'_> {
         self.spent.rungs[critical.rung as usize] += 1;
         self.spent.evaluations += critical.cost.evaluations;
         self.spent.largest_error = self.spent.largest_error.max(critical.error_estimate);
-        if !critical.flags.is_empty() {
-            for (number, &flag) in afm::Flag::ALL.iter().enumerate() {
-                if critical.flags.contains(flag) {
-                    batch.raise(number);
-                }
-            }
-        }
+        // So is `Flag::ALL`.
+        critical.flags.iter().for_each(|flag| batch.raise(flag as usize));
     }
 }
 

@@ -164,6 +164,18 @@ fn general_study() -> Result<Study, StudyError> {
     study("coulomb", "general", &[])
 }
 
+/// The names that share what is said of them, in the order of the first of each.
+fn named_together<'a, T: PartialEq>(said: impl IntoIterator<Item = (T, &'a str)>) -> Vec<(T, Vec<&'a str>)> {
+    let mut groups: Vec<(T, Vec<&str>)> = Vec::new();
+    for (said, name) in said {
+        match groups.iter_mut().find(|(known, _)| *known == said) {
+            Some((_, names)) => names.push(name),
+            None => groups.push((said, vec![name])),
+        }
+    }
+    groups
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -2,6 +2,7 @@
 
 use super::Verdict;
 use super::numbers::percent_of;
+use crate::reproduce::named_together;
 use apportion::uncertainty::Interval;
 
 /// From this share of the box on a rule holds everywhere: what is left is a corner that no chart of the papers shows.
@@ -57,14 +58,7 @@ pub(super) fn judge(holdings: &[Holding]) -> Verdict {
 
 /// Where each part holds over the whole ranges, in one line; parts with the same share are named together.
 pub(super) fn over_ranges(holdings: &[Holding]) -> String {
-    let mut shares: Vec<(String, Vec<&str>)> = Vec::new();
-    for Holding { what, share, .. } in holdings {
-        let words = share.words();
-        match shares.iter_mut().find(|(known, _)| *known == words) {
-            Some((_, parts)) => parts.push(what),
-            None => shares.push((words, vec![what])),
-        }
-    }
+    let shares = named_together(holdings.iter().map(|Holding { what, share, .. }| (share.words(), what.as_str())));
     match &shares[..] {
         [(words, _)] => words.clone(),
         _ => {

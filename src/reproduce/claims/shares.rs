@@ -6,7 +6,7 @@ use super::numbers::{change, nano};
 use super::{Claim, ClaimsError, Verdict};
 use crate::reproduce::order::{Agreement, OrderVerdict, Standing, VISIBLE, order_of, outweighing};
 use crate::reproduce::published::{CLOSE, PRINTED};
-use crate::reproduce::{FRICTIONS, Friction, GROUPS, Published, Reproduced, published};
+use crate::reproduce::{FRICTIONS, Friction, GROUPS, Published, Reproduced, named_together, published};
 use apportion::afm::{Failure, FrictionLaw, Scene};
 use apportion::report::{EffectRecord, EstimateRecord, IndexRecord, fixed, give_or_take, share};
 
@@ -91,22 +91,19 @@ impl<'a> Studies<'a> {
 
     /// The first halves of claims 17 to 19.
     fn order(&self, claim: Order) -> Result<Claim, ClaimsError> {
-        let mut phrases: Vec<(String, Vec<&str>)> = Vec::new();
+        let mut phrases = Vec::new();
         let mut agreements = Vec::new();
         let mut findings = Vec::new();
         for friction in FRICTIONS {
             let (study, indices) = self.find(claim.group, friction)?;
             let order = order_of(study);
             agreements.push(order.agreement());
-            let phrase = stands(&order);
-            match phrases.iter_mut().find(|(known, _)| *known == phrase) {
-                Some((_, names)) => names.push(friction.name),
-                None => phrases.push((phrase, vec![friction.name])),
-            }
+            phrases.push((stands(&order), friction.name));
             findings.push(format!("under {} friction {}", friction.name, shares_in_words(indices, &order)));
         }
         let same = agreements.iter().all(|agreement| *agreement == Agreement::Same);
-        let each = phrases.iter().map(|(phrase, names)| format!("{}: {phrase}", names.join(", ")));
+        let each = named_together(phrases).into_iter();
+        let each = each.map(|(phrase, names)| format!("{}: {phrase}", names.join(", ")));
         Ok(Claim {
             number: claim.number,
             source: claim.source,

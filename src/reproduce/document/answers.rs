@@ -2,7 +2,7 @@
 
 use crate::reproduce::order::VISIBLE;
 use crate::reproduce::shares::{indices, ranked};
-use crate::reproduce::{FRICTIONS, Friction, GROUPS, Reproduced, StudyGroup};
+use crate::reproduce::{FRICTIONS, Friction, GROUPS, Reproduced, StudyGroup, named_together};
 use apportion::report::document::{Cell, Column, Mark, OnPhone, Part, Table};
 use apportion::report::format::words;
 use apportion::report::{EffectRecord, IndexRecord, fixed, listed, share_of_runs};
@@ -83,31 +83,22 @@ fn where_it_holds(studies: &[Reproduced]) -> String {
 
 /// `Thickness explains 33 % of the variance of the critical force alone and 67 % with its interactions (Coulomb); ...`.
 fn sentence(studies: &[Reproduced], group: StudyGroup) -> Option<String> {
-    // Friction models with the same factor and the same numbers are named together.
-    let mut groups: Vec<(&str, (String, String), Vec<&str>)> = Vec::new();
-    for study in studies.iter().filter(|study| study.group == group) {
-        let Some(&leader) = ranked(study).first() else { continue };
-        let IndexRecord { factor, effect } = &indices(study)[leader];
-        match groups.iter_mut().find(|(known, same, _)| known == factor && *same == explained(effect)) {
-            Some((.., frictions)) => frictions.push(study.friction.name),
-            None => groups.push((factor, explained(effect), vec![study.friction.name])),
-        }
+    let of_group = studies.iter().filter(|study| study.group == group);
+    let leaders = of_group.filter_map(|study| {
+        let IndexRecord { factor, effect } = &indices(study)[*ranked(study).first()?];
+        Some(((factor, explained(effect)), study.friction.name))
+    });
+    let mut said: Vec<String> = Vec::new();
+    for ((factor, (alone, together)), frictions) in named_together(leaders) {
+        let (factor, under) = (words(factor), listed(&frictions));
+        said.push(match said.is_empty() {
+            true => format!(
+                "{factor} explains {alone} of the variance of the critical force alone and {together} with its \
+                 interactions under {under} friction"
+            ),
+            false => format!("{factor} {alone} and {together} under {under} friction"),
+        });
     }
-    let said: Vec<String> = groups
-        .iter()
-        .enumerate()
-        .map(|(place, (factor, (alone, together), frictions))| {
-            let under = format!("under {} friction", listed(frictions));
-            match place {
-                0 => format!(
-                    "{} explains {alone} of the variance of the critical force alone and {together} with its interactions \
-                     {under}",
-                    words(factor)
-                ),
-                _ => format!("{} {alone} and {together} {under}", words(factor)),
-            }
-        })
-        .collect();
     (!said.is_empty()).then(|| format!("{}, {}.", group.among, said.join("; ")))
 }
 

@@ -24,13 +24,6 @@ pub struct Animation {
 ///
 /// # Errors
 /// [`FiguresError`] if the scene has no answer, or the page cannot be rendered.
-///
-/// # Example
-/// ```
-/// let animation = apportion::reproduce::figures::animation()?;
-/// assert!(animation.html.contains("id=\"player\""));
-/// # Ok::<(), apportion::reproduce::figures::FiguresError>(())
-/// ```
 pub fn animation() -> Result<Animation, FiguresError> {
     let story = story(FrictionLaw::Coulomb, |_| ())?;
     Ok(Animation { html: player_page(&story), csv: scene_csv(&story), json: scene_json(&story) })

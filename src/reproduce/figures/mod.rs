@@ -69,25 +69,13 @@ pub enum FiguresError {
 ///
 /// # Errors
 /// [`FiguresError`] if a scene has no answer.
-///
-/// # Example
-/// ```
-/// use apportion::reproduce::Effort;
-/// use apportion::reproduce::figures::figures;
-///
-/// let figures = figures(&[], Effort::Quick)?;
-/// let width = figures.iter().find(|figure| figure.label == "CHK fig. 7").unwrap();
-/// assert!(width.csv.starts_with("width_um,coulomb_nN,hk_nN"));
-/// assert!(width.chart.caption().contains("in a straight line"));
-/// # Ok::<(), apportion::reproduce::figures::FiguresError>(())
-/// ```
 pub fn figures(studies: &[Reproduced], effort: Effort) -> Result<Vec<PaperFigure>, FiguresError> {
     let general = general_study()?;
     let draw = |&(stem, ref ours, theirs): &(&'static str, Ours, &'static str)| {
         let drawn = match ours {
             Ours::Sweep(figure) => figure.drawn(general.space(), effort).map(Some),
             Ours::Scene(drawn) => drawn().map(Some),
-            Ours::Shares(group, is_shown) => Ok(shares::drawn(*group, *is_shown, studies)),
+            Ours::Shares(group, is_shown) => Ok(shares::drawn(group, *is_shown, studies)),
         };
         drawn.map(|drawn| drawn.map(|(chart, csv)| PaperFigure { stem, label: label(stem), theirs, chart, csv }))
     };

@@ -1,10 +1,11 @@
 //! The charts of shares, from the studies that were run.
 
 use super::Drawn;
-use crate::reproduce::shares::shares_table;
+use crate::reproduce::shares::{indices, ranked, shares_table};
 use crate::reproduce::{Reproduced, StudyGroup, published};
 use apportion::report::chart::{Chart, Series};
-use apportion::report::{SharesSeries, capitalised, listed, shares_chart};
+use apportion::report::format::words;
+use apportion::report::{IndexRecord, SharesSeries, listed, shares_chart};
 
 /// The shares in the studies of a group under these friction models; nothing if none of them was run.
 pub(super) fn drawn(group: &str, is_shown: fn(&str) -> bool, studies: &[Reproduced]) -> Option<Drawn> {
@@ -30,43 +31,16 @@ fn group_chart(group: StudyGroup, members: &[&Reproduced]) -> Chart {
     shares_chart(&title, &caption(group, members), &factors, &series).published_name("published (LuGre)")
 }
 
-/// The factor with the largest total index, with its shares of the first-order and of the total indices (%).
-struct Leader<'a> {
-    factor: &'a str,
-    shares: (f64, f64),
-    friction: &'static str,
-}
-
-fn leader(member: &Reproduced) -> Option<Leader<'_>> {
-    let indices = member.result.outputs.first()?.indices.as_ref()?;
-    let first = indices.iter().max_by(|a, b| a.effect.total.estimate.total_cmp(&b.effect.total.estimate))?;
-    Some(Leader {
-        factor: &first.factor,
-        shares: (first.effect.share_first_order?, first.effect.share_total?),
-        friction: member.friction.name,
-    })
-}
-
-/// What is seen, in one sentence.
+/// Which factor leads under each friction model, and what is printed, in one sentence.
 fn caption(group: StudyGroup, members: &[&Reproduced]) -> String {
-    let leaders: Vec<Leader<'_>> = members.iter().filter_map(|member| leader(member)).collect();
-    let shares =
-        |l: &Leader<'_>| format!("{:.0} % of the first-order and {:.0} % of the total indices", l.shares.0, l.shares.1);
-    let seen = match &leaders[..] {
-        [] => "No factor has a share".to_owned(),
-        [one] => format!("The largest share is that of {}: {}", words(one.factor), shares(one)),
-        [one, rest @ ..] if rest.iter().all(|other| other.factor == one.factor) => {
-            let each: Vec<String> = leaders.iter().map(|l| format!("{:.0} %, {}", l.shares.1, l.friction)).collect();
-            let every = if leaders.len() > 2 { "every friction model" } else { "both friction models" };
-            format!("The largest total share under {every} is that of {} ({})", words(one.factor), each.join("; "))
-        }
-        _ => {
-            let each: Vec<String> = leaders
-                .iter()
-                .map(|l| format!("{} under {} ({:.0} %)", words(l.factor), l.friction, l.shares.1))
-                .collect();
-            capitalised(&format!("the largest total share belongs to {}", each.join(", ")))
-        }
+    let leader = |member: &&Reproduced| {
+        let IndexRecord { factor, effect } = &indices(member)[*ranked(member).first()?];
+        Some(format!("{} under {} friction ({:.0} %)", words(factor), member.friction.name, effect.share_total?))
+    };
+    let leaders: Vec<String> = members.iter().filter_map(leader).collect();
+    let seen = match leaders.is_empty() {
+        true => "No factor has a share".to_owned(),
+        false => format!("The largest share of the total indices is that of {}", listed(&leaders)),
     };
     let printed = |member: &&Reproduced| {
         let shares = published(group.key, member.friction.key).shares;
@@ -75,8 +49,4 @@ fn caption(group: StudyGroup, members: &[&Reproduced]) -> String {
         (!each.is_empty()).then(|| format!("; printed for {} (diamonds) are {}", member.friction.name, listed(&each)))
     };
     format!("{seen}{}.", members.iter().filter_map(printed).collect::<String>())
-}
-
-fn words(name: &str) -> String {
-    name.replace('_', " ")
 }

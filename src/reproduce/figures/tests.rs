@@ -90,7 +90,7 @@ fn every_figure_is_there_once_and_in_order() {
     let dimensional = all.iter().find(|figure| figure.stem == "lg-4a").unwrap();
     let caption = dimensional.chart.caption();
     assert!(
-        caption.starts_with("The largest share is that of thickness: ")
+        caption.starts_with("The largest share of the total indices is that of thickness under LuGre friction (")
             && caption.ends_with("; printed for LuGre (diamonds) are 76 % for thickness."),
         "{caption}"
     );
