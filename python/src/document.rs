@@ -46,8 +46,8 @@ impl Document {
         self.document.text()
     }
 
-    fn html(&self) -> PyResult<String> {
-        Ok(self.document.html())
+    fn html(&self) -> String {
+        self.document.html()
     }
 
     /// The charts as (title, SVG), in the order of the page.

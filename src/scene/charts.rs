@@ -267,7 +267,7 @@ mod tests {
             "Substrate and particle travel together for 13.1 nm; at 0.400 s the particle stands \u{2212}26.9 nm from \
              where it was on the substrate."
         );
-        assert!(contacts(&story).caption().contains("at the tip and 0 % at the substrate"));
+        assert!(contacts(&story).caption().contains("+27.0 % at the tip and less than 0.001 % (down)"));
         let mut early = story;
         early.samples.retain(|sample| sample.time < 0.1);
         assert!(forces(&early).caption().contains("without a slip in the time shown"));

@@ -71,7 +71,7 @@ impl Request {
             Wanted::Description => self.study().map(|study| description(&study)),
             Wanted::Run { sections, output } => {
                 let result = self.result()?;
-                view(&one_output(&result, output.as_deref()), sections)
+                Ok(view(&one_output(&result, output.as_deref()), sections))
             }
             Wanted::Files => {
                 let document = run_document(&self.result()?);
@@ -110,23 +110,23 @@ fn in_words(error: &StudyError) -> String {
 }
 
 /// What is shown of a result: its lead and some sections as HTML, and the indices for those who read numbers.
-fn view(result: &ResultFile, sections: &[String]) -> Result<Value, String> {
+fn view(result: &ResultFile, sections: &[String]) -> Value {
     let ids: Vec<&str> = sections.iter().map(String::as_str).collect();
     let document = run_document(result).excerpt(&ids);
     let section = |id: &String| {
-        let html = document.section_html(id);
+        let html = document.section_html(id)?;
         let title = document.sections.iter().find(|section| section.id == *id).map(|section| symbols(&section.title));
-        Ok(html.map(|html| json!({ "id": id, "title": title, "html": html })))
+        Some(json!({ "id": id, "title": title, "html": html }))
     };
-    let sections: Vec<Option<Value>> = sections.iter().map(section).collect::<Result<_, String>>()?;
-    Ok(json!({
+    let sections: Vec<Value> = sections.iter().filter_map(section).collect();
+    json!({
         "lead": document.lead.iter().map(|text| symbols(text)).collect::<Vec<_>>(),
         "plain_lead": document.lead,
-        "sections": sections.into_iter().flatten().collect::<Vec<_>>(),
+        "sections": sections,
         "percentages": percentages(result),
         "runs": result.provenance.model_runs,
         "base_samples": result.provenance.base_samples,
-    }))
+    })
 }
 
 /// Of the series, or the first output, by factor: 100 S_T as far as it is known.

@@ -149,8 +149,8 @@ fn ranges(file: &SweepFile, number: usize, nominal: &NominalOutput) -> Chart {
     );
     let x = Axis::new(words(&nominal.output), axis_unit(&nominal.unit));
     let row_name = |(sweep, effect): (&Sweep, &SweepEffect)| {
-        let percent = effect.percent.map_or_else(String::new, |percent| format!(": {} %", printed(percent)));
-        format!("{}, {}{percent}", words(&sweep.factor), from_to(sweep))
+        let percent = effect.percent.map_or_else(String::new, |percent| format!(" by {} %", printed(percent)));
+        format!("{}{percent}: {}", words(&sweep.factor), from_to(sweep))
     };
     let rows = Axis::from_names("", sweeps().map(row_name).collect());
     let label = |value| format!("nominal: {}", short_with_unit(value, &nominal.unit));

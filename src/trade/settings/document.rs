@@ -142,7 +142,7 @@ fn lines(file: &SettingsFile) -> Vec<Part> {
 }
 
 /// The settings of one curve after the other.
-fn curves<'a>(file: &'a SettingsFile, axis: Varied) -> Vec<Vec<&'a Measured>> {
+fn curves(file: &SettingsFile, axis: Varied) -> Vec<Vec<&Measured>> {
     let mut curves: Vec<Vec<&Measured>> = Vec::new();
     for of in file.settings.iter().filter(|of| of.axis == axis) {
         match curves.last_mut() {
