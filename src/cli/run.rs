@@ -162,7 +162,7 @@ fn save(study: &Study, result: &ResultFile, store: &Store, path: &Path, format: 
     let settings = study.design().settings();
     let points = result.provenance.base_samples / settings.replicates;
     let design = study.design().with_points(points).map_err(|error| Failure::Run(error.into()))?;
-    stream_atomically(path, |out| Ok(save_outputs(study, &design, store, format, &mut Stoppable::new(out))?))?;
+    stream_atomically(path, |out| save_outputs(study, &design, store, format, &mut Stoppable::new(out)))?;
     say(&format!("wrote the points and outputs of {} runs to {}", design.rows(), path.display()));
     Ok(())
 }

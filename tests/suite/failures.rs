@@ -230,7 +230,7 @@ fn keys_that_end_a_run() {
     };
     ["0.0", "nan", "-1"].into_iter().for_each(accurate);
     for (key, value) in [("target", "0.01"), ("budget", "\"30 s\""), ("budget_runs", "300")] {
-        refused(&format!("{key} = {value}"), &["study.toml:5:1:", &format!("unknown key `{key}`"), "max_time, "]);
+        refused(&format!("{key} = {value}"), &["study.toml:5:1:", &format!("unknown key `{key}`"), "max_runs, "]);
     }
     refused("max_time = \"30\"", &["study.toml:5:12:"]);
     refused("max_time = \"30 nm\"", &["study.toml:5:12:", "a time above 0, as in \"30 s\""]);

@@ -6,7 +6,7 @@ use toml::Value;
 
 use super::context::{Context, Fault, unknown_key, unknown_name, wrong};
 use super::error::Problem;
-use super::key_schemas::CHOICES;
+use super::key_schemas::afm_choices;
 use super::sections::At;
 use super::units::{in_words_of_units, with_unit};
 use crate::afm::{ContactTheory, Fidelity, FrictionLaw, LuGreParameters, Options, Parameter, Scene, Torsion};
@@ -56,7 +56,8 @@ pub(super) fn afm(
             "history" => (),
             _ => {
                 let Some(parameter) = Parameter::from_name(name) else {
-                    let known = CHOICES.into_iter().chain(Parameter::ALL.iter().map(|parameter| parameter.name));
+                    let choices: Vec<&str> = afm_choices().map(|(key, _)| key).collect();
+                    let known = choices.into_iter().chain(Parameter::ALL.iter().map(|parameter| parameter.name));
                     return Err(context.fault(key.span(), unknown_key(name, known)));
                 };
                 if is_factor(name) {

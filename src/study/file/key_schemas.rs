@@ -4,22 +4,15 @@ use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde_json::{Map, Value, json};
 
 use super::outputs::OutputTable;
-use crate::afm::{ContactTheory, Fidelity, FrictionLaw, LuGreParameters, Parameter, Torsion};
+use crate::afm::Parameter;
 use crate::model::{KnownAnswer, ModelKind, edge_unit};
 use crate::space::distribution::{Key, KeyKind, Kind};
 
-pub(super) const CHOICES: [&str; 10] = [
-    "friction",
-    "contact",
-    "fidelity",
-    "torsion",
-    "adhesion_in_load",
-    "lugre_parameters",
-    "tolerance",
-    "step",
-    "step_budget",
-    "history",
-];
+/// The choices of `[afm]`, each with the names that it takes.
+pub(super) fn afm_choices() -> impl Iterator<Item = (&'static str, Vec<&'static str>)> {
+    // Behind the key stands where it acts.
+    ModelKind::AFM.choices().into_iter().map(|(key, names)| (key.split(' ').next().unwrap_or(key), names))
+}
 
 pub(super) fn models() -> Vec<&'static str> {
     ModelKind::all().into_iter().map(|kind| kind.name).collect()
@@ -42,12 +35,8 @@ pub(super) fn names<T: Copy>(all: &[T], name: fn(T) -> &'static str) -> Vec<&'st
 
 /// `[afm]`: the choices, and every parameter as a quantity.
 pub(super) fn afm(_: &mut SchemaGenerator) -> Schema {
-    let choice = |key: &str| match key {
-        "friction" => json!({ "enum": names(FrictionLaw::ALL, FrictionLaw::name) }),
-        "contact" => json!({ "enum": names(ContactTheory::ALL, ContactTheory::name) }),
-        "fidelity" => json!({ "enum": names(Fidelity::ALL, Fidelity::name) }),
-        "torsion" => json!({ "enum": names(Torsion::ALL, Torsion::name) }),
-        "lugre_parameters" => json!({ "enum": names(LuGreParameters::ALL, LuGreParameters::name) }),
+    let choice = |(key, names): (&'static str, Vec<&'static str>)| match key {
+        "tolerance" => json!({ "type": "number", "exclusiveMinimum": 0 }),
         "adhesion_in_load" => json!({ "type": "boolean" }),
         "step" => json!({ "type": "string", "description": "A time, as in \"10 ms\"." }),
         "step_budget" => json!({ "type": "integer", "minimum": 1 }),
@@ -57,9 +46,10 @@ pub(super) fn afm(_: &mut SchemaGenerator) -> Schema {
             "properties": { "duration": { "type": "string" }, "points": { "type": "integer", "minimum": 2 } },
             "additionalProperties": false,
         }),
-        _ => json!({ "type": "number", "exclusiveMinimum": 0 }),
+        _ => json!({ "enum": names }),
     };
-    let mut properties: Map<String, Value> = CHOICES.iter().map(|key| ((*key).to_owned(), choice(key))).collect();
+    let schema = |(key, names)| (str::to_owned(key), choice((key, names)));
+    let mut properties: Map<String, Value> = afm_choices().map(schema).collect();
     for parameter in Parameter::ALL {
         let unit = edge_unit(parameter);
         let (kinds, example) = match unit.symbol() {
