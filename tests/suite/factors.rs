@@ -144,7 +144,7 @@ fn refused(from: &str, to: &str, expected: &[&str]) {
 
 #[test]
 fn what_determines_nothing_is_refused_with_its_place() {
-    refused("p95 = 5\n", "", &["study.toml:9:8:", "needs two quantiles", "it takes min and mode and max; or mode"]);
+    refused("p95 = 5\n", "", &["study.toml:8:8:", "needs two quantiles", "it takes min and mode and max; or mode"]);
     refused("p95 = 5", "p95 = 5\nmean = 3", &["study.toml:13:8:", "the triangular distribution has no `mean`"]);
     refused("p95 = 5", "p95 = 0.5", &["study.toml:11:7:", "`p05` is 1 and `p95` is 0.5"]);
     refused(
