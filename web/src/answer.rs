@@ -80,9 +80,10 @@ impl Request {
                     let DataFile { name, text } = &**file;
                     (name.clone(), Value::from(text.as_str()))
                 });
-                let charts = document.figures().into_iter().map(|figure| {
-                    (format!("{}.svg", figure.stem), Value::from(figure.chart.svg()))
-                });
+                let charts = document
+                    .figures()
+                    .into_iter()
+                    .map(|figure| (format!("{}.svg", figure.stem), Value::from(figure.chart.svg())));
                 Ok(Value::Object(files.chain(charts).collect()))
             }
         }
