@@ -5,7 +5,7 @@ use std::process::Output;
 
 use apportion::report::{ResultFile, read_result};
 
-use crate::common::{Folder, apportion, stderr, succeed, text};
+use crate::common::{Folder, apportion, stderr, text};
 
 const STUDY: &str = "model = \"command\"\ncommand = [\"python3\", \"model.py\"]\noutputs = [\"y\"]\n\
                      design.base_samples = 64\n\
