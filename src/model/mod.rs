@@ -29,7 +29,7 @@ pub use catalogue::{ModelKind, known_inputs};
 #[cfg(feature = "study")]
 pub use command::{
     Answer, CommandModel, CommandOutput, CommandSettings, Form, InputTemplate, Match, PerRun, Pick, PickError, Program,
-    Protocol, Source, TemplateError, TemplateProblem, Way, parse_answer, program_files,
+    Protocol, Source, TemplateError, TemplateProblem, Way, imported_neighbours, parse_answer, program_files,
 };
 pub use context::{Messages, RunContext};
 pub use counter::{Counter, CounterKind, Counts};

@@ -229,8 +229,9 @@ fn keys_that_end_a_run() {
         assert_refused(&study, &["study.toml:2:12:", "a finite number above 0"]);
     };
     ["0.0", "nan", "-1"].into_iter().for_each(accurate);
-    for (key, value) in [("target", "0.01"), ("budget", "\"30 s\""), ("budget_runs", "300")] {
-        refused(&format!("{key} = {value}"), &["study.toml:5:1:", &format!("unknown key `{key}`"), "max_runs, "]);
+    for (old, new) in [("target = 0.01", "accuracy"), ("budget = \"30 s\"", "max_time"), ("budget_runs = 300", "runs")]
+    {
+        refused(old, &["study.toml:5:1:", &format!("did you mean `{new}`")]);
     }
     refused("max_time = \"30\"", &["study.toml:5:12:"]);
     refused("max_time = \"30 nm\"", &["study.toml:5:12:", "a time above 0, as in \"30 s\""]);

@@ -61,15 +61,21 @@ fn other_forms_are_refused_with_todays_lines() {
     let head = "model = \"expression\"\noutputs.y = \"a\"\n";
     let list = "[[factor]]\nname = \"a\"\nmin = 0\nmax = 1\n";
     refused(&format!("{head}{list}[factors.b]\nmin = 0\nmax = 1\n"), &["s.toml:7:2:", "keep one of the two"]);
+    let line = "[factors]\na = { min = 0, max = 1 }";
     for old in [
         "[factor]\nname = \"a\"\nmin = 0\nmax = 1\n",
         "[factor.a]\nmin = 0\nmax = 1\n",
         "factors = [{ name = \"a\", min = 0, max = 1 }]\n",
     ] {
-        refused(&format!("{head}{old}"), &["another way today", "[factors]\nx1 = { min = 0, max = 1 }"]);
+        refused(&format!("{head}{old}"), &[line]);
     }
+    let two = "[factor.b]\nmin = 0\nmax = 1\n[factor.a]\nmax = 2\n";
+    refused(&format!("{head}{two}"), &["[factors]\nb = { min = 0, max = 1 }\na = { max = 2 }"]);
     let outputs = "[expression]\noutputs.z = \"a\"\noutputs.y = { formula = \"2*a\", unit = \"m\" }\n";
-    refused(&format!("model = \"expression\"\n{outputs}{list}"), &["s.toml:3:1:", "outputs.y = \"x1 + x2\""]);
+    refused(
+        &format!("model = \"expression\"\n{outputs}{list}"),
+        &["s.toml:3:1:", "outputs.z = \"a\"\noutputs.y = { formula = \"2*a\", unit = \"m\" }"],
+    );
     refused(&format!("{head}[factors.a]\nname = \"b\"\nmin = 0\n"), &["stands before its table"]);
     refused(&format!("{head}[factors.a]\nmin = 0\n"), &["s.toml:3:10:", "factor `a`", "needs `max`"]);
 }
@@ -116,7 +122,7 @@ fn what_stands_in_the_wrong_table_is_told_where_it_belongs() {
         &["s.toml:1:1:", "unknown key `seed` here: it stands in the table [design]"],
     );
     refused(&format!("{factor}outputs = [\"y\"]\n"), &["s.toml:5:1:", "above the first table"]);
-    refused(&format!("base_samples = 1024\n{factor}"), &["it stands in the table [design]"]);
+    refused(&format!("N = 1024\n{factor}"), &["did you mean `base_samples`, which stands in the table [design]?"]);
     refused(
         &format!("model = \"my_model.py\"\n{factor}"),
         &["s.toml:1:9:", "a program of your own is a `command`", "command = [\"python3\", \"my_model.py\"]"],
@@ -136,6 +142,33 @@ fn more_factors_than_any_study_can_have_are_refused_while_they_are_read() {
         let StudyError::Invalid(diagnostic) = error else { panic!("{error}") };
         let too_many = DesignError::FarTooManyFactors { factors: 10_001 };
         assert_eq!(diagnostic.problem, Problem::Build(BuildError::Design(too_many)));
+    }
+}
+
+#[test]
+fn words_of_other_programs_are_answered_by_ours() {
+    let factor = |line: &str| {
+        format!("model = \"expression\"\noutputs.y = \"x1\"\n[[factor]]\nname = \"x1\"\n{line}\n[design]\nseed = 1\n")
+    };
+    for (line, meant) in [
+        ("dist = \"normal\"", "`dist`: did you mean `distribution`?"),
+        ("bounds = [0, 1]", "`bounds`: did you mean `min` and `max`?"),
+        ("sigma = 1", "`sigma`: did you mean `sd`?"),
+        ("std = 1", "`std`: did you mean `sd`?"),
+        ("mu = 1", "`mu`: did you mean `mean`?"),
+        ("lower = 1", "`lower`: did you mean `min`?"),
+        ("distribution = \"norm\"", "unknown distribution `norm`: did you mean `normal`?"),
+        ("distribution = \"gaussian\"", "unknown distribution `gaussian`: did you mean `normal`?"),
+        ("distribution = \"lognorm\"", "did you mean `log-normal`?"),
+        ("distribution = \"cauchy\"", "known: uniform, log-uniform, normal"),
+    ] {
+        refused(&factor(line), &["s.toml:5:", meant]);
+    }
+    for (key, ours) in
+        [("N", "base_samples"), ("samples", "base_samples"), ("n_samples", "base_samples"), ("method", "sampler")]
+    {
+        let study = factor("min = 0\nmax = 1").replace("seed = 1", &format!("{key} = 1"));
+        refused(&study, &["s.toml:8:1:", &format!("unknown key `{key}`: did you mean `{ours}`?")]);
     }
 }
 
@@ -169,7 +202,7 @@ fn a_key_mistyped_is_not_mistaken_for_a_fault_of_another() {
 #[test]
 fn the_schema_knows_the_forms() {
     let folder = Folder::new();
-    let path = folder.with("bad.toml", "[design]\nbase_sample = 3\n");
+    let path = folder.with("bad.toml", "[design]\nN = 3\n");
     let output = apportion(&["check", text(&path)]);
     assert_eq!(output.status.code(), Some(2));
     assert!(stderr(&output).contains("did you mean `base_samples`?"), "{}", stderr(&output));

@@ -11,6 +11,7 @@ use std::process::ExitStatus;
 use std::sync::atomic::Ordering;
 use std::time::Duration;
 
+use super::line_to_change::line_to_change;
 use super::process::{Ending, Event, Process};
 use super::program::status_in_words;
 use super::protocol::{Answer, is_answer_without_number, parse_answer};
@@ -157,11 +158,12 @@ impl<'a> KeptAliveWorker<'a> {
             },
         };
         if !model.state.has_answered() || is_answer_without_number(protocol, &model.names, line) {
+            let program = &model.settings.program;
+            let change = line_to_change(program, protocol, &model.names);
             let reason = format!(
                 "the program printed a line without the number of its row: {words}. Each row begins with its number, `id`, and each \
-                 answer with that of its row: in Python {}. All other output belongs on standard error \
-                 (docs/worker-protocol.md)",
-                protocol.line_in_python()
+                 answer with that of its row: {change}. All other output belongs on standard error \
+                 (docs/worker-protocol.md)"
             );
             return Err(Fault::GiveUp(GiveUp { reason: RowFailure::new(&reason), is_bad_input: true }));
         }

@@ -6,6 +6,7 @@
 
 mod json_answer;
 mod kept_alive;
+mod line_to_change;
 mod per_run;
 mod pick;
 mod process;
@@ -22,7 +23,7 @@ use std::time::Duration;
 pub use per_run::PerRun;
 pub use pick::{Match, Pick, PickError, Source, Way};
 pub use program::Program;
-pub use program_files::program_files;
+pub use program_files::{imported_neighbours, program_files};
 pub use protocol::{Answer, Protocol, parse_answer};
 pub use template::{InputTemplate, TemplateError, TemplateProblem};
 

@@ -4,8 +4,7 @@ use std::ops::Range;
 use std::path::PathBuf;
 
 use super::at::At;
-use super::error::{Diagnostic, Problem};
-use crate::names::nearest;
+use super::error::{Diagnostic, Problem, meant};
 
 /// A diagnostic on its way up.
 pub(super) type Fault = Box<Diagnostic>;
@@ -30,7 +29,7 @@ pub(super) fn unknown_name<'a>(
     Problem::UnknownName {
         what,
         name: name.to_owned(),
-        nearest: nearest(name, known.clone()),
+        nearest: meant(name, known.clone()),
         expected: known.map(str::to_owned).collect(),
     }
 }
@@ -39,7 +38,7 @@ pub(super) fn unknown_name<'a>(
 pub(super) fn unknown_key<'a>(name: &str, known: impl Iterator<Item = &'a str> + Clone) -> Problem {
     Problem::UnknownKey {
         name: name.to_owned(),
-        nearest: nearest(name, known.clone()),
+        nearest: meant(name, known.clone()),
         expected: known.map(str::to_owned).collect(),
     }
 }

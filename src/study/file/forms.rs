@@ -38,24 +38,62 @@ fn refuse_too_many(context: &Context<'_>, root: &DeTable<'_>) -> Result<(), Faul
 
 /// Factors and outputs as they were written in former versions.
 fn refuse_old_forms(context: &Context<'_>, root: &DeTable<'_>) -> Result<(), Fault> {
-    let span = |key: &str, is_old: bool| root.get_key_value(key).filter(|_| is_old).map(|(key, _)| key.span());
-    let value = |key: &str| root.get(key).map(Spanned::get_ref);
-    let table = span("factor", value("factor").is_some_and(DeValue::is_table)).map(|span| (span, "[factor]", FACTORS));
-    let list = span("factors", value("factors").is_some_and(DeValue::is_array));
-    let list = list.map(|span| (span, "a list of `factors`", FACTORS));
-    let outputs = |section: &str| value(section)?.as_table()?.get_key_value("outputs").map(|(key, _)| key.span());
-    let inside = ["expression", "command", "external"].into_iter().find_map(outputs);
-    let inside = inside.map(|place| (place, "outputs in the table of a model", OUTPUTS));
-    match table.or(list).or(inside) {
-        Some((place, form, lines)) => Err(context.fault(place, Problem::OldForm { form, lines })),
-        None => Ok(()),
+    let old =
+        |place: Range<usize>, form: String, lines: String| Err(context.fault(place, Problem::OldForm { form, lines }));
+    let written = |range: Range<usize>| context.text.get(range).unwrap_or_default().to_owned();
+    let entry = |(key, value): Entry<'_, '_>| format!("{} = {}", written(key.span()), written(value.span()));
+    let fields = |table: &DeTable<'_>| {
+        let others = in_order(table).into_iter().filter(|(key, _)| **key.get_ref() != *"name");
+        others.map(entry).collect::<Vec<_>>().join(", ")
+    };
+    let name_of = |table: &DeTable<'_>| {
+        let name = table.get("name").map_or_else(|| "NAME".to_owned(), |name| written(name.span()));
+        let bare = name.trim_matches(['"', '\'']);
+        if is_bare(bare) { bare.to_owned() } else { name }
+    };
+    let line = |name: &str, table: &DeTable<'_>| format!("{name} = {{ {} }}", fields(table));
+    let joined = |lines: Vec<String>| format!("[factors]\n{}", lines.join("\n"));
+    if let Some((key, value)) = root.get_key_value("factor")
+        && let Some(table) = value.get_ref().as_table()
+    {
+        let of = |(key, value): Entry<'_, '_>| Some(line(&written(key.span()), value.get_ref().as_table()?));
+        let lines: Vec<String> = in_order(table).into_iter().filter_map(of).collect();
+        return match lines.is_empty() {
+            true => old(key.span(), "[factor]".to_owned(), joined(vec![line(&name_of(table), table)])),
+            false => old(key.span(), "[factor.NAME]".to_owned(), joined(lines)),
+        };
     }
+    if let Some((key, value)) = root.get_key_value("factors")
+        && let Some(list) = value.get_ref().as_array()
+    {
+        let tables = list.iter().filter_map(|value| value.get_ref().as_table());
+        let lines = tables.map(|table| line(&name_of(table), table)).collect();
+        return old(key.span(), "a list of `factors`".to_owned(), joined(lines));
+    }
+    for section in ["expression", "command", "external"] {
+        let table = root.get(section).and_then(|value| value.get_ref().as_table());
+        let Some((key, outputs)) = table.and_then(|table| table.get_key_value("outputs")) else { continue };
+        let lines = match outputs.get_ref().as_table() {
+            Some(outputs) => {
+                let line = |output| format!("outputs.{}", entry(output));
+                in_order(outputs).into_iter().map(line).collect::<Vec<_>>().join("\n")
+            }
+            None => format!("outputs = {}", written(outputs.span())),
+        };
+        let lines = format!("{lines}\n(above the first table of the file)");
+        return old(key.span(), format!("outputs in [{section}]"), lines);
+    }
+    Ok(())
 }
 
-/// How factors and outputs are written today.
-const FACTORS: &str = "[factors]\nx1 = { min = 0, max = 1 }";
-const OUTPUTS: &str = "outputs.y = \"x1 + x2\"    # a formula, or the unit of what a program gives\n\
-                       (above the first table of the file)";
+type Entry<'a, 'i> = (&'a Spanned<Cow<'i, str>>, &'a Spanned<DeValue<'i>>);
+
+/// The entries of a table in the order of the file.
+fn in_order<'a, 'i>(table: &'a DeTable<'i>) -> Vec<Entry<'a, 'i>> {
+    let mut entries: Vec<Entry<'a, 'i>> = table.iter().collect();
+    entries.sort_by_key(|(key, _)| key.span().start);
+    entries
+}
 
 pub(super) fn is_bare(key: &str) -> bool {
     !key.is_empty() && key.chars().all(|c| c.is_ascii_alphanumeric() || "_-".contains(c))

@@ -4,7 +4,7 @@ use serde::Deserialize;
 use toml::de::{DeTable, Deserializer};
 
 use super::context::{self, Context, Fault};
-use super::error::Problem;
+use super::error::{Problem, meant};
 use super::forms::normalise;
 use super::schema::study_schema;
 use super::sections::StudyFile;
@@ -33,12 +33,21 @@ pub(super) fn problem(error: &toml::de::Error) -> Problem {
     }
 }
 
-/// A key that its table does not have: perhaps that of another table.
+/// A key that its table does not have: of another table perhaps, by our name or by another one.
 fn unknown_key(name: &str, expected: &[&str]) -> Problem {
-    match keys_of_tables().into_iter().find(|(_, keys)| keys.iter().any(|key| key == name)) {
-        Some((place, _)) => Problem::Misplaced { name: name.to_owned(), right: format!("it stands {place}") },
-        None => context::unknown_key(name, expected.iter().copied()),
+    if meant(name, expected.iter().copied()).is_none() {
+        let tables = keys_of_tables();
+        let all = tables.iter().flat_map(|(place, keys)| keys.iter().map(move |key| (place, key.as_str())));
+        let ours = meant(name, all.clone().map(|(_, key)| key));
+        if let Some((place, key)) = ours.and_then(|ours| all.clone().find(|(_, key)| *key == ours)) {
+            let right = match key == name {
+                true => format!("it stands {place}"),
+                false => format!("did you mean `{key}`, which stands {place}?"),
+            };
+            return Problem::Misplaced { name: name.to_owned(), right };
+        }
     }
+    context::unknown_key(name, expected.iter().copied())
 }
 
 /// Where keys stand in a study file, in words, and the keys, by the schema.

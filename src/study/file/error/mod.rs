@@ -2,6 +2,7 @@
 
 mod diagnostic;
 mod problem;
+mod synonyms;
 
 use std::path::PathBuf;
 
@@ -9,6 +10,7 @@ use thiserror::Error;
 
 pub use diagnostic::Diagnostic;
 pub use problem::Problem;
+pub(super) use synonyms::meant;
 
 use crate::study::did_you_mean;
 

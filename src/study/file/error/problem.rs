@@ -36,9 +36,9 @@ pub enum Problem {
     #[error("{form}: factors and outputs are written in another way today")]
     OldForm {
         /// What was written.
-        form: &'static str,
-        /// How it is written today.
-        lines: &'static str,
+        form: String,
+        /// The lines that say the same.
+        lines: String,
     },
     /// A file that is called a model.
     #[error("unknown model `{0}`: a program of your own is a `command`")]
