@@ -29,7 +29,7 @@ for group, factors in groups.items():
         assert len(output["groups"]) == (2 if group == "general" else 0), path
 
 figures = sorted((folder / "charts").glob("*.svg"))
-assert len(figures) == 35, [figure.stem for figure in figures]
+assert len(figures) == 33, [figure.stem for figure in figures]
 for figure in figures:
     assert ElementTree.parse(figure).getroot().tag.endswith("svg"), figure
     png = figure.with_suffix(".png").read_bytes()

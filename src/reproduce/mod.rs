@@ -104,7 +104,7 @@ const STUDIES: [(&str, &str); 9] = [
 ];
 
 /// The settings of every study in a quick reproduction, unless the overrides say otherwise.
-const QUICK: [&str; 1] = ["design.base_samples=1024"];
+const QUICK: [&str; 1] = ["design.base_samples=2048"];
 
 /// Why a reproduction failed.
 #[derive(Debug, Error)]

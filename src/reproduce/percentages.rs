@@ -128,7 +128,7 @@ fn shares_of_study(
 ) -> Result<Vec<StudyShares>, ReproduceError> {
     let names = OUTPUTS.map(|(output, _)| format!("{output:?}")).join(", ");
     let quick = if effort == Effort::Quick { &QUICK[..] } else { &[] };
-    let overrides: Vec<String> = [format!("outputs=[{names}]")]
+    let overrides: Vec<String> = [format!("outputs=[{names}]"), "analysis.convergence=false".to_owned()]
         .into_iter()
         .chain(settings.iter().chain(quick).map(|setting| (*setting).to_owned()))
         .collect();

@@ -47,7 +47,7 @@ fn the_closed_forms_of_the_reference() {
 
 #[test]
 fn the_product_form_in_one_replicate_is_within_2e_3() {
-    let result = analysed("coulomb-general", &[WITHOUT_SHEAR, "design.replicates=1"]);
+    let result = analysed("coulomb-general", &[WITHOUT_SHEAR, "design.base_samples=65536", "design.replicates=1"]);
     let (first, total) = numbers(&result.outputs[0]);
     let exact = product_form();
     let error = gap(&first, &exact.0).max(gap(&total, &exact.1));
@@ -61,7 +61,8 @@ fn the_product_form_in_one_replicate_is_within_2e_3() {
 
 #[test]
 fn the_product_form_in_four_nets_and_in_sixteen_replicates_is_within_5e_3_and_its_intervals_hold() {
-    for design in [&[WITHOUT_SHEAR][..], &[WITHOUT_SHEAR, "design.replicates=16", "analysis.intervals=replicates"]] {
+    let many = ["design.base_samples=65536", "design.replicates=16", "analysis.intervals=replicates"];
+    for design in [&[WITHOUT_SHEAR][..], &[&[WITHOUT_SHEAR][..], &many].concat()] {
         product_form_holds(&analysed("coulomb-general", design));
     }
 }

@@ -92,7 +92,11 @@ fn faults_are_named_with_line_and_column() {
     let formula = "\"sin(x1) + a*sin(x2)^2 + b*x3^4*sin(x1)\"";
     refused(formula, "{ formula = \"1 + sine(x1)\", unit = \"nN\" }", &["study.toml:3:22:", "no function `sine`"]);
     refused(formula, "{ formula = \"x1\", unit = \"parsec\" }", &["study.toml:3:5:", "parsec"]);
-    refused(formula, "{ formula = \"x1\", units = \"N\" }", &["study.toml:3:5:", "`y` must be a formula", "`units`"]);
+    refused(
+        formula,
+        "{ formula = \"x1\", units = \"N\" }",
+        &["study.toml:3:5:", "unknown key `units`: did you mean `unit`?"],
+    );
     refused(formula, "3", &["study.toml:3:5:", "`y` must be a formula", "not integer"]);
     refused("constants.a = 7\n", "", &["study.toml:3:16:", "there is no `a`"]);
     refused("constants.a = 7", "constants.a = \"7 parsecs\"", &["study.toml:5:15:", "parsecs"]);

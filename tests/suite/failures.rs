@@ -122,7 +122,7 @@ fn ranges_that_are_none() {
     assert_spoilt("min = 200", "min = -5", &["study.toml:8:7:", "must be > 0", "-5 um"]);
     assert_spoilt("min = 200", "min = nan", &["study.toml:8:7:"]);
     assert_spoilt("max = 700", "max = inf", &["study.toml:9:7:"]);
-    assert_spoilt("max = 700\n", "", &["study.toml:7:8:", "needs `max`", "min, max"]);
+    assert_spoilt("max = 700\n", "", &["study.toml:7:8:", "needs `max`", "min and max"]);
     assert_spoilt(
         "max = 700",
         "max = 700\nsd = 3",

@@ -141,24 +141,6 @@ fn factors_without_a_column_are_told_with_their_values() {
     assert!(output.status.code() == Some(0) && said.contains(expected), "{said}");
 }
 
-/// What a message says is typed as it stands.
-#[test]
-fn the_command_that_completes_a_merge_does() {
-    let folder = Folder::new();
-    let (study, out) = (folder.with("a study.toml", SUM), folder.path("the parts"));
-    let changes = ["--set", "factor.a.max=2", "--base-samples", "64", "--out", text(&out)];
-    succeed(&[&["run", text(&study), "--shard", "1/2"], &changes[..]].concat());
-    let merged = apportion(&[&["merge", text(&study)], &changes[..]].concat());
-    assert_eq!(merged.status.code(), Some(1), "{}", stderr(&merged));
-    let said = stderr(&merged);
-    let command = said.split('`').nth(1).unwrap().strip_prefix("apportion ").unwrap();
-    let program = assert_cmd::cargo::cargo_bin("apportion");
-    let typed =
-        std::process::Command::new("sh").arg("-c").arg(format!("{} {command}", program.display())).output().unwrap();
-    assert_eq!(typed.status.code(), Some(0), "{command}: {}", stderr(&typed));
-    assert!(stderr(&typed).contains("of 256 runs are on record"), "{}", stderr(&typed));
-}
-
 #[test]
 fn outputs_keep_the_kind_of_unit_that_the_study_says() {
     let folder = Folder::new();

@@ -69,8 +69,8 @@ fn outputs_whose_files_would_be_the_same_have_files_of_their_own() {
     let output = apportion(&["run", text(&path), "--out", text(&out)]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let there = all_files(&out);
-    // Page, live page, result, indices, convergence; and six charts of each output, twice.
-    assert_eq!(there.len(), 5 + names.len() * 12, "{there:?}");
+    // Page, live page, result, indices, convergence; and five charts of each output, twice.
+    assert_eq!(there.len(), 5 + names.len() * 10, "{there:?}");
     assert_eq!(
         there.iter().map(|name| name.to_lowercase()).collect::<std::collections::BTreeSet<_>>().len(),
         there.len()
@@ -118,7 +118,7 @@ fn names_with_marks_that_are_not_seen_and_long_ones_are_refused_before_the_work(
     let path = folder.with("s.toml", longest);
     let output = apportion(&["run", text(&path), "--out", text(&out)]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    assert_eq!(all_files(&out).len(), 5 + 2 * 12);
+    assert_eq!(all_files(&out).len(), 5 + 2 * 10);
 }
 
 #[test]

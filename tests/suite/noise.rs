@@ -196,7 +196,7 @@ fn what_makes_no_sense_is_refused() {
         (format!("{}{x}", FORMULA.replace("\"seed\"", "3")), "the name under which the model gets its seed"),
         (format!("{FORMULA}{x}[factors.s]\ndistribution = \"seed\"\ntruncate = [0, 5]"), "no order"),
         (format!("{FORMULA}{x}[factors.s]\ndistribution = \"seed\"\nunit = \"um\""), "a seed is a pure number"),
-        (format!("{FORMULA}{x}[factors.s]\ndistribution = \"seed\"\nmin = 0"), "nothing"),
+        (format!("{FORMULA}{x}[factors.s]\ndistribution = \"seed\"\nmin = 0"), "has no `min`"),
         (
             "model = \"external\"\noutputs = [\"y\"]\n[noise]\nrepetitions = 4\n".to_owned() + x,
             "outside of this program",

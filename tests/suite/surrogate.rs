@@ -235,19 +235,20 @@ fn shards_and_files_of_outputs_give_the_bits_of_one_run() {
 #[test]
 fn the_stages_of_a_run_are_what_shorter_runs_give() {
     let folder = tempfile::tempdir().unwrap();
-    let result = |base_samples: u64| -> serde_json::Value {
+    let result = |base_samples: u64, surrogate: &str| -> serde_json::Value {
         let path = |ending: &str| folder.path().join(format!("{base_samples}{ending}"));
-        let lines =
-            format!("model = \"sobol-g\"\n[design]\nbase_samples = {base_samples}\n[analysis]\nsurrogate = \"on\"\n");
+        let lines = format!(
+            "model = \"sobol-g\"\n[design]\nbase_samples = {base_samples}\n[analysis]\nsurrogate = \"{surrogate}\"\n"
+        );
         std::fs::write(path(".toml"), lines).unwrap();
         succeed(&["run", text(&path(".toml")), "--out", text(folder.path())]);
         serde_json::from_str(&std::fs::read_to_string(path(".json")).unwrap()).unwrap()
     };
-    let whole = result(512);
+    let whole = result(512, "off");
     let stages = whole["outputs"][0]["convergence"].as_array().unwrap();
     assert_eq!(stages.len(), 5);
     for stage in stages {
-        let shorter = result(stage["base_samples"].as_u64().unwrap());
+        let shorter = result(stage["base_samples"].as_u64().unwrap(), "off");
         let last = shorter["outputs"][0]["convergence"].as_array().unwrap().last().unwrap();
         assert_eq!(stage, last);
         let of_result = |index: &serde_json::Value| [index["first_order"].clone(), index["total"].clone()];
@@ -255,6 +256,11 @@ fn the_stages_of_a_run_are_what_shorter_runs_give() {
         let stage = stage["indices"].as_array().unwrap();
         assert!(stage.iter().map(of_result).eq(shorter.iter().map(of_result)));
     }
+    // Those of surrogates are in the terms of the whole run, which ends as it says.
+    let whole = &result(512, "on")["outputs"][0];
+    let last = whole["convergence"].as_array().unwrap().last().unwrap()["indices"].as_array().unwrap();
+    let indices = whole["indices"].as_array().unwrap();
+    assert!(last.iter().zip(indices).all(|(last, index)| last["total"] == index["total"]));
 }
 
 #[test]

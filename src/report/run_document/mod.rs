@@ -42,7 +42,7 @@ use crate::analysis::LowRuns;
 /// let document = run_document(&result);
 /// assert!(document.lead[0].starts_with("For y, x1 matters most"));
 /// assert!(document.text().contains("S_T"));
-/// assert!(document.html()?.contains("<svg"));
+/// assert!(document.html().contains("<svg"));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn run_document(result: &ResultFile) -> Document {
