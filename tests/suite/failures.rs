@@ -123,11 +123,7 @@ fn ranges_that_are_none() {
     assert_spoilt("min = 200", "min = nan", &["study.toml:8:7:"]);
     assert_spoilt("max = 700", "max = inf", &["study.toml:9:7:"]);
     assert_spoilt("max = 700\n", "", &["study.toml:7:8:", "needs `max`", "min and max"]);
-    assert_spoilt(
-        "max = 700",
-        "max = 700\nsd = 3",
-        &["study.toml:10:6:", "two of min, max, mean, sd", "3 of these are given"],
-    );
+    assert_spoilt("max = 700", "max = 700\nsd = 3", &["study.toml:10:6:", "has no `sd` beside `min`"]);
 }
 
 #[test]

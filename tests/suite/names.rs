@@ -81,7 +81,7 @@ fn outputs_whose_files_would_be_the_same_have_files_of_their_own() {
     // The same again from the result, and from two of them.
     let (json, again) = (out.join("s.json"), folder.path("again"));
     assert_eq!(apportion(&["report", text(&json), "--out", text(&again)]).status.code(), Some(0));
-    assert_eq!(all_files(&again).len(), 5 + names.len() * 12);
+    assert_eq!(all_files(&again).len(), 5 + names.len() * 10);
     let (both, screened) = (folder.path("both"), folder.path("screened"));
     assert_eq!(apportion(&["compare", text(&json), text(&json), "--out", text(&both)]).status.code(), Some(0));
     assert_eq!(all_files(&both).len(), 3 + names.len() * 4);
