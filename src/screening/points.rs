@@ -150,7 +150,7 @@ impl Trajectories {
                 Grid::Discrete(levels) => two_levels(levels, rng.random(), rng.random()),
                 Grid::Levels(levels) => {
                     let count = levels.len();
-                    let stride = if number % 2 == 0 { count / 2 } else { (count / 3).max(1) };
+                    let stride = if number.is_multiple_of(2) { count / 2 } else { (count / 3).max(1) };
                     let from = rng.random_range(0..count);
                     // Where there are two ways, either.
                     let up = from + stride < count && (from < stride || rng.random_bool(0.5));

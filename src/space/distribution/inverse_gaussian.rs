@@ -6,7 +6,7 @@ use libm::erfc;
 
 use super::error::{positive, within};
 use super::family::{Family, Parameter};
-use super::keys::{Entry, MOMENTS, PLAIN, TWO_QUANTILES, keys};
+use super::keys::{Entry, MOMENTS, TWO_QUANTILES, keys};
 use super::quadrature::short_integral;
 use super::solved::Shape;
 use super::{Distribution, DistributionError, solve};
@@ -101,7 +101,6 @@ pub(super) const ENTRIES: &[Entry] = &[Entry {
     shape: Shape::Between(1e-5, 1e5, 300),
     make: |_, [_, mean, variation]| Distribution::inverse_gaussian(mean, mean / (variation * variation)),
     build: |given| Distribution::inverse_gaussian(given.number("mean")?, given.number("scale")?),
-    ..PLAIN
 }];
 
 impl Family for InverseGaussian {

@@ -2,7 +2,7 @@
 
 use super::error::{finite, positive};
 use super::family::{Family, Parameter};
-use super::keys::{Entry, PLAIN, TWO_QUANTILES, keys};
+use super::keys::{Entry, TWO_QUANTILES, keys};
 use super::solved::Shape;
 use super::{Distribution, DistributionError};
 use crate::special::{normal_below, normal_quantile};
@@ -88,7 +88,6 @@ pub(super) const ENTRIES: &[Entry] = &[Entry {
         Some(log_mean) => Distribution::log_normal_of_logs(log_mean, given.number("log_sd")?),
         None => Distribution::log_normal(given.number("mean")?, given.number("sd")?),
     },
-    ..PLAIN
 }];
 
 impl Family for LogNormal {

@@ -2,7 +2,7 @@
 
 use super::error::{of_finite_variance, positive};
 use super::family::{Family, Parameter};
-use super::keys::{Entry, MOMENTS, PLAIN, TWO_QUANTILES, keys};
+use super::keys::{Entry, MOMENTS, TWO_QUANTILES, keys};
 use super::solved::Shape;
 use super::{Distribution, DistributionError};
 
@@ -59,7 +59,6 @@ pub(super) const ENTRIES: &[Entry] = &[Entry {
     shape: Shape::Between(1e6, 2.0001, 500),
     make: |_, [_, min, shape]| Distribution::pareto(shape, min),
     build: |given| Pareto::new(given.number("shape")?, given.number("min")?).map(Distribution::Pareto),
-    ..PLAIN
 }];
 
 impl Family for Pareto {

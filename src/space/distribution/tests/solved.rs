@@ -85,7 +85,8 @@ fn every_way_leads_back() {
 
 #[test]
 fn what_cannot_be_is_refused_by_name() {
-    let cases: [(&str, &[(&'static str, f64)], &str); 12] = [
+    type Case<'a> = (&'a str, &'a [(&'static str, f64)], &'a str);
+    let cases: [Case<'_>; 12] = [
         ("normal", &[("p05", 3.0), ("p95", 3.0)], "`p05` is 3 and `p95` is 3, but `p05` must be below `p95`"),
         ("normal", &[("p05", 3.0)], "the normal distribution needs two quantiles, such as `p05` and `p95`"),
         ("normal", &[("p05", 3.0), ("p95", 4.0), ("mean", 3.5)], "the normal distribution has no `mean` beside `p05`"),
