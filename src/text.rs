@@ -5,7 +5,7 @@
 /// ```
 /// assert_eq!(apportion::report::listed(&["length", "width", "height"]), "length, width and height");
 /// ```
-#[cfg(any(feature = "charts", feature = "study"))]
+#[cfg(feature = "charts")]
 pub fn listed<S: AsRef<str>>(items: &[S]) -> String {
     match items {
         [] => String::new(),

@@ -2,7 +2,6 @@
 
 use thiserror::Error;
 
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::output::{LookupError, OutputAnalysis};
@@ -79,8 +78,8 @@ pub struct Spending {
 }
 
 /// The runs of a cheaper model beside those of the model.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[schemars(rename = "LowRecord")]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "study", derive(schemars::JsonSchema), schemars(rename = "LowRecord"))]
 #[non_exhaustive]
 pub struct LowRuns {
     /// Its name.

@@ -40,7 +40,6 @@ pub use output::{IntervalOptions, differs_clearly, output_indices, output_moment
 pub use points::KeptPoints;
 pub use ranks::{probability_above, probability_first};
 
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::special::t_quantile_outside;
@@ -52,8 +51,8 @@ pub const LEVEL: f64 = 0.95;
 pub(crate) const NORMAL_QUANTILE: f64 = 1.959_963_984_540_054;
 
 /// A two-sided confidence interval.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[schemars(rename = "IntervalRecord")]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "study", derive(schemars::JsonSchema), schemars(rename = "IntervalRecord"))]
 pub struct Interval {
     /// Lower bound.
     pub low: f64,
