@@ -235,7 +235,9 @@ impl<'a> GrowingRun<'a> {
 /// longer than many a run.
 pub(super) fn thread_pool(threads: usize) -> Result<Option<ThreadPool>, RunError> {
     let threads = threads_in_force(threads);
-    if rayon::current_thread_index().is_none() && rayon::current_num_threads() == threads {
+    // A page has one thread, and cannot start another.
+    let is_page = cfg!(target_family = "wasm");
+    if is_page || rayon::current_thread_index().is_none() && rayon::current_num_threads() == threads {
         return Ok(None);
     }
     let pool = ThreadPoolBuilder::new().num_threads(threads).build();
