@@ -14,14 +14,15 @@ const remember = (control = null, goesOn = false) => {
   future = [];
 };
 const buttons = () => {
+  const focused = document.activeElement;
   at("undo").disabled = !past.length;
   at("redo").disabled = !future.length;
   const { preset, factors, choices, output } = state;
   at("reset").disabled = !(preset || output || Object.keys(factors).length || Object.keys(choices).length);
   const clean = JSON.stringify(state);
   const fragment = at("reset").disabled ? "" : `#s=${btoa(unescape(encodeURIComponent(clean))).replaceAll("+", "-").replaceAll("/", "_").replace(/=+$/, "")}`;
-  // The last step disables its own button.
-  if (document.activeElement.disabled) at(past.length ? "undo" : "redo").focus();
+  // The last step disables its own button, which some browsers take the focus from at once.
+  if (focused.disabled) at(past.length ? "undo" : "redo").focus();
   history.replaceState(null, "", location.href.split("#")[0] + fragment);
 };
 // The factors and choices as each study has them, whatever was changed.
