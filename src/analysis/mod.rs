@@ -8,6 +8,7 @@ mod rare_levels;
 mod result;
 mod series;
 mod unlikely;
+mod warning;
 mod warnings;
 
 pub(crate) use estimate::{analysis, interval_options, surrogates};
@@ -16,8 +17,9 @@ pub(crate) use finished_run::{FinishedRun, LowTotals, outputs_kept};
 pub(crate) use finished_run::{names_of_swaps, row_inputs};
 pub use measures::{MOST_ROWS_OF_MEASURES, RunMeasures};
 pub use output::{FailureCount, LookupError, NoIndices, OutputAnalysis};
+pub use rare_levels::RareLevel;
 pub(crate) use rare_levels::{enough_base_samples, rare_levels};
 pub use result::{Aggregate, Analysis, LowRuns, Spending, StopReason, Stopped};
 pub use series::SeriesAnalysis;
 pub use unlikely::{Unlikely, unlikely_outputs};
-pub use warnings::{RareLevel, Warning};
+pub use warning::Warning;

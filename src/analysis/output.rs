@@ -3,7 +3,7 @@
 use thiserror::Error;
 
 use super::measures::RunMeasures;
-use super::warnings::Warning;
+use super::warning::Warning;
 use crate::estimate::{CentralMoments, Undefined};
 use crate::quantity::Unit;
 use crate::uncertainty::{EffectEstimates, Estimate, OutputIndices, Stage};

@@ -1,7 +1,8 @@
 //! Levels of factors that the rows of a design have hardly met, or not at all. What they do to the output is not in the numbers,
 //! and no number shows that it is missing.
 
-use super::warnings::RareLevel;
+use thiserror::Error;
+
 use crate::design::Design;
 use crate::space::{Distribution, Space};
 use crate::uncertainty::{Interval, OutputIndices};
@@ -17,6 +18,43 @@ const WEIGHT: f64 = 0.1;
 
 /// Base points at a time.
 const CHUNK: u64 = 1 << 12;
+
+/// A level of a factor that rows hardly met.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[error(
+    "{factor}: {level} (probability {probability:.2e}) is in {} of the {values} values drawn, so that its effect on the \
+     output is not known, and the indices may be anything: some {:.0} base samples meet it once, and {:.0} ten times",
+    if *draws == 0 { "none".to_owned() } else { draws.to_string() },
+    self.base_samples(1.0),
+    self.base_samples(10.0)
+)]
+#[non_exhaustive]
+pub struct RareLevel {
+    /// The number of the factor.
+    pub number: usize,
+    /// The factor.
+    pub factor: String,
+    /// The level: a value, a label, or a range.
+    pub level: String,
+    /// Its probability.
+    pub probability: f64,
+    /// How many of the values of the factor in A and B are this level.
+    pub draws: u64,
+    /// How many values there are.
+    pub values: u64,
+}
+
+impl RareLevel {
+    /// Whether so few rows have it, or none, that surrogates cannot know of it.
+    pub fn is_missed(&self) -> bool {
+        self.draws < 3
+    }
+
+    /// Base samples with which the level is drawn that often in the mean.
+    pub fn base_samples(&self, draws: f64) -> f64 {
+        draws / (2.0 * self.probability)
+    }
+}
 
 /// A part of the unit interval, and the values that it stands for.
 struct Part {

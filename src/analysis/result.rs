@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::output::{LookupError, OutputAnalysis};
 use super::series::SeriesAnalysis;
-use super::warnings::Warning;
+use super::warning::Warning;
 use crate::design::Design;
 use crate::estimate::{Scaling, Undefined};
 use crate::model::{Counter, Flag};

@@ -1,6 +1,6 @@
 //! Values that may stand for something else: codes for missing ones, and slips.
 
-use super::warnings::Warning;
+use super::warning::Warning;
 use crate::design::Design;
 use crate::model::Output;
 use crate::quantity::is_same;

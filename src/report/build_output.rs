@@ -266,7 +266,7 @@ fn interval_record(interval: Option<Interval>, convert: &dyn Fn(f64) -> f64) -> 
 fn distribution_record(output: &OutputAnalysis, is_item: bool) -> Option<DistributionRecord> {
     let (values, unit) = (&output.values, &output.unit);
     let kept: Vec<f64> = output.samples.iter().flatten().copied().filter(|value| value.is_finite()).collect();
-    let mut sample = OutputDistribution::of(&kept, unit)?;
+    let mut sample = OutputDistribution::from_values(&kept, unit)?;
     let (min, max) = values.range()?;
     (sample.mean, sample.min, sample.max) = (unit.from_si(values.mean()?), unit.from_si(min), unit.from_si(max));
     let n = values.count();

@@ -69,18 +69,18 @@ pub fn simulate(study: &Study, duration: Option<f64>) -> Result<SceneStory, Simu
 /// # Ok::<(), apportion::afm::Failure>(())
 /// ```
 pub fn scene_story(title: String, scene: &Scene, options: &Options, duration: f64) -> Result<SceneStory, Failure> {
-    let told = history(scene, options, duration)?;
+    let outcome = history(scene, options, duration)?;
     let pushing = pushing(*scene, options);
-    let samples = told.samples.iter().map(|sample| scene_sample(sample, &pushing)).collect::<Result<_, _>>()?;
+    let samples = outcome.samples.iter().map(|sample| scene_sample(sample, &pushing)).collect::<Result<_, _>>()?;
     Ok(SceneStory {
         title,
         setting: setting(scene, options),
         scene: *scene,
         critical: CriticalInstant {
-            time: told.critical.critical_time?,
-            critical_force: told.critical.critical_force,
-            lateral_force: told.critical.lateral_force,
-            normal_force: told.critical.normal_force,
+            time: outcome.critical.critical_time?,
+            critical_force: outcome.critical.critical_force,
+            lateral_force: outcome.critical.lateral_force,
+            normal_force: outcome.critical.normal_force,
         },
         colour: law_colour(options.friction),
         samples,

@@ -76,12 +76,12 @@ impl OutputDistribution {
     /// use apportion::report::distribution::OutputDistribution;
     ///
     /// let forces: Vec<f64> = (0..=100).map(|k| f64::from(k) / 1e9).collect();
-    /// let distribution = OutputDistribution::of(&forces, &Unit::parse("nN")?).expect("finite values");
+    /// let distribution = OutputDistribution::from_values(&forces, &Unit::parse("nN")?).expect("finite values");
     /// assert!((distribution.mean - 50.0).abs() < 1e-12);
     /// assert_eq!(distribution.max, 100.0);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn of(values: &[f64], unit: &Unit) -> Option<Self> {
+    pub fn from_values(values: &[f64], unit: &Unit) -> Option<Self> {
         if !values.iter().all(|value| value.is_finite()) {
             return None;
         }

@@ -7,7 +7,7 @@ use super::*;
 use crate::report::chart::png;
 
 fn of(values: &[f64]) -> OutputDistribution {
-    OutputDistribution::of(values, &Unit::dimensionless()).unwrap()
+    OutputDistribution::from_values(values, &Unit::dimensionless()).unwrap()
 }
 
 /// The middles of n slices of equal probability of a distribution.
@@ -36,7 +36,7 @@ fn small_samples_by_hand() {
 #[test]
 fn units_are_those_of_the_record() {
     let values: Vec<f64> = normal(500).iter().map(|z| 5e-9 + 1e-9 * z).collect();
-    let nano = OutputDistribution::of(&values, &Unit::parse("nN").unwrap()).unwrap();
+    let nano = OutputDistribution::from_values(&values, &Unit::parse("nN").unwrap()).unwrap();
     assert!((nano.mean - 5.0).abs() < 1e-12 && (nano.sd.unwrap() - 1.0).abs() < 0.01);
     assert_eq!(serde_json::to_value(&nano.unit).unwrap(), "nN");
 }
@@ -63,8 +63,8 @@ fn heavy_tails_leave_the_middle_visible() {
 #[test]
 fn degenerate_samples_are_results() {
     let unit = Unit::dimensionless();
-    assert_eq!(OutputDistribution::of(&[], &unit), None);
-    assert_eq!(OutputDistribution::of(&[1.0, f64::INFINITY], &unit), None);
+    assert_eq!(OutputDistribution::from_values(&[], &unit), None);
+    assert_eq!(OutputDistribution::from_values(&[1.0, f64::INFINITY], &unit), None);
     for value in [0.0, 0.1, 1e300, -1e-300, 5e-324] {
         for n in [1, 2, 50] {
             let d = of(&vec![value; n]);

@@ -13,7 +13,7 @@ pub(super) struct Drawings {
 
 impl Drawings {
     /// The drawings of `chart` as elements whose identifiers begin with `id`.
-    pub fn of(id: &str, chart: &Chart) -> Self {
+    pub fn new(id: &str, chart: &Chart) -> Self {
         Self { wide: drawn(id, chart, ChartWidth::Wide), ..Self::small(id, chart) }
     }
 

@@ -174,7 +174,7 @@ impl Surroundings<'_> {
             Part::OnScreen { instead, parts } => {
                 PartView::OnScreen { instead: symbols(instead), body: self.parts(parts) }
             }
-            Part::Figure(figure) => self.figure(figure, Drawings::of),
+            Part::Figure(figure) => self.figure(figure, Drawings::new),
             Part::Gallery(figures) => {
                 let small = figures.iter().map(|figure| rendered(&self.figure(figure, Drawings::small)) + "\n");
                 PartView::Gallery { body: small.collect() }

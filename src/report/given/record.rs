@@ -279,7 +279,7 @@ fn output_record(output: &OutputIndices, surrogate: Option<&SurrogateOutput>, co
     let leading = |index: &InputIndices| index.leading().map(|estimate| estimate.estimate);
     GivenOutputRecord {
         name: output.name.clone(),
-        distribution: OutputDistribution::of(&column.values, &Unit::dimensionless()),
+        distribution: OutputDistribution::from_values(&column.values, &Unit::dimensionless()),
         indices: indices.ok().map(|indices| indices.iter().map(index_record).collect()),
         sum_first_order: indices.ok().and_then(|indices| indices.iter().map(leading).sum()),
         surrogate: surrogate.zip(indices.ok()).map(|(surrogate, inputs)| surrogate_output(surrogate, inputs)),

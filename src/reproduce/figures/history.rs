@@ -75,7 +75,7 @@ fn table(story: &SceneStory, columns: &[Column]) -> Table {
     columns.iter().fold(start, |table, (name, read)| table.with(name, story.samples.iter().map(read)))
 }
 
-/// Stories one below the other, told apart by their first column.
+/// Stories one below the other, distinguished by their first column.
 fn stacked(first: &str, stories: &[(String, &SceneStory)], columns: &[Column]) -> String {
     let samples = || stories.iter().flat_map(|(_, story)| &story.samples);
     let names = stories.iter().flat_map(|(name, story)| story.samples.iter().map(move |_| name.as_str()));
@@ -156,12 +156,12 @@ pub(super) fn displacement() -> Result<Drawn, FiguresError> {
 /// TS04 figure 11.
 pub(super) fn coefficients() -> Result<Drawn, FiguresError> {
     // All follow one line until they slip: in this order each is seen.
-    let told = COEFFICIENTS.map(|coefficient| story(FrictionLaw::Coulomb, |scene| scene.static_friction = coefficient));
-    let told = told.into_iter().collect::<Result<Vec<_>, _>>()?;
+    let runs = COEFFICIENTS.map(|coefficient| story(FrictionLaw::Coulomb, |scene| scene.static_friction = coefficient));
+    let runs = runs.into_iter().collect::<Result<Vec<_>, _>>()?;
     let nominal = Scene::default().static_friction;
     let others = [1, 4, 5, 6].map(Colour::Series);
     let panel = |label: &str, unit: &str, read: fn(&SceneSample) -> f64| {
-        let each = told.iter().zip(COEFFICIENTS).zip(others);
+        let each = runs.iter().zip(COEFFICIENTS).zip(others);
         let lines = each.map(|((story, coefficient), other)| {
             let colour = if coefficient == nominal { story.colour } else { other };
             line(format!("μ_s = {coefficient}"), (colour, Stroke::Solid), curve(story, read))
@@ -170,7 +170,7 @@ pub(super) fn coefficients() -> Result<Drawn, FiguresError> {
     };
     let panels = [panel("Tip force F_T", "nN", TIP_FORCE.1), panel("Position on the substrate", "nm", RELATIVE.1)];
     let mut times: Vec<(f64, f64)> =
-        COEFFICIENTS.into_iter().zip(&told).map(|(mu, story)| (mu, story.critical.time)).collect();
+        COEFFICIENTS.into_iter().zip(&runs).map(|(mu, story)| (mu, story.critical.time)).collect();
     times.reverse();
     let slips: Vec<String> = times.iter().map(|(mu, at)| format!("{} at {mu}", time(*at))).collect();
     let later = times.windows(2).all(|pair| pair[1].1 > pair[0].1);
@@ -179,7 +179,7 @@ pub(super) fn coefficients() -> Result<Drawn, FiguresError> {
     } else {
         "The particle slips"
     };
-    let stories: Vec<(String, &SceneStory)> = COEFFICIENTS.iter().map(|mu| mu.to_string()).zip(&told).collect();
+    let stories: Vec<(String, &SceneStory)> = COEFFICIENTS.iter().map(|mu| mu.to_string()).zip(&runs).collect();
     let chart = Chart::new("Effect of the coefficient of friction", format!("{seen}: after {}.", listed(&slips)));
     Ok((chart.panels(panels), stacked("static_friction", &stories, &[TIP_FORCE, RELATIVE])))
 }

@@ -1,0 +1,336 @@
+//! What a careful reader of a result should know: the kinds of warnings, their codes and their words.
+
+use thiserror::Error;
+
+use super::rare_levels::RareLevel;
+
+/// Why numbers of an output may be wrong, or less sure than they look.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum Warning {
+    /// No run has a value.
+    #[error("all {runs} runs failed")]
+    AllRunsFailed {
+        /// The runs.
+        runs: u64,
+    },
+    /// Some runs have no value.
+    #[error(
+        "{failed} of {runs} runs failed: every index does without the base points at which one of its own runs failed (at \
+         most {left_out} of {base_samples}), and describes the part of the factor space where they succeed"
+    )]
+    RunsFailed {
+        /// Runs without a value.
+        failed: u64,
+        /// All runs.
+        runs: u64,
+        /// Base points that an index does without, at most.
+        left_out: u64,
+        /// All base points.
+        base_samples: u64,
+    },
+    /// Runs fail by several factors together.
+    #[error(
+        "{points} of {base_samples} base points have a run that failed although it takes each factor from one of two runs that \
+         succeeded: several factors together (or chance) decide what fails, so the factors depend on each other where runs succeed, \
+         and these indices are not defined there, however many runs there are; narrow the ranges until no run fails, study an output \
+         that is 1 where a run fails and 0 elsewhere, or pass the rows that succeed (--save-outputs) to given-data"
+    )]
+    JointFailures {
+        /// Base points whose rows A and B succeeded, and another row did not.
+        points: u64,
+        /// All base points.
+        base_samples: u64,
+    },
+    /// The points of a replicate are not a power of two.
+    #[error(
+        "{points} base points in each replicate are not a power of two: Sobol' points lose much of their accuracy; \
+         base_samples = {fewer} or {more} would be better"
+    )]
+    Unbalanced {
+        /// Base points of a replicate.
+        points: u64,
+        /// The next smaller good number of base samples.
+        fewer: u64,
+        /// The next larger one.
+        more: u64,
+    },
+    /// One replicate, and intervals from the spread of replicates.
+    #[error("a single replicate says nothing about its error: no intervals")]
+    SingleReplicate,
+    /// One net, and intervals from its parts.
+    #[error(
+        "a single net gives no independent estimate of its error: intervals rest on how its parts differ (4 replicates are \
+         safer)"
+    )]
+    SingleNet,
+    /// The model raised a flag that warns.
+    #[error("{flag} ({}): {description}", if *runs == 1 { "1 run".to_owned() } else { format!("{runs} runs") })]
+    ModelFlag {
+        /// The flag.
+        flag: String,
+        /// What it means.
+        description: String,
+        /// Runs that raised it.
+        runs: u64,
+    },
+    /// The variance rests on few rows.
+    #[error(
+        "the variance rests on few rows, as if on {rows:.0} of the {values} of A and B (excess kurtosis {kurtosis:.0}): rows \
+         as large may be missing from the sample, so that intervals are longer above the estimates than below, and may still \
+         be too short; more base samples help, or the logarithm of the output"
+    )]
+    FewRows {
+        /// Rows that would have this variance if all others did nothing.
+        rows: f64,
+        /// Rows A and B.
+        values: u64,
+        /// Excess kurtosis of the values.
+        kurtosis: f64,
+    },
+    /// The output is large beside its variation.
+    #[error(
+        "the output is so much larger than what varies in it that doubles keep few digits of that: indices may be off by some \
+         {error:.1e}; subtract a constant from it before it is rounded"
+    )]
+    FewDigits {
+        /// Error of the indices.
+        error: f64,
+    },
+    /// Intervals do not exist.
+    #[error(
+        "no intervals: without the rows of one part of the sample the output does not vary (or too few rows are left), so that \
+         nothing tells the error of the indices: more base samples are needed"
+    )]
+    NoIntervals,
+    /// A few runs carry what the surrogate leaves.
+    #[error(
+        "a few runs carry what the surrogate leaves unexplained, and others like them may be missing: the intervals of the \
+         corrected indices hold those of the plain ones too"
+    )]
+    HeavyTailedSurrogate,
+    /// Corrected and plain indices are apart, within what the intervals hold.
+    #[error(
+        "the indices corrected by surrogates and the plain ones of the same rows are apart by more than their errors make \
+         likely: the intervals hold both"
+    )]
+    DoubtedSurrogate,
+    /// Corrected indices contradict plain ones, which are the result.
+    #[error(
+        "the indices corrected by surrogates contradict the plain ones of the same rows by {times:.1} times what their errors \
+         allow: the rows do not represent a factor, and the plain ones are the result"
+    )]
+    ContradictedSurrogate {
+        /// The distance over what both errors allow.
+        times: f64,
+    },
+    /// Surrogates claim more variance than the rows show; the plain indices are the result.
+    #[error(
+        "the surrogates claim {times:.1} times the variance that the rows show of a factor: the rows do not represent it, and \
+         the plain indices are the result"
+    )]
+    InflatedSurrogate {
+        /// The variance claimed over that of the rows.
+        times: f64,
+    },
+    /// A level of a factor that hardly any row has.
+    #[error("{0}")]
+    RareLevel(RareLevel),
+    /// Rows for surrogates, which explain little.
+    #[error(
+        "the surrogates explain {:.0} % of the variance of runs that they were not fitted to, so that plain rows, which only \
+         they learn from, are of little use: all runs as base samples are better for this output, and errors and intervals may \
+         be too small here",
+        (100.0 * explained).max(0.0)
+    )]
+    PoorSurrogate {
+        /// Share of the variance that they explain.
+        explained: f64,
+    },
+    /// Factors of single values depend on others.
+    #[error(
+        "{}: single values that depend on other factors: to fix the factor here is to fix the normal score behind its value, \
+         which says more of the others than the value does; its own indices are too large by that, and those of its partners \
+         too small",
+        factors.join(", ")
+    )]
+    DependentSteps {
+        /// The factors.
+        factors: Vec<String>,
+    },
+    /// The noise does nothing.
+    #[error(
+        "{factor}: no run changed with its seed: the model is not stochastic, or draws its random numbers without it"
+    )]
+    NoNoise {
+        /// The seed.
+        factor: String,
+    },
+    /// The noise may be all.
+    #[error(
+        "{factor}: all variance may be noise, so that the indices of the mean over it may be anything: more base samples are \
+         needed, or several runs of each row (repetitions in [noise])"
+    )]
+    AllNoise {
+        /// The seed.
+        factor: String,
+    },
+    /// A first-order index above its total index.
+    #[error(
+        "{name}: the first-order index {} exceeds the total index {} beyond the error of their difference: too few samples",
+        decimals(*first_order),
+        decimals(*total)
+    )]
+    AboveTotal {
+        /// Factor, group or subset.
+        name: String,
+        /// Its first-order index.
+        first_order: f64,
+        /// Its total index.
+        total: f64,
+    },
+    /// The same by the intervals of both.
+    #[error(
+        "{name}: the interval of the first-order index {} lay above that of the total index {}, and both were lengthened until \
+         they met: too few samples",
+        decimals(*first_order),
+        decimals(*total)
+    )]
+    Contradictory {
+        /// Factor, group or subset.
+        name: String,
+        /// Its first-order index.
+        first_order: f64,
+        /// Its total index.
+        total: f64,
+    },
+    /// Two formulas disagree.
+    #[error(
+        "{name}: two formulas for the first-order index differ by {gap:.2e}, beyond the error of their difference: too few \
+         samples, or a heavy-tailed output (its logarithm may serve better)"
+    )]
+    FormulasDiffer {
+        /// Factor, group or subset.
+        name: String,
+        /// By how much.
+        gap: f64,
+    },
+    /// An estimator that was asked for disagrees with the default one.
+    #[error(
+        "{name}: the {index} index by `{estimator}` differs from the default one by {gap:.2e}, beyond the error of their \
+         difference: one of the two is not to be trusted on this output"
+    )]
+    EstimatorsDiffer {
+        /// Factor, group or subset.
+        name: String,
+        /// `first-order` or `total`.
+        index: &'static str,
+        /// The estimator.
+        estimator: &'static str,
+        /// By how much.
+        gap: f64,
+    },
+    /// First-order indices that may sum to nothing.
+    #[error(
+        "the sum of the first-order indices may be 0: the output comes from interactions, or the samples are too few; shares \
+         of the first-order indices mean nothing"
+    )]
+    NoFirstOrder,
+    /// First-order indices beyond 1.
+    #[error("the first-order indices sum to {sum:.4}, beyond 1 by more than their error: too few samples")]
+    FirstOrderAboveOne {
+        /// Their sum.
+        sum: f64,
+    },
+    /// Total indices below 1.
+    #[error("the total indices sum to {sum:.4}, below 1 by more than their error: too few samples")]
+    TotalsBelowOne {
+        /// Their sum.
+        sum: f64,
+    },
+    /// A total index above 1.
+    #[error(
+        "{name}: the total index {total:.4} is above 1 by more than its error: too few samples, or rows that do not belong \
+         together"
+    )]
+    TotalAboveOne {
+        /// Factor, group or subset.
+        name: String,
+        /// Its total index.
+        total: f64,
+    },
+    /// Rows of a table that look as if they were in another order.
+    #[error(
+        "every total index is near 1 and every first-order index near 0, as rows in another order than that of the design \
+         give; if the order is right, the output is all interaction"
+    )]
+    Shuffled,
+    /// A value that may stand for a missing one.
+    #[error("{text}")]
+    Unlikely {
+        /// Which, and where.
+        text: String,
+    },
+    /// Rows that were run again had another answer.
+    #[error("{text}")]
+    Irreproducible {
+        /// How many, and why.
+        text: String,
+    },
+}
+
+impl Warning {
+    /// A name of the kind of warning that stays the same, as it stands in the result file.
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::AllRunsFailed { .. } => "all-runs-failed",
+            Self::RunsFailed { .. } => "runs-failed",
+            Self::JointFailures { .. } => "joint-failures",
+            Self::Unbalanced { .. } => "unbalanced",
+            Self::SingleReplicate => "single-replicate",
+            Self::SingleNet => "single-net",
+            Self::ModelFlag { .. } => "model-flag",
+            Self::FewRows { .. } => "few-rows",
+            Self::FewDigits { .. } => "few-digits",
+            Self::NoIntervals => "no-intervals",
+            Self::HeavyTailedSurrogate => "heavy-tailed-surrogate",
+            Self::DoubtedSurrogate => "doubted-surrogate",
+            Self::ContradictedSurrogate { .. } => "contradicted-surrogate",
+            Self::InflatedSurrogate { .. } => "inflated-surrogate",
+            Self::RareLevel(_) => "rare-level",
+            Self::PoorSurrogate { .. } => "poor-surrogate",
+            Self::DependentSteps { .. } => "dependent-steps",
+            Self::NoNoise { .. } => "no-noise",
+            Self::AllNoise { .. } => "all-noise",
+            Self::AboveTotal { .. } => "above-total",
+            Self::Contradictory { .. } => "contradictory",
+            Self::FormulasDiffer { .. } => "formulas-differ",
+            Self::EstimatorsDiffer { .. } => "estimators-differ",
+            Self::NoFirstOrder => "no-first-order",
+            Self::FirstOrderAboveOne { .. } => "first-order-above-one",
+            Self::TotalsBelowOne { .. } => "totals-below-one",
+            Self::TotalAboveOne { .. } => "total-above-one",
+            Self::Shuffled => "shuffled",
+            Self::Unlikely { .. } => "unlikely-value",
+            Self::Irreproducible { .. } => "irreproducible",
+        }
+    }
+}
+
+/// An index in a warning: four decimals, or three digits of what is smaller.
+fn decimals(index: f64) -> String {
+    if index == 0.0 || index.abs() >= 0.01 { format!("{index:.4}") } else { format!("{index:.2e}") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn small_indices_have_digits_in_warnings() {
+        assert_eq!(
+            [0.31, 0.01, 3.14e-5, -2e-4, 0.0].map(decimals),
+            ["0.3100", "0.0100", "3.14e-5", "-2.00e-4", "0.0000"]
+        );
+    }
+}
