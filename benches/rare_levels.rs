@@ -180,7 +180,11 @@ fn cases() -> Vec<Case> {
 
 /// Values and weights of a rule that is exact for the functions here, or close.
 fn nodes(distribution: &Distribution) -> Vec<(f64, f64)> {
-    if let Some(levels) = distribution.levels() {
+    if let Some(mut levels) = distribution.levels() {
+        if let Distribution::Poisson(_) = distribution {
+            // All counts that occur, not the likely ones alone.
+            levels = (0..40).map(|k| (f64::from(k), 0.0)).collect();
+        }
         // Each comes with a quantile in its middle: their ends are found by bisection.
         let end = |value: f64, middle: f64| {
             let (mut low, mut high) = (middle, 1.0);
@@ -194,7 +198,7 @@ fn nodes(distribution: &Distribution) -> Vec<(f64, f64)> {
         let width = |(value, middle): (f64, f64)| {
             (value, end(value, middle) - std::mem::replace(&mut start, end(value, middle)))
         };
-        return levels.into_iter().map(width).collect();
+        return levels.into_iter().map(width).filter(|(_, width)| *width > 0.0).collect();
     }
     if let Distribution::Uniform(_) = distribution {
         let rule = [

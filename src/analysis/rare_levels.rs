@@ -7,6 +7,15 @@ use crate::design::Design;
 use crate::space::{Distribution, Space};
 use crate::uncertainty::{Interval, OutputIndices};
 
+/// Pairs of levels of different factors that the rows A, B, A_B and B_A of a base point show.
+const PAIRS_OF_POINT: u64 = 4;
+
+/// Times that two rare levels must meet for what they do together to be seen: fewer miss it in one of 150 designs.
+const MIN_MEETINGS: f64 = 5.0;
+
+/// Probability of the more likely of two levels from which what they do together may matter beside what the other does alone.
+const MATTERS: f64 = 0.03;
+
 /// Values of a factor in A and B that a level needs for its effect to be known: with ten, to a third.
 const MIN_DRAWS: u64 = 10;
 
@@ -19,12 +28,13 @@ const WEIGHT: f64 = 0.1;
 /// Base points at a time.
 const CHUNK: u64 = 1 << 12;
 
-/// A level of a factor that rows hardly met.
+/// A level of a factor that rows hardly met, or two that they hardly met together.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error(
-    "{factor}: {level} (probability {probability:.2e}) is in {} of the {values} values drawn, so that its effect on the \
+    "{factor}: {level} (probability {probability:.2e}) is in {} of the {values} {} drawn, so that its effect on the \
      output is not known, and the indices may be anything: some {:.0} base samples meet it once, and {:.0} ten times",
     if *draws == 0 { "none".to_owned() } else { draws.to_string() },
+    if partner.is_some() { "pairs" } else { "values" },
     self.base_samples(1.0),
     self.base_samples(10.0)
 )]
@@ -34,25 +44,27 @@ pub struct RareLevel {
     pub number: usize,
     /// The factor.
     pub factor: String,
-    /// The level: a value, a label, or a range.
+    /// The number of the other factor, of two levels.
+    pub partner: Option<usize>,
+    /// The level: a value, a label, or a range; of two, both.
     pub level: String,
     /// Its probability.
     pub probability: f64,
-    /// How many of the values of the factor in A and B are this level.
+    /// How many of the values of the factor in A and B are this level; of two, how many pairs are in the mean.
     pub draws: u64,
-    /// How many values there are.
+    /// How many values or pairs there are.
     pub values: u64,
 }
 
 impl RareLevel {
     /// Whether so few rows have it, or none, that surrogates cannot know of it.
     pub fn is_missed(&self) -> bool {
-        self.draws < 3
+        self.draws < 3 || self.partner.is_some()
     }
 
     /// Base samples with which the level is drawn that often in the mean.
     pub fn base_samples(&self, draws: f64) -> f64 {
-        draws / (2.0 * self.probability)
+        draws / (if self.partner.is_some() { PAIRS_OF_POINT as f64 } else { 2.0 } * self.probability)
     }
 }
 
@@ -61,6 +73,19 @@ struct Part {
     name: String,
     low: f64,
     high: f64,
+    /// Whether it is much less likely than the others of its factor.
+    is_rare: bool,
+}
+
+impl Part {
+    /// One of `count`.
+    fn new(name: String, low: f64, high: f64, count: usize) -> Self {
+        Self { name, low, high, is_rare: (high - low) * (count as f64) < RARE }
+    }
+
+    fn probability(&self) -> f64 {
+        self.high - self.low
+    }
 }
 
 /// The levels of the factors of `space`, and the thin bins of histograms, that fewer than ten values of A and B in `design` have.
@@ -68,23 +93,52 @@ pub(crate) fn rare_levels(space: &Space, design: &Design) -> Vec<RareLevel> {
     let settings = design.settings();
     let all = 2 * settings.base_samples;
     // No sampler is so uneven that a level of three times as many values in the mean has fewer.
-    let is_thin = |part: &Part| ((part.high - part.low) * all as f64) < 3.0 * MIN_DRAWS as f64;
+    let is_thin = |part: &Part| part.probability() * (all as f64) < 3.0 * MIN_DRAWS as f64;
     let thin = |(factor, law): (usize, &Distribution)| -> Vec<(usize, Part)> {
         parts(law).into_iter().filter(is_thin).map(|part| (factor, part)).collect()
     };
-    let laws = space.factors().iter().map(|factor| factor.distribution());
-    let parts: Vec<(usize, Part)> = laws.enumerate().flat_map(thin).collect();
+    let rarest = |(factor, law): (usize, &Distribution)| {
+        let rare = parts(law).into_iter().filter(|part| part.is_rare);
+        Some((factor, rare.min_by(|a, b| a.probability().total_cmp(&b.probability()))?))
+    };
+    let name = |factor: usize| space.factors()[factor].name.clone();
+    let laws = || space.factors().iter().map(|factor| factor.distribution()).enumerate();
+    let parts: Vec<(usize, Part)> = laws().flat_map(thin).collect();
     let draws = if space.copula().is_none() { counts(design, &parts) } else { expected(all, &parts) };
-    let rare = parts.into_iter().zip(draws).filter(|(_, draws)| *draws < MIN_DRAWS);
-    let level = |((factor, part), draws): ((usize, Part), u64)| RareLevel {
-        number: factor,
-        factor: space.factors()[factor].name.clone(),
-        level: part.name,
-        probability: part.high - part.low,
+    let pair = rarest_pair(laws().filter_map(rarest).collect()).filter(|_| space.copula().is_none());
+    let pair = pair.and_then(|[(number, part), (other, and)]| {
+        let (probability, values) = (part.probability() * and.probability(), PAIRS_OF_POINT * settings.base_samples);
+        let draws = probability * values as f64;
+        let rare = RareLevel {
+            number,
+            factor: name(number),
+            partner: Some(other),
+            level: format!("{} together with {}: {}", part.name, name(other), and.name),
+            probability,
+            draws: draws as u64,
+            values,
+        };
+        (draws < MIN_MEETINGS).then_some(rare)
+    });
+    let level = |((number, part), draws): (&(usize, Part), u64)| RareLevel {
+        number: *number,
+        factor: name(*number),
+        partner: None,
+        level: part.name.clone(),
+        probability: part.probability(),
         draws,
         values: all,
     };
-    rare.map(level).collect()
+    let rare = parts.iter().zip(draws).filter(|(_, draws)| *draws < MIN_DRAWS).map(level);
+    rare.chain(pair).collect()
+}
+
+/// Of the rarest levels of factors the two that are rarest together, the more likely one of them not rare itself.
+fn rarest_pair(mut levels: Vec<(usize, Part)>) -> Option<[(usize, Part); 2]> {
+    levels.sort_by(|a, b| a.1.probability().total_cmp(&b.1.probability()));
+    let partner = levels.iter().skip(1).position(|level| level.1.probability() >= MATTERS)? + 1;
+    let partner = levels.swap_remove(partner);
+    Some([levels.swap_remove(0), partner])
 }
 
 /// Base samples with which every one of `rare` has enough values in the mean.
@@ -96,8 +150,12 @@ pub(crate) fn enough_base_samples(rare: &[RareLevel]) -> f64 {
 /// effect.
 pub(super) fn withdraw(indices: &mut OutputIndices, rare: &[RareLevel]) {
     for level in rare {
-        let Some(effect) = indices.factors.get_mut(level.number) else { continue };
-        effect.probability_above = None;
+        for number in level.partner.into_iter().chain([level.number]) {
+            if let Some(effect) = indices.factors.get_mut(number) {
+                effect.probability_above = None;
+            }
+        }
+        let Some(effect) = indices.factors.get_mut(level.number).filter(|_| level.partner.is_none()) else { continue };
         if level.draws == 0 && effect.total.estimate == 0.0 {
             let anything = Some(Interval { low: 0.0, high: 1.0 });
             (effect.first_order.interval, effect.total.interval) = (anything, anything);
@@ -117,8 +175,8 @@ fn parts(law: &Distribution) -> Vec<Part> {
             let middle = f64::midpoint(*from, *to) - mean;
             (high - low) * (middle * middle + (to - from).powi(2) / 12.0) > WEIGHT * variance
         };
-        let bins = histogram.bins().filter(carries);
-        return bins.map(|(low, high, [from, to])| Part { name: format!("{from} to {to}"), low, high }).collect();
+        let (bins, count) = (histogram.bins().filter(carries), histogram.bins().count());
+        return bins.map(|(low, high, [from, to])| Part::new(format!("{from} to {to}"), low, high, count)).collect();
     }
     let Some(levels) = law.levels() else { return Vec::new() };
     let count = levels.len();
@@ -128,28 +186,25 @@ fn parts(law: &Distribution) -> Vec<Part> {
         let low = end;
         end = 2.0 * middle - low;
         let label = if let Distribution::Categorical(law) = law { law.label(value).map(str::to_owned) } else { None };
-        Part { name: label.unwrap_or_else(|| value.to_string()), low, high: end }
+        Part::new(label.unwrap_or_else(|| value.to_string()), low, end, count)
     };
     let parts: Vec<Part> = levels.into_iter().map(part).collect();
     let is_label = matches!(law, Distribution::Categorical(_));
     match law {
         Distribution::Discrete(_) | Distribution::Categorical(_) => {
-            let is_rare = |part: &Part| is_label || (part.high - part.low) * (count as f64) < RARE;
-            parts.into_iter().filter(is_rare).collect()
+            parts.into_iter().filter(|part| is_label || part.is_rare).collect()
         }
         // Counts go on beyond any number: whether there is more than one of them is what matters.
-        _ => {
-            parts.into_iter().max_by(|a, b| (a.high - a.low).total_cmp(&(b.high - b.low))).map_or_else(Vec::new, others)
-        }
+        _ => parts.into_iter().max_by(|a, b| a.probability().total_cmp(&b.probability())).map_or_else(Vec::new, others),
     }
 }
 
 /// What is below a part, and above it.
 fn others(part: Part) -> Vec<Part> {
-    let below = Part { name: format!("below {}", part.name), low: 0.0, high: part.low };
-    let above = Part { name: format!("above {}", part.name), low: part.high, high: 1.0 };
-    let larger = if below.high - below.low > above.high - above.low { below } else { above };
-    if larger.high > larger.low { vec![larger] } else { Vec::new() }
+    let below = Part::new(format!("below {}", part.name), 0.0, part.low, 2);
+    let above = Part::new(format!("above {}", part.name), part.high, 1.0, 2);
+    let larger = if below.probability() > above.probability() { below } else { above };
+    if larger.probability() > 0.0 { vec![larger] } else { Vec::new() }
 }
 
 /// How many values of A and B lie in each of `parts`.
@@ -172,7 +227,7 @@ fn counts(design: &Design, parts: &[(usize, Part)]) -> Vec<u64> {
 
 /// The same in the mean.
 fn expected(all: u64, parts: &[(usize, Part)]) -> Vec<u64> {
-    parts.iter().map(|(_, part)| ((part.high - part.low) * all as f64) as u64).collect()
+    parts.iter().map(|(_, part)| (part.probability() * all as f64) as u64).collect()
 }
 
 #[cfg(test)]
@@ -199,6 +254,23 @@ mod tests {
         assert!(found(Distribution::boolean(0.03).unwrap(), 512).is_empty());
         // The same level from the other side.
         assert_eq!(found(Distribution::boolean(0.999).unwrap(), 64)[0].level, "false");
+    }
+
+    #[test]
+    fn two_levels_may_hardly_meet() {
+        let boolean =
+            |name: &str, p: f64| Factor::new(name, Unit::dimensionless(), Distribution::boolean(p).unwrap()).unwrap();
+        let found = |p: [f64; 2], base_samples: u64| {
+            let space = Space::new(vec![boolean("d", p[0]), boolean("e", p[1])]);
+            let settings = DesignSettings { base_samples, ..DesignSettings::default() };
+            rare_levels(&space, &Design::new(settings, 2, Rows::plain(vec![vec![0], vec![1]])).unwrap())
+        };
+        let rare = found([0.05, 0.05], 128);
+        assert_eq!((rare.len(), rare[0].partner, rare[0].draws, rare[0].values), (1, Some(1), 1, 512), "{rare:?}");
+        assert!(rare[0].is_missed() && (rare[0].base_samples(10.0) - 1000.0).abs() < 1e-6);
+        assert!(found([0.05, 0.05], 512).is_empty());
+        // Whatever they do together is little beside what either does alone.
+        assert!(found([0.01, 0.01], 512).iter().all(|rare| rare.partner.is_none()));
     }
 
     #[test]

@@ -1,18 +1,17 @@
 //! A run that is told how well the indices must be known, and chooses what gets there at the least cost.
 //!
-//! Quick models are doubled without surrogates, whose fit costs more than the runs. Others begin with a small trial. If they
-//! have cheaper models, these stand in, and each doubling goes where it takes most of the squared error away for its cost; that
-//! makes the squared errors of all parts proportional to what they cost, the optimal allocation of Qian et al. (2018, eq. 3.13)
-//! for errors that fall as those of random points do. If they have none, a split design is tried first, which is by far the
-//! cheapest where polynomials explain the model.
+//! Runs begin with a small trial. If the study has cheaper models, these stand in, and each doubling goes where it takes most of
+//! the squared error away for its cost; that makes the squared errors of all parts proportional to what they cost, the optimal
+//! allocation of Qian et al. (2018, eq. 3.13) for errors that fall as those of random points do. If there are none, a split
+//! design is tried first, which is by far the cheapest where polynomials explain the model. Models inside the program go on without
+//! surrogates where these do not get there within a million runs.
 
 use super::low_fidelity::sibling_path;
 use super::{Resume, Runner};
 use crate::analysis::{Analysis, OutputAnalysis, Spending, StopReason};
-use crate::clock::Instant;
 use crate::design::{Design, DesignSettings, Rows};
-use crate::model::{Batch, RunContext};
-use crate::run::{Job, RowValues, RunError, Store};
+use crate::model::RunContext;
+use crate::run::{RunError, Store};
 use crate::study::{LowFidelity, Study, SurrogateChoice, Target};
 use crate::uncertainty::OutputIndices;
 
@@ -23,15 +22,8 @@ const TRIAL_POINTS: u64 = 4;
 const SPLIT_POINTS: u64 = 2;
 const PLAIN_ROWS: u64 = 1;
 
-/// Seconds of a run below which a model counts as quick, and rows that it is measured at: no more than any trial has.
-const QUICK_RUN: f64 = 20e-6;
-const TIMED_ROWS: u64 = 2 * TRIAL_POINTS;
-
-/// Seconds that a quick model is doubled for before surrogates are tried.
-const QUICK_BUDGET: f64 = 2.0;
-
-/// Rows that surrogates of a quick model are fitted to, at most.
-const MOST_FITTED_ROWS: u64 = 1 << 16;
+/// Runs of a model inside the program that surrogates are tried for.
+const MAX_CORRECTED_RUNS: u64 = 1 << 20;
 
 /// Share of the variance that surrogates must explain for plain rows to be worth while.
 const SMOOTH: f64 = 0.9;
@@ -48,27 +40,18 @@ pub(super) fn run_accurately(runner: &Runner<'_>, context: &RunContext<'_>) -> R
         attempt.say(
             "surrogates and cheaper models need independent factors, and three or more replicates of Sobol' or random points",
         );
-        return attempt.plain(None);
+        return attempt.plain();
     }
     let trial = attempt.variant(TRIAL_POINTS, 0, SurrogateChoice::Off)?;
     let store = Store::new(&trial.design.longest(), trial.model().as_ref());
-    let takes_its_time = study.model().concurrency().is_some();
-    if !takes_its_time && attempt.is_quick(&trial) {
-        let first = attempt.plain(Some(QUICK_BUDGET))?;
-        let is_ours = |reason| matches!(reason, StopReason::Budget { .. });
-        if !first.stopped.as_ref().is_some_and(|stopped| is_ours(stopped.reason)) {
-            return Ok(first);
-        }
-        attempt.say("two seconds were not enough for that: surrogates were tried");
-        let fitted = attempt.fitted(Vec::new(), Some(MOST_FITTED_ROWS), &store)?;
-        if is_met(&fitted) {
-            return Ok(fitted);
-        }
-        attempt.say("they were not accurate enough either");
-        return attempt.plain(None);
-    }
     let lows = if study.lows.is_empty() { study.subject.cheaper() } else { study.lows.clone() };
-    if lows.is_empty() { attempt.split(&store) } else { attempt.fitted(lows, None, &store) }
+    let first = if lows.is_empty() { attempt.split(&store)? } else { attempt.fitted(lows, &store)? };
+    let is_ours = |reason| matches!(reason, StopReason::MaxRuns { .. }) && study.target.max_runs != attempt.max_runs();
+    if !first.stopped.as_ref().is_some_and(|stopped| is_ours(stopped.reason)) {
+        return Ok(first);
+    }
+    attempt.say(format!("corrected indices of {MAX_CORRECTED_RUNS} runs would not get there: no surrogates"));
+    attempt.plain()
 }
 
 fn is_met(analysis: &Analysis) -> bool {
@@ -102,48 +85,25 @@ impl Attempt<'_> {
         Ok(variant)
     }
 
-    /// Whether the model is so quick that fits cost more than runs, by one worker at the first rows of `trial`.
-    fn is_quick(&mut self, trial: &Study) -> bool {
-        let model = trial.model();
-        let job = Job { design: &trial.design, space: &trial.space, model: model.as_ref() };
-        let (mut worker, mut batch) = (model.worker(self.context), Batch::new(model.as_ref()));
-        let (mut values, mut of_run) = (RowValues::default(), f64::INFINITY);
-        // Single rows first, the second of them after what only the first one waits for: a slow model has no others.
-        for (number, rows) in [1, 1, TIMED_ROWS].into_iter().enumerate() {
-            if number == 2 && of_run > 10.0 * QUICK_RUN {
-                break;
-            }
-            let columns = values.values(job, 0, 0..rows);
-            let inputs: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
-            batch.reset(rows as usize);
-            let start = Instant::now();
-            worker.run(&inputs, &mut batch);
-            of_run = of_run.min(start.elapsed().as_secs_f64() / rows as f64);
-            self.runs += rows;
-        }
-        let is_quick = of_run < QUICK_RUN;
-        self.say(if is_quick {
-            format!("a run takes less than {:.0} us: runs are cheaper than fits", 1e6 * QUICK_RUN)
-        } else {
-            format!("a run takes about {of_run:.0e} s: fits are cheaper than runs")
-        });
-        is_quick
-    }
-
-    /// Without surrogates, for so many seconds.
-    fn plain(&mut self, max_time: Option<f64>) -> Result<Analysis, RunError> {
+    /// Without surrogates.
+    fn plain(&mut self) -> Result<Analysis, RunError> {
         let replicates = self.runner.study.design.settings().replicates;
-        let mut study = self.variant((FIRST_PLAIN / replicates.max(1)).max(2), 0, SurrogateChoice::Off)?;
-        study.target.max_time = study.target.max_time.into_iter().chain(max_time).reduce(f64::min);
+        let study = self.variant((FIRST_PLAIN / replicates.max(1)).max(2), 0, SurrogateChoice::Off)?;
         self.run(&study, None, None)
     }
 
+    /// The most runs with surrogates.
+    fn max_runs(&self) -> Option<u64> {
+        let study = self.runner.study;
+        let own = study.model().concurrency().is_none().then_some(MAX_CORRECTED_RUNS);
+        study.target.max_runs.into_iter().chain(own).min()
+    }
+
     /// With surrogates and `lows`, all runs at base points; those in `store` are there already.
-    fn fitted(&mut self, lows: Vec<LowFidelity>, most_rows: Option<u64>, store: &Store) -> Result<Analysis, RunError> {
-        let mut study = self.variant(TRIAL_POINTS, 0, SurrogateChoice::On)?;
+    fn fitted(&mut self, lows: Vec<LowFidelity>, store: &Store) -> Result<Analysis, RunError> {
+        let mut study = self.variant(TRIAL_POINTS, 0, self.runner.study.analysis.surrogate)?;
         study.lows = lows;
-        let max_runs = study.target.max_runs.into_iter().chain(most_rows).min();
-        study.target = Target { max_runs, ..study.target };
+        study.target = Target { max_runs: self.max_runs(), ..study.target };
         self.run(&study, None, Some(store))
     }
 
@@ -151,10 +111,11 @@ impl Attempt<'_> {
     fn split(&mut self, unsplit: &Store) -> Result<Analysis, RunError> {
         let of_point = self.variant(SPLIT_POINTS, 0, SurrogateChoice::On)?.design.rows_per_point();
         let plain_rows = u32::try_from(of_point * PLAIN_ROWS).unwrap_or(u32::MAX).min(crate::design::MAX_PLAIN_ROWS);
-        let study = self.variant(SPLIT_POINTS, plain_rows, SurrogateChoice::On)?;
+        let mut study = self.variant(SPLIT_POINTS, plain_rows, SurrogateChoice::On)?;
+        study.target.max_runs = self.max_runs();
         let trial_runs = study.design.rows();
         if study.target.max_runs.is_some_and(|most| trial_runs > most) {
-            return self.fitted(Vec::new(), None, unsplit);
+            return self.fitted(Vec::new(), unsplit);
         }
         let store = Store::new(&study.design.longest(), study.model().as_ref());
         let mut trial = study.clone();
@@ -175,7 +136,7 @@ impl Attempt<'_> {
         self.say(format!(
             "in a trial of {trial_runs} runs polynomials explained {percent:.0} % of the variance: no plain rows"
         ));
-        self.fitted(Vec::new(), None, unsplit)
+        self.fitted(Vec::new(), unsplit)
     }
 
     fn with_reasons(&mut self, mut analysis: Analysis, more: String) -> Analysis {

@@ -39,6 +39,8 @@ pub(super) struct RunJournal {
     open: OnceLock<Journal>,
     /// Path and header of the journal of a run that has not proved to be long yet.
     waiting: Mutex<Option<(PathBuf, Value)>>,
+    /// When the first of the runs that are under way began: one that grows has spent time on its estimates before.
+    began: Mutex<Duration>,
 }
 
 impl RunJournal {
@@ -48,6 +50,7 @@ impl RunJournal {
             store: Store::new(&study.design, study.model().as_ref()),
             open: OnceLock::new(),
             waiting: Mutex::new(None),
+            began: Mutex::default(),
         }
     }
 
@@ -64,6 +67,11 @@ impl RunJournal {
     /// Begins the journal of a run that proves to be long. One that cannot be begun is done without.
     pub fn watch(&self, progress: Progress, outputs: usize, messages: &Messages) {
         let Progress { done, recalled, total, elapsed, .. } = progress;
+        let mut began = self.began.lock().unwrap_or_else(PoisonError::into_inner);
+        if done == recalled {
+            *began = elapsed;
+        }
+        let elapsed = elapsed.saturating_sub(*began);
         let share = done.saturating_sub(recalled) as f64 / total.saturating_sub(recalled).max(1) as f64;
         if elapsed < MIN_ELAPSED || elapsed.as_secs_f64() < share * LONG_RUN.as_secs_f64() {
             return;

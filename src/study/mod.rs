@@ -228,7 +228,8 @@ impl Study {
                 if model.concurrency().is_some() {
                     values <= MOST_AUTOMATIC_VALUES_OF_PROGRAMS
                 } else {
-                    values <= MOST_AUTOMATIC_VALUES_AFTER_TRIAL && !self.target.grows()
+                    values <= MOST_AUTOMATIC_VALUES_AFTER_TRIAL
+                        && (self.target.accuracy.is_some() || !self.target.grows())
                 }
             }
         }
@@ -237,10 +238,8 @@ impl Study {
     /// Whether surrogates are to be tried on a part of a run of `design` before they are fitted to it: of quick models, which might do
     /// more runs in that time.
     pub(crate) fn tries_surrogates(&self, design: &Design) -> bool {
-        let is_chosen = self.analysis.surrogate != SurrogateChoice::Auto
-            || design.plain_rows() > 0
-            || !self.lows.is_empty()
-            || self.target.grows();
+        let is_chosen =
+            self.analysis.surrogate != SurrogateChoice::Auto || design.plain_rows() > 0 || !self.lows.is_empty();
         let model = self.subject.model(&self.space);
         let values = design.rows().saturating_mul(model.outputs().len() as u64);
         !is_chosen && model.concurrency().is_none() && values > MOST_AUTOMATIC_VALUES

@@ -18,6 +18,12 @@ const RULE: [(f64, f64); 5] = [
     (0.906_179_845_938_664, 0.236_926_885_056_189_1),
 ];
 
+/// Relative error of the standard deviation by quadrature that is no rounding.
+const MISSED: f64 = 1e-8;
+
+/// Probability of the counts of a Poisson distribution that no polynomial is made for, on either side.
+const MISSED_COUNTS: f64 = 1e-13;
+
 /// Length of what a polynomial has beyond those of lower degree, below which it has nothing: as many levels, as many degrees.
 const NOTHING: f64 = 1e-7;
 
@@ -89,16 +95,31 @@ pub struct OwnPolynomials {
 }
 
 impl OwnPolynomials {
-    /// Up to `degree`, or fewer for a distribution of few levels. `None` without a bounded support of positive width.
+    /// Up to `degree`, or fewer for a distribution of few levels. `None` without a bounded support of positive width, and where
+    /// the quadrature misses the standard deviation: where the quantile function has steps that it does not know.
     pub fn new(distribution: &Distribution, degree: usize) -> Option<Self> {
-        let (low, high) = distribution.support();
+        let levels = match distribution {
+            Distribution::Poisson(poisson) => poisson.levels_above(MISSED_COUNTS),
+            _ => distribution.levels(),
+        };
+        let ends = levels.as_ref().and_then(|levels| Some((levels.first()?.0, levels.last()?.0)));
+        let (low, high) = ends.unwrap_or_else(|| distribution.support());
         if !(high > low && (high - low).is_finite()) {
             return None;
         }
-        let nodes = match distribution.levels() {
-            Some(levels) => of_levels(distribution, &levels),
-            None => of_quantiles(distribution),
+        let nodes = match (levels, distribution) {
+            (Some(levels), _) => of_levels(distribution, &levels),
+            (None, Distribution::Histogram(histogram)) => {
+                let bins = histogram.bins().flat_map(|(low, high, _)| rule(low, high));
+                bins.map(|(u, weight)| (distribution.quantile(u), weight)).collect()
+            }
+            _ => of_quantiles(distribution),
         };
+        let (mean, sd) = (distribution.mean(), distribution.sd());
+        let variance: f64 = nodes.iter().map(|(x, weight)| weight * (x - mean) * (x - mean)).sum();
+        if (variance.sqrt() - sd).abs() > MISSED * sd {
+            return None;
+        }
         let recurrence = Recurrence::new(&nodes, (low, high), degree)?;
         Some(Self { distribution: distribution.clone(), recurrence })
     }
@@ -141,18 +162,23 @@ fn of_quantiles(distribution: &Distribution) -> Vec<(f64, f64)> {
     // What is left at the ends counts as one node.
     let rest = 0.5f64.powi(PANELS + 1);
     let mut nodes = vec![(distribution.quantile(rest / 2.0), rest), (distribution.quantile(1.0 - rest / 2.0), rest)];
-    for panel in 1..=PANELS {
-        let width = 0.5f64.powi(panel + 1) / f64::from(PARTS);
-        for part in 0..PARTS {
-            for (node, weight) in RULE {
-                let u = 0.5f64.powi(panel + 1) + width * (f64::from(part) + (1.0 + node) / 2.0);
-                let weight = weight * width / 2.0;
-                nodes.push((distribution.quantile(u), weight));
-                nodes.push((distribution.quantile(1.0 - u), weight));
-            }
+    for number in 1..=PANELS {
+        for (u, weight) in rule(0.5f64.powi(number + 1), 0.5f64.powi(number)) {
+            nodes.push((distribution.quantile(u), weight));
+            nodes.push((distribution.quantile(1.0 - u), weight));
         }
     }
     nodes
+}
+
+/// Nodes and weights of the rule on each of some parts of `low` to `high`.
+fn rule(low: f64, high: f64) -> impl Iterator<Item = (f64, f64)> {
+    let width = (high - low) / f64::from(PARTS);
+    let of_part = move |part: u32| {
+        RULE.into_iter()
+            .map(move |(node, weight)| (low + width * (f64::from(part) + (1.0 + node) / 2.0), weight * width / 2.0))
+    };
+    (0..PARTS).flat_map(of_part)
 }
 
 #[cfg(test)]
@@ -193,6 +219,25 @@ mod tests {
             let n = k as f64 + 1.0;
             assert!(a.abs() < 1e-12 && (b - n / (4.0 * n * n - 1.0).sqrt()).abs() < 1e-12, "{k} {a} {b}");
         }
+    }
+
+    #[test]
+    fn steps_of_quantiles_are_met_or_there_are_no_polynomials() {
+        let gap = Distribution::histogram(&[0.0, 1.0, 9.0, 10.0], &[0.97, 0.0, 0.03]).unwrap();
+        let own = OwnPolynomials::new(&gap, 8).unwrap();
+        let n = 100_000;
+        let u: Vec<f64> = (0..n).map(|i| (f64::from(i) + 0.5) / f64::from(n)).collect();
+        for column in own.columns(&u) {
+            assert!((product(&column, &column) / f64::from(n) - 1.0).abs() < 1e-4);
+        }
+        let parts = [Distribution::uniform(0.0, 1.0).unwrap(), Distribution::uniform(9.0, 10.0).unwrap()];
+        let mixture = Distribution::mixture(&parts, Some(&[0.97, 0.03])).unwrap();
+        assert_eq!(OwnPolynomials::new(&mixture, 8), None);
+        let counts = OwnPolynomials::new(&Distribution::poisson(0.5).unwrap(), 8).unwrap();
+        // Those of Charlier: a_0 = mean and b_1 = sd, moved and scaled.
+        let Recurrence { middle, half, coefficients } = &counts.recurrence;
+        assert!((middle + half * coefficients[0].0 - 0.5).abs() < 1e-11);
+        assert!((half * coefficients[0].1 - 0.5f64.sqrt()).abs() < 1e-11);
     }
 
     #[test]

@@ -103,9 +103,13 @@ impl Poisson {
     /// The numbers that occur, but for the rare ones, each with a `u` at which it is the quantile; `None` if they are
     /// more than 1024.
     pub fn levels(&self) -> Option<Vec<(f64, f64)>> {
+        self.levels_above(Self::RARE)
+    }
+
+    /// The same, but for those that are rarer than `rare` together on either side.
+    pub fn levels_above(&self, rare: f64) -> Option<Vec<(f64, f64)>> {
         let table = &self.table;
-        let first = table.place(Self::RARE, 1.0 - Self::RARE);
-        let last = table.place(1.0 - Self::RARE, Self::RARE);
+        let (first, last) = (table.place(rare, 1.0 - rare), table.place(1.0 - rare, rare));
         let level = |place: usize| {
             let low = if place == 0 { 0.0 } else { table.below[place - 1] };
             (self.in_unit(table.first + place as f64), low + (table.below[place] - low) / 2.0)
