@@ -97,11 +97,12 @@ pub(crate) fn enough_base_samples(rare: &[RareLevel]) -> f64 {
 pub(super) fn withdraw(indices: &mut OutputIndices, rare: &[RareLevel]) {
     for level in rare {
         let Some(effect) = indices.factors.get_mut(level.number) else { continue };
-        effect.probability_above = None;
+        effect.probability_above_threshold = None;
         if level.draws == 0 && effect.total.estimate == 0.0 {
             let anything = Some(Interval { low: 0.0, high: 1.0 });
             (effect.first_order.interval, effect.total.interval) = (anything, anything);
             (effect.share_first_order, effect.share_total) = (None, None);
+            (effect.share_first_order_interval, effect.share_total_interval) = (None, None);
         }
     }
     if !rare.is_empty() {
