@@ -285,7 +285,8 @@ fn deltas(text: &mut String, seeds: u64) {
                     let analysis = builder.seed(seed).analysis(options).build().expect("a study").run().expect("a run");
                     let measures = analysis.outputs[0].measures.as_ref().expect("measures");
                     for (factor, exact) in measures.factors.iter().zip(&case.exact) {
-                        held[usize::from(*exact == 0.0)].add(factor.get(Measure::Delta).estimate, *exact);
+                        held[usize::from(*exact == 0.0)]
+                            .add(factor.get(Measure::Delta).expect("delta").estimate, *exact);
                     }
                 }
                 cells.iter_mut().zip(&held).for_each(|(cells, held)| cells.push(held.cell()));
@@ -332,10 +333,10 @@ fn given(text: &mut String, seeds: u64) {
             let measured = measures(&inputs, &outputs, &result, seed).remove(0).expect("measures");
             for (input, of_input) in measured.iter().enumerate() {
                 if deltas[input] > 0.0 {
-                    held[place][2].add(of_input.get(Measure::Delta).estimate, deltas[input]);
+                    held[place][2].add(of_input.get(Measure::Delta).expect("delta").estimate, deltas[input]);
                 }
                 for (measure, found) in Measure::ALL.into_iter().zip(&mut found[place]) {
-                    let is_found = of_input.get(measure).p_value.is_some_and(|p| p <= LEVEL);
+                    let is_found = of_input.get(measure).and_then(|of| of.p_value).is_some_and(|p| p <= LEVEL);
                     found[input] += f64::from(u8::from(is_found)) / seeds as f64;
                 }
             }

@@ -26,7 +26,7 @@ struct Sums {
     below: [f64; 2],
     widths: [f64; 2],
     seconds: f64,
-    kinds: std::collections::BTreeMap<&'static str, usize>,
+    kinds: std::collections::BTreeMap<String, usize>,
 }
 
 fn measure(function: &KnownFunction, rows: usize, sample: Sample, known: bool, seeds: u64) -> Sums {
@@ -51,9 +51,9 @@ fn measure(function: &KnownFunction, rows: usize, sample: Sample, known: bool, s
         sums.seconds += start.elapsed().as_secs_f64();
         sums.tables += 1.0;
         let of = surrogates.outputs[0].as_ref().expect("variance");
-        sums.serving += f64::from(of.serves());
+        sums.serving += f64::from(of.serves);
         sums.explained += of.unknown.max(1e-16).ln();
-        *sums.kinds.entry(of.polynomials_of).or_default() += 1;
+        *sums.kinds.entry(of.polynomials_of.clone()).or_default() += 1;
         let others = result.outputs[0].indices.as_ref().expect("variance");
         for (j, index) in of.indices.iter().enumerate() {
             sums.cases += 1.0;

@@ -180,7 +180,7 @@ fn one(known: &Known, method: usize, budget: u64, seed: u64, errors: &mut Errors
             let (inputs, outputs, laws) = table(name, seed, budget);
             let given = analyse(&inputs, &outputs, Method::Rank, seed).ok();
             let found = given.and_then(|given| surrogate_indices(&inputs, &outputs, &given, Some(&laws)).ok());
-            let found = found.and_then(|found| found.outputs.into_iter().next()?.ok()).filter(|found| found.serves());
+            let found = found.and_then(|found| found.outputs.into_iter().next()?.ok()).filter(|found| found.serves);
             let of = |found: apportion::given::SurrogateOutput| {
                 found.indices.iter().map(|index| (index.first_order.estimate, Some(index.total.estimate))).collect()
             };
@@ -200,7 +200,7 @@ fn one(known: &Known, method: usize, budget: u64, seed: u64, errors: &mut Errors
                     let weights: Vec<f64> = found.outputs[0]
                         .factors
                         .iter()
-                        .map(|f| f.measures.map_or(0.0, |m| m.mu_star.estimate))
+                        .map(|f| f.mu_star.map_or(0.0, |mu_star| mu_star.estimate))
                         .collect();
                     errors.leads += u64::from(leads(&weights, truth));
                 }

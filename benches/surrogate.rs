@@ -168,7 +168,7 @@ fn measured(case: &Case, size: u64, seeds: u64) -> (Row, f64, f64) {
         let default = |indices: &OutputIndices, k: usize| [indices.factors[k].first_order, indices.factors[k].total];
         // By the formulas of Saltelli and of Jansen.
         let before = |indices: &OutputIndices, k: usize| {
-            let others = &indices.factors[k].others;
+            let others = &indices.checks[k].others;
             [others[0].first_order, others[1].total].map(|estimate| estimate.expect("an estimate"))
         };
         let mut used = (0.0, 0.0);

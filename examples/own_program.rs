@@ -55,7 +55,7 @@ pub fn main() -> Result<(), Box<dyn Error>> {
         assert_eq!(output.runs_failed, 0, "{:?}", output.failures);
         for factor in study.space().factors() {
             let share = output.factor(&factor.name)?.share_total.ok_or("no share")?;
-            println!("{}: {} {:.0} %", output.name, factor.name, share.estimate);
+            println!("{}: {} {:.0} %", output.name, factor.name, share);
         }
     }
 

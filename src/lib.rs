@@ -47,7 +47,7 @@
 //! let study = Study::parse(text, "example.toml".as_ref(), &[])?;
 //! let analysis = study.run()?;
 //! let thickness = analysis.output("critical_force")?.factor("thickness")?;
-//! assert!(thickness.share_total.is_some_and(|percent| percent.estimate > 90.0));
+//! assert!(thickness.share_total.is_some_and(|percent| percent > 90.0));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!

@@ -3,9 +3,10 @@
 use std::path::Path;
 use std::sync::{Arc, Mutex};
 
+use apportion::Estimate;
 use apportion::given::{Column, Measure, Method, analyse, measures};
 use apportion::report::write_atomically;
-use apportion::screening::{ScreeningDesign, ScreeningJob, ScreeningSettings, screen};
+use apportion::screening::{ScreenedFactor, ScreeningDesign, ScreeningJob, ScreeningSettings, screen};
 use apportion::{AnalysisOptions, Sampler, ShapleyMethod, Study, SurrogateChoice, function_model};
 use serde_json::{Map, Value, json};
 
@@ -71,8 +72,9 @@ fn given(folder: &Path) -> anyhow::Result<Value> {
     let indices = analyse(&inputs, &outputs, Method::Both, 0)?;
     let measured = measures(&inputs, &outputs, &indices, 0).remove(0)?;
     let of = |measure: Measure| {
-        let values: Vec<f64> = measured.iter().map(|input| input.get(measure).estimate.estimate).collect();
-        let p: Vec<Option<f64>> = measured.iter().map(|input| input.get(measure).p_value).collect();
+        let found = || measured.iter().filter_map(|input| input.get(measure));
+        let values: Vec<f64> = found().map(|found| found.estimate.estimate).collect();
+        let p: Vec<Option<f64>> = found().map(|found| found.p_value).collect();
         (measure.name().to_owned(), json!({ "values": values, "p": p }))
     };
     Ok(Value::Object(Measure::ALL.into_iter().map(of).collect()))
@@ -102,11 +104,10 @@ fn derivatives(folder: &Path) -> anyhow::Result<Value> {
     let settings = ScreeningSettings { design, trajectories: 256, seed: 3 };
     let screening = screen(ScreeningJob { space: study.space(), model: model.as_ref(), settings }, 1, &|_| ())?;
     write(folder, "derivatives", &noted.lock().map_or_else(|_| Vec::new(), |rows| rows.clone()))?;
-    let of = |measure: fn(apportion::screening::DerivativeMeasures) -> f64| -> Vec<Option<f64>> {
-        screening.outputs[0].factors.iter().map(|factor| factor.derivative.map(measure)).collect()
+    let of = |measure: fn(&ScreenedFactor) -> Option<Estimate>| -> Vec<Option<f64>> {
+        screening.outputs[0].factors.iter().map(|factor| measure(factor).map(|found| found.estimate)).collect()
     };
-    let bound = |d: apportion::screening::DerivativeMeasures| d.total_bound.map_or(f64::NAN, |bound| bound.estimate);
-    Ok(json!({ "nu": of(|d| d.nu.estimate), "total_bound": of(bound) }))
+    Ok(json!({ "nu": of(|factor| factor.nu), "total_bound": of(|factor| factor.total_bound) }))
 }
 
 /// Writes the tables and `measures.json`.

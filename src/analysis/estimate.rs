@@ -3,9 +3,10 @@
 use std::collections::BTreeMap;
 
 use rayon::prelude::*;
+use serde_json::Map;
 
-use super::finished_run::{FinishedRun, LowTotals, outputs_kept, row_inputs};
-use super::measures::FirstRows;
+use super::finished_run::{FinishedRun, LowTotals, named_inputs, outputs_kept, row_inputs};
+use super::measures::MeasuredRows;
 use super::output::{FailureCount, NoIndices, OutputAnalysis};
 use super::rare_levels::{RareLevel, rare_levels, withdraw};
 use super::result::{Aggregate, Analysis, LowRuns, Stopped};
@@ -21,7 +22,7 @@ use crate::study::{Study, SurrogateChoice};
 use crate::surrogate::low_fidelity::{LowOutputs, low_fidelity_estimates};
 use crate::surrogate::{families, surrogates_together};
 use crate::uncertainty::{
-    Estimate, Interval, IntervalOptions, KeptPoints, OutputMoments, SurrogateEstimates, output_indices, output_moments,
+    Estimate, IntervalOptions, KeptPoints, OutputMoments, SurrogateEstimates, output_indices, output_moments,
     points_of_stages, stages,
 };
 
@@ -61,7 +62,7 @@ fn output_analyses(run: &FinishedRun<'_>, whole: &Totals, corrected: &Correction
         outputs.map(|(number, output)| output_analysis(run, output, number, whole, corrected)).collect();
     let wanted = &run.study.analysis.measures;
     if !wanted.is_empty() {
-        let rows = FirstRows::of(run.design, &run.study.space);
+        let rows = MeasuredRows::of(run.design, &run.study.space);
         for (number, output) in analyses.iter_mut().enumerate() {
             output.measures = rows.measures(wanted, number, &output.samples);
         }
@@ -274,14 +275,12 @@ fn moments_of_all_rows(
     points: u64,
 ) -> (Option<Estimate>, Option<Estimate>) {
     let (Some(mean), Some(variance)) = (values.mean(), values.variance()) else { return (None, None) };
-    let unknown = |estimate| Some(Estimate { estimate, interval: None });
-    let Some(moments) = moments else { return (unknown(mean), unknown(variance)) };
+    let Some(moments) = moments else { return (Some(Estimate::alone(mean)), Some(Estimate::alone(variance))) };
     if values.count() == 2 * points {
         return (Some(moments.mean), Some(moments.variance));
     }
     let changed = |of: Estimate, estimate: f64, change: &dyn Fn(f64) -> f64| {
-        let interval = of.interval.map(|Interval { low, high }| Interval { low: change(low), high: change(high) });
-        Some(Estimate { estimate, interval: interval.filter(|i| i.low.is_finite() && i.high.is_finite()) })
+        Some(Estimate { estimate, interval: of.interval.and_then(|interval| interval.map(change)) })
     };
     let shift = mean - moments.mean.estimate;
     let ratio = variance / moments.variance.estimate;
@@ -289,11 +288,12 @@ fn moments_of_all_rows(
 }
 
 fn failure_count(run: &FinishedRun<'_>, failure: &RowFailure, tally: Tally) -> FailureCount {
+    let inputs = || named_inputs(&run.study.space, &row_inputs(run.study, run.design, tally.first));
     FailureCount {
         reason: failure.to_string(),
         runs: tally.count,
         first_row: tally.first.row(run.design),
-        first_inputs: row_inputs(run.study, run.design, tally.first),
+        first_inputs: if run.study.analysis.salib { Map::new() } else { inputs() },
     }
 }
 

@@ -1,9 +1,12 @@
 //! A run that is over, the names of what is estimated from it, and the inputs of its rows.
 
+use serde_json::{Map, Value};
+
 use crate::design::Design;
 use crate::estimate::PointOutputs;
 use crate::model::Model;
 use crate::run::{Place, Totals};
+use crate::space::Space;
 use crate::study::Study;
 use crate::surrogate::low_fidelity::OwnOutputs;
 use crate::uncertainty::SurrogateEstimates;
@@ -59,6 +62,15 @@ pub fn names_of_swaps(study: &Study) -> Vec<String> {
     let names = names.chain(study.space.groups().into_iter().map(|group| group.name));
     let names = names.chain(study.analysis.subsets.iter().map(subset));
     names.chain(study.analysis.dummy.then(|| "dummy".to_owned())).collect()
+}
+
+/// The values of the factors of `space` by name: numbers in their units, or the labels of categories.
+pub(crate) fn named_inputs(space: &Space, values: &[f64]) -> Map<String, Value> {
+    let named = space.factors().iter().zip(values).map(|(factor, &value)| {
+        let label = factor.distribution().label(value);
+        (factor.name.clone(), label.map_or_else(|| Value::from(value), Value::from))
+    });
+    named.collect()
 }
 
 /// The values of the factors at `place` of `design`, in their units.

@@ -3,16 +3,19 @@
 //! The rows A and B are draws from the distributions of the factors, as those of a table of given data are. A run keeps the outputs of
 //! the first of them, and their inputs are a function of their numbers, so that its memory does not grow with its size.
 
+use serde::{Deserialize, Serialize};
+
+use super::first_rows::FirstRows;
 use crate::design::{Design, DesignSettings, Sampler};
 use crate::given::{Column, FEWEST_ROWS, InputMeasures, Measure, measures_of_rows};
-use crate::run::SAMPLE;
-use crate::space::Space;
+use crate::space::{Factor, Space};
 
 /// Most rows, over all replicates, that other measures are taken from: the first of a run.
 pub const MOST_ROWS_OF_MEASURES: u64 = 1 << 12;
 
 /// Other measures of one output.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "study", derive(schemars::JsonSchema), schemars(rename = "MeasuresRecord"))]
 #[non_exhaustive]
 pub struct RunMeasures {
     /// Rows A and B with a value that they were taken from: at most [`MOST_ROWS_OF_MEASURES`].
@@ -22,32 +25,25 @@ pub struct RunMeasures {
 }
 
 /// The rows that measures are taken from: the first rows A and B of every replicate, a column for each factor.
-pub(super) struct FirstRows {
-    /// Base points of each replicate.
-    points: usize,
+pub(super) struct MeasuredRows {
+    rows: FirstRows,
     factors: Vec<Column>,
     seed: u64,
     /// Whether the rows are independent draws.
     independent: bool,
 }
 
-impl FirstRows {
+impl MeasuredRows {
     pub fn of(design: &Design, space: &Space) -> Self {
-        let replicates = design.settings().replicates;
-        let most = (MOST_ROWS_OF_MEASURES / 2).min(SAMPLE) / replicates;
-        let points = most.max(1).min(design.points_per_replicate()) as usize;
-        let known = || space.factors().iter().enumerate().filter(|(_, factor)| !factor.distribution().is_noise());
-        let mut factors: Vec<Column> =
-            known().map(|(_, factor)| Column { name: factor.name.clone(), values: Vec::new() }).collect();
-        for replicate in 0..replicates {
-            let columns = design.first_points(replicate, points);
-            for ((number, factor), column) in known().zip(&mut factors) {
-                let rows = columns[number].iter().zip(&columns[space.factors().len() + number]);
-                column.values.extend(rows.flat_map(|(a, b)| [*a, *b]).map(|u| factor.distribution().quantile(u)));
-            }
-        }
+        let rows = FirstRows::of(design, MOST_ROWS_OF_MEASURES / 2);
+        let known = space.factors().iter().enumerate().filter(|(_, factor)| !factor.distribution().is_noise());
+        let column = |(number, factor): (usize, &Factor)| {
+            let values = rows.coordinates(number).map(|u| factor.distribution().quantile(u));
+            Column { name: factor.name.clone(), values: values.collect() }
+        };
+        let factors = known.map(column).collect();
         let DesignSettings { seed, sampler, .. } = *design.settings();
-        Self { points, factors, seed, independent: sampler == Sampler::Random }
+        Self { rows, factors, seed, independent: sampler == Sampler::Random }
     }
 
     /// The measures `wanted` of output number `number`, of which every replicate has kept these rows; `None` if too few have a value,
@@ -56,11 +52,7 @@ impl FirstRows {
     /// Points of nets and Latin hypercubes are spread more evenly than independent draws: what permutations say of chance is far too
     /// much there, and only rows of random points have p-values. Intervals are a little wide on nets, and hold.
     pub fn measures(&self, wanted: &[Measure], number: usize, samples: &[Vec<f64>]) -> Option<RunMeasures> {
-        let kept = samples.iter().flat_map(|rows| {
-            let rows = rows.iter().copied().chain(std::iter::repeat(f64::NAN));
-            rows.take(2 * self.points)
-        });
-        let outputs: Vec<f64> = kept.collect();
+        let outputs = self.rows.outputs(samples);
         let has_value: Vec<bool> = outputs.iter().map(|y| y.is_finite()).collect();
         let kept = |values: &[f64]| -> Vec<f64> {
             values.iter().zip(&has_value).filter(|(_, has_value)| **has_value).map(|(value, _)| *value).collect()

@@ -2,6 +2,7 @@
 
 mod estimate;
 mod finished_run;
+mod first_rows;
 mod measures;
 mod output;
 mod rare_levels;
@@ -12,9 +13,7 @@ mod warning;
 mod warnings;
 
 pub(crate) use estimate::{analysis, interval_options, surrogates};
-pub(crate) use finished_run::{FinishedRun, LowTotals, outputs_kept};
-#[cfg(feature = "charts")]
-pub(crate) use finished_run::{names_of_swaps, row_inputs};
+pub(crate) use finished_run::{FinishedRun, LowTotals, named_inputs, outputs_kept};
 pub use measures::{MOST_ROWS_OF_MEASURES, RunMeasures};
 pub use output::{FailureCount, LookupError, NoIndices, OutputAnalysis};
 pub use rare_levels::RareLevel;
@@ -23,3 +22,8 @@ pub use result::{Aggregate, Analysis, LowRuns, Spending, StopReason, Stopped};
 pub use series::SeriesAnalysis;
 pub use unlikely::{Unlikely, unlikely_outputs};
 pub use warning::Warning;
+#[cfg(feature = "charts")]
+pub(crate) use {
+    finished_run::{names_of_swaps, row_inputs},
+    first_rows::FirstRows,
+};

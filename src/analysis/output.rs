@@ -1,5 +1,7 @@
 //! What a run has found about one output: its indices, or why it has none, and how to find them by name.
 
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value};
 use thiserror::Error;
 
 use super::measures::RunMeasures;
@@ -46,7 +48,8 @@ pub struct OutputAnalysis {
 }
 
 /// A reason for which runs failed.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "study", derive(schemars::JsonSchema), schemars(rename = "FailureRecord"))]
 #[non_exhaustive]
 pub struct FailureCount {
     /// The reason.
@@ -55,8 +58,8 @@ pub struct FailureCount {
     pub runs: u64,
     /// Row number of the first of them in the design.
     pub first_row: u64,
-    /// The values of the factors at that row, in the units of the factors.
-    pub first_inputs: Vec<f64>,
+    /// The factor values of that row, in the units of the factors; nothing at points of SALib, whose inputs are not known.
+    pub first_inputs: Map<String, Value>,
 }
 
 /// Why an output has no indices.

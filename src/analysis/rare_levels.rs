@@ -152,7 +152,7 @@ pub(super) fn withdraw(indices: &mut OutputIndices, rare: &[RareLevel]) {
     for level in rare {
         for number in level.partner.into_iter().chain([level.number]) {
             if let Some(effect) = indices.factors.get_mut(number) {
-                effect.probability_above = None;
+                effect.probability_above_threshold = None;
             }
         }
         let Some(effect) = indices.factors.get_mut(level.number).filter(|_| level.partner.is_none()) else { continue };
@@ -160,6 +160,7 @@ pub(super) fn withdraw(indices: &mut OutputIndices, rare: &[RareLevel]) {
             let anything = Some(Interval { low: 0.0, high: 1.0 });
             (effect.first_order.interval, effect.total.interval) = (anything, anything);
             (effect.share_first_order, effect.share_total) = (None, None);
+            (effect.share_first_order_interval, effect.share_total_interval) = (None, None);
         }
     }
     if !rare.is_empty() {

@@ -8,7 +8,8 @@ use crate::model::Model;
 use crate::run::Totals;
 use crate::study::Study;
 use crate::uncertainty::{
-    EffectEstimates, Estimate, Interval, IntervalMethod, NoiseIndices, OutputIndices, Refusal, differs_clearly,
+    EffectChecks, EffectEstimates, Estimate, Interval, IntervalMethod, NoiseIndices, OutputIndices, Refusal,
+    differs_clearly,
 };
 
 /// Warnings about the runs behind an output.
@@ -121,20 +122,20 @@ pub(super) fn of_indices(study: &Study, indices: &OutputIndices) -> Vec<Warning>
     }
     warnings.extend(of_dependent_steps(study));
     warnings.extend(indices.noise.as_ref().and_then(|noise| of_noise(study, indices, noise)));
-    for (name, effect) in names_of_swaps(study).iter().zip(indices.effects()) {
+    for ((name, effect), checks) in names_of_swaps(study).iter().zip(indices.effects()).zip(&indices.checks) {
         let total = effect.dependent.map_or(effect.total, |dependent| dependent.full_total).estimate;
         let (name, first_order) = (name.clone(), effect.first_order.estimate);
         let is_visible = first_order.abs().max(total.abs()) >= MIN_INDEX;
-        if effect.interaction.estimate < 0.0 && differs_clearly(effect.interaction) && is_visible {
+        if checks.interaction.estimate < 0.0 && differs_clearly(checks.interaction) && is_visible {
             warnings.push(Warning::AboveTotal { name: name.clone(), first_order, total });
         }
-        if effect.contradictory && is_visible {
+        if checks.is_contradictory && is_visible {
             warnings.push(Warning::Contradictory { name: name.clone(), first_order, total });
         }
-        if differs_clearly(effect.check_gap) {
-            warnings.push(Warning::FormulasDiffer { name: name.clone(), gap: effect.check_gap.estimate.abs() });
+        if differs_clearly(checks.gap) {
+            warnings.push(Warning::FormulasDiffer { name: name.clone(), gap: checks.gap.estimate.abs() });
         }
-        warnings.extend(disagreements(study, &name, effect));
+        warnings.extend(disagreements(study, &name, checks));
     }
     // Indices of factors that depend on each other sum to anything.
     if study.space.copula().is_some() {
@@ -174,9 +175,9 @@ fn of_noise(study: &Study, indices: &OutputIndices, noise: &NoiseIndices) -> Opt
 }
 
 /// Estimators asked for whose indices differ from the default ones by more than chance.
-fn disagreements(study: &Study, name: &str, effect: &EffectEstimates) -> Vec<Warning> {
+fn disagreements(study: &Study, name: &str, checks: &EffectChecks) -> Vec<Warning> {
     let mut warnings = Vec::new();
-    for (estimator, other) in study.analysis.estimators.iter().zip(&effect.others) {
+    for (estimator, other) in study.analysis.estimators.iter().zip(&checks.others) {
         for (index, gap) in [("first-order", other.first_order_gap), ("total", other.total_gap)] {
             let gap = gap.filter(|gap| differs_clearly(*gap));
             warnings.extend(gap.map(|Estimate { estimate: gap, .. }| Warning::EstimatorsDiffer {

@@ -10,11 +10,11 @@ use apportion::space::distribution::Parameter;
 use apportion::space::{Distribution, Factor};
 use apportion::study::Study;
 
-use super::check_plan::{counted, plan};
+use super::check_plan::plan;
 use super::output::default_folder;
 use super::run::journal_path;
 use super::stop::on_signal;
-use super::{DesignChanges, Failure, StudyArguments, print, say, say_notes};
+use super::{DesignChanges, Failure, StudyArguments, counted, print, say, say_notes};
 
 #[derive(clap::Args)]
 pub struct Arguments {

@@ -8,6 +8,8 @@ use apportion::report::{grouped, significant};
 use apportion::run::{BLOCK, FailurePolicy, Pilot};
 use apportion::study::{Study, Target};
 
+use super::counted;
+
 /// The rows of the design, what is asked of them, and what they cost by the first runs.
 pub(super) fn plan(study: &Study, file: &Path, pilot: Option<&Pilot>) -> String {
     let design = study.design();
@@ -69,10 +71,6 @@ pub(super) fn plan(study: &Study, file: &Path, pilot: Option<&Pilot>) -> String 
 
 /// Seconds of a run above which its number is worth a word.
 const SLOW_RUN: f64 = 1e-3;
-
-pub(super) fn counted(number: u64, what: &str) -> String {
-    format!("{number} {what}{}", if number == 1 { "" } else { "s" })
-}
 
 fn time(pilot: Option<&Pilot>) -> String {
     match pilot {

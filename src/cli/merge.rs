@@ -9,7 +9,7 @@ use apportion::run::RunError;
 use super::live::LiveArguments;
 use super::output::OutputArguments;
 use super::run::{deliver, journal_path};
-use super::{DesignChanges, Failure, StudyArguments, Threads, say};
+use super::{DesignChanges, Failure, StudyArguments, Threads, counted, say};
 
 #[derive(clap::Args)]
 pub struct Arguments {
@@ -48,7 +48,7 @@ pub fn merge(arguments: &Arguments) -> Result<(), Failure> {
         "{}: {} runs of {} are merged in {}",
         study.name(),
         study.design().rows(),
-        if journals.len() == 1 { "1 journal".to_owned() } else { format!("{} journals", journals.len()) },
+        counted(journals.len() as u64, "journal"),
         path.display()
     ));
     deliver(&study, &artefacts, &ResultFile::new(&study, &result), &arguments.live)

@@ -354,6 +354,10 @@ fn printable(text: &str) -> String {
         .collect()
 }
 
+fn counted(number: u64, what: &str) -> String {
+    format!("{number} {what}{}", if number == 1 { "" } else { "s" })
+}
+
 fn stderr_is_terminal() -> bool {
     std::io::stderr().is_terminal()
 }

@@ -7,7 +7,7 @@ use apportion::report::document::Document;
 use apportion::report::{ArtefactError, Artefacts, ChartFormat};
 
 use super::stop::on_signal;
-use super::{Failure, print, say};
+use super::{Failure, counted, print, say};
 
 #[derive(clap::Args)]
 pub struct ChartArguments {
@@ -98,16 +98,15 @@ pub fn deliver(artefacts: &Artefacts, document: &Document) -> Result<(), Failure
     let live: String = names.map(|name| format!(", and {name} to try other ranges in")).collect();
     say(&format!("wrote {}{live}", written.page.display()));
     let (json, others): (Vec<&PathBuf>, Vec<&PathBuf>) = data.into_iter().partition(|path| ends_with(path, "json"));
-    let count = |number: usize, what: &str| format!("{number} {what}{}", if number == 1 { "" } else { "s" });
     match (&json[..], others.len()) {
         ([], 0) => (),
-        ([], tables) => say(&format!("wrote {} beside it", count(tables, "table"))),
+        ([], tables) => say(&format!("wrote {} beside it", counted(tables as u64, "table"))),
         ([json], 0) => say(&format!("wrote {}", json.display())),
-        ([json], tables) => say(&format!("wrote {} and {} beside it", json.display(), count(tables, "table"))),
-        (several, tables) => say(&format!("wrote {} beside it", count(several.len() + tables, "file"))),
+        ([json], tables) => say(&format!("wrote {} and {} beside it", json.display(), counted(tables as u64, "table"))),
+        (several, tables) => say(&format!("wrote {} beside it", counted((several.len() + tables) as u64, "file"))),
     }
     if let Some((folder, charts)) = &written.charts {
-        say(&format!("wrote {} to {}", count(*charts, "chart"), folder.display()));
+        say(&format!("wrote {} to {}", counted(*charts as u64, "chart"), folder.display()));
     }
     Ok(())
 }

@@ -10,7 +10,7 @@ use apportion::files::read_text;
 use apportion::report::{prepare_file, stream_atomically, write_atomically};
 
 use super::stop::Stoppable;
-use super::{DesignChanges, Failure, StudyArguments, say, say_notes};
+use super::{DesignChanges, Failure, StudyArguments, counted, say, say_notes};
 
 /// Most random points.
 const MAX_RANDOM: u64 = 2 * apportion::design::MAX_POINTS;
@@ -60,8 +60,7 @@ pub fn sample(arguments: &Arguments) -> Result<(), Failure> {
         }
         _ => (),
     }
-    let factors = study.space().factors().len();
-    let factors = if factors == 1 { "1 factor".to_owned() } else { format!("{factors} factors") };
+    let factors = counted(study.space().factors().len() as u64, "factor");
     if let Some(rows) = arguments.random {
         let design = random_design(&study, rows).map_err(|error| Failure::Input(error.into()))?;
         stream_atomically(&path, |out| write_rows(&study, &design, rows, format, &mut Stoppable::new(out)).map(drop))?;

@@ -53,18 +53,6 @@ impl Estimator {
         }
     }
 
-    /// Its estimators, with the default ones where it has none of its own; `has_ba` says whether there are rows BA.
-    ///
-    /// ```
-    /// use apportion::{Estimator, FirstOrder, Total};
-    ///
-    /// assert_eq!(Estimator::Sobol1993.with_rows(false), (FirstOrder::Sobol1993, Total::JansenPooled));
-    /// ```
-    pub fn with_rows(self, has_ba: bool) -> (FirstOrder, Total) {
-        let (first_order, total) = self.formulas();
-        (first_order.unwrap_or(FirstOrder::default_for(has_ba)), total.unwrap_or(Total::default_for(has_ba)))
-    }
-
     /// Whether it needs the rows BA beside A, B and AB.
     pub fn needs_ba(self) -> bool {
         let (first_order, total) = self.formulas();

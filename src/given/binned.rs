@@ -1,5 +1,6 @@
 //! The binned estimator: variance of lines in bins of the input.
 
+use serde::{Deserialize, Serialize};
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
 use super::centred;
@@ -15,9 +16,10 @@ const MIN_ROWS_OF_LINE: f64 = 4.0;
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 /// A binned estimate.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Binned {
     /// The estimate; without interval where rows are not independent.
+    #[serde(flatten)]
     pub estimate: Estimate,
     /// Bins that hold rows.
     pub bins: usize,
@@ -63,17 +65,17 @@ pub(super) fn of_order(order: &Order, x: &[f64], z: &[f64], independent: bool) -
     let lines = Lines::new(order.classes(wanted), &x, z);
     let bins = lines.bins.len();
     if bins < 2 {
-        return Binned { estimate: Estimate { estimate: 0.0, interval: None }, bins };
+        return Binned { estimate: Estimate::alone(0.0), bins };
     }
     if !independent {
         let all: f64 = z.iter().map(|z| z * z).sum();
-        return Binned { estimate: Estimate { estimate: lines.squares / all, interval: None }, bins };
+        return Binned { estimate: Estimate::alone(lines.squares / all), bins };
     }
     let estimate = lines.first_order(z);
     let coarser = Lines::new(order.classes(wanted / 2), &x, z).first_order(z);
     let interval = lines.half_width(z, estimate).map(|half_width| {
         let half_width = libm::hypot(half_width, estimate - coarser);
-        Interval { low: estimate - half_width, high: estimate + half_width }
+        Interval::about(estimate, half_width)
     });
     Binned { estimate: Estimate { estimate, interval }, bins }
 }

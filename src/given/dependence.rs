@@ -1,14 +1,16 @@
 //! Dependence between the inputs of a table.
 
+use serde::{Deserialize, Serialize};
 use statrs::distribution::{ContinuousCDF, Normal};
 
 use super::evenness::{GRIDS, deviation};
 use super::order::Order;
 
 /// How the inputs of a table depend on each other.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Dependence {
     /// The pair with the largest absolute rank correlation.
+    #[serde(flatten)]
     pub strongest: PairDependence,
     /// The level that independent inputs exceed in one table of a thousand, whatever their number.
     pub noise: f64,
@@ -18,7 +20,7 @@ pub struct Dependence {
 }
 
 /// A pair of inputs with its rank correlation.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct PairDependence {
     /// The names.
     pub inputs: (String, String),

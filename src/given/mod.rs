@@ -29,7 +29,7 @@ pub use dependence::{Dependence, PairDependence};
 #[doc(hidden)]
 pub use evenness::PointSet;
 pub(crate) use measures::measures_of_rows;
-pub use measures::{InputMeasures, MOST_ROWS_OF_KERNELS, Measure, Measured, PERMUTATIONS, measures};
+pub use measures::{InputMeasures, MOST_ROWS_OF_KERNELS, Measure, Measured, PERMUTATIONS, SIGNIFICANT, measures};
 pub use outcome::{InputIndices, OutputIndices};
 #[doc(hidden)]
 pub use rank::rank_first_order;

@@ -1,5 +1,7 @@
 //! The indices of one output.
 
+use serde::{Deserialize, Serialize};
+
 use super::column::{Column, NoVariance};
 use super::order::Order;
 use super::{Binned, binned, centred, rank};
@@ -15,7 +17,7 @@ pub struct OutputIndices {
 }
 
 /// The first-order index of one input, by each method that was used.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct InputIndices {
     /// The input.
     pub input: String,

@@ -40,7 +40,7 @@ pub fn rank_first_order(x: &[f64], y: &[f64], seed: u64) -> Result<Estimate, NoV
 /// The same for centred outputs `z` and the order of the input; `random` is seed and stream.
 pub(super) fn of_order(order: &Order, z: &[f64], random: (u64, u64)) -> Estimate {
     if order.groups() < 2 {
-        return Estimate { estimate: 0.0, interval: None };
+        return Estimate::alone(0.0);
     }
     let n = z.len() as f64;
     let square_sum: f64 = z.iter().map(|z| z * z).sum();
@@ -143,7 +143,7 @@ mod tests {
         let x: Vec<f64> = (0..40).map(f64::from).collect();
         assert_eq!(rank_first_order(&x, &[3.0; 40], 0), Err(NoVariance::Constant));
         let constant = rank_first_order(&[3.0; 40], &x, 0).unwrap();
-        assert_eq!(constant, Estimate { estimate: 0.0, interval: None });
+        assert_eq!(constant, Estimate::alone(0.0));
     }
 
     proptest! {

@@ -98,16 +98,6 @@ impl Artefacts {
         Self { input: Some(input.into()), ..self }
     }
 
-    /// The folder.
-    pub fn folder(&self) -> &Path {
-        &self.folder
-    }
-
-    /// The formats of charts.
-    pub fn formats(&self) -> &[ChartFormat] {
-        &self.formats
-    }
-
     /// Makes the folder and checks that it can be written to, so that a run fails in its first second and not in its last.
     ///
     /// # Errors

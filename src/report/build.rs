@@ -3,13 +3,12 @@
 use std::path::Path;
 
 use rayon::prelude::*;
-use serde_json::Value;
 
 use super::build_output::OutputRecords;
-use super::records::dependence_record;
+use super::records::{factor_record, json, study_record, validity};
 use super::result::{
-    AggregateIndexRecord, AggregateRecord, ConstantRecord, EffortRecord, FactorRecord, Provenance, ResultFile,
-    RungRecord, SeriesRecord, SpendingRecord, StoppingRecord, StudyRecord, ValidityRecord, estimate_record,
+    AggregateRecord, EffortRecord, PlainIndexRecord, Provenance, ResultFile, RungRecord, SeriesRecord, SpendingRecord,
+    StoppingRecord,
 };
 use crate::analysis::{Analysis, SeriesAnalysis, Spending};
 use crate::estimate::{FirstOrder, Scaling, Total};
@@ -29,14 +28,7 @@ pub struct RunFacts {
 impl ResultFile {
     /// The result file of `analysis`, which a run of `study` gave.
     pub fn new(study: &Study, analysis: &Analysis) -> Self {
-        let runs = analysis.design.rows();
-        let told = analysis.flags.iter().filter(|(flag, runs)| !flag.warns || *runs > 0);
-        let validity = told.map(|(flag, raised)| ValidityRecord {
-            flag: flag.name.to_string(),
-            description: flag.description.to_string(),
-            runs: *raised,
-            share: *raised as f64 / runs as f64,
-        });
+        let factors = study.space.factors().iter().filter(|factor| !factor.distribution().is_noise());
         let records = OutputRecords::new(study, analysis);
         let is_item = |place: &usize| analysis.series.iter().any(|all| all.series.places().contains(place));
         let outputs = analysis.outputs.par_iter().enumerate();
@@ -45,9 +37,9 @@ impl ResultFile {
             version: 1,
             study: study_record(study),
             provenance: provenance(study, analysis),
-            factors: factor_records(study),
+            factors: factors.map(factor_record).collect(),
             outputs: outputs.map(|(place, output)| records.record(output, is_item(&place))).collect(),
-            validity: validity.collect(),
+            validity: validity(analysis.flags.iter().map(|(flag, raised)| (flag, *raised)), analysis.design.rows()),
             effort: effort_record(analysis),
             aggregate: aggregate_record(study, analysis),
             series: analysis.series.iter().map(|series| series_record(study, analysis, series)).collect(),
@@ -104,22 +96,7 @@ fn effort_record(analysis: &Analysis) -> Option<EffortRecord> {
 
 /// The result as JSON text, ending in a newline.
 pub fn result_json(result: &ResultFile) -> String {
-    // Serialisation fails on maps without text keys only, of which there is none; a number that is not finite is null.
-    serde_json::to_string_pretty(result).expect("a result is plain data") + "\n"
-}
-
-fn study_record(study: &Study) -> StudyRecord {
-    let constants = study.constants().into_iter().map(|(name, value, unit)| ConstantRecord { name, value, unit });
-    StudyRecord {
-        name: study.name.clone(),
-        title: study.title.clone(),
-        model: study.subject.name().to_owned(),
-        settings: study.settings().into_iter().map(|(key, value)| (key.to_owned(), value)).collect(),
-        constants: constants.collect(),
-        dependences: study.space.dependences().iter().map(dependence_record).collect(),
-        overrides: study.overrides.clone(),
-        source: study.source.clone(),
-    }
+    json(result)
 }
 
 fn provenance(study: &Study, analysis: &Analysis) -> Provenance {
@@ -155,17 +132,6 @@ fn name_of(file: &Path) -> String {
     file.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned())
 }
 
-fn factor_records(study: &Study) -> Vec<FactorRecord> {
-    let record = |factor: &crate::space::Factor| FactorRecord {
-        name: factor.name.clone(),
-        unit: factor.unit().to_string(),
-        group: factor.group.clone(),
-        distribution: serde_json::to_value(factor.distribution()).unwrap_or(Value::Null),
-        nominal: factor.nominal,
-    };
-    study.space.factors().iter().filter(|factor| !factor.distribution().is_noise()).map(record).collect()
-}
-
 fn aggregate_record(study: &Study, analysis: &Analysis) -> Option<AggregateRecord> {
     let aggregate = analysis.aggregate.as_ref()?;
     let weighting = match aggregate.scaling {
@@ -182,16 +148,16 @@ fn aggregate_record(study: &Study, analysis: &Analysis) -> Option<AggregateRecor
     })
 }
 
-fn together_records(study: &Study, all: &AggregateIndices) -> Vec<AggregateIndexRecord> {
+fn together_records(study: &Study, all: &AggregateIndices) -> Vec<PlainIndexRecord> {
     let known = (0..study.space.factors().len()).filter(|factor| Some(*factor) != study.space.noise());
     known.map(|factor| together_record(study, all, factor)).collect()
 }
 
-fn together_record(study: &Study, all: &AggregateIndices, factor: usize) -> AggregateIndexRecord {
-    AggregateIndexRecord {
+fn together_record(study: &Study, all: &AggregateIndices, factor: usize) -> PlainIndexRecord {
+    PlainIndexRecord {
         factor: study.space.factors()[factor].name.clone(),
-        first_order: estimate_record(all.first_order[factor]),
-        total: estimate_record(all.total[factor]),
+        first_order: all.first_order[factor],
+        total: all.total[factor],
     }
 }
 

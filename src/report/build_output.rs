@@ -1,25 +1,18 @@
 //! From the analysis of one output to its part of the result file.
 
-use serde_json::{Map, Value};
-
 use super::distribution::OutputDistribution;
-use super::records::input_value;
-use super::result::measures::GivenMeasuresRecord;
 use super::result::{
-    DependentRecord, DistributionRecord, EffectRecord, EstimatorRecord, FailureRecord, GroupRecord, IndexRecord,
-    IntervalRecord, LowUseRecord, MeanIndexRecord, MeasuresRecord, NoiseRecord, OtherIndexRecord, OutputRecord,
-    PairRecord, PlayerRecord, StageIndexRecord, StageRecord, SubsetRecord, SurrogateRecord, SurrogateTermRecord,
-    estimate_record,
+    DistributionRecord, EstimatorRecord, GroupRecord, IndexRecord, NoiseRecord, OtherIndexRecord, OutputRecord,
+    PairRecord, PlainIndexRecord, PlayerRecord, StageRecord, SubsetRecord, SurrogateRecord,
 };
-use super::scatter::{FirstRows, scatter_record};
-use crate::analysis::{Analysis, FailureCount, OutputAnalysis, RunMeasures, names_of_swaps, row_inputs};
+use super::scatter::{rows_of_scatter, scatter_record};
+use crate::analysis::{Analysis, FirstRows, OutputAnalysis, names_of_swaps, row_inputs};
 use crate::estimate::{FirstOrder, ShapleyPlayers, Total};
-use crate::given::Measure;
 use crate::run::Place;
 use crate::study::Study;
 use crate::uncertainty::{
-    EffectEstimates, Estimate, Interval, MeanEstimates, NoiseIndices, OtherEstimates, OutputIndices, Stage,
-    SurrogateTerm, SurrogateUse,
+    EffectChecks, EffectEstimates, Estimate, MeanEstimates, NoiseIndices, OtherEstimates, OutputIndices, Stage,
+    SurrogateUse,
 };
 
 /// What the records of all outputs are made from.
@@ -32,7 +25,7 @@ pub(super) struct OutputRecords<'a> {
 impl<'a> OutputRecords<'a> {
     pub fn new(study: &'a Study, analysis: &Analysis) -> Self {
         let design = &analysis.design;
-        Self { study, runs_per_point: design.rows_per_point(), rows: FirstRows::of(design) }
+        Self { study, runs_per_point: design.rows_per_point(), rows: rows_of_scatter(design) }
     }
 
     /// The record of `output`, which may be a value of a series: a series has pictures as a whole.
@@ -47,30 +40,19 @@ impl<'a> OutputRecords<'a> {
             unit: unit.to_string(),
             mean: mean.map(|mean| in_unit(mean.estimate)).filter(|mean| mean.is_finite()),
             variance: variance.map(|variance| squared(variance.estimate)).filter(|variance| variance.is_finite()),
-            mean_interval: mean.and_then(|mean| interval_record(mean.interval, &in_unit)),
-            variance_interval: variance.and_then(|variance| interval_record(variance.interval, &squared)),
+            mean_interval: mean.and_then(|mean| mean.interval?.map(in_unit)),
+            variance_interval: variance.and_then(|variance| variance.interval?.map(squared)),
             runs_ok: output.runs_ok,
             runs_failed: output.runs_failed,
             base_points_used: output.base_points_used,
-            failures: output.failures.iter().map(|failure| failure_record(study, failure)).collect(),
-            sum_first_order: None,
-            sum_total: None,
-            indices: None,
-            groups: None,
-            subsets: None,
-            dummy: None,
-            noise: None,
-            shapley_groups: None,
-            measures: output.measures.as_ref().map(|of| measures_record(of, &study.analysis.measures)),
-            second_order: None,
-            estimators: Vec::new(),
-            surrogate: None,
+            failures: output.failures.clone(),
+            measures: output.measures.clone(),
             convergence: output.convergence.iter().map(stage).collect(),
             distribution: distribution_record(output, is_item),
-            scatter: None,
             reason: output.indices.as_ref().err().map(ToString::to_string),
             warnings: output.warnings.iter().map(ToString::to_string).collect(),
             warning_codes: output.warnings.iter().map(|warning| warning.code().to_owned()).collect(),
+            ..OutputRecord::default()
         };
         if let Ok(indices) = &output.indices {
             add_indices(&mut record, study, indices);
@@ -86,47 +68,32 @@ fn add_indices(record: &mut OutputRecord, study: &Study, indices: &OutputIndices
     let factors = study.space.factors();
     let names = |numbers: &[usize]| numbers.iter().map(|&number| factors[number].name.clone()).collect::<Vec<_>>();
     if study.space.copula().is_none() {
-        record.sum_first_order = Some(estimate_record(indices.sum_first_order));
-        record.sum_total = Some(estimate_record(indices.sum_total));
+        record.sum_first_order = Some(indices.sum_first_order);
+        record.sum_total = Some(indices.sum_total);
     }
-    let of_factor = |(factor, effect): (&crate::space::Factor, &EffectEstimates)| IndexRecord {
-        factor: factor.name.clone(),
-        effect: effect_record(effect),
-    };
     let known = factors.iter().zip(&indices.factors).filter(|(factor, _)| !factor.distribution().is_noise());
-    record.indices = Some(known.map(of_factor).collect());
+    record.indices = Some(known.map(|(factor, &effect)| IndexRecord { factor: factor.name.clone(), effect }).collect());
     record.noise = indices.noise.as_ref().map(|noise| noise_record(study, indices, noise));
-    let of_group = |(group, effect): (crate::space::Group, &EffectEstimates)| GroupRecord {
-        factors: names(&group.factors),
-        group: group.name,
-        effect: effect_record(effect),
-    };
-    record.groups = Some(study.space.groups().into_iter().zip(&indices.groups).map(of_group).collect());
+    let groups = study.space.groups().into_iter().zip(&indices.groups);
+    let of_group =
+        groups.map(|(group, &effect)| GroupRecord { factors: names(&group.factors), group: group.name, effect });
+    record.groups = Some(of_group.collect());
     let subsets = study.analysis.subsets.iter().zip(&indices.subsets);
-    let of_subset = |(numbers, effect): (&Vec<usize>, &EffectEstimates)| SubsetRecord {
-        factors: names(numbers),
-        effect: effect_record(effect),
-    };
-    record.subsets = Some(subsets.map(of_subset).collect());
-    record.dummy = indices.dummy.as_ref().map(effect_record);
+    record.subsets = Some(subsets.map(|(numbers, &effect)| SubsetRecord { factors: names(numbers), effect }).collect());
+    record.dummy = indices.dummy;
     if study.analysis.shapley_players == Some(ShapleyPlayers::Groups) {
         add_players(record, indices);
     }
     if study.analysis.second_order {
         let of_pair = |((j, k), index): ((usize, usize), &Estimate)| PairRecord {
             factors: [j, k].map(|number| factors[number].name.clone()),
-            index: estimate_record(*index),
+            index: *index,
         };
         let pairs = study.layout().pair_list();
         record.second_order = Some(pairs.into_iter().zip(&indices.second_order).map(of_pair).collect());
     }
     record.estimators = estimator_records(study, indices);
     record.surrogate = indices.surrogate.as_ref().map(|used| surrogate_record(study, used));
-}
-
-fn measures_record(of: &RunMeasures, wanted: &[Measure]) -> MeasuresRecord {
-    let factors = of.factors.iter().map(|factor| GivenMeasuresRecord::of(factor, wanted)).collect();
-    MeasuresRecord { rows: of.rows as u64, factors }
 }
 
 /// The Shapley effects of groups, and of factors without one, in a list of their own: those of factors alone are not theirs.
@@ -142,7 +109,7 @@ fn add_players(record: &mut OutputRecord, indices: &OutputIndices) {
         (group.group.clone(), group.factors.clone(), effect)
     });
     let player = |(player, factors, effect): (String, Vec<String>, &EffectEstimates)| {
-        effect.shapley.map(|shapley| PlayerRecord { player, factors, shapley: estimate_record(shapley) })
+        effect.shapley.map(|shapley| PlayerRecord { player, factors, shapley })
     };
     record.shapley_groups = Some(of_factors.chain(of_groups).filter_map(player).collect());
 }
@@ -151,13 +118,13 @@ fn noise_record(study: &Study, indices: &OutputIndices, noise: &NoiseIndices) ->
     let names = names_of_swaps(study).into_iter().zip(&noise.of_mean).take(indices.effects().count());
     let real = names.take(study.layout().swaps() - usize::from(study.analysis.dummy));
     let of_mean = real.filter_map(|(name, of)| {
-        let MeanEstimates { first_order, total } = of.as_ref().copied()?;
-        Some(MeanIndexRecord { name, first_order: first_order.map(estimate_record), total: total.map(estimate_record) })
+        let MeanEstimates { first_order, total } = *of.as_ref()?;
+        Some(OtherIndexRecord { name, first_order, total })
     });
     NoiseRecord {
         name: study.space.factors()[noise.factor].name.clone(),
-        effect: effect_record(&indices.factors[noise.factor]),
-        mean_share: estimate_record(noise.mean_share),
+        effect: indices.factors[noise.factor],
+        mean_share: noise.mean_share,
         of_mean: of_mean.collect(),
     }
 }
@@ -169,16 +136,12 @@ fn without_noise<T>(study: &Study, of_swaps: impl Iterator<Item = T>) -> Vec<T> 
 }
 
 fn surrogate_record(study: &Study, used: &SurrogateUse) -> SurrogateRecord {
-    let factors = study.space.factors();
-    let term = |term: &SurrogateTerm| SurrogateTermRecord {
-        degrees: term.factors.iter().map(|&(number, degree)| (factors[number].name.clone(), degree)).collect(),
-        share: 100.0 * term.share,
-    };
+    let names: Vec<&str> = study.space.factors().iter().map(|factor| factor.name.as_str()).collect();
     let plain = used.plain_first_order.iter().zip(&used.plain_total);
     let of_swap = |(name, (first_order, total)): (String, (&Estimate, &Estimate))| OtherIndexRecord {
         name,
-        first_order: Some(estimate_record(*first_order)),
-        total: Some(estimate_record(*total)),
+        first_order: Some(*first_order),
+        total: Some(*total),
     };
     SurrogateRecord {
         explained: used.explained,
@@ -187,13 +150,9 @@ fn surrogate_record(study: &Study, used: &SurrogateUse) -> SurrogateRecord {
         corrects_total: used.corrects_total,
         gain_first_order: used.gain_first_order,
         gain_total: used.gain_total,
-        leading_terms: used.terms.iter().map(term).collect(),
+        leading_terms: used.terms.iter().map(|term| term.named(&names)).collect(),
         plain: without_noise(study, names_of_swaps(study).into_iter().zip(plain).map(of_swap)),
-        low: used.low.as_ref().map(|low| LowUseRecord {
-            name: low.name.clone(),
-            slope: low.slope,
-            explained: low.explained,
-        }),
+        low: used.low.clone(),
     }
 }
 
@@ -202,29 +161,25 @@ fn estimator_records(study: &Study, indices: &OutputIndices) -> Vec<EstimatorRec
     let estimators = study.analysis.estimators.iter().enumerate();
     let record = |(number, estimator): (usize, &crate::estimate::Estimator)| {
         let (first_order, total) = estimator.formulas();
-        let of_swap = |(name, effect): (&String, &EffectEstimates)| {
-            let OtherEstimates { first_order, total, .. } = effect.others[number];
-            OtherIndexRecord {
-                name: name.clone(),
-                first_order: first_order.map(estimate_record),
-                total: total.map(estimate_record),
-            }
+        let of_swap = |(name, checks): (&String, &EffectChecks)| {
+            let OtherEstimates { first_order, total, .. } = checks.others[number];
+            OtherIndexRecord { name: name.clone(), first_order, total }
         };
         EstimatorRecord {
             estimator: estimator.name().to_owned(),
             first_order_source: first_order.map(FirstOrder::source).map(str::to_owned),
             total_source: total.map(Total::source).map(str::to_owned),
-            indices: without_noise(study, names.iter().zip(indices.effects()).map(of_swap)),
+            indices: without_noise(study, names.iter().zip(&indices.checks).map(of_swap)),
         }
     };
     estimators.map(record).collect()
 }
 
 fn stage_record(study: &Study, stage: &Stage, runs_per_point: u64) -> StageRecord {
-    let of_factor = |(factor, effect): (&crate::space::Factor, &EffectEstimates)| StageIndexRecord {
+    let of_factor = |(factor, effect): (&crate::space::Factor, &EffectEstimates)| PlainIndexRecord {
         factor: factor.name.clone(),
-        first_order: estimate_record(effect.first_order),
-        total: estimate_record(effect.total),
+        first_order: effect.first_order,
+        total: effect.total,
     };
     StageRecord {
         base_samples: stage.base_samples,
@@ -232,33 +187,6 @@ fn stage_record(study: &Study, stage: &Stage, runs_per_point: u64) -> StageRecor
         largest_half_width: stage.indices.largest_half_width(),
         indices: without_noise(study, study.space.factors().iter().zip(&stage.indices.factors).map(of_factor)),
     }
-}
-
-fn effect_record(effect: &EffectEstimates) -> EffectRecord {
-    let same = |x: f64| x;
-    let interval = |share: Option<Estimate>| share.and_then(|s| interval_record(s.interval, &same));
-    EffectRecord {
-        first_order: estimate_record(effect.first_order),
-        total: estimate_record(effect.total),
-        share_first_order: effect.share_first_order.map(|share| share.estimate),
-        share_total: effect.share_total.map(|share| share.estimate),
-        share_first_order_interval: interval(effect.share_first_order),
-        share_total_interval: interval(effect.share_total),
-        interaction: effect.dependent.is_none().then(|| estimate_record(effect.interaction)),
-        probability_first: effect.probability_first,
-        probability_above_threshold: effect.probability_above,
-        shapley: effect.shapley.map(estimate_record),
-        dependent: effect.dependent.map(|dependent| DependentRecord {
-            independent_first_order: estimate_record(dependent.independent_first_order),
-            full_total: estimate_record(dependent.full_total),
-        }),
-    }
-}
-
-/// `None` where a bound is beyond double precision in the unit.
-fn interval_record(interval: Option<Interval>, convert: &dyn Fn(f64) -> f64) -> Option<IntervalRecord> {
-    let record = interval.map(|i| IntervalRecord { low: convert(i.low), high: convert(i.high) });
-    record.filter(|record| record.low.is_finite() && record.high.is_finite())
 }
 
 /// Moments and range from all values of the rows A and B, the rest from those that were kept. `None` without values, and
@@ -285,13 +213,6 @@ fn distribution_record(output: &OutputAnalysis, is_item: bool) -> Option<Distrib
     let all = [sample.mean, sample.min, sample.max].into_iter().chain(quantiles).chain(edges);
     let representable = all.into_iter().all(f64::is_finite);
     representable.then_some(DistributionRecord { values: n, sample })
-}
-
-fn failure_record(study: &Study, failure: &FailureCount) -> FailureRecord {
-    let named = |(factor, value): (&crate::space::Factor, &f64)| (factor.name.clone(), input_value(factor, *value));
-    let first_inputs: Map<String, Value> =
-        study.space.factors().iter().zip(&failure.first_inputs).filter(|_| !study.analysis.salib).map(named).collect();
-    FailureRecord { reason: failure.reason.clone(), runs: failure.runs, first_row: failure.first_row, first_inputs }
 }
 
 /// The inputs of a row of `study` in words, such as `length = 300 um, velocity = 0 nm/s`; `place` may lie beyond the

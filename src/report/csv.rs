@@ -1,7 +1,7 @@
 //! CSV: numbers with as many digits as it takes to read the same bits back, an empty cell where there is none.
 
-use super::result::EstimateRecord;
 use crate::text::inert;
+use crate::uncertainty::Estimate;
 
 /// A value of a file.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -20,7 +20,7 @@ pub enum Value {
     /// Yes or no.
     Flag(bool),
     /// An estimate and the bounds of its interval, in three columns.
-    Estimate(Option<EstimateRecord>),
+    Estimate(Option<Estimate>),
 }
 
 /// The name of a column, or of the three columns of an estimate.
@@ -82,7 +82,9 @@ impl Csv {
                 Value::Count(count) => self.cell(&count.to_string()),
                 Value::Flag(flag) => self.cell(if flag { "true" } else { "false" }),
                 Value::Estimate(estimate) => {
-                    let bounds = |e: EstimateRecord| [Some(e.estimate), e.low, e.high];
+                    let bounds = |Estimate { estimate, interval }: Estimate| {
+                        [Some(estimate), interval.map(|i| i.low), interval.map(|i| i.high)]
+                    };
                     estimate.map_or([None; 3], bounds).iter().for_each(|bound| self.cell(&exact(*bound)));
                 }
             }
@@ -114,77 +116,42 @@ fn exact(value: Option<f64>) -> String {
     value.filter(|value| value.is_finite()).map_or_else(String::new, |value| value.to_string())
 }
 
-impl From<&str> for Value {
-    fn from(text: &str) -> Self {
-        Self::Text(text.to_owned())
-    }
+/// Declares what a value of each type is in a table.
+macro_rules! values {
+    ($($type:ty => $value:expr;)+) => {
+        $(impl From<$type> for Value {
+            fn from(of: $type) -> Self {
+                $value(of)
+            }
+        })+
+    };
 }
 
-impl From<&String> for Value {
-    fn from(text: &String) -> Self {
-        Self::Text(text.clone())
-    }
-}
-
-impl From<String> for Value {
-    fn from(text: String) -> Self {
-        Self::Text(text)
-    }
-}
-
-impl From<f64> for Value {
-    fn from(number: f64) -> Self {
-        Self::Number(number)
-    }
-}
-
-impl From<u64> for Value {
-    fn from(count: u64) -> Self {
-        Self::Count(count)
-    }
-}
-
-impl From<bool> for Value {
-    fn from(flag: bool) -> Self {
-        Self::Flag(flag)
-    }
-}
-
-impl From<EstimateRecord> for Value {
-    fn from(estimate: EstimateRecord) -> Self {
-        Self::Estimate(Some(estimate))
-    }
-}
-
-impl From<Option<EstimateRecord>> for Value {
-    fn from(estimate: Option<EstimateRecord>) -> Self {
-        Self::Estimate(estimate)
-    }
-}
-
-impl From<Option<f64>> for Value {
-    fn from(number: Option<f64>) -> Self {
-        number.map_or(Self::Empty, Self::Number)
-    }
-}
-
-impl From<Option<bool>> for Value {
-    fn from(flag: Option<bool>) -> Self {
-        flag.map_or(Self::Empty, Self::Flag)
-    }
+values! {
+    &str => |text: &str| Self::Text(text.to_owned());
+    &String => |text: &String| Self::Text(text.clone());
+    String => Self::Text;
+    f64 => Self::Number;
+    u64 => Self::Count;
+    bool => Self::Flag;
+    Estimate => |estimate| Self::Estimate(Some(estimate));
+    Option<Estimate> => Self::Estimate;
+    Option<f64> => |number: Option<f64>| number.map_or(Self::Empty, Self::Number);
+    Option<bool> => |flag: Option<bool>| flag.map_or(Self::Empty, Self::Flag);
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::uncertainty::Interval;
 
     #[test]
     fn values_keep_their_bits_and_gaps_are_empty() {
         let mut csv = Csv::new(fields(&["a,b", "n"], &["S"]));
-        let known = EstimateRecord { estimate: 0.1, low: None, high: Some(1e-300) };
+        let known = Estimate { estimate: 0.1, interval: Some(Interval { low: -0.5, high: 1e-300 }) };
         csv.row([Value::from("=1+1"), Value::from(7), known.into()]);
         csv.row([Value::Flag(true), Value::from(f64::NAN), Value::Estimate(None)]);
         csv.row([Value::Flag(false)]);
-        assert_eq!(csv.text(), format!("\"a,b\",n,S,S_low,S_high\n'=1+1,7,0.1,,{}\ntrue,,,,\nfalse,,,,\n", 1e-300));
+        assert_eq!(csv.text(), format!("\"a,b\",n,S,S_low,S_high\n'=1+1,7,0.1,-0.5,{}\ntrue,,,,\nfalse,,,,\n", 1e-300));
     }
 }

@@ -3,7 +3,8 @@
 use super::chart::{Axis, Bar, Chart, Colour, Mark, Panel, Series, Shape};
 use super::format::{fixed, index as of_error, minus, name, two_digits};
 use super::leading::leader_of;
-use super::result::{EffectRecord, EstimateRecord, IntervalRecord, OutputRecord, ResultFile};
+use super::result::{OutputRecord, ResultFile};
+use crate::uncertainty::{EffectEstimates, Estimate, Interval};
 
 /// Most factors in a chart.
 pub(super) const MOST: usize = 20;
@@ -23,13 +24,10 @@ const DECIMALS: usize = 4;
 const SMALL: f64 = 0.01;
 
 /// A series with its value for each factor; `None` is marked as missing.
-pub(super) type IndexSeries = (Series, Vec<Option<EstimateRecord>>);
+pub(super) type IndexSeries = (Series, Vec<Option<Estimate>>);
 
 /// The series of first-order and of total indices.
-pub(super) fn both_orders(
-    first_order: Vec<Option<EstimateRecord>>,
-    total: Vec<Option<EstimateRecord>>,
-) -> [IndexSeries; 2] {
+pub(super) fn both_orders(first_order: Vec<Option<Estimate>>, total: Vec<Option<Estimate>>) -> [IndexSeries; 2] {
     [
         (Series::new("S_1, first order: alone", Colour::Series(0)), first_order),
         (Series::new("S_T, total: with all interactions", Colour::Series(4)), total),
@@ -40,8 +38,8 @@ pub(super) fn both_orders(
 /// and below it the total index, whose part beyond the first-order index is what the factor does together with others.
 pub(super) fn pair_panel(
     factors: Vec<String>,
-    first_order: Vec<Option<EstimateRecord>>,
-    total: Vec<Option<EstimateRecord>>,
+    first_order: Vec<Option<Estimate>>,
+    total: Vec<Option<Estimate>>,
     keys: &[f64],
 ) -> Panel {
     let with_others = Series::new("S_T − S_1: only together with others", Colour::Series(5));
@@ -85,9 +83,9 @@ fn bars((series, values): IndexSeries, possible: (f64, f64)) -> impl Iterator<It
 }
 
 /// The bar of an index. One of which nothing is known says so: its bar would be read all the same.
-fn index_bar(row: usize, value: Option<EstimateRecord>, possible: (f64, f64)) -> Bar {
+fn index_bar(row: usize, value: Option<Estimate>, possible: (f64, f64)) -> Bar {
     let Some(index) = value else { return Bar { row, to: f64::NAN, ..Bar::default() } };
-    let length = index.low.zip(index.high).map(|(low, high)| high - low);
+    let length = index.interval.map(Interval::width);
     let is_possible = (possible.0..=possible.1).contains(&index.estimate);
     if !is_possible || length.is_some_and(|length| length > LONGEST) {
         return Bar { row, to: f64::NAN, label: UNKNOWN.to_owned(), ..Bar::default() };
@@ -100,8 +98,7 @@ fn index_bar(row: usize, value: Option<EstimateRecord>, possible: (f64, f64)) ->
         true => minus(&fixed(index.estimate, DECIMALS)),
         false => printed.to_owned(),
     };
-    let interval = index.low.zip(index.high);
-    let interval = interval.map(|(low, high)| (low.max(possible.0 - BEYOND), high.min(possible.1 + BEYOND)));
+    let interval = index.interval.map(|i| (i.low.max(possible.0 - BEYOND), i.high.min(possible.1 + BEYOND)));
     Bar { row, to: index.estimate, interval, label, said, ..Bar::default() }
 }
 
@@ -124,27 +121,26 @@ pub struct SharesSeries<'a> {
 /// The shares of `factors` in each of `series`: first order on the left, total on the right, the factor with the largest
 /// total share on top. Of more than 20 factors, the first 20.
 pub fn shares_chart(title: &str, caption: &str, factors: &[&str], series: &[SharesSeries<'_>]) -> Chart {
-    let total: ShareOf = |e| (e.share_total, e.share_total_interval);
     let largest = |factor: &&str| {
-        let shares = series.iter().filter_map(|series| share(series, factor, total).0);
-        shares.fold(f64::NEG_INFINITY, f64::max)
+        let shares = series.iter().filter_map(|series| share(series, factor, EffectEstimates::total_percent));
+        shares.map(|share| share.estimate).fold(f64::NEG_INFINITY, f64::max)
     };
     let keys: Vec<f64> = factors.iter().map(largest).collect();
     let panel = |title: &str, of: ShareOf| {
         let names = Axis::from_names("", factors.iter().map(|factor| name(factor)).collect());
         let bars = series.iter().flat_map(|series| {
             factors.iter().enumerate().map(move |(row, factor)| {
-                let (value, interval) = share(series, factor, of);
+                let share = share(series, factor, of);
                 let published = series.published.iter().find(|(name, _)| name == factor).map(|(_, share)| *share);
-                series.series.mark(Shape::Bar(Bar { published, ..share_bar(row, value, interval) }))
+                series.series.mark(Shape::Bar(Bar { published, ..share_bar(row, share) }))
             })
         });
         let panel = Panel::new(Axis::new("share of the sum of indices (%)", ""), names).titled(title).with(bars);
         panel.ranked(&keys, MOST)
     };
     let panels = [
-        panel("First-order indices", |e| (e.share_first_order, e.share_first_order_interval)),
-        panel("Total indices", total),
+        panel("First-order indices", EffectEstimates::first_order_percent),
+        panel("Total indices", EffectEstimates::total_percent),
     ];
     Chart::new(title, format!("{caption}{}", not_drawn(factors.len(), MOST))).side_by_side().panels(panels)
 }
@@ -154,33 +150,35 @@ const POSSIBLE_SHARE: std::ops::RangeInclusive<f64> = -10.0..=110.0;
 const LONGEST_SHARE: f64 = 100.0;
 
 /// The bar of a share in percent; of one that means nothing, only that.
-fn share_bar(row: usize, share: Option<f64>, interval: Option<IntervalRecord>) -> Bar {
-    let means =
-        |share: f64| POSSIBLE_SHARE.contains(&share) && interval.is_none_or(|i| i.high - i.low <= LONGEST_SHARE);
-    match share {
-        Some(share) if !means(share) => Bar { row, to: f64::NAN, label: UNKNOWN.to_owned(), ..Bar::default() },
-        _ => Bar::percent(row, share, interval.map(|i| (i.low, i.high))),
+fn share_bar(row: usize, share: Option<Estimate>) -> Bar {
+    let interval = share.and_then(|share| share.interval);
+    let is_short = interval.is_none_or(|interval| interval.width() <= LONGEST_SHARE);
+    match share.map(|share| share.estimate) {
+        Some(share) if !(is_short && POSSIBLE_SHARE.contains(&share)) => {
+            Bar { row, to: f64::NAN, label: UNKNOWN.to_owned(), ..Bar::default() }
+        }
+        share => Bar::percent(row, share, interval.map(|i| (i.low, i.high))),
     }
 }
 
-type ShareOf = fn(&EffectRecord) -> (Option<f64>, Option<IntervalRecord>);
+type ShareOf = fn(&EffectEstimates) -> Option<Estimate>;
 
-fn share(series: &SharesSeries<'_>, factor: &str, of: ShareOf) -> (Option<f64>, Option<IntervalRecord>) {
+fn share(series: &SharesSeries<'_>, factor: &str, of: ShareOf) -> Option<Estimate> {
     let index = series.output.indices.iter().flatten().find(|index| index.factor == *factor);
-    index.map_or((None, None), |index| of(&index.effect))
+    index.and_then(|index| of(&index.effect))
 }
 
 /// The chart of one output of a single study.
 pub fn study_chart(result: &ResultFile, output: &OutputRecord) -> Chart {
     let factors: Vec<&str> = result.factors.iter().map(|factor| factor.name.as_str()).collect();
-    let title = result.study.title.as_ref().unwrap_or(&result.study.name);
+    let title = result.study.headline();
     let indices = || output.indices.iter().flatten();
     let of_factors = indices().filter_map(|index| Some((name(&index.factor), index.effect.shapley?)));
     let of_players = output.shapley_groups.iter().flatten().map(|player| (name(&player.player), player.shapley));
-    let shapley: Vec<(String, EstimateRecord)> = of_factors.chain(of_players).collect();
+    let shapley: Vec<(String, Estimate)> = of_factors.chain(of_players).collect();
     if !shapley.is_empty() {
-        let (names, effects): (_, Vec<EstimateRecord>) = shapley.into_iter().unzip();
-        let effects: Vec<Option<EstimateRecord>> = effects.into_iter().map(Some).collect();
+        let (names, effects): (_, Vec<Estimate>) = shapley.into_iter().unzip();
+        let effects: Vec<Option<Estimate>> = effects.into_iter().map(Some).collect();
         let keys: Vec<f64> = effects.iter().map(|effect| effect.map_or(f64::NAN, |effect| effect.estimate)).collect();
         let series = (Series::new("Shapley effect", Colour::Series(0)), effects);
         let panel = index_panel("Shapley effect: part of the variance", names, [series], &keys);
@@ -201,8 +199,8 @@ pub fn study_chart(result: &ResultFile, output: &OutputRecord) -> Chart {
 mod tests {
     use super::*;
 
-    fn about(estimate: f64, half: f64) -> Option<EstimateRecord> {
-        Some(EstimateRecord { estimate, low: Some(estimate - half), high: Some(estimate + half) })
+    fn about(estimate: f64, half: f64) -> Option<Estimate> {
+        Some(Estimate { estimate, interval: Some(Interval::about(estimate, half)) })
     }
 
     fn drawn(panel: &Panel) -> Vec<Bar> {
@@ -231,7 +229,7 @@ mod tests {
     fn an_index_of_which_nothing_is_known_has_no_bar() {
         let keys = [1.0, 0.5, 0.4, 0.3];
         let names: Vec<String> = ["a", "b", "c", "d"].map(str::to_owned).to_vec();
-        let alone = Some(EstimateRecord { estimate: 2.73, low: None, high: None });
+        let alone = Some(Estimate::alone(2.73));
         let values = vec![about(-1.73, 0.2), alone, about(0.4, 0.6), about(0.02, 0.04)];
         let panel = index_panel(INDEX, names.clone(), [(Series::default(), values)], &keys);
         let labels: Vec<String> = drawn(&panel).into_iter().map(|bar| bar.label).collect();

@@ -2,9 +2,9 @@
 
 use super::format::{chance, count, index, name};
 use super::listed;
-use super::result::{AggregateIndexRecord, EstimateRecord, IndexRecord, OutputRecord, PairRecord};
+use super::result::{IndexRecord, OutputRecord, PairRecord, PlainIndexRecord};
 use crate::special::normal_quantile;
-use crate::uncertainty::LEVEL;
+use crate::uncertainty::{Estimate, Interval, LEVEL};
 
 /// From this probability on a lead is taken for one.
 const SURE: f64 = 0.95;
@@ -17,14 +17,14 @@ pub(super) struct Contender {
     /// Its name as it stands in a sentence.
     pub label: String,
     /// What decides: the total index, or another measure.
-    pub total: EstimateRecord,
+    pub total: Estimate,
     /// Probability that it is the largest, where it is known.
     pub probability: Option<f64>,
 }
 
 impl Contender {
     /// One of whose probability to be the largest nothing is known.
-    pub fn new(label: impl Into<String>, total: EstimateRecord) -> Self {
+    pub fn new(label: impl Into<String>, total: Estimate) -> Self {
         Self { label: label.into(), total, probability: None }
     }
 
@@ -51,15 +51,15 @@ pub(super) fn may_lead(contenders: &[Contender]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..contenders.len()).collect();
     order.sort_by(|&a, &b| contenders[b].total.estimate.total_cmp(&contenders[a].total.estimate));
     let Some((&lead, rest)) = order.split_first() else { return order };
-    let rivals = match (contenders[lead].probability, contenders[lead].total.low) {
+    let rivals = match (contenders[lead].probability, contenders[lead].total.interval) {
         (Some(probability), _) if probability >= SURE => 0,
         (Some(_), _) => {
             let is_likely = |&k: &usize| contenders[k].probability.is_some_and(|chance| chance >= 1.0 - SURE);
             // Unsure, and no other likely: the next one.
             rest.iter().rposition(is_likely).map_or(1, |last| last + 1)
         }
-        (None, Some(low)) => {
-            let reaches = |&k: &usize| contenders[k].total.high.is_some_and(|high| high >= low);
+        (None, Some(Interval { low, .. })) => {
+            let reaches = |&k: &usize| contenders[k].total.interval.is_some_and(|interval| interval.high >= low);
             rest.iter().rposition(reaches).map_or(0, |last| last + 1)
         }
         (None, None) => 0,
@@ -73,8 +73,8 @@ pub(super) fn may_lead(contenders: &[Contender]) -> Vec<usize> {
 pub(super) fn surely_interact(pairs: &[PairRecord]) -> Vec<bool> {
     let quantile = |number: f64| normal_quantile(1.0 - (1.0 - LEVEL) / (2.0 * number));
     let ratio = quantile(pairs.len().max(1) as f64) / quantile(1.0);
-    let is_sure = |EstimateRecord { estimate, low, .. }: EstimateRecord| {
-        low.is_some_and(|low| low > 0.0 && estimate - ratio * (estimate - low) > 0.0)
+    let is_sure = |Estimate { estimate, interval }: Estimate| {
+        interval.is_some_and(|Interval { low, .. }| low > 0.0 && estimate - ratio * (estimate - low) > 0.0)
     };
     pairs.iter().map(|pair| is_sure(pair.index)).collect()
 }
@@ -116,7 +116,7 @@ pub(super) fn leader_of(output: &OutputRecord) -> String {
 }
 
 /// The same of several outputs together.
-pub(super) fn leader_of_all(indices: &[AggregateIndexRecord], of: &str) -> Option<String> {
+pub(super) fn leader_of_all(indices: &[PlainIndexRecord], of: &str) -> Option<String> {
     let contenders: Vec<Contender> =
         indices.iter().map(|index| Contender::new(name(&index.factor), index.total)).collect();
     leader(&contenders, of, "total index S_T", "")
@@ -151,8 +151,8 @@ pub(super) fn of_which(outputs: &[&str], places: &[usize]) -> String {
 mod tests {
     use super::*;
 
-    fn record(low: f64, high: f64) -> EstimateRecord {
-        EstimateRecord { estimate: (low + high) / 2.0, low: Some(low), high: Some(high) }
+    fn record(low: f64, high: f64) -> Estimate {
+        Estimate { estimate: (low + high) / 2.0, interval: Some(Interval { low, high }) }
     }
 
     fn contender(label: &str, total: (f64, f64), probability: Option<f64>) -> Contender {
@@ -170,7 +170,7 @@ mod tests {
         let mut unknown = tie.to_vec();
         unknown.iter_mut().for_each(|contender| contender.probability = None);
         assert_eq!(may_lead(&unknown), [1, 0]);
-        unknown.iter_mut().for_each(|contender| (contender.total.low, contender.total.high) = (None, None));
+        unknown.iter_mut().for_each(|contender| contender.total.interval = None);
         assert_eq!(may_lead(&unknown), [1]);
         assert_eq!(may_lead(&[]), [] as [usize; 0]);
         // Unsure, and no other likely: the next one.
@@ -190,7 +190,9 @@ mod tests {
         // By intervals: that of the second stays below, that of the third does not.
         let mut by_interval = contenders.clone();
         by_interval.iter_mut().for_each(|contender| contender.probability = None);
-        (by_interval[1].total.high, by_interval[2].total.high) = (Some(0.99), Some(1.2));
+        for (contender, high) in by_interval[1..].iter_mut().zip([0.99, 1.2]) {
+            contender.total.interval = contender.total.interval.map(|interval| Interval { high, ..interval });
+        }
         assert_eq!(may_lead(&by_interval), [0, 1, 2]);
     }
 
@@ -208,7 +210,7 @@ mod tests {
         // At 45 pairs 3.26 standard errors are wanted, at 435 there are 3.86.
         assert_eq!(surely_interact(&pairs(45))[..2], [true, false]);
         assert!(surely_interact(&pairs(435))[0]);
-        let unknown = EstimateRecord { estimate: 0.5, low: None, high: None };
+        let unknown = Estimate::alone(0.5);
         assert_eq!(surely_interact(&[PairRecord { factors: Default::default(), index: unknown }]), [false]);
         let exact = PairRecord { factors: Default::default(), index: record(0.2, 0.2) };
         assert_eq!(surely_interact(&[exact]), [true]);

@@ -75,7 +75,7 @@ pub use {
     format::{fixed, give_or_take, grouped, share, share_of_runs, significant, two_digits, with_unit},
     interval_widths::{indices_measured, widest_interval},
     read::ReadProblem,
-    records::{FactorSetup, StudySetup},
+    records::StudySetup,
     result::*,
     run_document::{TRY, one_output},
     text_table::{TextTable, table},

@@ -4,7 +4,6 @@
 //! only add keys. Numbers are in the unit that stands beside them; a number that does not exist is `null`.
 
 mod indices;
-pub(super) mod measures;
 mod noise;
 mod scatter;
 mod series;
@@ -15,13 +14,13 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::distribution::OutputDistribution;
-use crate::analysis::LowRuns;
+use crate::analysis::{FailureCount, LowRuns, RunMeasures};
+use crate::uncertainty::{EffectEstimates, Estimate, Interval};
 pub use indices::*;
-pub use measures::MeasuresRecord;
-pub use noise::{MeanIndexRecord, NoiseRecord};
+pub use noise::NoiseRecord;
 pub use scatter::*;
 pub use series::*;
-pub use spending::{EffortRecord, LowUseRecord, RungRecord, SpendingRecord, StoppingRecord};
+pub use spending::{EffortRecord, RungRecord, SpendingRecord, StoppingRecord};
 pub use surrogate::*;
 
 /// The result of a run of apportion.
@@ -175,7 +174,7 @@ pub struct FactorRecord {
 }
 
 /// Everything about one output.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[doc(hidden)]
 pub struct OutputRecord {
     /// Its name.
@@ -187,9 +186,9 @@ pub struct OutputRecord {
     /// Variance over the rows A and B, in the square of `unit`.
     pub variance: Option<f64>,
     /// Interval of the mean.
-    pub mean_interval: Option<IntervalRecord>,
+    pub mean_interval: Option<Interval>,
     /// Interval of the variance.
-    pub variance_interval: Option<IntervalRecord>,
+    pub variance_interval: Option<Interval>,
     /// Runs with a value.
     pub runs_ok: u64,
     /// Runs without one.
@@ -197,11 +196,11 @@ pub struct OutputRecord {
     /// Base points that every estimate rests on at least: each uses those where its own runs have a value.
     pub base_points_used: u64,
     /// Why runs failed.
-    pub failures: Vec<FailureRecord>,
+    pub failures: Vec<FailureCount>,
     /// Sum of the first-order indices.
-    pub sum_first_order: Option<EstimateRecord>,
+    pub sum_first_order: Option<Estimate>,
     /// Sum of the total indices.
-    pub sum_total: Option<EstimateRecord>,
+    pub sum_total: Option<Estimate>,
     /// One entry per factor; `null` where indices are undefined.
     pub indices: Option<Vec<IndexRecord>>,
     /// One entry per group; `null` where indices are undefined.
@@ -211,7 +210,7 @@ pub struct OutputRecord {
     pub subsets: Option<Vec<SubsetRecord>>,
     /// Indices of a factor that does nothing, if one was run along: the noise of the model.
     #[serde(default)]
-    pub dummy: Option<EffectRecord>,
+    pub dummy: Option<EffectEstimates>,
     /// The noise of a stochastic model, which is none of the factors, and what is known of the mean over it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub noise: Option<NoiseRecord>,
@@ -221,7 +220,7 @@ pub struct OutputRecord {
     /// Other measures of the influence of the factors, if asked for; absent too where the output does not vary, or too few runs have
     /// succeeded.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub measures: Option<MeasuresRecord>,
+    pub measures: Option<RunMeasures>,
     /// Second-order indices of all pairs of factors, if asked for.
     #[serde(default)]
     pub second_order: Option<Vec<PairRecord>>,
@@ -271,19 +270,7 @@ pub struct StageRecord {
     /// Largest half width of the first-order and total indices of the factors and groups; `null` without intervals.
     pub largest_half_width: Option<f64>,
     /// First-order and total index of every factor.
-    pub indices: Vec<StageIndexRecord>,
-}
-
-/// The indices of one factor at a stage.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[doc(hidden)]
-pub struct StageIndexRecord {
-    /// The factor.
-    pub factor: String,
-    /// First-order index.
-    pub first_order: EstimateRecord,
-    /// Total index.
-    pub total: EstimateRecord,
+    pub indices: Vec<PlainIndexRecord>,
 }
 
 /// Indices over several outputs together.
@@ -295,38 +282,12 @@ pub struct AggregateRecord {
     /// How outputs are weighed against each other, in words.
     pub weighting: String,
     /// One entry per factor; `null` where an output has no indices.
-    pub indices: Option<Vec<AggregateIndexRecord>>,
+    pub indices: Option<Vec<PlainIndexRecord>>,
     /// The noise of a stochastic model, which is none of the factors.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub noise: Option<AggregateIndexRecord>,
+    pub noise: Option<PlainIndexRecord>,
     /// Why there are none.
     pub reason: Option<String>,
-}
-
-/// The aggregated indices of one factor.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[doc(hidden)]
-pub struct AggregateIndexRecord {
-    /// The factor.
-    pub factor: String,
-    /// Aggregated first-order index.
-    pub first_order: EstimateRecord,
-    /// Aggregated total index.
-    pub total: EstimateRecord,
-}
-
-/// A reason for which runs failed.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[doc(hidden)]
-pub struct FailureRecord {
-    /// The reason.
-    pub reason: String,
-    /// Number of runs.
-    pub runs: u64,
-    /// Row number of the first of them in the design.
-    pub first_row: u64,
-    /// The factor values of that row, in the units of the factors.
-    pub first_inputs: serde_json::Map<String, serde_json::Value>,
 }
 
 /// A validity flag.

@@ -1,17 +1,16 @@
 //! The output over its most influential factors: a few points to look at, and the means over slices of each factor.
 
 use super::result::{ConditionalMeansRecord, IndexRecord, ScatterRecord};
-use crate::analysis::OutputAnalysis;
+use crate::analysis::{FirstRows, OutputAnalysis};
 use crate::design::Design;
 use crate::quantity::Unit;
-use crate::run::SAMPLE;
 use crate::space::{Distribution, Factor, Space};
 use crate::sum::{centred_product, mean, rescaled};
 
 /// Factors that are looked at.
 const FACTORS: usize = 6;
 /// Most points that are kept to be drawn.
-const POINTS: u64 = 400;
+const POINTS: usize = 400;
 /// Slices of equal probability of a factor that is not discrete.
 const SLICES: usize = 20;
 /// Most values of a discrete factor that are slices of their own.
@@ -25,58 +24,9 @@ const NUMBERS: u64 = 1 << 18;
 /// Half width of a 95 % interval of a mean of many values, in standard errors.
 const QUANTILE: f64 = 1.96;
 
-/// The points of the unit cube of the first rows A and B of every replicate: computed again from the design, which is a
-/// function of the row number.
-pub(super) struct FirstRows {
-    factors: usize,
-    /// For each replicate the columns of A, then those of B.
-    replicates: Vec<Vec<Vec<f64>>>,
-}
-
-impl FirstRows {
-    /// Those of at most 2^14 base points over all replicates: fewer for many factors, to stay quick.
-    pub fn of(design: &Design) -> Self {
-        let replicates = design.settings().replicates;
-        let most = (NUMBERS / design.columns().max(1) as u64).clamp(FEWEST, MOST).min(SAMPLE);
-        let points = (most / replicates).max(1).min(design.points_per_replicate()) as usize;
-        let rows = |replicate: u64| design.first_points(replicate, points);
-        Self { factors: design.factors(), replicates: (0..replicates).map(rows).collect() }
-    }
-
-    /// Coordinate `factor` of these rows: A and B of each base point in turn.
-    fn coordinates(&self, factor: usize) -> impl Iterator<Item = f64> {
-        self.replicates.iter().flat_map(move |columns| {
-            let (a, b) = (&columns[factor], &columns[self.factors + factor]);
-            a.iter().zip(b).flat_map(|(a, b)| [*a, *b])
-        })
-    }
-
-    /// The outputs of the same rows, NaN where a run failed; `outputs` are those of one replicate each.
-    fn outputs(&self, outputs: &[&[f64]]) -> Vec<f64> {
-        let rows = |columns: &Vec<Vec<f64>>| 2 * columns.first().map_or(0, Vec::len);
-        let of_replicate = |(columns, outputs): (&Vec<Vec<f64>>, &&[f64])| {
-            let outputs = outputs.iter().copied().chain(std::iter::repeat(f64::NAN));
-            outputs.take(rows(columns)).collect::<Vec<f64>>()
-        };
-        self.replicates.iter().zip(outputs).flat_map(of_replicate).collect()
-    }
-
-    /// The point of the unit cube and the output of the first rows A.
-    fn first(&self, outputs: &[&[f64]]) -> Vec<(Vec<f64>, f64)> {
-        let each = (POINTS / self.replicates.len() as u64).max(1) as usize;
-        let of_replicate = |(columns, outputs): (&Vec<Vec<f64>>, &&[f64])| {
-            let row = |(point, y): (usize, &f64)| {
-                let u = columns[..self.factors].iter().filter_map(|column| column.get(point).copied());
-                (u.collect::<Vec<_>>(), *y)
-            };
-            let length = columns.first().map_or(0, Vec::len);
-            let rows = outputs.iter().step_by(2).take(each.min(length)).enumerate();
-            rows.map(row).filter(|(_, y)| y.is_finite()).collect::<Vec<_>>()
-        };
-        let mut rows: Vec<_> = self.replicates.iter().zip(outputs).flat_map(of_replicate).collect();
-        rows.truncate(POINTS as usize);
-        rows
-    }
+/// The rows that scatters are made from: fewer for many factors, to stay quick.
+pub(super) fn rows_of_scatter(design: &Design) -> FirstRows {
+    FirstRows::of(design, (NUMBERS / design.columns().max(1) as u64).clamp(FEWEST, MOST))
 }
 
 /// The record of `output` for the factors with the largest of `indices`; `rows` are the first of its design. `None` where a
@@ -87,15 +37,14 @@ pub(super) fn scatter_record(
     output: &OutputAnalysis,
     indices: &[IndexRecord],
 ) -> Option<ScatterRecord> {
-    let outputs: Vec<&[f64]> = output.samples.iter().map(Vec::as_slice).collect();
     let (factors, unit) = (space.factors(), &output.unit);
     let known: Vec<usize> = (0..factors.len()).filter(|number| Some(*number) != space.noise()).collect();
     let chosen: Vec<usize> = largest(indices).into_iter().map(|place| known[place]).collect();
-    let points = rows.first(&outputs).into_iter().map(|(u, y)| {
+    let points = rows.first(POINTS, &output.samples).into_iter().map(|(u, y)| {
         let x = chosen.iter().map(|&factor| factors[factor].distribution().quantile(u[factor]));
         x.chain([unit.from_si(y)]).collect::<Vec<_>>()
     });
-    let all = rows.outputs(&outputs);
+    let all = rows.outputs(&output.samples);
     let known: Vec<f64> = all.iter().copied().filter(|y| y.is_finite()).collect();
     let (scaled, exponent) = rescaled(&known);
     let means_of = |&factor: &usize| {

@@ -4,8 +4,7 @@ use serde_json::{Map, Value};
 
 use super::document::{Cell, Column, Mark, Part, Section, Table};
 use super::format::{grouped, name, share_of_runs, significant, unit, value};
-use super::records::{FactorSetup, StudySetup};
-use super::result::{ConstantRecord, CorrelationRecord, ValidityRecord};
+use super::result::{ConstantRecord, CorrelationRecord, FactorRecord, StudyRecord, ValidityRecord};
 
 /// Most factors in the table of the study.
 const FACTORS: usize = 50;
@@ -53,11 +52,11 @@ pub(crate) fn inputs(inputs: &Map<String, Value>) -> String {
 }
 
 /// What was asked: the factors, the choices, the file.
-pub(crate) fn study_section(study: &StudySetup) -> Section {
+pub(crate) fn study_section(study: &StudyRecord, factors: &[FactorRecord]) -> Section {
     let mut parts = Vec::new();
-    let shown = &study.factors[..study.factors.len().min(FACTORS)];
+    let shown = &factors[..factors.len().min(FACTORS)];
     let has_groups = shown.iter().any(|factor| factor.group.is_some());
-    let row = |factor: &FactorSetup| {
+    let row = |factor: &FactorRecord| {
         let mut row: Vec<Cell> =
             vec![name(&factor.name).into(), distribution(&factor.distribution, &factor.unit).into()];
         row.extend(has_groups.then(|| factor.group.as_deref().unwrap_or("–").into()));
@@ -65,8 +64,8 @@ pub(crate) fn study_section(study: &StudySetup) -> Section {
         row
     };
     let mut caption = "The factors with their distributions.".to_owned();
-    if shown.len() < study.factors.len() {
-        caption.push_str(&format!(" The first {} of {}, all in the JSON file.", shown.len(), study.factors.len()));
+    if shown.len() < factors.len() {
+        caption.push_str(&format!(" The first {} of {}, all in the JSON file.", shown.len(), factors.len()));
     }
     let headings: &[&str] = match has_groups {
         true => &["factor", "distribution", "group", "nominal value"],

@@ -2,7 +2,8 @@
 
 use super::shares::indices;
 use super::{Reproduced, published};
-use apportion::report::{EstimateRecord, IndexRecord};
+use apportion::Estimate;
+use apportion::report::IndexRecord;
 
 /// A factor counts as having a share from this many percent on: less would be printed as 0 in whole percents, which is
 /// how LG prints, and is hardly to be seen as a bar.
@@ -130,14 +131,14 @@ pub(super) fn order_of(member: &Reproduced) -> OrderVerdict<'_> {
 
 /// The total indices of the dimensional and the environmental factors of a general study, and whether the first is the
 /// larger; `None` where there are no groups.
-pub(super) fn outweighing(member: &Reproduced) -> Option<(EstimateRecord, EstimateRecord, Standing)> {
+pub(super) fn outweighing(member: &Reproduced) -> Option<(Estimate, Estimate, Standing)> {
     let groups = member.result.outputs.first()?.groups.as_ref()?;
     let total = |name: &str| groups.iter().find(|group| group.group == name).map(|group| group.effect.total);
     let (dimensional, environmental) = (total("dimensional")?, total("environmental")?);
-    let percent = |record: EstimateRecord| FactorShare {
+    let percent = |record: Estimate| FactorShare {
         factor: "",
         share: 100.0 * record.estimate,
-        interval: record.low.zip(record.high).map(|(low, high)| (100.0 * low, 100.0 * high)),
+        interval: record.interval.map(|i| (100.0 * i.low, 100.0 * i.high)),
     };
     Some((dimensional, environmental, standing(&percent(dimensional), &percent(environmental))))
 }

@@ -6,9 +6,10 @@
 
 use super::published::{PRINTED, published};
 use super::{Effort, FRICTIONS, GROUPS, QUICK, ReproduceError, study};
+use apportion::EffectEstimates;
 use apportion::report::csv::{Csv, fields};
 use apportion::report::document::{Cell, Column, Table, Value};
-use apportion::report::{EffectRecord, fixed};
+use apportion::report::fixed;
 
 /// Within so many percentage points a distance counts as met: three times the rounding of the printed numbers.
 const MET: f64 = 1.5;
@@ -20,10 +21,12 @@ const VISCOUS: &str = "afm.viscous_friction=0.3 N s/m";
 const OUTPUTS: [(&str, &str); 2] = [("critical_force", "F_cr"), ("log_critical_force", "ln F_cr")];
 
 /// A kind of share: its symbol, and where an effect has it.
-type Measure = (&'static str, fn(&EffectRecord) -> Option<f64>);
+type Measure = (&'static str, fn(&EffectEstimates) -> Option<f64>);
 
-const MEASURES: [Measure; 2] =
-    [("S_1", |effect: &EffectRecord| effect.share_first_order), ("S_T", |effect: &EffectRecord| effect.share_total)];
+const MEASURES: [Measure; 2] = [
+    ("S_1", |effect: &EffectEstimates| effect.share_first_order),
+    ("S_T", |effect: &EffectEstimates| effect.share_total),
+];
 
 /// Our percentages in the three studies under one friction model, by one measure of one output.
 #[derive(Debug, Clone, PartialEq)]

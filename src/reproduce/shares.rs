@@ -1,10 +1,11 @@
 //! Our shares beside the published ones, as one table: for the page, for a terminal, and as CSV.
 
 use super::{Reproduced, published};
+use apportion::Estimate;
 use apportion::report::csv::Field;
 use apportion::report::document::{Cell, Column, Table, Value};
 use apportion::report::format::words;
-use apportion::report::{EstimateRecord, IndexRecord, IntervalRecord, fixed};
+use apportion::report::{IndexRecord, fixed};
 
 /// The indices of a study's factors.
 pub(super) fn indices(study: &Reproduced) -> &[IndexRecord] {
@@ -23,11 +24,9 @@ pub(super) fn ranked(study: &Reproduced) -> Vec<usize> {
 /// Every index and share of every study with the printed percentage, printed with the largest total share of each study
 /// first; in the file in the order of its factors.
 pub(super) fn shares_table(studies: &[&Reproduced]) -> Table {
-    let share = |share: Option<f64>, interval: Option<IntervalRecord>| {
-        let bounds =
-            |estimate| EstimateRecord { estimate, low: interval.map(|i| i.low), high: interval.map(|i| i.high) };
-        let text = share.map_or_else(|| "–".to_owned(), |share| fixed(share, 1));
-        Cell::valued(text, Value::Estimate(share.map(bounds)))
+    let share = |share: Option<Estimate>| {
+        let text = share.map_or_else(|| "–".to_owned(), |share| fixed(share.estimate, 1));
+        Cell::valued(text, Value::Estimate(share))
     };
     let (mut rows, mut printed) = (Vec::new(), Vec::new());
     for study in studies {
@@ -46,8 +45,8 @@ pub(super) fn shares_table(studies: &[&Reproduced]) -> Table {
                 Cell::valued(words(factor), factor.into()),
                 effect.first_order.into(),
                 effect.total.into(),
-                share(effect.share_first_order, effect.share_first_order_interval),
-                share(effect.share_total, effect.share_total_interval),
+                share(effect.first_order_percent()),
+                share(effect.total_percent()),
                 Cell::valued(percent.map_or_else(String::new, |percent| percent.to_string()), percent.into()),
             ]);
         }

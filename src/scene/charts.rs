@@ -140,14 +140,10 @@ pub(crate) fn pushing(story: &SceneStory) -> Chart {
 /// TS04 figure 10.
 pub(crate) fn positions(story: &SceneStory) -> Chart {
     let curves = [
-        Curve { name: "substrate", look: (SUBSTRATE, Stroke::Dashed), read: &|s| NANO * s.substrate_position },
-        Curve { name: "particle", look: (PARTICLE, Stroke::Solid), read: &|s| NANO * s.particle_position },
-        Curve {
-            name: "particle relative to substrate",
-            look: (RELATIVE, Stroke::Solid),
-            read: &|s| NANO * s.relative_position,
-        },
-        Curve { name: "tip base y_P", look: (TIP, Stroke::Dotted), read: &|s| NANO * s.base_lateral },
+        Curve { name: "substrate", look: (SUBSTRATE, Stroke::Dashed), read: &|s| NANO * s.substrate },
+        Curve { name: "particle", look: (PARTICLE, Stroke::Solid), read: &|s| NANO * s.particle },
+        Curve { name: "particle relative to substrate", look: (RELATIVE, Stroke::Solid), read: &|s| NANO * s.relative },
+        Curve { name: "tip base y_P", look: (TIP, Stroke::Dotted), read: &|s| NANO * s.lateral_deflection },
     ];
     Chart::new("Positions", positions_caption(story)).panels([panel(story, Axis::new("Position", "nm"), &curves)])
 }
@@ -159,15 +155,15 @@ fn positions_caption(story: &SceneStory) -> String {
         Some(slip) => format!(
             "Substrate and particle travel together for {}; at {} the particle stands {} from where it was on the \
              substrate.",
-            length(slip.substrate_position),
+            length(slip.substrate),
             time(last.time),
-            length(last.relative_position)
+            length(last.relative)
         ),
         None => format!(
             "At {} the substrate has travelled {}, and the particle stands {} from where it was on it.",
             time(last.time),
-            length(last.substrate_position),
-            length(last.relative_position)
+            length(last.substrate),
+            length(last.relative)
         ),
     }
 }
@@ -191,8 +187,8 @@ pub(crate) fn contacts(story: &SceneStory) -> Chart {
         ];
         panel(story, Axis::new(label, "%"), &curves)
     };
-    let radii: (Read, Read) = (|s| s.tip_contact_radius, |s| s.substrate_contact_radius);
-    let depths: (Read, Read) = (|s| s.tip_indentation, |s| s.substrate_indentation);
+    let radii: (Read, Read) = (|s| s.tip_contact_radius(), |s| s.substrate_contact.radius);
+    let depths: (Read, Read) = (|s| s.tip_indentation(), |s| s.substrate_contact.indentation);
     let mut panels = vec![
         absolute("Contact radius", radii.0, radii.1),
         absolute("Indentation", depths.0, depths.1),
@@ -218,10 +214,10 @@ fn contacts_caption(story: &SceneStory) -> String {
         "From the start to {}, the contact radius changes by {} at the tip and {} at the substrate, the indentation by \
          {} and {}.",
         time(end.time),
-        said(|s| s.tip_contact_radius),
-        said(|s| s.substrate_contact_radius),
-        said(|s| s.tip_indentation),
-        said(|s| s.substrate_indentation)
+        said(|s| s.tip_contact_radius()),
+        said(|s| s.substrate_contact.radius),
+        said(|s| s.tip_indentation()),
+        said(|s| s.substrate_contact.indentation)
     )
 }
 
@@ -241,6 +237,8 @@ fn spread(values: impl Iterator<Item = f64>) -> Option<f64> {
 mod tests {
     use super::super::nominal_story;
     use super::*;
+    use apportion::afm::contact::Contact;
+    use apportion::afm::history::Sample;
     use resvg::usvg::roxmltree::Document;
 
     #[test]
@@ -297,7 +295,8 @@ mod tests {
         let mut story = nominal_story();
         let broken: Vec<SceneSample> = story.samples.clone();
         for (sample, whole) in story.samples.iter_mut().zip(broken).step_by(3) {
-            *sample = SceneSample { tip_force: f64::NAN, tip_indentation: f64::INFINITY, twist: f64::NAN, ..whole };
+            let tip_contact = whole.tip_contact.map(|contact| Contact { indentation: f64::INFINITY, ..contact });
+            sample.state = Sample { tip_force: f64::NAN, tip_contact, twist: f64::NAN, ..whole.state };
         }
         for chart in scene_charts(&story) {
             let svg = chart.chart.svg();

@@ -30,15 +30,15 @@ const COLUMNS: [Column; 15] = [
     column("tip_force_nN", NANO, |s| s.tip_force),
     column("force_angle_rad", 1.0, |s| s.force_angle),
     column("twist_rad", 1.0, |s| s.twist),
-    column("base_lateral_nm", NANO, |s| s.base_lateral),
-    column("deflection_nm", NANO, |s| s.deflection),
-    column("substrate_position_nm", NANO, |s| s.substrate_position),
-    column("particle_position_nm", NANO, |s| s.particle_position),
-    column("relative_position_nm", NANO, |s| s.relative_position),
-    column("substrate_contact_radius_nm", NANO, |s| s.substrate_contact_radius),
-    column("substrate_indentation_nm", NANO, |s| s.substrate_indentation),
-    column("tip_contact_radius_nm", NANO, |s| s.tip_contact_radius),
-    column("tip_indentation_nm", NANO, |s| s.tip_indentation),
+    column("base_lateral_nm", NANO, |s| s.lateral_deflection),
+    column("deflection_nm", NANO, |s| s.normal_deflection),
+    column("substrate_position_nm", NANO, |s| s.substrate),
+    column("particle_position_nm", NANO, |s| s.particle),
+    column("relative_position_nm", NANO, |s| s.relative),
+    column("substrate_contact_radius_nm", NANO, |s| s.substrate_contact.radius),
+    column("substrate_indentation_nm", NANO, |s| s.substrate_contact.indentation),
+    column("tip_contact_radius_nm", NANO, |s| s.tip_contact_radius()),
+    column("tip_indentation_nm", NANO, |s| s.tip_indentation()),
 ];
 
 /// A flag's name and how to read it.
@@ -46,7 +46,7 @@ type Flag = (&'static str, fn(&SceneSample) -> bool);
 
 /// The flags of a sample, after its numbers.
 const FLAGS: [Flag; 4] =
-    [("slipping", |s| s.slipping), ("tip_slip", |s| s.tip_slip), ("rolling", |s| s.rolling), ("spin", |s| s.spin)];
+    [("slipping", |s| !s.sticking), ("tip_slip", |s| s.tip_slip), ("rolling", |s| s.rolling), ("spin", |s| s.spin)];
 
 /// The samples as CSV: a header of names with units, then one line per sample, numbers with as many digits as it takes
 /// to read the same bits back, flags as `true` and `false`. The columns are described in `docs/scene-format.md`.
@@ -126,9 +126,9 @@ mod tests {
         for (row, sample) in rows.iter().zip(&story.samples) {
             assert_eq!(row[0].parse::<f64>().unwrap(), sample.time);
             assert_eq!(row[1].parse::<f64>().unwrap(), 1e9 * sample.lateral_force);
-            assert_eq!(row[10].parse::<f64>().unwrap(), 1e9 * sample.relative_position);
-            assert_eq!(row[14].parse::<f64>().unwrap(), 1e9 * sample.tip_indentation);
-            assert_eq!(row[15].parse::<bool>().unwrap(), sample.slipping);
+            assert_eq!(row[10].parse::<f64>().unwrap(), 1e9 * sample.relative);
+            assert_eq!(row[14].parse::<f64>().unwrap(), 1e9 * sample.tip_indentation());
+            assert_eq!(row[15].parse::<bool>().unwrap(), !sample.sticking);
             assert_eq!(row[17].parse::<bool>().unwrap(), sample.rolling);
         }
     }
@@ -151,8 +151,8 @@ mod tests {
     fn what_is_not_finite_is_empty_or_null() {
         let mut story = nominal_story();
         story.samples.truncate(1);
-        story.samples[0].force_angle = f64::NAN;
-        story.samples[0].tip_force = f64::INFINITY;
+        story.samples[0].state.force_angle = f64::NAN;
+        story.samples[0].state.tip_force = f64::INFINITY;
         story.critical.time = f64::NAN;
         let text = scene_csv(&story);
         let row: Vec<&str> = text.lines().nth(1).unwrap().split(',').collect();

@@ -51,7 +51,7 @@ fn numbers(story: &SceneStory) -> Option<String> {
         value(critical.time, "s")
     );
     let end = story.samples.last()?;
-    let moved = value(end.relative_position * 1e9, "nm");
+    let moved = value(end.relative * 1e9, "nm");
     Some(format!("{text}; after {} the particle has moved {moved} relative to the substrate.", value(end.time, "s")))
 }
 

@@ -18,7 +18,10 @@ pub use document::{mode_document, scene_document};
 pub use mode_diagram::{ModeDiagram, ModeLine, mode_diagram_chart};
 pub use player::player_page;
 
+use std::ops::Deref;
+
 use apportion::afm::Scene;
+use apportion::afm::history::Sample;
 use apportion::report::chart::Colour;
 use apportion::report::format;
 
@@ -52,47 +55,37 @@ pub struct CriticalInstant {
     pub normal_force: f64,
 }
 
-/// The state at one time. Positions are along the motion of the substrate, from where each thing stood at the start.
+/// The state at one time, and what else the particle might do then.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SceneSample {
-    /// Time t (s).
-    pub time: f64,
-    /// Lateral force on the tip, F_Y (N).
-    pub lateral_force: f64,
-    /// Normal force on the tip, F_Z (N).
-    pub normal_force: f64,
-    /// Tip force F_T = hypot(F_Y, F_Z) (N).
-    pub tip_force: f64,
-    /// Angle of the tip force from the vertical, psi (rad).
-    pub force_angle: f64,
-    /// Twist of the cantilever, theta (rad).
-    pub twist: f64,
-    /// Lateral displacement of the tip base, y_P (m).
-    pub base_lateral: f64,
-    /// Normal deflection of the cantilever, z_P (m).
-    pub deflection: f64,
-    /// Travel of the substrate, s = V t (m).
-    pub substrate_position: f64,
-    /// Travel of the particle (m).
-    pub particle_position: f64,
-    /// Travel of the particle relative to the substrate (m), negative once it has slipped.
-    pub relative_position: f64,
-    /// Contact radius on the substrate (m).
-    pub substrate_contact_radius: f64,
-    /// Indentation at the substrate (m).
-    pub substrate_indentation: f64,
-    /// Contact radius at the tip (m).
-    pub tip_contact_radius: f64,
-    /// Indentation at the tip (m).
-    pub tip_indentation: f64,
-    /// Whether the particle slips on the substrate.
-    pub slipping: bool,
+    /// The state. Positions are along the motion of the substrate, from where each thing stood at the start.
+    pub state: Sample,
     /// Whether the tip would slip on the particle (a diagnostic).
     pub tip_slip: bool,
     /// Whether the particle would roll (a diagnostic).
     pub rolling: bool,
     /// Whether the particle would spin about the vertical (a diagnostic).
     pub spin: bool,
+}
+
+impl Deref for SceneSample {
+    type Target = Sample;
+
+    fn deref(&self) -> &Sample {
+        &self.state
+    }
+}
+
+impl SceneSample {
+    /// Contact radius at the tip (m); NaN where the contact is pulled apart.
+    pub fn tip_contact_radius(&self) -> f64 {
+        self.tip_contact.map_or(f64::NAN, |contact| contact.radius)
+    }
+
+    /// Indentation at the tip (m); NaN where the contact is pulled apart.
+    pub fn tip_indentation(&self) -> f64 {
+        self.tip_contact.map_or(f64::NAN, |contact| contact.indentation)
+    }
 }
 
 impl SceneStory {

@@ -65,7 +65,7 @@ pub fn simulate(study: &Study, duration: Option<f64>) -> Result<SceneStory, Simu
 ///
 /// let story = scene_story("Nominal".to_owned(), &Scene::default(), &Options::default(), 0.4)?;
 /// assert!(story.critical.time < 0.4);
-/// assert!(story.samples.last().is_some_and(|end| end.slipping));
+/// assert!(story.samples.last().is_some_and(|end| !end.sticking));
 /// # Ok::<(), apportion::afm::Failure>(())
 /// ```
 pub fn scene_story(title: String, scene: &Scene, options: &Options, duration: f64) -> Result<SceneStory, Failure> {
@@ -100,25 +100,8 @@ fn scene_sample(sample: &Sample, pushing: &Pushing) -> Result<SceneSample, Failu
         Err(Failure::BeyondPullOff) => Ok(false),
         Err(failure) => Err(failure),
     };
-    let tip =
-        |quantity: fn(&apportion::afm::contact::Contact) -> f64| sample.tip_contact.as_ref().map_or(f64::NAN, quantity);
     Ok(SceneSample {
-        time: sample.time,
-        lateral_force: sample.lateral_force,
-        normal_force: sample.normal_force,
-        tip_force: sample.tip_force,
-        force_angle: sample.force_angle,
-        twist: sample.twist,
-        base_lateral: sample.lateral_deflection,
-        deflection: sample.normal_deflection,
-        substrate_position: sample.substrate,
-        particle_position: sample.particle,
-        relative_position: sample.relative,
-        substrate_contact_radius: sample.substrate_contact.radius,
-        substrate_indentation: sample.substrate_contact.indentation,
-        tip_contact_radius: tip(|contact| contact.radius),
-        tip_indentation: tip(|contact| contact.indentation),
-        slipping: !sample.sticking,
+        state: *sample,
         tip_slip: moves(Mode::TipSlip)?,
         rolling: moves(Mode::Roll)?,
         spin: moves(Mode::Spin)?,

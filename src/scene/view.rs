@@ -21,9 +21,9 @@ impl View {
             let sizes = story.samples.iter().map(|sample| read(sample).abs()).filter(|size| size.is_finite());
             sizes.fold(0.0, f64::max)
         };
-        let lean = largest(|s| s.twist).max(largest(|s| s.base_lateral) / story.scene.height);
-        let particle = largest(|s| s.particle_position);
-        let travel = if particle > 0.0 { particle } else { largest(|s| s.substrate_position) };
+        let lean = largest(|s| s.twist).max(largest(|s| s.lateral_deflection) / story.scene.height);
+        let particle = largest(|s| s.particle);
+        let travel = if particle > 0.0 { particle } else { largest(|s| s.substrate) };
         Self { probe: round_below(0.25 / lean), travel: round_below(0.8 * story.scene.particle_radius / travel) }
     }
 

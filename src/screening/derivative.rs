@@ -10,7 +10,7 @@ use crate::uncertainty::{Estimate, jackknife};
 
 /// What the derivatives by one factor say.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct DerivativeMeasures {
+pub(super) struct DerivativeMeasures {
     /// nu: the mean square of the derivative (Sobol' and Kucherenko 2009, Math. Comput. Simul. 79, 3009-3017), in the square of
     /// the output's unit per unit of the factor.
     pub nu: Estimate,
@@ -58,7 +58,7 @@ pub fn poincare_constant(distribution: &Distribution) -> Option<f64> {
 /// what the output varies by, a step or a steep place between them.
 pub(super) fn sum_of_bounds(factors: &[ScreenedFactor]) -> Option<f64> {
     let high = |factor: &ScreenedFactor| {
-        let Estimate { estimate, interval } = factor.derivative?.total_bound?;
+        let Estimate { estimate, interval } = factor.total_bound?;
         Some(interval.map_or(estimate, |interval| interval.high))
     };
     factors.iter().map(high).sum()
@@ -99,12 +99,8 @@ pub(super) fn derivative_measures(
     let whole = quantities(0..0)?;
     let without: Option<Vec<Vec<f64>>> = (0..parts).map(|p| quantities(p * part..(p + 1) * part)).collect();
     let estimates = jackknife(&whole, &without.unwrap_or_default());
-    let checked = |Estimate { estimate, interval }: Estimate| Estimate {
-        estimate,
-        interval: interval.filter(|i| i.low.is_finite() && i.high.is_finite()),
-    };
-    let total_bound = Some(checked(estimates[1])).filter(|bound| bound.estimate.is_finite());
-    Some(DerivativeMeasures { nu: checked(estimates[0]), total_bound })
+    let &[nu, total_bound] = &estimates[..] else { return None };
+    Some(DerivativeMeasures { nu, total_bound: Some(total_bound).filter(|bound| bound.estimate.is_finite()) })
 }
 
 #[cfg(test)]

@@ -10,7 +10,7 @@ pub const FIXABLE: f64 = 0.05;
 
 /// The measures of one factor, in units of the output per full range of the factor.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Measures {
+pub(super) struct Measures {
     /// mu: the mean of the elementary effects (Morris 1991). Effects of both signs cancel in it.
     pub mu: Estimate,
     /// mu*: the mean of their absolute values (Campolongo, Cariboni and Saltelli 2007).
@@ -77,12 +77,8 @@ pub(super) fn measures(effects: &[f64], parts: usize) -> Option<Measures> {
     };
     let without: Option<Vec<Vec<f64>>> = (0..parts).map(without).collect();
     let estimates = jackknife(&whole, &without.unwrap_or_default());
-    let checked = |k: usize| {
-        let Estimate { estimate, interval } = estimates[k];
-        Estimate { estimate, interval: interval.filter(|i| i.low.is_finite() && i.high.is_finite()) }
-    };
-    let ratio = Some(checked(3)).filter(|ratio| ratio.estimate.is_finite());
-    Some(Measures { mu: checked(0), mu_star: checked(1), sigma: checked(2), ratio })
+    let &[mu, mu_star, sigma, ratio] = &estimates[..] else { return None };
+    Some(Measures { mu, mu_star, sigma, ratio: Some(ratio).filter(|ratio| ratio.estimate.is_finite()) })
 }
 
 /// mu, mu*, sigma and sigma / mu*, the last NaN where mu* is 0; `None` if there are too few effects or they overflow.

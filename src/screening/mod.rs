@@ -8,9 +8,9 @@
 //! different ones drawn by their probabilities: one rank is 1 / (number of values - 1) of its range.
 //!
 //! In the derivative design the steps are short, and effects are derivatives times the range of the factor: beside the other measures
-//! stands the mean square of the derivative, and the bound on the total index that follows from it ([`DerivativeMeasures`]).
+//! stands the mean square of the derivative, and the bound on the total index that follows from it.
 //!
-//! r trajectories of d + 1 runs give r effects of each of d factors; [`Measures`] sums them up, [`Reading`] says what
+//! r trajectories of d + 1 runs give r effects of each of d factors; [`ScreenedFactor`] sums them up, [`Reading`] says what
 //! they mean, and a factor whose mu* with its error stays below [`FIXABLE`] times the largest mu* could be fixed.
 //!
 //! In the radial design a step shorter than [`MIN_STEP`] is replaced by one to the auxiliary coordinate half a range
@@ -25,21 +25,27 @@ mod settings;
 #[cfg(test)]
 mod tests;
 
-pub use derivative::{DerivativeMeasures, poincare_constant};
+pub use derivative::poincare_constant;
 #[doc(hidden)]
 pub use measures::FIXABLE;
-pub use measures::{Measures, Reading};
+pub use measures::Reading;
 #[doc(hidden)]
 pub use points::TAIL;
 #[doc(hidden)]
 pub use settings::{DERIVATIVE_STEP, MAX_LEVELS, MAX_RUNS, MIN_STEP, MIN_TRAJECTORIES};
 pub use settings::{ScreeningDesign, ScreeningError, ScreeningSettings};
 
-use crate::model::{Model, Output, RowFailure, RunContext};
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value};
+
+use crate::analysis::named_inputs;
+use crate::model::{Model, Output, RunContext};
 use crate::run::Progress;
 use crate::space::{Factor, Space};
+use crate::uncertainty::Estimate;
 use derivative::{derivative_measures, range, sum_of_bounds};
 use points::Trajectories;
+use run::Outcome;
 
 /// What is screened.
 #[derive(Clone, Copy)]
@@ -63,8 +69,6 @@ pub struct Screening {
     pub runs: u64,
     /// Model runs that failed in at least one output.
     pub failed: u64,
-    /// For each factor: steps that did not change its value, as those of a constant; their effect is 0.
-    pub idle: Vec<u64>,
     /// For each validity flag of the model: runs that raised it.
     pub flags: Vec<u64>,
     /// One entry per output of the model.
@@ -72,48 +76,67 @@ pub struct Screening {
 }
 
 /// What a screening says of one output.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ScreenedOutput {
+    /// Its name.
+    pub name: String,
+    /// Its unit.
+    pub unit: String,
     /// One entry per factor, in the order of the space.
     pub factors: Vec<ScreenedFactor>,
-    /// Of a derivative design: the sum of the upper ends of what total indices are at most, if it is below 1. Total indices of
-    /// independent factors sum to at least that, so that the derivatives have missed what the output varies by.
-    pub missed: Option<f64>,
     /// Why runs failed.
     pub failures: Vec<ScreeningFailure>,
+    /// What a careful reader should know, in sentences.
+    pub warnings: Vec<String>,
 }
 
-/// What a screening says of one factor and one output.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// What a screening says of one factor and one output. Measures are in the output's unit per full range of the factor; they are
+/// `None` with fewer than two effects, or if they overflow.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ScreenedFactor {
+    /// The factor.
+    pub factor: String,
+    /// Place by mu*, from 1; factors without measures come last.
+    pub rank: usize,
+    /// mu*: the mean of the sizes of the elementary effects (Campolongo, Cariboni and Saltelli 2007).
+    pub mu_star: Option<Estimate>,
+    /// mu: the mean of the elementary effects (Morris 1991). Effects of both signs cancel in it.
+    pub mu: Option<Estimate>,
+    /// sigma: their standard deviation, with n - 1.
+    pub sigma: Option<Estimate>,
+    /// sigma / mu*; `None` where mu* is 0 too.
+    pub ratio: Option<Estimate>,
+    /// What the ratio says; `None` without measures, or where every effect is 0.
+    pub reading: Option<Reading>,
+    /// Whether the upper bound of mu* is below [`FIXABLE`] times the largest mu*, by at least half of the effects.
+    /// `None` where nothing can be said: without measures or an interval, where no factor has any effect, or where the derivatives
+    /// have missed what the output varies by.
+    pub could_be_fixed: Option<bool>,
+    /// nu: the mean square of the derivative (Sobol' and Kucherenko 2009, Math. Comput. Simul. 79, 3009-3017), in the square of
+    /// the output's unit per unit of the factor; only of a derivative design.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub nu: Option<Estimate>,
+    /// C nu/V, which the total index does not exceed, with the variance V of the output and the constant C of
+    /// [`poincare_constant`]; `None` where there is no such constant, or no variance.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub total_bound: Option<Estimate>,
     /// Elementary effects that the measures rest on.
     pub effects: u64,
     /// Effects dropped because a run at either end failed.
     pub dropped: u64,
-    /// Mean and spread of the effects in the output's unit per full range of the factor; `None` with fewer than two, or if they
-    /// overflow.
-    pub measures: Option<Measures>,
-    /// What the spread says; `None` without measures, or where every effect is 0.
-    pub reading: Option<Reading>,
-    /// Place by mu*, from 1; factors without measures come last.
-    pub rank: usize,
-    /// Whether the upper bound of mu* is below [`FIXABLE`] times the largest mu*, by at least half of the effects.
-    /// `None` where nothing can be said: without measures or an interval, where no factor has any effect, or where the derivatives
-    /// have [missed something](ScreenedOutput::missed).
-    pub could_be_fixed: Option<bool>,
-    /// What its derivatives say; `None` in other designs than that of derivatives, with fewer than two effects, or if they overflow.
-    pub derivative: Option<DerivativeMeasures>,
+    /// Steps that did not change its value, as those of a constant; their effect is 0.
+    pub idle_steps: u64,
 }
 
 /// Runs of a screening that failed for one reason.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ScreeningFailure {
     /// The reason.
-    pub reason: RowFailure,
+    pub reason: String,
     /// The number of runs.
     pub runs: u64,
     /// The first one's factor values, in the units of the factors.
-    pub first: Vec<f64>,
+    pub first_inputs: Map<String, Value>,
 }
 
 /// Screens the factors of `job` on `threads` threads (0: one per core). `on_progress` is called from time to time, from
@@ -169,24 +192,25 @@ pub fn screen_in(
     let outcome = run::run(job, &points, settings.trajectories, threads, context, on_progress)?;
     context.messages().finish();
     let failures = |number: usize| {
-        let of_output = outcome.failures.iter().filter(|((output, _), _)| *output == number);
-        let in_units = |first: &[f64]| first.iter().zip(factors).map(|(x, factor)| factor.unit().from_si(*x)).collect();
-        of_output
-            .map(|((_, reason), (runs, first))| ScreeningFailure {
-                reason: reason.clone(),
-                runs: *runs,
-                first: in_units(first),
-            })
-            .collect()
+        let of_output = outcome.failures.iter().filter(move |((output, _), _)| *output == number);
+        of_output.map(|((_, reason), (runs, first))| {
+            let first: Vec<f64> = first.iter().zip(factors).map(|(x, factor)| factor.unit().from_si(*x)).collect();
+            ScreeningFailure { reason: reason.to_string(), runs: *runs, first_inputs: named_inputs(job.space, &first) }
+        })
     };
-    let outputs = job.model.outputs().iter().zip(&outcome.effects).enumerate();
-    let outputs = outputs.map(|(number, (output, effects))| {
-        let mut screened = screened(output, effects, &outcome.base[number], factors, parts as usize);
+    let outputs = job.model.outputs().iter().enumerate().map(|(number, output)| {
+        let mut screened = screened(output, number, &outcome, factors, parts as usize);
         let missed = sum_of_bounds(&screened).filter(|sum| *sum < 1.0);
         if missed.is_some() {
             screened.iter_mut().for_each(|factor| factor.could_be_fixed = None);
         }
-        ScreenedOutput { factors: screened, missed, failures: failures(number) }
+        ScreenedOutput {
+            name: output.name.to_string(),
+            unit: output.unit.to_string(),
+            warnings: warnings(&screened, missed),
+            factors: screened,
+            failures: failures(number).collect(),
+        }
     });
     Ok(Screening {
         settings,
@@ -194,33 +218,64 @@ pub fn screen_in(
         runs: settings.trajectories * (factors.len() as u64 + 1),
         failed: outcome.failed,
         outputs: outputs.collect(),
-        idle: outcome.idle,
         flags: outcome.flags,
     })
 }
 
-/// The factors of one output, from its effects in SI units, factor by factor within each trajectory.
-fn screened(output: &Output, effects: &[f64], base: &[f64], space: &[Factor], parts: usize) -> Vec<ScreenedFactor> {
+/// What there is to warn of in an output, of which the derivatives have `missed` something if what total indices are at most
+/// sums to less than 1.
+fn warnings(factors: &[ScreenedFactor], missed: Option<f64>) -> Vec<String> {
+    let dropped: u64 = factors.iter().map(|factor| factor.dropped).sum();
+    let all = dropped + factors.iter().map(|factor| factor.effects).sum::<u64>();
+    let dropped = (dropped > 0).then(|| {
+        format!(
+            "{dropped} of {all} elementary effects are dropped because a run failed: the measures describe the part of the \
+             factor space where runs succeed"
+        )
+    });
+    let missed = missed.map(|sum| {
+        format!(
+            "what total indices are at most sums to {sum:.2}, but total indices of independent factors sum to at least 1: the derivatives \
+             have missed what the output varies by, a step or a steep place between the base points, so that no bound holds and no \
+             factor is said to be one that could be fixed. Screen with the radial design, or run the study"
+        )
+    });
+    dropped.into_iter().chain(missed).collect()
+}
+
+/// The factors of output number `number`, from its effects in SI units, factor by factor within each trajectory.
+fn screened(output: &Output, number: usize, outcome: &Outcome, space: &[Factor], parts: usize) -> Vec<ScreenedFactor> {
     let factors = space.len();
-    let base: Vec<f64> = base.iter().map(|y| output.unit.span_from_si(*y)).collect();
-    let of_factor = |j: usize| -> Vec<f64> {
-        effects.iter().skip(j).step_by(factors).map(|effect| output.unit.span_from_si(*effect)).collect()
+    let base: Vec<f64> = outcome.base[number].iter().map(|y| output.unit.span_from_si(*y)).collect();
+    let of_factor = |(j, factor): (usize, &Factor)| {
+        let effects = outcome.effects[number].iter().skip(j).step_by(factors);
+        let own: Vec<f64> = effects.map(|effect| output.unit.span_from_si(*effect)).collect();
+        let effects = own.iter().filter(|effect| effect.is_finite()).count() as u64;
+        let measures = measures::measures(&own, parts);
+        let ratio = measures.and_then(|m| m.ratio);
+        let distribution = factor.distribution();
+        let derivative = match base.is_empty() {
+            true => None,
+            false => derivative_measures(&own, &base, parts, range(distribution), poincare_constant(distribution)),
+        };
+        ScreenedFactor {
+            factor: factor.name.clone(),
+            rank: 0,
+            mu_star: measures.map(|m| m.mu_star),
+            mu: measures.map(|m| m.mu),
+            sigma: measures.map(|m| m.sigma),
+            ratio,
+            reading: ratio.map(|ratio| Reading::of(ratio.estimate)),
+            could_be_fixed: None,
+            nu: derivative.map(|d| d.nu),
+            total_bound: derivative.and_then(|d| d.total_bound),
+            effects,
+            dropped: own.len() as u64 - effects,
+            idle_steps: outcome.idle[j],
+        }
     };
-    let mut screened: Vec<ScreenedFactor> = (0..factors)
-        .map(|j| {
-            let own = of_factor(j);
-            let effects = own.iter().filter(|effect| effect.is_finite()).count() as u64;
-            let measures = measures::measures(&own, parts);
-            let reading = measures.and_then(|m| m.ratio).map(|ratio| Reading::of(ratio.estimate));
-            let dropped = own.len() as u64 - effects;
-            let distribution = space[j].distribution();
-            let derivative = (!base.is_empty())
-                .then(|| derivative_measures(&own, &base, parts, range(distribution), poincare_constant(distribution)))
-                .flatten();
-            ScreenedFactor { effects, dropped, measures, reading, rank: 0, could_be_fixed: None, derivative }
-        })
-        .collect();
-    let size = |factor: &ScreenedFactor| factor.measures.map_or(f64::NEG_INFINITY, |m| m.mu_star.estimate);
+    let mut screened: Vec<ScreenedFactor> = space.iter().enumerate().map(of_factor).collect();
+    let size = |factor: &ScreenedFactor| factor.mu_star.map_or(f64::NEG_INFINITY, |mu_star| mu_star.estimate);
     let mut order: Vec<usize> = (0..factors).collect();
     order.sort_by(|&i, &j| size(&screened[j]).total_cmp(&size(&screened[i])));
     let largest = order.first().map_or(0.0, |&first| size(&screened[first]));
@@ -228,7 +283,7 @@ fn screened(output: &Output, effects: &[f64], base: &[f64], space: &[Factor], pa
         screened[j].rank = place + 1;
     }
     for factor in &mut screened {
-        let high = factor.measures.and_then(|m| m.mu_star.interval).map(|interval| interval.high);
+        let high = factor.mu_star.and_then(|mu_star| mu_star.interval).map(|interval| interval.high);
         factor.could_be_fixed =
             high.filter(|_| largest > 0.0).map(|high| high < FIXABLE * largest && factor.effects >= factor.dropped);
     }

@@ -125,8 +125,6 @@ pub fn low_fidelity_estimates(
         name: low.name.to_owned(),
         slope: slope * (scale.1 / low.own.scale.1),
         explained: 1.0 - alone(&dear, &cheap, &stand_ins),
-        shared_runs: low.shared.iter().map(|kept| kept.points()).sum::<u64>() * runs as u64,
-        own_runs: low.own.design.rows(),
     };
     let expansions = stand_ins.into_iter().map(|of| of.rest).collect();
     let corrected = Corrected::new(design, nets, expansions, families, &pairs);

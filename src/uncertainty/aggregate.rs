@@ -83,9 +83,8 @@ impl AggregateIndices {
             let moving = || plain.iter().zip(numbers).filter(|(plain, _)| !settled(plain));
             let parts: Vec<_> = moving().map(|(_, number)| &number.parts).collect();
             let noise = Noise::new(&parts, skewed);
-            let width = |estimate: Estimate| {
-                estimate.interval.map_or(f64::INFINITY, |interval| (interval.high - interval.low).powi(2))
-            };
+            let width =
+                |estimate: Estimate| estimate.interval.map_or(f64::INFINITY, |interval| interval.width().powi(2));
             let of_plain: f64 = moving().map(|(plain, _)| width(*plain)).sum();
             let of_corrected: f64 = moving().map(|(_, number)| width(noise.estimate(number))).sum();
             if parts.is_empty() || of_corrected >= of_plain {

@@ -42,7 +42,7 @@ pub(super) fn interval(estimate: f64, error: StandardError, parts: &PartInfluenc
     let freedom = (1.0 / (1.0 / error.freedom + WEIGHT * kurtosis)).max(FEWEST);
     let long = t_quantile(freedom.min(error.freedom))? * error.error;
     let low = if side == Side::Both { estimate - long } else { even.low };
-    Some(Interval { low, high: estimate + long }).filter(|i| i.low.is_finite() && i.high.is_finite())
+    Interval { low, high: estimate + long }.finite()
 }
 
 /// Excess kurtosis of the sum of all influences, as they tell it; 0 without any.

@@ -1,11 +1,15 @@
 //! Indices corrected by a surrogate in the place of the plain ones, where their errors are smaller.
 
+use std::collections::BTreeMap;
+
+use super::effects::largest_half_width;
 use super::estimates::{Layout, Number};
 use super::influence::Influenced;
 use super::mean;
 use super::net_decay::StandardError;
 use super::noise::{Noise, Replacement};
 use super::{Estimate, Interval};
+use serde::{Deserialize, Serialize};
 
 /// Distance of plain and corrected indices, over what their intervals allow, beyond which the corrected ones are refused: of one
 /// index, and the root mean square over those of one kind. Of smooth functions, where the corrected ones are right, the largest
@@ -69,7 +73,8 @@ pub struct SurrogateEstimates {
 }
 
 /// What was made of a cheaper model.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "study", derive(schemars::JsonSchema), schemars(rename = "LowUseRecord"))]
 #[non_exhaustive]
 pub struct LowFidelityUse {
     /// Its name.
@@ -78,10 +83,6 @@ pub struct LowFidelityUse {
     pub slope: f64,
     /// Share of the variance that the cheaper model explains by itself, of the runs that its slope was not fitted to.
     pub explained: f64,
-    /// Its runs at the rows of the dear model.
-    pub shared_runs: u64,
-    /// Its runs at points of their own.
-    pub own_runs: u64,
 }
 
 /// The terms of the surrogates of every net.
@@ -99,6 +100,24 @@ pub struct SurrogateTerm {
     /// The factors in it, by number, each with its degree.
     pub factors: Vec<(usize, usize)>,
     /// Its share of the variance.
+    pub share: f64,
+}
+
+impl SurrogateTerm {
+    /// The term in factors or inputs of these names.
+    pub fn named(&self, names: &[&str]) -> NamedTerm {
+        let degrees = self.factors.iter().map(|&(number, degree)| (names[number].to_owned(), degree));
+        NamedTerm { degrees: degrees.collect(), share: 100.0 * self.share }
+    }
+}
+
+/// A term of the surrogates.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "study", derive(schemars::JsonSchema))]
+pub struct NamedTerm {
+    /// The degree of its polynomial of each factor in it.
+    pub degrees: BTreeMap<String, usize>,
+    /// Its share of the variance, in percent.
     pub share: f64,
 }
 
@@ -138,9 +157,7 @@ pub struct SurrogateUse {
 impl SurrogateUse {
     /// The largest half width of the plain indices; `None` if one is unknown.
     pub fn plain_half_width(&self) -> Option<f64> {
-        let plain = self.plain_first_order.iter().chain(&self.plain_total);
-        let half = |estimate: &Estimate| estimate.interval.map(|i| (i.high - i.low) / 2.0);
-        plain.map(half).try_fold(0.0, |widest: f64, half| Some(widest.max(half?)))
+        largest_half_width(self.plain_first_order.iter().chain(&self.plain_total).copied())
     }
 }
 
@@ -391,14 +408,14 @@ mod tests {
     use super::*;
 
     fn estimate(estimate: f64, half_width: f64) -> Estimate {
-        Estimate { estimate, interval: Some(Interval { low: estimate - half_width, high: estimate + half_width }) }
+        Estimate { estimate, interval: Some(Interval::about(estimate, half_width)) }
     }
 
     #[test]
     fn gaps_are_measured_by_both_intervals() {
         assert!((gap(estimate(0.3, 0.1), estimate(0.9, 0.02)) - 5.0).abs() < 1e-12);
         assert!((gap(estimate(0.9, 0.02), estimate(0.3, 0.1)) - 5.0).abs() < 1e-12);
-        assert_eq!(gap(Estimate { estimate: 0.3, interval: None }, estimate(0.9, 0.1)), 0.0);
+        assert_eq!(gap(Estimate::alone(0.3), estimate(0.9, 0.1)), 0.0);
         assert_eq!(gap(estimate(0.3, 0.0), estimate(0.3, 0.0)), 0.0);
     }
 

@@ -3,6 +3,7 @@
 use super::corrected::SurrogateUse;
 use super::mean::NoiseIndices;
 use super::{Estimate, Interval};
+use serde::{Deserialize, Serialize};
 
 /// Indices of one output.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,6 +26,8 @@ pub struct OutputIndices {
     pub surrogate: Option<SurrogateUse>,
     /// What is known of the mean over the noise, of a stochastic model.
     pub noise: Option<NoiseIndices>,
+    /// What the indices are checked by, in the order of [`effects`](Self::effects).
+    pub checks: Vec<EffectChecks>,
 }
 
 impl OutputIndices {
@@ -39,50 +42,72 @@ impl OutputIndices {
         let effects = self.factors.iter().chain(&self.groups).chain(&self.subsets);
         let indices =
             effects.flat_map(|effect| [Some(effect.first_order), Some(effect.total), effect.shapley]).flatten();
-        let widths = indices.map(|index| index.interval);
-        widths
-            .map(|i| i.map(|Interval { low, high }| (high - low) / 2.0))
-            .try_fold(0.0, |largest: f64, w| Some(largest.max(w?)))
+        largest_half_width(indices)
     }
 }
 
-/// The indices of one factor, group or subset.
-#[derive(Debug, Clone, PartialEq)]
+/// Half the width of the widest interval; `None` if an estimate has none.
+pub(super) fn largest_half_width(estimates: impl IntoIterator<Item = Estimate>) -> Option<f64> {
+    let half_widths = estimates.into_iter().map(|estimate| estimate.interval.map(|interval| interval.width() / 2.0));
+    half_widths.into_iter().try_fold(0.0, |largest: f64, half_width| Some(largest.max(half_width?)))
+}
+
+/// The indices of one factor, group or subset, and what they are of the sum over all factors (or groups) in percent.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "study", derive(schemars::JsonSchema), schemars(rename = "EffectRecord"))]
 pub struct EffectEstimates {
     /// First-order index (of several factors: closed first-order index).
     pub first_order: Estimate,
     /// Total index.
     pub total: Estimate,
     /// 100 S_i / sum S_j over the factors (of a group: over the groups); `None` where the sum is not positive.
-    pub share_first_order: Option<Estimate>,
+    pub share_first_order: Option<f64>,
     /// 100 ST_i / sum ST_j, likewise.
-    pub share_total: Option<Estimate>,
+    pub share_total: Option<f64>,
+    /// Interval of `share_first_order`.
+    pub share_first_order_interval: Option<Interval>,
+    /// Interval of `share_total`.
+    pub share_total_interval: Option<Interval>,
+    /// Total minus first-order index, what the factor does together with others: not negative, within the interval, if all is
+    /// well. `None` where factors depend on each other.
+    #[serde(default)]
+    pub interaction: Option<Estimate>,
+    /// Probability that the total index (the Shapley effect, if all factors have one) is the largest of all factors'; `None` for others than factors, and where errors are
+    /// unknown or [ranks](super::IntervalOptions::ranks) were not asked for. Where several total indices are equal in truth, it is as likely to be any number as any other.
+    #[serde(default)]
+    pub probability_first: Option<f64>,
+    /// Probability that the total index is above the threshold.
+    #[serde(default)]
+    pub probability_above_threshold: Option<f64>,
+    /// Shapley effect of a player, if it was asked for: its share of the variance, dependent on others or not. Players are the factors,
+    /// or the groups and the factors that have none; the effects of all players sum to 1 (Owen 2014; Song, Nelson and Staum 2016).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shapley: Option<Estimate>,
+    /// What there is of a factor, group or subset where factors depend on each other; `None` where they are independent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub dependent: Option<DependentEstimates>,
+}
+
+/// What the indices of one factor, group or subset are checked by.
+#[derive(Debug, Clone, PartialEq)]
+pub struct EffectChecks {
     /// First-order index minus its check by Janon and Monod's formula: 0 within the interval if all is well.
-    pub check_gap: Estimate,
-    /// Total minus first-order index: not negative, within the interval, if all is well.
+    pub gap: Estimate,
+    /// Total minus first-order index, of dependent factors the total one with all that the factor tells of others.
     pub interaction: Estimate,
     /// Whether the interval of the first-order index lay wholly above that of the total index, which no pair of indices can:
     /// both were then lengthened until they met.
-    pub contradictory: bool,
-    /// Probability that the total index (the Shapley effect, if all factors have one) is the largest of all factors'; `None` for others than factors, and where errors are
-    /// unknown or [ranks](super::IntervalOptions::ranks) were not asked for. Where several total indices are equal in truth, it is as likely to be any number as any other.
-    pub probability_first: Option<f64>,
-    /// Probability that the total index is above the threshold.
-    pub probability_above: Option<f64>,
+    pub is_contradictory: bool,
     /// The indices by each of the other estimators asked for.
     pub others: Vec<OtherEstimates>,
-    /// Shapley effect of a player, if it was asked for: its share of the variance, dependent on others or not. Players are the factors,
-    /// or the groups and the factors that have none; the effects of all players sum to 1 (Owen 2014; Song, Nelson and Staum 2016).
-    pub shapley: Option<Estimate>,
-    /// What there is of a factor, group or subset where factors depend on each other; `None` where they are independent.
-    pub dependent: Option<DependentEstimates>,
 }
 
 /// Indices of dependent factors beside the first-order index Var E(Y | X_i)/V, which includes what X_i tells of others, and the
 /// total index E Var(Y | all but X_i)/V, which is without what others tell of X_i and so may be smaller (Kucherenko, Tarantola and
 /// Annoni 2012, Comput. Phys. Commun. 183, 937-946); the other two are those of Mara, Tarantola and Annoni (2015), Environ. Model.
 /// Softw. 72, 173-183.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "study", derive(schemars::JsonSchema), schemars(rename = "DependentRecord"))]
 pub struct DependentEstimates {
     /// First-order index of what the factor has on its own, given all others.
     pub independent_first_order: Estimate,
@@ -113,20 +138,42 @@ pub struct OutputMoments {
 }
 
 impl EffectEstimates {
+    /// What factors are ranked by: where they depend on each other the Shapley effect, if there is one; else the total index.
+    pub fn weight(&self) -> Estimate {
+        self.shapley.filter(|_| self.dependent.is_some()).unwrap_or(self.total)
+    }
+
+    /// 100 S_i / sum S_j with its interval.
+    pub fn first_order_percent(&self) -> Option<Estimate> {
+        self.share_first_order.map(|estimate| Estimate { estimate, interval: self.share_first_order_interval })
+    }
+
+    /// 100 ST_i / sum ST_j with its interval.
+    pub fn total_percent(&self) -> Option<Estimate> {
+        self.share_total.map(|estimate| Estimate { estimate, interval: self.share_total_interval })
+    }
+
     /// The indices of dependent factors, from those of a swap that others follow, and of one that is redrawn given all others.
+    pub(super) fn of_dependent_factors(self, alone: Self) -> Self {
+        Self {
+            total: alone.total,
+            interaction: None,
+            probability_above_threshold: alone.probability_above_threshold,
+            dependent: Some(DependentEstimates { independent_first_order: alone.first_order, full_total: self.total }),
+            ..self
+        }
+    }
+}
+
+impl EffectChecks {
+    /// Those of dependent factors, likewise.
     pub(super) fn of_dependent_factors(self, alone: Self) -> Self {
         let others = self.others.iter().zip(&alone.others).map(|(with_others, alone)| OtherEstimates {
             total: alone.total,
             total_gap: alone.total_gap,
             ..*with_others
         });
-        Self {
-            total: alone.total,
-            contradictory: self.contradictory || alone.contradictory,
-            probability_above: alone.probability_above,
-            others: others.collect(),
-            dependent: Some(DependentEstimates { independent_first_order: alone.first_order, full_total: self.total }),
-            ..self
-        }
+        let is_contradictory = self.is_contradictory || alone.is_contradictory;
+        Self { is_contradictory, others: others.collect(), ..self }
     }
 }

@@ -10,7 +10,7 @@ use crate::estimate::{
 
 /// What is estimated from the swaps of a design, which come in this order. Of dependent factors the swaps of factors, groups and
 /// subsets come once more before the dummy factor, redrawn given all others, and then redrawn subsets for the Shapley effects.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Layout {
     /// Number of factors.
     pub factors: usize,
@@ -95,21 +95,7 @@ const PER_ESTIMATOR: usize = 4;
 impl Layout {
     /// Factors only.
     pub fn plain(factors: usize) -> Self {
-        let (groups, subsets, dummy, salib, second_order, dependent, shapley) = Default::default();
-        let (estimators, players) = (Vec::new(), (0..factors).collect());
-        Self {
-            factors,
-            groups,
-            subsets,
-            dummy,
-            estimators,
-            salib,
-            second_order,
-            dependent,
-            shapley,
-            players,
-            noise: None,
-        }
+        Self { factors, players: (0..factors).collect(), ..Self::default() }
     }
 
     /// Number of factors, groups and subsets.

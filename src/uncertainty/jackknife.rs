@@ -19,7 +19,7 @@ pub fn jackknife(whole: &[f64], without: &[Vec<f64>]) -> Vec<Estimate> {
         let mean = deviations().sum::<f64>() / r;
         let spread: f64 = deviations().map(|d| (d - mean).powi(2)).sum();
         let half_width = quantile? * ((r - 1.0) / r * spread).sqrt();
-        Some(Interval { low: estimate - half_width, high: estimate + half_width })
+        Interval::about(estimate, half_width).finite()
     };
     whole.iter().enumerate().map(|(k, &estimate)| Estimate { estimate, interval: interval(k, estimate) }).collect()
 }
@@ -42,6 +42,6 @@ mod tests {
 
     #[test]
     fn one_replicate_carries_no_interval() {
-        assert_eq!(jackknife(&[0.5], &[vec![f64::NAN]])[0], Estimate { estimate: 0.5, interval: None });
+        assert_eq!(jackknife(&[0.5], &[vec![f64::NAN]])[0], Estimate::alone(0.5));
     }
 }

@@ -66,9 +66,9 @@ pub(super) fn corrected(
     let exists = share.estimate > 0.0;
     for (swap, beside) in noise.swaps.iter().enumerate().filter(|(_, beside)| **beside != BesideNoise::Holds) {
         let place = layout.of_mean(swap);
-        let nothing = || (Estimate { estimate: f64::NAN, interval: None }, errors[place], Vec::new());
+        let nothing = || (Estimate::alone(f64::NAN), errors[place], Vec::new());
         // Errors of which nothing is known together may be larger than those of the plain index, which are.
-        let width = |of: Estimate| of.interval.map_or(f64::INFINITY, |interval| interval.high - interval.low);
+        let width = |of: Estimate| of.interval.map_or(f64::INFINITY, Interval::width);
         let mut put_narrower = |index: Estimate| {
             if width(index) < width(plain[place]) {
                 put(place, (index, errors[place], Vec::new()));
@@ -122,14 +122,11 @@ mod tests {
 
     #[test]
     fn relative_errors_of_a_quotient_add_up_as_squares() {
-        let of = |estimate: f64, half: f64| {
-            let interval = Interval { low: estimate - half, high: estimate + half };
-            Estimate { estimate, interval: Some(interval) }
-        };
+        let of = |estimate: f64, half: f64| Estimate { estimate, interval: Some(Interval::about(estimate, half)) };
         let found = quotient(of(0.3, 0.03), of(0.6, 0.06));
         let interval = found.interval.unwrap();
         assert_eq!(found.estimate, 0.5);
         assert!((interval.high - 0.5 - 0.05 * 2f64.sqrt()).abs() < 1e-12, "{interval:?}");
-        assert_eq!(quotient(of(0.3, 0.03), Estimate { estimate: 0.6, interval: None }).interval, None);
+        assert_eq!(quotient(of(0.3, 0.03), Estimate::alone(0.6)).interval, None);
     }
 }

@@ -27,8 +27,8 @@ mod unseen;
 
 pub use aggregate::{AggregateIndices, aggregate_indices};
 pub use convergence::{Stage, points_of_stages, stages};
-pub use corrected::{ChosenTerms, LowFidelityUse, Refusal, SurrogateEstimates, SurrogateTerm, SurrogateUse};
-pub use effects::{DependentEstimates, EffectEstimates, OtherEstimates, OutputIndices, OutputMoments};
+pub use corrected::{ChosenTerms, LowFidelityUse, NamedTerm, Refusal, SurrogateEstimates, SurrogateTerm, SurrogateUse};
+pub use effects::{DependentEstimates, EffectChecks, EffectEstimates, OtherEstimates, OutputIndices, OutputMoments};
 pub use estimates::{BesideNoise, Layout, NoiseLayout};
 pub use influence::{Influenced, Influences};
 pub use jackknife::jackknife;
@@ -60,8 +60,32 @@ pub struct Interval {
     pub high: f64,
 }
 
-/// A number with its interval, where there is one.
-#[derive(Debug, Clone, Copy, PartialEq)]
+impl Interval {
+    /// The interval that reaches as far to both sides of `middle`.
+    pub fn about(middle: f64, half_width: f64) -> Self {
+        Self { low: middle - half_width, high: middle + half_width }
+    }
+
+    /// From end to end.
+    pub fn width(self) -> f64 {
+        self.high - self.low
+    }
+
+    /// The interval with changed ends; `None` if one of them is beyond double precision.
+    pub(crate) fn map(self, change: impl Fn(f64) -> f64) -> Option<Self> {
+        Self { low: change(self.low), high: change(self.high) }.finite()
+    }
+
+    /// The interval, unless an end is beyond double precision.
+    pub(crate) fn finite(self) -> Option<Self> {
+        (self.low.is_finite() && self.high.is_finite()).then_some(self)
+    }
+}
+
+/// A number with its interval, where there is one. Files have it as `estimate`, `low` and `high`.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(from = "EstimateRecord", into = "EstimateRecord")]
+#[cfg_attr(feature = "study", derive(schemars::JsonSchema))]
 pub struct Estimate {
     /// The estimate.
     pub estimate: f64,
@@ -69,14 +93,44 @@ pub struct Estimate {
     pub interval: Option<Interval>,
 }
 
+impl Estimate {
+    /// A number of whose error nothing is known.
+    pub fn alone(estimate: f64) -> Self {
+        Self { estimate, interval: None }
+    }
+}
+
+/// An estimate with its interval.
+#[derive(Clone, Copy, Serialize, Deserialize)]
+#[cfg_attr(feature = "study", derive(schemars::JsonSchema))]
+struct EstimateRecord {
+    /// The estimate.
+    estimate: f64,
+    /// Lower bound; `null` with a single replicate.
+    low: Option<f64>,
+    /// Upper bound; `null` with a single replicate.
+    high: Option<f64>,
+}
+
+impl From<Estimate> for EstimateRecord {
+    fn from(Estimate { estimate, interval }: Estimate) -> Self {
+        Self { estimate, low: interval.map(|i| i.low), high: interval.map(|i| i.high) }
+    }
+}
+
+impl From<EstimateRecord> for Estimate {
+    fn from(EstimateRecord { estimate, low, high }: EstimateRecord) -> Self {
+        Self { estimate, interval: low.zip(high).map(|(low, high)| Interval { low, high }) }
+    }
+}
+
 /// The two-sided t-interval at [`LEVEL`] about `estimate`; `None` if the estimate or its error is unknown.
 pub fn t_interval(estimate: f64, error: StandardError) -> Option<Interval> {
     if error.error == 0.0 {
-        return Some(Interval { low: estimate, high: estimate }).filter(|_| estimate.is_finite());
+        return Interval::about(estimate, 0.0).finite();
     }
     let half_width = t_quantile(error.freedom)? * error.error;
-    let interval = Interval { low: estimate - half_width, high: estimate + half_width };
-    Some(interval).filter(|i| i.low.is_finite() && i.high.is_finite())
+    Interval::about(estimate, half_width).finite()
 }
 
 /// The quantile of Student's t distribution for a two-sided interval at [`LEVEL`]; `None` without degrees of freedom.

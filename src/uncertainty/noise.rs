@@ -169,7 +169,7 @@ impl Noise {
             let stretch = if q > 1e-9 { libm::expm1(q) / q } else { 1.0 };
             Interval { low: estimate - low, high: estimate + high * stretch }
         });
-        Estimate { estimate, interval: interval.filter(|i| i.low.is_finite() && i.high.is_finite()) }
+        Estimate { estimate, interval: interval.and_then(Interval::finite) }
     }
 
     /// The number with all that stands in the place of a plain one.

@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::by_points::{Bounds, ByPoints};
 use super::concentration::{Side, interval};
 use super::corrected::{Corrections, SurrogateEstimates, SurrogateUse};
-use super::effects::{EffectEstimates, OtherEstimates, OutputIndices, OutputMoments};
+use super::effects::{EffectChecks, EffectEstimates, OtherEstimates, OutputIndices, OutputMoments};
 use super::estimates::{BesideNoise, Layout, Number, quantities};
 use super::influence::Influences;
 use super::mean::{MeanEstimates, NoiseIndices};
@@ -113,22 +113,29 @@ pub fn output_indices(
         .collect();
     let surrogate = options.surrogate.map(|surrogate| judged.correct(layout, surrogate, &settled));
     let first = if options.ranks { judged.first(layout, options.seed) } else { None };
-    let mut effects: Vec<EffectEstimates> = (0..layout.swaps())
-        .map(|swap| {
-            let mut effect = judged.effect(layout, swap, options.threshold);
-            let noise = layout.noise.as_ref().map(|noise| noise.factor);
-            let place = if noise.is_some_and(|noise| noise < swap) { swap - 1 } else { swap };
-            let known = first.as_ref().filter(|_| noise != Some(swap) && swap < layout.factors);
-            effect.probability_first = known.and_then(|first| first.get(place).copied());
-            effect
-        })
-        .collect();
-    let dummy = if layout.dummy { effects.pop() } else { None };
+    let of_swap = |swap: usize| {
+        let (mut effect, checks) = judged.effect(layout, swap, options.threshold);
+        let noise = layout.noise.as_ref().map(|noise| noise.factor);
+        let place = if noise.is_some_and(|noise| noise < swap) { swap - 1 } else { swap };
+        let known = first.as_ref().filter(|_| noise != Some(swap) && swap < layout.factors);
+        effect.probability_first = known.and_then(|first| first.get(place).copied());
+        (effect, checks)
+    };
+    let mut all: Vec<(EffectEstimates, EffectChecks)> = (0..layout.swaps()).map(of_swap).collect();
+    let dummy = if layout.dummy { all.pop() } else { None };
     if layout.dependent {
-        let redrawn = effects.split_off(layout.listed());
-        let both = effects.into_iter().zip(redrawn);
-        effects = both.map(|(with_others, alone)| with_others.of_dependent_factors(alone)).collect();
+        let redrawn = all.split_off(layout.listed());
+        let both = all.into_iter().zip(redrawn);
+        let joined = both.map(|((effect, checks), (effect_alone, checks_alone))| {
+            (effect.of_dependent_factors(effect_alone), checks.of_dependent_factors(checks_alone))
+        });
+        all = joined.collect();
     }
+    let (mut effects, mut checks): (Vec<EffectEstimates>, Vec<EffectChecks>) = all.into_iter().unzip();
+    let dummy = dummy.map(|(effect, of_dummy)| {
+        checks.push(of_dummy);
+        effect
+    });
     let subsets = effects.split_off(layout.factors + layout.groups);
     // Players are factors and groups alone.
     for (player, shapley) in layout.players.iter().zip(&judged.estimates[layout.shapley()..]) {
@@ -138,7 +145,18 @@ pub fn output_indices(
     let [sum_first_order, sum_total, ..] = judged.estimates[..] else { return Err(Undefined::NoRuns) };
     let second_order = judged.estimates[layout.pairs()..layout.mean_share()].to_vec();
     let (factors, noise) = (effects, judged.noise(layout));
-    Ok(OutputIndices { factors, groups, subsets, dummy, sum_first_order, sum_total, second_order, surrogate, noise })
+    Ok(OutputIndices {
+        factors,
+        groups,
+        subsets,
+        dummy,
+        sum_first_order,
+        sum_total,
+        second_order,
+        surrogate,
+        noise,
+        checks,
+    })
 }
 
 /// A list of quantities with all that is known of their errors.
@@ -180,9 +198,8 @@ impl Judged {
             if !estimate.is_finite() || !error.is_finite() || !(still[place] || *error <= unseen.rounding) {
                 continue;
             }
-            let half_width = unseen.half_width;
-            *interval = Some(Interval { low: *estimate - half_width, high: *estimate + half_width });
-            *error = half_width / NORMAL_QUANTILE;
+            *interval = Some(Interval::about(*estimate, unseen.half_width));
+            *error = unseen.half_width / NORMAL_QUANTILE;
             allowed[place] = true;
         }
         allowed
@@ -261,31 +278,33 @@ impl Judged {
         Some(NoiseIndices { factor: noise.factor, mean_share: self.estimates[layout.mean_share()], of_mean })
     }
 
-    fn effect(&self, layout: &Layout, swap: usize, threshold: f64) -> EffectEstimates {
+    fn effect(&self, layout: &Layout, swap: usize, threshold: f64) -> (EffectEstimates, EffectChecks) {
         let (place, total_place) = (layout.swap(swap), layout.place(swap, Number::Total));
-        let [first_order, total, share_first_order, share_total, check_gap, interaction] =
+        let [first_order, total, share_first_order, share_total, gap, interaction] =
             std::array::from_fn(|k| self.estimates[place + k]);
-        let (first_order, total, contradictory) = agreeing(first_order, total);
+        let (first_order, total, is_contradictory) = agreeing(first_order, total);
+        let [share_first_order, share_total] = [share_first_order, share_total].map(defined);
         let others = (0..layout.estimators.len()).map(|estimator| {
             let place = layout.other(estimator, swap);
             let [first_order, total, first_order_gap, total_gap] =
                 std::array::from_fn(|k| defined(self.estimates[place + k]));
             OtherEstimates { first_order, total, first_order_gap, total_gap }
         });
-        EffectEstimates {
+        let checks = EffectChecks { gap, interaction, is_contradictory, others: others.collect() };
+        let effect = EffectEstimates {
             first_order,
             total,
-            share_first_order: defined(share_first_order),
-            share_total: defined(share_total),
-            check_gap,
-            interaction,
-            contradictory,
+            share_first_order: share_first_order.map(|share| share.estimate),
+            share_total: share_total.map(|share| share.estimate),
+            share_first_order_interval: share_first_order.and_then(|share| share.interval?.finite()),
+            share_total_interval: share_total.and_then(|share| share.interval?.finite()),
+            interaction: Some(interaction),
             probability_first: None,
-            probability_above: probability_above(total, self.errors[total_place], threshold),
-            others: others.collect(),
+            probability_above_threshold: probability_above(total, self.errors[total_place], threshold),
             shapley: None,
             dependent: None,
-        }
+        };
+        (effect, checks)
     }
 }
 
@@ -309,7 +328,7 @@ fn defined(estimate: Estimate) -> Option<Estimate> {
 /// Whether an interval excludes 0 by more than its own width: 1 in 1000 by chance or rarer, where 1 in 20 would cry
 /// wolf in every study of eight factors.
 pub fn differs_clearly(gap: Estimate) -> bool {
-    gap.interval.is_some_and(|Interval { low, high }| gap.estimate.abs() > high - low)
+    gap.interval.is_some_and(|interval| gap.estimate.abs() > interval.width())
 }
 
 #[cfg(test)]
@@ -327,7 +346,7 @@ mod tests {
         assert_eq!((first.high, total.low), (0.34, 0.20));
         let touching = (estimate(0.23, 0.34), estimate(0.20, 0.24));
         assert_eq!(agreeing(touching.0, touching.1), (touching.0, touching.1, false));
-        let unknown = Estimate { estimate: 0.9, interval: None };
+        let unknown = Estimate::alone(0.9);
         assert_eq!(agreeing(unknown, touching.1), (unknown, touching.1, false));
     }
 }

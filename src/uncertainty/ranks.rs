@@ -153,7 +153,7 @@ mod tests {
         let tied = probability_first(&[0.0, 0.0], &[error(0.0, 3.0); 2], &[&none; 2], 0).unwrap();
         assert_eq!(tied, [0.5, 0.5]);
         assert_eq!(probability_first(&[0.2, 0.5], &[error(f64::NAN, 0.0); 2], &[&none; 2], 0), None);
-        let plain = |estimate: f64| Estimate { estimate, interval: None };
+        let plain = |estimate: f64| Estimate::alone(estimate);
         assert_eq!(probability_above(plain(0.2), error(0.0, 1.0), 0.1), Some(1.0));
         assert_eq!(probability_above(plain(0.1), error(0.1, 4.0), 0.1), Some(0.5));
         assert_eq!(probability_above(plain(0.1), error(f64::NAN, 0.0), 0.1), None);

@@ -77,7 +77,7 @@ fn product_form_holds(result: &ResultFile) {
     let missed = effects
         .zip(exact.0.iter().zip(&exact.1))
         .flat_map(|(effect, (first, total))| [(effect.first_order, first), (effect.total, total)])
-        .filter(|(estimate, exact)| !(estimate.low.unwrap()..=estimate.high.unwrap()).contains(exact))
+        .filter(|(estimate, exact)| !(estimate.interval.unwrap().low..=estimate.interval.unwrap().high).contains(exact))
         .count();
     assert!(missed <= 2, "{missed} of the intervals miss");
 }
@@ -92,7 +92,7 @@ fn intervals_hold_about_as_often_as_they_say() {
         let result = analysed("ishigami", &["design.base_samples=1024", &format!("design.seed={seed}")]);
         for (index, (first, total)) in indices(&result).iter().zip(exact.0.iter().zip(&exact.1)) {
             for (estimate, exact) in [(index.effect.first_order, first), (index.effect.total, total)] {
-                held += usize::from((estimate.low.unwrap()..=estimate.high.unwrap()).contains(exact));
+                held += usize::from((estimate.interval.unwrap().low..=estimate.interval.unwrap().high).contains(exact));
                 all += 1;
             }
         }

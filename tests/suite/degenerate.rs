@@ -59,7 +59,7 @@ fn a_factor_without_effect_has_exactly_none_and_one_that_is_everything_all() {
     assert!((indices[0].0 - 1.0).abs() < 1e-3 && (indices[0].1 - 1.0).abs() < 1e-3, "{indices:?}");
     assert_eq!(indices[1..], [(0.0, 0.0); 2]);
     let inert = &output.indices.as_ref().unwrap()[1].effect;
-    assert_eq!((inert.total.low, inert.total.high), (Some(0.0), Some(0.0)));
+    assert!(inert.total.interval.is_some_and(|interval| interval.low == 0.0 && interval.high == 0.0));
     assert_eq!((inert.probability_first, inert.probability_above_threshold), (Some(0.0), Some(0.0)));
     assert_eq!(output.dummy.as_ref().unwrap().total.estimate, 0.0);
     assert!(output.second_order.as_ref().unwrap().iter().all(|pair| pair.index.estimate == 0.0));
@@ -72,7 +72,9 @@ fn two_base_samples_are_enough_for_estimates_and_too_few_for_more() {
     for (first, total) in first_and_total(&result.outputs[0]) {
         assert!(first.is_finite() && total >= 0.0);
     }
-    assert!(result.outputs[0].indices.as_ref().unwrap().iter().all(|index| index.effect.first_order.low.is_none()));
+    assert!(
+        result.outputs[0].indices.as_ref().unwrap().iter().all(|index| index.effect.first_order.interval.is_none())
+    );
     let result = analysed("model = \"ishigami\"\n[design]\nbase_samples = 4\nreplicates = 2");
     assert!(first_and_total(&result.outputs[0]).iter().all(|(first, total)| first.is_finite() && total.is_finite()));
 }
@@ -88,7 +90,8 @@ fn samples_that_are_no_power_of_two_are_allowed_and_warned_of() {
         let effect = &got.effect;
         assert!((effect.first_order.estimate - exact.0).abs() < 0.02 && (effect.total.estimate - exact.1).abs() < 0.02);
         assert!(
-            effect.total.low.unwrap() < effect.total.estimate && effect.total.estimate < effect.total.high.unwrap()
+            effect.total.interval.unwrap().low < effect.total.estimate
+                && effect.total.estimate < effect.total.interval.unwrap().high
         );
     }
 }

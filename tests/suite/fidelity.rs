@@ -128,7 +128,7 @@ fn an_accuracy_is_kept_and_its_lines_make_the_same_run_again() {
     assert!(spending.plain_runs.unwrap() > 10 * spending.runs, "{spending:?}");
     for index in first.outputs[0].indices.as_ref().unwrap() {
         let of = &index.effect.first_order;
-        assert!(of.high.unwrap() - of.low.unwrap() <= 0.02, "{index:?}");
+        assert!(of.interval.unwrap().high - of.interval.unwrap().low <= 0.02, "{index:?}");
     }
     let mut lines: Vec<String> = Vec::new();
     let mut table = "";

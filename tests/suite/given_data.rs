@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use apportion::given::Measure;
 use apportion::report::given::GivenFile;
 
 use crate::common::{apportion, stderr, stdout, text};
@@ -65,7 +66,7 @@ fn a_table_becomes_a_result() {
     for (index, exact) in output.indices.as_ref().unwrap().iter().zip([9.0, 4.0, 1.0]) {
         let rank = index.rank.unwrap();
         // Four standard errors.
-        let width = rank.high.unwrap() - rank.low.unwrap();
+        let width = rank.interval.unwrap().high - rank.interval.unwrap().low;
         assert!((rank.estimate - exact / 14.0).abs() < width && width < 0.2, "{index:?}");
     }
     let printed = stdout(&run.output);
@@ -125,7 +126,7 @@ fn rows_that_are_no_independent_draws_are_refused_or_warned_of() {
     assert!(result.warnings[0].contains("no estimate by ranks"), "{:?}", result.warnings);
     let index = &result.outputs[0].indices.as_ref().unwrap()[0];
     let binned = index.binned.unwrap().estimate;
-    assert!(index.rank.is_none() && binned.low.is_none());
+    assert!(index.rank.is_none() && binned.interval.is_none());
     // 16 bins lose 1/256 of a linear effect; means over a net are exact to 1e-3.
     assert!((binned.estimate - 9.0 / 14.0).abs() < 0.006, "{binned:?}");
     let design = table(&saltelli(3, 64, apportion::design::Sampler::Sobol, 1));
@@ -169,7 +170,7 @@ fn a_surrogate_adds_total_indices() {
     let of = result.outputs[0].surrogate.as_ref().unwrap();
     assert!(of.serves && of.unknown < 1e-12, "{}", of.unknown);
     for (index, exact) in of.indices.iter().zip([9.0, 4.0, 1.0]) {
-        let (low, high) = (index.total.low.unwrap(), index.total.high.unwrap());
+        let (low, high) = (index.total.interval.unwrap().low, index.total.interval.unwrap().high);
         assert!(low <= exact / 14.0 && exact / 14.0 <= high && high - low < 0.15, "{index:?}");
     }
     let printed = stdout(&run.output);
@@ -246,10 +247,11 @@ fn other_measures_stand_beside_the_indices() {
     let result: GivenFile =
         serde_json::from_str(&std::fs::read_to_string(run.out().join("table.json")).unwrap()).unwrap();
     let measures = result.outputs[0].measures.as_ref().unwrap();
-    for name in ["fourier", "delta", "kolmogorov", "pawn_median", "pawn_max", "r2_hsic"] {
-        let of = |input: usize| measures[input].measures[name].estimate.estimate;
+    for measure in Measure::ALL {
+        let name = measure.name();
+        let of = |input: usize| measures[input].get(measure).unwrap().estimate.estimate;
         assert!(of(0) > of(1) && of(1) > of(2).max(of(3)), "{name}: {:?}", [of(0), of(1), of(2), of(3)]);
-        let p_value = |input: usize| measures[input].measures[name].p_value.unwrap();
+        let p_value = |input: usize| measures[input].get(measure).unwrap().p_value.unwrap();
         assert!(p_value(0) <= 0.005 && p_value(1) <= 0.005 && p_value(3) > 0.001, "{name}");
     }
     let csv = std::fs::read_to_string(run.out().join("table-measures.csv")).unwrap();
@@ -259,7 +261,7 @@ fn other_measures_stand_beside_the_indices() {
     let result: GivenFile =
         serde_json::from_str(&std::fs::read_to_string(even.out().join("table.json")).unwrap()).unwrap();
     let measures = &result.outputs[0].measures.as_ref().unwrap()[0].measures;
-    assert!(measures.values().all(|of| of.p_value.is_none() && of.estimate.low.is_none()));
+    assert!(measures.values().all(|of| of.p_value.is_none() && of.estimate.interval.is_none()));
     let without = Run::of(&table(&sobol(3, 512, 0)), &["--outputs", "y"]);
     assert!(!without.out().join("table-measures.csv").exists());
 }

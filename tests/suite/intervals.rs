@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use apportion::report::{EstimateRecord, OutputRecord, ResultFile, give_or_take, run_document, significant};
+use apportion::Estimate;
+use apportion::report::{OutputRecord, ResultFile, give_or_take, run_document, significant};
 use apportion::study::Study;
 
 const UNIFORM: &str = "distribution = \"uniform\"\nmin = 0\nmax = 1";
@@ -25,7 +26,8 @@ fn output(result: &ResultFile) -> &OutputRecord {
 fn bounds(result: &ResultFile, factor: usize) -> [(f64, f64, f64); 2] {
     let output = output(result);
     let effect = &output.indices.as_ref().unwrap_or_else(|| panic!("{:?}", output.reason))[factor].effect;
-    [effect.first_order, effect.total].map(|index| (index.low.unwrap(), index.estimate, index.high.unwrap()))
+    [effect.first_order, effect.total]
+        .map(|index| (index.interval.unwrap().low, index.estimate, index.interval.unwrap().high))
 }
 
 #[test]
@@ -43,7 +45,10 @@ fn an_output_of_0_and_1_has_no_interval_of_width_0() {
             }
         }
         let pairs = output(&result).second_order.as_ref().unwrap();
-        assert!(pairs.iter().all(|pair| pair.index.high.unwrap() - pair.index.low.unwrap() > 1e-3), "seed {seed}");
+        assert!(
+            pairs.iter().all(|pair| pair.index.interval.unwrap().high - pair.index.interval.unwrap().low > 1e-3),
+            "seed {seed}"
+        );
         let [(low, _, high), _] = bounds(&result, 2);
         held += usize::from(low <= 0.0058 && 0.0058 <= high);
     }
@@ -77,8 +82,8 @@ fn a_rare_event_has_indices_and_a_warning() {
         assert!((total.estimate - 1.0).abs() < 0.01 && indices[1].effect.total.estimate == 0.0, "seed {seed}");
         let warned = |text: &str| output.warnings.iter().any(|warning| warning.contains(text));
         // Without an interval the reason is said; with one, S1 = 1 is in it.
-        match first.high {
-            Some(high) => assert!(high > 0.9, "seed {seed}: S1 = 1, but {first:?}"),
+        match first.interval {
+            Some(interval) => assert!(interval.high > 0.9, "seed {seed}: S1 = 1, but {first:?}"),
             None => assert!(warned("no intervals: without the rows of one part"), "seed {seed}: {:?}", output.warnings),
         }
         assert!(warned("the variance rests on few rows"), "seed {seed}: {:?}", output.warnings);
@@ -117,7 +122,7 @@ fn mean_and_variance_are_those_of_all_rows_that_succeeded() {
     let interval = output.variance_interval.unwrap();
     assert!(interval.low < variance && variance < interval.high);
     let bounds = output.mean_interval.unwrap();
-    let mean = EstimateRecord { estimate: mean, low: Some(bounds.low), high: Some(bounds.high) };
+    let mean = Estimate { estimate: mean, interval: Some(bounds) };
     let text = run_document(&result).text();
     // The polynomials know the variance so well that the divisor n - 1 would leave its interval.
     let sd = significant((1e5 * variance.sqrt()).round() / 1e5);

@@ -77,7 +77,8 @@ fn bounds(indices: &OutputIndices) -> Vec<f64> {
 }
 
 fn numbers_of(indices: &OutputIndices, of: fn(Estimate) -> Vec<f64>) -> Vec<f64> {
-    indices.factors.iter().flat_map(|e| [e.first_order, e.total, e.check_gap]).flat_map(of).collect()
+    let all = indices.factors.iter().zip(&indices.checks);
+    all.flat_map(|(effect, checks)| [effect.first_order, effect.total, checks.gap]).flat_map(of).collect()
 }
 
 #[test]

@@ -95,7 +95,7 @@ fn a_level_that_no_row_met_is_not_nothing() {
         let interval = rare.total.interval.unwrap();
         // 1e-4 (1 - 1e-4) 1e4 of itself and 7/144.
         assert!(interval.low <= 0.954 && 0.954 <= interval.high, "{interval:?}");
-        assert_eq!((rare.probability_above, rare.probability_first), (None, None));
+        assert_eq!((rare.probability_above_threshold, rare.probability_first), (None, None));
         let is_rare = |warning: &Warning| matches!(warning, Warning::RareLevel(rare) if rare.factor == "x2");
         assert!(output.warnings.iter().any(is_rare), "{:?}", output.warnings);
         assert!(result.stopped.is_none_or(|stopped| stopped.target_met == Some(false)));

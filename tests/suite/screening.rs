@@ -85,7 +85,7 @@ fn derivatives_bound_total_indices() {
         (nu.estimate - 24.5).abs() < 0.5 && (bound.estimate - 4.0 * 24.5 / 13.8446).abs() < 0.3,
         "{nu:?} {bound:?}"
     );
-    assert!(bound.low.unwrap() < bound.estimate && bound.estimate < bound.high.unwrap());
+    assert!(bound.interval.unwrap().low < bound.estimate && bound.estimate < bound.interval.unwrap().high);
     assert!(table.contains("S_T at most") && table.contains("Derivatives of y"), "{table}");
     let csv = read(folder.path(), "ishigami-screen.csv");
     assert!(

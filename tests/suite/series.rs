@@ -194,7 +194,7 @@ fn the_push_against_time() {
     let position = analysis.series("position_history").unwrap();
     assert_eq!((position.series.axis.label(), position.series.axis.unit()), ("time", "s"));
     near(position.series.axis.positions()[99], 2.0, 1e-12);
-    let index = |output: &str, factor: &str| analysis.output(output).unwrap().factor(factor).unwrap().clone();
+    let index = |output: &str, factor: &str| *analysis.output(output).unwrap().factor(factor).unwrap();
     near(index("position_history[0]", "velocity").first_order.estimate, 1.0, 1e-6);
     near(index("position_history[0]", "thickness").total.estimate, 0.0, 1e-9);
     for factor in ["velocity", "thickness"] {

@@ -40,7 +40,7 @@ fn a_polynomial_has_its_indices_to_rounding() {
     {
         close(effect.first_order.estimate, first / variance);
         close(effect.total.estimate, total / variance);
-        close(effect.interaction.estimate, (total - first) / variance);
+        close(effect.interaction.unwrap().estimate, (total - first) / variance);
         let interval = effect.total.interval.unwrap();
         assert!(
             interval.low <= total / variance
@@ -51,7 +51,7 @@ fn a_polynomial_has_its_indices_to_rounding() {
     close(indices.subsets[0].first_order.estimate, 1.0);
     close(indices.second_order[0].estimate, both / variance);
     close(indices.sum_first_order.estimate, (one + two) / variance);
-    close(indices.factors[1].share_first_order.unwrap().estimate, 80.0);
+    close(indices.factors[1].share_first_order.unwrap(), 80.0);
     close(output.variance.unwrap().estimate, variance);
     close(output.mean.unwrap().estimate, 1.5);
     let used = indices.surrogate.as_ref().unwrap();

@@ -13,6 +13,7 @@ use std::collections::BTreeMap;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 use super::column::{Column, NoVariance};
 use super::order::{Order, Partition};
@@ -25,7 +26,9 @@ pub use hsic::MOST_ROWS as MOST_ROWS_OF_KERNELS;
 
 named! {
 /// A measure of the influence of an input on an output.
-#[derive(PartialOrd, Ord)]
+#[derive(PartialOrd, Ord, Serialize, Deserialize)]
+#[cfg_attr(feature = "study", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
 pub enum Measure {
     /// First-order index from the spectrum of the output in the order of the input: EASI, Plischke (2010), Reliab. Eng. Syst. Saf.
     /// 95, 354-360, and RBD-FAST of given data, with the correction of Tissot and Prieur (2012). An estimate of S_1.
@@ -44,6 +47,7 @@ pub enum Measure {
     PawnMax = "pawn_max",
     /// The criterion of independence of Hilbert and Schmidt with Gaussian kernels, normalised (R2-HSIC): Gretton et al. (2005); Da
     /// Veiga (2015), J. Stat. Comput. Simul. 85, 1283-1305.
+    #[serde(rename = "r2_hsic")]
     Hsic = "r2_hsic",
 }
 }
@@ -63,10 +67,12 @@ impl Measure {
 }
 
 /// A measure of one input.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "study", derive(schemars::JsonSchema), schemars(rename = "MeasuredRecord"))]
 #[non_exhaustive]
 pub struct Measured {
     /// The measure, with its interval where it has one: of delta, of independent rows and those of a run.
+    #[serde(flatten)]
     pub estimate: Estimate,
     /// The probability of a measure so large, or larger, of an input without influence; `None` where rows are not independent draws
     /// (those of nets and Latin hypercubes are spread more evenly, and p-values would be far too large there), or the input has
@@ -75,21 +81,27 @@ pub struct Measured {
     pub p_value: Option<f64>,
 }
 
-/// The measures of one input, in the order of [`Measure::ALL`].
-#[derive(Debug, Clone, PartialEq)]
+/// The measures of one input.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "study", derive(schemars::JsonSchema), schemars(rename = "GivenMeasuresRecord"))]
 #[non_exhaustive]
 pub struct InputMeasures {
     /// The input.
     pub input: String,
-    /// One entry per measure; NaN where it was not asked for, and of the kernels where the input or the output has one value in
-    /// the rows that they look at.
-    pub values: [Measured; Measure::ALL.len()],
+    /// Those that were asked for and exist: kernels say nothing where the input or the output has one value in the rows that they
+    /// look at.
+    pub measures: BTreeMap<Measure, Measured>,
 }
 
 impl InputMeasures {
-    /// One of them.
-    pub fn get(&self, measure: Measure) -> Measured {
-        self.values[measure as usize]
+    /// One of them, if it is known.
+    pub fn get(&self, measure: Measure) -> Option<Measured> {
+        self.measures.get(&measure).copied()
+    }
+
+    /// Whether the measure cannot be told from that of an input without influence: its p-value is above [`SIGNIFICANT`].
+    pub fn may_be_chance(&self, measure: Measure) -> bool {
+        self.get(measure).and_then(|found| found.p_value).is_some_and(|p_value| p_value > SIGNIFICANT)
     }
 }
 
@@ -97,7 +109,7 @@ impl InputMeasures {
 pub const PERMUTATIONS: usize = 199;
 
 /// p-values below this are taken for influence.
-const LEVEL: f64 = 0.05;
+pub const SIGNIFICANT: f64 = 0.05;
 
 /// Resamples behind the interval of delta.
 const RESAMPLES: usize = 100;
@@ -138,7 +150,7 @@ pub fn measures(
 
 /// The measures `wanted` of one output with respect to every input, of rows that are known to be draws from the distributions of the
 /// inputs: with the intervals of delta, which were measured to hold of nets and Latin hypercubes too (docs/coverage-measures.md), and
-/// with p-values if they are `independent` draws. Measures that are not wanted are NaN.
+/// with p-values if they are `independent` draws.
 pub(crate) fn measures_of_rows(
     inputs: &[Column],
     output: &[f64],
@@ -241,7 +253,7 @@ impl<'a> Job<'a> {
             }
         }
         let outputs = if self.wants(Measure::Hsic) { hsic::Outputs::new(&self.z, self.seed[0]) } else { None };
-        let nothing = Measured { estimate: Estimate { estimate: 0.0, interval: None }, p_value: None };
+        let nothing = Measured { estimate: Estimate::alone(0.0), p_value: None };
         let of_input = |number: usize| {
             let (classes, order) = (&classes[number], &orders[number]);
             let mut values = [nothing; Measure::ALL.len()];
@@ -252,28 +264,27 @@ impl<'a> Job<'a> {
                 for (place, (measured, found)) in values.iter_mut().zip(found).enumerate() {
                     let larger = permutations.iter().filter(|by_chance| by_chance[place] >= found).count();
                     let p_value = (1 + larger) as f64 / (1 + permutations.len()) as f64;
-                    let estimate = Estimate { estimate: found, interval: None };
+                    let estimate = Estimate::alone(found);
                     *measured = Measured { estimate, p_value: (!permutations.is_empty()).then_some(p_value) };
                 }
                 if let Some(chance) = by_chance.filter(|_| has_interval) {
                     let delta = &mut values[Measure::Delta as usize];
                     delta.estimate = self.delta(classes, delta.estimate.estimate, chance, number as u64);
-                    if let (Some(interval), Some(LEVEL..)) = (&mut delta.estimate.interval, delta.p_value) {
+                    if let (Some(interval), Some(SIGNIFICANT..)) = (&mut delta.estimate.interval, delta.p_value) {
                         // What is not told from chance may be nothing.
                         interval.low = 0.0;
                     }
                 }
                 let kernels = outputs.as_ref().and_then(|outputs| outputs.with(&inputs[number].values));
                 let (r2, p_value) = kernels.unwrap_or((f64::NAN, None));
-                values[Measure::Hsic as usize] =
-                    Measured { estimate: Estimate { estimate: r2, interval: None }, p_value };
+                values[Measure::Hsic as usize] = Measured { estimate: Estimate::alone(r2), p_value };
                 if !known.has_p_values {
                     values.iter_mut().for_each(|measured| measured.p_value = None);
                 }
             }
-            let unasked = Measured { estimate: Estimate { estimate: f64::NAN, interval: None }, p_value: None };
-            let of_measure = |measure: Measure| if self.wants(measure) { values[measure as usize] } else { unasked };
-            InputMeasures { input: inputs[number].name.clone(), values: Measure::ALL.map(of_measure) }
+            let known = Measure::ALL.into_iter().zip(values);
+            let known = known.filter(|(measure, of)| self.wants(*measure) && of.estimate.estimate.is_finite());
+            InputMeasures { input: inputs[number].name.clone(), measures: known.collect() }
         };
         (0..inputs.len()).into_par_iter().map(of_input).collect()
     }

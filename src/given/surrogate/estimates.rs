@@ -1,11 +1,11 @@
 //! Indices and intervals from the contributions of all folds.
 
 use super::contributions::{FoldSums, Folded};
-use super::{Fitted, SurrogateIndices, SurrogateOutput, told_terms};
+use super::{Fitted, LEAST_EXPLAINED, SurrogateIndices, SurrogateOutput, told_terms};
 use crate::uncertainty::{Estimate, Influenced, Interval, Noise};
 
-/// What all folds say of the indices of `inputs` inputs.
-pub(super) fn of(fitted: &Fitted, inputs: usize) -> SurrogateOutput {
+/// What all folds say of the indices of the inputs of these names.
+pub(super) fn of(fitted: &Fitted, names: &[&str]) -> SurrogateOutput {
     let Fitted { folds, expansions, beyond, polynomials_of } = fitted;
     let rows = folds.iter().map(|fold| fold.rows).sum::<usize>() as f64;
     let left_mean = folds.iter().map(|fold| fold.left.0).sum::<f64>() / rows;
@@ -22,8 +22,8 @@ pub(super) fn of(fitted: &Fitted, inputs: usize) -> SurrogateOutput {
     let of_first_order =
         |input: usize| gathered(folds, rows, beyond.first_order[input], |fold| fold.first_order.get(&input));
     let of_total = |input: usize| gathered(folds, rows, beyond.total[input], |fold| fold.total.get(&input));
-    let first_order: Vec<Influenced> = (0..inputs).map(|input| index(&of_first_order(input))).collect();
-    let total: Vec<Influenced> = (0..inputs).map(|input| index(&of_total(input))).collect();
+    let first_order: Vec<Influenced> = (0..names.len()).map(|input| index(&of_first_order(input))).collect();
+    let total: Vec<Influenced> = (0..names.len()).map(|input| index(&of_total(input))).collect();
     let left = fitted.left_square() / variance.estimate;
     let unknown = left.clamp(0.0, 1.0);
     let noise = |list: &[Influenced], skewed: bool| {
@@ -35,17 +35,22 @@ pub(super) fn of(fitted: &Fitted, inputs: usize) -> SurrogateOutput {
         let interval = interval.map(|Interval { low, high }| Interval { low, high: high + unknown });
         Estimate { estimate, interval }
     };
-    let of_input = |(first, all): (&Influenced, &Influenced)| SurrogateIndices {
+    let of_input = |((first, all), input): ((&Influenced, &Influenced), &&str)| SurrogateIndices {
+        input: (*input).to_owned(),
         first_order: raised(of_first_order, first),
         total: raised(of_total, all),
     };
+    let leading = told_terms(expansions, variance.estimate);
+    let explained = 1.0 - left;
     SurrogateOutput {
-        explained: 1.0 - left,
+        explained,
         unknown,
-        polynomials_of,
-        term_count: expansions.iter().map(|e| e.terms.len() as f64).sum::<f64>() / expansions.len() as f64,
-        terms: told_terms(expansions, variance.estimate),
-        indices: first_order.iter().zip(&total).map(of_input).collect(),
+        serves: explained >= LEAST_EXPLAINED,
+        polynomials_of: (*polynomials_of).to_owned(),
+        terms: expansions.iter().map(|e| e.terms.len() as f64).sum::<f64>() / expansions.len() as f64,
+        leading_terms: leading.iter().map(|term| term.named(names)).collect(),
+        sum_first_order: first_order.iter().map(|index| index.estimate).sum(),
+        indices: first_order.iter().zip(&total).zip(names).map(of_input).collect(),
     }
 }
 

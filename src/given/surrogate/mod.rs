@@ -11,6 +11,7 @@ mod estimates;
 mod marginals;
 
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use super::order::Order;
@@ -21,7 +22,7 @@ use crate::surrogate::beyond::Beyond;
 use crate::surrogate::fit::Expansion;
 use crate::surrogate::net::Net;
 use crate::surrogate::{cross_fitted, told_terms};
-use crate::uncertainty::{Estimate, SurrogateTerm};
+use crate::uncertainty::{Estimate, NamedTerm};
 use contributions::{Contributions, FoldSums};
 use coordinates::Coordinates;
 
@@ -82,7 +83,7 @@ pub struct Surrogates {
 }
 
 /// What surrogates say of an output.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SurrogateOutput {
     /// Share of the variance that the surrogates explain of the rows that they were not fitted to (Q^2); 1 at most, and
     /// negative where they are worse than the mean.
@@ -90,26 +91,25 @@ pub struct SurrogateOutput {
     /// The rest, between 0 and 1: an index may be larger than its estimate by so much, whatever the number of rows. The upper
     /// ends of the intervals contain it.
     pub unknown: f64,
-    /// In which variable of the inputs the surrogates are polynomials.
-    pub polynomials_of: &'static str,
+    /// Whether the surrogates explain at least [`LEAST_EXPLAINED`]; else the other estimates are the ones to read.
+    pub serves: bool,
+    /// In which variable of the inputs the surrogates are polynomials, in words.
+    pub polynomials_of: String,
     /// Number of terms, of all surrogates on average.
-    pub term_count: f64,
+    pub terms: f64,
     /// The terms that carry most of the variance, the first ones first.
-    pub terms: Vec<SurrogateTerm>,
+    pub leading_terms: Vec<NamedTerm>,
     /// One entry per input, in their order.
     pub indices: Vec<SurrogateIndices>,
-}
-
-impl SurrogateOutput {
-    /// Whether the surrogates explain at least [`LEAST_EXPLAINED`]; else the other estimates are the ones to read.
-    pub fn serves(&self) -> bool {
-        self.explained >= LEAST_EXPLAINED
-    }
+    /// Sum of the first-order indices over the inputs.
+    pub sum_first_order: f64,
 }
 
 /// The indices of one input by surrogates, nominally between 0 and 1 and not clamped.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SurrogateIndices {
+    /// The input.
+    pub input: String,
     /// First-order index, without what no rows tell.
     pub first_order: Estimate,
     /// Total index, without what no rows tell.
@@ -152,7 +152,9 @@ pub fn surrogate_indices(
         None => coordinates::of_columns(&inputs, &orders),
     };
     let folds: Vec<usize> = rows.iter().map(Vec::len).collect();
-    let job = Job { coordinates: &coordinates, folds: &folds, own_distributions: distributions.is_none() };
+    let names: Vec<&str> = inputs.iter().map(|input| input.name.as_str()).collect();
+    let job =
+        Job { names: &names, coordinates: &coordinates, folds: &folds, own_distributions: distributions.is_none() };
     let of_output = |output: &Column| Ok(job.output(&centred(&chosen(output).values)?));
     Ok(Surrogates {
         rows: folds.iter().sum(),
@@ -175,6 +177,8 @@ fn used_rows(rows: usize, inputs: usize) -> Vec<Vec<usize>> {
 
 /// The same table for all outputs.
 struct Job<'a> {
+    /// The names of the inputs.
+    names: &'a [&'a str],
     /// What is tried, one at least.
     coordinates: &'a [Coordinates],
     /// Rows of every fold.
@@ -220,7 +224,7 @@ impl Job<'_> {
                 best = fitted;
             }
         }
-        estimates::of(&best, self.coordinates[0].values.len())
+        estimates::of(&best, self.names)
     }
 
     fn fitted(&self, coordinates: &Coordinates, z: &[f64]) -> Fitted {

@@ -8,7 +8,7 @@ use crate::report::document::{Cell, Column, DataFile, Document, Figure, Part, Se
 use crate::report::format::{give_or_take, heading, name, significant};
 use crate::report::leading::{Contender, first_answers, may_lead};
 use crate::report::listed;
-use crate::report::result::{EstimateRecord, IntervalRecord};
+use crate::uncertainty::{Estimate, Interval};
 
 /// The document of a comparison, whose files begin with `name`. A star marks the differences whose intervals leave out 0.
 pub fn comparison_document(file: &ComparisonFile, files: &str) -> Document {
@@ -72,9 +72,9 @@ fn output_parts(output: &ComparedOutput) -> Vec<Part> {
     let moments = [("Mean", output.mean, output.mean_interval), ("Standard deviation", output.sd, [None; 2])];
     for (what, of, intervals) in moments {
         if let [Some(a), Some(b)] = of {
-            let said = |estimate: f64, interval: Option<IntervalRecord>| {
-                let bounds = |of: IntervalRecord| EstimateRecord { estimate, low: Some(of.low), high: Some(of.high) };
-                interval.map_or_else(|| significant(estimate), |interval| give_or_take(bounds(interval)))
+            let said = |estimate: f64, interval: Option<Interval>| {
+                let known = interval.map(|_| Estimate { estimate, interval });
+                known.map_or_else(|| significant(estimate), give_or_take)
             };
             parts.push(Part::Text(format!("{what}: A {}, B {}.", said(a, intervals[0]), said(b, intervals[1]))));
         }
@@ -104,14 +104,14 @@ fn index_table(
 }
 
 fn cells(index: &ComparedIndex) -> [String; 3] {
-    let said = |estimate: Option<EstimateRecord>| estimate.map_or_else(|| "–".to_owned(), give_or_take);
+    let said = |estimate: Option<Estimate>| estimate.map_or_else(|| "–".to_owned(), give_or_take);
     let star = if index.differs == Some(true) { " *" } else { "" };
     [said(index.a), said(index.b), said(index.difference) + star]
 }
 
 /// Which factor has the largest total index in each, as far as the intervals tell, without the output and a full stop.
 fn leaders(output: &ComparedOutput) -> String {
-    let leaders = |of: fn(&ComparedFactor) -> Option<EstimateRecord>| -> Option<String> {
+    let leaders = |of: fn(&ComparedFactor) -> Option<Estimate>| -> Option<String> {
         let contender = |factor: &ComparedFactor| Some(Contender::new(name(&factor.name), of(factor)?));
         let known: Vec<Contender> = output.factors.iter().filter(|f| !f.group).filter_map(contender).collect();
         let names: Vec<&str> = may_lead(&known).into_iter().map(|place| known[place].label.as_str()).collect();

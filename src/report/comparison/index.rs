@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::report::result::EstimateRecord;
+use crate::uncertainty::{Estimate, Interval};
 
 /// Indices are shares of a variance: differences up to this are of the size of the rounding errors of its sums, which the
 /// intervals do not hold.
@@ -12,11 +12,11 @@ const ROUNDING: f64 = 1e-12;
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct ComparedIndex {
     /// In A; `null` if it does not exist there.
-    pub a: Option<EstimateRecord>,
+    pub a: Option<Estimate>,
     /// In B; `null` if it does not exist there.
-    pub b: Option<EstimateRecord>,
+    pub b: Option<Estimate>,
     /// B minus A; `null` if one of them does not exist.
-    pub difference: Option<EstimateRecord>,
+    pub difference: Option<Estimate>,
     /// Whether the interval of the difference leaves out 0, and the difference is more than rounding (1e-12); `null`
     /// without an interval.
     pub differs: Option<bool>,
@@ -24,9 +24,11 @@ pub struct ComparedIndex {
 
 impl ComparedIndex {
     /// The index `a` in A beside the index `b` in B.
-    pub fn new(a: Option<EstimateRecord>, b: Option<EstimateRecord>) -> Self {
+    pub fn new(a: Option<Estimate>, b: Option<Estimate>) -> Self {
         let difference = a.zip(b).map(|(a, b)| difference(a, b));
-        let beyond = |d: EstimateRecord| Some((d.low? > 0.0 || d.high? < 0.0) && d.estimate.abs() > ROUNDING);
+        let beyond = |d: Estimate| {
+            d.interval.map(|Interval { low, high }| (low > 0.0 || high < 0.0) && d.estimate.abs() > ROUNDING)
+        };
         let differs = difference.and_then(beyond);
         Self { a, b, difference, differs }
     }
@@ -41,21 +43,22 @@ impl ComparedIndex {
 /// the root of the sum of squares of the half widths.
 ///
 /// ```
-/// use apportion::report::EstimateRecord;
+/// use apportion::{Estimate, Interval};
 /// use apportion::report::comparison::difference;
 ///
-/// let a = EstimateRecord { estimate: 0.5, low: Some(0.47), high: Some(0.53) };
-/// let b = EstimateRecord { estimate: 0.7, low: Some(0.66), high: Some(0.74) };
+/// let a = Estimate { estimate: 0.5, interval: Some(Interval { low: 0.47, high: 0.53 }) };
+/// let b = Estimate { estimate: 0.7, interval: Some(Interval { low: 0.66, high: 0.74 }) };
 /// let d = difference(a, b);
 /// assert!((d.estimate - 0.2).abs() < 1e-15);
-/// assert!((d.low.unwrap() - 0.15).abs() < 1e-15 && (d.high.unwrap() - 0.25).abs() < 1e-15);
+/// let interval = d.interval.unwrap();
+/// assert!((interval.low - 0.15).abs() < 1e-15 && (interval.high - 0.25).abs() < 1e-15);
 /// ```
-pub fn difference(a: EstimateRecord, b: EstimateRecord) -> EstimateRecord {
+pub fn difference(a: Estimate, b: Estimate) -> Estimate {
     let estimate = b.estimate - a.estimate;
-    let reach = |of_b: Option<f64>, of_a: Option<f64>| Some(libm::hypot(of_b? - b.estimate, of_a? - a.estimate));
-    EstimateRecord {
-        estimate,
-        low: reach(b.low, a.high).map(|reach| estimate - reach),
-        high: reach(b.high, a.low).map(|reach| estimate + reach),
-    }
+    let reach = |of_b: f64, of_a: f64| libm::hypot(of_b - b.estimate, of_a - a.estimate);
+    let interval = a.interval.zip(b.interval).map(|(of_a, of_b)| Interval {
+        low: estimate - reach(of_b.low, of_a.high),
+        high: estimate + reach(of_b.high, of_a.low),
+    });
+    Estimate { estimate, interval }
 }

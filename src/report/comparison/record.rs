@@ -6,7 +6,8 @@ use super::error::CompareError;
 use super::index::ComparedIndex;
 use super::settings::{SettingDifference, differences};
 use crate::quantity::Unit;
-use crate::report::result::{EffectRecord, IntervalRecord, OutputRecord, ResultFile};
+use crate::report::result::{OutputRecord, ResultFile};
+use crate::uncertainty::{EffectEstimates, Interval};
 
 /// Two results compared, as described in `docs/comparison-format.md`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -66,7 +67,7 @@ pub struct ComparedOutput {
     pub mean: [Option<f64>; 2],
     /// Its interval in A and in B; `null` where there is none.
     #[serde(default)]
-    pub mean_interval: [Option<IntervalRecord>; 2],
+    pub mean_interval: [Option<Interval>; 2],
     /// Standard deviation in A and in B, in `unit`.
     pub sd: [Option<f64>; 2],
     /// Every factor, in the order of A and then of B, then the groups that both have.
@@ -223,7 +224,7 @@ fn compared(names: &[String], a: &OutputRecord, b: &OutputRecord) -> Result<Comp
         mean: [a.mean, b.mean.map(value)],
         mean_interval: [
             a.mean_interval,
-            b.mean_interval.map(|of| IntervalRecord { low: value(of.low), high: value(of.high) }),
+            b.mean_interval.map(|of| Interval { low: value(of.low), high: value(of.high) }),
         ],
         sd: [sd(a), sd(b).map(span)],
         factors: factors.chain(groups).collect(),
@@ -235,7 +236,7 @@ fn reason(output: &OutputRecord) -> String {
     output.reason.clone().unwrap_or_else(|| "the result holds none".to_owned())
 }
 
-fn factor(name: &str, group: bool, a: Option<EffectRecord>, b: Option<EffectRecord>) -> ComparedFactor {
+fn factor(name: &str, group: bool, a: Option<EffectEstimates>, b: Option<EffectEstimates>) -> ComparedFactor {
     ComparedFactor {
         name: name.to_owned(),
         group,

@@ -3,8 +3,9 @@ use std::path::Path;
 use proptest::prelude::*;
 
 use super::*;
-use crate::report::result::{EstimateRecord, ResultFile};
+use crate::report::result::ResultFile;
 use crate::study::Study;
+use crate::uncertainty::{Estimate, Interval};
 
 fn result(text: &str) -> ResultFile {
     let study = Study::parse(text, Path::new("small.toml"), &[]).unwrap_or_else(|error| panic!("{error}"));
@@ -66,7 +67,8 @@ fn the_other_way_round_is_the_same_with_the_other_sign() {
     for (there, back) in there.outputs[0].factors.iter().zip(&back.outputs[0].factors) {
         let (there, back) = (there.total.difference.unwrap(), back.total.difference.unwrap());
         assert_eq!(there.estimate, -back.estimate);
-        assert_eq!((there.low.unwrap(), there.high.unwrap()), (-back.high.unwrap(), -back.low.unwrap()));
+        let (there, back) = (there.interval.unwrap(), back.interval.unwrap());
+        assert_eq!((there.low, there.high), (-back.high, -back.low));
     }
 }
 
@@ -143,7 +145,7 @@ fn a_table_has_no_more_columns_than_a_page_has_room_for() {
 
 #[test]
 fn rounding_is_no_difference() {
-    let record = |estimate: f64| Some(EstimateRecord { estimate, low: Some(estimate), high: Some(estimate) });
+    let record = |estimate: f64| Some(Estimate { estimate, interval: Some(Interval::about(estimate, 0.0)) });
     assert_eq!(ComparedIndex::new(record(0.0), record(5e-15)).differs, Some(false));
     assert_eq!(ComparedIndex::new(record(0.0), record(5e-9)).differs, Some(true));
     assert_eq!(
@@ -162,16 +164,15 @@ proptest! {
     /// Symmetric intervals: the half widths are those of independent errors, and never smaller than the larger one.
     #[test]
     fn half_widths_add_as_independent_errors(a in -1.0..1.0, b in -1.0..1.0, u in 0.0..0.5, v in 0.0..0.5) {
-        let record = |estimate: f64, half: f64| EstimateRecord {
+        let record = |estimate: f64, half: f64| Estimate {
             estimate,
-            low: Some(estimate - half),
-            high: Some(estimate + half),
+            interval: Some(Interval::about(estimate, half)),
         };
         let d = difference(record(a, u), record(b, v));
-        let half = (u * u + v * v).sqrt();
+        let (half, interval) = ((u * u + v * v).sqrt(), d.interval.unwrap());
         // Bounds are rounded to 1e-16 of numbers up to 1.5.
-        prop_assert!((d.high.unwrap() - d.estimate - half).abs() < 1e-14);
-        prop_assert!((d.estimate - d.low.unwrap() - half).abs() < 1e-14);
-        prop_assert!(d.high.unwrap() - d.estimate >= u.max(v) - 1e-14);
+        prop_assert!((interval.high - d.estimate - half).abs() < 1e-14);
+        prop_assert!((d.estimate - interval.low - half).abs() < 1e-14);
+        prop_assert!(interval.high - d.estimate >= u.max(v) - 1e-14);
     }
 }

@@ -44,7 +44,6 @@ enum PartView<'a> {
     Frame { title: String, html: String },
     Details { summary: String, body: String },
     Gallery { body: String },
-    OnScreen { instead: String, body: String },
     Figure { id: &'a str, words: FigureWords, drawings: Drawings, links: Vec<LinkView> },
     Table(TableView),
 }
@@ -170,9 +169,6 @@ impl Surroundings<'_> {
             Part::Frame { title, html } => PartView::Frame { title: clean(title), html: clean(html) },
             Part::Details { summary, parts } => {
                 PartView::Details { summary: symbols(summary), body: self.parts(parts) }
-            }
-            Part::OnScreen { instead, parts } => {
-                PartView::OnScreen { instead: symbols(instead), body: self.parts(parts) }
             }
             Part::Figure(figure) => self.figure(figure, Drawings::new),
             Part::Gallery(figures) => {

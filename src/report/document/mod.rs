@@ -110,13 +110,6 @@ pub enum Part {
     },
     /// Parts that are for the page alone: what would only fill a terminal.
     OnPage(Vec<Part>),
-    /// Parts that are not printed: what would only fill paper.
-    OnScreen {
-        /// What stands in their place on paper: where they are to be found.
-        instead: String,
-        /// The parts.
-        parts: Vec<Part>,
-    },
 }
 
 /// A figure with what belongs to it.
@@ -223,7 +216,7 @@ impl Document {
 fn visit<'a>(parts: &'a [Part], see: &mut dyn FnMut(&'a Part)) {
     for part in parts {
         see(part);
-        if let Part::Details { parts, .. } | Part::OnPage(parts) | Part::OnScreen { parts, .. } = part {
+        if let Part::Details { parts, .. } | Part::OnPage(parts) = part {
             visit(parts, see);
         }
     }
@@ -241,7 +234,7 @@ fn renumber(parts: &mut [Part], number: &mut usize) {
         match part {
             Part::Figure(figure) => one(figure, number),
             Part::Gallery(small) => small.iter_mut().for_each(|figure| one(figure, number)),
-            Part::Details { parts, .. } | Part::OnPage(parts) | Part::OnScreen { parts, .. } => renumber(parts, number),
+            Part::Details { parts, .. } | Part::OnPage(parts) => renumber(parts, number),
             _ => (),
         }
     }

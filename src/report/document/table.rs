@@ -4,9 +4,9 @@ use std::borrow::Borrow;
 
 use crate::report::csv::{Csv, Field, Value};
 use crate::report::format::give_or_take;
-use crate::report::result::EstimateRecord;
 
 use super::Link;
+use crate::uncertainty::Estimate;
 
 /// A table. Pages and terminals print its cells; a file of CSV has the values behind them.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -205,14 +205,14 @@ impl From<&str> for Cell {
 }
 
 /// An index with the half width of its interval, a dash without one.
-impl From<Option<EstimateRecord>> for Cell {
-    fn from(estimate: Option<EstimateRecord>) -> Self {
+impl From<Option<Estimate>> for Cell {
+    fn from(estimate: Option<Estimate>) -> Self {
         Self::valued(estimate.map_or_else(|| "–".to_owned(), give_or_take), Value::Estimate(estimate))
     }
 }
 
-impl From<EstimateRecord> for Cell {
-    fn from(estimate: EstimateRecord) -> Self {
+impl From<Estimate> for Cell {
+    fn from(estimate: Estimate) -> Self {
         Some(estimate).into()
     }
 }

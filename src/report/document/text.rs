@@ -35,7 +35,7 @@ impl<'a> Terminal<'a> {
                 }
                 Part::Code(text) => text.lines().for_each(|line| self.line(format!("    {line}").trim_end())),
                 Part::Table(table) => self.table(table),
-                Part::Details { parts, .. } | Part::OnScreen { parts, .. } => self.parts(parts),
+                Part::Details { parts, .. } => self.parts(parts),
                 Part::Figure(_) | Part::Gallery(_) | Part::Links(_) | Part::Frame { .. } | Part::OnPage(_) => (),
             }
         }

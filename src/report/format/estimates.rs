@@ -1,7 +1,7 @@
 //! Estimates with their errors, with as many digits as the error bears: the one way of sentences, tables and captions.
 
 use super::{SIGNIFICANT, minus, significant, significant_to};
-use crate::report::result::{EstimateRecord, IntervalRecord};
+use crate::uncertainty::{Estimate, Interval};
 
 /// Up to this ratio of its longer part to the shorter one an interval is told by the longer one.
 const EVEN: f64 = 1.5;
@@ -17,8 +17,8 @@ pub(super) const SMALL: f64 = 1e-5;
 ///
 /// The half width (the longer one, where the two are not equal) has one digit, two if it begins with 1, and the estimate ends
 /// at the same place, after six digits at the latest; what is cut there counts as error. Bounds have the digits of the nearer one, two if it begins with 1 or 2. Without an interval there are three digits. Files have all.
-pub fn give_or_take(record: EstimateRecord) -> String {
-    let EstimateRecord { estimate, low: Some(low), high: Some(high) } = record else {
+pub fn give_or_take(record: Estimate) -> String {
+    let Estimate { estimate, interval: Some(Interval { low, high }) } = record else {
         return rounded(record.estimate, WITHOUT_ERROR);
     };
     let half = (high - low) / 2.0;
@@ -54,22 +54,22 @@ fn with_bounds(estimate: f64, low: f64, high: f64, most: i32) -> String {
 }
 
 /// The half width that [`give_or_take`] prints; `None` where it prints none.
-pub fn printed_half_width(record: EstimateRecord) -> Option<f64> {
+pub fn printed_half_width(record: Estimate) -> Option<f64> {
     give_or_take(record).split_once(" ± ")?.1.parse().ok()
 }
 
 /// Whether an interval leaves out 0 from below, as it is printed too.
-pub fn is_above_zero(record: EstimateRecord) -> bool {
+pub fn is_above_zero(record: Estimate) -> bool {
     let printed = give_or_take(record);
     let is_left_out = match printed.split_once(" ± ") {
         Some((estimate, half)) => estimate.parse::<f64>().ok() > half.parse::<f64>().ok(),
         None => !printed.contains("[0, "),
     };
-    record.low.is_some_and(|low| low > 0.0) && is_left_out
+    record.interval.is_some_and(|interval| interval.low > 0.0) && is_left_out
 }
 
 /// [`give_or_take`] for sentences, with true minus signs.
-pub fn index(record: EstimateRecord) -> String {
+pub fn index(record: Estimate) -> String {
     minus(&give_or_take(record))
 }
 
@@ -82,27 +82,25 @@ fn most_decimals(estimate: f64) -> i32 {
 }
 
 /// A part of 1 in percent with its error: `39.96 ± 0.03 %`. A part that cannot be below 0 or beyond 1 has bounds inside.
-pub fn percent(record: EstimateRecord) -> String {
+pub fn percent(record: Estimate) -> String {
     let percent = |part: f64| 100.0 * part;
-    let within = |bound: Option<f64>| bound.map(|bound| percent(bound).max(0.0));
-    let estimate = record.estimate;
-    let inside = (0.0..=1.0).contains(&estimate);
-    let bound = |bound: Option<f64>| if inside { within(bound) } else { bound.map(percent) };
-    let (low, high) = (bound(record.low), bound(record.high));
-    format!("{} %", minus(&up_to_all(EstimateRecord { estimate: percent(estimate), low, high })))
+    let Estimate { estimate, interval } = record;
+    let is_inside = (0.0..=1.0).contains(&estimate);
+    let bound = |bound: f64| if is_inside { percent(bound).max(0.0) } else { percent(bound) };
+    let interval = interval.map(|Interval { low, high }| Interval { low: bound(low), high: bound(high) });
+    format!("{} %", minus(&up_to_all(Estimate { estimate: percent(estimate), interval })))
 }
 
 /// A share in percent with its error, `-` if it does not exist.
-pub fn share(share: Option<f64>, interval: Option<IntervalRecord>) -> String {
-    let bounds = |estimate| EstimateRecord { estimate, low: interval.map(|i| i.low), high: interval.map(|i| i.high) };
-    share.map_or_else(|| "-".to_owned(), |share| up_to_all(bounds(share)))
+pub fn share(share: Option<Estimate>) -> String {
+    share.map_or_else(|| "-".to_owned(), up_to_all)
 }
 
 /// What is up to 100 %: an interval that goes beyond ends there, and what is left of rounding is 0.
-fn up_to_all(record: EstimateRecord) -> String {
+fn up_to_all(record: Estimate) -> String {
     const ALL: f64 = 100.0;
     const ROUNDING: f64 = 1e-9;
-    let EstimateRecord { estimate, low: Some(low), high: Some(high) } = record else { return give_or_take(record) };
+    let Estimate { estimate, interval: Some(Interval { low, high }) } = record else { return give_or_take(record) };
     if [estimate, low, high].iter().all(|part| part.abs() < ROUNDING) {
         return "0".to_owned();
     }
@@ -169,8 +167,8 @@ fn at(value: f64, decimals: i32) -> String {
 mod tests {
     use super::*;
 
-    fn record(low: f64, estimate: f64, high: f64) -> EstimateRecord {
-        EstimateRecord { estimate, low: Some(low), high: Some(high) }
+    fn record(low: f64, estimate: f64, high: f64) -> Estimate {
+        Estimate { estimate, interval: Some(Interval { low, high }) }
     }
 
     fn about(estimate: f64, half: f64) -> String {
@@ -217,19 +215,18 @@ mod tests {
     fn exact_numbers_and_those_without_an_error() {
         assert_eq!(give_or_take(record(0.0, 0.0, 0.0)), "0");
         assert_eq!(give_or_take(record(1.0, 1.0, 1.0)), "1");
-        assert_eq!(give_or_take(EstimateRecord { estimate: 0.5, low: None, high: None }), "0.5");
-        assert_eq!(give_or_take(EstimateRecord { estimate: 2.345_678e-7, low: None, high: None }), "2.35e-7");
+        assert_eq!(give_or_take(Estimate::alone(0.5)), "0.5");
+        assert_eq!(give_or_take(Estimate::alone(2.345_678e-7)), "2.35e-7");
         assert_eq!(give_or_take(record(f64::NAN, f64::NAN, f64::NAN)), "NaN");
     }
 
     #[test]
     fn parts_and_shares_in_percent() {
         assert_eq!(percent(record(0.389, 0.392, 0.395)), "39.2 ± 0.3 %");
-        assert_eq!(percent(EstimateRecord { estimate: 0.5, low: None, high: None }), "50 %");
+        assert_eq!(percent(Estimate::alone(0.5)), "50 %");
         assert_eq!(percent(record(0.25, 0.52, 1.18)), "52 [25, 100] %");
-        assert_eq!(share(Some(97.61), Some(IntervalRecord { low: 97.6, high: 97.62 })), "97.610 ± 0.010");
-        assert_eq!(share(None, None), "-");
-        let of = |estimate, low, high| share(Some(estimate), Some(IntervalRecord { low, high }));
+        let of = |estimate, low, high| share(Some(record(low, estimate, high)));
+        assert_eq!((of(97.61, 97.6, 97.62), share(None)), ("97.610 ± 0.010".to_owned(), "-".to_owned()));
         assert_eq!(of(100.0, 99.95, 100.05), "100.000 [99.950, 100.000]");
         assert_eq!(
             (of(100.0, 100.0 - 1e-10, 100.0 + 1e-10), of(99.0, 98.0, 101.0)),

@@ -1,6 +1,7 @@
 //! The chart of first-order indices from given data.
 
-use super::{GivenFile, GivenIndexRecord, GivenOutputRecord};
+use super::{GivenFile, GivenOutputRecord};
+use crate::given::InputIndices;
 use crate::report::chart::{Chart, Colour, Series};
 use crate::report::factor_bars::{INDEX, MOST, index_panel, not_drawn};
 use crate::report::leading::{Contender, leader};
@@ -35,7 +36,7 @@ pub fn given_chart(result: &GivenFile, output: &GivenOutputRecord) -> Chart {
 
 /// Which input alone explains most.
 fn caption(result: &GivenFile, output: &GivenOutputRecord) -> String {
-    let contender = |(number, index): (usize, &GivenIndexRecord)| {
+    let contender = |(number, index): (usize, &InputIndices)| {
         let by_surrogate = output.served().map(|of| of.indices[number].first_order);
         let index_of = by_surrogate.or(index.rank).or(index.binned.map(|binned| binned.estimate))?;
         Some(Contender::new(&index.input, index_of))

@@ -2,16 +2,17 @@
 
 use std::path::Path;
 
-use super::{GivenFile, GivenIndexRecord, GivenOutputRecord, given_chart};
+use super::{GivenFile, GivenOutputRecord, given_chart};
 use super::{measures, sentences};
+use crate::given::InputIndices;
 use crate::report::csv::Field;
 use crate::report::distribution::OutputDistribution;
 use crate::report::document::{Cell, Column, DataFile, Document, Figure, Mark, Part, Section, Table, Value};
 use crate::report::format::{index, name as words, significant};
 use crate::report::leading::first_answers;
 use crate::report::records::json;
-use crate::report::result::EstimateRecord;
 use crate::report::{file_stems, listed};
+use crate::uncertainty::Estimate;
 
 /// The document of a result from given data, whose files begin with `name`.
 pub fn given_document(result: &GivenFile, name: &str) -> Document {
@@ -102,7 +103,7 @@ fn moments(distribution: &OutputDistribution) -> String {
 
 /// Three digits of a number without an error.
 fn three(estimate: f64) -> String {
-    index(EstimateRecord { estimate, low: None, high: None })
+    index(Estimate::alone(estimate))
 }
 
 fn index_table(result: &GivenFile, output: &GivenOutputRecord, name: &str) -> Table {
@@ -128,10 +129,9 @@ fn index_table(result: &GivenFile, output: &GivenOutputRecord, name: &str) -> Ta
             Column::in_file(Field::new("surrogate_unknown")),
         ]);
     }
-    let cell =
-        |record: Option<EstimateRecord>| Cell::valued(record.map_or_else(String::new, index), Value::Estimate(record));
-    let row = |(number, index): (usize, &GivenIndexRecord)| {
-        let bins = index.binned.map_or(Value::Empty, |binned| binned.bins.into());
+    let cell = |record: Option<Estimate>| Cell::valued(record.map_or_else(String::new, index), Value::Estimate(record));
+    let row = |(number, index): (usize, &InputIndices)| {
+        let bins = index.binned.map_or(Value::Empty, |binned| Value::Count(binned.bins as u64));
         let mut row = vec![
             Cell::from(&output.name),
             Cell::from(&index.input),
@@ -183,10 +183,10 @@ fn table_parts(result: &GivenFile) -> Vec<Part> {
     let (table, provenance) = (&result.table, &result.provenance);
     let mut text = format!("{}: {} rows, {} inputs.", table.file, table.rows, result.inputs.len());
     if let Some(dependence) = &result.dependence {
-        let (a, b) = &dependence.inputs;
+        let (a, b) = &dependence.strongest.inputs;
         text.push_str(&format!(
             " Largest rank correlation between inputs: {} (`{a}`, `{b}`); chance reaches {}.",
-            three(dependence.spearman),
+            three(dependence.strongest.spearman),
             three(dependence.noise)
         ));
     }

@@ -3,25 +3,20 @@
 use std::collections::BTreeMap;
 
 use super::record::GivenFile;
-use crate::given::{InputMeasures, MOST_ROWS_OF_KERNELS, Measure, NoVariance, PERMUTATIONS};
+use crate::given::{InputMeasures, MOST_ROWS_OF_KERNELS, Measure, NoVariance, PERMUTATIONS, SIGNIFICANT};
 use crate::report::csv::Field;
 use crate::report::document::{Cell, Column, Part, Section, Table, Value};
 use crate::report::format::{fixed, index as of_error};
-use crate::report::result::measures::{GivenMeasuresRecord, SIGNIFICANT};
 
 impl GivenFile {
     /// The result with what `measures` found of each of its outputs.
     #[must_use]
     pub fn with_measures(mut self, measures: &[Result<Vec<InputMeasures>, NoVariance>]) -> Self {
         for (output, measures) in self.outputs.iter_mut().zip(measures) {
-            output.measures = measures.as_ref().ok().map(|inputs| inputs.iter().map(record).collect());
+            output.measures = measures.as_ref().ok().cloned();
         }
         self
     }
-}
-
-fn record(of: &InputMeasures) -> GivenMeasuresRecord {
-    GivenMeasuresRecord::of(of, &Measure::ALL)
 }
 
 /// The section of the measures of all outputs; `None` if there are none.
@@ -38,13 +33,13 @@ pub(super) fn section(result: &GivenFile, name: &str) -> Option<Section> {
 }
 
 /// The input with the largest measure.
-fn first(inputs: &[GivenMeasuresRecord], measure: Measure) -> Option<usize> {
+fn first(inputs: &[InputMeasures], measure: Measure) -> Option<usize> {
     let value = |k: usize| inputs[k].get(measure).map_or(f64::NEG_INFINITY, |found| found.estimate.estimate);
     (0..inputs.len()).rev().max_by(|&a, &b| value(a).total_cmp(&value(b)))
 }
 
 /// Whether the measures agree on the input that matters most, and which inputs none of them tells from chance.
-pub(in crate::report) fn agreement(output: &str, inputs: &[GivenMeasuresRecord], measures: &[Measure]) -> String {
+pub(in crate::report) fn agreement(output: &str, inputs: &[InputMeasures], measures: &[Measure]) -> String {
     let mut leading: BTreeMap<usize, Vec<&str>> = BTreeMap::new();
     let is_known = |measure: &&Measure| inputs.iter().any(|of| of.get(**measure).is_some());
     let measures: Vec<Measure> = measures.iter().filter(is_known).copied().collect();
@@ -65,7 +60,7 @@ pub(in crate::report) fn agreement(output: &str, inputs: &[GivenMeasuresRecord],
             format!("The measures do not agree on what comes first for {output}: {}.", all.join("; "))
         }
     };
-    let no_influence = |of: &&GivenMeasuresRecord| measures.iter().all(|measure| of.may_be_chance(*measure));
+    let no_influence = |of: &&InputMeasures| measures.iter().all(|measure| of.may_be_chance(*measure));
     let idle: Vec<&str> = inputs.iter().filter(no_influence).map(|of| of.input.as_str()).collect();
     if !idle.is_empty() {
         text.push_str(&format!(" No measure tells {} from an input without influence.", idle.join(", ")));
@@ -76,7 +71,7 @@ pub(in crate::report) fn agreement(output: &str, inputs: &[GivenMeasuresRecord],
 /// The `measures` of an output, a row for each input or factor, as `what` says.
 pub(in crate::report) fn table(
     output: &str,
-    (what, inputs): (&'static str, &[GivenMeasuresRecord]),
+    (what, inputs): (&'static str, &[InputMeasures]),
     measures: &[Measure],
 ) -> Table {
     let mut columns = vec![Column::in_file(Field::new("output")), Column::text(what).named(Field::new(what))];
@@ -84,11 +79,11 @@ pub(in crate::report) fn table(
         columns.push(Column::number(measure.heading()).named(Field::estimate(measure.name())));
         columns.push(Column::in_file(Field::new(format!("{}_p", measure.name()))));
     }
-    let row = |of: &GivenMeasuresRecord| {
+    let row = |of: &InputMeasures| {
         let mut row = vec![Cell::from(output), Cell::from(&of.input)];
         for &measure in measures {
             let found = of.get(measure);
-            let said = found.map_or_else(String::new, |found| match found.estimate.low {
+            let said = found.map_or_else(String::new, |found| match found.estimate.interval {
                 Some(_) => of_error(found.estimate),
                 None => fixed(found.estimate.estimate, 3),
             });
@@ -115,7 +110,7 @@ pub(in crate::report) fn table(
     } else {
         "The rows are no independent draws, so that nothing is said of chance: there are no p-values.".to_owned()
     };
-    if found().any(|found| found.estimate.low.is_some()) {
+    if found().any(|found| found.estimate.interval.is_some()) {
         caption.push_str(" Delta has its 95 % interval.");
     }
     if has(Measure::Hsic) {

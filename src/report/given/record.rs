@@ -3,18 +3,15 @@
 use serde::{Deserialize, Serialize};
 
 use super::sentences;
-use super::surrogate::{
-    GivenSurrogateOutput, GivenSurrogateRecord, SurrogateResult, surrogate_output, surrogate_record,
-};
+use super::surrogate::{GivenSurrogateRecord, SurrogateResult, surrogate_record};
 use crate::analysis::Unlikely;
 use crate::exchange::{TextColumn, TextKind};
 use crate::given::{
-    Binned, Column, GivenIndices, InputIndices, Method, NoVariance, OutputIndices, PointSet, SurrogateOutput,
+    Column, Dependence, GivenIndices, InputIndices, InputMeasures, Method, NoVariance, OutputIndices, PointSet,
+    SurrogateOutput,
 };
 use crate::quantity::Unit;
 use crate::report::distribution::OutputDistribution;
-use crate::report::result::measures::GivenMeasuresRecord;
-use crate::report::result::{EstimateRecord, estimate_record};
 
 /// A result from given data, as described in `docs/given-data-format.md`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -30,7 +27,7 @@ pub struct GivenFile {
     /// The inputs, in the order of the analysis.
     pub inputs: Vec<GivenInputRecord>,
     /// Dependence between the inputs; `null` with fewer than two that vary.
-    pub dependence: Option<DependenceRecord>,
+    pub dependence: Option<Dependence>,
     /// How surrogates were fitted; `null` if they were not asked for.
     #[serde(default)]
     pub surrogate: Option<GivenSurrogateRecord>,
@@ -120,19 +117,6 @@ pub struct GivenInputRecord {
     pub max: f64,
 }
 
-/// Dependence between the inputs.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct DependenceRecord {
-    /// The pair of inputs with the largest absolute rank correlation.
-    pub inputs: (String, String),
-    /// Their rank correlation (Spearman).
-    pub spearman: f64,
-    /// The absolute rank correlation that independent inputs exceed in one table of a thousand.
-    pub noise: f64,
-    /// A pair that depends on each other in another way; `null` if none was found.
-    pub uneven: Option<(String, String)>,
-}
-
 /// An output.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct GivenOutputRecord {
@@ -141,15 +125,15 @@ pub struct GivenOutputRecord {
     /// Its distribution over the rows.
     pub distribution: Option<OutputDistribution>,
     /// One entry per input; `null` if there are no indices.
-    pub indices: Option<Vec<GivenIndexRecord>>,
+    pub indices: Option<Vec<InputIndices>>,
     /// Sum of the leading estimates (by ranks if there are any, else by bins) over the inputs.
     pub sum_first_order: Option<f64>,
     /// Indices by surrogates; `null` if they were not asked for, or there are none.
     #[serde(default)]
-    pub surrogate: Option<GivenSurrogateOutput>,
+    pub surrogate: Option<SurrogateOutput>,
     /// Other measures, one entry per input; `null` if they were not asked for, or there are none.
     #[serde(default)]
-    pub measures: Option<Vec<GivenMeasuresRecord>>,
+    pub measures: Option<Vec<InputMeasures>>,
     /// Why there are no indices.
     pub reason: Option<String>,
     /// What a careful reader should know, in sentences.
@@ -163,32 +147,9 @@ impl GivenOutputRecord {
     }
 
     /// The indices by surrogates that are to be read.
-    pub(super) fn served(&self) -> Option<&GivenSurrogateOutput> {
+    pub(super) fn served(&self) -> Option<&SurrogateOutput> {
         self.surrogate.as_ref().filter(|surrogate| surrogate.serves)
     }
-}
-
-/// The first-order index of one input.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct GivenIndexRecord {
-    /// The input.
-    pub input: String,
-    /// Whether it has one value only, and so index 0 by definition.
-    pub constant: bool,
-    /// By ranks; `null` if not asked for, or refused.
-    pub rank: Option<EstimateRecord>,
-    /// By bins; `null` if not asked for.
-    pub binned: Option<BinnedRecord>,
-}
-
-/// An estimate by bins.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct BinnedRecord {
-    /// Estimate and bounds; these are `null` where the rows are not independent draws.
-    #[serde(flatten)]
-    pub estimate: EstimateRecord,
-    /// Number of bins.
-    pub bins: u64,
 }
 
 /// What the result says besides the indices.
@@ -242,12 +203,7 @@ pub fn build_given(
             columns_left_out: Vec::new(),
         },
         inputs: inputs.iter().map(input_record).collect(),
-        dependence: indices.dependence.as_ref().map(|dependence| DependenceRecord {
-            inputs: dependence.strongest.inputs.clone(),
-            spearman: dependence.strongest.spearman,
-            noise: dependence.noise,
-            uneven: dependence.uneven.clone(),
-        }),
+        dependence: indices.dependence.clone(),
         surrogate: surrogates.map(surrogate_record),
         outputs,
         warnings: inputs.iter().filter_map(unlikely).chain(warnings).collect(),
@@ -280,22 +236,11 @@ fn output_record(output: &OutputIndices, surrogate: Option<&SurrogateOutput>, co
     GivenOutputRecord {
         name: output.name.clone(),
         distribution: OutputDistribution::from_values(&column.values, &Unit::dimensionless()),
-        indices: indices.ok().map(|indices| indices.iter().map(index_record).collect()),
+        indices: indices.ok().cloned(),
         sum_first_order: indices.ok().and_then(|indices| indices.iter().map(leading).sum()),
-        surrogate: surrogate.zip(indices.ok()).map(|(surrogate, inputs)| surrogate_output(surrogate, inputs)),
+        surrogate: surrogate.filter(|_| indices.is_ok()).cloned(),
         measures: None,
         reason: indices.err().map(ToString::to_string),
         warnings: unlikely(column).into_iter().chain(sentences::output_warnings(output, surrogate)).collect(),
-    }
-}
-
-fn index_record(index: &InputIndices) -> GivenIndexRecord {
-    GivenIndexRecord {
-        input: index.input.clone(),
-        constant: index.constant,
-        rank: index.rank.map(estimate_record),
-        binned: index
-            .binned
-            .map(|Binned { estimate, bins }| BinnedRecord { estimate: estimate_record(estimate), bins: bins as u64 }),
     }
 }

@@ -122,7 +122,7 @@ pub(super) fn warnings(
 
 pub(super) fn output_warnings(output: &OutputIndices, surrogate: Option<&SurrogateOutput>) -> Vec<String> {
     let mut warnings = Vec::new();
-    if let Some(surrogate) = surrogate.filter(|surrogate| !surrogate.serves()) {
+    if let Some(surrogate) = surrogate.filter(|surrogate| !surrogate.serves) {
         warnings.push(format!(
             "the surrogate does not serve: of rows that it was not fitted to it explains {} of the variance, and {} are \
              needed. Read the first-order indices by ranks and bins; there are no total indices",

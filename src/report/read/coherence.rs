@@ -3,7 +3,7 @@
 use serde_json::Value;
 
 use crate::names::{LONGEST_NAME, LONGEST_STUDY_NAME};
-use crate::report::result::{AggregateIndexRecord, OutputRecord, ResultFile, SeriesRecord};
+use crate::report::result::{OutputRecord, PlainIndexRecord, ResultFile, SeriesRecord};
 
 /// A key, and what is wrong there.
 type Fault = (String, String);
@@ -31,7 +31,7 @@ fn series(key: &str, result: &ResultFile, series: &SeriesRecord) -> Result<(), F
         let problem = "expected rising numbers, one for each output from number `first_output` on";
         return Err((format!("{key}.positions"), problem.to_owned()));
     }
-    let factors = |of: &[AggregateIndexRecord]| {
+    let factors = |of: &[PlainIndexRecord]| {
         of.iter().map(|index| &index.factor).eq(result.factors.iter().map(|factor| &factor.name))
     };
     if !series.indices.as_ref().is_none_or(|indices| factors(indices)) {

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::AggregateIndexRecord;
+use super::PlainIndexRecord;
 
 /// Consecutive outputs that are the values of one quantity along an axis.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -22,7 +22,7 @@ pub struct SeriesRecord {
     /// Where every value stands on the axis, in rising order.
     pub positions: Vec<f64>,
     /// Indices over all values together, each counted by its variance, one entry per factor; `null` where a value has none.
-    pub indices: Option<Vec<AggregateIndexRecord>>,
+    pub indices: Option<Vec<PlainIndexRecord>>,
     /// Why there are none.
     pub reason: Option<String>,
 }

@@ -20,18 +20,6 @@ pub struct SpendingRecord {
     pub lines: String,
 }
 
-/// What a cheaper model did to the indices of an output.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[doc(hidden)]
-pub struct LowUseRecord {
-    /// Its name.
-    pub name: String,
-    /// How much the output of the model rises with that of the cheaper one, by least squares.
-    pub slope: f64,
-    /// Share of the variance that the cheaper model explains by itself.
-    pub explained: f64,
-}
-
 /// Why a growing run ended.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[doc(hidden)]

@@ -1,11 +1,10 @@
 //! What a surrogate did to the indices, in the result file.
 
-use std::collections::BTreeMap;
-
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{LowUseRecord, OtherIndexRecord};
+use super::OtherIndexRecord;
+use crate::uncertainty::{LowFidelityUse, NamedTerm};
 
 /// The surrogates of an output: polynomials fitted to the runs of all replicates but one, which correct the indices of that
 /// one.
@@ -25,20 +24,10 @@ pub struct SurrogateRecord {
     /// The same of the total indices.
     pub gain_total: Option<f64>,
     /// The terms that carry most of the variance.
-    pub leading_terms: Vec<SurrogateTermRecord>,
+    pub leading_terms: Vec<NamedTerm>,
     /// The plain indices of everything that has indices: factors, groups, subsets, dummy.
     pub plain: Vec<OtherIndexRecord>,
     /// The cheaper model that stands in beside them, if there is one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub low: Option<LowUseRecord>,
-}
-
-/// A term of the surrogates.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[doc(hidden)]
-pub struct SurrogateTermRecord {
-    /// The degree of its polynomial of each factor in it.
-    pub degrees: BTreeMap<String, usize>,
-    /// Its share of the variance, in percent.
-    pub share: f64,
+    pub low: Option<LowFidelityUse>,
 }

@@ -5,8 +5,7 @@ use super::super::factor_bars::not_drawn;
 use super::super::format::{grouped, name, two_digits};
 use super::super::interval_widths::widest_of;
 use super::super::leading::by_total;
-use super::super::result::{EstimateRecord, OutputRecord, ResultFile, StageIndexRecord, StageRecord};
-use super::headline;
+use super::super::result::{OutputRecord, PlainIndexRecord, ResultFile, StageRecord};
 
 /// Factors with a line of their own.
 const LINES: usize = 8;
@@ -26,7 +25,7 @@ pub fn convergence_chart(result: &ResultFile, output: &OutputRecord) -> Chart {
     let totals = panel("Total indices with their 95 % intervals", axis("total index", Spacing::Linear)).with(totals);
     let widths = panel("Half widths of the intervals of the total indices", axis("half width", Spacing::Logarithmic))
         .with(widths);
-    let title = format!("{}: how the indices of {} settled", headline(result), name(&output.name));
+    let title = format!("{}: how the indices of {} settled", result.study.headline(), name(&output.name));
     Chart::new(title, caption(result, output)).panels([totals, widths.with(references.into_iter().flatten())])
 }
 
@@ -38,24 +37,20 @@ fn series(stages: &[StageRecord], place: usize, factor: usize) -> Series {
 }
 
 /// Runs and index of `factor` at every stage.
-fn steps(stages: &[StageRecord], factor: usize) -> impl Iterator<Item = (f64, &StageIndexRecord)> {
+fn steps(stages: &[StageRecord], factor: usize) -> impl Iterator<Item = (f64, &PlainIndexRecord)> {
     stages.iter().filter_map(move |stage| Some((stage.model_runs as f64, stage.indices.get(factor)?)))
 }
 
 fn total_lines(stages: &[StageRecord], place: usize, factor: usize) -> [Mark; 2] {
     let series = series(stages, place, factor);
-    let bounds = |(runs, index): (f64, &StageIndexRecord)| Some((runs, index.total.low?, index.total.high?));
+    let bounds = |(runs, index): (f64, &PlainIndexRecord)| index.total.interval.map(|i| (runs, i.low, i.high));
     let band = steps(stages, factor).filter_map(bounds).collect();
     [series.band(band), series.line(steps(stages, factor).map(|(runs, index)| (runs, index.total.estimate)).collect())]
 }
 
 fn width_line(stages: &[StageRecord], place: usize, factor: usize) -> Mark {
-    let width = |(runs, index): (f64, &StageIndexRecord)| Some((runs, half_width(index.total)?));
+    let width = |(runs, index): (f64, &PlainIndexRecord)| Some((runs, index.total.interval?.width() / 2.0));
     series(stages, place, factor).line(steps(stages, factor).filter_map(width).collect())
-}
-
-fn half_width(index: EstimateRecord) -> Option<f64> {
-    Some((index.high? - index.low?) / 2.0)
 }
 
 fn largest_width(stages: &[StageRecord]) -> Mark {

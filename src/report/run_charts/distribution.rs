@@ -4,11 +4,10 @@ use super::super::chart::{Axis, Chart, Panel};
 use super::super::distribution::histogram_chart;
 use super::super::format::{grouped, name, words};
 use super::super::result::{OutputRecord, ResultFile};
-use super::headline;
 
 /// The distribution of an output; without values, the reason.
 pub fn distribution_chart(result: &ResultFile, output: &OutputRecord) -> Chart {
-    let title = format!("{}: distribution of {}", headline(result), name(&output.name));
+    let title = format!("{}: distribution of {}", result.study.headline(), name(&output.name));
     let output_words = words(&output.name);
     if let Some(distribution) = &output.distribution {
         // With the mean of the values, not that of the page, which surrogates may have corrected.

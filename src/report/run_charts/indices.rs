@@ -5,7 +5,6 @@ use super::super::factor_bars::{INDEX, MOST, both_orders, index_panel, not_drawn
 use super::super::format::name;
 use super::super::leading::leader_of;
 use super::super::result::{IndexRecord, OutputRecord, ResultFile};
-use super::headline;
 
 /// First-order and total index of every factor, as parts of the output's variance, with their intervals; the largest total
 /// index on top. Of more than 20 factors, the first 20.
@@ -26,6 +25,6 @@ pub fn indices_chart(result: &ResultFile, output: &OutputRecord) -> Chart {
         }
         false => pair_panel(factors, first_order, total, &keys),
     };
-    let title = format!("{}: indices of {}", headline(result), name(&output.name));
+    let title = format!("{}: indices of {}", result.study.headline(), name(&output.name));
     Chart::new(title, leader_of(output) + &not_drawn(indices.len(), MOST)).panels([panel])
 }

@@ -3,8 +3,8 @@
 use super::super::chart::{Axis, Chart, Colour, Panel, Series, Shape, Tile};
 use super::super::factor_bars::{MOST, not_drawn, pair_panel};
 use super::super::format::{fixed, index, name};
-use super::super::result::{AggregateIndexRecord, EstimateRecord, IndexRecord, ResultFile};
-use super::headline;
+use super::super::result::{IndexRecord, PlainIndexRecord, ResultFile};
+use crate::uncertainty::Estimate;
 
 /// Outputs of a map: of more, some are left out evenly.
 const ROWS: usize = 40;
@@ -21,7 +21,7 @@ pub(in crate::report) fn map_chart(result: &ResultFile) -> Chart {
     let all = result.outputs.len();
     let step = all.div_ceil(ROWS).max(1);
     let outputs: Vec<_> = result.outputs.iter().step_by(step).collect();
-    let panel = |title: &str, of: fn(&IndexRecord) -> EstimateRecord| {
+    let panel = |title: &str, of: fn(&IndexRecord) -> Estimate| {
         let mut tiles: Vec<(Option<usize>, Tile)> = Vec::new();
         for (row, output) in outputs.iter().enumerate() {
             for (column, &factor) in factors.iter().enumerate() {
@@ -46,7 +46,7 @@ pub(in crate::report) fn map_chart(result: &ResultFile) -> Chart {
     ];
     let shown = if step > 1 { format!(" One of {step} outputs is drawn.") } else { String::new() };
     let caption = format!("Indices of {all} outputs.{shown}{}", not_drawn(result.factors.len(), COLUMNS));
-    Chart::new(format!("{}: all outputs at a glance", headline(result)), caption).panels(panels)
+    Chart::new(format!("{}: all outputs at a glance", result.study.headline()), caption).panels(panels)
 }
 
 /// The places of the factors by falling total index over all outputs together, or by their sum where there is none: the
@@ -95,7 +95,7 @@ pub(super) fn short(index: f64) -> String {
 pub(in crate::report) fn together_chart(result: &ResultFile) -> Chart {
     let indices = result.aggregate.as_ref().and_then(|aggregate| aggregate.indices.as_deref()).unwrap_or_default();
     let factors: Vec<String> = result.factors.iter().map(|factor| name(&factor.name)).collect();
-    let of = |which: fn(&AggregateIndexRecord) -> EstimateRecord| -> Vec<Option<EstimateRecord>> {
+    let of = |which: fn(&PlainIndexRecord) -> Estimate| -> Vec<Option<Estimate>> {
         let find = |name: &str| indices.iter().find(|index| index.factor == name).map(which);
         result.factors.iter().map(|factor| find(&factor.name)).collect()
     };
@@ -112,7 +112,7 @@ pub(in crate::report) fn together_chart(result: &ResultFile) -> Chart {
             format!("No indices of all outputs together: {}.", reason.unwrap_or("the result holds none"))
         }
     };
-    Chart::new(format!("{}: all outputs together", headline(result)), caption).panels([panel])
+    Chart::new(format!("{}: all outputs together", result.study.headline()), caption).panels([panel])
 }
 
 #[cfg(test)]

@@ -18,11 +18,5 @@ pub use pairs::pairs_chart;
 pub use scatter::scatter_chart;
 pub(super) use series::{SeriesOf, along_chart};
 
-use super::result::ResultFile;
-
-fn headline(result: &ResultFile) -> &str {
-    result.study.title.as_deref().unwrap_or(&result.study.name)
-}
-
 #[cfg(test)]
 mod tests;

@@ -4,9 +4,9 @@ use super::super::chart::{Axis, Chart, Colour, Panel, Series, Shape, Tile};
 use super::super::factor_bars::not_drawn;
 use super::super::format::{index, name};
 use super::super::leading::{by_total, surely_interact};
-use super::super::result::{EstimateRecord, OutputRecord, ResultFile};
-use super::headline;
+use super::super::result::{OutputRecord, ResultFile};
 use super::map::{class, series, short};
+use crate::uncertainty::Estimate;
 
 /// Most factors: of more, the figures would not fit into the cells of a phone.
 const MOST: usize = 15;
@@ -16,7 +16,7 @@ const NOTHING: &str = "below 0.01, or may be 0";
 /// Second-order indices of every two factors as shades and figures, with the first-order indices on the diagonal; the factor with
 /// the largest total index is the first. Of more than 15 factors, the first 15.
 pub fn pairs_chart(result: &ResultFile, output: &OutputRecord) -> Chart {
-    let title = format!("{}: what acts on {} two by two", headline(result), name(&output.name));
+    let title = format!("{}: what acts on {} two by two", result.study.headline(), name(&output.name));
     let order = by_total(output).unwrap_or_default();
     let factors = &order[..order.len().min(MOST)];
     let sure = surely_interact(output.second_order.as_deref().unwrap_or_default());
@@ -24,10 +24,10 @@ pub fn pairs_chart(result: &ResultFile, output: &OutputRecord) -> Chart {
     for (row, (_, below)) in factors.iter().enumerate() {
         for (column, (_, left)) in factors.iter().enumerate().take(row + 1) {
             let (value, may_be_nothing) = match row == column {
-                true => (below.effect.first_order, below.effect.first_order.low.is_some_and(|low| low <= 0.0)),
+                true => (below.effect.first_order, below.effect.first_order.interval.is_some_and(|i| i.low <= 0.0)),
                 false => {
                     let Some((place, value)) = pair(output, [&below.factor, &left.factor]) else { continue };
-                    (value, value.low.is_some() && !sure[place])
+                    (value, value.interval.is_some() && !sure[place])
                 }
             };
             let class = if may_be_nothing { 0 } else { class(value.estimate) };
@@ -53,7 +53,7 @@ pub fn pairs_chart(result: &ResultFile, output: &OutputRecord) -> Chart {
 }
 
 /// The second-order index of two factors in any order, and its place.
-fn pair(output: &OutputRecord, [one, other]: [&str; 2]) -> Option<(usize, EstimateRecord)> {
+fn pair(output: &OutputRecord, [one, other]: [&str; 2]) -> Option<(usize, Estimate)> {
     let is_theirs = |[a, b]: &[String; 2]| (a == one && b == other) || (a == other && b == one);
     let (place, pair) = output.second_order.iter().flatten().enumerate().find(|(_, pair)| is_theirs(&pair.factors))?;
     Some((place, pair.index)).filter(|(_, index)| index.estimate.is_finite())

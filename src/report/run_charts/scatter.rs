@@ -7,7 +7,6 @@ use super::super::leading::no_indices;
 use super::super::result::{FactorRecord, OutputRecord, ResultFile, ScatterRecord};
 
 use super::categories::Categories;
-use super::headline;
 
 /// Where the median lies below this part of the largest value, a linear axis would press most points into its foot.
 const PRESSED: f64 = 0.02;
@@ -21,7 +20,7 @@ pub fn scatter_chart(result: &ResultFile, output: &OutputRecord) -> Chart {
     if panels.is_empty() {
         panels.push(Panel::new(Axis::default(), y));
     }
-    let title = format!("{}: values of {} over its factors", headline(result), name(&output.name));
+    let title = format!("{}: values of {} over its factors", result.study.headline(), name(&output.name));
     let caption = scatter.map_or_else(|| no_indices(output), |scatter| caption(result, scatter));
     Chart::new(title, caption).side_by_side().panels(panels)
 }

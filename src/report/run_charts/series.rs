@@ -3,8 +3,8 @@
 use super::super::chart::{Axis, Chart, Colour, Mark, Panel, Series};
 use super::super::factor_bars::{INDEX, not_drawn};
 use super::super::format::{axis_unit, name};
-use super::super::result::{EstimateRecord, IndexRecord, OutputRecord, ResultFile, SeriesRecord};
-use super::headline;
+use super::super::result::{IndexRecord, OutputRecord, ResultFile, SeriesRecord};
+use crate::uncertainty::Estimate;
 
 /// Factors that have lines: those with the largest mean total index.
 const LINES: usize = 8;
@@ -46,14 +46,16 @@ impl<'a> SeriesOf<'a> {
 pub(in crate::report) fn along_chart(of: SeriesOf<'_>) -> Chart {
     let order = of.order();
     let positions = &of.series.positions;
-    let panel = |title: &str, read: fn(&IndexRecord) -> EstimateRecord| {
+    let panel = |title: &str, read: fn(&IndexRecord) -> Estimate| {
         let marks = order.iter().take(LINES).enumerate().flat_map(|(rank, &factor)| -> [Mark; 2] {
             let series = Series::new(name(&of.result.factors[factor].name), Colour::Series(rank));
             let index = |value: &OutputRecord| value.indices.as_ref()?.get(factor).map(read);
             let drawn = |x: Option<f64>| x.map_or(f64::NAN, |x| x.clamp(DRAWN.0, DRAWN.1));
             let curve = || positions.iter().zip(of.values()).map(|(x, value)| (*x, index(value)));
-            let bound = |bound: Option<Option<f64>>| drawn(bound.flatten());
-            let band = curve().map(|(x, of)| (x, bound(of.map(|of| of.low)), bound(of.map(|of| of.high))));
+            let band = curve().map(|(x, of)| {
+                let interval = of.and_then(|of| of.interval);
+                (x, drawn(interval.map(|i| i.low)), drawn(interval.map(|i| i.high)))
+            });
             let line = curve().map(|(x, of)| (x, drawn(of.map(|of| of.estimate))));
             [series.band(band.collect()), series.line(line.collect())]
         });
@@ -68,6 +70,6 @@ pub(in crate::report) fn along_chart(of: SeriesOf<'_>) -> Chart {
         "Bands are the 95 % intervals of each value by itself, drawn from −0.1 to 1.1.{}",
         not_drawn(order.len(), LINES)
     );
-    let title = format!("{}: indices along the axis of {}", headline(of.result), name(&of.series.name));
+    let title = format!("{}: indices along the axis of {}", of.result.study.headline(), name(&of.series.name));
     Chart::new(title, caption).panels(panels)
 }

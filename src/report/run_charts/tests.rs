@@ -5,6 +5,7 @@ use resvg::usvg::roxmltree::Document;
 use super::*;
 use crate::report::chart::{Chart, ChartWidth};
 use crate::report::result::OutputRecord;
+use crate::report::result::ResultFile;
 use crate::report::result_json;
 use crate::study::Study;
 

@@ -122,9 +122,8 @@ impl<'a> Figures<'a> {
 
     fn numbered(&mut self, chart: Chart, name: &str, (stem, data): (&str, String)) -> Figure {
         self.count += 1;
-        let study = &self.result.study;
         let figure = Figure::new(self.count, chart, stem, data);
         let figure = Figure { id: format!("figure-{}{name}", self.prefix), ..figure };
-        figure.below(study.title.as_ref().unwrap_or(&study.name))
+        figure.below(self.result.study.headline())
     }
 }

@@ -5,11 +5,12 @@ use crate::report::format::{grouped, index, is_above_zero, name, percent, two_di
 use crate::report::interval_widths::{WIDE, indices_measured, widest_interval};
 use crate::report::leading::{Contender, by_total, first_answers, leader_of, may_lead};
 use crate::report::listed;
-use crate::report::result::{EstimateRecord, OutputRecord, ResultFile};
+use crate::report::result::{OutputRecord, ResultFile};
 use crate::report::validity;
 
 use super::overview;
 use super::warnings::grouped_warnings;
+use crate::uncertainty::{Estimate, Interval};
 
 /// The paragraphs at the top of the page: on every series, then on the `single` outputs, which belong to none.
 pub(super) fn lead(result: &ResultFile, single: &ResultFile) -> Vec<String> {
@@ -61,12 +62,9 @@ pub(super) fn interactions(output: &OutputRecord) -> Option<String> {
 }
 
 /// What a part leaves of 1, with the interval that follows from its own.
-pub(super) fn complement(part: EstimateRecord) -> EstimateRecord {
-    EstimateRecord {
-        estimate: 1.0 - part.estimate,
-        low: part.high.map(|high| 1.0 - high),
-        high: part.low.map(|low| 1.0 - low),
-    }
+pub(super) fn complement(part: Estimate) -> Estimate {
+    let interval = part.interval.map(|Interval { low, high }| Interval { low: 1.0 - high, high: 1.0 - low });
+    Estimate { estimate: 1.0 - part.estimate, interval }
 }
 
 /// How well the indices are known, after how many runs.

@@ -1,11 +1,12 @@
 //! Other measures than Sobol' indices, of the first rows A and B.
 
 use super::tables::FACTORS;
+use crate::analysis::RunMeasures;
 use crate::given::Measure;
 use crate::report::document::{Part, Table, csv};
 use crate::report::format::grouped;
 use crate::report::given::{agreement, measures_table};
-use crate::report::result::{MeasuresRecord, OutputRecord, ResultFile};
+use crate::report::result::{OutputRecord, ResultFile};
 
 /// What they say, and a row for each factor.
 pub(super) fn measures(output: &OutputRecord) -> Vec<Part> {
@@ -14,18 +15,18 @@ pub(super) fn measures(output: &OutputRecord) -> Vec<Part> {
     let text = format!(
         "{} They are taken from {} rows A and B, the first of the run, as from given data.",
         agreement(&output.name, &record.factors, &wanted),
-        grouped(record.rows)
+        grouped(record.rows as u64)
     );
     vec![Part::Text(text), table(output, record).into()]
 }
 
 /// The measures of a record.
-fn wanted(record: &MeasuresRecord) -> Vec<Measure> {
-    let is_there = |measure: &Measure| record.factors.iter().any(|of| of.measures.contains_key(measure.name()));
+fn wanted(record: &RunMeasures) -> Vec<Measure> {
+    let is_there = |measure: &Measure| record.factors.iter().any(|of| of.measures.contains_key(measure));
     Measure::ALL.into_iter().filter(is_there).collect()
 }
 
-fn table(output: &OutputRecord, record: &MeasuresRecord) -> Table {
+fn table(output: &OutputRecord, record: &RunMeasures) -> Table {
     let table = measures_table(&output.name, ("factor", &record.factors), &wanted(record));
     let printed = Some((0..table.rows.len().min(FACTORS)).collect());
     Table { printed, ..table }

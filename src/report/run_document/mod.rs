@@ -21,8 +21,7 @@ use crate::study::edited;
 
 use super::document::{DataFile, Document, Mark, Part, Section, Table};
 use super::format::{grouped, name, significant};
-use super::records::StudySetup;
-use super::result::{AggregateRecord, ResultFile, SpendingRecord};
+use super::result::{AggregateRecord, ResultFile, SpendingRecord, StudyRecord};
 use super::study_sections::{study_section, validity_section};
 use super::{capitalised, listed, result_json};
 use crate::analysis::LowRuns;
@@ -55,16 +54,15 @@ pub fn run_document(result: &ResultFile) -> Document {
     let is_many = single.outputs.len() >= MANY_OUTPUTS;
     sections.extend(if is_many { overview::sections(&mut figures) } else { of_outputs(&mut figures) });
     sections.extend(validity_section(&result.validity));
-    let setup = StudySetup::from_result(result);
-    sections.extend(own_ranges(&setup));
+    sections.extend(own_ranges(&result.study));
     sections.push(Section::new("cost", "Cost", cost(result)));
-    sections.push(study_section(&setup));
+    sections.push(study_section(&result.study, &result.factors));
     sections.push(Section::new("provenance", "Provenance", vec![Part::OnPage(provenance(result))]));
     let study = &result.study;
     let mut document = Document {
         name: study.name.clone(),
         kicker: "Result of a study".to_owned(),
-        title: study.title.clone().unwrap_or_else(|| study.name.clone()),
+        title: study.headline().to_owned(),
         lead: lead::lead(result, single),
         sections,
         footer: format!("Made by apportion {}.", result.provenance.apportion_version),
@@ -212,7 +210,7 @@ fn chosen(result: &ResultFile, spending: &SpendingRecord) -> Vec<String> {
 pub const TRY: &str = "try";
 
 /// How to try other ranges: of a study in a file, without others beside it, whose model computes in a page.
-fn own_ranges(study: &StudySetup) -> Option<Section> {
+fn own_ranges(study: &StudyRecord) -> Option<Section> {
     let kind = ModelKind::from_name(&study.model)?;
     let computes = kind == ModelKind::AFM || kind == ModelKind::EXPRESSION || kind.known.is_some();
     let table = edited(&study.source, &study.overrides).ok()?.parse().ok()?;

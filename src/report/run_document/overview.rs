@@ -49,7 +49,7 @@ fn sure_leader(output: &OutputRecord) -> Option<usize> {
     let order = by_total(output)?;
     let contenders: Vec<Contender> = order.iter().map(|(_, index)| Contender::from_index(index)).collect();
     // Without intervals nothing is sure.
-    let is_known = contenders.len() == 1 || contenders[0].total.low.is_some();
+    let is_known = contenders.len() == 1 || contenders[0].total.interval.is_some();
     (is_known && may_lead(&contenders).len() == 1).then_some(order[0].0)
 }
 

@@ -6,9 +6,10 @@ use crate::report::document::{Cell, Column, Part, Table, Value, csv};
 use crate::report::format::{chance, name, share};
 use crate::report::leading::{by_total, surely_interact};
 use crate::report::result::{
-    AggregateIndexRecord, AggregateRecord, EffectRecord, EstimateRecord, IndexRecord, IntervalRecord, OtherIndexRecord,
-    OutputRecord, PairRecord, PlayerRecord, ResultFile,
+    AggregateRecord, IndexRecord, OtherIndexRecord, OutputRecord, PairRecord, PlainIndexRecord, PlayerRecord,
+    ResultFile,
 };
+use crate::uncertainty::{EffectEstimates, Estimate};
 
 /// Factors in a table; the files have all of them.
 pub(super) const FACTORS: usize = 50;
@@ -120,18 +121,14 @@ fn of_player(output: &OutputRecord, player: &str, factors: &[String]) -> Option<
 fn with_effects(table: Table, rows: impl IntoIterator<Item = Vec<Cell>>) -> Table {
     let length = table.columns.len();
     table.with_rows(rows.into_iter().map(|mut row| {
-        row.resize_with(length, || None::<EstimateRecord>.into());
+        row.resize_with(length, || None::<Estimate>.into());
         row
     }))
 }
 
-fn effect_row(output: &str, kind: &str, label: String, name: &str, effect: &EffectRecord) -> Vec<Cell> {
+fn effect_row(output: &str, kind: &str, label: String, name: &str, effect: &EffectEstimates) -> Vec<Cell> {
     let chance = |probability| Cell::valued(chance(probability).replace('-', "–"), probability.into());
-    let share = |share: Option<f64>, interval: Option<IntervalRecord>| {
-        let bounds =
-            |estimate| EstimateRecord { estimate, low: interval.map(|i| i.low), high: interval.map(|i| i.high) };
-        Cell::valued("", Value::Estimate(share.map(bounds)))
-    };
+    let share = |share: Option<Estimate>| Cell::valued("", Value::Estimate(share));
     let dependent = effect.dependent.map(|dependent| [dependent.independent_first_order, dependent.full_total]);
     let mut row = vec![
         output.into(),
@@ -139,8 +136,8 @@ fn effect_row(output: &str, kind: &str, label: String, name: &str, effect: &Effe
         Cell::valued(label, name.into()),
         effect.first_order.into(),
         effect.total.into(),
-        share(effect.share_first_order, effect.share_first_order_interval),
-        share(effect.share_total, effect.share_total_interval),
+        share(effect.first_order_percent()),
+        share(effect.total_percent()),
         effect.interaction.into(),
         chance(effect.probability_first),
         chance(effect.probability_above_threshold),
@@ -178,11 +175,8 @@ pub(super) fn pairs_csv(result: &ResultFile) -> String {
 pub(super) fn shares(output: &OutputRecord) -> Option<Part> {
     let order = by_total(output)?;
     let row = |(_, IndexRecord { factor, effect }): &(usize, &IndexRecord)| -> Vec<Cell> {
-        vec![
-            name(factor).into(),
-            share(effect.share_first_order, effect.share_first_order_interval).into(),
-            share(effect.share_total, effect.share_total_interval).into(),
-        ]
+        let shares = [effect.first_order_percent(), effect.total_percent()].map(share);
+        [name(factor)].into_iter().chain(shares).map(Cell::from).collect()
     };
     let caption = "Shares in percent of the sums of the indices of all factors, with their 95 % intervals.";
     let columns = Column::list(1, &["factor", "of the sum of S_1", "of the sum of S_T"]);
@@ -244,9 +238,9 @@ pub(super) fn pairs(output: &OutputRecord) -> Option<Table> {
     let mut order: Vec<(usize, &PairRecord)> = pairs.iter().enumerate().collect();
     order.sort_by(|a, b| b.1.index.estimate.total_cmp(&a.1.index.estimate));
     let row = |(pair, is_sure): (&PairRecord, bool)| {
-        let seen = match pair.index.low {
+        let seen = match pair.index.interval {
             _ if is_sure => "yes",
-            Some(low) if low > 0.0 => "may be chance: one of many pairs",
+            Some(interval) if interval.low > 0.0 => "may be chance: one of many pairs",
             Some(_) => "no",
             None => "unknown",
         };
@@ -277,8 +271,8 @@ fn pairs_table(caption: String) -> Table {
 /// First-order, then total indices by the other estimators, with the default ones.
 pub(super) fn estimators(output: &OutputRecord) -> Vec<Part> {
     let Some(order) = by_total(output) else { return Vec::new() };
-    type Of = fn(&OtherIndexRecord) -> Option<EstimateRecord>;
-    type Default = fn(&EffectRecord) -> EstimateRecord;
+    type Of = fn(&OtherIndexRecord) -> Option<Estimate>;
+    type Default = fn(&EffectEstimates) -> Estimate;
     let kinds: [(&str, Of, Default); 2] = [
         ("First-order indices S_1", |other| other.first_order, |effect| effect.first_order),
         ("Total indices S_T", |other| other.total, |effect| effect.total),
@@ -304,11 +298,11 @@ pub(super) fn estimators(output: &OutputRecord) -> Vec<Part> {
 }
 
 /// Indices over all outputs together.
-pub(super) fn aggregate_of(result: &ResultFile, record: &AggregateRecord, indices: &[AggregateIndexRecord]) -> Table {
+pub(super) fn aggregate_of(result: &ResultFile, record: &AggregateRecord, indices: &[PlainIndexRecord]) -> Table {
     // The noise is one more line.
     let noise = record.noise.as_ref();
     let lines = || indices.iter().chain(noise);
-    let mut order: Vec<(usize, &AggregateIndexRecord)> = lines().enumerate().collect();
+    let mut order: Vec<(usize, &PlainIndexRecord)> = lines().enumerate().collect();
     order.sort_by(|a, b| b.1.total.estimate.total_cmp(&a.1.total.estimate));
     // The names of hundreds, in every line, would be most of the file.
     let outputs = match record.outputs.len() {
@@ -316,7 +310,7 @@ pub(super) fn aggregate_of(result: &ResultFile, record: &AggregateRecord, indice
         all if all == result.outputs.len() => "all outputs".to_owned(),
         _ => "all outputs that are no series".to_owned(),
     };
-    let row = |index: &AggregateIndexRecord| {
+    let row = |index: &PlainIndexRecord| {
         let nothing = || Cell::valued("", Value::Empty);
         let none = || Cell::valued("", Value::Estimate(None));
         let label = match noise == Some(index) {

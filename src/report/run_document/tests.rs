@@ -96,7 +96,7 @@ fn a_standard_deviation_has_its_error() {
     let mut result = result(&format!("model = \"ishigami\"{SMALL}"));
     let output = &mut result.outputs[0];
     output.variance = Some(4.0);
-    output.variance_interval = Some(crate::report::result::IntervalRecord { low: 3.96, high: 4.04 });
+    output.variance_interval = Some(crate::uncertainty::Interval { low: 3.96, high: 4.04 });
     let sd = super::values::sd(output).unwrap();
     assert!(sd.starts_with("2.0") && sd.contains('±'), "{sd}");
 }

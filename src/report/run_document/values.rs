@@ -4,9 +4,8 @@ use super::tables::{FACTORS_OF_ESTIMATORS, first_rows};
 use crate::report::document::{Cell, Column, Part, Table};
 use crate::report::format::{among_with_unit, axis_unit, grouped, index, minus, name, significant, value};
 use crate::report::leading::by_total;
-use crate::report::result::{
-    EstimateRecord, IndexRecord, IntervalRecord, OutputRecord, SurrogateRecord, SurrogateTermRecord,
-};
+use crate::report::result::{IndexRecord, OutputRecord, SurrogateRecord};
+use crate::uncertainty::{Estimate, Interval, NamedTerm};
 
 /// Quantiles in the table, in percent; the JSON file has more.
 const QUANTILES: [f64; 7] = [2.5, 5.0, 25.0, 50.0, 75.0, 95.0, 97.5];
@@ -52,18 +51,15 @@ pub(super) fn mean(output: &OutputRecord) -> Option<String> {
 /// variance so much better that the values are outside of its interval, the root of the variance.
 pub(super) fn sd(output: &OutputRecord) -> Option<String> {
     let sample = output.distribution.as_ref().and_then(|distribution| distribution.sample.sd);
-    let interval = output
-        .variance_interval
-        .map(|variance| IntervalRecord { low: variance.low.max(0.0).sqrt(), high: variance.high.max(0.0).sqrt() });
+    let interval = output.variance_interval.and_then(|variance| variance.map(|bound| bound.max(0.0).sqrt()));
     let is_inside = |sd: &f64| interval.is_none_or(|interval| (interval.low..=interval.high).contains(sd));
     let known = sample.filter(is_inside).or(output.variance.map(f64::sqrt)).or(sample);
     Some(of_unit(known?, interval, &output.unit))
 }
 
-fn of_unit(estimate: f64, interval: Option<IntervalRecord>, unit: &str) -> String {
-    let record = EstimateRecord { estimate, low: interval.map(|i| i.low), high: interval.map(|i| i.high) };
+fn of_unit(estimate: f64, interval: Option<Interval>, unit: &str) -> String {
     let number = match interval {
-        Some(i) if (i.low..=i.high).contains(&estimate) => index(record),
+        Some(i) if (i.low..=i.high).contains(&estimate) => index(Estimate { estimate, interval }),
         _ => value(estimate, ""),
     };
     format!("{number} {}", axis_unit(unit)).trim_end().to_owned()
@@ -71,7 +67,7 @@ fn of_unit(estimate: f64, interval: Option<IntervalRecord>, unit: &str) -> Strin
 
 /// The leading terms of the surrogates, and the plain indices beside the corrected ones.
 pub(super) fn surrogate(output: &OutputRecord, record: &SurrogateRecord) -> Vec<Part> {
-    let label = |term: &SurrogateTermRecord| {
+    let label = |term: &NamedTerm| {
         let factor = |(factor, degree): (&String, &usize)| match degree {
             1 => name(factor),
             degree => format!("{}^{degree}", name(factor)),

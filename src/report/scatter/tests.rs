@@ -114,7 +114,7 @@ fn the_rows_are_those_of_the_design() {
         Study::parse("model = \"ishigami\"\n[design]\nbase_samples = 64\nreplicates = 2", Path::new("s.toml"), &[]);
     let study = study.expect("a study");
     let design = &study.design;
-    let rows = FirstRows::of(design);
+    let rows = rows_of_scatter(design);
     let mut u = vec![0.0; 3];
     for factor in 0..3 {
         let coordinates: Vec<f64> = rows.coordinates(factor).collect();

@@ -4,10 +4,10 @@ use super::super::chart::{Axis, Bar, Chart, Colour, Panel, Point, Series, Shape,
 use super::super::factor_bars::{MOST, not_drawn};
 use super::super::format::{axis_unit, index, name, words};
 use super::super::leading::{self, Contender};
-use super::{FactorScreeningRecord, OutputScreeningRecord, ScreeningFile};
+use super::ScreeningFile;
 use crate::report::file_stems;
-use crate::report::result::EstimateRecord;
-use crate::screening::{FIXABLE, Reading};
+use crate::screening::{FIXABLE, Reading, ScreenedFactor, ScreenedOutput};
+use crate::uncertainty::Estimate;
 
 /// The charts of every output: `-screen` (mu* against sigma) and `-screen-bars`, with the output's name in between
 /// where there are several; each with what the names of its files end in.
@@ -33,16 +33,16 @@ fn series(reading: Option<Reading>) -> Series {
     Series::new(reading.map_or("no effect", Reading::words), colour)
 }
 
-fn title(file: &ScreeningFile, output: &OutputScreeningRecord) -> String {
+fn title(file: &ScreeningFile, output: &ScreenedOutput) -> String {
     format!("{}: screening of {}", file.study.headline(), name(&output.name))
 }
 
-fn axis(symbol: &str, output: &OutputScreeningRecord) -> Axis {
+fn axis(symbol: &str, output: &ScreenedOutput) -> Axis {
     Axis::new(symbol, axis_unit(&output.unit))
 }
 
-fn scatter(file: &ScreeningFile, output: &OutputScreeningRecord) -> Chart {
-    let known: Vec<(&FactorScreeningRecord, f64, f64)> = output
+fn scatter(file: &ScreeningFile, output: &ScreenedOutput) -> Chart {
+    let known: Vec<(&ScreenedFactor, f64, f64)> = output
         .factors
         .iter()
         .filter_map(|factor| Some((factor, factor.mu_star?.estimate, factor.sigma?.estimate)))
@@ -79,14 +79,14 @@ fn readings() -> impl Iterator<Item = Option<Reading>> {
     Reading::ALL.into_iter().rev().map(Some).chain([None])
 }
 
-fn bars(file: &ScreeningFile, output: &OutputScreeningRecord) -> Chart {
+fn bars(file: &ScreeningFile, output: &ScreenedOutput) -> Chart {
     let bars = readings().flat_map(|reading| {
         let own = output.factors.iter().enumerate().filter(move |(_, factor)| factor.reading == reading);
         own.filter_map(move |(row, factor)| {
             let mu_star = factor.mu_star?;
             let fixed = if factor.could_be_fixed == Some(true) { ", could be fixed" } else { "" };
             let label = of_unit(mu_star, &output.unit) + fixed;
-            let (to, interval, said) = (mu_star.estimate, mu_star.low.zip(mu_star.high), label.clone());
+            let (to, interval, said) = (mu_star.estimate, mu_star.interval.map(|i| (i.low, i.high)), label.clone());
             let bar = Bar { row, to, interval, label, said, ..Bar::default() };
             // A bar of no length would still be a colour in the legend.
             let series = if reading.is_some() { series(reading) } else { Series::default() };
@@ -115,7 +115,7 @@ fn bars(file: &ScreeningFile, output: &OutputScreeningRecord) -> Chart {
 }
 
 /// An effect with its error and unit.
-fn of_unit(effect: EstimateRecord, unit: &str) -> String {
+fn of_unit(effect: Estimate, unit: &str) -> String {
     format!("{} {}", index(effect), axis_unit(unit)).trim_end().to_owned()
 }
 
@@ -132,8 +132,8 @@ fn is_derivative(file: &ScreeningFile) -> bool {
 }
 
 /// Which factor matters most.
-pub(super) fn leader(output: &OutputScreeningRecord) -> String {
-    let contender = |factor: &FactorScreeningRecord| {
+pub(super) fn leader(output: &ScreenedOutput) -> String {
+    let contender = |factor: &ScreenedFactor| {
         let total = factor.mu_star.filter(|mu_star| mu_star.estimate > 0.0)?;
         Some(Contender::new(name(&factor.factor), total))
     };

@@ -1,15 +1,15 @@
 //! A screening as a document.
 
 use super::charts::leader;
-use super::{FactorScreeningRecord, OutputScreeningRecord, ScreeningFile, screening_charts, screening_json};
+use super::{ScreeningFile, screening_charts, screening_json};
 use crate::report::csv::Field;
 use crate::report::document::{Cell, Column, DataFile, Document, Figure, Mark, Part, Section, Table, Value};
 use crate::report::format::{grouped, heading, index, name, short, words};
 use crate::report::leading::first_answers;
-use crate::report::result::EstimateRecord;
 use crate::report::study_sections::{failures, inputs, study_section, validity_section};
 use crate::report::{capitalised, listed, validity};
-use crate::screening::FIXABLE;
+use crate::screening::{FIXABLE, ScreenedFactor, ScreenedOutput};
+use crate::uncertainty::Estimate;
 
 /// The document of a screening.
 pub fn screening_document(file: &ScreeningFile) -> Document {
@@ -37,7 +37,7 @@ pub fn screening_document(file: &ScreeningFile) -> Document {
         sections.push(Section::new("notes", "Notes", vec![note]));
     }
     sections.extend(validity_section(&file.validity));
-    sections.push(study_section(&file.study));
+    sections.push(study_section(&file.study, &file.study.factors));
     sections.push(Section::new("provenance", "Provenance", vec![Part::OnPage(vec![provenance(file)])]));
     Document {
         name: format!("{study}-screen"),
@@ -52,7 +52,7 @@ pub fn screening_document(file: &ScreeningFile) -> Document {
 }
 
 /// The factors of an output by rank.
-fn effects(file: &ScreeningFile, output: &OutputScreeningRecord) -> Table {
+fn effects(file: &ScreeningFile, output: &ScreenedOutput) -> Table {
     let estimate = |heading: &str, name: &str| Column::number(heading).named(Field::estimate(name));
     let in_file = |name: &str| Column::in_file(Field::new(name));
     let is_derivative = file.provenance.derivative_step.is_some();
@@ -74,10 +74,10 @@ fn effects(file: &ScreeningFile, output: &OutputScreeningRecord) -> Table {
         let own = [estimate("ν", "nu"), estimate("S_T at most", "total_bound")];
         columns.splice(COLUMNS_BEFORE_NU..COLUMNS_BEFORE_NU, own);
     }
-    let plain = |estimate: Option<EstimateRecord>| {
+    let plain = |estimate: Option<Estimate>| {
         Cell::valued(estimate.map_or_else(|| "–".to_owned(), |e| short(e.estimate)), Value::Estimate(estimate))
     };
-    let row = |factor: &FactorScreeningRecord| {
+    let row = |factor: &ScreenedFactor| {
         let reading = factor.reading.map(|reading| reading.words());
         let fixed = factor.could_be_fixed.map_or("–", |fixed| if fixed { "yes" } else { "no" });
         let mu_star = factor.mu_star.map_or_else(|| "–".to_owned(), index);
@@ -124,7 +124,7 @@ fn effects(file: &ScreeningFile, output: &OutputScreeningRecord) -> Table {
 const COLUMNS_BEFORE_NU: usize = 8;
 
 /// Which factors could be fixed, and by which rule.
-fn fixable(output: &OutputScreeningRecord) -> String {
+fn fixable(output: &ScreenedOutput) -> String {
     let fixable = output.factors.iter().filter(|f| f.could_be_fixed == Some(true)).map(|f| words(&f.factor));
     let fixable: Vec<String> = fixable.collect();
     let names = if fixable.is_empty() { "none".to_owned() } else { listed(&fixable) };

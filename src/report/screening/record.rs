@@ -4,16 +4,14 @@
 //! program only add keys. A number that does not exist is `null`.
 
 use serde::{Deserialize, Serialize};
-use serde_json::{Map, Value};
 
-use super::super::records::{StudySetup, input_value, study_setup, validity};
-use super::super::result::{EstimateRecord, ValidityRecord, estimate_record};
+use super::super::records::{StudySetup, study_setup, validity};
+use super::super::result::ValidityRecord;
 use super::super::{RunFacts, with_unit};
 use crate::design::Sampler;
-use crate::model::{Model, Output};
+use crate::model::Model;
 use crate::screening::{
-    DERIVATIVE_STEP, FIXABLE, MIN_STEP, Reading, ScreenedFactor, ScreenedOutput, Screening, ScreeningDesign,
-    ScreeningFailure, poincare_constant,
+    DERIVATIVE_STEP, FIXABLE, MIN_STEP, ScreenedOutput, Screening, ScreeningDesign, poincare_constant,
 };
 use crate::space::Distribution;
 use crate::study::Study;
@@ -30,7 +28,7 @@ pub struct ScreeningFile {
     /// How it was answered.
     pub provenance: ScreeningProvenance,
     /// The outputs in the order of the study.
-    pub outputs: Vec<OutputScreeningRecord>,
+    pub outputs: Vec<ScreenedOutput>,
     /// Rows on which the model's assumptions do not hold; the rows count all the same.
     pub validity: Vec<ValidityRecord>,
     /// What a careful reader should know, in sentences.
@@ -73,75 +71,15 @@ pub struct ScreeningProvenance {
     pub fixable_below: f64,
 }
 
-/// Everything about one output.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct OutputScreeningRecord {
-    /// Its name.
-    pub name: String,
-    /// Its unit.
-    pub unit: String,
-    /// One entry per factor, in the order of the study.
-    pub factors: Vec<FactorScreeningRecord>,
-    /// Why runs failed.
-    pub failures: Vec<ScreeningFailureRecord>,
-    /// What a careful reader should know, in sentences.
-    pub warnings: Vec<String>,
-}
-
-/// One factor's effect on one output.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct FactorScreeningRecord {
-    /// The factor.
-    pub factor: String,
-    /// Place by mu*, from 1.
-    pub rank: usize,
-    /// Mean size of the elementary effects, in the output's unit per full range of the factor.
-    pub mu_star: Option<EstimateRecord>,
-    /// Mean of the elementary effects, likewise.
-    pub mu: Option<EstimateRecord>,
-    /// Standard deviation of the elementary effects, likewise.
-    pub sigma: Option<EstimateRecord>,
-    /// sigma / mu*; `null` where mu* is 0.
-    pub ratio: Option<EstimateRecord>,
-    /// What the ratio says.
-    pub reading: Option<Reading>,
-    /// Whether the factor could be fixed; `null` where nothing can be said.
-    pub could_be_fixed: Option<bool>,
-    /// Mean square of the derivative, in the square of the output's unit per unit of the factor; only of a derivative design.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub nu: Option<EstimateRecord>,
-    /// What the total index does not exceed; only of a derivative design and a factor whose distribution has a constant for it.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub total_bound: Option<EstimateRecord>,
-    /// Effects that the measures rest on.
-    pub effects: u64,
-    /// Effects dropped because a run failed.
-    pub dropped: u64,
-    /// Steps that did not change the factor's value, as those of a constant; their effect is 0.
-    pub idle_steps: u64,
-}
-
-/// A reason for which runs failed.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct ScreeningFailureRecord {
-    /// The reason.
-    pub reason: String,
-    /// Number of runs.
-    pub runs: u64,
-    /// The factor values of the first of them, in the units of the factors.
-    pub first_inputs: Map<String, Value>,
-}
-
 /// The file of a screening of `study`, whose model is `model`.
 pub fn build_screening(study: &Study, model: &dyn Model, screening: &Screening, facts: RunFacts) -> ScreeningFile {
-    let outputs = model.outputs().iter().zip(&screening.outputs);
     ScreeningFile {
         format: "apportion-screening".to_owned(),
         version: 1,
         study: study_setup(study),
         provenance: provenance(screening, facts),
-        outputs: outputs.map(|(output, screened)| output_record(study, output, screening, screened)).collect(),
-        validity: validity(model, &screening.flags, screening.runs),
+        outputs: screening.outputs.clone(),
+        validity: validity(model.flags().iter().zip(screening.flags.iter().copied()), screening.runs),
         notes: notes(study, screening.settings.design),
     }
 }
@@ -171,66 +109,6 @@ fn provenance(screening: &Screening, facts: RunFacts) -> ScreeningProvenance {
         wall_seconds: facts.wall_seconds,
         interval: format!("95 % t-interval (delete-one jackknife) from {parts} independent {what}"),
         fixable_below: FIXABLE,
-    }
-}
-
-fn output_record(
-    study: &Study,
-    output: &Output,
-    screening: &Screening,
-    screened: &ScreenedOutput,
-) -> OutputScreeningRecord {
-    let names = || study.space.factors().iter().map(|factor| factor.name.clone());
-    let factors = names().zip(&screened.factors).zip(&screening.idle);
-    let dropped: u64 = screened.factors.iter().map(|factor| factor.dropped).sum();
-    let all = screening.settings.trajectories * screened.factors.len() as u64;
-    let dropped = (dropped > 0).then(|| {
-        format!(
-            "{dropped} of {all} elementary effects are dropped because a run failed: the measures describe the part of the \
-             factor space where runs succeed"
-        )
-    });
-    let missed = screened.missed.map(|sum| {
-        format!(
-            "what total indices are at most sums to {sum:.2}, but total indices of independent factors sum to at least 1: the derivatives \
-             have missed what the output varies by, a step or a steep place between the base points, so that no bound holds and no \
-             factor is said to be one that could be fixed. Screen with the radial design, or run the study"
-        )
-    });
-    OutputScreeningRecord {
-        name: output.name.to_string(),
-        unit: output.unit.to_string(),
-        factors: factors.map(|((name, factor), &idle)| factor_record(name, factor, idle)).collect(),
-        failures: screened.failures.iter().map(|failure| failure_record(study, failure)).collect(),
-        warnings: dropped.into_iter().chain(missed).collect(),
-    }
-}
-
-fn factor_record(factor: String, screened: &ScreenedFactor, idle_steps: u64) -> FactorScreeningRecord {
-    let measures = screened.measures;
-    FactorScreeningRecord {
-        factor,
-        rank: screened.rank,
-        mu_star: measures.map(|m| estimate_record(m.mu_star)),
-        mu: measures.map(|m| estimate_record(m.mu)),
-        sigma: measures.map(|m| estimate_record(m.sigma)),
-        ratio: measures.and_then(|m| m.ratio).map(estimate_record),
-        reading: screened.reading,
-        could_be_fixed: screened.could_be_fixed,
-        nu: screened.derivative.map(|d| estimate_record(d.nu)),
-        total_bound: screened.derivative.and_then(|d| d.total_bound).map(estimate_record),
-        effects: screened.effects,
-        dropped: screened.dropped,
-        idle_steps,
-    }
-}
-
-fn failure_record(study: &Study, failure: &ScreeningFailure) -> ScreeningFailureRecord {
-    let inputs = study.space.factors().iter().zip(&failure.first);
-    ScreeningFailureRecord {
-        reason: failure.reason.to_string(),
-        runs: failure.runs,
-        first_inputs: inputs.map(|(factor, value)| (factor.name.clone(), input_value(factor, *value))).collect(),
     }
 }
 

@@ -38,7 +38,7 @@ pub fn sweep_document(file: &SweepFile) -> Document {
     }
     sections.push(Section::new("curves", "The outputs over each factor", parts));
     sections.extend(validity_section(&file.validity));
-    sections.push(study_section(&file.study));
+    sections.push(study_section(&file.study, &file.study.factors));
     let rows = [
         ("program", format!("apportion {}", file.provenance.apportion_version)),
         ("model runs", grouped(file.provenance.model_runs)),

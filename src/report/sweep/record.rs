@@ -77,6 +77,6 @@ pub fn build_sweep(study: &Study, model: &dyn Model, sweeps: Sweeps) -> SweepFil
         },
         nominal: sweeps.nominal,
         sweeps: sweeps.sweeps,
-        validity: validity(model, &sweeps.flags, sweeps.runs),
+        validity: validity(model.flags().iter().zip(sweeps.flags), sweeps.runs),
     }
 }

@@ -2,7 +2,7 @@
 
 use super::bench::{Bench, LAWS, Sweep, closed, exact};
 use super::curve::Curve;
-use super::judge::{Holding, judge, over_ranges};
+use super::judge::Holding;
 use super::numbers::{change, nano, number};
 use super::{Claim, ClaimsError};
 use apportion::afm::{Failure, FrictionLaw, Options, Scene};
@@ -86,8 +86,6 @@ fn length(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
         number: 8,
         source: "CHK fig. 6, LG fig. 2a",
         statement: "F_cr falls with the cantilever's length, ever more slowly.",
-        verdict: judge(&holdings),
-        range: over_ranges(&holdings),
         finding: format!("From {} in length F_cr falls {ends} at the nominal scene.", sweep.words()),
         setting: format!(
             "{} falling at every step, and no step steeper than the one before by more than {} of the mean slope.",
@@ -95,6 +93,7 @@ fn length(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
             change(STEEPENING)
         ),
         figures: &["chk-6", "lg-2a"],
+        ..Claim::judged(&holdings)
     })
 }
 
@@ -107,8 +106,6 @@ fn width(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
         number: 9,
         source: "CHK fig. 7, LG fig. 2b",
         statement: "F_cr rises linearly with the cantilever's width.",
-        verdict: judge(&holdings),
-        range: over_ranges(&holdings),
         finding: format!("From {} in width F_cr rises {bends} at the nominal scene.", sweep.words()),
         setting: format!(
             "{} linear means rising and nowhere farther from the straight line of least squares than {} of the rise.",
@@ -116,6 +113,7 @@ fn width(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
             change(STRAIGHT)
         ),
         figures: &["chk-7", "lg-2b"],
+        ..Claim::judged(&holdings)
     })
 }
 
@@ -137,14 +135,13 @@ fn thickness(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
         number: 10,
         source: "CHK fig. 8, LG fig. 2c",
         statement: "F_cr rises steeply with the cantilever's thickness.",
-        verdict: judge(&holdings),
-        range: over_ranges(&holdings),
         finding: format!("From {} in thickness F_cr rises {powers} at the nominal scene.", sweep.words()),
         setting: format!(
             "{} steep means rising at every step, and over the range by more than in proportion (mean elasticity above 1).",
             closed_setting(bench, &sweep)?
         ),
         figures: &["chk-8", "lg-2c"],
+        ..Claim::judged(&holdings)
     })
 }
 
@@ -157,11 +154,10 @@ fn height(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
         number: 11,
         source: "CHK fig. 9, LG fig. 2d",
         statement: "The height of the tip has no effect on F_cr.",
-        verdict: judge(&holdings),
-        range: over_ranges(&holdings),
         finding: format!("A height of {} changes F_cr by {spreads} at the nominal scene.", sweep.words()),
         setting: effect_setting(bench, &sweep, "Exact geometry"),
         figures: &["chk-9", "lg-2d"],
+        ..Claim::judged(&holdings)
     })
 }
 

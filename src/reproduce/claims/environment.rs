@@ -4,7 +4,6 @@ use super::bench::{Bench, LAWS, Sweep, closed, exact, in_motion};
 use super::dimensions::{
     NO_EFFECT, STRAIGHT, closed_setting, effect_setting, from_to, nominal_curves, straightness, without_effect,
 };
-use super::judge::{judge, over_ranges};
 use super::numbers::{change, nano};
 use super::{Claim, ClaimsError};
 use apportion::afm::{Failure, Fidelity, FrictionLaw, LuGreParameters, Options, Scene};
@@ -40,8 +39,6 @@ fn velocity(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
         number: 12,
         source: "CHK fig. 11, LG fig. 3a",
         statement: "The velocity has no effect on F_cr up to 600 nm/s.",
-        verdict: judge(&holdings),
-        range: over_ranges(&holdings),
         finding: format!(
             "A velocity of {} changes F_cr by {spreads} at the nominal scene, one of {} by {beyond}. It would change it by \
              {} under LuGre friction with a viscous part of {VISCOUS} N s/m, and by {} under Coulomb friction marched in \
@@ -58,6 +55,7 @@ fn velocity(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
             change(in_motion(FrictionLaw::LuGre).tolerance)
         ),
         figures: &["chk-11", "lg-3a"],
+        ..Claim::judged(&holdings)
     })
 }
 
@@ -80,8 +78,6 @@ fn elastic_modulus(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
         number: 13,
         source: "CHK fig. 12, LG fig. 3b",
         statement: "F_cr rises linearly with Young's modulus of the cantilever, and the friction models diverge.",
-        verdict: judge(&holdings),
-        range: over_ranges(&holdings),
         finding: format!(
             "From {} F_cr rises {} at the nominal scene, and the gap of Coulomb to Hurtado-Kim goes {}.",
             sweep.words(),
@@ -95,6 +91,7 @@ fn elastic_modulus(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
             change(STRAIGHT)
         ),
         figures: &["chk-12", "lg-3b"],
+        ..Claim::judged(&holdings)
     })
 }
 
@@ -119,8 +116,6 @@ fn contact_modulus(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
         source: "CHK fig. 13",
         statement: "The equivalent modulus leaves F_cr under Coulomb friction unmoved and lowers it under Hurtado-Kim \
                     friction.",
-        verdict: judge(&holdings),
-        range: over_ranges(&holdings),
         finding: format!(
             "From {} F_cr goes {} under Coulomb friction, a change of {} by its term τ π a², and {} under Hurtado-Kim \
              friction, a change of {}, at the nominal scene.",
@@ -136,6 +131,7 @@ fn contact_modulus(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
             change(UNMOVED)
         ),
         figures: &["chk-13"],
+        ..Claim::judged(&holdings)
     })
 }
 
@@ -161,8 +157,6 @@ fn adhesion(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
         source: "CHK fig. 14",
         statement: "F_cr rises with the work of adhesion under Coulomb and Hurtado-Kim friction, and the two approach each \
                     other.",
-        verdict: judge(&holdings),
-        range: over_ranges(&holdings),
         finding: format!(
             "From {} F_cr goes {} under Coulomb and {} under Hurtado-Kim friction at the nominal scene, and the gap {}. \
              With the pull-off force in the load of Coulomb friction the gap goes {}.",
@@ -178,6 +172,7 @@ fn adhesion(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
             closed_setting(bench, &sweep)?
         ),
         figures: &["chk-14"],
+        ..Claim::judged(&holdings)
     })
 }
 
@@ -207,8 +202,6 @@ fn frozen(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
         number: 16,
         source: "LG figs. 3c, 3d",
         statement: "Under LuGre friction the equivalent modulus and the work of adhesion have no visible effect on F_cr.",
-        verdict: judge(&holdings),
-        range: over_ranges(&holdings),
         finding: format!(
             "At the nominal scene (F_cr {}) {}.",
             nano(bench.force(&nominal, &options)?, "N"),
@@ -222,5 +215,6 @@ fn frozen(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
             bench.sizes.points
         ),
         figures: &["lg-3c", "lg-3d"],
+        ..Claim::judged(&holdings)
     })
 }

@@ -1,7 +1,6 @@
 //! Claims about one scene in time: 1, 2, 3, 5.
 
 use super::bench::{Bench, LAWS, Sweep, closed};
-use super::judge::{judge, over_ranges};
 use super::numbers::{change, nano, number};
 use super::{Claim, ClaimsError, Verdict};
 use apportion::afm::contact::Contact;
@@ -103,8 +102,6 @@ fn forces(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
         number: 2,
         source: "TS04 figs. 8, 9, CHK fig. 5",
         statement: "While pushing, F_Y grows and F_Z is nearly constant; F_T rises to F_cr and then stays.",
-        verdict: judge(&holdings),
-        range: over_ranges(&holdings),
         finding: format!(
             "At the nominal scene under Coulomb friction F_Y grows from {} to {}, F_Z changes by {}, F_T rises from {} \
              to {}.",
@@ -121,6 +118,7 @@ fn forces(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
             bench.sizes.slow_points
         ),
         figures: &["ts04-8", "ts04-9", "chk-5"],
+        ..Claim::judged(&holdings)
     })
 }
 
@@ -155,8 +153,6 @@ fn delay(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
         number: 3,
         source: "TS04 fig. 11",
         statement: "A higher coefficient of friction delays the slip.",
-        verdict: judge(&holdings),
-        range: over_ranges(&holdings),
         finding: format!(
             "At the nominal scene the slip comes after {} with μ_s = 0.1 and after {} with μ_s = 1.2.",
             number(nominal.first(), "s"),
@@ -168,6 +164,7 @@ fn delay(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
             sweep.count, bench.sizes.points
         ),
         figures: &["ts04-11"],
+        ..Claim::judged(&holdings)
     })
 }
 
@@ -211,8 +208,6 @@ fn contacts(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
         number: 5,
         source: "TS04 fig. 13",
         statement: "Area and indentation of the tip's contact grow while pushing, those of the substrate's shrink.",
-        verdict: judge(&holdings),
-        range: over_ranges(&holdings),
         finding: format!(
             "At the nominal scene {tip_finding}; on the substrate the area of {} changes by {}, the indentation of {} by \
              {}.",
@@ -227,6 +222,7 @@ fn contacts(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
             change(AS_GOOD_AS_NONE)
         ),
         figures: &["ts04-13"],
+        ..Claim::judged(&holdings)
     })
 }
 

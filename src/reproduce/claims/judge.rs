@@ -1,7 +1,7 @@
 //! From what holds where to a verdict, and to words.
 
-use super::Verdict;
 use super::numbers::percent_of;
+use super::{Claim, Verdict};
 use crate::reproduce::named_together;
 use apportion::uncertainty::Interval;
 
@@ -48,6 +48,13 @@ pub(super) struct Holding {
     pub what: String,
     pub nominal: bool,
     pub share: Share,
+}
+
+impl Claim {
+    /// A claim that the scene of the paper decides, with the part of the box where it holds, and nothing said yet.
+    pub(super) fn judged(holdings: &[Holding]) -> Self {
+        Self { verdict: judge(holdings), range: over_ranges(holdings), ..Self::default() }
+    }
 }
 
 /// The verdict on a claim as its paper shows it: reproduced if every part holds at the nominal scene, which is that of the

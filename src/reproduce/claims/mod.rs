@@ -33,7 +33,7 @@ use apportion::study::StudyError;
 use bench::{Bench, Physics};
 
 /// A claim of the papers with our answer.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Claim {
     /// Its number, from 1; a number that holds two claims comes twice.
     pub number: usize,
@@ -55,12 +55,13 @@ pub struct Claim {
 }
 
 /// The answer to a claim.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 #[serde(tag = "verdict", rename_all = "kebab-case")]
 pub enum Verdict {
     /// Every part of it holds.
     Reproduced,
     /// Some part of it does not hold.
+    #[default]
     NotReproduced,
     /// A number or figure of the same paper says otherwise.
     Contradicted {

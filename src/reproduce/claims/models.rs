@@ -1,7 +1,7 @@
 //! Claim 7: which friction model holds the particle less.
 
 use super::bench::{Bench, Region, closed};
-use super::judge::{Holding, judge, over_ranges};
+use super::judge::Holding;
 use super::numbers::nano;
 use super::{Claim, ClaimsError};
 use apportion::afm::{FrictionLaw, Scene};
@@ -21,8 +21,6 @@ pub(super) fn claims(bench: &Bench<'_>) -> Result<Vec<Claim>, ClaimsError> {
         number: 7,
         source: "CHK fig. 5",
         statement: "The critical force is smaller under Hurtado-Kim friction than under Coulomb friction.",
-        verdict: judge(std::slice::from_ref(&holding)),
-        range: over_ranges(&[holding]),
         finding: format!(
             "At the nominal scene F_cr is {} under Hurtado-Kim and {} under Coulomb friction. Hurtado-Kim friction gives \
              the smaller force on {}, {} and {}.",
@@ -37,5 +35,6 @@ pub(super) fn claims(bench: &Bench<'_>) -> Result<Vec<Claim>, ClaimsError> {
             points / 8
         ),
         figures: &["chk-5", "chk-6", "chk-8", "chk-13"],
+        ..Claim::judged(&[holding])
     }])
 }

@@ -61,8 +61,6 @@ fn angle(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
         number: 4,
         source: "TS04 fig. 12",
         statement: "A larger angle lowers the force at which the particle slides.",
-        verdict: judge(&holdings),
-        range: over_ranges(&holdings),
         finding: format!(
             "At the nominal scene the mode diagram's F_ss* falls with ψ from {} (with the pull-off force in the load: \
              {}). The contact angle φ from 0° to 90° changes F_cr by {}: the preload sets the normal force.",
@@ -77,6 +75,7 @@ fn angle(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
             bench.sizes.curve, sweep.count
         ),
         figures: &["ts04-12"],
+        ..Claim::judged(&holdings)
     })
 }
 

@@ -8,7 +8,8 @@ use crate::reproduce::order::{Agreement, OrderVerdict, Standing, VISIBLE, order_
 use crate::reproduce::published::{CLOSE, PRINTED};
 use crate::reproduce::{FRICTIONS, Friction, GROUPS, Published, Reproduced, named_together, published};
 use apportion::afm::{Failure, FrictionLaw, Scene};
-use apportion::report::{EffectRecord, EstimateRecord, IndexRecord, fixed, give_or_take, share};
+use apportion::report::{IndexRecord, fixed, give_or_take, share};
+use apportion::{EffectEstimates, Estimate};
 
 /// F_cr counts as a product of a function of the dimensions and one of the environment if it is one to this: a
 /// thousandth moves no percentage by more than a tenth.
@@ -151,9 +152,8 @@ fn stands(order: &OrderVerdict<'_>) -> String {
 fn shares_in_words(indices: &[IndexRecord], order: &OrderVerdict<'_>) -> String {
     let of = |name: &str| indices.iter().find(|index| index.factor == name);
     let one = |index: &IndexRecord| {
-        let EffectRecord { share_first_order, share_total, share_total_interval, .. } = index.effect;
-        let first = share_first_order.map_or_else(|| "-".to_owned(), |share| fixed(share, 1));
-        format!("{} {} % ({first} %)", index.factor.replace('_', " "), share(share_total, share_total_interval))
+        let first = index.effect.share_first_order.map_or_else(|| "-".to_owned(), |share| fixed(share, 1));
+        format!("{} {} % ({first} %)", index.factor.replace('_', " "), share(index.effect.total_percent()))
     };
     let visible: Vec<String> = order.ours.iter().filter_map(|name| of(name)).map(one).collect();
     let rest = match order.unseen[..] {
@@ -165,7 +165,7 @@ fn shares_in_words(indices: &[IndexRecord], order: &OrderVerdict<'_>) -> String 
 
 /// The verdict on printed percentages and under which reading it stands: all have to be ours under one reading.
 fn percentages(indices: &[IndexRecord], printed: &Published) -> (Verdict, String) {
-    let close = |reading: fn(&EffectRecord) -> Option<f64>| {
+    let close = |reading: fn(&EffectEstimates) -> Option<f64>| {
         printed.shares.iter().all(|(factor, percent)| {
             let ours = indices.iter().find(|index| index.factor == *factor).and_then(|index| reading(&index.effect));
             ours.is_some_and(|ours| (ours - percent).abs() <= CLOSE)
@@ -367,7 +367,7 @@ fn outweigh(studies: &Studies<'_>) -> Result<Claim, ClaimsError> {
         let missing = ClaimsError::NoIndices { group: "general", friction: friction.name };
         let (dimensional, environmental, standing) = outweighing(study).ok_or(missing)?;
         standings.push((friction.name, standing));
-        let total = |record: EstimateRecord| give_or_take(record);
+        let total = |record: Estimate| give_or_take(record);
         findings.push(format!("{} against {} ({})", total(dimensional), total(environmental), friction.name));
     }
     let all = standings.iter().all(|(_, standing)| *standing == Standing::Kept);

@@ -3,9 +3,10 @@
 use crate::reproduce::order::VISIBLE;
 use crate::reproduce::shares::{indices, ranked};
 use crate::reproduce::{FRICTIONS, Friction, GROUPS, Reproduced, StudyGroup, named_together};
+use apportion::EffectEstimates;
 use apportion::report::document::{Cell, Column, Mark, OnPhone, Part, Table};
 use apportion::report::format::words;
-use apportion::report::{EffectRecord, IndexRecord, fixed, listed, share_of_runs};
+use apportion::report::{IndexRecord, fixed, listed, share_of_runs};
 
 /// An index in percent of the variance, to a whole percent; one decimal below 10 %.
 fn percent(index: f64) -> String {
@@ -13,12 +14,12 @@ fn percent(index: f64) -> String {
 }
 
 /// What a factor explains alone and with its interactions.
-fn explained(effect: &EffectRecord) -> (String, String) {
+fn explained(effect: &EffectEstimates) -> (String, String) {
     (percent(effect.first_order.estimate), percent(effect.total.estimate))
 }
 
 /// How sure it is that the leader leads.
-fn certainty(effect: &EffectRecord) -> String {
+fn certainty(effect: &EffectEstimates) -> String {
     match effect.probability_first {
         Some(p) if p > 0.999 => "largest with probability > 0.999".to_owned(),
         Some(p) => format!("largest with probability {}", fixed(p, 3)),

@@ -87,11 +87,8 @@ fn lead(reproduction: &Reproduction) -> Vec<String> {
 }
 
 fn answers_section(reproduction: &Reproduction) -> Option<Section> {
-    if reproduction.studies.is_empty() {
-        return None;
-    }
-    let table = Part::Table(answers::table(&reproduction.studies));
-    Some(Section::new("answers", "Which factor matters most", vec![table]))
+    let table = || Part::Table(answers::table(&reproduction.studies));
+    (!reproduction.studies.is_empty()).then(|| Section::new("answers", "Which factor matters most", vec![table()]))
 }
 
 fn claims_section(reproduction: &Reproduction) -> Option<Section> {

@@ -61,14 +61,14 @@ type Column = (&'static str, fn(&SceneSample) -> f64);
 const TIP_FORCE: Column = ("tip_force_nN", |s| NANO * s.tip_force);
 const LATERAL_FORCE: Column = ("lateral_force_nN", |s| NANO * s.lateral_force);
 const NORMAL_FORCE: Column = ("normal_force_nN", |s| NANO * s.normal_force);
-const SUBSTRATE: Column = ("substrate_position_nm", |s| NANO * s.substrate_position);
-const PARTICLE: Column = ("particle_position_nm", |s| NANO * s.particle_position);
-const RELATIVE: Column = ("relative_position_nm", |s| NANO * s.relative_position);
-const BASE: Column = ("tip_base_position_nm", |s| NANO * s.base_lateral);
-const TIP_RADIUS: Column = ("tip_contact_radius_nm", |s| NANO * s.tip_contact_radius);
-const SUBSTRATE_RADIUS: Column = ("substrate_contact_radius_nm", |s| NANO * s.substrate_contact_radius);
-const TIP_INDENTATION: Column = ("tip_indentation_nm", |s| NANO * s.tip_indentation);
-const SUBSTRATE_INDENTATION: Column = ("substrate_indentation_nm", |s| NANO * s.substrate_indentation);
+const SUBSTRATE: Column = ("substrate_position_nm", |s| NANO * s.substrate);
+const PARTICLE: Column = ("particle_position_nm", |s| NANO * s.particle);
+const RELATIVE: Column = ("relative_position_nm", |s| NANO * s.relative);
+const BASE: Column = ("tip_base_position_nm", |s| NANO * s.lateral_deflection);
+const TIP_RADIUS: Column = ("tip_contact_radius_nm", |s| NANO * s.tip_contact_radius());
+const SUBSTRATE_RADIUS: Column = ("substrate_contact_radius_nm", |s| NANO * s.substrate_contact.radius);
+const TIP_INDENTATION: Column = ("tip_indentation_nm", |s| NANO * s.tip_indentation());
+const SUBSTRATE_INDENTATION: Column = ("substrate_indentation_nm", |s| NANO * s.substrate_contact.indentation);
 
 fn table(story: &SceneStory, columns: &[Column]) -> Table {
     let start = Table::default().with("time_s", story.samples.iter().map(|sample| sample.time));
@@ -136,7 +136,7 @@ pub(super) fn displacement() -> Result<Drawn, FiguresError> {
     let modulus = PRINTED_SHEAR_MODULUS / 1e9;
     let look = (Colour::Series(4), Stroke::Dashed);
     let other = line(format!("the same with G = {modulus} GPa as printed"), look, curve(&printed, RELATIVE.1));
-    let end = printed.samples.last().map_or(f64::NAN, |end| end.relative_position);
+    let end = printed.samples.last().map_or(f64::NAN, |end| end.relative);
     let caption = format!(
         "{}, and {} if the shear modulus is the {modulus} GPa that the papers print, with which it slips {}.",
         ours.caption().trim_end_matches('.'),

@@ -106,32 +106,32 @@ const LUGRE_VISCOUS: Line = Line {
     name: "LuGre with viscous friction σ₂ = 0.3 N s/m",
     said: " with viscous friction of 0.3 N s/m",
     look: (LUGRE_COLOUR, Stroke::Dotted),
-    law: FrictionLaw::LuGre,
     variant: Variant::Viscous,
+    ..LUGRE
 };
 const LUGRE_NAIVE: Line = Line {
     key: "lugre_fixed_step_14ms",
     name: "LuGre marched in steps of 14 ms, no event location",
     said: " when marched in steps of 14 ms without event location",
     look: (Colour::Series(6), Stroke::Solid),
-    law: FrictionLaw::LuGre,
     variant: Variant::NaiveMarch,
+    ..LUGRE
 };
 const LUGRE_ADHESIVE: Line = Line {
     key: "lugre_adhesion_in_load",
     name: "LuGre with the adhesion in the load (q = 1)",
     said: " with the adhesion in the load",
     look: (LUGRE_COLOUR, Stroke::Dotted),
-    law: FrictionLaw::LuGre,
     variant: Variant::AdhesionInLoad,
+    ..LUGRE
 };
 const COULOMB_ADHESIVE: Line = Line {
     key: "coulomb_adhesion_in_load",
     name: "Coulomb with the adhesion in the load (q = 1)",
     said: " under Coulomb friction with the adhesion in the load",
     look: (COULOMB_COLOUR, Stroke::Dotted),
-    law: FrictionLaw::Coulomb,
     variant: Variant::AdhesionInLoad,
+    ..COULOMB
 };
 
 const BOTH: &[Line] = &[COULOMB, HK];

@@ -68,7 +68,7 @@ pub fn extremes_document(file: &ExtremesFile) -> Document {
     if !map.reasons.is_empty() {
         sections.push(Section::new("reasons", "Reasons", vec![reasons(file, data).into()]));
     }
-    sections.push(study_section(&file.study));
+    sections.push(study_section(&file.study, &file.study.factors));
     let rows = vec![
         ("program", format!("apportion {}", file.apportion_version)),
         ("points", grouped(map.points)),

@@ -62,23 +62,21 @@ pub struct Tally {
 impl Tally {
     /// Counts a number.
     fn add(&mut self, outcome: Outcome) {
-        match outcome {
-            Outcome::Right => self.right += 1,
-            Outcome::FlaggedConfirmed => self.flagged_confirmed += 1,
-            Outcome::Flagged => self.flagged += 1,
-            Outcome::Refused => self.refused += 1,
-            Outcome::Wrong => self.wrong += 1,
-        }
+        *self.number_of(outcome) += 1;
     }
 
-    /// Numbers of that outcome.
-    pub fn count(&self, outcome: Outcome) -> u64 {
+    /// How many there are of `outcome`.
+    pub fn count(mut self, outcome: Outcome) -> u64 {
+        *self.number_of(outcome)
+    }
+
+    fn number_of(&mut self, outcome: Outcome) -> &mut u64 {
         match outcome {
-            Outcome::Right => self.right,
-            Outcome::FlaggedConfirmed => self.flagged_confirmed,
-            Outcome::Flagged => self.flagged,
-            Outcome::Refused => self.refused,
-            Outcome::Wrong => self.wrong,
+            Outcome::Right => &mut self.right,
+            Outcome::FlaggedConfirmed => &mut self.flagged_confirmed,
+            Outcome::Flagged => &mut self.flagged,
+            Outcome::Refused => &mut self.refused,
+            Outcome::Wrong => &mut self.wrong,
         }
     }
 

@@ -32,7 +32,7 @@ pub fn settings_document(file: &SettingsFile) -> Document {
         Section::new("lines", "Lines to paste", lines(file)),
         Section::new("rungs", "What the rungs cost", rung_table(file).map(Part::from).into_iter().collect()),
         Section::new("all", "Every setting", others),
-        study_section(&file.study),
+        study_section(&file.study, &file.study.factors),
         Section::new("provenance", "Provenance", vec![Part::OnPage(vec![provenance(file).into()])]),
     ];
     sections.retain(|section| !section.parts.is_empty());

@@ -208,8 +208,8 @@ fn error(analysis: &Analysis, estimator: Estimator, truth: &Truth) -> Option<f64
     let mut largest = 0.0_f64;
     for (output, truth) in analysis.outputs.iter().zip(&truth.outputs) {
         let (Ok(indices), Some(truth)) = (&output.indices, truth) else { continue };
-        for (effect, [first, total]) in indices.factors.iter().zip(truth) {
-            let other = effect.others.first().filter(|_| estimator != Estimator::Default);
+        for ((effect, checks), [first, total]) in indices.factors.iter().zip(&indices.checks).zip(truth) {
+            let other = checks.others.first().filter(|_| estimator != Estimator::Default);
             let (found_first, found_total) = match other {
                 Some(other) => (other.first_order.map(|e| e.estimate), other.total.map(|e| e.estimate)),
                 None => (Some(effect.first_order.estimate), Some(effect.total.estimate)),

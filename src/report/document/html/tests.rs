@@ -49,7 +49,7 @@ fn every_part(text: &str) -> Vec<Part> {
         Part::Notice { mark: Mark::Mixed, kind: t(), texts: vec![t()] },
         Part::Frame { title: t(), html: t() },
         Part::Details { summary: t(), parts: vec![figure("f1", scatter(text))] },
-        Part::OnScreen { instead: t(), parts: vec![Part::Gallery(vec![small("f2", scatter(text))])] },
+        Part::Gallery(vec![small("f2", scatter(text))]),
         Part::Table(Table {
             on_phone: OnPhone::StackLabelled,
             ..Table::new(t(), [Column::text(t()), Column::number(t())]).with_rows([
@@ -85,7 +85,10 @@ fn the_page_needs_nothing_else() {
     }
     assert_eq!(html.matches("<svg").count(), 3, "one chart drawn twice, and a small one once");
     assert!(!html.contains("f2-wide") && html.contains("aria-labelledby=\"f2-narrow-title\""));
-    assert!(html.contains("</div>\n<p class=\"on-paper\">words</p>"), "{html}");
+    assert!(
+        html.contains("</div>\n<p class=\"on-paper\">On the screen, an animation stands here: words.</p>"),
+        "{html}"
+    );
     assert!(html.contains("aria-labelledby=\"f1-wide-title\"") && html.contains("id=\"f1-narrow-desc\""));
     assert!(html.contains("<a href=\"#two\">Two</a>"));
     assert!(html.contains("<span class=\"badge good\"><span aria-hidden=\"true\">✓</span> words</span>"), "{html}");
