@@ -130,14 +130,14 @@ impl fmt::Debug for ModelKind {
 /// The inputs of a function with its parameters chosen. An input that is no factor stands at its upper quartile: at
 /// their middle, many of these functions hide what the other inputs do (Sobol' G of a_1 = 0 is 0 there).
 pub fn known_inputs(function: &KnownFunction) -> Vec<Input> {
-    let input = |input: super::KnownInput| Input {
+    let input = |input: &super::KnownInput| Input {
         symbol: input.name.clone(),
-        name: input.name,
+        name: input.name.clone(),
         unit: Unit::dimensionless(),
         nominal: input.distribution.quantile(0.75),
         domain: input.domain,
-        description: input.description,
-        distribution: Some(input.distribution),
+        description: input.description.clone(),
+        distribution: Some(input.distribution.clone()),
     };
-    function.inputs().into_iter().map(input).collect()
+    function.inputs().iter().map(input).collect()
 }

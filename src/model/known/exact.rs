@@ -124,9 +124,10 @@ impl Exact {
         Self::closed(mean, variance, first, total, second)
     }
 
-    /// From a table of references.
-    pub(super) fn by_quadrature(mean: f64, variance: f64, first: &[f64], total: &[f64], error: f64) -> Self {
-        let indices = ExactIndices { first_order: first.to_vec(), total: total.to_vec(), second_order: None };
+    /// From a table of references: the first-order and the total index of each input.
+    pub(super) fn by_quadrature(mean: f64, variance: f64, indices: &[[f64; 2]], error: f64) -> Self {
+        let (first_order, total) = indices.iter().map(|[first, total]| (*first, *total)).unzip();
+        let indices = ExactIndices { first_order, total, second_order: None };
         Self { mean, variance, indices: Some(indices), basis: Basis::Quadrature { error } }
     }
 

@@ -5,15 +5,11 @@
 
 mod borehole;
 mod bratley;
-mod constant;
-mod decades;
 mod exact;
 mod flood;
 mod function;
 mod g_star;
 mod ishigami;
-mod ishigami_holes;
-mod kucherenko;
 mod linear;
 mod minimum;
 mod morris;
@@ -37,6 +33,7 @@ pub use function::{Function, KnownInput};
 pub use parameters::{MAX_INPUTS, ParameterError, ParameterInfo, ParameterValue};
 pub use worker::KnownModel;
 
+use function::Made;
 use parameters::Given;
 
 use super::{Expression, Symbol};
@@ -48,10 +45,10 @@ struct Entry {
     formula: &'static str,
     source: &'static str,
     parameters: &'static [ParameterInfo],
-    build: fn(&Given<'_>) -> Result<Box<dyn Function>, ParameterError>,
+    build: fn(&mut Given<'_>) -> Result<Made, ParameterError>,
 }
 
-const ENTRIES: [&Entry; 22] = [
+const ENTRIES: [&Entry; 17] = [
     &ishigami::ENTRY,
     &sobol_g::ENTRY,
     &g_star::ENTRY,
@@ -59,16 +56,11 @@ const ENTRIES: [&Entry; 22] = [
     &bratley::ENTRY,
     &oakley_ohagan::ENTRY,
     &sobol_levitan::ENTRY,
-    &kucherenko::PRODUCT,
-    &kucherenko::ROOTS,
     &linear::ENTRY,
     &product::ENTRY,
     &minimum::ENTRY,
     &steps::ENTRY,
     &simplex::ENTRY,
-    &decades::ENTRY,
-    &constant::ENTRY,
-    &ishigami_holes::ENTRY,
     &flood::ENTRY,
     &borehole::ENTRY,
     &wing_weight::ENTRY,
@@ -138,8 +130,10 @@ impl KnownAnswer {
         if let Some((name, _)) = parameters.iter().find(|(name, _)| known().all(|parameter| parameter != name)) {
             return Err(ParameterError::Unknown { parameter: name.clone(), known: known().collect() });
         }
-        let function = (self.0.build)(&Given::new(parameters))?;
-        Ok(KnownFunction { answer: self, function: function.into() })
+        let mut given = Given::new(parameters);
+        let Made { inputs, function } = (self.0.build)(&mut given)?;
+        let (inputs, parameters) = (inputs.into(), given.in_force.into());
+        Ok(KnownFunction { answer: self, inputs, parameters, function: function.into() })
     }
 
     /// The function with its default parameters.
@@ -169,6 +163,8 @@ impl fmt::Debug for KnownAnswer {
 #[derive(Clone)]
 pub struct KnownFunction {
     answer: KnownAnswer,
+    inputs: Arc<[KnownInput]>,
+    parameters: Arc<[(&'static str, ParameterValue)]>,
     function: Arc<dyn Function>,
 }
 
@@ -179,13 +175,13 @@ impl KnownFunction {
     }
 
     /// The inputs in order, each with the distribution for which the exact indices hold.
-    pub fn inputs(&self) -> Vec<KnownInput> {
-        self.function.inputs()
+    pub fn inputs(&self) -> &[KnownInput] {
+        &self.inputs
     }
 
     /// The parameters in force.
-    pub fn parameters(&self) -> Vec<(&'static str, ParameterValue)> {
-        self.function.parameters()
+    pub fn parameters(&self) -> &[(&'static str, ParameterValue)] {
+        &self.parameters
     }
 
     /// The value at `x`, which has one entry per input; NaN where there is none.
@@ -198,8 +194,7 @@ impl KnownFunction {
     /// # Panics
     /// Never: a test goes through all of them.
     pub fn expression(&self) -> Expression {
-        let inputs = self.inputs();
-        let symbol = |name: &str| inputs.iter().position(|input| input.name == name).map(Symbol::Input);
+        let symbol = |name: &str| self.inputs.iter().position(|input| input.name == name).map(Symbol::Input);
         Expression::parse(&self.function.expression(), &symbol).expect("formulas of this program")
     }
 

@@ -116,19 +116,22 @@ const INPUTS: Range = (|x| (1.0..=MAX_INPUTS as f64).contains(&x) && x.fract() =
 pub(super) type PerInput<'a> = (&'static str, &'a [f64], Range);
 
 /// The parameters given, for the functions to read.
-pub(super) struct Given<'a>(&'a [(String, ParameterValue)]);
+pub(super) struct Given<'a> {
+    given: &'a [(String, ParameterValue)],
+    /// Those read so far, be they given or defaults.
+    pub in_force: Vec<(&'static str, ParameterValue)>,
+}
 
 impl<'a> Given<'a> {
     pub(super) fn new(parameters: &'a [(String, ParameterValue)]) -> Self {
-        Self(parameters)
+        Self { given: parameters, in_force: Vec::new() }
     }
 
     fn get(&self, name: &str) -> Option<&ParameterValue> {
-        self.0.iter().find(|(given, _)| given == name).map(|(_, value)| value)
+        self.given.iter().find(|(given, _)| given == name).map(|(_, value)| value)
     }
 
-    /// One number.
-    pub(super) fn number(&self, parameter: &'static str, default: f64, range: Range) -> Result<f64, ParameterError> {
+    fn one_number(&self, parameter: &'static str, default: f64, range: Range) -> Result<f64, ParameterError> {
         match self.get(parameter) {
             None => Ok(default),
             Some(ParameterValue::Number(value)) => within(parameter, *value, range),
@@ -136,15 +139,36 @@ impl<'a> Given<'a> {
         }
     }
 
-    /// The parameter `dimension` alone.
-    pub(super) fn dimension(&self, default: usize, range: Range) -> Result<usize, ParameterError> {
-        let value = within("dimension", self.number("dimension", default as f64, range)?, INPUTS)?;
+    fn number_of_inputs(&self, default: usize, range: Range) -> Result<usize, ParameterError> {
+        let value = within("dimension", self.one_number("dimension", default as f64, range)?, INPUTS)?;
         // Whole and at most 4096.
         Ok(value as usize)
     }
 
+    /// One number.
+    pub(super) fn number(
+        &mut self,
+        parameter: &'static str,
+        default: f64,
+        range: Range,
+    ) -> Result<f64, ParameterError> {
+        let value = self.one_number(parameter, default, range)?;
+        self.in_force.push((parameter, ParameterValue::Number(value)));
+        Ok(value)
+    }
+
+    /// The parameter `dimension` alone.
+    pub(super) fn dimension(&mut self, default: usize, range: Range) -> Result<usize, ParameterError> {
+        let inputs = self.number_of_inputs(default, range)?;
+        self.in_force.push(("dimension", ParameterValue::Number(inputs as f64)));
+        Ok(inputs)
+    }
+
     /// Numbers per input, all of one length: that of `dimension`, else of the first list given, else of the default.
-    pub(super) fn per_input<const N: usize>(&self, all: [PerInput<'_>; N]) -> Result<[Vec<f64>; N], ParameterError> {
+    pub(super) fn per_input<const N: usize>(
+        &mut self,
+        all: [PerInput<'_>; N],
+    ) -> Result<[Vec<f64>; N], ParameterError> {
         let listed = all.iter().find_map(|(name, ..)| match self.get(name) {
             Some(ParameterValue::List(list)) => Some((*name, list.len())),
             _ => None,
@@ -154,7 +178,7 @@ impl<'a> Given<'a> {
             (None, Some((parameter, entries))) => {
                 return Err(ParameterError::Entries { parameter, entries });
             }
-            _ => self.dimension(all.first().map_or(1, |(_, default, _)| default.len()), INPUTS)?,
+            _ => self.number_of_inputs(all.first().map_or(1, |(_, default, _)| default.len()), INPUTS)?,
         };
         let mut columns = [const { Vec::new() }; N];
         for (column, (parameter, default, range)) in columns.iter_mut().zip(all) {
@@ -168,6 +192,7 @@ impl<'a> Given<'a> {
                     list.iter().map(|&value| within(parameter, value, range)).collect::<Result<_, _>>()?
                 }
             };
+            self.in_force.push((parameter, ParameterValue::List(column.clone())));
         }
         Ok(columns)
     }

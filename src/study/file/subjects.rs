@@ -325,7 +325,7 @@ impl Subject for KnownSubject {
     }
 
     fn settings(&self) -> Vec<(&'static str, Value)> {
-        self.function.parameters().into_iter().map(|(name, value)| (name, in_json(value))).collect()
+        self.function.parameters().iter().map(|(name, value)| (*name, in_json(value))).collect()
     }
 
     fn constants(&self, space: &Space) -> Vec<(String, f64, String)> {
@@ -334,11 +334,11 @@ impl Subject for KnownSubject {
     }
 }
 
-fn in_json(value: ParameterValue) -> Value {
-    match value {
+fn in_json(value: &ParameterValue) -> Value {
+    match *value {
         // Whole numbers, such as dimensions, as people write them.
         ParameterValue::Number(number) if number.fract() == 0.0 && number.abs() < 1e15 => json!(number as i64),
         ParameterValue::Number(number) => json!(number),
-        ParameterValue::List(list) => json!(list),
+        ParameterValue::List(ref list) => json!(list),
     }
 }
