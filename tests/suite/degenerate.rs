@@ -6,6 +6,7 @@ use apportion::report::{OutputRecord, ResultFile, parse_result, result_json};
 use apportion::study::Study;
 
 use crate::common::HOLES;
+
 fn analysed(text: &str) -> ResultFile {
     let study = Study::parse(text, Path::new("degenerate.toml"), &[]).unwrap_or_else(|error| panic!("{error}"));
     ResultFile::new(&study, &study.run().unwrap())
