@@ -40,7 +40,7 @@ pub use external::ExternalModel;
 pub use function::{FunctionModel, function_model};
 pub use known::{
     Basis, Exact, ExactIndices, KnownAnswer, KnownFunction, KnownInput, KnownModel, MAX_INPUTS, ParameterError,
-    ParameterInfo, ParameterValue, SecondOrder,
+    ParameterInfo, ParameterValue,
 };
 
 pub use repeated::RepeatedModel;

@@ -62,6 +62,6 @@ impl Function for Bratley {
         let first = fourths.iter().map(|tail| tail / 3.0 / variance).collect();
         let total = thirds.iter().map(|tail| tail / 4.0 / variance).collect();
         let mean = (power(-0.5, self.d) - 1.0) / 3.0;
-        Exact::of_indices(mean, variance, first, total, |i, j| fourths[i.max(j)] / 9.0 / variance)
+        Exact::closed(mean, variance, first, total)
     }
 }

@@ -37,7 +37,9 @@ impl Function for Linear {
     }
 
     fn exact(&self) -> Exact {
-        let parts: Vec<f64> = self.c.iter().map(|c| c * c / 12.0).collect();
-        Exact::of_sum(self.c.iter().sum::<f64>() / 2.0, &parts)
+        let parts = self.c.iter().map(|c| c * c / 12.0);
+        let variance: f64 = parts.clone().sum();
+        let indices: Vec<f64> = parts.map(|part| part / variance).collect();
+        Exact::closed(self.c.iter().sum::<f64>() / 2.0, variance, indices.clone(), indices)
     }
 }

@@ -39,7 +39,8 @@ impl Function for Minimum {
     fn exact(&self) -> Exact {
         let d = self.d as f64;
         let first = (d + 2.0) / (d * (2.0 * d + 1.0));
-        let indices = [first, 2.0 * (d + 1.0) / (d * (d + 3.0)), first / d];
-        Exact::of_symmetric(1.0 / (d + 1.0), d / ((d + 1.0) * (d + 1.0) * (d + 2.0)), self.d, indices)
+        let total = 2.0 * (d + 1.0) / (d * (d + 3.0));
+        let variance = d / ((d + 1.0) * (d + 1.0) * (d + 2.0));
+        Exact::closed(1.0 / (d + 1.0), variance, vec![first; self.d], vec![total; self.d])
     }
 }

@@ -28,7 +28,7 @@ mod worker;
 use std::fmt;
 use std::sync::Arc;
 
-pub use exact::{Basis, Exact, ExactIndices, SecondOrder};
+pub use exact::{Basis, Exact, ExactIndices};
 pub use function::{Function, KnownInput};
 pub use parameters::{MAX_INPUTS, ParameterError, ParameterInfo, ParameterValue};
 pub use worker::KnownModel;
@@ -126,9 +126,9 @@ impl KnownAnswer {
     /// # Errors
     /// [`ParameterError`] if the function has no such parameter, or the value makes no sense.
     pub fn with(self, parameters: &[(String, ParameterValue)]) -> Result<KnownFunction, ParameterError> {
-        let known = || self.0.parameters.iter().map(|parameter| parameter.name);
-        if let Some((name, _)) = parameters.iter().find(|(name, _)| known().all(|parameter| parameter != name)) {
-            return Err(ParameterError::Unknown { parameter: name.clone(), known: known().collect() });
+        let is_known = |name: &String| self.0.parameters.iter().any(|parameter| parameter.name == name);
+        if let Some((name, _)) = parameters.iter().find(|(name, _)| !is_known(name)) {
+            return Err(ParameterError::unknown(name));
         }
         let mut given = Given::new(parameters);
         let Made { inputs, function } = (self.0.build)(&mut given)?;

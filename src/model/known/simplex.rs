@@ -46,7 +46,6 @@ impl Function for Simplex {
         let n = factorial - 1.0;
         let first = (d - 1.0).powi(2) / ((2.0 * d - 1.0) * n);
         let total = (d - 1.0) * factorial / ((d + 1.0) * n);
-        let second = (d * d * (d - 1.0) / (2.0 * (2.0 * d - 3.0)) - 1.0) / n - 2.0 * first;
-        Exact::of_symmetric(1.0 / factorial, n / (factorial * factorial), self.d, [first, total, second])
+        Exact::closed(1.0 / factorial, n / (factorial * factorial), vec![first; self.d], vec![total; self.d])
     }
 }

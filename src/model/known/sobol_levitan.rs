@@ -19,7 +19,7 @@ pub(super) const ENTRY: Entry = Entry {
         let [b] = given.per_input([("b", &[1.5, 0.9, 0.9, 0.9, 0.9, 0.9, 0.9][..], EXPONENT)])?;
         let largest: f64 = b.iter().map(|b| b.abs()).sum();
         if !EXPONENT.0(largest) {
-            return Err(ParameterError::OutOfRange { parameter: "b", value: largest, must: EXPONENT.1 });
+            return Err(ParameterError::out_of_range("b", largest, EXPONENT.1));
         }
         let mean = b.iter().map(|&b| mean_of_exponential(b)).product();
         let c0 = given.number("c0", 0.0, FINITE)?;

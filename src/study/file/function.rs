@@ -28,7 +28,7 @@ pub(super) fn known(
         parameters.push((name.clone(), number));
     }
     answer.with(&parameters).map_err(|error| {
-        let about = |key: &At<String>| key.get_ref() == error.parameter();
+        let about = |key: &At<String>| *key.get_ref() == error.parameter;
         let span = table.get_ref().iter().find(|(key, _)| about(key)).map_or(table.span(), |(_, value)| value.span());
         context.fault(span, Problem::Parameter(error))
     })
@@ -36,8 +36,7 @@ pub(super) fn known(
 
 fn unknown_key(answer: KnownAnswer, name: &str) -> Problem {
     if answer.parameters().is_empty() {
-        let error = ParameterError::Unknown { parameter: name.to_owned(), known: Vec::new() };
-        return Problem::Parameter(error);
+        return Problem::Parameter(ParameterError::unknown(name));
     }
     super::context::unknown_key(name, answer.parameters().iter().map(|parameter| parameter.name))
 }
