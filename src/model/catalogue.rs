@@ -4,7 +4,7 @@
 use std::fmt;
 
 use super::afm::{afm_choices, afm_inputs, afm_outputs};
-use super::known::{KnownAnswer, KnownFunction, KnownModel};
+use super::known::{KnownAnswer, KnownFunction, known_output};
 use super::{Choice, Input, Output};
 use crate::quantity::Unit;
 
@@ -72,7 +72,7 @@ impl ModelKind {
             main_inputs: &[],
             known: Some(answer),
             inputs: |answer| answer.map_or_else(Vec::new, |answer| known_inputs(&answer.default_function())),
-            outputs: || vec![KnownModel::output()],
+            outputs: || vec![known_output()],
             choices: Vec::new,
         }
     }

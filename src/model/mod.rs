@@ -39,8 +39,8 @@ pub use expression::{Expression, ExpressionError, ExpressionModel, ExpressionPro
 pub use external::ExternalModel;
 pub use function::{FunctionModel, function_model};
 pub use known::{
-    Basis, Exact, ExactIndices, KnownAnswer, KnownFunction, KnownInput, KnownModel, MAX_INPUTS, ParameterError,
-    ParameterInfo, ParameterValue,
+    Basis, Exact, ExactIndices, KnownAnswer, KnownFunction, KnownInput, MAX_INPUTS, ParameterError, ParameterInfo,
+    ParameterValue, known_model,
 };
 
 pub use repeated::RepeatedModel;

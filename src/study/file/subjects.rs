@@ -8,8 +8,8 @@ use serde_json::{Value, json};
 use crate::afm::{Fidelity, Options, Parameter, Scene};
 use crate::model::{
     AfmHistory, AfmModel, AfmMoments, AfmOutput, CommandModel, CommandSettings, Expression, ExpressionModel,
-    ExternalModel, Form, Input, KnownFunction, KnownModel, Model, ModelKind, Output, OutputSeries, ParameterValue,
-    edge_unit, known_inputs, program_files,
+    ExternalModel, Form, Input, KnownFunction, Model, ModelKind, Output, OutputSeries, ParameterValue, edge_unit,
+    known_inputs, known_model, program_files,
 };
 #[cfg(feature = "extremes")]
 use crate::model::{AfmSecond, PreciseFormulas, SecondCalculation};
@@ -304,7 +304,7 @@ impl Subject for KnownSubject {
 
     fn model(&self, space: &Space) -> Box<dyn Model> {
         let (base, factors) = self.inputs(space);
-        Box::new(KnownModel::new(self.function.clone(), base, factors))
+        Box::new(known_model(self.function.clone(), base, factors))
     }
 
     fn exact_indices(&self, space: &Space) -> Option<(Vec<f64>, Vec<f64>)> {
