@@ -28,8 +28,8 @@ pub use batch::{Batch, GiveUp, RowFailure};
 pub use catalogue::{ModelKind, known_inputs};
 #[cfg(feature = "study")]
 pub use command::{
-    Answer, CommandModel, CommandOutput, CommandSettings, Form, InputTemplate, Match, PerRun, Pick, PickError, Program,
-    Protocol, Source, TemplateError, TemplateProblem, Way, imported_neighbours, parse_answer, program_files,
+    CommandModel, CommandOutput, CommandSettings, Form, InputTemplate, Match, PerRun, Pick, Program, Protocol, Source,
+    TemplateError, TemplateProblem, Way, imported_neighbours, parse_answer, program_files,
 };
 pub use context::{Messages, RunContext};
 pub use counter::{Counter, CounterKind, Counts};
