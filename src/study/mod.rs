@@ -19,8 +19,8 @@ pub use builder::StudyBuilder;
 #[cfg(feature = "study")]
 pub use file::{
     AfmSubject, CommandSubject, Diagnostic, ExpressionConstant, ExpressionSubject, ExternalSubject, Formula,
-    KnownSubject, NEW_PROGRAM, OverrideProblem, Problem, StudyError, TemplateRequest, edited, model_guide, new_program,
-    study_schema, template,
+    KnownSubject, NEW_PROGRAM, Problem, StudyError, TemplateRequest, edited, model_guide, new_program, study_schema,
+    template,
 };
 pub use options::{AnalysisOptions, MOST_OUTPUTS_OF_MEASURES, SurrogateChoice, Target};
 use subject::CustomSubject;

@@ -8,7 +8,7 @@ use super::context::{Context, Fault, unknown_key, unknown_name, wrong};
 use super::error::Problem;
 use super::key_schemas::afm_choices;
 use super::sections::At;
-use super::units::{in_words_of_units, with_unit};
+use super::units::{in_words_of_units, with_unit, wrong_unit};
 use crate::afm::{ContactTheory, Fidelity, FrictionLaw, LuGreParameters, Options, Parameter, Scene, Torsion};
 use crate::model::{AfmMoments, MOST_VALUES, edge_unit};
 use crate::quantity::{Dimension, Quantity, Unit};
@@ -61,13 +61,20 @@ pub(super) fn afm(
                     return Err(context.fault(key.span(), unknown_key(name, known)));
                 };
                 if is_factor(name) {
-                    return Err(context.fault(key.span(), Problem::FixedFactor(name.to_owned())));
+                    return Err(context.fault(key.span(), fixed_factor(name)));
                 }
                 (parameter.set)(&mut scene, constant(parameter, value).map_err(fault)?);
             }
         }
     }
     Ok((scene, options))
+}
+
+fn fixed_factor(name: &str) -> Problem {
+    Problem::with_help(
+        format!("`{name}` is a factor of this study, so it cannot be fixed in [afm]"),
+        format!("remove `{name}` here, or from the factors"),
+    )
 }
 
 /// Seconds of a history, and moments in them, where nothing is said: those of the papers' scene in time.
@@ -96,7 +103,7 @@ pub(super) fn moments(context: &Context<'_>, table: &BTreeMap<At<String>, At<Val
             }
         }
     }
-    AfmMoments::new(duration, points).map_err(|error| fault(Problem::Syntax(format!("`history`: {error}"))))
+    AfmMoments::new(duration, points).map_err(|error| fault(Problem::new(format!("`history`: {error}"))))
 }
 
 /// Notes on keys of the table that are understood but cannot act under `options`.
@@ -159,22 +166,14 @@ fn constant(parameter: &Parameter, value: &At<Value>) -> Result<f64, Problem> {
         }
     };
     if !quantity.unit.compatible(&unit) {
-        let name = format!("`{}`", parameter.name);
-        let dimension = unit.dimension().to_string();
-        return Err(if quantity.unit.compatible(&Unit::dimensionless()) {
-            Problem::MissingUnit { name, dimension, example: example() }
-        } else {
-            let found = quantity.unit.dimension().to_string();
-            Problem::WrongUnit { name, expected: dimension, unit: quantity.unit.to_string(), found, example: example() }
-        });
+        let stated = Some(&quantity.unit).filter(|unit| !unit.compatible(&Unit::dimensionless()));
+        return Err(wrong_unit(&format!("`{}`", parameter.name), &unit, stated, &example()));
     }
     let si = quantity.unit.to_si(quantity.value);
     if !parameter.domain.contains(si) || !unit.from_si(si).is_finite() {
-        return Err(Problem::OutOfDomain {
-            name: format!("`{}`", parameter.name),
-            domain: in_words_of_units(parameter.domain),
-            found: format!("it is {}", with_unit(quantity.value, quantity.unit.symbol())),
-        });
+        let (name, domain) = (parameter.name, in_words_of_units(parameter.domain));
+        let found = with_unit(quantity.value, quantity.unit.symbol());
+        return Err(Problem::new(format!("`{name}` must be {domain}, but it is {found}")));
     }
     Ok(si)
 }

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use super::at::At;
 use super::error::{Diagnostic, Problem, meant};
+use crate::study::did_you_mean;
 
 /// A diagnostic on its way up.
 pub(super) type Fault = Box<Diagnostic>;
@@ -36,11 +37,9 @@ pub(super) fn unknown_name<'a>(
 
 /// A key that the table does not have.
 pub(super) fn unknown_key<'a>(name: &str, known: impl Iterator<Item = &'a str> + Clone) -> Problem {
-    Problem::UnknownKey {
-        name: name.to_owned(),
-        nearest: meant(name, known.clone()),
-        expected: known.map(str::to_owned).collect(),
-    }
+    let hint = did_you_mean(&meant(name, known.clone()));
+    let help = format!("keys that can stand here: {}", known.collect::<Vec<_>>().join(", "));
+    Problem::with_help(format!("unknown key `{name}`{hint}"), help)
 }
 
 pub(super) fn choice<T: Copy>(
@@ -58,5 +57,5 @@ pub(super) fn choice<T: Copy>(
 }
 
 pub(super) fn wrong(key: &str, expected: &str, found: String) -> Problem {
-    Problem::WrongType { key: key.to_owned(), expected: expected.to_owned(), found }
+    Problem::new(format!("`{key}` must be {expected}, not {found}"))
 }
