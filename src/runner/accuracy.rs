@@ -12,7 +12,7 @@ use crate::analysis::{Analysis, OutputAnalysis, Spending, StopReason};
 use crate::clock::Instant;
 use crate::design::{Design, DesignSettings, Rows};
 use crate::model::{Batch, RunContext};
-use crate::run::{Job, RowValues, RunError, Store};
+use crate::run::{RowValues, RunError, Store};
 use crate::study::{LowFidelity, Study, SurrogateChoice, Target};
 use crate::uncertainty::OutputIndices;
 
@@ -105,7 +105,6 @@ impl Attempt<'_> {
     /// Whether the model is so quick that fits cost more than runs, by one worker at the first rows of `trial`.
     fn is_quick(&mut self, trial: &Study) -> bool {
         let model = trial.model();
-        let job = Job { design: &trial.design, space: &trial.space, model: model.as_ref() };
         let (mut worker, mut batch) = (model.worker(self.context), Batch::new(model.as_ref()));
         let (mut values, mut of_run) = (RowValues::default(), f64::INFINITY);
         // Single rows first, the second of them after what only the first one waits for: a slow model has no others.
@@ -113,7 +112,7 @@ impl Attempt<'_> {
             if number == 2 && of_run > 10.0 * QUICK_RUN {
                 break;
             }
-            let columns = values.values(job, 0, 0..rows);
+            let columns = values.values(&trial.space, &trial.design, 0, 0..rows);
             let inputs: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
             batch.reset(rows as usize);
             let start = Instant::now();
