@@ -5,26 +5,15 @@ use serde_json::Value;
 
 use super::json_answer::{json, json_answer, keys_in_words};
 use crate::model::shorten::{cut, masked, shortened};
+use crate::names::named;
 
-/// How rows and answers are written.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Protocol {
-    /// A header with the names of the factors, then a line of cells for each row; a line of numbers as its answer.
-    Csv,
-    /// A JSON object for each row, and one as its answer.
-    JsonLines,
-}
-
-impl Protocol {
-    /// Both, the default first.
-    pub const ALL: [Self; 2] = [Self::Csv, Self::JsonLines];
-
-    /// The name in study files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Csv => "csv",
-            Self::JsonLines => "json-lines",
-        }
+named! {
+    /// How rows and answers are written; the default first.
+    pub enum Protocol {
+        /// A header with the names of the factors, then a line of cells for each row; a line of numbers as its answer.
+        Csv = "csv",
+        /// A JSON object for each row, and one as its answer.
+        JsonLines = "json-lines",
     }
 }
 

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use toml::Value;
 
-use super::context::{Context, Fault, unknown_key, unknown_name, wrong};
+use super::context::{Context, Fault, number, unknown_key, unknown_name, wrong};
 use super::error::Problem;
 use super::key_schemas::afm_choices;
 use super::sections::At;
@@ -158,11 +158,10 @@ fn constant(parameter: &Parameter, value: &At<Value>) -> Result<f64, Problem> {
     };
     let quantity = match value.get_ref() {
         Value::String(text) => Quantity::parse(text)?,
-        Value::Integer(number) => Quantity { value: *number as f64, unit: Unit::dimensionless() },
-        Value::Float(number) => Quantity { value: *number, unit: Unit::dimensionless() },
         other => {
             let expected = format!("a quantity, as in {}", example());
-            return Err(wrong(parameter.name, &expected, other.type_str().to_owned()));
+            let refusal = || wrong(parameter.name, &expected, other.type_str().to_owned());
+            Quantity { value: number(other).ok_or_else(refusal)?, unit: Unit::dimensionless() }
         }
     };
     if !quantity.unit.compatible(&unit) {
@@ -181,16 +180,14 @@ fn constant(parameter: &Parameter, value: &At<Value>) -> Result<f64, Problem> {
 /// A number greater than 0: bare where it has no dimension, as `example` shows, or a time with its unit.
 fn positive(key: &str, example: &str, value: &Value) -> Result<f64, Problem> {
     let is_time = example.starts_with('"');
-    let number = match value {
+    let found = match value {
         Value::String(text) if is_time => {
             let quantity = Quantity::parse(text)?;
             (quantity.unit.dimension() == Dimension::TIME).then(|| quantity.to_si())
         }
-        Value::Integer(number) if !is_time => Some(*number as f64),
-        Value::Float(number) if !is_time => Some(*number),
-        _ => None,
+        other => number(other).filter(|_| !is_time),
     };
-    number
+    found
         .filter(|number| *number > 0.0 && number.is_finite())
         .ok_or_else(|| wrong(key, &format!("greater than 0, as in {key} = {example}"), value.to_string()))
 }

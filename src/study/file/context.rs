@@ -3,6 +3,8 @@
 use std::ops::Range;
 use std::path::PathBuf;
 
+use toml::Value;
+
 use super::at::At;
 use super::error::{Diagnostic, Problem, meant};
 use crate::study::did_you_mean;
@@ -54,6 +56,11 @@ pub(super) fn choice<T: Copy>(
         let names = all.iter().map(|&choice| name(choice));
         context.fault(typed.span(), unknown_name(what, typed.get_ref(), names))
     })
+}
+
+/// A number of TOML, whole or not.
+pub(super) fn number(value: &Value) -> Option<f64> {
+    value.as_float().or_else(|| value.as_integer().map(|whole| whole as f64))
 }
 
 pub(super) fn wrong(key: &str, expected: &str, found: String) -> Problem {

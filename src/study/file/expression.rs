@@ -5,7 +5,7 @@ use std::ops::Range;
 use toml::Value;
 
 use super::at::{At, Choices, ListOrTable, in_order};
-use super::context::{Context, Fault, wrong};
+use super::context::{Context, Fault, number, wrong};
 use super::error::Problem;
 use super::outputs::OutputTable;
 use super::sections::{ExpressionSection, FactorSection, Outputs};
@@ -66,14 +66,11 @@ fn constants(context: &Context<'_>, table: &Choices, space: &Space) -> Result<Ve
                 Problem::Repeated { what: "name of a factor and of a constant", name: name.get_ref().clone() };
             return Err(context.fault(name.span(), problem));
         }
-        let number = |value: f64| Quantity { value, unit: Unit::dimensionless() };
         let quantity = match value.get_ref() {
-            Value::Integer(whole) => Some(number(*whole as f64)),
-            Value::Float(float) => Some(number(*float)),
             Value::String(text) => {
                 Some(Quantity::parse(text).map_err(|error| context.fault(value.span(), error.into()))?)
             }
-            _ => None,
+            other => number(other).map(|value| Quantity { value, unit: Unit::dimensionless() }),
         };
         let quantity = quantity.filter(|quantity| quantity.to_si().is_finite()).ok_or_else(|| {
             let key = name.get_ref();

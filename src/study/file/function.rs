@@ -2,7 +2,7 @@
 
 use toml::Value;
 
-use super::context::{Context, Fault, wrong};
+use super::context::{Context, Fault, number, wrong};
 use super::error::Problem;
 use super::sections::{At, Choices};
 use crate::model::{KnownAnswer, KnownFunction, ParameterError, ParameterValue};
@@ -38,14 +38,6 @@ fn unknown_key(answer: KnownAnswer, name: &str) -> Problem {
         return Problem::new(ParameterError::unknown(name).to_string());
     }
     super::context::unknown_key(name, answer.parameters().iter().map(|parameter| parameter.name))
-}
-
-fn number(value: &Value) -> Option<f64> {
-    match value {
-        Value::Integer(number) => Some(*number as f64),
-        Value::Float(number) => Some(*number),
-        _ => None,
-    }
 }
 
 fn number_or_list(value: &Value) -> Option<ParameterValue> {
