@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use toml::Value;
 
-use super::context::{Context, Fault, number, unknown_key, unknown_name, wrong};
+use super::context::{Context, Fault, chosen, number, unknown_key, wrong};
 use super::error::Problem;
 use super::key_schemas::afm_choices;
 use super::sections::At;
@@ -134,18 +134,13 @@ fn choice<T: Copy>(
     all: &[T],
     name: fn(T) -> &'static str,
 ) -> Result<T, Fault> {
-    let names = all.iter().map(|&variant| name(variant));
-    let problem = match value.get_ref().as_str() {
-        None => {
-            let quoted: Vec<String> = names.map(|name| format!("{name:?}")).collect();
-            wrong(key, &format!("one of {}", quoted.join(", ")), value.get_ref().type_str().to_owned())
-        }
-        Some(text) => match all.iter().find(|&&variant| name(variant) == text) {
-            Some(variant) => return Ok(*variant),
-            None => unknown_name(what, text, names),
-        },
+    let typed = value.get_ref();
+    let of_text = |text| chosen(text, what, all, name);
+    let no_text = || {
+        let names: Vec<String> = all.iter().map(|&variant| format!("{:?}", name(variant))).collect();
+        Err(wrong(key, &format!("one of {}", names.join(", ")), typed.type_str().to_owned()))
     };
-    Err(context.fault(value.span(), problem))
+    typed.as_str().map_or_else(no_text, of_text).map_err(|problem| context.fault(value.span(), problem))
 }
 
 /// The SI value of a constant given as `"0.7 deg"`, or as a bare number where the parameter has no dimension.

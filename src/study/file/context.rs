@@ -51,11 +51,18 @@ pub(super) fn choice<T: Copy>(
     all: &[T],
     name: fn(T) -> &'static str,
 ) -> Result<T, Fault> {
-    let found = all.iter().copied().find(|&choice| name(choice) == typed.get_ref());
-    found.ok_or_else(|| {
-        let names = all.iter().map(|&choice| name(choice));
-        context.fault(typed.span(), unknown_name(what, typed.get_ref(), names))
-    })
+    chosen(typed.get_ref(), what, all, name).map_err(|problem| context.fault(typed.span(), problem))
+}
+
+/// The one of `all` that is called `text`.
+pub(super) fn chosen<T: Copy>(
+    text: &str,
+    what: &'static str,
+    all: &[T],
+    name: fn(T) -> &'static str,
+) -> Result<T, Problem> {
+    let found = all.iter().copied().find(|&choice| name(choice) == text);
+    found.ok_or_else(|| unknown_name(what, text, all.iter().map(|&choice| name(choice))))
 }
 
 /// A number of TOML, whole or not.
