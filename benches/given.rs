@@ -30,7 +30,7 @@ fn cases() -> Vec<Case> {
     let known = |name: &'static str| {
         let function = KnownAnswer::from_name(name).expect("a function of the list").default_function();
         let exact = function.exact().indices.expect("indices").first_order;
-        let inputs = function.inputs();
+        let inputs = function.inputs().to_vec();
         let value = move |u: &[f64]| {
             let x: Vec<f64> = inputs.iter().zip(u).map(|(i, u)| i.distribution.quantile(*u)).collect();
             function.value(&x)

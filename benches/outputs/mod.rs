@@ -21,7 +21,7 @@ pub fn design(settings: DesignSettings, factors: usize, second_order: bool) -> D
 pub fn inputs(function: &KnownFunction, design: &Design) -> Vec<Vec<f64>> {
     let mut columns = vec![vec![0.0; design.points_per_replicate() as usize]; design.columns()];
     design.replicate(0).fill(0, &mut columns);
-    let distributions: Vec<_> = function.inputs().into_iter().map(|input| input.distribution).collect();
+    let distributions: Vec<_> = function.inputs().iter().map(|input| input.distribution.clone()).collect();
     for (distribution, column) in distributions.iter().cycle().zip(&mut columns) {
         column.iter_mut().for_each(|u| *u = distribution.quantile(*u));
     }

@@ -21,7 +21,7 @@ type Noted = Arc<Mutex<Vec<Vec<f64>>>>;
 /// A study of Ishigami's function, and the rows that it runs: the values of the factors, then the output.
 fn study(sampler: Sampler, base_samples: u64) -> anyhow::Result<(Study, Noted)> {
     let (ishigami, rows) = (function(NAME), Noted::default());
-    let (inputs, noted) = (ishigami.inputs(), rows.clone());
+    let (inputs, noted) = (ishigami.inputs().to_vec(), rows.clone());
     let model = function_model("y", move |x: &[f64]| {
         let y = ishigami.value(x);
         if let Ok(mut rows) = noted.lock() {

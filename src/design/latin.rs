@@ -4,6 +4,7 @@ use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use super::random::RandomPoints;
+use crate::space::distribution::mixed;
 
 /// A Latin hypercube of `n` points: in every dimension each of the `n` cells of width 1/n holds exactly one point, at
 /// a random place in its cell (McKay, Beckman and Conover 1979, Technometrics 21, 239-245).
@@ -78,17 +79,10 @@ impl Permutation {
         let mask = (1 << self.half_bits) - 1;
         let (mut left, mut right) = (value >> self.half_bits, value & mask);
         for key in self.keys {
-            (left, right) = (right, left ^ (mix(right ^ key) & mask));
+            (left, right) = (right, left ^ (mixed(right ^ key) & mask));
         }
         left << self.half_bits | right
     }
-}
-
-/// The finaliser of SplitMix64 (Steele, Lea and Flood 2014): every input bit reaches every output bit.
-fn mix(mut z: u64) -> u64 {
-    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    z ^ (z >> 31)
 }
 
 #[cfg(test)]

@@ -3,8 +3,9 @@
 use sha2::{Digest, Sha256};
 
 use super::rows::ColumnKind;
-use crate::design::{BasePoints, Design};
+use crate::design::Design;
 use crate::quantity::Unit;
+use crate::run::RowValues;
 use crate::space::{Factor, Space};
 
 /// Rows of a block, about.
@@ -29,17 +30,13 @@ pub struct DesignRows<'a> {
     replicate: u64,
     /// The next base point of the replicate.
     point: u64,
-    points: BasePoints,
-    unit: Vec<Vec<f64>>,
-    values: Vec<Vec<f64>>,
+    values: RowValues,
 }
 
 impl<'a> DesignRows<'a> {
     /// All rows of `design`, whose factors are those of `space`.
     pub fn new(space: &'a Space, design: &'a Design) -> Self {
-        let columns = vec![Vec::new(); design.columns()];
-        let (unit, values) = (columns.clone(), columns);
-        Self { space, design, replicate: 0, point: 0, points: design.replicate(0), unit, values }
+        Self { space, design, replicate: 0, point: 0, values: RowValues::default() }
     }
 
     /// The next block, with one vector for each factor; `None` after the last row.
@@ -47,42 +44,20 @@ impl<'a> DesignRows<'a> {
         let design = self.design;
         if self.point == design.points_per_replicate() {
             (self.replicate, self.point) = (self.replicate + 1, 0);
-            if self.replicate < design.settings().replicates {
-                self.points = design.replicate(self.replicate);
-            }
         }
         if self.replicate == design.settings().replicates {
             return None;
         }
         let runs = design.rows_per_point();
-        let points = (BLOCK / runs).max(1).min(design.points_per_replicate() - self.point) as usize;
-        self.fill(points);
-        for (number, column) in into.iter_mut().enumerate() {
+        let points = (BLOCK / runs).max(1).min(design.points_per_replicate() - self.point);
+        let (replicate, first, rows) = (self.replicate, self.point * runs, points * runs);
+        let values = self.values.values(self.space, design, replicate, first..first + rows);
+        for ((column, values), factor) in into.iter_mut().zip(values).zip(self.space.factors()) {
             column.clear();
-            for point in 0..points {
-                column.extend(design.runs().iter().map(|run| self.values[design.column(run, number)][point]));
-            }
+            column.extend(values.iter().map(|value| at_the_edge(factor.unit(), *value)));
         }
-        let block = RowBlock { replicate: self.replicate, first: self.point * runs, rows: points * runs as usize };
-        self.point += points as u64;
-        Some(block)
-    }
-
-    /// The values of the next base points.
-    fn fill(&mut self, points: usize) {
-        for column in &mut self.unit {
-            column.resize(points, 0.0);
-        }
-        self.points.fill(self.point, &mut self.unit);
-        let factors = self.space.factors();
-        for (number, (unit, values)) in self.unit.iter().zip(&mut self.values).enumerate() {
-            values.resize(points, 0.0);
-            let factor = &factors[self.design.factor_of(number)];
-            factor.fill_si(unit, values);
-            for value in values {
-                *value = at_the_edge(factor.unit(), *value);
-            }
-        }
+        self.point += points;
+        Some(RowBlock { replicate, first, rows: rows as usize })
     }
 }
 

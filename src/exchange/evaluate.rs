@@ -6,7 +6,8 @@ use std::io::Write;
 use thiserror::Error;
 
 use super::design_rows::factor_column;
-use super::points::{PointsError, PointsReader};
+use super::error::TableError;
+use super::points::PointsReader;
 use super::rows::{ColumnKind, Format, RowReader, row_writer};
 use crate::model::{Batch, Output, RowFailure, RunContext};
 use crate::run::{Executor, Halt};
@@ -18,7 +19,7 @@ use crate::study::Study;
 pub enum EvaluateError {
     /// The points are wrong.
     #[error(transparent)]
-    Points(#[from] PointsError),
+    Points(#[from] TableError),
     /// The outputs cannot be written.
     #[error("cannot write the outputs: {0}")]
     Output(#[from] std::io::Error),

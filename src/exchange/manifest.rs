@@ -3,10 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
-use thiserror::Error;
 
+use super::error::{TableError, refused};
 use crate::design::{Matrix, RowKind, Run};
-use crate::study::{Study, StudyError, Target};
+use crate::study::{Study, Target};
 
 /// The manifest of a design file, as described in `docs/exchange-formats.md`.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -93,53 +93,6 @@ pub struct ManifestFactor {
     pub labels: Option<Vec<String>>,
 }
 
-/// What is wrong with a manifest.
-#[derive(Debug, Error)]
-pub enum ManifestError {
-    /// No JSON, or not of a manifest.
-    #[error("not a manifest of a design: {0}")]
-    NotOne(#[from] serde_json::Error),
-    /// JSON of something else.
-    #[error("not a manifest of a design: its format is {found:?}, expected \"{FORMAT}\"")]
-    OtherFormat {
-        /// What it says it is.
-        found: String,
-    },
-    /// A later version of the format.
-    #[error("version {found} of the manifest's format is not known here (up to {VERSION} is)")]
-    Newer {
-        /// Its version.
-        found: u32,
-    },
-    /// The study in it cannot be read.
-    #[error("the study in the manifest: {0}")]
-    Study(#[from] StudyError),
-    /// The study in it has been changed.
-    #[error(
-        "the study in the manifest has been changed since `sample` wrote it: its SHA-256 is {found}, not {expected}"
-    )]
-    ChangedStudy {
-        /// SHA-256 that it has.
-        found: String,
-        /// SHA-256 that it says.
-        expected: String,
-    },
-    /// The study makes another design than the manifest says.
-    #[error("the design of the manifest is not that of its study: it was changed since `sample` wrote it")]
-    OtherDesign,
-    /// The study makes other points than those of the file.
-    #[error(
-        "the points of this manifest are not those that version {here} makes of its study (it was written by version \
-         {written}): analyse them with that version, or sample again"
-    )]
-    OtherPoints {
-        /// This version.
-        here: String,
-        /// That of the manifest.
-        written: String,
-    },
-}
-
 const FORMAT: &str = "apportion-design";
 const VERSION: u32 = 1;
 
@@ -206,21 +159,24 @@ impl Manifest {
     /// Reads a manifest from its text.
     ///
     /// # Errors
-    /// [`ManifestError`] if it is none, or of a later version.
-    pub fn parse(text: &str) -> Result<Self, ManifestError> {
+    /// [`TableError`] if it is none, or of a later version.
+    pub fn parse(text: &str) -> Result<Self, TableError> {
         #[derive(Deserialize)]
         struct Head {
             format: String,
             version: u32,
         }
-        let head: Head = serde_json::from_str(text)?;
-        if head.format != FORMAT {
-            return Err(ManifestError::OtherFormat { found: head.format });
+        let not_one = |error| TableError::Refused(format!("not a manifest of a design: {error}"));
+        let Head { format, version } = serde_json::from_str(text).map_err(not_one)?;
+        if format != FORMAT {
+            return refused(format!("not a manifest of a design: its format is {format:?}, expected \"{FORMAT}\""));
         }
-        if head.version > VERSION {
-            return Err(ManifestError::Newer { found: head.version });
+        if version > VERSION {
+            return refused(format!(
+                "version {version} of the manifest's format is not known here (up to {VERSION} is)"
+            ));
         }
-        Ok(serde_json::from_str(text)?)
+        serde_json::from_str(text).map_err(not_one)
     }
 
     /// The manifest as JSON, ending in a line feed.
@@ -232,15 +188,21 @@ impl Manifest {
     /// The study whose design this is; it does not grow beyond the rows of the file.
     ///
     /// # Errors
-    /// [`ManifestError`] if the manifest contradicts itself.
-    pub fn study(&self) -> Result<Study, ManifestError> {
+    /// [`TableError`] if the manifest contradicts itself.
+    pub fn study(&self) -> Result<Study, TableError> {
         let ManifestStudy { file, text, overrides, sha256, .. } = &self.study;
-        let mut study = Study::parse(text, Path::new(file), overrides)?;
+        let mut study = Study::parse(text, Path::new(file), overrides)
+            .map_err(|error| TableError::Refused(format!("the study in the manifest: {error}")))?;
         if study.sha256 != *sha256 {
-            return Err(ManifestError::ChangedStudy { found: study.sha256, expected: sha256.clone() });
+            let found = study.sha256;
+            return refused(format!(
+                "the study in the manifest has been changed since `sample` wrote it: its SHA-256 is {found}, not {sha256}"
+            ));
         }
         if self.design != Self::new(&study, Path::new(file), self.design.sha256.clone()).design {
-            return Err(ManifestError::OtherDesign);
+            return refused(
+                "the design of the manifest is not that of its study: it was changed since `sample` wrote it",
+            );
         }
         study.target = Target::default();
         Ok(study)
@@ -249,13 +211,16 @@ impl Manifest {
     /// Whether the numbers of the design of `study` are those that the manifest was written for.
     ///
     /// # Errors
-    /// [`ManifestError::OtherPoints`] if they are not.
-    pub fn check_points(&self, sha256: &str) -> Result<(), ManifestError> {
+    /// [`TableError`] if they are not.
+    pub fn check_points(&self, sha256: &str) -> Result<(), TableError> {
         if self.design.sha256 == sha256 {
             return Ok(());
         }
-        let (here, written) = (env!("CARGO_PKG_VERSION").to_owned(), self.apportion_version.clone());
-        Err(ManifestError::OtherPoints { here, written })
+        let (here, written) = (env!("CARGO_PKG_VERSION"), &self.apportion_version);
+        refused(format!(
+            "the points of this manifest are not those that version {here} makes of its study (it was written by version \
+             {written}): analyse them with that version, or sample again"
+        ))
     }
 }
 

@@ -6,6 +6,7 @@
 
 mod answers;
 mod design_rows;
+mod error;
 mod evaluate;
 mod manifest;
 mod points;
@@ -15,13 +16,14 @@ mod save;
 mod table;
 mod text_column;
 
-pub use answers::{AnswersError, AnswersRequest, MissingOutputs, read_answers};
+pub use answers::{AnswersRequest, MissingOutputs, read_answers};
+pub use error::TableError;
 pub use evaluate::{EvaluateError, Evaluated, evaluate};
-pub use manifest::{Manifest, ManifestError};
-pub use rows::{Format, ReadOptions, RowReader, RowsError, open_table};
+pub use manifest::Manifest;
+pub use rows::{Format, ReadOptions, RowReader, open_table};
 pub use sample::{random_design, sample, write_rows};
 pub use save::save_outputs;
-pub use table::{Missing, Selection, Table, TableError, read_table};
+pub use table::{Missing, Selection, Table, read_table};
 pub use text_column::{TextColumn, TextKind};
 
 // What the program and the tests use beside it.
@@ -31,7 +33,7 @@ pub use {
     design_rows::{DesignRows, RowBlock, factor_column},
     evaluate::evaluate_in,
     manifest::{ManifestDesign, ManifestFactor, ManifestRun, ManifestStudy},
-    points::{PointsError, PointsReader},
+    points::PointsReader,
     rows::{ColumnKind, RowWriter, row_writer, table_of_bytes},
     table::DroppedRows,
 };

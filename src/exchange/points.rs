@@ -1,53 +1,10 @@
 //! Points from a table: columns named after factors, values in the factors' units.
 
-use thiserror::Error;
-
 use super::design_rows::factor_column;
-use super::rows::{ColumnKind, RowReader, RowsError};
+use super::error::{TableError, place_in_words, refused};
+use super::rows::{ColumnKind, RowReader};
 use crate::space::{Factor, Space};
 use crate::study::{did_you_mean, nearest};
-
-/// What is wrong with a file of points.
-#[derive(Debug, Error)]
-pub enum PointsError {
-    /// The file.
-    #[error(transparent)]
-    Rows(#[from] RowsError),
-    /// A file without names of columns, and nobody has given them.
-    #[error("its {width} columns have no names: name the factors in their order (--names), out of {known}")]
-    Unnamed {
-        /// Number of columns.
-        width: usize,
-        /// The factors of the study.
-        known: String,
-    },
-    /// A column that is no factor.
-    #[error("column {column}: `{name}` is no factor of the study{}; its factors are {known}", did_you_mean(.nearest))]
-    UnknownColumn {
-        /// Number of the column, from 1.
-        column: usize,
-        /// Its header.
-        name: String,
-        /// The nearest factor.
-        nearest: Option<String>,
-        /// The factors of the study.
-        known: String,
-    },
-    /// A cell that is no value of its factor.
-    #[error("{place}: column {column} (`{name}`): expected {expected}, not {found}")]
-    WrongCell {
-        /// Line of the file, or row of the table, in words.
-        place: String,
-        /// Number of the column, from 1.
-        column: usize,
-        /// Its header.
-        name: String,
-        /// What would be right.
-        expected: String,
-        /// What stands there, in words.
-        found: String,
-    },
-}
 
 /// Reads points block by block.
 pub struct PointsReader<'a> {
@@ -65,12 +22,16 @@ impl<'a> PointsReader<'a> {
     /// Checks the columns of `rows` against `space`. Columns of text that are no factors are skipped.
     ///
     /// # Errors
-    /// [`PointsError`] if there are no names, or one of them is unknown.
-    pub fn new(rows: &'a mut dyn RowReader, space: &Space) -> Result<Self, PointsError> {
+    /// [`TableError`] if there are no names, or one of them is unknown.
+    pub fn new(rows: &'a mut dyn RowReader, space: &Space) -> Result<Self, TableError> {
         let known = || space.factors().iter().map(|factor| factor.name.as_str());
         let known_text = || known().collect::<Vec<_>>().join(", ");
         let Some(names) = rows.names().map(<[String]>::to_vec) else {
-            return Err(PointsError::Unnamed { width: rows.width(), known: known_text() });
+            return refused(format!(
+                "its {} columns have no names: name the factors in their order (--names), out of {}",
+                rows.width(),
+                known_text()
+            ));
         };
         let (mut wanted, mut factors, mut skipped) = (Vec::new(), Vec::new(), Vec::new());
         for (place, name) in names.into_iter().enumerate() {
@@ -80,8 +41,11 @@ impl<'a> PointsReader<'a> {
             } else if rows.text_columns()?.contains(&place) {
                 skipped.push(name);
             } else {
-                let (column, nearest) = (place + 1, nearest(&name, known()));
-                return Err(PointsError::UnknownColumn { column, name, nearest, known: known_text() });
+                let (column, hint) = (place + 1, did_you_mean(&nearest(&name, known())));
+                return refused(format!(
+                    "column {column}: `{name}` is no factor of the study{hint}; its factors are {}",
+                    known_text()
+                ));
             }
         }
         let cells = vec![Vec::new(); wanted.len()];
@@ -107,16 +71,14 @@ impl<'a> PointsReader<'a> {
     /// were; 0 at the end of the file. A factor without a column stands at its nominal value.
     ///
     /// # Errors
-    /// [`PointsError`] with the place of the first cell that is not a finite number.
-    pub fn read(&mut self, factors: &[Factor], rows: usize, columns: &mut [Vec<f64>]) -> Result<usize, PointsError> {
+    /// [`TableError`] with the place of the first cell that is not a finite number.
+    pub fn read(&mut self, factors: &[Factor], rows: usize, columns: &mut [Vec<f64>]) -> Result<usize, TableError> {
         let count = self.rows.read(&self.wanted, rows, &mut self.cells).map_err(|error| match error {
-            RowsError::WrongCell { row, line, column, found, .. } => {
-                let factor = self.wanted.iter().position(|(place, _)| place + 1 == column).map(|k| self.factors[k]);
-                let place = in_words(line, row);
-                let found = format!("{found:?}");
-                factor.map_or(PointsError::Rows(RowsError::Empty), |k| wrong_cell(&factors[k], place, column, found))
+            TableError::WrongCell { row, line, column, found, .. } => {
+                let k = self.wanted.iter().position(|(place, _)| place + 1 == column).unwrap_or_default();
+                wrong_cell(&factors[self.factors[k]], place_in_words(line, row), column, format!("{found:?}"))
             }
-            error => error.into(),
+            error => error,
         })?;
         for (column, factor) in columns.iter_mut().zip(factors) {
             column.clear();
@@ -125,7 +87,7 @@ impl<'a> PointsReader<'a> {
         for ((cells, (place, _)), factor) in self.cells.iter().zip(&self.wanted).zip(&self.factors) {
             if let Some(row) = cells.iter().position(|value| !value.is_finite()) {
                 let found = if cells[row].is_nan() { "nothing".to_owned() } else { cells[row].to_string() };
-                let at = in_words(self.rows.line(row), self.read + row as u64 + 1);
+                let at = place_in_words(self.rows.line(row), self.read + row as u64 + 1);
                 return Err(wrong_cell(&factors[*factor], at, place + 1, found));
             }
             columns[*factor].copy_from_slice(cells);
@@ -135,16 +97,11 @@ impl<'a> PointsReader<'a> {
     }
 }
 
-/// Where a cell stands: a line of the file where it has lines, else a row of the table.
-pub(super) fn in_words(line: Option<u64>, row: u64) -> String {
-    line.map_or_else(|| format!("row {row}"), |line| format!("line {line}"))
-}
-
-fn wrong_cell(factor: &Factor, place: String, column: usize, found: String) -> PointsError {
-    let name = factor.name.clone();
+fn wrong_cell(factor: &Factor, place: String, column: usize, found: String) -> TableError {
     let expected = match factor.distribution().labels() {
         Some(labels) => format!("one of {}", labels.join(", ")),
         None => format!("a finite number in {}", factor.unit()),
     };
-    PointsError::WrongCell { place, column, name, expected, found }
+    let name = &factor.name;
+    TableError::Refused(format!("{place}: column {column} (`{name}`): expected {expected}, not {found}"))
 }

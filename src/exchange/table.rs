@@ -1,74 +1,10 @@
 //! A table of inputs and outputs, whoever made it.
 
-use thiserror::Error;
-
-use super::points::in_words;
-use super::rows::{ColumnKind, RowReader, RowsError};
+use super::error::{TableError, place_in_words, refused};
+use super::rows::{ColumnKind, RowReader};
 use super::text_column::{TextColumn, TextKind};
 use crate::given::Column;
 use crate::study::{did_you_mean, nearest};
-
-/// What is wrong with a table.
-#[derive(Debug, Error)]
-pub enum TableError {
-    /// The file.
-    #[error(transparent)]
-    Rows(#[from] RowsError),
-    /// A file without names of columns, and nobody has given them.
-    #[error("its {width} columns have no names: name them in their order (--names)")]
-    Unnamed {
-        /// Number of columns.
-        width: usize,
-    },
-    /// An input or output that is no column.
-    #[error("no column is called `{name}`{}; the columns are {known}", did_you_mean(.nearest))]
-    UnknownColumn {
-        /// The name asked for.
-        name: String,
-        /// The nearest column.
-        nearest: Option<String>,
-        /// All columns.
-        known: String,
-    },
-    /// A column named twice by the user.
-    #[error("`{name}` is asked for twice: each column can be one input or one output")]
-    AskedTwice {
-        /// The name.
-        name: String,
-    },
-    /// All columns are outputs, or text.
-    #[error("no column of numbers is left as an input{}; the columns are {known}", why(.skipped))]
-    NoInputs {
-        /// All columns.
-        known: String,
-        /// Those of text.
-        skipped: Vec<TextColumn>,
-    },
-    /// An empty cell, or one that says so.
-    #[error("{place}: column {column} (`{name}`): the value is missing; --drop-missing leaves such rows out")]
-    Missing {
-        /// Line of the file, or row of the table, in words.
-        place: String,
-        /// Number of the column, from 1.
-        column: usize,
-        /// Its name.
-        name: String,
-    },
-    /// A cell that is not a finite number.
-    #[error("{place}: column {column} (`{name}`): expected a finite number, not {found:?}{}", advice(.found, *.chosen))]
-    NotANumber {
-        /// Line of the file, or row of the table, in words.
-        place: String,
-        /// Number of the column, from 1.
-        column: usize,
-        /// Its name.
-        name: String,
-        /// The cell.
-        found: String,
-        /// Whether the column was asked for by name.
-        chosen: bool,
-    },
-}
 
 /// Why columns of text are no inputs, and what would make them so.
 fn why(skipped: &[TextColumn]) -> String {
@@ -142,7 +78,8 @@ const BLOCK: usize = 1 << 12;
 /// [`TableError`] with the place of the first fault.
 pub fn read_table(reader: &mut dyn RowReader, selection: &Selection<'_>) -> Result<Table, TableError> {
     let Some(names) = reader.names().map(<[String]>::to_vec) else {
-        return Err(TableError::Unnamed { width: reader.width() });
+        let width = reader.width();
+        return refused(format!("its {width} columns have no names: name them in their order (--names)"));
     };
     let (mut inputs, outputs) = places(&names, selection)?;
     let mut skipped = Vec::new();
@@ -155,7 +92,8 @@ pub fn read_table(reader: &mut dyn RowReader, selection: &Selection<'_>) -> Resu
         inputs = of_numbers;
     }
     if inputs.is_empty() {
-        return Err(TableError::NoInputs { known: names.join(", "), skipped });
+        let (why, known) = (why(&skipped), names.join(", "));
+        return refused(format!("no column of numbers is left as an input{why}; the columns are {known}"));
     }
     let chosen: Vec<usize> = inputs.iter().chain(&outputs).copied().collect();
     let kind = |name: &String| selection.kinds.iter().find(|kind| kind.name == *name).cloned();
@@ -165,15 +103,18 @@ pub fn read_table(reader: &mut dyn RowReader, selection: &Selection<'_>) -> Resu
         chosen.iter().map(|&place| Column { name: names[place].clone(), values: Vec::new() }).collect();
     let not_a_number = |place: String, at: usize, found: String| {
         let chosen = !selection.inputs.is_empty() || outputs.contains(&at);
-        TableError::NotANumber { place, column: at + 1, name: names[at].clone(), found, chosen }
+        let (column, name, advice) = (at + 1, &names[at], advice(&found, chosen));
+        TableError::Refused(format!(
+            "{place}: column {column} (`{name}`): expected a finite number, not {found:?}{advice}"
+        ))
     };
     let (mut dropped, mut cells, mut before): (Option<DroppedRows>, _, u64) = (None, vec![Vec::new(); wanted.len()], 0);
     loop {
         let count = reader.read(&wanted, BLOCK, &mut cells).map_err(|error| match error {
-            RowsError::WrongCell { row, line, column, found, .. } => {
-                not_a_number(in_words(line, row), column - 1, found)
+            TableError::WrongCell { row, line, column, found, .. } => {
+                not_a_number(place_in_words(line, row), column - 1, found)
             }
-            error => error.into(),
+            error => error,
         })?;
         if count == 0 {
             break;
@@ -186,11 +127,14 @@ pub fn read_table(reader: &mut dyn RowReader, selection: &Selection<'_>) -> Resu
             };
             // An infinity anywhere in the row is no missing value.
             if let Some(at) = cells.iter().position(|column| column[row].is_infinite()) {
-                return Err(not_a_number(in_words(line, number), chosen[at], cells[at][row].to_string()));
+                return Err(not_a_number(place_in_words(line, number), chosen[at], cells[at][row].to_string()));
             }
             if selection.missing == Missing::Refuse {
-                let (place, column) = (in_words(line, number), chosen[first] + 1);
-                return Err(TableError::Missing { place, column, name: names[chosen[first]].clone() });
+                let (place, column) = (place_in_words(line, number), chosen[first] + 1);
+                let name = &names[chosen[first]];
+                return refused(format!(
+                    "{place}: column {column} (`{name}`): the value is missing; --drop-missing leaves such rows out"
+                ));
             }
             let first_line = line.unwrap_or(number);
             dropped.get_or_insert(DroppedRows { rows: 0, first_line }).rows += 1;
@@ -201,19 +145,23 @@ pub fn read_table(reader: &mut dyn RowReader, selection: &Selection<'_>) -> Resu
     Ok(Table { inputs: columns, outputs, dropped, skipped })
 }
 
+/// The place of the column of that name.
+pub(super) fn column_of(names: &[String], name: &str) -> Result<usize, TableError> {
+    names.iter().position(|other| other == name).map_or_else(
+        || {
+            let (nearest, known) = (nearest(name, names.iter().map(String::as_str)), names.join(", "));
+            refused(format!("no column is called `{name}`{}; the columns are {known}", did_you_mean(&nearest)))
+        },
+        Ok,
+    )
+}
+
 /// Places of the inputs and of the outputs in the header.
 fn places(names: &[String], selection: &Selection<'_>) -> Result<(Vec<usize>, Vec<usize>), TableError> {
-    let known = || names.join(", ");
-    let place = |name: &String| {
-        names.iter().position(|other| other == name).ok_or_else(|| TableError::UnknownColumn {
-            name: name.clone(),
-            nearest: nearest(name, names.iter().map(String::as_str)),
-            known: known(),
-        })
-    };
+    let place = |name: &String| column_of(names, name);
     let asked: Vec<&String> = selection.outputs.iter().chain(selection.inputs).collect();
     if let Some(k) = (1..asked.len()).find(|&k| asked[..k].contains(&asked[k])) {
-        return Err(TableError::AskedTwice { name: asked[k].clone() });
+        return refused(format!("`{}` is asked for twice: each column can be one input or one output", asked[k]));
     }
     let outputs = selection.outputs.iter().map(place).collect::<Result<Vec<_>, _>>()?;
     let mut inputs = selection.inputs.iter().map(place).collect::<Result<Vec<_>, _>>()?;

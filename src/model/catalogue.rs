@@ -4,7 +4,7 @@
 use std::fmt;
 
 use super::afm::{afm_choices, afm_inputs, afm_outputs};
-use super::known::{KnownAnswer, KnownFunction, KnownModel};
+use super::known::{KnownAnswer, KnownFunction, known_output};
 use super::{Choice, Input, Output};
 use crate::quantity::Unit;
 
@@ -72,7 +72,7 @@ impl ModelKind {
             main_inputs: &[],
             known: Some(answer),
             inputs: |answer| answer.map_or_else(Vec::new, |answer| known_inputs(&answer.default_function())),
-            outputs: || vec![KnownModel::output()],
+            outputs: || vec![known_output()],
             choices: Vec::new,
         }
     }
@@ -130,14 +130,14 @@ impl fmt::Debug for ModelKind {
 /// The inputs of a function with its parameters chosen. An input that is no factor stands at its upper quartile: at
 /// their middle, many of these functions hide what the other inputs do (Sobol' G of a_1 = 0 is 0 there).
 pub fn known_inputs(function: &KnownFunction) -> Vec<Input> {
-    let input = |input: super::KnownInput| Input {
+    let input = |input: &super::KnownInput| Input {
         symbol: input.name.clone(),
-        name: input.name,
+        name: input.name.clone(),
         unit: Unit::dimensionless(),
         nominal: input.distribution.quantile(0.75),
         domain: input.domain,
-        description: input.description,
-        distribution: Some(input.distribution),
+        description: input.description.clone(),
+        distribution: Some(input.distribution.clone()),
     };
-    function.inputs().into_iter().map(input).collect()
+    function.inputs().iter().map(input).collect()
 }

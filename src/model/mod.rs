@@ -28,8 +28,8 @@ pub use batch::{Batch, GiveUp, RowFailure};
 pub use catalogue::{ModelKind, known_inputs};
 #[cfg(feature = "study")]
 pub use command::{
-    Answer, CommandModel, CommandOutput, CommandSettings, Form, InputTemplate, Match, PerRun, Pick, PickError, Program,
-    Protocol, Source, TemplateError, TemplateProblem, Way, imported_neighbours, parse_answer, program_files,
+    CommandModel, CommandOutput, CommandSettings, Form, InputTemplate, Match, PerRun, Pick, Program, Protocol, Source,
+    TemplateError, TemplateProblem, Way, imported_neighbours, parse_answer, program_files,
 };
 pub use context::{Messages, RunContext};
 pub use counter::{Counter, CounterKind, Counts};
@@ -39,8 +39,8 @@ pub use expression::{Expression, ExpressionError, ExpressionModel, ExpressionPro
 pub use external::ExternalModel;
 pub use function::{FunctionModel, function_model};
 pub use known::{
-    Basis, Exact, ExactIndices, KnownAnswer, KnownFunction, KnownInput, KnownModel, MAX_INPUTS, ParameterError,
-    ParameterInfo, ParameterValue, SecondOrder,
+    Basis, Exact, ExactIndices, KnownAnswer, KnownFunction, KnownInput, MAX_INPUTS, ParameterError, ParameterInfo,
+    ParameterValue, known_model,
 };
 
 pub use repeated::RepeatedModel;

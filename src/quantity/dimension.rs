@@ -12,93 +12,73 @@ pub struct Dimension([i8; 7]);
 /// The units that these are exponents of.
 const BASES: [&str; 7] = ["m", "kg", "s", "A", "K", "mol", "rad"];
 
-impl Dimension {
+/// Declares the kinds that have a name: a constant for each, and the words for it.
+macro_rules! kinds {
+    ($($(#[$doc:meta])* $name:ident = $powers:expr, $words:literal;)+) => {
+        impl Dimension {
+            $($(#[$doc])* pub const $name: Self = Self($powers);)+
+
+            const NAMES: &[(Self, &str)] = &[$((Self::$name, $words)),+];
+        }
+    };
+}
+
+kinds! {
     /// A pure number.
-    pub const NUMBER: Self = Self::of(0, 0, 0);
+    NUMBER = [0, 0, 0, 0, 0, 0, 0], "a pure number";
     /// Metre.
-    pub const LENGTH: Self = Self::of(1, 0, 0);
+    LENGTH = [1, 0, 0, 0, 0, 0, 0], "a length";
     /// Square metre.
-    pub const AREA: Self = Self::of(2, 0, 0);
+    AREA = [2, 0, 0, 0, 0, 0, 0], "an area";
     /// Cubic metre.
-    pub const VOLUME: Self = Self::of(3, 0, 0);
+    VOLUME = [3, 0, 0, 0, 0, 0, 0], "a volume";
     /// Kilogram.
-    pub const MASS: Self = Self::of(0, 1, 0);
+    MASS = [0, 1, 0, 0, 0, 0, 0], "a mass";
     /// Second.
-    pub const TIME: Self = Self::of(0, 0, 1);
+    TIME = [0, 0, 1, 0, 0, 0, 0], "a time";
     /// Hertz.
-    pub const FREQUENCY: Self = Self::of(0, 0, -1);
+    FREQUENCY = [0, 0, -1, 0, 0, 0, 0], "a frequency";
     /// Metre per second.
-    pub const SPEED: Self = Self::of(1, 0, -1);
+    SPEED = [1, 0, -1, 0, 0, 0, 0], "a speed";
     /// Metre per second squared.
-    pub const ACCELERATION: Self = Self::of(1, 0, -2);
+    ACCELERATION = [1, 0, -2, 0, 0, 0, 0], "an acceleration";
     /// Newton.
-    pub const FORCE: Self = Self::of(1, 1, -2);
+    FORCE = [1, 1, -2, 0, 0, 0, 0], "a force";
     /// Pascal.
-    pub const PRESSURE: Self = Self::of(-1, 1, -2);
+    PRESSURE = [-1, 1, -2, 0, 0, 0, 0], "a pressure";
     /// Newton per metre; a surface energy (joule per square metre) has the same dimension.
-    pub const STIFFNESS: Self = Self::of(0, 1, -2);
+    STIFFNESS = [0, 1, -2, 0, 0, 0, 0], "a stiffness or surface energy";
     /// Newton second per metre.
-    pub const DAMPING: Self = Self::of(0, 1, -1);
+    DAMPING = [0, 1, -1, 0, 0, 0, 0], "a damping coefficient";
     /// Joule; a torque (newton metre) has the same dimension.
-    pub const ENERGY: Self = Self::of(2, 1, -2);
+    ENERGY = [2, 1, -2, 0, 0, 0, 0], "an energy or torque";
     /// Kilogram per cubic metre.
-    pub const DENSITY: Self = Self::of(-3, 1, 0);
+    DENSITY = [-3, 1, 0, 0, 0, 0, 0], "a density";
     /// Pascal second.
-    pub const VISCOSITY: Self = Self::of(-1, 1, -1);
+    VISCOSITY = [-1, 1, -1, 0, 0, 0, 0], "a viscosity";
     /// Watt.
-    pub const POWER: Self = Self::of(2, 1, -3);
+    POWER = [2, 1, -3, 0, 0, 0, 0], "a power";
     /// Ampere.
-    pub const CURRENT: Self = Self([0, 0, 0, 1, 0, 0, 0]);
+    CURRENT = [0, 0, 0, 1, 0, 0, 0], "an electric current";
     /// Coulomb.
-    pub const CHARGE: Self = Self([0, 0, 1, 1, 0, 0, 0]);
+    CHARGE = [0, 0, 1, 1, 0, 0, 0], "an electric charge";
     /// Volt.
-    pub const VOLTAGE: Self = Self([2, 1, -3, -1, 0, 0, 0]);
+    VOLTAGE = [2, 1, -3, -1, 0, 0, 0], "a voltage";
     /// Ohm.
-    pub const RESISTANCE: Self = Self([2, 1, -3, -2, 0, 0, 0]);
+    RESISTANCE = [2, 1, -3, -2, 0, 0, 0], "an electric resistance";
     /// Farad.
-    pub const CAPACITANCE: Self = Self([-2, -1, 4, 2, 0, 0, 0]);
+    CAPACITANCE = [-2, -1, 4, 2, 0, 0, 0], "a capacitance";
     /// Tesla.
-    pub const FLUX_DENSITY: Self = Self([0, 1, -2, -1, 0, 0, 0]);
+    FLUX_DENSITY = [0, 1, -2, -1, 0, 0, 0], "a magnetic flux density";
     /// Kelvin.
-    pub const TEMPERATURE: Self = Self([0, 0, 0, 0, 1, 0, 0]);
+    TEMPERATURE = [0, 0, 0, 0, 1, 0, 0], "a temperature";
     /// Mole.
-    pub const AMOUNT: Self = Self([0, 0, 0, 0, 0, 1, 0]);
+    AMOUNT = [0, 0, 0, 0, 0, 1, 0], "an amount of substance";
     /// Radian.
-    pub const ANGLE: Self = Self([0, 0, 0, 0, 0, 0, 1]);
+    ANGLE = [0, 0, 0, 0, 0, 0, 1], "an angle";
+}
 
-    const NAMES: [(Self, &'static str); 26] = [
-        (Self::NUMBER, "a pure number"),
-        (Self::LENGTH, "a length"),
-        (Self::AREA, "an area"),
-        (Self::VOLUME, "a volume"),
-        (Self::MASS, "a mass"),
-        (Self::TIME, "a time"),
-        (Self::FREQUENCY, "a frequency"),
-        (Self::SPEED, "a speed"),
-        (Self::ACCELERATION, "an acceleration"),
-        (Self::FORCE, "a force"),
-        (Self::PRESSURE, "a pressure"),
-        (Self::STIFFNESS, "a stiffness or surface energy"),
-        (Self::DAMPING, "a damping coefficient"),
-        (Self::ENERGY, "an energy or torque"),
-        (Self::DENSITY, "a density"),
-        (Self::VISCOSITY, "a viscosity"),
-        (Self::POWER, "a power"),
-        (Self::CURRENT, "an electric current"),
-        (Self::CHARGE, "an electric charge"),
-        (Self::VOLTAGE, "a voltage"),
-        (Self::RESISTANCE, "an electric resistance"),
-        (Self::CAPACITANCE, "a capacitance"),
-        (Self::FLUX_DENSITY, "a magnetic flux density"),
-        (Self::TEMPERATURE, "a temperature"),
-        (Self::AMOUNT, "an amount of substance"),
-        (Self::ANGLE, "an angle"),
-    ];
-
-    const fn of(length: i8, mass: i8, time: i8) -> Self {
-        Self([length, mass, time, 0, 0, 0, 0])
-    }
-
+impl Dimension {
     /// `self * other^power`, `None` past the range of `i8`.
     pub(super) fn times(self, other: Self, power: i8) -> Option<Self> {
         let mut powers = self.0;

@@ -37,7 +37,7 @@ impl Pilot {
         let (mut worker, mut batch, mut values) = (model.worker(context), Batch::new(model), RowValues::default());
         let (mut failed, mut reason, mut first_row) = (0, None, Vec::new());
         let mut timed = |rows: u64| {
-            let columns = values.values(job, 0, 0..rows);
+            let columns = values.values(job.space, design, 0, 0..rows);
             let inputs: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
             batch.reset(rows as usize);
             let start = Instant::now();

@@ -134,7 +134,7 @@ fn outputs_of(job: Job<'_>, context: &RunContext<'_>, rows: &[(u64, u64)]) -> Re
     let mut inputs = vec![Vec::with_capacity(rows.len()); job.design.factors()];
     let mut values = RowValues::default();
     for (replicate, row) in rows {
-        let of_row = values.values(job, *replicate, *row..*row + 1);
+        let of_row = values.values(job.space, job.design, *replicate, *row..*row + 1);
         inputs.iter_mut().zip(of_row).for_each(|(column, value)| column.extend_from_slice(value));
     }
     let inputs: Vec<&[f64]> = inputs.iter().map(Vec::as_slice).collect();

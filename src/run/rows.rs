@@ -9,8 +9,9 @@ use super::executor::{RowRange, RowSource};
 use super::remote::DesignKey;
 use super::store::{Piece, Store};
 use super::{FailurePolicy, Job, OutputSink, Place, Progress, RunError};
-use crate::design::BasePoints;
+use crate::design::{BasePoints, Design};
 use crate::model::Batch;
+use crate::space::Space;
 
 /// The rows of some replicates that a store lacks.
 pub(crate) struct MissingRows<'a> {
@@ -100,7 +101,7 @@ impl RowSource for MissingRows<'_> {
     }
 
     fn inputs<'s>(&'s self, values: &'s mut RowValues, RowRange { replicate, rows }: &RowRange) -> Vec<&'s [f64]> {
-        values.values(self.job, *replicate, rows.clone()).iter().map(Vec::as_slice).collect()
+        values.values(self.job.space, self.job.design, *replicate, rows.clone()).iter().map(Vec::as_slice).collect()
     }
 
     fn accept(&self, range: &RowRange, batch: &Batch) -> Result<(u64, u64), RunError> {
@@ -150,14 +151,13 @@ pub struct RowValues {
 
 impl RowValues {
     /// The values of rows `rows` of `replicate`, counted within the replicate as in [`Piece`](super::Piece): a column of
-    /// SI values for each factor.
-    pub fn values(&mut self, job: Job<'_>, replicate: u64, rows: Range<u64>) -> &[Vec<f64>] {
-        let (design, factors) = (job.design, job.design.factors());
+    /// SI values for each factor of `space`.
+    pub fn values(&mut self, space: &Space, design: &Design, replicate: u64, rows: Range<u64>) -> &[Vec<f64>] {
         let per_point = design.rows_per_point();
         let points = rows.start / per_point..rows.end.div_ceil(per_point);
         self.unit.resize(design.columns(), Vec::new());
         self.values.resize(design.columns(), Vec::new());
-        self.inputs.resize(factors, Vec::new());
+        self.inputs.resize(design.factors(), Vec::new());
         let length = (points.end - points.start) as usize;
         self.unit.iter_mut().for_each(|column| column.resize(length, 0.0));
         if self.points.as_ref().is_none_or(|(of, _)| *of != replicate) {
@@ -168,7 +168,7 @@ impl RowValues {
         }
         for (k, (unit, values)) in self.unit.iter().zip(&mut self.values).enumerate() {
             values.resize(length, 0.0);
-            job.space.factors()[design.factor_of(k)].fill_si(unit, values);
+            space.factors()[design.factor_of(k)].fill_si(unit, values);
         }
         for (factor, input) in self.inputs.iter_mut().enumerate() {
             input.clear();

@@ -1,6 +1,5 @@
 //! The other end of the talk with workers in other processes: requests are read there, and their rows evaluated.
 
-use super::Job;
 use super::remote::{DesignKey, Reply, Request};
 use super::rows::{RowValues, answered};
 use crate::clock::Instant;
@@ -20,7 +19,6 @@ pub trait Requests {
 /// A worker of one model, which evaluates rows for other processes.
 pub(crate) struct RemoteServer<'a> {
     space: &'a Space,
-    model: &'a dyn Model,
     worker: Box<dyn Worker + 'a>,
     batch: Batch,
     /// The design of the last request, and the points of it that are known.
@@ -29,7 +27,7 @@ pub(crate) struct RemoteServer<'a> {
 
 impl<'a> RemoteServer<'a> {
     pub fn new(space: &'a Space, model: &'a dyn Model, context: &'a RunContext<'a>) -> Self {
-        Self { space, model, worker: model.worker(context), batch: Batch::new(model), current: None }
+        Self { space, worker: model.worker(context), batch: Batch::new(model), current: None }
     }
 
     /// Evaluates the rows of a request, of a design that differs from `design` by its key.
@@ -44,8 +42,7 @@ impl<'a> RemoteServer<'a> {
             return refusal("rows that the design has not");
         }
         let begun = Instant::now();
-        let job = Job { design, space: self.space, model: self.model };
-        let inputs = values.values(job, range.replicate, range.rows.clone());
+        let inputs = values.values(self.space, design, range.replicate, range.rows.clone());
         self.batch.reset(range.count() as usize);
         self.worker.run(&inputs.iter().map(Vec::as_slice).collect::<Vec<_>>(), &mut self.batch);
         self.batch.settle();

@@ -1,7 +1,6 @@
 //! Which rows a table made by SALib has, and whether they are what they should be.
 
-use thiserror::Error;
-
+use super::SalibError;
 use crate::quantity::is_same;
 
 /// The rows of a base point.
@@ -50,59 +49,6 @@ impl SalibLayout {
     }
 }
 
-/// Why a table is not one of SALib's.
-#[derive(Debug, Clone, PartialEq, Eq, Error)]
-pub enum LayoutError {
-    /// The number of rows fits no layout, or not the one asked for.
-    #[error("{rows} rows are no whole number of base points: for {d} inputs or groups there are {expected}")]
-    NoMultiple {
-        /// Rows of the table.
-        rows: usize,
-        /// Inputs or groups.
-        d: usize,
-        /// Rows of a base point, in words.
-        expected: String,
-    },
-    /// The number of rows fits both layouts.
-    #[error(
-        "{rows} rows can be read in two ways: {} base points {} or {} base points {}: say which it is, by {} or {}",
-        rows / SalibLayout::SecondOrder.rows_per_point(*.d), SalibLayout::SecondOrder.words(),
-        rows / SalibLayout::FirstOrder.rows_per_point(*.d), SalibLayout::FirstOrder.words(),
-        SalibLayout::SecondOrder.option(), SalibLayout::FirstOrder.option()
-    )]
-    Ambiguous {
-        /// Rows of the table.
-        rows: usize,
-        /// Inputs or groups.
-        d: usize,
-    },
-    /// Fewer than two base points.
-    #[error("{rows} rows are a single base point: two or more are needed")]
-    OnePoint {
-        /// Rows of the table.
-        rows: usize,
-    },
-    /// A row that is not what its place in the layout says.
-    #[error(
-        "row {row} should be the row {kind} of its base point, {layout}, but its `{input}` is {found} instead of {expected}: the \
-         rows are in another order, or the points are not those of SALib"
-    )]
-    WrongRow {
-        /// Row of the table, from 1.
-        row: usize,
-        /// What it should be.
-        kind: String,
-        /// The layout, in words.
-        layout: &'static str,
-        /// The input.
-        input: String,
-        /// Its value, in words.
-        found: String,
-        /// The value that it should have, in words.
-        expected: String,
-    },
-}
-
 /// Inputs by name, a column each.
 pub type Inputs = [(String, Vec<f64>)];
 
@@ -110,13 +56,13 @@ pub type Inputs = [(String, Vec<f64>)];
 /// the `inputs`, if they are known, fit. Members have the numbers of their inputs.
 ///
 /// # Errors
-/// [`LayoutError`] if the rows fit none, or both.
+/// [`SalibError`] if the rows fit none, or both.
 pub fn recognise(
     rows: usize,
     members: &[(String, Vec<usize>)],
     asked: Option<SalibLayout>,
     inputs: Option<&Inputs>,
-) -> Result<SalibLayout, LayoutError> {
+) -> Result<SalibLayout, SalibError> {
     let d = members.len();
     let candidates: Vec<SalibLayout> = asked.map_or(SalibLayout::ALL.to_vec(), |asked| vec![asked]);
     let whole = |layout: &SalibLayout| rows > 0 && rows.is_multiple_of(layout.rows_per_point(d));
@@ -127,18 +73,27 @@ pub fn recognise(
         (_, None) => {
             let words = |layout: &SalibLayout| format!("{} rows each {}", layout.rows_per_point(d), layout.words());
             let expected = candidates.iter().map(words).collect::<Vec<_>>().join(", ");
-            Err(LayoutError::NoMultiple { rows, d, expected })
+            let there_are = format!("for {d} inputs or groups there are {expected}");
+            Err(SalibError(format!("{rows} rows are no whole number of base points: {there_are}")))
         }
         ([], Some(first)) => fits(*first).map(|()| *first),
-        ([layout], _) if rows == layout.rows_per_point(d) => Err(LayoutError::OnePoint { rows }),
+        ([layout], _) if rows == layout.rows_per_point(d) => {
+            Err(SalibError(format!("{rows} rows are a single base point: two or more are needed")))
+        }
         ([layout], _) => Ok(*layout),
-        _ => Err(LayoutError::Ambiguous { rows, d }),
+        _ => {
+            let words =
+                |layout: SalibLayout| format!("{} base points {}", rows / layout.rows_per_point(d), layout.words());
+            let ways = SalibLayout::ALL.map(words).join(" or ");
+            let options = SalibLayout::ALL.map(SalibLayout::option).join(" or ");
+            Err(SalibError(format!("{rows} rows can be read in two ways: {ways}: say which it is, by {options}")))
+        }
     }
 }
 
 /// Whether the points are laid out so: in every base point the rows between A and B are those of one with the inputs of
 /// their member from the other.
-fn check_points(inputs: &Inputs, members: &[(String, Vec<usize>)], layout: SalibLayout) -> Result<(), LayoutError> {
+fn check_points(inputs: &Inputs, members: &[(String, Vec<usize>)], layout: SalibLayout) -> Result<(), SalibError> {
     let (d, step) = (members.len(), layout.rows_per_point(members.len()));
     let rows = inputs.first().map_or(0, |(_, column)| column.len());
     for first in (0..rows).step_by(step) {
@@ -150,14 +105,11 @@ fn check_points(inputs: &Inputs, members: &[(String, Vec<usize>)], layout: Salib
                 let source = if members[number % d].1.contains(&place) { other } else { base };
                 let (found, expected) = (column[row], column[source]);
                 if !is_same(found, expected) {
-                    return Err(LayoutError::WrongRow {
-                        row: row + 1,
-                        kind: layout.row_name(row - first, d),
-                        layout: layout.words(),
-                        input: name.clone(),
-                        found: found.to_string(),
-                        expected: expected.to_string(),
-                    });
+                    let (row, kind, layout) = (row + 1, layout.row_name(row - first, d), layout.words());
+                    return Err(SalibError(format!(
+                        "row {row} should be the row {kind} of its base point, {layout}, but its `{name}` is {found} instead of \
+                         {expected}: the rows are in another order, or the points are not those of SALib"
+                    )));
                 }
             }
         }

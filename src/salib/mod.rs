@@ -10,8 +10,15 @@ mod study;
 #[cfg(test)]
 mod tests;
 
+pub use layout::SalibLayout;
 #[doc(hidden)]
 pub use layout::recognise;
-pub use layout::{LayoutError, SalibLayout};
-pub use problem::{ProblemError, SalibProblem};
+pub use problem::SalibProblem;
 pub use study::salib_study;
+
+use thiserror::Error;
+
+/// Why a table or a description is not one of SALib's, and what would be right.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("{0}")]
+pub struct SalibError(String);

@@ -29,17 +29,18 @@ fn problem(d: usize) -> SalibProblem {
 #[test]
 fn both_layouts_are_recognised_by_their_points() {
     let members = problem(2).members;
+    let refused = |rows| recognise(rows, &members, None, None).unwrap_err().to_string();
     for layout in SalibLayout::ALL {
         // 12 base points of 4 rows are 8 of 6 rows.
         let columns = points(2, 48 / layout.rows_per_point(2), layout);
         let inputs = Some(&columns[..]);
         assert_eq!(recognise(48, &members, None, inputs), Ok(layout));
-        assert_eq!(recognise(48, &members, None, None), Err(LayoutError::Ambiguous { rows: 48, d: 2 }));
+        assert!(refused(48).starts_with("48 rows can be read in two ways: 8 base points with second order"));
         assert_eq!(recognise(48, &members, Some(layout), None), Ok(layout));
     }
     assert_eq!(recognise(18, &members, None, None), Ok(SalibLayout::SecondOrder));
-    assert!(matches!(recognise(7, &members, None, None), Err(LayoutError::NoMultiple { .. })));
-    assert_eq!(recognise(4, &members, None, None), Err(LayoutError::OnePoint { rows: 4 }));
+    assert!(refused(7).starts_with("7 rows are no whole number of base points"));
+    assert!(refused(4).starts_with("4 rows are a single base point"));
 }
 
 #[test]
@@ -47,8 +48,7 @@ fn shuffled_rows_are_found() {
     let mut columns = points(3, 4, SalibLayout::SecondOrder);
     columns.iter_mut().for_each(|(_, column)| column.swap(9, 13));
     let error = recognise(32, &problem(3).members, None, Some(&columns)).unwrap_err();
-    let LayoutError::WrongRow { row, kind, .. } = error else { panic!("{error}") };
-    assert_eq!((row, kind.as_str()), (10, "AB_1"));
+    assert!(error.to_string().starts_with("row 10 should be the row AB_1 of its base point"), "{error}");
 }
 
 /// The analysis of outputs of `d` inputs in this layout, with intervals by the delta method.

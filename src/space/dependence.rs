@@ -11,6 +11,7 @@ use super::{Factor, Space};
 use crate::names::named;
 use crate::special::normal_quantile;
 pub use error::DependenceError;
+use error::refused;
 use nataf::of_normal_scores;
 
 named! {
@@ -104,7 +105,7 @@ impl Dependence {
     fn checked(&self, space: &Space) -> Result<Vec<usize>, DependenceError> {
         let number = |name: &String| {
             let place = space.factors().iter().position(|factor| factor.name == *name);
-            place.ok_or_else(|| DependenceError::UnknownFactor(name.clone()))
+            place.map_or_else(|| refused(format!("dependence of `{name}`, which is no factor of the study")), Ok)
         };
         let numbers = self.factors.iter().map(number).collect::<Result<Vec<usize>, _>>()?;
         let n = numbers.len();
@@ -112,19 +113,27 @@ impl Dependence {
         distinct.sort_unstable();
         distinct.dedup();
         if n < 2 || distinct.len() < n {
-            return Err(DependenceError::Factors);
+            return refused("a dependence is one of two factors or more, each named once");
         }
         if self.correlation.len() != n || self.correlation.iter().any(|row| row.len() != n) {
-            return Err(DependenceError::Shape { factors: n });
+            return refused(format!("the correlations of {n} factors are a matrix of {n} rows with {n} numbers each"));
         }
         if let Some(number) = (0..n).find(|&i| self.is_measured && self.correlation[i][i].is_nan()) {
-            return Err(DependenceError::ConstantMeasurements(self.factors[number].clone()));
+            let factor = &self.factors[number];
+            return refused(format!(
+                "the joint measurements of `{factor}` are all the same, so that they say of no other factor how it goes with \
+                 this one: leave it out of the dependence"
+            ));
         }
         for (i, j) in (0..n).flat_map(|i| (0..n).map(move |j| (i, j))) {
-            let found = self.correlation[i][j];
+            let (a, b, found) = (&self.factors[i], &self.factors[j], self.correlation[i][j]);
             if self.is_measured && i != j && found.abs() > 1.0 - EQUAL_RANKS {
-                let [a, b] = [i, j].map(|k| self.factors[k].clone());
-                return Err(DependenceError::EqualRanks { a, b, order: if found > 0.0 { "same" } else { "opposite" } });
+                let order = if found > 0.0 { "same" } else { "opposite" };
+                return refused(format!(
+                    "the joint measurements of `{a}` and `{b}` have the {order} order, so that each is a function of the other: no \
+                     factors that vary by themselves. Leave one of them out of the study, and let the model compute it from the \
+                     other"
+                ));
             }
             let expected = match i == j {
                 true if found != 1.0 => "1, as on the whole diagonal",
@@ -132,8 +141,7 @@ impl Dependence {
                 false if found != self.correlation[j][i] => "the same number as on the other side of the diagonal",
                 _ => continue,
             };
-            let [a, b] = [i, j].map(|k| self.factors[k].clone());
-            return Err(DependenceError::Entry { a, b, found, expected });
+            return refused(format!("the correlation of `{a}` and `{b}` is {found}: expected {expected}"));
         }
         Ok(numbers)
     }
@@ -157,7 +165,7 @@ pub(super) fn copula(space: &Space, dependences: &[Dependence]) -> Result<Option
             let (a, b) = (numbers[i], numbers[j]);
             let [first, second] = [a, b].map(|number| &factors[number]);
             if stated[(a, b)] {
-                return Err(DependenceError::Repeated(first.name.clone(), second.name.clone()));
+                return refused(format!("the correlation of `{}` and `{}` is stated twice", first.name, second.name));
             }
             (stated[(a, b)], stated[(b, a)]) = (true, true);
             let of_scores = of_normal_scores(dependence.measure, dependence.correlation[i][j], first, second)?;
@@ -171,10 +179,12 @@ pub(super) fn copula(space: &Space, dependences: &[Dependence]) -> Result<Option
         let is_tied = |i: &usize| (0..factors.len()).any(|j| j != *i && stated[(*i, j)]);
         let tied: Vec<usize> = (0..factors.len()).filter(is_tied).collect();
         let row = |i: &usize| tied.iter().map(|j| nearest[(*i, *j)]).collect();
-        DependenceError::NotPositiveDefinite {
-            factors: tied.iter().map(|&i| factors[i].name.clone()).collect(),
-            nearest: tied.iter().map(row).collect(),
-        }
+        let names: Vec<&String> = tied.iter().map(|&i| &factors[i].name).collect();
+        let nearest: Vec<Vec<f64>> = tied.iter().map(row).collect();
+        DependenceError::Refused(format!(
+            "the correlations are not positive definite, so that no factors can have them all. The nearest that can be, of normal \
+             scores (measure = \"normal\"): factors = {names:?}, correlation = {nearest:?}"
+        ))
     })
 }
 
@@ -185,7 +195,7 @@ fn refuse_uncorrelated(factor: &Factor) -> Result<(), DependenceError> {
         law if law.sd() == 0.0 => "of one value",
         _ => return Ok(()),
     };
-    Err(DependenceError::Uncorrelated { factor: factor.name.clone(), kind })
+    refused(format!("`{}` is {kind}, which has no correlation with another factor", factor.name))
 }
 
 /// Phi^-1(rank / (n + 1)) of every value, the mean of all of them 0.

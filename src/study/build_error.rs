@@ -28,23 +28,6 @@ pub enum BuildError {
         /// What would be right.
         expected: String,
     },
-    /// The model has no outputs.
-    #[error("the model has no outputs")]
-    NoOutputs,
-    /// A series of outputs that are not there, or that belong to another one.
-    #[error(
-        "series `{name}` has outputs {first} to {last}, counted from 0: expected some of the model's {outputs}, of no other series"
-    )]
-    Series {
-        /// Its name.
-        name: String,
-        /// Place of its first value.
-        first: usize,
-        /// Place of its last value.
-        last: usize,
-        /// Outputs of the model.
-        outputs: usize,
-    },
     /// A name twice.
     #[error("{what} `{name}` is there twice")]
     Repeated {
@@ -74,13 +57,5 @@ pub enum BuildError {
         name: String,
         /// What is wrong, and what would be right.
         problem: String,
-    },
-    /// A model of other outputs than those of the study that it is put into.
-    #[error("the outputs of the model are {found}, and must be those of the study: {expected}")]
-    OtherOutputs {
-        /// Those of the model, with their units.
-        found: String,
-        /// Those of the study.
-        expected: String,
     },
 }

@@ -19,8 +19,8 @@ pub use builder::StudyBuilder;
 #[cfg(feature = "study")]
 pub use file::{
     AfmSubject, CommandSubject, Diagnostic, ExpressionConstant, ExpressionSubject, ExternalSubject, Formula,
-    KnownSubject, NEW_PROGRAM, OverrideProblem, Problem, StudyError, TemplateRequest, edited, model_guide, new_program,
-    study_schema, template,
+    KnownSubject, NEW_PROGRAM, Problem, StudyError, TemplateRequest, edited, model_guide, new_program, study_schema,
+    template,
 };
 pub use options::{AnalysisOptions, MOST_OUTPUTS_OF_MEASURES, SurrogateChoice, Target};
 use subject::CustomSubject;
@@ -102,7 +102,7 @@ impl Study {
     /// `version` tells it from other models of the same outputs, so that the runs of one are not taken for those of another.
     ///
     /// # Errors
-    /// [`BuildError::OtherOutputs`] if its outputs, by name and unit, are not those of the study.
+    /// [`BuildError`] if its outputs, by name and unit, are not those of the study.
     pub fn with_model(self, model: impl Model + 'static, version: &str) -> Result<Self, BuildError> {
         let words = |model: &dyn Model| {
             let outputs = model.outputs().iter().map(|output| format!("{} ({})", output.name, output.unit));
@@ -110,7 +110,7 @@ impl Study {
         };
         let (found, expected) = (words(&model), words(&*self.model()));
         if found != expected {
-            return Err(BuildError::OtherOutputs { found, expected });
+            return rules::wrong("outputs", format!("those of the study, {expected}"), found);
         }
         let subject = CustomSubject { model: Arc::new(model), version: Some(version.to_owned()) };
         Ok(Self { subject: Arc::new(subject), ..self })

@@ -31,7 +31,7 @@ pub(super) fn check_title(name: &str, title: Option<&str>) -> Result<(), BuildEr
 pub(super) fn check_outputs(model: &dyn Model) -> Result<(), BuildError> {
     let outputs = model.outputs();
     if outputs.is_empty() {
-        return Err(BuildError::NoOutputs);
+        return wrong("outputs", "one or more", "none");
     }
     for output in outputs {
         if let Some(expected) = refused_output_name(&output.name) {
@@ -41,8 +41,9 @@ pub(super) fn check_outputs(model: &dyn Model) -> Result<(), BuildError> {
     let mut taken = BTreeSet::new();
     let is_wrong = |series: &&OutputSeries| series.places().any(|place| place >= outputs.len() || !taken.insert(place));
     if let Some(series) = model.series().iter().find(is_wrong) {
-        let (name, places) = (series.name.clone(), series.places());
-        return Err(BuildError::Series { name, first: places.start, last: places.end - 1, outputs: outputs.len() });
+        let (name, places, count) = (&series.name, series.places(), outputs.len());
+        let expected = format!("{count}, of which the series `{name}` has some that belong to no other series");
+        return wrong("outputs", expected, format!("{} to {}, counted from 0", places.start, places.end - 1));
     }
     Ok(())
 }

@@ -121,7 +121,8 @@ fn what_cannot_be_built_says_why() {
     assert_eq!(key(two().until(Target::accuracy(0.1)).sampler(Sampler::LatinHypercube)), "sampler");
     assert_eq!(key(Study::builder("a/b", function_model("y", |x| x[0])).factor("x", unit())), "name");
     let none = FunctionModel::new(Vec::new(), |_: &[f64], _: &mut [f64]| Ok(()));
-    assert_eq!(Study::builder("none", none).factor("x", unit()).build().unwrap_err(), BuildError::NoOutputs);
+    let refused = Study::builder("none", none).factor("x", unit()).build().unwrap_err();
+    assert_eq!(refused.to_string(), "`outputs` must be one or more, not none");
     let with = |change: fn(&mut AnalysisOptions)| {
         let mut options = AnalysisOptions::for_sampler(Sampler::Sobol);
         change(&mut options);

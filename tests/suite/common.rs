@@ -9,6 +9,11 @@ use std::sync::LazyLock;
 use apportion::report::{IndexRecord, OutputRecord, ResultFile};
 use apportion::study::Study;
 
+/// Ishigami's function where |x3| < 3, and a failure in the other 4.5 % of the rows.
+pub const HOLES: &str = "model = \"expression\"\n\
+    outputs.y = \"sin(x1) + 7*sin(x2)^2 + 0.1*x3^4*sin(x1) + 0*sqrt(3 - abs(x3))\"\n[factors]\n\
+    x1 = { min = -3.14159, max = 3.14159 }\nx2 = { min = -3.14159, max = 3.14159 }\nx3 = { min = -3.14159, max = 3.14159 }\n";
+
 /// A folder of its own for a test, with files in it.
 pub struct Folder(tempfile::TempDir);
 

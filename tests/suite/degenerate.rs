@@ -5,6 +5,8 @@ use std::path::Path;
 use apportion::report::{OutputRecord, ResultFile, parse_result, result_json};
 use apportion::study::Study;
 
+use crate::common::HOLES;
+
 fn analysed(text: &str) -> ResultFile {
     let study = Study::parse(text, Path::new("degenerate.toml"), &[]).unwrap_or_else(|error| panic!("{error}"));
     ResultFile::new(&study, &study.run().unwrap())
@@ -17,7 +19,7 @@ fn first_and_total(output: &OutputRecord) -> Vec<(f64, f64)> {
 
 #[test]
 fn a_constant_output_has_a_reason_and_no_indices() {
-    let result = analysed("model = \"constant\"");
+    let result = analysed("model = \"linear\"\n[function]\nc = [0, 0]");
     let output = &result.outputs[0];
     assert_eq!((&output.indices, output.variance), (&None, Some(0.0)));
     assert!(output.reason.as_ref().unwrap().contains("zero variance"));
@@ -98,12 +100,12 @@ fn samples_that_are_no_power_of_two_are_allowed_and_warned_of() {
 
 #[test]
 fn failed_rows_cost_their_own_indices_and_too_many_of_them_all() {
-    let result = analysed("model = \"ishigami-holes\"\n[design]\nbase_samples = 4096");
+    let result = analysed(&format!("{HOLES}[design]\nbase_samples = 4096"));
     let output = &result.outputs[0];
     assert!(output.runs_failed > 0 && output.runs_ok > output.runs_failed);
     assert!(output.base_points_used < 4096 && output.indices.is_some());
     assert!(output.warnings.iter().any(|warning| warning.contains("runs failed")), "{:?}", output.warnings);
-    let result = analysed("model = \"ishigami-holes\"\n[design]\nbase_samples = 4096\n[analysis]\nmax_failed = 0.0001");
+    let result = analysed(&format!("{HOLES}[design]\nbase_samples = 4096\n[analysis]\nmax_failed = 0.0001"));
     assert_eq!(result.outputs[0].indices, None);
     assert!(result.outputs[0].reason.as_ref().unwrap().contains("more than max_failed = 0.0001 allows"));
 }

@@ -1,6 +1,6 @@
 //! Bad input through the program: each has its clear error, the place of the fault, and exit code 2.
 
-use crate::common::{Folder, apportion, stderr, study_path, text};
+use crate::common::{Folder, HOLES, apportion, stderr, study_path, text};
 
 /// A study that is right, to be spoilt line by line.
 const GOOD: &str = r#"outputs = ["critical_force"]
@@ -180,10 +180,7 @@ fn parameters_of_functions() {
         "model = \"flood\"\n[[factor]]\nname = \"B\"\nmin = -1\nmax = 1",
         &["study.toml:4:7:", "must be > 0"],
     );
-    assert_refused(
-        "model = \"kucherenko-1b\"\n[function]\ndimension = 4000",
-        &["study.toml:1:1:", "at most 2048 factors"],
-    );
+    assert_refused("model = \"bratley\"\n[function]\ndimension = 4000", &["study.toml:1:1:", "at most 2048 factors"]);
     assert_spoilt("[design]", "[function]\na = 1\n[design]", &["study.toml:4:1:", "unknown key `function`"]);
 }
 
@@ -245,7 +242,7 @@ fn keys_that_end_a_run() {
 
 /// A study of a function that fails on a part of its inputs.
 fn holes(analysis: &str) -> String {
-    format!("model = \"ishigami-holes\"\n[design]\nbase_samples = 256\n[analysis]\n{analysis}\n")
+    format!("{HOLES}[design]\nbase_samples = 256\n[analysis]\n{analysis}\n")
 }
 
 #[test]
@@ -280,7 +277,8 @@ fn an_output_lost_to_failed_runs_is_a_failed_run() {
     assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
     assert!(out.join("none.json").exists());
     // An output that does not vary has no indices either, but nothing failed.
-    let constant = folder.with("constant.toml", "model = \"constant\"\n[design]\nbase_samples = 64\n");
+    let constant =
+        folder.with("constant.toml", "model = \"linear\"\n[function]\nc = [0, 0]\n[design]\nbase_samples = 64\n");
     let output = apportion(&["run", text(&constant), "--out", text(&out)]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
 }

@@ -86,7 +86,7 @@ fn of_unknown_inputs_it_is_known_as_well_as_these() {
 fn ishigami_from_a_table() {
     let function = KnownAnswer::from_name("ishigami").unwrap().default_function();
     let exact = function.exact().indices.unwrap();
-    let distributions: Vec<Distribution> = function.inputs().into_iter().map(|input| input.distribution).collect();
+    let distributions: Vec<Distribution> = function.inputs().iter().map(|input| input.distribution.clone()).collect();
     for sample in [random, sobol] {
         let columns: Columns = sample(3, 400, 3)
             .iter()

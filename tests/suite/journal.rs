@@ -7,7 +7,7 @@ use std::path::Path;
 use std::process::{Child, Command, Output, Stdio};
 use std::time::Duration;
 
-use crate::common::{apportion, stderr, study_path, succeed, text};
+use crate::common::{HOLES, apportion, stderr, study_path, succeed, text};
 
 /// Some 1500 runs of a millisecond: long enough to be interrupted, short enough to be run to its end.
 const SLOW: [&str; 4] = ["--set", "afm.fidelity=dynamic", "--base-samples", "256"];
@@ -250,11 +250,7 @@ fn a_study_may_be_called_by_any_path_and_moved_but_a_changed_program_is_noticed(
 fn failures_that_come_back_leave_the_result_as_it_was() {
     let folder = tempfile::tempdir().unwrap();
     let study = folder.path().join("holes.toml");
-    std::fs::write(
-        &study,
-        "model = \"ishigami-holes\"\n[design]\nbase_samples = 512\n[analysis]\nsurrogate = \"off\"\n",
-    )
-    .unwrap();
+    std::fs::write(&study, format!("{HOLES}[design]\nbase_samples = 512\n[analysis]\nsurrogate = \"off\"\n")).unwrap();
     let with = |more: &[&str]| {
         let output = apportion(&[&["run", text(&study), "--out", text(folder.path())], more].concat());
         assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));

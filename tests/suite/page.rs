@@ -78,7 +78,7 @@ fn the_same_study_gives_the_same_page_but_for_its_time() {
 fn results_without_indices_have_pages() {
     let folder = tempfile::tempdir().unwrap();
     let study = folder.path().join("flat.toml");
-    std::fs::write(&study, "model = \"constant\"\n").unwrap();
+    std::fs::write(&study, "model = \"linear\"\n[function]\nc = [0, 0]\n").unwrap();
     let (page, _) = page_of(&study, &[]);
     assert!(page.contains("There are no indices of y") && page.contains("zero variance"));
 }

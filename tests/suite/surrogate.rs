@@ -166,7 +166,7 @@ fn where_there_is_nothing_to_fit_the_plain_indices_stand() {
     assert!(with("model = \"ishigami\"", &["design.base_samples=64"]));
     assert!(!with("model = \"ishigami\"", &["design.base_samples=64", "design.replicates=2"]), "too few nets");
     assert!(!with("model = \"ishigami\"", &["design.base_samples=8"]), "too few points");
-    assert!(!with("model = \"constant\"", &["design.base_samples=64"]), "no variance");
+    assert!(!with("model = \"linear\"\n[function]\nc = [0, 0]", &["design.base_samples=64"]), "no variance");
 }
 
 #[test]

@@ -2,14 +2,16 @@
 
 use std::sync::Arc;
 
-use super::{AnswersError, AnswersRequest};
+use super::AnswersRequest;
 use crate::exchange::design_rows::factor_column;
+use crate::exchange::error::{TableError, refused};
+use crate::exchange::table::column_of;
 use crate::exchange::{ColumnKind, RowReader};
 use crate::model::{Output, OutputSeries};
 use crate::names::{refused_output_name, shown};
 use crate::quantity::Unit;
 use crate::space::Space;
-use crate::study::{ExternalSubject, Study, Subject, nearest};
+use crate::study::{ExternalSubject, Study, Subject};
 
 /// Which columns of the file are what.
 pub(super) struct Columns {
@@ -20,7 +22,7 @@ pub(super) struct Columns {
 }
 
 impl Columns {
-    pub fn of(reader: &dyn RowReader, study: &Study, request: &AnswersRequest<'_>) -> Result<Self, AnswersError> {
+    pub fn of(reader: &dyn RowReader, study: &Study, request: &AnswersRequest<'_>) -> Result<Self, TableError> {
         let own: Vec<String> = study.model().outputs().iter().map(|output| output.name.to_string()).collect();
         let factors = study.space.factors();
         let Some(names) = reader.names() else {
@@ -52,25 +54,22 @@ impl Columns {
 /// The columns of the outputs `asked`, none of which is an input or asked for twice.
 ///
 /// # Errors
-/// [`AnswersError`] if there is none, or one is not among `names`.
+/// [`TableError`] if there is none, or one is not among `names`.
 pub fn output_columns(
     names: &[String],
     asked: &[String],
     is_input: &dyn Fn(&str) -> bool,
-) -> Result<Vec<(usize, String)>, AnswersError> {
+) -> Result<Vec<(usize, String)>, TableError> {
     if asked.is_empty() {
-        return Err(AnswersError::FactorsOnly { known: names.join(", ") });
+        let known = names.join(", ");
+        return refused(format!("the file holds no outputs: its columns are the factors {known}"));
     }
     let column = |(number, name): (usize, &String)| {
         if is_input(name) || asked[..number].contains(name) {
-            return Err(AnswersError::NoOutput { name: name.clone(), factor: is_input(name) });
+            let what = if is_input(name) { ", but is a factor" } else { " twice" };
+            return refused(format!("`{name}` is asked for as an output{what}"));
         }
-        let place = names.iter().position(|known| known == name).ok_or_else(|| AnswersError::UnknownOutput {
-            name: name.clone(),
-            nearest: nearest(name, names.iter().map(String::as_str)),
-            known: names.join(", "),
-        });
-        Ok((place?, name.clone()))
+        Ok((column_of(names, name)?, name.clone()))
     };
     asked.iter().enumerate().map(column).collect()
 }
@@ -78,11 +77,15 @@ pub fn output_columns(
 /// The first column that is an output, of a file without names of columns.
 ///
 /// # Errors
-/// [`AnswersError::WrongWidth`] if it holds neither the outputs alone nor the factors before them.
-pub fn first_output(width: usize, factors: usize, outputs: usize) -> Result<usize, AnswersError> {
+/// [`TableError::WrongWidth`] if it holds neither the outputs alone nor the factors before them.
+pub fn first_output(width: usize, factors: usize, outputs: usize) -> Result<usize, TableError> {
     match width.checked_sub(outputs) {
         Some(before) if outputs > 0 && (before == 0 || before == factors) => Ok(before),
-        _ => Err(AnswersError::WrongWidth { width, factors, outputs }),
+        _ => refused(format!(
+            "the file has {width} columns, without names: expected {outputs} (the outputs) or {} (the {factors} factors, then \
+             the outputs)",
+            factors + outputs
+        )),
     }
 }
 
@@ -91,16 +94,16 @@ pub(super) fn subject(
     study: &Study,
     columns: &[(usize, String)],
     request: &AnswersRequest<'_>,
-) -> Result<Arc<dyn Subject>, AnswersError> {
+) -> Result<Arc<dyn Subject>, TableError> {
     let model = study.model();
     let own = model.outputs();
     if let Some((name, _)) = request.units.iter().find(|(name, _)| columns.iter().all(|(_, column)| column != name)) {
         let known = columns.iter().map(|(_, name)| name.as_str()).collect::<Vec<_>>().join(", ");
-        return Err(AnswersError::UnitOfNone { name: name.clone(), known });
+        return refused(format!("a unit is given for `{name}`, which is no output; the outputs are {known}"));
     }
-    let refused = |name: &String| Some((shown(name), refused_output_name(name)?));
-    if let Some((name, expected)) = columns.iter().find_map(|(_, name)| refused(name)) {
-        return Err(AnswersError::OutputName { name, expected });
+    let wrong = |name: &String| Some((shown(name), refused_output_name(name)?));
+    if let Some((name, expected)) = columns.iter().find_map(|(_, name)| wrong(name)) {
+        return refused(format!("the name {name} of an output: expected {expected}"));
     }
     let names = columns.iter().map(|(_, name)| name);
     if request.units.is_empty() && names.clone().eq(own.iter().map(|output| &*output.name)) {
@@ -111,8 +114,11 @@ pub(super) fn subject(
         if let Some(own) = stated.filter(|own| own.is_of_kind() && !own.compatible(unit)) {
             let kind =
                 if unit.is_label() { "is not known".to_owned() } else { format!("measures {}", unit.dimension()) };
-            let (name, unit, own_kind) = (name.clone(), unit.to_string(), own.dimension().to_string());
-            return Err(AnswersError::OtherUnit { name, unit, kind, own: own.to_string(), own_kind });
+            let own_kind = own.dimension();
+            return refused(format!(
+                "the unit `{unit}` is given for `{name}`, and {kind}: the study says `{own}`, so expected a unit of the same \
+                 kind ({own_kind})"
+            ));
         }
     }
     let output = |name: &String| {

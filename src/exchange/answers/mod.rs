@@ -1,14 +1,13 @@
 //! The outputs of a design from a file, checked against the points that they belong to.
 
 mod columns;
-mod error;
 
 pub use columns::{first_output, output_columns};
-pub use error::AnswersError;
 
 use columns::{Columns, subject};
 
 use super::design_rows::{DesignRows, RowBlock, RowsDigest};
+use super::error::{TableError, refused};
 use super::manifest::Manifest;
 use super::rows::{ColumnKind, RowReader};
 use crate::model::{Model, RowFailure};
@@ -57,9 +56,9 @@ pub struct Answers {
 /// their values are compared with the design ([`is_same`]: they may have been printed by another program).
 ///
 /// # Errors
-/// [`AnswersError`] if manifest and file do not belong together, with the first place where that shows; if an output is
+/// [`TableError`] if manifest and file do not belong together, with the first place where that shows; if an output is
 /// missing and such rows are refused.
-pub fn read_answers(reader: &mut dyn RowReader, request: &AnswersRequest<'_>) -> Result<Answers, AnswersError> {
+pub fn read_answers(reader: &mut dyn RowReader, request: &AnswersRequest<'_>) -> Result<Answers, TableError> {
     let mut study = request.manifest.study()?;
     let columns = Columns::of(reader, &study, request)?;
     study.subject = subject(&study, &columns.outputs, request)?;
@@ -93,31 +92,31 @@ struct Reading<'a> {
 
 impl Reading<'_> {
     /// Reads all rows; the SHA-256 of the design's numbers.
-    fn all(&mut self, store: &Store, missing: MissingOutputs) -> Result<String, AnswersError> {
-        let (space, design) = (&self.study.space, &self.study.design);
+    fn all(&mut self, store: &Store, missing: MissingOutputs) -> Result<String, TableError> {
+        let design = &self.study.design;
         let mut cells = vec![Vec::new(); self.wanted.len()];
         let mut points = vec![Vec::new(); design.factors()];
-        let (mut rows, mut digest) = (DesignRows::new(space, design), RowsDigest::default());
+        let (mut rows, mut digest) = (DesignRows::new(&self.study.space, design), RowsDigest::default());
         while let Some(block) = rows.next_block(&mut points) {
             digest.add(&points);
             let count = self.reader.read(&self.wanted, block.rows, &mut cells)?;
             let (answers, found) = cells.split_at(self.columns.outputs.len());
             self.compare(&points, found, count)?;
             if count < block.rows {
-                return Err(AnswersError::RowCount { found: self.row + count as u64, expected: design.rows() });
+                return self.refuse_row_count(self.row + count as u64);
             }
             store.insert(&self.piece(block, answers, missing)?);
             self.row += count as u64;
         }
         let more = self.count_rest()?;
         if more > 0 {
-            return Err(AnswersError::RowCount { found: self.row + more, expected: design.rows() });
+            return self.refuse_row_count(self.row + more);
         }
         Ok(digest.finish())
     }
 
     /// The outputs of a block.
-    fn piece(&self, block: RowBlock, answers: &[Vec<f64>], missing: MissingOutputs) -> Result<Piece, AnswersError> {
+    fn piece(&self, block: RowBlock, answers: &[Vec<f64>], missing: MissingOutputs) -> Result<Piece, TableError> {
         let outputs = self.model.outputs();
         let reason = RowFailure::new("the file of outputs has no finite number for it");
         let mut piece = Piece { replicate: block.replicate, first: block.first, ..Piece::default() };
@@ -127,8 +126,14 @@ impl Reading<'_> {
                 let si = output.unit.to_si(column[row]);
                 if !si.is_finite() {
                     if missing == MissingOutputs::Refuse {
-                        let (row, found) = (self.row + row as u64 + 1, column[row]);
-                        return Err(AnswersError::MissingOutput { row, name: output.name.to_string(), found });
+                        let what = match column[row] {
+                            found if found.is_nan() => "the value is missing".to_owned(),
+                            found => format!("{found} is no finite number"),
+                        };
+                        let (row, name) = (self.row + row as u64 + 1, &output.name);
+                        return refused(format!(
+                            "row {row}, column `{name}`: {what}; --missing-as-failed counts such rows as runs that failed"
+                        ));
                     }
                     piece.failures.push((row as u32, number as u32, reason.clone()));
                 }
@@ -139,7 +144,7 @@ impl Reading<'_> {
     }
 
     /// Whether the first `count` rows found are those of the design.
-    fn compare(&self, points: &[Vec<f64>], found: &[Vec<f64>], count: usize) -> Result<(), AnswersError> {
+    fn compare(&self, points: &[Vec<f64>], found: &[Vec<f64>], count: usize) -> Result<(), TableError> {
         let differs = |row: usize| {
             let pairs = self.columns.factors.iter().zip(found);
             pairs.into_iter().find(|((_, factor), column)| !is_same(column[row], points[*factor][row]))
@@ -153,16 +158,20 @@ impl Reading<'_> {
             true => "nothing".to_owned(),
             false => factor.in_words(value, |number| number.to_string()),
         };
-        Err(AnswersError::OtherRow {
-            row: self.row + row as u64 + 1,
-            name: factor.name.clone(),
-            found: words(column[row]),
-            expected: words(points[number][row]),
-        })
+        let (found, expected) = (words(column[row]), words(points[number][row]));
+        let (row, name) = (self.row + row as u64 + 1, &factor.name);
+        refused(format!(
+            "row {row}, column `{name}`: {found} stands where the design has {expected}: rows are missing, repeated or in another \
+             order, or the points have been changed, printed with less than ten digits, or belong to another design"
+        ))
+    }
+
+    fn refuse_row_count<T>(&self, found: u64) -> Result<T, TableError> {
+        refused(format!("the file has {found} rows, and the design {}", self.study.design.rows()))
     }
 
     /// Rows of the file that have not been read.
-    fn count_rest(&mut self) -> Result<u64, AnswersError> {
+    fn count_rest(&mut self) -> Result<u64, TableError> {
         let (mut rest, mut cells) = (0, vec![Vec::new(); self.wanted.len()]);
         loop {
             match self.reader.read(&self.wanted, COUNTED, &mut cells)? {

@@ -5,9 +5,9 @@ use std::io::{BufWriter, Read, Write};
 
 use super::lines::Lines;
 use super::{
-    ColumnKind, ReadOptions, RowReader, RowWriter, RowsError, check_names, expanded, is_error_word, names_of_columns,
-    number,
+    ColumnKind, ReadOptions, RowReader, RowWriter, check_names, expanded, is_error_word, names_of_columns, number,
 };
+use crate::exchange::error::{TableError, refused};
 use crate::text::{csv_field, plain_field};
 
 /// Rows that are looked at to tell columns of text from those of numbers.
@@ -30,7 +30,7 @@ pub(super) struct CsvRows {
 }
 
 impl CsvRows {
-    pub(super) fn new(text: Box<dyn Read>, options: &ReadOptions) -> Result<Self, RowsError> {
+    pub(super) fn new(text: Box<dyn Read>, options: &ReadOptions) -> Result<Self, TableError> {
         let lines = Lines::new(text)?;
         let mut builder = csv::ReaderBuilder::new();
         builder.trim(csv::Trim::All).delimiter(lines.separator).has_headers(false).flexible(true);
@@ -49,7 +49,7 @@ impl CsvRows {
     }
 
     /// Reads the names of the columns, or looks at the first row of a table without.
-    fn read_header(&mut self, options: &ReadOptions) -> Result<(), RowsError> {
+    fn read_header(&mut self, options: &ReadOptions) -> Result<(), TableError> {
         let mut comment = Vec::new();
         let first = loop {
             match self.next_record()? {
@@ -75,11 +75,17 @@ impl CsvRows {
         if !is_row {
             // Whole numbers may be names among others, such as those of years.
             if of_numbers || numbers.iter().any(|value| value.fract() != 0.0) {
-                return Err(RowsError::NumbersForNames { line });
+                return refused(format!(
+                    "line {line} holds numbers where the names of the columns are expected: if the file has no header, add \
+                     --no-header (and --names for the names of the columns in their order)"
+                ));
             }
             let cells: Vec<String> = record.iter().map(|cell| plain_field(cell).to_owned()).collect();
             if !options.names.is_empty() {
-                return Err(RowsError::HasNames { known: cells.join(", ") });
+                let known = cells.join(", ");
+                return refused(format!(
+                    "it names its columns itself ({known}): leave --names out, or add --no-header if the first line is a row"
+                ));
             }
             let names = expanded(&cells);
             check_names(&names)?;
@@ -94,20 +100,20 @@ impl CsvRows {
     }
 
     /// The next row with its line, from the text.
-    fn next_row(&mut self) -> Result<Option<(csv::StringRecord, u64)>, RowsError> {
+    fn next_row(&mut self) -> Result<Option<(csv::StringRecord, u64)>, TableError> {
         while let Some((record, line)) = self.next_record()? {
             if record.len() == self.width && !(record[0].starts_with("# ") || &record[0] == "#") {
                 return Ok(Some((record, line)));
             }
             if !record[0].starts_with('#') || is_error_word(&record[0]) {
-                let (expected, found) = (self.width as u64, record.len() as u64);
-                return Err(RowsError::WrongLength { line, expected, found });
+                let (expected, found) = (self.width, record.len());
+                return refused(format!("line {line}: expected {expected} cells as in the header, not {found}"));
             }
         }
         Ok(None)
     }
 
-    fn next_record(&mut self) -> Result<Option<(csv::StringRecord, u64)>, RowsError> {
+    fn next_record(&mut self) -> Result<Option<(csv::StringRecord, u64)>, TableError> {
         let read = self.csv.read_record(&mut self.record);
         // The reader stands at the start of the next line.
         let line = self.csv.position().line().saturating_sub(1);
@@ -129,7 +135,7 @@ impl RowReader for CsvRows {
         self.width
     }
 
-    fn text_columns(&mut self) -> Result<Vec<usize>, RowsError> {
+    fn text_columns(&mut self) -> Result<Vec<usize>, TableError> {
         while self.ahead.len() < AHEAD
             && let Some(next) = self.next_row()?
         {
@@ -158,7 +164,12 @@ impl RowReader for CsvRows {
         self.csv.get_ref().is_unended()
     }
 
-    fn read(&mut self, wanted: &[(usize, ColumnKind)], rows: usize, into: &mut [Vec<f64>]) -> Result<usize, RowsError> {
+    fn read(
+        &mut self,
+        wanted: &[(usize, ColumnKind)],
+        rows: usize,
+        into: &mut [Vec<f64>],
+    ) -> Result<usize, TableError> {
         into.iter_mut().for_each(Vec::clear);
         self.lines.clear();
         for row in 0..rows {
@@ -173,7 +184,7 @@ impl RowReader for CsvRows {
                 let cell = &record[*place];
                 let value = kind.value(cell).or_else(|| kind.value(plain_field(cell))).ok_or_else(|| {
                     let decimal_comma = kind.labels.is_empty() && number(&cell.replacen(',', ".", 1)).is_some();
-                    RowsError::WrongCell {
+                    TableError::WrongCell {
                         row: self.rows,
                         line: Some(line),
                         column: place + 1,
@@ -191,13 +202,13 @@ impl RowReader for CsvRows {
     }
 }
 
-fn wrong_record(source: csv::Error, line: u64) -> RowsError {
+fn wrong_record(source: csv::Error, line: u64) -> TableError {
     // The reader counts records and bytes from its own beginning, which are of no use to the user.
     match source.kind() {
         csv::ErrorKind::Utf8 { .. } => {
-            RowsError::NoCsv { line, source: "it is not text in UTF-8: save the file as UTF-8".into() }
+            TableError::Refused(format!("line {line}: it is not text in UTF-8: save the file as UTF-8"))
         }
-        _ => RowsError::NoCsv { line, source: source.into() },
+        _ => TableError::Refused(format!("line {line}: {source}")),
     }
 }
 

@@ -5,7 +5,6 @@
 //! larger than memory.
 
 mod csv_rows;
-mod error;
 mod lines;
 mod npy;
 #[cfg(test)]
@@ -18,8 +17,7 @@ use std::path::Path;
 
 use flate2::read::MultiGzDecoder;
 
-pub use error::RowsError;
-
+use super::error::{TableError, refused};
 use crate::files::read_opened;
 use crate::model::items_of_header;
 use crate::names::{named, refused_name};
@@ -42,15 +40,27 @@ impl Format {
     ///
     /// assert_eq!(Format::of("runs/design.CSV".as_ref())?, Format::Csv);
     /// assert!(Format::of("design.xlsx".as_ref()).is_err());
-    /// # Ok::<(), apportion::exchange::RowsError>(())
+    /// # Ok::<(), apportion::exchange::TableError>(())
     /// ```
     ///
     /// # Errors
-    /// [`RowsError::UnknownEnding`] for any other.
-    pub fn of(path: &Path) -> Result<Self, RowsError> {
+    /// [`TableError`] for any other.
+    pub fn of(path: &Path) -> Result<Self, TableError> {
         let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
         let known = |format: &Self| ending.as_deref() == Some(format.name());
-        Self::ALL.into_iter().find(known).ok_or_else(|| RowsError::UnknownEnding { path: path.to_owned() })
+        if let Some(format) = Self::ALL.into_iter().find(known) {
+            return Ok(format);
+        }
+        let found = match ending.as_deref() {
+            None => String::new(),
+            Some("parquet") => {
+                ", not .parquet: in Python `pandas.read_csv(\"FILE.csv\").to_parquet(\"FILE.parquet\")` makes one \
+                                of a CSV file"
+                    .to_owned()
+            }
+            Some(ending) => format!(", not .{ending}"),
+        };
+        refused(format!("the ending of the name tells the format: expected .csv or .npy{found}"))
     }
 }
 
@@ -145,8 +155,8 @@ pub trait RowReader {
     /// The columns that hold text, by their type, or by the first values in them.
     ///
     /// # Errors
-    /// [`RowsError`] if the file cannot be read.
-    fn text_columns(&mut self) -> Result<Vec<usize>, RowsError> {
+    /// [`TableError`] if the file cannot be read.
+    fn text_columns(&mut self) -> Result<Vec<usize>, TableError> {
         Ok(Vec::new())
     }
 
@@ -171,16 +181,17 @@ pub trait RowReader {
     /// same ones in every call), and returns how many there were; 0 at the end.
     ///
     /// # Errors
-    /// [`RowsError`] with the place of the first fault.
-    fn read(&mut self, wanted: &[(usize, ColumnKind)], rows: usize, into: &mut [Vec<f64>]) -> Result<usize, RowsError>;
+    /// [`TableError`] with the place of the first fault.
+    fn read(&mut self, wanted: &[(usize, ColumnKind)], rows: usize, into: &mut [Vec<f64>])
+    -> Result<usize, TableError>;
 }
 
 /// Opens the table in `path`, in the format that its first bytes say, whatever its name: NPY, or text as CSV, which may be
 /// compressed by gzip. Text is read in constant memory, from a pipe too.
 ///
 /// # Errors
-/// [`RowsError`] if the file cannot be read or is of another format, or names do not fit.
-pub fn open_table(path: &Path, options: &ReadOptions) -> Result<Box<dyn RowReader>, RowsError> {
+/// [`TableError`] if the file cannot be read or is of another format, or names do not fit.
+pub fn open_table(path: &Path, options: &ReadOptions) -> Result<Box<dyn RowReader>, TableError> {
     let mut file = File::open(path)?;
     let about = file.metadata()?;
     if about.is_dir() {
@@ -203,7 +214,7 @@ pub fn open_table(path: &Path, options: &ReadOptions) -> Result<Box<dyn RowReade
 ///
 /// # Errors
 /// As for [`open_table`].
-pub fn table_of_bytes(bytes: Vec<u8>, options: &ReadOptions) -> Result<Box<dyn RowReader>, RowsError> {
+pub fn table_of_bytes(bytes: Vec<u8>, options: &ReadOptions) -> Result<Box<dyn RowReader>, TableError> {
     if bytes.starts_with(npy::MAGIC) {
         return Ok(Box::new(npy::NpyRows::new(Cursor::new(bytes), options)?));
     }
@@ -212,10 +223,17 @@ pub fn table_of_bytes(bytes: Vec<u8>, options: &ReadOptions) -> Result<Box<dyn R
 }
 
 /// The table in a text that begins so.
-fn text(begin: &[u8], all: Box<dyn Read>, options: &ReadOptions) -> Result<Box<dyn RowReader>, RowsError> {
+fn text(begin: &[u8], all: Box<dyn Read>, options: &ReadOptions) -> Result<Box<dyn RowReader>, TableError> {
     let all: Box<dyn Read> = match begin {
-        [b'P', b'A', b'R', b'1', ..] => return Err(RowsError::Parquet),
-        [b'P', b'K', 3 | 5, 4 | 6, ..] | [0xd0, 0xcf, 0x11, 0xe0, ..] => return Err(RowsError::Spreadsheet),
+        [b'P', b'A', b'R', b'1', ..] => {
+            return refused(
+                "it is a Parquet file: write it as CSV, in Python with `pandas.read_parquet(\"FILE.parquet\").to_csv(\"FILE.csv\", \
+                 index=False)`",
+            );
+        }
+        [b'P', b'K', 3 | 5, 4 | 6, ..] | [0xd0, 0xcf, 0x11, 0xe0, ..] => {
+            return refused("it is a workbook or an archive (.xlsx, .xls, .ods, .zip, .npz): save the table as CSV");
+        }
         [0x1f, 0x8b, ..] => Box::new(MultiGzDecoder::new(all)),
         _ => all,
     };
@@ -268,33 +286,35 @@ fn expanded(names: &[String]) -> Vec<String> {
 }
 
 /// The names of `width` columns, if there are any.
-fn names_of_columns(names: Vec<String>, width: usize) -> Result<Option<Vec<String>>, RowsError> {
+fn names_of_columns(names: Vec<String>, width: usize) -> Result<Option<Vec<String>>, TableError> {
     if names.is_empty() {
         return Ok(None);
     }
     if names.len() != width {
-        return Err(RowsError::OtherWidth { width, names: names.len() });
+        return refused(format!("{} names are given, but it has {width} columns", names.len()));
     }
     check_names(&names)?;
     Ok(Some(names))
 }
 
 /// Names that are all there and all different.
-fn check_names(names: &[String]) -> Result<(), RowsError> {
+fn check_names(names: &[String]) -> Result<(), TableError> {
     if names.iter().all(String::is_empty) {
-        return Err(RowsError::Empty);
+        return refused("the file is empty: expected a header of column names, then one line per row");
     }
     let mut places = BTreeMap::new();
     for (place, name) in names.iter().enumerate() {
         let column = place + 1;
         if name.is_empty() {
-            return Err(RowsError::Nameless { column });
+            let index = "if it is the index that pandas writes, leave it out (index=False)";
+            let advice = if column == 1 { format!(": {index}") } else { String::new() };
+            return refused(format!("column {column} has no name{advice}"));
         }
         if let Some(expected) = refused_name(name) {
-            return Err(RowsError::WrongName { column, expected });
+            return refused(format!("the name of column {column}: expected {expected}"));
         }
         if let Some(first) = places.insert(name, place) {
-            return Err(RowsError::RepeatedColumn { column, name: name.clone(), first: first + 1 });
+            return refused(format!("column {column}: `{name}` is also the name of column {}", first + 1));
         }
     }
     Ok(())

@@ -5,7 +5,8 @@
 
 use std::io::{BufWriter, Read, Seek, SeekFrom, Write};
 
-use super::{ColumnKind, ReadOptions, RowReader, RowWriter, RowsError, expanded, names_of_columns};
+use super::{ColumnKind, ReadOptions, RowReader, RowWriter, expanded, names_of_columns};
+use crate::exchange::error::TableError;
 
 /// The first bytes of such a file.
 pub(super) const MAGIC: &[u8; 6] = b"\x93NUMPY";
@@ -72,12 +73,12 @@ pub(super) struct NpyRows<R> {
     bytes: Vec<u8>,
 }
 
-fn refused(reason: impl Into<String>) -> RowsError {
-    RowsError::NoNpy(reason.into())
+fn refused(reason: impl std::fmt::Display) -> TableError {
+    TableError::Refused(format!("not an NPY file that can be read: {reason}"))
 }
 
 impl<R: Read + Seek> NpyRows<R> {
-    pub(super) fn new(mut reader: R, options: &ReadOptions) -> Result<Self, RowsError> {
+    pub(super) fn new(mut reader: R, options: &ReadOptions) -> Result<Self, TableError> {
         let length = reader.seek(SeekFrom::End(0))?;
         reader.rewind()?;
         let mut exactly = |count: usize| {
@@ -118,7 +119,7 @@ impl<R: Read + Seek> NpyRows<R> {
     }
 
     /// Reads the `count` numbers from number `first` on, as they lie in the file.
-    fn numbers(&mut self, first: u64, count: usize) -> Result<(), RowsError> {
+    fn numbers(&mut self, first: u64, count: usize) -> Result<(), TableError> {
         self.bytes.resize(count * self.element.size, 0);
         self.reader.seek(SeekFrom::Start(self.start + first * self.element.size as u64))?;
         Ok(self.reader.read_exact(&mut self.bytes)?)
@@ -126,7 +127,7 @@ impl<R: Read + Seek> NpyRows<R> {
 }
 
 /// Type of the numbers, whether columns lie together, and shape: from a Python dictionary of literals.
-fn parse_header(header: &str) -> Result<(Element, bool, Vec<u64>), RowsError> {
+fn parse_header(header: &str) -> Result<(Element, bool, Vec<u64>), TableError> {
     let header = header.replace('"', "'");
     let after = |key: &str| {
         let rest = header.split_once(&format!("'{key}':")).map(|(_, rest)| rest.trim_start());
@@ -153,7 +154,12 @@ impl<R: Read + Seek> RowReader for NpyRows<R> {
         self.width
     }
 
-    fn read(&mut self, wanted: &[(usize, ColumnKind)], rows: usize, into: &mut [Vec<f64>]) -> Result<usize, RowsError> {
+    fn read(
+        &mut self,
+        wanted: &[(usize, ColumnKind)],
+        rows: usize,
+        into: &mut [Vec<f64>],
+    ) -> Result<usize, TableError> {
         into.iter_mut().for_each(Vec::clear);
         let rows = (self.rows - self.read).min(rows as u64) as usize;
         let (element, first) = (self.element, self.read);
@@ -171,7 +177,7 @@ impl<R: Read + Seek> RowReader for NpyRows<R> {
             let unknown = |value: &f64| !kind.labels.is_empty() && !value.is_nan() && kind.label(*value).is_none();
             if let Some(row) = column.iter().position(unknown) {
                 let numbers: Vec<String> = kind.labels.iter().map(|(label, n)| format!("{n} ({label})")).collect();
-                return Err(RowsError::WrongCell {
+                return Err(TableError::WrongCell {
                     row: first + row as u64 + 1,
                     line: None,
                     column: place + 1,

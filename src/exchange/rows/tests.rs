@@ -15,7 +15,7 @@ fn written(format: Format, columns: &[ColumnKind], values: &[Vec<f64>]) -> Vec<u
 }
 
 /// All rows of all columns, in blocks of `block`.
-fn read(bytes: &[u8], kinds: &[ColumnKind], block: usize) -> Result<Vec<Vec<f64>>, RowsError> {
+fn read(bytes: &[u8], kinds: &[ColumnKind], block: usize) -> Result<Vec<Vec<f64>>, TableError> {
     let mut reader = table_of_bytes(bytes.to_vec(), &ReadOptions::default())?;
     let width = reader.width();
     let kind = |place: usize| kinds.get(place).cloned().unwrap_or_default();
@@ -84,30 +84,35 @@ fn whole_numbers_are_text_that_programs_take_for_integers() {
 #[test]
 fn faults_are_named_with_their_place() {
     let refused = |bytes: &[u8]| read(bytes, &[ColumnKind::numbers("a"), probe()], 9).unwrap_err();
-    assert!(matches!(refused(b""), RowsError::Empty));
-    assert!(matches!(refused(b"a,,b\n"), RowsError::Nameless { column: 2 }));
-    assert!(matches!(refused("a,\u{202e}b\n".as_bytes()), RowsError::WrongName { column: 2, .. }));
-    assert!(matches!(refused(b"a,b,a\n"), RowsError::RepeatedColumn { column: 3, first: 1, .. }));
-    assert!(matches!(refused(b"a,b\n1,0\n\n2\n"), RowsError::WrongLength { line: 4, expected: 2, found: 1 }));
+    for (bytes, reason) in [
+        (&b""[..], "the file is empty"),
+        (b"a,,b\n", "column 2 has no name"),
+        ("a,\u{202e}b\n".as_bytes(), "the name of column 2"),
+        (b"a,b,a\n", "column 3: `a` is also the name of column 1"),
+        (b"a,b\n1,0\n\n2\n", "line 4: expected 2 cells as in the header, not 1"),
+        (b"PAR1,b\n1,3\n", "it is a Parquet file"),
+        (b"PK\x03\x04\x14", "it is a workbook"),
+        (b"1,2\n3,4\n", "line 1 holds numbers"),
+        (b"# a comment\na,1.5\n3,4\n", "line 2 holds numbers"),
+    ] {
+        let message = refused(bytes).to_string();
+        assert!(message.starts_with(reason), "{message}");
+    }
     for (text, column) in [("a,b\nred,0\n", 1), ("a;b\n1,5;0\n", 1), ("a,b\n1,3\n", 2)] {
-        let RowsError::WrongCell { row: 1, line: Some(2), column: at, .. } = refused(text.as_bytes()) else {
+        let TableError::WrongCell { row: 1, line: Some(2), column: at, .. } = refused(text.as_bytes()) else {
             panic!("{text:?}")
         };
         assert_eq!(at, column);
     }
-    assert!(matches!(refused(b"PAR1,b\n1,3\n"), RowsError::Parquet));
-    assert!(matches!(refused(b"PK\x03\x04\x14"), RowsError::Spreadsheet));
-    assert!(matches!(refused(b"1,2\n3,4\n"), RowsError::NumbersForNames { line: 1 }));
-    assert!(matches!(refused(b"# a comment\na,1.5\n3,4\n"), RowsError::NumbersForNames { line: 2 }));
     for header in [
         "{'descr': '<c16', 'fortran_order': False, 'shape': (1,)}",
         "{'descr': '<f8', 'fortran_order': False, 'shape': (1, 1, 1)}",
         "{'descr': '<f8', 'fortran_order': False, 'shape': (18446744073709551615, 2)}",
     ] {
-        assert!(matches!(refused(&npy(header, &[0; 7])), RowsError::NoNpy(_)));
+        assert!(refused(&npy(header, &[0; 7])).to_string().starts_with("not an NPY file that can be read: "));
     }
     for name in ["a.xlsx", "a.parquet", "a"] {
-        assert!(matches!(Format::of(name.as_ref()), Err(RowsError::UnknownEnding { .. })));
+        assert!(Format::of(name.as_ref()).unwrap_err().to_string().contains("expected .csv or .npy"));
     }
 }
 
@@ -134,11 +139,11 @@ fn other_separators_and_tables_without_names_are_read() {
         assert_eq!(rows.read(&wanted, 5, &mut columns).unwrap(), 2);
         assert_eq!(columns, [[1.0, 2.0], [7.5, 0.0]]);
         let refused = table_of_bytes(bytes, &named(&["a"])).err().unwrap();
-        assert!(matches!(refused, RowsError::OtherWidth { width: 2, names: 1 }));
+        assert_eq!(refused.to_string(), "1 names are given, but it has 2 columns");
     }
     assert!(table_of_bytes(numbers, &ReadOptions::default()).unwrap().names().is_none());
     let refused = table_of_bytes(b"a,b\n1,2\n".to_vec(), &named(&["a", "b"])).err().unwrap();
-    assert!(matches!(refused, RowsError::HasNames { .. }));
+    assert!(refused.to_string().starts_with("it names its columns itself (a, b)"));
     let without = ReadOptions { no_header: true, ..ReadOptions::default() };
     let rows = table_of_bytes(b"steel,2\n".to_vec(), &without).unwrap();
     assert_eq!((rows.names(), rows.width()), (None, 2));

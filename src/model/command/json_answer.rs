@@ -2,6 +2,7 @@
 
 use serde_json::Value;
 
+use super::protocol::{Answer, failed};
 use crate::model::item_of_list;
 use crate::model::shorten::masked;
 
@@ -40,9 +41,9 @@ pub(super) fn json(text: &str) -> Result<Value, String> {
     parsed.map_err(|_| format!("`{}`", masked(text)))
 }
 
-/// Appends the values of `parsed`, one for each of `outputs`; or gives the reason for which the row failed, as the program tells
-/// it.
-pub(super) fn json_answer(outputs: &[String], parsed: &Value, values: &mut Vec<f64>) -> Result<Option<String>, String> {
+/// The answer that `parsed` is: one value for each of `outputs`, or why the row failed; or what it is instead.
+pub(super) fn json_answer(outputs: &[String], parsed: &Value) -> Result<Answer, String> {
+    let mut values = Vec::with_capacity(outputs.len());
     let number = |value: &Value, of: &str| match value {
         Value::Null => Ok(f64::NAN),
         Value::Number(number) => Ok(number.as_f64().unwrap_or(f64::NAN)),
@@ -50,7 +51,7 @@ pub(super) fn json_answer(outputs: &[String], parsed: &Value, values: &mut Vec<f
     };
     let Value::Object(object) = parsed else { return Err(kind(parsed).to_owned()) };
     match object.get("error") {
-        Some(Value::String(reason)) => return Ok(Some(reason.clone())),
+        Some(Value::String(reason)) => return Ok(failed(reason)),
         None | Some(Value::Null) => (),
         Some(_) if outputs.iter().any(|name| name == "error") => (),
         Some(other) => return Err(format!("{} as `error`, which is a text", kind(other))),
@@ -70,7 +71,7 @@ pub(super) fn json_answer(outputs: &[String], parsed: &Value, values: &mut Vec<f
             Some((list, other)) => return Err(format!("{} as `{list}`", kind(other))),
         }
     }
-    Ok(None)
+    Ok(Ok(values))
 }
 
 fn kind(value: &Value) -> &'static str {
@@ -113,9 +114,8 @@ mod tests {
     use super::*;
 
     fn read(outputs: &[&str], text: &str) -> Result<Vec<f64>, String> {
-        let (outputs, mut values): (Vec<String>, _) =
-            (outputs.iter().map(|&name| name.to_owned()).collect(), Vec::new());
-        json_answer(&outputs, &json(text)?, &mut values).map(|_| values)
+        let outputs: Vec<String> = outputs.iter().map(|&name| name.to_owned()).collect();
+        json_answer(&outputs, &json(text)?).flatten()
     }
 
     #[test]

@@ -14,7 +14,7 @@ use std::time::Duration;
 use super::line_to_change::line_to_change;
 use super::process::{Ending, Event, Process};
 use super::program::status_in_words;
-use super::protocol::{Answer, is_answer_without_number, parse_answer};
+use super::protocol::{is_answer_without_number, parse_answer};
 use super::row::RowWriter;
 use super::{CommandModel, Protocol, State};
 use crate::model::shorten::{masked, seconds};
@@ -132,15 +132,13 @@ impl<'a> KeptAliveWorker<'a> {
     fn hear(&mut self, line: &[u8], rows: &mut Rows<'_>) -> Result<(), Fault> {
         let (model, protocol) = (self.model, self.protocol);
         let Some(session) = &mut self.session else { return Ok(()) };
-        let mut values = Vec::new();
-        let words = match parse_answer(protocol, &model.names, line, &mut values) {
+        let words = match parse_answer(protocol, &model.names, line) {
             Err(words) => words,
             Ok((number, answer)) => match session.find(number) {
                 Lookup::Asked(row) => {
                     match answer {
-                        Ok(Answer::Values) => rows.answer(row, &values),
-                        Ok(Answer::Failed(reason)) => rows.fail(row, &reason),
-                        Err(words) => rows.fail(row, &format!("not an answer: {words}")),
+                        Ok(values) => rows.answer(row, &values),
+                        Err(reason) => rows.fail(row, &reason),
                     }
                     model.state.note_answer(session.note_answer());
                     return Ok(());

@@ -21,10 +21,10 @@ use std::sync::atomic::{AtomicBool, AtomicU32, AtomicU64, Ordering};
 use std::time::Duration;
 
 pub use per_run::PerRun;
-pub use pick::{Match, Pick, PickError, Source, Way};
+pub use pick::{Match, Pick, Source, Way};
 pub use program::Program;
 pub use program_files::{imported_neighbours, program_files};
-pub use protocol::{Answer, Protocol, parse_answer};
+pub use protocol::{Protocol, parse_answer};
 pub use template::{InputTemplate, TemplateError, TemplateProblem};
 
 use super::{Messages, Model, Output, OutputSeries, RowFailure, RunContext, Worker};

@@ -10,7 +10,7 @@ use std::time::{Duration, Instant, SystemTime};
 use sha2::{Digest, Sha256};
 use tempfile::TempDir;
 
-use super::pick::{MOST_BYTES, PickError, Source, Texts};
+use super::pick::{MOST_BYTES, Source, Texts};
 use super::program::{Running, status_in_words};
 use super::row::ValueWriter;
 use super::standard_error::listen;
@@ -176,7 +176,9 @@ impl<'a> PerRunWorker<'a> {
             let output = &settings.outputs[*place];
             let Some(pick) = &output.pick else { continue };
             let number = match &pick.source {
-                Source::File(name) if is_from_before(&directory.join(name)) => Err(PickError::Unchanged(name.clone())),
+                Source::File(name) if is_from_before(&directory.join(name)) => {
+                    Err(format!("the run left `{name}` as it was before"))
+                }
                 _ => pick.number(&mut texts),
             };
             match number {
@@ -185,9 +187,9 @@ impl<'a> PerRunWorker<'a> {
                     batch.set(row, column, output.unit.to_si(value));
                 }
                 Ok(value) => batch.fail(row, column, not_a_value(value)),
-                Err(error) => {
-                    missing = Some(error.to_string());
-                    batch.fail(row, column, RowFailure::new(&error.to_string()));
+                Err(reason) => {
+                    batch.fail(row, column, RowFailure::new(&reason));
+                    missing = Some(reason);
                 }
             }
         }

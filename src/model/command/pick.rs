@@ -4,7 +4,6 @@ use std::path::Path;
 
 use regex::Regex;
 use serde_json::Value;
-use thiserror::Error;
 
 use crate::files::read_whole;
 use crate::model::shorten::masked;
@@ -91,47 +90,6 @@ impl PartialEq for Way {
     }
 }
 
-/// Why there is no number.
-#[derive(Debug, Clone, PartialEq, Eq, Error)]
-pub enum PickError {
-    /// The file is not there.
-    #[error("the run left no file `{0}`")]
-    NoFile(String),
-    /// The file was there before the run, which has not written it.
-    #[error("the run left `{0}` as it was before")]
-    Unchanged(String),
-    /// The file cannot be read.
-    #[error("`{file}` cannot be read: {reason}")]
-    Unreadable {
-        /// What was read.
-        file: String,
-        /// What the operating system said.
-        reason: String,
-    },
-    /// The regular expression matches nothing.
-    #[error("nothing in {0} matches the regex")]
-    NoMatch(String),
-    /// There is less in it: no such column, no row with a cell in that, fewer matches than a series has values.
-    #[error("{of} has no {missing}")]
-    Missing {
-        /// What was read.
-        of: String,
-        /// What is missing.
-        missing: String,
-    },
-    /// The text is not JSON.
-    #[error("{0} is not JSON")]
-    NotJson(String),
-    /// What was found is no number.
-    #[error("what was found in {of} is not a number: `{found}`")]
-    NotANumber {
-        /// What was read.
-        of: String,
-        /// What was found, with its own numbers as `#`.
-        found: String,
-    },
-}
-
 /// Bytes of a file that are read.
 pub(super) const MOST_BYTES: u64 = 1 << 28;
 
@@ -144,14 +102,16 @@ impl Source {
     }
 
     /// What a run left, whose standard output is in the file `stdout`.
-    fn text(&self, directory: &Path, stdout: &Path) -> Result<String, PickError> {
+    fn text(&self, directory: &Path, stdout: &Path) -> Result<String, String> {
         let (path, file) = match self {
             Self::Stdout => (stdout.to_owned(), "standard output".to_owned()),
             Self::File(name) => (directory.join(name), name.clone()),
         };
-        let unreadable = |reason: String| PickError::Unreadable { file: file.clone(), reason };
+        let unreadable = |reason: String| format!("`{file}` cannot be read: {reason}");
         match std::fs::metadata(&path) {
-            Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Err(PickError::NoFile(file)),
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
+                return Err(format!("the run left no file `{file}`"));
+            }
             Err(error) => return Err(unreadable(error.to_string())),
             Ok(data) if data.len() > MOST_BYTES => return Err(unreadable("it has more than 256 MiB".to_owned())),
             Ok(data) if !data.is_file() => return Err(unreadable("it is not a file".to_owned())),
@@ -164,8 +124,8 @@ impl Source {
 
 impl Pick {
     /// The number in what a run left, of which `texts` holds what has been read; not finite where the program wrote so.
-    pub(super) fn number(&self, texts: &mut Texts<'_>) -> Result<f64, PickError> {
-        self.way.number(texts.of(&self.source)?, self.source.in_words())
+    pub(super) fn number(&self, texts: &mut Texts<'_>) -> Result<f64, String> {
+        self.way.number(texts.of(&self.source)?, &self.source.in_words())
     }
 
     /// Where value number `number` of a series stands, from 0: the match or row of that number, or the item of a list.
@@ -185,7 +145,7 @@ pub(super) struct Texts<'a> {
     directory: &'a Path,
     /// Where its standard output is.
     stdout: &'a Path,
-    read: Vec<(Source, Result<String, PickError>)>,
+    read: Vec<(Source, Result<String, String>)>,
 }
 
 impl<'a> Texts<'a> {
@@ -193,7 +153,7 @@ impl<'a> Texts<'a> {
         Self { directory, stdout, read: Vec::new() }
     }
 
-    fn of(&mut self, source: &Source) -> Result<&str, PickError> {
+    fn of(&mut self, source: &Source) -> Result<&str, String> {
         let place = self.read.iter().position(|(known, _)| known == source).unwrap_or_else(|| {
             self.read.push((source.clone(), source.text(self.directory, self.stdout)));
             self.read.len() - 1
@@ -209,28 +169,28 @@ impl Way {
     /// use apportion::model::{Match, Way};
     ///
     /// let way = Way::Pointer("/result/force".to_owned());
-    /// assert_eq!(way.number("{\"result\": {\"force\": 1.5}}", "it".to_owned()), Ok(1.5));
+    /// assert_eq!(way.number("{\"result\": {\"force\": 1.5}}", "it"), Ok(1.5));
     /// let way = Way::Column("y".to_owned(), Match::Last);
-    /// assert_eq!(way.number("t,y\n0,1\n1,2.5\n", "it".to_owned()), Ok(2.5));
+    /// assert_eq!(way.number("t,y\n0,1\n1,2.5\n", "it"), Ok(2.5));
     /// ```
     ///
     /// # Errors
-    /// [`PickError`] if there is none.
-    pub fn number(&self, text: &str, of: String) -> Result<f64, PickError> {
-        let missing = |missing: String| PickError::Missing { of: of.clone(), missing };
+    /// Why there is none.
+    pub fn number(&self, text: &str, of: &str) -> Result<f64, String> {
+        let missing = |missing: String| format!("{of} has no {missing}");
         let found = match self {
             Self::Regex(regex, which) => {
                 let groups = which.of(regex.captures_iter(text));
                 let found = groups.and_then(|groups| groups.get(1).or_else(|| groups.get(0)));
                 let none = || match which {
                     Match::Number(_) => missing(which.in_words("match of the regex")),
-                    Match::First | Match::Last => PickError::NoMatch(of.clone()),
+                    Match::First | Match::Last => format!("nothing in {of} matches the regex"),
                 };
                 found.ok_or_else(none)?.as_str().to_owned()
             }
-            Self::Column(column, which) => cell(text, column, *which, &of)?,
+            Self::Column(column, which) => cell(text, column, *which, of)?,
             Self::Pointer(pointer) => {
-                let value: Value = serde_json::from_str(text).map_err(|_| PickError::NotJson(of.clone()))?;
+                let value: Value = serde_json::from_str(text).map_err(|_| format!("{of} is not JSON"))?;
                 match value.pointer(pointer).ok_or_else(|| missing(format!("value at `{pointer}`")))? {
                     Value::Null => return Ok(f64::NAN),
                     Value::String(text) => text.clone(),
@@ -238,7 +198,7 @@ impl Way {
                 }
             }
         };
-        number(&found).ok_or_else(|| PickError::NotANumber { of, found: masked(&found) })
+        number(&found).ok_or_else(|| format!("what was found in {of} is not a number: `{}`", masked(&found)))
     }
 }
 
@@ -249,8 +209,8 @@ fn number(text: &str) -> Option<f64> {
 }
 
 /// The cell of a column in one row of a CSV table.
-fn cell(text: &str, column: &str, which: Match, of: &str) -> Result<String, PickError> {
-    let missing = |missing: String| PickError::Missing { of: of.to_owned(), missing };
+fn cell(text: &str, column: &str, which: Match, of: &str) -> Result<String, String> {
+    let missing = |missing: String| format!("{of} has no {missing}");
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).flexible(true).from_reader(text.as_bytes());
     let place = reader.headers().ok().and_then(|names| names.iter().position(|name| name == column));
@@ -270,7 +230,7 @@ mod tests {
     use super::*;
 
     fn found(way: Way, text: &str) -> Result<f64, String> {
-        way.number(text, "it".to_owned()).map_err(|error| error.to_string())
+        way.number(text, "it")
     }
 
     fn regex(text: &str, which: Match) -> Way {

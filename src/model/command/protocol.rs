@@ -5,78 +5,56 @@ use serde_json::Value;
 
 use super::json_answer::{json, json_answer, keys_in_words};
 use crate::model::shorten::{cut, masked, shortened};
+use crate::names::named;
 
-/// How rows and answers are written.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Protocol {
-    /// A header with the names of the factors, then a line of cells for each row; a line of numbers as its answer.
-    Csv,
-    /// A JSON object for each row, and one as its answer.
-    JsonLines,
-}
-
-impl Protocol {
-    /// Both, the default first.
-    pub const ALL: [Self; 2] = [Self::Csv, Self::JsonLines];
-
-    /// The name in study files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Csv => "csv",
-            Self::JsonLines => "json-lines",
-        }
+named! {
+    /// How rows and answers are written; the default first.
+    pub enum Protocol {
+        /// A header with the names of the factors, then a line of cells for each row; a line of numbers as its answer.
+        Csv = "csv",
+        /// A JSON object for each row, and one as its answer.
+        JsonLines = "json-lines",
     }
 }
 
-/// What a program answered to a row.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Answer {
-    /// A value for every output; NaN where it gave none.
-    Values,
-    /// The row has no answer, for this reason in the program's words.
-    Failed(String),
-}
+/// What a program answered to a row: a value for every output, NaN where it gave none; or why there are none.
+pub(super) type Answer = Result<Vec<f64>, String>;
 
 /// Reads the line with which a program answers a row: the number of the row, the first cell in CSV and the key `id` of a JSON
-/// object; and one value for each of `outputs`, which are appended to `values` unless the row failed: the number, NaN for an
-/// empty cell, `nan` or null, or an infinity.
+/// object; and one value for each of `outputs` (the number, NaN for an empty cell, `nan` or null, or an infinity), or why the
+/// row has none.
 ///
 /// ```
-/// use apportion::model::{Answer, parse_answer};
+/// use apportion::model::parse_answer;
 /// use apportion::Protocol;
 ///
-/// let (outputs, mut values) = (["force".to_owned()], Vec::new());
-/// let csv = parse_answer(Protocol::Csv, &outputs, b"100003,1.5", &mut values);
-/// assert_eq!(csv, Ok((100_003, Ok(Answer::Values))));
+/// let outputs = ["force".to_owned()];
+/// assert_eq!(parse_answer(Protocol::Csv, &outputs, b"100003,1.5"), Ok((100_003, Ok(vec![1.5]))));
 /// let json = br#"{"id": 100003, "error": "no root"}"#;
-/// let json = parse_answer(Protocol::JsonLines, &outputs, json, &mut values);
-/// assert_eq!(json, Ok((100_003, Ok(Answer::Failed("no root".to_owned())))));
-/// assert_eq!(values, [1.5]);
-/// let stray = parse_answer(Protocol::Csv, &outputs, b"1.5", &mut values);
+/// let json = parse_answer(Protocol::JsonLines, &outputs, json);
+/// assert_eq!(json, Ok((100_003, Err("no root".to_owned()))));
+/// let stray = parse_answer(Protocol::Csv, &outputs, b"1.5");
 /// assert_eq!(stray.unwrap_err(), "expected the row's number and a number, separated by a comma, found `1.5`");
 /// ```
 ///
 /// # Errors
-/// What was expected and what was found, if the line has no row number. The answer behind a number may be none in the same way.
-/// `values` is then as it was.
+/// What was expected and what was found, if the line has no row number.
 pub fn parse_answer(
     protocol: Protocol,
     outputs: &[String],
     line: &[u8],
-    values: &mut Vec<f64>,
-) -> Result<(u64, Result<Answer, String>), String> {
+) -> Result<(u64, Result<Vec<f64>, String>), String> {
     let found = |words: String| format!("expected {}, found {words}", expected(protocol, outputs));
     let text = std::str::from_utf8(line).map_err(|_| found("a line that is not text in UTF-8".to_owned()))?.trim();
     if text.is_empty() {
         return Err(found("an empty line".to_owned()));
     }
-    let before = values.len();
     let no_number = || found(format!("`{}`", cut(text, MAX_LETTERS)));
     let (number, answer) = match protocol {
         Protocol::Csv => {
             let (number, rest) = text.split_once(',').ok_or_else(no_number)?;
             let number = whole(number.trim().trim_matches('"')).ok_or_else(no_number)?;
-            (number, csv_answer(outputs, rest.trim(), values))
+            (number, csv_answer(outputs, rest.trim()))
         }
         Protocol::JsonLines => {
             let parsed = json(text).map_err(&found)?;
@@ -85,14 +63,10 @@ pub fn parse_answer(
                 Some(Value::String(text)) => whole(text),
                 _ => None,
             };
-            (number.ok_or_else(no_number)?, json_line_answer(outputs, &parsed, values))
+            (number.ok_or_else(no_number)?, json_answer(outputs, &parsed))
         }
     };
-    let answer = answer.map_err(|words| {
-        values.truncate(before);
-        found(words)
-    });
-    Ok((number, answer))
+    Ok((number, answer.unwrap_or_else(|words| Err(format!("not an answer: {}", found(words))))))
 }
 
 /// Whether a line would be the answer to a row, had it the number of one.
@@ -101,8 +75,8 @@ pub(super) fn is_answer_without_number(protocol: Protocol, outputs: &[String], l
     let text = text.trim();
     let answer = match protocol {
         _ if text.is_empty() => return false,
-        Protocol::Csv => csv_answer(outputs, text, &mut Vec::new()),
-        Protocol::JsonLines => json(text).and_then(|parsed| json_line_answer(outputs, &parsed, &mut Vec::new())),
+        Protocol::Csv => csv_answer(outputs, text),
+        Protocol::JsonLines => json(text).and_then(|parsed| json_answer(outputs, &parsed)),
     };
     answer.is_ok()
 }
@@ -124,31 +98,27 @@ fn expected(protocol: Protocol, outputs: &[String]) -> String {
     }
 }
 
-fn failed(reason: &str) -> Answer {
+/// The answer of a program that says why a row has none.
+pub(super) fn failed(reason: &str) -> Answer {
     let reason = shortened(reason);
-    Answer::Failed(if reason.is_empty() { "the program reported an error without a reason".to_owned() } else { reason })
+    Err(if reason.is_empty() { "the program reported an error without a reason".to_owned() } else { reason })
 }
 
-fn csv_answer(outputs: &[String], text: &str, values: &mut Vec<f64>) -> Result<Answer, String> {
+/// The answer that `text` is, or what it is instead.
+fn csv_answer(outputs: &[String], text: &str) -> Result<Answer, String> {
     if let Some(reason) = text.strip_prefix("error:") {
         return Ok(failed(reason));
     }
-    let mut cells = 0;
-    for cell in text.split(',') {
-        cells += 1;
-        let cell = cell.trim();
-        let value = if cell.is_empty() { Some(f64::NAN) } else { cell.parse().ok() };
-        values.push(value.ok_or_else(|| format!("`{}`", masked(text)))?);
+    let value = |cell: &str| if cell.is_empty() { Some(f64::NAN) } else { cell.parse().ok() };
+    let values: Option<Vec<f64>> = text.split(',').map(|cell| value(cell.trim())).collect();
+    match values {
+        Some(values) if values.len() == outputs.len() => Ok(Ok(values)),
+        Some(values) => {
+            let (cells, s) = (values.len(), if values.len() == 1 { "" } else { "s" });
+            Err(format!("{cells} cell{s}: `{}`", masked(text)))
+        }
+        None => Err(format!("`{}`", masked(text))),
     }
-    if cells == outputs.len() {
-        return Ok(Answer::Values);
-    }
-    Err(format!("{cells} cell{}: `{}`", if cells == 1 { "" } else { "s" }, masked(text)))
-}
-
-fn json_line_answer(outputs: &[String], parsed: &Value, values: &mut Vec<f64>) -> Result<Answer, String> {
-    let reason = json_answer(outputs, parsed, values)?;
-    Ok(reason.map_or(Answer::Values, |reason| failed(&reason)))
 }
 
 #[cfg(test)]
@@ -161,14 +131,7 @@ mod tests {
 
     /// The number of the row, and its values or why there are none; `None` if the line has no number.
     fn read(protocol: Protocol, outputs: usize, line: &str) -> Option<(u64, Result<Vec<f64>, String>)> {
-        let mut values = Vec::new();
-        let (number, answer) = parse_answer(protocol, &names(outputs), line.as_bytes(), &mut values).ok()?;
-        let read = match answer {
-            Ok(Answer::Values) => Ok(values),
-            Ok(Answer::Failed(reason)) => Err(format!("failed: {reason}")),
-            Err(words) => Err(words),
-        };
-        Some((number, read))
+        parse_answer(protocol, &names(outputs), line.as_bytes()).ok()
     }
 
     #[test]
@@ -213,8 +176,8 @@ mod tests {
     #[test]
     fn a_program_says_that_a_row_failed() {
         let failed = |protocol, line: &str| read(protocol, 2, line).unwrap().1.unwrap_err();
-        assert_eq!(failed(Protocol::Csv, "7,error: no root"), "failed: no root");
-        assert_eq!(failed(Protocol::JsonLines, r#"{"id": 7, "error": "no root"}"#), "failed: no root");
+        assert_eq!(failed(Protocol::Csv, "7,error: no root"), "no root");
+        assert_eq!(failed(Protocol::JsonLines, r#"{"id": 7, "error": "no root"}"#), "no root");
         assert!(failed(Protocol::Csv, "7,error:").contains("without a reason"));
         assert_eq!(read(Protocol::JsonLines, 1, r#"{"id": 7, "error": null, "y1": 2}"#), Some((7, Ok(vec![2.0]))));
     }
@@ -222,10 +185,10 @@ mod tests {
     #[test]
     fn what_is_no_answer_behind_a_number_is_said() {
         let words = |protocol, line: &str| read(protocol, 2, line).unwrap().1.unwrap_err();
-        let cells = "expected the row's number and 2 numbers, separated by commas, found";
+        let cells = "not an answer: expected the row's number and 2 numbers, separated by commas, found";
         assert_eq!(words(Protocol::Csv, "7,1.5"), format!("{cells} 1 cell: `#`"));
         assert_eq!(words(Protocol::Csv, "7,step 17"), format!("{cells} `step #`"));
-        let object = "expected a JSON object with id (the row's number), y1, y2, found";
+        let object = "not an answer: expected a JSON object with id (the row's number), y1, y2, found";
         assert_eq!(words(Protocol::JsonLines, r#"{"id": 7, "y1": 1}"#), format!("{object} an object without `y2`"));
         assert_eq!(
             words(Protocol::JsonLines, r#"{"id": 7, "y1": 1, "y2": true}"#),
@@ -249,7 +212,7 @@ mod tests {
     }
 
     proptest::proptest! {
-        /// Whatever a program prints, there is an answer with all its values, or none and none.
+        /// Whatever a program prints, there is an answer with all its values, or none.
         #[test]
         fn no_line_panics(
             line in proptest::collection::vec(proptest::prelude::any::<u8>(), 0..60),
@@ -258,12 +221,9 @@ mod tests {
         ) {
             for line in [&line[..], near.as_bytes()] {
                 for protocol in Protocol::ALL {
-                    let mut values = vec![7.0];
-                    let answer = parse_answer(protocol, &names(outputs), line, &mut values);
-                    let added = if matches!(answer, Ok((_, Ok(Answer::Values)))) { outputs } else { 0 };
-                    proptest::prop_assert!(
-                        values.len() == 1 + added || matches!(answer, Ok((_, Ok(Answer::Failed(_)))))
-                    );
+                    if let Ok((_, Ok(values))) = parse_answer(protocol, &names(outputs), line) {
+                        proptest::prop_assert_eq!(values.len(), outputs);
+                    }
                     is_answer_without_number(protocol, &names(outputs), line);
                 }
             }

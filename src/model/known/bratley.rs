@@ -1,8 +1,8 @@
 //! The alternating sum of products of Bratley, Fox and Niederreiter.
 
 use super::function::{product, sum, unit_cube, xs};
-use super::parameters::{FINITE, Given};
-use super::{Entry, Exact, Function, KnownInput, ParameterError, ParameterInfo, ParameterValue};
+use super::parameters::FINITE;
+use super::{Entry, Exact, Function, Made, ParameterInfo};
 
 pub(super) const ENTRY: Entry = Entry {
     name: "bratley",
@@ -10,7 +10,10 @@ pub(super) const ENTRY: Entry = Entry {
     formula: "sum_i (-1)^i prod_{j <= i} x_j",
     source: "Bratley, Fox and Niederreiter 1992, ACM TOMACS 2, 195-213; function K of Kucherenko et al., 1A of later ones",
     parameters: &[ParameterInfo { name: "dimension", description: "number of inputs d [8]" }],
-    build: |given| Ok(Box::new(Bratley::new(given)?)),
+    build: |given| {
+        let d = given.dimension(8, FINITE)?;
+        Ok(Made::new(unit_cube(d), Bratley { d }))
+    },
 };
 
 /// sum_{i=1}^d (-1)^i prod_{j=1}^i x_j, x uniform on (0, 1)^d.
@@ -26,21 +29,7 @@ struct Bratley {
     d: usize,
 }
 
-impl Bratley {
-    fn new(given: &Given<'_>) -> Result<Self, ParameterError> {
-        Ok(Self { d: given.dimension(8, FINITE)? })
-    }
-}
-
 impl Function for Bratley {
-    fn inputs(&self) -> Vec<KnownInput> {
-        unit_cube(self.d)
-    }
-
-    fn parameters(&self) -> Vec<(&'static str, ParameterValue)> {
-        vec![("dimension", ParameterValue::Number(self.d as f64))]
-    }
-
     fn value(&self, x: &[f64]) -> f64 {
         let (mut product, mut sum) = (1.0, 0.0);
         for x in x {
@@ -73,6 +62,6 @@ impl Function for Bratley {
         let first = fourths.iter().map(|tail| tail / 3.0 / variance).collect();
         let total = thirds.iter().map(|tail| tail / 4.0 / variance).collect();
         let mean = (power(-0.5, self.d) - 1.0) / 3.0;
-        Exact::of_indices(mean, variance, first, total, |i, j| fourths[i.max(j)] / 9.0 / variance)
+        Exact::closed(mean, variance, first, total)
     }
 }

@@ -20,8 +20,6 @@ pub struct ExactIndices {
     pub first_order: Vec<f64>,
     /// Total indices ST_i.
     pub total: Vec<f64>,
-    /// Second-order indices S_ij, without the first-order ones; none where they are not known.
-    pub second_order: Option<SecondOrder>,
 }
 
 /// How well an answer is known.
@@ -36,60 +34,19 @@ pub enum Basis {
     },
 }
 
-/// Second-order indices of all pairs of inputs.
-#[derive(Debug, Clone, PartialEq)]
-pub struct SecondOrder {
-    inputs: usize,
-    /// Row by row of the upper triangle without the diagonal.
-    pairs: Vec<f64>,
-}
-
-impl SecondOrder {
-    fn of(inputs: usize, index: impl Fn(usize, usize) -> f64) -> Self {
-        let pairs = (0..inputs).flat_map(|i| (i + 1..inputs).map(move |j| (i, j))).map(|(i, j)| index(i, j)).collect();
-        Self { inputs, pairs }
-    }
-
-    /// S_ij of two different inputs, counted from 0, in either order; 0 for i = j.
-    ///
-    /// # Panics
-    /// If there is no such input.
-    pub fn get(&self, i: usize, j: usize) -> f64 {
-        let (i, j) = (i.min(j), i.max(j));
-        assert!(j < self.inputs, "input {j} of {}", self.inputs);
-        if i == j { 0.0 } else { self.pairs[i * (2 * self.inputs - i - 1) / 2 + j - i - 1] }
-    }
-
-    /// All pairs i < j with their index.
-    pub fn pairs(&self) -> impl Iterator<Item = (usize, usize, f64)> {
-        let places = (0..self.inputs).flat_map(|i| (i + 1..self.inputs).map(move |j| (i, j)));
-        places.zip(&self.pairs).map(|((i, j), &index)| (i, j, index))
-    }
-}
-
 impl Exact {
     /// From the parts V_u of the variance, each with its set of inputs u (ascending, each set once).
     pub(super) fn of_parts(mean: f64, inputs: usize, parts: &[(Vec<usize>, f64)]) -> Self {
         let variance: f64 = parts.iter().map(|(_, part)| part).sum();
         let (mut first, mut total) = (vec![0.0; inputs], vec![0.0; inputs]);
-        let mut second = SecondOrder::of(inputs, |_, _| 0.0);
         for (set, part) in parts {
             let share = part / variance;
-            match set[..] {
-                [i] => first[i] += share,
-                [i, j] => second.pairs[i * (2 * inputs - i - 1) / 2 + j - i - 1] += share,
-                _ => {}
+            if let [i] = set[..] {
+                first[i] += share;
             }
             set.iter().for_each(|&i| total[i] += share);
         }
-        Self::closed(mean, variance, first, total, second)
-    }
-
-    /// Of a sum of functions of one input each, with the variances `parts`: no interactions.
-    pub(super) fn of_sum(mean: f64, parts: &[f64]) -> Self {
-        let variance: f64 = parts.iter().sum();
-        let first: Vec<f64> = parts.iter().map(|part| part / variance).collect();
-        Self::closed(mean, variance, first.clone(), first, SecondOrder::of(parts.len(), |_, _| 0.0))
+        Self::closed(mean, variance, first, total)
     }
 
     /// Of a product of functions of one input each, with the variances `r` over their squared means; `mean` is the
@@ -103,36 +60,20 @@ impl Exact {
         let first = r.iter().map(|r| r / d).collect();
         // (1 + D) / D, which stays finite where D does not.
         let total = r.iter().map(|r| r / (1.0 + r) / -libm::expm1(-log)).collect();
-        let second = SecondOrder::of(r.len(), |i, j| r[i] * r[j] / d);
-        Self::closed(mean, mean * mean * d, first, total, second)
-    }
-
-    /// With all indices of one order alike.
-    pub(super) fn of_symmetric(mean: f64, variance: f64, inputs: usize, [s, st, sij]: [f64; 3]) -> Self {
-        Self::closed(mean, variance, vec![s; inputs], vec![st; inputs], SecondOrder::of(inputs, |_, _| sij))
+        Self::closed(mean, mean * mean * d, first, total)
     }
 
     /// From the indices themselves.
-    pub(super) fn of_indices(
-        mean: f64,
-        variance: f64,
-        first: Vec<f64>,
-        total: Vec<f64>,
-        second: impl Fn(usize, usize) -> f64,
-    ) -> Self {
-        let second = SecondOrder::of(first.len(), second);
-        Self::closed(mean, variance, first, total, second)
+    pub(super) fn closed(mean: f64, variance: f64, first_order: Vec<f64>, total: Vec<f64>) -> Self {
+        let indices = (variance > 0.0).then_some(ExactIndices { first_order, total });
+        Self { mean, variance, indices, basis: Basis::ClosedForm }
     }
 
-    /// From a table of references.
-    pub(super) fn by_quadrature(mean: f64, variance: f64, first: &[f64], total: &[f64], error: f64) -> Self {
-        let indices = ExactIndices { first_order: first.to_vec(), total: total.to_vec(), second_order: None };
+    /// From a table of references: the first-order and the total index of each input.
+    pub(super) fn by_quadrature(mean: f64, variance: f64, indices: &[[f64; 2]], error: f64) -> Self {
+        let (first_order, total) = indices.iter().map(|[first, total]| (*first, *total)).unzip();
+        let indices = ExactIndices { first_order, total };
         Self { mean, variance, indices: Some(indices), basis: Basis::Quadrature { error } }
-    }
-
-    fn closed(mean: f64, variance: f64, first: Vec<f64>, total: Vec<f64>, second: SecondOrder) -> Self {
-        let indices = ExactIndices { first_order: first, total, second_order: Some(second) };
-        Self { mean, variance, indices: (variance > 0.0).then_some(indices), basis: Basis::ClosedForm }
     }
 }
 

@@ -1,6 +1,6 @@
 //! What a function with known indices has to tell.
 
-use super::{Exact, ParameterValue};
+use super::Exact;
 use crate::quantity::Domain;
 use crate::space::Distribution;
 
@@ -23,14 +23,6 @@ pub struct KnownInput {
 
 /// A function of independent inputs whose mean, variance and indices are known.
 pub trait Function: Send + Sync {
-    /// The inputs in order.
-    fn inputs(&self) -> Vec<KnownInput>;
-
-    /// The parameters in force.
-    fn parameters(&self) -> Vec<(&'static str, ParameterValue)> {
-        Vec::new()
-    }
-
     /// The value at `x`, which has one entry per input; NaN where there is none. Allocates nothing.
     fn value(&self, x: &[f64]) -> f64;
 
@@ -45,6 +37,18 @@ pub trait Function: Send + Sync {
 
     /// Mean, variance and indices.
     fn exact(&self) -> Exact;
+}
+
+/// A function with its inputs, as its entry makes it of its parameters.
+pub(super) struct Made {
+    pub inputs: Vec<KnownInput>,
+    pub function: Box<dyn Function>,
+}
+
+impl Made {
+    pub fn new(inputs: Vec<KnownInput>, function: impl Function + 'static) -> Self {
+        Self { inputs, function: Box::new(function) }
+    }
 }
 
 /// Inputs x1 to xd of one distribution.

@@ -1,8 +1,8 @@
 //! The modified Sobol' G.
 
 use super::function::{product, unit_cube, written, xs};
-use super::parameters::{DIMENSION, Given, NOT_NEGATIVE, PORTION, POSITIVE};
-use super::{Entry, Exact, Function, KnownInput, ParameterError, ParameterInfo, ParameterValue};
+use super::parameters::{DIMENSION, NOT_NEGATIVE, PORTION, POSITIVE};
+use super::{Entry, Exact, Function, Made, ParameterInfo};
 
 pub(super) const ENTRY: Entry = Entry {
     name: "g-star",
@@ -18,7 +18,12 @@ pub(super) const ENTRY: Entry = Entry {
         ParameterInfo { name: "alpha", description: "powers, one number or one per input, greater than 0 [1]" },
         DIMENSION,
     ],
-    build: |given| Ok(Box::new(GStar::new(given)?)),
+    build: |given| {
+        let a = [0.0, 0.0, 9.0, 9.0, 9.0, 9.0, 9.0, 9.0, 9.0, 9.0];
+        let all = [("a", &a[..], NOT_NEGATIVE), ("delta", &DELTA, PORTION), ("alpha", &[1.0], POSITIVE)];
+        let [a, delta, alpha] = given.per_input(all)?;
+        Ok(Made::new(unit_cube(a.len()), GStar { a, delta, alpha }))
+    },
 };
 
 /// The shifts of the default: drawn once, since the paper draws its own at random and they change no index.
@@ -34,25 +39,7 @@ struct GStar {
     alpha: Vec<f64>,
 }
 
-impl GStar {
-    fn new(given: &Given<'_>) -> Result<Self, ParameterError> {
-        let a = [0.0, 0.0, 9.0, 9.0, 9.0, 9.0, 9.0, 9.0, 9.0, 9.0];
-        let all = [("a", &a[..], NOT_NEGATIVE), ("delta", &DELTA, PORTION), ("alpha", &[1.0], POSITIVE)];
-        let [a, delta, alpha] = given.per_input(all)?;
-        Ok(Self { a, delta, alpha })
-    }
-}
-
 impl Function for GStar {
-    fn inputs(&self) -> Vec<KnownInput> {
-        unit_cube(self.a.len())
-    }
-
-    fn parameters(&self) -> Vec<(&'static str, ParameterValue)> {
-        let list = |list: &Vec<f64>| ParameterValue::List(list.clone());
-        vec![("a", list(&self.a)), ("delta", list(&self.delta)), ("alpha", list(&self.alpha))]
-    }
-
     fn value(&self, x: &[f64]) -> f64 {
         let mut product = 1.0;
         for (((&x, &delta), &alpha), &a) in x.iter().zip(&self.delta).zip(&self.alpha).zip(&self.a) {

@@ -3,8 +3,8 @@
 use std::f64::consts::PI;
 
 use super::function::{alike, uniform, written};
-use super::parameters::{FINITE, Given};
-use super::{Entry, Exact, Function, KnownInput, ParameterError, ParameterInfo, ParameterValue};
+use super::parameters::FINITE;
+use super::{Entry, Exact, Function, Made, ParameterInfo};
 
 pub(super) const ENTRY: Entry = Entry {
     name: "ishigami",
@@ -15,41 +15,22 @@ pub(super) const ENTRY: Entry = Entry {
         ParameterInfo { name: "a", description: "weight of the second term [7]" },
         ParameterInfo { name: "b", description: "weight of the interaction [0.1]" },
     ],
-    build: |given| Ok(Box::new(Ishigami::new(given)?)),
+    build: |given| {
+        let (a, b) = (given.number("a", 7.0, FINITE)?, given.number("b", 0.1, FINITE)?);
+        Ok(Made::new(alike(3, "uniform on (-pi, pi)", &uniform(-PI, PI)), Ishigami { a, b }))
+    },
 };
 
 /// sin x1 + a sin^2 x2 + b x3^4 sin x1, x uniform on (-pi, pi)^3.
 ///
 /// Mean a/2, V_1 = (1 + b pi^4/5)^2 / 2, V_2 = a^2/8, V_13 = b^2 pi^8 (1/18 - 1/50), all others 0. For a = 7, b = 0.1:
 /// variance 13.8446, S = (0.3139, 0.4424, 0), ST = (0.5576, 0.4424, 0.2437), S_13 = 0.2437.
-pub(super) struct Ishigami {
-    pub(super) a: f64,
-    pub(super) b: f64,
-}
-
-impl Ishigami {
-    pub(super) fn new(given: &Given<'_>) -> Result<Self, ParameterError> {
-        Ok(Self { a: given.number("a", 7.0, FINITE)?, b: given.number("b", 0.1, FINITE)? })
-    }
-
-    /// The exact answer for x3 uniform on (-c, c): E x3^4 = c^4/5, Var x3^4 = c^8 (1/9 - 1/25).
-    pub(super) fn exact_within(&self, c: f64) -> Exact {
-        let v1 = (1.0 + self.b * c.powi(4) / 5.0).powi(2) / 2.0;
-        let v13 = self.b * self.b * c.powi(8) * (1.0 / 18.0 - 1.0 / 50.0);
-        let parts = [(vec![0], v1), (vec![1], self.a * self.a / 8.0), (vec![0, 2], v13)];
-        Exact::of_parts(self.a / 2.0, 3, &parts)
-    }
+struct Ishigami {
+    a: f64,
+    b: f64,
 }
 
 impl Function for Ishigami {
-    fn inputs(&self) -> Vec<KnownInput> {
-        alike(3, "uniform on (-pi, pi)", &uniform(-PI, PI))
-    }
-
-    fn parameters(&self) -> Vec<(&'static str, ParameterValue)> {
-        vec![("a", ParameterValue::Number(self.a)), ("b", ParameterValue::Number(self.b))]
-    }
-
     fn value(&self, x: &[f64]) -> f64 {
         libm::sin(x[0]) + self.a * libm::sin(x[1]).powi(2) + self.b * x[2].powi(4) * libm::sin(x[0])
     }
@@ -59,6 +40,9 @@ impl Function for Ishigami {
     }
 
     fn exact(&self) -> Exact {
-        self.exact_within(PI)
+        let v1 = (1.0 + self.b * PI.powi(4) / 5.0).powi(2) / 2.0;
+        let v13 = self.b * self.b * PI.powi(8) * (1.0 / 18.0 - 1.0 / 50.0);
+        let parts = [(vec![0], v1), (vec![1], self.a * self.a / 8.0), (vec![0, 2], v13)];
+        Exact::of_parts(self.a / 2.0, 3, &parts)
     }
 }

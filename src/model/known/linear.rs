@@ -1,8 +1,8 @@
 //! A weighted sum.
 
 use super::function::{sum, unit_cube, written, xs};
-use super::parameters::{DIMENSION, FINITE, Given};
-use super::{Entry, Exact, Function, KnownInput, ParameterError, ParameterInfo, ParameterValue};
+use super::parameters::{DIMENSION, FINITE};
+use super::{Entry, Exact, Function, Made, ParameterInfo};
 
 pub(super) const ENTRY: Entry = Entry {
     name: "linear",
@@ -13,7 +13,10 @@ pub(super) const ENTRY: Entry = Entry {
         ParameterInfo { name: "c", description: "weights, one number or one per input [4, 2, 1, 0.5, 0 ...]" },
         DIMENSION,
     ],
-    build: |given| Ok(Box::new(Linear::new(given)?)),
+    build: |given| {
+        let [c] = given.per_input([("c", &[4.0, 2.0, 1.0, 0.5, 0.0][..], FINITE)])?;
+        Ok(Made::new(unit_cube(c.len()), Linear { c }))
+    },
 };
 
 /// sum c_i x_i, x uniform on (0, 1)^d.
@@ -24,22 +27,7 @@ struct Linear {
     c: Vec<f64>,
 }
 
-impl Linear {
-    fn new(given: &Given<'_>) -> Result<Self, ParameterError> {
-        let [c] = given.per_input([("c", &[4.0, 2.0, 1.0, 0.5, 0.0][..], FINITE)])?;
-        Ok(Self { c })
-    }
-}
-
 impl Function for Linear {
-    fn inputs(&self) -> Vec<KnownInput> {
-        unit_cube(self.c.len())
-    }
-
-    fn parameters(&self) -> Vec<(&'static str, ParameterValue)> {
-        vec![("c", ParameterValue::List(self.c.clone()))]
-    }
-
     fn value(&self, x: &[f64]) -> f64 {
         x.iter().zip(&self.c).map(|(x, c)| c * x).sum()
     }
@@ -49,7 +37,9 @@ impl Function for Linear {
     }
 
     fn exact(&self) -> Exact {
-        let parts: Vec<f64> = self.c.iter().map(|c| c * c / 12.0).collect();
-        Exact::of_sum(self.c.iter().sum::<f64>() / 2.0, &parts)
+        let parts = self.c.iter().map(|c| c * c / 12.0);
+        let variance: f64 = parts.clone().sum();
+        let indices: Vec<f64> = parts.map(|part| part / variance).collect();
+        Exact::closed(self.c.iter().sum::<f64>() / 2.0, variance, indices.clone(), indices)
     }
 }

@@ -1,8 +1,8 @@
 //! The smallest of several inputs.
 
 use super::function::{unit_cube, xs};
-use super::parameters::{Given, Range};
-use super::{Entry, Exact, Function, KnownInput, ParameterError, ParameterInfo, ParameterValue};
+use super::parameters::Range;
+use super::{Entry, Exact, Function, Made, ParameterInfo};
 
 pub(super) const ENTRY: Entry = Entry {
     name: "minimum",
@@ -10,7 +10,10 @@ pub(super) const ENTRY: Entry = Entry {
     formula: "min_i x_i",
     source: "textbook: order statistics of uniform inputs",
     parameters: &[ParameterInfo { name: "dimension", description: "number of inputs d, at least 2 [2]" }],
-    build: |given| Ok(Box::new(Minimum::new(given)?)),
+    build: |given| {
+        let d = given.dimension(2, TWO_OR_MORE)?;
+        Ok(Made::new(unit_cube(d), Minimum { d }))
+    },
 };
 
 pub(super) const TWO_OR_MORE: Range = (|d| d >= 2.0, "a whole number from 2");
@@ -24,21 +27,7 @@ struct Minimum {
     d: usize,
 }
 
-impl Minimum {
-    fn new(given: &Given<'_>) -> Result<Self, ParameterError> {
-        Ok(Self { d: given.dimension(2, TWO_OR_MORE)? })
-    }
-}
-
 impl Function for Minimum {
-    fn inputs(&self) -> Vec<KnownInput> {
-        unit_cube(self.d)
-    }
-
-    fn parameters(&self) -> Vec<(&'static str, ParameterValue)> {
-        vec![("dimension", ParameterValue::Number(self.d as f64))]
-    }
-
     fn value(&self, x: &[f64]) -> f64 {
         x.iter().copied().fold(f64::INFINITY, f64::min)
     }
@@ -50,7 +39,8 @@ impl Function for Minimum {
     fn exact(&self) -> Exact {
         let d = self.d as f64;
         let first = (d + 2.0) / (d * (2.0 * d + 1.0));
-        let indices = [first, 2.0 * (d + 1.0) / (d * (d + 3.0)), first / d];
-        Exact::of_symmetric(1.0 / (d + 1.0), d / ((d + 1.0) * (d + 1.0) * (d + 2.0)), self.d, indices)
+        let total = 2.0 * (d + 1.0) / (d * (d + 3.0));
+        let variance = d / ((d + 1.0) * (d + 1.0) * (d + 2.0));
+        Exact::closed(1.0 / (d + 1.0), variance, vec![first; self.d], vec![total; self.d])
     }
 }

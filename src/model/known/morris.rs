@@ -1,7 +1,7 @@
 //! Morris's function of twenty inputs.
 
 use super::function::{product, sum, unit_cube, written};
-use super::{Entry, Exact, Function, KnownInput};
+use super::{Entry, Exact, Function, Made};
 
 pub(super) const ENTRY: Entry = Entry {
     name: "morris",
@@ -12,7 +12,7 @@ pub(super) const ENTRY: Entry = Entry {
               b_ijk = 0",
     source: "Morris 1991, Technometrics 33, 161-174, with (-1)^i and (-1)^(i+j) for the coefficients it draws at random",
     parameters: &[],
-    build: |_| Ok(Box::new(Morris)),
+    build: |_| Ok(Made::new(unit_cube(INPUTS), Morris)),
 };
 
 const INPUTS: usize = 20;
@@ -45,10 +45,6 @@ const TRIPLE: f64 = -10.0;
 const QUADRUPLE: f64 = 5.0;
 
 impl Function for Morris {
-    fn inputs(&self) -> Vec<KnownInput> {
-        unit_cube(INPUTS)
-    }
-
     fn value(&self, x: &[f64]) -> f64 {
         let mut w = [0.0; INPUTS];
         for (i, (w, &x)) in w.iter_mut().zip(x).enumerate() {

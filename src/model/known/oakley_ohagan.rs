@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 use serde::Deserialize;
 
 use super::function::{alike, sum, written, xs};
-use super::{Entry, Exact, Function, KnownInput};
+use super::{Entry, Exact, Function, Made};
 use crate::space::Distribution;
 
 pub(super) const ENTRY: Entry = Entry {
@@ -14,7 +14,10 @@ pub(super) const ENTRY: Entry = Entry {
     formula: "a1'x + a2' sin x + a3' cos x + x'M x, with the published vectors a1, a2, a3 and matrix M",
     source: "Oakley and O'Hagan 2004, J. R. Statist. Soc. B 66, 751-769",
     parameters: &[],
-    build: |_| Ok(Box::new(OakleyOHagan)),
+    build: |_| {
+        let normal = Distribution::normal(0.0, 1.0).expect("the standard normal distribution");
+        Ok(Made::new(alike(INPUTS, "standard normal", &normal), OakleyOHagan))
+    },
 };
 
 const INPUTS: usize = 15;
@@ -42,11 +45,6 @@ static CONSTANTS: LazyLock<Constants> = LazyLock::new(|| {
 struct OakleyOHagan;
 
 impl Function for OakleyOHagan {
-    fn inputs(&self) -> Vec<KnownInput> {
-        let normal = Distribution::normal(0.0, 1.0).expect("the standard normal distribution");
-        alike(INPUTS, "standard normal", &normal)
-    }
-
     fn value(&self, x: &[f64]) -> f64 {
         let c = &*CONSTANTS;
         let mut sum = 0.0;

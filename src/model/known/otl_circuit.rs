@@ -1,7 +1,7 @@
 //! An output transformerless push-pull circuit.
 
 use super::function::{all_positive, positive, uniform};
-use super::{Entry, Exact, Function, KnownInput};
+use super::{Entry, Exact, Function, KnownInput, Made};
 
 pub(super) const ENTRY: Entry = Entry {
     name: "otl-circuit",
@@ -10,24 +10,24 @@ pub(super) const ENTRY: Entry = Entry {
               c = beta (Rc2 + 9)",
     source: "Ben-Ari and Steinberg 2007, Qual. Eng. 19, 327-338",
     parameters: &[],
-    build: |_| Ok(Box::new(OtlCircuit)),
+    build: |_| Ok(Made::new(inputs(), OtlCircuit)),
 };
 
 /// The midpoint voltage in volts. By tensor quadrature: mean 5.43405, variance 1.30691.
 struct OtlCircuit;
 
-impl Function for OtlCircuit {
-    fn inputs(&self) -> Vec<KnownInput> {
-        vec![
-            positive("Rb1", "resistance b1, kilohm", uniform(50.0, 150.0)),
-            positive("Rb2", "resistance b2, kilohm", uniform(25.0, 70.0)),
-            positive("Rf", "resistance f, kilohm", uniform(0.5, 3.0)),
-            positive("Rc1", "resistance c1, kilohm", uniform(1.2, 2.5)),
-            positive("Rc2", "resistance c2, kilohm", uniform(0.25, 1.2)),
-            positive("beta", "current gain", uniform(50.0, 300.0)),
-        ]
-    }
+fn inputs() -> Vec<KnownInput> {
+    vec![
+        positive("Rb1", "resistance b1, kilohm", uniform(50.0, 150.0)),
+        positive("Rb2", "resistance b2, kilohm", uniform(25.0, 70.0)),
+        positive("Rf", "resistance f, kilohm", uniform(0.5, 3.0)),
+        positive("Rc1", "resistance c1, kilohm", uniform(1.2, 2.5)),
+        positive("Rc2", "resistance c2, kilohm", uniform(0.25, 1.2)),
+        positive("beta", "current gain", uniform(50.0, 300.0)),
+    ]
+}
 
+impl Function for OtlCircuit {
     fn value(&self, x: &[f64]) -> f64 {
         let &[rb1, rb2, rf, rc1, rc2, beta] = x else { return f64::NAN };
         if !all_positive(x) {
@@ -47,22 +47,15 @@ impl Function for OtlCircuit {
     }
 
     fn exact(&self) -> Exact {
-        let first = [
-            0.4956631683466011,
-            0.40719669280363024,
-            0.07084080332915968,
-            0.018639362217232548,
-            3.3892715014267995e-08,
-            1.2665665569323318e-05,
+        // S_i and ST_i.
+        let indices = [
+            [0.4956631683466011, 0.5001451493677772],
+            [0.40719669280363024, 0.41167859765379644],
+            [0.07084080332915968, 0.07400605478878403],
+            [0.018639362217232548, 0.02180256813708708],
+            [3.3892715014267995e-08, 5.173752114840751e-08],
+            [1.2665665569323318e-05, 1.4940126057443647e-05],
         ];
-        let total = [
-            0.5001451493677772,
-            0.41167859765379644,
-            0.07400605478878403,
-            0.02180256813708708,
-            5.173752114840751e-08,
-            1.4940126057443647e-05,
-        ];
-        Exact::by_quadrature(5.4340540961552035, 1.3069093620472445, &first, &total, 1e-10)
+        Exact::by_quadrature(5.4340540961552035, 1.3069093620472445, &indices, 1e-10)
     }
 }

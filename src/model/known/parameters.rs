@@ -42,64 +42,30 @@ impl fmt::Display for ParameterValue {
     }
 }
 
-/// Why a function cannot be made.
+/// Why a function cannot be made: a parameter that it does not have, or a value that makes no sense.
 #[derive(Debug, Clone, PartialEq, Error)]
-pub enum ParameterError {
-    /// The function has no such parameter.
-    #[error("the function has no parameter `{parameter}`")]
-    Unknown {
-        /// The name given.
-        parameter: String,
-        /// The names it has.
-        known: Vec<&'static str>,
-    },
-    /// A list where one number is needed.
-    #[error("`{parameter}` must be one number, not a list")]
-    NotOneNumber {
-        /// The parameter.
-        parameter: &'static str,
-    },
-    /// A value outside the range of the parameter.
-    #[error("`{parameter}` must be {must}, not {value}")]
-    OutOfRange {
-        /// The parameter.
-        parameter: &'static str,
-        /// The value given.
-        value: f64,
-        /// The range in words.
-        must: &'static str,
-    },
-    /// A list that is not as long as there are inputs.
-    #[error("`{parameter}` has {entries} entries, but the function has {inputs} inputs")]
-    Length {
-        /// The parameter.
-        parameter: &'static str,
-        /// Number of entries.
-        entries: usize,
-        /// Number of inputs, by `dimension` or an earlier list.
-        inputs: usize,
-    },
-    /// A list that no function can have.
-    #[error("`{parameter}` has {entries} entries, but must have 1 to {MAX_INPUTS}")]
-    Entries {
-        /// The parameter.
-        parameter: &'static str,
-        /// Number of entries.
-        entries: usize,
-    },
+#[error("{problem}")]
+pub struct ParameterError {
+    /// The parameter.
+    pub parameter: String,
+    /// What is wrong, and what would be right.
+    pub problem: String,
 }
 
 impl ParameterError {
-    /// The parameter it is about.
-    pub fn parameter(&self) -> &str {
-        match self {
-            Self::Unknown { parameter, .. } => parameter,
-            Self::NotOneNumber { parameter }
-            | Self::OutOfRange { parameter, .. }
-            | Self::Length { parameter, .. }
-            | Self::Entries { parameter, .. } => parameter,
-        }
+    /// The function has no such parameter.
+    pub(crate) fn unknown(parameter: &str) -> Self {
+        Self { parameter: parameter.to_owned(), problem: format!("the function has no parameter `{parameter}`") }
     }
+
+    /// A value outside the range of the parameter, which `must` says in words.
+    pub(super) fn out_of_range(parameter: &str, value: f64, must: &str) -> Self {
+        refused(parameter, format!("must be {must}, not {value}"))
+    }
+}
+
+fn refused(parameter: &str, problem: String) -> ParameterError {
+    ParameterError { parameter: parameter.to_owned(), problem: format!("`{parameter}` {problem}") }
 }
 
 /// A range of values, with the words for it.
@@ -116,35 +82,59 @@ const INPUTS: Range = (|x| (1.0..=MAX_INPUTS as f64).contains(&x) && x.fract() =
 pub(super) type PerInput<'a> = (&'static str, &'a [f64], Range);
 
 /// The parameters given, for the functions to read.
-pub(super) struct Given<'a>(&'a [(String, ParameterValue)]);
+pub(super) struct Given<'a> {
+    given: &'a [(String, ParameterValue)],
+    /// Those read so far, be they given or defaults.
+    pub in_force: Vec<(&'static str, ParameterValue)>,
+}
 
 impl<'a> Given<'a> {
     pub(super) fn new(parameters: &'a [(String, ParameterValue)]) -> Self {
-        Self(parameters)
+        Self { given: parameters, in_force: Vec::new() }
     }
 
     fn get(&self, name: &str) -> Option<&ParameterValue> {
-        self.0.iter().find(|(given, _)| given == name).map(|(_, value)| value)
+        self.given.iter().find(|(given, _)| given == name).map(|(_, value)| value)
     }
 
-    /// One number.
-    pub(super) fn number(&self, parameter: &'static str, default: f64, range: Range) -> Result<f64, ParameterError> {
+    fn one_number(&self, parameter: &'static str, default: f64, range: Range) -> Result<f64, ParameterError> {
         match self.get(parameter) {
             None => Ok(default),
             Some(ParameterValue::Number(value)) => within(parameter, *value, range),
-            Some(ParameterValue::List(_)) => Err(ParameterError::NotOneNumber { parameter }),
+            Some(ParameterValue::List(_)) => Err(refused(parameter, "must be one number, not a list".to_owned())),
         }
     }
 
-    /// The parameter `dimension` alone.
-    pub(super) fn dimension(&self, default: usize, range: Range) -> Result<usize, ParameterError> {
-        let value = within("dimension", self.number("dimension", default as f64, range)?, INPUTS)?;
+    fn number_of_inputs(&self, default: usize, range: Range) -> Result<usize, ParameterError> {
+        let value = within("dimension", self.one_number("dimension", default as f64, range)?, INPUTS)?;
         // Whole and at most 4096.
         Ok(value as usize)
     }
 
+    /// One number.
+    pub(super) fn number(
+        &mut self,
+        parameter: &'static str,
+        default: f64,
+        range: Range,
+    ) -> Result<f64, ParameterError> {
+        let value = self.one_number(parameter, default, range)?;
+        self.in_force.push((parameter, ParameterValue::Number(value)));
+        Ok(value)
+    }
+
+    /// The parameter `dimension` alone.
+    pub(super) fn dimension(&mut self, default: usize, range: Range) -> Result<usize, ParameterError> {
+        let inputs = self.number_of_inputs(default, range)?;
+        self.in_force.push(("dimension", ParameterValue::Number(inputs as f64)));
+        Ok(inputs)
+    }
+
     /// Numbers per input, all of one length: that of `dimension`, else of the first list given, else of the default.
-    pub(super) fn per_input<const N: usize>(&self, all: [PerInput<'_>; N]) -> Result<[Vec<f64>; N], ParameterError> {
+    pub(super) fn per_input<const N: usize>(
+        &mut self,
+        all: [PerInput<'_>; N],
+    ) -> Result<[Vec<f64>; N], ParameterError> {
         let listed = all.iter().find_map(|(name, ..)| match self.get(name) {
             Some(ParameterValue::List(list)) => Some((*name, list.len())),
             _ => None,
@@ -152,9 +142,9 @@ impl<'a> Given<'a> {
         let inputs = match (self.get("dimension"), listed) {
             (None, Some((_, entries))) if (1..=MAX_INPUTS).contains(&entries) => entries,
             (None, Some((parameter, entries))) => {
-                return Err(ParameterError::Entries { parameter, entries });
+                return Err(refused(parameter, format!("has {entries} entries, but must have 1 to {MAX_INPUTS}")));
             }
-            _ => self.dimension(all.first().map_or(1, |(_, default, _)| default.len()), INPUTS)?,
+            _ => self.number_of_inputs(all.first().map_or(1, |(_, default, _)| default.len()), INPUTS)?,
         };
         let mut columns = [const { Vec::new() }; N];
         for (column, (parameter, default, range)) in columns.iter_mut().zip(all) {
@@ -162,17 +152,22 @@ impl<'a> Given<'a> {
                 None => (0..inputs).map(|i| default[i.min(default.len() - 1)]).collect(),
                 Some(ParameterValue::Number(value)) => vec![within(parameter, *value, range)?; inputs],
                 Some(ParameterValue::List(list)) if list.len() != inputs => {
-                    return Err(ParameterError::Length { parameter, entries: list.len(), inputs });
+                    let entries = list.len();
+                    return Err(refused(
+                        parameter,
+                        format!("has {entries} entries, but the function has {inputs} inputs"),
+                    ));
                 }
                 Some(ParameterValue::List(list)) => {
                     list.iter().map(|&value| within(parameter, value, range)).collect::<Result<_, _>>()?
                 }
             };
+            self.in_force.push((parameter, ParameterValue::List(column.clone())));
         }
         Ok(columns)
     }
 }
 
 fn within(parameter: &'static str, value: f64, (contains, must): Range) -> Result<f64, ParameterError> {
-    if contains(value) { Ok(value) } else { Err(ParameterError::OutOfRange { parameter, value, must }) }
+    if contains(value) { Ok(value) } else { Err(ParameterError::out_of_range(parameter, value, must)) }
 }

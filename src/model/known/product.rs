@@ -1,8 +1,8 @@
 //! A product of normal inputs.
 
 use super::function::{product, xs};
-use super::parameters::{DIMENSION, FINITE, Given, POSITIVE};
-use super::{Entry, Exact, Function, KnownInput, ParameterError, ParameterInfo, ParameterValue};
+use super::parameters::{DIMENSION, FINITE, POSITIVE};
+use super::{Entry, Exact, Function, KnownInput, Made, ParameterError, ParameterInfo};
 use crate::space::Distribution;
 
 pub(super) const ENTRY: Entry = Entry {
@@ -15,7 +15,20 @@ pub(super) const ENTRY: Entry = Entry {
         ParameterInfo { name: "sigma", description: "standard deviations, greater than 0, likewise [0.5]" },
         DIMENSION,
     ],
-    build: |given| Ok(Box::new(Product::new(given)?)),
+    build: |given| {
+        let [mu, sigma] = given.per_input([("mu", &[1.0, 2.0, 3.0][..], FINITE), ("sigma", &[0.5], POSITIVE)])?;
+        let input = |(number, (&mu, &sigma)): (usize, (&f64, &f64))| {
+            let refused = |_| ParameterError::out_of_range("sigma", sigma, "small enough for finite values");
+            Ok(KnownInput {
+                name: format!("x{}", number + 1),
+                description: format!("normal of mean {mu} and standard deviation {sigma}"),
+                domain: None,
+                distribution: Distribution::normal(mu, sigma).map_err(refused)?,
+            })
+        };
+        let inputs = mu.iter().zip(&sigma).enumerate().map(input).collect::<Result<_, _>>()?;
+        Ok(Made::new(inputs, Product { mu, sigma }))
+    },
 };
 
 /// prod x_i, x_i normal of mean mu_i and standard deviation sigma_i.
@@ -28,40 +41,9 @@ pub(super) const ENTRY: Entry = Entry {
 struct Product {
     mu: Vec<f64>,
     sigma: Vec<f64>,
-    normals: Vec<Distribution>,
-}
-
-impl Product {
-    fn new(given: &Given<'_>) -> Result<Self, ParameterError> {
-        let [mu, sigma] = given.per_input([("mu", &[1.0, 2.0, 3.0][..], FINITE), ("sigma", &[0.5], POSITIVE)])?;
-        let normal = |(&mu, &sigma): (&f64, &f64)| {
-            let must = "small enough for finite values";
-            Distribution::normal(mu, sigma).map_err(|_| ParameterError::OutOfRange {
-                parameter: "sigma",
-                value: sigma,
-                must,
-            })
-        };
-        let normals = mu.iter().zip(&sigma).map(normal).collect::<Result<_, _>>()?;
-        Ok(Self { mu, sigma, normals })
-    }
 }
 
 impl Function for Product {
-    fn inputs(&self) -> Vec<KnownInput> {
-        let input = |(number, (distribution, (mu, sigma))): (usize, (&Distribution, (&f64, &f64)))| KnownInput {
-            name: format!("x{}", number + 1),
-            description: format!("normal of mean {mu} and standard deviation {sigma}"),
-            domain: None,
-            distribution: distribution.clone(),
-        };
-        self.normals.iter().zip(self.mu.iter().zip(&self.sigma)).enumerate().map(input).collect()
-    }
-
-    fn parameters(&self) -> Vec<(&'static str, ParameterValue)> {
-        vec![("mu", ParameterValue::List(self.mu.clone())), ("sigma", ParameterValue::List(self.sigma.clone()))]
-    }
-
     fn value(&self, x: &[f64]) -> f64 {
         x.iter().product()
     }
@@ -73,20 +55,19 @@ impl Function for Product {
     fn exact(&self) -> Exact {
         let r: Vec<f64> = self.sigma.iter().zip(&self.mu).map(|(sigma, mu)| (sigma / mu).powi(2)).collect();
         let t: Vec<f64> = r.iter().map(|&r| if r.is_infinite() { 1.0 } else { r / (1.0 + r) }).collect();
-        // prod c_j over all but the inputs left out, a count of zeros and the logarithm of the others.
+        // prod c_j over all but one input, by a count of zeros and the logarithm of the others.
         let log = |r: f64| if r.is_infinite() { 0.0 } else { -libm::log1p(r) };
         let zeros = r.iter().filter(|r| r.is_infinite()).count();
         let logs: f64 = r.iter().map(|&r| log(r)).sum();
-        let others = |left_out: &[usize]| {
-            let zeros = zeros - left_out.iter().filter(|&&i| r[i].is_infinite()).count();
-            let logs = logs - left_out.iter().map(|&i| log(r[i])).sum::<f64>();
-            if zeros > 0 { 0.0 } else { libm::exp(logs) }
+        let others = |i: usize| {
+            let zeros = zeros - usize::from(r[i].is_infinite());
+            if zeros > 0 { 0.0 } else { libm::exp(logs - log(r[i])) }
         };
         let varying = if zeros > 0 { 1.0 } else { -libm::expm1(logs) };
         let squares: f64 = self.sigma.iter().zip(&self.mu).map(|(sigma, mu)| mu * mu + sigma * sigma).product();
         let mean = self.mu.iter().product();
-        let first = (0..r.len()).map(|i| t[i] * others(&[i]) / varying).collect();
+        let first = (0..r.len()).map(|i| t[i] * others(i) / varying).collect();
         let total = t.iter().map(|t| t / varying).collect();
-        Exact::of_indices(mean, squares * varying, first, total, |i, j| t[i] * t[j] * others(&[i, j]) / varying)
+        Exact::closed(mean, squares * varying, first, total)
     }
 }

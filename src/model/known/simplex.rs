@@ -1,8 +1,8 @@
 //! The indicator of a simplex.
 
 use super::function::{sum, unit_cube, xs};
-use super::parameters::{Given, Range};
-use super::{Entry, Exact, Function, KnownInput, ParameterError, ParameterInfo, ParameterValue};
+use super::parameters::Range;
+use super::{Entry, Exact, Function, Made, ParameterInfo};
 
 pub(super) const ENTRY: Entry = Entry {
     name: "simplex",
@@ -10,7 +10,10 @@ pub(super) const ENTRY: Entry = Entry {
     formula: "1 if sum_i x_i <= 1, else 0",
     source: "this program; the integrals are Dirichlet's",
     parameters: &[ParameterInfo { name: "dimension", description: "number of inputs d, 2 to 12 [3]" }],
-    build: |given| Ok(Box::new(Simplex::new(given)?)),
+    build: |given| {
+        let d = given.dimension(3, FEW)?;
+        Ok(Made::new(unit_cube(d), Simplex { d }))
+    },
 };
 
 /// Beyond 12 the simplex is too small to be met by any sample.
@@ -28,21 +31,7 @@ struct Simplex {
     d: usize,
 }
 
-impl Simplex {
-    fn new(given: &Given<'_>) -> Result<Self, ParameterError> {
-        Ok(Self { d: given.dimension(3, FEW)? })
-    }
-}
-
 impl Function for Simplex {
-    fn inputs(&self) -> Vec<KnownInput> {
-        unit_cube(self.d)
-    }
-
-    fn parameters(&self) -> Vec<(&'static str, ParameterValue)> {
-        vec![("dimension", ParameterValue::Number(self.d as f64))]
-    }
-
     fn value(&self, x: &[f64]) -> f64 {
         f64::from(u8::from(x.iter().sum::<f64>() <= 1.0))
     }
@@ -57,7 +46,6 @@ impl Function for Simplex {
         let n = factorial - 1.0;
         let first = (d - 1.0).powi(2) / ((2.0 * d - 1.0) * n);
         let total = (d - 1.0) * factorial / ((d + 1.0) * n);
-        let second = (d * d * (d - 1.0) / (2.0 * (2.0 * d - 3.0)) - 1.0) / n - 2.0 * first;
-        Exact::of_symmetric(1.0 / factorial, n / (factorial * factorial), self.d, [first, total, second])
+        Exact::closed(1.0 / factorial, n / (factorial * factorial), vec![first; self.d], vec![total; self.d])
     }
 }

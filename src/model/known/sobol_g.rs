@@ -1,8 +1,8 @@
 //! Sobol' G.
 
 use super::function::{product, unit_cube, written, xs};
-use super::parameters::{DIMENSION, Given, NOT_NEGATIVE};
-use super::{Entry, Exact, Function, KnownInput, ParameterError, ParameterInfo, ParameterValue};
+use super::parameters::{DIMENSION, NOT_NEGATIVE};
+use super::{Entry, Exact, Function, Made, ParameterInfo};
 
 pub(super) const ENTRY: Entry = Entry {
     name: "sobol-g",
@@ -16,7 +16,11 @@ pub(super) const ENTRY: Entry = Entry {
         },
         DIMENSION,
     ],
-    build: |given| Ok(Box::new(SobolG::new(given)?)),
+    build: |given| {
+        let default = [0.0, 1.0, 4.5, 9.0, 99.0, 99.0, 99.0, 99.0];
+        let [a] = given.per_input([("a", &default, NOT_NEGATIVE)])?;
+        Ok(Made::new(unit_cube(a.len()), SobolG { a }))
+    },
 };
 
 /// prod (|4 x_i - 2| + a_i) / (1 + a_i), x uniform on (0, 1)^d.
@@ -27,23 +31,7 @@ struct SobolG {
     a: Vec<f64>,
 }
 
-impl SobolG {
-    fn new(given: &Given<'_>) -> Result<Self, ParameterError> {
-        let default = [0.0, 1.0, 4.5, 9.0, 99.0, 99.0, 99.0, 99.0];
-        let [a] = given.per_input([("a", &default, NOT_NEGATIVE)])?;
-        Ok(Self { a })
-    }
-}
-
 impl Function for SobolG {
-    fn inputs(&self) -> Vec<KnownInput> {
-        unit_cube(self.a.len())
-    }
-
-    fn parameters(&self) -> Vec<(&'static str, ParameterValue)> {
-        vec![("a", ParameterValue::List(self.a.clone()))]
-    }
-
     fn value(&self, x: &[f64]) -> f64 {
         x.iter().zip(&self.a).map(|(x, a)| ((4.0 * x - 2.0).abs() + a) / (1.0 + a)).product()
     }

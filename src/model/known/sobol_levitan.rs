@@ -2,8 +2,8 @@
 
 use super::exact::{mean_of_exponential, relative_variance_of_exponential};
 use super::function::{sum, unit_cube, written, xs};
-use super::parameters::{DIMENSION, FINITE, Given, Range};
-use super::{Entry, Exact, Function, KnownInput, ParameterError, ParameterInfo, ParameterValue};
+use super::parameters::{DIMENSION, FINITE, Range};
+use super::{Entry, Exact, Function, Made, ParameterError, ParameterInfo};
 
 pub(super) const ENTRY: Entry = Entry {
     name: "sobol-levitan",
@@ -15,7 +15,16 @@ pub(super) const ENTRY: Entry = Entry {
         ParameterInfo { name: "c0", description: "the mean [0]" },
         DIMENSION,
     ],
-    build: |given| Ok(Box::new(SobolLevitan::new(given)?)),
+    build: |given| {
+        let [b] = given.per_input([("b", &[1.5, 0.9, 0.9, 0.9, 0.9, 0.9, 0.9][..], EXPONENT)])?;
+        let largest: f64 = b.iter().map(|b| b.abs()).sum();
+        if !EXPONENT.0(largest) {
+            return Err(ParameterError::out_of_range("b", largest, EXPONENT.1));
+        }
+        let mean = b.iter().map(|&b| mean_of_exponential(b)).product();
+        let c0 = given.number("c0", 0.0, FINITE)?;
+        Ok(Made::new(unit_cube(b.len()), SobolLevitan { b, c0, mean }))
+    },
 };
 
 /// The exponential and its square have to fit into `f64`.
@@ -33,27 +42,7 @@ struct SobolLevitan {
     mean: f64,
 }
 
-impl SobolLevitan {
-    fn new(given: &Given<'_>) -> Result<Self, ParameterError> {
-        let [b] = given.per_input([("b", &[1.5, 0.9, 0.9, 0.9, 0.9, 0.9, 0.9][..], EXPONENT)])?;
-        let largest: f64 = b.iter().map(|b| b.abs()).sum();
-        if !EXPONENT.0(largest) {
-            return Err(ParameterError::OutOfRange { parameter: "b", value: largest, must: EXPONENT.1 });
-        }
-        let mean = b.iter().map(|&b| mean_of_exponential(b)).product();
-        Ok(Self { b, c0: given.number("c0", 0.0, FINITE)?, mean })
-    }
-}
-
 impl Function for SobolLevitan {
-    fn inputs(&self) -> Vec<KnownInput> {
-        unit_cube(self.b.len())
-    }
-
-    fn parameters(&self) -> Vec<(&'static str, ParameterValue)> {
-        vec![("b", ParameterValue::List(self.b.clone())), ("c0", ParameterValue::Number(self.c0))]
-    }
-
     fn value(&self, x: &[f64]) -> f64 {
         let exponent: f64 = x.iter().zip(&self.b).map(|(x, b)| b * x).sum();
         libm::exp(exponent) - self.mean + self.c0

@@ -1,8 +1,8 @@
 //! A product of steps.
 
 use super::function::{product, unit_cube, written, xs};
-use super::parameters::{DIMENSION, FINITE, Given, PORTION};
-use super::{Entry, Exact, Function, KnownInput, ParameterError, ParameterInfo, ParameterValue};
+use super::parameters::{DIMENSION, FINITE, PORTION};
+use super::{Entry, Exact, Function, Made, ParameterInfo};
 
 pub(super) const ENTRY: Entry = Entry {
     name: "steps",
@@ -17,7 +17,11 @@ pub(super) const ENTRY: Entry = Entry {
         },
         DIMENSION,
     ],
-    build: |given| Ok(Box::new(Steps::new(given)?)),
+    build: |given| {
+        let (c, t) = ([2.0, 1.0, 1.0, 0.5], [0.4, 0.3, 0.85, 0.1]);
+        let [c, t] = given.per_input([("c", &c[..], FINITE), ("t", &t, PORTION)])?;
+        Ok(Made::new(unit_cube(c.len()), Steps { c, t }))
+    },
 };
 
 /// prod (1 + c_i (H(x_i - t_i) - 1 + t_i)), x uniform on (0, 1)^d.
@@ -30,23 +34,7 @@ struct Steps {
     t: Vec<f64>,
 }
 
-impl Steps {
-    fn new(given: &Given<'_>) -> Result<Self, ParameterError> {
-        let (c, t) = ([2.0, 1.0, 1.0, 0.5], [0.4, 0.3, 0.85, 0.1]);
-        let [c, t] = given.per_input([("c", &c[..], FINITE), ("t", &t, PORTION)])?;
-        Ok(Self { c, t })
-    }
-}
-
 impl Function for Steps {
-    fn inputs(&self) -> Vec<KnownInput> {
-        unit_cube(self.c.len())
-    }
-
-    fn parameters(&self) -> Vec<(&'static str, ParameterValue)> {
-        vec![("c", ParameterValue::List(self.c.clone())), ("t", ParameterValue::List(self.t.clone()))]
-    }
-
     fn value(&self, x: &[f64]) -> f64 {
         let step = |x: f64, c: f64, t: f64| 1.0 + if x > t { c * t } else { c * (t - 1.0) };
         x.iter().zip(&self.c).zip(&self.t).map(|((&x, &c), &t)| step(x, c, t)).product()

@@ -1,7 +1,7 @@
 //! The weight of a light aircraft's wing.
 
 use super::function::{all_positive, positive, uniform};
-use super::{Entry, Exact, Function, KnownInput};
+use super::{Entry, Exact, Function, KnownInput, Made};
 
 pub(super) const ENTRY: Entry = Entry {
     name: "wing-weight",
@@ -10,7 +10,7 @@ pub(super) const ENTRY: Entry = Entry {
               + Sw Wp",
     source: "Forrester, Sobester and Keane 2008, Engineering Design via Surrogate Modelling, section 1.4",
     parameters: &[],
-    build: |_| Ok(Box::new(WingWeight)),
+    build: |_| Ok(Made::new(inputs(), WingWeight)),
 };
 
 /// The weight in pounds: a product of powers, plus Sw Wp.
@@ -21,24 +21,24 @@ struct WingWeight;
 /// Place of the sweep, the one input that may be negative.
 const SWEEP: usize = 3;
 
-impl Function for WingWeight {
-    fn inputs(&self) -> Vec<KnownInput> {
-        let mut inputs = vec![
-            positive("Sw", "wing area, ft2", uniform(150.0, 200.0)),
-            positive("Wfw", "weight of the fuel in the wing, lb", uniform(220.0, 300.0)),
-            positive("A", "aspect ratio", uniform(6.0, 10.0)),
-            positive("Lambda", "quarter-chord sweep, degrees, between -90 and 90", uniform(-10.0, 10.0)),
-            positive("q", "dynamic pressure at cruise, lb/ft2", uniform(16.0, 45.0)),
-            positive("lambda", "taper ratio", uniform(0.5, 1.0)),
-            positive("tc", "aerofoil thickness to chord ratio", uniform(0.08, 0.18)),
-            positive("Nz", "ultimate load factor", uniform(2.5, 6.0)),
-            positive("Wdg", "flight design gross weight, lb", uniform(1700.0, 2500.0)),
-            positive("Wp", "weight of the paint, lb/ft2", uniform(0.025, 0.08)),
-        ];
-        inputs[SWEEP].domain = None;
-        inputs
-    }
+fn inputs() -> Vec<KnownInput> {
+    let mut inputs = vec![
+        positive("Sw", "wing area, ft2", uniform(150.0, 200.0)),
+        positive("Wfw", "weight of the fuel in the wing, lb", uniform(220.0, 300.0)),
+        positive("A", "aspect ratio", uniform(6.0, 10.0)),
+        positive("Lambda", "quarter-chord sweep, degrees, between -90 and 90", uniform(-10.0, 10.0)),
+        positive("q", "dynamic pressure at cruise, lb/ft2", uniform(16.0, 45.0)),
+        positive("lambda", "taper ratio", uniform(0.5, 1.0)),
+        positive("tc", "aerofoil thickness to chord ratio", uniform(0.08, 0.18)),
+        positive("Nz", "ultimate load factor", uniform(2.5, 6.0)),
+        positive("Wdg", "flight design gross weight, lb", uniform(1700.0, 2500.0)),
+        positive("Wp", "weight of the paint, lb/ft2", uniform(0.025, 0.08)),
+    ];
+    inputs[SWEEP].domain = None;
+    inputs
+}
 
+impl Function for WingWeight {
     fn value(&self, x: &[f64]) -> f64 {
         let &[sw, wfw, a, sweep, q, taper, tc, nz, wdg, wp] = x else { return f64::NAN };
         let cos = libm::cos(sweep.to_radians());
@@ -68,30 +68,19 @@ impl Function for WingWeight {
     }
 
     fn exact(&self) -> Exact {
-        let first = [
-            0.1244730936028649,
-            2.8330920026709865e-06,
-            0.22024024782639653,
-            0.000489747699196892,
-            8.817420700729611e-05,
-            0.0018098843489987005,
-            0.14098263946331466,
-            0.4116096726928501,
-            0.08496757890688347,
-            0.0033392293571148494,
+        // S_i and ST_i.
+        let indices = [
+            [0.1244730936028649, 0.12790016726970724],
+            [2.8330920026709865e-06, 2.929427079361034e-06],
+            [0.22024024782639653, 0.22601217532697682],
+            [0.000489747699196892, 0.0005063923354277488],
+            [8.817420700729611e-05, 9.117217128214217e-05],
+            [0.0018098843489987005, 0.0018713101271058893],
+            [0.14098263946331466, 0.14507105784026667],
+            [0.4116096726928501, 0.41964760261898465],
+            [0.08496757890688347, 0.08760003467329314],
+            [0.0033392293571148494, 0.003361945203081618],
         ];
-        let total = [
-            0.12790016726970724,
-            2.929427079361034e-06,
-            0.22601217532697682,
-            0.0005063923354277488,
-            9.117217128214217e-05,
-            0.0018713101271058893,
-            0.14507105784026667,
-            0.41964760261898465,
-            0.08760003467329314,
-            0.003361945203081618,
-        ];
-        Exact::by_quadrature(268.07523683174287, 2311.9262733134397, &first, &total, 1e-13)
+        Exact::by_quadrature(268.07523683174287, 2311.9262733134397, &indices, 1e-13)
     }
 }

@@ -20,11 +20,13 @@ fn analysed(text: &str) -> ResultFile {
 
 #[test]
 fn charts_of_any_result_are_drawn_from_its_json_alone() {
-    let holes = "model = \"ishigami-holes\"\n[design]\nbase_samples = 256\n[analysis]\nmax_failed = ";
+    let holes = "model = \"expression\"\noutputs.y = \"x1 + x2*sqrt(3 - abs(x3))\"\n[factors]\n\
+         x1 = { min = 0, max = 1 }\nx2 = { min = 0, max = 1 }\nx3 = { min = -3.14159, max = 3.14159 }\n\
+         [design]\nbase_samples = 256\n[analysis]\nmax_failed = ";
     let studies = [
         "model = \"ishigami\"\n[design]\nbase_samples = 256".to_owned(),
         "model = \"ishigami\"\n[design]\nbase_samples = 256\n[analysis]\nsecond_order = true".to_owned(),
-        "model = \"constant\"\n[design]\nbase_samples = 256".to_owned(),
+        "model = \"linear\"\n[function]\nc = [0, 0]\n[design]\nbase_samples = 256".to_owned(),
         "model = \"linear\"\n[[factor]]\nname = \"x1\"\n[design]\nbase_samples = 256".to_owned(),
         "model = \"sobol-g\"\n[function]\ndimension = 100\n[design]\nbase_samples = 256".to_owned(),
         format!("{holes}0.1"),

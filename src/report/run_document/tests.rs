@@ -48,7 +48,7 @@ fn a_page_can_be_drawn_again_from_the_file() {
 
 #[test]
 fn degenerate_results_have_pages() {
-    let constant = result(&format!("model = \"constant\"{SMALL}"));
+    let constant = result(&format!("model = \"linear\"\n[function]\nc = [0, 0]{SMALL}"));
     let html = page(&constant).html();
     assert!(html.contains("There are no indices of y") && html.contains("zero variance"), "{html}");
     let single = result(&format!("model = \"linear\"\n[[factor]]\nname = \"x1\"{SMALL}"));

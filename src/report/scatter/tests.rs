@@ -67,7 +67,9 @@ fn every_value_of_a_discrete_factor_is_a_slice() {
 
 #[test]
 fn failed_runs_are_left_out() {
-    let text = "model = \"ishigami-holes\"\n[design]\nbase_samples = 1024\n[analysis]\nmax_failed = 0.1";
+    let text = "model = \"expression\"\noutputs.y = \"x1 + x2*sqrt(3 - abs(x3))\"\n[factors]\n\
+         x1 = { min = 0, max = 1 }\nx2 = { min = 0, max = 1 }\nx3 = { min = -3.14159, max = 3.14159 }\n\
+         [design]\nbase_samples = 1024\n[analysis]\nmax_failed = 0.1";
     let scatter = scatter(text);
     // 4.5 % of the rows fail: a binomial of 400 has 18 of them, give or take 4.
     assert!((360..400).contains(&scatter.points.len()), "{}", scatter.points.len());
@@ -91,7 +93,7 @@ fn at_most_six_factors_of_many_and_none_without_indices() {
     assert_eq!(scatter.factors.len(), FACTORS);
     assert_eq!(scatter.factors[..4], ["x1", "x2", "x3", "x4"]);
     assert!(scatter.points.iter().all(|point| point.len() == FACTORS + 1));
-    assert_eq!(analysed("model = \"constant\"").outputs[0].scatter, None);
+    assert_eq!(analysed("model = \"linear\"\n[function]\nc = [0, 0]").outputs[0].scatter, None);
 }
 
 #[test]

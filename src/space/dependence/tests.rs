@@ -89,9 +89,10 @@ fn joint_measurements_that_say_nothing_are_refused_by_name() {
     let rising: Vec<f64> = (0..20).map(f64::from).collect();
     let columns = |other: fn(f64) -> f64| vec![rising.clone(), rising.iter().map(|x| other(*x)).collect()];
     let error = |other| copula(&space, &[Dependence::from_measurements(&["a", "b"], &columns(other))]).unwrap_err();
-    assert_eq!(error(|_| 3.0), DependenceError::ConstantMeasurements("b".to_owned()));
-    let in_order = |order| DependenceError::EqualRanks { a: "a".to_owned(), b: "b".to_owned(), order };
-    assert_eq!([error(|x| x * x), error(|x| -x)], [in_order("same"), in_order("opposite")]);
+    assert!(error(|_| 3.0).to_string().starts_with("the joint measurements of `b` are all the same"));
+    let in_order = |order| format!("the joint measurements of `a` and `b` have the {order} order");
+    assert!(error(|x| x * x).to_string().starts_with(&in_order("same")));
+    assert!(error(|x| -x).to_string().starts_with(&in_order("opposite")));
     for measure in CorrelationMeasure::ALL {
         let error = copula(&space, &[Dependence::pair("a", "c", 0.5).measure(measure)]).unwrap_err().to_string();
         assert!(error.contains("`c` is of one value"), "{error}");

@@ -3,7 +3,6 @@
 use super::error::{finite, positive};
 use super::family::{Family, Parameter};
 use super::keys::{Entry, MOMENTS, PLAIN, TWO_QUANTILES, keys, solved_keys};
-use super::solved::Shape;
 use super::{Distribution, DistributionError};
 
 /// The distribution of waiting times between events that come by chance.
@@ -51,7 +50,6 @@ pub(super) const ENTRIES: &[Entry] = &[Entry {
         MOMENTS,
         TWO_QUANTILES,
     ],
-    shape: Shape::None,
     make: |_, [location, scale, _]| Distribution::exponential(scale, location),
     build: |given| Distribution::exponential(given.number("scale")?, given.number_or("location", 0.0)),
     ..PLAIN

@@ -5,7 +5,6 @@ use std::f64::consts::PI;
 use super::error::{finite, positive};
 use super::family::{Family, Parameter};
 use super::keys::{Entry, MOMENTS, PLAIN, TWO_QUANTILES, keys};
-use super::solved::Shape;
 use super::{Distribution, DistributionError};
 
 /// Euler's constant.
@@ -54,7 +53,6 @@ pub(super) const ENTRIES: &[Entry] = &[Entry {
     name: "gumbel",
     summary: "The largest of many values.",
     ways: &[keys(&["location", "scale"]), MOMENTS, TWO_QUANTILES],
-    shape: Shape::None,
     make: |_, [location, scale, _]| Distribution::gumbel(location, scale),
     build: |given| Distribution::gumbel(given.number("location")?, given.number("scale")?),
     ..PLAIN

@@ -5,7 +5,6 @@ use std::f64::consts::PI;
 use super::error::{finite, positive};
 use super::family::{Family, Parameter};
 use super::keys::{Entry, MOMENTS, PLAIN, TWO_QUANTILES, keys};
-use super::solved::Shape;
 use super::{Distribution, DistributionError};
 
 /// Symmetric like a normal distribution, with longer tails.
@@ -47,7 +46,6 @@ pub(super) const ENTRIES: &[Entry] = &[Entry {
     name: "logistic",
     summary: "Like a normal distribution, with longer tails.",
     ways: &[keys(&["location", "scale"]), MOMENTS, TWO_QUANTILES],
-    shape: Shape::None,
     make: |_, [location, scale, _]| Distribution::logistic(location, scale),
     build: |given| Distribution::logistic(given.number("location")?, given.number("scale")?),
     ..PLAIN

@@ -3,7 +3,6 @@
 use super::error::{finite, positive};
 use super::family::{Family, Parameter};
 use super::keys::{Entry, PLAIN, TWO_QUANTILES, keys};
-use super::solved::Shape;
 use super::{Distribution, DistributionError};
 use crate::special::{normal_below, normal_quantile};
 
@@ -49,7 +48,6 @@ pub(super) const ENTRIES: &[Entry] = &[Entry {
     name: "normal",
     summary: "The normal (Gaussian) distribution.",
     ways: &[keys(&["mean", "sd"]), TWO_QUANTILES],
-    shape: Shape::None,
     make: |_, [mean, sd, _]| Distribution::normal(mean, sd),
     build: |given| Distribution::normal(given.number("mean")?, given.number("sd")?),
     ..PLAIN

@@ -3,7 +3,6 @@
 use super::error::bounds;
 use super::family::{Family, Parameter};
 use super::keys::{Entry, MOMENTS, PLAIN, TWO_QUANTILES, keys};
-use super::solved::Shape;
 use super::{Distribution, DistributionError};
 
 /// Every value between two bounds is equally likely.
@@ -43,7 +42,6 @@ pub(super) const ENTRIES: &[Entry] = &[Entry {
     name: "uniform",
     summary: "Every value between two bounds is equally likely.",
     ways: &[keys(&["min", "max"]), MOMENTS, TWO_QUANTILES],
-    shape: Shape::None,
     make: |_, [least, width, _]| Distribution::uniform(least, least + width),
     build: |given| Distribution::uniform(given.number("min")?, given.number("max")?),
     ..PLAIN

@@ -4,11 +4,11 @@ use std::collections::BTreeMap;
 
 use toml::Value;
 
-use super::context::{Context, Fault, unknown_key, unknown_name, wrong};
+use super::context::{Context, Fault, chosen, number, unknown_key, wrong};
 use super::error::Problem;
 use super::key_schemas::afm_choices;
 use super::sections::At;
-use super::units::{in_words_of_units, with_unit};
+use super::units::{in_words_of_units, with_unit, wrong_unit};
 use crate::afm::{ContactTheory, Fidelity, FrictionLaw, LuGreParameters, Options, Parameter, Scene, Torsion};
 use crate::model::{AfmMoments, MOST_VALUES, edge_unit};
 use crate::quantity::{Dimension, Quantity, Unit};
@@ -61,13 +61,20 @@ pub(super) fn afm(
                     return Err(context.fault(key.span(), unknown_key(name, known)));
                 };
                 if is_factor(name) {
-                    return Err(context.fault(key.span(), Problem::FixedFactor(name.to_owned())));
+                    return Err(context.fault(key.span(), fixed_factor(name)));
                 }
                 (parameter.set)(&mut scene, constant(parameter, value).map_err(fault)?);
             }
         }
     }
     Ok((scene, options))
+}
+
+fn fixed_factor(name: &str) -> Problem {
+    Problem::with_help(
+        format!("`{name}` is a factor of this study, so it cannot be fixed in [afm]"),
+        format!("remove `{name}` here, or from the factors"),
+    )
 }
 
 /// Seconds of a history, and moments in them, where nothing is said: those of the papers' scene in time.
@@ -96,7 +103,7 @@ pub(super) fn moments(context: &Context<'_>, table: &BTreeMap<At<String>, At<Val
             }
         }
     }
-    AfmMoments::new(duration, points).map_err(|error| fault(Problem::Syntax(format!("`history`: {error}"))))
+    AfmMoments::new(duration, points).map_err(|error| fault(Problem::new(format!("`history`: {error}"))))
 }
 
 /// Notes on keys of the table that are understood but cannot act under `options`.
@@ -127,18 +134,13 @@ fn choice<T: Copy>(
     all: &[T],
     name: fn(T) -> &'static str,
 ) -> Result<T, Fault> {
-    let names = all.iter().map(|&variant| name(variant));
-    let problem = match value.get_ref().as_str() {
-        None => {
-            let quoted: Vec<String> = names.map(|name| format!("{name:?}")).collect();
-            wrong(key, &format!("one of {}", quoted.join(", ")), value.get_ref().type_str().to_owned())
-        }
-        Some(text) => match all.iter().find(|&&variant| name(variant) == text) {
-            Some(variant) => return Ok(*variant),
-            None => unknown_name(what, text, names),
-        },
+    let typed = value.get_ref();
+    let of_text = |text| chosen(text, what, all, name);
+    let no_text = || {
+        let names: Vec<String> = all.iter().map(|&variant| format!("{:?}", name(variant))).collect();
+        Err(wrong(key, &format!("one of {}", names.join(", ")), typed.type_str().to_owned()))
     };
-    Err(context.fault(value.span(), problem))
+    typed.as_str().map_or_else(no_text, of_text).map_err(|problem| context.fault(value.span(), problem))
 }
 
 /// The SI value of a constant given as `"0.7 deg"`, or as a bare number where the parameter has no dimension.
@@ -151,30 +153,21 @@ fn constant(parameter: &Parameter, value: &At<Value>) -> Result<f64, Problem> {
     };
     let quantity = match value.get_ref() {
         Value::String(text) => Quantity::parse(text)?,
-        Value::Integer(number) => Quantity { value: *number as f64, unit: Unit::dimensionless() },
-        Value::Float(number) => Quantity { value: *number, unit: Unit::dimensionless() },
         other => {
             let expected = format!("a quantity, as in {}", example());
-            return Err(wrong(parameter.name, &expected, other.type_str().to_owned()));
+            let refusal = || wrong(parameter.name, &expected, other.type_str().to_owned());
+            Quantity { value: number(other).ok_or_else(refusal)?, unit: Unit::dimensionless() }
         }
     };
     if !quantity.unit.compatible(&unit) {
-        let name = format!("`{}`", parameter.name);
-        let dimension = unit.dimension().to_string();
-        return Err(if quantity.unit.compatible(&Unit::dimensionless()) {
-            Problem::MissingUnit { name, dimension, example: example() }
-        } else {
-            let found = quantity.unit.dimension().to_string();
-            Problem::WrongUnit { name, expected: dimension, unit: quantity.unit.to_string(), found, example: example() }
-        });
+        let stated = Some(&quantity.unit).filter(|unit| !unit.compatible(&Unit::dimensionless()));
+        return Err(wrong_unit(&format!("`{}`", parameter.name), &unit, stated, &example()));
     }
     let si = quantity.unit.to_si(quantity.value);
     if !parameter.domain.contains(si) || !unit.from_si(si).is_finite() {
-        return Err(Problem::OutOfDomain {
-            name: format!("`{}`", parameter.name),
-            domain: in_words_of_units(parameter.domain),
-            found: format!("it is {}", with_unit(quantity.value, quantity.unit.symbol())),
-        });
+        let (name, domain) = (parameter.name, in_words_of_units(parameter.domain));
+        let found = with_unit(quantity.value, quantity.unit.symbol());
+        return Err(Problem::new(format!("`{name}` must be {domain}, but it is {found}")));
     }
     Ok(si)
 }
@@ -182,16 +175,14 @@ fn constant(parameter: &Parameter, value: &At<Value>) -> Result<f64, Problem> {
 /// A number greater than 0: bare where it has no dimension, as `example` shows, or a time with its unit.
 fn positive(key: &str, example: &str, value: &Value) -> Result<f64, Problem> {
     let is_time = example.starts_with('"');
-    let number = match value {
+    let found = match value {
         Value::String(text) if is_time => {
             let quantity = Quantity::parse(text)?;
             (quantity.unit.dimension() == Dimension::TIME).then(|| quantity.to_si())
         }
-        Value::Integer(number) if !is_time => Some(*number as f64),
-        Value::Float(number) if !is_time => Some(*number),
-        _ => None,
+        other => number(other).filter(|_| !is_time),
     };
-    number
+    found
         .filter(|number| *number > 0.0 && number.is_finite())
         .ok_or_else(|| wrong(key, &format!("greater than 0, as in {key} = {example}"), value.to_string()))
 }

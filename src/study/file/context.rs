@@ -3,8 +3,11 @@
 use std::ops::Range;
 use std::path::PathBuf;
 
+use toml::Value;
+
 use super::at::At;
 use super::error::{Diagnostic, Problem, meant};
+use crate::study::did_you_mean;
 
 /// A diagnostic on its way up.
 pub(super) type Fault = Box<Diagnostic>;
@@ -36,11 +39,9 @@ pub(super) fn unknown_name<'a>(
 
 /// A key that the table does not have.
 pub(super) fn unknown_key<'a>(name: &str, known: impl Iterator<Item = &'a str> + Clone) -> Problem {
-    Problem::UnknownKey {
-        name: name.to_owned(),
-        nearest: meant(name, known.clone()),
-        expected: known.map(str::to_owned).collect(),
-    }
+    let hint = did_you_mean(&meant(name, known.clone()));
+    let help = format!("keys that can stand here: {}", known.collect::<Vec<_>>().join(", "));
+    Problem::with_help(format!("unknown key `{name}`{hint}"), help)
 }
 
 pub(super) fn choice<T: Copy>(
@@ -50,13 +51,25 @@ pub(super) fn choice<T: Copy>(
     all: &[T],
     name: fn(T) -> &'static str,
 ) -> Result<T, Fault> {
-    let found = all.iter().copied().find(|&choice| name(choice) == typed.get_ref());
-    found.ok_or_else(|| {
-        let names = all.iter().map(|&choice| name(choice));
-        context.fault(typed.span(), unknown_name(what, typed.get_ref(), names))
-    })
+    chosen(typed.get_ref(), what, all, name).map_err(|problem| context.fault(typed.span(), problem))
+}
+
+/// The one of `all` that is called `text`.
+pub(super) fn chosen<T: Copy>(
+    text: &str,
+    what: &'static str,
+    all: &[T],
+    name: fn(T) -> &'static str,
+) -> Result<T, Problem> {
+    let found = all.iter().copied().find(|&choice| name(choice) == text);
+    found.ok_or_else(|| unknown_name(what, text, all.iter().map(|&choice| name(choice))))
+}
+
+/// A number of TOML, whole or not.
+pub(super) fn number(value: &Value) -> Option<f64> {
+    value.as_float().or_else(|| value.as_integer().map(|whole| whole as f64))
 }
 
 pub(super) fn wrong(key: &str, expected: &str, found: String) -> Problem {
-    Problem::WrongType { key: key.to_owned(), expected: expected.to_owned(), found }
+    Problem::new(format!("`{key}` must be {expected}, not {found}"))
 }

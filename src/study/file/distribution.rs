@@ -31,16 +31,21 @@ pub(super) fn of(context: &Context<'_>, section: &At<FactorSection>) -> Result<D
             DistributionError::Missing { .. } => None,
             _ => source.key().and_then(|key| fields.place(key)).or_else(first),
         };
-        let factor = fields.name.get_ref().clone();
-        context.fault(place.unwrap_or_else(|| fields.name.span()), Problem::Distribution { factor, source })
+        let problem = refused(fields.name.get_ref(), &source);
+        context.fault(place.unwrap_or_else(|| fields.name.span()), problem)
     })
 }
 
 /// The family, by default uniform.
+/// The distribution of that factor cannot be.
+pub(super) fn refused(factor: &str, error: &DistributionError) -> Problem {
+    Problem::Refused { message: format!("factor `{factor}`: {error}"), help: error.help() }
+}
+
 fn kind(context: &Context<'_>, fields: &FactorSection) -> Result<Kind, Fault> {
     let names = Kind::all().map(Kind::name);
     let Some(typed) = &fields.distribution else {
-        return Kind::all().next().ok_or_else(|| context.fault(fields.name.span(), Problem::NoFactors));
+        return Kind::all().next().ok_or_else(|| context.fault(fields.name.span(), Problem::no_factors()));
     };
     let unknown = || context.fault(typed.span(), unknown_name("distribution", typed.get_ref(), names));
     Kind::from_name(typed.get_ref()).ok_or_else(unknown)
@@ -94,7 +99,7 @@ fn component(context: &Context<'_>, section: &At<FactorSection>) -> Result<Distr
     match OF_FACTORS.into_iter().zip(spans).find_map(|(key, span)| Some((key, span?))) {
         Some((key, span)) => {
             let right = "it belongs to the whole factor, beside `components`";
-            Err(context.fault(span, Problem::Misplaced { name: key.to_owned(), right: right.to_owned() }))
+            Err(context.fault(span, Problem::misplaced(key, right)))
         }
         None => of(context, section),
     }

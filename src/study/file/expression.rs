@@ -5,7 +5,7 @@ use std::ops::Range;
 use toml::Value;
 
 use super::at::{At, Choices, ListOrTable, in_order};
-use super::context::{Context, Fault};
+use super::context::{Context, Fault, number, wrong};
 use super::error::Problem;
 use super::outputs::OutputTable;
 use super::sections::{ExpressionSection, FactorSection, Outputs};
@@ -15,6 +15,7 @@ use crate::model::{Expression, ExpressionProblem, Input, Symbol};
 use crate::names::nearest;
 use crate::quantity::{Quantity, Unit};
 use crate::space::Space;
+use crate::study::did_you_mean;
 
 /// The inputs of formulas: the factors of the study, each in its own unit.
 pub(super) fn inputs(context: &Context<'_>, factors: &[At<FactorSection>]) -> Result<Vec<Input>, Fault> {
@@ -31,7 +32,7 @@ fn refuse_name(context: &Context<'_>, what: &'static str, name: &At<String>) -> 
         _ => return Ok(()),
     };
     let (key, found) = (format!("name of a {what}"), format!("{:?}", name.get_ref()));
-    Err(context.fault(name.span(), Problem::WrongType { key, expected: reason.to_owned(), found }))
+    Err(context.fault(name.span(), wrong(&key, reason, found)))
 }
 
 /// The formulas with their constants, and notes on what stands in none of them.
@@ -41,7 +42,7 @@ pub(super) fn subject(
     section: Option<&At<ExpressionSection>>,
     space: &Space,
 ) -> Result<(ExpressionSubject, Vec<String>), Fault> {
-    let missing = Problem::Missing { what: "formula", example: "outputs.y = \"x1 + 2*x2\", above the first table" };
+    let missing = Problem::missing("formula", "outputs.y = \"x1 + 2*x2\", above the first table");
     let Some(outputs) = outputs else { return Err(context.fault(0..0, missing)) };
     let entries = match outputs.get_ref() {
         ListOrTable::Table(table) if !table.is_empty() => in_order(table),
@@ -65,19 +66,16 @@ fn constants(context: &Context<'_>, table: &Choices, space: &Space) -> Result<Ve
                 Problem::Repeated { what: "name of a factor and of a constant", name: name.get_ref().clone() };
             return Err(context.fault(name.span(), problem));
         }
-        let number = |value: f64| Quantity { value, unit: Unit::dimensionless() };
         let quantity = match value.get_ref() {
-            Value::Integer(whole) => Some(number(*whole as f64)),
-            Value::Float(float) => Some(number(*float)),
             Value::String(text) => {
                 Some(Quantity::parse(text).map_err(|error| context.fault(value.span(), error.into()))?)
             }
-            _ => None,
+            other => number(other).map(|value| Quantity { value, unit: Unit::dimensionless() }),
         };
         let quantity = quantity.filter(|quantity| quantity.to_si().is_finite()).ok_or_else(|| {
-            let (key, found) = (name.get_ref().clone(), value.get_ref().to_string());
+            let key = name.get_ref();
             let expected = format!("a finite number or a quantity, as in {key} = 7 or {key} = \"169 GPa\"");
-            context.fault(value.span(), Problem::WrongType { key, expected, found })
+            context.fault(value.span(), wrong(key, &expected, value.get_ref().to_string()))
         })?;
         constants.push(ExpressionConstant { name: name.get_ref().clone(), quantity });
     }
@@ -92,9 +90,8 @@ fn formula(
     constants: &[ExpressionConstant],
 ) -> Result<Formula, Fault> {
     let wrong = |found: String| {
-        let key = name.get_ref().clone();
-        let expected = "a formula, or { formula = \"...\", unit = \"...\" }".to_owned();
-        context.fault(value.span(), Problem::WrongType { key, expected, found })
+        let expected = "a formula, or { formula = \"...\", unit = \"...\" }";
+        context.fault(value.span(), wrong(name.get_ref(), expected, found))
     };
     let table = match value.get_ref() {
         Value::String(text) => OutputTable { formula: Some(text.clone()), ..OutputTable::default() },
@@ -117,17 +114,18 @@ fn formula(
     let expression = Expression::parse(text, &symbol).map_err(|error| {
         let known = || space.factors().iter().map(|f| f.name.as_str()).chain(constants.iter().map(|c| c.name.as_str()));
         let functions = Expression::vocabulary();
-        let (near, expected) = match &error.problem {
+        let (near, help) = match &error.problem {
             ExpressionProblem::UnknownName(name) => {
-                (nearest(name, known()), format!("factors and constants: {}", known().collect::<Vec<_>>().join(", ")))
+                let known_names = known().collect::<Vec<_>>().join(", ");
+                (nearest(name, known()), Some(format!("factors and constants: {known_names}")))
             }
             ExpressionProblem::UnknownFunction(name) => {
-                (nearest(name, functions.iter().copied()), format!("functions: {}", functions.join(", ")))
+                (nearest(name, functions.iter().copied()), Some(format!("functions: {}", functions.join(", "))))
             }
-            _ => (None, String::new()),
+            _ => (None, None),
         };
         let span = place(context, value, text, error.place.clone());
-        context.fault(span, Problem::Expression { source: error, nearest: near, expected })
+        context.fault(span, Problem::Refused { message: format!("{error}{}", did_you_mean(&near)), help })
     })?;
     Ok(Formula { name: name.get_ref().clone(), unit, expression })
 }

@@ -25,8 +25,7 @@ pub(super) fn lows(
     let Some(section) = &file.fidelity else { return Ok(Vec::new()) };
     if subject.is_external() {
         let right = "the model of this study runs outside of this program, and so would the cheaper one";
-        let problem = Problem::Misplaced { name: "fidelity".to_owned(), right: right.to_owned() };
-        return Err(context.fault(section.span(), problem));
+        return Err(context.fault(section.span(), Problem::misplaced("fidelity", right)));
     }
     let section = section.get_ref();
     let base_samples = section.base_samples.as_ref().map(|samples| *samples.get_ref());
@@ -63,7 +62,7 @@ fn described(context: &Context<'_>, table: &toml::Table, resolve: Resolve) -> Re
     if let Some(expected) = refused_name(&name) {
         return Err(wrong("name of a cheaper model", &expected, format!("\"{name}\"")));
     }
-    let of_low = |why: &str| Problem::Syntax(format!("cheaper model `{name}`: {why}"));
+    let of_low = |why: &str| Problem::new(format!("cheaper model `{name}`: {why}"));
     let mut document: DocumentMut = context.text.parse().map_err(|_| of_low("the study cannot be rewritten"))?;
     for key in ["fidelity", "accuracy"] {
         document.remove(key);

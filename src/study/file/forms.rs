@@ -38,8 +38,10 @@ fn refuse_too_many(context: &Context<'_>, root: &DeTable<'_>) -> Result<(), Faul
 
 /// Factors and outputs as they were written in former versions.
 fn refuse_old_forms(context: &Context<'_>, root: &DeTable<'_>) -> Result<(), Fault> {
-    let old =
-        |place: Range<usize>, form: String, lines: String| Err(context.fault(place, Problem::OldForm { form, lines }));
+    let old = |place: Range<usize>, form: String, lines: String| {
+        let message = format!("{form}: factors and outputs are written in another way today");
+        Err(context.fault(place, Problem::with_help(message, format!("write\n{lines}"))))
+    };
     let written = |range: Range<usize>| context.text.get(range).unwrap_or_default().to_owned();
     let entry = |(key, value): Entry<'_, '_>| format!("{} = {}", written(key.span()), written(value.span()));
     let fields = |table: &DeTable<'_>| {
@@ -107,8 +109,8 @@ fn key(name: &'static str, span: Range<usize>) -> Spanned<Cow<'static, str>> {
 fn factors(context: &Context<'_>, root: &mut DeTable<'_>) -> Result<(), Fault> {
     let Some((plural, value)) = root.remove_entry("factors") else { return Ok(()) };
     if root.contains_key("factor") {
-        let right = "factors stand in `[[factor]]` too: keep one of the two".to_owned();
-        return Err(context.fault(plural.span(), Problem::Misplaced { name: "factors".to_owned(), right }));
+        let right = "factors stand in `[[factor]]` too: keep one of the two";
+        return Err(context.fault(plural.span(), Problem::misplaced("factors", right)));
     }
     let span = value.span();
     let DeValue::Table(table) = value.into_inner() else {
@@ -127,8 +129,7 @@ fn factors(context: &Context<'_>, root: &mut DeTable<'_>) -> Result<(), Fault> {
         let inside = Spanned::new(name.span(), DeValue::String(name.get_ref().clone()));
         if let Some(twice) = fields.insert(key("name", name.span()), inside) {
             let right = "the name of this factor stands before its table";
-            let problem = Problem::Misplaced { name: "name".to_owned(), right: right.to_owned() };
-            return Err(context.fault(twice.span(), problem));
+            return Err(context.fault(twice.span(), Problem::misplaced("name", right)));
         }
         factors.push(value);
     }

@@ -2,7 +2,7 @@
 
 use toml::Value;
 
-use super::context::{Context, Fault};
+use super::context::{Context, Fault, number, wrong};
 use super::error::Problem;
 use super::sections::{At, Choices};
 use crate::model::{KnownAnswer, KnownFunction, ParameterError, ParameterValue};
@@ -21,33 +21,23 @@ pub(super) fn known(
             return Err(context.fault(key.span(), unknown_key(answer, name)));
         }
         let number = number_or_list(value.get_ref()).ok_or_else(|| {
-            let expected = "a number or a list of numbers".to_owned();
             let found = value.get_ref().type_str().to_owned();
-            context.fault(value.span(), Problem::WrongType { key: name.clone(), expected, found })
+            context.fault(value.span(), wrong(name, "a number or a list of numbers", found))
         })?;
         parameters.push((name.clone(), number));
     }
     answer.with(&parameters).map_err(|error| {
-        let about = |key: &At<String>| key.get_ref() == error.parameter();
+        let about = |key: &At<String>| *key.get_ref() == error.parameter;
         let span = table.get_ref().iter().find(|(key, _)| about(key)).map_or(table.span(), |(_, value)| value.span());
-        context.fault(span, Problem::Parameter(error))
+        context.fault(span, Problem::new(error.to_string()))
     })
 }
 
 fn unknown_key(answer: KnownAnswer, name: &str) -> Problem {
     if answer.parameters().is_empty() {
-        let error = ParameterError::Unknown { parameter: name.to_owned(), known: Vec::new() };
-        return Problem::Parameter(error);
+        return Problem::new(ParameterError::unknown(name).to_string());
     }
     super::context::unknown_key(name, answer.parameters().iter().map(|parameter| parameter.name))
-}
-
-fn number(value: &Value) -> Option<f64> {
-    match value {
-        Value::Integer(number) => Some(*number as f64),
-        Value::Float(number) => Some(*number),
-        _ => None,
-    }
 }
 
 fn number_or_list(value: &Value) -> Option<ParameterValue> {

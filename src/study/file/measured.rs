@@ -3,11 +3,10 @@
 use sha2::{Digest, Sha256};
 
 use super::at::At;
-use super::context::{Context, Fault};
+use super::context::{Context, Fault, unknown_name};
 use super::error::Problem;
 use super::paths::{Reach, resolve};
 use crate::files::read_whole;
-use crate::names::nearest;
 use crate::space::distribution::MeasuredFile;
 
 /// Reads one column of numbers from a CSV file, whose path is relative to the study file: the column of that name, or
@@ -20,8 +19,8 @@ pub(super) fn read(
     let path = resolve(context, file, Reach::Anywhere)?;
     let wrong = |line: Option<usize>, reason: String| {
         let place = line.map_or_else(|| path.display().to_string(), |line| format!("{}:{line}", path.display()));
-        let help = "the file is a table in CSV, or one number a line; its path is relative to the study".to_owned();
-        context.fault(file.span(), Problem::File { place, reason, help })
+        let help = "the file is a table in CSV, or one number a line; its path is relative to the study";
+        context.fault(file.span(), Problem::with_help(format!("{place}: {reason}"), help))
     };
     let bytes = read_whole(&path).map_err(|error| wrong(None, format!("cannot read the measured values: {error}")))?;
     let text = std::str::from_utf8(&bytes).map_err(|_| wrong(None, "the file is not text in UTF-8".to_owned()))?;
@@ -33,13 +32,8 @@ pub(super) fn read(
     let is_bare = header.len() == 1 && number(&header[0]).is_some();
     let place = match column {
         Some(column) => header.iter().position(|name| name == column.get_ref()).ok_or_else(|| {
-            let problem = Problem::UnknownName {
-                what: "column",
-                name: column.get_ref().clone(),
-                nearest: nearest(column.get_ref(), header.iter().map(String::as_str)),
-                expected: header.clone(),
-            };
-            context.fault(column.span(), problem)
+            let names = header.iter().map(String::as_str);
+            context.fault(column.span(), unknown_name("column", column.get_ref(), names))
         })?,
         None if header.len() > 1 => {
             let reason = format!("there are several columns: say which, as in column = \"{}\"", header[0]);

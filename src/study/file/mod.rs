@@ -37,7 +37,7 @@ use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
 
-pub use error::{Diagnostic, OverrideProblem, Problem, StudyError};
+pub use error::{Diagnostic, Problem, StudyError};
 pub use models::model_guide;
 pub use schema::study_schema;
 pub use subjects::{
@@ -90,8 +90,7 @@ impl Study {
         })?;
         if effective.is_none() {
             // The reader takes whole numbers up to 2^64, the editor up to 2^63, as TOML has it.
-            let (text, problem) = (overrides.join(" "), OverrideProblem::NotEditable);
-            return Err(StudyError::Override { text, problem });
+            return Err(not_editable(overrides));
         }
         study.overrides = overrides.to_vec();
         text.clone_into(&mut study.source);
@@ -105,8 +104,12 @@ impl Study {
 /// # Errors
 /// [`StudyError`] if an override cannot be applied, or the text is not TOML.
 pub fn edited(text: &str, overrides: &[String]) -> Result<String, StudyError> {
-    let not_editable = || StudyError::Override { text: overrides.join(" "), problem: OverrideProblem::NotEditable };
-    overridden(text, overrides)?.ok_or_else(not_editable)
+    overridden(text, overrides)?.ok_or_else(|| not_editable(overrides))
+}
+
+fn not_editable(overrides: &[String]) -> StudyError {
+    let problem = "the study cannot be changed, because it holds a whole number beyond 2^63 - 1, which is not TOML";
+    StudyError::Override { text: overrides.join(" "), problem: problem.to_owned() }
 }
 
 fn overridden(text: &str, overrides: &[String]) -> Result<Option<String>, StudyError> {

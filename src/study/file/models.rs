@@ -54,7 +54,7 @@ pub(super) const TABLES: [ModelTable; 5] = [
         subject: |reading, _| {
             outputs(reading)?;
             // A test goes through all kinds of this table.
-            let function = known(reading)?.ok_or_else(|| reading.context.fault(0..0, Problem::NoFactors))?;
+            let function = known(reading)?.ok_or_else(|| reading.context.fault(0..0, Problem::no_factors()))?;
             Ok((Arc::new(KnownSubject { function }), Vec::new()))
         },
         guide: None,
@@ -103,7 +103,7 @@ use program as outside;
 
 #[cfg(target_family = "wasm")]
 fn program(Reading { context, .. }: &Reading<'_>, _: &Space) -> Subjects {
-    Err(context.fault(0..0, command::NO_PROGRAM))
+    Err(context.fault(0..0, command::no_program()))
 }
 
 /// The table of a kind of model.
@@ -147,7 +147,7 @@ fn outputs(reading: &Reading<'_>) -> Result<Vec<usize>, Fault> {
     let example = "outputs = [\"y\"], a list of names (a table of formulas needs model = \"expression\")";
     let asked = match key.get_ref() {
         ListOrTable::List(names) if !names.is_empty() => names,
-        _ => return Err(fault(key.span(), Problem::Missing { what: "names of outputs", example })),
+        _ => return Err(fault(key.span(), Problem::missing("names of outputs", example))),
     };
     let known = reading.kind.outputs();
     let mut places = Vec::new();

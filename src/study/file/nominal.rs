@@ -13,7 +13,10 @@ pub(super) fn value(factor: &str, distribution: &Distribution, typed: &Nominal) 
     };
     match value.filter(|value| is_value(distribution, *value)) {
         Some(value) => Ok(value),
-        None => Err(Problem::NotAValue { factor: factor.to_owned(), found, values: values(distribution) }),
+        None => Err(Problem::with_help(
+            format!("factor `{factor}`: its nominal value is {found}, which is not one of its values"),
+            format!("it takes {}", values(distribution)),
+        )),
     }
 }
 

@@ -94,8 +94,7 @@ impl OwnOutputs {
 
 /// The outputs that the study states.
 pub(super) fn own_outputs(context: &Context<'_>, key: Option<&At<Outputs>>) -> Result<OwnOutputs, Fault> {
-    let missing =
-        Problem::Missing { what: "outputs", example: "outputs = [\"y\"]; or with its unit: outputs.y = \"nN\"" };
+    let missing = Problem::missing("outputs", "outputs = [\"y\"]; or with its unit: outputs.y = \"nN\"");
     let Some(key) = key else { return Err(context.fault(0..0, missing)) };
     let mut all = OwnOutputs::default();
     match key.get_ref() {

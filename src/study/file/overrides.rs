@@ -2,16 +2,16 @@
 
 use toml_edit::{DocumentMut, InlineTable, Item, Table, TableLike, Value};
 
-use super::error::OverrideProblem;
 use crate::model::ModelKind;
 use crate::names::nearest;
+use crate::study::did_you_mean;
 
 /// Applies `overrides` in order. A key is a path of names joined by dots; `factor.NAME.KEY` reaches the factor of that
 /// name, and `factor.NAME` is all of it: a table takes the place of what it was, a value fixes it. A value is TOML if it reads as
 /// TOML, else a string: `afm.friction=hk` needs no quotes.
 ///
 /// `None` if the text is not TOML: the reader will say so, with the place.
-pub(super) fn apply(text: &str, overrides: &[String]) -> Result<Option<String>, (String, OverrideProblem)> {
+pub(super) fn apply(text: &str, overrides: &[String]) -> Result<Option<String>, (String, String)> {
     let Ok(mut document) = text.parse::<DocumentMut>() else { return Ok(None) };
     for text in overrides {
         set(document.as_table_mut(), text).map_err(|problem| (text.clone(), problem))?;
@@ -23,14 +23,19 @@ pub(super) fn apply(text: &str, overrides: &[String]) -> Result<Option<String>, 
 /// and stack.
 const PARTS: usize = 16;
 
-fn set(root: &mut Table, text: &str) -> Result<(), OverrideProblem> {
-    let (key, value) = text.split_once('=').ok_or(OverrideProblem::NoEquals)?;
+const NAMES: &str = "names joined by dots, as in afm.friction";
+
+fn set(root: &mut Table, text: &str) -> Result<(), String> {
+    let (key, value) =
+        text.split_once('=').ok_or("expected KEY=VALUE, as in afm.friction=hk or factor.length.max=500")?;
     let names: Vec<&str> = key.split('.').map(str::trim).collect();
     if names.iter().any(|name| name.is_empty()) {
-        return Err(OverrideProblem::EmptyKey(key.trim().to_owned()));
+        let key = key.trim();
+        return Err(format!("the key `{key}` has an empty part: expected {NAMES}"));
     }
     if names.len() > PARTS {
-        return Err(OverrideProblem::TooDeep(names.len()));
+        let count = names.len();
+        return Err(format!("the key has {count} parts, more than any key of a study: expected {NAMES}"));
     }
     let value = value.trim();
     let value: Value = value.parse().unwrap_or_else(|_| Value::from(value));
@@ -46,7 +51,11 @@ fn set(root: &mut Table, text: &str) -> Result<(), OverrideProblem> {
             }
             value => fix(root, factor, value),
         },
-        ["outputs"] if root.get("outputs").is_some_and(Item::is_table_like) => Err(OverrideProblem::OutputsTable),
+        ["outputs"] if root.get("outputs").is_some_and(Item::is_table_like) => Err(
+            "`outputs` is a table in this study, whose formulas or units a list of names would replace: change one by \
+             outputs.NAME=..."
+                .to_owned(),
+        ),
         _ => set_in(root, &names, value),
     }
 }
@@ -76,7 +85,7 @@ fn name_of(table: &dyn TableLike) -> Option<&str> {
     table.get("name").and_then(Item::as_str)
 }
 
-fn find_factor<'a>(root: &'a mut Table, name: &str) -> Result<&'a mut dyn TableLike, OverrideProblem> {
+fn find_factor<'a>(root: &'a mut Table, name: &str) -> Result<&'a mut dyn TableLike, String> {
     let mut factors: Vec<(String, &mut dyn TableLike)> = Vec::new();
     for (key, item) in root.iter_mut() {
         match (key.get(), item) {
@@ -93,8 +102,8 @@ fn find_factor<'a>(root: &'a mut Table, name: &str) -> Result<&'a mut dyn TableL
         }
     }
     let Some(place) = factors.iter().position(|(found, _)| found == name) else {
-        let nearest = nearest(name, factors.iter().map(|(name, _)| name.as_str()));
-        return Err(OverrideProblem::NoFactor { name: name.to_owned(), nearest });
+        let hint = did_you_mean(&nearest(name, factors.iter().map(|(name, _)| name.as_str())));
+        return Err(format!("the study has no factor `{name}`{hint}"));
     };
     Ok(factors.swap_remove(place).1)
 }
@@ -113,13 +122,16 @@ fn replace(factor: &mut dyn TableLike, table: &InlineTable) {
 }
 
 /// Takes the factor called `name` out of the study, and gives the input of that name one `value`.
-fn fix(root: &mut Table, name: &str, value: Value) -> Result<(), OverrideProblem> {
+fn fix(root: &mut Table, name: &str, value: Value) -> Result<(), String> {
     find_factor(root, name)?;
     let model = root.get("model").map_or(ModelKind::DEFAULT.name, |model| model.as_str().unwrap_or_default());
     let path: &[&str] = match ModelKind::from_name(model) {
         Some(kind) if kind == ModelKind::AFM => &[kind.table, name],
         Some(kind) if kind == ModelKind::EXPRESSION => &[kind.table, "constants", name],
-        _ => return Err(OverrideProblem::NotFixed { name: name.to_owned(), model: model.to_owned() }),
+        _ => {
+            let others = format!("all inputs of the model `{model}` are factors");
+            return Err(format!("factor.{name}=VALUE fixes an input of afm or of a formula; {others}"));
+        }
     };
     if let Some(Item::ArrayOfTables(tables)) = root.get_mut("factor") {
         tables.retain(|table| name_of(table) != Some(name));
@@ -130,12 +142,13 @@ fn fix(root: &mut Table, name: &str, value: Value) -> Result<(), OverrideProblem
     set_in(root, path, value)
 }
 
-fn set_in(table: &mut dyn TableLike, names: &[&str], value: Value) -> Result<(), OverrideProblem> {
+fn set_in(table: &mut dyn TableLike, names: &[&str], value: Value) -> Result<(), String> {
     let Some((last, path)) = names.split_last() else { return Ok(()) };
     let mut table = table;
     for name in path {
         let next = table.entry(name).or_insert_with(|| Item::Table(Table::new()));
-        table = next.as_table_like_mut().ok_or_else(|| OverrideProblem::NotATable((*name).to_owned()))?;
+        let refusal = || format!("`{name}` is not a table of the study, so nothing can be set inside it");
+        table = next.as_table_like_mut().ok_or_else(refusal)?;
     }
     table.insert(last, Item::Value(value));
     Ok(())
@@ -148,7 +161,7 @@ mod tests {
     const STUDY: &str =
         "outputs = ['y'] # kept\n[afm]\nfriction = \"coulomb\"\n[[factor]]\nname = \"length\"\nmin = 1\n";
 
-    fn applied(text: &str) -> Result<String, OverrideProblem> {
+    fn applied(text: &str) -> Result<String, String> {
         let applied = apply(STUDY, &[text.to_owned()]).map_err(|(_, problem)| problem);
         applied.map(|text| text.expect("the study is TOML"))
     }
@@ -173,8 +186,8 @@ mod tests {
         assert!(fixed.contains("[expression.constants]\na = 0.5"), "{fixed}");
         assert!(!fixed.contains("min = 1") && fixed.contains('b'), "{fixed}");
         let of_function = apply("model = 'ishigami'\n[factors.x1]\nmin = 0\n", &["factor.x1=0.5".to_owned()]);
-        assert!(matches!(of_function, Err((_, OverrideProblem::NotFixed { .. }))));
-        assert!(matches!(applied("factor.width=1"), Err(OverrideProblem::NoFactor { .. })));
+        assert!(of_function.unwrap_err().1.contains("all inputs of the model `ishigami` are factors"));
+        assert_eq!(applied("factor.width=1").unwrap_err(), "the study has no factor `width`");
     }
 
     #[test]
@@ -187,15 +200,17 @@ mod tests {
 
     #[test]
     fn what_makes_no_sense_is_named() {
-        assert_eq!(applied("afm.friction"), Err(OverrideProblem::NoEquals));
-        let formulas = apply("outputs.y = 'x1'\n", &["outputs=['y']".to_owned()]);
-        assert_eq!(formulas.unwrap_err().1, OverrideProblem::OutputsTable);
-        assert_eq!(applied("=3"), Err(OverrideProblem::EmptyKey(String::new())));
-        assert_eq!(applied("afm.friction.x=3"), Err(OverrideProblem::NotATable("friction".to_owned())));
+        let refused = |text: &str, expected: &str| {
+            let problem = applied(text).unwrap_err();
+            assert!(problem.contains(expected), "{text}: {problem}");
+        };
+        refused("afm.friction", "expected KEY=VALUE");
+        refused("=3", "the key `` has an empty part");
+        refused("afm.friction.x=3", "`friction` is not a table");
+        refused("factor.lenght.min=3", "the study has no factor `lenght`: did you mean `length`?");
         // 30,000 parts once took more than a minute.
-        let deep = format!("{}=1", ["a"; 30_000].join("."));
-        assert_eq!(applied(&deep), Err(OverrideProblem::TooDeep(30_000)));
-        let missing = OverrideProblem::NoFactor { name: "lenght".to_owned(), nearest: Some("length".to_owned()) };
-        assert_eq!(applied("factor.lenght.min=3"), Err(missing));
+        refused(&format!("{}=1", ["a"; 30_000].join(".")), "the key has 30000 parts");
+        let formulas = apply("outputs.y = 'x1'\n", &["outputs=['y']".to_owned()]);
+        assert!(formulas.unwrap_err().1.contains("`outputs` is a table in this study"));
     }
 }

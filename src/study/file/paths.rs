@@ -30,7 +30,7 @@ pub(super) fn folder(context: &Context<'_>) -> PathBuf {
 /// The path that stands at a key, relative to the study. It need not exist.
 ///
 /// # Errors
-/// [`Problem::File`] if it leads further than `reach`.
+/// [`Problem`] if it leads further than `reach`.
 pub(super) fn resolve(context: &Context<'_>, typed: &At<String>, reach: Reach) -> Result<PathBuf, Fault> {
     let folder = folder(context);
     let path = folder.join(typed.get_ref());
@@ -59,12 +59,8 @@ pub(super) fn refuse_outside_of_run(
 }
 
 fn outside(context: &Context<'_>, span: Range<usize>, path: &Path, place: &str) -> Fault {
-    let problem = Problem::File {
-        place: path.display().to_string(),
-        reason: format!("the path leads {place}"),
-        help: "name one inside, or add files_outside = true to [command]".to_owned(),
-    };
-    context.fault(span, problem)
+    let help = "name one inside, or add files_outside = true to [command]";
+    context.fault(span, Problem::with_help(format!("{}: the path leads {place}", path.display()), help))
 }
 
 /// The path without links; of what does not exist yet, that of the folder it will be made in. `None` where this is unknown.

@@ -27,9 +27,9 @@ pub(super) fn problem(error: &toml::de::Error) -> Problem {
     match &quoted[..] {
         [name, expected @ ..] if message.starts_with("unknown field") => unknown_key(name, expected),
         _ if message.contains("unquoted key") => {
-            Problem::Syntax(format!("{message}: a key of other letters stands in quotes, as in \"größe\" = 2"))
+            Problem::new(format!("{message}: a key of other letters stands in quotes, as in \"größe\" = 2"))
         }
-        _ => Problem::Syntax(in_words(message)),
+        _ => Problem::new(in_words(message)),
     }
 }
 
@@ -44,7 +44,7 @@ fn unknown_key(name: &str, expected: &[&str]) -> Problem {
                 true => format!("it stands {place}"),
                 false => format!("did you mean `{key}`, which stands {place}?"),
             };
-            return Problem::Misplaced { name: name.to_owned(), right };
+            return Problem::misplaced(name, &right);
         }
     }
     context::unknown_key(name, expected.iter().copied())

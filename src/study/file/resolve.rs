@@ -82,11 +82,30 @@ fn model_kind(context: &Context<'_>, model: Option<&At<String>>) -> Result<Model
     ModelKind::from_name(model.get_ref()).ok_or_else(|| {
         let (all, name) = (ModelKind::all(), model.get_ref());
         let problem = match name.contains(['.', '/', '\\']) {
-            true => Problem::ModelFile(name.clone()),
+            true => Problem::with_help(
+                format!("unknown model `{name}`: a program of your own is a `command`"),
+                format!("write model = \"command\" and command = [{}]", words_of_program(name)),
+            ),
             false => unknown_name("model", name, all.iter().map(|kind| kind.name)),
         };
         context.fault(model.span(), problem)
     })
+}
+
+/// A program file as the list that starts it.
+fn words_of_program(file: &str) -> String {
+    let ending = file.rsplit_once('.').map_or("", |(_, ending)| ending).to_lowercase();
+    let interpreter = match ending.as_str() {
+        "py" => "\"python3\", ",
+        "r" => "\"Rscript\", ",
+        "jl" => "\"julia\", ",
+        "sh" => "\"bash\", ",
+        _ => "",
+    };
+    // What was typed as a line of a shell is a list of words here.
+    let words: Vec<String> = file.split_whitespace().map(|word| format!("{word:?}")).collect();
+    let interpreter = if words.len() > 1 { "" } else { interpreter };
+    format!("{interpreter}{}", words.join(", "))
 }
 
 /// `[afm]`, `[function]`, `[expression]` and `command` belong to one kind of model each.
@@ -100,7 +119,7 @@ fn refuse_tables_of_others(context: &Context<'_>, kind: ModelKind, file: &StudyF
     let default = if file.model.is_none() { " by default" } else { "" };
     let right = format!("[{name}] belongs to {owner}, and the model of this study is {:?}{default}", kind.name);
     let span = span(file).unwrap_or_default();
-    Err(context.fault(span, Problem::Misplaced { name: (*name).to_owned(), right }))
+    Err(context.fault(span, Problem::misplaced(name, &right)))
 }
 
 fn space(context: &Context<'_>, inputs: &[Input], sections: &[At<FactorSection>]) -> Result<Space, Fault> {
@@ -108,7 +127,7 @@ fn space(context: &Context<'_>, inputs: &[Input], sections: &[At<FactorSection>]
         // All inputs by their own distributions, if they have one.
         let own = |input: &Input| Some(own_factor(input, input.distribution.clone()?));
         let Some(factors) = inputs.iter().map(own).collect::<Option<Result<Vec<Factor>, Problem>>>() else {
-            return Err(context.fault(0..0, Problem::NoFactors));
+            return Err(context.fault(0..0, Problem::no_factors()));
         };
         return factors.map(Space::new).map_err(|problem| context.fault(0..0, problem));
     }
@@ -133,8 +152,7 @@ fn own_factor(input: &Input, distribution: Distribution) -> Result<Factor, Probl
 }
 
 fn made(input: &Input, unit: Unit, distribution: Distribution) -> Result<Factor, Problem> {
-    Factor::new(&input.name, unit, distribution)
-        .map_err(|source| Problem::Distribution { factor: input.name.clone(), source })
+    Factor::new(&input.name, unit, distribution).map_err(|error| distribution::refused(&input.name, &error))
 }
 
 fn factor(context: &Context<'_>, section: &At<FactorSection>, input: &Input) -> Result<Factor, Fault> {
@@ -151,7 +169,7 @@ fn factor(context: &Context<'_>, section: &At<FactorSection>, input: &Input) -> 
     let in_domain = |value: f64| input.domain.is_none_or(|domain| domain.contains(unit.to_si(value)));
     let outside = |span, found: String| {
         let domain = input.domain.map_or_else(|| "a finite number".to_owned(), in_words_of_units);
-        context.fault(span, Problem::OutOfDomain { name: format!("factor `{}`", input.name), domain, found })
+        context.fault(span, Problem::new(format!("factor `{}` must be {domain}, but {found}", input.name)))
     };
     let (low, high) = distribution.support();
     let least = if distribution.is_open_below() { low.next_up() } else { low };

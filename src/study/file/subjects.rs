@@ -8,8 +8,8 @@ use serde_json::{Value, json};
 use crate::afm::{Fidelity, Options, Parameter, Scene};
 use crate::model::{
     AfmHistory, AfmModel, AfmMoments, AfmOutput, CommandModel, CommandSettings, Expression, ExpressionModel,
-    ExternalModel, Form, Input, KnownFunction, KnownModel, Model, ModelKind, Output, OutputSeries, ParameterValue,
-    edge_unit, known_inputs, program_files,
+    ExternalModel, Form, Input, KnownFunction, Model, ModelKind, Output, OutputSeries, ParameterValue, edge_unit,
+    known_inputs, known_model, program_files,
 };
 #[cfg(feature = "extremes")]
 use crate::model::{AfmSecond, PreciseFormulas, SecondCalculation};
@@ -304,7 +304,7 @@ impl Subject for KnownSubject {
 
     fn model(&self, space: &Space) -> Box<dyn Model> {
         let (base, factors) = self.inputs(space);
-        Box::new(KnownModel::new(self.function.clone(), base, factors))
+        Box::new(known_model(self.function.clone(), base, factors))
     }
 
     fn exact_indices(&self, space: &Space) -> Option<(Vec<f64>, Vec<f64>)> {
@@ -325,7 +325,7 @@ impl Subject for KnownSubject {
     }
 
     fn settings(&self) -> Vec<(&'static str, Value)> {
-        self.function.parameters().into_iter().map(|(name, value)| (name, in_json(value))).collect()
+        self.function.parameters().iter().map(|(name, value)| (*name, in_json(value))).collect()
     }
 
     fn constants(&self, space: &Space) -> Vec<(String, f64, String)> {
@@ -334,11 +334,11 @@ impl Subject for KnownSubject {
     }
 }
 
-fn in_json(value: ParameterValue) -> Value {
-    match value {
+fn in_json(value: &ParameterValue) -> Value {
+    match *value {
         // Whole numbers, such as dimensions, as people write them.
         ParameterValue::Number(number) if number.fract() == 0.0 && number.abs() < 1e15 => json!(number as i64),
         ParameterValue::Number(number) => json!(number),
-        ParameterValue::List(list) => json!(list),
+        ParameterValue::List(ref list) => json!(list),
     }
 }

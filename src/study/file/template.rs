@@ -183,9 +183,12 @@ fn afm_table() -> String {
 fn function_table(model: ModelKind) -> String {
     let Some(answer) = model.known else { return String::new() };
     let about = |name: &str| answer.parameters().iter().find(|p| p.name == name).map_or("", |p| p.description);
-    let parameters = answer.default_function().parameters();
-    let lines: String =
-        parameters.iter().map(|(name, value)| format!("# {name} = {value}    # {}\n", about(name))).collect();
+    let function = answer.default_function();
+    let lines: String = function
+        .parameters()
+        .iter()
+        .map(|(name, value)| format!("# {name} = {value}    # {}\n", about(name)))
+        .collect();
     let table = if lines.is_empty() { "" } else { "[function]\n" };
     format!("\n# {}\n{table}{lines}", answer.formula())
 }

@@ -25,22 +25,28 @@ pub(super) fn own_inputs(context: &Context<'_>, factors: &[At<FactorSection>]) -
     factors.iter().map(input).collect()
 }
 
+/// `name` is in a unit of another kind than `expected`, or in none.
+pub(super) fn wrong_unit(name: &str, expected: &Unit, unit: Option<&Unit>, example: &str) -> Problem {
+    let dimension = expected.dimension();
+    let message = match unit {
+        None => format!("{name} is {dimension} and needs a unit"),
+        Some(unit) => format!("{name} is {dimension}, but `{unit}` measures {}", unit.dimension()),
+    };
+    Problem::with_help(message, format!("write {example}"))
+}
+
 /// The unit of a factor, which is of the kind that the model asks for.
 pub(super) fn unit_of_factor(context: &Context<'_>, fields: &FactorSection, input: &Input) -> Result<Unit, Fault> {
-    let dimension = || input.unit.dimension().to_string();
     let (name, example) = (format!("factor `{}`", input.name), format!("unit = \"{}\"", input.unit));
     let Some(typed) = &fields.unit else {
         if input.unit.compatible(&Unit::dimensionless()) {
             return Ok(Unit::dimensionless());
         }
-        let problem = Problem::MissingUnit { name, dimension: dimension(), example };
-        return Err(context.fault(fields.name.span(), problem));
+        return Err(context.fault(fields.name.span(), wrong_unit(&name, &input.unit, None, &example)));
     };
     let unit = Unit::parse(typed.get_ref()).map_err(|error| context.fault(typed.span(), error.into()))?;
     if !unit.compatible(&input.unit) {
-        let found = unit.dimension().to_string();
-        let problem = Problem::WrongUnit { name, expected: dimension(), unit: unit.to_string(), found, example };
-        return Err(context.fault(typed.span(), problem));
+        return Err(context.fault(typed.span(), wrong_unit(&name, &input.unit, Some(&unit), &example)));
     }
     Ok(unit)
 }
@@ -54,8 +60,11 @@ pub(super) fn refuse_unit_of_own(
 ) -> Result<(), Fault> {
     match &fields.unit {
         Some(typed) if [0.0, 1.0].iter().any(|&x| unit.to_si(x) != input.unit.to_si(x)) => {
-            let (factor, unit) = (input.name.clone(), typed.get_ref().clone());
-            Err(context.fault(typed.span(), Problem::UnitOfOwn { factor, unit }))
+            let (factor, unit) = (&input.name, typed.get_ref());
+            let problem =
+                format!("factor `{factor}` has the function's own distribution here, which is not in `{unit}`");
+            let help = "remove the unit, or give the distribution too";
+            Err(context.fault(typed.span(), Problem::with_help(problem, help)))
         }
         _ => Ok(()),
     }

@@ -282,7 +282,7 @@ fn coverage(function: &str, method: IntervalMethod) -> f64 {
         let model = function.clone();
         let study = Study::builder("coverage", function_model("y", move |x| model.value(x)));
         let study = study.sampler(Sampler::Random).base_samples(512).seed(seed).analysis(options.clone());
-        let inputs = function.inputs().into_iter();
+        let inputs = function.inputs().iter().cloned();
         let study = inputs.fold(study, |study, input| study.factor(&input.name, input.distribution)).build().unwrap();
         let analysis = study.run().unwrap();
         let exact = exact.first_order.iter().zip(&exact.total);

@@ -3,8 +3,8 @@
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use apportion::run::RowValues;
 use apportion::run::journal::read_journal;
-use apportion::run::{Job, RowValues};
 use apportion::study::Study;
 
 use super::{Case, failures};
@@ -155,15 +155,13 @@ impl Trial {
 /// Rows in the journal of a case: all, those with the number of the formula, and those with another.
 fn on_record(case: &Case) -> (usize, usize, usize) {
     let study = Study::load(&case.path("study.toml"), &[]).unwrap();
-    let model = study.model();
-    let job = Job { design: study.design(), space: study.space(), model: model.as_ref() };
     let journal = case.path("out/study.journal");
     let contents = read_journal(&journal, &std::fs::read(&journal).unwrap()).unwrap();
     let (mut all, mut right, mut wrong) = (0, 0, 0);
     for piece in &contents.pieces {
         let mut values = RowValues::default();
         let end = piece.first + piece.rows(1);
-        let x = values.values(job, piece.replicate, piece.first..end);
+        let x = values.values(study.space(), study.design(), piece.replicate, piece.first..end);
         for (row, y) in piece.values.iter().enumerate() {
             let expected = x[0][row] + 2.0 * x[1][row] + x[0][row] * x[2][row];
             all += 1;

@@ -23,8 +23,9 @@ use super::subjects::CommandSubject;
 use crate::model::{CommandOutput, CommandSettings, Form, Pick, Program, Protocol, Source};
 use crate::space::Space;
 
-pub(super) const NO_PROGRAM: Problem =
-    Problem::Missing { what: "program", example: "command = [\"python3\", \"my_model.py\"]" };
+pub(super) fn no_program() -> Problem {
+    Problem::missing("program", "command = [\"python3\", \"my_model.py\"]")
+}
 
 /// The program with all that is said of it, and notes on what has no effect.
 pub(super) fn subject(
@@ -33,7 +34,7 @@ pub(super) fn subject(
     outputs: Option<&At<Outputs>>,
     space: &Space,
 ) -> Result<(CommandSubject, Vec<String>), Fault> {
-    let Some(key) = key else { return Err(context.fault(0..0, NO_PROGRAM)) };
+    let Some(key) = key else { return Err(context.fault(0..0, no_program())) };
     let unsaid = CommandSection::default();
     let (section, program) = match key.get_ref() {
         ListOrTable::List(program) => (&unsaid, program.as_slice()),
@@ -107,7 +108,7 @@ pub(super) fn subject(
 fn arguments(context: &Context<'_>, key: &At<CommandKey>, program: &[At<String>]) -> Result<Vec<String>, Fault> {
     if program.first().is_none_or(|name| name.get_ref().trim().is_empty()) {
         let span = program.first().map_or_else(|| key.span(), At::span);
-        return Err(context.fault(span, NO_PROGRAM));
+        return Err(context.fault(span, no_program()));
     }
     Ok(program.iter().map(|argument| argument.get_ref().clone()).collect())
 }
@@ -123,9 +124,8 @@ fn existing_file(context: &Context<'_>, section: &CommandSection, typed: &At<Str
     if path.is_file() {
         return Ok(path);
     }
-    let (place, reason) = (path.display().to_string(), "there is no such file".to_owned());
-    let help = "the path is relative to the study, and that of a file".to_owned();
-    Err(context.fault(typed.span(), Problem::File { place, reason, help }))
+    let help = "the path is relative to the study, and that of a file";
+    Err(context.fault(typed.span(), Problem::with_help(format!("{}: there is no such file", path.display()), help)))
 }
 
 fn existing_directory(context: &Context<'_>, section: &CommandSection, typed: &At<String>) -> Result<PathBuf, Fault> {
@@ -133,12 +133,8 @@ fn existing_directory(context: &Context<'_>, section: &CommandSection, typed: &A
     if directory.is_dir() {
         return Ok(directory);
     }
-    let problem = Problem::File {
-        place: directory.display().to_string(),
-        reason: "there is no such directory".to_owned(),
-        help: "the path is relative to the study".to_owned(),
-    };
-    Err(context.fault(typed.span(), problem))
+    let problem = format!("{}: there is no such directory", directory.display());
+    Err(context.fault(typed.span(), Problem::with_help(problem, "the path is relative to the study")))
 }
 
 /// The protocol of a program that is kept alive; what belongs to the other form has no place here.

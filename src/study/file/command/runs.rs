@@ -62,10 +62,9 @@ pub(super) fn refuse_without_pick(
 }
 
 fn read_template(path: &Path, space: &Space) -> Result<InputTemplate, Problem> {
-    let text = read_text(path).map_err(|error| Problem::File {
-        place: path.display().to_string(),
-        reason: format!("cannot read the template: {error}"),
-        help: "it is a text in UTF-8; its path is relative to the study".to_owned(),
+    let text = read_text(path).map_err(|error| {
+        let help = "it is a text in UTF-8; its path is relative to the study";
+        Problem::with_help(format!("{}: cannot read the template: {error}", path.display()), help)
     })?;
     let names = || space.factors().iter().map(|factor| factor.name.as_str());
     InputTemplate::parse(&text, &|name| names().position(|known| known == name)).map_err(|error| {
@@ -73,14 +72,10 @@ fn read_template(path: &Path, space: &Space) -> Result<InputTemplate, Problem> {
             TemplateProblem::Unknown(name) => nearest(name, names()),
             TemplateProblem::Open => None,
         };
-        Problem::File {
-            place: format!("{}:{}:{}", path.display(), error.line, error.column),
-            reason: format!("{error}{}", did_you_mean(&near)),
-            help: format!(
-                "factors: {}; write `{{{{{{{{` for two braces of the text",
-                names().collect::<Vec<_>>().join(", ")
-            ),
-        }
+        let place = format!("{}:{}:{}", path.display(), error.line, error.column);
+        let names = names().collect::<Vec<_>>().join(", ");
+        let help = format!("factors: {names}; write `{{{{{{{{` for two braces of the text");
+        Problem::with_help(format!("{place}: {error}{}", did_you_mean(&near)), help)
     })
 }
 
