@@ -119,7 +119,7 @@ pub use analysis::{
     SeriesAnalysis, Spending, StopReason, Stopped, Warning,
 };
 #[doc(hidden)]
-pub use analysis::{Unlikely, unlikely_outputs};
+pub use analysis::unlikely_outputs;
 pub use design::{Design, DesignError, DesignSettings, Rows, Sampler, SobolSequence};
 pub use estimate::{CentralMoments, Estimator, FirstOrder, Scaling, ShapleyMethod, ShapleyPlayers, Total, Undefined};
 pub use model::{
@@ -129,7 +129,7 @@ pub use model::{
 };
 #[cfg(feature = "study")]
 pub use model::{CommandModel, CommandOutput, CommandSettings, Form, PerRun, Program, Protocol};
-pub use quantity::{Domain, Quantity, Unit, UnitError};
+pub use quantity::{Domain, Quantity, Unit, UnitError, Unlikely};
 pub use run::{FailurePolicy, Progress, RemoteWorkers, Requests, RunError, Shard, ShardError};
 pub use runner::{Resume, Runner, WorkerStudy};
 pub use space::{CorrelationMeasure, Dependence, DependenceError, Distribution, DistributionError, Factor, Space};

@@ -6,6 +6,7 @@ mod error;
 mod same;
 mod symbols;
 mod unit;
+mod unlikely;
 
 use std::fmt;
 
@@ -14,6 +15,7 @@ pub use domain::Domain;
 pub use error::UnitError;
 pub use same::{SAME_VALUE, is_same};
 pub use unit::Unit;
+pub use unlikely::Unlikely;
 
 /// A value with its unit, as typed.
 ///

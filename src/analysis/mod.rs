@@ -20,7 +20,7 @@ pub use rare_levels::RareLevel;
 pub(crate) use rare_levels::{enough_base_samples, rare_levels};
 pub use result::{Aggregate, Analysis, LowRuns, Spending, StopReason, Stopped};
 pub use series::SeriesAnalysis;
-pub use unlikely::{Unlikely, unlikely_outputs};
+pub use unlikely::unlikely_outputs;
 pub use warning::Warning;
 #[cfg(feature = "charts")]
 pub(crate) use {

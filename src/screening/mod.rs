@@ -40,6 +40,7 @@ use serde_json::{Map, Value};
 
 use crate::analysis::named_inputs;
 use crate::model::{Model, Output, RunContext};
+use crate::quantity::Unlikely;
 use crate::run::Progress;
 use crate::space::{Factor, Space};
 use crate::uncertainty::Estimate;
@@ -199,7 +200,9 @@ pub fn screen_in(
         })
     };
     let outputs = job.model.outputs().iter().enumerate().map(|(number, output)| {
-        let mut screened = screened(output, number, &outcome, factors, parts as usize);
+        let mut screened = screened(output, number, &outcome, factors, (parts as usize, is_derivative));
+        let values: Vec<f64> = outcome.values[number].iter().map(|y| output.unit.from_si(*y)).collect();
+        let unlikely = Unlikely::find(&values).map(|found| found.in_runs(found.first + 1));
         let missed = sum_of_bounds(&screened).filter(|sum| *sum < 1.0);
         if missed.is_some() {
             screened.iter_mut().for_each(|factor| factor.could_be_fixed = None);
@@ -207,7 +210,7 @@ pub fn screen_in(
         ScreenedOutput {
             name: output.name.to_string(),
             unit: output.unit.to_string(),
-            warnings: warnings(&screened, missed),
+            warnings: unlikely.into_iter().chain(warnings(&screened, missed)).collect(),
             factors: screened,
             failures: failures(number).collect(),
         }
@@ -224,7 +227,7 @@ pub fn screen_in(
 
 /// What there is to warn of in an output, of which the derivatives have `missed` something if what total indices are at most
 /// sums to less than 1.
-fn warnings(factors: &[ScreenedFactor], missed: Option<f64>) -> Vec<String> {
+fn warnings(factors: &[ScreenedFactor], missed: Option<f64>) -> impl Iterator<Item = String> {
     let dropped: u64 = factors.iter().map(|factor| factor.dropped).sum();
     let all = dropped + factors.iter().map(|factor| factor.effects).sum::<u64>();
     let dropped = (dropped > 0).then(|| {
@@ -240,13 +243,21 @@ fn warnings(factors: &[ScreenedFactor], missed: Option<f64>) -> Vec<String> {
              factor is said to be one that could be fixed. Screen with the radial design, or run the study"
         )
     });
-    dropped.into_iter().chain(missed).collect()
+    dropped.into_iter().chain(missed)
 }
 
-/// The factors of output number `number`, from its effects in SI units, factor by factor within each trajectory.
-fn screened(output: &Output, number: usize, outcome: &Outcome, space: &[Factor], parts: usize) -> Vec<ScreenedFactor> {
+/// The factors of output number `number`, from its effects in SI units, factor by factor within each trajectory, in `parts`
+/// independent parts.
+fn screened(
+    output: &Output,
+    number: usize,
+    outcome: &Outcome,
+    space: &[Factor],
+    (parts, is_derivative): (usize, bool),
+) -> Vec<ScreenedFactor> {
     let factors = space.len();
-    let base: Vec<f64> = outcome.base[number].iter().map(|y| output.unit.span_from_si(*y)).collect();
+    let first_rows = outcome.values[number].iter().step_by(factors + 1);
+    let base: Vec<f64> = first_rows.map(|y| output.unit.span_from_si(*y)).collect();
     let of_factor = |(j, factor): (usize, &Factor)| {
         let effects = outcome.effects[number].iter().skip(j).step_by(factors);
         let own: Vec<f64> = effects.map(|effect| output.unit.span_from_si(*effect)).collect();
@@ -254,10 +265,8 @@ fn screened(output: &Output, number: usize, outcome: &Outcome, space: &[Factor],
         let measures = measures::measures(&own, parts);
         let ratio = measures.and_then(|m| m.ratio);
         let distribution = factor.distribution();
-        let derivative = match base.is_empty() {
-            true => None,
-            false => derivative_measures(&own, &base, parts, range(distribution), poincare_constant(distribution)),
-        };
+        let of_effects = || derivative_measures(&own, &base, parts, range(distribution), poincare_constant(distribution));
+        let derivative = if is_derivative { of_effects() } else { None };
         ScreenedFactor {
             factor: factor.name.clone(),
             rank: 0,

@@ -16,8 +16,8 @@ use crate::space::Factor;
 pub(super) struct Outcome {
     /// For each output, factor by factor within each trajectory: the effect in SI units, NaN where there is none.
     pub effects: Vec<Vec<f64>>,
-    /// For each output: that of the first row of each trajectory in SI units, of a derivative design.
-    pub base: Vec<Vec<f64>>,
+    /// For each output, row by row within each trajectory: the value in SI units, NaN where there is none.
+    pub values: Vec<Vec<f64>>,
     /// For each factor: steps that did not change its value.
     pub idle: Vec<u64>,
     /// For each output and reason: the failed runs, and the first one's factor values in SI units.
@@ -100,8 +100,8 @@ impl Bench<'_> {
                 effects.extend(moves.iter().map(|a_move| effect(a_move, values)));
             }
         }
-        for (output, base) in outcome.base.iter_mut().enumerate().filter(|_| is_derivative) {
-            base.extend(self.batch.column(output).iter().step_by(self.rows));
+        for (output, values) in outcome.values.iter_mut().enumerate() {
+            values.extend(self.batch.column(output));
         }
         outcome.note(&self.batch, &inputs);
         Ok(outcome)
@@ -140,7 +140,7 @@ impl Outcome {
     fn new(job: ScreeningJob<'_>) -> Self {
         Self {
             effects: vec![Vec::new(); job.model.outputs().len()],
-            base: vec![Vec::new(); job.model.outputs().len()],
+            values: vec![Vec::new(); job.model.outputs().len()],
             idle: vec![0; job.space.factors().len()],
             flags: vec![0; job.model.flags().len()],
             ..Self::default()
@@ -166,7 +166,7 @@ impl Outcome {
         for (mine, theirs) in self.effects.iter_mut().zip(next.effects) {
             mine.extend(theirs);
         }
-        for (mine, theirs) in self.base.iter_mut().zip(next.base) {
+        for (mine, theirs) in self.values.iter_mut().zip(next.values) {
             mine.extend(theirs);
         }
         for (key, (count, first)) in next.failures {

@@ -258,3 +258,21 @@ fn values_outside_of_the_range_are_told_as_such() {
     // The values rise or fall from one end to the other; the sentence tells no order.
     assert!(said.contains(" most: between ") && said.contains("output from (nN)"), "{said}");
 }
+
+#[test]
+fn codes_for_missing_values_are_warned_of() {
+    let folder = Folder::new();
+    let study = folder.with(
+        "s.toml",
+        "model = \"expression\"\nfactors = { a = { min = 0, max = 1 }, b = { min = 0, max = 1 } }\n\
+         outputs.y = \"if(a > 0.94, -9999, a + b)\"\n",
+    );
+    for (command, end) in [("screen", "screen"), ("sweep", "sweep")] {
+        let out = folder.path().join(command);
+        let said = succeed(&[command, text(&study), "--out", text(&out), "--charts", "none"]);
+        let file: serde_json::Value = serde_json::from_str(&read(&out, &format!("s-{end}.json"))).unwrap();
+        let warnings = if command == "screen" { &file["outputs"][0]["warnings"] } else { &file["warnings"] };
+        assert!(warnings.to_string().contains("-9999"), "{command}: {file}");
+        assert!(said.contains("-9999.0"), "{command}: {said}");
+    }
+}

@@ -66,7 +66,7 @@ pub fn study(arguments: &super::Arguments) -> Result<super::Read, Failure> {
     }
     let made = salib_study(&stem(&arguments.data), &problem, &outputs, layout, (resamples, seed));
     let (study, store) = made.map_err(|error| wrong(&error))?;
-    let unlikely = |output: &Column| Unlikely::find(&output.values).map(|found| found.words(found.first + 1));
+    let unlikely = |output: &Column| Unlikely::find(&output.values).map(|found| found.in_table(found.first + 1));
     Ok(super::Read { study, store, unlikely: outputs.iter().map(unlikely).collect() })
 }
 

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::sentences;
 use super::surrogate::{GivenSurrogateRecord, SurrogateResult, surrogate_record};
-use crate::analysis::Unlikely;
+use crate::quantity::Unlikely;
 use crate::exchange::{TextColumn, TextKind};
 use crate::given::{
     Column, Dependence, GivenIndices, InputIndices, InputMeasures, Method, NoVariance, OutputIndices, PointSet,
@@ -213,7 +213,7 @@ pub fn build_given(
 
 /// A sentence on the unlikely value of a column, if it has one.
 fn unlikely(column: &Column) -> Option<String> {
-    Unlikely::find(&column.values).map(|found| format!("{}: {}", column.name, found.words(found.first + 1)))
+    Unlikely::find(&column.values).map(|found| format!("{}: {}", column.name, found.in_table(found.first + 1)))
 }
 
 fn points_name(points: &PointSet) -> &'static str {

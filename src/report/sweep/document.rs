@@ -33,8 +33,9 @@ pub fn sweep_document(file: &SweepFile) -> Document {
     };
     let mut parts: Vec<Part> = curves.into_iter().zip(&file.sweeps).map(curve).collect();
     let failed: Vec<String> = file.sweeps.iter().flat_map(gap_lines).map(|line| format!("{line}.")).collect();
-    if !failed.is_empty() {
-        parts.insert(0, Part::Notice { mark: Mark::Mixed, kind: "Failed".to_owned(), texts: failed });
+    let warned: Vec<String> = file.warnings.iter().map(|warning| format!("{warning}.")).collect();
+    for (kind, texts) in [("Failed", failed), ("Warning", warned)].into_iter().filter(|(_, texts)| !texts.is_empty()) {
+        parts.insert(0, Part::Notice { mark: Mark::Mixed, kind: kind.to_owned(), texts });
     }
     sections.push(Section::new("curves", "The outputs over each factor", parts));
     sections.extend(validity_section(&file.validity));

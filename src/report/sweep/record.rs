@@ -9,6 +9,7 @@ use super::super::format::short_with_unit;
 use super::super::records::{StudySetup, study_setup, validity};
 use super::super::result::ValidityRecord;
 use crate::model::Model;
+use crate::quantity::Unlikely;
 use crate::study::Study;
 use crate::sweep::{Against, NominalOutput, Sweep, SweepEffect, Sweeps};
 
@@ -29,6 +30,9 @@ pub struct SweepFile {
     pub sweeps: Vec<Sweep>,
     /// Rows on which the model's assumptions do not hold; the rows count all the same.
     pub validity: Vec<ValidityRecord>,
+    /// What a careful reader should know, in sentences.
+    #[serde(default)]
+    pub warnings: Vec<String>,
 }
 
 /// How the sweeps were made.
@@ -65,6 +69,13 @@ impl SweepEffect {
     }
 }
 
+/// A sentence on the unlikely value of output number `place`, if it has one; runs are counted curve by curve.
+fn unlikely(sweeps: &Sweeps, place: usize, output: &str) -> Option<String> {
+    let curves = sweeps.sweeps.iter().flat_map(|sweep| &sweep.curves).map(|curve| &curve.outputs[place]);
+    let values: Vec<f64> = curves.flat_map(|curve| curve.values.iter().map(|y| y.unwrap_or(f64::NAN))).collect();
+    Unlikely::find(&values).map(|found| format!("{output}: {}", found.in_runs(found.first + 1)))
+}
+
 /// The file of the sweeps of `study`, whose model is `model`.
 pub fn build_sweep(study: &Study, model: &dyn Model, sweeps: Sweeps) -> SweepFile {
     SweepFile {
@@ -75,6 +86,7 @@ pub fn build_sweep(study: &Study, model: &dyn Model, sweeps: Sweeps) -> SweepFil
             apportion_version: env!("CARGO_PKG_VERSION").to_owned(),
             model_runs: sweeps.runs,
         },
+        warnings: sweeps.nominal.iter().enumerate().filter_map(|(place, of)| unlikely(&sweeps, place, &of.output)).collect(),
         nominal: sweeps.nominal,
         sweeps: sweeps.sweeps,
         validity: validity(model.flags().iter().zip(sweeps.flags), sweeps.runs),

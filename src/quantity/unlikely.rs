@@ -1,0 +1,91 @@
+//! Values that may stand for something else: codes for missing ones, and slips.
+
+use super::is_same;
+
+/// Numbers that programs write where there is none; the last two are the fill values of NetCDF in single and double precision.
+const CODES: [f64; 12] = [
+    -999.0,
+    999.0,
+    -9999.0,
+    9999.0,
+    -99999.0,
+    99999.0,
+    -999999.0,
+    999999.0,
+    1e20,
+    -1e20,
+    9.969_209_968_386_869e36,
+    9.96921e36,
+];
+
+/// So many times the range of all others an extreme value lies beyond them before it is unlikely by itself.
+const FAR: f64 = 1e3;
+
+/// Fewest different values of the others: fewer are steps, of which one may be large.
+const MIN_VALUES: usize = 10;
+
+/// A value that may be none of the model.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Unlikely {
+    /// The value.
+    pub value: f64,
+    /// How often it occurs.
+    pub count: usize,
+    /// The first place where it does, from 0.
+    pub first: usize,
+    /// Number of finite values.
+    pub of: usize,
+    /// The smallest and the largest of the others.
+    pub others: (f64, f64),
+}
+
+impl Unlikely {
+    /// The smallest or largest of the finite `values`, if it is a known code and stands out or is repeated among values that
+    /// differ, or if it lies far beyond all others.
+    pub fn find(values: &[f64]) -> Option<Self> {
+        let finite = || values.iter().copied().filter(|value| value.is_finite());
+        let range = |values: &mut dyn Iterator<Item = f64>| {
+            values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)))
+        };
+        let (low, high) = range(&mut finite());
+        [low, high].into_iter().find_map(|value| {
+            let others = range(&mut finite().filter(|other| *other != value));
+            let width = others.1 - others.0;
+            let gap = (value - others.0).abs().min((value - others.1).abs());
+            let is_code = CODES.iter().any(|code| is_same(*code, value));
+            if others.0 > others.1 || !(is_code || gap > FAR * width) {
+                return None;
+            }
+            let mut rest: Vec<f64> = finite().filter(|other| *other != value).collect();
+            rest.sort_unstable_by(f64::total_cmp);
+            let distinct = 1 + rest.windows(2).filter(|pair| pair[0] != pair[1]).count();
+            let of = finite().count();
+            let count = of - rest.len();
+            let stands_out = gap > width || count > 1 && 2 * distinct > rest.len();
+            let first = values.iter().position(|other| *other == value)?;
+            let is_unlikely = distinct >= MIN_VALUES && 2 * count <= of && stands_out;
+            is_unlikely.then_some(Self { value, count, first, of, others })
+        })
+    }
+
+    /// A sentence on it in a table; `row` is the row of its first place, from 1.
+    pub fn in_table(&self, row: usize) -> String {
+        format!("{}, have it read as one (--missing-value={:?})", self.words("row", row), self.value)
+    }
+
+    /// A sentence on it in runs, of which number `run`, from 1, is its first place.
+    pub fn in_runs(&self, run: usize) -> String {
+        format!("{}, the model should say there that the run failed", self.words("run", run))
+    }
+
+    fn words(&self, what: &str, first: usize) -> String {
+        let Self { value, count, of, others: (low, high), .. } = self;
+        format!(
+            "the value {value:?} stands in {count} of {of} {what}s (the first is {what} {first}), and all others lie between \
+             {low:?} and {high:?}: if it stands for a missing value"
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests;
