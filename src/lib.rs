@@ -114,12 +114,12 @@ pub mod uncertainty;
 
 // The modules that are hidden are open to the program, which is a crate of its own, and promise nothing.
 pub use analysis::MOST_ROWS_OF_MEASURES;
-pub use analysis::{
-    Aggregate, Analysis, FailureCount, LookupError, LowRuns, NoIndices, OutputAnalysis, RareLevel, RunMeasures,
-    SeriesAnalysis, Spending, StopReason, Stopped, Warning,
-};
 #[doc(hidden)]
 pub use analysis::unlikely_outputs;
+pub use analysis::{
+    Aggregate, Analysis, FailureCount, LookupError, LowRuns, NoIndices, OutputAnalysis, RareLevel, RunMeasures,
+    SeriesAnalysis, Spending, StopReason, Stopped, SurrogateTrial, Warning,
+};
 pub use design::{Design, DesignError, DesignSettings, Rows, Sampler, SobolSequence};
 pub use estimate::{CentralMoments, Estimator, FirstOrder, Scaling, ShapleyMethod, ShapleyPlayers, Total, Undefined};
 pub use model::{

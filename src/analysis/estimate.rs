@@ -7,7 +7,7 @@ use serde_json::Map;
 
 use super::finished_run::{FinishedRun, LowTotals, named_inputs, outputs_kept, row_inputs};
 use super::measures::MeasuredRows;
-use super::output::{FailureCount, NoIndices, OutputAnalysis};
+use super::output::{FailureCount, NoIndices, OutputAnalysis, SurrogateTrial};
 use super::rare_levels::{RareLevel, rare_levels, withdraw};
 use super::result::{Aggregate, Analysis, LowRuns, Stopped};
 use super::series::{series, single_outputs, together};
@@ -97,6 +97,17 @@ pub(crate) fn surrogates(
     lows: &[LowTotals<'_>],
     longer: &[Option<SurrogateEstimates>],
 ) -> Vec<Option<SurrogateEstimates>> {
+    surrogates_and_trials(study, design, replicates, lows, longer).0
+}
+
+/// The same, and the trial of each output that had one.
+fn surrogates_and_trials(
+    study: &Study,
+    design: &Design,
+    replicates: &[Totals],
+    lows: &[LowTotals<'_>],
+    longer: &[Option<SurrogateEstimates>],
+) -> (Vec<Option<SurrogateEstimates>>, Vec<Option<SurrogateTrial>>) {
     let outputs = replicates.first().map_or(0, |totals| totals.outputs.len());
     let first = |replicates: &[Totals], number: usize| -> Vec<PointOutputs> {
         let kept = outputs_kept(replicates, number).into_iter();
@@ -104,12 +115,16 @@ pub(crate) fn surrogates(
     };
     let kept: Vec<Vec<PointOutputs>> = (0..outputs).map(|number| first(replicates, number)).collect();
     if !study.uses_surrogate(design) || kept.iter().flatten().all(|outputs| outputs.points() == 0) {
-        return vec![None; outputs];
+        return (vec![None; outputs], vec![None; outputs]);
     }
     let kept: Vec<Vec<&PointOutputs>> = kept.iter().map(|replicates| replicates.iter().collect()).collect();
     let (families, layout) = (families(&study.space), study.layout());
-    let gains = match longer {
-        [] => gains_of_trial(study, design, replicates, &kept),
+    let trials = match longer {
+        [] => trials(study, design, replicates, &kept),
+        _ => vec![None; outputs],
+    };
+    let gains: Vec<bool> = match longer {
+        [] => trials.iter().map(|trial| trial.is_none_or(|trial| trial.gain > MIN_GAIN)).collect(),
         longer => longer.iter().map(Option::is_some).collect(),
     };
     // Polynomials go on where runs fail, and the numbers are those of the part of the space where they succeed.
@@ -140,18 +155,24 @@ pub(crate) fn surrogates(
     };
     let misses_levels = rare_levels(&study.space, design).iter().any(RareLevel::is_missed);
     let of_rows = |of: SurrogateEstimates| SurrogateEstimates { misses_levels, ..of };
-    alone.into_iter().enumerate().map(|place| best(place).map(of_rows)).collect()
+    (alone.into_iter().enumerate().map(|place| best(place).map(of_rows)).collect(), trials)
 }
 
-/// Whether surrogates of each output are worth their time: where this is not known beforehand, by a fit to some of the base points.
-fn gains_of_trial(study: &Study, design: &Design, replicates: &[Totals], kept: &[Vec<&PointOutputs>]) -> Vec<bool> {
+/// What surrogates of each output gain, where it is not known beforehand that they are worth their time, by a fit to some of the base
+/// points.
+fn trials(
+    study: &Study,
+    design: &Design,
+    replicates: &[Totals],
+    kept: &[Vec<&PointOutputs>],
+) -> Vec<Option<SurrogateTrial>> {
     if !study.tries_surrogates(design) {
-        return vec![true; kept.len()];
+        return vec![None; kept.len()];
     }
     let moments = |number: usize| replicates.iter().map(move |totals| &totals.outputs[number].moments);
     let parts = moments(0).map(|all| all.prefix(parts_of_trial(all, design)));
     let points = parts.map(|parts| parts.points()).min().unwrap_or(0);
-    let Ok(trial) = design.with_points(points) else { return vec![false; kept.len()] };
+    let Ok(trial) = design.with_points(points) else { return vec![None; kept.len()] };
     let first: Vec<Vec<PointOutputs>> =
         kept.iter().map(|replicates| replicates.iter().map(|kept| kept.prefix(points)).collect()).collect();
     let first: Vec<Vec<&PointOutputs>> = first.iter().map(|replicates| replicates.iter().collect()).collect();
@@ -161,7 +182,8 @@ fn gains_of_trial(study: &Study, design: &Design, replicates: &[Totals], kept: &
         let options = IntervalOptions { surrogate: of.as_ref(), ranks: false, ..interval_options(study) };
         let used = output_indices(&parts, &study.layout(), &options).ok().and_then(|indices| indices.surrogate);
         let gains = used.map(|used| [used.gain_first_order, used.gain_total].map(|gain| gain.unwrap_or(0.0).sqrt()));
-        gains.is_some_and(|gains| gains.iter().all(|gain| *gain > MIN_GAIN))
+        let gain = gains.map_or(0.0, |[first_order, total]| first_order.min(total));
+        Some(SurrogateTrial { runs: trial.rows(), gain, needed: MIN_GAIN })
     };
     found.iter().enumerate().map(gains).collect()
 }
@@ -178,6 +200,8 @@ struct Corrections {
     whole: Vec<Option<SurrogateEstimates>>,
     /// By the base points of a replicate.
     stages: BTreeMap<u64, Vec<Option<SurrogateEstimates>>>,
+    /// What surrogates gained in trials of the outputs; none of a run that grew.
+    trials: Vec<Option<SurrogateTrial>>,
     /// What the rows hardly met.
     rare: Vec<RareLevel>,
 }
@@ -185,8 +209,8 @@ struct Corrections {
 impl Corrections {
     fn of(run: &FinishedRun<'_>) -> Self {
         let FinishedRun { study, design, replicates, lows, .. } = *run;
-        let known = run.surrogates.map(<[_]>::to_vec);
-        let whole = known.unwrap_or_else(|| surrogates(study, design, replicates, lows, &[]));
+        let known = run.surrogates.map(|known| (known.to_vec(), Vec::new()));
+        let (whole, trials) = known.unwrap_or_else(|| surrogates_and_trials(study, design, replicates, lows, &[]));
         let mut stages = BTreeMap::new();
         if study.analysis.convergence && whole.iter().any(Option::is_some) {
             // All outputs have the same parts.
@@ -198,7 +222,7 @@ impl Corrections {
                 }
             }
         }
-        Self { whole, stages, rare: rare_levels(&study.space, design) }
+        Self { whole, stages, trials, rare: rare_levels(&study.space, design) }
     }
 }
 
@@ -258,6 +282,7 @@ fn output_analysis(
         failures: totals.failures.iter().map(failure).collect(),
         convergence: convergence.unwrap_or_default(),
         indices,
+        trial: corrected.trials.get(number).copied().flatten(),
         values: totals.values,
         samples,
         measures: None,

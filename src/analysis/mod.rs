@@ -15,7 +15,7 @@ mod warnings;
 pub(crate) use estimate::{analysis, interval_options, surrogates};
 pub(crate) use finished_run::{FinishedRun, LowTotals, named_inputs, outputs_kept};
 pub use measures::{MOST_ROWS_OF_MEASURES, RunMeasures};
-pub use output::{FailureCount, LookupError, NoIndices, OutputAnalysis};
+pub use output::{FailureCount, LookupError, NoIndices, OutputAnalysis, SurrogateTrial};
 pub use rare_levels::RareLevel;
 pub(crate) use rare_levels::{enough_base_samples, rare_levels};
 pub use result::{Aggregate, Analysis, LowRuns, Spending, StopReason, Stopped};

@@ -34,6 +34,8 @@ pub struct OutputAnalysis {
     pub indices: Result<OutputIndices, NoIndices>,
     /// The indices as they were at each half of the runs after it, the whole last.
     pub convergence: Vec<Stage>,
+    /// What surrogates gained in a trial, where one decided on them.
+    pub trial: Option<SurrogateTrial>,
     /// Moments and range of all successful rows A and B.
     pub values: CentralMoments,
     /// Of every replicate the outputs of its first rows A and B: A, B, A, B, ...; NaN where a run failed.
@@ -45,6 +47,19 @@ pub struct OutputAnalysis {
     pub warnings: Vec<Warning>,
     /// Names of the factors and of the groups, in the order of their indices.
     pub(super) names: [Vec<String>; 2],
+}
+
+/// A trial of surrogates on the first runs of a quick model: all runs are corrected if it gains enough.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "study", derive(schemars::JsonSchema))]
+#[non_exhaustive]
+pub struct SurrogateTrial {
+    /// Model runs in it.
+    pub runs: u64,
+    /// How many times smaller errors were with surrogates, of the first-order or the total indices, where it gains less.
+    pub gain: f64,
+    /// How many times smaller they must be.
+    pub needed: f64,
 }
 
 /// A reason for which runs failed.

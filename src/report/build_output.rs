@@ -47,6 +47,7 @@ impl<'a> OutputRecords<'a> {
             base_points_used: output.base_points_used,
             failures: output.failures.clone(),
             measures: output.measures.clone(),
+            surrogate_trial: output.trial,
             convergence: output.convergence.iter().map(stage).collect(),
             distribution: distribution_record(output, is_item),
             reason: output.indices.as_ref().err().map(ToString::to_string),

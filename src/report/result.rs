@@ -14,7 +14,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::distribution::OutputDistribution;
-use crate::analysis::{FailureCount, LowRuns, RunMeasures};
+use crate::analysis::{FailureCount, LowRuns, RunMeasures, SurrogateTrial};
 use crate::uncertainty::{EffectEstimates, Estimate, Interval};
 pub use indices::*;
 pub use noise::NoiseRecord;
@@ -230,6 +230,9 @@ pub struct OutputRecord {
     /// What surrogates did to the indices; `null` without any.
     #[serde(default)]
     pub surrogate: Option<SurrogateRecord>,
+    /// What surrogates gained in a trial, where one decided on them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub surrogate_trial: Option<SurrogateTrial>,
     /// How the indices and their intervals changed as the run grew, without surrogates.
     #[serde(default)]
     pub convergence: Vec<StageRecord>,

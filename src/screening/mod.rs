@@ -265,7 +265,8 @@ fn screened(
         let measures = measures::measures(&own, parts);
         let ratio = measures.and_then(|m| m.ratio);
         let distribution = factor.distribution();
-        let of_effects = || derivative_measures(&own, &base, parts, range(distribution), poincare_constant(distribution));
+        let of_effects =
+            || derivative_measures(&own, &base, parts, range(distribution), poincare_constant(distribution));
         let derivative = if is_derivative { of_effects() } else { None };
         ScreenedFactor {
             factor: factor.name.clone(),

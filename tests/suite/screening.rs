@@ -268,7 +268,7 @@ fn codes_for_missing_values_are_warned_of() {
          outputs.y = \"if(a > 0.94, -9999, a + b)\"\n",
     );
     for (command, end) in [("screen", "screen"), ("sweep", "sweep")] {
-        let out = folder.path().join(command);
+        let out = folder.path(command);
         let said = succeed(&[command, text(&study), "--out", text(&out), "--charts", "none"]);
         let file: serde_json::Value = serde_json::from_str(&read(&out, &format!("s-{end}.json"))).unwrap();
         let warnings = if command == "screen" { &file["outputs"][0]["warnings"] } else { &file["warnings"] };

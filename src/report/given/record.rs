@@ -4,13 +4,13 @@ use serde::{Deserialize, Serialize};
 
 use super::sentences;
 use super::surrogate::{GivenSurrogateRecord, SurrogateResult, surrogate_record};
-use crate::quantity::Unlikely;
 use crate::exchange::{TextColumn, TextKind};
 use crate::given::{
     Column, Dependence, GivenIndices, InputIndices, InputMeasures, Method, NoVariance, OutputIndices, PointSet,
     SurrogateOutput,
 };
 use crate::quantity::Unit;
+use crate::quantity::Unlikely;
 use crate::report::distribution::OutputDistribution;
 
 /// A result from given data, as described in `docs/given-data-format.md`.

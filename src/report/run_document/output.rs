@@ -5,6 +5,7 @@ use super::measures::measures;
 use super::noise::noise;
 use super::warnings::grouped_warnings;
 use super::{lead, tables, values};
+use crate::analysis::SurrogateTrial;
 use crate::report::document::Part;
 use crate::report::format::{among_with_unit, count, grouped, minus, name, share_of_runs, significant, two_digits};
 use crate::report::interval_widths::{WIDE, indices_measured, widest_of};
@@ -69,7 +70,18 @@ pub(super) fn failed_runs(output: &OutputRecord) -> Option<Part> {
 
 /// How well polynomials stand in for the model, what they gained, and what they consist of.
 fn surrogate(output: &OutputRecord) -> Vec<Part> {
-    let Some(record) = &output.surrogate else { return Vec::new() };
+    let Some(record) = &output.surrogate else {
+        let declined = |trial: SurrogateTrial| {
+            format!(
+                "The indices are plain ones: in a trial on {} runs, surrogates made errors {} times smaller, and all runs are \
+                 corrected from {} times on (`surrogate = \"on\"` corrects them all the same).",
+                grouped(trial.runs),
+                significant((trial.gain * 10.0).floor() / 10.0),
+                trial.needed
+            )
+        };
+        return output.surrogate_trial.map(declined).map(Part::Text).into_iter().collect();
+    };
     let percent = |share: f64| significant((share * 1e4).floor() / 1e2);
     let gain = |what: &str, corrected: bool, gain: Option<f64>| match gain.filter(|_| corrected) {
         Some(gain) => format!("the {what} indices are as accurate as by {} times the runs", two_digits(gain)),

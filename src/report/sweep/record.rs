@@ -86,7 +86,12 @@ pub fn build_sweep(study: &Study, model: &dyn Model, sweeps: Sweeps) -> SweepFil
             apportion_version: env!("CARGO_PKG_VERSION").to_owned(),
             model_runs: sweeps.runs,
         },
-        warnings: sweeps.nominal.iter().enumerate().filter_map(|(place, of)| unlikely(&sweeps, place, &of.output)).collect(),
+        warnings: sweeps
+            .nominal
+            .iter()
+            .enumerate()
+            .filter_map(|(place, of)| unlikely(&sweeps, place, &of.output))
+            .collect(),
         nominal: sweeps.nominal,
         sweeps: sweeps.sweeps,
         validity: validity(model.flags().iter().zip(sweeps.flags), sweeps.runs),
