@@ -213,6 +213,13 @@ def test_scipy_distributions_that_the_engine_has():
     cube = ap.Study(None, {name: (0, 1) for name in factors}, base_samples=64).sample()
     for place, (name, law) in enumerate(frozen.items()):
         assert np.allclose(points[:, place], law.ppf(cube[:, place]), rtol=1e-9), name
+    for law, mean in [
+        (stats.bernoulli(0.03, loc=2), 2.03),
+        (stats.binom(5, 0.2), 1.0),
+        (stats.rv_discrete(values=([1, 2, 5], [0.2, 0.3, 0.5]))(loc=1), 4.3),
+    ]:
+        keys = ap.from_scipy(law).keys
+        assert keys["distribution"] == "discrete" and abs(np.dot(keys["values"], keys["weights"]) - mean) < 1e-12
     assert ap.from_scipy(stats.t(1)).quantile is not None and ap.from_scipy(stats.gamma(2), group="g").keys["group"] == "g"
 
 

@@ -324,13 +324,14 @@ def from_scipy(distribution: Any, *, group: str | None = None) -> Factor:
 
     Where the engine has the same one it becomes that: uniform, norm, loguniform, lognorm, triang, beta, weibull_min, gumbel_r,
     gamma, expon, logistic, t (more than 2 degrees of freedom), pareto (of a shape above 2), invgauss, truncnorm, poisson and
-    randint, moved and stretched where that stays of the family. Any other one becomes a number u between 0 and 1 to the
+    randint, moved and stretched where that stays of the family; one of up to 1024 whole numbers, or of values with probabilities,
+    becomes `Discrete`. Any other one becomes a number u between 0 and 1 to the
     engine, and the function gets `distribution.ppf(u)`: so it serves functions of Python, and no models of the engine.
     """
     name = getattr(getattr(distribution, "dist", None), "name", None)
     if not hasattr(distribution, "ppf") or name is None:
         raise StudyError(f"{distribution!r} is no frozen distribution of scipy.stats, as stats.gamma(2) is one")
-    same = _of_engine(name, distribution)
+    same = _of_engine(name, distribution) or _of_values(distribution)
     if same is not None:
         return Factor({**same.keys, "group": group})
     return Factor({"distribution": "uniform", "min": 0.0, "max": 1.0, "group": group}, _Quantile(distribution))
@@ -379,6 +380,25 @@ def _of_engine(name: str, frozen: Any) -> Factor | None:
     if name == "randint":
         return Integer(int(a[0] + loc), int(a[1] + loc) - 1)
     return None
+
+
+def _of_values(frozen: Any) -> Factor | None:
+    """The values of a discrete distribution with their probabilities, if they are not many."""
+    if not hasattr(frozen.dist, "pmf"):
+        return None
+    values = getattr(frozen.dist, "xk", None)
+    if values is None:
+        low, high = frozen.ppf(1e-13), frozen.ppf(1.0 - 1e-13)
+        if not high - low < 1024.0:
+            return None
+        values = np.arange(low, high + 1.0)
+    else:
+        values = np.asarray(values, dtype=float) + frozen.support()[0] - np.min(values)
+    weights = np.asarray(frozen.pmf(values), dtype=float)
+    occurring = weights > 0.0
+    if not occurring.any():
+        return None
+    return Discrete(values[occurring], weights[occurring])
 
 
 class _Quantile:
