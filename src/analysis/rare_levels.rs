@@ -14,7 +14,7 @@ const PAIRS_OF_POINT: u64 = 4;
 const MIN_MEETINGS: f64 = 5.0;
 
 /// Probability of the more likely of two levels from which what they do together may matter beside what the other does alone.
-const MATTERS: f64 = 0.03;
+const MATTERS: f64 = 0.025;
 
 /// Values of a factor in A and B that a level needs for its effect to be known: with ten, to a third.
 const MIN_DRAWS: u64 = 10;
