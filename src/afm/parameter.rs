@@ -56,10 +56,7 @@ impl Scene {
 
     #[cold]
     fn look_closely(&self) -> Result<(), Failure> {
-        match Parameter::ALL.iter().find(|parameter| !parameter.domain.contains((parameter.get)(self))) {
-            Some(culprit) => Err(Failure::OutOfDomain { parameter: culprit.name, domain: culprit.domain }),
-            None => Ok(()),
-        }
+        Parameter::ALL.iter().try_for_each(|one| Failure::unless_in(one.domain, one.name, (one.get)(self)))
     }
 }
 
