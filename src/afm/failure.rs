@@ -36,3 +36,14 @@ pub enum Failure {
     #[error("the integration came to a point that no step passes at the tolerance asked for: ask for a larger one")]
     StepTooSmall,
 }
+
+impl Failure {
+    /// Whether the `value` of a parameter lies in its domain.
+    ///
+    /// # Errors
+    /// [`Failure::OutOfDomain`] if it does not.
+    #[inline]
+    pub(super) fn unless_in(domain: Domain, parameter: &'static str, value: f64) -> Result<(), Self> {
+        if domain.contains(value) { Ok(()) } else { Err(Self::OutOfDomain { parameter, domain }) }
+    }
+}

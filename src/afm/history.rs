@@ -81,10 +81,7 @@ const DEEPEST: u32 = 12;
 /// # Ok::<(), apportion::afm::Failure>(())
 /// ```
 pub fn history(scene: &Scene, options: &Options, duration: f64) -> Result<History, Failure> {
-    let domain = Domain::Positive;
-    if !domain.contains(duration) {
-        return Err(Failure::OutOfDomain { parameter: "duration", domain });
-    }
+    Failure::unless_in(Domain::Positive, "duration", duration)?;
     let options = Options { fidelity: Fidelity::QuasiStatic, accurate_time: true, ..*options };
     let critical = critical_force(scene, &options)?;
     let slip_time = critical.critical_time?;

@@ -200,9 +200,7 @@ impl Pushing {
     /// # Errors
     /// [`Failure::OutOfDomain`] if `angle` is not from 0 to a right angle; those of [`balance`](Self::balance).
     pub fn critical_tip_force(&self, mode: Mode, angle: f64) -> Result<Option<f64>, Failure> {
-        if !Domain::AcuteAngle.contains(angle) {
-            return Err(Failure::OutOfDomain { parameter: "psi", domain: Domain::AcuteAngle });
-        }
+        Failure::unless_in(Domain::AcuteAngle, "psi", angle)?;
         first_true(|size| Ok(self.balance(mode, TipForce::polar(size, angle))?.moves()))
     }
 
@@ -214,13 +212,9 @@ impl Pushing {
 
     fn check(&self) -> Result<(), Failure> {
         let ModeConstants { tip_friction, rolling_shift, offset } = self.constants;
-        let domain = Domain::NonNegative;
-        for (parameter, value) in [("tip_friction", tip_friction), ("rolling_shift", rolling_shift), ("offset", offset)]
-        {
-            if !domain.contains(value) {
-                return Err(Failure::OutOfDomain { parameter, domain });
-            }
-        }
+        Failure::unless_in(Domain::NonNegative, "tip_friction", tip_friction)?;
+        Failure::unless_in(Domain::NonNegative, "rolling_shift", rolling_shift)?;
+        Failure::unless_in(Domain::NonNegative, "offset", offset)?;
         self.scene.check()
     }
 }

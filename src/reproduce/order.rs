@@ -4,6 +4,7 @@ use super::shares::indices;
 use super::{Reproduced, published};
 use apportion::Estimate;
 use apportion::report::IndexRecord;
+use apportion::uncertainty::Interval;
 
 /// A factor counts as having a share from this many percent on: less would be printed as 0 in whole percents, which is
 /// how LG prints, and is hardly to be seen as a bar.
@@ -13,20 +14,17 @@ pub(super) const VISIBLE: f64 = 0.5;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct FactorShare<'a> {
     pub factor: &'a str,
-    pub share: f64,
-    /// Low and high end of its interval; `None` where nothing is known of its error.
-    pub interval: Option<(f64, f64)>,
+    pub share: Estimate,
 }
 
-impl FactorShare<'_> {
-    fn bounds(&self) -> (f64, f64) {
-        self.interval.unwrap_or((f64::NEG_INFINITY, f64::INFINITY))
-    }
+/// The interval of a share; everything where nothing is known of its error.
+fn bounds(share: Estimate) -> Interval {
+    share.interval.unwrap_or(Interval { low: f64::NEG_INFINITY, high: f64::INFINITY })
+}
 
-    /// No share that could be seen, whatever the true one in its interval.
-    fn unseen(&self) -> bool {
-        self.bounds().1 < VISIBLE
-    }
+/// No share that could be seen, whatever the true one in its interval.
+fn unseen(share: Estimate) -> bool {
+    bounds(share).high < VISIBLE
 }
 
 /// What our shares say of "this before that".
@@ -43,14 +41,14 @@ pub(super) enum Standing {
 }
 
 /// What our shares say of `first` before `second`.
-pub(super) fn standing(first: &FactorShare<'_>, second: &FactorShare<'_>) -> Standing {
-    if first.unseen() && second.unseen() {
+pub(super) fn standing(first: Estimate, second: Estimate) -> Standing {
+    if unseen(first) && unseen(second) {
         return Standing::Unseen;
     }
-    let (one, other) = (first.bounds(), second.bounds());
-    if one.0 > other.1 && one.0 >= VISIBLE {
+    let (one, other) = (bounds(first), bounds(second));
+    if one.low > other.high && one.low >= VISIBLE {
         Standing::Kept
-    } else if other.0 > one.1 && other.0 >= VISIBLE {
+    } else if other.low > one.high && other.low >= VISIBLE {
         Standing::Broken
     } else {
         Standing::Undecided
@@ -85,17 +83,17 @@ pub(super) struct OrderVerdict<'a> {
 
 /// Compares the shares with the published order, whose factors are among them.
 pub(super) fn order_verdict<'a>(shares: &[FactorShare<'a>], published: &[&str]) -> OrderVerdict<'a> {
-    let mut ranked: Vec<&FactorShare<'a>> = shares.iter().filter(|share| !share.unseen()).collect();
-    ranked.sort_by(|a, b| b.share.total_cmp(&a.share));
+    let mut ranked: Vec<&FactorShare<'a>> = shares.iter().filter(|one| !unseen(one.share)).collect();
+    ranked.sort_by(|a, b| b.share.estimate.total_cmp(&a.share.estimate));
     let known: Vec<&FactorShare<'a>> =
         published.iter().filter_map(|name| shares.iter().find(|share| share.factor == *name)).collect();
-    let pair = |pair: &[&FactorShare<'a>]| (pair[0].factor, pair[1].factor, standing(pair[0], pair[1]));
-    let stranger = |share: &&&FactorShare<'a>| share.bounds().0 >= VISIBLE && !published.contains(&share.factor);
+    let pair = |pair: &[&FactorShare<'a>]| (pair[0].factor, pair[1].factor, standing(pair[0].share, pair[1].share));
+    let stranger = |one: &&&FactorShare<'a>| bounds(one.share).low >= VISIBLE && !published.contains(&one.factor);
     OrderVerdict {
         ours: ranked.iter().map(|share| share.factor).collect(),
         pairs: known.windows(2).map(pair).collect(),
         intruders: ranked.iter().filter(stranger).map(|share| share.factor).collect(),
-        unseen: known.iter().filter(|share| share.unseen()).map(|share| share.factor).collect(),
+        unseen: known.iter().filter(|one| unseen(one.share)).map(|share| share.factor).collect(),
     }
 }
 
@@ -120,12 +118,10 @@ impl<'a> OrderVerdict<'a> {
 }
 
 /// The order of a study's factors by total shares against the published one.
-pub(super) fn order_of(member: &Reproduced) -> OrderVerdict<'_> {
-    let shares = indices(member).iter().filter_map(|IndexRecord { factor, effect }| {
-        let interval = effect.share_total_interval.map(|i| (i.low, i.high));
-        Some(FactorShare { factor, share: effect.share_total?, interval })
-    });
-    let shares: Vec<FactorShare<'_>> = shares.collect();
+pub(super) fn order_of<'a>(member: &'a Reproduced) -> OrderVerdict<'a> {
+    let share =
+        |index: &'a IndexRecord| Some(FactorShare { factor: &index.factor, share: index.effect.total_percent()? });
+    let shares: Vec<FactorShare<'a>> = indices(member).iter().filter_map(share).collect();
     order_verdict(&shares, published(member.group.key, member.friction.key).ranking)
 }
 
@@ -135,12 +131,11 @@ pub(super) fn outweighing(member: &Reproduced) -> Option<(Estimate, Estimate, St
     let groups = member.result.outputs.first()?.groups.as_ref()?;
     let total = |name: &str| groups.iter().find(|group| group.group == name).map(|group| group.effect.total);
     let (dimensional, environmental) = (total("dimensional")?, total("environmental")?);
-    let percent = |record: Estimate| FactorShare {
-        factor: "",
-        share: 100.0 * record.estimate,
-        interval: record.interval.map(|i| (100.0 * i.low, 100.0 * i.high)),
+    let percent = |index: Estimate| Estimate {
+        estimate: 100.0 * index.estimate,
+        interval: index.interval.map(|i| Interval { low: 100.0 * i.low, high: 100.0 * i.high }),
     };
-    Some((dimensional, environmental, standing(&percent(dimensional), &percent(environmental))))
+    Some((dimensional, environmental, standing(percent(dimensional), percent(environmental))))
 }
 
 #[cfg(test)]
@@ -148,7 +143,8 @@ mod tests {
     use super::*;
 
     fn share(factor: &str, share: f64, half_width: f64) -> FactorShare<'_> {
-        FactorShare { factor, share, interval: Some((share - half_width, share + half_width)) }
+        let interval = Some(Interval { low: share - half_width, high: share + half_width });
+        FactorShare { factor, share: Estimate { estimate: share, interval } }
     }
 
     const PUBLISHED: [&str; 4] = ["thickness", "length", "width", "height"];
@@ -180,7 +176,7 @@ mod tests {
         let verdict = order_verdict(&shares, &PUBLISHED);
         assert_eq!(verdict.agreement(), Agreement::Undecided);
         assert_eq!(verdict.pairs_that_are(Standing::Undecided), [("thickness", "length")]);
-        let unknown: Vec<_> = shares.iter().map(|share| FactorShare { interval: None, ..*share }).collect();
+        let unknown = shares.map(|one| FactorShare { share: Estimate { interval: None, ..one.share }, ..one });
         assert_eq!(agreement(&unknown), Agreement::Undecided);
     }
 
@@ -194,6 +190,6 @@ mod tests {
         let faint = [share("thickness", 60.0, 1.0), share("length", 39.0, 1.0), share("velocity", 1.0, 0.8)];
         assert_eq!(order_verdict(&faint, &PUBLISHED[..2]).agreement(), Agreement::Same);
         // Whether there is anything to be seen is not known.
-        assert_eq!(standing(&share("a", 0.0, 0.0), &share("b", 0.5, 0.2)), Standing::Undecided);
+        assert_eq!(standing(share("a", 0.0, 0.0).share, share("b", 0.5, 0.2).share), Standing::Undecided);
     }
 }

@@ -5,15 +5,6 @@ use apportion::afm::FrictionLaw;
 use apportion::report::chart::{Axis, Chart, Colour, Mark, Panel, Series, Shape, Stroke};
 use apportion::report::format::{change, force, length, three_digits as short, time};
 
-/// A chart of a scene.
-#[derive(Clone, Debug, PartialEq)]
-pub struct SceneChart {
-    /// Name of its files, without extension.
-    pub stem: &'static str,
-    /// The chart.
-    pub chart: Chart,
-}
-
 /// The colours of the quantities, the same in the animation: the pushing force has that of the friction law.
 pub(super) const LATERAL: Colour = Colour::Series(4);
 pub(super) const NORMAL: Colour = Colour::Series(6);
@@ -26,15 +17,14 @@ const TIP: Colour = Colour::Series(5);
 const NANO: f64 = 1e9;
 
 /// The story's charts: forces, pushing against critical force, positions, contacts, each against time
-/// with the slip marked. The caption of each says in one sentence what came out.
-pub fn scene_charts(story: &SceneStory) -> Vec<SceneChart> {
-    let charts = [
+/// with the slip marked, each with the name of its files. The caption of each says in one sentence what came out.
+pub fn scene_charts(story: &SceneStory) -> [(&'static str, Chart); 4] {
+    [
         ("scene-forces", forces(story)),
         ("scene-pushing", pushing(story)),
         ("scene-positions", positions(story)),
         ("scene-contacts", contacts(story)),
-    ];
-    charts.into_iter().map(|(stem, chart)| SceneChart { stem, chart }).collect()
+    ]
 }
 
 /// A quantity in a chart: its name, colour, and how to read it in the chart's unit.
@@ -243,12 +233,10 @@ mod tests {
 
     #[test]
     fn charts_are_sound_and_mark_the_slip() {
-        let charts = scene_charts(&nominal_story());
-        assert_eq!(charts.len(), 4);
-        for chart in &charts {
-            let svg = chart.chart.svg();
+        for (stem, chart) in scene_charts(&nominal_story()) {
+            let svg = chart.svg();
             let document = Document::parse(&svg).unwrap();
-            assert!(document.descendants().any(|node| node.text() == Some("slip at 0.131 s")), "{}", chart.stem);
+            assert!(document.descendants().any(|node| node.text() == Some("slip at 0.131 s")), "{stem}");
         }
     }
 
@@ -277,12 +265,12 @@ mod tests {
     fn degenerate_stories_have_charts() {
         let whole = nominal_story();
         for count in 0..3 {
-            for time in [0.0, whole.critical.time, f64::NAN] {
+            for time in [0.0, whole.critical_time, f64::NAN] {
                 let mut story = whole.clone();
                 story.samples.truncate(count);
-                story.critical.time = time;
-                for chart in scene_charts(&story) {
-                    let svg = chart.chart.svg();
+                story.critical_time = time;
+                for (_, chart) in scene_charts(&story) {
+                    let svg = chart.svg();
                     Document::parse(&svg).unwrap();
                     assert!(!svg.contains("NaN") && !svg.contains("inf"), "{svg}");
                 }
@@ -298,8 +286,8 @@ mod tests {
             let tip_contact = whole.tip_contact.map(|contact| Contact { indentation: f64::INFINITY, ..contact });
             sample.state = Sample { tip_force: f64::NAN, tip_contact, twist: f64::NAN, ..whole.state };
         }
-        for chart in scene_charts(&story) {
-            let svg = chart.chart.svg();
+        for (_, chart) in scene_charts(&story) {
+            let svg = chart.svg();
             assert!(!svg.contains("NaN") && !svg.contains("inf"), "{svg}");
         }
     }

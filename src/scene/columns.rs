@@ -87,7 +87,7 @@ pub(super) fn scene_value(story: &SceneStory) -> Value {
             "thickness_nm": nano(scene.thickness),
         },
         "critical": {
-            "time_s": json!(critical.time),
+            "time_s": json!(story.critical_time),
             "critical_force_nN": nano(critical.critical_force),
             "lateral_force_nN": nano(critical.lateral_force),
             "normal_force_nN": nano(critical.normal_force),
@@ -138,7 +138,7 @@ mod tests {
         let story = nominal_story();
         let value: Value = serde_json::from_str(&scene_json(&story)).unwrap();
         assert_eq!((&value["format"], &value["version"]), (&json!("apportion-scene"), &json!(1)));
-        assert_eq!(value["critical"]["time_s"].as_f64(), Some(story.critical.time));
+        assert_eq!(value["critical"]["time_s"].as_f64(), Some(story.critical_time));
         assert_eq!(value["geometry"]["height_nm"].as_f64(), Some(1e9 * story.scene.height));
         assert_eq!(value["setting"][0]["label"], json!(story.setting[0].0));
         let twist = value["samples"]["twist_rad"].as_array().unwrap();
@@ -153,7 +153,7 @@ mod tests {
         story.samples.truncate(1);
         story.samples[0].state.force_angle = f64::NAN;
         story.samples[0].state.tip_force = f64::INFINITY;
-        story.critical.time = f64::NAN;
+        story.critical_time = f64::NAN;
         let text = scene_csv(&story);
         let row: Vec<&str> = text.lines().nth(1).unwrap().split(',').collect();
         assert_eq!((row[3], row[4]), ("", ""));

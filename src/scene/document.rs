@@ -13,9 +13,8 @@ pub fn scene_document(story: &SceneStory, study: &str) -> Document {
         let frame = Part::Frame { title: "The scene as an animation".to_owned(), html: player_page(story) };
         sections.push(Section::new("animation", "The scene", vec![frame]));
     }
-    let charts = scene_charts(story).into_iter().enumerate().map(|(place, chart)| {
-        let stem = format!("{study}-{}", chart.stem);
-        Part::from(Figure::new(place + 1, chart.chart, stem, format!("{name}.csv")))
+    let charts = scene_charts(story).into_iter().enumerate().map(|(place, (stem, chart))| {
+        Part::from(Figure::new(place + 1, chart, format!("{study}-{stem}"), format!("{name}.csv")))
     });
     sections.push(Section::new("charts", "Charts", charts.collect()));
     if !story.setting.is_empty() {
@@ -48,7 +47,7 @@ fn numbers(story: &SceneStory) -> Option<String> {
         force(critical.critical_force),
         force(critical.lateral_force),
         force(critical.normal_force),
-        value(critical.time, "s")
+        value(story.critical_time, "s")
     );
     let end = story.samples.last()?;
     let moved = value(end.relative * 1e9, "nm");

@@ -20,8 +20,8 @@ pub use player::player_page;
 
 use std::ops::Deref;
 
-use apportion::afm::Scene;
 use apportion::afm::history::Sample;
+use apportion::afm::{Critical, Scene};
 use apportion::report::chart::Colour;
 use apportion::report::format;
 
@@ -34,25 +34,14 @@ pub struct SceneStory {
     pub setting: Vec<(String, String)>,
     /// The scene, whose lengths are drawn to scale.
     pub scene: Scene,
-    /// When and at which forces the particle slips.
-    pub critical: CriticalInstant,
+    /// At which forces the particle slips.
+    pub critical: Critical,
+    /// When it slips (s).
+    pub critical_time: f64,
     /// The colour of the pushing force: that of the friction law, see [`law_colour`].
     pub colour: Colour,
     /// The states in the order of time; unevenly spaced, and as few as one or none.
     pub samples: Vec<SceneSample>,
-}
-
-/// The instant at which the particle slips.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct CriticalInstant {
-    /// Critical time t_cr (s).
-    pub time: f64,
-    /// Critical force F_cr, the tip force at that instant (N).
-    pub critical_force: f64,
-    /// Lateral force F_Y at that instant (N).
-    pub lateral_force: f64,
-    /// Normal force F_Z at that instant (N).
-    pub normal_force: f64,
 }
 
 /// The state at one time, and what else the particle might do then.
@@ -91,7 +80,7 @@ impl SceneSample {
 impl SceneStory {
     /// The critical time if the samples reach it: only then can it be drawn.
     fn slip(&self) -> Option<f64> {
-        let time = self.critical.time;
+        let time = self.critical_time;
         let (first, last) = (self.samples.first()?.time, self.samples.last()?.time);
         (first <= time && time <= last).then_some(time)
     }
@@ -104,7 +93,7 @@ impl SceneStory {
     /// The outcome in one sentence.
     fn outcome(&self) -> String {
         let at = format::force(self.critical.critical_force);
-        let time = format::time(self.critical.time);
+        let time = format::time(self.critical_time);
         match self.slip() {
             Some(_) => format!("The particle slips after {time}, at a tip force of {at}."),
             None => format!("The particle slips at {time}, outside the time shown, at a tip force of {at}."),

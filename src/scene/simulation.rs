@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-use crate::scene::{CriticalInstant, ModeDiagram, ModeLine, SceneSample, SceneStory, law_colour};
+use crate::scene::{ModeDiagram, ModeLine, SceneSample, SceneStory, law_colour};
 use apportion::afm::history::{Sample, history};
 use apportion::afm::modes::{Mode, Pushing, TipForce};
 use apportion::afm::{Failure, Fidelity, Options, Parameter, Scene, critical_force};
@@ -64,7 +64,7 @@ pub fn simulate(study: &Study, duration: Option<f64>) -> Result<SceneStory, Simu
 /// use apportion::simulation::scene_story;
 ///
 /// let story = scene_story("Nominal".to_owned(), &Scene::default(), &Options::default(), 0.4)?;
-/// assert!(story.critical.time < 0.4);
+/// assert!(story.critical_time < 0.4);
 /// assert!(story.samples.last().is_some_and(|end| !end.sticking));
 /// # Ok::<(), apportion::afm::Failure>(())
 /// ```
@@ -76,12 +76,8 @@ pub fn scene_story(title: String, scene: &Scene, options: &Options, duration: f6
         title,
         setting: setting(scene, options),
         scene: *scene,
-        critical: CriticalInstant {
-            time: outcome.critical.critical_time?,
-            critical_force: outcome.critical.critical_force,
-            lateral_force: outcome.critical.lateral_force,
-            normal_force: outcome.critical.normal_force,
-        },
+        critical: outcome.critical,
+        critical_time: outcome.critical.critical_time?,
         colour: law_colour(options.friction),
         samples,
     })

@@ -98,14 +98,8 @@ impl Options {
     /// [`Failure::OutOfDomain`] names the first that is not.
     #[inline]
     fn check(&self) -> Result<(), Failure> {
-        let domain = Domain::Positive;
-        if !domain.contains(self.tolerance) {
-            return Err(Failure::OutOfDomain { parameter: "tolerance", domain });
-        }
-        if !domain.contains(self.step) {
-            return Err(Failure::OutOfDomain { parameter: "step", domain });
-        }
-        Ok(())
+        Failure::unless_in(Domain::Positive, "tolerance", self.tolerance)?;
+        Failure::unless_in(Domain::Positive, "step", self.step)
     }
 }
 

@@ -82,7 +82,7 @@ impl<'a> Substrate<'a> {
     /// Those of the march.
     pub fn layer_stiffness(&self, slip: &Slip) -> Result<f64, Failure> {
         let force = REACHED * slip.lateral_force;
-        let travel = LemaitreCarlson::of(self.scene).travel(slip.contact.radius, force, &self.drive)?;
+        let travel = LemaitreCarlson(self.scene).travel(slip.contact.radius, force, &self.drive)?;
         // At least what rounding leaves of a layer far stiffer than the spring.
         let sheared = (travel - force / self.drive.stiffness).max(f64::EPSILON * travel);
         Ok(force / sheared)
@@ -94,7 +94,7 @@ impl<'a> Substrate<'a> {
         if self.options.friction != FrictionLaw::Stribeck {
             return 0.0;
         }
-        let at_rest = Stribeck::of(self.scene).force(slip.normal_force + self.adhesive_load, 0.0);
+        let at_rest = Stribeck(self.scene).force(slip.normal_force + self.adhesive_load, 0.0);
         10.0 * (1.0 - at_rest / slip.lateral_force).max(0.0)
     }
 

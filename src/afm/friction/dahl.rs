@@ -6,32 +6,19 @@ use crate::afm::Scene;
 /// F_C = mu_d N. Independent of the rate of motion.
 ///
 /// With alpha = 1 it is LuGre friction with Fss = F_C and neither sigma1 nor sigma2.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Dahl {
-    /// Stiffness at rest sigma (N/m), > 0.
-    pub stiffness: f64,
-    /// Coefficient of Coulomb friction, F_C over the load, >= 0.
-    pub coefficient: f64,
-    /// Exponent alpha, > 0.
-    pub exponent: f64,
-}
+#[derive(Clone, Copy, Debug)]
+pub struct Dahl<'a>(pub &'a Scene);
 
-impl Dahl {
-    /// The law with the constants of `scene`.
-    #[inline]
-    pub fn of(scene: &Scene) -> Self {
-        Self { stiffness: scene.bristle_stiffness, coefficient: scene.dynamic_friction, exponent: scene.dahl_exponent }
-    }
-
+impl Dahl<'_> {
     /// The force that it approaches and never exceeds from below, F_C (N), at the load (N).
     #[inline]
     pub fn capacity(&self, load: f64) -> f64 {
-        self.coefficient * load
+        self.0.dynamic_friction * load
     }
 
     /// dF/dx (N/m) at the force `force` (N) under `load` (N) when moving in the `direction` (1 or -1).
     pub fn slope(&self, load: f64, force: f64, direction: f64) -> f64 {
         let reserve = 1.0 - force / self.capacity(load) * direction;
-        self.stiffness * libm::pow(reserve.abs(), self.exponent).copysign(reserve)
+        self.0.bristle_stiffness * libm::pow(reserve.abs(), self.0.dahl_exponent).copysign(reserve)
     }
 }

@@ -144,14 +144,13 @@ impl FrictionLaw {
                     return ramp::peak(&LuGre::with(scene, drive.lugre, pressed.radius), load, drive);
                 }
             },
-            Self::Dahl => Dahl::of(scene).capacity(load),
-            Self::Stribeck => Stribeck::of(scene).capacity(load, drive.velocity)?,
+            Self::Dahl => Dahl(scene).capacity(load),
+            Self::Stribeck => Stribeck(scene).capacity(load, drive.velocity)?,
             Self::Armstrong => {
-                let law = Armstrong::of(scene);
-                let stiffness = 1.0 / (1.0 / drive.stiffness + 1.0 / law.stiffness);
-                law.break_away(load, Loading { rate: stiffness * drive.velocity, rest: scene.rest_time })
+                let stiffness = 1.0 / (1.0 / drive.stiffness + 1.0 / scene.bristle_stiffness);
+                Armstrong(scene).break_away(load, Loading { rate: stiffness * drive.velocity, rest: scene.rest_time })
             }
-            Self::LemaitreCarlson => return LemaitreCarlson::of(scene).capacity(pressed, drive),
+            Self::LemaitreCarlson => return LemaitreCarlson(scene).capacity(pressed, drive),
         };
         Ok(Held { force, evaluations: 0 })
     }

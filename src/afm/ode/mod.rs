@@ -93,3 +93,17 @@ impl<const N: usize> Step<N> {
         std::array::from_fn(|i| c0[i] + s * (c1[i] + r * (c2[i] + s * (c3[i] + r * c4[i]))))
     }
 }
+
+/// Checks the Jacobian of `problem` against central differences over `step`, to 1e-6 for their curvature.
+#[cfg(test)]
+pub(super) fn assert_jacobian<const N: usize>(problem: &impl Problem<N>, y: [f64; N], step: f64) {
+    let jacobian = problem.jacobian(0.0, &y);
+    for j in 0..N {
+        let moved = |by: f64| problem.rate(0.0, &std::array::from_fn(|k| y[k] + if k == j { by } else { 0.0 }));
+        let (above, below) = (moved(step), moved(-step));
+        for (i, row) in jacobian.iter().enumerate() {
+            let difference = (above[i] - below[i]) / (2.0 * step);
+            assert!((row[j] - difference).abs() < 1e-6 * difference.abs().max(1.0), "{i} {j}");
+        }
+    }
+}

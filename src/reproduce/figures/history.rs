@@ -93,7 +93,7 @@ fn curve(story: &SceneStory, read: impl Fn(&SceneSample) -> f64) -> Vec<(f64, f6
 
 /// When the particle slips, said in s.
 fn slip(story: &SceneStory) -> String {
-    format!("after {}", time(story.critical.time))
+    format!("after {}", time(story.critical_time))
 }
 
 /// CHK figure 5.
@@ -109,7 +109,7 @@ pub(super) fn two_laws() -> Result<Drawn, FiguresError> {
         line(format!("{name}, critical force"), (story.colour, Stroke::Dotted), curve(story, |_| critical))
     };
     let lines = laws.iter().map(tip_force).chain(laws.iter().map(level));
-    let rules = laws.iter().map(|(story, name, _)| Mark::rule(story.critical.time, format!("slip, {name}")));
+    let rules = laws.iter().map(|(story, name, _)| Mark::rule(story.critical_time, format!("slip, {name}")));
     let panel = Panel::new(Axis::new("Time", "s"), Axis::new("Tip force F_T", "nN")).with(lines).with(rules);
     let reached = |story: &SceneStory, law: &str| {
         format!("{} {} under {law} friction", force(story.critical.critical_force), slip(story))
@@ -170,7 +170,7 @@ pub(super) fn coefficients() -> Result<Drawn, FiguresError> {
     };
     let panels = [panel("Tip force F_T", "nN", TIP_FORCE.1), panel("Position on the substrate", "nm", RELATIVE.1)];
     let mut times: Vec<(f64, f64)> =
-        COEFFICIENTS.into_iter().zip(&runs).map(|(mu, story)| (mu, story.critical.time)).collect();
+        COEFFICIENTS.into_iter().zip(&runs).map(|(mu, story)| (mu, story.critical_time)).collect();
     times.reverse();
     let slips: Vec<String> = times.iter().map(|(mu, at)| format!("{} at {mu}", time(*at))).collect();
     let later = times.windows(2).all(|pair| pair[1].1 > pair[0].1);

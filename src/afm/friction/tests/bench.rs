@@ -58,11 +58,11 @@ pub(super) fn against_velocity(specimen: &Specimen, velocity: f64) -> Result<f64
         FrictionLaw::Coulomb => Coulomb::of(scene).capacity(pressed),
         FrictionLaw::HurtadoKim => HurtadoKim::of(scene).capacity(pressed.radius),
         FrictionLaw::LuGre => LuGre::of(scene).steady_force(load, velocity),
-        FrictionLaw::Dahl => Dahl::of(scene).capacity(load),
-        FrictionLaw::Stribeck => Stribeck::of(scene).force(load, velocity),
-        FrictionLaw::Armstrong => Armstrong::of(scene).sliding_force(load, velocity, velocity, scene.rest_time),
+        FrictionLaw::Dahl => Dahl(scene).capacity(load),
+        FrictionLaw::Stribeck => Stribeck(scene).force(load, velocity),
+        FrictionLaw::Armstrong => Armstrong(scene).sliding_force(load, velocity, velocity, scene.rest_time),
         FrictionLaw::LemaitreCarlson => {
-            PI * pressed.radius * pressed.radius * LemaitreCarlson::of(scene).steady_stress(velocity)?
+            PI * pressed.radius * pressed.radius * LemaitreCarlson(scene).steady_stress(velocity)?
         }
     })
 }
@@ -89,26 +89,28 @@ pub(super) fn against_displacement(specimen: &Specimen, motion: &Motion) -> Resu
             follow(motion, &rate, [0.0], |v, &[p]| law.force(load, p * load / law.stiffness, v))
         }
         FrictionLaw::Dahl => {
-            let law = Dahl::of(scene);
+            let law = Dahl(scene);
             let rate = |v: f64, &[p]: &[f64; 1]| [v * law.slope(load, p * load, v.signum()) / load];
             follow(motion, &rate, [0.0], |_, &[p]| p * load)
         }
-        FrictionLaw::Armstrong => Ok(armstrong(&Armstrong::of(scene), load, scene.rest_time, motion)),
+        FrictionLaw::Armstrong => Ok(armstrong(scene, load, motion)),
         FrictionLaw::LemaitreCarlson => {
-            let law = LemaitreCarlson::of(scene);
             let area = PI * pressed.radius * pressed.radius;
-            let rate = |v: f64, y: &[f64; 2]| rates_of_layer(&law, v, y);
-            follow(motion, &rate, [0.0, law.initial_disorder], |_, &[s, _]| s * law.stress * area)
+            let rate = |v: f64, y: &[f64; 2]| rates_of_layer(scene, v, y);
+            follow(motion, &rate, [0.0, scene.initial_disorder], |_, &[s, _]| s * scene.layer_stress * area)
         }
     }
 }
 
 /// d/dt of stress in units of mubar and of disorder (1/s) of a layer sheared at `velocity` (m/s) of either sign.
-fn rates_of_layer(law: &LemaitreCarlson, velocity: f64, &[s, disorder]: &[f64; 2]) -> [f64; 2] {
-    let flow = law.rearrangement_rate * activation(1.0, disorder) * libm::sinh(s);
-    let ageing = law.ageing_rate * activation(law.ageing_barrier, disorder);
-    let shear = velocity / (2.0 * law.half_thickness);
-    [law.modulus / law.stress * (shear - flow), law.disorder_gain * law.stress * s * flow - ageing]
+fn rates_of_layer(scene: &Scene, velocity: f64, &[s, disorder]: &[f64; 2]) -> [f64; 2] {
+    let flow = scene.rearrangement_rate * activation(1.0, disorder) * libm::sinh(s);
+    let ageing = scene.ageing_rate * activation(scene.ageing_barrier, disorder);
+    let shear = velocity / (2.0 * scene.layer_half_thickness);
+    [
+        scene.layer_modulus / scene.layer_stress * (shear - flow),
+        scene.disorder_gain * scene.layer_stress * s * flow - ageing,
+    ]
 }
 
 impl Motion<'_> {
@@ -183,27 +185,27 @@ enum Mode {
     Sliding { direction: f64, rest: f64 },
 }
 
-fn armstrong(law: &Armstrong, load: f64, rest: f64, motion: &Motion) -> Vec<Sample> {
-    let mut mode = Mode::Sticking { slack: 0.0, since: -rest };
+fn armstrong(scene: &Scene, load: f64, motion: &Motion) -> Vec<Sample> {
+    let mut mode = Mode::Sticking { slack: 0.0, since: -scene.rest_time };
     let mut last = 0.0;
     let force = |at: Sample| {
         if let Mode::Sliding { direction, .. } = mode
             && at.velocity * direction <= 0.0
         {
-            mode = Mode::Sticking { slack: at.displacement - last / law.stiffness, since: at.time };
+            mode = Mode::Sticking { slack: at.displacement - last / scene.bristle_stiffness, since: at.time };
         }
         if let Mode::Sticking { slack, since } = mode {
-            let held = law.stiffness * (at.displacement - slack);
+            let held = scene.bristle_stiffness * (at.displacement - slack);
             // A spring that the motion slackens holds, however strained.
-            if held * at.velocity <= 0.0 || held.abs() <= law.static_force(load, at.time - since) {
+            if held * at.velocity <= 0.0 || held.abs() <= Armstrong(scene).static_force(load, at.time - since) {
                 last = held;
                 return at.with(held);
             }
             mode = Mode::Sliding { direction: held.signum(), rest: at.time - since };
         }
         if let Mode::Sliding { direction, rest } = mode {
-            let lagged = (motion.velocity)(at.time - law.lag).abs();
-            last = direction * law.sliding_force(load, at.velocity.abs(), lagged, rest);
+            let lagged = (motion.velocity)(at.time - scene.frictional_lag).abs();
+            last = direction * Armstrong(scene).sliding_force(load, at.velocity.abs(), lagged, rest);
         }
         at.with(last)
     };
