@@ -29,6 +29,7 @@ macro_rules! named {
 pub(crate) use named;
 
 /// An enum that is chosen by name.
+#[cfg_attr(not(feature = "study"), allow(dead_code, reason = "only study files choose by name"))]
 pub trait Named: Copy + 'static {
     /// All of them with their names, in the order of declaration.
     const CHOICES: &'static [(&'static str, Self)];
