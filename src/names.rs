@@ -19,10 +19,21 @@ macro_rules! named {
                 match self { $(Self::$variant => $name),+ }
             }
         }
+
+        impl $crate::names::Named for $type {
+            const CHOICES: &'static [(&'static str, Self)] = &[$(($name, Self::$variant)),+];
+        }
     };
 }
 
 pub(crate) use named;
+
+/// An enum that is chosen by name.
+#[cfg_attr(not(feature = "study"), allow(dead_code, reason = "only study files choose by name"))]
+pub trait Named: Copy + 'static {
+    /// All of them with their names, in the order of declaration.
+    const CHOICES: &'static [(&'static str, Self)];
+}
 
 /// Most characters of the name of a factor, output, group or label: far more than any table or chart has room for.
 pub const LONGEST_NAME: usize = 200;

@@ -27,7 +27,7 @@ mod table;
 mod trade;
 mod trade_extremes;
 
-use std::io::{Error, ErrorKind, IsTerminal, Write};
+use std::io::{Error, ErrorKind, Write};
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -333,8 +333,7 @@ fn print_raw(bytes: &[u8]) -> Result<(), Failure> {
 
 /// Writes `text` to standard output without panicking when nobody reads it.
 fn print(text: &str) -> Result<(), Failure> {
-    std::io::stdout().write_all(printable(text).as_bytes()).map_err(unprinted)?;
-    Ok(())
+    print_raw(printable(text).as_bytes())
 }
 
 /// An error of standard output, which the operating system does not name.
@@ -356,10 +355,6 @@ fn printable(text: &str) -> String {
 
 fn counted(number: u64, what: &str) -> String {
     format!("{number} {what}{}", if number == 1 { "" } else { "s" })
-}
-
-fn stderr_is_terminal() -> bool {
-    std::io::stderr().is_terminal()
 }
 
 #[cfg(test)]

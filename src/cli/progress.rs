@@ -1,5 +1,6 @@
 //! Progress: a bar with rate and time left on a terminal, a plain line every few seconds elsewhere.
 
+use std::io::IsTerminal;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
@@ -27,7 +28,7 @@ const LINE_INTERVAL: Duration = Duration::from_secs(5);
 impl Meter {
     /// A meter for a run of `total` model runs, named `label`.
     pub fn new(label: &str, total: u64) -> Self {
-        let display = if super::stderr_is_terminal() {
+        let display = if std::io::stderr().is_terminal() {
             // Drawn from the first progress on: lines that are written before would leave it behind.
             let bar = ProgressBar::with_draw_target(Some(total), ProgressDrawTarget::hidden());
             let template = "{prefix} {wide_bar} {percent:>3} %  {human_pos} of {human_len} runs  {eta} left{msg}";

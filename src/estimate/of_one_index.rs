@@ -2,6 +2,7 @@
 
 use super::formula::{correlation, difference, double, product};
 use super::{Moments, SwapMoments};
+use crate::names::named;
 
 /// Declares an enum of estimators: of each a doc line, its name in results, its formula on the sums of a swap, and where the
 /// formula comes from.
@@ -9,19 +10,12 @@ macro_rules! estimators {
     ($(#[$meta:meta])* pub enum $type:ident {
         $($(#[$doc:meta])* $variant:ident = $name:literal, $formula:path, $source:expr;)+
     }) => {
-        $(#[$meta])*
-        #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-        pub enum $type { $($(#[$doc])* $variant,)+ }
+        named! {
+            $(#[$meta])*
+            pub enum $type { $($(#[$doc])* $variant = $name,)+ }
+        }
 
         impl $type {
-            /// All of them, in the order of their years.
-            pub const ALL: [Self; [$($name),+].len()] = [$(Self::$variant),+];
-
-            /// The name used in results.
-            pub fn name(self) -> &'static str {
-                match self { $(Self::$variant => $name),+ }
-            }
-
             /// Where the formula comes from.
             pub fn source(self) -> &'static str {
                 match self { $(Self::$variant => $source),+ }

@@ -12,8 +12,8 @@ pub(super) const MOST: usize = 20;
 pub(super) const INDEX: &str = "Sobol' index: part of the variance";
 /// Estimates beyond these bounds say nothing of an index, which is between 0 and 1, or of a difference of two; nor do intervals
 /// longer than `LONGEST`.
-const INDICES: (f64, f64) = (-0.1, 1.1);
-const DIFFERENCES: (f64, f64) = (-1.1, 1.1);
+pub(super) const INDICES: (f64, f64) = (-0.1, 1.1);
+pub(super) const DIFFERENCES: (f64, f64) = (-1.1, 1.1);
 const LONGEST: f64 = 1.0;
 /// Intervals are drawn so far beyond.
 const BEYOND: f64 = 0.1;
@@ -58,19 +58,10 @@ pub(super) fn index_panel(
     label: &str,
     factors: Vec<String>,
     series: impl IntoIterator<Item = IndexSeries>,
+    possible: (f64, f64),
     keys: &[f64],
 ) -> Panel {
-    panel(label, factors, series.into_iter().flat_map(|series| bars(series, INDICES)), keys)
-}
-
-/// The same of differences of indices.
-pub(super) fn difference_panel(
-    label: &str,
-    factors: Vec<String>,
-    series: impl IntoIterator<Item = IndexSeries>,
-    keys: &[f64],
-) -> Panel {
-    panel(label, factors, series.into_iter().flat_map(|series| bars(series, DIFFERENCES)), keys)
+    panel(label, factors, series.into_iter().flat_map(|series| bars(series, possible)), keys)
 }
 
 fn panel(label: &str, factors: Vec<String>, marks: impl Iterator<Item = Mark>, keys: &[f64]) -> Panel {
@@ -181,7 +172,7 @@ pub fn study_chart(result: &ResultFile, output: &OutputRecord) -> Chart {
         let effects: Vec<Option<Estimate>> = effects.into_iter().map(Some).collect();
         let keys: Vec<f64> = effects.iter().map(|effect| effect.map_or(f64::NAN, |effect| effect.estimate)).collect();
         let series = (Series::new("Shapley effect", Colour::Series(0)), effects);
-        let panel = index_panel("Shapley effect: part of the variance", names, [series], &keys);
+        let panel = index_panel("Shapley effect: part of the variance", names, [series], INDICES, &keys);
         let caption = format!("Shapley effects on {}: they sum to 100 % of the variance.", name(&output.name));
         return Chart::new(title, caption).panels([panel]);
     }
@@ -231,12 +222,12 @@ mod tests {
         let names: Vec<String> = ["a", "b", "c", "d"].map(str::to_owned).to_vec();
         let alone = Some(Estimate::alone(2.73));
         let values = vec![about(-1.73, 0.2), alone, about(0.4, 0.6), about(0.02, 0.04)];
-        let panel = index_panel(INDEX, names.clone(), [(Series::default(), values)], &keys);
+        let panel = index_panel(INDEX, names.clone(), [(Series::default(), values)], INDICES, &keys);
         let labels: Vec<String> = drawn(&panel).into_iter().map(|bar| bar.label).collect();
         assert_eq!(labels, [UNKNOWN, UNKNOWN, UNKNOWN, "0.02"]);
         assert!(drawn(&panel)[0].to.is_nan() && drawn(&panel)[3].said == "0.02 ± 0.04");
         let differences = vec![about(-0.73, 0.2), alone, about(0.4, 0.3), about(0.000_013, 0.000_002)];
-        let panel = difference_panel(INDEX, names, [(Series::default(), differences)], &keys);
+        let panel = index_panel(INDEX, names, [(Series::default(), differences)], DIFFERENCES, &keys);
         let labels: Vec<String> = drawn(&panel).into_iter().map(|bar| bar.label).collect();
         assert_eq!(labels, ["\u{2212}0.7", UNKNOWN, "0.4", "0.000013"]);
     }

@@ -29,7 +29,6 @@ mod result;
 mod run_charts;
 mod run_document;
 #[doc(hidden)]
-#[doc(hidden)]
 pub mod scatter;
 mod schema;
 #[doc(hidden)]
@@ -54,9 +53,8 @@ pub use run_charts::{convergence_chart, distribution_chart, indices_chart, pairs
 pub use run_document::run_document;
 pub use schema::result_schema;
 
-pub(crate) use records::json;
 #[doc(hidden)]
-pub use records::study_setup;
+pub use records::{json, study_setup};
 pub(crate) use study_sections::{inputs, study_section};
 
 // Open to the program, which is a crate of its own.

@@ -90,6 +90,6 @@ pub(super) fn validity<'a>(raised: impl Iterator<Item = (&'a Flag, u64)>, runs: 
 }
 
 /// JSON text of plain data, ending in a newline; a number that is not finite is null.
-pub(crate) fn json(file: &impl Serialize) -> String {
+pub fn json(file: &impl Serialize) -> String {
     serde_json::to_string_pretty(file).expect("plain data") + "\n"
 }

@@ -4,11 +4,6 @@
 //! only add keys. Numbers are in the unit that stands beside them; a number that does not exist is `null`.
 
 mod indices;
-mod noise;
-mod scatter;
-mod series;
-mod spending;
-mod surrogate;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -17,11 +12,6 @@ use super::distribution::OutputDistribution;
 use crate::analysis::{FailureCount, LowRuns, RunMeasures, SurrogateTrial};
 use crate::uncertainty::{EffectEstimates, Estimate, Interval};
 pub use indices::*;
-pub use noise::NoiseRecord;
-pub use scatter::*;
-pub use series::*;
-pub use spending::{EffortRecord, RungRecord, SpendingRecord, StoppingRecord};
-pub use surrogate::*;
 
 /// The result of a run of apportion.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -65,7 +55,6 @@ pub struct ResultFile {
 
 /// What was asked.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[doc(hidden)]
 pub struct StudyRecord {
     /// Name of the study.
     pub name: String,
@@ -88,7 +77,6 @@ pub struct StudyRecord {
 
 /// Factors that depend on each other, by a Gaussian copula.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[doc(hidden)]
 pub struct CorrelationRecord {
     /// The factors.
     pub factors: Vec<String>,
@@ -100,7 +88,6 @@ pub struct CorrelationRecord {
 
 /// An input fixed in the study.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[doc(hidden)]
 pub struct ConstantRecord {
     /// The input.
     pub name: String,
@@ -114,7 +101,6 @@ pub struct ConstantRecord {
 /// study if it has some: they give the same numbers again. `CITATION.cff` in the sources of the program says how to cite
 /// the program itself.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[doc(hidden)]
 pub struct Provenance {
     /// Version of the program.
     pub apportion_version: String,
@@ -159,7 +145,6 @@ pub struct Provenance {
 
 /// A factor.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[doc(hidden)]
 pub struct FactorRecord {
     /// Its name.
     pub name: String,
@@ -175,7 +160,6 @@ pub struct FactorRecord {
 
 /// Everything about one output.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[doc(hidden)]
 pub struct OutputRecord {
     /// Its name.
     pub name: String,
@@ -253,7 +237,6 @@ pub struct OutputRecord {
 
 /// How the values of an output are distributed, as far as the rows A and B tell.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[doc(hidden)]
 pub struct DistributionRecord {
     /// Values that mean, standard deviation, skewness, kurtosis and range rest on: those of all rows A and B.
     pub values: u64,
@@ -264,7 +247,6 @@ pub struct DistributionRecord {
 
 /// The indices as they were when the run had so many base points.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[doc(hidden)]
 pub struct StageRecord {
     /// Base points in all.
     pub base_samples: u64,
@@ -278,7 +260,6 @@ pub struct StageRecord {
 
 /// Indices over several outputs together.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[doc(hidden)]
 pub struct AggregateRecord {
     /// The outputs.
     pub outputs: Vec<String>,
@@ -295,7 +276,6 @@ pub struct AggregateRecord {
 
 /// A validity flag.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[doc(hidden)]
 pub struct ValidityRecord {
     /// Its name.
     pub flag: String,
@@ -305,4 +285,112 @@ pub struct ValidityRecord {
     pub runs: u64,
     /// Those runs as a share of all runs, 0 to 1.
     pub share: f64,
+}
+
+/// How an output goes with the factors of the largest total indices.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct ScatterRecord {
+    /// At most six factors, the largest total index first.
+    pub factors: Vec<String>,
+    /// At most 400 rows A, the first of every replicate: the values of `factors` in their units, then the output's in its
+    /// own. Runs without a value are left out.
+    pub points: Vec<Vec<f64>>,
+    /// One entry for each of `factors`.
+    pub conditional_means: Vec<ConditionalMeansRecord>,
+}
+
+/// Means of the output over slices of a factor: an estimate of E[Y | X_i], whose variance is the numerator of the
+/// first-order index. They describe the scatter of the kept rows A and B; no index is computed from them.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct ConditionalMeansRecord {
+    /// The factor.
+    pub factor: String,
+    /// The median of each slice in the factor's unit, rising: 20 slices of equal probability, or each of the values of a
+    /// discrete factor (of at most 50).
+    pub x: Vec<f64>,
+    /// Mean of the output over the slice in its unit; `null` without values there.
+    pub mean: Vec<Option<f64>>,
+    /// Mean minus 1.96 standard errors; `null` for fewer than two values.
+    pub low: Vec<Option<f64>>,
+    /// Mean plus 1.96 standard errors.
+    pub high: Vec<Option<f64>>,
+}
+
+/// Consecutive outputs that are the values of one quantity along an axis.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct SeriesRecord {
+    /// Its name.
+    pub name: String,
+    /// The unit of its values.
+    pub unit: String,
+    /// What its axis is called.
+    pub axis: String,
+    /// The unit of the positions; empty for none.
+    pub axis_unit: String,
+    /// Place of its first value in `outputs`, from 0; the others follow.
+    pub first_output: usize,
+    /// Where every value stands on the axis, in rising order.
+    pub positions: Vec<f64>,
+    /// Indices over all values together, each counted by its variance, one entry per factor; `null` where a value has none.
+    pub indices: Option<Vec<PlainIndexRecord>>,
+    /// Why there are none.
+    pub reason: Option<String>,
+}
+
+impl SeriesRecord {
+    /// Places of its values in `outputs`.
+    pub fn places(&self) -> std::ops::Range<usize> {
+        self.first_output..self.first_output + self.positions.len()
+    }
+}
+
+/// What a run that was asked for an accuracy chose, and why.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct SpendingRecord {
+    /// The half width that was asked for.
+    pub accuracy: f64,
+    /// Runs of the model in all, those of trials included.
+    pub runs: u64,
+    /// Runs that the same half width would take at least without surrogates and cheaper models, by the intervals of the plain
+    /// indices of this run; `null` if they are unknown.
+    pub plain_runs: Option<u64>,
+    /// Why it was chosen, in sentences.
+    pub reasons: Vec<String>,
+    /// Lines of a study that make the same run again, to the bit, in the place of `accuracy`.
+    pub lines: String,
+}
+
+/// Why a growing run ended.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct StoppingRecord {
+    /// In words.
+    pub reason: String,
+    /// Whether every index met the target; `null` if there was none.
+    pub target_met: Option<bool>,
+    /// The half width that was asked for.
+    pub target_half_width: Option<f64>,
+    /// The time that it might take, in seconds.
+    pub budget_seconds: Option<f64>,
+    /// The model runs that it might take.
+    pub max_runs: Option<u64>,
+}
+
+/// What a model with a ladder of fidelities spent.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct EffortRecord {
+    /// The rungs that answered, and how many runs each.
+    pub rungs: Vec<RungRecord>,
+    /// Evaluations of the right-hand side (of the closed form, on the rung that has one), in all.
+    pub evaluations: u64,
+    /// Largest relative error of any run, as its rung estimates it from what it leaves out.
+    pub largest_error_estimate: f64,
+}
+
+/// How many runs a rung answered.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct RungRecord {
+    /// The rung.
+    pub rung: String,
+    /// Number of runs.
+    pub runs: u64,
 }

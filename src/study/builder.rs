@@ -16,6 +16,7 @@ use crate::surrogate::FEWEST_NETS;
 use crate::uncertainty::IntervalMethod;
 
 /// A study in the making; [`Study::builder`] begins one.
+#[must_use]
 pub struct StudyBuilder {
     name: String,
     pub(super) title: Option<String>,
@@ -49,7 +50,6 @@ impl StudyBuilder {
     }
 
     /// A title for people.
-    #[must_use]
     pub fn title(mut self, title: &str) -> Self {
         self.title = Some(title.to_owned());
         self
@@ -57,7 +57,6 @@ impl StudyBuilder {
 
     /// What tells the model from others of the same outputs and factors: without it a [journal](crate::Runner::journal) cannot
     /// tell that the function has changed, and answers with the runs of the one before.
-    #[must_use]
     pub fn version(mut self, version: &str) -> Self {
         if let Some(custom) = self.subject.downcast_ref::<CustomSubject>() {
             let (model, version) = (Arc::clone(&custom.model), Some(version.to_owned()));
@@ -67,13 +66,11 @@ impl StudyBuilder {
     }
 
     /// One more factor: a pure number. The order of factors is that of the values that the model gets.
-    #[must_use]
     pub fn factor(self, name: &str, distribution: Distribution) -> Self {
         self.factor_in(name, Unit::dimensionless(), distribution)
     }
 
     /// One more factor, whose distribution is in `unit`. The model gets its values in SI units.
-    #[must_use]
     pub fn factor_in(mut self, name: &str, unit: Unit, distribution: Distribution) -> Self {
         let factor = Factor::new(name, unit, distribution);
         self.factors.push(factor.map_err(|source| BuildError::Factor { factor: name.to_owned(), source }));
@@ -81,7 +78,6 @@ impl StudyBuilder {
     }
 
     /// One more factor, made before: with a group, or a nominal value other than its median.
-    #[must_use]
     pub fn with_factor(mut self, factor: Factor) -> Self {
         self.factors.push(Ok(factor));
         self
@@ -103,14 +99,12 @@ impl StudyBuilder {
     /// assert!((analysis.output("y")?.factor("a")?.first_order.estimate - 0.75).abs() < 0.02);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    #[must_use]
     pub fn dependence(mut self, dependence: Dependence) -> Self {
         self.dependences.push(dependence);
         self
     }
 
     /// Where the points come from; scrambled Sobol' points by default.
-    #[must_use]
     pub fn sampler(mut self, sampler: Sampler) -> Self {
         self.sampler = sampler;
         self
@@ -118,7 +112,6 @@ impl StudyBuilder {
 
     /// Base samples in all, best a power of two for each replicate; 2^14 by default. The cost is base samples x (2 + factors)
     /// runs.
-    #[must_use]
     pub fn base_samples(mut self, base_samples: u64) -> Self {
         self.length.base_samples = Some(base_samples);
         self
@@ -139,35 +132,30 @@ impl StudyBuilder {
     /// assert!(study.design().rows() <= 100);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    #[must_use]
     pub fn runs(mut self, runs: u64) -> Self {
         self.length.runs = Some(runs);
         self
     }
 
     /// Independent randomisations that share the base samples; by default as many as the kind of interval works best with.
-    #[must_use]
     pub fn replicates(mut self, replicates: u64) -> Self {
         self.replicates = Some(replicates);
         self
     }
 
     /// Seed of the design, 0 by default.
-    #[must_use]
     pub fn seed(mut self, seed: u64) -> Self {
         self.seed = seed;
         self
     }
 
     /// What is asked of the runs; [`AnalysisOptions::for_sampler`] by default.
-    #[must_use]
     pub fn analysis(mut self, analysis: AnalysisOptions) -> Self {
         self.analysis = Some(analysis);
         self
     }
 
     /// How well the indices must be known, and the limits of a run that goes on until they are.
-    #[must_use]
     pub fn until(mut self, target: Target) -> Self {
         self.length.target = target;
         self
@@ -175,7 +163,6 @@ impl StudyBuilder {
 
     /// A cheaper model of the same outputs, by name: it stands in for the model where that helps, and the runs of the model
     /// show the rest. `base_samples` is the size of its own design; `None` to let the run choose.
-    #[must_use]
     pub fn low_fidelity(mut self, name: &str, model: impl Model + 'static, base_samples: Option<u64>) -> Self {
         let subject = Arc::new(CustomSubject { model: Arc::new(model), version: None });
         self.lows.push(LowFidelity { name: name.to_owned(), subject, base_samples });

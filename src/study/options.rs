@@ -77,9 +77,7 @@ impl AnalysisOptions {
             max_failed: DEFAULT_MAX_FAILED,
         }
     }
-}
 
-impl AnalysisOptions {
     /// Whether there will be Shapley effects of the factors of `space`, or of their groups.
     pub fn has_shapley(&self, space: &Space) -> bool {
         let is_free = space.copula().is_some() && space.factors().len() <= FREE_SHAPLEY_FACTORS;

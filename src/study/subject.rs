@@ -126,17 +126,10 @@ impl dyn Subject {
 #[derive(Debug)]
 #[cfg_attr(not(feature = "study"), allow(dead_code, reason = "only study files ask for repetitions"))]
 pub(super) struct RepeatedSubject {
-    subject: Arc<dyn Subject>,
-    seed: usize,
-    repetitions: usize,
-}
-
-#[cfg_attr(not(feature = "study"), allow(dead_code, reason = "only study files ask for repetitions"))]
-impl RepeatedSubject {
-    /// Of `subject`, whose factor number `seed` is its seed.
-    pub(super) fn new(subject: Arc<dyn Subject>, seed: usize, repetitions: usize) -> Self {
-        Self { subject, seed, repetitions }
-    }
+    pub(super) subject: Arc<dyn Subject>,
+    /// The number of the factor that is its seed.
+    pub(super) seed: usize,
+    pub(super) repetitions: usize,
 }
 
 impl Subject for RepeatedSubject {

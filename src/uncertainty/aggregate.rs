@@ -22,19 +22,6 @@ pub struct AggregateIndices {
     pub total: Vec<Estimate>,
 }
 
-impl AggregateIndices {
-    /// The indices of all effects, in the order of [`OutputIndices::effects`](super::OutputIndices::effects), from those of all
-    /// swaps: the total indices of dependent factors are those of redrawn swaps.
-    #[must_use]
-    pub fn of_effects(self, layout: &Layout) -> Self {
-        let dummy = layout.dummy.then_some(layout.swaps().wrapping_sub(1));
-        let listed = || 0..layout.listed();
-        let first_order = listed().chain(dummy).map(|swap| self.first_order[swap]);
-        let total = listed().map(|swap| layout.redrawn(swap)).chain(dummy).map(|swap| self.total[swap]);
-        Self { first_order: first_order.collect(), total: total.collect() }
-    }
-}
-
 /// Aggregated indices of `outputs`, which have the parts of their replicates, by the default estimators ([`aggregated`]).
 ///
 /// # Errors
@@ -67,6 +54,17 @@ pub fn aggregate_indices(
 }
 
 impl AggregateIndices {
+    /// The indices of all effects, in the order of [`OutputIndices::effects`](super::OutputIndices::effects), from those of all
+    /// swaps: the total indices of dependent factors are those of redrawn swaps.
+    #[must_use]
+    pub fn of_effects(self, layout: &Layout) -> Self {
+        let dummy = layout.dummy.then_some(layout.swaps().wrapping_sub(1));
+        let listed = || 0..layout.listed();
+        let first_order = listed().chain(dummy).map(|swap| self.first_order[swap]);
+        let total = listed().map(|swap| layout.redrawn(swap)).chain(dummy).map(|swap| self.total[swap]);
+        Self { first_order: first_order.collect(), total: total.collect() }
+    }
+
     /// These plain indices, or those that surrogates make of the same outputs where their errors are smaller: the sum of the
     /// numerators over the sum of the variances, each with its influences. The outputs are those that vary; without a surrogate
     /// of every one of them, the plain ones stay.

@@ -8,7 +8,7 @@ use super::influence::Influenced;
 use super::mean;
 use super::net_decay::StandardError;
 use super::noise::{Noise, Replacement};
-use super::{Estimate, Interval};
+use super::{Estimate, Interval, difference};
 use serde::{Deserialize, Serialize};
 
 /// Distance of plain and corrected indices, over what their intervals allow, beyond which the corrected ones are refused: of one
@@ -252,12 +252,13 @@ impl SurrogateEstimates {
                     replacements.push((place, total.even().replacement(&interaction)));
                 }
                 (true, false) => {
+                    // Nothing is known of the two together but that their errors are of independent kinds.
                     let first = first.estimate(of_first);
-                    replacements.push((place, (difference(plain_total, first), errors[place], Vec::new())));
+                    replacements.push((place, (difference(first, plain_total), errors[place], Vec::new())));
                 }
                 (false, true) => {
                     let total = total.estimate(of_total);
-                    replacements.push((place, (difference(total, plain_first), errors[place], Vec::new())));
+                    replacements.push((place, (difference(plain_first, total), errors[place], Vec::new())));
                 }
                 (false, false) => (),
             }
@@ -391,16 +392,6 @@ fn share(part: &Influenced, all: &Influenced) -> Influenced {
 /// The interval that holds both, or nothing if one of them is unknown.
 pub(super) fn hull(a: Option<Interval>, b: Option<Interval>) -> Option<Interval> {
     a.zip(b).map(|(a, b)| Interval { low: a.low.min(b.low), high: a.high.max(b.high) })
-}
-
-/// The difference of two numbers of which nothing is known together but that their errors are of independent kinds.
-fn difference(a: Estimate, b: Estimate) -> Estimate {
-    let estimate = a.estimate - b.estimate;
-    let interval = a.interval.zip(b.interval).map(|(of_a, of_b)| Interval {
-        low: estimate - libm::hypot(a.estimate - of_a.low, of_b.high - b.estimate),
-        high: estimate + libm::hypot(of_a.high - a.estimate, b.estimate - of_b.low),
-    });
-    Estimate { estimate, interval }
 }
 
 #[cfg(test)]

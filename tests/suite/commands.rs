@@ -225,6 +225,10 @@ fn new_overwrites_nothing_and_names_what_it_does_not_know() {
     assert!(message.contains("--factors: unknown factor `thicknes`: did you mean `thickness`?"), "{message}");
     let message = refused(&["new", text(&other), "--outputs", "critical_force,critical_force"]);
     assert!(message.contains("--outputs: output `critical_force` stands here twice"), "{message}");
+    assert!(
+        refused(&["new", text(&other), "--factors", "length,length"]).contains("factor `length` stands here twice")
+    );
+    assert!(refused(&["new", text(&other), "--outputs", "force"]).contains("--outputs: unknown output `force`"));
     assert!(refused(&["new", text(&other), "--model", "ishigam"]).contains("did you mean `ishigami`?"));
     let message = refused(&["new", text(&other), "--model", "command", "--factors", "a,"]);
     assert!(message.contains("--factors: a name is empty: expected names separated by commas"), "{message}");

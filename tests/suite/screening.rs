@@ -3,8 +3,9 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use apportion::report::screening::{ScreeningFile, screening_json};
-use apportion::report::sweep::{SweepFile, sweep_json};
+use apportion::report::json;
+use apportion::report::screening::ScreeningFile;
+use apportion::report::sweep::SweepFile;
 use apportion::screening::Reading;
 
 use crate::common::{Folder, all_files, apportion, stderr, stdout, study_path, succeed, text};
@@ -35,7 +36,7 @@ fn swept(study: &str, more: &[&str]) -> (tempfile::TempDir, SweepFile, String) {
 fn a_screening_finds_what_the_indices_find() {
     let (folder, file, table) = screened("coulomb-general", &[]);
     assert_eq!((file.format.as_str(), file.version), ("apportion-screening", 1));
-    assert_eq!(screening_json(&file), read(folder.path(), "coulomb-general-screen.json"));
+    assert_eq!(json(&file), read(folder.path(), "coulomb-general-screen.json"));
     assert_eq!((file.provenance.model_runs, file.provenance.trajectories), (32 * 9, 32));
     let factors = &file.outputs[0].factors;
     let by = |name: &str| factors.iter().find(|factor| factor.factor == name).unwrap();
@@ -135,7 +136,7 @@ fn failed_runs_are_told_with_their_factors() {
 fn a_sweep_shows_curves_ranges_and_slopes() {
     let (folder, file, table) = swept("coulomb-general", &["--points", "11"]);
     assert_eq!((file.format.as_str(), file.version), ("apportion-sweep", 1));
-    assert_eq!(sweep_json(&file), read(folder.path(), "coulomb-general-sweep.json"));
+    assert_eq!(json(&file), read(folder.path(), "coulomb-general-sweep.json"));
     assert_eq!(file.sweeps.len(), 8);
     let thickness = &file.sweeps[2];
     assert_eq!((thickness.values[0], thickness.values[10], thickness.values.len()), (0.25, 2.5, 11));

@@ -3,6 +3,7 @@
 use super::bar::Bar;
 use super::figure::{Entry, Key};
 use super::model::{Chart, Mark, Panel, Shape};
+use super::series::Stroke;
 use super::text::percent;
 
 impl Chart {
@@ -10,10 +11,9 @@ impl Chart {
     pub(super) fn legend(&self) -> Vec<Entry> {
         let mut entries: Vec<Entry> = Vec::new();
         for Mark { series, shape } in self.marks() {
-            let points = |line, points| Key::Line { colour: series.colour, dash: series.stroke.dash(), line, points };
             let key = match shape {
-                Shape::Line(_) => points(series.stroke.has_line(), series.stroke.has_points()),
-                Shape::Dots(_) | Shape::Point(_) => points(false, true),
+                Shape::Line(_) => Key::Line(series.colour, series.stroke),
+                Shape::Dots(_) | Shape::Point(_) => Key::Line(series.colour, Stroke::Points),
                 Shape::Bar(_) | Shape::Tile(_) => Key::Swatch(series.colour),
                 _ => continue,
             };

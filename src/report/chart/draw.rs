@@ -1,7 +1,7 @@
 //! Draws a chart: its panels one after the other, and the marks on axes of numbers.
 
 use super::Arrangement;
-use super::figure::{Figure, Words};
+use super::figure::Figure;
 use super::flags::{self, Flag};
 use super::labels::{self, Area, Label};
 use super::layout::{Cell, Layout};
@@ -50,10 +50,9 @@ impl Chart {
     }
 
     fn drawn(&self, medium: Medium) -> String {
-        let words = Words { title: &self.title, caption: &self.caption };
-        let mut figure = Figure::begin(medium, words, &self.legend());
+        let mut figure = Figure::begin(medium, self);
         let bottom = self.draw_panels(&mut figure, medium.width);
-        figure.finish(bottom, &self.axes())
+        figure.finish(bottom)
     }
 
     /// Draws all panels from the figure's free room on; gives the lower edge.
@@ -119,18 +118,16 @@ impl<'a> Sheet<'a> {
             let page = if self.layout.columns == 1 { self.layout.page } else { ChartWidth::Wide };
             plot.title(canvas, &panel.title, self.rise(), page);
         }
-        if panel.tiles().next().is_none() {
+        if !panel.is_map() {
             plot.x_grid(canvas, x);
         }
         if panel.has_rows() {
             flags::draw(canvas, plot, &self.flags);
             self.rows(canvas);
         } else {
+            plot.y_axis(canvas, y, self.is_first_column);
             if self.is_first_column {
-                plot.y_axis(canvas, y);
                 plot.y_title(canvas, &panel.y.title(y.exponent), self.layout.y_title);
-            } else {
-                plot.y_grid(canvas, y);
             }
             plot.axis_lines(canvas);
             flags::draw(canvas, plot, &self.flags);
@@ -143,20 +140,17 @@ impl<'a> Sheet<'a> {
     /// The marks on axes of numbers: what covers much first.
     fn marks(&self, canvas: &mut Canvas) {
         let marks = &self.cell.panel.marks;
-        for Mark { series, shape } in marks {
-            if let Shape::Dots(dots) = shape {
-                let dots: Vec<_> = dots.iter().filter_map(|&dot| self.at(dot)).collect();
-                canvas.dots(&dots, series.colour);
-            }
-        }
-        for Mark { series, shape } in marks {
-            if let Shape::Band(edges) = shape {
-                self.band(canvas, series, edges);
-            }
-        }
-        for Mark { series, shape } in marks {
-            if let Shape::Line(points) = shape {
-                self.line(canvas, series, points);
+        for layer in 0..3 {
+            for Mark { series, shape } in marks {
+                match shape {
+                    Shape::Dots(dots) if layer == 0 => {
+                        let dots: Vec<_> = dots.iter().filter_map(|&dot| self.at(dot)).collect();
+                        canvas.dots(&dots, series.colour);
+                    }
+                    Shape::Band(edges) if layer == 1 => self.band(canvas, series, edges),
+                    Shape::Line(points) if layer == 2 => self.line(canvas, series, points),
+                    _ => (),
+                }
             }
         }
         let points: Vec<(&Series, &Point)> = marks.iter().filter_map(as_point).collect();

@@ -3,7 +3,9 @@
 use std::fmt::Display;
 
 use super::font::FAMILIES;
+use super::model::Chart;
 use super::palette::Colour;
+use super::series::Stroke;
 use super::style::{BODY, INK, MARGIN, MUTED, Medium, PAPER, PaperWidth, TITLE};
 use super::svg::{Attributes, Canvas, Px, Text};
 use super::text::{wrap, wrap_within};
@@ -19,7 +21,7 @@ const ROW: f64 = 17.0;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Key {
     Swatch(Colour),
-    Line { colour: Colour, dash: &'static str, line: bool, points: bool },
+    Line(Colour, Stroke),
     Diamond,
     Whisker,
 }
@@ -28,9 +30,9 @@ impl Key {
     fn width(self) -> f64 {
         match self {
             Key::Swatch(_) => 12.0,
-            Key::Line { line: true, .. } => 24.0,
+            Key::Line(_, stroke) if stroke.has_line() => 24.0,
             Key::Whisker => 16.0,
-            Key::Line { .. } | Key::Diamond => 9.0,
+            Key::Line(..) | Key::Diamond => 9.0,
         }
     }
 }
@@ -42,13 +44,6 @@ pub(super) struct Entry {
     pub key: Key,
 }
 
-/// What a figure says about itself.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Words<'a> {
-    pub title: &'a str,
-    pub caption: &'a str,
-}
-
 /// A figure whose head is drawn; `finish` adds the foot.
 pub(super) struct Figure<'a> {
     pub canvas: Canvas,
@@ -56,26 +51,27 @@ pub(super) struct Figure<'a> {
     pub top: f64,
     width: f64,
     medium: Medium,
-    words: Words<'a>,
+    chart: &'a Chart,
 }
 
 impl<'a> Figure<'a> {
     /// Draws title and legend.
-    pub fn begin(medium: Medium, words: Words<'a>, legend: &[Entry]) -> Self {
+    pub fn begin(medium: Medium, chart: &'a Chart) -> Self {
         let top = if medium.has_words() { MARGIN } else { 0.0 };
-        let mut figure = Self { canvas: Canvas::default(), top, width: medium.width.px(), medium, words };
+        let mut figure = Self { canvas: Canvas::default(), top, width: medium.width.px(), medium, chart };
         if medium.has_words() {
             figure.title();
         }
+        let legend = chart.legend();
         if !legend.is_empty() {
-            figure.legend(legend);
+            figure.legend(&legend);
         }
         figure
     }
 
     fn title(&mut self) {
         self.canvas.open("g", &[("class", &"title")]);
-        for line in wrap(self.words.title, self.width - 2.0 * MARGIN, TITLE) {
+        for line in wrap(&self.chart.title, self.width - 2.0 * MARGIN, TITLE) {
             self.top += TITLE.leading();
             let baseline = self.top - 0.3 * TITLE.size;
             self.canvas.text(&Text::new(&line, (MARGIN, baseline), TITLE));
@@ -83,9 +79,8 @@ impl<'a> Figure<'a> {
         self.canvas.close("g");
     }
 
-    /// The caption under `bottom`, then the whole as an SVG document. `description` is read out by screen
-    /// readers after the caption.
-    pub fn finish(mut self, bottom: f64, description: &str) -> String {
+    /// The caption under `bottom`, then the whole as an SVG document. Screen readers read out the axes after the caption.
+    pub fn finish(mut self, bottom: f64) -> String {
         let bottom = if self.medium.has_words() { self.caption(bottom) + MARGIN } else { bottom };
         let (width, height) = (self.width, bottom.ceil());
         let view = format!("0 0 {width} {height}");
@@ -96,15 +91,15 @@ impl<'a> Figure<'a> {
             None => length.to_string(),
         });
         let size: &[(&str, &dyn Display)] = &[("width", &sizes[0]), ("height", &sizes[1])];
-        let label: &[(&str, &dyn Display)] = &[("aria-label", &self.words.title)];
+        let label: &[(&str, &dyn Display)] = &[("aria-label", &self.chart.title)];
         let mut attributes: Vec<(&str, &dyn Display)> = vec![("xmlns", &"http://www.w3.org/2000/svg")];
         attributes.extend_from_slice(if self.medium.inline { &[] } else { size });
         attributes.extend_from_slice(&[("viewBox", &view), ("role", &"img")]);
         attributes.extend_from_slice(if self.medium.inline { label } else { &[] });
         attributes.extend_from_slice(&[("font-family", &FAMILIES), ("fill", &INK)]);
         page.open("svg", &attributes);
-        page.content("title", &[], self.words.title);
-        page.content("desc", &[], &format!("{} {description}", self.words.caption));
+        page.content("title", &[], &self.chart.title);
+        page.content("desc", &[], &format!("{} {}", self.chart.caption, self.chart.axes()));
         page.leaf("rect", &[("width", &width), ("height", &height), ("fill", &PAPER)]);
         page.append(self.canvas);
         page.close("svg");
@@ -114,7 +109,7 @@ impl<'a> Figure<'a> {
     /// Draws the caption; gives its last baseline.
     fn caption(&mut self, bottom: f64) -> f64 {
         let mut y = bottom;
-        let caption = wrap(self.words.caption, self.width - 2.0 * MARGIN, BODY);
+        let caption = wrap(&self.chart.caption, self.width - 2.0 * MARGIN, BODY);
         self.canvas.open("g", &[("class", &"caption")]);
         for (row, line) in caption.iter().enumerate() {
             y += if row == 0 { 8.0 + BODY.size } else { BODY.leading() };
@@ -166,14 +161,14 @@ impl<'a> Figure<'a> {
                 };
                 canvas.leaf("rect", &[area, rim].concat());
             }
-            Key::Line { colour, dash, line, points } => {
-                if line {
-                    let stroke = colour.hex();
-                    canvas.open("g", &[("stroke", &stroke), ("stroke-width", &"1.8"), ("stroke-dasharray", &dash)]);
+            Key::Line(colour, stroke) => {
+                if stroke.has_line() {
+                    let (colour, dash) = (colour.hex(), stroke.dash());
+                    canvas.open("g", &[("stroke", &colour), ("stroke-width", &"1.8"), ("stroke-dasharray", &dash)]);
                     canvas.line((x, y), (right, y));
                     canvas.close("g");
                 }
-                if points {
+                if stroke.has_points() {
                     canvas.point(middle, colour);
                 }
             }

@@ -3,6 +3,7 @@
 use super::bar::Bar;
 use super::scale::Spacing;
 use super::series::Series;
+use super::text::power_of_ten;
 
 /// A chart: headline, caption, and panels of marks.
 ///
@@ -230,9 +231,15 @@ impl Axis {
         Self { spacing, ..self }
     }
 
-    /// Label and unit, with the power of ten that the ticks are in.
+    /// `label (unit)`, with the power of ten that the ticks are in.
     pub(super) fn title(&self, exponent: i32) -> String {
-        super::plot::axis_title(&self.label, &self.unit, exponent)
+        let label = &self.label;
+        match (self.unit.trim(), exponent) {
+            ("", 0) => label.clone(),
+            ("", _) => format!("{label} (×{})", power_of_ten(exponent)),
+            (unit, 0) => format!("{label} ({unit})"),
+            (unit, _) => format!("{label} ({} {unit})", power_of_ten(exponent)),
+        }
     }
 }
 
@@ -257,5 +264,18 @@ impl Mark {
     /// A vertical line with a label.
     pub fn rule(x: f64, label: impl Into<String>) -> Self {
         Series::default().mark(Shape::Rule(x, label.into()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn axis_titles_carry_unit_and_power() {
+        assert_eq!(Axis::new("Time", "ms").title(0), "Time (ms)");
+        assert_eq!(Axis::new("Force", "N").title(-9), "Force (10⁻⁹ N)");
+        assert_eq!(Axis::new("Rows", "").title(6), "Rows (×10⁶)");
+        assert_eq!(Axis::new("Rows", " ").title(0), "Rows");
     }
 }

@@ -3,7 +3,7 @@
 use super::scale::{Scale, Tick};
 use super::style::{BODY, ChartWidth, FINE_GRID, GRID, INK, MARGIN, MUTED, PANEL_TITLE, TICK};
 use super::svg::{Anchor, Canvas, Text};
-use super::text::{power_of_ten, shorten, wrap, wrap_within};
+use super::text::{shorten, wrap, wrap_within};
 
 /// Room between an axis and its tick labels, px.
 pub(super) const TICK_GAP: f64 = 6.0;
@@ -45,26 +45,16 @@ impl Plot {
         canvas.text(&Text::new(&line, (left, self.top - rise), PANEL_TITLE).whole(title));
     }
 
-    /// Horizontal grid lines, for a plot whose neighbour has the labels.
-    pub fn y_grid(&self, canvas: &mut Canvas, scale: &Scale) {
-        canvas.open("g", &[("class", &"y-grid"), ("stroke-width", &"1")]);
-        self.y_lines(canvas, scale);
-        canvas.close("g");
-    }
-
-    fn y_lines(&self, canvas: &mut Canvas, scale: &Scale) {
+    /// Horizontal grid lines, and the labels of the vertical axis where no neighbour has them.
+    pub fn y_axis(&self, canvas: &mut Canvas, scale: &Scale, is_labelled: bool) {
+        let class = if is_labelled { "y-axis" } else { "y-grid" };
+        canvas.open("g", &[("class", &class), ("stroke-width", &"1")]);
         grid(canvas, scale, |canvas, value| {
             if let Some(y) = self.y(scale, value) {
                 canvas.line((self.left, y), (self.right(), y));
             }
         });
-    }
-
-    /// Horizontal grid lines and the labels of the vertical axis.
-    pub fn y_axis(&self, canvas: &mut Canvas, scale: &Scale) {
-        canvas.open("g", &[("class", &"y-axis"), ("stroke-width", &"1")]);
-        self.y_lines(canvas, scale);
-        for Tick { value, label } in &scale.ticks {
+        for Tick { value, label } in scale.ticks.iter().filter(|_| is_labelled) {
             if let Some(y) = self.y(scale, *value) {
                 let at = (self.left - TICK_GAP, y + TICK.cap_height() / 2.0);
                 canvas.text(&Text::new(label, at, TICK).anchor(Anchor::End));
@@ -140,16 +130,6 @@ pub(super) fn title_room(title: &str, height: f64) -> f64 {
     if lines == 0.0 { 0.0 } else { lines * BODY.leading() + 4.0 }
 }
 
-/// `label (unit)`, with the power of ten that the ticks are in.
-pub(super) fn axis_title(label: &str, unit: &str, exponent: i32) -> String {
-    match (unit.trim(), exponent) {
-        ("", 0) => label.to_owned(),
-        ("", _) => format!("{label} (×{})", power_of_ten(exponent)),
-        (unit, 0) => format!("{label} ({unit})"),
-        (unit, _) => format!("{label} ({} {unit})", power_of_ten(exponent)),
-    }
-}
-
 /// Fine lines first, then those of the ticks.
 fn grid(canvas: &mut Canvas, scale: &Scale, line: impl Fn(&mut Canvas, f64)) {
     let ticks: Vec<f64> = scale.ticks.iter().map(|tick| tick.value).collect();
@@ -159,18 +139,5 @@ fn grid(canvas: &mut Canvas, scale: &Scale, line: impl Fn(&mut Canvas, f64)) {
             values.iter().for_each(|&value| line(canvas, value));
             canvas.close("g");
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn axis_titles_carry_unit_and_power() {
-        assert_eq!(axis_title("Time", "ms", 0), "Time (ms)");
-        assert_eq!(axis_title("Force", "N", -9), "Force (10⁻⁹ N)");
-        assert_eq!(axis_title("Rows", "", 6), "Rows (×10⁶)");
-        assert_eq!(axis_title("Rows", " ", 0), "Rows");
     }
 }

@@ -104,7 +104,7 @@ impl<'a> Sheet<'a> {
     /// The cells of a map, each with its letter.
     fn tiles(&self, canvas: &mut Canvas) {
         let panel = self.cell.panel;
-        if panel.tiles().next().is_none() {
+        if !panel.is_map() {
             return;
         }
         canvas.open("g", &[("class", &"tiles")]);

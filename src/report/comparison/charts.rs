@@ -3,7 +3,7 @@
 use super::index::ComparedIndex;
 use super::record::{ComparedFactor, ComparedOutput, ComparisonFile};
 use crate::report::chart::{Chart, Colour, Series};
-use crate::report::factor_bars::{INDEX, MOST, both_orders, difference_panel, index_panel, not_drawn};
+use crate::report::factor_bars::{DIFFERENCES, INDEX, INDICES, MOST, both_orders, index_panel, not_drawn};
 use crate::report::file_stems;
 use crate::report::format::name;
 
@@ -25,7 +25,7 @@ fn side_by_side(file: &ComparisonFile, output: &ComparedOutput) -> Chart {
         let b = factors.iter().map(|factor| of(factor).b).collect();
         let series =
             [(Series::new(&file.a.label, Colour::Series(1)), a), (Series::new(&file.b.label, Colour::Series(0)), b)];
-        index_panel(INDEX, names(&factors), series, &keys(&factors)).titled(title)
+        index_panel(INDEX, names(&factors), series, INDICES, &keys(&factors)).titled(title)
     };
     let title = format!("Indices of {}: {} and {}", name(&output.name), file.a.label, file.b.label);
     let panels =
@@ -41,7 +41,7 @@ fn differences(file: &ComparisonFile, output: &ComparedOutput) -> Chart {
     let label = "difference: parts of the variance";
     let title = format!("Indices of {}: {} minus {}", name(&output.name), file.b.label, file.a.label);
     let (names, keys) = (names(&factors), keys(&factors));
-    let panel = difference_panel(label, names, both_orders(first_order, total), &keys);
+    let panel = index_panel(label, names, both_orders(first_order, total), DIFFERENCES, &keys);
     Chart::new(title, caption(output) + shared).panels([panel])
 }
 
@@ -56,11 +56,10 @@ fn names(factors: &[&ComparedFactor]) -> Vec<String> {
 
 /// What both charts are ordered by: the larger total index.
 fn keys(factors: &[&ComparedFactor]) -> Vec<f64> {
-    factors.iter().map(|factor| larger_total(factor)).collect()
-}
-
-fn larger_total(factor: &ComparedFactor) -> f64 {
-    [factor.total.a, factor.total.b].into_iter().flatten().map(|index| index.estimate).fold(0.0, f64::max)
+    let larger_total = |factor: &&ComparedFactor| {
+        [factor.total.a, factor.total.b].into_iter().flatten().map(|index| index.estimate).fold(0.0, f64::max)
+    };
+    factors.iter().map(larger_total).collect()
 }
 
 /// How many differences are more than the errors, then what is left out.

@@ -1,13 +1,14 @@
 //! A comparison as a document.
 
+use super::comparison_charts;
 use super::index::ComparedIndex;
 use super::record::{ComparedFactor, ComparedOutput, ComparedSide, ComparisonFile};
-use super::{comparison_charts, comparison_json};
 use crate::report::csv::{Csv, fields};
 use crate::report::document::{Cell, Column, DataFile, Document, Figure, Part, Section, Table, Value};
 use crate::report::format::{give_or_take, heading, name, significant};
 use crate::report::leading::{Contender, first_answers, may_lead};
 use crate::report::listed;
+use crate::report::records::json;
 use crate::uncertainty::{Estimate, Interval};
 
 /// The document of a comparison, whose files begin with `name`. A star marks the differences whose intervals leave out 0.
@@ -33,7 +34,7 @@ pub fn comparison_document(file: &ComparisonFile, files: &str) -> Document {
         sections,
         footer: format!("Made by apportion {}.", env!("CARGO_PKG_VERSION")),
         files: vec![
-            DataFile::new(format!("{files}.json"), comparison_json(file)),
+            DataFile::new(format!("{files}.json"), json(file)),
             DataFile::new(format!("{files}.csv"), comparison_csv(file)),
         ],
         ..Document::default()

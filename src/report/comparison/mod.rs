@@ -12,13 +12,8 @@ mod tests;
 pub use charts::comparison_charts;
 pub use document::comparison_document;
 pub use error::CompareError;
-pub use index::{ComparedIndex, difference};
+pub use index::ComparedIndex;
 pub use record::{
     ComparedFactor, ComparedOutput, ComparedSide, ComparisonFile, NamedResult, OneSided, compare_results, shared_points,
 };
 pub use settings::SettingDifference;
-
-/// The comparison as JSON text, ending in a newline, as described in `docs/comparison-format.md`.
-pub fn comparison_json(file: &ComparisonFile) -> String {
-    super::records::json(file)
-}

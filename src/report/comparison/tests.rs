@@ -3,9 +3,10 @@ use std::path::Path;
 use proptest::prelude::*;
 
 use super::*;
+use crate::report::json;
 use crate::report::result::ResultFile;
 use crate::study::Study;
-use crate::uncertainty::{Estimate, Interval};
+use crate::uncertainty::{Estimate, Interval, difference};
 
 fn result(text: &str) -> ResultFile {
     let study = Study::parse(text, Path::new("small.toml"), &[]).unwrap_or_else(|error| panic!("{error}"));
@@ -157,7 +158,7 @@ fn rounding_is_no_difference() {
 #[test]
 fn a_comparison_reads_back_as_it_was() {
     let file = compared(&linear("[1.0, 4.0]", ""), &linear("[2.0, 4.0]", "")).unwrap();
-    assert_eq!(serde_json::from_str::<ComparisonFile>(&comparison_json(&file)).unwrap(), file);
+    assert_eq!(serde_json::from_str::<ComparisonFile>(&json(&file)).unwrap(), file);
 }
 
 proptest! {

@@ -2,28 +2,8 @@
 
 use crate::report::chart::{Chart, ChartWidth};
 
-/// The drawings of a chart; the page shows one of them.
-#[derive(Default)]
-pub(super) struct Drawings {
-    /// For a column; empty for a small figure.
-    pub wide: String,
-    /// For a phone, or half of a column.
-    pub narrow: String,
-}
-
-impl Drawings {
-    /// The drawings of `chart` as elements whose identifiers begin with `id`.
-    pub fn new(id: &str, chart: &Chart) -> Self {
-        Self { wide: drawn(id, chart, ChartWidth::Wide), ..Self::small(id, chart) }
-    }
-
-    /// The small one alone.
-    pub fn small(id: &str, chart: &Chart) -> Self {
-        Self { narrow: drawn(id, chart, ChartWidth::Narrow), ..Self::default() }
-    }
-}
-
-fn drawn(id: &str, chart: &Chart, width: ChartWidth) -> String {
+/// The drawing of `chart` as an element whose identifiers begin with `id`.
+pub(super) fn drawn(id: &str, chart: &Chart, width: ChartWidth) -> String {
     let kind = if width == ChartWidth::Wide { "wide" } else { "narrow" };
     named(&chart.inline(width), &format!("{id}-{kind}"))
 }

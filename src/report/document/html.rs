@@ -3,82 +3,42 @@
 use askama::Template;
 
 use super::anchors::href;
-use super::drawing::Drawings;
+use super::drawing::drawn;
 use super::symbols::{clean, escaped, symbols};
-use super::{Cell, Document, Figure, Link, Mark, OnPhone, Part, Section, Table};
-use crate::report::chart::Chart;
+use super::{Document, Figure, Link, Mark, OnPhone, Part, Section, Table};
+use crate::report::chart::ChartWidth;
 use crate::report::file_names::{CHARTS, ChartFormat};
 use crate::report::format::minus;
 
-/// What the template takes as it is (`safe`) was escaped by [`symbols`], or comes from this program: style, script and
+/// What the templates take as it is (`safe`) was escaped by [`symbols`], or comes from this program: style, script and
 /// charts, which escape their own texts.
 #[derive(Template)]
 #[template(path = "page/page.html")]
 struct PageView<'a> {
-    page_title: String,
-    kicker: String,
-    title: String,
-    lead: Vec<String>,
-    sections: Vec<SectionView<'a>>,
-    footer: String,
+    document: &'a Document,
+    sections: Vec<&'a Section>,
+    around: Surroundings<'a>,
     style: &'static str,
     script: &'static str,
     version: &'static str,
 }
 
-struct SectionView<'a> {
-    id: &'a str,
-    title: String,
-    body: String,
+#[derive(Template)]
+#[template(path = "page/part.html")]
+struct PartView<'a> {
+    part: &'a Part,
+    around: Surroundings<'a>,
 }
 
 #[derive(Template)]
-#[template(path = "page/part.html")]
-enum PartView<'a> {
-    Text(String),
-    Heading(String),
-    List(Vec<String>),
-    Code(String),
-    Links(Vec<LinkView>),
-    Notice { mark: &'static str, symbol: &'static str, kind: String, texts: Vec<String> },
-    Frame { title: String, html: String },
-    Details { summary: String, body: String },
-    Gallery { body: String },
-    Figure { id: &'a str, words: FigureWords, drawings: Drawings, links: Vec<LinkView> },
-    Table(TableView),
-}
-
-struct FigureWords {
-    label: String,
-    title: String,
-    caption: String,
-    beside: String,
-}
-
-struct TableView {
-    caption: String,
-    label: String,
-    header: Vec<(String, bool)>,
-    rows: Vec<Vec<CellView>>,
-    /// Whether the last row is that of the sums, which stays where it is.
-    has_sum: bool,
-    stack: &'static str,
-}
-
-struct CellView {
-    heading: String,
-    html: String,
-    numeric: bool,
-    mark: &'static str,
-    symbol: &'static str,
-    href: Option<String>,
-    note: String,
-    links: Vec<LinkView>,
-}
-
-struct LinkView {
-    html: String,
-    href: String,
+#[template(path = "page/figure.html")]
+struct FigureView<'a> {
+    figure: &'a Figure,
+    /// The drawing for a column; none of a small figure.
+    wide: Option<String>,
+    /// The drawing for a phone, or half of a column.
+    narrow: String,
+    links: Vec<Link>,
 }
 
 impl Document {
@@ -101,93 +61,64 @@ impl Document {
     /// assert!(html.contains("<var>F</var><sub>cr</sub> grows"));
     /// ```
     pub fn html(&self) -> String {
-        self.page(&Surroundings { formats: &[], has_files: false })
+        self.page(Surroundings::default())
     }
 
     /// The page as it stands in its folder: with links to the other files, the charts in these `formats`.
     pub(crate) fn html_in_folder(&self, formats: &[ChartFormat]) -> String {
-        self.page(&Surroundings { formats, has_files: true })
+        self.page(Surroundings { formats, has_files: true })
     }
 
     /// The body of the section `id` as it stands on the page, without its heading; `None` if there is no such section.
     pub fn section_html(&self, id: &str) -> Option<String> {
         let section = self.sections.iter().find(|section| section.id == id);
-        section.map(|section| Surroundings { formats: &[], has_files: false }.parts(&section.parts))
+        section.map(|section| Surroundings::default().parts(&section.parts))
     }
 
-    fn page(&self, around: &Surroundings<'_>) -> String {
+    fn page(&self, around: Surroundings<'_>) -> String {
         // Figures have links to their own files.
         let data = if around.has_files { self.data_names() } else { Vec::new() };
         let links = data.into_iter().filter(|name| !name.contains('/')).map(|name| Link::new(name.clone(), name));
         let links: Vec<Link> = links.collect();
         let files = (!links.is_empty()).then(|| Section::new("files", "Files", vec![Part::Links(links)]));
-        let view = PageView {
-            page_title: clean(&self.title),
-            kicker: symbols(&self.kicker),
-            title: symbols(&self.title),
-            lead: self.lead.iter().map(|text| symbols(text)).collect(),
-            sections: self.sections.iter().chain(&files).map(|section| around.section(section)).collect(),
-            footer: symbols(&self.footer),
+        rendered(&PageView {
+            document: self,
+            sections: self.sections.iter().chain(&files).collect(),
+            around,
             style: include_str!("../../../templates/page/page.css"),
             script: concat!(
                 include_str!("../../../templates/page/page.js"),
                 include_str!("../../../templates/page/charts.js")
             ),
             version: env!("CARGO_PKG_VERSION"),
-        };
-        rendered(&view)
+        })
     }
 }
 
 /// What lies around a page.
+#[derive(Clone, Copy, Default)]
 struct Surroundings<'a> {
+    /// Formats of the charts.
     formats: &'a [ChartFormat],
+    /// Whether there are files at all.
     has_files: bool,
 }
 
 impl Surroundings<'_> {
-    fn section<'a>(&self, section: &'a Section) -> SectionView<'a> {
-        SectionView { id: &section.id, title: symbols(&section.title), body: self.parts(&section.parts) }
-    }
-
     fn parts(&self, parts: &[Part]) -> String {
         parts.iter().map(|part| self.part(part)).collect()
     }
 
     fn part(&self, part: &Part) -> String {
-        let all = |texts: &[String]| texts.iter().map(|text| symbols(text)).collect();
-        let view = match part {
-            Part::OnPage(parts) => return self.parts(parts),
-            Part::Text(text) => PartView::Text(symbols(text)),
-            Part::Heading(text) => PartView::Heading(symbols(text)),
-            Part::List(items) => PartView::List(all(items)),
-            Part::Code(text) => PartView::Code(escaped(text)),
-            Part::Links(links) => PartView::Links(link_views(links)),
-            Part::Notice { mark, kind, texts } => {
-                PartView::Notice { mark: mark.class(), symbol: mark.symbol(), kind: symbols(kind), texts: all(texts) }
-            }
-            Part::Frame { title, html } => PartView::Frame { title: clean(title), html: clean(html) },
-            Part::Details { summary, parts } => {
-                PartView::Details { summary: symbols(summary), body: self.parts(parts) }
-            }
-            Part::Figure(figure) => self.figure(figure, Drawings::new),
-            Part::Gallery(figures) => {
-                let small = figures.iter().map(|figure| rendered(&self.figure(figure, Drawings::small)) + "\n");
-                PartView::Gallery { body: small.collect() }
-            }
-            Part::Table(table) => PartView::Table(table_view(table)),
-        };
-        rendered(&view).trim_start().to_owned() + "\n"
+        match part {
+            Part::OnPage(parts) => self.parts(parts),
+            part => rendered(&PartView { part, around: *self }).trim_start().to_owned() + "\n",
+        }
     }
 
-    fn figure<'a>(&self, figure: &'a Figure, drawings: fn(&str, &Chart) -> Drawings) -> PartView<'a> {
-        let drawings = drawings(&figure.id, &figure.chart);
-        let words = FigureWords {
-            label: symbols(&figure.label),
-            title: symbols(figure.title.as_deref().unwrap_or(figure.chart.title())),
-            caption: symbols(figure.chart.caption()),
-            beside: symbols(&figure.beside),
-        };
+    /// A figure, drawn for a column and for a phone, or a small one.
+    fn figure(&self, figure: &Figure, is_small: bool) -> String {
+        let drawn = |width| drawn(&figure.id, &figure.chart, width);
         let picture = |format: &ChartFormat| {
             let ending = format.ending();
             Link::new(ending.to_uppercase(), format!("{CHARTS}/{}.{ending}", figure.stem))
@@ -199,47 +130,30 @@ impl Surroundings<'_> {
         if self.has_files && !figure.data.is_empty() {
             links.push(Link::new("CSV", &figure.data));
         }
-        PartView::Figure { id: &figure.id, words, drawings, links: link_views(&links) }
+        let wide = (!is_small).then(|| drawn(ChartWidth::Wide));
+        rendered(&FigureView { figure, wide, narrow: drawn(ChartWidth::Narrow), links })
     }
 }
 
-fn link_views(links: &[Link]) -> Vec<LinkView> {
-    links.iter().map(|link| LinkView { html: symbols(&link.text), href: href(&link.to) }).collect()
-}
-
-fn table_view(table: &Table) -> TableView {
-    let columns = table.printed_columns();
-    let cell = |(cell, (_, heading, numeric)): (&&Cell, &(usize, &str, bool))| CellView {
-        heading: clean(heading),
-        ..cell_view(cell, *numeric)
-    };
-    let row = |row: Vec<&Cell>| row.iter().zip(&columns).map(cell).collect();
-    let has_headings = columns.iter().any(|(_, heading, _)| !heading.is_empty());
-    let header = columns.iter().filter(|_| has_headings).map(|(_, heading, numeric)| (symbols(heading), *numeric));
-    TableView {
-        caption: symbols(&table.caption),
-        label: clean(&table.caption),
-        header: header.collect(),
-        rows: table.printed_rows().into_iter().map(row).collect(),
-        has_sum: !table.sums.is_empty(),
-        stack: match table.on_phone {
-            OnPhone::Scroll => "",
-            OnPhone::Stack => " stack",
-            OnPhone::StackLabelled => " stack labelled",
-        },
+impl FigureView<'_> {
+    fn title(&self) -> &str {
+        self.figure.title.as_deref().unwrap_or(self.figure.chart.title())
     }
 }
 
-fn cell_view(cell: &Cell, numeric: bool) -> CellView {
-    CellView {
-        heading: String::new(),
-        html: if numeric { symbols(&minus(&cell.text)) } else { symbols(&cell.text) },
-        numeric,
-        mark: cell.mark.class(),
-        symbol: cell.mark.symbol(),
-        href: cell.to.as_deref().map(href),
-        note: symbols(&cell.note),
-        links: link_views(&cell.links),
+impl Table {
+    fn has_headings(&self) -> bool {
+        self.printed_columns().iter().any(|(_, heading, _)| !heading.is_empty())
+    }
+}
+
+impl OnPhone {
+    fn class(self) -> &'static str {
+        match self {
+            Self::Scroll => "",
+            Self::Stack => " stack",
+            Self::StackLabelled => " stack labelled",
+        }
     }
 }
 

@@ -1,13 +1,12 @@
-//! Indices in the result file.
+//! Indices in the result file, and what a surrogate did to them.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::uncertainty::{EffectEstimates, Estimate};
+use crate::uncertainty::{EffectEstimates, Estimate, LowFidelityUse, NamedTerm};
 
 /// The indices of one factor.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[doc(hidden)]
 pub struct IndexRecord {
     /// The factor.
     pub factor: String,
@@ -18,7 +17,6 @@ pub struct IndexRecord {
 
 /// First-order and total index of one factor at a stage of a run, or over several outputs together.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[doc(hidden)]
 pub struct PlainIndexRecord {
     /// The factor.
     pub factor: String,
@@ -30,7 +28,6 @@ pub struct PlainIndexRecord {
 
 /// The indices of one group of factors.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[doc(hidden)]
 pub struct GroupRecord {
     /// The group.
     pub group: String,
@@ -43,7 +40,6 @@ pub struct GroupRecord {
 
 /// The Shapley effect of a group, or of a factor that has none, where groups share out the variance.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[doc(hidden)]
 pub struct PlayerRecord {
     /// The name of the group, or of the factor.
     pub player: String,
@@ -55,7 +51,6 @@ pub struct PlayerRecord {
 
 /// The joint indices of a subset of the factors that the study lists.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[doc(hidden)]
 pub struct SubsetRecord {
     /// Its factors.
     pub factors: Vec<String>,
@@ -66,7 +61,6 @@ pub struct SubsetRecord {
 
 /// The second-order index of two factors.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[doc(hidden)]
 pub struct PairRecord {
     /// The two factors.
     pub factors: [String; 2],
@@ -76,7 +70,6 @@ pub struct PairRecord {
 
 /// Indices by one estimator besides the default ones.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[doc(hidden)]
 pub struct EstimatorRecord {
     /// Its name in study files.
     pub estimator: String,
@@ -90,7 +83,6 @@ pub struct EstimatorRecord {
 
 /// Indices of one factor, group or subset besides the default ones, or of the mean over the noise.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[doc(hidden)]
 pub struct OtherIndexRecord {
     /// The factor, the group, or the factors of the subset joined by " + ".
     pub name: String,
@@ -98,4 +90,43 @@ pub struct OtherIndexRecord {
     pub first_order: Option<Estimate>,
     /// Total index; `null` if the estimator has none, or without the joint index with the noise (`mean_totals = true`).
     pub total: Option<Estimate>,
+}
+
+/// The noise of a stochastic model: its indices, which are of the variance of a single run, and those of the mean over it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct NoiseRecord {
+    /// The name under which the model gets its seed.
+    pub name: String,
+    /// Its indices. The total one is the part of the variance of a single run that would be left if all factors were known.
+    #[serde(flatten)]
+    pub effect: EffectEstimates,
+    /// The rest of the variance, 1 minus the total index: that of the mean over the noise.
+    pub mean_share: Estimate,
+    /// Indices of the mean over the noise, of its own variance: of each factor, group and subset without the noise.
+    pub of_mean: Vec<OtherIndexRecord>,
+}
+
+/// The surrogates of an output: polynomials fitted to the runs of all replicates but one, which correct the indices of that
+/// one.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct SurrogateRecord {
+    /// Share of the variance that they explain of runs that they were not fitted to, Q^2.
+    pub explained: f64,
+    /// Terms of each, on average.
+    pub terms: f64,
+    /// Whether the first-order indices are corrected by them.
+    pub corrects_first_order: bool,
+    /// Whether the total indices are.
+    pub corrects_total: bool,
+    /// Variance of the plain first-order indices over that of the corrected ones; `null` if one is unknown.
+    pub gain_first_order: Option<f64>,
+    /// The same of the total indices.
+    pub gain_total: Option<f64>,
+    /// The terms that carry most of the variance.
+    pub leading_terms: Vec<NamedTerm>,
+    /// The plain indices of everything that has indices: factors, groups, subsets, dummy.
+    pub plain: Vec<OtherIndexRecord>,
+    /// The cheaper model that stands in beside them, if there is one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub low: Option<LowFidelityUse>,
 }

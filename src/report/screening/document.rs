@@ -1,11 +1,12 @@
 //! A screening as a document.
 
 use super::charts::leader;
-use super::{ScreeningFile, screening_charts, screening_json};
+use super::{ScreeningFile, screening_charts};
 use crate::report::csv::Field;
 use crate::report::document::{Cell, Column, DataFile, Document, Figure, Mark, Part, Section, Table, Value};
 use crate::report::format::{grouped, heading, index, name, short, words};
 use crate::report::leading::first_answers;
+use crate::report::records::json;
 use crate::report::study_sections::{failures, inputs, study_section, validity_section};
 use crate::report::{capitalised, listed, validity};
 use crate::screening::{FIXABLE, ScreenedFactor, ScreenedOutput};
@@ -46,7 +47,7 @@ pub fn screening_document(file: &ScreeningFile) -> Document {
         lead,
         sections,
         footer: format!("Made by apportion {}.", file.provenance.apportion_version),
-        files: vec![DataFile::new(format!("{study}-screen.json"), screening_json(file))],
+        files: vec![DataFile::new(format!("{study}-screen.json"), json(file))],
         ..Document::default()
     }
 }

@@ -7,8 +7,3 @@ mod record;
 pub use charts::screening_charts;
 pub use document::screening_document;
 pub use record::{ScreeningFile, ScreeningProvenance, build_screening};
-
-/// The screening as JSON text, ending in a newline.
-pub fn screening_json(file: &ScreeningFile) -> String {
-    super::records::json(file)
-}

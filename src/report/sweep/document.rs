@@ -1,12 +1,13 @@
 //! Sweeps as a document.
 
 use super::charts::sweep_charts;
-use super::{SweepFile, gap_lines, sweep_json};
+use super::{SweepFile, gap_lines};
 use crate::model::MANY_OUTPUTS;
 use crate::report::csv::{Csv, fields};
 use crate::report::document::{Cell, Column, DataFile, Document, Figure, Mark, Part, Section, Table, Value};
 use crate::report::format::{axis_unit, grouped, heading, name, short, short_with_unit, value};
 use crate::report::leading::first_answers;
+use crate::report::records::json;
 use crate::report::study_sections::{study_section, validity_section};
 use crate::report::validity;
 use crate::sweep::{Against, NominalOutput, Sweep, SweepEffect};
@@ -55,7 +56,7 @@ pub fn sweep_document(file: &SweepFile) -> Document {
         sections,
         footer: format!("Made by apportion {}.", file.provenance.apportion_version),
         files: vec![
-            DataFile::new(format!("{study}-sweep.json"), sweep_json(file)),
+            DataFile::new(format!("{study}-sweep.json"), json(file)),
             DataFile::new(format!("{study}-sweep.csv"), sweep_csv(file)),
         ],
         ..Document::default()

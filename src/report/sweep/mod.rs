@@ -10,11 +10,6 @@ pub use record::{SweepFile, SweepProvenance, build_sweep};
 
 use crate::sweep::Sweep;
 
-/// The sweeps as JSON text, ending in a newline.
-pub fn sweep_json(file: &SweepFile) -> String {
-    super::records::json(file)
-}
-
 /// For each output and reason: at how many points of the sweep it has no value, over all curves.
 fn gap_lines(sweep: &Sweep) -> Vec<String> {
     let mut counts: Vec<(&str, &str, usize)> = Vec::new();

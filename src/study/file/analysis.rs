@@ -1,17 +1,13 @@
 //! The tables `[design]` and `[analysis]`: choices by name, whose rules are those of every study.
 
-use super::context::{Context, Fault, choice, unknown_name, wrong};
+use super::context::{Context, Fault, choice, choice_if_said, unknown_name, wrong};
 use super::error::Problem;
 use super::sections::{At, NameList, StudyFile};
 use crate::design::Sampler;
-use crate::estimate::{Estimator, ShapleyMethod, ShapleyPlayers};
-use crate::given::Measure;
 use crate::quantity::{Dimension, Quantity};
-use crate::run::FailurePolicy;
 use crate::space::Space;
 use crate::study::builder::StudyBuilder;
-use crate::study::{AnalysisOptions, SurrogateChoice, Target};
-use crate::uncertainty::IntervalMethod;
+use crate::study::{AnalysisOptions, Target};
 
 /// `builder` with what the tables say.
 pub(super) fn settled(
@@ -22,9 +18,7 @@ pub(super) fn settled(
 ) -> Result<StudyBuilder, Fault> {
     let section = &file.design;
     let number = |value: &Option<At<u64>>| value.as_ref().map(|value| *value.get_ref());
-    if let Some(name) = &section.sampler {
-        builder.sampler = choice(context, name, "sampler", &Sampler::ALL, Sampler::name)?;
-    }
+    builder.sampler = choice_if_said(context, &section.sampler, "sampler")?.unwrap_or(builder.sampler);
     builder.length.base_samples = number(&section.base_samples);
     builder.length.runs = number(&section.runs);
     builder.length.target = Target {
@@ -40,52 +34,42 @@ pub(super) fn settled(
 
 fn options(context: &Context<'_>, file: &StudyFile, sampler: Sampler, space: &Space) -> Result<AnalysisOptions, Fault> {
     let section = &file.analysis;
-    let set = |to: &mut bool, typed: &Option<At<bool>>| *to = typed.as_ref().map_or(*to, |value| *value.get_ref());
-    let share = |to: &mut f64, typed: &Option<At<f64>>| *to = typed.as_ref().map_or(*to, |value| *value.get_ref());
+    fn set<T: Copy>(to: &mut T, typed: &Option<At<T>>) {
+        *to = typed.as_ref().map_or(*to, |value| *value.get_ref());
+    }
     let mut options = AnalysisOptions::for_sampler(sampler);
     set(&mut options.second_order, &section.second_order);
     set(&mut options.aggregate, &section.aggregate);
     set(&mut options.dummy, &section.dummy);
     set(&mut options.convergence, &section.convergence);
-    share(&mut options.threshold, &section.threshold);
-    share(&mut options.max_failed, &section.max_failed);
-    if let Some(name) = &section.intervals {
-        options.intervals = choice(context, name, "kind of interval", &IntervalMethod::ALL, IntervalMethod::name)?;
-    }
-    if let Some(name) = &section.surrogate {
-        options.surrogate = choice(context, name, "choice of surrogate", &SurrogateChoice::ALL, SurrogateChoice::name)?;
-    }
-    if let Some(name) = &section.failures {
-        options.failures = choice(context, name, "failure policy", &FailurePolicy::ALL, FailurePolicy::name)?;
-    }
+    set(&mut options.threshold, &section.threshold);
+    set(&mut options.max_failed, &section.max_failed);
+    options.intervals = choice_if_said(context, &section.intervals, "kind of interval")?.unwrap_or(options.intervals);
+    options.surrogate =
+        choice_if_said(context, &section.surrogate, "choice of surrogate")?.unwrap_or(options.surrogate);
+    options.failures = choice_if_said(context, &section.failures, "failure policy")?.unwrap_or(options.failures);
     if let Some(resamples) = &section.resamples {
         options.resamples = usize::try_from(*resamples.get_ref()).unwrap_or(usize::MAX);
     }
     let names = |list: &Option<NameList>| list.iter().flat_map(|list| list.get_ref().clone()).collect::<Vec<_>>();
     for name in names(&section.estimators) {
-        options.estimators.push(choice(context, &name, "estimator", &Estimator::ALL, Estimator::name)?);
+        options.estimators.push(choice(context, &name, "estimator")?);
     }
     for name in names(&section.measures) {
-        options.measures.push(choice(context, &name, "measure", &Measure::ALL, Measure::name)?);
+        options.measures.push(choice(context, &name, "measure")?);
     }
     for list in section.subsets.iter().flat_map(|lists| lists.get_ref()) {
         options.subsets.push(list.get_ref().iter().map(|name| place(context, name, space)).collect::<Result<_, _>>()?);
     }
     options.subsets.extend(super::noise::subsets_of_mean(file, space));
     options.shapley = section.shapley.as_ref().map(|asked| *asked.get_ref());
-    if let Some(name) = &section.shapley_method {
-        let what = "method for Shapley effects";
-        options.shapley_method = Some(choice(context, name, what, &ShapleyMethod::ALL, ShapleyMethod::name)?);
-    }
-    if let Some(name) = &section.shapley_players {
-        let what = "kind of players";
-        options.shapley_players = Some(choice(context, name, what, &ShapleyPlayers::ALL, ShapleyPlayers::name)?);
-    }
+    options.shapley_method = choice_if_said(context, &section.shapley_method, "method for Shapley effects")?;
+    options.shapley_players = choice_if_said(context, &section.shapley_players, "kind of players")?;
     Ok(options)
 }
 
 /// The place of a factor that is named.
-fn place(context: &Context<'_>, name: &At<String>, space: &Space) -> Result<usize, Fault> {
+pub(super) fn place(context: &Context<'_>, name: &At<String>, space: &Space) -> Result<usize, Fault> {
     let known = || space.factors().iter().map(|factor| factor.name.as_str());
     known()
         .position(|factor| factor == name.get_ref())

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use toml::Value;
 
-use super::context::{Context, Fault, chosen, number, unknown_key, wrong};
+use super::context::{Context, Fault, number, unknown_key, unknown_name, wrong};
 use super::error::Problem;
 use super::key_schemas::afm_choices;
 use super::sections::At;
@@ -135,7 +135,10 @@ fn choice<T: Copy>(
     name: fn(T) -> &'static str,
 ) -> Result<T, Fault> {
     let typed = value.get_ref();
-    let of_text = |text| chosen(text, what, all, name);
+    let of_text = |text: &str| {
+        let found = all.iter().copied().find(|&choice| name(choice) == text);
+        found.ok_or_else(|| unknown_name(what, text, all.iter().map(|&choice| name(choice))))
+    };
     let no_text = || {
         let names: Vec<String> = all.iter().map(|&variant| format!("{:?}", name(variant))).collect();
         Err(wrong(key, &format!("one of {}", names.join(", ")), typed.type_str().to_owned()))

@@ -7,6 +7,7 @@ use toml::Value;
 
 use super::at::At;
 use super::error::{Diagnostic, Problem, meant};
+use crate::names::Named;
 use crate::study::did_you_mean;
 
 /// A diagnostic on its way up.
@@ -44,25 +45,20 @@ pub(super) fn unknown_key<'a>(name: &str, known: impl Iterator<Item = &'a str> +
     Problem::with_help(format!("unknown key `{name}`{hint}"), help)
 }
 
-pub(super) fn choice<T: Copy>(
-    context: &Context<'_>,
-    typed: &At<String>,
-    what: &'static str,
-    all: &[T],
-    name: fn(T) -> &'static str,
-) -> Result<T, Fault> {
-    chosen(typed.get_ref(), what, all, name).map_err(|problem| context.fault(typed.span(), problem))
+/// The choice that a text names, which is a `what`.
+pub(super) fn choice<T: Named>(context: &Context<'_>, typed: &At<String>, what: &'static str) -> Result<T, Fault> {
+    let found = T::CHOICES.iter().find(|(name, _)| name == typed.get_ref());
+    let unknown = || unknown_name(what, typed.get_ref(), T::CHOICES.iter().map(|(name, _)| *name));
+    found.map(|(_, choice)| *choice).ok_or_else(|| context.fault(typed.span(), unknown()))
 }
 
-/// The one of `all` that is called `text`.
-pub(super) fn chosen<T: Copy>(
-    text: &str,
+/// The choice of a key that may be left out.
+pub(super) fn choice_if_said<T: Named>(
+    context: &Context<'_>,
+    typed: &Option<At<String>>,
     what: &'static str,
-    all: &[T],
-    name: fn(T) -> &'static str,
-) -> Result<T, Problem> {
-    let found = all.iter().copied().find(|&choice| name(choice) == text);
-    found.ok_or_else(|| unknown_name(what, text, all.iter().map(|&choice| name(choice))))
+) -> Result<Option<T>, Fault> {
+    typed.as_ref().map(|typed| choice(context, typed, what)).transpose()
 }
 
 /// A number of TOML, whole or not.

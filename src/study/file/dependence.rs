@@ -1,6 +1,7 @@
 //! The tables `[[dependence]]`: factors that depend on each other.
 
-use super::context::{Context, Fault, choice, unknown_name, wrong};
+use super::analysis::place;
+use super::context::{Context, Fault, choice, wrong};
 use super::measured;
 use super::sections::{At, Correlation, DependenceSection, NameList, StudyFile};
 use crate::space::{CorrelationMeasure, Dependence, Space};
@@ -22,9 +23,7 @@ fn dependence(context: &Context<'_>, section: &At<DependenceSection>, space: &Sp
                 "nothing beside joint measurements, whose correlations are those of the normal scores of their ranks";
             return Err(context.fault(measure.span(), wrong("measure", expected, text(measure))));
         }
-        Some(name) => {
-            choice(context, name, "measure of correlation", &CorrelationMeasure::ALL, CorrelationMeasure::name)?
-        }
+        Some(name) => choice(context, name, "measure of correlation")?,
     };
     match (correlation, measured) {
         (Some(correlation), None) => {
@@ -83,10 +82,6 @@ fn measured_columns(context: &Context<'_>, section: &DependenceSection) -> Resul
 const FEWEST_MEASUREMENTS: usize = 4;
 
 fn factor_names<'a>(context: &Context<'_>, names: &'a NameList, space: &Space) -> Result<Vec<&'a str>, Fault> {
-    let known = || space.factors().iter().map(|factor| factor.name.as_str());
-    let name = |name: &'a At<String>| match known().any(|factor| factor == name.get_ref()) {
-        true => Ok(name.get_ref().as_str()),
-        false => Err(context.fault(name.span(), unknown_name("factor", name.get_ref(), known()))),
-    };
+    let name = |name: &'a At<String>| place(context, name, space).map(|_| name.get_ref().as_str());
     names.get_ref().iter().map(name).collect()
 }

@@ -38,7 +38,7 @@ pub(super) fn repeated(
     if file.fidelity.is_some() {
         return refused("1 beside [fidelity]", repetitions.to_string());
     }
-    Ok(Arc::new(RepeatedSubject::new(subject, seed, repetitions as usize)))
+    Ok(Arc::new(RepeatedSubject { subject, seed, repetitions: repetitions as usize }))
 }
 
 /// The sets of each factor and the noise, which total indices of the mean over the noise follow from, if the study asks for

@@ -276,17 +276,6 @@ mod tests {
     }
 
     #[test]
-    fn unknown_and_repeated_names_are_refused() {
-        let with = |factors: &[&str], outputs: &[&str]| {
-            let owned = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect();
-            template(&TemplateRequest { factors: owned(factors), outputs: owned(outputs), ..request(ModelKind::AFM) })
-        };
-        assert!(matches!(with(&["lenght"], &[]), Err(Problem::UnknownName { what: "factor", .. })));
-        assert!(matches!(with(&["length", "length"], &[]), Err(Problem::Repeated { what: "factor", .. })));
-        assert!(matches!(with(&[], &["force"]), Err(Problem::UnknownName { what: "output", .. })));
-    }
-
-    #[test]
     fn names_are_written_as_toml_has_them() {
         for model in [ModelKind::EXPRESSION, ModelKind::COMMAND, ModelKind::EXTERNAL] {
             let outputs = ["y 1", "\"y\"", "\u{3bc}"].map(str::to_owned).to_vec();

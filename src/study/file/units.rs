@@ -2,12 +2,11 @@
 
 use toml::Value;
 
-use super::context::wrong;
-use super::context::{Context, Fault};
+use super::context::{Context, Fault, wrong};
 use super::error::Problem;
 use super::sections::{At, FactorSection};
 use crate::model::Input;
-use crate::quantity::Unit;
+use crate::quantity::{Domain, Unit};
 
 /// The inputs of a model that has no others than the factors of the study, each in its own unit.
 pub(super) fn own_inputs(context: &Context<'_>, factors: &[At<FactorSection>]) -> Result<Vec<Input>, Fault> {
@@ -83,11 +82,8 @@ pub(super) fn output_unit(context: &Context<'_>, value: &At<Value>, text: &str) 
 }
 
 /// A domain for people who may be thinking in degrees.
-pub(super) fn in_words_of_units(domain: crate::quantity::Domain) -> String {
-    match domain {
-        crate::quantity::Domain::AcuteAngle => "in [0, 90 deg]".to_owned(),
-        other => other.to_string(),
-    }
+pub(super) fn in_words_of_units(domain: Domain) -> String {
+    if domain == Domain::AcuteAngle { "in [0, 90 deg]".to_owned() } else { domain.to_string() }
 }
 
 /// `value` as typed, with its unit if it has one.

@@ -1,6 +1,6 @@
 use super::*;
 use crate::report::chart::{Axis, Chart, Colour, Panel, Point, Series, Shape};
-use crate::report::document::Column;
+use crate::report::document::{Cell, Column};
 
 fn scatter(title: &str) -> Chart {
     let point = Point { x: 1.0, y: 2.0, label: "a point".to_owned() };

@@ -14,7 +14,7 @@ pub(super) use file::{CommandKey, CommandSection};
 use super::analysis::seconds;
 use super::at::ListOrTable;
 use super::context::{Context, Fault};
-use super::context::{choice, wrong};
+use super::context::{choice_if_said, wrong};
 use super::error::Problem;
 use super::outputs::{outputs_as_settings, own_outputs};
 use super::paths::{Reach, folder, refuse_outside_of_run, resolve};
@@ -153,8 +153,7 @@ fn protocol(
     if let Some((key, span)) = spans.into_iter().find_map(|(key, span)| Some((key, span?))) {
         return Err(context.fault(span, wrong(key, RUNS, "without one".to_owned())));
     }
-    let Some(name) = &section.protocol else { return Ok(Protocol::Csv) };
-    choice(context, name, "protocol", &Protocol::ALL, Protocol::name)
+    Ok(choice_if_said(context, &section.protocol, "protocol")?.unwrap_or(Protocol::Csv))
 }
 
 /// Rows have numbers always: studies that say so are right.
