@@ -77,7 +77,7 @@ pub fn output_columns(
 /// The first column that is an output, of a file without names of columns.
 ///
 /// # Errors
-/// [`TableError::WrongWidth`] if it holds neither the outputs alone nor the factors before them.
+/// [`TableError`] if it holds neither the outputs alone nor the factors before them.
 pub fn first_output(width: usize, factors: usize, outputs: usize) -> Result<usize, TableError> {
     match width.checked_sub(outputs) {
         Some(before) if outputs > 0 && (before == 0 || before == factors) => Ok(before),
