@@ -114,11 +114,17 @@ impl Net {
         }
     }
 
-    /// Rows (run, base point) at equal distances in the order of the runs, at most `most` of them.
+    /// Rows (run, base point) in the order of the runs, at most `most` of them: one in each of as many equal stretches, somewhere in
+    /// it. At equal distances near a power of two the points of a net are no net, and hardly have a rare level.
     pub fn spaced_rows(&self, most: usize) -> Vec<(usize, usize)> {
         let all = self.points * self.runs();
         let count = all.min(most);
-        let row = |k: usize| if count > 1 { k * (all - 1) / (count - 1) } else { 0 };
+        let row = |k: usize| {
+            let (first, next) = (k * all / count, (k + 1) * all / count);
+            // The fractional part of a multiple of the golden ratio, in 32 bits.
+            let within = (k as u32).wrapping_mul(0x9e37_79b9);
+            first + ((next - first) * (within >> 16) as usize >> 16)
+        };
         (0..count).map(row).map(|row| (row / self.points, row % self.points)).collect()
     }
 
