@@ -123,7 +123,7 @@ impl Net {
             let (first, next) = (k * all / count, (k + 1) * all / count);
             // The fractional part of a multiple of the golden ratio, in 32 bits.
             let within = (k as u32).wrapping_mul(0x9e37_79b9);
-            first + ((next - first) * (within >> 16) as usize >> 16)
+            first + (((next - first) * (within >> 16) as usize) >> 16)
         };
         (0..count).map(row).map(|row| (row / self.points, row % self.points)).collect()
     }
