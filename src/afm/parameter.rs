@@ -1,4 +1,4 @@
-//! The fields of a [`Scene`] by name, for whoever sets them so, and the check that each lies in its domain.
+//! The fields of a [`Scene`] by name, and the check that each lies in its domain.
 
 use super::{Failure, Scene};
 use crate::quantity::Domain;

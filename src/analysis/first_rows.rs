@@ -12,8 +12,8 @@ pub(crate) struct FirstRows {
 }
 
 impl FirstRows {
-    /// Those of at most `most` base points over all replicates, but one of each.
-    pub fn of(design: &Design, most: u64) -> Self {
+    /// Those of at most `most` base points over all replicates, and of at least one in each.
+    pub fn new(design: &Design, most: u64) -> Self {
         let replicates = design.settings().replicates;
         let points = (most.min(SAMPLE) / replicates).max(1).min(design.points_per_replicate()) as usize;
         let rows = |replicate: u64| design.first_points(replicate, points);

@@ -35,7 +35,7 @@ pub(super) struct MeasuredRows {
 
 impl MeasuredRows {
     pub fn of(design: &Design, space: &Space) -> Self {
-        let rows = FirstRows::of(design, MOST_ROWS_OF_MEASURES / 2);
+        let rows = FirstRows::new(design, MOST_ROWS_OF_MEASURES / 2);
         let known = space.factors().iter().enumerate().filter(|(_, factor)| !factor.distribution().is_noise());
         let column = |(number, factor): (usize, &Factor)| {
             let values = rows.coordinates(number).map(|u| factor.distribution().quantile(u));

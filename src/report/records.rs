@@ -79,14 +79,14 @@ impl StudyRecord {
 
 /// The validity flags with the number of the `runs` that have raised each.
 pub(super) fn validity<'a>(raised: impl Iterator<Item = (&'a Flag, u64)>, runs: u64) -> Vec<ValidityRecord> {
-    let told = raised.filter(|(flag, runs)| !flag.warns || *runs > 0);
+    let reported = raised.filter(|(flag, runs)| !flag.warns || *runs > 0);
     let record = |(flag, raised): (&Flag, u64)| ValidityRecord {
         flag: flag.name.to_string(),
         description: flag.description.to_string(),
         runs: raised,
         share: raised as f64 / runs.max(1) as f64,
     };
-    told.map(record).collect()
+    reported.map(record).collect()
 }
 
 /// JSON text of plain data, ending in a newline; a number that is not finite is null.

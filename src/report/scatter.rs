@@ -26,7 +26,7 @@ const QUANTILE: f64 = 1.96;
 
 /// The rows that scatters are made from: fewer for many factors, to stay quick.
 pub(super) fn rows_of_scatter(design: &Design) -> FirstRows {
-    FirstRows::of(design, (NUMBERS / design.columns().max(1) as u64).clamp(FEWEST, MOST))
+    FirstRows::new(design, (NUMBERS / design.columns().max(1) as u64).clamp(FEWEST, MOST))
 }
 
 /// The record of `output` for the factors with the largest of `indices`; `rows` are the first of its design. `None` where a

@@ -118,3 +118,33 @@ fn an_accuracy_goes_on_until_rare_levels_are_met() {
         }
     }
 }
+
+/// The rows of a net at equal distances near a power of two hardly have a rare level: half of such runs lost their surrogates.
+#[test]
+fn many_rows_know_rare_levels_no_less_than_few() {
+    let exact = 0.03 * 0.97 / (7.0 / 144.0 + 2.0 * 0.03 * 0.97);
+    for seed in 5..9 {
+        let builder = builder(&[uniform(), uniform(), boolean(0.03), boolean(0.03)], |x| x[0] * x[1] + x[2] + x[3]);
+        let options = AnalysisOptions { convergence: false, ..options(SurrogateChoice::Auto) };
+        let study = builder.seed(seed).base_samples(4096).analysis(options).build().unwrap();
+        let analysis = study.runner().run().unwrap();
+        let indices = analysis.outputs[0].indices.as_ref().unwrap();
+        assert!((indices.factors[2].total.estimate - exact).abs() < 1e-9, "{seed}: {:?}", indices.factors[2].total);
+    }
+}
+
+#[test]
+fn a_trial_says_why_indices_are_plain() {
+    let steps = |x: &[f64]| f64::from(u8::from(x[0] + x[1] > 0.7)) + f64::from(u8::from(x[1] * x[2] > 0.2));
+    let smooth = |x: &[f64]| x[0] * x[1] + x[2];
+    for (function, is_corrected) in [(steps as fn(&[f64]) -> f64, false), (smooth, true)] {
+        let builder = Study::builder("trial", function_model("y", function));
+        let builder = (0..3).fold(builder, |builder, i| builder.factor(&format!("x{i}"), uniform()));
+        let analysis = builder.base_samples(1 << 15).build().unwrap().runner().run().unwrap();
+        let output = &analysis.outputs[0];
+        let trial = output.trial.unwrap();
+        assert_eq!(trial.gain > trial.needed, is_corrected, "{trial:?}");
+        assert_eq!(output.indices.as_ref().unwrap().surrogate.is_some(), is_corrected);
+        assert!(trial.runs >= 8192 && trial.runs < analysis.design.rows());
+    }
+}

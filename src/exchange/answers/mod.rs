@@ -60,7 +60,7 @@ pub struct Answers {
 /// missing and such rows are refused.
 pub fn read_answers(reader: &mut dyn RowReader, request: &AnswersRequest<'_>) -> Result<Answers, TableError> {
     let mut study = request.manifest.study()?;
-    let columns = Columns::of(reader, &study, request)?;
+    let columns = Columns::find(reader, &study, request)?;
     study.subject = subject(&study, &columns.outputs, request)?;
     let model = study.model();
     let store = Store::new(&study.design, model.as_ref());
