@@ -8,6 +8,9 @@ pub const MAX_PARTS: usize = 64;
 /// Most numbers that the parts of one output may hold together: with very many factors there are fewer parts.
 const MAX_NUMBERS: usize = 1 << 19;
 
+/// Outputs, series value by value, above which parts have eight points at least.
+const MANY_OUTPUTS: usize = 256;
+
 /// Moments of consecutive base points, kept as those of up to [`MAX_PARTS`] consecutive parts of equal length, a power
 /// of two; the last part may be shorter.
 ///
@@ -108,11 +111,14 @@ pub fn merged(parts: &[Moments]) -> Moments {
     }
 }
 
-/// Length of the parts in which the block number `block` (of `size` base points) is summed up: as long as the parts of
-/// the shortest run that holds the block may be. Later blocks, which only long runs reach, need no parts at all.
-pub fn part_length(block: u64, size: u64) -> u64 {
+/// Length of the parts in which the block number `block` (of `size` base points) of a model with so many outputs is summed
+/// up: as long as the parts of the shortest run that holds the block may be. Later blocks, which only long runs reach,
+/// need no parts at all. The sums of a part are as many numbers as the outputs of some fourteen base points: with
+/// many outputs, a part has eight points at least, so that sums do not need many times the memory of the outputs.
+pub fn part_length(block: u64, size: u64, outputs: usize) -> u64 {
     let points = (block + 1).next_power_of_two() * size;
-    (points / MAX_PARTS as u64 / 2).clamp(1, size)
+    let least = if outputs > MANY_OUTPUTS { 8 } else { 1 };
+    (points / MAX_PARTS as u64 / 2).clamp(least, size)
 }
 
 #[cfg(test)]
@@ -139,7 +145,7 @@ mod tests {
         let mut all = parts(0, 256, 2);
         assert_eq!((all.parts().len(), all.points()), (64, 256));
         for block in 1..40 {
-            all.append(&parts(block * 256, (block + 1) * 256, part_length(block, 256)));
+            all.append(&parts(block * 256, (block + 1) * 256, part_length(block, 256, 1)));
             let counts: Vec<u64> = all.parts().iter().map(Moments::count).collect();
             assert!((32..=64).contains(&counts.len()), "{} parts", counts.len());
             let (last, others) = counts.split_last().unwrap();

@@ -106,7 +106,7 @@ impl<'f> Fold<'f> {
         let sampled = (SAMPLE / self.job.design.settings().replicates).max(1);
         let place = BlockPlace {
             first: Place { replicate: stretch.replicate, point: points.start, run: 0 },
-            part_length: part_length(points.start / BLOCK, BLOCK),
+            part_length: part_length(points.start / BLOCK, BLOCK, self.job.model.outputs().len()),
             sampled: sampled.saturating_sub(points.start) as usize,
             keeps_outputs: self.keeps_outputs,
         };
