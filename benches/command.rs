@@ -9,7 +9,6 @@ use std::path::Path;
 use std::process::Command;
 use std::time::Instant;
 
-use apportion::report::ResultFile;
 use apportion::study::Study;
 
 /// Base samples: 2^18 x 5 rows are 1.3 million, 200,000 x 5 are one.
@@ -46,7 +45,7 @@ fn seconds_of_study(folder: &Path, program: &str, workers: &str) -> (f64, u64) {
     }
     let study = Study::parse(&text, &folder.join("study.toml"), &[]).expect("a study");
     let start = Instant::now();
-    let result = ResultFile::new(&study, &study.run().expect("the program answers"));
+    let result = study.run().expect("the program answers");
     (start.elapsed().as_secs_f64(), result.provenance.model_runs)
 }
 

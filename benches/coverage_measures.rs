@@ -198,8 +198,8 @@ fn shapley(text: &mut String, seeds: u64) {
                     }
                     let analysis = study.run().expect("a run");
                     let indices = analysis.outputs[0].indices.as_ref().expect("indices");
-                    for (factor, exact) in indices.factors.iter().zip(&case.exact).filter(|(_, exact)| **exact > 0.0) {
-                        held.add(factor.shapley.expect("an effect"), *exact);
+                    for (index, exact) in indices.iter().zip(&case.exact).filter(|(_, exact)| **exact > 0.0) {
+                        held.add(index.effect.shapley.expect("an effect"), *exact);
                     }
                 }
                 held.cell()

@@ -8,7 +8,6 @@ use std::time::Instant;
 use apportion::design::{Design, DesignSettings, Rows};
 use apportion::model::RunContext;
 use apportion::model::{Batch, Model};
-use apportion::report::ResultFile;
 use apportion::study::Study;
 
 fn study(base_samples: u64) -> Study {
@@ -34,7 +33,7 @@ fn bare_loop(model: &dyn Model, rows: u64, columns: &[Vec<f64>]) -> f64 {
 
 fn whole_study(study: &Study, threads: usize) -> f64 {
     let start = Instant::now();
-    let result = ResultFile::new(study, &study.runner().threads(threads).run().expect("threads"));
+    let result = study.runner().threads(threads).run().expect("threads");
     std::hint::black_box(result);
     start.elapsed().as_secs_f64()
 }

@@ -138,9 +138,9 @@ fn measured(pair: &Pair, seeds: u64, base_samples: u64, analysis: &str, low: Opt
         let study = Study::parse(&text, Path::new("pair.toml"), &[]).expect("a study");
         let result = study.runner().threads(1).run().expect("a result");
         let indices = result.outputs[0].indices.as_ref().expect("indices");
-        let first = indices.factors.iter().map(|effect| effect.first_order).zip(&pair.first);
+        let first = indices.iter().map(|index| index.effect.first_order).zip(&pair.first);
         let all: Vec<(Estimate, f64)> = first
-            .chain(indices.factors.iter().map(|effect| effect.total).zip(&pair.total))
+            .chain(indices.iter().map(|index| index.effect.total).zip(&pair.total))
             .map(|(estimate, truth)| (estimate, *truth))
             .collect();
         all

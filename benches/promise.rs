@@ -13,7 +13,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use apportion::model::{Batch, KnownAnswer, Model, Output, RunContext, Worker};
-use apportion::{Analysis, AnalysisOptions, Sampler, Study, SurrogateChoice, Target};
+use apportion::{AnalysisOptions, Sampler, Study, StudyResult, SurrogateChoice, Target};
 
 /// A model that says that it takes its time, so that its runs are what counts.
 struct Slow(Box<dyn Model>);
@@ -68,22 +68,21 @@ fn study(name: &str, seed: u64, way: &Way) -> Study {
     builder.seed(seed).build().expect("a study")
 }
 
-fn runs(analysis: &Analysis) -> u64 {
-    analysis.spending.as_ref().map_or(analysis.design.rows(), |spending| spending.runs)
+fn runs(result: &StudyResult) -> u64 {
+    result.spending.as_ref().map_or(result.provenance.model_runs, |spending| spending.runs)
 }
 
-fn half_width(analysis: &Analysis) -> f64 {
-    let indices = analysis.outputs[0].indices.as_ref();
-    indices.ok().and_then(|indices| indices.largest_half_width()).unwrap_or(f64::INFINITY)
+fn half_width(result: &StudyResult) -> f64 {
+    result.outputs[0].largest_half_width().unwrap_or(f64::INFINITY)
 }
 
 /// The largest error of an index.
-fn error(analysis: &Analysis, truth: &[[f64; 2]]) -> f64 {
-    let Ok(indices) = &analysis.outputs[0].indices else { return f64::INFINITY };
-    let of_factor = |(effect, [first, total]): (&apportion::EffectEstimates, &[f64; 2])| {
-        (effect.first_order.estimate - first).abs().max((effect.total.estimate - total).abs())
+fn error(result: &StudyResult, truth: &[[f64; 2]]) -> f64 {
+    let Some(indices) = &result.outputs[0].indices else { return f64::INFINITY };
+    let of_factor = |(index, [first, total]): (&apportion::result::IndexRecord, &[f64; 2])| {
+        (index.effect.first_order.estimate - first).abs().max((index.effect.total.estimate - total).abs())
     };
-    indices.factors.iter().zip(truth).map(of_factor).fold(0.0, f64::max)
+    indices.iter().zip(truth).map(of_factor).fold(0.0, f64::max)
 }
 
 fn median(mut list: Vec<f64>) -> f64 {
@@ -99,9 +98,9 @@ fn cheapest(name: &str, seed: u64, accuracy: f64) -> u64 {
         let mut base_samples = 16;
         while base_samples <= 1 << 15 && base_samples * rows < best {
             let way = if surrogate { Way::Runs(base_samples * rows) } else { Way::BaseSamples(base_samples) };
-            let analysis = study(name, seed, &way).run().expect("a result");
-            if half_width(&analysis) <= accuracy {
-                best = analysis.design.rows();
+            let result = study(name, seed, &way).run().expect("a result");
+            if half_width(&result) <= accuracy {
+                best = result.provenance.model_runs;
             }
             base_samples *= 2;
         }
@@ -119,10 +118,10 @@ fn functions(seeds: u64) -> String {
             KnownAnswer::from_name(name).expect("a function").default_function().exact().indices.expect("indices");
         let truth: Vec<[f64; 2]> = exact.first_order.iter().zip(&exact.total).map(|(s, t)| [*s, *t]).collect();
         let accuracy = 0.02;
-        let results: Vec<Analysis> =
+        let results: Vec<StudyResult> =
             (0..seeds).map(|seed| study(name, seed, &Way::Accurate(accuracy)).run().expect("a result")).collect();
-        let kept = results.iter().filter(|analysis| error(analysis, &truth) <= accuracy).count();
-        let spent: Vec<f64> = results.iter().map(|analysis| runs(analysis) as f64).collect();
+        let kept = results.iter().filter(|result| error(result, &truth) <= accuracy).count();
+        let spent: Vec<f64> = results.iter().map(|result| runs(result) as f64).collect();
         let most = spent.iter().copied().fold(0.0, f64::max);
         let few = seeds.min(10);
         let best = median((0..few).map(|seed| cheapest(name, seed, accuracy) as f64).collect());
@@ -153,25 +152,26 @@ fn motion(seeds: u64) -> String {
     for name in ["lugre-environmental", "lugre-environmental-viscous"] {
         let accuracy = 0.01;
         let finest = load(name, &["accuracy=1e-5".to_owned(), "design.seed=1000".to_owned()]).run().expect("a result");
-        let of = |analysis: &Analysis| -> Vec<[f64; 2]> {
-            let indices = analysis.outputs[0].indices.as_ref().expect("indices");
-            indices.factors.iter().map(|f| [f.first_order.estimate, f.total.estimate]).collect()
+        let of = |result: &StudyResult| -> Vec<[f64; 2]> {
+            let indices = result.outputs[0].indices.as_ref().expect("indices");
+            indices.iter().map(|i| [i.effect.first_order.estimate, i.effect.total.estimate]).collect()
         };
         let truth = of(&finest);
         let timed = |more: &[String]| {
             let study = load(name, more);
             let start = Instant::now();
-            let analysis = study.run().expect("a result");
-            (start.elapsed().as_secs_f64(), analysis)
+            let result = study.run().expect("a result");
+            (start.elapsed().as_secs_f64(), result)
         };
         let seed = |seed: u64| format!("design.seed={seed}");
-        let all: Vec<(f64, Analysis)> = (0..seeds).map(|k| timed(&[format!("accuracy={accuracy}"), seed(k)])).collect();
-        let plain: Vec<(f64, Analysis)> = (0..seeds.min(5))
+        let all: Vec<(f64, StudyResult)> =
+            (0..seeds).map(|k| timed(&[format!("accuracy={accuracy}"), seed(k)])).collect();
+        let plain: Vec<(f64, StudyResult)> = (0..seeds.min(5))
             .map(|k| timed(&[format!("accuracy={accuracy}"), "analysis.surrogate=\"off\"".to_owned(), seed(k)]))
             .collect();
-        let kept = all.iter().filter(|(_, analysis)| error(analysis, &truth) <= accuracy).count();
-        let seconds = |list: &[(f64, Analysis)]| median(list.iter().map(|(seconds, _)| *seconds).collect());
-        let count = |list: &[(f64, Analysis)]| median(list.iter().map(|(_, analysis)| runs(analysis) as f64).collect());
+        let kept = all.iter().filter(|(_, result)| error(result, &truth) <= accuracy).count();
+        let seconds = |list: &[(f64, StudyResult)]| median(list.iter().map(|(seconds, _)| *seconds).collect());
+        let count = |list: &[(f64, StudyResult)]| median(list.iter().map(|(_, result)| runs(result) as f64).collect());
         let row = format!(
             "| {name} | {accuracy} | {kept} of {seeds} | {:.3} | {:.3} | {:.1} | {} | {} |",
             seconds(&all),

@@ -10,7 +10,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use apportion::model::{Model, Output, RunContext, Worker};
-use apportion::{Analysis, AnalysisOptions, Distribution, Sampler, Study, SurrogateChoice, Target, function_model};
+use apportion::{AnalysisOptions, Distribution, Sampler, Study, StudyResult, SurrogateChoice, Target, function_model};
 use rayon::prelude::*;
 
 /// Errors below this are not silent ones.
@@ -281,7 +281,7 @@ enum Way {
     Accurate { accuracy: f64, is_program: bool },
 }
 
-fn analysis(case: &Case, seed: u64, way: Way) -> Analysis {
+fn analysis(case: &Case, seed: u64, way: Way) -> StudyResult {
     let function = Arc::clone(&case.function);
     let model = function_model("y", move |x| function(x));
     let builder = match way {
@@ -314,13 +314,13 @@ struct Score {
 }
 
 impl Score {
-    fn of(analysis: &Analysis, exact: &[[f64; 2]]) -> Self {
+    fn of(analysis: &StudyResult, exact: &[[f64; 2]]) -> Self {
         let mut score = Self { runs: 1.0, ..Self::default() };
         let output = &analysis.outputs[0];
-        let Ok(indices) = &output.indices else { return score };
+        let Some(indices) = &output.indices else { return score };
         let is_warned = !output.warnings.is_empty();
         let mut is_wrong = false;
-        for (factor, exact) in indices.factors.iter().zip(exact) {
+        for (factor, exact) in indices.iter().map(|index| index.effect).zip(exact) {
             for (estimate, exact) in [factor.first_order, factor.total].into_iter().zip(exact) {
                 let error = (estimate.estimate - exact).abs();
                 let holds = estimate.interval.is_none_or(|i| i.low - 1e-4 <= *exact && *exact <= i.high + 1e-4);
@@ -410,12 +410,12 @@ fn accuracy(seeds: u64) -> String {
                 let analysis = analysis(&case, seed, Way::Accurate { accuracy: 0.01, is_program });
                 let output = &analysis.outputs[0];
                 let error = output.indices.as_ref().map_or(f64::INFINITY, |indices| {
-                    let of = indices.factors.iter().zip(&truth);
+                    let of = indices.iter().map(|index| index.effect).zip(&truth);
                     of.map(|(f, e)| (f.first_order.estimate - e[0]).abs().max((f.total.estimate - e[1]).abs()))
                         .fold(0.0, f64::max)
                 });
-                let is_met = analysis.stopped.as_ref().is_some_and(|s| s.target_met == Some(true));
-                let runs = analysis.spending.as_ref().map_or(analysis.design.rows(), |spending| spending.runs);
+                let is_met = analysis.stopping.as_ref().is_some_and(|s| s.target_met == Some(true));
+                let runs = analysis.spending.as_ref().map_or(analysis.provenance.model_runs, |spending| spending.runs);
                 (is_met, error <= 0.01, output.warnings.is_empty(), runs)
             };
             let all: Vec<_> = (0..seeds).into_par_iter().map(of_seed).collect();

@@ -120,8 +120,8 @@ fn leads(weights: &[f64], truth: &[[f64; 2]]) -> bool {
 /// First-order and total indices of a run of `study`.
 fn of_run(study: Result<Study, apportion::BuildError>) -> Option<Vec<(f64, Option<f64>)>> {
     let analysis = study.ok()?.run().ok()?;
-    let indices = analysis.outputs[0].indices.as_ref().ok()?;
-    Some(indices.factors.iter().map(|e| (e.first_order.estimate, Some(e.total.estimate))).collect())
+    let indices = analysis.outputs[0].indices.as_ref()?;
+    Some(indices.iter().map(|i| (i.effect.first_order.estimate, Some(i.effect.total.estimate))).collect())
 }
 
 /// A table of `rows` random rows, in SI units, and its output.

@@ -16,7 +16,7 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use apportion::model::KnownAnswer;
-use apportion::{Estimate, OutputIndices, Study};
+use apportion::{Estimate, OutputResult, Study};
 use rayon::prelude::*;
 
 /// Base samples in all.
@@ -153,7 +153,7 @@ fn measured(case: &Case, size: u64, seeds: u64) -> (Row, f64, f64) {
         let study = Study::parse(&case.text, Path::new("case.toml"), &overrides).expect("a study");
         let result = study.runner().threads(1).run().expect("a result");
         // Of rare events all rows of a few may be alike.
-        result.outputs[0].indices.clone().ok()
+        result.outputs[0].indices.is_some().then(|| result.outputs[0].clone())
     };
     let base_samples = format!("design.base_samples={size}");
     let budget = format!("design.runs={}", size * (2 + case.first.len() as u64));
@@ -165,11 +165,14 @@ fn measured(case: &Case, size: u64, seeds: u64) -> (Row, f64, f64) {
             row[method][0].add(factors.clone().map(|k| (of(k)[0], case.first[k])));
             row[method][1].add(factors.map(|k| (of(k)[1], case.total[k])));
         };
-        let default = |indices: &OutputIndices, k: usize| [indices.factors[k].first_order, indices.factors[k].total];
+        let default = |output: &OutputResult, k: usize| {
+            let effect = output.indices.as_ref().expect("indices")[k].effect;
+            [effect.first_order, effect.total]
+        };
         // By the formulas of Saltelli and of Jansen.
-        let before = |indices: &OutputIndices, k: usize| {
-            let others = &indices.checks[k].others;
-            [others[0].first_order, others[1].total].map(|estimate| estimate.expect("an estimate"))
+        let before = |output: &OutputResult, k: usize| {
+            let by = |estimator: usize| &output.estimators[estimator].indices[k];
+            [by(0).first_order, by(1).total].map(|estimate| estimate.expect("an estimate"))
         };
         let mut used = (0.0, 0.0);
         if let Some(corrected) = run(seed, &[&base_samples, "analysis.surrogate=\"on\""]) {

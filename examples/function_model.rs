@@ -21,8 +21,8 @@ pub fn main() -> Result<(), Box<dyn Error>> {
         .seed(1)
         .build()?;
 
-    let analysis = study.run()?;
-    let y = analysis.output("y")?;
+    let result = study.run()?;
+    let y = result.output("y")?;
     // x3 does nothing alone, but a quarter of the variance together with x1.
     for (name, exact) in [("x1", (0.3139, 0.5576)), ("x2", (0.4424, 0.4424)), ("x3", (0.0, 0.2437))] {
         let (alone, all) = (y.factor(name)?.first_order, y.factor(name)?.total);

@@ -8,9 +8,9 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::Duration;
 
-use apportion::Analysis;
 use apportion::Distribution;
 use apportion::Study;
+use apportion::StudyResult;
 use apportion::function_model;
 use apportion::{Progress, RunError};
 
@@ -37,7 +37,7 @@ fn go_on(
     path: &Path,
     stop: &AtomicBool,
     on_progress: impl Fn(Progress) + Send + Sync,
-) -> Result<Analysis, RunError> {
+) -> Result<StudyResult, RunError> {
     study.runner().threads(2).on_progress(on_progress).stop(stop).journal(path).run()
 }
 

@@ -50,8 +50,8 @@ pub fn main() -> Result<(), Box<dyn Error>> {
     let builder = Study::builder("beam", model).base_samples(128);
     let study = factors.into_iter().fold(builder, |builder, factor| builder.with_factor(factor)).build()?;
 
-    let analysis = study.run()?;
-    for output in &analysis.outputs {
+    let result = study.run()?;
+    for output in &result.outputs {
         assert_eq!(output.runs_failed, 0, "{:?}", output.failures);
         for factor in study.space().factors() {
             let share = output.factor(&factor.name)?.share_total.ok_or("no share")?;
@@ -69,7 +69,7 @@ pub fn main() -> Result<(), Box<dyn Error>> {
         .build()?;
     let expected = check.run()?;
     for factor in ["length", "thickness", "load"] {
-        let (mine, theirs) = (analysis.output("stress")?.factor(factor)?, expected.output("stress")?.factor(factor)?);
+        let (mine, theirs) = (result.output("stress")?.factor(factor)?, expected.output("stress")?.factor(factor)?);
         assert!((mine.total.estimate - theirs.total.estimate).abs() < 1e-9);
     }
     Ok(())

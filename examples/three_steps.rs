@@ -10,7 +10,7 @@ use apportion::Study;
 use apportion::exchange::{
     AnswersRequest, Format, Manifest, MissingOutputs, ReadOptions, open_table, read_answers, sample,
 };
-use apportion::report::{ResultFile, run_document, stream_atomically, write_atomically};
+use apportion::report::{run_document, stream_atomically, write_atomically};
 
 const STUDY: &str = r#"
 title = "The force of a spring"
@@ -64,13 +64,13 @@ pub fn main() -> Result<(), Box<dyn Error>> {
     let manifest = Manifest::parse(&std::fs::read_to_string(Manifest::path_beside(&points))?)?;
     let request = AnswersRequest { manifest: &manifest, outputs: &[], units: &[], missing: MissingOutputs::Refuse };
     let answers = read_answers(open_table(&outputs, &ReadOptions::default())?.as_mut(), &request)?;
-    let analysis = answers.study.runner().store(&answers.store).run()?;
-    print!("{}", run_document(&ResultFile::new(&answers.study, &analysis)).text());
+    let result = answers.study.runner().store(&answers.store).run()?;
+    print!("{}", run_document(&result).text());
 
     // With c^2 = variance / mean^2, here 1/12 and 1/27: S_i = c_i^2 / ((1 + c_1^2) (1 + c_2^2) - 1).
-    let indices = analysis.outputs[0].indices.as_ref().map_err(|reason| *reason)?;
-    for (effect, exact) in indices.factors.iter().zip([0.675, 0.3]) {
-        assert!((effect.first_order.estimate - exact).abs() < 0.005);
+    let output = &result.outputs[0];
+    for (factor, exact) in [("stiffness", 0.675), ("extension", 0.3)] {
+        assert!((output.factor(factor)?.first_order.estimate - exact).abs() < 0.005);
     }
     Ok(())
 }

@@ -7,7 +7,7 @@ use std::f64::consts::PI;
 
 use apportion::Distribution;
 use apportion::Unit;
-use apportion::report::{ResultFile, run_document};
+use apportion::report::run_document;
 use apportion::{AnalysisOptions, Study};
 use apportion::{FunctionModel, Output, RowFailure};
 
@@ -35,9 +35,9 @@ pub fn main() -> Result<(), Box<dyn Error>> {
         .analysis(AnalysisOptions { second_order: true, ..AnalysisOptions::for_sampler(sampler) })
         .build()?;
 
-    let analysis = study.run()?;
-    print!("{}", run_document(&ResultFile::new(&study, &analysis)).text());
-    let output = &analysis.outputs[0];
+    let result = study.run()?;
+    print!("{}", run_document(&result).text());
+    let output = &result.outputs[0];
     assert!(output.runs_failed > 0 && output.failures[0].reason.contains("too stout"));
     // The force grows with the fourth power of the radius: it decides.
     assert!(output.factor("radius")?.share_total.is_some_and(|share| share > 80.0));

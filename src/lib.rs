@@ -5,7 +5,7 @@
 //! friction model? The engine knows nothing of that model and serves any other.
 //!
 //! A [`Study`] says what is asked: a [`Model`], the [`Factor`]s that vary, the points, the [`Target`].
-//! [`Study::run`] answers it with an [`Analysis`]; [`Runner`] is the same with threads, progress and a journal. The steps
+//! [`Study::run`] answers it with a [`StudyResult`]; [`Runner`] is the same with threads, progress and a journal. The steps
 //! in between, for those who take them one by one: a [`Design`] gives its points by row number, a [`Worker`] of the model
 //! evaluates them, an [`Estimator`] turns sums into indices, and an [`IntervalMethod`] says how well they are known.
 //!
@@ -45,8 +45,8 @@
 //!     unit = "um"
 //! "#;
 //! let study = Study::parse(text, "example.toml".as_ref(), &[])?;
-//! let analysis = study.run()?;
-//! let thickness = analysis.output("critical_force")?.factor("thickness")?;
+//! let result = study.run()?;
+//! let thickness = result.output("critical_force")?.factor("thickness")?;
 //! assert!(thickness.share_total.is_some_and(|percent| percent > 90.0));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -88,6 +88,7 @@ mod names;
 pub mod quantity;
 #[cfg(feature = "charts")]
 pub mod report;
+pub mod result;
 #[doc(hidden)]
 pub mod run;
 mod runner;
@@ -115,11 +116,7 @@ pub mod uncertainty;
 // The modules that are hidden are open to the program, which is a crate of its own, and promise nothing.
 pub use analysis::MOST_ROWS_OF_MEASURES;
 #[doc(hidden)]
-pub use analysis::unlikely_outputs;
-pub use analysis::{
-    Aggregate, Analysis, FailureCount, LookupError, LowRuns, NoIndices, OutputAnalysis, RareLevel, RunMeasures,
-    SeriesAnalysis, Spending, StopReason, Stopped, SurrogateTrial, Warning,
-};
+pub use analysis::{inputs_in_words, study_setup, unlikely_outputs};
 pub use design::{Design, DesignError, DesignSettings, Rows, Sampler, SobolSequence};
 pub use estimate::{CentralMoments, Estimator, FirstOrder, Scaling, ShapleyMethod, ShapleyPlayers, Total, Undefined};
 pub use model::{
@@ -130,13 +127,11 @@ pub use model::{
 #[cfg(feature = "study")]
 pub use model::{CommandModel, CommandOutput, CommandSettings, Form, PerRun, Program, Protocol};
 pub use quantity::{Domain, Quantity, Unit, UnitError, Unlikely};
+pub use result::{LookupError, OutputResult, StudyResult, Warning};
 pub use run::{FailurePolicy, Progress, RemoteWorkers, Requests, RunError, Shard, ShardError};
 pub use runner::{Resume, Runner, WorkerStudy};
 pub use space::{CorrelationMeasure, Dependence, DependenceError, Distribution, DistributionError, Factor, Space};
 pub use study::{AnalysisOptions, BuildError, Study, StudyBuilder, SurrogateChoice, Target};
 #[cfg(feature = "study")]
 pub use study::{Diagnostic, StudyError};
-pub use uncertainty::{
-    AggregateIndices, DependentEstimates, EffectEstimates, Estimate, Interval, IntervalMethod, MeanEstimates,
-    NoiseIndices, OutputIndices, Stage,
-};
+pub use uncertainty::{DependentEstimates, EffectEstimates, Estimate, Interval, IntervalMethod};

@@ -5,7 +5,8 @@ use std::sync::atomic::AtomicBool;
 
 use apportion::model::ModelKind;
 use apportion::report::document::{DataFile, Document, Link, Part, Section, symbols};
-use apportion::report::{ResultFile, TRY, one_output, run_document};
+use apportion::report::{TRY, one_output, run_document};
+use apportion::result::StudyResult;
 use apportion::run::RunError;
 use apportion::study::{Study, StudyError, edited};
 use askama::Template;
@@ -99,8 +100,8 @@ struct SectionView<'a> {
 pub fn live_page(study: &Study, threads: usize, stop: &AtomicBool) -> Result<String, LiveError> {
     let text = own_text(study)?;
     let study = Study::parse(&text, Path::new(&format!("{}.toml", study.name())), &[])?;
-    let analysis = study.runner().threads(threads).stop(stop).run()?;
-    page(&study, &text, &ResultFile::new(&study, &analysis))
+    let result = study.runner().threads(threads).stop(stop).run()?;
+    page(&study, &text, &result)
 }
 
 /// The page of the study in `result`, with this result to begin with; `None` if a page cannot run the study. No file that the study
@@ -108,7 +109,7 @@ pub fn live_page(study: &Study, threads: usize, stop: &AtomicBool) -> Result<Str
 ///
 /// # Errors
 /// [`LiveError`] if a part of the page cannot be drawn.
-pub fn page_of_result(document: &Document, result: &ResultFile) -> Result<Option<String>, LiveError> {
+pub fn page_of_result(document: &Document, result: &StudyResult) -> Result<Option<String>, LiveError> {
     if document.sections.iter().all(|section| section.id != TRY) {
         return Ok(None);
     }
@@ -173,7 +174,7 @@ fn without_target(text: &str) -> Option<String> {
     Some(document.to_string())
 }
 
-fn page(study: &Study, text: &str, result: &ResultFile) -> Result<String, LiveError> {
+fn page(study: &Study, text: &str, result: &StudyResult) -> Result<String, LiveError> {
     // One output at a time.
     let result = one_output(result, None);
     let document = run_document(&result);

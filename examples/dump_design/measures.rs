@@ -91,8 +91,8 @@ fn shapley(folder: &Path) -> anyhow::Result<Value> {
     let rows = rows(&study, (0..512).flat_map(of_point));
     write(folder, "shapley", &rows)?;
     let analysis = study.run()?;
-    let indices = analysis.output("y")?.indices.as_ref().map_err(|none| anyhow::anyhow!("{none:?}"))?;
-    let effects: Vec<Option<f64>> = indices.factors.iter().map(|f| f.shapley.map(|effect| effect.estimate)).collect();
+    let indices = analysis.output("y")?.indices.iter().flatten();
+    let effects: Vec<Option<f64>> = indices.map(|index| index.effect.shapley.map(|effect| effect.estimate)).collect();
     Ok(json!(effects))
 }
 

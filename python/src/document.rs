@@ -4,7 +4,8 @@ use std::borrow::Cow;
 use std::path::PathBuf;
 
 use apportion::report::document::Part;
-use apportion::report::{Artefacts, ChartFormat, parse_result, run_document};
+use apportion::report::{Artefacts, ChartFormat, run_document};
+use apportion::result::parse_result;
 use pyo3::prelude::*;
 
 use crate::errors::{failed, input};

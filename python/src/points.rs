@@ -91,20 +91,21 @@ pub fn salib_indices(
         let problem = problem.map_err(|error| error.to_string())?;
         let made = salib_study("salib", &problem, &outputs, layout, (resamples, seed));
         let (study, store) = made.map_err(|error| error.to_string())?;
-        let analysis = study.runner().store(&store).run().map_err(|error| error.to_string())?;
-        Ok((analysis, study.layout().pair_list(), unlikely))
+        let result = study.runner().store(&store).run().map_err(|error| error.to_string())?;
+        Ok((result, study.layout().pair_list(), unlikely))
     };
-    let (mut analysis, pairs, unlikely) = watched(py, work)?.map_err(input)?;
-    let output = analysis.outputs.remove(0);
-    let found = output.indices.map_err(|reason| input(reason.to_string()))?;
+    let (mut result, pairs, unlikely) = watched(py, work)?.map_err(input)?;
+    let output = result.outputs.remove(0);
+    let Some(indices) = output.indices else { return Err(input(output.reason.unwrap_or_default())) };
     let triple = |of: apportion::Estimate| {
         let interval = of.interval.map_or((f64::NAN, f64::NAN), |interval| (interval.low, interval.high));
         (of.estimate, interval.0, interval.1)
     };
-    let pairs = pairs.into_iter().zip(found.second_order).map(|((j, k), index)| (j, k, triple(index)));
+    let second_order = output.second_order.unwrap_or_default();
+    let pairs = pairs.into_iter().zip(second_order).map(|((j, k), pair)| (j, k, triple(pair.index)));
     Ok((
-        found.factors.iter().map(|factor| triple(factor.first_order)).collect(),
-        found.factors.iter().map(|factor| triple(factor.total)).collect(),
+        indices.iter().map(|index| triple(index.effect.first_order)).collect(),
+        indices.iter().map(|index| triple(index.effect.total)).collect(),
         pairs.collect(),
         unlikely.into_iter().chain(output.warnings.iter().map(ToString::to_string)).collect(),
     ))

@@ -5,13 +5,14 @@ use std::sync::mpsc::channel;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use apportion::given::Column;
+use apportion::report::run_document;
 use apportion::report::screening::{build_screening, screening_document};
 use apportion::report::sweep::{build_sweep, sweep_document};
-use apportion::report::{ResultFile, RunFacts, run_document};
+use apportion::result::{RunFacts, StudyResult};
 use apportion::run::{Piece, Store, threads_in_force};
 use apportion::screening::{ScreeningDesign, ScreeningJob, ScreeningSettings, screen_in};
 use apportion::sweep::{FactorValues, SweepRequest, find, sweep_in};
-use apportion::{Analysis, Batch, Distribution, Resume, RowFailure, RunContext, Runner};
+use apportion::{Batch, Distribution, Resume, RowFailure, RunContext, Runner};
 use numpy::{PyArray2, PyArrayMethods, PyReadonlyArray2};
 use pyo3::exceptions::PyMemoryError;
 use pyo3::prelude::*;
@@ -207,8 +208,8 @@ impl Study {
             if let Some(journal) = &journal {
                 runner = runner.journal(journal);
             }
-            let analysis = runner.run().map_err(|error| run_error(&error))?;
-            Ok(document(study, &analysis))
+            let result = runner.run().map_err(|error| run_error(&error))?;
+            Ok(document(&result))
         })
     }
 
@@ -248,8 +249,8 @@ impl Study {
             store.insert(&Piece::from_batches(replicate, 0, std::slice::from_ref(&batch)));
         }
         py.detach(|| {
-            let analysis = study.runner().store(&store).run().map_err(|error| run_error(&error))?;
-            Ok(document(study, &analysis))
+            let result = study.runner().store(&store).run().map_err(|error| run_error(&error))?;
+            Ok(document(&result))
         })
     }
 
@@ -371,6 +372,6 @@ impl Study {
     }
 }
 
-fn document(study: &apportion::Study, analysis: &Analysis) -> Document {
-    Document::new(run_document(&ResultFile::new(study, analysis)))
+fn document(result: &StudyResult) -> Document {
+    Document::new(run_document(result))
 }

@@ -79,3 +79,17 @@ pub fn row_inputs(study: &Study, design: &Design, place: Place) -> Vec<f64> {
     design.point(place.row(design), &mut u);
     study.space.values_at(&u)
 }
+
+/// The inputs of a row of `study` in words, such as `length = 300 um, velocity = 0 nm/s`; `place` may lie beyond the
+/// study's own design, where a growing run has gone.
+pub fn inputs_in_words(study: &Study, place: Place) -> String {
+    let points = place.point.checked_add(1).and_then(u64::checked_next_power_of_two);
+    let longer = points.filter(|points| *points > study.design.points_per_replicate());
+    let longer = longer.and_then(|points| study.design.with_points(points).ok());
+    let values = row_inputs(study, longer.as_ref().unwrap_or(&study.design), place);
+    let words = study.space.factors().iter().zip(values).map(|(factor, value)| {
+        let unit = factor.unit().to_string();
+        if unit == "1" { format!("{} = {value}", factor.name) } else { format!("{} = {value} {unit}", factor.name) }
+    });
+    words.collect::<Vec<_>>().join(", ")
+}

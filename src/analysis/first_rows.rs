@@ -39,7 +39,6 @@ impl FirstRows {
 
     /// The points of the unit cube of at most `most` of the rows A, the first of every replicate, with their outputs; failed
     /// runs are left out.
-    #[cfg(feature = "charts")]
     pub fn first(&self, most: usize, samples: &[Vec<f64>]) -> Vec<(Vec<f64>, f64)> {
         let each = (most / self.replicates.len()).max(1);
         let of_replicate = |(columns, outputs): (&Vec<Vec<f64>>, &Vec<f64>)| {

@@ -3,26 +3,14 @@
 //! The rows A and B are draws from the distributions of the factors, as those of a table of given data are. A run keeps the outputs of
 //! the first of them, and their inputs are a function of their numbers, so that its memory does not grow with its size.
 
-use serde::{Deserialize, Serialize};
-
 use super::first_rows::FirstRows;
 use crate::design::{Design, DesignSettings, Sampler};
-use crate::given::{Column, FEWEST_ROWS, InputMeasures, Measure, measures_of_rows};
+use crate::given::{Column, FEWEST_ROWS, Measure, measures_of_rows};
+use crate::result::RunMeasures;
 use crate::space::{Factor, Space};
 
 /// Most rows, over all replicates, that other measures are taken from: the first of a run.
 pub const MOST_ROWS_OF_MEASURES: u64 = 1 << 12;
-
-/// Other measures of one output.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "study", derive(schemars::JsonSchema), schemars(rename = "MeasuresRecord"))]
-#[non_exhaustive]
-pub struct RunMeasures {
-    /// Rows A and B with a value that they were taken from: at most [`MOST_ROWS_OF_MEASURES`].
-    pub rows: usize,
-    /// The measures of every factor but a noise.
-    pub factors: Vec<InputMeasures>,
-}
 
 /// The rows that measures are taken from: the first rows A and B of every replicate, a column for each factor.
 pub(super) struct MeasuredRows {
@@ -34,7 +22,7 @@ pub(super) struct MeasuredRows {
 }
 
 impl MeasuredRows {
-    pub fn of(design: &Design, space: &Space) -> Self {
+    pub fn new(design: &Design, space: &Space) -> Self {
         let rows = FirstRows::new(design, MOST_ROWS_OF_MEASURES / 2);
         let known = space.factors().iter().enumerate().filter(|(_, factor)| !factor.distribution().is_noise());
         let column = |(number, factor): (usize, &Factor)| {

@@ -1,29 +1,28 @@
-//! The result of a run as the engine knows it: from merged sums to indices with intervals, counts and reasons.
+//! From the merged sums of a run to its result: indices with intervals, counts, reasons and warnings.
 
-mod estimate;
 mod finished_run;
 mod first_rows;
+mod indices;
 mod measures;
 mod output;
 mod rare_levels;
 mod result;
+mod scatter;
 mod series;
+mod setup;
+mod stop;
+mod surrogates;
 mod unlikely;
-mod warning;
 mod warnings;
 
-pub(crate) use estimate::{analysis, interval_options, surrogates};
+pub use finished_run::inputs_in_words;
 pub(crate) use finished_run::{FinishedRun, LowTotals, named_inputs, outputs_kept};
-pub use measures::{MOST_ROWS_OF_MEASURES, RunMeasures};
-pub use output::{FailureCount, LookupError, NoIndices, OutputAnalysis, SurrogateTrial};
-pub use rare_levels::RareLevel;
+pub use measures::MOST_ROWS_OF_MEASURES;
 pub(crate) use rare_levels::{enough_base_samples, rare_levels};
-pub use result::{Aggregate, Analysis, LowRuns, Spending, StopReason, Stopped};
-pub use series::SeriesAnalysis;
-pub use unlikely::unlikely_outputs;
-pub use warning::Warning;
+pub(crate) use result::result;
+pub use setup::study_setup;
 #[cfg(feature = "charts")]
-pub(crate) use {
-    finished_run::{names_of_swaps, row_inputs},
-    first_rows::FirstRows,
-};
+pub(crate) use setup::validity;
+pub(crate) use stop::{StopReason, Stopped};
+pub(crate) use surrogates::{interval_options, surrogates};
+pub use unlikely::unlikely_outputs;

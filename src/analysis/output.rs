@@ -1,86 +1,28 @@
-//! What a run has found about one output: its indices, or why it has none, and how to find them by name.
+//! What a run has found about one output.
 
-use serde::{Deserialize, Serialize};
-use serde_json::{Map, Value};
+use serde_json::Map;
 use thiserror::Error;
 
-use super::measures::RunMeasures;
-use super::warning::Warning;
-use crate::estimate::{CentralMoments, Undefined};
+use super::finished_run::{FinishedRun, named_inputs, outputs_kept, row_inputs};
+use super::first_rows::FirstRows;
+use super::indices::{add_indices, stage_record};
+use super::measures::MeasuredRows;
+use super::rare_levels::withdraw;
+use super::scatter::scatter_record;
+use super::surrogates::{Corrections, interval_options};
+use super::{unlikely, warnings};
+use crate::estimate::{CentralMoments, MomentParts, Undefined, merged};
+use crate::model::{Output, RowFailure};
 use crate::quantity::Unit;
-use crate::uncertainty::{EffectEstimates, Estimate, OutputIndices, Stage};
-
-/// What a run has found about one output. Values are in SI units.
-#[derive(Debug, Clone)]
-#[non_exhaustive]
-pub struct OutputAnalysis {
-    /// The output's name.
-    pub name: String,
-    /// The unit in which it is reported.
-    pub unit: Unit,
-    /// Mean over all successful rows A and B; `None` if there is none.
-    pub mean: Option<Estimate>,
-    /// Variance over the same rows.
-    pub variance: Option<Estimate>,
-    /// Runs with a value.
-    pub runs_ok: u64,
-    /// Runs without one.
-    pub runs_failed: u64,
-    /// Base points that every index rests on at least: each uses those where its own runs have a value.
-    pub base_points_used: u64,
-    /// Why runs failed.
-    pub failures: Vec<FailureCount>,
-    /// The indices, or why there are none.
-    pub indices: Result<OutputIndices, NoIndices>,
-    /// The indices as they were at each half of the runs after it, the whole last.
-    pub convergence: Vec<Stage>,
-    /// What surrogates gained in a trial, where one decided on them.
-    pub trial: Option<SurrogateTrial>,
-    /// Moments and range of all successful rows A and B.
-    pub values: CentralMoments,
-    /// Of every replicate the outputs of its first rows A and B: A, B, A, B, ...; NaN where a run failed.
-    pub samples: Vec<Vec<f64>>,
-    /// Other measures of the influence of the factors, where the study asks for some; `None` too where the output does not vary, or too
-    /// few runs have succeeded.
-    pub measures: Option<RunMeasures>,
-    /// What a careful reader should know.
-    pub warnings: Vec<Warning>,
-    /// Names of the factors and of the groups, in the order of their indices.
-    pub(super) names: [Vec<String>; 2],
-}
-
-/// A trial of surrogates on the first runs of a quick model: all runs are corrected if it gains enough.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "study", derive(schemars::JsonSchema))]
-#[non_exhaustive]
-pub struct SurrogateTrial {
-    /// Model runs in it.
-    pub runs: u64,
-    /// How many times smaller errors were with surrogates, of the first-order or the total indices, where it gains less.
-    pub gain: f64,
-    /// How many times smaller they must be.
-    pub needed: f64,
-}
-
-/// A reason for which runs failed.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "study", derive(schemars::JsonSchema), schemars(rename = "FailureRecord"))]
-#[non_exhaustive]
-pub struct FailureCount {
-    /// The reason.
-    pub reason: String,
-    /// Number of runs.
-    pub runs: u64,
-    /// Row number of the first of them in the design.
-    pub first_row: u64,
-    /// The factor values of that row, in the units of the factors; nothing at points of SALib, whose inputs are not known.
-    pub first_inputs: Map<String, Value>,
-}
+use crate::result::{DistributionRecord, FailureCount, OutputDistribution, OutputResult, Warning, Warnings};
+use crate::run::{Tally, Totals};
+use crate::uncertainty::{
+    Estimate, IntervalOptions, KeptPoints, OutputMoments, output_indices, output_moments, stages,
+};
 
 /// Why an output has no indices.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
-#[non_exhaustive]
-pub enum NoIndices {
+enum NoIndices {
     /// More runs failed than the study allows.
     #[error(
         "{percent:.3} % of the runs failed, more than max_failed = {allowed} allows: what is left would not stand for the whole",
@@ -97,68 +39,147 @@ pub enum NoIndices {
     Undefined(#[from] Undefined),
 }
 
-/// A name that a result does not have, or indices that an output does not have.
-#[derive(Debug, Clone, PartialEq, Error)]
-#[non_exhaustive]
-pub enum LookupError {
-    /// There is nothing of that name.
-    #[error("there is no {what} `{name}`; there are: {known}", known = known.join(", "))]
-    UnknownName {
-        /// What the name should be of.
-        what: &'static str,
-        /// The name.
-        name: String,
-        /// The names that there are.
-        known: Vec<String>,
-    },
-    /// The output has no indices.
-    #[error("output `{output}` has no indices: {reason}")]
-    NoIndices {
-        /// The output.
-        output: String,
-        /// Why.
-        reason: NoIndices,
-    },
+/// The first rows of the design, for what is found from values one by one.
+pub(super) struct OutputRows {
+    /// Of scatters; `None` to have neither these nor distributions.
+    pub scatter: Option<FirstRows>,
+    /// Of other measures than indices, if some are asked for.
+    pub measured: Option<MeasuredRows>,
 }
 
-impl OutputAnalysis {
-    /// The indices of the factor called `name`.
-    ///
-    /// # Errors
-    /// [`LookupError`] if there is no such factor, or if the output has no indices.
-    pub fn factor(&self, name: &str) -> Result<&EffectEstimates, LookupError> {
-        self.effect("factor", name, &self.names[0], |indices| &indices.factors)
+/// The result for output number `number`; `whole` holds the counts over all replicates.
+pub(super) fn output_result(
+    run: &FinishedRun<'_>,
+    output: &Output,
+    number: usize,
+    whole: &Totals,
+    corrected: &Corrections,
+    rows: &OutputRows,
+) -> OutputResult {
+    let (study, totals, unit) = (run.study, &whole.outputs[number], &output.unit);
+    let parts: Vec<MomentParts> = run.replicates.iter().map(|t| t.outputs[number].moments.clone()).collect();
+    let kept = outputs_kept(run.replicates, number);
+    let surrogate = corrected.whole.get(number).and_then(Option::as_ref);
+    let options = IntervalOptions { points: KeptPoints::all(run.design, &kept), surrogate, ..interval_options(study) };
+    let used = merged(&parts.iter().map(MomentParts::whole).collect::<Vec<_>>());
+    let layout = study.layout();
+    let share = totals.runs_failed as f64 / run.design.rows() as f64;
+    let mut indices = match share > study.analysis.max_failed {
+        true => Err(NoIndices::TooManyFailed { share, allowed: study.analysis.max_failed }),
+        false => output_indices(&parts, &layout, &options).map_err(NoIndices::from),
+    };
+    let is_refused = indices.as_ref().is_ok_and(|of| of.surrogate.as_ref().is_some_and(|used| used.refusal.is_some()));
+    let of_moments = IntervalOptions { surrogate: surrogate.filter(|_| !is_refused), ..options };
+    let (mean, variance) = moments_of_all_rows(&totals.values, output_moments(&parts, &of_moments), used.count());
+    let samples: Vec<Vec<f64>> = run.replicates.iter().map(|totals| totals.outputs[number].sample.clone()).collect();
+    let mut warnings = warnings::of_runs(run, totals.runs_failed, &used);
+    warnings.extend(warnings::of_flags(run.model, whole));
+    warnings.extend(corrected.rare.iter().cloned().map(Warning::RareLevel));
+    if let Ok(indices) = &mut indices {
+        withdraw(indices, &corrected.rare);
+        warnings.extend(warnings::of_digits(&totals.values));
+        warnings.extend(warnings::of_values(&totals.values));
+        warnings.extend(warnings::of_indices(study, indices));
+        warnings::without_consequences(&mut warnings);
     }
-
-    /// The indices of the group called `name`: the first-order one is closed, so it includes interactions in the group.
-    ///
-    /// # Errors
-    /// As for [`factor`](Self::factor).
-    pub fn group(&self, name: &str) -> Result<&EffectEstimates, LookupError> {
-        self.effect("group", name, &self.names[1], |indices| &indices.groups)
+    // Of a table all rows are looked at when it is read.
+    if !study.subject.is_external() {
+        warnings.extend(unlikely::of_samples(run.design, output, &samples));
     }
+    let of_stage = |points: u64| corrected.stages.get(&points).filter(|_| surrogate.is_some())?.get(number)?.as_ref();
+    let asked = indices.as_ref().ok().filter(|_| study.analysis.convergence);
+    let convergence = asked.map_or_else(Vec::new, |all| stages(&parts, &layout, &options, all, &of_stage));
+    let failure = |(failure, tally): (RowFailure, Tally)| failure_count(run, &failure, tally);
+    let is_item = run.model.series().iter().any(|series| series.places().contains(&number));
+    let squared = |x: f64| unit.span_from_si(unit.span_from_si(x));
+    let in_unit = |x: f64| unit.from_si(x);
+    let mut result = OutputResult {
+        name: output.name.to_string(),
+        unit: unit.to_string(),
+        mean: mean.map(|mean| in_unit(mean.estimate)).filter(|mean| mean.is_finite()),
+        variance: variance.map(|variance| squared(variance.estimate)).filter(|variance| variance.is_finite()),
+        mean_interval: mean.and_then(|mean| mean.interval?.map(in_unit)),
+        variance_interval: variance.and_then(|variance| variance.interval?.map(squared)),
+        runs_ok: run.design.rows() - totals.runs_failed,
+        runs_failed: totals.runs_failed,
+        base_points_used: used.fewest(),
+        failures: totals.failures.iter().map(failure).collect(),
+        measures: rows.measured.as_ref().and_then(|rows| rows.measures(&study.analysis.measures, number, &samples)),
+        surrogate_trial: corrected.trials.get(number).copied().flatten(),
+        convergence: convergence.iter().map(|stage| stage_record(study, stage, run.design.rows_per_point())).collect(),
+        reason: indices.as_ref().err().map(ToString::to_string),
+        warnings: Warnings(warnings),
+        ..OutputResult::default()
+    };
+    if let Ok(indices) = &indices {
+        add_indices(&mut result, study, indices);
+    }
+    if let Some(rows) = &rows.scatter {
+        result.distribution = distribution_record(&totals.values, &samples, unit, is_item);
+        // At points of SALib nothing is known of the inputs; a series has pictures as a whole.
+        let indices = result.indices.as_deref().filter(|_| !study.analysis.salib && !is_item);
+        result.scatter = indices.and_then(|indices| scatter_record(rows, &study.space, (unit, &samples), indices));
+    }
+    result
+}
 
-    fn effect(
-        &self,
-        what: &'static str,
-        name: &str,
-        known: &[String],
-        of: fn(&OutputIndices) -> &Vec<EffectEstimates>,
-    ) -> Result<&EffectEstimates, LookupError> {
-        let unknown = || LookupError::UnknownName { what, name: name.to_owned(), known: known.to_vec() };
-        let place = known.iter().position(|known| known == name).ok_or_else(unknown)?;
-        let indices = self.indices.as_ref();
-        let indices = indices.map_err(|&reason| LookupError::NoIndices { output: self.name.clone(), reason })?;
-        of(indices).get(place).ok_or_else(unknown)
+/// Mean and variance of all successful rows A and B. The indices rest on the `points` base points at which both rows
+/// succeeded, and so do the `moments` with their intervals; where some succeeded alone, the interval of the mean is moved to the
+/// mean of all, and that of the variance is scaled to theirs.
+fn moments_of_all_rows(
+    values: &CentralMoments,
+    moments: Option<OutputMoments>,
+    points: u64,
+) -> (Option<Estimate>, Option<Estimate>) {
+    let (Some(mean), Some(variance)) = (values.mean(), values.variance()) else { return (None, None) };
+    let Some(moments) = moments else { return (Some(Estimate::alone(mean)), Some(Estimate::alone(variance))) };
+    if values.count() == 2 * points {
+        return (Some(moments.mean), Some(moments.variance));
+    }
+    let changed = |of: Estimate, estimate: f64, change: &dyn Fn(f64) -> f64| {
+        Some(Estimate { estimate, interval: of.interval.and_then(|interval| interval.map(change)) })
+    };
+    let shift = mean - moments.mean.estimate;
+    let ratio = variance / moments.variance.estimate;
+    (changed(moments.mean, mean, &|bound| bound + shift), changed(moments.variance, variance, &|bound| bound * ratio))
+}
+
+fn failure_count(run: &FinishedRun<'_>, failure: &RowFailure, tally: Tally) -> FailureCount {
+    let inputs = || named_inputs(&run.study.space, &row_inputs(run.study, run.design, tally.first));
+    FailureCount {
+        reason: failure.to_string(),
+        runs: tally.count,
+        first_row: tally.first.row(run.design),
+        first_inputs: if run.study.analysis.salib { Map::new() } else { inputs() },
     }
 }
 
-/// Error of indices by rounding of the outputs beyond which a result warns of it.
-pub(crate) const LOST: f64 = 1e-3;
-
-/// Largest error of an index by the rounding of outputs with these moments; infinite of outputs that do not vary.
-pub(super) fn error_of_rounding(values: &CentralMoments) -> f64 {
-    let Some(((low, high), variance)) = values.range().zip(values.variance()) else { return f64::INFINITY };
-    let largest = low.abs().max(high.abs());
-    4.0 * (largest.next_up() - largest) / variance.sqrt()
+/// Moments and range from all values of the rows A and B, the rest from those that were kept. `None` without values, and
+/// where a number is beyond double precision in the unit. A value of a series has neither histogram nor density.
+fn distribution_record(
+    values: &CentralMoments,
+    samples: &[Vec<f64>],
+    unit: &Unit,
+    is_item: bool,
+) -> Option<DistributionRecord> {
+    let kept: Vec<f64> = samples.iter().flatten().copied().filter(|value| value.is_finite()).collect();
+    let mut sample = OutputDistribution::from_values(&kept, unit)?;
+    let (min, max) = values.range()?;
+    (sample.mean, sample.min, sample.max) = (unit.from_si(values.mean()?), unit.from_si(min), unit.from_si(max));
+    let n = values.count();
+    let variance = values.variance()?;
+    let sd = (variance * (n as f64 / (n as f64 - 1.0))).sqrt();
+    // Of values that vary by 1e-160 the variance is beyond double precision; that of the kept ones is scaled.
+    if variance.is_normal() || min == max {
+        sample.sd = (n > 1).then(|| unit.span_from_si(sd)).filter(|sd| sd.is_finite());
+    }
+    if is_item {
+        sample.histogram = None;
+    }
+    (sample.skewness, sample.excess_kurtosis) = (values.skewness(), values.excess_kurtosis());
+    let quantiles = sample.quantiles.iter().map(|quantile| quantile.value);
+    let edges = sample.histogram.iter().flat_map(|histogram| histogram.edges.iter().copied());
+    let all = [sample.mean, sample.min, sample.max].into_iter().chain(quantiles).chain(edges);
+    let representable = all.into_iter().all(f64::is_finite);
+    representable.then_some(DistributionRecord { values: n, sample })
 }

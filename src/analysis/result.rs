@@ -1,201 +1,148 @@
-//! What a run of a study has found: numbers with their intervals, counts and reasons, in SI units.
+//! From the totals of a run to its result.
 
-use thiserror::Error;
+use std::path::Path;
 
-use serde::{Deserialize, Serialize};
+use rayon::prelude::*;
 
-use super::output::{LookupError, OutputAnalysis};
-use super::series::SeriesAnalysis;
-use super::warning::Warning;
-use crate::design::Design;
-use crate::estimate::{Scaling, Undefined};
-use crate::model::{Counter, Flag};
-use crate::run::Repeats;
-use crate::study::SurrogateChoice;
-use crate::uncertainty::AggregateIndices;
+use super::finished_run::{FinishedRun, LowTotals};
+use super::measures::MeasuredRows;
+use super::output::{OutputRows, output_result};
+use super::scatter::rows_of_scatter;
+use super::series::{series, single_outputs, together, together_record, together_records};
+use super::setup::{factor_record, study_record, validity};
+use super::stop::Stopped;
+use super::surrogates::Corrections;
+use crate::estimate::{FirstOrder, Scaling, Total};
+use crate::model::{EVALUATIONS, LARGEST_ERROR, MANY_OUTPUTS, Model, RUNGS};
+use crate::result::{AggregateRecord, EffortRecord, LowRuns, Provenance, RungRecord, StoppingRecord, StudyResult};
+use crate::run::Totals;
+use crate::study::Study;
+use crate::uncertainty::IntervalMethod;
 
-/// The result of a run of a [`Study`](crate::study::Study).
-///
-/// ```
-/// use apportion::function_model;
-/// use apportion::Distribution;
-/// use apportion::Study;
-///
-/// let study = Study::builder("product", function_model("y", |x| x[0] * x[1]))
-///     .factor("a", Distribution::uniform(1.0, 2.0)?)
-///     .factor("b", Distribution::uniform(1.0, 5.0)?)
-///     .base_samples(1024)
-///     .build()?;
-/// let analysis = study.run()?;
-/// let total = analysis.output("y")?.factor("a")?.total;
-/// assert!(total.interval.is_some_and(|interval| interval.low < total.estimate));
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
-#[derive(Debug, Clone)]
-#[non_exhaustive]
-pub struct Analysis {
-    /// The design as it was in the end: a run that grows leaves the study's own behind.
-    pub design: Design,
-    /// The outputs in the order of the model.
-    pub outputs: Vec<OutputAnalysis>,
-    /// The validity flags of the model, and how many runs raised each.
-    pub flags: Vec<(Flag, u64)>,
-    /// What the model counted, in the order of its counters.
-    pub counts: Vec<(Counter, f64)>,
-    /// Indices over all outputs together, if the study asks for them and there are two outputs or more; or over those that
-    /// belong to no series, if they are 12 or more.
-    pub aggregate: Option<Aggregate>,
-    /// The outputs that are series, in the order of the model.
-    pub series: Vec<SeriesAnalysis>,
-    /// Why a growing run ended; `None` for one of fixed size.
-    pub stopped: Option<Stopped>,
-    /// Threads that ran the model.
-    pub threads: usize,
-    /// Seconds from the first run to the last.
-    pub wall_seconds: f64,
-    /// The cheaper models that were run beside the model.
-    pub lows: Vec<LowRuns>,
-    /// What a run that was to be accurate chose, and why; `None` for others.
-    pub spending: Option<Spending>,
+/// The result of a run; `stopped` tells why a growing one ended.
+pub(crate) fn result(run: &FinishedRun<'_>, stopped: Option<&Stopped>) -> StudyResult {
+    let FinishedRun { study, model, design, replicates, lows, .. } = *run;
+    let mut whole = Totals::none(model);
+    replicates.iter().for_each(|totals| whole.add_counts(totals));
+    let corrected = Corrections::new(run);
+    let series = series(run, &whole, &corrected.whole);
+    let wanted = &study.analysis.measures;
+    let rows = OutputRows {
+        scatter: study.analysis.pictures.then(|| rows_of_scatter(design)),
+        measured: (!wanted.is_empty()).then(|| MeasuredRows::new(design, &study.space)),
+    };
+    let outputs = model.outputs().par_iter().enumerate();
+    let factors = study.space.factors().iter().filter(|factor| !factor.distribution().is_noise());
+    StudyResult {
+        format: "apportion-result".to_owned(),
+        version: 1,
+        study: study_record(study),
+        provenance: provenance(run),
+        factors: factors.map(factor_record).collect(),
+        outputs: outputs
+            .map(|(number, output)| output_result(run, output, number, &whole, &corrected, &rows))
+            .collect(),
+        validity: validity(model.flags().iter().zip(whole.flags.iter().copied()), design.rows()),
+        effort: effort(model, &whole),
+        aggregate: aggregate(run),
+        series,
+        stopping: stopped.map(|stopped| stopping(study, stopped)),
+        spending: None,
+        lows: lows.iter().map(low_runs).collect(),
+    }
 }
 
-/// What a run that was asked for an [accuracy](crate::Target::accuracy) chose, and why.
-#[derive(Debug, Clone, PartialEq)]
-#[non_exhaustive]
-pub struct Spending {
-    /// The half width that was asked for.
-    pub accuracy: f64,
-    /// Runs of the model in all, those of trials included.
-    pub runs: u64,
-    /// Whether surrogates were fitted.
-    pub surrogate: SurrogateChoice,
-    /// Runs that the same half width would take at least without surrogates and cheaper models, by the intervals of the plain
-    /// indices of this run, if they fall in proportion to the runs: those of rough outputs fall more slowly. `None` if they
-    /// are unknown.
-    pub plain_runs: Option<u64>,
-    /// Why it was chosen, in sentences.
-    pub reasons: Vec<String>,
+fn low_runs(low: &LowTotals<'_>) -> LowRuns {
+    let runs = |replicates: &[Totals]| replicates.iter().map(|totals| totals.runs).sum();
+    LowRuns {
+        name: low.name.to_owned(),
+        shared_runs: runs(low.shared),
+        own_base_samples: low.design.settings().base_samples,
+        own_runs: runs(low.own),
+    }
 }
 
-/// The runs of a cheaper model beside those of the model.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "study", derive(schemars::JsonSchema), schemars(rename = "LowRecord"))]
-#[non_exhaustive]
-pub struct LowRuns {
-    /// Its name.
-    pub name: String,
-    /// Runs at the rows of the model.
-    pub shared_runs: u64,
-    /// Base samples of its own design.
-    pub own_base_samples: u64,
-    /// Runs of that.
-    pub own_runs: u64,
+fn stopping(study: &Study, stopped: &Stopped) -> StoppingRecord {
+    let target = study.target;
+    StoppingRecord {
+        reason: stopped.reason.to_string(),
+        target_met: stopped.target_met,
+        target_half_width: target.accuracy,
+        budget_seconds: target.max_time,
+        max_runs: target.max_runs,
+    }
 }
 
-/// Indices over several outputs together.
-#[derive(Debug, Clone)]
-#[non_exhaustive]
-pub struct Aggregate {
-    /// Their names.
-    pub outputs: Vec<String>,
-    /// How outputs are weighed against each other.
-    pub scaling: Scaling,
-    /// The indices of the factors, and then of the other swaps.
-    pub indices: Result<AggregateIndices, Undefined>,
+fn provenance(run: &FinishedRun<'_>) -> Provenance {
+    let FinishedRun { study, design, .. } = *run;
+    let options = &study.analysis;
+    let settings = design.settings();
+    let alone = settings.replicates == 1 && options.intervals == IntervalMethod::Replicates;
+    let (first_order, total) = match options.salib {
+        true => (FirstOrder::Saltelli2010, Total::Jansen1999),
+        false => (FirstOrder::default_for(design.has_ba()), Total::default_for(design.has_ba())),
+    };
+    Provenance {
+        apportion_version: env!("CARGO_PKG_VERSION").to_owned(),
+        seed: settings.seed,
+        sampler: settings.sampler.name().to_owned(),
+        base_samples: settings.base_samples,
+        replicates: settings.replicates,
+        plain_rows: design.plain_rows(),
+        model_runs: design.rows(),
+        threads: run.threads,
+        wall_seconds: run.wall_seconds,
+        study_sha256: study.sha256.clone(),
+        first_order_estimator: first_order.source().to_owned(),
+        total_estimator: total.source().to_owned(),
+        shapley_method: options.shapley_of(&study.space).map(|method| method.name().to_owned()),
+        interval: (!alone).then(|| options.intervals.words(settings.replicates, options.resamples)),
+        interval_method: options.intervals.name().to_owned(),
+        threshold: options.threshold,
+        model_files: study.subject.files().iter().map(|file| name_of(file)).collect(),
+    }
 }
 
-/// Why a growing run ended, and whether it met its target.
-#[derive(Debug, Clone, PartialEq)]
-#[non_exhaustive]
-pub struct Stopped {
-    /// Why.
-    pub reason: StopReason,
-    /// Whether every index met the target; `None` if there was none.
-    pub target_met: Option<bool>,
+fn name_of(file: &Path) -> String {
+    file.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned())
 }
 
-/// Why a growing run was not doubled once more.
-#[derive(Debug, Clone, Copy, PartialEq, Error)]
-#[non_exhaustive]
-pub enum StopReason {
-    /// Every interval is as narrow as asked for.
-    #[error("every half width is {widest:.2e} or less: the target of {target} is met")]
-    TargetMet {
-        /// The largest half width.
-        widest: f64,
-        /// The half width that was asked for.
-        target: f64,
-    },
-    /// An output has no indices or no intervals, and nothing says that more runs would bring them.
-    #[error(
-        "there are indices or intervals missing with {base_samples} base samples, and nothing says that more runs would bring \
-         them: see what is said of the outputs, or begin with more base samples"
-    )]
-    NoIntervals {
-        /// Base samples that it has none of.
-        base_samples: u64,
-    },
-    /// Every interval is as narrow as asked for, but rows have hardly met a level of a factor.
-    #[error(
-        "every half width is {widest:.2e} or less, but rows hardly met a level of a factor, so that nothing can be promised: \
-         some {base_samples:.0} base samples would meet it ten times"
-    )]
-    RareLevels {
-        /// The largest half width.
-        widest: f64,
-        /// Base samples with which they would meet it ten times.
-        base_samples: f64,
-    },
-    /// There are no more points.
-    #[error("the sequence of points has come to its end")]
-    EndOfSequence,
-    /// The outputs of twice the runs would not fit into memory.
-    #[error("the outputs of twice the runs would not fit: these intervals need all of them at once")]
-    Memory,
-    /// Twice the runs would be too many.
-    #[error("twice the runs would be {runs}, more than max_runs = {most}")]
-    MaxRuns {
-        /// Twice the runs.
-        runs: u128,
-        /// The runs that it might take.
-        most: u64,
-    },
-    /// Twice the runs would take too long.
-    #[error("twice the runs would take some {seconds:.1} s, more than the budget of {budget} s")]
-    Budget {
-        /// The seconds that twice the runs would take.
-        seconds: f64,
-        /// The seconds that the run might take.
-        budget: f64,
-    },
-}
-
-impl Analysis {
-    /// Warns of the outputs that had other values when rows were run again.
-    pub(crate) fn note_repeats(&mut self, repeats: &Repeats, has_noise: bool) {
-        for (output, differing) in self.outputs.iter_mut().zip(&repeats.differing) {
-            let text = repeats.warning(*differing, has_noise);
-            output.warnings.extend(text.map(|text| Warning::Irreproducible { text }));
+/// Over all outputs if the study asks for it, else over those that belong to no series, if they are many.
+fn aggregate(run: &FinishedRun<'_>) -> Option<AggregateRecord> {
+    let FinishedRun { study, model, .. } = *run;
+    let (outputs, single) = (model.outputs(), single_outputs(model));
+    let places = if study.analysis.aggregate { (0..outputs.len()).collect() } else { single };
+    if places.len() < 2 || !study.analysis.aggregate && places.len() < MANY_OUTPUTS {
+        return None;
+    }
+    let same_unit = places.iter().all(|&place| outputs[place].unit.compatible(&outputs[places[0]].unit));
+    let (scaling, weighting) = match same_unit {
+        true => (Scaling::Plain, "each output counts by its variance (Gamboa et al. 2014)"),
+        false => {
+            (Scaling::Standardised, "each output is divided by its standard deviation first, since their units differ")
         }
-    }
+    };
+    let names = places.iter().map(|&place| outputs[place].name.to_string()).collect();
+    let indices = together(run, places.into_iter(), scaling);
+    Some(AggregateRecord {
+        outputs: names,
+        weighting: weighting.to_owned(),
+        indices: indices.as_ref().ok().map(|all| together_records(study, all)),
+        noise: study.space.noise().zip(indices.as_ref().ok()).map(|(noise, all)| together_record(study, all, noise)),
+        reason: indices.err().map(|undefined| undefined.to_string()),
+    })
+}
 
-    /// The output called `name`.
-    ///
-    /// # Errors
-    /// [`LookupError`] with the names that there are.
-    pub fn output(&self, name: &str) -> Result<&OutputAnalysis, LookupError> {
-        let known = || self.outputs.iter().map(|output| output.name.clone()).collect();
-        let found = self.outputs.iter().find(|output| output.name == name);
-        found.ok_or_else(|| LookupError::UnknownName { what: "output", name: name.to_owned(), known: known() })
-    }
-
-    /// The series called `name`.
-    ///
-    /// # Errors
-    /// [`LookupError`] with the names that there are.
-    pub fn series(&self, name: &str) -> Result<&SeriesAnalysis, LookupError> {
-        let known = || self.series.iter().map(|series| series.series.name.clone()).collect();
-        let found = self.series.iter().find(|series| series.series.name == name);
-        found.ok_or_else(|| LookupError::UnknownName { what: "series", name: name.to_owned(), known: known() })
-    }
+/// What a model with a ladder of fidelities spent, by its counters.
+fn effort(model: &dyn Model, whole: &Totals) -> Option<EffortRecord> {
+    let counts = || model.counters().iter().zip(whole.counts.values());
+    let value = |name| counts().find(|(counter, _)| counter.name == name).map_or(0.0, |(_, value)| value);
+    let rungs = counts().filter(|(_, runs)| *runs > 0.0).filter_map(|(counter, runs)| {
+        Some(RungRecord { rung: counter.name.strip_prefix(RUNGS)?.to_owned(), runs: runs as u64 })
+    });
+    (!model.counters().is_empty()).then(|| EffortRecord {
+        rungs: rungs.collect(),
+        evaluations: value(EVALUATIONS) as u64,
+        largest_error_estimate: value(LARGEST_ERROR),
+    })
 }

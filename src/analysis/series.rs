@@ -3,19 +3,10 @@
 use super::finished_run::FinishedRun;
 use crate::estimate::{MomentParts, Scaling, Undefined};
 use crate::model::{Model, OutputSeries};
+use crate::result::{PlainIndexRecord, SeriesRecord};
 use crate::run::Totals;
+use crate::study::Study;
 use crate::uncertainty::{AggregateIndices, SurrogateEstimates, aggregate_indices};
-
-/// What a run has found about a series of outputs, beside the results of every value.
-#[derive(Debug, Clone)]
-#[non_exhaustive]
-pub struct SeriesAnalysis {
-    /// The series.
-    pub series: OutputSeries,
-    /// Indices over all values together, which each value enters by its variance (Gamboa et al. 2014), of the factors, and
-    /// then of the other swaps.
-    pub aggregate: Result<AggregateIndices, Undefined>,
-}
 
 /// What the run says of every series of its model; `whole` holds the counts over all replicates, `surrogates` what these make of
 /// every output.
@@ -23,18 +14,25 @@ pub(super) fn series(
     run: &FinishedRun<'_>,
     whole: &Totals,
     surrogates: &[Option<SurrogateEstimates>],
-) -> Vec<SeriesAnalysis> {
+) -> Vec<SeriesRecord> {
     let of_series = |series: &OutputSeries| {
-        let plain = together(run.replicates, series.places(), Scaling::Plain, run);
+        let plain = together(run, series.places(), Scaling::Plain);
         let varies = |place: &usize| whole.outputs[*place].values.range().is_some_and(|(low, high)| low < high);
         let corrected: Option<Vec<&SurrogateEstimates>> =
             series.places().filter(varies).map(|place| surrogates.get(place)?.as_ref()).collect();
-        SeriesAnalysis {
-            series: series.clone(),
-            aggregate: match corrected {
-                Some(corrected) => plain.map(|plain| plain.corrected(&corrected)),
-                None => plain,
-            },
+        let all = match corrected {
+            Some(corrected) => plain.map(|plain| plain.corrected(&corrected)),
+            None => plain,
+        };
+        SeriesRecord {
+            name: series.name.clone(),
+            unit: run.model.outputs()[series.first].unit.to_string(),
+            axis: series.axis.label().to_owned(),
+            axis_unit: series.axis.unit().to_owned(),
+            first_output: series.first,
+            positions: series.axis.positions().to_vec(),
+            indices: all.as_ref().ok().map(|all| together_records(run.study, all)),
+            reason: all.err().map(|undefined| undefined.to_string()),
         }
     };
     run.model.series().iter().map(of_series).collect()
@@ -42,16 +40,29 @@ pub(super) fn series(
 
 /// Indices over the outputs at `places` together.
 pub(super) fn together(
-    replicates: &[Totals],
+    run: &FinishedRun<'_>,
     places: impl Iterator<Item = usize>,
     scaling: Scaling,
-    run: &FinishedRun<'_>,
 ) -> Result<AggregateIndices, Undefined> {
-    let of_output = |place: usize| replicates.iter().map(|totals| &totals.outputs[place].moments).collect();
+    let of_output = |place: usize| run.replicates.iter().map(|totals| &totals.outputs[place].moments).collect();
     let parts: Vec<Vec<&MomentParts>> = places.map(of_output).collect();
     let parts: Vec<&[&MomentParts]> = parts.iter().map(Vec::as_slice).collect();
     let indices = aggregate_indices(&parts, scaling, run.study.analysis.intervals);
     indices.map(|indices| indices.of_effects(&run.study.layout()))
+}
+
+/// The indices over several outputs together, of every factor but a noise.
+pub(super) fn together_records(study: &Study, all: &AggregateIndices) -> Vec<PlainIndexRecord> {
+    let known = (0..study.space.factors().len()).filter(|factor| Some(*factor) != study.space.noise());
+    known.map(|factor| together_record(study, all, factor)).collect()
+}
+
+pub(super) fn together_record(study: &Study, all: &AggregateIndices, factor: usize) -> PlainIndexRecord {
+    PlainIndexRecord {
+        factor: study.space.factors()[factor].name.clone(),
+        first_order: all.first_order[factor],
+        total: all.total[factor],
+    }
 }
 
 /// Places of the outputs that belong to no series.

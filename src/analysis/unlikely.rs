@@ -1,9 +1,9 @@
 //! Values of outputs that may stand for something else.
 
-use super::warning::Warning;
 use crate::design::Design;
 use crate::model::Output;
 use crate::quantity::Unlikely;
+use crate::result::Warning;
 use crate::run::{Piece, Store};
 use crate::study::Study;
 

@@ -1,10 +1,9 @@
 //! The warnings that the runs and the numbers of an output give reason for.
 
 use super::finished_run::{FinishedRun, names_of_swaps};
-use super::output::{LOST, error_of_rounding};
-use super::warning::Warning;
 use crate::estimate::{CentralMoments, Moments};
 use crate::model::Model;
+use crate::result::Warning;
 use crate::run::Totals;
 use crate::study::Study;
 use crate::uncertainty::{
@@ -198,6 +197,16 @@ fn looks_shuffled(indices: &OutputIndices) -> bool {
     indices.factors.len() > 1
         && all(&|effect| (effect.total.estimate - 1.0).abs() < NEAR)
         && all(&|effect| effect.first_order.estimate.abs() < NEAR)
+}
+
+/// Error of indices by rounding of the outputs beyond which a result warns of it.
+const LOST: f64 = 1e-3;
+
+/// Largest error of an index by the rounding of outputs with these moments; infinite of outputs that do not vary.
+fn error_of_rounding(values: &CentralMoments) -> f64 {
+    let Some(((low, high), variance)) = values.range().zip(values.variance()) else { return f64::INFINITY };
+    let largest = low.abs().max(high.abs());
+    4.0 * (largest.next_up() - largest) / variance.sqrt()
 }
 
 #[cfg(test)]

@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
 use apportion::report::comparison::{NamedResult, compare_results, comparison_document};
-use apportion::report::{file_part, read_result, refused_name};
+use apportion::report::{file_part, refused_name};
+use apportion::result::read_result;
 
 use super::Failure;
 use super::output::{OutputArguments, deliver};

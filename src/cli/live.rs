@@ -3,7 +3,8 @@
 use std::path::PathBuf;
 
 use apportion::report::document::Document;
-use apportion::report::{ResultFile, prepare_file, prepare_folder, write_atomically};
+use apportion::report::{prepare_file, prepare_folder, write_atomically};
+use apportion::result::StudyResult;
 
 use super::output::default_folder;
 use super::stop::on_signal;
@@ -33,7 +34,7 @@ pub struct LiveArguments {
 
 impl LiveArguments {
     /// Adds the page to the `document` of `result`, if there is to be one. Without it the result is whole still.
-    pub fn put_beside(&self, document: &mut Document, result: &ResultFile) {
+    pub fn put_beside(&self, document: &mut Document, result: &StudyResult) {
         if self.no_live {
             return;
         }

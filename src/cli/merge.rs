@@ -3,7 +3,6 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
-use apportion::report::ResultFile;
 use apportion::run::RunError;
 
 use super::live::LiveArguments;
@@ -51,7 +50,7 @@ pub fn merge(arguments: &Arguments) -> Result<(), Failure> {
         counted(journals.len() as u64, "journal"),
         path.display()
     ));
-    deliver(&study, &artefacts, &ResultFile::new(&study, &result), &arguments.live)
+    deliver(&study, &artefacts, &result, &arguments.live)
 }
 
 /// The journals of shards in `folder`, in the order of their names.

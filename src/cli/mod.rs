@@ -35,7 +35,8 @@ use std::process::ExitCode;
 use clap::{Args, CommandFactory, Parser, Subcommand};
 
 use apportion::model::GiveUp;
-use apportion::report::{ReadError, WriteError};
+use apportion::report::WriteError;
+use apportion::result::ReadError;
 use apportion::run::RunError;
 use apportion::run::journal::JournalError;
 use apportion::study::{Study, StudyError};

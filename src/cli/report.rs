@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
 use apportion::files::read_whole;
-use apportion::report::{ReadError, ReadProblem, parse_result, run_document};
+use apportion::report::run_document;
+use apportion::result::{ReadError, ReadProblem, parse_result};
 
 use super::live::LiveArguments;
 use super::output::{ChartArguments, deliver};

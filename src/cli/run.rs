@@ -6,9 +6,9 @@ use std::time::Instant;
 use anyhow::anyhow;
 use apportion::Resume;
 use apportion::exchange::{Format, save_outputs};
-use apportion::report::{
-    Artefacts, OutputRecord, ResultFile, inputs_in_words, prepare_file, read_result, run_document, stream_atomically,
-};
+use apportion::inputs_in_words;
+use apportion::report::{Artefacts, prepare_file, run_document, stream_atomically};
+use apportion::result::{OutputResult, StudyResult, read_result};
 use apportion::run::{RunError, Shard, Store};
 use apportion::study::Study;
 
@@ -135,9 +135,7 @@ pub fn run(arguments: &Arguments, others: Option<&dyn Ranks>) -> Result<(), Fail
         say(&format!("{}: the {rows} runs of shard {shard} are in {}", study.name(), journal.display()));
         return Ok(());
     }
-    let analysis = runner.run().map_err(failed)?;
-    let result = ResultFile::new(&study, &analysis);
-    drop(analysis);
+    let result = runner.run().map_err(failed)?;
     let (runs, seconds) = (result.provenance.model_runs, result.provenance.wall_seconds);
     match &result.spending {
         Some(spending) => meter.finish_after(spending.runs.saturating_sub(runs), runs, seconds),
@@ -158,7 +156,7 @@ pub fn journal_path(folder: &Path, name: &str, shard: Option<Shard>) -> PathBuf 
 }
 
 /// Writes points and outputs of all runs, which may be more than the study began with.
-fn save(study: &Study, result: &ResultFile, store: &Store, path: &Path, format: Format) -> Result<(), Failure> {
+fn save(study: &Study, result: &StudyResult, store: &Store, path: &Path, format: Format) -> Result<(), Failure> {
     let settings = study.design().settings();
     let points = result.provenance.base_samples / settings.replicates;
     let design = study.design().with_points(points).map_err(|error| Failure::Run(error.into()))?;
@@ -209,11 +207,16 @@ fn study_of(arguments: &Arguments) -> Result<Study, Failure> {
 }
 
 /// Writes the files of a result, and says what came out.
-pub fn deliver(study: &Study, artefacts: &Artefacts, result: &ResultFile, live: &LiveArguments) -> Result<(), Failure> {
+pub fn deliver(
+    study: &Study,
+    artefacts: &Artefacts,
+    result: &StudyResult,
+    live: &LiveArguments,
+) -> Result<(), Failure> {
     let mut document = run_document(result);
     live.put_beside(&mut document, result);
     output::deliver(artefacts, &document)?;
-    let lost: Vec<&OutputRecord> = result.outputs.iter().filter(|output| lost(study, output)).collect();
+    let lost: Vec<&OutputResult> = result.outputs.iter().filter(|output| lost(study, output)).collect();
     let Some(first) = lost.first() else { return Ok(()) };
     let others = if lost.len() > 1 { format!(" and of {} more outputs", lost.len() - 1) } else { String::new() };
     Err(Failure::Run(anyhow!(
@@ -247,7 +250,7 @@ fn with_journal(study: &Study, error: RunError, journal: Option<&Path>) -> Failu
 }
 
 /// Whether an output has no indices because runs failed, and not because it does not vary.
-fn lost(study: &Study, output: &OutputRecord) -> bool {
+fn lost(study: &Study, output: &OutputResult) -> bool {
     let share = output.runs_failed as f64 / (output.runs_ok + output.runs_failed) as f64;
     let too_many = share > study.analysis().max_failed || output.base_points_used < 2;
     output.indices.is_none() && output.runs_failed > 0 && too_many

@@ -1,6 +1,6 @@
 //! `apportion schema`: JSON Schemas of the files that people and programs touch.
 
-use apportion::report::result_schema;
+use apportion::result::result_schema;
 use apportion::study::study_schema;
 
 use super::{Failure, print_raw};

@@ -4,8 +4,8 @@ use std::time::Instant;
 
 use anyhow::anyhow;
 use apportion::model::RunContext;
-use apportion::report::RunFacts;
 use apportion::report::screening::{build_screening, screening_document};
+use apportion::result::RunFacts;
 use apportion::run::threads_in_force;
 use apportion::screening::{MAX_LEVELS, MIN_TRAJECTORIES, ScreeningDesign, ScreeningError, ScreeningJob};
 use apportion::screening::{ScreeningSettings, screen_in};

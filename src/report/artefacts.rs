@@ -46,11 +46,11 @@ pub enum ArtefactError {
 /// # Example
 /// ```
 /// use std::path::Path;
-/// use apportion::report::{Artefacts, ResultFile, run_document};
+/// use apportion::report::{Artefacts, StudyResult, run_document};
 /// use apportion::Study;
 ///
 /// let study = Study::parse(include_str!("../../studies/ishigami.toml"), Path::new("ishigami.toml"), &[])?;
-/// let result = ResultFile::new(&study, &study.run()?);
+/// let result = study.run()?;
 /// let folder = tempfile::tempdir()?;
 /// let written = Artefacts::new(folder.path()).write(&run_document(&result))?;
 /// assert_eq!(written.page, folder.path().join("ishigami.html"));

@@ -3,7 +3,7 @@
 use super::chart::{Axis, Bar, Chart, Colour, Mark, Panel, Series, Shape};
 use super::format::{fixed, index as of_error, minus, name, two_digits};
 use super::leading::leader_of;
-use super::result::{OutputRecord, ResultFile};
+use crate::result::{OutputResult, StudyResult};
 use crate::uncertainty::{EffectEstimates, Estimate, Interval};
 
 /// Most factors in a chart.
@@ -104,7 +104,7 @@ pub struct SharesSeries<'a> {
     /// Its name in the legend, and its colour.
     pub series: Series,
     /// The output whose shares are drawn.
-    pub output: &'a OutputRecord,
+    pub output: &'a OutputResult,
     /// Published percentages by factor; they stand in both panels, since their definition is not published.
     pub published: Vec<(&'a str, f64)>,
 }
@@ -160,7 +160,7 @@ fn share(series: &SharesSeries<'_>, factor: &str, of: ShareOf) -> Option<Estimat
 }
 
 /// The chart of one output of a single study.
-pub fn study_chart(result: &ResultFile, output: &OutputRecord) -> Chart {
+pub fn study_chart(result: &StudyResult, output: &OutputResult) -> Chart {
     let factors: Vec<&str> = result.factors.iter().map(|factor| factor.name.as_str()).collect();
     let title = result.study.headline();
     let indices = || output.indices.iter().flatten();

@@ -2,7 +2,7 @@
 
 use super::format::{chance, count, index, name};
 use super::listed;
-use super::result::{IndexRecord, OutputRecord, PairRecord, PlainIndexRecord};
+use crate::result::{IndexRecord, OutputResult, PairRecord, PlainIndexRecord};
 use crate::special::normal_quantile;
 use crate::uncertainty::{Estimate, Interval, LEVEL};
 
@@ -36,7 +36,7 @@ impl Contender {
 }
 
 /// The indices of an output with their places in the study, the largest total index first; `None` without any.
-pub(super) fn by_total(output: &OutputRecord) -> Option<Vec<(usize, &IndexRecord)>> {
+pub(super) fn by_total(output: &OutputResult) -> Option<Vec<(usize, &IndexRecord)>> {
     let mut order: Vec<(usize, &IndexRecord)> = output.indices.as_ref()?.iter().enumerate().collect();
     order.sort_by(|a, b| b.1.effect.weight().estimate.total_cmp(&a.1.effect.weight().estimate));
     (!order.is_empty()).then_some(order)
@@ -80,7 +80,7 @@ pub(super) fn surely_interact(pairs: &[PairRecord]) -> Vec<bool> {
 }
 
 /// The measure that factors of an output are ranked by.
-pub(super) fn measure(output: &OutputRecord) -> &'static str {
+pub(super) fn measure(output: &OutputResult) -> &'static str {
     let is_shapley = |index: &IndexRecord| index.effect.dependent.is_some() && index.effect.shapley.is_some();
     if output.indices.iter().flatten().any(is_shapley) { "Shapley effect" } else { "total index S_T" }
 }
@@ -109,7 +109,7 @@ pub(super) fn leader(contenders: &[Contender], of: &str, measure: &str, unit: &s
 }
 
 /// The same of the indices of an output, or why it has none.
-pub(super) fn leader_of(output: &OutputRecord) -> String {
+pub(super) fn leader_of(output: &OutputResult) -> String {
     let contenders: Vec<Contender> = output.indices.iter().flatten().map(Contender::from_index).collect();
     let sentence = leader(&contenders, &format!("For {}", name(&output.name)), measure(output), "");
     sentence.unwrap_or_else(|| no_indices(output))
@@ -123,7 +123,7 @@ pub(super) fn leader_of_all(indices: &[PlainIndexRecord], of: &str) -> Option<St
 }
 
 /// Why an output has no indices.
-pub(super) fn no_indices(output: &OutputRecord) -> String {
+pub(super) fn no_indices(output: &OutputResult) -> String {
     let reason = output.reason.as_deref().unwrap_or("the result holds none");
     format!("There are no indices of {}: {reason}.", name(&output.name))
 }

@@ -3,16 +3,12 @@
 #[cfg(feature = "page")]
 mod artefacts;
 mod atomic_write;
-mod build;
-mod build_output;
 #[doc(hidden)]
 pub mod chart;
 #[doc(hidden)]
 pub mod comparison;
 #[doc(hidden)]
 pub mod csv;
-#[doc(hidden)]
-pub mod distribution;
 #[doc(hidden)]
 pub mod document;
 mod factor_bars;
@@ -21,16 +17,11 @@ mod file_names;
 pub mod format;
 #[doc(hidden)]
 pub mod given;
+mod histogram_chart;
 mod interval_widths;
 mod leading;
-mod read;
-mod records;
-mod result;
 mod run_charts;
 mod run_document;
-#[doc(hidden)]
-pub mod scatter;
-mod schema;
 #[doc(hidden)]
 pub mod screening;
 mod study_sections;
@@ -42,19 +33,14 @@ mod validity;
 #[cfg(feature = "page")]
 pub use artefacts::{ArtefactError, Artefacts};
 pub use atomic_write::{WriteError, write_atomically};
-pub use build::result_json;
 pub use chart::Chart;
 pub use document::Document;
 pub use factor_bars::{shares_chart, study_chart};
 pub use file_names::ChartFormat;
-pub use read::{ReadError, parse_result, read_result};
-pub use result::ResultFile;
+pub use histogram_chart::histogram_chart;
 pub use run_charts::{convergence_chart, distribution_chart, indices_chart, pairs_chart, scatter_chart};
 pub use run_document::run_document;
-pub use schema::result_schema;
 
-#[doc(hidden)]
-pub use records::{json, study_setup};
 pub(crate) use study_sections::{inputs, study_section};
 
 // Open to the program, which is a crate of its own.
@@ -66,15 +52,10 @@ pub use {
     crate::names::{file_part, refused_name},
     crate::text::{capitalised, listed},
     atomic_write::{prepare_file, prepare_folder, stream_atomically},
-    build::RunFacts,
-    build_output::inputs_in_words,
     factor_bars::SharesSeries,
     file_names::file_stems,
     format::{fixed, give_or_take, grouped, share, share_of_runs, significant, two_digits, with_unit},
     interval_widths::{indices_measured, widest_interval},
-    read::ReadProblem,
-    records::StudySetup,
-    result::*,
     run_document::{TRY, one_output},
     text_table::{TextTable, table},
 };

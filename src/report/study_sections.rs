@@ -4,7 +4,7 @@ use serde_json::{Map, Value};
 
 use super::document::{Cell, Column, Mark, Part, Section, Table};
 use super::format::{grouped, name, share_of_runs, significant, unit, value};
-use super::result::{ConstantRecord, CorrelationRecord, FactorRecord, StudyRecord, ValidityRecord};
+use crate::result::{ConstantRecord, CorrelationRecord, FactorRecord, StudyRecord, ValidityRecord};
 
 /// Most factors in the table of the study.
 const FACTORS: usize = 50;
@@ -31,7 +31,7 @@ pub(super) fn validity_section(validity: &[ValidityRecord]) -> Option<Section> {
     let table = Table::new(caption, columns).with_rows(validity.iter().map(row));
     let parts = vec![Part::Text(text.to_owned()), Part::Table(table)];
     let parts = if raised.is_empty() { vec![Part::OnPage(parts)] } else { parts };
-    (!validity.is_empty()).then(|| Section::new("validity", "Where the model holds", parts))
+    (!validity.is_empty()).then(|| Section::new("validity", "Model validity", parts))
 }
 
 /// Why runs failed: for each reason the inputs of the first run and how many there are.
@@ -95,7 +95,7 @@ pub(crate) fn study_section(study: &StudyRecord, factors: &[FactorRecord]) -> Se
     let mut choices = vec![("model".to_owned(), format!("`{}`", study.model))];
     choices.extend(study.settings.iter().map(|(key, json)| (name(key), plain(json))));
     choices.extend(study.overrides.iter().map(|text| ("changed on the command line".to_owned(), format!("`{text}`"))));
-    parts.push(Table::pairs("The choices in force.", choices).into());
+    parts.push(Table::pairs("Model settings.", choices).into());
     if !study.constants.is_empty() {
         let constant = |constant: &ConstantRecord| (name(&constant.name), value(constant.value, &constant.unit));
         let table = Table::pairs("Inputs that are fixed in the study.", study.constants.iter().map(constant));

@@ -2,7 +2,7 @@
 
 use super::format::{count, grouped, share_of_runs};
 use super::listed;
-use super::result::ValidityRecord;
+use crate::result::ValidityRecord;
 
 /// On how many of the runs which validity flags are raised; nothing if none is.
 pub(super) fn sentence(validity: &[ValidityRecord]) -> Option<String> {

@@ -17,8 +17,8 @@ pub use document::document;
 pub use published::{Published, published};
 pub use reproduction::{Event, Reproduction, Request, Topic, reproduce};
 
-use apportion::report::ResultFile;
 use apportion::report::chart::Colour;
+use apportion::result::StudyResult;
 use apportion::run::RunError;
 use apportion::study::{Study, StudyError};
 
@@ -139,7 +139,7 @@ pub struct Reproduced {
     /// Its group.
     pub group: StudyGroup,
     /// What came out.
-    pub result: ResultFile,
+    pub result: StudyResult,
 }
 
 /// The nine studies, read and checked, after applying `overrides` to each; group by group. Meant for overrides of the

@@ -3,7 +3,7 @@
 use super::shares::indices;
 use super::{Reproduced, published};
 use apportion::Estimate;
-use apportion::report::IndexRecord;
+use apportion::result::IndexRecord;
 use apportion::uncertainty::Interval;
 
 /// A factor counts as having a share from this many percent on: less would be printed as 0 in whole percents, which is

@@ -136,7 +136,7 @@ fn shares_of_study(
         .chain(settings.iter().chain(quick).map(|setting| (*setting).to_owned()))
         .collect();
     let study = study(friction, group, &overrides)?;
-    let result = apportion::report::ResultFile::new(&study, &study.runner().threads(threads).run()?);
+    let result = study.runner().threads(threads).run()?;
     let mut of_study = Vec::new();
     for output in &result.outputs {
         for (measure, share) in MEASURES {

@@ -98,12 +98,11 @@ fn run_studies(request: &Request, on_event: &(dyn Fn(Event<'_>) + Sync)) -> Resu
     for (place, (group, friction, study)) in studies.iter().enumerate() {
         let number = (place + 1, count);
         on_event(Event::Begins { number, name: study.name(), runs: study.design().rows() });
-        let analysis = study
+        let result = study
             .runner()
             .threads(request.threads)
             .on_progress(|progress| on_event(Event::Progresses(progress)))
             .run()?;
-        let result = apportion::report::ResultFile::new(study, &analysis);
         let provenance = &result.provenance;
         on_event(Event::Ends { runs: provenance.model_runs, seconds: provenance.wall_seconds });
         reproduced.push(Reproduced { friction: *friction, group: *group, result });

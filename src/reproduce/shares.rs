@@ -4,8 +4,9 @@ use super::{Reproduced, published};
 use apportion::Estimate;
 use apportion::report::csv::Field;
 use apportion::report::document::{Cell, Column, Table, Value};
+use apportion::report::fixed;
 use apportion::report::format::words;
-use apportion::report::{IndexRecord, fixed};
+use apportion::result::IndexRecord;
 
 /// The indices of a study's factors.
 pub(super) fn indices(study: &Reproduced) -> &[IndexRecord] {

@@ -8,12 +8,13 @@
 
 use super::low_fidelity::sibling_path;
 use super::{Resume, Runner};
-use crate::analysis::{Analysis, OutputAnalysis, Spending, StopReason};
+use crate::analysis::StopReason;
 use crate::design::{Design, DesignSettings, Rows};
 use crate::model::RunContext;
+use crate::result::{OutputResult, SpendingRecord, StudyResult};
 use crate::run::{RunError, Store};
 use crate::study::{LowFidelity, Study, SurrogateChoice, Target};
-use crate::uncertainty::OutputIndices;
+use crate::uncertainty::largest_half_width;
 
 /// Base points of each replicate in a trial without plain rows, the fewest that surrogates are fitted to.
 const TRIAL_POINTS: u64 = 4;
@@ -32,7 +33,7 @@ const SMOOTH: f64 = 0.9;
 const FIRST_PLAIN: u64 = 1 << 10;
 
 /// Runs `runner`'s study until it is as accurate as its target says.
-pub(super) fn run_accurately(runner: &Runner<'_>, context: &RunContext<'_>) -> Result<Analysis, RunError> {
+pub(super) fn run_accurately(runner: &Runner<'_>, context: &RunContext<'_>) -> Result<StudyResult, RunError> {
     let mut attempt = Attempt { runner, context, runs: 0, reasons: Vec::new() };
     let study = runner.study;
     let DesignSettings { sampler, replicates, .. } = *study.design.settings();
@@ -40,23 +41,22 @@ pub(super) fn run_accurately(runner: &Runner<'_>, context: &RunContext<'_>) -> R
         attempt.say(
             "surrogates and cheaper models need independent factors, and three or more replicates of Sobol' or random points",
         );
-        return attempt.plain();
+        return Ok(attempt.plain()?.0);
     }
     let trial = attempt.variant(TRIAL_POINTS, 0, SurrogateChoice::Off)?;
     let store = Store::new(&trial.design.longest(), trial.model().as_ref());
     let lows = if study.lows.is_empty() { study.subject.cheaper() } else { study.lows.clone() };
-    let first = if lows.is_empty() { attempt.split(&store)? } else { attempt.fitted(lows, &store)? };
+    let (first, reason) = if lows.is_empty() { attempt.split(&store)? } else { attempt.fitted(lows, &store)? };
     let is_ours = |reason| matches!(reason, StopReason::MaxRuns { .. }) && study.target.max_runs != attempt.max_runs();
-    if !first.stopped.as_ref().is_some_and(|stopped| is_ours(stopped.reason)) {
+    if !reason.is_some_and(is_ours) {
         return Ok(first);
     }
     attempt.say(format!("corrected indices of {MAX_CORRECTED_RUNS} runs would not get there: no surrogates"));
-    attempt.plain()
+    Ok(attempt.plain()?.0)
 }
 
-fn is_met(analysis: &Analysis) -> bool {
-    analysis.stopped.as_ref().is_some_and(|stopped| stopped.target_met == Some(true))
-}
+/// A result, and why its run ended.
+type Ended = (StudyResult, Option<StopReason>);
 
 struct Attempt<'a> {
     runner: &'a Runner<'a>,
@@ -86,7 +86,7 @@ impl Attempt<'_> {
     }
 
     /// Without surrogates.
-    fn plain(&mut self) -> Result<Analysis, RunError> {
+    fn plain(&mut self) -> Result<Ended, RunError> {
         let replicates = self.runner.study.design.settings().replicates;
         let study = self.variant((FIRST_PLAIN / replicates.max(1)).max(2), 0, SurrogateChoice::Off)?;
         self.run(&study, None, None)
@@ -100,7 +100,7 @@ impl Attempt<'_> {
     }
 
     /// With surrogates and `lows`, all runs at base points; those in `store` are there already.
-    fn fitted(&mut self, lows: Vec<LowFidelity>, store: &Store) -> Result<Analysis, RunError> {
+    fn fitted(&mut self, lows: Vec<LowFidelity>, store: &Store) -> Result<Ended, RunError> {
         let mut study = self.variant(TRIAL_POINTS, 0, self.runner.study.analysis.surrogate)?;
         study.lows = lows;
         study.target = Target { max_runs: self.max_runs(), ..study.target };
@@ -108,7 +108,7 @@ impl Attempt<'_> {
     }
 
     /// With plain rows, if polynomials explain the model; `unsplit` holds outputs of rows without them.
-    fn split(&mut self, unsplit: &Store) -> Result<Analysis, RunError> {
+    fn split(&mut self, unsplit: &Store) -> Result<Ended, RunError> {
         let of_point = self.variant(SPLIT_POINTS, 0, SurrogateChoice::On)?.design.rows_per_point();
         let plain_rows = u32::try_from(of_point * PLAIN_ROWS).unwrap_or(u32::MAX).min(crate::design::MAX_PLAIN_ROWS);
         let mut study = self.variant(SPLIT_POINTS, plain_rows, SurrogateChoice::On)?;
@@ -120,9 +120,11 @@ impl Attempt<'_> {
         let store = Store::new(&study.design.longest(), study.model().as_ref());
         let mut trial = study.clone();
         trial.target = Target { max_runs: Some(trial_runs), ..study.target };
-        let first = self.run(&trial, Some("split"), Some(&store))?;
-        if is_met(&first) {
-            return Ok(self.with_reasons(first, format!("a trial of {trial_runs} runs was enough")));
+        let (mut first, reason) = self.run(&trial, Some("split"), Some(&store))?;
+        if matches!(reason, Some(StopReason::TargetMet { .. })) {
+            self.say(format!("a trial of {trial_runs} runs was enough"));
+            first.spending.iter_mut().for_each(|spending| spending.reasons.clone_from(&self.reasons));
+            return Ok((first, reason));
         }
         let explained = explained(&first);
         let percent = 100.0 * explained.clamp(0.0, 1.0);
@@ -139,15 +141,7 @@ impl Attempt<'_> {
         self.fitted(Vec::new(), unsplit)
     }
 
-    fn with_reasons(&mut self, mut analysis: Analysis, more: String) -> Analysis {
-        self.say(more);
-        if let Some(spending) = &mut analysis.spending {
-            spending.reasons.clone_from(&self.reasons);
-        }
-        analysis
-    }
-
-    fn run(&mut self, study: &Study, kind: Option<&str>, store: Option<&Store>) -> Result<Analysis, RunError> {
+    fn run(&mut self, study: &Study, kind: Option<&str>, store: Option<&Store>) -> Result<Ended, RunError> {
         let Runner { journal, resume, .. } = self.runner;
         let journal = match (journal, kind) {
             (Some(path), Some(kind)) => Some(sibling_path(path, kind)),
@@ -156,39 +150,60 @@ impl Attempt<'_> {
         let resume = if *resume == Resume::Require { Resume::IfThere } else { *resume };
         let part = Runner { study, journal, resume, store: self.runner.store.or(store), ..self.runner.clone() };
         let journal = part.open(None, self.context.messages())?;
-        let mut analysis = part.analyse(self.context, journal)?;
-        self.runs += analysis.design.rows();
+        let (mut result, reason) = part.analyse(self.context, journal)?;
+        self.runs += result.provenance.model_runs;
         let accuracy = study.target.accuracy.unwrap_or_default();
-        analysis.spending = Some(Spending {
+        result.spending = Some(SpendingRecord {
             accuracy,
             runs: self.runs,
-            surrogate: study.analysis.surrogate,
-            plain_runs: plain_runs(&analysis, accuracy),
+            plain_runs: plain_runs(study, &result, accuracy),
             reasons: self.reasons.clone(),
+            lines: lines(study, self.runner.study.lows.len(), &result),
         });
-        Ok(analysis)
+        // What was asked for, and not what this attempt may take.
+        result.stopping.iter_mut().for_each(|stopping| stopping.max_runs = self.runner.study.target.max_runs);
+        Ok((result, reason))
     }
 }
 
-/// The least share of the variance of an output that surrogates explain.
-fn explained(analysis: &Analysis) -> f64 {
-    let of_output = |output: &OutputAnalysis| {
-        let Ok(indices) = &output.indices else { return 0.0 };
-        indices.surrogate.as_ref().map_or(0.0, |used| used.explained)
+/// Lines of a study with `lows` cheaper models of its own that make the same run again as this attempt.
+fn lines(attempt: &Study, lows: usize, result: &StudyResult) -> String {
+    let provenance = &result.provenance;
+    let mut lines = match provenance.plain_rows {
+        0 => format!("[design]\nbase_samples = {}\n", provenance.base_samples),
+        _ => format!("[design]\nruns = {}\n", provenance.model_runs),
     };
-    analysis.outputs.iter().map(of_output).fold(1.0, f64::min)
+    lines.push_str(&format!("[analysis]\nsurrogate = \"{}\"\n", attempt.analysis.surrogate.name()));
+    if let [low] = &result.lows[..] {
+        lines.push_str("[fidelity]\n");
+        lines.push_str(&match lows {
+            0 => format!("low = [\"{}\"]\n", low.name),
+            1 => String::new(),
+            _ => format!("# of `low` keep `{}` alone\n", low.name),
+        });
+        lines.push_str(&format!("base_samples = {}\n", low.own_base_samples));
+    }
+    lines
 }
 
-/// See [`Spending::plain_runs`].
-fn plain_runs(analysis: &Analysis, accuracy: f64) -> Option<u64> {
-    let of_output = |indices: &OutputIndices| match &indices.surrogate {
-        None => indices.largest_half_width(),
-        Some(used) => used.plain_half_width(),
+/// The least share of the variance of an output that surrogates explain.
+fn explained(result: &StudyResult) -> f64 {
+    let of_output = |output: &OutputResult| output.surrogate.as_ref().map_or(0.0, |used| used.explained);
+    result.outputs.iter().map(of_output).fold(1.0, f64::min)
+}
+
+/// See [`SpendingRecord::plain_runs`].
+fn plain_runs(study: &Study, result: &StudyResult, accuracy: f64) -> Option<u64> {
+    let of_output = |output: &OutputResult| match &output.surrogate {
+        None => output.largest_half_width(),
+        Some(used) => {
+            largest_half_width(used.plain.iter().flat_map(|plain| [plain.first_order, plain.total]).flatten())
+        }
     };
-    let mut widest = analysis.outputs.iter().filter_map(|output| output.indices.as_ref().ok()).map(of_output);
+    let mut widest = result.outputs.iter().filter(|output| output.indices.is_some()).map(of_output);
     let widest = widest.try_fold(0.0, |widest: f64, half| Some(widest.max(half?)))?;
-    let design = &analysis.design;
-    let rows = (design.rows_per_point() - u64::from(design.plain_rows())) * design.settings().base_samples;
-    let runs = rows as f64 * (widest / accuracy);
+    let provenance = &result.provenance;
+    let rows = study.design.rows_per_point() - u64::from(provenance.plain_rows);
+    let runs = (rows * provenance.base_samples) as f64 * (widest / accuracy);
     (runs.is_finite() && runs < u64::MAX as f64).then_some(runs.ceil() as u64)
 }

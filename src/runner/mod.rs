@@ -13,8 +13,9 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
-use crate::analysis::{Analysis, FinishedRun, LowTotals, analysis};
+use crate::analysis::{FinishedRun, LowTotals, StopReason, result};
 use crate::model::{Messages, RunContext};
+use crate::result::{StudyResult, Warning};
 use crate::run::{
     GrowingRun, Job, OutputSink as _, Progress, Remote, RemoteWorkers, Repeats, RunError, Shard, Store, repeat_rows,
     rows_to_repeat, threads_in_force,
@@ -41,7 +42,7 @@ impl Study {
     ///
     /// # Errors
     /// As for [`Runner::run`].
-    pub fn run(&self) -> Result<Analysis, RunError> {
+    pub fn run(&self) -> Result<StudyResult, RunError> {
         self.runner().run()
     }
 
@@ -177,12 +178,12 @@ impl<'a> Runner<'a> {
     /// [`RunError`] if the threads cannot be started, a row fails in a study that says to stop then, intervals need more
     /// outputs at once than fit, the model gives up, the journal cannot be used or written, or the run is asked to end.
     /// Otherwise rows that fail are part of the result.
-    pub fn run(self) -> Result<Analysis, RunError> {
+    pub fn run(self) -> Result<StudyResult, RunError> {
         let context = self.context();
         let result = if self.study.target.accuracy.is_some() {
             accuracy::run_accurately(&self, &context)
         } else {
-            self.open(None, context.messages()).and_then(|journal| self.analyse(&context, journal))
+            self.open(None, context.messages()).and_then(|journal| Ok(self.analyse(&context, journal)?.0))
         };
         context.messages().finish();
         result
@@ -218,11 +219,11 @@ impl<'a> Runner<'a> {
     /// # Errors
     /// As for [`run`](Self::run), and [`RunError::Refused`] if a part is of another study or model;
     /// [`RunError::Incomplete`] if runs are missing.
-    pub fn merge(self, journals: &[PathBuf]) -> Result<Analysis, RunError> {
+    pub fn merge(self, journals: &[PathBuf]) -> Result<StudyResult, RunError> {
         let context = self.context();
         let path = self.journal_for("a run that is merged of its parts")?;
         let journal = merge::merged(self.study, path, journals, context.messages())?;
-        self.analyse(&context, journal)
+        Ok(self.analyse(&context, journal)?.0)
     }
 
     /// Runs on record in the journal that a run would use; nothing is locked or written.
@@ -275,7 +276,12 @@ impl<'a> Runner<'a> {
         self.remote.map(|workers| Remote { workers, subject })
     }
 
-    fn analyse(&self, context: &RunContext<'_>, journal: RunJournal) -> Result<Analysis, RunError> {
+    /// Runs the study and estimates its indices; that, and why a run that grows ended.
+    fn analyse(
+        &self,
+        context: &RunContext<'_>,
+        journal: RunJournal,
+    ) -> Result<(StudyResult, Option<StopReason>), RunError> {
         let (study, model) = (self.study, self.study.model());
         let longest = if study.target.grows() { study.design.longest() } else { study.design.clone() };
         let job = Job { design: &longest, space: &study.space, model: model.as_ref() };
@@ -311,12 +317,15 @@ impl<'a> Runner<'a> {
             threads: threads_in_force(self.threads) + self.remote.map_or(0, RemoteWorkers::count),
             wall_seconds: run.elapsed().as_secs_f64(),
         };
-        let mut result = run.install(|| analysis(&finished, stopped));
+        let mut result = run.install(|| result(&finished, stopped.as_ref()));
         let evaluated = evaluated.into_inner();
         if let Some(repeats) = repeats_of(Job { design: &design, ..job }, context, evaluated, store) {
-            result.note_repeats(&repeats, study.space.noise().is_some());
+            for (output, differing) in result.outputs.iter_mut().zip(&repeats.differing) {
+                let text = repeats.warning(*differing, study.space.noise().is_some());
+                output.warnings.extend(text.map(|text| Warning::Irreproducible { text }));
+            }
         }
-        Ok(result)
+        Ok((result, stopped.map(|stopped| stopped.reason)))
     }
 
     /// Runs the study, and its cheaper models; why it stopped, and what surrogates make of it, if it decides on its size.

@@ -52,7 +52,7 @@ fn shuffled_rows_are_found() {
 }
 
 /// The analysis of outputs of `d` inputs in this layout, with intervals by the delta method.
-fn analysis(y: &[f64], d: usize, layout: SalibLayout) -> crate::Analysis {
+fn analysis(y: &[f64], d: usize, layout: SalibLayout) -> crate::StudyResult {
     let outputs = [Column { name: "y".to_owned(), values: y.to_vec() }];
     let (study, store) = salib_study("s", &problem(d), &outputs, layout, (0, 0)).unwrap();
     study.runner().threads(1).store(&store).run().unwrap()
@@ -66,7 +66,7 @@ fn estimates_are_those_of_the_formulas() {
     let y: Vec<f64> =
         (0..columns[0].1.len()).map(|row| columns[0].1[row] + 2.0 * columns[1].1[row] * columns[2].1[row]).collect();
     let analysis = analysis(&y, d, SalibLayout::SecondOrder);
-    let indices = analysis.outputs[0].indices.as_ref().unwrap();
+    let output = &analysis.outputs[0];
     let mean = y.iter().sum::<f64>() / y.len() as f64;
     let row = |k: usize| -> Vec<f64> { y.iter().skip(k).step_by(8).map(|y| y - mean).collect() };
     let both = [row(0), row(7)].concat();
@@ -77,13 +77,13 @@ fn estimates_are_those_of_the_formulas() {
     let st = |j: usize| row(0).iter().zip(row(1 + j)).map(|(a, ab)| (a - ab).powi(2)).sum::<f64>() / (2.0 * n as f64);
     // Sums of 64 numbers of size 1 in another order.
     let close = |a: f64, b: f64| assert!((a - b).abs() < 1e-13, "{a} {b}");
-    for (j, factor) in indices.factors.iter().enumerate() {
-        close(factor.first_order.estimate, s1(j));
-        close(factor.total.estimate, st(j) / variance);
+    for (j, index) in output.indices.iter().flatten().enumerate() {
+        close(index.effect.first_order.estimate, s1(j));
+        close(index.effect.total.estimate, st(j) / variance);
     }
     for (place, (j, k)) in [(0, 1), (0, 2), (1, 2)].into_iter().enumerate() {
         let closed = (dot(&row(4 + j), &row(1 + k)) - dot(&row(0), &row(7))) / variance;
-        close(indices.second_order[place].estimate, closed - s1(j) - s1(k));
+        close(output.second_order.as_ref().unwrap()[place].index.estimate, closed - s1(j) - s1(k));
     }
 }
 
@@ -97,7 +97,7 @@ fn a_missing_output_leaves_its_base_point_out() {
     let [found, expected] = [missing, without].map(|y| analysis(&y, 2, SalibLayout::FirstOrder));
     assert_eq!((found.outputs[0].runs_failed, found.outputs[0].base_points_used), (1, 63));
     assert!(!found.outputs[0].warnings.is_empty());
-    let total = |analysis: &crate::Analysis| analysis.outputs[0].indices.as_ref().unwrap().factors[1].total.estimate;
+    let total = |analysis: &crate::StudyResult| analysis.outputs[0].indices.as_ref().unwrap()[1].effect.total.estimate;
     assert!((total(&found) - total(&expected)).abs() < 1e-13);
 }
 

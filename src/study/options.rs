@@ -2,11 +2,11 @@
 
 use std::ops::RangeInclusive;
 
-use crate::analysis::Warning;
 use crate::design::{Design, DesignSettings, MAX_PLAIN_ROWS, Rows, Sampler, Swap};
 use crate::estimate::{Estimator, MAX_SHAPLEY_FACTORS, ShapleyMethod, ShapleyPlayers, proper_subsets};
 use crate::given::Measure;
 use crate::names::named;
+use crate::result::Warning;
 use crate::run::FailurePolicy;
 use crate::space::Space;
 use crate::surrogate::FEWEST_NETS;
@@ -40,6 +40,8 @@ pub struct AnalysisOptions {
     pub dummy: bool,
     /// Whether the result has the stages of the run too: the indices at each half of the runs after it.
     pub convergence: bool,
+    /// Whether the result has the distributions of the outputs and their scatters over the factors.
+    pub pictures: bool,
     /// How intervals are found.
     pub intervals: IntervalMethod,
     /// Whether indices are corrected by surrogates.
@@ -69,6 +71,7 @@ impl AnalysisOptions {
             aggregate: false,
             dummy: false,
             convergence: true,
+            pictures: true,
             intervals: IntervalMethod::default_for(sampler),
             surrogate: SurrogateChoice::default(),
             resamples: DEFAULT_RESAMPLES,

@@ -47,7 +47,7 @@ impl OutputIndices {
 }
 
 /// Half the width of the widest interval; `None` if an estimate has none.
-pub(super) fn largest_half_width(estimates: impl IntoIterator<Item = Estimate>) -> Option<f64> {
+pub(crate) fn largest_half_width(estimates: impl IntoIterator<Item = Estimate>) -> Option<f64> {
     let half_widths = estimates.into_iter().map(|estimate| estimate.interval.map(|interval| interval.width() / 2.0));
     half_widths.into_iter().try_fold(0.0, |largest: f64, half_width| Some(largest.max(half_width?)))
 }

@@ -2,7 +2,7 @@
 
 use crate::common::{analysed, gap, indices, numbers};
 use apportion::model::KnownAnswer;
-use apportion::report::ResultFile;
+use apportion::result::StudyResult;
 
 /// Exact first-order and total indices of a function with its default parameters.
 fn exact(name: &str) -> (Vec<f64>, Vec<f64>) {
@@ -67,7 +67,7 @@ fn the_product_form_in_four_nets_and_in_sixteen_replicates_is_within_5e_3_and_it
     }
 }
 
-fn product_form_holds(result: &ResultFile) {
+fn product_form_holds(result: &StudyResult) {
     let (first, total) = numbers(&result.outputs[0]);
     let exact = product_form();
     let error = gap(&first, &exact.0).max(gap(&total, &exact.1));

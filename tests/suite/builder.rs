@@ -6,8 +6,7 @@ use apportion::design::Sampler;
 use apportion::estimate::Estimator;
 use apportion::model::{FunctionModel, Output, function_model};
 use apportion::quantity::Unit;
-use apportion::report::ResultFile;
-use apportion::report::parse_result;
+use apportion::result::parse_result;
 use apportion::space::{Distribution, Factor};
 use apportion::study::{AnalysisOptions, BuildError, Study, StudyBuilder, Target};
 use apportion::uncertainty::IntervalMethod;
@@ -29,14 +28,14 @@ fn a_built_study_gives_the_bits_of_the_file() {
     let study = Study::builder("ishigami", function_model("y", move |x| known.value(x)));
     let study = ["x1", "x2", "x3"].into_iter().fold(study, |study, name| study.factor(name, angle()));
     let study = study.base_samples(1024).seed(3).build().unwrap();
-    let built = ResultFile::new(&study, &study.runner().threads(2).run().unwrap());
+    let built = study.runner().threads(2).run().unwrap();
     let path = std::path::Path::new("ishigami.toml");
     let typed = Study::parse("model = \"ishigami\"\n[design]\nbase_samples = 1024\nseed = 3", path, &[]).unwrap();
-    let typed = ResultFile::new(&typed, &typed.runner().threads(1).run().unwrap());
+    let typed = typed.runner().threads(1).run().unwrap();
     assert_eq!(built.outputs[0].indices, typed.outputs[0].indices);
     assert_eq!((built.study.model.as_str(), built.provenance.study_sha256.len()), ("custom", 64));
     // What is written of it is read back like any result.
-    let json = apportion::report::result_json(&built);
+    let json = built.json();
     assert_eq!(parse_result(json.as_bytes()).unwrap(), built);
 }
 
@@ -55,7 +54,7 @@ fn factors_reach_the_function_in_si_and_in_order() {
     let study =
         Study::builder("units", model).title("Units").factor_in("a", um, Distribution::uniform(2.0, 4.0).unwrap());
     let study = study.with_factor(share).base_samples(256).build().unwrap();
-    let result = ResultFile::new(&study, &study.runner().threads(1).run().unwrap());
+    let result = study.runner().threads(1).run().unwrap();
     let output = &result.outputs[0];
     // Evenly spread points: the mean of 256 is known to 1e-3 of the range.
     assert!((output.mean.unwrap() - 3.0).abs() < 2e-3 && output.unit == "um");
@@ -70,7 +69,7 @@ fn what_the_function_leaves_out_is_a_failed_run() {
         Ok(())
     });
     let study = Study::builder("half", model).factor("x", unit()).base_samples(64).build().unwrap();
-    let result = ResultFile::new(&study, &study.runner().threads(1).run().unwrap());
+    let result = study.runner().threads(1).run().unwrap();
     assert_eq!((result.outputs[0].runs_failed, result.outputs[1].runs_ok), (0, 0));
     assert!(result.outputs[1].failures[0].reason.contains("not finite"));
 }
@@ -84,7 +83,7 @@ fn options_ask_for_more() {
         ..AnalysisOptions::for_sampler(Sampler::Sobol)
     };
     let study = sum().factor("a", unit()).factor("b", unit()).base_samples(256).analysis(options).build().unwrap();
-    let output = &ResultFile::new(&study, &study.runner().threads(1).run().unwrap()).outputs[0];
+    let output = &study.runner().threads(1).run().unwrap().outputs[0];
     assert_eq!(output.second_order.as_ref().unwrap().len(), 1);
     assert_eq!(output.subsets.as_ref().unwrap()[0].factors, ["a", "b"]);
     assert!(output.estimators.is_empty());
@@ -166,7 +165,7 @@ fn a_version_tells_functions_apart_in_a_journal() {
         let model = function_model("y", move |x| slope * x[0]);
         let study =
             Study::builder("line", model).version(version).factor("a", unit()).base_samples(64).build().unwrap();
-        study.runner().journal(&journal).run().unwrap().outputs[0].mean.unwrap().estimate
+        study.runner().journal(&journal).run().unwrap().outputs[0].mean.unwrap()
     };
     assert!((mean(1.0, "1") - 0.5).abs() < 1e-9);
     assert!((mean(2.0, "2") - 1.0).abs() < 1e-9);
@@ -181,7 +180,7 @@ fn many_runs_go_side_by_side_on_the_threads_of_another_pool() {
     let run = |seed: u64| {
         let seed = format!("design.seed={seed}");
         let study = Study::parse(text, std::path::Path::new("many.toml"), &[seed]).unwrap();
-        study.runner().threads(1).run().unwrap().outputs[0].mean.unwrap().estimate
+        study.runner().threads(1).run().unwrap().outputs[0].mean.unwrap()
     };
     let means: Vec<f64> = pool.install(|| (0..100).into_par_iter().map(run).collect());
     assert_eq!(means[..20], (0..20).map(run).collect::<Vec<f64>>());

@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::sync::LazyLock;
 
-use apportion::report::{IndexRecord, OutputRecord, ResultFile};
+use apportion::EffectEstimates;
+use apportion::result::{IndexRecord, OutputResult, StudyResult};
 use apportion::study::Study;
 
 /// Ishigami's function where |x3| < 3, and a failure in the other 4.5 % of the rows.
@@ -116,19 +117,19 @@ pub fn study_path(name: &str) -> PathBuf {
 }
 
 /// The result of a study of this repository under overrides.
-pub fn analysed(name: &str, overrides: &[&str]) -> ResultFile {
+pub fn analysed(name: &str, overrides: &[&str]) -> StudyResult {
     let overrides: Vec<String> = overrides.iter().map(|text| (*text).to_owned()).collect();
     let study = Study::load(&study_path(name), &overrides).unwrap();
-    ResultFile::new(&study, &study.run().unwrap())
+    study.run().unwrap()
 }
 
 /// The indices of the first output.
-pub fn indices(result: &ResultFile) -> &[IndexRecord] {
+pub fn indices(result: &StudyResult) -> &[IndexRecord] {
     result.outputs[0].indices.as_deref().unwrap()
 }
 
 /// First-order and total indices of the first output as plain numbers.
-pub fn numbers(output: &OutputRecord) -> (Vec<f64>, Vec<f64>) {
+pub fn numbers(output: &OutputResult) -> (Vec<f64>, Vec<f64>) {
     let indices = output.indices.as_deref().unwrap();
     let first = indices.iter().map(|index| index.effect.first_order.estimate).collect();
     let total = indices.iter().map(|index| index.effect.total.estimate).collect();
@@ -139,4 +140,9 @@ pub fn numbers(output: &OutputRecord) -> (Vec<f64>, Vec<f64>) {
 pub fn gap(a: &[f64], b: &[f64]) -> f64 {
     assert_eq!(a.len(), b.len());
     a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+}
+
+/// What is known of every factor of an output.
+pub fn effects(output: &OutputResult) -> Vec<EffectEstimates> {
+    output.indices.iter().flatten().map(|index| index.effect).collect()
 }

@@ -2,17 +2,17 @@
 
 use std::path::Path;
 
-use apportion::report::{OutputRecord, ResultFile, parse_result, result_json};
+use apportion::result::{OutputResult, StudyResult, parse_result};
 use apportion::study::Study;
 
 use crate::common::HOLES;
 
-fn analysed(text: &str) -> ResultFile {
+fn analysed(text: &str) -> StudyResult {
     let study = Study::parse(text, Path::new("degenerate.toml"), &[]).unwrap_or_else(|error| panic!("{error}"));
-    ResultFile::new(&study, &study.run().unwrap())
+    study.run().unwrap()
 }
 
-fn first_and_total(output: &OutputRecord) -> Vec<(f64, f64)> {
+fn first_and_total(output: &OutputResult) -> Vec<(f64, f64)> {
     let indices = output.indices.as_ref().unwrap_or_else(|| panic!("{:?}", output.reason));
     indices.iter().map(|index| (index.effect.first_order.estimate, index.effect.total.estimate)).collect()
 }
@@ -32,7 +32,7 @@ fn failures_by_several_factors_are_told_from_those_by_one() {
         let factors = "[factors]\nx = { min = 0, max = 1 }\ny = { min = 0, max = 1 }\n";
         let output =
             format!("model = \"expression\"\noutputs.z.formula = \"{formula}\"\n[design]\nbase_samples = 16384\n");
-        analysed(&format!("{output}{factors}")).outputs[0].warning_codes.clone()
+        analysed(&format!("{output}{factors}")).outputs[0].warnings.iter().map(|w| w.code().to_owned()).collect()
     };
     // The samples are many: the advice to take more would be wrong.
     assert_eq!(codes("if(x/y > 10, sqrt(-1), x + y)"), ["runs-failed", "joint-failures"]);
@@ -85,7 +85,7 @@ fn two_base_samples_are_enough_for_estimates_and_too_few_for_more() {
 fn samples_that_are_no_power_of_two_are_allowed_and_warned_of() {
     let result = analysed("model = \"ishigami\"\n[design]\nbase_samples = 12000\nreplicates = 4");
     let output = &result.outputs[0];
-    assert!(output.warnings.iter().any(|warning| warning.contains("not a power of two")), "{:?}", output.warnings);
+    assert!(output.warnings.iter().any(|warning| warning.code() == "unbalanced"), "{:?}", output.warnings);
     let exact = [(0.313905, 0.557589), (0.442411, 0.442411), (0.0, 0.243684)];
     for (got, exact) in output.indices.as_ref().unwrap().iter().zip(exact) {
         // Some 2e-3 is the standard error of as many points on the way from one net to the next.
@@ -104,7 +104,7 @@ fn failed_rows_cost_their_own_indices_and_too_many_of_them_all() {
     let output = &result.outputs[0];
     assert!(output.runs_failed > 0 && output.runs_ok > output.runs_failed);
     assert!(output.base_points_used < 4096 && output.indices.is_some());
-    assert!(output.warnings.iter().any(|warning| warning.contains("runs failed")), "{:?}", output.warnings);
+    assert!(output.warnings.iter().any(|warning| warning.code() == "runs-failed"), "{:?}", output.warnings);
     let result = analysed(&format!("{HOLES}[design]\nbase_samples = 4096\n[analysis]\nmax_failed = 0.0001"));
     assert_eq!(result.outputs[0].indices, None);
     assert!(result.outputs[0].reason.as_ref().unwrap().contains("more than max_failed = 0.0001 allows"));
@@ -138,9 +138,9 @@ fn results_beyond_doubles_can_be_read_back() {
     for c in ["1.7e308, 1e308", "1e308, 9e307", "6e307, 6e307"] {
         let text = format!("model = \"linear\"\n[function]\nc = [{c}]\n[design]\nbase_samples = 16");
         let result = analysed(&text);
-        let json = result_json(&result);
+        let json = result.json();
         let read = parse_result(json.as_bytes()).unwrap_or_else(|error| panic!("{c}: {error}"));
-        assert_eq!(result_json(&read), json);
+        assert_eq!(read.json(), json);
     }
 }
 

@@ -1,6 +1,6 @@
 //! Factors that depend on each other: indices against closed forms.
 
-use crate::common::study_path;
+use crate::common::{effects, study_path};
 use ::apportion::{
     AnalysisOptions, CorrelationMeasure, Dependence, Distribution, EffectEstimates, Estimate, Study, function_model,
 };
@@ -202,9 +202,9 @@ fn independent_factors_are_a_special_case() {
     };
     let plain = study(None, false);
     let zero = study(Some(Dependence::pair("x1", "x3", 0.0)), true);
-    let pairs = plain.output("y").unwrap().indices.as_ref().unwrap().factors.iter();
-    let zero = &zero.output("y").unwrap().indices.as_ref().unwrap().factors;
-    for (plain, zero) in pairs.zip(zero) {
+    let pairs = effects(plain.output("y").unwrap());
+    let zero = effects(zero.output("y").unwrap());
+    for (plain, zero) in pairs.iter().zip(&zero) {
         // Their intervals differ by the indices that are there beside.
         let estimates = |effect: &EffectEstimates| [effect.first_order.estimate, effect.total.estimate];
         assert_eq!(estimates(plain), estimates(zero));

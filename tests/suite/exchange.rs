@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use apportion::exchange::{ColumnKind, Format, ReadOptions, open_table, row_writer};
-use apportion::report::{ResultFile, read_result};
+use apportion::result::{StudyResult, read_result};
 
 use crate::common::{apportion, files, gap, numbers, stderr, study_path, succeed, text};
 
@@ -34,7 +34,7 @@ impl Sampled {
         apportion(&[&["analyze", &data, "--out", &out], more].concat())
     }
 
-    fn result(&self, name: &str) -> ResultFile {
+    fn result(&self, name: &str) -> StudyResult {
         read_result(&self.path("out").join(format!("{name}.json"))).unwrap()
     }
 

@@ -2,7 +2,6 @@
 
 use std::path::Path;
 
-use apportion::report::ResultFile;
 use apportion::study::Study;
 
 use crate::common::{analysed, apportion, gap, numbers, stderr, stdout, study_path};
@@ -33,7 +32,7 @@ max = 3.141592653589793
 #[test]
 fn ishigami_by_formula_is_the_built_in_one() {
     let study = Study::parse(ISHIGAMI, Path::new("formula.toml"), &[]).unwrap();
-    let by_formula = ResultFile::new(&study, &study.run().unwrap());
+    let by_formula = study.run().unwrap();
     let built_in = analysed("ishigami", &["design.base_samples=4096"]);
     let (first, total) = numbers(&by_formula.outputs[0]);
     let (known_first, known_total) = numbers(&built_in.outputs[0]);

@@ -257,7 +257,7 @@ fn an_output_lost_to_failed_runs_is_a_failed_run() {
         stderr(&output)
     );
     let json = std::fs::read_to_string(out.join("holes.json")).unwrap();
-    let result: apportion::report::ResultFile = serde_json::from_str(&json).unwrap();
+    let result: apportion::result::StudyResult = serde_json::from_str(&json).unwrap();
     assert!(result.outputs[0].reason.as_ref().unwrap().contains("max_failed = 0"), "{json}");
     assert!(result.outputs[0].distribution.is_some(), "the values that there are");
     assert!(out.join("charts/holes-distribution.png").exists());

@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
-use apportion::report::{ResultFile, read_result};
+use apportion::result::read_result;
 use apportion::{Distribution, Study, Target, function_model};
 
-use crate::common::{Folder, apportion, stderr, study_path, succeed, text};
+use crate::common::{Folder, apportion, effects, stderr, study_path, succeed, text};
 
 /// Ishigami's function with a = 5 and the cheaper one of Qian et al. (2018), section 4.1.
 const PAIR: &str = "model = \"expression\"\n[outputs]\ny = \"sin(x1) + 5*sin(x2)^2 + 0.1*x3^4*sin(x1)\"\n\
@@ -23,8 +23,7 @@ fn study(text: &str, more: &[&str]) -> Study {
 /// First-order and total indices of the first output.
 fn numbers(study: &Study, threads: usize) -> Vec<f64> {
     let result = study.runner().threads(threads).run().unwrap();
-    let indices = result.outputs[0].indices.as_ref().unwrap();
-    indices.factors.iter().flat_map(|f| [f.first_order.estimate, f.total.estimate]).collect()
+    effects(&result.outputs[0]).iter().flat_map(|f| [f.first_order.estimate, f.total.estimate]).collect()
 }
 
 #[test]
@@ -77,8 +76,8 @@ fn the_truth_lies_within_and_the_bits_are_those_of_any_threads() {
         assert!((found - exact).abs() < 1e-4, "{one:?}");
     }
     let result = study.run().unwrap();
-    let used = result.outputs[0].indices.as_ref().unwrap().surrogate.clone().unwrap();
-    let json = ResultFile::new(&study, &result);
+    let used = result.outputs[0].surrogate.clone().unwrap();
+    let json = result;
     assert_eq!(json.lows.len(), 1);
     assert_eq!((json.lows[0].shared_runs, json.lows[0].own_runs), (64 * 5, 1024 * 5));
     assert!(used.corrects_total && used.gain_total.unwrap() > 100.0, "{used:?}");
@@ -99,7 +98,7 @@ fn a_cheaper_model_that_is_the_model_leaves_nothing_to_it() {
         assert!((found - other).abs() < 2e-3, "{found} {other}");
     }
     let result = builder(true).run().unwrap();
-    let used = result.outputs[0].indices.as_ref().unwrap().surrogate.clone().unwrap();
+    let used = result.outputs[0].surrogate.clone().unwrap();
     assert!(used.low.as_ref().is_some_and(|low| (low.slope - 1.0).abs() < 1e-9 && low.explained > 1.0 - 1e-9));
 }
 
@@ -108,8 +107,8 @@ fn rows_on_which_the_cheaper_model_fails_are_left_out() {
     let low = "sin(x1) + 3*sin(x2)^2 + 0.9*x3^2*sin(x1) + 0*sqrt(x3 + 3.1)";
     let text = PAIR.replace("sin(x1) + 3*sin(x2)^2 + 0.9*x3^2*sin(x1)", low);
     let result = study(&text, &[]).run().unwrap();
-    let indices = result.outputs[0].indices.as_ref().unwrap();
-    assert!((indices.factors[1].total.estimate - 0.29).abs() < 0.02, "{:?}", indices.factors[1].total);
+    let total = effects(&result.outputs[0])[1].total;
+    assert!((total.estimate - 0.29).abs() < 0.02, "{total:?}");
 }
 
 #[test]
@@ -188,7 +187,7 @@ fn quick_models_are_doubled_without_surrogates() {
         .unwrap();
     let result = study.run().unwrap();
     let spending = result.spending.as_ref().unwrap();
-    assert!(result.stopped.as_ref().unwrap().target_met == Some(true) && !spending.reasons.is_empty());
+    assert!(result.stopping.as_ref().unwrap().target_met == Some(true) && !spending.reasons.is_empty());
     let total = result.output("y").unwrap().factor("a").unwrap().total;
     assert!((total.estimate - (27.0 + 4.0) / 139.0).abs() < 0.002, "{total:?}");
 }

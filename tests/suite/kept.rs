@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use apportion::report::read_result;
+use apportion::result::read_result;
 
 use crate::common::{Folder, apportion, files, stderr, succeed, text};
 

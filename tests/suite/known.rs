@@ -3,14 +3,14 @@
 use std::path::Path;
 
 use apportion::model::{Basis, KnownAnswer};
-use apportion::report::{OutputRecord, ResultFile};
+use apportion::result::{OutputResult, StudyResult};
 use apportion::study::Study;
 
 use crate::common::numbers;
 
-fn analysed(text: &str, overrides: &[String]) -> ResultFile {
+fn analysed(text: &str, overrides: &[String]) -> StudyResult {
     let study = Study::parse(text, Path::new("known.toml"), overrides).unwrap_or_else(|error| panic!("{error}"));
-    ResultFile::new(&study, &study.run().unwrap())
+    study.run().unwrap()
 }
 
 const SEEDS: u64 = 32;
@@ -78,7 +78,7 @@ fn every_function_has_its_indices() {
 }
 
 /// The only output of a result.
-fn only(result: &ResultFile) -> &OutputRecord {
+fn only(result: &StudyResult) -> &OutputResult {
     assert_eq!(result.outputs.len(), 1);
     &result.outputs[0]
 }

@@ -3,12 +3,11 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use apportion::report::ResultFile;
 use apportion::study::{AnalysisOptions, Study, StudyBuilder, SurrogateChoice};
-use apportion::{Analysis, Distribution, Estimate, RepeatedModel, Sampler, function_model};
+use apportion::{Distribution, Estimate, RepeatedModel, Sampler, StudyResult, function_model};
 use statrs::distribution::{ContinuousCDF, Normal};
 
-use crate::common::{Folder, apportion, stderr, succeed, text};
+use crate::common::{Folder, apportion, effects, stderr, succeed, text};
 
 /// A standard normal number for a seed.
 fn normal(seed: f64) -> f64 {
@@ -31,7 +30,7 @@ fn options(surrogate: SurrogateChoice) -> AnalysisOptions {
     AnalysisOptions { surrogate, subsets, ..AnalysisOptions::for_sampler(Sampler::Sobol) }
 }
 
-fn run(s: f64, base_samples: u64, seed: u64, surrogate: SurrogateChoice) -> Analysis {
+fn run(s: f64, base_samples: u64, seed: u64, surrogate: SurrogateChoice) -> StudyResult {
     let study = with_factors(Study::builder("noisy", noisy(s)), Distribution::seed());
     let study = study.base_samples(base_samples).seed(seed).analysis(options(surrogate)).build().unwrap();
     study.run().unwrap()
@@ -39,17 +38,17 @@ fn run(s: f64, base_samples: u64, seed: u64, surrogate: SurrogateChoice) -> Anal
 
 /// The indices that are known for s = 1, each with its estimate. The variance is 1/12 + 4/12 + 9 (1/12)(4/12) + 1/3 = 1, of
 /// which the noise has 1/4 alone and 1/12 together with x3, and the mean over it 2/3.
-fn known(analysis: &Analysis) -> Vec<(f64, Estimate)> {
-    let indices = analysis.outputs[0].indices.as_ref().unwrap();
-    let noise = indices.noise.as_ref().unwrap();
+fn known(analysis: &StudyResult) -> Vec<(f64, Estimate)> {
+    let output = &analysis.outputs[0];
+    let noise = output.noise.as_ref().unwrap();
     let first = [1.0 / 12.0, 1.0 / 3.0, 0.0, 0.25];
     let total = [1.0 / 3.0, 7.0 / 12.0, 1.0 / 12.0, 1.0 / 3.0];
     let mut known = vec![(2.0 / 3.0, noise.mean_share)];
-    for (factor, (first, total)) in indices.factors.iter().zip(first.into_iter().zip(total)) {
+    for (factor, (first, total)) in effects(output).into_iter().chain([noise.effect]).zip(first.into_iter().zip(total))
+    {
         known.extend([(first, factor.first_order), (total, factor.total)]);
     }
     for (of, (first, total)) in noise.of_mean.iter().zip([(0.125, 0.5), (0.5, 0.875), (0.0, 0.0)]) {
-        let of = of.unwrap();
         known.extend([(first, of.first_order.unwrap()), (total, of.total.unwrap())]);
     }
     known
@@ -96,29 +95,27 @@ fn without_noise_all_is_as_without_it() {
     let (silent, without) = (of(Distribution::seed()), of(Distribution::uniform(0.0, 1.0).unwrap()));
     let [silent, without] = [&silent, &without].map(|analysis| analysis.outputs[0].clone());
     assert!(silent.warnings.iter().any(|warning| warning.code() == "no-noise"), "{:?}", silent.warnings);
-    let [silent, without] = [silent, without].map(|output| output.indices.unwrap());
-    for number in 0..3 {
-        let (a, b) = (&silent.factors[number], &without.factors[number]);
+    let [factors, of_others] = [&silent, &without].map(effects);
+    for (a, b) in factors.iter().zip(&of_others) {
         assert_eq!((a.first_order, a.total, a.share_total), (b.first_order, b.total, b.share_total));
     }
     let zero = Some(apportion::Interval { low: 0.0, high: 0.0 });
-    let of_noise = &silent.factors[3];
+    let noise = silent.noise.unwrap();
+    let of_noise = &noise.effect;
     for index in [of_noise.first_order, of_noise.total] {
         assert_eq!((index.estimate, index.interval), (0.0, zero));
     }
     assert_eq!((of_noise.share_total, of_noise.probability_first), (None, None));
     // The mean over it is the output itself.
-    let noise = silent.noise.unwrap();
     assert_eq!(noise.mean_share.estimate, 1.0);
-    for (of_mean, factor) in noise.of_mean.iter().zip(&silent.factors[..3]) {
-        let of_mean = of_mean.unwrap();
+    for (of_mean, factor) in noise.of_mean.iter().zip(&factors) {
         let first = of_mean.first_order.unwrap();
         // The index of the mean may be missed on both sides alike, that of a run above.
         assert_eq!(first.estimate, factor.first_order.estimate);
         assert_eq!(first.interval.unwrap().high, factor.first_order.interval.unwrap().high);
         assert!((of_mean.total.unwrap().estimate - factor.total.estimate).abs() < 1e-12);
     }
-    assert!(noise.of_mean[3].is_none());
+    assert_eq!(noise.of_mean.len(), 3);
 }
 
 /// Rows that differ in a factor share the seed: where the noise is all, factors do nothing in any row.
@@ -128,9 +125,8 @@ fn rows_of_a_factor_share_the_noise_of_their_point() {
     let study = with_factors(Study::builder("all", model), Distribution::seed()).base_samples(256);
     let analysis = study.analysis(options(SurrogateChoice::Off)).build().unwrap().run().unwrap();
     let output = &analysis.outputs[0];
-    let indices = output.indices.as_ref().unwrap();
-    assert!(indices.factors[..3].iter().all(|factor| factor.total.estimate == 0.0), "{:?}", indices.factors[0]);
-    assert!((indices.factors[3].total.estimate - 1.0).abs() < 0.1);
+    assert!(effects(output).iter().all(|factor| factor.total.estimate == 0.0), "{:?}", output.indices);
+    assert!((output.noise.as_ref().unwrap().effect.total.estimate - 1.0).abs() < 0.1);
     assert!(output.warnings.iter().any(|warning| warning.code() == "all-noise"), "{:?}", output.warnings);
 }
 
@@ -141,18 +137,18 @@ fn mean_and_variance_over_repetitions_have_their_indices() {
     let model = RepeatedModel::new(Arc::new(noisy(1.0)), 3, 8);
     let study = with_factors(Study::builder("repeated", model), Distribution::seed()).base_samples(8192);
     let analysis = study.analysis(options(SurrogateChoice::Off)).build().unwrap().run().unwrap();
-    let of_mean = |name: &str| analysis.output(name).unwrap().indices.as_ref().unwrap().noise.clone().unwrap();
+    let of_mean = |name: &str| analysis.output(name).unwrap().noise.clone().unwrap();
     let of_variance = of_mean("y_variance");
     let all = 0.2 * 9.0 / 7.0 - 1.0 / 9.0;
     assert!((of_variance.mean_share.estimate - 4.0 / 45.0 / all).abs() < 0.05, "{:?}", of_variance.mean_share);
-    for (found, exact) in of_variance.of_mean.iter().flatten().zip([0.0, 0.0, 1.0]) {
+    for (found, exact) in of_variance.of_mean.iter().zip([0.0, 0.0, 1.0]) {
         let found = [found.first_order, found.total].map(|index| index.unwrap().estimate);
         assert!(found.iter().all(|index| (index - exact).abs() < 0.08), "{found:?} {exact}");
     }
     // The mean of 8 runs still has an eighth of the noise, and its mean the same indices as that of one run.
     let of_means = of_mean("y_mean");
     assert!((of_means.mean_share.estimate - 16.0 / 17.0).abs() < 0.02, "{:?}", of_means.mean_share);
-    for (found, exact) in of_means.of_mean.iter().flatten().zip([0.5, 0.875, 0.0]) {
+    for (found, exact) in of_means.of_mean.iter().zip([0.5, 0.875, 0.0]) {
         assert!((found.total.unwrap().estimate - exact).abs() < 0.03, "{found:?}");
     }
 }
@@ -177,7 +173,7 @@ fn a_file_says_it_in_two_ways() {
     assert_eq!(short.identity(), as_factor.identity());
     assert_eq!(short.space().noise(), Some(1));
     // The noise is none of the factors of a result.
-    let result = ResultFile::new(&short, &short.run().unwrap());
+    let result = short.run().unwrap();
     let output = &result.outputs[0];
     assert_eq!((result.factors.len(), output.indices.as_ref().unwrap().len()), (1, 1));
     assert_eq!(output.noise.as_ref().unwrap().name, "seed");
@@ -247,9 +243,9 @@ fn a_run_tells_random_programs_from_those_that_remember() {
         let study = folder.with("s.toml", std::fs::read_to_string(study).unwrap().replace("noise = \"seed\"\n", ""));
         let out = folder.path("out");
         succeed(&["run", text(&study), "--restart", "--charts", "none", "--out", text(&out)]);
-        let result = apportion::report::read_result(&out.join("s.json")).unwrap();
-        let warnings: Vec<&String> =
-            result.outputs[0].warnings.iter().filter(|warning| warning.contains("stochastic-models.md")).collect();
+        let result = apportion::result::read_result(&out.join("s.json")).unwrap();
+        let warnings: Vec<String> = result.outputs[0].warnings.iter().map(ToString::to_string).collect();
+        let warnings: Vec<&String> = warnings.iter().filter(|text| text.contains("stochastic-models.md")).collect();
         assert_eq!(warnings.len(), usize::from(expected.is_some()), "{draws}: {warnings:?}");
         assert!(expected.is_none_or(|expected| warnings[0].contains(expected)), "{draws}: {warnings:?}");
     }
@@ -275,7 +271,7 @@ fn the_example_says_which_question_each_number_answers() {
     let result = |name: &str| {
         let path = folder.path(name).join("stochastic.json");
         let text = std::fs::read(&path).unwrap();
-        apportion::report::parse_result(&text).unwrap().outputs.remove(0)
+        apportion::result::parse_result(&text).unwrap().outputs.remove(0)
     };
     let one = result("one");
     let noise = one.noise.as_ref().unwrap();
@@ -291,7 +287,7 @@ fn the_example_says_which_question_each_number_answers() {
     succeed(&["evaluate", text(&study), &design, runs[0], runs[1], "-o", &answers]);
     let output = apportion(&["analyze", &answers, "--design", &design, "--out", &out("two")]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    let estimates = |output: &apportion::report::OutputRecord| -> Vec<f64> {
+    let estimates = |output: &apportion::OutputResult| -> Vec<f64> {
         let of_mean = output.noise.iter().flat_map(|noise| &noise.of_mean);
         of_mean.flat_map(|of| [of.first_order.unwrap().estimate, of.total.unwrap().estimate]).collect()
     };

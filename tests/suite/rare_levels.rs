@@ -1,8 +1,9 @@
 //! Rare levels and thin tails: surrogates do not claim what rows cannot carry, and what rows never met is said to be unknown.
 
+use crate::common::effects;
 use apportion::model::{Model, Output, RunContext, Worker};
 use apportion::{
-    Analysis, AnalysisOptions, Distribution, Sampler, Study, StudyBuilder, SurrogateChoice, Target, Warning,
+    AnalysisOptions, Distribution, Sampler, Study, StudyBuilder, StudyResult, SurrogateChoice, Target, Warning,
     function_model,
 };
 
@@ -41,9 +42,9 @@ fn options(surrogate: SurrogateChoice) -> AnalysisOptions {
 }
 
 /// How many intervals of first-order and total indices hold `exact`, and how many there are.
-fn held(analysis: &Analysis, exact: &[[f64; 2]]) -> (usize, usize) {
-    let indices = analysis.outputs[0].indices.as_ref().unwrap();
-    let estimates = indices.factors.iter().zip(exact).flat_map(|(f, e)| [(f.first_order, e[0]), (f.total, e[1])]);
+fn held(analysis: &StudyResult, exact: &[[f64; 2]]) -> (usize, usize) {
+    let effects = effects(&analysis.outputs[0]);
+    let estimates = effects.iter().zip(exact).flat_map(|(f, e)| [(f.first_order, e[0]), (f.total, e[1])]);
     let holds = estimates.map(|(estimate, exact)| {
         usize::from(estimate.interval.is_some_and(|i| i.low - 1e-9 <= exact && exact <= i.high + 1e-9))
     });
@@ -91,14 +92,14 @@ fn a_level_that_no_row_met_is_not_nothing() {
         let study = builder(&factors, function).until(target).analysis(options(SurrogateChoice::Auto));
         let result = study.build().unwrap().run().unwrap();
         let output = &result.outputs[0];
-        let rare = &output.indices.as_ref().unwrap().factors[2];
+        let rare = effects(output)[2];
         let interval = rare.total.interval.unwrap();
         // 1e-4 (1 - 1e-4) 1e4 of itself and 7/144.
         assert!(interval.low <= 0.954 && 0.954 <= interval.high, "{interval:?}");
         assert_eq!((rare.probability_above_threshold, rare.probability_first), (None, None));
         let is_rare = |warning: &Warning| matches!(warning, Warning::RareLevel(rare) if rare.factor == "x2");
         assert!(output.warnings.iter().any(is_rare), "{:?}", output.warnings);
-        assert!(result.stopped.is_none_or(|stopped| stopped.target_met == Some(false)));
+        assert!(result.stopping.is_none_or(|stopped| stopped.target_met == Some(false)));
     }
 }
 
@@ -110,8 +111,8 @@ fn an_accuracy_goes_on_until_rare_levels_are_met() {
     for seed in 0..4 {
         let study = builder(&factors, |x| x[0] * x[1] + x[2] + x[3]).until(Target::accuracy(0.01)).seed(seed);
         let result = study.build().unwrap().run().unwrap();
-        assert_eq!(result.stopped.as_ref().unwrap().target_met, Some(true));
-        let factors = &result.outputs[0].indices.as_ref().unwrap().factors;
+        assert_eq!(result.stopping.as_ref().unwrap().target_met, Some(true));
+        let factors = effects(&result.outputs[0]);
         for (effect, exact) in [(0, exact[0]), (2, exact[1]), (3, exact[1])] {
             let error = (factors[effect].first_order.estimate - exact).abs();
             assert!(error <= 0.01, "{seed}, x{effect}: {error}");
@@ -128,8 +129,8 @@ fn many_rows_know_rare_levels_no_less_than_few() {
         let options = AnalysisOptions { convergence: false, ..options(SurrogateChoice::Auto) };
         let study = builder.seed(seed).base_samples(4096).analysis(options).build().unwrap();
         let analysis = study.runner().run().unwrap();
-        let indices = analysis.outputs[0].indices.as_ref().unwrap();
-        assert!((indices.factors[2].total.estimate - exact).abs() < 1e-9, "{seed}: {:?}", indices.factors[2].total);
+        let total = effects(&analysis.outputs[0])[2].total;
+        assert!((total.estimate - exact).abs() < 1e-9, "{seed}: {total:?}");
     }
 }
 
@@ -142,9 +143,9 @@ fn a_trial_says_why_indices_are_plain() {
         let builder = (0..3).fold(builder, |builder, i| builder.factor(&format!("x{i}"), uniform()));
         let analysis = builder.base_samples(1 << 15).build().unwrap().runner().run().unwrap();
         let output = &analysis.outputs[0];
-        let trial = output.trial.unwrap();
+        let trial = output.surrogate_trial.unwrap();
         assert_eq!(trial.gain > trial.needed, is_corrected, "{trial:?}");
-        assert_eq!(output.indices.as_ref().unwrap().surrogate.is_some(), is_corrected);
-        assert!(trial.runs >= 8192 && trial.runs < analysis.design.rows());
+        assert_eq!(output.surrogate.is_some(), is_corrected);
+        assert!(trial.runs >= 8192 && trial.runs < analysis.provenance.model_runs);
     }
 }

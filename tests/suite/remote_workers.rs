@@ -6,7 +6,7 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
-use apportion::report::ResultFile;
+use apportion::result::StudyResult;
 use apportion::study::Study;
 use apportion::{RemoteWorkers, Requests, RunContext, RunError, WorkerStudy};
 
@@ -80,8 +80,8 @@ fn load(name: &str, overrides: &[&str]) -> Study {
     Study::load(&study_path(name), &overrides).unwrap()
 }
 
-fn json(study: &Study, analysis: &apportion::Analysis) -> serde_json::Value {
-    let mut json = serde_json::to_value(ResultFile::new(study, analysis)).unwrap();
+fn json(result: &StudyResult) -> serde_json::Value {
+    let mut json = serde_json::to_value(result).unwrap();
     ["threads", "wall_seconds"].iter().for_each(|key| drop(json["provenance"].as_object_mut().unwrap().remove(*key)));
     json
 }
@@ -98,12 +98,12 @@ fn workers_elsewhere_change_no_bit() {
         ("lugre-environmental", &[dynamic, "design.base_samples=32"]),
     ] {
         let study = load(name, overrides);
-        let alone = json(&study, &study.run().unwrap());
+        let alone = json(&study.run().unwrap());
         for workers in [1, 3] {
             let together = with_workers(&study, workers, usize::MAX, |far| {
                 study.runner().threads(1).remote_workers(far).run().unwrap()
             });
-            assert!(json(&study, &together) == alone, "{name} {overrides:?}, {workers} workers elsewhere");
+            assert!(json(&together) == alone, "{name} {overrides:?}, {workers} workers elsewhere");
         }
     }
 }
@@ -113,7 +113,7 @@ fn recorded_runs_are_not_repeated_by_workers_elsewhere() {
     let folder = tempfile::tempdir().unwrap();
     let journal = folder.path().join("rows.journal");
     let study = load("ishigami", &["design.base_samples=65536"]);
-    let expected = json(&study, &study.run().unwrap());
+    let expected = json(&study.run().unwrap());
     let stop = AtomicBool::new(false);
     let enough = |progress: apportion::run::Progress| stop.store(progress.done > 100_000, Ordering::Relaxed);
     let stopped = with_workers(&study, 2, usize::MAX, |far| {
@@ -126,7 +126,7 @@ fn recorded_runs_are_not_repeated_by_workers_elsewhere() {
     let resumed = with_workers(&study, 3, usize::MAX, |far| {
         study.runner().threads(1).remote_workers(far).journal(&journal).run().unwrap()
     });
-    assert!(json(&study, &resumed) == expected);
+    assert!(json(&resumed) == expected);
 }
 
 #[test]

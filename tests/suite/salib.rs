@@ -1,6 +1,6 @@
 //! Tables in the layouts of SALib, through `analyze`.
 
-use apportion::report::{ResultFile, read_result};
+use apportion::result::{StudyResult, read_result};
 
 use crate::common::stderr;
 use crate::exchange::answered;
@@ -43,7 +43,7 @@ fn tables_of_salib_are_recognised_checked_and_analysed() {
         let option = if second_order { "--second-order" } else { "--first-order-only" };
         assert_eq!(sampled.analyze("y.csv", &[&names[..], &[option]].concat()).status.code(), Some(0));
         let again = read_result(&sampled.path("out").join("y.json")).unwrap();
-        let estimates = |result: &ResultFile| -> Vec<f64> {
+        let estimates = |result: &StudyResult| -> Vec<f64> {
             let indices = result.outputs[0].indices.iter().flatten();
             indices.flat_map(|i| [i.effect.first_order.estimate, i.effect.total.estimate]).collect()
         };

@@ -138,7 +138,7 @@ fn results_fit_the_schema() {
         ("coulomb-general", vec!["design.base_samples=64"]),
     ] {
         let result = analysed(name, &overrides);
-        let value: Value = serde_json::from_str(&apportion::report::result_json(&result)).unwrap();
+        let value: Value = serde_json::from_str(&result.json()).unwrap();
         assert_eq!(complaints(&validator, &value), Vec::<String>::new(), "{name}");
         for (pointer, wrong) in [
             ("/format", json!("apportion-sweep")),

@@ -3,9 +3,9 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use apportion::report::json;
 use apportion::report::screening::ScreeningFile;
 use apportion::report::sweep::SweepFile;
+use apportion::result::json;
 use apportion::screening::Reading;
 
 use crate::common::{Folder, all_files, apportion, stderr, stdout, study_path, succeed, text};

@@ -2,10 +2,10 @@
 
 use std::f64::consts::TAU;
 
-use apportion::report::{ResultFile, run_document};
+use apportion::report::run_document;
 use apportion::{
-    Analysis, CorrelationMeasure, Dependence, Distribution, FunctionModel, RowFailure, SeriesAxis, Study, StudyBuilder,
-    SurrogateChoice, Unit,
+    CorrelationMeasure, Dependence, Distribution, FunctionModel, RowFailure, SeriesAxis, Study, StudyBuilder,
+    StudyResult, SurrogateChoice, Unit,
 };
 
 /// A study of a series of `f` at `positions`, of factors between -1 and 1.
@@ -38,10 +38,9 @@ fn near(found: f64, expected: f64, tolerance: f64) {
 }
 
 /// First-order and total indices of the whole series.
-fn whole(analysis: &Analysis) -> (Vec<f64>, Vec<f64>) {
-    let indices = analysis.series("y").unwrap().aggregate.as_ref().unwrap();
-    let estimates = |of: &[apportion::Estimate]| of.iter().map(|index| index.estimate).collect();
-    (estimates(&indices.first_order), estimates(&indices.total))
+fn whole(analysis: &StudyResult) -> (Vec<f64>, Vec<f64>) {
+    let indices = analysis.series("y").unwrap().indices.as_ref().unwrap();
+    indices.iter().map(|index| (index.first_order.estimate, index.total.estimate)).unzip()
 }
 
 #[test]
@@ -65,7 +64,7 @@ fn two_factors_with_a_direction_each() {
             near(*found, expected, tolerance);
         }
         let series = analysis.series("y").unwrap();
-        assert!(series.aggregate.as_ref().unwrap().total.iter().all(|index| index.interval.is_some()));
+        assert!(series.indices.iter().flatten().all(|index| index.total.interval.is_some()));
     }
 }
 
@@ -89,10 +88,10 @@ fn the_whole_is_the_mean_of_values() {
     let study = study(&["a", "b", "c"], positions, wave).base_samples(1024).analysis(options).build().unwrap();
     let analysis = study.run().unwrap();
     let (_, total) = whole(&analysis);
-    let variances: Vec<f64> = analysis.outputs.iter().map(|output| output.values.variance().unwrap()).collect();
+    let variances: Vec<f64> = analysis.outputs.iter().map(|output| output.variance.unwrap()).collect();
     let all: f64 = variances.iter().sum();
     for (place, name) in ["a", "b", "c"].into_iter().enumerate() {
-        let of_value = |(output, variance): (&apportion::OutputAnalysis, &f64)| {
+        let of_value = |(output, variance): (&apportion::OutputResult, &f64)| {
             variance / all * output.factor(name).unwrap().total.estimate
         };
         let by_values: f64 = analysis.outputs.iter().zip(&variances).map(of_value).sum();
@@ -117,7 +116,7 @@ fn runs_that_fail_are_left_out_and_threads_do_not_matter() {
 #[test]
 fn a_series_without_variance_has_no_indices() {
     let still = study(&["x1"], turn(4), |_, _| Some(1.0)).base_samples(64).build().unwrap().run().unwrap();
-    assert!(still.series("y").unwrap().aggregate.is_err());
+    assert!(still.series("y").unwrap().indices.is_none());
     assert!(still.series("z").unwrap_err().to_string().contains("no series `z`; there are: y"));
 }
 
@@ -133,9 +132,9 @@ fn surrogates_of_the_values_correct_the_whole() {
             study(&["x1", "x2"], vec![0.0, 0.5, 1.0], wave).base_samples(256).analysis(options).build().unwrap();
         study.run().unwrap()
     };
-    let width = |analysis: &Analysis| {
-        let indices = analysis.series("y").unwrap().aggregate.clone().unwrap();
-        let all = indices.first_order.into_iter().chain(indices.total);
+    let width = |analysis: &StudyResult| {
+        let indices = analysis.series("y").unwrap().indices.iter().flatten();
+        let all = indices.flat_map(|index| [index.first_order, index.total]);
         all.map(|index| index.interval.map(|interval| interval.high - interval.low).unwrap()).fold(0.0, f64::max)
     };
     let (off, on) = (run(SurrogateChoice::Off), run(SurrogateChoice::On));
@@ -156,7 +155,7 @@ fn a_series_beside_noise_names_its_factors_right() {
         builder = builder.factor(name, Distribution::uniform(-1.0, 1.0).unwrap());
     }
     let study = builder.build().unwrap();
-    let result = ResultFile::new(&study, &study.run().unwrap());
+    let result = study.run().unwrap();
     let indices = result.series[0].indices.as_ref().unwrap();
     assert_eq!(indices.iter().map(|index| index.factor.as_str()).collect::<Vec<_>>(), ["x1", "x2"]);
     near(indices[0].total.estimate, 0.8, 0.02);
@@ -172,7 +171,7 @@ fn a_series_of_dependent_factors_has_their_indices() {
         builder = builder.factor(name, Distribution::normal(0.0, 1.0).unwrap());
     }
     let study = builder.build().unwrap();
-    let result = ResultFile::new(&study, &study.run().unwrap());
+    let result = study.run().unwrap();
     let indices = result.series[0].indices.as_ref().unwrap();
     // E(y | a) = a (2 sin t + r cos t); a given b varies by 1 - r^2.
     for (index, (first, total)) in indices.iter().zip([(4.0 + r * r, 4.0), (1.0 + 4.0 * r * r, 1.0)]) {
@@ -192,8 +191,8 @@ fn the_push_against_time() {
     let study = Study::parse(text, "push.toml".as_ref(), &[]).unwrap();
     let analysis = study.run().unwrap();
     let position = analysis.series("position_history").unwrap();
-    assert_eq!((position.series.axis.label(), position.series.axis.unit()), ("time", "s"));
-    near(position.series.axis.positions()[99], 2.0, 1e-12);
+    assert_eq!((&*position.axis, &*position.axis_unit), ("time", "s"));
+    near(position.positions[99], 2.0, 1e-12);
     let index = |output: &str, factor: &str| *analysis.output(output).unwrap().factor(factor).unwrap();
     near(index("position_history[0]", "velocity").first_order.estimate, 1.0, 1e-6);
     near(index("position_history[0]", "thickness").total.estimate, 0.0, 1e-9);
@@ -202,7 +201,7 @@ fn the_push_against_time() {
         near(at_end.total.estimate, critical.total.estimate, 1e-6);
         near(at_end.first_order.estimate, critical.first_order.estimate, 1e-6);
     }
-    let document = run_document(&ResultFile::new(&study, &analysis)).text();
+    let document = run_document(&analysis).text();
     assert!(document.contains("force_history") || document.contains("force history"), "{document}");
     let refused = |history: &str| {
         let text = text.replace("{ duration = \"2 s\", points = 100 }", history);

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use apportion::report::{ResultFile, read_result};
+use apportion::result::{StudyResult, read_result};
 
 use crate::common::{Folder, all_files, apportion, stderr, study_path, succeed, text};
 
@@ -19,7 +19,7 @@ fn python(answer: &str) -> String {
 
 /// The result of a study of a program of these lines.
 #[track_caller]
-fn run(folder: &Folder, study: &str, program: &str) -> (ResultFile, String) {
+fn run(folder: &Folder, study: &str, program: &str) -> (StudyResult, String) {
     let out = folder.path("out");
     folder.with("model.py", program);
     let study = format!("model = \"command\"\n{study}\n[design]\nbase_samples = 64\n{FACTORS}");

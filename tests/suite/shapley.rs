@@ -14,8 +14,7 @@ fn permutations(sampler: Sampler) -> AnalysisOptions {
 
 fn effects(study: &Study, output: &str) -> Vec<Estimate> {
     let analysis = study.run().unwrap();
-    let indices = analysis.output(output).unwrap().indices.as_ref().unwrap();
-    indices.factors.iter().map(|factor| factor.shapley.unwrap()).collect()
+    crate::common::effects(analysis.output(output).unwrap()).iter().map(|factor| factor.shapley.unwrap()).collect()
 }
 
 /// Ten factors of which some are correlated in a chain and some are not.

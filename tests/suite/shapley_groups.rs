@@ -1,6 +1,6 @@
 //! Shapley effects of groups of factors: the players of the game are the groups, and the factors that have none.
 
-use crate::common::{Folder, apportion, stderr, succeed, text};
+use crate::common::{Folder, apportion, effects, stderr, succeed, text};
 use crate::dependent::{Linear, correlations};
 use ::apportion::estimate::{ShapleyMethod, ShapleyPlayers, proper_subsets, shapley_effects};
 use ::apportion::{
@@ -178,7 +178,7 @@ fn groups_of_one_are_their_factors() {
             ..AnalysisOptions::for_sampler(Sampler::Sobol)
         };
         let analysis = case.linear.study_with(256, 3, options).run().unwrap();
-        let factors = &analysis.output("y").unwrap().indices.as_ref().unwrap().factors;
+        let factors = effects(analysis.output("y").unwrap());
         let of_factors: Vec<f64> = factors.iter().map(|factor| factor.shapley.unwrap().estimate).collect();
         let of_groups: Vec<f64> = of_groups.iter().map(|effect| effect.estimate).collect();
         assert_eq!(of_groups, of_factors, "{method:?}");

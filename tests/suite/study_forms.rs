@@ -3,7 +3,6 @@
 use std::path::Path;
 
 use apportion::design::DesignError;
-use apportion::report::ResultFile;
 use apportion::study::{BuildError, Problem, Study, StudyError};
 
 use crate::common::{Folder, apportion, stderr, succeed, text};
@@ -179,7 +178,7 @@ fn formulas_of_python_are_understood() {
     for (python, ours) in [("np.sin(x1)", "sin(x1)"), ("math.log(x1) + np.pi", "ln(x1) + pi")] {
         let value = |formula: &str| {
             let study = parsed(&study(formula));
-            ResultFile::new(&study, &study.run().unwrap()).outputs[0].mean
+            study.run().unwrap().outputs[0].mean
         };
         assert_eq!(value(python), value(ours));
     }

@@ -4,10 +4,9 @@
 use std::path::Path;
 
 use apportion::model::KnownAnswer;
-use apportion::report::ResultFile;
 use apportion::{Resume, Study};
 
-use crate::common::{apportion, run_in_parts, stderr, succeed, text};
+use crate::common::{apportion, effects, run_in_parts, stderr, succeed, text};
 
 fn refused(output: &std::process::Output, words: &str) {
     assert_eq!(output.status.code(), Some(2), "{}", stderr(output));
@@ -31,12 +30,12 @@ fn a_polynomial_has_its_indices_to_rounding() {
                 [[factor]]\nname = \"x3\"\nmin = 0\nmax = 1\n[analysis]\nsecond_order = true\nsubsets = [[\"x1\", \"x2\"]]\n";
     let result = study(text, &[ON, "design.base_samples=64"]).run().unwrap();
     let output = result.output("y").unwrap();
-    let indices = output.indices.as_ref().unwrap();
+    let factors = effects(output);
     let (one, two, both) = (1.0 / 12.0, 4.0 / 12.0, 9.0 / 144.0);
     let variance = one + two + both;
     let close = |found: f64, exact: f64| assert!((found - exact).abs() < 1e-9, "{found} {exact}");
     for (effect, first, total) in
-        [(0, one, one + both), (1, two, two + both), (2, 0.0, 0.0)].map(|(k, s, t)| (&indices.factors[k], s, t))
+        [(0, one, one + both), (1, two, two + both), (2, 0.0, 0.0)].map(|(k, s, t)| (factors[k], s, t))
     {
         close(effect.first_order.estimate, first / variance);
         close(effect.total.estimate, total / variance);
@@ -48,16 +47,16 @@ fn a_polynomial_has_its_indices_to_rounding() {
                 && interval.high - interval.low < 1e-8
         );
     }
-    close(indices.subsets[0].first_order.estimate, 1.0);
-    close(indices.second_order[0].estimate, both / variance);
-    close(indices.sum_first_order.estimate, (one + two) / variance);
-    close(indices.factors[1].share_first_order.unwrap(), 80.0);
-    close(output.variance.unwrap().estimate, variance);
-    close(output.mean.unwrap().estimate, 1.5);
-    let used = indices.surrogate.as_ref().unwrap();
+    close(output.subsets.as_ref().unwrap()[0].effect.first_order.estimate, 1.0);
+    close(output.second_order.as_ref().unwrap()[0].index.estimate, both / variance);
+    close(output.sum_first_order.unwrap().estimate, (one + two) / variance);
+    close(factors[1].share_first_order.unwrap(), 80.0);
+    close(output.variance.unwrap(), variance);
+    close(output.mean.unwrap(), 1.5);
+    let used = output.surrogate.as_ref().unwrap();
     assert!(used.corrects_first_order && used.corrects_total && used.explained > 1.0 - 1e-9);
-    assert_eq!(used.terms[0].factors, [(1, 1)]);
-    close(used.terms[0].share, two / variance);
+    assert_eq!(used.leading_terms[0].degrees, [("x2".to_owned(), 1)].into());
+    close(used.leading_terms[0].share, 100.0 * two / variance);
 }
 
 #[test]
@@ -69,10 +68,9 @@ fn mean_and_variance_keep_their_intervals_at_any_scale() {
         );
         let result = study(&text, &[ON, "design.base_samples=64"]).run().unwrap();
         let output = result.output("y").unwrap();
-        [output.mean, output.variance].map(|of| {
-            let of = of.unwrap();
-            let interval = of.interval.unwrap();
-            [(of.estimate - interval.low) / of.estimate, (interval.high - of.estimate) / of.estimate]
+        [(output.mean, output.mean_interval), (output.variance, output.variance_interval)].map(|(of, interval)| {
+            let (of, interval) = (of.unwrap(), interval.unwrap());
+            [(of - interval.low) / of, (interval.high - of) / of]
         })
     };
     let plain = relative("1");
@@ -93,7 +91,7 @@ fn smooth_functions_are_known_a_hundred_times_better_and_rough_ones_no_worse() {
                 let seed = format!("design.seed={seed}");
                 let model = format!("model = \"{name}\"");
                 let result = study(&model, &[more, &["design.base_samples=128", &seed]].concat()).run().unwrap();
-                let indices = result.outputs[0].indices.as_ref().unwrap().factors.clone();
+                let indices = effects(&result.outputs[0]);
                 let squares =
                     indices.iter().zip(exact.first_order.iter().zip(&exact.total)).map(|(effect, (first, total))| {
                         (effect.first_order.estimate - first).powi(2) + (effect.total.estimate - total).powi(2)
@@ -114,12 +112,11 @@ fn few_levels_and_normal_factors_are_fitted_in_their_own_polynomials() {
                 [[factor]]\nname = \"k\"\ndistribution = \"discrete\"\nvalues = [1, 2, 5]\nweights = [0.5, 0.3, 0.2]\n\
                 [[factor]]\nname = \"t\"\ndistribution = \"triangular\"\nmin = 0\nmode = 1\nmax = 3\n";
     let result = study(text, &[ON, "design.base_samples=64"]).run().unwrap();
-    let indices = result.outputs[0].indices.as_ref().unwrap();
+    let indices = effects(&result.outputs[0]);
     // Var z^2 = 2; E k = 2.1, E k^2 = 6.7; Var t = (9 + 1 - 3)/18.
     let (alone, interaction, triangle) = (2.0 + 2.1 * 2.1, 6.7 - 2.1 * 2.1, 7.0 / 18.0);
     let variance = alone + interaction + triangle;
-    for (effect, exact) in
-        indices.factors.iter().zip([(alone, alone + interaction), (0.0, interaction), (triangle, triangle)])
+    for (effect, exact) in indices.iter().zip([(alone, alone + interaction), (0.0, interaction), (triangle, triangle)])
     {
         assert!((effect.first_order.estimate - exact.0 / variance).abs() < 1e-9, "{effect:?}");
         assert!((effect.total.estimate - exact.1 / variance).abs() < 1e-9, "{effect:?}");
@@ -133,7 +130,7 @@ fn the_bits_are_the_same_on_any_number_of_threads_and_from_a_journal() {
     let run = |threads: usize, resume: Resume| {
         let journal = folder.path().join("borehole.journal");
         let result = study.runner().threads(threads).journal(journal).resume(resume).run().unwrap();
-        let mut file = ResultFile::new(&study, &result);
+        let mut file = result;
         (file.provenance.wall_seconds, file.provenance.threads) = (0.0, 0);
         file
     };
@@ -148,7 +145,7 @@ fn the_bits_are_the_same_on_any_number_of_threads_and_from_a_journal() {
 fn stages_can_be_left_out() {
     let result = |more: &str| {
         let study = study("model = \"borehole\"", &[ON, "design.base_samples=256", more]);
-        let mut file = ResultFile::new(&study, &study.run().unwrap());
+        let mut file = study.run().unwrap();
         file.outputs.remove(0)
     };
     let (with, mut without) = (result("analysis.convergence=true"), result("analysis.convergence=false"));
@@ -161,7 +158,7 @@ fn stages_can_be_left_out() {
 fn where_there_is_nothing_to_fit_the_plain_indices_stand() {
     let with = |text: &str, more: &[&str]| {
         let result = study(text, &[more, &[ON]].concat()).run().unwrap();
-        result.outputs[0].indices.as_ref().map(|indices| indices.surrogate.is_some()).unwrap_or(false)
+        result.outputs[0].surrogate.is_some()
     };
     assert!(with("model = \"ishigami\"", &["design.base_samples=64"]));
     assert!(!with("model = \"ishigami\"", &["design.base_samples=64", "design.replicates=2"]), "too few nets");
@@ -179,8 +176,8 @@ fn a_few_hundred_runs_are_split_into_base_samples_and_plain_rows() {
     // 8 base samples of 10 runs, 27 plain rows each.
     assert_eq!((design.settings().base_samples, design.plain_rows(), design.rows()), (8, 27, 296));
     let exact = KnownAnswer::from_name("borehole").unwrap().default_function().exact().indices.unwrap();
-    let error = |result: &apportion::Analysis| {
-        let factors = &result.outputs[0].indices.as_ref().unwrap().factors;
+    let error = |result: &apportion::StudyResult| {
+        let factors = effects(&result.outputs[0]);
         let of = |(effect, exact): (&apportion::EffectEstimates, &f64)| (effect.total.estimate - exact).abs();
         factors.iter().zip(&exact.total).map(of).fold(0.0, f64::max)
     };
@@ -191,10 +188,9 @@ fn a_few_hundred_runs_are_split_into_base_samples_and_plain_rows() {
                 [[factor]]\nname = \"x1\"\nmin = 0\nmax = 1\n[[factor]]\nname = \"x2\"\nmin = 0\nmax = 1\n";
     let (_, result) = run(text, &["design.runs=72"]);
     let output = &result.outputs[0];
-    let totals: Vec<f64> =
-        output.indices.as_ref().unwrap().factors.iter().map(|effect| effect.total.estimate).collect();
+    let totals: Vec<f64> = effects(output).iter().map(|effect| effect.total.estimate).collect();
     assert!((totals[0] - 0.2).abs() < 1e-9 && (totals[1] - 0.8).abs() < 1e-9, "{totals:?}");
-    assert!((output.mean.unwrap().estimate - 1.5).abs() < 1e-9);
+    assert!((output.mean.unwrap() - 1.5).abs() < 1e-9);
 }
 
 #[test]
@@ -270,7 +266,7 @@ fn the_program_tells_what_the_surrogate_did() {
     std::fs::write(&file, "model = \"ishigami\"\n[design]\nbase_samples = 256\n[analysis]\nsurrogate = \"auto\"\n")
         .unwrap();
     let shown = succeed(&["run", text(&file), "--out", text(folder.path())]);
-    assert!(shown.contains("What the surrogate did") && shown.contains("S_1 plain"), "{shown}");
+    assert!(shown.contains("Polynomials with") && shown.contains("S_1 plain"), "{shown}");
     let json = std::fs::read_to_string(folder.path().join("mine.json")).unwrap();
     let value: serde_json::Value = serde_json::from_str(&json).unwrap();
     let record = &value["outputs"][0]["surrogate"];
@@ -298,9 +294,9 @@ fn intervals_hold_where_polynomials_blow_up_in_the_tails() {
         let (mut held, mut all, mut squares) = (0, 0, 0.0);
         for seed in 0..20 {
             let result = study(&text, &["design.base_samples=256", &format!("design.seed={seed}")]).run().unwrap();
-            let indices = result.outputs[0].indices.as_ref().unwrap();
-            assert!(indices.surrogate.is_some());
-            for (factor, exact) in indices.factors.iter().zip(exact) {
+            let output = &result.outputs[0];
+            assert!(output.surrogate.is_some());
+            for (factor, exact) in effects(output).iter().zip(exact) {
                 for estimate in [factor.first_order, factor.total] {
                     let interval = estimate.interval.unwrap();
                     held += usize::from(interval.low <= exact && exact <= interval.high);
@@ -323,12 +319,12 @@ fn outputs_with_failed_runs_are_not_corrected_unless_asked() {
                 [factors]\nx1 = { min = 0, max = 1 }\nx2 = { min = 0, max = 1 }\n\
                 [design]\nbase_samples = 1024\n[analysis]\nmax_failed = 0.9\n";
     let result = study(text, &[]).run().unwrap();
-    let [y, z] = ["y", "z"].map(|name| result.output(name).unwrap().indices.as_ref().unwrap());
+    let [y, z] = ["y", "z"].map(|name| result.output(name).unwrap());
     assert!(y.surrogate.is_none() && z.surrogate.is_some());
     // By quadrature over x1 x2 < 0.3: the others lie in the part of the space where both runs of a pair succeed.
-    let total = y.factors[1].total;
+    let total = effects(y)[1].total;
     let interval = total.interval.unwrap();
     assert!(interval.low < 0.83 && 0.83 < interval.high + 0.03 && interval.high - interval.low > 0.02, "{total:?}");
-    let file = ResultFile::new(&study(text, &[ON]), &study(text, &[ON]).run().unwrap());
+    let file = study(text, &[ON]).run().unwrap();
     assert!(file.outputs[0].surrogate.is_some());
 }

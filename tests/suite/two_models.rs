@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::process::Output;
 
-use apportion::report::{ResultFile, read_result};
+use apportion::result::{StudyResult, read_result};
 
 use crate::common::{Folder, apportion, stderr, text};
 
@@ -49,7 +49,7 @@ impl Case {
     }
 
     #[track_caller]
-    fn result(&self, more: &[&str]) -> (ResultFile, String) {
+    fn result(&self, more: &[&str]) -> (StudyResult, String) {
         let output = self.run(more);
         assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
         (read_result(&self.out().join("study.json")).unwrap(), stderr(&output))

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use apportion::report::ResultFile;
+use apportion::result::StudyResult;
 
 use crate::common::{Folder, all_files, apportion, stderr, stdout, study_path, succeed, text};
 
@@ -26,8 +26,8 @@ fn a_result_reads_back_as_it_was_and_carries_its_study() {
         ["run", text(&study), "--out", text(folder.path()), "--base-samples", "512", "--set", "afm.friction=hk"];
     succeed(&arguments);
     let json = std::fs::read_to_string(folder.path().join("coulomb-general.json")).unwrap();
-    let result: ResultFile = serde_json::from_str(&json).unwrap();
-    assert_eq!(apportion::report::result_json(&result), json);
+    let result: StudyResult = serde_json::from_str(&json).unwrap();
+    assert_eq!(result.json(), json);
     assert_eq!((result.format.as_str(), result.version), ("apportion-result", 1));
     assert_eq!(result.study.source, std::fs::read_to_string(&study).unwrap());
     assert_eq!(result.study.settings["friction"], "hk");
@@ -72,7 +72,7 @@ fn the_format_of_a_result_is_what_it_was() {
         }
     }
     // Four digits: the format is at stake here, not the last bits of another processor's logarithm.
-    let text = apportion::report::result_json(&result);
+    let text = result.json();
     let mut value: serde_json::Value = serde_json::from_str(&text).unwrap();
     round(&mut value);
     insta::assert_snapshot!(serde_json::to_string_pretty(&value).unwrap());
@@ -210,7 +210,7 @@ fn round_sample_sizes_are_made_whole_and_said_so() {
 
 /// Runs `study` with settings into a folder of its own and returns its result, what was printed, and the folder.
 #[track_caller]
-fn run_with(study: &str, settings: &[&str]) -> (ResultFile, String, tempfile::TempDir) {
+fn run_with(study: &str, settings: &[&str]) -> (StudyResult, String, tempfile::TempDir) {
     let folder = tempfile::tempdir().unwrap();
     let path = study_path(study);
     let set = settings.iter().flat_map(|setting| ["--set", setting]);
@@ -319,7 +319,7 @@ fn a_run_ends_soon_where_most_runs_fail() {
                  [factors]\na = { min = 0, max = 1 }\nb = { min = 0, max = 1 }\n";
     let out = folder.path("out");
     apportion(&["run", text(&folder.with("half.toml", study)), "--out", text(&out)]);
-    let file: ResultFile = serde_json::from_slice(&std::fs::read(out.join("half.json")).unwrap()).unwrap();
+    let file: StudyResult = serde_json::from_slice(&std::fs::read(out.join("half.json")).unwrap()).unwrap();
     assert!(file.provenance.base_samples <= 1024, "{}", file.provenance.base_samples);
 }
 

@@ -5,8 +5,10 @@ use std::path::Path;
 use apportion::Study;
 use apportion::model::ModelKind;
 use apportion::report::document::{DataFile, symbols};
-use apportion::report::{ResultFile, one_output, run_document, study_setup};
+use apportion::report::{one_output, run_document};
+use apportion::result::StudyResult;
 use apportion::study::{StudyError, edited};
+use apportion::study_setup;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
@@ -94,10 +96,9 @@ impl Request {
         study.map_err(|error| in_words(&error))
     }
 
-    fn result(&self) -> Result<ResultFile, String> {
+    fn result(&self) -> Result<StudyResult, String> {
         let study = self.study()?;
-        let analysis = study.run().map_err(|error| error.to_string())?;
-        Ok(ResultFile::new(&study, &analysis))
+        study.run().map_err(|error| error.to_string())
     }
 }
 
@@ -111,7 +112,7 @@ fn in_words(error: &StudyError) -> String {
 }
 
 /// What is shown of a result: its lead and some sections as HTML, and the indices for those who read numbers.
-fn view(result: &ResultFile, sections: &[String]) -> Value {
+fn view(result: &StudyResult, sections: &[String]) -> Value {
     let ids: Vec<&str> = sections.iter().map(String::as_str).collect();
     let document = run_document(result).excerpt(&ids);
     let section = |id: &String| {
@@ -131,7 +132,7 @@ fn view(result: &ResultFile, sections: &[String]) -> Value {
 }
 
 /// Of the series, or the first output, by factor: 100 S_T as far as it is known.
-fn percentages(result: &ResultFile) -> Value {
+fn percentages(result: &StudyResult) -> Value {
     let percent = |x: f64| json!({ "total": x.is_finite().then_some(100.0 * x) });
     let entries = match result.series.first() {
         Some(series) => {

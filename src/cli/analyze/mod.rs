@@ -8,7 +8,6 @@ use anyhow::anyhow;
 use apportion::exchange::{AnswersRequest, Manifest, MissingOutputs, open_table, read_answers};
 use apportion::files::read_text;
 use apportion::quantity::Unit;
-use apportion::report::ResultFile;
 use apportion::run::Store;
 use apportion::study::Study;
 use apportion::{Warning, unlikely_outputs};
@@ -76,11 +75,11 @@ pub fn analyze(arguments: &Arguments) -> Result<(), Failure> {
     let artefacts = arguments.output.artefacts(study.name()).beside_input(&arguments.data);
     artefacts.prepare()?;
     let runner = study.runner().threads(arguments.threads.number()).store(&store);
-    let mut analysis = runner.run().map_err(|error| with_inputs(&study, error))?;
-    for (output, unlikely) in analysis.outputs.iter_mut().zip(unlikely) {
+    let mut result = runner.run().map_err(|error| with_inputs(&study, error))?;
+    for (output, unlikely) in result.outputs.iter_mut().zip(unlikely) {
         output.warnings.splice(0..0, unlikely.map(|text| Warning::Unlikely { text }));
     }
-    deliver(&study, &artefacts, &ResultFile::new(&study, &analysis), &arguments.live)
+    deliver(&study, &artefacts, &result, &arguments.live)
 }
 
 /// The outputs of a design that `sample` wrote.

@@ -8,7 +8,7 @@ use crate::report::document::{Cell, Column, DataFile, Document, Figure, Part, Se
 use crate::report::format::{give_or_take, heading, name, significant};
 use crate::report::leading::{Contender, first_answers, may_lead};
 use crate::report::listed;
-use crate::report::records::json;
+use crate::result::json;
 use crate::uncertainty::{Estimate, Interval};
 
 /// The document of a comparison, whose files begin with `name`. A star marks the differences whose intervals leave out 0.

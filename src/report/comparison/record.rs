@@ -6,7 +6,7 @@ use super::error::CompareError;
 use super::index::ComparedIndex;
 use super::settings::{SettingDifference, differences};
 use crate::quantity::Unit;
-use crate::report::result::{OutputRecord, ResultFile};
+use crate::result::{OutputResult, StudyResult};
 use crate::uncertainty::{EffectEstimates, Interval};
 
 /// Two results compared, as described in `docs/comparison-format.md`.
@@ -93,7 +93,7 @@ pub struct ComparedFactor {
 #[derive(Debug, Clone, Copy)]
 pub struct NamedResult<'a> {
     /// The result.
-    pub result: &'a ResultFile,
+    pub result: &'a StudyResult,
     /// Its label in tables and charts.
     pub label: &'a str,
     /// The name of its file, which the record of the comparison holds.
@@ -105,13 +105,13 @@ pub struct NamedResult<'a> {
 /// ```
 /// use std::path::Path;
 /// use apportion::report::comparison::{NamedResult, compare_results};
-/// use apportion::report::ResultFile;
+/// use apportion::result::StudyResult;
 /// use apportion::Study;
 ///
 /// let result = |choice: &str| -> Result<_, Box<dyn std::error::Error>> {
 ///     let text = format!("model = \"ishigami\"\n[function]\n{choice}\n[design]\nbase_samples = 4096");
 ///     let study = Study::parse(&text, Path::new("a.toml"), &[])?;
-///     Ok(ResultFile::new(&study, &study.run()?))
+///     Ok(study.run()?)
 /// };
 /// let (a, b) = (result("b = 0.1")?, result("b = 0.2")?);
 /// let named = |result, label, file| NamedResult { result, label, file };
@@ -150,8 +150,8 @@ pub fn compare_results(a: &NamedResult<'_>, b: &NamedResult<'_>) -> Result<Compa
 }
 
 /// Whether two results rest on the same points: the same sampler, seed and size, and as many factors.
-pub fn shared_points(a: &ResultFile, b: &ResultFile) -> bool {
-    let design = |result: &ResultFile| {
+pub fn shared_points(a: &StudyResult, b: &StudyResult) -> bool {
+    let design = |result: &StudyResult| {
         let p = &result.provenance;
         (p.sampler.clone(), p.seed, p.base_samples, p.replicates, result.factors.len())
     };
@@ -168,11 +168,11 @@ fn side(&NamedResult { result, label, file }: &NamedResult<'_>) -> ComparedSide 
     }
 }
 
-fn output_names(result: &ResultFile) -> Vec<String> {
+fn output_names(result: &StudyResult) -> Vec<String> {
     result.outputs.iter().map(|output| output.name.clone()).collect()
 }
 
-fn factor_names(result: &ResultFile) -> Vec<String> {
+fn factor_names(result: &StudyResult) -> Vec<String> {
     result.factors.iter().map(|factor| factor.name.clone()).collect()
 }
 
@@ -192,7 +192,7 @@ fn one_sided(what: &'static str, a: &[String], b: &[String]) -> Result<OneSided,
     }
 }
 
-fn compared(names: &[String], a: &OutputRecord, b: &OutputRecord) -> Result<ComparedOutput, CompareError> {
+fn compared(names: &[String], a: &OutputResult, b: &OutputResult) -> Result<ComparedOutput, CompareError> {
     let other_quantity =
         || CompareError::OtherQuantity { output: a.name.clone(), a: a.unit.clone(), b: b.unit.clone() };
     // A unit that is not understood is at least the same text.
@@ -203,15 +203,15 @@ fn compared(names: &[String], a: &OutputRecord, b: &OutputRecord) -> Result<Comp
     let is_same = a.unit == b.unit;
     let value = |mean: f64| if is_same { mean } else { of_a.from_si(of_b.to_si(mean)) };
     let span = |sd: f64| if is_same { sd } else { of_a.span_from_si(of_b.span_to_si(sd)) };
-    let sd = |output: &OutputRecord| output.variance.filter(|variance| *variance >= 0.0).map(f64::sqrt);
+    let sd = |output: &OutputResult| output.variance.filter(|variance| *variance >= 0.0).map(f64::sqrt);
     let factor = |name: &String| {
-        let of = |output: &OutputRecord| {
+        let of = |output: &OutputResult| {
             output.indices.iter().flatten().find(|index| index.factor == *name).map(|index| index.effect)
         };
         factor(name, false, of(a), of(b))
     };
     let group = |name: &String| {
-        let of = |output: &OutputRecord| {
+        let of = |output: &OutputResult| {
             output.groups.iter().flatten().find(|group| group.group == *name).map(|group| group.effect)
         };
         of(b).is_some().then(|| self::factor(name, true, of(a), of(b)))
@@ -232,7 +232,7 @@ fn compared(names: &[String], a: &OutputRecord, b: &OutputRecord) -> Result<Comp
     })
 }
 
-fn reason(output: &OutputRecord) -> String {
+fn reason(output: &OutputResult) -> String {
     output.reason.clone().unwrap_or_else(|| "the result holds none".to_owned())
 }
 

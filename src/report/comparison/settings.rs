@@ -5,8 +5,8 @@ use std::collections::BTreeSet;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use crate::report::result::{FactorRecord, ResultFile};
 use crate::report::with_unit;
+use crate::result::{FactorRecord, StudyResult};
 
 /// Something that the two studies say differently.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -21,7 +21,7 @@ pub struct SettingDifference {
 
 /// What the studies of two results say differently: model, its choices and constants, factors, design. Of two different
 /// models, choices and constants are not compared.
-pub(super) fn differences(a: &ResultFile, b: &ResultFile) -> Vec<SettingDifference> {
+pub(super) fn differences(a: &StudyResult, b: &StudyResult) -> Vec<SettingDifference> {
     let mut found = Vec::new();
     let mut note = |what: &str, a: Option<String>, b: Option<String>| {
         if a != b {
@@ -31,15 +31,15 @@ pub(super) fn differences(a: &ResultFile, b: &ResultFile) -> Vec<SettingDifferen
     note("model", Some(a.study.model.clone()), Some(b.study.model.clone()));
     if a.study.model == b.study.model {
         for key in union(a.study.settings.keys(), b.study.settings.keys()) {
-            let value = |result: &ResultFile| result.study.settings.get(key).map(in_words);
+            let value = |result: &StudyResult| result.study.settings.get(key).map(in_words);
             note(key, value(a), value(b));
         }
-        let names = |result: &'_ ResultFile| result.study.constants.iter().map(|c| c.name.clone()).collect::<Vec<_>>();
+        let names = |result: &'_ StudyResult| result.study.constants.iter().map(|c| c.name.clone()).collect::<Vec<_>>();
         let (of_a, of_b) = (names(a), names(b));
         for name in union(of_a.iter(), of_b.iter()) {
             // What is a factor in one of them is told once, there.
-            let is_factor = |result: &ResultFile| result.factors.iter().any(|factor| factor.name == *name);
-            let value = |result: &ResultFile| {
+            let is_factor = |result: &StudyResult| result.factors.iter().any(|factor| factor.name == *name);
+            let value = |result: &StudyResult| {
                 let constant = result.study.constants.iter().find(|constant| constant.name == *name)?;
                 Some(with_unit(constant.value, &constant.unit))
             };
@@ -49,7 +49,7 @@ pub(super) fn differences(a: &ResultFile, b: &ResultFile) -> Vec<SettingDifferen
         }
     }
     for name in union(a.factors.iter().map(|f| &f.name), b.factors.iter().map(|f| &f.name)) {
-        let factor = |result: &ResultFile| result.factors.iter().find(|factor| factor.name == *name).map(of_factor);
+        let factor = |result: &StudyResult| result.factors.iter().find(|factor| factor.name == *name).map(of_factor);
         note(&format!("factor {name}"), factor(a), factor(b));
     }
     let (p, q) = (&a.provenance, &b.provenance);

@@ -3,21 +3,21 @@ use std::path::Path;
 use proptest::prelude::*;
 
 use super::*;
-use crate::report::json;
-use crate::report::result::ResultFile;
+use crate::result::StudyResult;
+use crate::result::json;
 use crate::study::Study;
 use crate::uncertainty::{Estimate, Interval, difference};
 
-fn result(text: &str) -> ResultFile {
+fn result(text: &str) -> StudyResult {
     let study = Study::parse(text, Path::new("small.toml"), &[]).unwrap_or_else(|error| panic!("{error}"));
-    ResultFile::new(&study, &study.runner().threads(1).run().unwrap())
+    study.runner().threads(1).run().unwrap()
 }
 
-fn linear(coefficients: &str, design: &str) -> ResultFile {
+fn linear(coefficients: &str, design: &str) -> StudyResult {
     result(&format!("model = \"linear\"\n[function]\nc = {coefficients}\n[design]\nbase_samples = 1024\n{design}"))
 }
 
-fn compared(a: &ResultFile, b: &ResultFile) -> Result<ComparisonFile, CompareError> {
+fn compared(a: &StudyResult, b: &StudyResult) -> Result<ComparisonFile, CompareError> {
     let [a, b] = [(a, "before", "a.json"), (b, "after", "b.json")].map(|(result, label, file)| NamedResult {
         result,
         label,

@@ -6,12 +6,12 @@ use super::{GivenFile, GivenOutputRecord, given_chart};
 use super::{measures, sentences};
 use crate::given::InputIndices;
 use crate::report::csv::Field;
-use crate::report::distribution::OutputDistribution;
 use crate::report::document::{Cell, Column, DataFile, Document, Figure, Mark, Part, Section, Table, Value};
 use crate::report::format::{index, name as words, significant};
 use crate::report::leading::first_answers;
-use crate::report::records::json;
 use crate::report::{file_stems, listed};
+use crate::result::OutputDistribution;
+use crate::result::json;
 use crate::uncertainty::Estimate;
 
 /// The document of a result from given data, whose files begin with `name`.

@@ -11,7 +11,7 @@ use crate::given::{
 };
 use crate::quantity::Unit;
 use crate::quantity::Unlikely;
-use crate::report::distribution::OutputDistribution;
+use crate::result::OutputDistribution;
 
 /// A result from given data, as described in `docs/given-data-format.md`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use super::super::result::FactorRecord;
+use crate::result::FactorRecord;
 
 /// More categories than this are drawn by their numbers: their labels would be no longer than a letter.
 const MOST: usize = 12;

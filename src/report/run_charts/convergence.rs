@@ -1,18 +1,18 @@
-//! How the indices settled.
+//! How the indices changed as the run grew.
 
 use super::super::chart::{Axis, Chart, Colour, Mark, Panel, Series, Spacing, Stroke};
 use super::super::factor_bars::not_drawn;
 use super::super::format::{grouped, name, two_digits};
 use super::super::interval_widths::widest_of;
 use super::super::leading::by_total;
-use super::super::result::{OutputRecord, PlainIndexRecord, ResultFile, StageRecord};
+use crate::result::{OutputResult, PlainIndexRecord, StageRecord, StudyResult};
 
 /// Factors with a line of their own.
 const LINES: usize = 8;
 
 /// How the total indices and the half widths of their intervals changed with the number of model runs, for the factors with
 /// the largest total indices (at most eight). With a target, its line stands among the half widths.
-pub fn convergence_chart(result: &ResultFile, output: &OutputRecord) -> Chart {
+pub fn convergence_chart(result: &StudyResult, output: &OutputResult) -> Chart {
     let factors: Vec<usize> =
         by_total(output).unwrap_or_default().into_iter().map(|(factor, _)| factor).take(LINES).collect();
     let stages = &output.convergence;
@@ -25,7 +25,7 @@ pub fn convergence_chart(result: &ResultFile, output: &OutputRecord) -> Chart {
     let totals = panel("Total indices with their 95 % intervals", axis("total index", Spacing::Linear)).with(totals);
     let widths = panel("Half widths of the intervals of the total indices", axis("half width", Spacing::Logarithmic))
         .with(widths);
-    let title = format!("{}: how the indices of {} settled", result.study.headline(), name(&output.name));
+    let title = format!("{}: convergence of the indices of {}", result.study.headline(), name(&output.name));
     Chart::new(title, caption(result, output)).panels([totals, widths.with(references.into_iter().flatten())])
 }
 
@@ -65,7 +65,7 @@ fn target_line(stages: &[StageRecord], target: f64) -> Mark {
 }
 
 /// How well the indices are known at the end.
-fn caption(result: &ResultFile, output: &OutputRecord) -> String {
+fn caption(result: &StudyResult, output: &OutputResult) -> String {
     let known = match (output.convergence.last(), widest_of(output)) {
         (Some(last), Some(width)) => format!("After {} model runs: ± {}.", grouped(last.model_runs), two_digits(width)),
         (Some(last), None) => {

@@ -1,12 +1,12 @@
 //! How an output is distributed.
 
 use super::super::chart::{Axis, Chart, Panel};
-use super::super::distribution::histogram_chart;
 use super::super::format::{grouped, name, words};
-use super::super::result::{OutputRecord, ResultFile};
+use super::super::histogram_chart;
+use crate::result::{OutputResult, StudyResult};
 
 /// The distribution of an output; without values, the reason.
-pub fn distribution_chart(result: &ResultFile, output: &OutputRecord) -> Chart {
+pub fn distribution_chart(result: &StudyResult, output: &OutputResult) -> Chart {
     let title = format!("{}: distribution of {}", result.study.headline(), name(&output.name));
     let output_words = words(&output.name);
     if let Some(distribution) = &output.distribution {

@@ -4,11 +4,11 @@ use super::super::chart::Chart;
 use super::super::factor_bars::{INDEX, INDICES, MOST, both_orders, index_panel, not_drawn, pair_panel};
 use super::super::format::name;
 use super::super::leading::leader_of;
-use super::super::result::{IndexRecord, OutputRecord, ResultFile};
+use crate::result::{IndexRecord, OutputResult, StudyResult};
 
 /// First-order and total index of every factor, as parts of the output's variance, with their intervals; the largest total
 /// index on top. Of more than 20 factors, the first 20.
-pub fn indices_chart(result: &ResultFile, output: &OutputRecord) -> Chart {
+pub fn indices_chart(result: &StudyResult, output: &OutputResult) -> Chart {
     let indices: Vec<&IndexRecord> = output.indices.iter().flatten().collect();
     let names = indices.iter().map(|index| name(&index.factor));
     let names = names.chain(output.noise.iter().map(|noise| format!("noise ({})", name(&noise.name))));

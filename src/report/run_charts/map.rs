@@ -3,7 +3,7 @@
 use super::super::chart::{Axis, Chart, Colour, Panel, Series, Shape, Tile};
 use super::super::factor_bars::{MOST, not_drawn, pair_panel};
 use super::super::format::{fixed, index, name};
-use super::super::result::{IndexRecord, PlainIndexRecord, ResultFile};
+use crate::result::{IndexRecord, PlainIndexRecord, StudyResult};
 use crate::uncertainty::Estimate;
 
 /// Outputs of a map: of more, some are left out evenly.
@@ -15,7 +15,7 @@ const CLASSES: [f64; 8] = [0.01, 0.05, 0.1, 0.2, 0.3, 0.5, 0.7, 0.9];
 
 /// Total and first-order indices of factors for every output, as shades: a row for each output (of more than 40, for as many
 /// of them evenly), a column for each factor in the order of the total indices over all outputs (of more than 12, the first).
-pub(in crate::report) fn map_chart(result: &ResultFile) -> Chart {
+pub(in crate::report) fn map_chart(result: &StudyResult) -> Chart {
     let mut factors = overall_order(result);
     factors.truncate(COLUMNS);
     let all = result.outputs.len();
@@ -51,7 +51,7 @@ pub(in crate::report) fn map_chart(result: &ResultFile) -> Chart {
 
 /// The places of the factors by falling total index over all outputs together, or by their sum where there is none: the
 /// order of everything that is told of many outputs.
-pub(in crate::report) fn overall_order(result: &ResultFile) -> Vec<usize> {
+pub(in crate::report) fn overall_order(result: &StudyResult) -> Vec<usize> {
     let together = result.aggregate.as_ref().and_then(|aggregate| aggregate.indices.as_deref()).unwrap_or_default();
     let known = result.outputs.iter().filter_map(|output| output.indices.as_ref());
     let sum = |factor: usize| known.clone().filter_map(|all| Some(all.get(factor)?.effect.total.estimate)).sum::<f64>();
@@ -92,7 +92,7 @@ pub(super) fn short(index: f64) -> String {
 
 /// First-order and total indices of all outputs together, the largest total index on top; of more than 20 factors, the
 /// first 20.
-pub(in crate::report) fn together_chart(result: &ResultFile) -> Chart {
+pub(in crate::report) fn together_chart(result: &StudyResult) -> Chart {
     let indices = result.aggregate.as_ref().and_then(|aggregate| aggregate.indices.as_deref()).unwrap_or_default();
     let factors: Vec<String> = result.factors.iter().map(|factor| name(&factor.name)).collect();
     let of = |which: fn(&PlainIndexRecord) -> Estimate| -> Vec<Option<Estimate>> {

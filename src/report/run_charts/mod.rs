@@ -1,5 +1,5 @@
 //! Charts of a run besides that of the shares, all from the result alone: the indices, also two by two, the output
-//! over its factors, how it is distributed, how the indices settled, and many outputs or a series at a glance.
+//! over its factors, how it is distributed, how the indices converged, and many outputs or a series at a glance.
 
 mod categories;
 mod convergence;

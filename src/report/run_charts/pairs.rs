@@ -4,8 +4,8 @@ use super::super::chart::{Axis, Chart, Colour, Panel, Series, Shape, Tile};
 use super::super::factor_bars::not_drawn;
 use super::super::format::{index, name};
 use super::super::leading::{by_total, surely_interact};
-use super::super::result::{OutputRecord, ResultFile};
 use super::map::{class, series, short};
+use crate::result::{OutputResult, StudyResult};
 use crate::uncertainty::Estimate;
 
 /// Most factors: of more, the figures would not fit into the cells of a phone.
@@ -15,7 +15,7 @@ const NOTHING: &str = "below 0.01, or may be 0";
 
 /// Second-order indices of every two factors as shades and figures, with the first-order indices on the diagonal; the factor with
 /// the largest total index is the first. Of more than 15 factors, the first 15.
-pub fn pairs_chart(result: &ResultFile, output: &OutputRecord) -> Chart {
+pub fn pairs_chart(result: &StudyResult, output: &OutputResult) -> Chart {
     let title = format!("{}: what acts on {} two by two", result.study.headline(), name(&output.name));
     let order = by_total(output).unwrap_or_default();
     let factors = &order[..order.len().min(MOST)];
@@ -53,7 +53,7 @@ pub fn pairs_chart(result: &ResultFile, output: &OutputRecord) -> Chart {
 }
 
 /// The second-order index of two factors in any order, and its place.
-fn pair(output: &OutputRecord, [one, other]: [&str; 2]) -> Option<(usize, Estimate)> {
+fn pair(output: &OutputResult, [one, other]: [&str; 2]) -> Option<(usize, Estimate)> {
     let is_theirs = |[a, b]: &[String; 2]| (a == one && b == other) || (a == other && b == one);
     let (place, pair) = output.second_order.iter().flatten().enumerate().find(|(_, pair)| is_theirs(&pair.factors))?;
     Some((place, pair.index)).filter(|(_, index)| index.estimate.is_finite())

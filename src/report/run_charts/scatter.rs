@@ -4,7 +4,7 @@ use super::super::chart::{Axis, Chart, Colour, Panel, Series, Shape, Spacing, St
 use super::super::factor_bars::not_drawn;
 use super::super::format::{axis_unit, name, words};
 use super::super::leading::no_indices;
-use super::super::result::{FactorRecord, OutputRecord, ResultFile, ScatterRecord};
+use crate::result::{FactorRecord, OutputResult, ScatterRecord, StudyResult};
 
 use super::categories::Categories;
 
@@ -13,7 +13,7 @@ const PRESSED: f64 = 0.02;
 
 /// The output against each of the factors with the largest total indices (at most six): some of the model runs as dots,
 /// and the mean of the output over slices of the factor, with its standard error, as a line with a band.
-pub fn scatter_chart(result: &ResultFile, output: &OutputRecord) -> Chart {
+pub fn scatter_chart(result: &StudyResult, output: &OutputResult) -> Chart {
     let scatter = output.scatter.as_ref();
     let y = Axis::new(words(&output.name), axis_unit(&output.unit)).spaced(scatter.map_or(Spacing::Linear, spacing));
     let mut panels = scatter.map_or_else(Vec::new, |scatter| panels(result, output, scatter, &y));
@@ -25,7 +25,7 @@ pub fn scatter_chart(result: &ResultFile, output: &OutputRecord) -> Chart {
     Chart::new(title, caption).side_by_side().panels(panels)
 }
 
-fn panels(result: &ResultFile, output: &OutputRecord, scatter: &ScatterRecord, y: &Axis) -> Vec<Panel> {
+fn panels(result: &StudyResult, output: &OutputResult, scatter: &ScatterRecord, y: &Axis) -> Vec<Panel> {
     let runs = Series::new("model run", Colour::Series(0));
     let panel = |(place, name): (usize, &String)| {
         let record = result.factors.iter().find(|factor| factor.name == *name);
@@ -84,7 +84,7 @@ fn spacing(scatter: &ScatterRecord) -> Spacing {
 }
 
 /// What the marks are, and which factors are left out.
-fn caption(result: &ResultFile, scatter: &ScatterRecord) -> String {
+fn caption(result: &StudyResult, scatter: &ScatterRecord) -> String {
     format!(
         "Dots: {} of the model runs; line: mean over a slice of the factor, with 1.96 standard errors to both sides. The more \
          of the dots' spread the line follows, the larger is the first-order index S_1.{}",

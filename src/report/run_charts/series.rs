@@ -3,7 +3,7 @@
 use super::super::chart::{Axis, Chart, Colour, Mark, Panel, Series};
 use super::super::factor_bars::{INDEX, not_drawn};
 use super::super::format::{axis_unit, name};
-use super::super::result::{IndexRecord, OutputRecord, ResultFile, SeriesRecord};
+use crate::result::{IndexRecord, OutputResult, SeriesRecord, StudyResult};
 use crate::uncertainty::Estimate;
 
 /// Factors that have lines: those with the largest mean total index.
@@ -15,20 +15,20 @@ const DRAWN: (f64, f64) = (-0.1, 1.1);
 #[derive(Clone, Copy)]
 pub(in crate::report) struct SeriesOf<'a> {
     /// The result of the run.
-    pub result: &'a ResultFile,
+    pub result: &'a StudyResult,
     /// The series.
     pub series: &'a SeriesRecord,
 }
 
 impl<'a> SeriesOf<'a> {
     /// Its values, in order.
-    pub fn values(self) -> &'a [OutputRecord] {
+    pub fn values(self) -> &'a [OutputResult] {
         &self.result.outputs[self.series.places()]
     }
 
     /// The places of the factors by falling total index over the whole series, or summed over its values where there is none.
     fn order(self) -> Vec<usize> {
-        let total = |value: &OutputRecord, factor: usize| {
+        let total = |value: &OutputResult, factor: usize| {
             value.indices.as_ref().and_then(|all| all.get(factor)).map_or(0.0, |index| index.effect.total.estimate)
         };
         let key = |factor: usize| match &self.series.indices {
@@ -49,7 +49,7 @@ pub(in crate::report) fn along_chart(of: SeriesOf<'_>) -> Chart {
     let panel = |title: &str, read: fn(&IndexRecord) -> Estimate| {
         let marks = order.iter().take(LINES).enumerate().flat_map(|(rank, &factor)| -> [Mark; 2] {
             let series = Series::new(name(&of.result.factors[factor].name), Colour::Series(rank));
-            let index = |value: &OutputRecord| value.indices.as_ref()?.get(factor).map(read);
+            let index = |value: &OutputResult| value.indices.as_ref()?.get(factor).map(read);
             let drawn = |x: Option<f64>| x.map_or(f64::NAN, |x| x.clamp(DRAWN.0, DRAWN.1));
             let curve = || positions.iter().zip(of.values()).map(|(x, value)| (*x, index(value)));
             let band = curve().map(|(x, of)| {

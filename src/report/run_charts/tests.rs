@@ -4,18 +4,17 @@ use resvg::usvg::roxmltree::Document;
 
 use super::*;
 use crate::report::chart::{Chart, ChartWidth};
-use crate::report::result::OutputRecord;
-use crate::report::result::ResultFile;
-use crate::report::result_json;
+use crate::result::OutputResult;
+use crate::result::StudyResult;
 use crate::study::Study;
 
-type Draw = fn(&ResultFile, &OutputRecord) -> Chart;
+type Draw = fn(&StudyResult, &OutputResult) -> Chart;
 
 const CHARTS: [Draw; 5] = [indices_chart, pairs_chart, scatter_chart, distribution_chart, convergence_chart];
 
-fn analysed(text: &str) -> ResultFile {
+fn analysed(text: &str) -> StudyResult {
     let study = Study::parse(text, Path::new("charts.toml"), &[]).unwrap_or_else(|error| panic!("{error}"));
-    ResultFile::new(&study, &study.run().expect("a run"))
+    study.run().expect("a run")
 }
 
 #[test]
@@ -35,7 +34,7 @@ fn charts_of_any_result_are_drawn_from_its_json_alone() {
     ];
     for text in &studies {
         let result = analysed(text);
-        let read: ResultFile = serde_json::from_str(&result_json(&result)).expect("our own JSON");
+        let read: StudyResult = serde_json::from_str(&result.json()).expect("our own JSON");
         for draw in CHARTS {
             let chart = draw(&result, &result.outputs[0]);
             assert!(chart.caption().ends_with('.'), "{}", chart.caption());

@@ -4,10 +4,10 @@ use crate::model::MANY_OUTPUTS;
 use crate::report::chart::Chart;
 use crate::report::document::{Figure, Part};
 use crate::report::format::name as words;
-use crate::report::result::{OutputRecord, ResultFile};
 use crate::report::{
     convergence_chart, distribution_chart, file_stems, indices_chart, pairs_chart, scatter_chart, study_chart,
 };
+use crate::result::{OutputResult, StudyResult};
 
 /// A chart of an output.
 #[derive(Clone, Copy)]
@@ -16,7 +16,7 @@ pub(super) struct Kind {
     suffix: &'static str,
     /// Its anchor.
     name: &'static str,
-    draw: fn(&ResultFile, &OutputRecord) -> Chart,
+    draw: fn(&StudyResult, &OutputResult) -> Chart,
     /// What the file with its numbers ends in.
     data: &'static str,
 }
@@ -42,7 +42,7 @@ pub(super) struct Stems {
 }
 
 impl Stems {
-    pub fn new(result: &ResultFile) -> Self {
+    pub fn new(result: &StudyResult) -> Self {
         let is_single = |place: usize| !result.series.iter().any(|series| series.places().contains(&place));
         let single = result.outputs.iter().enumerate().filter(|(place, _)| is_single(*place));
         let mut names: Vec<&str> = single.map(|(_, output)| output.name.as_str()).collect();
@@ -63,7 +63,7 @@ impl Stems {
 
 /// Draws the figures of one output after the other.
 pub(super) struct Figures<'a> {
-    pub result: &'a ResultFile,
+    pub result: &'a StudyResult,
     /// Of the files of each output.
     stems: Vec<String>,
     /// What the anchors of its figures begin with.
@@ -75,7 +75,7 @@ pub(super) struct Figures<'a> {
 /// An output, and its number from 1.
 #[derive(Clone, Copy)]
 pub(super) struct Numbered<'a> {
-    pub output: &'a OutputRecord,
+    pub output: &'a OutputResult,
     pub number: usize,
 }
 
@@ -88,12 +88,12 @@ impl Numbered<'_> {
 
 impl<'a> Figures<'a> {
     /// Of the outputs of `result`, behind so many figures.
-    pub fn new(result: &'a ResultFile, stems: Stems, before: usize) -> Self {
+    pub fn new(result: &'a StudyResult, stems: Stems, before: usize) -> Self {
         Self { result, stems: stems.single, prefix: String::new(), count: before }
     }
 
     /// Of the values of series number `number`, from 1.
-    pub fn of_series(result: &'a ResultFile, number: usize, before: usize) -> Self {
+    pub fn of_series(result: &'a StudyResult, number: usize, before: usize) -> Self {
         Self { result, stems: Vec::new(), prefix: format!("series-{number}-"), count: before }
     }
 

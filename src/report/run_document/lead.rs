@@ -5,15 +5,15 @@ use crate::report::format::{grouped, index, is_above_zero, name, percent, two_di
 use crate::report::interval_widths::{WIDE, indices_measured, widest_interval};
 use crate::report::leading::{Contender, by_total, first_answers, leader_of, may_lead};
 use crate::report::listed;
-use crate::report::result::{OutputRecord, ResultFile};
 use crate::report::validity;
+use crate::result::{OutputResult, StudyResult};
 
 use super::overview;
+use super::shared::complement;
 use super::warnings::grouped_warnings;
-use crate::uncertainty::{Estimate, Interval};
 
 /// The paragraphs at the top of the page: on every series, then on the `single` outputs, which belong to none.
-pub(super) fn lead(result: &ResultFile, single: &ResultFile) -> Vec<String> {
+pub(super) fn lead(result: &StudyResult, single: &StudyResult) -> Vec<String> {
     let series = result.series.iter().map(|series| super::series::answer(result, series));
     let mut lead = first_answers(series.collect());
     lead.extend(match single.outputs.len() {
@@ -34,7 +34,7 @@ pub(super) fn lead(result: &ResultFile, single: &ResultFile) -> Vec<String> {
 }
 
 /// Which factor matters most for an output, which come next, and how much is due to interactions.
-pub(super) fn answer(output: &OutputRecord) -> String {
+pub(super) fn answer(output: &OutputResult) -> String {
     let order = by_total(output).unwrap_or_default();
     let contenders: Vec<Contender> = order.iter().map(|(_, index)| Contender::from_index(index)).collect();
     let leaders = may_lead(&contenders).len();
@@ -51,7 +51,7 @@ pub(super) fn answer(output: &OutputRecord) -> String {
 }
 
 /// What the first-order indices sum to, and how much of the variance is surely interaction.
-pub(super) fn interactions(output: &OutputRecord) -> Option<String> {
+pub(super) fn interactions(output: &OutputResult) -> Option<String> {
     let sum = output.sum_first_order?;
     let rest = complement(sum);
     let interaction = match is_above_zero(rest) {
@@ -61,14 +61,8 @@ pub(super) fn interactions(output: &OutputRecord) -> Option<String> {
     Some(format!("The first-order indices sum to {}{interaction}.", index(sum)))
 }
 
-/// What a part leaves of 1, with the interval that follows from its own.
-pub(super) fn complement(part: Estimate) -> Estimate {
-    let interval = part.interval.map(|Interval { low, high }| Interval { low: 1.0 - high, high: 1.0 - low });
-    Estimate { estimate: 1.0 - part.estimate, interval }
-}
-
 /// How well the indices are known, after how many runs.
-fn settled(result: &ResultFile) -> String {
+fn settled(result: &StudyResult) -> String {
     let runs = grouped(result.provenance.model_runs);
     let target = match result.stopping.as_ref().and_then(|stopping| stopping.target_met) {
         Some(true) => "; the target is met",

@@ -1,15 +1,15 @@
 //! Other measures than Sobol' indices, of the first rows A and B.
 
 use super::tables::FACTORS;
-use crate::analysis::RunMeasures;
 use crate::given::Measure;
 use crate::report::document::{Part, Table, csv};
 use crate::report::format::grouped;
 use crate::report::given::{agreement, measures_table};
-use crate::report::result::{OutputRecord, ResultFile};
+use crate::result::RunMeasures;
+use crate::result::{OutputResult, StudyResult};
 
 /// What they say, and a row for each factor.
-pub(super) fn measures(output: &OutputRecord) -> Vec<Part> {
+pub(super) fn measures(output: &OutputResult) -> Vec<Part> {
     let Some(record) = &output.measures else { return Vec::new() };
     let wanted = wanted(record);
     let text = format!(
@@ -26,14 +26,14 @@ fn wanted(record: &RunMeasures) -> Vec<Measure> {
     Measure::ALL.into_iter().filter(is_there).collect()
 }
 
-fn table(output: &OutputRecord, record: &RunMeasures) -> Table {
+fn table(output: &OutputResult, record: &RunMeasures) -> Table {
     let table = measures_table(&output.name, ("factor", &record.factors), &wanted(record));
     let printed = Some((0..table.rows.len().min(FACTORS)).collect());
     Table { printed, ..table }
 }
 
 /// Those of all outputs.
-pub(super) fn measures_csv(result: &ResultFile) -> String {
+pub(super) fn measures_csv(result: &StudyResult) -> String {
     let tables = result.outputs.iter().filter_map(|output| Some(table(output, output.measures.as_ref()?)));
     csv(tables)
 }

@@ -7,6 +7,7 @@ mod noise;
 mod output;
 mod overview;
 mod series;
+mod shared;
 mod tables;
 mod values;
 mod warnings;
@@ -21,10 +22,10 @@ use crate::study::edited;
 
 use super::document::{DataFile, Document, Mark, Part, Section, Table};
 use super::format::{grouped, name, significant};
-use super::result::{AggregateRecord, ResultFile, SpendingRecord, StudyRecord};
 use super::study_sections::{study_section, validity_section};
-use super::{capitalised, listed, result_json};
-use crate::analysis::LowRuns;
+use super::{capitalised, listed};
+use crate::result::LowRuns;
+use crate::result::{AggregateRecord, SpendingRecord, StudyRecord, StudyResult};
 
 /// The document of a result. Everything in it comes from the result, so that it can be made again from the JSON file.
 /// With one output every topic is a section; with several every output is; with 12 or more there is an overview, and what
@@ -33,18 +34,18 @@ use crate::analysis::LowRuns;
 /// # Example
 /// ```
 /// use std::path::Path;
-/// use apportion::report::{ResultFile, run_document};
+/// use apportion::report::{StudyResult, run_document};
 /// use apportion::Study;
 ///
 /// let study = Study::parse(include_str!("../../../studies/ishigami.toml"), Path::new("ishigami.toml"), &[])?;
-/// let result = ResultFile::new(&study, &study.run()?);
+/// let result = study.run()?;
 /// let document = run_document(&result);
 /// assert!(document.lead[0].starts_with("For y, x1 matters most"));
 /// assert!(document.text().contains("S_T"));
 /// assert!(document.html().contains("<svg"));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub fn run_document(result: &ResultFile) -> Document {
+pub fn run_document(result: &StudyResult) -> Document {
     let stems = Stems::new(result);
     let (mut sections, drawn) = series::sections(result, &stems.series);
     // Series are told apart from all other outputs.
@@ -55,7 +56,7 @@ pub fn run_document(result: &ResultFile) -> Document {
     sections.extend(if is_many { overview::sections(&mut figures) } else { of_outputs(&mut figures) });
     sections.extend(validity_section(&result.validity));
     sections.extend(own_ranges(&result.study));
-    sections.push(Section::new("cost", "Cost", cost(result)));
+    sections.push(Section::new("cost", "Run time", cost(result)));
     sections.push(study_section(&result.study, &result.factors));
     sections.push(Section::new("provenance", "Provenance", vec![Part::OnPage(provenance(result))]));
     let study = &result.study;
@@ -66,7 +67,7 @@ pub fn run_document(result: &ResultFile) -> Document {
         lead: lead::lead(result, single),
         sections,
         footer: format!("Made by apportion {}.", result.provenance.apportion_version),
-        files: vec![DataFile::new(format!("{}.json", study.name), result_json(result))],
+        files: vec![DataFile::new(format!("{}.json", study.name), result.json())],
         ..Document::default()
     };
     let mut put = |ending: &str, text: String| {
@@ -119,7 +120,7 @@ fn under_headings(topics: Vec<Topic>) -> Vec<Part> {
 }
 
 /// The indices over all outputs together, or why there are none.
-fn together(result: &ResultFile, aggregate: &AggregateRecord) -> Vec<Part> {
+fn together(result: &StudyResult, aggregate: &AggregateRecord) -> Vec<Part> {
     let names: Vec<String> = aggregate.outputs.iter().map(|output| name(output)).collect();
     let mut parts = vec![Part::Text(format!("Of {}: {}.", listed(&names), aggregate.weighting))];
     match (&aggregate.indices, &aggregate.reason) {
@@ -131,7 +132,7 @@ fn together(result: &ResultFile, aggregate: &AggregateRecord) -> Vec<Part> {
 }
 
 /// What the run took.
-fn cost(result: &ResultFile) -> Vec<Part> {
+fn cost(result: &StudyResult) -> Vec<Part> {
     let provenance = &result.provenance;
     let seconds = provenance.wall_seconds;
     let mut rows = vec![
@@ -189,7 +190,7 @@ fn cost(result: &ResultFile) -> Vec<Part> {
 }
 
 /// What a run that was asked for an accuracy chose, why, and what it saved.
-fn chosen(result: &ResultFile, spending: &SpendingRecord) -> Vec<String> {
+fn chosen(result: &StudyResult, spending: &SpendingRecord) -> Vec<String> {
     let mut texts: Vec<String> = spending.reasons.iter().map(|reason| format!("{}.", capitalised(reason))).collect();
     let spent = grouped(spending.runs);
     let saved = spending.plain_runs.filter(|plain| *plain > result.provenance.model_runs);
@@ -238,7 +239,7 @@ fn names_files(part: &toml::Value) -> bool {
 }
 
 /// How the answer came about.
-fn provenance(result: &ResultFile) -> Vec<Part> {
+fn provenance(result: &StudyResult) -> Vec<Part> {
     let provenance = &result.provenance;
     let interval = provenance.interval.clone().unwrap_or_else(|| "none: a single replicate".to_owned());
     let rows = [

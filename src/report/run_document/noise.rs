@@ -1,20 +1,20 @@
 //! The noise of a stochastic model: what it is of a single run, and the indices of the mean over it.
 
-use super::lead::complement;
+use super::shared::complement;
 use super::tables::{FACTORS, first_rows};
 use crate::report::document::{Cell, Column, Part, Table};
 use crate::report::format::{name, percent};
 use crate::report::leading::by_total;
-use crate::report::result::{IndexRecord, NoiseRecord, OutputRecord};
+use crate::result::{IndexRecord, NoiseRecord, OutputResult};
 
 /// How much of the variance of the output no factor explains, of a stochastic model.
-pub(super) fn sentence(output: &OutputRecord) -> Option<String> {
+pub(super) fn sentence(output: &OutputResult) -> Option<String> {
     let total = output.noise.as_ref()?.effect.total;
     Some(format!("Of the variance, {} is noise that no factor explains.", percent(total)))
 }
 
 /// What the noise of a stochastic model is, and which indices the mean over it has.
-pub(super) fn noise(output: &OutputRecord) -> Vec<Part> {
+pub(super) fn noise(output: &OutputResult) -> Vec<Part> {
     let Some(noise) = &output.noise else { return Vec::new() };
     let mut text = sentence(output).unwrap_or_default();
     if noise.mean_share.estimate > 0.0 {
@@ -29,7 +29,7 @@ pub(super) fn noise(output: &OutputRecord) -> Vec<Part> {
 }
 
 /// First-order indices of the values beside the indices of the mean over the noise.
-fn table(output: &OutputRecord, noise: &NoiseRecord) -> Table {
+fn table(output: &OutputResult, noise: &NoiseRecord) -> Table {
     let order = by_total(output).unwrap_or_default();
     let row = |(_, index): &(usize, &IndexRecord)| -> Vec<Cell> {
         let of_mean = noise.of_mean.iter().find(|of_mean| of_mean.name == index.factor);

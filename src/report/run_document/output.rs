@@ -4,14 +4,13 @@ use super::figures::{CONVERGENCE, DISTRIBUTION, Figures, INDICES, Numbered, PAIR
 use super::measures::measures;
 use super::noise::noise;
 use super::warnings::grouped_warnings;
+use super::shared::{definitions, failed_runs};
 use super::{lead, tables, values};
-use crate::analysis::SurrogateTrial;
 use crate::report::document::Part;
 use crate::report::format::{among_with_unit, count, grouped, minus, name, share_of_runs, significant, two_digits};
 use crate::report::interval_widths::{WIDE, indices_measured, widest_of};
 use crate::report::leading::no_indices;
-use crate::report::result::{IndexRecord, OutputRecord, ResultFile};
-use crate::report::study_sections::{failures, inputs};
+use crate::result::{IndexRecord, OutputResult, SurrogateTrial};
 
 /// A topic: a section of its own where there is one output, a part of the output's section where there are several.
 pub(super) struct Topic {
@@ -32,20 +31,20 @@ pub(super) fn topics(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Topic> 
         topics.push(topic("noise", "The noise", noise(output)));
         topics.push(topic("interactions", "Interactions", interactions(figures, of)));
         topics.push(topic("measures", "Other measures", measures(output)));
-        topics.push(topic("convergence", "How the indices settled", convergence(figures, of)));
+        topics.push(topic("convergence", "Convergence", convergence(figures, of)));
     }
     topics.push(topic("distribution", "Distribution of the output", distribution(figures, of)));
     if output.scatter.is_some() {
-        topics.push(topic("scatter", "The output against its factors", vec![figures.draw(of, SCATTER)]));
+        topics.push(topic("scatter", "Scatter plots", vec![figures.draw(of, SCATTER)]));
     }
-    topics.push(topic("surrogate", "What the surrogate did", surrogate(output)));
+    topics.push(topic("surrogate", "Surrogate", surrogate(output)));
     topics.push(topic("estimators", "Other estimators", estimators(output)));
     topics.retain(|topic| !topic.parts.is_empty());
     topics
 }
 
 /// Why there are no indices, what the run warns of (of one of several outputs it is said before), and which runs failed.
-fn mind(output: &OutputRecord, is_only: bool) -> Vec<Part> {
+fn mind(output: &OutputResult, is_only: bool) -> Vec<Part> {
     let mut parts = Vec::new();
     if output.indices.is_none() {
         parts.push(Part::no_indices(no_indices(output)));
@@ -62,14 +61,8 @@ fn mind(output: &OutputRecord, is_only: bool) -> Vec<Part> {
     parts
 }
 
-/// Why runs of an output failed.
-pub(super) fn failed_runs(output: &OutputRecord) -> Option<Part> {
-    let failed = output.failures.iter();
-    failures(failed.map(|f| (&*f.reason, format!("row {}: {}", f.first_row, inputs(&f.first_inputs)), f.runs)))
-}
-
 /// How well polynomials stand in for the model, what they gained, and what they consist of.
-fn surrogate(output: &OutputRecord) -> Vec<Part> {
+fn surrogate(output: &OutputResult) -> Vec<Part> {
     let Some(record) = &output.surrogate else {
         let declined = |trial: SurrogateTrial| {
             format!(
@@ -145,30 +138,6 @@ fn indices(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
     parts
 }
 
-/// What the columns of the tables of indices mean, and what the intervals are.
-pub(super) fn definitions(result: &ResultFile) -> [Part; 2] {
-    let threshold = result.provenance.threshold;
-    let indices = match result.study.dependences.is_empty() {
-        true => format!(
-            "S_1 is the part of the variance of the output that goes if a factor becomes known; S_T is the part that stays as \
-             long as it is unknown. P(largest) is the probability that a factor's total index is the largest, \
-             P(S_T > {threshold}) that it exceeds {threshold}."
-        ),
-        false => {
-            "Factors depend on each other. S_1 is the part of the variance of the output that goes if a factor becomes known, \
-             with all that it tells of others; S_T is the part that stays as long as it alone is unknown (Kucherenko, Tarantola \
-             and Annoni 2012). The other two are S_1 given the others, and S_T with all that it tells of others (Mara, Tarantola \
-             and Annoni 2015)."
-                .to_owned()
-        }
-    };
-    let intervals = match &result.provenance.interval {
-        Some(words) => format!("Intervals (±): {words}."),
-        None => "There are no intervals: a single replicate says nothing about its error.".to_owned(),
-    };
-    [Part::OnPage(vec![Part::Text(indices)]), Part::Text(intervals)]
-}
-
 fn interactions(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
     let output = of.output;
     let Some(text) = lead::interactions(output).filter(|_| output.indices.iter().flatten().count() > 1) else {
@@ -200,7 +169,7 @@ fn distribution(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
 }
 
 /// Mean, standard deviation, and the range of most values.
-fn range(output: &OutputRecord) -> String {
+fn range(output: &OutputResult) -> String {
     let sample = output.distribution.as_ref().map(|distribution| &distribution.sample);
     let spread = sample.map_or(0.0, |sample| sample.spread());
     let value = |x: f64| among_with_unit(x, spread, &output.unit);
@@ -217,7 +186,7 @@ fn range(output: &OutputRecord) -> String {
     minus(&said.join(", ")) + "."
 }
 
-fn estimators(output: &OutputRecord) -> Vec<Part> {
+fn estimators(output: &OutputResult) -> Vec<Part> {
     let parts = tables::estimators(output);
     match parts.is_empty() {
         true => parts,

@@ -1,15 +1,15 @@
 //! What the document says of many outputs: an overview, and a table of every output.
 
 use super::figures::Figures;
-use super::output::{definitions, failed_runs};
+use super::shared::{definitions, failed_runs};
 use super::tables::{IN_CSV, first_rows, largest};
 use super::warnings::grouped_warnings;
 use crate::report::document::{Cell, Column, Part, Section, Table};
 use crate::report::format::{give_or_take, name, short, value};
 use crate::report::leading::{Contender, by_total, leader_of_all, may_lead, of_which};
 use crate::report::listed;
-use crate::report::result::{OutputRecord, ResultFile};
 use crate::report::run_charts::{map_chart, overall_order, together_chart};
+use crate::result::{OutputResult, StudyResult};
 
 /// Factors beside each output in the table of outputs, and outputs in it.
 const COLUMNS: usize = 8;
@@ -45,7 +45,7 @@ fn overview(figures: &mut Figures<'_>) -> Vec<Part> {
 }
 
 /// The factor that surely matters most for an output; `None` where the errors leave it open.
-fn sure_leader(output: &OutputRecord) -> Option<usize> {
+fn sure_leader(output: &OutputResult) -> Option<usize> {
     let order = by_total(output)?;
     let contenders: Vec<Contender> = order.iter().map(|(_, index)| Contender::from_index(index)).collect();
     // Without intervals nothing is sure.
@@ -54,18 +54,18 @@ fn sure_leader(output: &OutputRecord) -> Option<usize> {
 }
 
 /// For how many outputs each factor surely matters most.
-fn leads(result: &ResultFile) -> Vec<usize> {
+fn leads(result: &StudyResult) -> Vec<usize> {
     let mut leads = vec![0; result.factors.len()];
     result.outputs.iter().filter_map(sure_leader).for_each(|factor| leads[factor] += 1);
     leads
 }
 
 /// What each factor does to all outputs.
-pub(super) fn factors(result: &ResultFile) -> Table {
+pub(super) fn factors(result: &StudyResult) -> Table {
     let leads = leads(result);
     let together = result.aggregate.as_ref().and_then(|aggregate| aggregate.indices.as_deref()).unwrap_or_default();
     let row = |&factor: &usize| -> Vec<Cell> {
-        let total = |output: &'_ OutputRecord| Some(output.indices.as_ref()?.get(factor)?.effect.total);
+        let total = |output: &'_ OutputResult| Some(output.indices.as_ref()?.get(factor)?.effect.total);
         let mut totals: Vec<_> =
             result.outputs.iter().filter_map(|output| Some((total(output)?, &output.name))).collect();
         totals.sort_by(|a, b| a.0.estimate.total_cmp(&b.0.estimate));
@@ -89,9 +89,9 @@ pub(super) fn factors(result: &ResultFile) -> Table {
 }
 
 /// Which outputs have no indices, what the run warns of, and why runs failed.
-pub(super) fn mind(result: &ResultFile) -> Vec<Part> {
+pub(super) fn mind(result: &StudyResult) -> Vec<Part> {
     let mut parts: Vec<Part> = Vec::new();
-    let without = |output: &OutputRecord| output.indices.is_none();
+    let without = |output: &OutputResult| output.indices.is_none();
     let places: Vec<usize> = (0..result.outputs.len()).filter(|&place| without(&result.outputs[place])).collect();
     if let Some(&first) = places.first() {
         let names: Vec<&str> = result.outputs.iter().map(|output| output.name.as_str()).collect();
@@ -109,10 +109,10 @@ pub(super) fn mind(result: &ResultFile) -> Vec<Part> {
 }
 
 /// Mean, standard deviation and total indices of every output, as far as a page has room.
-pub(super) fn every_output(result: &ResultFile) -> Part {
+pub(super) fn every_output(result: &StudyResult) -> Part {
     let mut factors = overall_order(result);
     factors.truncate(COLUMNS);
-    let row = |output: &OutputRecord| -> Vec<Cell> {
+    let row = |output: &OutputResult| -> Vec<Cell> {
         let number = |x: Option<f64>| x.map_or_else(|| "–".to_owned(), |x| value(x, &output.unit));
         let moments = [name(&output.name), number(output.mean), number(output.variance.map(f64::sqrt))];
         let totals = factors.iter().map(|&factor| {
@@ -134,7 +134,7 @@ pub(super) fn every_output(result: &ResultFile) -> Part {
 }
 
 /// The paragraphs at the top: who leads, output by output and over all together.
-pub(super) fn answers(result: &ResultFile) -> Vec<String> {
+pub(super) fn answers(result: &StudyResult) -> Vec<String> {
     let leads = leads(result);
     let mut order: Vec<usize> = (0..leads.len()).filter(|&factor| leads[factor] > 0).collect();
     order.sort_by_key(|&factor| std::cmp::Reverse(leads[factor]));

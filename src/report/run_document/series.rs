@@ -1,13 +1,13 @@
 //! What the document says of a series: its indices along the axis and as a whole.
 
 use super::figures::{Figures, SERIES_SUFFIXES};
-use super::output::definitions;
+use super::shared::definitions;
 use super::overview;
 use crate::report::document::{Part, Section, Table};
 use crate::report::format::{heading, name};
 use crate::report::leading::leader_of_all;
-use crate::report::result::{AggregateRecord, OutputRecord, ResultFile, SeriesRecord};
 use crate::report::run_charts::{SeriesOf, along_chart, together_chart};
+use crate::result::{AggregateRecord, OutputResult, SeriesRecord, StudyResult};
 
 /// Series with all their charts and a table of their values.
 const IN_FULL: usize = 4;
@@ -16,7 +16,7 @@ const IN_FULL: usize = 4;
 const WEIGHTING: &str = "each value counts by its variance (Gamboa et al. 2014)";
 
 /// The values of `series` alone, as a result of its own.
-fn values_alone(of: SeriesOf<'_>) -> ResultFile {
+fn values_alone(of: SeriesOf<'_>) -> StudyResult {
     let SeriesOf { result, series } = of;
     let outputs = of.values().to_vec();
     let aggregate = AggregateRecord {
@@ -30,7 +30,7 @@ fn values_alone(of: SeriesOf<'_>) -> ResultFile {
 }
 
 /// The outputs of `result` that belong to no series, as a result of its own.
-pub(super) fn single_outputs(result: &ResultFile) -> ResultFile {
+pub(super) fn single_outputs(result: &StudyResult) -> StudyResult {
     let single = |place: usize| !result.series.iter().any(|series| series.places().contains(&place));
     let outputs = result.outputs.iter().enumerate().filter(|(place, _)| single(*place));
     with_outputs(result, outputs.map(|(_, output)| output.clone()).collect(), result.aggregate.clone())
@@ -38,13 +38,13 @@ pub(super) fn single_outputs(result: &ResultFile) -> ResultFile {
 
 /// `result` as if the study had the output or the series of that name alone; without a name, or where there is none of it, the
 /// first one.
-pub fn one_output(result: &ResultFile, name: Option<&str>) -> ResultFile {
+pub fn one_output(result: &StudyResult, name: Option<&str>) -> StudyResult {
     let series = |found: &dyn Fn(&SeriesRecord) -> bool| result.series.iter().find(|series| found(series));
     let place = name.and_then(|name| result.outputs.iter().position(|output| output.name == name));
     let named = name.and_then(|name| series(&|series| series.name == name));
     let first = || series(&|series| series.first_output == 0);
     match named.or_else(|| if place.is_none() { first() } else { None }) {
-        Some(series) => ResultFile {
+        Some(series) => StudyResult {
             series: vec![SeriesRecord { first_output: 0, ..series.clone() }],
             ..with_outputs(result, result.outputs[series.places()].to_vec(), None)
         },
@@ -56,8 +56,8 @@ pub fn one_output(result: &ResultFile, name: Option<&str>) -> ResultFile {
 }
 
 /// The same with other outputs, none of which is a series.
-fn with_outputs(result: &ResultFile, outputs: Vec<OutputRecord>, aggregate: Option<AggregateRecord>) -> ResultFile {
-    ResultFile {
+fn with_outputs(result: &StudyResult, outputs: Vec<OutputResult>, aggregate: Option<AggregateRecord>) -> StudyResult {
+    StudyResult {
         format: result.format.clone(),
         version: result.version,
         study: result.study.clone(),
@@ -75,7 +75,7 @@ fn with_outputs(result: &ResultFile, outputs: Vec<OutputRecord>, aggregate: Opti
 }
 
 /// The sections of all series of `result`, and how many figures they have.
-pub(super) fn sections(result: &ResultFile, stems: &[[String; SERIES_SUFFIXES.len()]]) -> (Vec<Section>, usize) {
+pub(super) fn sections(result: &StudyResult, stems: &[[String; SERIES_SUFFIXES.len()]]) -> (Vec<Section>, usize) {
     let (mut sections, mut figures) = (Vec::new(), 0);
     for (number, series) in result.series.iter().enumerate() {
         let of = SeriesOf { result, series };
@@ -119,7 +119,7 @@ fn in_full(
 }
 
 /// The paragraph at the top on a series: who leads over all of it.
-pub(super) fn answer(result: &ResultFile, series: &SeriesRecord) -> String {
+pub(super) fn answer(result: &StudyResult, series: &SeriesRecord) -> String {
     let label = name(&series.name);
     let whole = format!("For {label} as a whole ({} values)", SeriesOf { result, series }.values().len());
     let sentence = series.indices.as_ref().and_then(|indices| leader_of_all(indices, &whole));

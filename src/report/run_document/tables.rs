@@ -5,9 +5,9 @@ use crate::report::csv::{Csv, Field, fields};
 use crate::report::document::{Cell, Column, Part, Table, Value, csv};
 use crate::report::format::{chance, name, share};
 use crate::report::leading::{by_total, surely_interact};
-use crate::report::result::{
-    AggregateRecord, IndexRecord, OtherIndexRecord, OutputRecord, PairRecord, PlainIndexRecord, PlayerRecord,
-    ResultFile,
+use crate::result::{
+    AggregateRecord, IndexRecord, OtherIndexRecord, OutputResult, PairRecord, PlainIndexRecord, PlayerRecord,
+    StudyResult,
 };
 use crate::uncertainty::{EffectEstimates, Estimate};
 
@@ -47,7 +47,7 @@ fn places<T>(order: &[(usize, T)], count: usize) -> Option<Vec<usize>> {
 }
 
 /// First-order and total indices of the factors, the largest total index first.
-pub(super) fn indices(result: &ResultFile, output: &OutputRecord) -> Option<Table> {
+pub(super) fn indices(result: &StudyResult, output: &OutputResult) -> Option<Table> {
     let order = by_total(output)?;
     let rows = output.indices.iter().flatten().map(|index| {
         let mut row = effect_row(&output.name, "factor", name(&index.factor), &index.factor, &index.effect);
@@ -73,7 +73,7 @@ pub(super) fn indices(result: &ResultFile, output: &OutputRecord) -> Option<Tabl
 }
 
 /// A table of indices, of which those over several outputs together show the first two only.
-fn effect_table(result: &ResultFile, caption: String, what: &str, is_of_one: bool) -> Table {
+fn effect_table(result: &StudyResult, caption: String, what: &str, is_of_one: bool) -> Table {
     // All outputs are alike.
     let index = result.outputs.iter().find_map(|output| output.indices.as_ref()?.first());
     let is_dependent = index.is_some_and(|index| index.effect.dependent.is_some());
@@ -111,7 +111,7 @@ fn effect_table(result: &ResultFile, caption: String, what: &str, is_of_one: boo
 }
 
 /// The Shapley effect of a group, or of a factor without one, where these are the players.
-fn of_player(output: &OutputRecord, player: &str, factors: &[String]) -> Option<Cell> {
+fn of_player(output: &OutputResult, player: &str, factors: &[String]) -> Option<Cell> {
     let mut players = output.shapley_groups.iter().flatten();
     let found = players.find(|record| record.player == player && record.factors == factors)?;
     Some(found.shapley.into())
@@ -148,7 +148,7 @@ fn effect_row(output: &str, kind: &str, label: String, name: &str, effect: &Effe
 }
 
 /// The indices of all outputs: of factors and groups, then of subsets and the dummy factor, then those of several together.
-pub(super) fn indices_csv(result: &ResultFile) -> String {
+pub(super) fn indices_csv(result: &StudyResult) -> String {
     // Each table is made when it is written: there may be thousands.
     let outputs = || result.outputs.iter();
     let first = outputs().flat_map(|output| indices(result, output).into_iter().chain(groups(result, output)));
@@ -166,13 +166,13 @@ pub(super) fn indices_csv(result: &ResultFile) -> String {
 }
 
 /// The second-order indices of all outputs.
-pub(super) fn pairs_csv(result: &ResultFile) -> String {
+pub(super) fn pairs_csv(result: &StudyResult) -> String {
     let header = std::iter::once(pairs_table(String::new()));
     csv(header.chain(result.outputs.iter().filter_map(pairs)))
 }
 
 /// Shares in percent, the largest share of the total indices first.
-pub(super) fn shares(output: &OutputRecord) -> Option<Part> {
+pub(super) fn shares(output: &OutputResult) -> Option<Part> {
     let order = by_total(output)?;
     let row = |(_, IndexRecord { factor, effect }): &(usize, &IndexRecord)| -> Vec<Cell> {
         let shares = [effect.first_order_percent(), effect.total_percent()].map(share);
@@ -184,7 +184,7 @@ pub(super) fn shares(output: &OutputRecord) -> Option<Part> {
 }
 
 /// Joint indices of groups of factors.
-pub(super) fn groups(result: &ResultFile, output: &OutputRecord) -> Option<Table> {
+pub(super) fn groups(result: &StudyResult, output: &OutputResult) -> Option<Table> {
     let rows = output.groups.iter().flatten().map(|group| {
         let label = format!("{}: {}", name(&group.group), joined(&group.factors));
         let mut row = effect_row(&output.name, "group", label, &group.group, &group.effect);
@@ -195,7 +195,7 @@ pub(super) fn groups(result: &ResultFile, output: &OutputRecord) -> Option<Table
 }
 
 /// Joint indices of subsets of factors, and those of the dummy factor.
-pub(super) fn subsets(result: &ResultFile, output: &OutputRecord) -> Option<Table> {
+pub(super) fn subsets(result: &StudyResult, output: &OutputResult) -> Option<Table> {
     let rows = output.subsets.iter().flatten().map(|subset| {
         let in_file = subset.factors.join(" + ");
         effect_row(&output.name, "subset", joined(&subset.factors), &in_file, &subset.effect)
@@ -213,14 +213,14 @@ fn joined(factors: &[String]) -> String {
     factors.iter().map(|factor| name(factor)).collect::<Vec<_>>().join(" + ")
 }
 
-fn joint(result: &ResultFile, caption: &str, rows: Vec<Vec<Cell>>) -> Option<Table> {
+fn joint(result: &StudyResult, caption: &str, rows: Vec<Vec<Cell>>) -> Option<Table> {
     let printed = Some((0..rows.len().min(FACTORS)).collect());
     let table = with_effects(effect_table(result, caption.to_owned(), "factors", true), rows);
     (!table.rows.is_empty()).then_some(Table { printed, ..table })
 }
 
 /// The Shapley effects of groups, the largest first.
-pub(super) fn players(output: &OutputRecord) -> Option<Part> {
+pub(super) fn players(output: &OutputResult) -> Option<Part> {
     let players = output.shapley_groups.as_ref().filter(|players| !players.is_empty())?;
     let mut order: Vec<&PlayerRecord> = players.iter().collect();
     order.sort_by(|a, b| b.shapley.estimate.total_cmp(&a.shapley.estimate));
@@ -233,7 +233,7 @@ pub(super) fn players(output: &OutputRecord) -> Option<Part> {
 }
 
 /// The largest second-order indices.
-pub(super) fn pairs(output: &OutputRecord) -> Option<Table> {
+pub(super) fn pairs(output: &OutputResult) -> Option<Table> {
     let pairs = output.second_order.as_ref().filter(|pairs| !pairs.is_empty())?;
     let mut order: Vec<(usize, &PairRecord)> = pairs.iter().enumerate().collect();
     order.sort_by(|a, b| b.1.index.estimate.total_cmp(&a.1.index.estimate));
@@ -269,7 +269,7 @@ fn pairs_table(caption: String) -> Table {
 }
 
 /// First-order, then total indices by the other estimators, with the default ones.
-pub(super) fn estimators(output: &OutputRecord) -> Vec<Part> {
+pub(super) fn estimators(output: &OutputResult) -> Vec<Part> {
     let Some(order) = by_total(output) else { return Vec::new() };
     type Of = fn(&OtherIndexRecord) -> Option<Estimate>;
     type Default = fn(&EffectEstimates) -> Estimate;
@@ -298,7 +298,7 @@ pub(super) fn estimators(output: &OutputRecord) -> Vec<Part> {
 }
 
 /// Indices over all outputs together.
-pub(super) fn aggregate_of(result: &ResultFile, record: &AggregateRecord, indices: &[PlainIndexRecord]) -> Table {
+pub(super) fn aggregate_of(result: &StudyResult, record: &AggregateRecord, indices: &[PlainIndexRecord]) -> Table {
     // The noise is one more line.
     let noise = record.noise.as_ref();
     let lines = || indices.iter().chain(noise);
@@ -330,7 +330,7 @@ pub(super) fn aggregate_of(result: &ResultFile, record: &AggregateRecord, indice
 }
 
 /// The indices by the other estimators: a line per output, estimator and factor, group, subset or dummy.
-pub(super) fn estimators_csv(result: &ResultFile) -> String {
+pub(super) fn estimators_csv(result: &StudyResult) -> String {
     let mut csv = Csv::new(fields(&["output", "estimator", "name"], &["first_order", "total"]));
     for output in &result.outputs {
         for record in &output.estimators {
@@ -344,7 +344,7 @@ pub(super) fn estimators_csv(result: &ResultFile) -> String {
 }
 
 /// The indices at every stage of the run: a line per output, number of base samples and factor.
-pub(super) fn convergence_csv(result: &ResultFile) -> String {
+pub(super) fn convergence_csv(result: &StudyResult) -> String {
     let names = ["output", "base_samples", "model_runs", "factor"];
     let mut csv = Csv::new(fields(&names, &["first_order", "total"]));
     for output in &result.outputs {

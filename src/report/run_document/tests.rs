@@ -1,15 +1,15 @@
 use std::path::Path;
 
 use super::*;
-use crate::report::result_json;
+use crate::result::Warning;
 use crate::study::Study;
 
-fn result(text: &str) -> ResultFile {
+fn result(text: &str) -> StudyResult {
     let study = Study::parse(text, Path::new("small.toml"), &[]).unwrap_or_else(|error| panic!("{error}"));
-    ResultFile::new(&study, &study.runner().threads(1).run().unwrap())
+    study.runner().threads(1).run().unwrap()
 }
 
-fn page(result: &ResultFile) -> Document {
+fn page(result: &StudyResult) -> Document {
     run_document(result)
 }
 
@@ -29,12 +29,12 @@ fn the_leading_factor_stands_at_the_top() {
         "Indices",
         "Shares",
         "Interactions",
-        "How the indices settled",
+        "Convergence",
         "Distribution of the output",
-        "The output against its factors",
-        "What the surrogate did",
+        "Scatter plots",
+        "Surrogate",
         "Try your own ranges",
-        "Cost",
+        "Run time",
     ];
     assert_eq!(titles(&page)[..9], expected);
 }
@@ -42,7 +42,7 @@ fn the_leading_factor_stands_at_the_top() {
 #[test]
 fn a_page_can_be_drawn_again_from_the_file() {
     let result = result(&format!("model = \"ishigami\"{SMALL}"));
-    let read: ResultFile = serde_json::from_str(&result_json(&result)).unwrap();
+    let read: StudyResult = serde_json::from_str(&result.json()).unwrap();
     assert_eq!(page(&read).html(), page(&result).html());
 }
 
@@ -84,7 +84,7 @@ fn names_and_titles_cannot_break_out() {
     let mut result = result(&format!("model = \"ishigami\"{SMALL}"));
     result.study.title = Some(evil.to_owned());
     result.study.source = evil.to_owned();
-    result.outputs[0].warnings.push(evil.to_owned());
+    result.outputs[0].warnings.push(Warning::Unlikely { text: evil.to_owned() });
     let html = page(&result).html();
     assert!(!html.contains("<script>alert"));
     assert_eq!(html.matches("</script>").count(), 1);
@@ -173,8 +173,8 @@ fn warnings_of_a_kind_are_one() {
     let text = "model = \"expression\"\noutputs = { y = \"exp(9*a*a*b)\", z = \"exp(8*a*a*b)\", w = \"a\" }\n[design]\n\
                 base_samples = 64\n[factors]\na = { min = 0, max = 1 }\nb = { min = 0, max = 1 }\n";
     let result = result(text);
-    let codes = |place: usize| &result.outputs[place].warning_codes;
-    assert!([0, 1].iter().all(|&place| codes(place).contains(&"few-rows".to_owned())) && codes(2).is_empty());
+    let few_rows = |place: usize| result.outputs[place].warnings.iter().any(|warning| warning.code() == "few-rows");
+    assert!(few_rows(0) && few_rows(1) && result.outputs[2].warnings.is_empty());
     let grouped = super::warnings::grouped_warnings(&result.outputs);
     let of_few_rows: Vec<&String> = grouped.iter().filter(|text| text.contains("rests on few rows")).collect();
     assert!(of_few_rows.len() == 1 && of_few_rows[0].contains("(2 outputs: y and z)"), "{grouped:?}");

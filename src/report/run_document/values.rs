@@ -4,7 +4,7 @@ use super::tables::{FACTORS_OF_ESTIMATORS, first_rows};
 use crate::report::document::{Cell, Column, Part, Table};
 use crate::report::format::{among_with_unit, axis_unit, grouped, index, minus, name, significant, value};
 use crate::report::leading::by_total;
-use crate::report::result::{IndexRecord, OutputRecord, SurrogateRecord};
+use crate::result::{IndexRecord, OutputResult, SurrogateRecord};
 use crate::uncertainty::{Estimate, Interval, NamedTerm};
 
 /// Quantiles in the table, in percent; the JSON file has more.
@@ -13,7 +13,7 @@ const QUANTILES: [f64; 7] = [2.5, 5.0, 25.0, 50.0, 75.0, 95.0, 97.5];
 const LEAST_TERM: f64 = 0.01;
 
 /// Moments and quantiles of an output's values.
-pub(super) fn moments(output: &OutputRecord) -> Option<Part> {
+pub(super) fn moments(output: &OutputResult) -> Option<Part> {
     let record = output.distribution.as_ref()?;
     let number = |x: f64| minus(&among_with_unit(x, record.sample.spread(), &output.unit));
     let mut rows: Vec<(String, String)> = Vec::new();
@@ -43,13 +43,13 @@ pub(super) fn moments(output: &OutputRecord) -> Option<Part> {
 }
 
 /// The mean of an output with its error and unit.
-pub(super) fn mean(output: &OutputRecord) -> Option<String> {
+pub(super) fn mean(output: &OutputResult) -> Option<String> {
     Some(of_unit(output.mean?, output.mean_interval, &output.unit))
 }
 
 /// The standard deviation, by the divisor n - 1, as in the file; its interval is that of the variance. Where a surrogate knows the
 /// variance so much better that the values are outside of its interval, the root of the variance.
-pub(super) fn sd(output: &OutputRecord) -> Option<String> {
+pub(super) fn sd(output: &OutputResult) -> Option<String> {
     let sample = output.distribution.as_ref().and_then(|distribution| distribution.sample.sd);
     let interval = output.variance_interval.and_then(|variance| variance.map(|bound| bound.max(0.0).sqrt()));
     let is_inside = |sd: &f64| interval.is_none_or(|interval| (interval.low..=interval.high).contains(sd));
@@ -66,7 +66,7 @@ fn of_unit(estimate: f64, interval: Option<Interval>, unit: &str) -> String {
 }
 
 /// The leading terms of the surrogates, and the plain indices beside the corrected ones.
-pub(super) fn surrogate(output: &OutputRecord, record: &SurrogateRecord) -> Vec<Part> {
+pub(super) fn surrogate(output: &OutputResult, record: &SurrogateRecord) -> Vec<Part> {
     let label = |term: &NamedTerm| {
         let factor = |(factor, degree): (&String, &usize)| match degree {
             1 => name(factor),

@@ -6,9 +6,9 @@ use crate::report::csv::Field;
 use crate::report::document::{Cell, Column, DataFile, Document, Figure, Mark, Part, Section, Table, Value};
 use crate::report::format::{grouped, heading, index, name, short, words};
 use crate::report::leading::first_answers;
-use crate::report::records::json;
 use crate::report::study_sections::{failures, inputs, study_section, validity_section};
 use crate::report::{capitalised, listed, validity};
+use crate::result::json;
 use crate::screening::{FIXABLE, ScreenedFactor, ScreenedOutput};
 use crate::uncertainty::Estimate;
 

@@ -5,11 +5,14 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::super::records::{StudySetup, study_setup, validity};
-use super::super::result::ValidityRecord;
-use super::super::{RunFacts, with_unit};
+use super::super::with_unit;
+use crate::analysis::study_setup;
+use crate::analysis::validity;
 use crate::design::Sampler;
 use crate::model::Model;
+use crate::result::RunFacts;
+use crate::result::StudySetup;
+use crate::result::ValidityRecord;
 use crate::screening::{
     DERIVATIVE_STEP, FIXABLE, MIN_STEP, ScreenedOutput, Screening, ScreeningDesign, poincare_constant,
 };

@@ -7,9 +7,9 @@ use crate::report::csv::{Csv, fields};
 use crate::report::document::{Cell, Column, DataFile, Document, Figure, Mark, Part, Section, Table, Value};
 use crate::report::format::{axis_unit, grouped, heading, name, short, short_with_unit, value};
 use crate::report::leading::first_answers;
-use crate::report::records::json;
 use crate::report::study_sections::{study_section, validity_section};
 use crate::report::validity;
+use crate::result::json;
 use crate::sweep::{Against, NominalOutput, Sweep, SweepEffect};
 
 /// The document of sweeps.

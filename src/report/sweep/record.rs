@@ -6,10 +6,12 @@
 use serde::{Deserialize, Serialize};
 
 use super::super::format::short_with_unit;
-use super::super::records::{StudySetup, study_setup, validity};
-use super::super::result::ValidityRecord;
+use crate::analysis::study_setup;
+use crate::analysis::validity;
 use crate::model::Model;
 use crate::quantity::Unlikely;
+use crate::result::StudySetup;
+use crate::result::ValidityRecord;
 use crate::study::Study;
 use crate::sweep::{Against, NominalOutput, Sweep, SweepEffect, Sweeps};
 

@@ -8,7 +8,8 @@ use crate::reproduce::order::{Agreement, OrderVerdict, Standing, VISIBLE, order_
 use crate::reproduce::published::{CLOSE, PRINTED};
 use crate::reproduce::{FRICTIONS, Friction, GROUPS, Published, Reproduced, named_together, published};
 use apportion::afm::{Failure, FrictionLaw, Scene};
-use apportion::report::{IndexRecord, fixed, give_or_take, share};
+use apportion::report::{fixed, give_or_take, share};
+use apportion::result::IndexRecord;
 use apportion::{EffectEstimates, Estimate};
 
 /// F_cr counts as a product of a function of the dimensions and one of the environment if it is one to this: a

@@ -10,10 +10,10 @@ use apportion::afm::{Critical, FrictionLaw, Options, Scene, critical_force};
 /// The nine studies at 4096 base points: enough to decide every order, and soon done.
 fn nine_studies() -> Vec<Reproduced> {
     let studies = studies(&["design.base_samples=4096".to_owned()]).unwrap();
-    let run = |(group, friction, study)| Reproduced {
+    let run = |(group, friction, study): (_, _, apportion::Study)| Reproduced {
         group,
         friction,
-        result: apportion::report::ResultFile::new(&study, &study.run().unwrap()),
+        result: study.run().unwrap(),
     };
     studies.into_iter().map(run).collect()
 }

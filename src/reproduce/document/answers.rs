@@ -6,7 +6,8 @@ use crate::reproduce::{FRICTIONS, Friction, GROUPS, Reproduced, StudyGroup, name
 use apportion::EffectEstimates;
 use apportion::report::document::{Cell, Column, Mark, OnPhone, Part, Table};
 use apportion::report::format::words;
-use apportion::report::{IndexRecord, fixed, listed, share_of_runs};
+use apportion::report::{fixed, listed, share_of_runs};
+use apportion::result::IndexRecord;
 
 /// An index in percent of the variance, to a whole percent; one decimal below 10 %.
 fn percent(index: f64) -> String {
@@ -106,7 +107,7 @@ fn sentence(studies: &[Reproduced], group: StudyGroup) -> Option<String> {
 /// What a careful reader should know of each study, a sentence each.
 pub(super) fn cautions(studies: &[Reproduced]) -> Vec<String> {
     let said = |study: &Reproduced| -> Vec<String> {
-        let warnings = study.result.outputs.iter().flat_map(|output| &output.warnings);
+        let warnings = study.result.outputs.iter().flat_map(|output| output.warnings.iter());
         warnings.map(|warning| format!("{}, {} study: {warning}.", study.friction.name, study.group.key)).collect()
     };
     studies.iter().flat_map(said).collect()

@@ -12,7 +12,6 @@ use super::percentages::{self, percentages_csv};
 use super::shares::shares_table;
 use super::{ReproduceError, Reproduced, Reproduction};
 use apportion::report::document::{DataFile, Document, Part, Section, Table};
-use apportion::report::result_json;
 
 /// The document about `reproduction`; what was not asked for is left out. But for the times in the results, its files are
 /// the same for every run of the same version.
@@ -46,7 +45,7 @@ fn files(reproduction: &Reproduction) -> Result<Vec<DataFile>, ReproduceError> {
     let mut files = Vec::new();
     let mut add = |name: String, text: String| files.push(DataFile { name, text });
     for study in &reproduction.studies {
-        add(format!("{}-{}.json", study.friction.key, study.group.key), result_json(&study.result));
+        add(format!("{}-{}.json", study.friction.key, study.group.key), study.result.json());
     }
     if !reproduction.claims.is_empty() {
         add("claims.json".to_owned(), claims_json(&reproduction.claims)?);

@@ -5,7 +5,8 @@ use crate::reproduce::shares::{indices, ranked, shares_table};
 use crate::reproduce::{Reproduced, StudyGroup, published};
 use apportion::report::chart::{Chart, Series};
 use apportion::report::format::words;
-use apportion::report::{IndexRecord, SharesSeries, listed, shares_chart};
+use apportion::report::{SharesSeries, listed, shares_chart};
+use apportion::result::IndexRecord;
 
 /// The shares in the studies of a group under these friction models; nothing if none of them was run.
 pub(super) fn drawn(group: &str, is_shown: fn(&str) -> bool, studies: &[Reproduced]) -> Option<Drawn> {

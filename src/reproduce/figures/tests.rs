@@ -54,8 +54,8 @@ fn data(stem: &str) -> (Vec<String>, Vec<Vec<f64>>) {
 
 fn reproduced() -> Vec<Reproduced> {
     let studies = studies(&["design.base_samples=64".to_owned()]).unwrap();
-    let run = |(group, friction, study)| {
-        let result = apportion::report::ResultFile::new(&study, &study.run().unwrap());
+    let run = |(group, friction, study): (_, _, apportion::Study)| {
+        let result = study.run().unwrap();
         Reproduced { friction, group, result }
     };
     studies.into_iter().map(run).collect()

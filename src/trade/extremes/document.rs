@@ -5,11 +5,13 @@
 use serde::{Deserialize, Serialize};
 
 use super::map::{Extremes, Grid, Kind, Outcome, Reason, Tally};
+use crate::analysis::study_setup;
 use crate::report::chart::{Axis, Chart, Colour, Panel, Series, Shape, Tile};
 use crate::report::csv::Field;
 use crate::report::document::{Cell, Column, DataFile, Document, Figure, Mark, OnPhone, Part, Section, Table, Value};
 use crate::report::format::{grouped, short};
-use crate::report::{StudySetup, inputs, json, study_section, study_setup};
+use crate::report::{inputs, study_section};
+use crate::result::{StudySetup, json};
 use crate::study::Study;
 
 /// Largest number of rows of a chart; the worst ones are shown.

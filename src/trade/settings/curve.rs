@@ -92,8 +92,14 @@ impl Curve {
         let intervals = if own.serves(self.sampler) { own } else { usual };
         let surrogate = if self.has_surrogate { SurrogateChoice::On } else { SurrogateChoice::Off };
         let estimators = if self.estimator == Estimator::Default { Vec::new() } else { vec![self.estimator] };
-        let analysis =
-            AnalysisOptions { intervals, surrogate, estimators, second_order: false, ..study.analysis.clone() };
+        let analysis = AnalysisOptions {
+            intervals,
+            surrogate,
+            estimators,
+            second_order: false,
+            pictures: false,
+            ..study.analysis.clone()
+        };
         let replicates = match self.sampler == study.design.settings().sampler {
             true => study.design.settings().replicates,
             false => analysis.intervals.default_replicates(),

@@ -7,7 +7,8 @@ use crate::report::chart::{Axis, Chart, Colour, Panel, Series, Spacing, Stroke};
 use crate::report::csv::{Field, Value};
 use crate::report::document::{Cell, Column, DataFile, Document, Figure, Part, Section, Table};
 use crate::report::format::{grouped, significant};
-use crate::report::{json, study_section};
+use crate::report::study_section;
+use crate::result::json;
 
 /// Errors below this are drawn there.
 const LEAST_ERROR: f64 = 1e-6;

@@ -17,9 +17,9 @@ pub use curve::Axis;
 pub use document::settings_document;
 pub use record::{SettingsFile, build_settings};
 
-use crate::analysis::Analysis;
 use crate::clock::Instant;
 use crate::estimate::Estimator;
+use crate::result::StudyResult;
 use crate::run::RunError;
 use crate::study::Study;
 use curve::Curve;
@@ -170,15 +170,14 @@ fn measured(job: &SettingsJob<'_>, curve: &Curve, truth: &Truth, seconds: f64) -
             if let Some(stop) = job.stop {
                 runner = runner.stop(stop);
             }
-            let analysis = match runner.run() {
-                Ok(analysis) => analysis,
+            let result = match runner.run() {
+                Ok(result) => result,
                 Err(error @ RunError::Interrupted { .. }) => return Err(error),
                 Err(_) => return Ok(all),
             };
             let seconds = began.elapsed().as_secs_f64();
-            let error = error(&analysis, curve.estimator, truth);
-            let runs = analysis.design.rows();
-            let settings = analysis.design.settings().base_samples;
+            let error = error(&result, curve.estimator, truth);
+            let (runs, settings) = (result.provenance.model_runs, result.provenance.base_samples);
             let point = point.get_or_insert_with(|| Measured {
                 curve: curve.name(),
                 axis: curve.axis,
@@ -204,15 +203,18 @@ fn measured(job: &SettingsJob<'_>, curve: &Curve, truth: &Truth, seconds: f64) -
 }
 
 /// The largest error of an index; `None` if one is missing, or all are.
-fn error(analysis: &Analysis, estimator: Estimator, truth: &Truth) -> Option<f64> {
+fn error(result: &StudyResult, estimator: Estimator, truth: &Truth) -> Option<f64> {
     let mut largest = 0.0_f64;
-    for (output, truth) in analysis.outputs.iter().zip(&truth.outputs) {
-        let (Ok(indices), Some(truth)) = (&output.indices, truth) else { continue };
-        for ((effect, checks), [first, total]) in indices.factors.iter().zip(&indices.checks).zip(truth) {
-            let other = checks.others.first().filter(|_| estimator != Estimator::Default);
-            let (found_first, found_total) = match other {
-                Some(other) => (other.first_order.map(|e| e.estimate), other.total.map(|e| e.estimate)),
-                None => (Some(effect.first_order.estimate), Some(effect.total.estimate)),
+    for (output, truth) in result.outputs.iter().zip(&truth.outputs) {
+        let (Some(indices), Some(truth)) = (&output.indices, truth) else { continue };
+        let others = output.estimators.first().filter(|_| estimator != Estimator::Default);
+        for (place, (index, [first, total])) in indices.iter().zip(truth).enumerate() {
+            let (found_first, found_total) = match others {
+                Some(others) => {
+                    let other = &others.indices[place];
+                    (other.first_order.map(|e| e.estimate), other.total.map(|e| e.estimate))
+                }
+                None => (Some(index.effect.first_order.estimate), Some(index.effect.total.estimate)),
             };
             for (found, truth) in [(found_first, first), (found_total, total)] {
                 let error = found.map_or(f64::INFINITY, |found| (found - truth).abs());
@@ -220,7 +222,7 @@ fn error(analysis: &Analysis, estimator: Estimator, truth: &Truth) -> Option<f64
             }
         }
     }
-    let has_any = analysis.outputs.iter().any(|output| output.indices.is_ok());
+    let has_any = result.outputs.iter().any(|output| output.indices.is_some());
     Some(largest).filter(|error| has_any && error.is_finite())
 }
 

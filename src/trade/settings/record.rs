@@ -6,7 +6,8 @@
 use serde::{Deserialize, Serialize};
 
 use super::{ACCURACIES, Comparison, Measured, TruthFound};
-use crate::report::{StudySetup, study_setup};
+use crate::analysis::study_setup;
+use crate::result::StudySetup;
 use crate::study::Study;
 
 /// A comparison of settings.

@@ -2,8 +2,8 @@
 
 use super::curve::rungs;
 use super::{SettingsJob, TruthFound};
-use crate::analysis::OutputAnalysis;
 use crate::clock::Instant;
+use crate::result::OutputResult;
 use crate::run::RunError;
 use crate::study::Target;
 
@@ -40,6 +40,7 @@ impl Truth {
         }
         let max_time = study.target.max_time.map_or(seconds, |limit| limit.min(seconds));
         finest.target = Target::accuracy(FINEST).max_time(max_time);
+        finest.analysis.pictures = false;
         finest.analysis.second_order = false;
         finest.analysis.estimators = Vec::new();
         let start = Instant::now();
@@ -47,18 +48,17 @@ impl Truth {
         if let Some(stop) = job.stop {
             runner = runner.stop(stop);
         }
-        let analysis = runner.run()?;
-        let widths = analysis.outputs.iter().filter_map(|output| output.indices.as_ref().ok());
-        let error = widths
-            .map(|indices| indices.largest_half_width())
-            .try_fold(0.0, |largest, width| Some(f64::max(largest, width?)));
-        let of_output = |output: &OutputAnalysis| {
-            let indices = output.indices.as_ref().ok()?;
-            Some(indices.factors.iter().map(|f| [f.first_order.estimate, f.total.estimate]).collect())
+        let result = runner.run()?;
+        let known = result.outputs.iter().filter(|output| output.indices.is_some());
+        let error =
+            known.map(OutputResult::largest_half_width).try_fold(0.0, |largest, width| Some(f64::max(largest, width?)));
+        let of_output = |output: &OutputResult| {
+            let indices = output.indices.as_ref()?;
+            Some(indices.iter().map(|i| [i.effect.first_order.estimate, i.effect.total.estimate]).collect())
         };
-        let runs = analysis.spending.as_ref().map_or(analysis.design.rows(), |spending| spending.runs);
-        let words = format!("a run of {name} with {} base samples", analysis.design.settings().base_samples);
+        let runs = result.spending.as_ref().map_or(result.provenance.model_runs, |spending| spending.runs);
+        let words = format!("a run of {name} with {} base samples", result.provenance.base_samples);
         let found = TruthFound { words, error, runs, seconds: start.elapsed().as_secs_f64() };
-        Ok(Self { outputs: analysis.outputs.iter().map(of_output).collect(), found })
+        Ok(Self { outputs: result.outputs.iter().map(of_output).collect(), found })
     }
 }

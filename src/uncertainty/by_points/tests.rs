@@ -287,7 +287,7 @@ fn coverage(function: &str, method: IntervalMethod) -> f64 {
         let analysis = study.run().unwrap();
         let exact = exact.first_order.iter().zip(&exact.total);
         // A factor that does nothing has intervals of no width, which always hold.
-        let effects = analysis.outputs[0].indices.as_ref().unwrap().factors.iter().zip(exact);
+        let effects = analysis.outputs[0].indices.iter().flatten().map(|index| index.effect).zip(exact);
         for (effect, (first, total)) in effects.filter(|(_, (_, total))| **total > 0.0) {
             for (estimate, exact) in [(effect.first_order, *first), (effect.total, *total)] {
                 let interval = estimate.interval.unwrap();

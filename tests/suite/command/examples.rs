@@ -1,15 +1,14 @@
 //! The worked examples in `studies/` run and give the indices that are known.
 
-use apportion::report::OutputRecord;
-use apportion::report::ResultFile;
+use apportion::result::OutputResult;
 use apportion::study::Study;
 
 use crate::common::{gap, numbers, study_path};
 
-fn analysed(name: &str, base_samples: u64) -> Vec<OutputRecord> {
+fn analysed(name: &str, base_samples: u64) -> Vec<OutputResult> {
     let path = study_path(&format!("{name}/{name}"));
     let study = Study::load(&path, &[format!("design.base_samples={base_samples}")]).unwrap();
-    let result = ResultFile::new(&study, &study.run().unwrap());
+    let result = study.run().unwrap();
     assert_eq!(
         result.outputs.iter().map(|output| output.runs_failed).sum::<u64>(),
         0,
@@ -20,7 +19,7 @@ fn analysed(name: &str, base_samples: u64) -> Vec<OutputRecord> {
 }
 
 #[track_caller]
-fn is_ishigami(outputs: &[OutputRecord], tolerance: f64) {
+fn is_ishigami(outputs: &[OutputResult], tolerance: f64) {
     let (first, total) = numbers(&outputs[0]);
     assert!(gap(&first, &[0.3139, 0.4424, 0.0]) < tolerance, "{first:?}");
     assert!(gap(&total, &[0.5576, 0.4424, 0.2437]) < tolerance, "{total:?}");
@@ -41,7 +40,7 @@ fn of_product(factors: &[(f64, f64, f64)]) -> (Vec<f64>, Vec<f64>) {
 
 /// Deflection 4 F L^3 / (E w t^3) and stress 6 F L / (w t^2).
 #[track_caller]
-fn is_beam(outputs: &[OutputRecord]) {
+fn is_beam(outputs: &[OutputResult]) {
     let (length, thickness, load) = ((95.0, 105.0), (1.9, 2.1), (4.0, 6.0));
     for (output, powers) in outputs.iter().zip([[3.0, -3.0, 1.0], [1.0, -2.0, 1.0]]) {
         let factors: Vec<_> = [length, thickness, load].iter().zip(powers).map(|(f, p)| (f.0, f.1, p)).collect();

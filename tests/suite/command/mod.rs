@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 use std::process::Output;
 use std::time::Duration;
 
-use apportion::report::{OutputRecord, ResultFile, read_result};
+use apportion::result::{OutputResult, StudyResult, read_result};
 use tempfile::TempDir;
 
 use crate::common::{search_path, stderr, text};
@@ -99,13 +99,13 @@ impl Case {
 
     /// The result of a run that ends well, and what it said on standard error.
     #[track_caller]
-    pub fn result(&self) -> (ResultFile, String) {
+    pub fn result(&self) -> (StudyResult, String) {
         let output = self.run();
         assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
         (self.result_file(), stderr(&output))
     }
 
-    pub fn result_file(&self) -> ResultFile {
+    pub fn result_file(&self) -> StudyResult {
         read_result(&self.path("out/study.json")).unwrap()
     }
 
@@ -134,19 +134,19 @@ pub fn contains(message: &str, expected: &[&str]) {
 }
 
 /// The reasons of failed runs with their numbers.
-pub fn failures(output: &OutputRecord) -> Vec<(&str, u64)> {
+pub fn failures(output: &OutputResult) -> Vec<(&str, u64)> {
     output.failures.iter().map(|failure| (failure.reason.as_str(), failure.runs)).collect()
 }
 
 /// The result of the same study by a formula.
-pub fn by_formula(case: &Case, formula: &str) -> ResultFile {
+pub fn by_formula(case: &Case, formula: &str) -> StudyResult {
     let text = std::fs::read_to_string(case.path("study.toml")).unwrap();
     let (start, end) = (text.find("[command]").unwrap(), text.find("[design]").unwrap());
     let text = format!("{}{}", &text[..start], &text[end..]);
     let text = text.replace("model = \"command\"", "model = \"expression\"");
     let text = text.replace("outputs = [\"y\"]", &format!("outputs.y = \"{formula}\""));
     let study = apportion::study::Study::parse(&text, Path::new("formula.toml"), &[]).unwrap();
-    ResultFile::new(&study, &study.run().unwrap())
+    study.run().unwrap()
 }
 
 /// The formula of [`LOOP`], in the same order of operations.

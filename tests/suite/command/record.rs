@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use apportion::report::ResultFile;
+use apportion::result::StudyResult;
 use apportion::run::journal::read_journal;
 
 use super::processes::{is_alive, processes, signal, spawn, within};
@@ -20,7 +20,7 @@ fn asked(case: &Case) -> Vec<String> {
 }
 
 /// A result without what tells about the computer.
-fn without_times(mut result: ResultFile) -> ResultFile {
+fn without_times(mut result: StudyResult) -> StudyResult {
     (result.provenance.threads, result.provenance.wall_seconds) = (0, 0.0);
     result
 }

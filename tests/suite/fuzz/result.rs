@@ -2,19 +2,20 @@
 
 use apportion::report::comparison::{NamedResult, compare_results, comparison_document};
 use apportion::report::document::Document;
-use apportion::report::{ResultFile, parse_result, result_json, run_document};
+use apportion::report::run_document;
+use apportion::result::{StudyResult, parse_result};
 
 /// A result is refused, or drawn in every way there is; written again it is the same.
 pub fn run(bytes: &[u8]) {
     let Ok(result) = parse_result(bytes) else { return };
     drawn(&result);
-    let json = result_json(&result);
+    let json = result.json();
     let again = parse_result(json.as_bytes()).unwrap_or_else(|error| panic!("what was read is refused: {error}"));
-    assert_eq!(result_json(&again), json);
+    assert_eq!(again.json(), json);
 }
 
 /// Draws everything that can be drawn of a result.
-pub fn drawn(result: &ResultFile) {
+pub fn drawn(result: &StudyResult) {
     written(&run_document(result));
     let [a, b] = [("A", "a.json"), ("B", "b.json")].map(|(label, file)| NamedResult { result, label, file });
     if let Ok(file) = compare_results(&a, &b) {

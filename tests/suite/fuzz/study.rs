@@ -3,8 +3,7 @@
 use std::path::Path;
 
 use apportion::model::{Batch, RunContext};
-use apportion::report::ResultFile;
-use apportion::report::{parse_result, result_json};
+use apportion::result::parse_result;
 use apportion::study::{AfmSubject, Study, StudyError, TemplateRequest, template};
 
 /// What stands between the file and the changes, one a line.
@@ -104,10 +103,10 @@ fn begun(study: &Study) {
 /// The whole way; what is written can be read back.
 fn ran(study: &Study, draw: bool) {
     let Ok(analysis) = study.runner().threads(1).run() else { return };
-    let result = ResultFile::new(study, &analysis);
-    let json = result_json(&result);
+    let result = analysis;
+    let json = result.json();
     let read = parse_result(json.as_bytes()).unwrap_or_else(|error| panic!("the result is refused: {error}"));
-    assert_eq!(result_json(&read), json);
+    assert_eq!(read.json(), json);
     if draw {
         super::result::drawn(&result);
     }

@@ -4,7 +4,6 @@ use proptest::prelude::*;
 use statrs::distribution::{ContinuousCDF, Normal};
 
 use super::*;
-use crate::report::chart::png;
 
 fn of(values: &[f64]) -> OutputDistribution {
     OutputDistribution::from_values(values, &Unit::dimensionless()).unwrap()
@@ -78,20 +77,6 @@ fn degenerate_samples_are_results() {
     values.extend(normal(40));
     let d = of(&values);
     assert_eq!(d.histogram.unwrap().counts.iter().sum::<u64>(), 100);
-}
-
-#[test]
-fn charts_draw_every_kind_of_sample() {
-    let cases = [normal(500), vec![1e300, -1e300, 3e299], vec![2e-300, 1e-300], vec![0.0; 9], vec![7.0]];
-    for values in cases {
-        let svg = histogram_chart(&of(&values), "Distribution", "force").svg();
-        assert!(!svg.contains("NaN") && !svg.contains("inf"), "{svg}");
-        assert!(png(&svg).is_ok());
-    }
-    let svg = histogram_chart(&of(&normal(500)), "Distribution", "force").svg();
-    for text in ["2.5 % \u{2212}1.9", "median", "mean", "97.5 % 1.9", "95 % of the 500 values of force lie between"] {
-        assert!(svg.contains(text), "{text}");
-    }
 }
 
 proptest! {

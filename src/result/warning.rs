@@ -1,11 +1,14 @@
 //! What a careful reader of a result should know: the kinds of warnings, their codes and their words.
 
+use std::ops::{Deref, DerefMut};
+
+use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use super::rare_levels::RareLevel;
+use super::RareLevel;
 
 /// Why numbers of an output may be wrong, or less sure than they look.
-#[derive(Debug, Clone, PartialEq, Error)]
+#[derive(Debug, Clone, Error)]
 #[non_exhaustive]
 pub enum Warning {
     /// No run has a value.
@@ -277,11 +280,73 @@ pub enum Warning {
         /// How many, and why.
         text: String,
     },
+    /// A warning of a result that was read from a file.
+    #[error("{text}")]
+    Recorded {
+        /// Its code.
+        code: String,
+        /// Its sentence.
+        text: String,
+    },
+}
+
+/// Warnings are equal if they say the same: those read from a file are equal to those that were written.
+impl PartialEq for Warning {
+    fn eq(&self, other: &Self) -> bool {
+        self.code() == other.code() && self.to_string() == other.to_string()
+    }
+}
+
+/// The warnings of an output: as JSON their sentences, and in the same order their codes.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "study", derive(schemars::JsonSchema), schemars(with = "WarningKeys"))]
+#[serde(from = "WarningKeys", into = "WarningKeys")]
+pub struct Warnings(pub Vec<Warning>);
+
+/// The keys of warnings in JSON.
+#[derive(Serialize, Deserialize)]
+#[cfg_attr(feature = "study", derive(schemars::JsonSchema))]
+struct WarningKeys {
+    /// What a careful reader should know.
+    warnings: Vec<String>,
+    /// The kind of each warning, a name that stays the same.
+    #[serde(default)]
+    warning_codes: Vec<String>,
+}
+
+impl From<WarningKeys> for Warnings {
+    fn from(keys: WarningKeys) -> Self {
+        let codes = keys.warning_codes.into_iter().chain(std::iter::repeat(String::new()));
+        Self(keys.warnings.into_iter().zip(codes).map(|(text, code)| Warning::Recorded { code, text }).collect())
+    }
+}
+
+impl From<Warnings> for WarningKeys {
+    fn from(Warnings(all): Warnings) -> Self {
+        Self {
+            warnings: all.iter().map(Warning::to_string).collect(),
+            warning_codes: all.iter().map(|warning| warning.code().to_owned()).collect(),
+        }
+    }
+}
+
+impl Deref for Warnings {
+    type Target = Vec<Warning>;
+
+    fn deref(&self) -> &Vec<Warning> {
+        &self.0
+    }
+}
+
+impl DerefMut for Warnings {
+    fn deref_mut(&mut self) -> &mut Vec<Warning> {
+        &mut self.0
+    }
 }
 
 impl Warning {
     /// A name of the kind of warning that stays the same, as it stands in the result file.
-    pub fn code(&self) -> &'static str {
+    pub fn code(&self) -> &str {
         match self {
             Self::AllRunsFailed { .. } => "all-runs-failed",
             Self::RunsFailed { .. } => "runs-failed",
@@ -313,6 +378,7 @@ impl Warning {
             Self::Shuffled => "shuffled",
             Self::Unlikely { .. } => "unlikely-value",
             Self::Irreproducible { .. } => "irreproducible",
+            Self::Recorded { code, .. } => code,
         }
     }
 }

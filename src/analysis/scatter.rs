@@ -1,9 +1,9 @@
 //! The output over its most influential factors: a few points to look at, and the means over slices of each factor.
 
-use super::result::{ConditionalMeansRecord, IndexRecord, ScatterRecord};
-use crate::analysis::{FirstRows, OutputAnalysis};
+use super::first_rows::FirstRows;
 use crate::design::Design;
 use crate::quantity::Unit;
+use crate::result::{ConditionalMeansRecord, IndexRecord, ScatterRecord};
 use crate::space::{Distribution, Factor, Space};
 use crate::sum::{centred_product, mean, rescaled};
 
@@ -29,22 +29,22 @@ pub(super) fn rows_of_scatter(design: &Design) -> FirstRows {
     FirstRows::new(design, (NUMBERS / design.columns().max(1) as u64).clamp(FEWEST, MOST))
 }
 
-/// The record of `output` for the factors with the largest of `indices`; `rows` are the first of its design. `None` where a
+/// The scatter of an output in `unit`, of which every replicate has kept `samples`, for the factors with the largest of `indices`; `rows` are the first of its design. `None` where a
 /// number is beyond double precision in its unit.
 pub(super) fn scatter_record(
     rows: &FirstRows,
     space: &Space,
-    output: &OutputAnalysis,
+    (unit, samples): (&Unit, &[Vec<f64>]),
     indices: &[IndexRecord],
 ) -> Option<ScatterRecord> {
-    let (factors, unit) = (space.factors(), &output.unit);
+    let factors = space.factors();
     let known: Vec<usize> = (0..factors.len()).filter(|number| Some(*number) != space.noise()).collect();
     let chosen: Vec<usize> = largest(indices).into_iter().map(|place| known[place]).collect();
-    let points = rows.first(POINTS, &output.samples).into_iter().map(|(u, y)| {
+    let points = rows.first(POINTS, samples).into_iter().map(|(u, y)| {
         let x = chosen.iter().map(|&factor| factors[factor].distribution().quantile(u[factor]));
         x.chain([unit.from_si(y)]).collect::<Vec<_>>()
     });
-    let all = rows.outputs(&output.samples);
+    let all = rows.outputs(samples);
     let known: Vec<f64> = all.iter().copied().filter(|y| y.is_finite()).collect();
     let (scaled, exponent) = rescaled(&known);
     let means_of = |&factor: &usize| {

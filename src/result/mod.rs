@@ -1,27 +1,60 @@
-//! The result file: JSON that other programs can rely on.
+//! The result of a run: one type for Rust, JSON and Python.
 //!
-//! Format `apportion-result`, version 1, described key by key in `docs/result-format.md`. Later versions of the program
-//! only add keys. Numbers are in the unit that stands beside them; a number that does not exist is `null`.
+//! As JSON it is the format `apportion-result`, version 1, described key by key in `docs/result-format.md`. Later versions
+//! of the program only add keys. Numbers are in the unit that stands beside them; a number that does not exist is `null`.
 
+mod distribution;
 mod indices;
+mod output;
+mod rare_level;
+mod read;
+#[cfg(feature = "study")]
+mod schema;
+mod setup;
+mod warning;
 
-use schemars::JsonSchema;
+use std::ops::Range;
+
 use serde::{Deserialize, Serialize};
 
-use super::distribution::OutputDistribution;
-use crate::analysis::{FailureCount, LowRuns, RunMeasures, SurrogateTrial};
-use crate::uncertainty::{EffectEstimates, Estimate, Interval};
+pub use distribution::{Histogram, OutputDistribution, PERCENTS, QuantileRecord, quantile};
 pub use indices::*;
+use output::find;
+pub use output::*;
+pub(crate) use rare_level::PAIRS_OF_POINT;
+pub use rare_level::RareLevel;
+pub use read::{ReadError, ReadProblem, parse_result, read_result};
+#[cfg(feature = "study")]
+pub use schema::result_schema;
+pub use setup::{RunFacts, StudySetup, json};
+pub use warning::{Warning, Warnings};
 
-/// The result of a run of apportion.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[schemars(title = "apportion result")]
-pub struct ResultFile {
+/// The result of a run of a [`Study`](crate::Study).
+///
+/// ```
+/// use apportion::function_model;
+/// use apportion::Distribution;
+/// use apportion::Study;
+///
+/// let study = Study::builder("product", function_model("y", |x| x[0] * x[1]))
+///     .factor("a", Distribution::uniform(1.0, 2.0)?)
+///     .factor("b", Distribution::uniform(1.0, 5.0)?)
+///     .base_samples(1024)
+///     .build()?;
+/// let result = study.run()?;
+/// let total = result.output("y")?.factor("a")?.total;
+/// assert!(total.interval.is_some_and(|interval| interval.low < total.estimate));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "study", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "study", schemars(title = "apportion result"))]
+pub struct StudyResult {
     /// Always `apportion-result`.
-    #[schemars(extend("const" = "apportion-result"))]
+    #[cfg_attr(feature = "study", schemars(extend("const" = "apportion-result")))]
     pub format: String,
     /// Version of the format.
-    #[schemars(extend("const" = 1))]
+    #[cfg_attr(feature = "study", schemars(extend("const" = 1)))]
     pub version: u32,
     /// What was asked.
     pub study: StudyRecord,
@@ -30,7 +63,7 @@ pub struct ResultFile {
     /// The factors in the order of the study.
     pub factors: Vec<FactorRecord>,
     /// The outputs in the order of the study.
-    pub outputs: Vec<OutputRecord>,
+    pub outputs: Vec<OutputResult>,
     /// Rows on which the model's assumptions do not hold; the rows count all the same.
     pub validity: Vec<ValidityRecord>,
     /// What a model with a ladder of fidelities spent; `null` for other models.
@@ -53,8 +86,32 @@ pub struct ResultFile {
     pub lows: Vec<LowRuns>,
 }
 
+impl StudyResult {
+    /// The output called `name`.
+    ///
+    /// # Errors
+    /// [`LookupError`] with the names that there are.
+    pub fn output(&self, name: &str) -> Result<&OutputResult, LookupError> {
+        find("output", name, &self.outputs, |output| &output.name)
+    }
+
+    /// The series called `name`.
+    ///
+    /// # Errors
+    /// [`LookupError`] with the names that there are.
+    pub fn series(&self, name: &str) -> Result<&SeriesRecord, LookupError> {
+        find("series", name, &self.series, |series| &series.name)
+    }
+
+    /// The result as JSON text, ending in a newline.
+    pub fn json(&self) -> String {
+        json(self)
+    }
+}
+
 /// What was asked.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "study", derive(schemars::JsonSchema))]
 pub struct StudyRecord {
     /// Name of the study.
     pub name: String,
@@ -76,7 +133,8 @@ pub struct StudyRecord {
 }
 
 /// Factors that depend on each other, by a Gaussian copula.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "study", derive(schemars::JsonSchema))]
 pub struct CorrelationRecord {
     /// The factors.
     pub factors: Vec<String>,
@@ -87,7 +145,8 @@ pub struct CorrelationRecord {
 }
 
 /// An input fixed in the study.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "study", derive(schemars::JsonSchema))]
 pub struct ConstantRecord {
     /// The input.
     pub name: String,
@@ -100,7 +159,8 @@ pub struct ConstantRecord {
 /// How the answer came about. A result is cited by `apportion_version`, `seed` and `study_sha256`, and by the `overrides` of its
 /// study if it has some: they give the same numbers again. `CITATION.cff` in the sources of the program says how to cite
 /// the program itself.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "study", derive(schemars::JsonSchema))]
 pub struct Provenance {
     /// Version of the program.
     pub apportion_version: String,
@@ -144,7 +204,8 @@ pub struct Provenance {
 }
 
 /// A factor.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "study", derive(schemars::JsonSchema))]
 pub struct FactorRecord {
     /// Its name.
     pub name: String,
@@ -158,108 +219,9 @@ pub struct FactorRecord {
     pub nominal: f64,
 }
 
-/// Everything about one output.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct OutputRecord {
-    /// Its name.
-    pub name: String,
-    /// Its unit.
-    pub unit: String,
-    /// Mean over the rows A and B, in `unit`.
-    pub mean: Option<f64>,
-    /// Variance over the rows A and B, in the square of `unit`.
-    pub variance: Option<f64>,
-    /// Interval of the mean.
-    pub mean_interval: Option<Interval>,
-    /// Interval of the variance.
-    pub variance_interval: Option<Interval>,
-    /// Runs with a value.
-    pub runs_ok: u64,
-    /// Runs without one.
-    pub runs_failed: u64,
-    /// Base points that every estimate rests on at least: each uses those where its own runs have a value.
-    pub base_points_used: u64,
-    /// Why runs failed.
-    pub failures: Vec<FailureCount>,
-    /// Sum of the first-order indices.
-    pub sum_first_order: Option<Estimate>,
-    /// Sum of the total indices.
-    pub sum_total: Option<Estimate>,
-    /// One entry per factor; `null` where indices are undefined.
-    pub indices: Option<Vec<IndexRecord>>,
-    /// One entry per group; `null` where indices are undefined.
-    pub groups: Option<Vec<GroupRecord>>,
-    /// One entry per subset that the study lists; `null` where indices are undefined.
-    #[serde(default)]
-    pub subsets: Option<Vec<SubsetRecord>>,
-    /// Indices of a factor that does nothing, if one was run along: the noise of the model.
-    #[serde(default)]
-    pub dummy: Option<EffectEstimates>,
-    /// The noise of a stochastic model, which is none of the factors, and what is known of the mean over it.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub noise: Option<NoiseRecord>,
-    /// Shapley effects of the groups and of the factors that have none, where these are the players: they sum to 1.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub shapley_groups: Option<Vec<PlayerRecord>>,
-    /// Other measures of the influence of the factors, if asked for; absent too where the output does not vary, or too few runs have
-    /// succeeded.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub measures: Option<RunMeasures>,
-    /// Second-order indices of all pairs of factors, if asked for.
-    #[serde(default)]
-    pub second_order: Option<Vec<PairRecord>>,
-    /// Indices by the other estimators that the study lists.
-    #[serde(default)]
-    pub estimators: Vec<EstimatorRecord>,
-    /// What surrogates did to the indices; `null` without any.
-    #[serde(default)]
-    pub surrogate: Option<SurrogateRecord>,
-    /// What surrogates gained in a trial, where one decided on them.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub surrogate_trial: Option<SurrogateTrial>,
-    /// How the indices and their intervals changed as the run grew, without surrogates.
-    #[serde(default)]
-    pub convergence: Vec<StageRecord>,
-    /// How its values are distributed; `null` if no run succeeded, or if a number is beyond double precision.
-    #[serde(default)]
-    pub distribution: Option<DistributionRecord>,
-    /// How it goes with its most influential factors; `null` without indices, or if a number is beyond double precision.
-    #[serde(default)]
-    pub scatter: Option<ScatterRecord>,
-    /// Why there are no indices, where there are none.
-    pub reason: Option<String>,
-    /// What a careful reader should know.
-    pub warnings: Vec<String>,
-    /// The kind of each warning, a name that stays the same.
-    #[serde(default)]
-    pub warning_codes: Vec<String>,
-}
-
-/// How the values of an output are distributed, as far as the rows A and B tell.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct DistributionRecord {
-    /// Values that mean, standard deviation, skewness, kurtosis and range rest on: those of all rows A and B.
-    pub values: u64,
-    /// The rest; quantiles, histogram and density rest on the `count` values that were kept, the first of every replicate.
-    #[serde(flatten)]
-    pub sample: OutputDistribution,
-}
-
-/// The indices as they were when the run had so many base points.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct StageRecord {
-    /// Base points in all.
-    pub base_samples: u64,
-    /// Model runs in all.
-    pub model_runs: u64,
-    /// Largest half width of the first-order and total indices of the factors and groups; `null` without intervals.
-    pub largest_half_width: Option<f64>,
-    /// First-order and total index of every factor.
-    pub indices: Vec<PlainIndexRecord>,
-}
-
 /// Indices over several outputs together.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "study", derive(schemars::JsonSchema))]
 pub struct AggregateRecord {
     /// The outputs.
     pub outputs: Vec<String>,
@@ -275,7 +237,8 @@ pub struct AggregateRecord {
 }
 
 /// A validity flag.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "study", derive(schemars::JsonSchema))]
 pub struct ValidityRecord {
     /// Its name.
     pub flag: String,
@@ -287,37 +250,9 @@ pub struct ValidityRecord {
     pub share: f64,
 }
 
-/// How an output goes with the factors of the largest total indices.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct ScatterRecord {
-    /// At most six factors, the largest total index first.
-    pub factors: Vec<String>,
-    /// At most 400 rows A, the first of every replicate: the values of `factors` in their units, then the output's in its
-    /// own. Runs without a value are left out.
-    pub points: Vec<Vec<f64>>,
-    /// One entry for each of `factors`.
-    pub conditional_means: Vec<ConditionalMeansRecord>,
-}
-
-/// Means of the output over slices of a factor: an estimate of E[Y | X_i], whose variance is the numerator of the
-/// first-order index. They describe the scatter of the kept rows A and B; no index is computed from them.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct ConditionalMeansRecord {
-    /// The factor.
-    pub factor: String,
-    /// The median of each slice in the factor's unit, rising: 20 slices of equal probability, or each of the values of a
-    /// discrete factor (of at most 50).
-    pub x: Vec<f64>,
-    /// Mean of the output over the slice in its unit; `null` without values there.
-    pub mean: Vec<Option<f64>>,
-    /// Mean minus 1.96 standard errors; `null` for fewer than two values.
-    pub low: Vec<Option<f64>>,
-    /// Mean plus 1.96 standard errors.
-    pub high: Vec<Option<f64>>,
-}
-
 /// Consecutive outputs that are the values of one quantity along an axis.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "study", derive(schemars::JsonSchema))]
 pub struct SeriesRecord {
     /// Its name.
     pub name: String,
@@ -339,13 +274,14 @@ pub struct SeriesRecord {
 
 impl SeriesRecord {
     /// Places of its values in `outputs`.
-    pub fn places(&self) -> std::ops::Range<usize> {
+    pub fn places(&self) -> Range<usize> {
         self.first_output..self.first_output + self.positions.len()
     }
 }
 
 /// What a run that was asked for an accuracy chose, and why.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "study", derive(schemars::JsonSchema))]
 pub struct SpendingRecord {
     /// The half width that was asked for.
     pub accuracy: f64,
@@ -361,7 +297,8 @@ pub struct SpendingRecord {
 }
 
 /// Why a growing run ended.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "study", derive(schemars::JsonSchema))]
 pub struct StoppingRecord {
     /// In words.
     pub reason: String,
@@ -376,7 +313,8 @@ pub struct StoppingRecord {
 }
 
 /// What a model with a ladder of fidelities spent.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "study", derive(schemars::JsonSchema))]
 pub struct EffortRecord {
     /// The rungs that answered, and how many runs each.
     pub rungs: Vec<RungRecord>,
@@ -387,10 +325,26 @@ pub struct EffortRecord {
 }
 
 /// How many runs a rung answered.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "study", derive(schemars::JsonSchema))]
 pub struct RungRecord {
     /// The rung.
     pub rung: String,
     /// Number of runs.
     pub runs: u64,
+}
+
+/// The runs of a cheaper model beside those of the model.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "study", derive(schemars::JsonSchema), schemars(rename = "LowRecord"))]
+#[non_exhaustive]
+pub struct LowRuns {
+    /// Its name.
+    pub name: String,
+    /// Runs at the rows of the model.
+    pub shared_runs: u64,
+    /// Base samples of its own design.
+    pub own_base_samples: u64,
+    /// Runs of that.
+    pub own_runs: u64,
 }

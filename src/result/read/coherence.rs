@@ -3,13 +3,13 @@
 use serde_json::Value;
 
 use crate::names::{LONGEST_NAME, LONGEST_STUDY_NAME};
-use crate::report::result::{OutputRecord, PlainIndexRecord, ResultFile, SeriesRecord};
+use crate::result::{OutputResult, PlainIndexRecord, SeriesRecord, StudyResult};
 
 /// A key, and what is wrong there.
 type Fault = (String, String);
 
 /// What the types of the keys do not say.
-pub(super) fn check(result: &ResultFile) -> Result<(), Fault> {
+pub(super) fn check(result: &StudyResult) -> Result<(), Fault> {
     file_name("study.name", &result.study.name, LONGEST_STUDY_NAME)?;
     for (place, output) in result.outputs.iter().enumerate() {
         let key = format!("outputs[{place}]");
@@ -23,7 +23,7 @@ pub(super) fn check(result: &ResultFile) -> Result<(), Fault> {
 }
 
 /// A series has values that are outputs, and a loading for each.
-fn series(key: &str, result: &ResultFile, series: &SeriesRecord) -> Result<(), Fault> {
+fn series(key: &str, result: &StudyResult, series: &SeriesRecord) -> Result<(), Fault> {
     file_name(&format!("{key}.name"), &series.name, LONGEST_NAME)?;
     let end = series.first_output.checked_add(series.positions.len()).filter(|end| *end <= result.outputs.len());
     let rise = series.positions.windows(2).all(|pair| pair[0] < pair[1]);
@@ -81,7 +81,7 @@ fn joined(key: &str, name: &str) -> String {
 }
 
 /// There is an index for each factor, or none at all.
-fn indices(key: &str, result: &ResultFile, output: &OutputRecord) -> Result<(), Fault> {
+fn indices(key: &str, result: &StudyResult, output: &OutputResult) -> Result<(), Fault> {
     let Some(indices) = &output.indices else { return Ok(()) };
     let names = || indices.iter().map(|index| &index.factor);
     if indices.is_empty() || !names().eq(result.factors.iter().map(|factor| &factor.name)) {

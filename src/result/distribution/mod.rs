@@ -1,23 +1,21 @@
 //! The distribution of an output: moments, quantiles, histogram, and their chart.
 
-mod chart;
 mod histogram;
 mod quantile;
 
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-pub use chart::histogram_chart;
 pub use quantile::{PERCENTS, quantile};
 
 use crate::quantity::Unit;
 use crate::sum::{mean, rescaled};
 
 /// The distribution of one output over a sample, as it stands in result files. Numbers are in `unit`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "study", derive(schemars::JsonSchema))]
 pub struct OutputDistribution {
     /// The unit of the numbers.
-    #[schemars(with = "String")]
+    #[cfg_attr(feature = "study", schemars(with = "String"))]
     pub unit: Unit,
     /// Number of values n.
     pub count: u64,
@@ -40,7 +38,8 @@ pub struct OutputDistribution {
 }
 
 /// A quantile.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "study", derive(schemars::JsonSchema))]
 pub struct QuantileRecord {
     /// Its probability in percent.
     pub percent: f64,
@@ -54,7 +53,8 @@ pub struct QuantileRecord {
 /// a few far values would else leave all others in one bin. They are counted in `below` and `above`. The width is that
 /// of Freedman and Diaconis (1981), 2 IQR n^(-1/3), or where the IQR is 0 that of Scott (1979), 3.49 sd n^(-1/3), and not
 /// less than a hundredth of the whole.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "study", derive(schemars::JsonSchema))]
 pub struct Histogram {
     /// Edges of the bins, ascending, one more than bins. A value on an inner edge belongs to the bin above it.
     pub edges: Vec<f64>,

@@ -1,71 +1,20 @@
-//! From the analysis of one output to its part of the result file.
+//! From the estimates of an output, by number, to its indices by name.
 
-use super::distribution::OutputDistribution;
-use super::result::{
-    DistributionRecord, EstimatorRecord, GroupRecord, IndexRecord, NoiseRecord, OtherIndexRecord, OutputRecord,
-    PairRecord, PlainIndexRecord, PlayerRecord, StageRecord, SubsetRecord, SurrogateRecord,
+use super::finished_run::names_of_swaps;
+use crate::estimate::{Estimator, FirstOrder, ShapleyPlayers, Total};
+use crate::result::{
+    EstimatorRecord, GroupRecord, IndexRecord, NoiseRecord, OtherIndexRecord, OutputResult, PairRecord,
+    PlainIndexRecord, PlayerRecord, StageRecord, SubsetRecord, SurrogateRecord,
 };
-use super::scatter::{rows_of_scatter, scatter_record};
-use crate::analysis::{Analysis, FirstRows, OutputAnalysis, names_of_swaps, row_inputs};
-use crate::estimate::{FirstOrder, ShapleyPlayers, Total};
-use crate::run::Place;
+use crate::space::Factor;
 use crate::study::Study;
 use crate::uncertainty::{
     EffectChecks, EffectEstimates, Estimate, MeanEstimates, NoiseIndices, OtherEstimates, OutputIndices, Stage,
     SurrogateUse,
 };
 
-/// What the records of all outputs are made from.
-pub(super) struct OutputRecords<'a> {
-    study: &'a Study,
-    runs_per_point: u64,
-    rows: FirstRows,
-}
-
-impl<'a> OutputRecords<'a> {
-    pub fn new(study: &'a Study, analysis: &Analysis) -> Self {
-        let design = &analysis.design;
-        Self { study, runs_per_point: design.rows_per_point(), rows: rows_of_scatter(design) }
-    }
-
-    /// The record of `output`, which may be a value of a series: a series has pictures as a whole.
-    pub fn record(&self, output: &OutputAnalysis, is_item: bool) -> OutputRecord {
-        let (study, unit) = (self.study, &output.unit);
-        let squared = |x: f64| unit.span_from_si(unit.span_from_si(x));
-        let in_unit = |x: f64| unit.from_si(x);
-        let (mean, variance) = (output.mean, output.variance);
-        let stage = |stage: &Stage| stage_record(study, stage, self.runs_per_point);
-        let mut record = OutputRecord {
-            name: output.name.clone(),
-            unit: unit.to_string(),
-            mean: mean.map(|mean| in_unit(mean.estimate)).filter(|mean| mean.is_finite()),
-            variance: variance.map(|variance| squared(variance.estimate)).filter(|variance| variance.is_finite()),
-            mean_interval: mean.and_then(|mean| mean.interval?.map(in_unit)),
-            variance_interval: variance.and_then(|variance| variance.interval?.map(squared)),
-            runs_ok: output.runs_ok,
-            runs_failed: output.runs_failed,
-            base_points_used: output.base_points_used,
-            failures: output.failures.clone(),
-            measures: output.measures.clone(),
-            surrogate_trial: output.trial,
-            convergence: output.convergence.iter().map(stage).collect(),
-            distribution: distribution_record(output, is_item),
-            reason: output.indices.as_ref().err().map(ToString::to_string),
-            warnings: output.warnings.iter().map(ToString::to_string).collect(),
-            warning_codes: output.warnings.iter().map(|warning| warning.code().to_owned()).collect(),
-            ..OutputRecord::default()
-        };
-        if let Ok(indices) = &output.indices {
-            add_indices(&mut record, study, indices);
-        }
-        // At points of SALib nothing is known of the inputs.
-        let indices = record.indices.as_deref().filter(|_| !study.analysis.salib && !is_item);
-        record.scatter = indices.and_then(|indices| scatter_record(&self.rows, &study.space, output, indices));
-        record
-    }
-}
-
-fn add_indices(record: &mut OutputRecord, study: &Study, indices: &OutputIndices) {
+/// Adds `indices` to `record`, by the names of what they belong to.
+pub(super) fn add_indices(record: &mut OutputResult, study: &Study, indices: &OutputIndices) {
     let factors = study.space.factors();
     let names = |numbers: &[usize]| numbers.iter().map(|&number| factors[number].name.clone()).collect::<Vec<_>>();
     if study.space.copula().is_none() {
@@ -98,7 +47,7 @@ fn add_indices(record: &mut OutputRecord, study: &Study, indices: &OutputIndices
 }
 
 /// The Shapley effects of groups, and of factors without one, in a list of their own: those of factors alone are not theirs.
-fn add_players(record: &mut OutputRecord, indices: &OutputIndices) {
+fn add_players(record: &mut OutputResult, indices: &OutputIndices) {
     let of_factors = record.indices.iter_mut().flatten().zip(&indices.factors);
     let of_factors = of_factors.map(|(index, effect)| {
         index.effect.shapley = None;
@@ -160,7 +109,7 @@ fn surrogate_record(study: &Study, used: &SurrogateUse) -> SurrogateRecord {
 fn estimator_records(study: &Study, indices: &OutputIndices) -> Vec<EstimatorRecord> {
     let names = names_of_swaps(study);
     let estimators = study.analysis.estimators.iter().enumerate();
-    let record = |(number, estimator): (usize, &crate::estimate::Estimator)| {
+    let record = |(number, estimator): (usize, &Estimator)| {
         let (first_order, total) = estimator.formulas();
         let of_swap = |(name, checks): (&String, &EffectChecks)| {
             let OtherEstimates { first_order, total, .. } = checks.others[number];
@@ -176,8 +125,9 @@ fn estimator_records(study: &Study, indices: &OutputIndices) -> Vec<EstimatorRec
     estimators.map(record).collect()
 }
 
-fn stage_record(study: &Study, stage: &Stage, runs_per_point: u64) -> StageRecord {
-    let of_factor = |(factor, effect): (&crate::space::Factor, &EffectEstimates)| PlainIndexRecord {
+/// The indices at a stage of the run.
+pub(super) fn stage_record(study: &Study, stage: &Stage, runs_per_point: u64) -> StageRecord {
+    let of_factor = |(factor, effect): (&Factor, &EffectEstimates)| PlainIndexRecord {
         factor: factor.name.clone(),
         first_order: effect.first_order,
         total: effect.total,
@@ -188,44 +138,4 @@ fn stage_record(study: &Study, stage: &Stage, runs_per_point: u64) -> StageRecor
         largest_half_width: stage.indices.largest_half_width(),
         indices: without_noise(study, study.space.factors().iter().zip(&stage.indices.factors).map(of_factor)),
     }
-}
-
-/// Moments and range from all values of the rows A and B, the rest from those that were kept. `None` without values, and
-/// where a number is beyond double precision in the unit. A value of a series has neither histogram nor density.
-fn distribution_record(output: &OutputAnalysis, is_item: bool) -> Option<DistributionRecord> {
-    let (values, unit) = (&output.values, &output.unit);
-    let kept: Vec<f64> = output.samples.iter().flatten().copied().filter(|value| value.is_finite()).collect();
-    let mut sample = OutputDistribution::from_values(&kept, unit)?;
-    let (min, max) = values.range()?;
-    (sample.mean, sample.min, sample.max) = (unit.from_si(values.mean()?), unit.from_si(min), unit.from_si(max));
-    let n = values.count();
-    let variance = values.variance()?;
-    let sd = (variance * (n as f64 / (n as f64 - 1.0))).sqrt();
-    // Of values that vary by 1e-160 the variance is beyond double precision; that of the kept ones is scaled.
-    if variance.is_normal() || min == max {
-        sample.sd = (n > 1).then(|| unit.span_from_si(sd)).filter(|sd| sd.is_finite());
-    }
-    if is_item {
-        sample.histogram = None;
-    }
-    (sample.skewness, sample.excess_kurtosis) = (values.skewness(), values.excess_kurtosis());
-    let quantiles = sample.quantiles.iter().map(|quantile| quantile.value);
-    let edges = sample.histogram.iter().flat_map(|histogram| histogram.edges.iter().copied());
-    let all = [sample.mean, sample.min, sample.max].into_iter().chain(quantiles).chain(edges);
-    let representable = all.into_iter().all(f64::is_finite);
-    representable.then_some(DistributionRecord { values: n, sample })
-}
-
-/// The inputs of a row of `study` in words, such as `length = 300 um, velocity = 0 nm/s`; `place` may lie beyond the
-/// study's own design, where a growing run has gone.
-pub fn inputs_in_words(study: &Study, place: Place) -> String {
-    let points = place.point.checked_add(1).and_then(u64::checked_next_power_of_two);
-    let longer = points.filter(|points| *points > study.design.points_per_replicate());
-    let longer = longer.and_then(|points| study.design.with_points(points).ok());
-    let values = row_inputs(study, longer.as_ref().unwrap_or(&study.design), place);
-    let words = study.space.factors().iter().zip(values).map(|(factor, value)| {
-        let unit = factor.unit().to_string();
-        if unit == "1" { format!("{} = {value}", factor.name) } else { format!("{} = {value} {unit}", factor.name) }
-    });
-    words.collect::<Vec<_>>().join(", ")
 }

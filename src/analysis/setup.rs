@@ -1,33 +1,13 @@
-//! What the records of several commands share: the study, its factors, validity flags.
+//! What was asked, as it stands in results: the study, its factors, validity flags.
 
-use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use super::result::{ConstantRecord, CorrelationRecord, FactorRecord, StudyRecord, ValidityRecord};
 use crate::model::Flag;
+use crate::result::{ConstantRecord, CorrelationRecord, FactorRecord, StudyRecord, StudySetup, ValidityRecord};
 use crate::space::{Dependence, Factor};
 use crate::study::Study;
 
 /// The study as it was run.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct StudySetup {
-    /// What was asked.
-    #[serde(flatten)]
-    pub asked: StudyRecord,
-    /// The factors in the order of the study.
-    pub factors: Vec<FactorRecord>,
-    /// SHA-256 of the study file as it lies on disk, in hexadecimal.
-    pub sha256: String,
-}
-
-impl std::ops::Deref for StudySetup {
-    type Target = StudyRecord;
-
-    fn deref(&self) -> &StudyRecord {
-        &self.asked
-    }
-}
-
 pub fn study_setup(study: &Study) -> StudySetup {
     StudySetup {
         asked: study_record(study),
@@ -50,7 +30,7 @@ pub(super) fn study_record(study: &Study) -> StudyRecord {
     }
 }
 
-pub(super) fn factor_record(factor: &Factor) -> FactorRecord {
+pub(crate) fn factor_record(factor: &Factor) -> FactorRecord {
     FactorRecord {
         name: factor.name.clone(),
         unit: factor.unit().to_string(),
@@ -70,15 +50,8 @@ fn dependence_record(dependence: &Dependence) -> CorrelationRecord {
     }
 }
 
-impl StudyRecord {
-    /// The headline of its charts and documents.
-    pub(crate) fn headline(&self) -> &str {
-        self.title.as_deref().unwrap_or(&self.name)
-    }
-}
-
 /// The validity flags with the number of the `runs` that have raised each.
-pub(super) fn validity<'a>(raised: impl Iterator<Item = (&'a Flag, u64)>, runs: u64) -> Vec<ValidityRecord> {
+pub(crate) fn validity<'a>(raised: impl Iterator<Item = (&'a Flag, u64)>, runs: u64) -> Vec<ValidityRecord> {
     let reported = raised.filter(|(flag, runs)| !flag.warns || *runs > 0);
     let record = |(flag, raised): (&Flag, u64)| ValidityRecord {
         flag: flag.name.to_string(),
@@ -87,9 +60,4 @@ pub(super) fn validity<'a>(raised: impl Iterator<Item = (&'a Flag, u64)>, runs: 
         share: raised as f64 / runs.max(1) as f64,
     };
     reported.map(record).collect()
-}
-
-/// JSON text of plain data, ending in a newline; a number that is not finite is null.
-pub fn json(file: &impl Serialize) -> String {
-    serde_json::to_string_pretty(file).expect("plain data") + "\n"
 }

@@ -1,12 +1,12 @@
 use std::path::Path;
 
 use super::*;
-use crate::report::ResultFile;
+use crate::result::StudyResult;
 use crate::study::Study;
 
-fn analysed(text: &str) -> ResultFile {
+fn analysed(text: &str) -> StudyResult {
     let study = Study::parse(text, Path::new("scatter.toml"), &[]).unwrap_or_else(|error| panic!("{error}"));
-    ResultFile::new(&study, &study.run().expect("a run"))
+    study.run().expect("a run")
 }
 
 fn scatter(text: &str) -> ScatterRecord {

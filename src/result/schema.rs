@@ -2,14 +2,14 @@
 
 use schemars::generate::SchemaSettings;
 
-use super::result::ResultFile;
+use crate::result::StudyResult;
 
 /// The JSON Schema (draft 7, which editors understand) of result files.
 ///
 /// ```
-/// let schema = apportion::report::result_schema();
+/// let schema = apportion::result::result_schema();
 /// assert_eq!(schema["properties"]["format"]["type"], "string");
 /// ```
 pub fn result_schema() -> serde_json::Value {
-    SchemaSettings::draft07().into_generator().into_root_schema_for::<ResultFile>().to_value()
+    SchemaSettings::draft07().into_generator().into_root_schema_for::<StudyResult>().to_value()
 }

@@ -9,8 +9,8 @@ use std::path::{Path, PathBuf};
 use serde::Deserialize;
 use thiserror::Error;
 
-use super::result::ResultFile;
 use crate::files::read_whole;
+use crate::result::StudyResult;
 
 /// The newest version of the format that is understood.
 const VERSION: u32 = 1;
@@ -71,28 +71,28 @@ struct Header {
 /// # Errors
 /// [`ReadError`] with what is wrong: a file that cannot be read, that is no JSON or JSON of another kind, a version of the
 /// format that is not known, or parts that do not fit together.
-pub fn read_result(path: &Path) -> Result<ResultFile, ReadError> {
+pub fn read_result(path: &Path) -> Result<StudyResult, ReadError> {
     let read = || parse_result(&read_whole(path)?);
     read().map_err(|problem| ReadError { path: path.to_owned(), problem })
 }
 
-/// Reads the result of a run from JSON, as [`result_json`](super::result_json) writes it. Keys that are not known, of a
+/// Reads the result of a run from JSON, as [`StudyResult::json`] writes it. Keys that are not known, of a
 /// later version of the program, are left out.
 ///
 /// ```
 /// use std::path::Path;
-/// use apportion::report::{ResultFile, parse_result, result_json};
+/// use apportion::report::{StudyResult, parse_result};
 /// use apportion::Study;
 ///
 /// let study = Study::parse("model = \"ishigami\"", Path::new("a.toml"), &["design.base_samples=256".to_owned()])?;
-/// let result = ResultFile::new(&study, &study.run()?);
-/// assert_eq!(parse_result(result_json(&result).as_bytes())?, result);
+/// let result = study.run()?;
+/// assert_eq!(parse_result(result.json().as_bytes())?, result);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
 /// # Errors
 /// [`ReadProblem`], as for [`read_result`].
-pub fn parse_result(json: &[u8]) -> Result<ResultFile, ReadProblem> {
+pub fn parse_result(json: &[u8]) -> Result<StudyResult, ReadProblem> {
     let Header { format, version } = serde_json::from_slice(json)?;
     if format != FORMAT {
         return Err(ReadProblem::Format { found: format });

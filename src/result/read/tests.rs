@@ -3,7 +3,7 @@ use std::path::Path;
 use serde_json::{Value, json};
 
 use super::*;
-use crate::report::{result_json, run_document};
+use crate::report::run_document;
 use crate::study::Study;
 
 const STUDY: &str = "
@@ -17,19 +17,19 @@ subsets = [[\"x1\", \"x2\"]]
 dummy = true
 ";
 
-fn result() -> ResultFile {
+fn result() -> StudyResult {
     let study = Study::parse(STUDY, Path::new("small.toml"), &[]).unwrap_or_else(|error| panic!("{error}"));
-    ResultFile::new(&study, &study.runner().threads(1).run().unwrap())
+    study.runner().threads(1).run().unwrap()
 }
 
-fn parsed(value: &Value) -> Result<ResultFile, ReadProblem> {
+fn parsed(value: &Value) -> Result<StudyResult, ReadProblem> {
     parse_result(value.to_string().as_bytes())
 }
 
 #[test]
 fn what_was_written_is_read() {
     let result = result();
-    let text = result_json(&result);
+    let text = result.json();
     assert_eq!(parse_result(text.as_bytes()).unwrap(), result);
 }
 
@@ -110,7 +110,7 @@ fn leaves(value: &Value, at: String, pointers: &mut Vec<String>) {
     }
 }
 
-fn draw(result: &ResultFile) {
+fn draw(result: &StudyResult) {
     let document = run_document(result);
     let _ = document.html();
     document.text();

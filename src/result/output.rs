@@ -1,0 +1,263 @@
+//! What a run has found about one output, and how to find its indices by name.
+
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value};
+use thiserror::Error;
+
+use super::{
+    EstimatorRecord, GroupRecord, IndexRecord, NoiseRecord, OutputDistribution, PairRecord, PlainIndexRecord,
+    PlayerRecord, SubsetRecord, SurrogateRecord, Warnings,
+};
+use crate::given::InputMeasures;
+use crate::uncertainty::{EffectEstimates, Estimate, Interval, largest_half_width};
+
+/// Everything about one output.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "study", derive(schemars::JsonSchema))]
+pub struct OutputResult {
+    /// Its name.
+    pub name: String,
+    /// Its unit.
+    pub unit: String,
+    /// Mean over the rows A and B, in `unit`.
+    pub mean: Option<f64>,
+    /// Variance over the rows A and B, in the square of `unit`.
+    pub variance: Option<f64>,
+    /// Interval of the mean.
+    pub mean_interval: Option<Interval>,
+    /// Interval of the variance.
+    pub variance_interval: Option<Interval>,
+    /// Runs with a value.
+    pub runs_ok: u64,
+    /// Runs without one.
+    pub runs_failed: u64,
+    /// Base points that every estimate rests on at least: each uses those where its own runs have a value.
+    pub base_points_used: u64,
+    /// Why runs failed.
+    pub failures: Vec<FailureCount>,
+    /// Sum of the first-order indices.
+    pub sum_first_order: Option<Estimate>,
+    /// Sum of the total indices.
+    pub sum_total: Option<Estimate>,
+    /// One entry per factor; `null` where indices are undefined.
+    pub indices: Option<Vec<IndexRecord>>,
+    /// One entry per group; `null` where indices are undefined.
+    pub groups: Option<Vec<GroupRecord>>,
+    /// One entry per subset that the study lists; `null` where indices are undefined.
+    #[serde(default)]
+    pub subsets: Option<Vec<SubsetRecord>>,
+    /// Indices of a factor that does nothing, if one was run along: the noise of the model.
+    #[serde(default)]
+    pub dummy: Option<EffectEstimates>,
+    /// The noise of a stochastic model, which is none of the factors, and what is known of the mean over it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub noise: Option<NoiseRecord>,
+    /// Shapley effects of the groups and of the factors that have none, where these are the players: they sum to 1.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shapley_groups: Option<Vec<PlayerRecord>>,
+    /// Other measures of the influence of the factors, if asked for; absent too where the output does not vary, or too few runs have
+    /// succeeded.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub measures: Option<RunMeasures>,
+    /// Second-order indices of all pairs of factors, if asked for.
+    #[serde(default)]
+    pub second_order: Option<Vec<PairRecord>>,
+    /// Indices by the other estimators that the study lists.
+    #[serde(default)]
+    pub estimators: Vec<EstimatorRecord>,
+    /// What surrogates did to the indices; `null` without any.
+    #[serde(default)]
+    pub surrogate: Option<SurrogateRecord>,
+    /// What surrogates gained in a trial, where one decided on them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub surrogate_trial: Option<SurrogateTrial>,
+    /// How the indices and their intervals changed as the run grew, without surrogates.
+    #[serde(default)]
+    pub convergence: Vec<StageRecord>,
+    /// How its values are distributed; `null` if no run succeeded, or if a number is beyond double precision.
+    #[serde(default)]
+    pub distribution: Option<DistributionRecord>,
+    /// How it goes with its most influential factors; `null` without indices, or if a number is beyond double precision.
+    #[serde(default)]
+    pub scatter: Option<ScatterRecord>,
+    /// Why there are no indices, where there are none.
+    pub reason: Option<String>,
+    /// What a careful reader should know: as JSON the sentences in `warnings`, and their codes in `warning_codes`.
+    #[serde(flatten)]
+    pub warnings: Warnings,
+}
+
+impl OutputResult {
+    /// The indices of the factor called `name`.
+    ///
+    /// # Errors
+    /// [`LookupError`] if there is no such factor, or if the output has no indices.
+    pub fn factor(&self, name: &str) -> Result<&EffectEstimates, LookupError> {
+        let indices = self.existing(self.indices.as_deref())?;
+        Ok(&find("factor", name, indices, |index| &index.factor)?.effect)
+    }
+
+    /// The indices of the group called `name`: the first-order one is closed, so it includes interactions in the group.
+    ///
+    /// # Errors
+    /// As for [`factor`](Self::factor).
+    pub fn group(&self, name: &str) -> Result<&EffectEstimates, LookupError> {
+        let groups = self.existing(self.groups.as_deref())?;
+        Ok(&find("group", name, groups, |group| &group.group)?.effect)
+    }
+
+    /// Half the width of the widest interval of a first-order or total index, or of a Shapley effect, of factors, the noise,
+    /// groups and subsets; `None` without indices, or if one of them has no interval.
+    pub fn largest_half_width(&self) -> Option<f64> {
+        let factors = self.indices.as_ref()?.iter().map(|index| &index.effect);
+        let noise = self.noise.iter().map(|noise| &noise.effect);
+        let groups = self.groups.iter().flatten().map(|group| &group.effect);
+        let subsets = self.subsets.iter().flatten().map(|subset| &subset.effect);
+        let players = self.shapley_groups.iter().flatten().map(|player| player.shapley);
+        let of_effect = |effect: &EffectEstimates| [Some(effect.first_order), Some(effect.total), effect.shapley];
+        let effects = factors.chain(noise).chain(groups).chain(subsets);
+        largest_half_width(effects.flat_map(of_effect).flatten().chain(players))
+    }
+
+    fn existing<'a, T>(&self, indices: Option<&'a [T]>) -> Result<&'a [T], LookupError> {
+        let missing = || LookupError::NoIndices {
+            output: self.name.clone(),
+            reason: self.reason.clone().unwrap_or_else(|| "they were not estimated".to_owned()),
+        };
+        indices.ok_or_else(missing)
+    }
+}
+
+/// The one of `all` called `name`.
+pub(super) fn find<'a, T>(
+    what: &'static str,
+    name: &str,
+    all: &'a [T],
+    name_of: impl Fn(&T) -> &String,
+) -> Result<&'a T, LookupError> {
+    let unknown = || LookupError::UnknownName {
+        what,
+        name: name.to_owned(),
+        known: all.iter().map(|one| name_of(one).clone()).collect(),
+    };
+    all.iter().find(|one| name_of(one) == name).ok_or_else(unknown)
+}
+
+/// How the values of an output are distributed, as far as the rows A and B tell.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "study", derive(schemars::JsonSchema))]
+pub struct DistributionRecord {
+    /// Values that mean, standard deviation, skewness, kurtosis and range rest on: those of all rows A and B.
+    pub values: u64,
+    /// The rest; quantiles, histogram and density rest on the `count` values that were kept, the first of every replicate.
+    #[serde(flatten)]
+    pub sample: OutputDistribution,
+}
+
+/// The indices as they were when the run had so many base points.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "study", derive(schemars::JsonSchema))]
+pub struct StageRecord {
+    /// Base points in all.
+    pub base_samples: u64,
+    /// Model runs in all.
+    pub model_runs: u64,
+    /// Largest half width of the first-order and total indices of the factors and groups; `null` without intervals.
+    pub largest_half_width: Option<f64>,
+    /// First-order and total index of every factor.
+    pub indices: Vec<PlainIndexRecord>,
+}
+
+/// How an output goes with the factors of the largest total indices.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "study", derive(schemars::JsonSchema))]
+pub struct ScatterRecord {
+    /// At most six factors, the largest total index first.
+    pub factors: Vec<String>,
+    /// At most 400 rows A, the first of every replicate: the values of `factors` in their units, then the output's in its
+    /// own. Runs without a value are left out.
+    pub points: Vec<Vec<f64>>,
+    /// One entry for each of `factors`.
+    pub conditional_means: Vec<ConditionalMeansRecord>,
+}
+
+/// Means of the output over slices of a factor: an estimate of E[Y | X_i], whose variance is the numerator of the
+/// first-order index. They describe the scatter of the kept rows A and B; no index is computed from them.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "study", derive(schemars::JsonSchema))]
+pub struct ConditionalMeansRecord {
+    /// The factor.
+    pub factor: String,
+    /// The median of each slice in the factor's unit, rising: 20 slices of equal probability, or each of the values of a
+    /// discrete factor (of at most 50).
+    pub x: Vec<f64>,
+    /// Mean of the output over the slice in its unit; `null` without values there.
+    pub mean: Vec<Option<f64>>,
+    /// Mean minus 1.96 standard errors; `null` for fewer than two values.
+    pub low: Vec<Option<f64>>,
+    /// Mean plus 1.96 standard errors.
+    pub high: Vec<Option<f64>>,
+}
+
+/// A trial of surrogates on the first runs of a quick model: all runs are corrected if it gains enough.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "study", derive(schemars::JsonSchema))]
+#[non_exhaustive]
+pub struct SurrogateTrial {
+    /// Model runs in it.
+    pub runs: u64,
+    /// How many times smaller errors were with surrogates, of the first-order or the total indices, where it gains less.
+    pub gain: f64,
+    /// How many times smaller they must be.
+    pub needed: f64,
+}
+
+/// A reason for which runs failed.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "study", derive(schemars::JsonSchema), schemars(rename = "FailureRecord"))]
+#[non_exhaustive]
+pub struct FailureCount {
+    /// The reason.
+    pub reason: String,
+    /// Number of runs.
+    pub runs: u64,
+    /// Row number of the first of them in the design.
+    pub first_row: u64,
+    /// The factor values of that row, in the units of the factors; nothing at points of SALib, whose inputs are not known.
+    pub first_inputs: Map<String, Value>,
+}
+
+/// Other measures of one output.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "study", derive(schemars::JsonSchema), schemars(rename = "MeasuresRecord"))]
+#[non_exhaustive]
+pub struct RunMeasures {
+    /// Rows A and B with a value that they were taken from: at most [`MOST_ROWS_OF_MEASURES`](crate::MOST_ROWS_OF_MEASURES).
+    pub rows: usize,
+    /// The measures of every factor but a noise.
+    pub factors: Vec<InputMeasures>,
+}
+
+/// A name that a result does not have, or indices that an output does not have.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum LookupError {
+    /// There is nothing of that name.
+    #[error("there is no {what} `{name}`; there are: {known}", known = known.join(", "))]
+    UnknownName {
+        /// What the name should be of.
+        what: &'static str,
+        /// The name.
+        name: String,
+        /// The names that there are.
+        known: Vec<String>,
+    },
+    /// The output has no indices.
+    #[error("output `{output}` has no indices: {reason}")]
+    NoIndices {
+        /// The output.
+        output: String,
+        /// Why.
+        reason: String,
+    },
+}

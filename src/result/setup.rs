@@ -1,0 +1,46 @@
+//! What the results of several commands share.
+
+use serde::{Deserialize, Serialize};
+
+use super::{FactorRecord, StudyRecord};
+
+/// How long a run took, and on how many threads.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RunFacts {
+    /// Threads used.
+    pub threads: usize,
+    /// Seconds from the first run to the last.
+    pub wall_seconds: f64,
+}
+
+/// The study as it was run.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct StudySetup {
+    /// What was asked.
+    #[serde(flatten)]
+    pub asked: StudyRecord,
+    /// The factors in the order of the study.
+    pub factors: Vec<FactorRecord>,
+    /// SHA-256 of the study file as it lies on disk, in hexadecimal.
+    pub sha256: String,
+}
+
+impl std::ops::Deref for StudySetup {
+    type Target = StudyRecord;
+
+    fn deref(&self) -> &StudyRecord {
+        &self.asked
+    }
+}
+
+impl StudyRecord {
+    /// The headline of its charts and documents.
+    pub fn headline(&self) -> &str {
+        self.title.as_deref().unwrap_or(&self.name)
+    }
+}
+
+/// JSON text of plain data, ending in a newline; a number that is not finite is null.
+pub fn json(file: &impl Serialize) -> String {
+    serde_json::to_string_pretty(file).expect("plain data") + "\n"
+}
