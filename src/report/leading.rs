@@ -42,30 +42,49 @@ pub(super) fn by_total(output: &OutputResult) -> Option<Vec<(usize, &IndexRecord
     (!order.is_empty()).then_some(order)
 }
 
-/// The numbers of those that may be the largest, the largest estimate first: one where it is sure to be (or where nothing
-/// is known of the errors), all that cannot be told apart otherwise.
-///
-/// Those are, where probabilities are known, the largest and every one with a chance of 1 in 20 or more; otherwise the
-/// largest and every one whose interval reaches its own. Whoever has a larger estimate than one of them is one too.
-pub(super) fn may_lead(contenders: &[Contender]) -> Vec<usize> {
-    let mut order: Vec<usize> = (0..contenders.len()).collect();
-    order.sort_by(|&a, &b| contenders[b].total.estimate.total_cmp(&contenders[a].total.estimate));
-    let Some((&lead, rest)) = order.split_first() else { return order };
-    let rivals = match (contenders[lead].probability, contenders[lead].total.interval) {
-        (Some(probability), _) if probability >= SURE => 0,
-        (Some(_), _) => {
-            let is_likely = |&k: &usize| contenders[k].probability.is_some_and(|chance| chance >= 1.0 - SURE);
-            // Unsure, and no other likely: the next one.
-            rest.iter().rposition(is_likely).map_or(1, |last| last + 1)
+/// What estimates and intervals say of which contender is the largest, by numbers.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) enum Verdict {
+    /// There is no contender.
+    None,
+    /// It is the largest with a probability of 0.95 or more, or nothing is known of the errors.
+    Leads(usize),
+    /// These cannot be told apart, the largest estimate first.
+    Tied(Vec<usize>),
+}
+
+impl Verdict {
+    /// Contenders are tied with the largest estimate, where probabilities are known, if their own is 0.05 or more; otherwise
+    /// if their interval reaches its interval. So is every contender with a larger estimate than one of them.
+    pub fn new(contenders: &[Contender]) -> Self {
+        let mut order: Vec<usize> = (0..contenders.len()).collect();
+        order.sort_by(|&a, &b| contenders[b].total.estimate.total_cmp(&contenders[a].total.estimate));
+        let Some((&lead, rest)) = order.split_first() else { return Self::None };
+        let rivals = match (contenders[lead].probability, contenders[lead].total.interval) {
+            (Some(probability), _) if probability >= SURE => 0,
+            (Some(_), _) => {
+                let is_likely = |&k: &usize| contenders[k].probability.is_some_and(|chance| chance >= 1.0 - SURE);
+                // Unsure, and no other likely: the next one.
+                rest.iter().rposition(is_likely).map_or(1, |last| last + 1)
+            }
+            (None, Some(Interval { low, .. })) => {
+                let reaches = |&k: &usize| contenders[k].total.interval.is_some_and(|interval| interval.high >= low);
+                rest.iter().rposition(reaches).map_or(0, |last| last + 1)
+            }
+            (None, None) => 0,
+        };
+        order.truncate(1 + rivals);
+        if order.len() == 1 { Self::Leads(lead) } else { Self::Tied(order) }
+    }
+
+    /// Those that may be the largest, the largest estimate first.
+    pub fn leaders(&self) -> &[usize] {
+        match self {
+            Self::None => &[],
+            Self::Leads(lead) => std::slice::from_ref(lead),
+            Self::Tied(tied) => tied,
         }
-        (None, Some(Interval { low, .. })) => {
-            let reaches = |&k: &usize| contenders[k].total.interval.is_some_and(|interval| interval.high >= low);
-            rest.iter().rposition(reaches).map_or(0, |last| last + 1)
-        }
-        (None, None) => 0,
-    };
-    order.truncate(1 + rivals);
-    order
+    }
 }
 
 /// Which of these interactions are sure to exist, all of them together: of many intervals that each hold in 95 % one in forty would
@@ -88,21 +107,23 @@ pub(super) fn measure(output: &OutputResult) -> &'static str {
 /// Which of several leads by a `measure`, in a sentence that begins with `of`, such as `For y`; `None` without any.
 pub(super) fn leader(contenders: &[Contender], of: &str, measure: &str, unit: &str) -> Option<String> {
     let size = |contender: &Contender| format!("{} {unit}", index(contender.total)).trim_end().to_owned();
-    let leaders = may_lead(contenders);
-    let lead = &contenders[*leaders.first()?];
-    Some(match leaders.len() {
-        _ if lead.total.estimate <= 0.0 => format!("{of}, no {measure} is above 0."),
-        1 => {
+    let verdict = Verdict::new(contenders);
+    let largest = &contenders[*verdict.leaders().first()?];
+    if largest.total.estimate <= 0.0 {
+        return Some(format!("{of}, no {measure} is above 0."));
+    }
+    Some(match verdict {
+        Verdict::None | Verdict::Leads(_) => {
             // An estimated probability is never certain.
             let chance = |p: f64| chance(Some(p.min(1.0 - f64::EPSILON))).replace('>', "more than ");
-            let sure = lead.probability.map(|p| format!(", the largest with a probability of {}", chance(p)));
+            let sure = largest.probability.map(|p| format!(", the largest with a probability of {}", chance(p)));
             let sure = sure.unwrap_or_default();
-            format!("{of}, {} matters most: its {measure} is {}{sure}.", lead.label, size(lead))
+            format!("{of}, {} matters most: its {measure} is {}{sure}.", largest.label, size(largest))
         }
-        tied => {
-            let shown = leaders.iter().take(NAMES).map(|&k| &contenders[k]);
+        Verdict::Tied(tied) => {
+            let shown = tied.iter().take(NAMES).map(|&k| &contenders[k]);
             let mut all: Vec<String> = shown.map(|one| format!("{} ({})", one.label, size(one))).collect();
-            all.extend((tied > NAMES).then(|| format!("{} more", tied - NAMES)));
+            all.extend((tied.len() > NAMES).then(|| format!("{} more", tied.len() - NAMES)));
             format!("{of}, what matters most cannot be told apart, by the {measure}: {}.", listed(&all))
         }
     })
@@ -166,16 +187,16 @@ mod tests {
             contender("b", (0.42, 0.6), Some(0.53)),
             contender("c", (0.0, 0.1), Some(0.02)),
         ];
-        assert_eq!(may_lead(&tie), [1, 0]);
+        assert_eq!(Verdict::new(&tie), Verdict::Tied(vec![1, 0]));
         let mut unknown = tie.to_vec();
         unknown.iter_mut().for_each(|contender| contender.probability = None);
-        assert_eq!(may_lead(&unknown), [1, 0]);
+        assert_eq!(Verdict::new(&unknown), Verdict::Tied(vec![1, 0]));
         unknown.iter_mut().for_each(|contender| contender.total.interval = None);
-        assert_eq!(may_lead(&unknown), [1]);
-        assert_eq!(may_lead(&[]), [] as [usize; 0]);
+        assert_eq!(Verdict::new(&unknown), Verdict::Leads(1));
+        assert_eq!(Verdict::new(&[]), Verdict::None);
         // Unsure, and no other likely: the next one.
         let unsure = [contender("a", (0.5, 0.6), Some(0.93)), contender("b", (0.4, 0.5), Some(0.04))];
-        assert_eq!(may_lead(&unsure), [0, 1]);
+        assert_eq!(Verdict::new(&unsure), Verdict::Tied(vec![0, 1]));
     }
 
     #[test]
@@ -186,14 +207,14 @@ mod tests {
             .zip(probabilities)
             .map(|(total, probability)| contender("x", total, probability))
             .collect();
-        assert_eq!(may_lead(&contenders), [0, 1, 2]);
+        assert_eq!(Verdict::new(&contenders), Verdict::Tied(vec![0, 1, 2]));
         // By intervals: that of the second stays below, that of the third does not.
         let mut by_interval = contenders.clone();
         by_interval.iter_mut().for_each(|contender| contender.probability = None);
         for (contender, high) in by_interval[1..].iter_mut().zip([0.99, 1.2]) {
             contender.total.interval = contender.total.interval.map(|interval| Interval { high, ..interval });
         }
-        assert_eq!(may_lead(&by_interval), [0, 1, 2]);
+        assert_eq!(Verdict::new(&by_interval), Verdict::Tied(vec![0, 1, 2]));
     }
 
     #[test]

@@ -6,7 +6,7 @@ use super::record::{ComparedFactor, ComparedOutput, ComparedSide, ComparisonFile
 use crate::report::csv::{Csv, fields};
 use crate::report::document::{Cell, Column, DataFile, Document, Figure, Part, Section, Table, Value};
 use crate::report::format::{give_or_take, heading, name, significant};
-use crate::report::leading::{Contender, first_answers, may_lead};
+use crate::report::leading::{Contender, Verdict, first_answers};
 use crate::report::listed;
 use crate::result::json;
 use crate::uncertainty::{Estimate, Interval};
@@ -115,7 +115,8 @@ fn leaders(output: &ComparedOutput) -> String {
     let leaders = |of: fn(&ComparedFactor) -> Option<Estimate>| -> Option<String> {
         let contender = |factor: &ComparedFactor| Some(Contender::new(name(&factor.name), of(factor)?));
         let known: Vec<Contender> = output.factors.iter().filter(|f| !f.group).filter_map(contender).collect();
-        let names: Vec<&str> = may_lead(&known).into_iter().map(|place| known[place].label.as_str()).collect();
+        let names: Vec<&str> =
+            Verdict::new(&known).leaders().iter().map(|&place| known[place].label.as_str()).collect();
         match &names[..] {
             [] => None,
             [one] => Some(format!("{one} has the largest total index")),

@@ -3,7 +3,7 @@
 use crate::model::MANY_OUTPUTS;
 use crate::report::format::{grouped, index, is_above_zero, name, percent, two_digits};
 use crate::report::interval_widths::{WIDE, indices_measured, widest_interval};
-use crate::report::leading::{Contender, by_total, first_answers, leader_of, may_lead};
+use crate::report::leading::{Contender, Verdict, by_total, first_answers, leader_of};
 use crate::report::listed;
 use crate::report::validity;
 use crate::result::{OutputResult, StudyResult};
@@ -37,7 +37,7 @@ pub(super) fn lead(result: &StudyResult, single: &StudyResult) -> Vec<String> {
 pub(super) fn answer(output: &OutputResult) -> String {
     let order = by_total(output).unwrap_or_default();
     let contenders: Vec<Contender> = order.iter().map(|(_, index)| Contender::from_index(index)).collect();
-    let leaders = may_lead(&contenders).len();
+    let leaders = Verdict::new(&contenders).leaders().len();
     let next = order.iter().skip(leaders).take(2);
     let next: Vec<String> =
         next.map(|(_, next)| format!("{} ({})", name(&next.factor), index(next.effect.weight()))).collect();

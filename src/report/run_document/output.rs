@@ -3,8 +3,8 @@
 use super::figures::{CONVERGENCE, DISTRIBUTION, Figures, INDICES, Numbered, PAIRS, SCATTER, SHARES};
 use super::measures::measures;
 use super::noise::noise;
-use super::warnings::grouped_warnings;
 use super::shared::{definitions, failed_runs};
+use super::warnings::grouped_warnings;
 use super::{lead, tables, values};
 use crate::report::document::Part;
 use crate::report::format::{among_with_unit, count, grouped, minus, name, share_of_runs, significant, two_digits};

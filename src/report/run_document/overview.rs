@@ -6,7 +6,7 @@ use super::tables::{IN_CSV, first_rows, largest};
 use super::warnings::grouped_warnings;
 use crate::report::document::{Cell, Column, Part, Section, Table};
 use crate::report::format::{give_or_take, name, short, value};
-use crate::report::leading::{Contender, by_total, leader_of_all, may_lead, of_which};
+use crate::report::leading::{Contender, Verdict, by_total, leader_of_all, of_which};
 use crate::report::listed;
 use crate::report::run_charts::{map_chart, overall_order, together_chart};
 use crate::result::{OutputResult, StudyResult};
@@ -50,7 +50,7 @@ fn sure_leader(output: &OutputResult) -> Option<usize> {
     let contenders: Vec<Contender> = order.iter().map(|(_, index)| Contender::from_index(index)).collect();
     // Without intervals nothing is sure.
     let is_known = contenders.len() == 1 || contenders[0].total.interval.is_some();
-    (is_known && may_lead(&contenders).len() == 1).then_some(order[0].0)
+    (is_known && matches!(Verdict::new(&contenders), Verdict::Leads(_))).then_some(order[0].0)
 }
 
 /// For how many outputs each factor surely matters most.

@@ -1,8 +1,8 @@
 //! What the document says of a series: its indices along the axis and as a whole.
 
 use super::figures::{Figures, SERIES_SUFFIXES};
-use super::shared::definitions;
 use super::overview;
+use super::shared::definitions;
 use crate::report::document::{Part, Section, Table};
 use crate::report::format::{heading, name};
 use crate::report::leading::leader_of_all;

@@ -80,8 +80,5 @@ fn warnings_that_were_read_are_those_that_were_written() {
 
 #[test]
 fn small_indices_have_digits_in_warnings() {
-    assert_eq!(
-        [0.31, 0.01, 3.14e-5, -2e-4, 0.0].map(decimals),
-        ["0.3100", "0.0100", "3.14e-5", "-2.00e-4", "0.0000"]
-    );
+    assert_eq!([0.31, 0.01, 3.14e-5, -2e-4, 0.0].map(decimals), ["0.3100", "0.0100", "3.14e-5", "-2.00e-4", "0.0000"]);
 }
