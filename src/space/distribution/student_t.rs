@@ -1,11 +1,7 @@
 //! Student's t distribution.
 
 use super::beta::{Side, tails_of_sides};
-use super::error::{finite, of_finite_variance, positive, within};
-use super::family::{Family, Parameter};
-use super::keys::{Entry, PLAIN, keys, solved_keys, two_quantiles_and};
-use super::solved::Shape;
-use super::{Distribution, DistributionError};
+use super::prelude::*;
 
 /// Degrees of freedom beyond are refused: fewer mean nothing, with more it is a normal distribution.
 const DEGREES: (f64, f64) = (0.01, 2e5);
