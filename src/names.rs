@@ -96,11 +96,19 @@ pub fn refused_title(title: &str) -> Option<String> {
     hidden.then(|| "a text without control characters and marks that are not seen".to_owned())
 }
 
+/// What a unit or the name of an axis may be, in words that follow "must be".
+pub const SHORT_TEXT: &str = "a text of up to 60 characters, without control characters";
+
+/// Whether `text` keeps to [`SHORT_TEXT`].
+pub fn is_short_text(text: &str) -> bool {
+    text.chars().count() <= 60 && !text.contains(is_hidden)
+}
+
 /// A name or value as it stands in a message: the beginning of one that is long, and nothing hidden.
 pub fn shown(text: &str) -> String {
-    const MOST: usize = 60;
+    const MAX_CHARS: usize = 60;
     let mut chars = text.chars();
-    let begin: String = chars.by_ref().take(MOST).collect();
+    let begin: String = chars.by_ref().take(MAX_CHARS).collect();
     if chars.next().is_some() {
         format!("{begin:?}... ({} characters)", text.chars().count())
     } else {

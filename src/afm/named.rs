@@ -22,6 +22,10 @@ macro_rules! named {
                 match name { $($name => Some(Self::$variant),)+ _ => None }
             }
         }
+
+        impl $crate::names::Named for $type {
+            const CHOICES: &'static [(&'static str, Self)] = &[$(($name, Self::$variant)),+];
+        }
     };
 }
 

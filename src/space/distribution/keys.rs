@@ -260,9 +260,27 @@ impl<'a> Given<'a> {
     }
 }
 
+/// An argument of the constructor of a family.
+#[derive(Debug)]
+pub struct Argument {
+    /// The key.
+    pub key: &'static Key,
+    /// Whether it may be left out.
+    pub is_optional: bool,
+    /// What it is then, where there is a number for it.
+    pub default: Option<f64>,
+}
+
 /// A family of distributions, before its parameters are chosen.
 #[derive(Clone, Copy)]
 pub struct Kind(&'static Entry);
+
+impl Default for Kind {
+    /// The default of study files.
+    fn default() -> Self {
+        Self(&ENTRIES[0][0])
+    }
+}
 
 impl Kind {
     /// All of them, the default of study files first.
@@ -283,6 +301,18 @@ impl Kind {
     /// One line for people.
     pub fn summary(self) -> &'static str {
         self.0.summary
+    }
+
+    /// The arguments of its constructor in other languages: its own parameters.
+    pub fn arguments(self) -> impl Iterator<Item = Argument> {
+        let Entry { ways, defaults, .. } = self.0;
+        let argument = |name: &str, is_optional: bool| {
+            let key = KEYS.iter().find(|key| key.name == name)?;
+            let default = defaults.iter().find(|(key, _)| *key == name).map(|(_, value)| *value);
+            Some(Argument { key, is_optional: is_optional || default.is_some(), default })
+        };
+        let needs = ways[0].needs.iter().filter_map(move |key| argument(key, false));
+        needs.chain(ways[0].may.iter().filter_map(move |key| argument(key, true)))
     }
 
     /// The keys that determine one, in words.

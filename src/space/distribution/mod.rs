@@ -43,7 +43,7 @@ use family::Family;
 
 pub use error::DistributionError;
 pub use family::Parameter;
-pub use keys::{KEYS, Key, KeyKind, Kind};
+pub use keys::{Argument, KEYS, Key, KeyKind, Kind};
 pub(crate) use seed::{mixed, seed_of};
 pub use values::{MeasuredFile, Values};
 

@@ -95,6 +95,7 @@ pub(super) const ENTRIES: &[Entry] = &[Entry {
     ways: &[keys(&["df", "location", "scale"]), solved_keys(&["df", "mean", "sd"]), two_quantiles_and(&["df"])],
     shape: Shape::Given("df"),
     make: |_, [location, scale, df]| Distribution::student_t(df, location, scale),
+    defaults: &[("location", 0.0), ("scale", 1.0)],
     build: |given| {
         let (df, location) = (given.number("df")?, given.number("location")?);
         StudentT::new(df, location, given.number("scale")?).map(Distribution::StudentT)

@@ -52,6 +52,13 @@ impl<T: JsonSchema> JsonSchema for At<T> {
     }
 }
 
+/// A value that is not written, without a place.
+impl<T: Default> Default for At<T> {
+    fn default() -> Self {
+        Self(Spanned::new(0..0, T::default()))
+    }
+}
+
 /// A table of choices by name.
 pub(super) type Choices = BTreeMap<At<String>, At<toml::Value>>;
 

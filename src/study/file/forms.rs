@@ -1,5 +1,5 @@
 //! What a study file may say in two ways, brought to one before it is read: `[factors]` becomes a list of `[[factor]]`, and
-//! `noise` one more factor. Every value keeps its place in the file. Forms of former versions are refused with today's lines.
+//! `noise` one more factor. Every value keeps its place in the file. Forms of former versions are refused with those of today.
 
 use std::borrow::Cow;
 use std::ops::Range;
@@ -9,92 +9,35 @@ use toml::de::{DeArray, DeTable, DeValue};
 
 use super::context::{Context, Fault, wrong};
 use super::error::Problem;
-use crate::design::{DesignError, MAX_FACTORS};
-use crate::study::BuildError;
 
 /// Brings `root`, a study file, to the form that `StudyFile` has.
 pub(super) fn normalise(context: &Context<'_>, root: &mut DeTable<'_>) -> Result<(), Fault> {
     refuse_old_forms(context, root)?;
-    refuse_too_many(context, root)?;
     factors(context, root)?;
-    noise(context, root)?;
-    name_components(root);
-    Ok(())
-}
-
-/// More factors than any study can have, before any of them is worked on.
-fn refuse_too_many(context: &Context<'_>, root: &DeTable<'_>) -> Result<(), Fault> {
-    let (count, place) = match (root.get("factor").map(Spanned::get_ref), root.get_key_value("factors")) {
-        (Some(DeValue::Array(list)), _) => (list.len(), list.get(MAX_FACTORS).map(Spanned::span)),
-        (_, Some((key, table))) => (table.get_ref().as_table().map_or(0, DeTable::len), Some(key.span())),
-        _ => return Ok(()),
-    };
-    if count <= MAX_FACTORS {
-        return Ok(());
-    }
-    let problem = BuildError::Design(DesignError::FarTooManyFactors { factors: count });
-    Err(context.fault(place.unwrap_or_default(), problem.into()))
+    noise(context, root)
 }
 
 /// Factors and outputs as they were written in former versions.
 fn refuse_old_forms(context: &Context<'_>, root: &DeTable<'_>) -> Result<(), Fault> {
-    let old = |place: Range<usize>, form: String, lines: String| {
-        let message = format!("{form}: factors and outputs are written in another way today");
-        Err(context.fault(place, Problem::with_help(message, format!("write\n{lines}"))))
-    };
-    let written = |range: Range<usize>| context.text.get(range).unwrap_or_default().to_owned();
-    let entry = |(key, value): Entry<'_, '_>| format!("{} = {}", written(key.span()), written(value.span()));
-    let fields = |table: &DeTable<'_>| {
-        let others = in_order(table).into_iter().filter(|(key, _)| **key.get_ref() != *"name");
-        others.map(entry).collect::<Vec<_>>().join(", ")
-    };
-    let name_of = |table: &DeTable<'_>| {
-        let name = table.get("name").map_or_else(|| "NAME".to_owned(), |name| written(name.span()));
-        let bare = name.trim_matches(['"', '\'']);
-        if is_bare(bare) { bare.to_owned() } else { name }
-    };
-    let line = |name: &str, table: &DeTable<'_>| format!("{name} = {{ {} }}", fields(table));
-    let joined = |lines: Vec<String>| format!("[factors]\n{}", lines.join("\n"));
-    if let Some((key, value)) = root.get_key_value("factor")
-        && let Some(table) = value.get_ref().as_table()
-    {
-        let of = |(key, value): Entry<'_, '_>| Some(line(&written(key.span()), value.get_ref().as_table()?));
-        let lines: Vec<String> = in_order(table).into_iter().filter_map(of).collect();
-        return match lines.is_empty() {
-            true => old(key.span(), "[factor]".to_owned(), joined(vec![line(&name_of(table), table)])),
-            false => old(key.span(), "[factor.NAME]".to_owned(), joined(lines)),
-        };
-    }
-    if let Some((key, value)) = root.get_key_value("factors")
-        && let Some(list) = value.get_ref().as_array()
-    {
-        let tables = list.iter().filter_map(|value| value.get_ref().as_table());
-        let lines = tables.map(|table| line(&name_of(table), table)).collect();
-        return old(key.span(), "a list of `factors`".to_owned(), joined(lines));
+    let factors = "[factors]\nx1 = { min = 0, max = 1 }\nx2 = { min = 0, max = 1 }";
+    let mut old = Vec::new();
+    match (root.get_key_value("factor"), root.get_key_value("factors")) {
+        (Some((key, value)), _) if value.get_ref().is_table() => old.push((key, "[factor]".to_owned(), factors)),
+        (_, Some((key, value))) if value.get_ref().is_array() => {
+            old.push((key, "a list `factors`".to_owned(), factors))
+        }
+        _ => (),
     }
     for section in ["expression", "command", "external"] {
         let table = root.get(section).and_then(|value| value.get_ref().as_table());
-        let Some((key, outputs)) = table.and_then(|table| table.get_key_value("outputs")) else { continue };
-        let lines = match outputs.get_ref().as_table() {
-            Some(outputs) => {
-                let line = |output| format!("outputs.{}", entry(output));
-                in_order(outputs).into_iter().map(line).collect::<Vec<_>>().join("\n")
-            }
-            None => format!("outputs = {}", written(outputs.span())),
-        };
-        let lines = format!("{lines}\n(above the first table of the file)");
-        return old(key.span(), format!("outputs in [{section}]"), lines);
+        if let Some((key, _)) = table.and_then(|table| table.get_key_value("outputs")) {
+            let lines = "outputs.y = ...\nabove the first table of the file";
+            old.push((key, format!("outputs in [{section}]"), lines));
+        }
     }
-    Ok(())
-}
-
-type Entry<'a, 'i> = (&'a Spanned<Cow<'i, str>>, &'a Spanned<DeValue<'i>>);
-
-/// The entries of a table in the order of the file.
-fn in_order<'a, 'i>(table: &'a DeTable<'i>) -> Vec<Entry<'a, 'i>> {
-    let mut entries: Vec<Entry<'a, 'i>> = table.iter().collect();
-    entries.sort_by_key(|(key, _)| key.span().start);
-    entries
+    let Some((key, form, lines)) = old.into_iter().next() else { return Ok(()) };
+    let message = format!("{form}: factors and outputs are written in another way today");
+    Err(context.fault(key.span(), Problem::with_help(message, format!("write\n{lines}"))))
 }
 
 pub(super) fn is_bare(key: &str) -> bool {
@@ -167,28 +110,4 @@ fn noise(context: &Context<'_>, root: &mut DeTable<'_>) -> Result<(), Fault> {
         }
     }
     Ok(())
-}
-
-/// Components of mixtures get the name of their factor, which messages tell.
-fn name_components(root: &mut DeTable<'_>) {
-    fn name_inside(fields: &mut DeTable<'_>, name: &str) {
-        let Some(DeValue::Array(components)) = fields.get_mut("components").map(Spanned::get_mut) else { return };
-        for component in components.iter_mut() {
-            let span = component.span();
-            if let DeValue::Table(fields) = component.get_mut() {
-                if !fields.contains_key("name") {
-                    let text = Spanned::new(span.clone(), DeValue::String(Cow::Owned(name.to_owned())));
-                    fields.insert(key("name", span), text);
-                }
-                name_inside(fields, name);
-            }
-        }
-    }
-    let Some(DeValue::Array(factors)) = root.get_mut("factor").map(Spanned::get_mut) else { return };
-    for factor in factors.iter_mut() {
-        if let DeValue::Table(fields) = factor.get_mut() {
-            let name = fields.get("name").and_then(|name| name.get_ref().as_str()).unwrap_or_default().to_owned();
-            name_inside(fields, &name);
-        }
-    }
 }

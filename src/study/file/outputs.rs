@@ -55,7 +55,7 @@ pub(super) struct OutputTable {
 impl OutputTable {
     /// The table `typed`, which is the value of an output.
     pub(super) fn read(context: &Context<'_>, value: &At<Value>, typed: &toml::Table) -> Result<Self, Fault> {
-        typed.clone().try_into().map_err(|error| context.fault(value.span(), read::problem(&error)))
+        context.at(value, typed.clone().try_into().map_err(|error| read::problem(&error)))
     }
 }
 
@@ -120,7 +120,7 @@ pub(super) fn own_outputs(context: &Context<'_>, key: Option<&At<Outputs>>) -> R
     if all.outputs.is_empty() {
         return Err(context.fault(key.span(), missing));
     }
-    all.refuse_repeated().map_err(|problem| context.fault(key.span(), problem))?;
+    context.at(key, all.refuse_repeated())?;
     Ok(all)
 }
 

@@ -164,7 +164,7 @@ fn factor(context: &Context<'_>, section: &At<FactorSection>, input: &Input) -> 
             refuse_unit_of_own(context, fields, &unit, input)?;
             own.clone()
         }
-        _ => distribution::of(context, section)?,
+        _ => distribution::of_factor(context, section)?,
     };
     let in_domain = |value: f64| input.domain.is_none_or(|domain| domain.contains(unit.to_si(value)));
     let outside = |span, found: String| {
@@ -183,8 +183,7 @@ fn factor(context: &Context<'_>, section: &At<FactorSection>, input: &Input) -> 
     let nominal = match &fields.nominal {
         None => default_nominal(input, &unit, &distribution),
         Some(typed) => {
-            let value = nominal::value(&input.name, &distribution, typed.get_ref())
-                .map_err(|problem| context.fault(typed.span(), problem))?;
+            let value = context.at(typed, nominal::value(&input.name, &distribution, typed.get_ref()))?;
             if !in_domain(value) || !value.is_finite() {
                 return Err(outside(typed.span(), format!("its nominal value is {}", with_unit(value, unit.symbol()))));
             }

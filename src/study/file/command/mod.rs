@@ -4,7 +4,7 @@ pub(super) mod file;
 mod runs;
 
 use std::ops::Range;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use serde_json::{Value, json};
@@ -45,7 +45,7 @@ pub(super) fn subject(
     let arguments = arguments(context, key, program)?;
     let directory = match &section.directory {
         None => folder(context),
-        Some(typed) => existing_directory(context, section, typed)?,
+        Some(typed) => existing(context, section, typed, ("directory", Path::is_dir))?,
     };
     let environment: Vec<(String, String)> = section.env.clone().into_iter().collect();
     let all = own_outputs(context, outputs)?;
@@ -98,9 +98,9 @@ pub(super) fn subject(
         asked: (0..all.outputs.len()).collect(),
         outputs: all.outputs,
         series: all.series,
-        workers: workers(context, section)?,
+        workers: whole(context, "workers", section.workers.as_ref(), 1..=1024)?.map(|number| number as usize),
         timeout: timeout(context, section)?,
-        retries: retries(context, section)?,
+        retries: whole(context, "retries", section.retries.as_ref(), 0..=100)?.map_or(1, |number| number as u32),
     };
     Ok((CommandSubject { settings, stated, depends_on }, notes))
 }
@@ -120,21 +120,23 @@ fn reach(section: &CommandSection) -> Reach {
 }
 
 fn existing_file(context: &Context<'_>, section: &CommandSection, typed: &At<String>) -> Result<PathBuf, Fault> {
-    let path = resolve(context, typed, reach(section))?;
-    if path.is_file() {
-        return Ok(path);
-    }
-    let help = "the path is relative to the study, and that of a file";
-    Err(context.fault(typed.span(), Problem::with_help(format!("{}: there is no such file", path.display()), help)))
+    existing(context, section, typed, ("file", Path::is_file))
 }
 
-fn existing_directory(context: &Context<'_>, section: &CommandSection, typed: &At<String>) -> Result<PathBuf, Fault> {
-    let directory = resolve(context, typed, reach(section))?;
-    if directory.is_dir() {
-        return Ok(directory);
+/// The path that is typed, of something that is there.
+fn existing(
+    context: &Context<'_>,
+    section: &CommandSection,
+    typed: &At<String>,
+    (what, is_there): (&str, fn(&Path) -> bool),
+) -> Result<PathBuf, Fault> {
+    let path = resolve(context, typed, reach(section))?;
+    if is_there(&path) {
+        return Ok(path);
     }
-    let problem = format!("{}: there is no such directory", directory.display());
-    Err(context.fault(typed.span(), Problem::with_help(problem, "the path is relative to the study")))
+    let problem = format!("{}: there is no such {what}", path.display());
+    let help = format!("the path is relative to the study, and that of a {what}");
+    Err(context.fault(typed.span(), Problem::with_help(problem, help)))
 }
 
 /// The protocol of a program that is kept alive; what belongs to the other form has no place here.
@@ -162,7 +164,7 @@ fn refuse_without_numbers(context: &Context<'_>, section: &CommandSection) -> Re
         Some(typed) if !typed.get_ref() => {
             let expected = "true, or left out: each answer begins with the number of its row, as in `print(row[\"id\"], y, \
                             sep=\",\")`; a program that cannot do so runs once for each row, with a `template`";
-            Err(context.fault(typed.span(), wrong("row_numbers", expected, "false".to_owned())))
+            context.refuse(typed, "row_numbers", expected, "false".to_owned())
         }
         _ => Ok(()),
     }
@@ -181,19 +183,9 @@ fn refuse_number(
     let what = if is_factor { "factor" } else { "output" };
     if is_factor || is_output {
         let expected = "another than `id`, which the program gets as the number of a row";
-        return Err(context.fault(key.span(), wrong(&format!("name of the {what}"), expected, "`id`".to_owned())));
+        return context.refuse(key, &format!("name of the {what}"), expected, "`id`".to_owned());
     }
     Ok(())
-}
-
-fn workers(context: &Context<'_>, section: &CommandSection) -> Result<Option<usize>, Fault> {
-    whole(context, "workers", section.workers.as_ref(), 1..=1024).map(|number| number.map(|number| number as usize))
-}
-
-fn retries(context: &Context<'_>, section: &CommandSection) -> Result<u32, Fault> {
-    const DEFAULT: u32 = 1;
-    let number = whole(context, "retries", section.retries.as_ref(), 0..=100)?;
-    Ok(number.map_or(DEFAULT, |number| number as u32))
 }
 
 fn whole(
@@ -207,13 +199,14 @@ fn whole(
         return Ok(Some(*typed.get_ref()));
     }
     let expected = format!("a whole number from {} to {}", range.start(), range.end());
-    Err(context.fault(typed.span(), wrong(key, &expected, typed.get_ref().to_string())))
+    context.refuse(typed, key, &expected, typed.get_ref().to_string())
 }
 
 fn timeout(context: &Context<'_>, section: &CommandSection) -> Result<Option<Duration>, Fault> {
     let Some(typed) = &section.timeout else { return Ok(None) };
     let seconds = seconds(context, "timeout", typed)?;
-    let duration = Duration::try_from_secs_f64(seconds).ok().filter(|time| *time > Duration::ZERO);
-    let problem = || wrong("timeout", "a time above 0, as in \"30 s\"", format!("{:?}", typed.get_ref()));
-    duration.map(Some).ok_or_else(|| context.fault(typed.span(), problem()))
+    match Duration::try_from_secs_f64(seconds).ok().filter(|time| *time > Duration::ZERO) {
+        Some(duration) => Ok(Some(duration)),
+        None => context.refuse(typed, "timeout", "a time above 0, as in \"30 s\"", format!("{:?}", typed.get_ref())),
+    }
 }
