@@ -16,7 +16,7 @@ use super::at::ListOrTable;
 use super::context::{Context, Fault};
 use super::context::{choice_if_said, wrong};
 use super::error::Problem;
-use super::outputs::{outputs_as_settings, own_outputs};
+use super::outputs::own_outputs;
 use super::paths::{Reach, folder, refuse_outside_of_run, resolve};
 use super::sections::{At, Outputs};
 use super::subjects::CommandSubject;
@@ -68,30 +68,22 @@ pub(super) fn subject(
             (Form::PerRun(form), notes)
         }
     };
-    let mut stated = vec![("program", json!(arguments))];
-    if let Some(directory) = &section.directory {
-        stated.push(("directory", json!(directory.get_ref())));
-    }
-    if !environment.is_empty() {
-        stated.push(("env", Value::Object(environment.iter().map(|(k, v)| (k.clone(), json!(v))).collect())));
-    }
-    match (&form, &section.template) {
-        (Form::KeptAlive(protocol), _) => stated.push(("protocol", json!(protocol.name()))),
-        (Form::PerRun(form), template) => {
-            stated.push(("template", json!(template.as_ref().map(At::get_ref))));
-            stated.push(("input", json!(form.input)));
-            let files: Vec<&String> = section.files.iter().map(At::get_ref).collect();
-            if !files.is_empty() {
-                stated.push(("files", json!(files)));
-            }
-        }
-    }
-    if !section.depends_on.is_empty() {
-        stated.push(("depends_on", json!(section.depends_on.iter().map(At::get_ref).collect::<Vec<_>>())));
-    }
+    let protocol = if let Form::KeptAlive(protocol) = &form { Some(protocol.name()) } else { None };
+    let input = if let Form::PerRun(form) = &form { Some(&form.input) } else { None };
+    let mut stated = vec![
+        ("program", json!(arguments)),
+        ("directory", json!(section.directory)),
+        ("env", json!(section.env)),
+        ("protocol", json!(protocol)),
+        ("template", json!(section.template)),
+        ("input", json!(input)),
+        ("files", json!(section.files)),
+        ("depends_on", json!(section.depends_on)),
+        ("outputs", Value::Object(all.stated)),
+    ];
+    stated.retain(|(_, value)| !matches!(value, Value::Null) && *value != json!([]) && *value != json!({}));
     let depends_on =
         section.depends_on.iter().map(|typed| existing_file(context, section, typed)).collect::<Result<_, _>>()?;
-    stated.push(("outputs", outputs_as_settings(&all)));
     let settings = CommandSettings {
         program: Program { arguments, directory, environment },
         form,
