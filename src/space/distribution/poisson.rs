@@ -111,7 +111,7 @@ impl Poisson {
 impl Table {
     /// `None` if there is no number between the bounds, both included.
     fn new(mean: f64, (low, high): (f64, f64)) -> Option<Self> {
-        const LEAST: f64 = 1e-300;
+        const MIN_RATIO: f64 = 1e-300;
         if low > high {
             return None;
         }
@@ -121,7 +121,7 @@ impl Table {
         let mut k = mode;
         while k > low {
             let next = falling[falling.len() - 1] * (k / mean);
-            if next < LEAST {
+            if next < MIN_RATIO {
                 break;
             }
             falling.push(next);
@@ -132,7 +132,7 @@ impl Table {
         k = mode;
         while k < high {
             let next = probabilities[probabilities.len() - 1] * (mean / (k + 1.0));
-            if next < LEAST {
+            if next < MIN_RATIO {
                 break;
             }
             probabilities.push(next);

@@ -6,10 +6,10 @@
 /// slow, so that values of any magnitude are found in a few steps, and those that have a probability of their own exactly.
 pub(super) fn quantile(u: f64, v: f64, (mut low, mut high): (f64, f64), tails: impl Fn(f64) -> (f64, f64)) -> f64 {
     // In the place of ln 0: below the logarithm of every double above 0.
-    const LEAST: f64 = -800.0;
+    const MIN_LOG: f64 = -800.0;
     let residual = |x: f64| {
         let (below, above) = tails(x);
-        if u <= v { libm::log(below / u).max(LEAST) } else { -libm::log(above / v).max(LEAST) }
+        if u <= v { libm::log(below / u).max(MIN_LOG) } else { -libm::log(above / v).max(MIN_LOG) }
     };
     let close = 1e-15 * (1.0 - libm::log(u.min(v)));
     let mut before = residual(low);

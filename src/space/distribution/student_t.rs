@@ -7,7 +7,7 @@ use super::prelude::*;
 const DEGREES: (f64, f64) = (0.01, 2e5);
 
 /// What one-sided tails of fewer degrees of freedom leave beyond the smallest probabilities shows in the moments.
-const LEAST_OF_ONE_TAIL: f64 = 2.1;
+const MIN_DF_OF_ONE_TAIL: f64 = 2.1;
 
 /// Symmetric, with tails that fall by a power: means of few measurements.
 #[derive(Clone, Debug, PartialEq)]
@@ -62,7 +62,7 @@ impl StudentT {
 
     /// The same of what a truncation leaves between the bounds.
     pub(super) fn refuse_one_long_tail(&self, (min, max): (f64, f64)) -> Result<(), DistributionError> {
-        let least = if min.is_finite() && max.is_finite() { 0.0 } else { LEAST_OF_ONE_TAIL };
+        let least = if min.is_finite() && max.is_finite() { 0.0 } else { MIN_DF_OF_ONE_TAIL };
         of_finite_variance("df", self.df, least)
     }
 

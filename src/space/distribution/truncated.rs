@@ -12,7 +12,7 @@ use crate::quantity::Unit;
 use crate::special::{normal_below, normal_quantile, normal_quantile_beside_median};
 
 /// Below this probability between the bounds, probabilities of single values would leave the range of `f64`.
-const LEAST_MASS: f64 = 1e-280;
+const MIN_MASS: f64 = 1e-280;
 
 /// A distribution on the condition that it lies between two bounds.
 #[derive(Clone, Debug, PartialEq)]
@@ -193,7 +193,7 @@ impl Truncated {
     fn new(law: &Distribution, (min, max): (f64, f64)) -> Option<Self> {
         let mass = share(law, min, max);
         // NaN where the bounds are one number as seen from the distribution.
-        if mass.is_nan() || mass < LEAST_MASS {
+        if mass.is_nan() || mass < MIN_MASS {
             return None;
         }
         let quantiles = match law {

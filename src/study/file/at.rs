@@ -18,6 +18,11 @@ use toml::Spanned;
 pub(super) struct At<T>(Spanned<T>);
 
 impl<T> At<T> {
+    /// A value that stands at `span`.
+    pub fn new(span: Range<usize>, value: T) -> Self {
+        Self(Spanned::new(span, value))
+    }
+
     /// The value.
     pub fn get_ref(&self) -> &T {
         self.0.get_ref()
@@ -55,7 +60,7 @@ impl<T: JsonSchema> JsonSchema for At<T> {
 /// A value that is not written, without a place.
 impl<T: Default> Default for At<T> {
     fn default() -> Self {
-        Self(Spanned::new(0..0, T::default()))
+        Self::new(0..0, T::default())
     }
 }
 

@@ -68,15 +68,15 @@ fn measured_columns(context: &Context<'_>, section: &DependenceSection) -> Resul
         (None, None) => return Ok(None),
     };
     let fewest = columns.iter().map(Vec::len).min().unwrap_or(0);
-    if fewest < FEWEST_MEASUREMENTS {
-        let expected = format!("at least {FEWEST_MEASUREMENTS} joint measurements");
+    if fewest < MIN_MEASUREMENTS {
+        let expected = format!("at least {MIN_MEASUREMENTS} joint measurements");
         return Err(context.fault(span, wrong("measurements", &expected, fewest.to_string())));
     }
     Ok(Some(columns))
 }
 
 /// Fewer joint measurements say nothing of a correlation.
-const FEWEST_MEASUREMENTS: usize = 4;
+const MIN_MEASUREMENTS: usize = 4;
 
 fn factor_names<'a>(context: &Context<'_>, names: &'a NameList, space: &Space) -> Result<Vec<&'a str>, Fault> {
     let name = |name: &'a At<String>| place(context, name, space).map(|_| name.get_ref().as_str());

@@ -2,19 +2,23 @@
 //! `noise` one more factor. Every value keeps its place in the file. Forms of former versions are refused with those of today.
 
 use std::borrow::Cow;
-use std::ops::Range;
 
 use toml::Spanned;
-use toml::de::{DeArray, DeTable, DeValue};
+use toml::de::{DeTable, DeValue};
 
-use super::context::{Context, Fault, wrong};
+use super::context::{Context, Fault};
 use super::error::Problem;
+use super::sections::{At, ComponentSection, FactorSection, StudyFile};
 
-/// Brings `root`, a study file, to the form that `StudyFile` has.
+/// Brings `root`, a study file, to the form that `StudyFile` has: `noise = "seed"` is `noise.name = "seed"`.
 pub(super) fn normalise(context: &Context<'_>, root: &mut DeTable<'_>) -> Result<(), Fault> {
     refuse_old_forms(context, root)?;
-    factors(context, root)?;
-    noise(context, root)
+    if let Some(noise) = root.get_mut("noise").filter(|noise| noise.get_ref().is_str()) {
+        let key = Spanned::new(noise.span(), Cow::Borrowed("name"));
+        let name = Spanned::new(noise.span(), noise.get_ref().clone());
+        *noise.get_mut() = DeValue::Table(DeTable::from_iter([(key, name)]));
+    }
+    Ok(())
 }
 
 /// Factors and outputs as they were written in former versions.
@@ -44,70 +48,29 @@ pub(super) fn is_bare(key: &str) -> bool {
     !key.is_empty() && key.chars().all(|c| c.is_ascii_alphanumeric() || "_-".contains(c))
 }
 
-fn key(name: &'static str, span: Range<usize>) -> Spanned<Cow<'static, str>> {
-    Spanned::new(span, Cow::Borrowed(name))
-}
-
-/// The tables of `[factors]` become a list in the order of the file, each with its name inside.
-fn factors(context: &Context<'_>, root: &mut DeTable<'_>) -> Result<(), Fault> {
-    let Some((plural, value)) = root.remove_entry("factors") else { return Ok(()) };
-    if root.contains_key("factor") {
+/// The factors in one list, each with its name: those of `[[factor]]`, or of the lines of `[factors]` in the order of the file; and the
+/// seed of a stochastic model as one more, the last.
+pub(super) fn join_factors(context: &Context<'_>, file: &mut StudyFile) -> Result<(), Fault> {
+    let mut lines: Vec<_> = std::mem::take(&mut file.factors).into_iter().collect();
+    lines.sort_by_key(|(name, _)| name.span().start);
+    if let (Some((name, _)), false) = (lines.first(), file.factor.is_empty()) {
         let right = "factors stand in `[[factor]]` too: keep one of the two";
-        return Err(context.fault(plural.span(), Problem::misplaced("factors", right)));
+        return Err(context.fault(name.span(), Problem::misplaced("factors", right)));
     }
-    let span = value.span();
-    let DeValue::Table(table) = value.into_inner() else {
-        let expected = "a table with a line for each factor, as in x1 = { min = 0, max = 1 }";
-        return Err(context.fault(span, wrong("factors", expected, "a single value".to_owned())));
-    };
-    let mut entries: Vec<_> = table.into_iter().collect();
-    entries.sort_by_key(|(name, _)| name.span().start);
-    let mut factors = Vec::with_capacity(entries.len());
-    for (name, mut value) in entries {
-        let DeValue::Table(fields) = value.get_mut() else {
-            let expected = "a table, as in { min = 0, max = 1 }";
-            let problem = wrong(name.get_ref(), expected, value.get_ref().type_str().to_owned());
-            return Err(context.fault(value.span(), problem));
-        };
-        let inside = Spanned::new(name.span(), DeValue::String(name.get_ref().clone()));
-        if let Some(twice) = fields.insert(key("name", name.span()), inside) {
+    for (name, line) in lines {
+        let span = line.span();
+        let ComponentSection(fields) = line.into_inner();
+        if !fields.name.span().is_empty() {
             let right = "the name of this factor stands before its table";
-            return Err(context.fault(twice.span(), Problem::misplaced("name", right)));
+            return Err(context.fault(fields.name.span(), Problem::misplaced("name", right)));
         }
-        factors.push(value);
+        file.factor.push(At::new(span, FactorSection { name, ..fields }));
     }
-    root.insert(key("factor", plural.span()), Spanned::new(span, DeValue::Array(DeArray::from_iter(factors))));
-    Ok(())
-}
-
-/// `noise = "seed"`, or a table: one more factor, the last one, of the distribution `seed`.
-fn noise(context: &Context<'_>, root: &mut DeTable<'_>) -> Result<(), Fault> {
-    let Some(value) = root.get_mut("noise") else { return Ok(()) };
-    let place = value.span();
-    let text = |text: String| Spanned::new(place.clone(), DeValue::String(Cow::Owned(text)));
-    let name = match value.get_ref() {
-        DeValue::String(name) => name.to_string(),
-        DeValue::Table(table) => {
-            table.get("name").and_then(|name| name.get_ref().as_str()).unwrap_or("seed").to_owned()
-        }
-        other => {
-            let expected = "the name under which the model gets its seed, as in noise = \"seed\", or a table [noise]";
-            return Err(context.fault(place, wrong("noise", expected, other.type_str().to_owned())));
-        }
-    };
-    if value.get_ref().is_str() {
-        *value.get_mut() = DeValue::Table(DeTable::new());
-    }
-    let fields = [("name", text(name)), ("distribution", text("seed".to_owned()))];
-    let fields = fields.map(|(name, value)| (key(name, place.clone()), value));
-    let factor = Spanned::new(place.clone(), DeValue::Table(DeTable::from_iter(fields)));
-    match root.get_mut("factor").map(Spanned::get_mut) {
-        Some(DeValue::Array(factors)) => factors.push(factor),
-        Some(_) => (),
-        None => {
-            let list = DeValue::Array(DeArray::from_iter([factor]));
-            root.insert(key("factor", place.clone()), Spanned::new(place, list));
-        }
+    if let Some(noise) = &file.noise {
+        let at_noise = |text: &str| At::new(noise.span(), text.to_owned());
+        let name = noise.get_ref().name.clone().unwrap_or_else(|| at_noise("seed"));
+        let fields = FactorSection { name, distribution: Some(at_noise("seed")), ..FactorSection::default() };
+        file.factor.push(At::new(noise.span(), fields));
     }
     Ok(())
 }

@@ -5,7 +5,7 @@ use toml::de::{DeTable, Deserializer};
 
 use super::context::{self, Context, Fault};
 use super::error::{Problem, meant};
-use super::forms::normalise;
+use super::forms::{join_factors, normalise};
 use super::schema::study_schema;
 use super::sections::StudyFile;
 use crate::design::{DesignError, MAX_FACTORS};
@@ -15,7 +15,8 @@ use crate::study::BuildError;
 pub(super) fn study_file(context: &Context<'_>) -> Result<StudyFile, Fault> {
     let mut root = DeTable::parse(context.text).map_err(|error| syntax(context, &error))?;
     normalise(context, root.get_mut())?;
-    let file = StudyFile::deserialize(Deserializer::from(root)).map_err(|error| syntax(context, &error))?;
+    let mut file = StudyFile::deserialize(Deserializer::from(root)).map_err(|error| syntax(context, &error))?;
+    join_factors(context, &mut file)?;
     // Before any of them is worked on.
     if let Some(first) = file.factor.get(MAX_FACTORS) {
         let problem = BuildError::Design(DesignError::FarTooManyFactors { factors: file.factor.len() });

@@ -78,6 +78,10 @@ pub(super) struct StudyFile {
     /// The inputs whose influence is asked for: tables [[factor]], whose order in the file assigns the dimensions of the sequence.
     #[serde(default)]
     pub factor: Vec<At<FactorSection>>,
+    /// The same, a line for each.
+    #[serde(default)]
+    #[schemars(skip)]
+    pub factors: BTreeMap<At<String>, At<ComponentSection>>,
 }
 
 /// Names of outputs, or a table of what each is.
@@ -137,11 +141,10 @@ pub(super) enum Correlation {
 
 /// The noise of a stochastic model.
 #[derive(Debug, Default, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, expecting = "a table [noise]")]
+#[serde(deny_unknown_fields, expecting = "a name, as in noise = \"seed\", or a table [noise]")]
 pub(super) struct NoiseSection {
     /// The name under which the model gets its seed, a whole number from 0 to 2^31 - 1; "seed" by default.
-    #[serde(rename = "name")]
-    pub _name: Option<At<String>>,
+    pub name: Option<At<String>>,
     /// Runs of each row with seeds of their own: the outputs are then the mean and the variance over them.
     #[schemars(range(min = 1, max = 1000), extend("default" = 1))]
     pub repetitions: Option<At<u64>>,
@@ -283,7 +286,7 @@ impl<'de> Deserialize<'de> for FactorSection {
     }
 }
 
-/// A distribution in a mixture: a factor's keys, of which it should have those of distributions alone.
+/// A factor whose name stands before its table, or a distribution in a mixture.
 #[derive(Debug)]
 pub(super) struct ComponentSection(pub FactorSection);
 
