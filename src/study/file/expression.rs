@@ -5,7 +5,7 @@ use std::ops::Range;
 use toml::Value;
 
 use super::at::{At, Choices, ListOrTable, in_order};
-use super::context::{Context, Fault, number, wrong};
+use super::context::{Context, Fault, number};
 use super::error::Problem;
 use super::outputs::OutputTable;
 use super::sections::{ExpressionSection, FactorSection, Outputs};
@@ -70,12 +70,12 @@ fn constants(context: &Context<'_>, table: &Choices, space: &Space) -> Result<Ve
             Value::String(text) => Some(context.at(value, Quantity::parse(text))?),
             other => number(other).map(|value| Quantity { value, unit: Unit::dimensionless() }),
         };
-        let quantity = quantity.filter(|quantity| quantity.to_si().is_finite()).ok_or_else(|| {
-            let key = name.get_ref();
+        let key = name.get_ref();
+        let Some(quantity) = quantity.filter(|quantity| quantity.to_si().is_finite()) else {
             let expected = format!("a finite number or a quantity, as in {key} = 7 or {key} = \"169 GPa\"");
-            context.fault(value.span(), wrong(key, &expected, value.get_ref().to_string()))
-        })?;
-        constants.push(ExpressionConstant { name: name.get_ref().clone(), quantity });
+            return context.refuse(value, key, &expected, value.get_ref().to_string());
+        };
+        constants.push(ExpressionConstant { name: key.clone(), quantity });
     }
     Ok(constants)
 }

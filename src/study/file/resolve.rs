@@ -134,11 +134,9 @@ fn space(context: &Context<'_>, inputs: &[Input], sections: &[At<FactorSection>]
     let mut factors: Vec<Factor> = Vec::new();
     for section in sections {
         let name = &section.get_ref().name;
-        let Some(input) = inputs.iter().find(|input| input.name == *name.get_ref()) else {
-            let problem = unknown_name("factor", name.get_ref(), inputs.iter().map(|input| &*input.name));
-            return Err(context.fault(name.span(), problem));
-        };
-        factors.push(factor(context, section, input)?);
+        let unknown = || unknown_name("factor", name.get_ref(), inputs.iter().map(|input| &*input.name));
+        let input = inputs.iter().find(|input| input.name == *name.get_ref()).ok_or_else(unknown);
+        factors.push(factor(context, section, context.at(name, input)?)?);
     }
     Ok(Space::new(factors))
 }
