@@ -162,7 +162,7 @@ proptest! {
     #[test]
     fn onsets_part_rest_from_motion(pushing in pushing(), log_normal in -9.0..-5.0_f64) {
         let normal = libm::pow(10.0, log_normal);
-        for &mode in Mode::ALL {
+        for mode in Mode::ALL {
             let moves = |lateral| pushing.balance(mode, TipForce { normal, lateral }).unwrap().moves();
             match pushing.onset(mode, normal).unwrap() {
                 Onset::AtOnce => prop_assert!(moves(0.0)),

@@ -5,7 +5,8 @@
 //! [[`SMALLEST_U`], [`LARGEST_U`]], the mean and the standard deviation are finite.
 //!
 //! To add a distribution: one file here with a struct, its constructor on [`Distribution`], its `Family` and its entries for
-//! study files; one line in the list of families below; one case in `tests/oracle/distributions.py`.
+//! study files; one line in the list of families below; one case in `tests/oracle/distributions.py`. The reader of study files, the
+//! schema, the messages and the constructors of Python come from the entries.
 
 mod beta;
 mod constant;
