@@ -1,13 +1,16 @@
 """The constructors of distributions are those of the engine's table, and their stub is theirs."""
 
+import importlib
 import inspect
 import os
 from pathlib import Path
 
 import apportion as ap
 import pytest
-from apportion import _distributions, _engine
+from apportion import _engine
 
+# The package has a list of the same name.
+_distributions = importlib.import_module("apportion._distributions")
 STUB = Path(_distributions.__file__).with_suffix(".pyi")
 HEAD = '''"""Made by `tests/test_distributions.py` with `APPORTION_WRITE=1`, and checked by it."""
 
