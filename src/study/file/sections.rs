@@ -141,10 +141,7 @@ pub(super) enum Correlation {
 
 /// The noise of a stochastic model.
 #[derive(Debug, Default, Deserialize, JsonSchema)]
-#[serde(
-    deny_unknown_fields,
-    expecting = "the name under which the model gets its seed, as in noise = \"seed\", or a table [noise]"
-)]
+#[serde(deny_unknown_fields, expecting = "the name under which the model gets its seed, or a table [noise]")]
 pub(super) struct NoiseSection {
     /// The name under which the model gets its seed, a whole number from 0 to 2^31 - 1; "seed" by default.
     pub name: Option<At<String>>,
