@@ -15,7 +15,7 @@ use driven::crossing;
 fn rungs(c: &mut Criterion) {
     let mut group = c.benchmark_group("critical_force");
     for friction in [FrictionLaw::Coulomb, FrictionLaw::HurtadoKim, FrictionLaw::LuGre] {
-        for &fidelity in Fidelity::ALL {
+        for fidelity in Fidelity::ALL {
             let options = Options { friction, fidelity, ..Options::default() };
             let scene = Scene::default();
             group.bench_function(BenchmarkId::new(friction.name(), fidelity.name()), |b| {

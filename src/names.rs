@@ -75,16 +75,14 @@ pub fn refused_name(name: &str) -> Option<String> {
     if name.chars().count() > LONGEST_NAME {
         return Some(format!("at most {LONGEST_NAME} characters"));
     }
-    name.contains(is_hidden).then(|| {
-        "a name without control characters and marks that are not seen (of line breaks and of the direction of writing)"
-            .to_owned()
-    })
+    let visible = "a name without control characters and marks that are not seen (of line breaks and of the direction of writing)";
+    name.contains(is_hidden).then(|| visible.to_owned())
 }
 
 /// The same for the name of an output, after which files are named.
 pub fn refused_output_name(name: &str) -> Option<String> {
-    let leads_away = || "a name without / \\ : (files are named after it)".to_owned();
-    refused_name(name).or_else(|| name.contains(['/', '\\', ':']).then(leads_away))
+    let leads_away = name.contains(['/', '\\', ':']);
+    refused_name(name).or(leads_away.then(|| "a name without / \\ : (files are named after it)".to_owned()))
 }
 
 /// The same for a title; an empty one is none.
@@ -96,15 +94,21 @@ pub fn refused_title(title: &str) -> Option<String> {
     hidden.then(|| "a text without control characters and marks that are not seen".to_owned())
 }
 
+/// What a unit or the name of an axis may be, in words that follow "must be".
+pub const SHORT_TEXT: &str = "a text of up to 60 characters, without control characters";
+
+/// Whether `text` keeps to [`SHORT_TEXT`].
+pub fn is_short_text(text: &str) -> bool {
+    text.chars().count() <= 60 && !text.contains(is_hidden)
+}
+
 /// A name or value as it stands in a message: the beginning of one that is long, and nothing hidden.
 pub fn shown(text: &str) -> String {
-    const MOST: usize = 60;
     let mut chars = text.chars();
-    let begin: String = chars.by_ref().take(MOST).collect();
-    if chars.next().is_some() {
-        format!("{begin:?}... ({} characters)", text.chars().count())
-    } else {
-        format!("{begin:?}")
+    let begin: String = chars.by_ref().take(60).collect();
+    match chars.next() {
+        Some(_) => format!("{begin:?}... ({} characters)", text.chars().count()),
+        None => format!("{begin:?}"),
     }
 }
 
@@ -116,7 +120,7 @@ pub fn shown(text: &str) -> String {
 pub fn file_part(name: &str) -> String {
     let safe = |c: char| if is_hidden(c) || "/\\:*?\"<>|".contains(c) { '_' } else { c };
     let mut part: String = name.chars().map(safe).collect();
-    part.truncate((0..=LONGEST_PART.min(part.len())).rev().find(|&end| part.is_char_boundary(end)).unwrap_or(0));
+    part.truncate(part.floor_char_boundary(LONGEST_PART));
     part
 }
 

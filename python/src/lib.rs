@@ -1,6 +1,7 @@
 //! The engine for Python: what `apportion` in `python/apportion` is made of. Arrays go in and out here, and nothing else is
 //! decided: names, defaults and ways to call a function are those of the package.
 
+mod distributions;
 mod document;
 mod errors;
 mod function;
@@ -18,6 +19,7 @@ fn _engine(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<study::Study>()?;
     module.add_class::<document::Document>()?;
     module.add_class::<function::Stop>()?;
+    module.add_function(wrap_pyfunction!(distributions::distributions, module)?)?;
     module.add_function(wrap_pyfunction!(points::given_data, module)?)?;
     module.add_function(wrap_pyfunction!(points::salib_indices, module)?)?;
     module.add_function(wrap_pyfunction!(document::read_result, module)?)?;

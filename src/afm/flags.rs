@@ -1,6 +1,6 @@
 //! Validity flags: a result exists, but an assumption behind it is strained.
 
-use super::named::named;
+use crate::names::named;
 
 named! {
     /// One strained assumption.

@@ -342,7 +342,7 @@ mod tests {
     /// Every law has a history; without friction the particle slips at once.
     #[test]
     fn every_law_has_a_history() {
-        for &friction in FrictionLaw::ALL {
+        for friction in FrictionLaw::ALL {
             let options = Options { friction, ..Options::default() };
             let history = history(&Scene::default(), &options, 0.4).unwrap();
             assert!(history.samples.len() > 6 && !history.samples[history.samples.len() - 1].sticking);
@@ -355,7 +355,7 @@ mod tests {
     /// The same as the samples of a history, where these are.
     #[test]
     fn times_are_those_of_the_history() {
-        for &friction in FrictionLaw::ALL {
+        for friction in FrictionLaw::ALL {
             let options = Options { friction, ..Options::default() };
             let samples = history(&Scene::default(), &options, 0.4).unwrap().samples;
             let slip = samples.iter().position(|sample| !sample.sticking).unwrap();

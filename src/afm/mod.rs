@@ -27,7 +27,6 @@
 //! disagree, the docstring says which reading was taken.
 
 mod cube_root;
-mod named;
 mod root;
 
 #[doc(hidden)]

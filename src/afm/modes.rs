@@ -10,8 +10,8 @@
 use std::f64::consts::PI;
 
 use super::contact::{Contact, Pair};
-use super::named::named;
 use super::{ContactTheory, Failure, Scene};
+use crate::names::named;
 use crate::quantity::Domain;
 
 named! {

@@ -1,7 +1,7 @@
 //! The cantilever and its tip: stiffnesses and preload.
 
 use super::Scene;
-use super::named::named;
+use crate::names::named;
 
 named! {
     /// Formula for the torsional stiffness of the rectangular cantilever.

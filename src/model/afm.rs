@@ -72,12 +72,12 @@ pub(super) fn afm_choices() -> Vec<Choice> {
         all.iter().map(|&choice| name(choice)).collect()
     }
     vec![
-        ("friction", names(FrictionLaw::ALL, FrictionLaw::name)),
-        ("contact", names(ContactTheory::ALL, ContactTheory::name)),
-        ("fidelity", names(Fidelity::ALL, Fidelity::name)),
-        ("torsion", names(Torsion::ALL, Torsion::name)),
+        ("friction", names(&FrictionLaw::ALL, FrictionLaw::name)),
+        ("contact", names(&ContactTheory::ALL, ContactTheory::name)),
+        ("fidelity", names(&Fidelity::ALL, Fidelity::name)),
+        ("torsion", names(&Torsion::ALL, Torsion::name)),
         ("adhesion_in_load", vec!["false", "true"]),
-        ("lugre_parameters (lugre at quasi-static and above)", names(LuGreParameters::ALL, LuGreParameters::name)),
+        ("lugre_parameters (lugre at quasi-static and above)", names(&LuGreParameters::ALL, LuGreParameters::name)),
         ("tolerance (quasi-static and above)", vec!["a number, 1e-6"]),
         ("step (fixed-step)", vec!["a time, \"10 ms\""]),
         ("step_budget (marched rungs)", vec!["a whole number, 1000000"]),

@@ -50,7 +50,7 @@ pub struct Unit {
 }
 
 /// Factors beyond this power of ten are refused: values would leave the range of `f64`.
-const MOST_DECADES: f64 = 100.0;
+const MAX_DECADES: f64 = 100.0;
 
 impl Unit {
     /// The unit of pure numbers, `1`.
@@ -130,7 +130,7 @@ impl Unit {
             unit.offset = offset;
         }
         let decades = f64::from(unit.decade) + libm::log10(unit.times / unit.over);
-        if !(-MOST_DECADES..=MOST_DECADES).contains(&decades) {
+        if !(-MAX_DECADES..=MAX_DECADES).contains(&decades) {
             return Err(malformed("its factor to SI is beyond 10^100"));
         }
         Ok(unit)

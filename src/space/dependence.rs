@@ -1,6 +1,5 @@
 //! Dependent factors as they are stated: correlations by one of several measures, and how they become those of normal scores.
 
-mod error;
 mod nataf;
 
 use nalgebra::DMatrix;
@@ -10,9 +9,16 @@ use super::distribution::Distribution;
 use super::{Factor, Space};
 use crate::names::named;
 use crate::special::normal_quantile;
-pub use error::DependenceError;
-use error::refused;
 use nataf::of_normal_scores;
+
+/// Why factors cannot depend on each other as stated, and what would be right.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error("{0}")]
+pub struct DependenceError(String);
+
+fn refused<T>(reason: impl Into<String>) -> Result<T, DependenceError> {
+    Err(DependenceError(reason.into()))
+}
 
 named! {
 /// What a correlation is a correlation of.
@@ -181,7 +187,7 @@ pub(super) fn copula(space: &Space, dependences: &[Dependence]) -> Result<Option
         let row = |i: &usize| tied.iter().map(|j| nearest[(*i, *j)]).collect();
         let names: Vec<&String> = tied.iter().map(|&i| &factors[i].name).collect();
         let nearest: Vec<Vec<f64>> = tied.iter().map(row).collect();
-        DependenceError::Refused(format!(
+        DependenceError(format!(
             "the correlations are not positive definite, so that no factors can have them all. The nearest that can be, of normal \
              scores (measure = \"normal\"): factors = {names:?}, correlation = {nearest:?}"
         ))

@@ -28,8 +28,8 @@ pub struct Factor {
     pub determined: bool,
     unit: Unit,
     distribution: Distribution,
-    /// The distribution in SI units, so that no value has to be converted during a run.
-    si: Distribution,
+    /// The distribution in SI units, so that no value has to be converted during a run; `None` where each one is.
+    si: Option<Distribution>,
 }
 
 impl Factor {
@@ -38,7 +38,7 @@ impl Factor {
     /// # Errors
     /// [`DistributionError`] if the distribution leaves the range of doubles when converted to SI units.
     pub fn new(name: &str, unit: Unit, distribution: Distribution) -> Result<Self, DistributionError> {
-        let si = distribution.to_si(&unit)?;
+        let si = (!distribution.is_converted_by_value()).then(|| distribution.to_si(&unit)).transpose()?;
         let nominal = distribution.central();
         Ok(Self { name: name.to_owned(), nominal, group: None, determined: false, unit, distribution, si })
     }
@@ -64,7 +64,13 @@ impl Factor {
     /// # Panics
     /// If the slices have different lengths.
     pub fn fill_si(&self, u: &[f64], si: &mut [f64]) {
-        self.si.fill(u, si);
+        match &self.si {
+            Some(distribution) => distribution.fill(u, si),
+            None => {
+                self.distribution.fill(u, si);
+                si.iter_mut().for_each(|value| *value = self.unit.to_si(*value));
+            }
+        }
     }
 }
 

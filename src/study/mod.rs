@@ -35,7 +35,7 @@ use crate::surrogate::{FEWEST_NETS, fewest_points};
 use crate::uncertainty::{IntervalMethod, Layout, NoiseLayout};
 #[cfg(feature = "charts")]
 pub(crate) use options::rows;
-use options::{MOST_AUTOMATIC_VALUES, MOST_AUTOMATIC_VALUES_AFTER_TRIAL, MOST_AUTOMATIC_VALUES_OF_PROGRAMS};
+use options::{MAX_AUTOMATIC_VALUES, MAX_AUTOMATIC_VALUES_AFTER_TRIAL, MAX_AUTOMATIC_VALUES_OF_PROGRAMS};
 
 /// A checked study: a subject, the space of its factors, and the design that explores it.
 #[derive(Debug, Clone)]
@@ -226,9 +226,9 @@ impl Study {
                 let model = self.subject.model(&self.space);
                 let values = design.rows().saturating_mul(model.outputs().len() as u64);
                 if model.concurrency().is_some() {
-                    values <= MOST_AUTOMATIC_VALUES_OF_PROGRAMS
+                    values <= MAX_AUTOMATIC_VALUES_OF_PROGRAMS
                 } else {
-                    values <= MOST_AUTOMATIC_VALUES_AFTER_TRIAL
+                    values <= MAX_AUTOMATIC_VALUES_AFTER_TRIAL
                         && (self.target.accuracy.is_some() || !self.target.grows())
                 }
             }
@@ -242,7 +242,7 @@ impl Study {
             self.analysis.surrogate != SurrogateChoice::Auto || design.plain_rows() > 0 || !self.lows.is_empty();
         let model = self.subject.model(&self.space);
         let values = design.rows().saturating_mul(model.outputs().len() as u64);
-        !is_chosen && model.concurrency().is_none() && values > MOST_AUTOMATIC_VALUES
+        !is_chosen && model.concurrency().is_none() && values > MAX_AUTOMATIC_VALUES
     }
 
     /// Whether the estimates need the outputs of every run, and not their sums alone.

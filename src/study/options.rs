@@ -151,13 +151,13 @@ named! {
 }
 
 /// Rows times outputs up to which surrogates are fitted without being asked for.
-pub(super) const MOST_AUTOMATIC_VALUES: u64 = 1 << 16;
+pub(super) const MAX_AUTOMATIC_VALUES: u64 = 1 << 16;
 
 /// The same where a trial on fewer rows explains the output.
-pub(super) const MOST_AUTOMATIC_VALUES_AFTER_TRIAL: u64 = 1 << 20;
+pub(super) const MAX_AUTOMATIC_VALUES_AFTER_TRIAL: u64 = 1 << 20;
 
 /// The same for programs, whose runs take longer than any fit: all outputs must fit into memory.
-pub(super) const MOST_AUTOMATIC_VALUES_OF_PROGRAMS: u64 = 1 << 22;
+pub(super) const MAX_AUTOMATIC_VALUES_OF_PROGRAMS: u64 = 1 << 22;
 
 /// How well the indices must be known, and the limits of a run that goes on until they are. With limits alone the run is doubled
 /// as far as they allow; without any of these it has the size that its design says.

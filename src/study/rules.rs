@@ -132,13 +132,9 @@ pub(super) fn checked_options(
     options.measures.dedup();
     // The default ones are in every result.
     options.estimators.retain(|estimator| *estimator != Estimator::Default);
-    let mut seen = Vec::new();
-    options.estimators.retain(|estimator| {
-        !seen.contains(estimator) && {
-            seen.push(*estimator);
-            true
-        }
-    });
+    let all = options.estimators.clone();
+    let is_first = |(place, estimator): &(usize, &Estimator)| !all[..*place].contains(estimator);
+    options.estimators = all.iter().enumerate().filter(is_first).map(|(_, estimator)| *estimator).collect();
     Ok(options)
 }
 

@@ -71,10 +71,10 @@ fn every_friction_law_contact_theory_and_fidelity_runs_from_a_study_file() {
         let answered: u64 = effort.rungs.iter().map(|rung| rung.runs).sum();
         assert_eq!(answered, 32 * 6);
         assert!(effort.evaluations >= answered);
-        if *fidelity != Fidelity::Auto {
+        if fidelity != Fidelity::Auto {
             assert_eq!(effort.rungs[0].rung, fidelity.name());
         }
-        if *fidelity != Fidelity::FixedStep && *fidelity != Fidelity::ClosedForm {
+        if fidelity != Fidelity::FixedStep && fidelity != Fidelity::ClosedForm {
             assert!(effort.largest_error_estimate <= 1e-4, "{effort:?}");
         }
     }

@@ -2,44 +2,15 @@
 
 from __future__ import annotations
 
+import inspect
 import math
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 
+from . import _engine
 from ._engine import StudyError
-
-__all__ = [
-    "Beta",
-    "Boolean",
-    "Categorical",
-    "Constant",
-    "Discrete",
-    "Empirical",
-    "Exponential",
-    "Factor",
-    "Gamma",
-    "Gumbel",
-    "Histogram",
-    "Integer",
-    "InverseGaussian",
-    "LogNormal",
-    "LogUniform",
-    "Logistic",
-    "Mixture",
-    "Normal",
-    "Pareto",
-    "Poisson",
-    "Seed",
-    "StudentT",
-    "Triangular",
-    "TruncatedGumbel",
-    "TruncatedNormal",
-    "Uniform",
-    "Weibull",
-    "from_scipy",
-]
 
 _LEAST, _MOST = 2.0**-54, 1.0 - 2.0**-53  # nearest numbers to 0 and 1 at which a quantile function is asked
 
@@ -77,34 +48,66 @@ class Factor:
         raise StudyError(f"{value!r} is no factor: expected a distribution such as ap.Normal(0, 1), or a pair (min, max)")
 
 
-def _factor(distribution: str, keys: dict[str, Any], unit: str | None, group: str | None, nominal: Any) -> Factor:
-    return Factor({"distribution": distribution, **keys, "unit": unit, "group": group, "nominal": nominal})
-
-
 def _plain(values: Sequence[float] | np.ndarray | None) -> list | None:
     return None if values is None else np.asarray(values).tolist()
 
 
-def Uniform(min: float, max: float, *, unit: str | None = None, group: str | None = None, nominal: Any = None) -> Factor:
-    """Uniform between `min` and `max`."""
-    return _factor("uniform", {"min": min, "max": max}, unit, group, nominal)
+# Keywords that a factor of a family does not take: what has labels has no unit, and a constant does not vary.
+_WITHOUT = {"boolean": {"unit"}, "categorical": {"unit"}, "seed": {"unit", "group"}, "constant": {"group", "nominal"}}
+# What the engine's description of a family leaves out.
+_REMARKS = {
+    "gamma": "Its mean is `location + shape * scale`.",
+    "exponential": "`scale` is the standard deviation, one over the rate.",
+    "student-t": "More than 2 degrees of freedom, unless it is truncated on both sides.",
+    "pareto": "`shape` is above 2, unless it is truncated above.",
+    "inverse-gaussian": "`scale` is the lambda of textbooks, and the variance is `mean**3 / scale`.",
+    "seed": "A whole number from 0 to 2**31 - 1: the noise, which is none of the factors.",
+}
+_READ: dict[str, tuple[str, Callable[[Any], Any]]] = {
+    "number": ("float", lambda value: value),
+    "numbers": ("Sequence[float]", _plain),
+    "texts": ("Sequence[str]", list),
+}
 
 
-def LogUniform(min: float, max: float, *, unit: str | None = None, group: str | None = None, nominal: Any = None) -> Factor:
-    """Uniform in the logarithm, between `min` and `max` above 0."""
-    return _factor("log-uniform", {"min": min, "max": max}, unit, group, nominal)
+def _constructor(family: str, summary: str, parameters: Sequence[tuple[str, str, str, bool, float | None]]) -> Callable[..., Factor]:
+    """The function that makes a factor of a family of the engine; of its parameters the table has the key, the kind of value,
+    what it says, whether it may be left out, and what it is then."""
+    kinds = inspect.Parameter
+    arguments, reads = [], {}
+    for key, kind, _, is_optional, default in parameters:
+        annotation, reads[key] = _READ[kind]
+        if is_optional and default is None:
+            annotation += " | None"
+        default = default if is_optional else kinds.empty
+        arguments.append(kinds(key, kinds.POSITIONAL_OR_KEYWORD, default=default, annotation=annotation))
+    beside = {"unit": "str | None", "group": "str | None", "nominal": "Any"}
+    for key in beside.keys() - _WITHOUT.get(family, set()):
+        arguments.append(kinds(key, kinds.KEYWORD_ONLY, default=None, annotation=beside[key]))
+    order = [*reads, *beside]
+    signature = inspect.Signature(sorted(arguments, key=lambda argument: order.index(argument.name)), return_annotation="Factor")
+
+    def made(*positional: Any, **named: Any) -> Factor:
+        bound = signature.bind(*positional, **named)
+        bound.apply_defaults()
+        keys = {key: value if value is None or key not in reads else reads[key](value) for key, value in bound.arguments.items()}
+        return Factor({"distribution": family, **keys})
+
+    made.__name__ = made.__qualname__ = _name_of(family)
+    made.__signature__ = signature  # type: ignore[attr-defined]
+    described = [f"{key}: {description}" for key, _, description, _, _ in parameters]
+    made.__doc__ = "\n".join([" ".join([summary, _REMARKS.get(family, "")]).strip(), *([""] if described else []), *described])
+    return made
 
 
-def Normal(mean: float, sd: float, *, unit: str | None = None, group: str | None = None, nominal: Any = None) -> Factor:
-    """Normal with standard deviation `sd`."""
-    return _factor("normal", {"mean": mean, "sd": sd}, unit, group, nominal)
+def _name_of(family: str) -> str:
+    return "".join(word.capitalize() for word in family.split("-"))
 
 
-def TruncatedNormal(
-    mean: float, sd: float, min: float, max: float, *, unit: str | None = None, group: str | None = None, nominal: Any = None
-) -> Factor:
-    """Normal, cut off at `min` and `max`; `mean` and `sd` are those before the cut."""
-    return _factor("truncated-normal", {"mean": mean, "sd": sd, "min": min, "max": max}, unit, group, nominal)
+# Those of the engine, each by its table; some that take more than keys follow.
+_FAMILIES = {_name_of(family): _constructor(family, *rest) for family, *rest in _engine.distributions()}
+globals().update(_FAMILIES)
+__all__ = ["Factor", "from_scipy", *_FAMILIES]
 
 
 def LogNormal(
@@ -119,121 +122,7 @@ def LogNormal(
 ) -> Factor:
     """Log-normal: by mean and standard deviation of the factor itself, or by those of its natural logarithm."""
     keys = {"mean": mean, "sd": sd, "log_mean": log_mean, "log_sd": log_sd}
-    return _factor("log-normal", keys, unit, group, nominal)
-
-
-def Triangular(
-    min: float, mode: float, max: float, *, unit: str | None = None, group: str | None = None, nominal: Any = None
-) -> Factor:
-    """Triangular with its peak at `mode`."""
-    return _factor("triangular", {"min": min, "mode": mode, "max": max}, unit, group, nominal)
-
-
-def Beta(
-    alpha: float,
-    beta: float,
-    min: float = 0.0,
-    max: float = 1.0,
-    *,
-    unit: str | None = None,
-    group: str | None = None,
-    nominal: Any = None,
-) -> Factor:
-    """Beta between `min` and `max`."""
-    return _factor("beta", {"alpha": alpha, "beta": beta, "min": min, "max": max}, unit, group, nominal)
-
-
-def Weibull(
-    shape: float,
-    scale: float,
-    location: float = 0.0,
-    *,
-    unit: str | None = None,
-    group: str | None = None,
-    nominal: Any = None,
-) -> Factor:
-    """Weibull, beginning at `location`."""
-    return _factor("weibull", {"shape": shape, "scale": scale, "location": location}, unit, group, nominal)
-
-
-def Gumbel(location: float, scale: float, *, unit: str | None = None, group: str | None = None, nominal: Any = None) -> Factor:
-    """Gumbel, of largest values."""
-    return _factor("gumbel", {"location": location, "scale": scale}, unit, group, nominal)
-
-
-def TruncatedGumbel(
-    location: float,
-    scale: float,
-    min: float,
-    max: float,
-    *,
-    unit: str | None = None,
-    group: str | None = None,
-    nominal: Any = None,
-) -> Factor:
-    """Gumbel, cut off at `min` and `max`."""
-    keys = {"location": location, "scale": scale, "min": min, "max": max}
-    return _factor("truncated-gumbel", keys, unit, group, nominal)
-
-
-def Gamma(
-    shape: float,
-    scale: float,
-    location: float = 0.0,
-    *,
-    unit: str | None = None,
-    group: str | None = None,
-    nominal: Any = None,
-) -> Factor:
-    """Gamma, beginning at `location`; its mean is `location + shape * scale`."""
-    return _factor("gamma", {"shape": shape, "scale": scale, "location": location}, unit, group, nominal)
-
-
-def Exponential(
-    scale: float, location: float = 0.0, *, unit: str | None = None, group: str | None = None, nominal: Any = None
-) -> Factor:
-    """Exponential with standard deviation `scale` (one over the rate), beginning at `location`."""
-    return _factor("exponential", {"scale": scale, "location": location}, unit, group, nominal)
-
-
-def Poisson(mean: float, *, unit: str | None = None, group: str | None = None, nominal: Any = None) -> Factor:
-    """A number of events: 0, 1, 2 and so on, with this mean."""
-    return _factor("poisson", {"mean": mean}, unit, group, nominal)
-
-
-def Seed(*, nominal: Any = None) -> Factor:
-    """The seed of a stochastic model, a whole number from 0 to 2**31 - 1: the noise, which is none of the factors."""
-    return _factor("seed", {}, None, None, nominal)
-
-
-def StudentT(
-    df: float,
-    location: float = 0.0,
-    scale: float = 1.0,
-    *,
-    unit: str | None = None,
-    group: str | None = None,
-    nominal: Any = None,
-) -> Factor:
-    """Student's t with `df` degrees of freedom, more than 2 unless it is truncated on both sides."""
-    return _factor("student-t", {"df": df, "location": location, "scale": scale}, unit, group, nominal)
-
-
-def Logistic(location: float, scale: float, *, unit: str | None = None, group: str | None = None, nominal: Any = None) -> Factor:
-    """Logistic with mean `location`."""
-    return _factor("logistic", {"location": location, "scale": scale}, unit, group, nominal)
-
-
-def Pareto(shape: float, min: float, *, unit: str | None = None, group: str | None = None, nominal: Any = None) -> Factor:
-    """A power law from `min` on, with `shape` above 2 unless it is truncated above."""
-    return _factor("pareto", {"shape": shape, "min": min}, unit, group, nominal)
-
-
-def InverseGaussian(
-    mean: float, scale: float, *, unit: str | None = None, group: str | None = None, nominal: Any = None
-) -> Factor:
-    """Inverse Gaussian (Wald); `scale` is the lambda of textbooks, and the variance is `mean**3 / scale`."""
-    return _factor("inverse-gaussian", {"mean": mean, "scale": scale}, unit, group, nominal)
+    return Factor({"distribution": "log-normal", **keys, "unit": unit, "group": group, "nominal": nominal})
 
 
 def Histogram(
@@ -252,7 +141,7 @@ def Histogram(
             raise StudyError("a histogram of quantiles has no edges")
     else:
         keys = {"weights": _plain(weights), "edges": _plain(edges)}
-    return _factor("histogram", keys, unit, group, nominal)
+    return Factor({"distribution": "histogram", **keys, "unit": unit, "group": group, "nominal": nominal})
 
 
 def Mixture(
@@ -271,52 +160,7 @@ def Mixture(
             what = f"has {beside[0]}, which belongs to the mixture" if beside else "is known by its quantiles alone"
             raise StudyError(f"{factor!r} cannot be in a mixture: it {what}")
     keys = {"components": [factor.keys for factor in factors], "weights": _plain(weights)}
-    return _factor("mixture", keys, unit, group, nominal)
-
-
-def Discrete(
-    values: Sequence[float],
-    weights: Sequence[float] | None = None,
-    *,
-    unit: str | None = None,
-    group: str | None = None,
-    nominal: Any = None,
-) -> Factor:
-    """One of `values`, with `weights` (equal by default)."""
-    return _factor("discrete", {"values": _plain(values), "weights": _plain(weights)}, unit, group, nominal)
-
-
-def Integer(min: int, max: int, *, unit: str | None = None, group: str | None = None, nominal: Any = None) -> Factor:
-    """A whole number from `min` to `max`, both included."""
-    return _factor("integer", {"min": min, "max": max}, unit, group, nominal)
-
-
-def Boolean(probability: float = 0.5, *, group: str | None = None, nominal: Any = None) -> Factor:
-    """1 with `probability`, else 0."""
-    return _factor("boolean", {"probability": probability}, None, group, nominal)
-
-
-def Categorical(
-    labels: Sequence[str],
-    weights: Sequence[float] | None = None,
-    values: Sequence[float] | None = None,
-    *,
-    group: str | None = None,
-    nominal: Any = None,
-) -> Factor:
-    """One of `labels`; a function gets its number, or the one of `values`."""
-    keys = {"labels": list(labels), "weights": _plain(weights), "values": _plain(values)}
-    return _factor("categorical", keys, None, group, nominal)
-
-
-def Empirical(values: Sequence[float], *, unit: str | None = None, group: str | None = None, nominal: Any = None) -> Factor:
-    """As measured: one of `values`, each as probable as any other."""
-    return _factor("empirical", {"values": _plain(values)}, unit, group, nominal)
-
-
-def Constant(value: float, *, unit: str | None = None) -> Factor:
-    """Always `value`."""
-    return _factor("constant", {"value": value}, unit, None, None)
+    return Factor({"distribution": "mixture", **keys, "unit": unit, "group": group, "nominal": nominal})
 
 
 def from_scipy(distribution: Any, *, group: str | None = None) -> Factor:

@@ -15,8 +15,8 @@ mod tests;
 
 use std::f64::consts::PI;
 
-use super::named::named;
 use super::{Failure, Scene};
+use crate::names::named;
 
 named! {
     /// Theory of adhesive elastic contact. Without adhesion all are Hertz, to the last bit.

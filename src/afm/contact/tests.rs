@@ -28,7 +28,7 @@ fn pair() -> impl Strategy<Value = Pair> {
 }
 
 fn theory() -> impl Strategy<Value = ContactTheory> {
-    proptest::sample::select(ContactTheory::ALL)
+    proptest::sample::select(ContactTheory::ALL.to_vec())
 }
 
 /// By hand at the nominal scene: [16 * 50e-9 * 0.2^2/(9 * (60e9)^2 * (0.2e-9)^3)]^(1/3) = (10/81)^(1/3).

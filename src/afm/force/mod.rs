@@ -23,8 +23,8 @@ pub(super) use quasi_static::Statics;
 pub(super) use substrate::Substrate;
 
 use super::friction::LuGreParameters;
-use super::named::named;
 use super::{ContactTheory, Failure, Flags, FrictionLaw, Scene, Torsion};
+use crate::names::named;
 use crate::quantity::Domain;
 
 named! {

@@ -37,8 +37,8 @@ const RIGID: [FrictionLaw; 5] =
 fn closed_form_options(laws: &[FrictionLaw]) -> Vec<Options> {
     let mut all = Vec::new();
     for &friction in laws {
-        for &contact in ContactTheory::ALL {
-            for &torsion in Torsion::ALL {
+        for contact in ContactTheory::ALL {
+            for torsion in Torsion::ALL {
                 for adhesion_in_load in [false, true] {
                     all.push(Options { friction, contact, torsion, adhesion_in_load, ..Options::default() });
                 }

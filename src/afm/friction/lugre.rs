@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use crate::afm::Scene;
-use crate::afm::named::named;
+use crate::names::named;
 
 named! {
     /// Where stiffness and damping of the LuGre bristles come from.

@@ -24,8 +24,8 @@ pub use lugre::{LuGre, LuGreParameters};
 pub(super) use ramp::travel as ramp_travel;
 pub use stribeck::Stribeck;
 
-use super::named::named;
 use super::{Failure, Scene};
+use crate::names::named;
 
 named! {
     /// Law of friction between particle and substrate.

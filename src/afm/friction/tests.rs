@@ -57,7 +57,7 @@ fn sliding_by_hand(law: FrictionLaw) -> f64 {
 #[test]
 fn every_law_breaks_away_to_steady_sliding() {
     let scene = Scene { frictional_lag: 0.0, ..Scene::default() };
-    for &law in FrictionLaw::ALL {
+    for law in FrictionLaw::ALL {
         let samples = along(law, &scene, &|_| 1e-7, 1.0);
         let end = samples[samples.len() - 1];
         let rest = if law == FrictionLaw::Armstrong { 5.1e-3 } else { 0.0 };
@@ -168,7 +168,7 @@ fn armstrong_break_away_rises_with_rest() {
 fn capacity_is_the_break_away_force() {
     let scene = Scene { frictional_lag: 0.0, ..Scene::default() };
     let drive = Drive { stiffness: 1e9, form: LuGreForm::Ramp, ..Drive::of(&scene, 1.0) };
-    for &law in FrictionLaw::ALL {
+    for law in FrictionLaw::ALL {
         let held = law.capacity(&scene, PRESSED, &drive).unwrap().force;
         let by_hand = match law {
             // F = 0.75 N + 0.05 N t/(t + gamma) at t = F/(sigma V) with sigma = 624.9996 N/m, by iteration.
@@ -197,4 +197,17 @@ fn laws_that_live_on_load_hold_nothing_without_it() {
             assert_eq!(law.capacity(&scene, Pressed { load: 0.0, radius: 0.0 }, &drive).unwrap().force, 0.0, "{law:?}");
         }
     }
+}
+
+#[test]
+fn names_are_what_study_files_say() {
+    use crate::afm::{ContactTheory, Fidelity, Torsion};
+    let friction = FrictionLaw::ALL.map(FrictionLaw::name);
+    assert_eq!(friction, ["coulomb", "hk", "lugre", "dahl", "stribeck", "armstrong", "lemaitre-carlson"]);
+    let contact = ContactTheory::ALL.map(ContactTheory::name);
+    assert_eq!(contact, ["hertz", "jkr", "dmt", "maugis-dugdale", "cos", "auto"]);
+    let fidelity = Fidelity::ALL.map(Fidelity::name);
+    assert_eq!(fidelity, ["closed-form", "quasi-static", "dynamic", "fixed-step", "auto"]);
+    assert_eq!(LuGreParameters::ALL.map(LuGreParameters::name), ["frozen", "contact"]);
+    assert_eq!(Torsion::ALL.map(Torsion::name), ["thin-strip", "rectangle"]);
 }

@@ -87,7 +87,7 @@ fn rolling_limits() {
     close(at_rest.resistance, 4.0 * 1.5 * PI * 0.2 * radii * 0.5e-9, 1e-14);
     assert_eq!(at_rest.drive, 0.0);
     let dry = Pushing::new(Scene { adhesion: 0.0, ..Scene::default() });
-    for &theory in ContactTheory::ALL {
+    for theory in ContactTheory::ALL {
         let balance = Pushing { theory, ..dry }.balance(Mode::Roll, TipForce { normal: 1e-7, lateral: 1e-7 }).unwrap();
         assert_eq!(balance.resistance, 0.0);
         assert!(balance.moves());
@@ -126,7 +126,7 @@ fn what_is_not_physical_is_named() {
 
 fn pushing() -> impl Strategy<Value = Pushing> {
     let scene = (-9.0..-5.0_f64, 8.0..13.0_f64, prop_oneof![Just(0.0), 0.0..3.0_f64], 0.0..1.57_f64);
-    (scene, proptest::sample::select(ContactTheory::ALL), any::<bool>()).prop_map(
+    (scene, proptest::sample::select(ContactTheory::ALL.to_vec()), any::<bool>()).prop_map(
         |((radius, modulus, adhesion, contact_angle), theory, adhesion_in_load)| {
             let scene = Scene {
                 particle_radius: libm::pow(10.0, radius),
@@ -162,7 +162,7 @@ proptest! {
     #[test]
     fn onsets_part_rest_from_motion(pushing in pushing(), log_normal in -9.0..-5.0_f64) {
         let normal = libm::pow(10.0, log_normal);
-        for &mode in Mode::ALL {
+        for mode in Mode::ALL {
             let moves = |lateral| pushing.balance(mode, TipForce { normal, lateral }).unwrap().moves();
             match pushing.onset(mode, normal).unwrap() {
                 Onset::AtOnce => prop_assert!(moves(0.0)),

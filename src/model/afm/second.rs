@@ -173,8 +173,8 @@ mod tests {
     #[test]
     fn every_formula_can_be_read_and_is_that_of_the_closed_form() {
         let mut read = 0;
-        for &friction in FrictionLaw::ALL {
-            for &contact in ContactTheory::ALL {
+        for friction in FrictionLaw::ALL {
+            for contact in ContactTheory::ALL {
                 for adhesion_in_load in [false, true] {
                     let options = Options { friction, contact, adhesion_in_load, ..Options::default() };
                     let second = AfmSecond::new(Scene::default(), options, Vec::new(), AfmOutput::ALL.to_vec());

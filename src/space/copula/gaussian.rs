@@ -21,7 +21,7 @@ pub struct GaussianCopula {
 impl Eq for GaussianCopula {}
 
 /// The least eigenvalue of a correlation matrix: with less, a factor is almost a function of others.
-const LEAST_EIGENVALUE: f64 = 1e-9;
+const MIN_EIGENVALUE: f64 = 1e-9;
 
 /// The least eigenvalue of a matrix that is proposed: four digits can be written without losing it.
 const PROPOSED_EIGENVALUE: f64 = 1e-3;
@@ -38,7 +38,7 @@ impl GaussianCopula {
             return Ok(Self { correlation, dependent, lower: among });
         }
         let least = among.symmetric_eigenvalues().iter().copied().fold(1.0, f64::min);
-        let lower = among.cholesky().filter(|_| least >= LEAST_EIGENVALUE).map(|cholesky| cholesky.l());
+        let lower = among.cholesky().filter(|_| least >= MIN_EIGENVALUE).map(|cholesky| cholesky.l());
         match lower {
             Some(lower) => Ok(Self { correlation, dependent, lower }),
             None => Err(nearest_correlation(&correlation)),

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::{CorrelationMeasure, DependenceError};
+use super::{CorrelationMeasure, DependenceError, refused};
 use crate::space::copula::from_score;
 use crate::space::{Distribution, Factor};
 
@@ -48,8 +48,10 @@ fn pearson(stated: f64, a: &Factor, b: &Factor) -> Result<f64, DependenceError> 
     let extreme = |sign: f64| line.iter().map(|(z, w)| w * standard(x, *z) * standard(y, sign * z)).sum::<f64>();
     let (low, high) = (extreme(-1.0), extreme(1.0));
     if !(low < stated && stated < high) {
-        let [a, b] = [a, b].map(|factor| factor.name.clone());
-        return Err(DependenceError::Unattainable { a, b, found: stated, low, high });
+        return refused(format!(
+            "`{}` and `{}` cannot have a Pearson correlation of {stated}: their distributions allow {low:.4} to {high:.4}",
+            a.name, b.name
+        ));
     }
     let plane = nodes(PLANE);
     let of_x: Vec<f64> = plane.iter().map(|(z, _)| standard(x, *z)).collect();

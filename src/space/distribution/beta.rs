@@ -3,10 +3,8 @@
 //! The quantile is solved here rather than taken from statrs 0.19, whose `inv_beta_reg` stops at an absolute 1e-17
 //! (at alpha = 0.01, beta = 50 a quantile in the middle is off by 8 %) and takes up to 13 us.
 
-use super::error::{bounds, finite, positive, within};
-use super::family::{Family, Parameter};
-use super::keys::{Entry, PLAIN, keys};
-use super::{Distribution, DistributionError};
+use super::prelude::*;
+use super::solve::{halley, parabola};
 use crate::special::beta_fraction;
 
 /// Shapes beyond are refused: the continued fraction would need thousands of terms, or all values lie on a bound.
@@ -69,19 +67,17 @@ impl Distribution {
         let (m, spread) = ((finite("mean", mean)? - min) / width, positive("sd", sd)? / width);
         let c = m * (1.0 - m) / (spread * spread) - 1.0;
         if c.is_nan() || c <= 0.0 {
-            let statements = format!("mean = {mean} and sd = {sd}");
-            return Err(DistributionError::NoSuchDistribution { distribution: "beta", statements, key: "mean" });
+            return Err(no_such_distribution("beta", &format!("mean = {mean} and sd = {sd}"), "mean"));
         }
         Self::beta(c * m, c * (1.0 - m), min, max)
     }
 }
 
-impl Beta {}
-
 pub(super) const ENTRIES: &[Entry] = &[Entry {
     name: "beta",
     summary: "The beta distribution between two bounds.",
     ways: &[keys(&["alpha", "beta", "min", "max"]), keys(&["mean", "sd", "min", "max"])],
+    defaults: &[("min", 0.0), ("max", 1.0)],
     build: |given| {
         let (min, max) = (given.number("min")?, given.number("max")?);
         match given.number_if("alpha") {
@@ -94,17 +90,16 @@ pub(super) const ENTRIES: &[Entry] = &[Entry {
 
 impl Family for Beta {
     fn at(&self, u: f64, v: f64) -> f64 {
-        let value = if u <= 0.0 {
-            self.min
-        } else if u <= self.lower.mass {
-            let (x, y) = self.lower.solve(u);
-            if x < y { self.min + self.width * x } else { self.max - self.width * y }
-        } else if v > 0.0 {
-            let (y, x) = self.upper.solve(v);
-            if x < y { self.min + self.width * x } else { self.max - self.width * y }
+        if u <= 0.0 || u > self.lower.mass && v <= 0.0 {
+            return if u <= 0.0 { self.min } else { self.max };
+        }
+        let (x, y) = if u <= self.lower.mass {
+            self.lower.solve(u)
         } else {
-            self.max
+            let (y, x) = self.upper.solve(v);
+            (x, y)
         };
+        let value = if x < y { self.min + self.width * x } else { self.max - self.width * y };
         // Rounding may lead an ulp past a bound.
         value.clamp(self.min, self.max)
     }
@@ -195,29 +190,16 @@ impl Side {
 
     /// The distance d of the solution, and the steps taken.
     fn distance(&self, p: f64) -> (f64, u32) {
-        /// Residual of ln I and step of d from which one more step, of third order, leaves less than rounding.
-        const CLOSE: f64 = 1e-5;
-        /// Never reached.
-        const MOST_STEPS: u32 = 50;
         let target = libm::log(p) - self.ln_mass;
-        let mut d = self.start(target);
-        let mut steps = 0;
-        while steps < MOST_STEPS {
+        halley(self.start(target), (f64::NEG_INFINITY, 0.0), |d| {
             let (x, y) = self.point(d);
             let fraction = beta_fraction(x, self.a, self.b, f64::EPSILON);
             // ln(y_s / y)
             let growth = libm::log1p(self.x * libm::expm1(d));
-            steps += 1;
             let residual = self.a * d - (self.a + self.b) * growth + libm::log(fraction / self.fraction) - target;
             let slope = self.a / fraction;
-            let step = residual / slope;
-            let bend = 0.5 * step * (self.a * y - self.b * x - slope);
-            d = (d - step / (1.0 - bend).max(0.5)).min(0.0);
-            if residual.abs().max(step.abs()) < CLOSE {
-                break;
-            }
-        }
-        (d, steps)
+            (residual, slope, self.a * y - self.b * x - slope)
+        })
     }
 
     /// A first guess of d: the greater root of the tangent at minus infinity (which is left of the solution) and of the
@@ -225,9 +207,8 @@ impl Side {
     fn start(&self, target: f64) -> f64 {
         let slope = self.a / self.fraction;
         let curvature = slope * (slope + self.b * self.x - self.a * self.y);
-        let parabola = 2.0 * target / (slope + (slope * slope - 2.0 * curvature * target).max(0.0).sqrt());
         let tangent = (target + libm::log(self.fraction) + (self.a + self.b) * libm::log(self.y)) / self.a;
-        tangent.max(parabola).min(0.0)
+        tangent.max(parabola(slope, curvature, target)).min(0.0)
     }
 
     /// x and 1 - x at the distance d from the split.

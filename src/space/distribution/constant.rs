@@ -1,9 +1,6 @@
 //! The constant.
 
-use super::error::finite;
-use super::family::{Family, Parameter};
-use super::keys::{Entry, PLAIN, keys};
-use super::{Distribution, DistributionError};
+use super::prelude::*;
 
 /// One value with certainty.
 #[derive(Clone, Debug, PartialEq)]

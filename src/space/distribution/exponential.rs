@@ -1,9 +1,6 @@
 //! The exponential distribution.
 
-use super::error::{finite, positive};
-use super::family::{Family, Parameter};
-use super::keys::{Entry, MOMENTS, PLAIN, TWO_QUANTILES, keys, solved_keys};
-use super::{Distribution, DistributionError};
+use super::prelude::*;
 
 /// The distribution of waiting times between events that come by chance.
 #[derive(Clone, Debug, PartialEq)]
@@ -51,7 +48,8 @@ pub(super) const ENTRIES: &[Entry] = &[Entry {
         TWO_QUANTILES,
     ],
     make: |_, [location, scale, _]| Distribution::exponential(scale, location),
-    build: |given| Distribution::exponential(given.number("scale")?, given.number_or("location", 0.0)),
+    defaults: &[("location", 0.0)],
+    build: |given| Distribution::exponential(given.number("scale")?, given.number("location")?),
     ..PLAIN
 }];
 

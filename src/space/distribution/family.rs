@@ -3,9 +3,8 @@
 use serde::Serialize;
 use serde::ser::{SerializeSeq, Serializer};
 
-use super::empirical::MeasuredFile;
 use super::keys::{Entry, in_si};
-use super::{Distribution, DistributionError};
+use super::{Distribution, DistributionError, MeasuredFile};
 use crate::quantity::Unit;
 
 /// A parameter as a study file holds it.
@@ -55,33 +54,6 @@ impl From<&[f64]> for Parameter {
         Self::List(list.to_vec())
     }
 }
-
-/// The numbers of a family that is another one with words to it: those of its field `law`.
-macro_rules! numbers_of_law {
-    () => {
-        fn quantile(&self, u: f64) -> f64 {
-            self.law.quantile(u)
-        }
-
-        fn tails(&self, x: f64) -> (f64, f64) {
-            self.law.tails(x)
-        }
-
-        fn mean(&self) -> f64 {
-            self.law.mean()
-        }
-
-        fn sd(&self) -> f64 {
-            self.law.sd()
-        }
-
-        fn support(&self) -> (f64, f64) {
-            self.law.support()
-        }
-    };
-}
-
-pub(super) use numbers_of_law;
 
 /// One family; [`Distribution`] describes each of these. A family has [`quantile`](Self::quantile) or [`at`](Self::at).
 pub(super) trait Family {

@@ -2,11 +2,8 @@
 //!
 //! The quantile is solved here rather than taken from statrs 0.19, whose gamma quantiles are wrong in the lower tail.
 
-use super::error::{finite, positive, within};
-use super::family::{Family, Parameter};
-use super::keys::{Entry, MOMENTS, PLAIN, TWO_QUANTILES, keys};
-use super::solved::Shape;
-use super::{Distribution, DistributionError};
+use super::prelude::*;
+use super::solve::{halley, parabola};
 
 /// Shapes beyond are refused: the series would need thousands of terms, or all values are next to 0.
 const SHAPES: (f64, f64) = (1e-3, 1e5);
@@ -54,8 +51,6 @@ impl Distribution {
     }
 }
 
-impl Gamma {}
-
 pub(super) const ENTRIES: &[Entry] = &[Entry {
     name: "gamma",
     summary: "Sums of waiting times, and positive quantities of moderate scatter.",
@@ -66,9 +61,8 @@ pub(super) const ENTRIES: &[Entry] = &[Entry {
     ],
     shape: Shape::Between(1e5, 1e-3, 300),
     make: |_, [location, scale, shape]| Distribution::gamma(shape, scale, location),
-    build: |given| {
-        Distribution::gamma(given.number("shape")?, given.number("scale")?, given.number_or("location", 0.0))
-    },
+    defaults: &[("location", 0.0)],
+    build: |given| Distribution::gamma(given.number("shape")?, given.number("scale")?, given.number("location")?),
     ..PLAIN
 }];
 
@@ -119,12 +113,6 @@ struct Split {
     fraction: f64,
 }
 
-/// Residual of a logarithm and step of d from which one more step, of third order, leaves less than rounding.
-const CLOSE: f64 = 1e-5;
-
-/// Never reached.
-const MOST_STEPS: u32 = 60;
-
 impl Split {
     fn new(a: f64) -> Self {
         let x = a + 1.0;
@@ -165,10 +153,9 @@ impl Split {
         // The greater root of the tangent at minus infinity (which is left of the solution) and of the parabola at the
         // split.
         let slope = self.a / self.series;
-        let curvature = slope * (slope + self.x - self.a);
-        let parabola = 2.0 * target / (slope + (slope * slope - 2.0 * curvature * target).max(0.0).sqrt());
+        let parabola = parabola(slope, slope * (slope + self.x - self.a), target);
         let tangent = (target + libm::log(self.series) - self.x) / self.a;
-        self.halley(tangent.max(parabola).min(0.0), target, (f64::NEG_INFINITY, 0.0), |x| {
+        self.distance(tangent.max(parabola).min(0.0), target, (f64::NEG_INFINITY, 0.0), |x| {
             let series = series(self.a, x);
             (libm::log(series / self.series), self.a / series)
         })
@@ -178,10 +165,9 @@ impl Split {
     fn upper(&self, target: f64) -> f64 {
         // The lesser root of the parabola at the split and of an exponential of the slowest fall.
         let slope = 1.0 / self.fraction;
-        let curvature = slope * (slope + self.a - self.x);
-        let parabola = -2.0 * target / (slope + (slope * slope - 2.0 * curvature * target).max(0.0).sqrt());
+        let parabola = -parabola(slope, slope * (slope + self.a - self.x), target);
         let exponential = libm::log1p(-target / (self.x * (slope / self.x).min(1.0)));
-        self.halley(exponential.min(parabola).max(0.0), target, (0.0, f64::INFINITY), |x| {
+        self.distance(exponential.min(parabola).max(0.0), target, (0.0, f64::INFINITY), |x| {
             let fraction = continued_fraction(self.a, x);
             (libm::log(fraction / self.fraction), -1.0 / fraction)
         })
@@ -189,18 +175,12 @@ impl Split {
 
     /// d between two bounds at which the logarithm of P or Q has risen by `target`, from a first guess; `side` gives that of the series
     /// or fraction over its value at the split, and the slope.
-    fn halley(&self, mut d: f64, target: f64, (low, high): (f64, f64), side: impl Fn(f64) -> (f64, f64)) -> f64 {
-        for _ in 0..MOST_STEPS {
+    fn distance(&self, start: f64, target: f64, bounds: (f64, f64), side: impl Fn(f64) -> (f64, f64)) -> f64 {
+        let (d, _) = halley(start, bounds, |d| {
             let x = self.x * libm::exp(d);
             let (log, slope) = side(x);
-            let residual = self.a * d - self.x * libm::expm1(d) + log - target;
-            let step = residual / slope;
-            let bend = 0.5 * step * (self.a - x - slope);
-            d = (d - step / (1.0 - bend).max(0.5)).max(low).min(high);
-            if residual.abs().max(step.abs()) < CLOSE {
-                break;
-            }
-        }
+            (self.a * d - self.x * libm::expm1(d) + log - target, slope, self.a - x - slope)
+        });
         d
     }
 }

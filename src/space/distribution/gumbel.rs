@@ -2,10 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::error::{finite, positive};
-use super::family::{Family, Parameter};
-use super::keys::{Entry, MOMENTS, PLAIN, TWO_QUANTILES, keys};
-use super::{Distribution, DistributionError};
+use super::prelude::*;
 
 /// Euler's constant.
 const EULER_GAMMA: f64 = 0.577_215_664_901_532_9;

@@ -1,9 +1,6 @@
 //! The histogram: bins of constant density.
 
-use super::error::{entry, finite_entries, list, sum_of_weights};
-use super::family::{Family, Parameter};
-use super::keys::{Entry, PLAIN, keys};
-use super::{Distribution, DistributionError};
+use super::prelude::*;
 
 /// Adjoining bins with their probabilities, each of constant density: a piecewise linear distribution function.
 #[derive(Clone, Debug, PartialEq)]
@@ -46,12 +43,12 @@ impl Distribution {
         if bins == 0 || count != bins + 1 {
             let problem =
                 format!("there are {count} `edges` for {bins} `weights`, but n bins have n + 1 edges, at least 2");
-            return Err(list("edges", problem));
+            return Err(refused("edges", problem));
         }
         finite_entries("edges", edges)?;
         if let Some(index) = (1..count).find(|&k| edges[k] <= edges[k - 1]) {
             let must = format!("be above the one before it, {}", edges[index - 1]);
-            return Err(entry("edges", index, edges[index], must));
+            return Err(entry("edges", index, edges[index], &must));
         }
         let total = sum_of_weights(weights, bins, "bins")?;
         let mut before = 0.0;
@@ -85,28 +82,28 @@ impl Distribution {
     /// # Ok::<(), apportion::DistributionError>(())
     /// ```
     pub fn histogram_of_quantiles(quantiles: &[(f64, f64)]) -> Result<Self, DistributionError> {
-        let refused = |found: String| {
+        let wrong = |found: String| {
             let example = r#"{ "0" = 1, "0.5" = 2, "1" = 5 }"#;
             let must = "must have rising values for probabilities from 0 to 1, the lowest and highest value among them";
-            Err(list("quantiles", format!("`quantiles` has {found}, but {must}, as in {example}")))
+            Err(refused("quantiles", format!("`quantiles` has {found}, but {must}, as in {example}")))
         };
         let mut quantiles = quantiles.to_vec();
         quantiles.sort_by(|a, b| a.0.total_cmp(&b.0));
         if let Some((p, _)) = quantiles.iter().find(|(p, _)| !(0.0..=1.0).contains(p)) {
-            return refused(format!("the probability {p}"));
+            return wrong(format!("the probability {p}"));
         }
         for end in [0.0, 1.0] {
             if quantiles.iter().all(|(p, _)| *p != end) {
-                return refused(format!("no value for the probability {end}"));
+                return wrong(format!("no value for the probability {end}"));
             }
         }
         for pair in quantiles.windows(2) {
             let [(p, low), (q, high)] = [pair[0], pair[1]];
             if p == q {
-                return refused(format!("two values for the probability {p}"));
+                return wrong(format!("two values for the probability {p}"));
             }
             if low >= high {
-                return refused(format!("{low} for the probability {p} and {high} for {q}"));
+                return wrong(format!("{low} for the probability {p} and {high} for {q}"));
             }
         }
         let edges: Vec<f64> = quantiles.iter().map(|(_, value)| *value).collect();
@@ -121,8 +118,8 @@ impl Histogram {
         self.bins.iter().map(|bin| (bin.before, bin.before + bin.probability, [bin.min, bin.max]))
     }
 
-    /// What is left of the bins between two bounds.
-    pub(super) fn between(&self, min: f64, max: f64) -> Result<Distribution, DistributionError> {
+    /// What is left of the bins between two bounds; `None` if nothing is.
+    pub(super) fn between(&self, min: f64, max: f64) -> Result<Option<Distribution>, DistributionError> {
         let (mut edges, mut weights) = (Vec::new(), Vec::new());
         for (bin, weight) in self.edges.windows(2).zip(&self.weights) {
             let (from, to) = (bin[0].max(min), bin[1].min(max));
@@ -134,11 +131,9 @@ impl Histogram {
                 weights.push(weight * ((to - from) / (bin[1] - bin[0])));
             }
         }
-        let nothing = DistributionError::NothingLeft { distribution: "histogram", min, max };
-        if weights.iter().all(|weight| *weight == 0.0) {
-            Err(nothing)
-        } else {
-            Distribution::histogram(&edges, &weights)
+        match weights.iter().all(|weight| *weight == 0.0) {
+            true => Ok(None),
+            false => Distribution::histogram(&edges, &weights).map(Some),
         }
     }
 }

@@ -1,10 +1,6 @@
 //! The uniform distribution on whole numbers.
 
-use super::error::number;
-use super::family::{Family, Parameter};
-use super::keys::{Entry, PLAIN, keys};
-use super::{Distribution, DistributionError};
-use crate::quantity::Unit;
+use super::prelude::*;
 
 /// The largest whole number up to which every whole number is an `f64`, 2^53.
 const LARGEST: f64 = (1u64 << 53) as f64;
@@ -14,8 +10,6 @@ const LARGEST: f64 = (1u64 << 53) as f64;
 pub struct Integer {
     min: f64,
     count: f64,
-    /// What turns the whole numbers into values, one after the other; empty for the whole numbers themselves.
-    units: Vec<Unit>,
 }
 
 impl Distribution {
@@ -45,38 +39,29 @@ impl Distribution {
             number(parameter, value, is_whole, "be a whole number between -2^53 and 2^53")?;
         }
         if min > max {
-            return Err(DistributionError::Order { lower: "min", low: min, upper: "max", high: max });
+            return Err(order("min", min, "max", max));
         }
-        Self::Integer(Integer { min, count: max - min + 1.0, units: Vec::new() }).finite()
+        Self::Integer(Integer { min, count: max - min + 1.0 }).finite()
     }
 }
 
 impl Integer {
     /// Whole numbers up to so many are gone through one by one where a distribution is drawn or screened.
-    const FEW: f64 = 1024.0;
+    const MAX_LEVELS: f64 = 1024.0;
 
     /// The values in ascending order, each with a `u` at which it is the quantile; `None` if they are more than 1024.
     pub fn levels(&self) -> Option<Vec<(f64, f64)>> {
         let level = |k: u32| {
             let k = f64::from(k);
-            (self.in_unit(self.min + k), (k + 0.5) / self.count)
+            (self.min + k, (k + 0.5) / self.count)
         };
-        (self.count <= Self::FEW).then(|| (0..self.count as u32).map(level).collect())
+        (self.count <= Self::MAX_LEVELS).then(|| (0..self.count as u32).map(level).collect())
     }
 
-    /// The whole numbers whose values lie between `min` and `max`, both included.
-    pub(super) fn between(&self, min: f64, max: f64) -> Result<Distribution, DistributionError> {
-        let count_up_to = |x: f64| (self.tails(x).0 * self.count).round();
-        let (skipped, last) = (count_up_to(min.next_down()), count_up_to(max));
-        if skipped >= last {
-            return Err(DistributionError::NothingLeft { distribution: "integer", min, max });
-        }
-        let kept = Self { min: self.min + skipped, count: last - skipped, units: self.units.clone() };
-        Distribution::Integer(kept).finite()
-    }
-
-    fn in_unit(&self, whole: f64) -> f64 {
-        self.units.iter().fold(whole, |value, unit| unit.to_si(value))
+    /// Those between `min` and `max`, both included; `None` if there are none.
+    pub(super) fn between(&self, min: f64, max: f64) -> Result<Option<Distribution>, DistributionError> {
+        let (min, max) = (min.ceil(), max.floor());
+        if min <= max { Distribution::integer(min, max).map(Some) } else { Ok(None) }
     }
 
     fn max(&self) -> f64 {
@@ -95,38 +80,27 @@ pub(super) const ENTRIES: &[Entry] = &[Entry {
 impl Family for Integer {
     fn quantile(&self, u: f64) -> f64 {
         // The product may be rounded up to the count itself.
-        self.in_unit(self.min + (self.count * u).floor().clamp(0.0, self.count - 1.0))
+        self.min + (self.count * u).floor().clamp(0.0, self.count - 1.0)
     }
 
     fn tails(&self, x: f64) -> (f64, f64) {
-        // The number of values up to x, by bisection, since what the units make of them cannot be undone.
-        let (mut below, mut above) = (0.0, self.count);
-        while below < above {
-            let middle = ((below + above) / 2.0).floor();
-            if self.in_unit(self.min + middle) <= x { below = middle + 1.0 } else { above = middle }
-        }
+        let below = (x.floor() - self.min + 1.0).clamp(0.0, self.count);
         (below / self.count, (self.count - below) / self.count)
     }
 
     fn mean(&self) -> f64 {
-        self.in_unit(self.min + (self.count - 1.0) / 2.0)
+        self.min + (self.count - 1.0) / 2.0
     }
 
     fn sd(&self) -> f64 {
-        let whole = ((self.count - 1.0) * (self.count + 1.0) / 12.0).sqrt();
-        self.units.iter().fold(whole, |span, unit| unit.span_to_si(span))
+        ((self.count - 1.0) * (self.count + 1.0) / 12.0).sqrt()
     }
 
     fn support(&self) -> (f64, f64) {
-        (self.in_unit(self.min), self.in_unit(self.max()))
+        (self.min, self.max())
     }
 
     fn parameters(&self) -> Vec<(&'static str, Parameter)> {
-        vec![("min", self.in_unit(self.min).into()), ("max", self.in_unit(self.max()).into())]
-    }
-
-    fn in_si(&self, _own: &'static Entry, unit: &Unit) -> Result<Distribution, DistributionError> {
-        let units = self.units.iter().chain([unit]).cloned().collect();
-        Distribution::Integer(Self { units, ..*self }).finite()
+        vec![("min", self.min.into()), ("max", self.max().into())]
     }
 }

@@ -4,12 +4,9 @@ use std::f64::consts::{FRAC_1_SQRT_2, PI};
 
 use libm::erfc;
 
-use super::error::{positive, within};
-use super::family::{Family, Parameter};
-use super::keys::{Entry, MOMENTS, TWO_QUANTILES, keys};
+use super::prelude::*;
 use super::quadrature::short_integral;
-use super::solved::Shape;
-use super::{Distribution, DistributionError, solve};
+use super::solve;
 use crate::special::normal_below;
 
 /// Ratios of `scale` to `mean` beyond are refused: scatter of 1e6 means, or of a millionth of one.
@@ -101,6 +98,7 @@ pub(super) const ENTRIES: &[Entry] = &[Entry {
     shape: Shape::Between(1e-5, 1e5, 300),
     make: |_, [_, mean, variation]| Distribution::inverse_gaussian(mean, mean / (variation * variation)),
     build: |given| Distribution::inverse_gaussian(given.number("mean")?, given.number("scale")?),
+    ..PLAIN
 }];
 
 impl Family for InverseGaussian {

@@ -1,7 +1,7 @@
 //! The keys by which distributions are given, and the families that take them: one table each, from which the reader of study
 //! files, the JSON schema and the messages come.
 
-use super::error::{finite, refuse_offset};
+use super::error::{finite, wrong_unit};
 use super::family::Parameter;
 use super::solved::{Shape, solved};
 use super::{Distribution, DistributionError, ENTRIES};
@@ -197,6 +197,8 @@ pub(super) struct Entry {
     pub of_ratios: bool,
     /// The parameter beside location and scale, where the parameters are solved for.
     pub shape: Shape,
+    /// The values of keys that may be left out; of keys of Python's constructors too, which study files ask for.
+    pub defaults: &'static [(&'static str, f64)],
     /// From a location, a scale and a shape, where these are solved for; other parameters are as given.
     pub make: fn(&Given<'_>, [f64; 3]) -> Result<Distribution, DistributionError>,
     /// From its parameters; it may have no finite variance before it is truncated.
@@ -210,8 +212,9 @@ pub(super) const PLAIN: Entry = Entry {
     ways: &[],
     of_ratios: false,
     shape: Shape::None,
+    defaults: &[],
     make: |given, _| (given.entry.build)(given),
-    build: |given| Err(given.refused("nothing".to_owned())),
+    build: |given| Err(given.missing("nothing".to_owned())),
 };
 
 /// Parameters by key.
@@ -235,7 +238,8 @@ impl<'a> Given<'a> {
     }
 
     pub fn number(&self, key: &str) -> Result<f64, DistributionError> {
-        self.number_if(key).ok_or_else(|| self.refused(format!("`{key}`")))
+        let default = || self.entry.defaults.iter().find(|(name, _)| *name == key).map(|(_, value)| *value);
+        self.number_if(key).or_else(default).ok_or_else(|| self.missing(format!("`{key}`")))
     }
 
     pub fn list_if(&self, key: &str) -> Option<&'a [f64]> {
@@ -243,7 +247,7 @@ impl<'a> Given<'a> {
     }
 
     pub fn list(&self, key: &str) -> Result<&'a [f64], DistributionError> {
-        self.list_if(key).ok_or_else(|| self.refused(format!("`{key}`")))
+        self.list_if(key).ok_or_else(|| self.missing(format!("`{key}`")))
     }
 
     /// The quantiles that have a key: key, probability and value, in rising order of the probabilities.
@@ -251,14 +255,32 @@ impl<'a> Given<'a> {
         KEYS.iter().filter_map(|key| Some((key.name, probability(key.name)?, self.number_if(key.name)?)))
     }
 
-    pub fn refused(&self, needed: String) -> DistributionError {
+    pub fn missing(&self, needed: String) -> DistributionError {
         DistributionError::Missing { distribution: self.entry.name, needed, takes: Kind(self.entry).takes() }
     }
+}
+
+/// An argument of the constructor of a family.
+#[derive(Debug)]
+pub struct Argument {
+    /// The key.
+    pub key: &'static Key,
+    /// Whether it may be left out.
+    pub is_optional: bool,
+    /// What it is then, where there is a number for it.
+    pub default: Option<f64>,
 }
 
 /// A family of distributions, before its parameters are chosen.
 #[derive(Clone, Copy)]
 pub struct Kind(&'static Entry);
+
+impl Default for Kind {
+    /// The default of study files.
+    fn default() -> Self {
+        Self(&ENTRIES[0][0])
+    }
+}
 
 impl Kind {
     /// All of them, the default of study files first.
@@ -279,6 +301,18 @@ impl Kind {
     /// One line for people.
     pub fn summary(self) -> &'static str {
         self.0.summary
+    }
+
+    /// The arguments of its constructor in other languages: its own parameters.
+    pub fn arguments(self) -> impl Iterator<Item = Argument> {
+        let Entry { ways, defaults, .. } = self.0;
+        let argument = |name: &str, is_optional: bool| {
+            let key = KEYS.iter().find(|key| key.name == name)?;
+            let default = defaults.iter().find(|(key, _)| *key == name).map(|(_, value)| *value);
+            Some(Argument { key, is_optional: is_optional || default.is_some(), default })
+        };
+        let needs = ways[0].needs.iter().filter_map(move |key| argument(key, false));
+        needs.chain(ways[0].may.iter().filter_map(move |key| argument(key, true)))
     }
 
     /// The keys that determine one, in words.
@@ -326,7 +360,7 @@ impl Kind {
             return Ok(way);
         }
         if let Some(missing) = fitting().next().and_then(|way| way.missing(given)) {
-            return Err(given.refused(missing));
+            return Err(given.missing(missing));
         }
         // The way that most keys belong to says which one does not.
         let fitted = |way: &&Way| keys().filter(|key| way.takes(key)).count();
@@ -334,7 +368,13 @@ impl Kind {
         let foreign = keys().find(|key| nearest.is_none_or(|way| !way.takes(key))).unwrap_or_default();
         let is_known = self.0.ways.iter().any(|way| way.takes(foreign));
         let beside = if is_known { keys().find(|key| nearest.is_some_and(|way| way.takes(key))) } else { None };
-        Err(DistributionError::Foreign { distribution: self.0.name, key: foreign, beside, takes: self.takes() })
+        let beside = beside.map_or_else(String::new, |key| format!(" beside `{key}`"));
+        let message = format!("the {} distribution has no `{foreign}`{beside}", self.0.name);
+        Err(DistributionError::Refused {
+            key: Some(foreign),
+            message,
+            help: Some(format!("it takes {}", self.takes())),
+        })
     }
 }
 
@@ -344,8 +384,8 @@ pub(super) fn in_si(
     mut parameters: Vec<(&'static str, Parameter)>,
     unit: &Unit,
 ) -> Result<Distribution, DistributionError> {
-    if entry.of_ratios {
-        refuse_offset(entry.name, unit)?;
+    if entry.of_ratios && unit.has_offset() {
+        return Err(wrong_unit(entry.name, unit, ", whose 0 is not that of SI: state it in K"));
     }
     for (name, parameter) in &mut parameters {
         let measure = KEYS.iter().find(|key| key.name == *name).map_or(Measure::Pure, |key| key.measure);

@@ -1,10 +1,6 @@
 //! The log-normal distribution.
 
-use super::error::{finite, positive};
-use super::family::{Family, Parameter};
-use super::keys::{Entry, TWO_QUANTILES, keys};
-use super::solved::Shape;
-use super::{Distribution, DistributionError};
+use super::prelude::*;
 use crate::special::{normal_below, normal_quantile};
 
 /// The logarithm is normal.
@@ -88,6 +84,7 @@ pub(super) const ENTRIES: &[Entry] = &[Entry {
         Some(log_mean) => Distribution::log_normal_of_logs(log_mean, given.number("log_sd")?),
         None => Distribution::log_normal(given.number("mean")?, given.number("sd")?),
     },
+    ..PLAIN
 }];
 
 impl Family for LogNormal {

@@ -1,10 +1,6 @@
 //! The log-uniform (reciprocal) distribution.
 
-use super::error::{bounds, positive};
-use super::family::{Family, Parameter};
-use super::keys::{Entry, MOMENTS, TWO_QUANTILES, keys};
-use super::solved::Shape;
-use super::{Distribution, DistributionError};
+use super::prelude::*;
 
 /// The logarithm is uniform between the logarithms of two positive bounds.
 #[derive(Clone, Debug, PartialEq)]
@@ -59,6 +55,7 @@ pub(super) const ENTRIES: &[Entry] = &[Entry {
     shape: Shape::Between(1e-9, 700.0, 500),
     make: |_, [_, min, log]| Distribution::log_uniform(min, min * libm::exp(log)),
     build: |given| Distribution::log_uniform(given.number("min")?, given.number("max")?),
+    ..PLAIN
 }];
 
 impl Family for LogUniform {

@@ -2,10 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::error::{finite, positive};
-use super::family::{Family, Parameter};
-use super::keys::{Entry, MOMENTS, PLAIN, TWO_QUANTILES, keys};
-use super::{Distribution, DistributionError};
+use super::prelude::*;
 
 /// Symmetric like a normal distribution, with longer tails.
 #[derive(Clone, Debug, PartialEq)]

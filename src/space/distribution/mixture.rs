@@ -1,9 +1,7 @@
 //! Mixtures of distributions.
 
-use super::error::{list, no_order, sum_of_weights};
-use super::family::{Family, Parameter};
-use super::keys::{Entry, PLAIN, keys};
-use super::{Distribution, DistributionError, solve};
+use super::prelude::*;
+use super::solve;
 
 /// A value of one distribution or another, by chance.
 #[derive(Clone, Debug, PartialEq)]
@@ -43,7 +41,7 @@ impl Distribution {
     /// ```
     pub fn mixture(components: &[Self], weights: Option<&[f64]>) -> Result<Self, DistributionError> {
         if components.is_empty() {
-            return Err(list("components", "`components` is empty, but must hold at least one distribution"));
+            return Err(refused("components", "`components` is empty, but must hold at least one distribution"));
         }
         let weights = weights.map_or_else(|| vec![1.0; components.len()], <[f64]>::to_vec);
         let total = sum_of_weights(&weights, components.len(), "components")?;
@@ -61,8 +59,8 @@ impl Mixture {
         self.components.iter().zip(self.shares.iter().copied()).filter(|(_, share)| *share > 0.0)
     }
 
-    /// The mixture of what is left of each component between two bounds.
-    pub(super) fn between(&self, min: f64, max: f64) -> Result<Distribution, DistributionError> {
+    /// The mixture of what is left of each component between two bounds; `None` if nothing is.
+    pub(super) fn between(&self, min: f64, max: f64) -> Result<Option<Distribution>, DistributionError> {
         let (mut components, mut weights) = (Vec::new(), Vec::new());
         for (component, share) in self.components() {
             let mass = component.share_between(min, max);
@@ -76,13 +74,13 @@ impl Mixture {
             }
         }
         match components.is_empty() {
-            true => Err(DistributionError::NothingLeft { distribution: "mixture", min, max }),
-            false => Distribution::mixture(&components, Some(&weights)),
+            true => Ok(None),
+            false => Distribution::mixture(&components, Some(&weights)).map(Some),
         }
     }
 
-    fn expectation(&self, of: impl Fn(&Distribution) -> f64) -> f64 {
-        self.components().map(|(component, share)| share * of(component)).sum()
+    fn expectation(&self, statistic: impl Fn(&Distribution) -> f64) -> f64 {
+        self.components().map(|(component, share)| share * statistic(component)).sum()
     }
 }
 
@@ -92,7 +90,7 @@ pub(super) const ENTRIES: &[Entry] = &[Entry {
     ways: &[keys(&["components"]).perhaps(&["weights"])],
     build: |given| match given.get("components") {
         Some(Parameter::Laws(components)) => Distribution::mixture(components, given.list_if("weights")),
-        _ => Err(given.refused("`components`".to_owned())),
+        _ => Err(given.missing("`components`".to_owned())),
     },
     ..PLAIN
 }];

@@ -5,13 +5,11 @@
 //! [[`SMALLEST_U`], [`LARGEST_U`]], the mean and the standard deviation are finite.
 //!
 //! To add a distribution: one file here with a struct, its constructor on [`Distribution`], its `Family` and its entries for
-//! study files; one line in the list of families below; one case in `tests/oracle/distributions.py`.
+//! study files; one line in the list of families below; one case in `tests/oracle/distributions.py`. The reader of study files, the
+//! schema, the messages and the constructors of Python come from the entries.
 
 mod beta;
-mod categorical;
 mod constant;
-mod discrete;
-mod empirical;
 mod error;
 mod exponential;
 mod family;
@@ -36,6 +34,7 @@ mod student_t;
 mod triangular;
 mod truncated;
 mod uniform;
+mod values;
 mod weibull;
 
 use serde::ser::{Serialize, SerializeMap, Serializer};
@@ -43,22 +42,29 @@ use serde::ser::{Serialize, SerializeMap, Serializer};
 use crate::quantity::Unit;
 use family::Family;
 
-pub use empirical::MeasuredFile;
 pub use error::DistributionError;
 pub use family::Parameter;
-pub use keys::{KEYS, Key, KeyKind, Kind};
+pub use keys::{Argument, KEYS, Key, KeyKind, Kind};
 pub(crate) use seed::{mixed, seed_of};
+pub use values::{MeasuredFile, Values};
 
 /// The smallest `u` at which quantiles are promised to be finite, 2^-64.
 pub const SMALLEST_U: f64 = 1.0 / (1u128 << 64) as f64;
 /// The largest `u` below 1, 1 - 2^-53.
 pub const LARGEST_U: f64 = 1.0 - f64::EPSILON / 2.0;
 
+/// What the file of a family uses.
+mod prelude {
+    pub(super) use super::error::*;
+    pub(super) use super::family::{Family, Parameter};
+    pub(super) use super::keys::*;
+    pub(super) use super::solved::Shape;
+    pub(super) use super::{Distribution, DistributionError};
+}
+
 /// Declares a variant of [`Distribution`] for each family, and the list of their entries.
 macro_rules! families {
-    ($($module:ident::$family:ident,)+) => {
-        $(pub use $module::$family;)+
-
+    ($($variant:ident($family:ident) = $module:ident::$entries:ident,)+) => {
         /// A univariate distribution with its parameters, immutable and checked.
         ///
         /// Made by the constructors named after the families; as JSON it is a map of `name` (its
@@ -78,50 +84,50 @@ macro_rules! families {
         /// ```
         #[derive(Clone, Debug, PartialEq)]
         pub enum Distribution {
-            $(#[doc = concat!("See [`", stringify!($family), "`].")] $family($family),)+
+            $(#[doc = concat!("See `", stringify!($family), "`.")] $variant($module::$family),)+
         }
 
         /// What study files call the families, the default first.
-        static ENTRIES: &[&[keys::Entry]] = &[$($module::ENTRIES),+];
+        static ENTRIES: &[&[keys::Entry]] = &[$($module::$entries),+];
 
         impl Distribution {
             fn family(&self) -> &dyn Family {
-                match self { $(Self::$family(family) => family),+ }
+                match self { $(Self::$variant(family) => family),+ }
             }
 
             /// The first entry of its family.
             fn entry(&self) -> &'static keys::Entry {
-                match self { $(Self::$family(_) => &$module::ENTRIES[0]),+ }
+                match self { $(Self::$variant(_) => &$module::$entries[0]),+ }
             }
         }
     };
 }
 
 families! {
-    uniform::Uniform,
-    log_uniform::LogUniform,
-    normal::Normal,
-    truncated::Truncated,
-    log_normal::LogNormal,
-    triangular::Triangular,
-    beta::Beta,
-    weibull::Weibull,
-    gumbel::Gumbel,
-    gamma::Gamma,
-    exponential::Exponential,
-    poisson::Poisson,
-    student_t::StudentT,
-    logistic::Logistic,
-    pareto::Pareto,
-    inverse_gaussian::InverseGaussian,
-    histogram::Histogram,
-    mixture::Mixture,
-    discrete::Discrete,
-    integer::Integer,
-    categorical::Categorical,
-    empirical::Empirical,
-    seed::Seed,
-    constant::Constant,
+    Uniform(Uniform) = uniform::ENTRIES,
+    LogUniform(LogUniform) = log_uniform::ENTRIES,
+    Normal(Normal) = normal::ENTRIES,
+    Truncated(Truncated) = truncated::ENTRIES,
+    LogNormal(LogNormal) = log_normal::ENTRIES,
+    Triangular(Triangular) = triangular::ENTRIES,
+    Beta(Beta) = beta::ENTRIES,
+    Weibull(Weibull) = weibull::ENTRIES,
+    Gumbel(Gumbel) = gumbel::ENTRIES,
+    Gamma(Gamma) = gamma::ENTRIES,
+    Exponential(Exponential) = exponential::ENTRIES,
+    Poisson(Poisson) = poisson::ENTRIES,
+    StudentT(StudentT) = student_t::ENTRIES,
+    Logistic(Logistic) = logistic::ENTRIES,
+    Pareto(Pareto) = pareto::ENTRIES,
+    InverseGaussian(InverseGaussian) = inverse_gaussian::ENTRIES,
+    Histogram(Histogram) = histogram::ENTRIES,
+    Mixture(Mixture) = mixture::ENTRIES,
+    Discrete(Values) = values::DISCRETE,
+    Integer(Integer) = integer::ENTRIES,
+    Categorical(Values) = values::CATEGORICAL,
+    Empirical(Values) = values::EMPIRICAL,
+    Seed(Seed) = seed::ENTRIES,
+    Constant(Constant) = constant::ENTRIES,
 }
 
 impl Distribution {
@@ -171,8 +177,7 @@ impl Distribution {
     /// for the range between them.
     pub fn levels(&self) -> Option<Vec<(f64, f64)>> {
         match self {
-            Self::Discrete(discrete) => Some(discrete.levels()),
-            Self::Categorical(categorical) => Some(categorical.levels()),
+            Self::Discrete(values) | Self::Categorical(values) => Some(values.levels()),
             Self::Integer(integer) => integer.levels(),
             Self::Poisson(poisson) => poisson.levels(),
             _ => None,
@@ -182,6 +187,15 @@ impl Distribution {
     /// Whether its values are whole numbers, one by one: of an integer or a Poisson distribution, and of seeds.
     pub fn is_whole(&self) -> bool {
         matches!(self, Self::Integer(_) | Self::Poisson(_) | Self::Seed(_))
+    }
+
+    /// Whether values are converted to SI one by one, since whole numbers in another unit are none.
+    pub(super) fn is_converted_by_value(&self) -> bool {
+        match self {
+            Self::Integer(_) | Self::Poisson(_) => true,
+            Self::Mixture(mixture) => mixture.components().any(|(component, _)| component.is_converted_by_value()),
+            _ => false,
+        }
     }
 
     /// Whether its values are the seeds of a stochastic model: the factor is the noise, and no input that anybody knows.
@@ -207,13 +221,13 @@ impl Distribution {
     }
 
     /// The categories of a categorical or boolean distribution.
-    fn categories(&self) -> Option<&Categorical> {
+    fn categories(&self) -> Option<&Values> {
         if let Self::Categorical(categories) = self { Some(categories) } else { None }
     }
 
     /// The labels of a categorical or boolean distribution, as given.
     pub fn labels(&self) -> Option<&[String]> {
-        self.categories().map(Categorical::labels)
+        self.categories().map(Values::labels)
     }
 
     /// Whether one value is no more than another: of labels and seeds.
@@ -233,7 +247,7 @@ impl Distribution {
 
     /// Where a factor stands that nobody placed: the most probable category, else the median.
     pub fn central(&self) -> f64 {
-        self.categories().map_or_else(|| self.median(), Categorical::most_probable)
+        self.categories().map_or_else(|| self.median(), Values::most_probable)
     }
 
     /// The name of the family, as in study files: `log-uniform`.
@@ -246,7 +260,8 @@ impl Distribution {
         self.family().parameters()
     }
 
-    /// The distribution of the same quantity in SI, this one being in `unit`.
+    /// The distribution of the same quantity in SI, this one being in `unit`; of one whose values are not
+    /// [converted one by one](Self::is_converted_by_value).
     ///
     /// Parameters that are values are converted one by one, so that bounds and constants are the `f64` nearest to
     /// what was typed (a constant of 225 um is 225e-6); a `log_mean` is shifted by the logarithm of the factor;
@@ -255,15 +270,7 @@ impl Distribution {
     /// # Errors
     ///
     /// As the constructor, if a parameter leaves the range of `f64`.
-    ///
-    /// ```
-    /// use apportion::{Distribution, Unit};
-    ///
-    /// let length = Distribution::constant(225.0)?.to_si(&Unit::parse("um")?)?;
-    /// assert_eq!(length.quantile(0.5), 225e-6);
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
-    pub fn to_si(&self, unit: &Unit) -> Result<Self, DistributionError> {
+    pub(super) fn to_si(&self, unit: &Unit) -> Result<Self, DistributionError> {
         self.in_si(unit)?.finite()
     }
 
@@ -292,7 +299,7 @@ impl Distribution {
         let figures = [self.quantile(SMALLEST_U), self.quantile(LARGEST_U), self.mean(), self.sd()];
         match figures.iter().all(|figure| figure.is_finite()) {
             true => Ok(self),
-            false => Err(DistributionError::Overflow { distribution: self.name() }),
+            false => Err(error::overflow(self.name())),
         }
     }
 }

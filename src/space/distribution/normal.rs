@@ -1,9 +1,6 @@
 //! The normal distribution.
 
-use super::error::{finite, positive};
-use super::family::{Family, Parameter};
-use super::keys::{Entry, PLAIN, TWO_QUANTILES, keys};
-use super::{Distribution, DistributionError};
+use super::prelude::*;
 use crate::special::{normal_below, normal_quantile};
 
 /// The normal (Gaussian) distribution.

@@ -1,10 +1,6 @@
 //! The Pareto distribution.
 
-use super::error::{of_finite_variance, positive};
-use super::family::{Family, Parameter};
-use super::keys::{Entry, MOMENTS, TWO_QUANTILES, keys};
-use super::solved::Shape;
-use super::{Distribution, DistributionError};
+use super::prelude::*;
 
 /// A power law from a least value on: sizes, incomes, losses.
 #[derive(Clone, Debug, PartialEq)]
@@ -59,6 +55,7 @@ pub(super) const ENTRIES: &[Entry] = &[Entry {
     shape: Shape::Between(1e6, 2.0001, 500),
     make: |_, [_, min, shape]| Distribution::pareto(shape, min),
     build: |given| Pareto::new(given.number("shape")?, given.number("min")?).map(Distribution::Pareto),
+    ..PLAIN
 }];
 
 impl Family for Pareto {

@@ -3,24 +3,18 @@
 use std::fmt;
 use std::sync::Arc;
 
-use super::error::{finite, within};
-use super::family::{Family, Parameter};
-use super::keys::{Entry, PLAIN, keys};
-use super::{Distribution, DistributionError};
-use crate::quantity::Unit;
+use super::prelude::*;
 
 /// Means beyond are refused: the table of probabilities would grow long, and none but 0 would ever occur.
 const MEANS: (f64, f64) = (1e-300, 1e6);
 
 /// Numbers of events that come by chance.
-#[derive(Clone, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Poisson {
     mean: f64,
     /// The least and the largest number of events left by a truncation.
     bounds: (f64, f64),
     table: Arc<Table>,
-    /// What turns the whole numbers into values, one after the other; empty for the whole numbers themselves.
-    units: Vec<Unit>,
 }
 
 /// The probabilities of all numbers that are worth one.
@@ -36,11 +30,10 @@ struct Table {
     middle: usize,
 }
 
-// The table follows from the rest.
-impl fmt::Debug for Poisson {
+// It follows from the rest.
+impl fmt::Debug for Table {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { mean, bounds, units, .. } = self;
-        formatter.debug_struct("Poisson").field("mean", mean).field("bounds", bounds).field("units", units).finish()
+        formatter.write_str("..")
     }
 }
 
@@ -70,34 +63,27 @@ impl Distribution {
     pub fn poisson(mean: f64) -> Result<Self, DistributionError> {
         within("mean", finite("mean", mean)?, MEANS)?;
         let bounds = (0.0, f64::INFINITY);
-        let Some(table) = Table::new(mean, bounds) else {
-            return Err(DistributionError::Overflow { distribution: "poisson" });
-        };
-        Self::Poisson(Poisson { mean, bounds, table: Arc::new(table), units: Vec::new() }).finite()
+        let table = Table::new(mean, bounds).ok_or_else(|| overflow("poisson"))?;
+        Self::Poisson(Poisson { mean, bounds, table: Arc::new(table) }).finite()
     }
 }
 
 impl Poisson {
     /// Levels up to so many are gone through one by one where a distribution is drawn or screened.
-    const FEW: usize = 1024;
+    const MAX_LEVELS: usize = 1024;
     /// Levels that are rarer than this together on either side do not count among them.
     const RARE: f64 = 1e-3;
 
-    /// The whole numbers between `min` and `max`, both included, with their shares.
-    pub(super) fn between(&self, min: f64, max: f64) -> Result<Distribution, DistributionError> {
-        let nothing = DistributionError::NothingLeft { distribution: "poisson", min, max };
-        // In units, the numbers are found by their values.
-        let (mut low, mut high) = self.bounds;
-        let all = (0..self.table.probabilities.len()).map(|k| self.table.first + k as f64);
-        let mut is_empty = true;
-        for k in all {
-            let value = self.in_unit(k);
-            low = if value < min { low.max(k + 1.0) } else { low };
-            high = if value > max { high.min(k - 1.0) } else { high };
-            is_empty &= !(min..=max).contains(&value);
+    /// The whole numbers between `min` and `max`, both included, with their shares; `None` if there are none.
+    pub(super) fn between(&self, min: f64, max: f64) -> Result<Option<Distribution>, DistributionError> {
+        let (low, high) = (self.bounds.0.max(min.ceil()), self.bounds.1.min(max.floor()));
+        let is_likely = low <= self.table.last() && self.table.first <= high;
+        match Table::new(self.mean, (low, high)).filter(|_| is_likely) {
+            Some(table) => Distribution::Poisson(Self { mean: self.mean, bounds: (low, high), table: Arc::new(table) })
+                .finite()
+                .map(Some),
+            None => Ok(None),
         }
-        let table = Table::new(self.mean, (low, high)).filter(|_| !is_empty).ok_or(nothing)?;
-        Distribution::Poisson(Self { bounds: (low, high), table: Arc::new(table), ..self.clone() }).finite()
     }
 
     /// The numbers that occur, but for the rare ones, each with a `u` at which it is the quantile; `None` if they are
@@ -112,20 +98,20 @@ impl Poisson {
         let (first, last) = (table.place(rare, 1.0 - rare), table.place(1.0 - rare, rare));
         let level = |place: usize| {
             let low = if place == 0 { 0.0 } else { table.below[place - 1] };
-            (self.in_unit(table.first + place as f64), low + (table.below[place] - low) / 2.0)
+            (table.first + place as f64, low + (table.below[place] - low) / 2.0)
         };
-        (last - first < Self::FEW).then(|| (first..=last).map(level).collect())
+        (last - first < Self::MAX_LEVELS).then(|| (first..=last).map(level).collect())
     }
 
-    fn in_unit(&self, whole: f64) -> f64 {
-        self.units.iter().fold(whole, |value, unit| unit.to_si(value))
+    fn is_whole(&self) -> bool {
+        self.bounds == (0.0, f64::INFINITY)
     }
 }
 
 impl Table {
     /// `None` if there is no number between the bounds, both included.
     fn new(mean: f64, (low, high): (f64, f64)) -> Option<Self> {
-        const LEAST: f64 = 1e-300;
+        const MIN_RATIO: f64 = 1e-300;
         if low > high {
             return None;
         }
@@ -135,7 +121,7 @@ impl Table {
         let mut k = mode;
         while k > low {
             let next = falling[falling.len() - 1] * (k / mean);
-            if next < LEAST {
+            if next < MIN_RATIO {
                 break;
             }
             falling.push(next);
@@ -146,7 +132,7 @@ impl Table {
         k = mode;
         while k < high {
             let next = probabilities[probabilities.len() - 1] * (mean / (k + 1.0));
-            if next < LEAST {
+            if next < MIN_RATIO {
                 break;
             }
             probabilities.push(next);
@@ -170,6 +156,11 @@ impl Table {
         Some(Self { first, probabilities, below, above, middle })
     }
 
+    /// The largest number in it.
+    fn last(&self) -> f64 {
+        self.first + (self.probabilities.len() - 1) as f64
+    }
+
     /// The place of the quantile at `u`, `v` being 1 - u.
     fn place(&self, u: f64, v: f64) -> usize {
         let place = if u < v {
@@ -180,8 +171,12 @@ impl Table {
         place.min(self.below.len() - 1)
     }
 
-    fn expectation(&self, of: impl Fn(f64) -> f64) -> f64 {
-        self.probabilities.iter().enumerate().map(|(k, probability)| of(self.first + k as f64) * probability).sum()
+    fn expectation(&self, function: impl Fn(f64) -> f64) -> f64 {
+        self.probabilities
+            .iter()
+            .enumerate()
+            .map(|(k, probability)| function(self.first + k as f64) * probability)
+            .sum()
     }
 }
 
@@ -196,57 +191,37 @@ pub(super) const ENTRIES: &[Entry] = &[Entry {
 impl Family for Poisson {
     fn at(&self, u: f64, v: f64) -> f64 {
         let (low, high) = self.bounds;
-        if u <= 0.0 {
-            return self.in_unit(low);
+        if u <= 0.0 || v <= 0.0 {
+            return if u <= 0.0 { low } else { high };
         }
-        if v <= 0.0 {
-            return self.in_unit(high);
-        }
-        self.in_unit(self.table.first + self.table.place(u, v) as f64)
+        self.table.first + self.table.place(u, v) as f64
     }
 
     fn tails(&self, x: f64) -> (f64, f64) {
-        let table = &self.table;
-        let (mut low, mut high) = (0, table.below.len());
-        while low < high {
-            let middle = low + (high - low) / 2;
-            if self.in_unit(table.first + middle as f64) <= x { low = middle + 1 } else { high = middle }
-        }
-        low.checked_sub(1).map_or((0.0, 1.0), |place| (table.below[place], table.above[place]))
+        let Table { first, below, above, .. } = &*self.table;
+        let count = (x.floor() - first + 1.0).clamp(0.0, below.len() as f64) as usize;
+        count.checked_sub(1).map_or((0.0, 1.0), |place| (below[place], above[place]))
     }
 
     fn mean(&self) -> f64 {
-        let whole = self.bounds == (0.0, f64::INFINITY);
-        self.in_unit(if whole { self.mean } else { self.table.expectation(|k| k) })
+        if self.is_whole() { self.mean } else { self.table.expectation(|k| k) }
     }
 
     fn sd(&self) -> f64 {
-        let span = |sd: f64| self.units.iter().fold(sd, |sd, unit| unit.span_to_si(sd));
-        if self.bounds == (0.0, f64::INFINITY) {
-            return span(self.mean.sqrt());
+        if self.is_whole() {
+            return self.mean.sqrt();
         }
-        let mean = self.table.expectation(|k| k);
-        span(self.table.expectation(|k| (k - mean) * (k - mean)).sqrt())
+        let mean = self.mean();
+        self.table.expectation(|k| (k - mean) * (k - mean)).sqrt()
     }
 
     fn support(&self) -> (f64, f64) {
-        (
-            self.in_unit(self.bounds.0),
-            if self.bounds.1.is_finite() { self.in_unit(self.bounds.1) } else { f64::INFINITY },
-        )
+        self.bounds
     }
 
     fn parameters(&self) -> Vec<(&'static str, Parameter)> {
-        let mut parameters = vec![("mean", self.in_unit(self.mean).into())];
-        if self.bounds != (0.0, f64::INFINITY) {
-            let (min, max) = self.support();
-            parameters.push(("truncate", Parameter::Bounds(min, max)));
-        }
-        parameters
-    }
-
-    fn in_si(&self, _own: &'static Entry, unit: &Unit) -> Result<Distribution, DistributionError> {
-        let units = self.units.iter().chain([unit]).cloned().collect();
-        Distribution::Poisson(Self { units, ..self.clone() }).finite()
+        let (min, max) = self.bounds;
+        let truncate = (!self.is_whole()).then_some(("truncate", Parameter::Bounds(min, max)));
+        [("mean", self.mean.into())].into_iter().chain(truncate).collect()
     }
 }

@@ -1,8 +1,6 @@
 //! The seeds of a stochastic model.
 
-use super::family::{Family, Parameter};
-use super::keys::{Entry, PLAIN, keys};
-use super::{Distribution, DistributionError};
+use super::prelude::*;
 use crate::quantity::Unit;
 
 /// The largest seed, 2^31 - 1: the largest whole number that the generators of C, R, Fortran and NumPy all take.
@@ -83,7 +81,7 @@ impl Family for Seed {
     fn in_si(&self, _own: &'static Entry, unit: &Unit) -> Result<Distribution, DistributionError> {
         if [0.0, 1.0].iter().any(|&x| unit.to_si(x) != x) {
             let right = ": a seed is a pure number, so leave the unit out";
-            return Err(DistributionError::Unit { distribution: "seed", unit: unit.to_string(), right });
+            return Err(wrong_unit("seed", unit, right));
         }
         Ok(Distribution::Seed(Self))
     }
@@ -110,6 +108,6 @@ mod tests {
         assert_eq!(seed.tails(high), (1.0, 0.0));
         assert_eq!(seed.tails(2f64.powi(30) - 1.0), (0.5, 0.5));
         let lengths = Unit::parse("um").map(|unit| seed.to_si(&unit));
-        assert!(matches!(lengths, Ok(Err(DistributionError::Unit { .. }))));
+        assert!(matches!(lengths, Ok(Err(DistributionError::Refused { .. }))));
     }
 }

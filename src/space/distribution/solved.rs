@@ -4,7 +4,7 @@
 //! and scale: a location + b scale = value. Two statements give both; a third one gives the shape, at which the determinant of the
 //! three lines vanishes.
 
-use super::error::{finite, positive};
+use super::error::{finite, no_such_distribution, order, positive};
 use super::family::Parameter;
 use super::keys::Given;
 use super::{Distribution, DistributionError};
@@ -44,8 +44,7 @@ pub(super) fn solved(given: &Given<'_>, begins: bool) -> Result<Distribution, Di
     found.ok_or_else(|| {
         let words: Vec<String> = given.values.iter().filter_map(in_words).collect();
         let key = given.values.first().map_or("", |(key, _)| *key);
-        let statements = words.join(" and ");
-        DistributionError::NoSuchDistribution { distribution: given.entry.name, statements, key }
+        no_such_distribution(given.entry.name, &words.join(" and "), key)
     })
 }
 
@@ -104,7 +103,7 @@ fn check(given: &Given<'_>) -> Result<(), DistributionError> {
     }
     let quantiles: Vec<_> = given.quantiles().collect();
     match quantiles[..] {
-        [(lower, _, low), (upper, _, high)] if low >= high => Err(DistributionError::Order { lower, low, upper, high }),
+        [(lower, _, low), (upper, _, high)] if low >= high => Err(order(lower, low, upper, high)),
         _ => Ok(()),
     }
 }

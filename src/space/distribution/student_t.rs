@@ -1,17 +1,13 @@
 //! Student's t distribution.
 
 use super::beta::{Side, tails_of_sides};
-use super::error::{finite, of_finite_variance, positive, within};
-use super::family::{Family, Parameter};
-use super::keys::{Entry, PLAIN, keys, solved_keys, two_quantiles_and};
-use super::solved::Shape;
-use super::{Distribution, DistributionError};
+use super::prelude::*;
 
 /// Degrees of freedom beyond are refused: fewer mean nothing, with more it is a normal distribution.
 const DEGREES: (f64, f64) = (0.01, 2e5);
 
 /// What one-sided tails of fewer degrees of freedom leave beyond the smallest probabilities shows in the moments.
-const LEAST_OF_ONE_TAIL: f64 = 2.1;
+const MIN_DF_OF_ONE_TAIL: f64 = 2.1;
 
 /// Symmetric, with tails that fall by a power: means of few measurements.
 #[derive(Clone, Debug, PartialEq)]
@@ -66,7 +62,7 @@ impl StudentT {
 
     /// The same of what a truncation leaves between the bounds.
     pub(super) fn refuse_one_long_tail(&self, (min, max): (f64, f64)) -> Result<(), DistributionError> {
-        let least = if min.is_finite() && max.is_finite() { 0.0 } else { LEAST_OF_ONE_TAIL };
+        let least = if min.is_finite() && max.is_finite() { 0.0 } else { MIN_DF_OF_ONE_TAIL };
         of_finite_variance("df", self.df, least)
     }
 
@@ -99,6 +95,7 @@ pub(super) const ENTRIES: &[Entry] = &[Entry {
     ways: &[keys(&["df", "location", "scale"]), solved_keys(&["df", "mean", "sd"]), two_quantiles_and(&["df"])],
     shape: Shape::Given("df"),
     make: |_, [location, scale, df]| Distribution::student_t(df, location, scale),
+    defaults: &[("location", 0.0), ("scale", 1.0)],
     build: |given| {
         let (df, location) = (given.number("df")?, given.number("location")?);
         StudentT::new(df, location, given.number("scale")?).map(Distribution::StudentT)

@@ -1,10 +1,6 @@
 //! The triangular distribution.
 
-use super::error::{bounds, number};
-use super::family::{Family, Parameter};
-use super::keys::{Entry, PLAIN, keys, two_quantiles_and};
-use super::solved::Shape;
-use super::{Distribution, DistributionError};
+use super::prelude::*;
 
 /// The density rises linearly from `min` to `mode` and falls linearly to `max`.
 #[derive(Clone, Debug, PartialEq)]

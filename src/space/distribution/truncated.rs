@@ -4,18 +4,15 @@ use std::f64::consts::FRAC_1_SQRT_2;
 
 use libm::erf;
 
-use super::error::{bounds, list, no_order};
-use super::family::{Family, Parameter};
 use super::gumbel::Gumbel;
-use super::keys::{Entry, PLAIN, bounds_to_si, keys};
 use super::normal::Normal;
+use super::prelude::*;
 use super::quadrature::{integral, moments};
-use super::{Distribution, DistributionError};
 use crate::quantity::Unit;
 use crate::special::{normal_below, normal_quantile, normal_quantile_beside_median};
 
 /// Below this probability between the bounds, probabilities of single values would leave the range of `f64`.
-const LEAST_MASS: f64 = 1e-280;
+const MIN_MASS: f64 = 1e-280;
 
 /// A distribution on the condition that it lies between two bounds.
 #[derive(Clone, Debug, PartialEq)]
@@ -78,7 +75,7 @@ impl Distribution {
         let distribution = self.name();
         if min.is_nan() || max.is_nan() || min > max {
             let must = "must be two numbers, the lower one first; inf and -inf cut nothing off";
-            return Err(list("truncate", format!("`truncate` is [{min}, {max}], but {must}")));
+            return Err(refused("truncate", format!("`truncate` is [{min}, {max}], but {must}")));
         }
         if self.has_no_order() {
             return Err(no_order(distribution, "truncate", "truncated"));
@@ -88,29 +85,29 @@ impl Distribution {
             return self.clone().finite();
         }
         let nothing = DistributionError::NothingLeft { distribution, min, max };
-        let is_single = matches!(self, Self::Discrete(_) | Self::Integer(_) | Self::Poisson(_) | Self::Empirical(_));
+        let is_single = matches!(self, Self::Discrete(_) | Self::Empirical(_) | Self::Integer(_) | Self::Poisson(_));
         let (min, max) = (min.max(low), max.min(high));
         if min > max || min == max && !is_single && !matches!(self, Self::Mixture(_)) {
             return Err(nothing);
         }
-        match self {
-            Self::Uniform(_) => Self::uniform(min, max),
-            Self::LogUniform(_) => Self::log_uniform(min, max),
-            Self::Discrete(discrete) => discrete.between(min, max),
-            Self::Empirical(empirical) => empirical.between(min, max),
-            Self::Integer(integer) => integer.between(min, max),
-            Self::Poisson(poisson) => poisson.between(min, max),
-            Self::Histogram(histogram) => histogram.between(min, max),
-            Self::Mixture(mixture) => mixture.between(min, max),
-            Self::Pareto(pareto) if max == f64::INFINITY => pareto.beginning_at(min),
-            Self::Truncated(truncated) => truncated.law.truncated(min, max),
+        let left = match self {
+            Self::Uniform(_) => return Self::uniform(min, max),
+            Self::LogUniform(_) => return Self::log_uniform(min, max),
+            Self::Truncated(truncated) => return truncated.law.truncated(min, max),
+            Self::Pareto(pareto) if max == f64::INFINITY => return pareto.beginning_at(min),
+            Self::Discrete(values) | Self::Empirical(values) => values.between(min, max)?,
+            Self::Integer(integer) => integer.between(min, max)?,
+            Self::Poisson(poisson) => poisson.between(min, max)?,
+            Self::Histogram(histogram) => histogram.between(min, max)?,
+            Self::Mixture(mixture) => mixture.between(min, max)?,
             law => {
                 if let Self::StudentT(student) = law {
                     student.refuse_one_long_tail((min, max))?;
                 }
-                Self::Truncated(Truncated::new(law, (min, max)).ok_or(nothing)?).finite()
+                Truncated::new(law, (min, max)).map(|truncated| Self::Truncated(truncated).finite()).transpose()?
             }
-        }
+        };
+        left.ok_or(nothing)
     }
 
     /// Normal with mean `mean` and standard deviation `sd` *before* it is [`truncated`](Self::truncated) to [`min`, `max`].
@@ -196,7 +193,7 @@ impl Truncated {
     fn new(law: &Distribution, (min, max): (f64, f64)) -> Option<Self> {
         let mass = share(law, min, max);
         // NaN where the bounds are one number as seen from the distribution.
-        if mass.is_nan() || mass < LEAST_MASS {
+        if mass.is_nan() || mass < MIN_MASS {
             return None;
         }
         let quantiles = match law {

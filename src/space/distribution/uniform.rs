@@ -1,9 +1,6 @@
 //! The uniform distribution.
 
-use super::error::bounds;
-use super::family::{Family, Parameter};
-use super::keys::{Entry, MOMENTS, PLAIN, TWO_QUANTILES, keys};
-use super::{Distribution, DistributionError};
+use super::prelude::*;
 
 /// Every value between two bounds is equally likely.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,10 +1,6 @@
 //! The Weibull distribution.
 
-use super::error::{finite, positive};
-use super::family::{Family, Parameter};
-use super::keys::{Entry, MOMENTS, PLAIN, TWO_QUANTILES, keys};
-use super::solved::Shape;
-use super::{Distribution, DistributionError};
+use super::prelude::*;
 
 /// The distribution of strengths and lifetimes.
 #[derive(Clone, Debug, PartialEq)]
@@ -55,9 +51,8 @@ pub(super) const ENTRIES: &[Entry] = &[Entry {
     ],
     shape: Shape::Between(1e4, 0.015, 500),
     make: |_, [location, scale, shape]| Distribution::weibull(shape, scale, location),
-    build: |given| {
-        Distribution::weibull(given.number("shape")?, given.number("scale")?, given.number_or("location", 0.0))
-    },
+    defaults: &[("location", 0.0)],
+    build: |given| Distribution::weibull(given.number("shape")?, given.number("scale")?, given.number("location")?),
     ..PLAIN
 }];
 

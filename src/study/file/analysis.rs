@@ -1,7 +1,6 @@
 //! The tables `[design]` and `[analysis]`: choices by name, whose rules are those of every study.
 
-use super::context::{Context, Fault, choice, choice_if_said, unknown_name, wrong};
-use super::error::Problem;
+use super::context::{Context, Fault, choice, choice_if_said, unknown_name};
 use super::sections::{At, NameList, StudyFile};
 use crate::design::Sampler;
 use crate::quantity::{Dimension, Quantity};
@@ -71,18 +70,16 @@ fn options(context: &Context<'_>, file: &StudyFile, sampler: Sampler, space: &Sp
 /// The place of a factor that is named.
 pub(super) fn place(context: &Context<'_>, name: &At<String>, space: &Space) -> Result<usize, Fault> {
     let known = || space.factors().iter().map(|factor| factor.name.as_str());
-    known()
-        .position(|factor| factor == name.get_ref())
-        .ok_or_else(|| context.fault(name.span(), unknown_name("factor", name.get_ref(), known())))
+    let place = known().position(|factor| factor == name.get_ref());
+    context.at(name, place.ok_or_else(|| unknown_name("factor", name.get_ref(), known())))
 }
 
 /// A time above 0, in seconds.
 pub(super) fn seconds(context: &Context<'_>, key: &str, typed: &At<String>) -> Result<f64, Fault> {
-    let fault = |problem: Problem| context.fault(typed.span(), problem);
-    let quantity = Quantity::parse(typed.get_ref()).map_err(|error| fault(error.into()))?;
+    let quantity = context.at(typed, Quantity::parse(typed.get_ref()))?;
     let seconds = quantity.to_si();
     if quantity.unit.dimension() != Dimension::TIME || !(seconds > 0.0 && seconds.is_finite()) {
-        return Err(fault(wrong(key, "a time above 0, as in \"30 s\"", format!("\"{}\"", typed.get_ref()))));
+        return context.refuse(typed, key, "a time above 0, as in \"30 s\"", format!("\"{}\"", typed.get_ref()));
     }
     Ok(seconds)
 }

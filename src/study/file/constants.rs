@@ -4,13 +4,14 @@ use std::collections::BTreeMap;
 
 use toml::Value;
 
-use super::context::{Context, Fault, number, unknown_key, unknown_name, wrong};
+use super::context::{Context, Fault, named, number, unknown_key, wrong};
 use super::error::Problem;
 use super::key_schemas::afm_choices;
 use super::sections::At;
 use super::units::{in_words_of_units, with_unit, wrong_unit};
-use crate::afm::{ContactTheory, Fidelity, FrictionLaw, LuGreParameters, Options, Parameter, Scene, Torsion};
+use crate::afm::{Fidelity, FrictionLaw, Options, Parameter, Scene};
 use crate::model::{AfmMoments, MOST_VALUES, edge_unit};
+use crate::names::Named;
 use crate::quantity::{Dimension, Quantity, Unit};
 
 /// Reads the table into a scene and options, starting from the defaults. `is_factor` tells the names that must not be
@@ -26,20 +27,12 @@ pub(super) fn afm(
         let fault = |problem| context.fault(value.span(), problem);
         let found = || value.get_ref().type_str().to_owned();
         match name {
-            "friction" => {
-                options.friction = choice(context, value, name, "friction law", FrictionLaw::ALL, FrictionLaw::name)?;
-            }
-            "contact" => {
-                options.contact =
-                    choice(context, value, name, "contact theory", ContactTheory::ALL, ContactTheory::name)?;
-            }
-            "fidelity" => options.fidelity = choice(context, value, name, "fidelity", Fidelity::ALL, Fidelity::name)?,
-            "torsion" => {
-                options.torsion = choice(context, value, name, "torsion formula", Torsion::ALL, Torsion::name)?
-            }
+            "friction" => options.friction = choice(value, name, "friction law").map_err(fault)?,
+            "contact" => options.contact = choice(value, name, "contact theory").map_err(fault)?,
+            "fidelity" => options.fidelity = choice(value, name, "fidelity").map_err(fault)?,
+            "torsion" => options.torsion = choice(value, name, "torsion formula").map_err(fault)?,
             "lugre_parameters" => {
-                let what = "source of LuGre parameters";
-                options.lugre = choice(context, value, name, what, LuGreParameters::ALL, LuGreParameters::name)?;
+                options.lugre = choice(value, name, "source of LuGre parameters").map_err(fault)?;
             }
             "tolerance" => options.tolerance = positive(name, "1e-6", value.get_ref()).map_err(fault)?,
             "step" => options.step = positive(name, "\"10 ms\"", value.get_ref()).map_err(fault)?,
@@ -61,20 +54,15 @@ pub(super) fn afm(
                     return Err(context.fault(key.span(), unknown_key(name, known)));
                 };
                 if is_factor(name) {
-                    return Err(context.fault(key.span(), fixed_factor(name)));
+                    let problem = format!("`{name}` is a factor of this study, so it cannot be fixed in [afm]");
+                    let help = format!("remove `{name}` here, or from the factors");
+                    return Err(context.fault(key.span(), Problem::with_help(problem, help)));
                 }
                 (parameter.set)(&mut scene, constant(parameter, value).map_err(fault)?);
             }
         }
     }
     Ok((scene, options))
-}
-
-fn fixed_factor(name: &str) -> Problem {
-    Problem::with_help(
-        format!("`{name}` is a factor of this study, so it cannot be fixed in [afm]"),
-        format!("remove `{name}` here, or from the factors"),
-    )
 }
 
 /// Seconds of a history, and moments in them, where nothing is said: those of the papers' scene in time.
@@ -126,24 +114,14 @@ pub(super) fn idle(table: &BTreeMap<At<String>, At<Value>>, options: &Options, h
     notes.chain(of_history).collect()
 }
 
-fn choice<T: Copy>(
-    context: &Context<'_>,
-    value: &At<Value>,
-    key: &str,
-    what: &'static str,
-    all: &[T],
-    name: fn(T) -> &'static str,
-) -> Result<T, Fault> {
-    let typed = value.get_ref();
-    let of_text = |text: &str| {
-        let found = all.iter().copied().find(|&choice| name(choice) == text);
-        found.ok_or_else(|| unknown_name(what, text, all.iter().map(|&choice| name(choice))))
-    };
-    let no_text = || {
-        let names: Vec<String> = all.iter().map(|&variant| format!("{:?}", name(variant))).collect();
-        Err(wrong(key, &format!("one of {}", names.join(", ")), typed.type_str().to_owned()))
-    };
-    typed.as_str().map_or_else(no_text, of_text).map_err(|problem| context.fault(value.span(), problem))
+fn choice<T: Named>(value: &At<Value>, key: &str, what: &'static str) -> Result<T, Problem> {
+    match value.get_ref() {
+        Value::String(text) => named(text, what),
+        other => {
+            let names: Vec<String> = T::CHOICES.iter().map(|(name, _)| format!("{name:?}")).collect();
+            Err(wrong(key, &format!("one of {}", names.join(", ")), other.type_str().to_owned()))
+        }
+    }
 }
 
 /// The SI value of a constant given as `"0.7 deg"`, or as a bare number where the parameter has no dimension.

@@ -23,6 +23,16 @@ impl Context<'_> {
     pub(super) fn fault(&self, span: Range<usize>, problem: Problem) -> Fault {
         Box::new(Diagnostic::new(&self.path, self.text, span, problem))
     }
+
+    /// What `found` is, or its problem at the place of `typed`.
+    pub(super) fn at<T, V, E: Into<Problem>>(&self, typed: &At<V>, found: Result<T, E>) -> Result<T, Fault> {
+        found.map_err(|problem| self.fault(typed.span(), problem.into()))
+    }
+
+    /// That `key`, which is `typed` otherwise, must be `expected`.
+    pub(super) fn refuse<T, V>(&self, typed: &At<V>, key: &str, expected: &str, found: String) -> Result<T, Fault> {
+        Err(self.fault(typed.span(), wrong(key, expected, found)))
+    }
 }
 
 pub(super) fn unknown_name<'a>(
@@ -47,9 +57,13 @@ pub(super) fn unknown_key<'a>(name: &str, known: impl Iterator<Item = &'a str> +
 
 /// The choice that a text names, which is a `what`.
 pub(super) fn choice<T: Named>(context: &Context<'_>, typed: &At<String>, what: &'static str) -> Result<T, Fault> {
-    let found = T::CHOICES.iter().find(|(name, _)| name == typed.get_ref());
-    let unknown = || unknown_name(what, typed.get_ref(), T::CHOICES.iter().map(|(name, _)| *name));
-    found.map(|(_, choice)| *choice).ok_or_else(|| context.fault(typed.span(), unknown()))
+    context.at(typed, named(typed.get_ref(), what))
+}
+
+/// The same of a text alone.
+pub(super) fn named<T: Named>(text: &str, what: &'static str) -> Result<T, Problem> {
+    let found = T::CHOICES.iter().find(|(name, _)| *name == text).map(|(_, choice)| *choice);
+    found.ok_or_else(|| unknown_name(what, text, T::CHOICES.iter().map(|(name, _)| *name)))
 }
 
 /// The choice of a key that may be left out.

@@ -15,13 +15,12 @@ fn dependence(context: &Context<'_>, section: &At<DependenceSection>, space: &Sp
     let DependenceSection { factors, correlation, measure, .. } = section.get_ref();
     let names = factor_names(context, factors, space)?;
     let measured = measured_columns(context, section.get_ref())?;
-    let text = |key: &At<String>| format!("{:?}", key.get_ref());
     let measure = match measure {
         None => CorrelationMeasure::default(),
         Some(measure) if measured.is_some() => {
             let expected =
                 "nothing beside joint measurements, whose correlations are those of the normal scores of their ranks";
-            return Err(context.fault(measure.span(), wrong("measure", expected, text(measure))));
+            return context.refuse(measure, "measure", expected, format!("{:?}", measure.get_ref()));
         }
         Some(name) => choice(context, name, "measure of correlation")?,
     };
@@ -38,12 +37,10 @@ fn dependence(context: &Context<'_>, section: &At<DependenceSection>, space: &Sp
         }
         (None, Some(columns)) => Ok(Dependence::from_measurements(&names, &columns)),
         (_, measured) => {
-            let problem = wrong(
-                "dependence",
-                "a table with `factors` and one of `correlation`, as in correlation = 0.6, `file` and `measurements`",
-                if measured.is_some() { "one with both".to_owned() } else { "one with neither".to_owned() },
-            );
-            Err(context.fault(section.span(), problem))
+            let expected =
+                "a table with `factors` and one of `correlation`, as in correlation = 0.6, `file` and `measurements`";
+            let found = if measured.is_some() { "one with both" } else { "one with neither" };
+            context.refuse(section, "dependence", expected, found.to_owned())
         }
     }
 }
@@ -59,27 +56,27 @@ fn measured_columns(context: &Context<'_>, section: &DependenceSection) -> Resul
         (None, Some(rows)) => {
             if rows.get_ref().iter().any(|row| row.len() != names.len() || row.iter().any(|x| !x.is_finite())) {
                 let expected = "lists of one finite number for each of `factors`";
-                return Err(context.fault(rows.span(), wrong("measurements", expected, "others among them".to_owned())));
+                return context.refuse(rows, "measurements", expected, "others among them".to_owned());
             }
             let column = |place: usize| rows.get_ref().iter().map(|row| row[place]).collect();
             ((0..names.len()).map(column).collect(), rows.span())
         }
         (Some(_), Some(rows)) => {
             let expected = "either `file` or `measurements`";
-            return Err(context.fault(rows.span(), wrong("measurements", expected, "both".to_owned())));
+            return context.refuse(rows, "measurements", expected, "both".to_owned());
         }
         (None, None) => return Ok(None),
     };
     let fewest = columns.iter().map(Vec::len).min().unwrap_or(0);
-    if fewest < FEWEST_MEASUREMENTS {
-        let expected = format!("at least {FEWEST_MEASUREMENTS} joint measurements");
+    if fewest < MIN_MEASUREMENTS {
+        let expected = format!("at least {MIN_MEASUREMENTS} joint measurements");
         return Err(context.fault(span, wrong("measurements", &expected, fewest.to_string())));
     }
     Ok(Some(columns))
 }
 
 /// Fewer joint measurements say nothing of a correlation.
-const FEWEST_MEASUREMENTS: usize = 4;
+const MIN_MEASUREMENTS: usize = 4;
 
 fn factor_names<'a>(context: &Context<'_>, names: &'a NameList, space: &Space) -> Result<Vec<&'a str>, Fault> {
     let name = |name: &'a At<String>| place(context, name, space).map(|_| name.get_ref().as_str());

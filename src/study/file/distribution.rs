@@ -1,9 +1,11 @@
 //! The distribution of a factor, from the keys of its `[[factor]]` table.
 
+use std::ops::Range;
+
 use super::context::{Context, Fault, unknown_name, wrong};
 use super::error::Problem;
 use super::measured;
-use super::sections::{At, FactorSection, OF_FACTORS, TypedKey, TypedValue};
+use super::sections::{At, ComponentSection, FactorSection, OF_FACTORS, TypedKey, TypedValue};
 use crate::space::distribution::{Kind, Parameter};
 use crate::space::{Distribution, DistributionError};
 
@@ -20,39 +22,55 @@ pub(super) fn is_determined(fields: &FactorSection, distribution: &Distribution)
 }
 
 /// The distribution of a factor.
-pub(super) fn of(context: &Context<'_>, section: &At<FactorSection>) -> Result<Distribution, Fault> {
+pub(super) fn of_factor(context: &Context<'_>, section: &At<FactorSection>) -> Result<Distribution, Fault> {
     let fields = section.get_ref();
+    distribution(context, fields.name.get_ref(), fields.name.span(), fields)
+}
+
+/// The distribution that `fields` say, of the factor of that name, which stand at `place`.
+fn distribution(
+    context: &Context<'_>,
+    factor: &str,
+    place: Range<usize>,
+    fields: &FactorSection,
+) -> Result<Distribution, Fault> {
     let kind = kind(context, fields)?;
-    let values = fields.keys.iter().map(|typed| Ok((typed.key.name, parameter(context, fields, kind, typed)?)));
+    let values = fields.keys.iter().map(|typed| Ok((typed.key.name, parameter(context, factor, fields, kind, typed)?)));
     let values = values.collect::<Result<Vec<_>, Fault>>()?;
     kind.make(&values).map_err(|source| {
         let first = || fields.keys.first().map(|typed| typed.span.clone());
-        let place = match source {
+        let of_key = match source {
             DistributionError::Missing { .. } => None,
             _ => source.key().and_then(|key| fields.place(key)).or_else(first),
         };
-        let problem = refused(fields.name.get_ref(), &source);
-        context.fault(place.unwrap_or_else(|| fields.name.span()), problem)
+        context.fault(of_key.unwrap_or(place), refused(factor, &source))
     })
 }
 
-/// The family, by default uniform.
 /// The distribution of that factor cannot be.
 pub(super) fn refused(factor: &str, error: &DistributionError) -> Problem {
     Problem::Refused { message: format!("factor `{factor}`: {error}"), help: error.help() }
 }
 
+/// The family, by default the first.
 fn kind(context: &Context<'_>, fields: &FactorSection) -> Result<Kind, Fault> {
-    let names = Kind::all().map(Kind::name);
-    let Some(typed) = &fields.distribution else {
-        return Kind::all().next().ok_or_else(|| context.fault(fields.name.span(), Problem::no_factors()));
-    };
-    let unknown = || context.fault(typed.span(), unknown_name("distribution", typed.get_ref(), names));
-    Kind::from_name(typed.get_ref()).ok_or_else(unknown)
+    match &fields.distribution {
+        None => Ok(Kind::default()),
+        Some(typed) => {
+            let unknown = || unknown_name("distribution", typed.get_ref(), Kind::all().map(Kind::name));
+            context.at(typed, Kind::from_name(typed.get_ref()).ok_or_else(unknown))
+        }
+    }
 }
 
 /// What a key says.
-fn parameter(context: &Context<'_>, fields: &FactorSection, kind: Kind, typed: &TypedKey) -> Result<Parameter, Fault> {
+fn parameter(
+    context: &Context<'_>,
+    factor: &str,
+    fields: &FactorSection,
+    kind: Kind,
+    typed: &TypedKey,
+) -> Result<Parameter, Fault> {
     Ok(match &typed.value {
         TypedValue::Parameter(parameter) => parameter.clone(),
         TypedValue::Text(file) if typed.key.name == "file" && kind.name() == "empirical" => {
@@ -83,17 +101,16 @@ fn parameter(context: &Context<'_>, fields: &FactorSection, kind: Kind, typed: &
             Parameter::Quantiles(table.iter().map(pair).collect::<Result<_, Fault>>()?)
         }
         TypedValue::Components(components) => {
-            let component = |section| component(context, section);
+            let component = |section| component(context, factor, section);
             Parameter::Laws(components.iter().map(component).collect::<Result<_, Fault>>()?)
         }
     })
 }
 
 /// One distribution of a mixture, whose unit is that of the factor.
-fn component(context: &Context<'_>, section: &At<FactorSection>) -> Result<Distribution, Fault> {
-    let fields = section.get_ref();
-    // A name that is not written stands where the component does.
-    let own_name = Some(fields.name.span()).filter(|span| *span != section.span());
+fn component(context: &Context<'_>, factor: &str, section: &At<ComponentSection>) -> Result<Distribution, Fault> {
+    let ComponentSection(fields) = section.get_ref();
+    let own_name = Some(fields.name.span()).filter(|span| !span.is_empty());
     let [unit, group] = [&fields.unit, &fields.group].map(|key| key.as_ref().map(At::span));
     let spans = [own_name, unit, group, fields.nominal.as_ref().map(At::span)];
     match OF_FACTORS.into_iter().zip(spans).find_map(|(key, span)| Some((key, span?))) {
@@ -101,6 +118,6 @@ fn component(context: &Context<'_>, section: &At<FactorSection>) -> Result<Distr
             let right = "it belongs to the whole factor, beside `components`";
             Err(context.fault(span, Problem::misplaced(key, right)))
         }
-        None => of(context, section),
+        None => distribution(context, factor, section.span(), fields),
     }
 }

@@ -5,7 +5,7 @@ use std::ops::Range;
 use toml::Value;
 
 use super::at::{At, Choices, ListOrTable, in_order};
-use super::context::{Context, Fault, number, wrong};
+use super::context::{Context, Fault, number};
 use super::error::Problem;
 use super::outputs::OutputTable;
 use super::sections::{ExpressionSection, FactorSection, Outputs};
@@ -32,7 +32,7 @@ fn refuse_name(context: &Context<'_>, what: &'static str, name: &At<String>) -> 
         _ => return Ok(()),
     };
     let (key, found) = (format!("name of a {what}"), format!("{:?}", name.get_ref()));
-    Err(context.fault(name.span(), wrong(&key, reason, found)))
+    context.refuse(name, &key, reason, found)
 }
 
 /// The formulas with their constants, and notes on what stands in none of them.
@@ -67,17 +67,15 @@ fn constants(context: &Context<'_>, table: &Choices, space: &Space) -> Result<Ve
             return Err(context.fault(name.span(), problem));
         }
         let quantity = match value.get_ref() {
-            Value::String(text) => {
-                Some(Quantity::parse(text).map_err(|error| context.fault(value.span(), error.into()))?)
-            }
+            Value::String(text) => Some(context.at(value, Quantity::parse(text))?),
             other => number(other).map(|value| Quantity { value, unit: Unit::dimensionless() }),
         };
-        let quantity = quantity.filter(|quantity| quantity.to_si().is_finite()).ok_or_else(|| {
-            let key = name.get_ref();
+        let key = name.get_ref();
+        let Some(quantity) = quantity.filter(|quantity| quantity.to_si().is_finite()) else {
             let expected = format!("a finite number or a quantity, as in {key} = 7 or {key} = \"169 GPa\"");
-            context.fault(value.span(), wrong(key, &expected, value.get_ref().to_string()))
-        })?;
-        constants.push(ExpressionConstant { name: name.get_ref().clone(), quantity });
+            return context.refuse(value, key, &expected, value.get_ref().to_string());
+        };
+        constants.push(ExpressionConstant { name: key.clone(), quantity });
     }
     Ok(constants)
 }
@@ -89,23 +87,22 @@ fn formula(
     space: &Space,
     constants: &[ExpressionConstant],
 ) -> Result<Formula, Fault> {
-    let wrong = |found: String| {
+    let refused = |found: &str| {
         let expected = "a formula, or { formula = \"...\", unit = \"...\" }";
-        context.fault(value.span(), wrong(name.get_ref(), expected, found))
+        context.refuse(value, name.get_ref(), expected, found.to_owned())
     };
     let table = match value.get_ref() {
         Value::String(text) => OutputTable { formula: Some(text.clone()), ..OutputTable::default() },
         Value::Table(typed) => OutputTable::read(context, value, typed)?,
-        other => return Err(wrong(other.type_str().to_owned())),
+        other => return refused(other.type_str()),
     };
     let OutputTable { formula: Some(text), unit, .. } = &table else {
-        return Err(wrong("a table without a formula".to_owned()));
+        return refused("a table without a formula");
     };
     if table != (OutputTable { formula: Some(text.clone()), unit: unit.clone(), ..OutputTable::default() }) {
-        return Err(wrong("a table with other keys, which are those of programs".to_owned()));
+        return refused("a table with other keys, which are those of programs");
     }
-    let unit =
-        Unit::parse(unit.as_deref().unwrap_or("1")).map_err(|error| context.fault(value.span(), error.into()))?;
+    let unit = context.at(value, Unit::parse(unit.as_deref().unwrap_or("1")))?;
     let symbol = |name: &str| {
         let factor = space.factors().iter().position(|factor| factor.name == name).map(Symbol::Input);
         let constant = || constants.iter().find(|constant| constant.name == name);

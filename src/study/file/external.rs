@@ -13,9 +13,7 @@ pub(super) fn inputs(context: &Context<'_>, factors: &[At<FactorSection>]) -> Re
         let name = &section.get_ref().name;
         if name.get_ref().trim() != name.get_ref() || name.get_ref().is_empty() {
             let expected = "a text without spaces around it (it is the header of a column)";
-            return Err(
-                context.fault(name.span(), wrong("name of a factor", expected, format!("{:?}", name.get_ref())))
-            );
+            return context.refuse(name, "name of a factor", expected, format!("{:?}", name.get_ref()));
         }
     }
     own_inputs(context, factors)

@@ -35,8 +35,7 @@ pub(super) fn lows(
             toml::Value::Table(table) => described(context, table, resolve),
             other => Err(wrong("low", "the name of a cheaper model, or a table", other.to_string())),
         };
-        let low = low.map_err(|problem| context.fault(entry.span(), problem))?;
-        Ok(LowFidelity { base_samples, ..low })
+        Ok(LowFidelity { base_samples, ..context.at(entry, low)? })
     };
     section.low.get_ref().iter().map(low).collect()
 }

@@ -20,11 +20,8 @@ pub(super) fn known(
         if answer.parameters().iter().all(|parameter| parameter.name != name) {
             return Err(context.fault(key.span(), unknown_key(answer, name)));
         }
-        let number = number_or_list(value.get_ref()).ok_or_else(|| {
-            let found = value.get_ref().type_str().to_owned();
-            context.fault(value.span(), wrong(name, "a number or a list of numbers", found))
-        })?;
-        parameters.push((name.clone(), number));
+        let found = || wrong(name, "a number or a list of numbers", value.get_ref().type_str().to_owned());
+        parameters.push((name.clone(), context.at(value, number_or_list(value.get_ref()).ok_or_else(found))?));
     }
     answer.with(&parameters).map_err(|error| {
         let about = |key: &At<String>| *key.get_ref() == error.parameter;

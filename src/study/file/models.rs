@@ -143,21 +143,21 @@ fn afm(reading: &Reading<'_>, space: &Space) -> Subjects {
 /// Numbers of the outputs in the catalogue, in the order asked for; the first one if nothing is asked.
 fn outputs(reading: &Reading<'_>) -> Result<Vec<usize>, Fault> {
     let Some(key) = &reading.file.outputs else { return Ok(vec![0]) };
-    let fault = |span, problem| reading.context.fault(span, problem);
+    let Reading { context, kind, .. } = reading;
     let example = "outputs = [\"y\"], a list of names (a table of formulas needs model = \"expression\")";
     let asked = match key.get_ref() {
         ListOrTable::List(names) if !names.is_empty() => names,
-        _ => return Err(fault(key.span(), Problem::missing("names of outputs", example))),
+        _ => return Err(context.fault(key.span(), Problem::missing("names of outputs", example))),
     };
-    let known = reading.kind.outputs();
+    let known = kind.outputs();
     let mut places = Vec::new();
     for name in asked {
-        let Some(place) = known.iter().position(|output| *output.name == **name.get_ref()) else {
-            let names: Vec<&str> = known.iter().map(|output| &*output.name).collect();
-            return Err(fault(name.span(), unknown_name("output", name.get_ref(), names.into_iter())));
-        };
+        let unknown = || unknown_name("output", name.get_ref(), known.iter().map(|output| &*output.name));
+        let place = known.iter().position(|output| *output.name == **name.get_ref());
+        let place = context.at(name, place.ok_or_else(unknown))?;
         if places.contains(&place) {
-            return Err(fault(name.span(), Problem::Repeated { what: "output", name: name.get_ref().clone() }));
+            let problem = Problem::Repeated { what: "output", name: name.get_ref().clone() };
+            return Err(context.fault(name.span(), problem));
         }
         places.push(place);
     }

@@ -4,14 +4,14 @@
 
 use std::sync::Arc;
 
-use super::context::{Context, Fault, wrong};
+use super::context::{Context, Fault};
 use super::sections::StudyFile;
 use crate::space::Space;
 use crate::study::Subject;
 use crate::study::subject::RepeatedSubject;
 
 /// Most repetitions of a row.
-const MOST: u64 = 1000;
+const MAX_REPETITIONS: u64 = 1000;
 
 /// The subject with as many repetitions of each row as the study asks for.
 pub(super) fn repeated(
@@ -23,10 +23,9 @@ pub(super) fn repeated(
     let typed = file.noise.as_ref().and_then(|section| section.get_ref().repetitions.as_ref());
     let (Some(typed), Some(seed)) = (typed, space.noise()) else { return Ok(subject) };
     let repetitions = *typed.get_ref();
-    let refused =
-        |expected: &str, found: String| Err(context.fault(typed.span(), wrong("repetitions", expected, found)));
-    if !(1..=MOST).contains(&repetitions) {
-        return refused(&format!("a whole number from 1 to {MOST}"), repetitions.to_string());
+    let refused = |expected: &str, found: String| context.refuse(typed, "repetitions", expected, found);
+    if !(1..=MAX_REPETITIONS).contains(&repetitions) {
+        return refused(&format!("a whole number from 1 to {MAX_REPETITIONS}"), repetitions.to_string());
     }
     if repetitions == 1 {
         return Ok(subject);

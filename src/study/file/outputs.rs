@@ -6,7 +6,7 @@ use std::ops::Range;
 use regex::Regex;
 use schemars::JsonSchema;
 use serde::Deserialize;
-use serde_json::{Value as Json, json};
+use serde_json::{Map, Value as Json, json};
 use toml::Value;
 
 use super::at::{At, ListOrTable, in_order};
@@ -55,7 +55,7 @@ pub(super) struct OutputTable {
 impl OutputTable {
     /// The table `typed`, which is the value of an output.
     pub(super) fn read(context: &Context<'_>, value: &At<Value>, typed: &toml::Table) -> Result<Self, Fault> {
-        typed.clone().try_into().map_err(|error| context.fault(value.span(), read::problem(&error)))
+        context.at(value, typed.clone().try_into().map_err(|error| read::problem(&error)))
     }
 }
 
@@ -68,6 +68,8 @@ pub(super) struct OwnOutputs {
     pub series: Vec<OutputSeries>,
     /// The place of the first one that says where its number stands.
     pub first_pick: Option<Range<usize>>,
+    /// As settings in results: what the numbers depend on, so of a series its length and not its axis.
+    pub stated: Map<String, Json>,
 }
 
 impl OwnOutputs {
@@ -100,16 +102,18 @@ pub(super) fn own_outputs(context: &Context<'_>, key: Option<&At<Outputs>>) -> R
     match key.get_ref() {
         ListOrTable::List(names) => {
             for name in names {
-                let output = CommandOutput { name: name.get_ref().clone(), unit: Unit::dimensionless(), pick: None };
-                all.outputs.push(output);
+                let (name, unit) = (name.get_ref().clone(), Unit::dimensionless());
+                all.stated.insert(name.clone(), json!({ "unit": unit.symbol() }));
+                all.outputs.push(CommandOutput { name, unit, pick: None });
             }
         }
         ListOrTable::Table(table) => {
             for (name, value) in in_order(table) {
-                let (output, axis) = output(context, name, value)?;
+                let (output, axis, stated) = output(context, name, value)?;
                 if output.pick.is_some() && all.first_pick.is_none() {
                     all.first_pick = Some(value.span());
                 }
+                all.stated.insert(output.name.clone(), stated);
                 match axis {
                     None => all.outputs.push(output),
                     Some(axis) => all.add_series(output, axis),
@@ -120,115 +124,87 @@ pub(super) fn own_outputs(context: &Context<'_>, key: Option<&At<Outputs>>) -> R
     if all.outputs.is_empty() {
         return Err(context.fault(key.span(), missing));
     }
-    all.refuse_repeated().map_err(|problem| context.fault(key.span(), problem))?;
+    context.at(key, all.refuse_repeated())?;
     Ok(all)
 }
 
-/// An output, and the axis of one that is a series.
+/// An output, the axis of one that is a series, and what is said of it in results.
 fn output(
     context: &Context<'_>,
     name: &At<String>,
     value: &At<Value>,
-) -> Result<(CommandOutput, Option<SeriesAxis>), Fault> {
+) -> Result<(CommandOutput, Option<SeriesAxis>, Json), Fault> {
     let key = format!("outputs.{}", name.get_ref());
-    let fault = |problem| context.fault(value.span(), problem);
-    let (unit, pick, axis) = match value.get_ref() {
-        Value::String(unit) => (unit.clone(), None, None),
-        Value::Table(typed) => {
-            let table = OutputTable::read(context, value, typed)?;
-            if table.formula.is_some() {
-                let expected = "only of model = \"expression\"";
-                return Err(fault(wrong(&format!("{key}.formula"), expected, "of another model".to_owned())));
-            }
-            let axis = series::axis(&key, &table).map_err(fault)?;
-            let pick = pick(&key, &table).map_err(fault)?;
-            if axis.is_some() && table.which.is_some() {
-                let expected = "only of a single number: a series takes every match or row, from the first on";
-                return Err(fault(wrong(&format!("{key}.match"), expected, "beside `length`".to_owned())));
-            }
-            (table.unit.unwrap_or_default(), pick, axis)
-        }
+    let table = match value.get_ref() {
+        Value::String(unit) => OutputTable { unit: Some(unit.clone()), ..OutputTable::default() },
+        Value::Table(typed) => OutputTable::read(context, value, typed)?,
         other => {
             let expected = "a unit, as in \"nN\" or \"1\", or a table such as { unit = \"nN\" }";
-            return Err(fault(wrong(&key, expected, other.type_str().to_owned())));
+            return context.refuse(value, &key, expected, other.type_str().to_owned());
         }
     };
-    let unit = output_unit(context, value, &unit)?;
-    Ok((CommandOutput { name: name.get_ref().clone(), unit, pick }, axis))
+    if table.formula.is_some() {
+        let expected = "only of model = \"expression\"";
+        return context.refuse(value, &format!("{key}.formula"), expected, "of another model".to_owned());
+    }
+    let axis = context.at(value, series::axis(&key, &table))?;
+    let pick = context.at(value, pick(&key, &table))?;
+    if axis.is_some() && table.which.is_some() {
+        let expected = "only of a single number: a series takes every match or row, from the first on";
+        return context.refuse(value, &format!("{key}.match"), expected, "beside `length`".to_owned());
+    }
+    let unit = output_unit(context, value, table.unit.as_deref().unwrap_or_default())?;
+    let stated = stated(&table, &unit, axis.as_ref());
+    Ok((CommandOutput { name: name.get_ref().clone(), unit, pick }, axis, stated))
+}
+
+fn stated(table: &OutputTable, unit: &Unit, axis: Option<&SeriesAxis>) -> Json {
+    let OutputTable { file, regex, column, pointer, which, .. } = table;
+    let mut entry = Map::new();
+    entry.insert("unit".to_owned(), json!(unit.symbol()));
+    entry.extend(axis.map(|axis| ("length".to_owned(), json!(axis.positions().len()))));
+    let texts = [("file", file), ("regex", regex), ("column", column), ("pointer", pointer)];
+    entry.extend(texts.into_iter().filter_map(|(key, text)| Some((key.to_owned(), json!(text.as_ref()?)))));
+    if axis.is_none() && (regex.is_some() || column.is_some()) {
+        entry.insert("match".to_owned(), json!(which.as_deref().unwrap_or(Match::Last.name())));
+    }
+    Json::Object(entry)
 }
 
 fn pick(key: &str, table: &OutputTable) -> Result<Option<Pick>, Problem> {
     let OutputTable { file, regex, column, pointer, which, .. } = table;
-    let taken = match which {
+    let refused = |name: &str, expected: &str, found: String| Err(wrong(&format!("{key}{name}"), expected, found));
+    let taken = match which.as_deref() {
         None => Match::Last,
-        Some(name) => Match::ALL
-            .into_iter()
-            .find(|taken| taken.name() == name)
-            .ok_or_else(|| wrong(&format!("{key}.match"), "\"first\" or \"last\"", format!("{name:?}")))?,
+        Some(name) => match Match::ALL.into_iter().find(|taken| taken.name() == name) {
+            Some(taken) => taken,
+            None => return refused(".match", "\"first\" or \"last\"", format!("{name:?}")),
+        },
     };
     let way = match (regex, column, pointer) {
-        (Some(regex), None, None) => {
-            let regex = Regex::new(regex).map_err(|error| {
+        (Some(regex), None, None) => match Regex::new(regex) {
+            Ok(regex) => Way::Regex(regex, taken),
+            Err(error) => {
                 let reason = error.to_string();
-                let reason = reason.lines().last().unwrap_or_default().trim_start_matches("error: ").to_owned();
-                wrong(&format!("{key}.regex"), "a regular expression", format!("{regex:?}: {reason}"))
-            })?;
-            Way::Regex(regex, taken)
-        }
+                let reason = reason.lines().last().unwrap_or_default().trim_start_matches("error: ");
+                return refused(".regex", "a regular expression", format!("{regex:?}: {reason}"));
+            }
+        },
         (None, Some(column), None) => Way::Column(column.clone(), taken),
+        (None, None, Some(_)) if which.is_some() => {
+            return refused(".match", "only beside `regex` or `column`", "beside `pointer`".to_owned());
+        }
         (None, None, Some(pointer)) if pointer.is_empty() || pointer.starts_with('/') => Way::Pointer(pointer.clone()),
         (None, None, Some(pointer)) => {
             let expected = "a JSON pointer, which begins with a slash, as in \"/result/force\"";
-            return Err(wrong(&format!("{key}.pointer"), expected, format!("{pointer:?}")));
+            return refused(".pointer", expected, format!("{pointer:?}"));
         }
         (None, None, None) => {
-            let alone = [("file", file), ("match", which)].into_iter().find(|(_, text)| text.is_some());
-            if let Some((left, _)) = alone {
-                let expected = "only beside `regex`, `column` or `pointer`";
-                return Err(wrong(&format!("{key}.{left}"), expected, "without one of them".to_owned()));
-            }
-            return Ok(None);
+            let alone = [(".file", file), (".match", which)].into_iter().find(|(_, text)| text.is_some());
+            let expected = "only beside `regex`, `column` or `pointer`";
+            return alone.map_or(Ok(None), |(left, _)| refused(left, expected, "without one of them".to_owned()));
         }
-        _ => {
-            return Err(wrong(key, "a table with one of `regex`, `column`, `pointer`", "one with several".to_owned()));
-        }
+        _ => return refused("", "a table with one of `regex`, `column`, `pointer`", "one with several".to_owned()),
     };
-    if let (Way::Pointer(_), Some(_)) = (&way, which) {
-        return Err(wrong(&format!("{key}.match"), "only beside `regex` or `column`", "beside `pointer`".to_owned()));
-    }
-    let source = file.clone().map_or(Source::Stdout, Source::File);
-    Ok(Some(Pick { source, way }))
-}
-
-/// The outputs as settings in results: what their numbers depend on, so of a series its length and not its axis.
-pub(super) fn outputs_as_settings(OwnOutputs { outputs, series, .. }: &OwnOutputs) -> Json {
-    let entry = |(place, output): (usize, &CommandOutput)| {
-        let series = series.iter().find(|series| series.places().contains(&place));
-        // The first value stands for all.
-        if series.is_some_and(|series| series.first != place) {
-            return None;
-        }
-        let mut entry = serde_json::Map::new();
-        entry.insert("unit".to_owned(), json!(output.unit.symbol()));
-        if let Some(series) = series {
-            entry.insert("length".to_owned(), json!(series.places().len()));
-        }
-        if let Some(Pick { source, way }) = &output.pick {
-            if let Source::File(file) = source {
-                entry.insert("file".to_owned(), json!(file));
-            }
-            let (key, text, which) = match way {
-                Way::Regex(regex, which) => ("regex", regex.as_str(), Some(which)),
-                Way::Column(column, which) => ("column", column.as_str(), Some(which)),
-                Way::Pointer(pointer) => ("pointer", pointer.as_str(), None),
-            };
-            let text = if series.is_some() { text.strip_suffix("/0").unwrap_or(text) } else { text };
-            entry.insert(key.to_owned(), json!(text));
-            if let Some(which) = which.filter(|_| series.is_none()) {
-                entry.insert("match".to_owned(), json!(which.name()));
-            }
-        }
-        Some((series.map_or(&output.name, |series| &series.name).clone(), Json::Object(entry)))
-    };
-    Json::Object(outputs.iter().enumerate().filter_map(entry).collect())
+    Ok(Some(Pick { source: file.clone().map_or(Source::Stdout, Source::File), way }))
 }

@@ -21,7 +21,7 @@ pub(super) fn apply(text: &str, overrides: &[String]) -> Result<Option<String>, 
 
 /// Most parts of a key. Those of a study have up to four; tables inside each other by the thousand take the reader's time
 /// and stack.
-const PARTS: usize = 16;
+const MAX_PARTS: usize = 16;
 
 const NAMES: &str = "names joined by dots, as in afm.friction";
 
@@ -33,7 +33,7 @@ fn set(root: &mut Table, text: &str) -> Result<(), String> {
         let key = key.trim();
         return Err(format!("the key `{key}` has an empty part: expected {NAMES}"));
     }
-    if names.len() > PARTS {
+    if names.len() > MAX_PARTS {
         let count = names.len();
         return Err(format!("the key has {count} parts, more than any key of a study: expected {NAMES}"));
     }

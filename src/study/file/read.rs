@@ -5,15 +5,24 @@ use toml::de::{DeTable, Deserializer};
 
 use super::context::{self, Context, Fault};
 use super::error::{Problem, meant};
-use super::forms::normalise;
+use super::forms::{join_factors, normalise};
 use super::schema::study_schema;
 use super::sections::StudyFile;
+use crate::design::{DesignError, MAX_FACTORS};
+use crate::study::BuildError;
 
 /// What stands in the text of `context`.
 pub(super) fn study_file(context: &Context<'_>) -> Result<StudyFile, Fault> {
     let mut root = DeTable::parse(context.text).map_err(|error| syntax(context, &error))?;
     normalise(context, root.get_mut())?;
-    StudyFile::deserialize(Deserializer::from(root)).map_err(|error| syntax(context, &error))
+    let mut file = StudyFile::deserialize(Deserializer::from(root)).map_err(|error| syntax(context, &error))?;
+    join_factors(context, &mut file)?;
+    // Before any of them is worked on.
+    if let Some(first) = file.factor.get(MAX_FACTORS) {
+        let problem = BuildError::Design(DesignError::FarTooManyFactors { factors: file.factor.len() });
+        return Err(context.fault(first.span(), problem.into()));
+    }
+    Ok(file)
 }
 
 fn syntax(context: &Context<'_>, error: &toml::de::Error) -> Fault {

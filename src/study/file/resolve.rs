@@ -134,11 +134,9 @@ fn space(context: &Context<'_>, inputs: &[Input], sections: &[At<FactorSection>]
     let mut factors: Vec<Factor> = Vec::new();
     for section in sections {
         let name = &section.get_ref().name;
-        let Some(input) = inputs.iter().find(|input| input.name == *name.get_ref()) else {
-            let problem = unknown_name("factor", name.get_ref(), inputs.iter().map(|input| &*input.name));
-            return Err(context.fault(name.span(), problem));
-        };
-        factors.push(factor(context, section, input)?);
+        let unknown = || unknown_name("factor", name.get_ref(), inputs.iter().map(|input| &*input.name));
+        let input = inputs.iter().find(|input| input.name == *name.get_ref()).ok_or_else(unknown);
+        factors.push(factor(context, section, context.at(name, input)?)?);
     }
     Ok(Space::new(factors))
 }
@@ -164,7 +162,7 @@ fn factor(context: &Context<'_>, section: &At<FactorSection>, input: &Input) -> 
             refuse_unit_of_own(context, fields, &unit, input)?;
             own.clone()
         }
-        _ => distribution::of(context, section)?,
+        _ => distribution::of_factor(context, section)?,
     };
     let in_domain = |value: f64| input.domain.is_none_or(|domain| domain.contains(unit.to_si(value)));
     let outside = |span, found: String| {
@@ -183,8 +181,7 @@ fn factor(context: &Context<'_>, section: &At<FactorSection>, input: &Input) -> 
     let nominal = match &fields.nominal {
         None => default_nominal(input, &unit, &distribution),
         Some(typed) => {
-            let value = nominal::value(&input.name, &distribution, typed.get_ref())
-                .map_err(|problem| context.fault(typed.span(), problem))?;
+            let value = context.at(typed, nominal::value(&input.name, &distribution, typed.get_ref()))?;
             if !in_domain(value) || !value.is_finite() {
                 return Err(outside(typed.span(), format!("its nominal value is {}", with_unit(value, unit.symbol()))));
             }

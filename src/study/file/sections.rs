@@ -78,6 +78,10 @@ pub(super) struct StudyFile {
     /// The inputs whose influence is asked for: tables [[factor]], whose order in the file assigns the dimensions of the sequence.
     #[serde(default)]
     pub factor: Vec<At<FactorSection>>,
+    /// The same, a line for each.
+    #[serde(default)]
+    #[schemars(skip)]
+    pub factors: BTreeMap<At<String>, At<ComponentSection>>,
 }
 
 /// Names of outputs, or a table of what each is.
@@ -137,11 +141,10 @@ pub(super) enum Correlation {
 
 /// The noise of a stochastic model.
 #[derive(Debug, Default, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, expecting = "a table [noise]")]
+#[serde(deny_unknown_fields, expecting = "the name under which the model gets its seed, or a table [noise]")]
 pub(super) struct NoiseSection {
     /// The name under which the model gets its seed, a whole number from 0 to 2^31 - 1; "seed" by default.
-    #[serde(rename = "name")]
-    pub _name: Option<At<String>>,
+    pub name: Option<At<String>>,
     /// Runs of each row with seeds of their own: the outputs are then the mean and the variance over them.
     #[schemars(range(min = 1, max = 1000), extend("default" = 1))]
     pub repetitions: Option<At<u64>>,
@@ -230,7 +233,7 @@ pub(super) struct AnalysisSection {
 }
 
 /// An input whose influence is asked for, and how it varies.
-#[derive(Debug, JsonSchema)]
+#[derive(Debug, Default, JsonSchema)]
 #[schemars(deny_unknown_fields)]
 pub(super) struct FactorSection {
     /// The input of the model.
@@ -266,7 +269,7 @@ pub(super) enum TypedValue {
     Text(At<String>),
     Bounds(Vec<f64>),
     Quantiles(BTreeMap<At<String>, At<f64>>),
-    Components(Vec<At<FactorSection>>),
+    Components(Vec<At<ComponentSection>>),
 }
 
 impl FactorSection {
@@ -278,7 +281,18 @@ impl FactorSection {
 
 impl<'de> Deserialize<'de> for FactorSection {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_map(FactorVisitor)
+        let fields = deserializer.deserialize_map(FactorVisitor)?;
+        if fields.name.span().is_empty() { Err(D::Error::missing_field("name")) } else { Ok(fields) }
+    }
+}
+
+/// A factor whose name stands before its table, or a distribution in a mixture.
+#[derive(Debug)]
+pub(super) struct ComponentSection(pub FactorSection);
+
+impl<'de> Deserialize<'de> for ComponentSection {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_map(FactorVisitor).map(Self)
     }
 }
 
@@ -293,26 +307,24 @@ impl<'de> Visitor<'de> for FactorVisitor {
     }
 
     fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<FactorSection, A::Error> {
-        let (mut name, mut distribution, mut unit, mut group, mut nominal) = (None, None, None, None, None);
-        let mut keys = Vec::new();
-        while let Some(FactorKey(key)) = map.next_key()? {
-            match key {
-                "name" => name = Some(map.next_value()?),
-                "distribution" => distribution = Some(map.next_value()?),
-                "unit" => unit = Some(map.next_value()?),
-                "group" => group = Some(map.next_value()?),
-                "nominal" => nominal = Some(map.next_value()?),
+        let mut fields = FactorSection::default();
+        while let Some(FactorKey(name)) = map.next_key()? {
+            match name {
+                "name" => fields.name = map.next_value()?,
+                "distribution" => fields.distribution = Some(map.next_value()?),
+                "unit" => fields.unit = Some(map.next_value()?),
+                "group" => fields.group = Some(map.next_value()?),
+                "nominal" => fields.nominal = Some(map.next_value()?),
                 own => {
                     let key = KEYS.iter().find(|key| key.name == own);
                     let key = key.ok_or_else(|| A::Error::unknown_field(own, &FACTOR_KEYS))?;
                     let (span, value) = typed_value(key.kind, &mut map)?;
-                    keys.push(TypedKey { key, span, value });
+                    fields.keys.push(TypedKey { key, span, value });
                 }
             }
         }
-        keys.sort_by_key(|typed| typed.span.start);
-        let name = name.ok_or_else(|| A::Error::missing_field("name"))?;
-        Ok(FactorSection { name, distribution, unit, group, nominal, keys })
+        fields.keys.sort_by_key(|typed| typed.span.start);
+        Ok(fields)
     }
 }
 

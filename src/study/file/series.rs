@@ -4,6 +4,7 @@ use super::context::wrong;
 use super::error::Problem;
 use super::outputs::OutputTable;
 use crate::model::{SeriesAxis, SeriesError};
+use crate::names::{SHORT_TEXT, is_short_text};
 
 /// The axis of the output `key`, of which `table` tells; `None` if it is no series.
 pub(super) fn axis(key: &str, table: &OutputTable) -> Result<Option<SeriesAxis>, Problem> {
@@ -12,22 +13,18 @@ pub(super) fn axis(key: &str, table: &OutputTable) -> Result<Option<SeriesAxis>,
     let said = texts.map(|(name, text)| (name, text.is_some()));
     let said = [("length", length.is_some()), ("positions", positions.is_some())].into_iter().chain(said);
     let Some((first, _)) = said.into_iter().find(|(_, said)| *said) else { return Ok(None) };
-    let fits = |text: &str| text.chars().count() <= 60 && !text.contains(char::is_control);
-    if let Some((name, Some(text))) = texts.into_iter().find(|(_, text)| text.as_ref().is_some_and(|text| !fits(text)))
-    {
-        let expected = "a text of up to 60 characters, without control characters";
-        return Err(wrong(&format!("{key}.{name}"), expected, format!("{text:?}")));
+    let is_wrong = |(_, text): &(&str, &Option<String>)| text.as_ref().is_some_and(|text| !is_short_text(text));
+    if let Some((name, Some(text))) = texts.into_iter().find(is_wrong) {
+        return Err(wrong(&format!("{key}.{name}"), SHORT_TEXT, format!("{text:?}")));
     }
     let (label, unit) = (axis.as_deref().unwrap_or("index"), axis_unit.as_deref().unwrap_or_default());
     let length = length.map(|length| usize::try_from(length).unwrap_or(usize::MAX));
     let refused = |error: SeriesError| {
-        let (name, expected) = match error {
-            SeriesError::Length { .. } => ("length", "2 to 10000 values"),
-            SeriesError::Position { .. } => ("positions", "finite numbers in rising order"),
-        };
-        let found = match error {
-            SeriesError::Length { found } => found.to_string(),
-            SeriesError::Position { place, found } => format!("{found} at place {place}"),
+        let (name, expected, found) = match error {
+            SeriesError::Length { found } => ("length", "2 to 10000 values", found.to_string()),
+            SeriesError::Position { place, found } => {
+                ("positions", "finite numbers in rising order", format!("{found} at place {place}"))
+            }
         };
         wrong(&format!("{key}.{name}"), expected, found)
     };

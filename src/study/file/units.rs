@@ -2,10 +2,11 @@
 
 use toml::Value;
 
-use super::context::{Context, Fault, wrong};
+use super::context::{Context, Fault};
 use super::error::Problem;
 use super::sections::{At, FactorSection};
 use crate::model::Input;
+use crate::names::{SHORT_TEXT, is_short_text};
 use crate::quantity::{Domain, Unit};
 
 /// The inputs of a model that has no others than the factors of the study, each in its own unit.
@@ -14,7 +15,7 @@ pub(super) fn own_inputs(context: &Context<'_>, factors: &[At<FactorSection>]) -
         let fields = section.get_ref();
         let unit = match &fields.unit {
             None => Unit::dimensionless(),
-            Some(typed) => Unit::parse(typed.get_ref()).map_err(|error| context.fault(typed.span(), error.into()))?,
+            Some(typed) => context.at(typed, Unit::parse(typed.get_ref()))?,
         };
         let (name, symbol) = (fields.name.get_ref().clone(), fields.name.get_ref().clone());
         // Not a number: the study alone has a nominal value.
@@ -43,7 +44,7 @@ pub(super) fn unit_of_factor(context: &Context<'_>, fields: &FactorSection, inpu
         }
         return Err(context.fault(fields.name.span(), wrong_unit(&name, &input.unit, None, &example)));
     };
-    let unit = Unit::parse(typed.get_ref()).map_err(|error| context.fault(typed.span(), error.into()))?;
+    let unit = context.at(typed, Unit::parse(typed.get_ref()))?;
     if !unit.compatible(&input.unit) {
         return Err(context.fault(typed.span(), wrong_unit(&name, &input.unit, Some(&unit), &example)));
     }
@@ -71,14 +72,10 @@ pub(super) fn refuse_unit_of_own(
 
 /// The unit of an output of a program, which stands as `text` in `value`: one that is known, or any other short text.
 pub(super) fn output_unit(context: &Context<'_>, value: &At<Value>, text: &str) -> Result<Unit, Fault> {
-    const LONGEST: usize = 60;
-    // Marks of the direction of writing would reorder the text beside them.
-    let turns = |c: char| matches!(c, '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
-    if text.chars().count() > LONGEST || text.contains(|c: char| c.is_control() || turns(c)) {
-        let expected = format!("a text of up to {LONGEST} characters, without control characters");
-        return Err(context.fault(value.span(), wrong("unit", &expected, format!("{text:?}"))));
+    match is_short_text(text) {
+        true => Ok(Unit::label(text)),
+        false => context.refuse(value, "unit", SHORT_TEXT, format!("{text:?}")),
     }
-    Ok(Unit::label(text))
 }
 
 /// A domain for people who may be thinking in degrees.

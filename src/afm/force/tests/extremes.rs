@@ -8,8 +8,8 @@ use super::*;
 /// Every law at every rung, with few enough steps that a hopeless march ends soon.
 fn every_run() -> Vec<Options> {
     let mut all = Vec::new();
-    for &friction in FrictionLaw::ALL {
-        for &fidelity in Fidelity::ALL {
+    for friction in FrictionLaw::ALL {
+        for fidelity in Fidelity::ALL {
             for lugre in [LuGreParameters::Frozen, LuGreParameters::Contact] {
                 if lugre == LuGreParameters::Frozen || friction == FrictionLaw::LuGre {
                     all.push(Options { friction, fidelity, lugre, step_budget: 20_000, ..Options::default() });
@@ -21,7 +21,7 @@ fn every_run() -> Vec<Options> {
 }
 
 fn any_options() -> impl Strategy<Value = Options> {
-    (prop::sample::select(every_run()), any::<bool>(), prop::sample::select(Torsion::ALL))
+    (prop::sample::select(every_run()), any::<bool>(), prop::sample::select(Torsion::ALL.to_vec()))
         .prop_map(|(options, adhesion_in_load, torsion)| Options { adhesion_in_load, torsion, ..options })
 }
 

@@ -65,7 +65,7 @@ fn dahl_is_lugre_without_dashpots() {
 #[test]
 fn rungs_agree_on_the_time_at_the_corners() {
     for (number, scene) in corners().into_iter().enumerate().filter(|(_, scene)| scene.velocity > 0.0).step_by(7) {
-        for &friction in FrictionLaw::ALL {
+        for friction in FrictionLaw::ALL {
             let found = [Fidelity::ClosedForm, Fidelity::QuasiStatic, Fidelity::Dynamic].map(|fidelity| {
                 let critical = critical_force(&scene, &timed(friction, fidelity)).unwrap();
                 let untimed = critical_force(&scene, &Options { fidelity, ..by(friction) }).unwrap();

@@ -110,7 +110,10 @@ fn what_cannot_be_is_refused_by_name() {
     let shape = refused(Distribution::beta(1e-4, 1.0, 0.0, 1.0));
     assert_eq!(shape.to_string(), "`alpha` is 0.0001, but must lie between 0.001 and 100000.0");
     let swapped = refused(Distribution::beta(1.0, 1.0, 3.0, 2.0));
-    assert_eq!(swapped, Error::Order { lower: "min", low: 3.0, upper: "max", high: 2.0 });
+    assert_eq!(swapped.to_string(), "`min` is 3 and `max` is 2, but `min` must be below `max`");
+    assert_eq!((swapped.key(), swapped.help()), (Some("min"), None));
+    let fixed = refused(Distribution::uniform(3.0, 3.0)).help();
+    assert_eq!(fixed.as_deref(), Some("for a fixed value: distribution = \"constant\", value = 3"));
 }
 
 #[test]

@@ -4,7 +4,7 @@ pub(super) mod file;
 mod runs;
 
 use std::ops::Range;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use serde_json::{Value, json};
@@ -16,7 +16,7 @@ use super::at::ListOrTable;
 use super::context::{Context, Fault};
 use super::context::{choice_if_said, wrong};
 use super::error::Problem;
-use super::outputs::{outputs_as_settings, own_outputs};
+use super::outputs::own_outputs;
 use super::paths::{Reach, folder, refuse_outside_of_run, resolve};
 use super::sections::{At, Outputs};
 use super::subjects::CommandSubject;
@@ -45,7 +45,7 @@ pub(super) fn subject(
     let arguments = arguments(context, key, program)?;
     let directory = match &section.directory {
         None => folder(context),
-        Some(typed) => existing_directory(context, section, typed)?,
+        Some(typed) => existing(context, section, typed, ("directory", Path::is_dir))?,
     };
     let environment: Vec<(String, String)> = section.env.clone().into_iter().collect();
     let all = own_outputs(context, outputs)?;
@@ -68,39 +68,31 @@ pub(super) fn subject(
             (Form::PerRun(form), notes)
         }
     };
-    let mut stated = vec![("program", json!(arguments))];
-    if let Some(directory) = &section.directory {
-        stated.push(("directory", json!(directory.get_ref())));
-    }
-    if !environment.is_empty() {
-        stated.push(("env", Value::Object(environment.iter().map(|(k, v)| (k.clone(), json!(v))).collect())));
-    }
-    match (&form, &section.template) {
-        (Form::KeptAlive(protocol), _) => stated.push(("protocol", json!(protocol.name()))),
-        (Form::PerRun(form), template) => {
-            stated.push(("template", json!(template.as_ref().map(At::get_ref))));
-            stated.push(("input", json!(form.input)));
-            let files: Vec<&String> = section.files.iter().map(At::get_ref).collect();
-            if !files.is_empty() {
-                stated.push(("files", json!(files)));
-            }
-        }
-    }
-    if !section.depends_on.is_empty() {
-        stated.push(("depends_on", json!(section.depends_on.iter().map(At::get_ref).collect::<Vec<_>>())));
-    }
+    let protocol = if let Form::KeptAlive(protocol) = &form { Some(protocol.name()) } else { None };
+    let input = if let Form::PerRun(form) = &form { Some(&form.input) } else { None };
+    let mut stated = vec![
+        ("program", json!(arguments)),
+        ("directory", json!(section.directory)),
+        ("env", json!(section.env)),
+        ("protocol", json!(protocol)),
+        ("template", json!(section.template)),
+        ("input", json!(input)),
+        ("files", json!(section.files)),
+        ("depends_on", json!(section.depends_on)),
+        ("outputs", Value::Object(all.stated)),
+    ];
+    stated.retain(|(_, value)| !matches!(value, Value::Null) && *value != json!([]) && *value != json!({}));
     let depends_on =
         section.depends_on.iter().map(|typed| existing_file(context, section, typed)).collect::<Result<_, _>>()?;
-    stated.push(("outputs", outputs_as_settings(&all)));
     let settings = CommandSettings {
         program: Program { arguments, directory, environment },
         form,
         asked: (0..all.outputs.len()).collect(),
         outputs: all.outputs,
         series: all.series,
-        workers: workers(context, section)?,
+        workers: whole(context, "workers", section.workers.as_ref(), 1..=1024)?.map(|number| number as usize),
         timeout: timeout(context, section)?,
-        retries: retries(context, section)?,
+        retries: whole(context, "retries", section.retries.as_ref(), 0..=100)?.map_or(1, |number| number as u32),
     };
     Ok((CommandSubject { settings, stated, depends_on }, notes))
 }
@@ -120,21 +112,23 @@ fn reach(section: &CommandSection) -> Reach {
 }
 
 fn existing_file(context: &Context<'_>, section: &CommandSection, typed: &At<String>) -> Result<PathBuf, Fault> {
-    let path = resolve(context, typed, reach(section))?;
-    if path.is_file() {
-        return Ok(path);
-    }
-    let help = "the path is relative to the study, and that of a file";
-    Err(context.fault(typed.span(), Problem::with_help(format!("{}: there is no such file", path.display()), help)))
+    existing(context, section, typed, ("file", Path::is_file))
 }
 
-fn existing_directory(context: &Context<'_>, section: &CommandSection, typed: &At<String>) -> Result<PathBuf, Fault> {
-    let directory = resolve(context, typed, reach(section))?;
-    if directory.is_dir() {
-        return Ok(directory);
+/// The path that is typed, of something that is there.
+fn existing(
+    context: &Context<'_>,
+    section: &CommandSection,
+    typed: &At<String>,
+    (what, is_there): (&str, fn(&Path) -> bool),
+) -> Result<PathBuf, Fault> {
+    let path = resolve(context, typed, reach(section))?;
+    if is_there(&path) {
+        return Ok(path);
     }
-    let problem = format!("{}: there is no such directory", directory.display());
-    Err(context.fault(typed.span(), Problem::with_help(problem, "the path is relative to the study")))
+    let problem = format!("{}: there is no such {what}", path.display());
+    let help = format!("the path is relative to the study, and that of a {what}");
+    Err(context.fault(typed.span(), Problem::with_help(problem, help)))
 }
 
 /// The protocol of a program that is kept alive; what belongs to the other form has no place here.
@@ -162,7 +156,7 @@ fn refuse_without_numbers(context: &Context<'_>, section: &CommandSection) -> Re
         Some(typed) if !typed.get_ref() => {
             let expected = "true, or left out: each answer begins with the number of its row, as in `print(row[\"id\"], y, \
                             sep=\",\")`; a program that cannot do so runs once for each row, with a `template`";
-            Err(context.fault(typed.span(), wrong("row_numbers", expected, "false".to_owned())))
+            context.refuse(typed, "row_numbers", expected, "false".to_owned())
         }
         _ => Ok(()),
     }
@@ -181,19 +175,9 @@ fn refuse_number(
     let what = if is_factor { "factor" } else { "output" };
     if is_factor || is_output {
         let expected = "another than `id`, which the program gets as the number of a row";
-        return Err(context.fault(key.span(), wrong(&format!("name of the {what}"), expected, "`id`".to_owned())));
+        return context.refuse(key, &format!("name of the {what}"), expected, "`id`".to_owned());
     }
     Ok(())
-}
-
-fn workers(context: &Context<'_>, section: &CommandSection) -> Result<Option<usize>, Fault> {
-    whole(context, "workers", section.workers.as_ref(), 1..=1024).map(|number| number.map(|number| number as usize))
-}
-
-fn retries(context: &Context<'_>, section: &CommandSection) -> Result<u32, Fault> {
-    const DEFAULT: u32 = 1;
-    let number = whole(context, "retries", section.retries.as_ref(), 0..=100)?;
-    Ok(number.map_or(DEFAULT, |number| number as u32))
 }
 
 fn whole(
@@ -207,13 +191,14 @@ fn whole(
         return Ok(Some(*typed.get_ref()));
     }
     let expected = format!("a whole number from {} to {}", range.start(), range.end());
-    Err(context.fault(typed.span(), wrong(key, &expected, typed.get_ref().to_string())))
+    context.refuse(typed, key, &expected, typed.get_ref().to_string())
 }
 
 fn timeout(context: &Context<'_>, section: &CommandSection) -> Result<Option<Duration>, Fault> {
     let Some(typed) = &section.timeout else { return Ok(None) };
     let seconds = seconds(context, "timeout", typed)?;
-    let duration = Duration::try_from_secs_f64(seconds).ok().filter(|time| *time > Duration::ZERO);
-    let problem = || wrong("timeout", "a time above 0, as in \"30 s\"", format!("{:?}", typed.get_ref()));
-    duration.map(Some).ok_or_else(|| context.fault(typed.span(), problem()))
+    match Duration::try_from_secs_f64(seconds).ok().filter(|time| *time > Duration::ZERO) {
+        Some(duration) => Ok(Some(duration)),
+        None => context.refuse(typed, "timeout", "a time above 0, as in \"30 s\"", format!("{:?}", typed.get_ref())),
+    }
 }

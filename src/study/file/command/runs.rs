@@ -24,25 +24,22 @@ pub(super) fn form(
     template: &At<String>,
     space: &Space,
 ) -> Result<(PerRun, Vec<String>), Fault> {
-    if let Some(protocol) = &section.protocol {
+    let kept_alive = [
+        ("protocol", section.protocol.as_ref().map(At::span)),
+        ("row_numbers", section.row_numbers.as_ref().map(At::span)),
+    ];
+    if let Some((key, span)) = kept_alive.into_iter().find_map(|(key, span)| Some((key, span?))) {
         let expected = "only of a program that is kept alive, without `template`";
-        return Err(context.fault(protocol.span(), wrong("protocol", expected, "beside one".to_owned())));
-    }
-    if let Some(typed) = &section.row_numbers {
-        let expected = "only of a program that is kept alive, without `template`";
-        return Err(context.fault(typed.span(), wrong("row_numbers", expected, "beside one".to_owned())));
+        return Err(context.fault(span, wrong(key, expected, "beside one".to_owned())));
     }
     let template_file = resolve(context, template, reach(section))?;
     let file_name = template_file.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
     let input = section.input.as_ref().map_or(file_name, |input| input.get_ref().clone());
     let span = || section.input.as_ref().map_or_else(|| template.span(), At::span);
     refuse_place("input", &input).map_err(|problem| context.fault(span(), problem))?;
-    let read = read_template(&template_file, space).map_err(|problem| context.fault(template.span(), problem))?;
-    let unused = |number: &usize| !read.uses(*number);
-    let notes = (0..space.factors().len())
-        .filter(unused)
-        .map(|number| format!("factor `{}` does not stand in the template", space.factors()[number].name));
-    let notes = notes.collect();
+    let read = context.at(template, read_template(&template_file, space))?;
+    let unused = space.factors().iter().enumerate().filter(|(number, _)| !read.uses(*number));
+    let notes = unused.map(|(_, factor)| format!("factor `{}` does not stand in the template", factor.name)).collect();
     let files = files(context, section, &input)?;
     let keep = section.keep.as_ref().map(|keep| resolve(context, keep, reach(section))).transpose()?;
     Ok((PerRun { template_file, template: read, input, files, keep }, notes))
@@ -57,8 +54,7 @@ pub(super) fn refuse_without_pick(
     let Some(output) = outputs.iter().find(|output| output.pick.is_none()) else { return Ok(()) };
     let expected = "a table that says where the number stands, as in { file = \"out.txt\", regex = \"force = (\\\\S+)\" }, \
                     { file = \"out.csv\", column = \"y\" } or { file = \"out.json\", pointer = \"/result/y\" }";
-    let problem = wrong(&format!("outputs.{}", output.name), expected, "without that beside `template`".to_owned());
-    Err(context.fault(key.span(), problem))
+    context.refuse(key, &format!("outputs.{}", output.name), expected, "without that beside `template`".to_owned())
 }
 
 fn read_template(path: &Path, space: &Space) -> Result<InputTemplate, Problem> {

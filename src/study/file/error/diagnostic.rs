@@ -28,10 +28,10 @@ pub struct Diagnostic {
 
 impl Diagnostic {
     pub(in crate::study) fn new(path: &Path, text: &str, span: Range<usize>, problem: Problem) -> Self {
-        let start = floor_char_boundary(text, span.start);
+        let start = text.floor_char_boundary(span.start);
         let line_start = text[..start].rfind('\n').map_or(0, |newline| newline + 1);
         let line_end = text[start..].find('\n').map_or(text.len(), |newline| start + newline);
-        let end = floor_char_boundary(text, span.end).clamp(start, line_end);
+        let end = text.floor_char_boundary(span.end).clamp(start, line_end);
         let before = text[line_start..start].chars().count();
         let width = text[start..end].trim_end().chars().count().max(1);
         let whole = printable(text[line_start..line_end].trim_end_matches('\r'));
@@ -62,18 +62,14 @@ fn shortened(message: &str) -> Cow<'_, str> {
     if message.len() <= MAX_BYTES {
         return message.into();
     }
-    let start = floor_char_boundary(message, KEPT_BYTES);
-    let end = floor_char_boundary(message, message.len() - KEPT_BYTES);
+    let start = message.floor_char_boundary(KEPT_BYTES);
+    let end = message.floor_char_boundary(message.len() - KEPT_BYTES);
     format!("{} ... {}", &message[..start], &message[end..]).into()
 }
 
 /// The line without characters that would change the terminal.
 fn printable(line: &str) -> String {
     line.chars().map(|c| if c.is_control() && c != '\t' { char::REPLACEMENT_CHARACTER } else { c }).collect()
-}
-
-fn floor_char_boundary(text: &str, place: usize) -> usize {
-    (0..=place.min(text.len())).rev().find(|&p| text.is_char_boundary(p)).unwrap_or(0)
 }
 
 impl std::error::Error for Diagnostic {}
