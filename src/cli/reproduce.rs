@@ -64,7 +64,7 @@ pub fn reproduce(arguments: &Arguments) -> Result<(), Failure> {
     };
     let meters = Meters::default();
     let reproduction = run(&request, &|event| meters.show(&event))?;
-    let mut document = document(&reproduction)?;
+    let mut document = document(&reproduction);
     if request.only.is_none() {
         let page = live_page(&live_study()?, request.threads, on_signal())?;
         put_beside(&mut document, LIVE, page);

@@ -55,7 +55,7 @@ pub use schema::result_schema;
 
 #[doc(hidden)]
 pub use records::{json, study_setup};
-pub(crate) use study_sections::{inputs, study_section};
+pub(crate) use study_sections::inputs;
 
 // Open to the program, which is a crate of its own.
 #[cfg(feature = "page")]

@@ -6,15 +6,15 @@ pub mod claims;
 mod document;
 pub mod figures;
 mod order;
+mod papers;
 pub mod percentages;
-mod published;
 mod reproduction;
 mod shares;
 
 use thiserror::Error;
 
 pub use document::document;
-pub use published::{Published, published};
+pub use papers::{Published, published};
 pub use reproduction::{Event, Reproduction, Request, Topic, reproduce};
 
 use apportion::report::ResultFile;

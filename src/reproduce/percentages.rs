@@ -4,12 +4,12 @@
 //! the critical force and of its logarithm, under each friction model and under LuGre friction with the viscous
 //! coefficient that brings the velocity to its printed share. Nothing is tuned beyond that one coefficient.
 
-use super::published::{PRINTED, published};
-use super::{Effort, FRICTIONS, GROUPS, QUICK, ReproduceError, study};
+use super::papers::PRINTED;
+use super::{Effort, FRICTIONS, GROUPS, QUICK, ReproduceError, StudyGroup, published, study};
 use apportion::EffectEstimates;
-use apportion::report::csv::{Csv, fields};
-use apportion::report::document::{Cell, Column, Table, Value};
+use apportion::report::document::{Part, Table};
 use apportion::report::fixed;
+use apportion::report::format::words;
 
 /// Within so many percentage points a distance counts as met: three times the rounding of the printed numbers.
 const MET: f64 = 1.5;
@@ -197,61 +197,48 @@ fn velocity(rows: &[Percentages]) -> Option<String> {
     ))
 }
 
-/// The printed factors of each study with the headings of their columns; each study ends in its distance.
-fn columns() -> Vec<(&'static str, Option<&'static str>)> {
-    let of_group = |group: &'static str| {
-        let factors = published(group, PRINTED).shares.iter().map(|(factor, _)| Some(*factor));
-        factors.chain([None]).map(move |factor| (group, factor))
-    };
-    GROUPS.iter().flat_map(|group| of_group(group.key)).collect()
-}
-
 /// The table of the page: what is printed, then a row for each friction model, output and measure.
-pub fn table(rows: &[Percentages]) -> Table {
-    let heading = |(group, factor): &(&str, Option<&str>)| match factor {
-        Some(factor) => Column::number(format!("{group}: {}", factor.replace('_', " "))),
-        None => Column::number(format!("{group}: distance")),
-    };
-    let columns = columns();
-    let number = |value: Option<f64>| value.map_or_else(Cell::default, |value| fixed(value, 1).into());
-    let first = ["printed", "", ""].map(Cell::from).into_iter();
-    let first = first.chain(columns.iter().map(|(group, factor)| number(factor.and_then(|f| printed(group, f)))));
-    let row = |row: &Percentages| -> Vec<Cell> {
-        let cell = |(group, factor): &(&str, Option<&str>)| {
-            let study = row.studies.iter().find(|study| study.group == *group);
-            number(study.and_then(|study| factor.map_or(Some(study.distance), |factor| study.share(factor))))
-        };
-        [row.friction, row.output, row.measure].map(Cell::from).into_iter().chain(columns.iter().map(cell)).collect()
-    };
+pub fn table(rows: &[Percentages]) -> Part {
     let caption = "Our shares in percent under each reading, and their distance to the printed percentages of each study: \
                    the root mean square, in percentage points, over the factors with a printed percentage and all others \
                    taken together.";
-    let names = ["friction", "output", "share of the sum of"].map(Column::text).into_iter();
-    Table::new(caption, names.chain(columns.iter().map(heading)))
-        .with_rows([first.collect()].into_iter().chain(rows.iter().map(row)))
+    let number = |value: Option<f64>| value.map_or_else(String::new, |value| fixed(value, 1));
+    let mut table = Table::of(caption, std::iter::once(None).chain(rows.iter().map(Some)))
+        .text("friction", |row| row.map_or("printed", |row| row.friction))
+        .text("output", |row| row.map_or("", |row| row.output))
+        .text("share of the sum of", |row| row.map_or("", |row| row.measure));
+    for StudyGroup { key, .. } in GROUPS {
+        let of = |row: Option<&Percentages>, read: &dyn Fn(&StudyShares) -> Option<f64>| {
+            read(row?.studies.iter().find(|study| study.group == key)?)
+        };
+        for (factor, percent) in published(key, PRINTED).shares {
+            let heading = format!("{key}: {}", words(factor));
+            let share = |row: Option<&Percentages>| match row {
+                None => Some(*percent),
+                row => of(row, &|study| study.share(factor)),
+            };
+            table = table.number(heading, |row| number(share(row)));
+        }
+        table = table.number(format!("{key}: distance"), |row| number(of(row, &|study| Some(study.distance))));
+    }
+    table.into()
 }
 
 /// One line per friction model, output, measure, study and factor; percentages and distances as in [`table`].
 pub fn percentages_csv(rows: &[Percentages]) -> String {
-    let names = ["friction", "output", "measure", "group", "factor", "share", "published", "distance"];
-    let mut csv = Csv::new(fields(&names, &[]));
-    for row in rows {
-        for study in &row.studies {
-            for (factor, share) in &study.shares {
-                csv.row::<Value>([
-                    row.friction.into(),
-                    row.output.into(),
-                    row.measure.into(),
-                    study.group.into(),
-                    factor.into(),
-                    (*share).into(),
-                    printed(study.group, factor).into(),
-                    study.distance.into(),
-                ]);
-            }
-        }
-    }
-    csv.text()
+    let studies = rows.iter().flat_map(|row| row.studies.iter().map(move |study| (row, study)));
+    let all = studies.flat_map(|(row, study)| study.shares.iter().map(move |share| (row, study, share)));
+    let table: Table = Table::of("", all)
+        .file("friction", |(row, ..)| row.friction)
+        .file("output", |(row, ..)| row.output)
+        .file("measure", |(row, ..)| row.measure)
+        .file("group", |(_, study, _)| study.group)
+        .file("factor", |(.., (factor, _))| factor)
+        .file("share", |(.., (_, share))| *share)
+        .file("published", |(_, study, (factor, _))| printed(study.group, factor))
+        .file("distance", |(_, study, _)| study.distance)
+        .into();
+    table.csv()
 }
 
 #[cfg(test)]

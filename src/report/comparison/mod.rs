@@ -9,7 +9,6 @@ mod settings;
 #[cfg(test)]
 mod tests;
 
-pub use charts::comparison_charts;
 pub use document::comparison_document;
 pub use error::CompareError;
 pub use index::ComparedIndex;

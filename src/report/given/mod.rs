@@ -7,7 +7,7 @@ mod record;
 mod sentences;
 mod surrogate;
 
-pub use chart::given_chart;
+use chart::given_chart;
 pub use document::given_document;
 pub(super) use measures::{agreement, table as measures_table};
 pub use record::{

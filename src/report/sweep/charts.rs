@@ -17,18 +17,17 @@ const LOW_END: Colour = Colour::Series(5);
 const HIGH_END: Colour = Colour::Series(1);
 const WHOLE_RANGE: Colour = Colour::Series(6);
 
-/// Per output the ranges of all factors, `-sweep-ranges`, with the output's name at the end where there are several; then one
-/// line chart per factor, `-sweep-FACTOR`, with a panel per output.
-pub fn sweep_charts(file: &SweepFile) -> Vec<(String, Chart)> {
-    let of_outputs = file.nominal.iter().enumerate().map(|(number, nominal)| ranges(file, number, nominal));
-    let charts = of_outputs.chain(file.sweeps.iter().map(|sweep| lines(file, sweep)));
+/// One line chart per factor with a panel per output, each with the name of its files, `STUDY-sweep-FACTOR`.
+pub(super) fn curve_charts(file: &SweepFile) -> Vec<(String, Chart)> {
+    // The names of the charts of ranges, which are files of the same folder, are taken.
     let ranges = file.nominal.iter().map(|nominal| match file.nominal.len() {
         1 => "ranges".to_owned(),
-        _ => format!("ranges-{}", nominal.output),
+        _ => format!("{}-ranges", nominal.output),
     });
     let names: Vec<String> = ranges.chain(file.sweeps.iter().map(|sweep| sweep.factor.clone())).collect();
-    let suffixes = file_stems("-sweep", &names.iter().map(String::as_str).collect::<Vec<_>>(), &[""]);
-    suffixes.into_iter().zip(charts).collect()
+    let names: Vec<&str> = names.iter().map(String::as_str).collect();
+    let stems = file_stems(&format!("{}-sweep", file.study.name), &names, &[""]).split_off(file.nominal.len());
+    stems.into_iter().zip(file.sweeps.iter().map(|sweep| lines(file, sweep))).collect()
 }
 
 fn lines(file: &SweepFile, sweep: &Sweep) -> Chart {
@@ -139,7 +138,8 @@ fn from_to(sweep: &Sweep) -> String {
     }
 }
 
-fn ranges(file: &SweepFile, number: usize, nominal: &NominalOutput) -> Chart {
+/// The ranges of all factors for one output.
+pub(super) fn ranges_chart(file: &SweepFile, number: usize, nominal: &NominalOutput) -> Chart {
     let sweeps = || file.sweeps.iter().filter_map(|sweep| Some((sweep, sweep.effects.get(number)?)));
     let output = name(&nominal.output);
     let caption = format!(

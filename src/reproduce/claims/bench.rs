@@ -4,7 +4,7 @@ use super::ClaimsError;
 use super::curve::{Curve, grid};
 use super::judge::{Holding, Share};
 use super::numbers::number;
-use crate::reproduce::{Effort, general_study};
+use crate::reproduce::{Effort, Reproduced, general_study};
 use apportion::afm::history::{History, history};
 use apportion::afm::modes::Pushing;
 use apportion::afm::{Critical, Failure, Fidelity, FrictionLaw, Options, Parameter, Scene, critical_force};
@@ -97,18 +97,20 @@ pub(super) enum Region {
 pub(super) struct Bench<'a> {
     pub physics: Physics<'a>,
     pub sizes: Sizes,
+    /// The studies that have been run.
+    pub studies: &'a [Reproduced],
     space: Space,
     parameters: Vec<&'static Parameter>,
 }
 
 impl<'a> Bench<'a> {
     /// With the ranges of the general study.
-    pub fn new(physics: Physics<'a>, effort: Effort) -> Result<Self, ClaimsError> {
+    pub fn new(physics: Physics<'a>, effort: Effort, studies: &'a [Reproduced]) -> Result<Self, ClaimsError> {
         let study = general_study()?;
         let parameters = study.space().factors().iter().map(|factor| Parameter::from_name(&factor.name)).collect();
         let parameters: Option<Vec<_>> = parameters;
         let parameters = parameters.ok_or(ClaimsError::NoRanges)?;
-        Ok(Self { physics, sizes: Sizes::of(effort), space: study.space().clone(), parameters })
+        Ok(Self { physics, sizes: Sizes::of(effort), studies, space: study.space().clone(), parameters })
     }
 
     /// F_cr (N).
@@ -182,6 +184,20 @@ impl<'a> Bench<'a> {
     ) -> Result<Holding, Failure> {
         let nominal = rule(&Scene::default())?;
         Ok(Holding { what: what.into(), nominal, share: self.share(Region::General, count, rule)? })
+    }
+
+    /// The same under each of these friction laws, called by its name after `label`.
+    pub fn holding_under(
+        &self,
+        laws: &[(FrictionLaw, &str)],
+        label: &str,
+        count: impl Fn(FrictionLaw) -> u64,
+        rule: impl Fn(FrictionLaw, &Scene) -> Result<bool, Failure>,
+    ) -> Result<Vec<Holding>, Failure> {
+        let under = |&(law, name): &(FrictionLaw, &str)| {
+            self.holding(format!("{label}{name}"), count(law), &|scene| rule(law, scene))
+        };
+        laws.iter().map(under).collect()
     }
 
     fn scenes(&self, which: Region, replicate: u64, count: u64) -> Vec<Scene> {

@@ -1,10 +1,11 @@
 //! Claims about the dimensions of the cantilever: 8 to 11.
 
+use super::ClaimsError;
 use super::bench::{Bench, LAWS, Sweep, closed, exact};
 use super::curve::Curve;
+use super::judge::Answer;
 use super::judge::Holding;
 use super::numbers::{change, nano, number};
-use super::{Claim, ClaimsError};
 use apportion::afm::{Failure, FrictionLaw, Options, Scene};
 
 /// A curve flattens if no step is steeper than the one before by more than this share of the mean steepness: what would
@@ -13,7 +14,7 @@ const STEEPENING: f64 = 0.01;
 
 /// A rise is linear if no point is farther from the straight line of least squares than this share of the rise: about
 /// the width of a chart's line.
-pub(super) const STRAIGHT: f64 = 0.01;
+const STRAIGHT: f64 = 0.01;
 
 /// A factor has no effect if it changes F_cr by less than this share.
 pub(super) const NO_EFFECT: f64 = 0.01;
@@ -23,18 +24,24 @@ type OptionsOf = fn(FrictionLaw) -> Options;
 /// A curve in words.
 type Words<'a> = &'a dyn Fn(&Curve) -> String;
 
-pub(super) fn claims(bench: &Bench<'_>) -> Result<Vec<Claim>, ClaimsError> {
-    Ok(vec![length(bench)?, width(bench)?, thickness(bench)?, height(bench)?])
-}
-
-/// For each friction model of the papers, whether its curve along a sweep has a shape.
-fn under_each(bench: &Bench<'_>, sweep: &Sweep, shape: &dyn Fn(&Curve) -> bool) -> Result<Vec<Holding>, Failure> {
-    LAWS.iter()
-        .map(|(law, name)| {
-            let rule = |scene: &Scene| Ok(shape(&bench.curve(sweep, scene, &closed(*law))?));
-            bench.holding(*name, bench.sizes.points, &rule)
-        })
-        .collect()
+/// A claim about the shape of the curves of the closed formulas along a factor: what it means, what F_cr does from one end to
+/// the other, and how the nominal curves are put into words.
+fn shaped(
+    bench: &Bench<'_>,
+    factor: &str,
+    shape: fn(&Curve) -> bool,
+    (goes, words): (&str, Words<'_>),
+    means: &str,
+) -> Result<Answer, ClaimsError> {
+    let sweep = bench.over(factor)?;
+    let rule = |law, scene: &Scene| Ok(shape(&bench.curve(&sweep, scene, &closed(law))?));
+    let holdings = bench.holding_under(&LAWS, "", |_| bench.sizes.points, rule)?;
+    let curves = nominal_curves(bench, &sweep, closed, words)?;
+    Ok(Answer {
+        finding: format!("From {} in {factor} F_cr {goes} {curves} at the nominal scene.", sweep.words()),
+        setting: format!("{} {means}.", closed_setting(bench, &sweep)?),
+        ..Answer::judged(&holdings)
+    })
 }
 
 /// The nominal curve under each friction model, put into words and joined.
@@ -78,43 +85,31 @@ pub(super) fn from_to(curve: &Curve) -> String {
 }
 
 /// Claim 8.
-fn length(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
-    let sweep = bench.over("length")?;
-    let holdings = under_each(bench, &sweep, &|curve| curve.falls() && curve.steepens() <= STEEPENING)?;
-    let ends = nominal_curves(bench, &sweep, closed, &from_to)?;
-    Ok(Claim {
-        number: 8,
-        source: "CHK fig. 6, LG fig. 2a",
-        statement: "F_cr falls with the cantilever's length, ever more slowly.",
-        finding: format!("From {} in length F_cr falls {ends} at the nominal scene.", sweep.words()),
-        setting: format!(
-            "{} falling at every step, and no step steeper than the one before by more than {} of the mean slope.",
-            closed_setting(bench, &sweep)?,
-            change(STEEPENING)
-        ),
-        figures: &["chk-6", "lg-2a"],
-        ..Claim::judged(&holdings)
-    })
+pub(super) fn length(bench: &Bench<'_>) -> Result<Answer, ClaimsError> {
+    let steepening = change(STEEPENING);
+    let means = format!(
+        "falling at every step, and no step steeper than the one before by more than {steepening} of the mean slope"
+    );
+    let shape = |curve: &Curve| curve.falls() && curve.steepens() <= STEEPENING;
+    shaped(bench, "length", shape, ("falls", &from_to), &means)
+}
+
+/// A rise in a straight line.
+pub(super) fn is_linear_rise(curve: &Curve) -> bool {
+    curve.rises() && curve.bend().0 <= STRAIGHT
+}
+
+/// What that means.
+pub(super) fn linear_means() -> String {
+    let straight = change(STRAIGHT);
+    format!(
+        "linear means rising and nowhere farther from the straight line of least squares than {straight} of the rise"
+    )
 }
 
 /// Claim 9.
-fn width(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
-    let sweep = bench.over("width")?;
-    let holdings = under_each(bench, &sweep, &|curve| curve.rises() && curve.bend().0 <= STRAIGHT)?;
-    let bends = nominal_curves(bench, &sweep, closed, &straightness)?;
-    Ok(Claim {
-        number: 9,
-        source: "CHK fig. 7, LG fig. 2b",
-        statement: "F_cr rises linearly with the cantilever's width.",
-        finding: format!("From {} in width F_cr rises {bends} at the nominal scene.", sweep.words()),
-        setting: format!(
-            "{} linear means rising and nowhere farther from the straight line of least squares than {} of the rise.",
-            closed_setting(bench, &sweep)?,
-            change(STRAIGHT)
-        ),
-        figures: &["chk-7", "lg-2b"],
-        ..Claim::judged(&holdings)
-    })
+pub(super) fn width(bench: &Bench<'_>) -> Result<Answer, ClaimsError> {
+    shaped(bench, "width", is_linear_rise, ("rises", &straightness), &linear_means())
 }
 
 /// The ends of a rise, and how far it is from straight.
@@ -125,50 +120,30 @@ pub(super) fn straightness(curve: &Curve) -> String {
 }
 
 /// Claim 10.
-fn thickness(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
-    let sweep = bench.over("thickness")?;
-    let holdings = under_each(bench, &sweep, &|curve| curve.rises() && curve.elasticity() > 1.0)?;
-    let powers = nominal_curves(bench, &sweep, closed, &|curve| {
-        format!("{}, as t^{}", from_to(curve), number(curve.elasticity(), ""))
-    })?;
-    Ok(Claim {
-        number: 10,
-        source: "CHK fig. 8, LG fig. 2c",
-        statement: "F_cr rises steeply with the cantilever's thickness.",
-        finding: format!("From {} in thickness F_cr rises {powers} at the nominal scene.", sweep.words()),
-        setting: format!(
-            "{} steep means rising at every step, and over the range by more than in proportion (mean elasticity above 1).",
-            closed_setting(bench, &sweep)?
-        ),
-        figures: &["chk-8", "lg-2c"],
-        ..Claim::judged(&holdings)
-    })
+pub(super) fn thickness(bench: &Bench<'_>) -> Result<Answer, ClaimsError> {
+    let words = |curve: &Curve| format!("{}, as t^{}", from_to(curve), number(curve.elasticity(), ""));
+    let means =
+        "steep means rising at every step, and over the range by more than in proportion (mean elasticity above 1)";
+    let shape = |curve: &Curve| curve.rises() && curve.elasticity() > 1.0;
+    shaped(bench, "thickness", shape, ("rises", &words), means)
 }
 
 /// Claim 11. The closed form has no height in it, so that only exact geometry can say anything.
-fn height(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
+pub(super) fn height(bench: &Bench<'_>) -> Result<Answer, ClaimsError> {
     let sweep = Sweep { count: 4, ..bench.over("height")? };
     let holdings = without_effect(bench, &sweep, exact)?;
     let spreads = nominal_curves(bench, &sweep, exact, &|curve| change(curve.spread()))?;
-    Ok(Claim {
-        number: 11,
-        source: "CHK fig. 9, LG fig. 2d",
-        statement: "The height of the tip has no effect on F_cr.",
+    Ok(Answer {
         finding: format!("A height of {} changes F_cr by {spreads} at the nominal scene.", sweep.words()),
         setting: effect_setting(bench, &sweep, "Exact geometry"),
-        figures: &["chk-9", "lg-2d"],
-        ..Claim::judged(&holdings)
+        ..Answer::judged(&holdings)
     })
 }
 
 /// For each friction model, whether a sweep leaves F_cr as it is.
 pub(super) fn without_effect(bench: &Bench<'_>, sweep: &Sweep, options: OptionsOf) -> Result<Vec<Holding>, Failure> {
-    LAWS.iter()
-        .map(|(law, name)| {
-            let rule = |scene: &Scene| Ok(bench.curve(sweep, scene, &options(*law))?.spread() < NO_EFFECT);
-            bench.holding(*name, points_of(bench, *law), &rule)
-        })
-        .collect()
+    let rule = |law, scene: &Scene| Ok(bench.curve(sweep, scene, &options(law))?.spread() < NO_EFFECT);
+    bench.holding_under(&LAWS, "", |law| points_of(bench, law), rule)
 }
 
 /// Points of the box for what is not a closed formula under a friction law.

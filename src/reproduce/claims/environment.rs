@@ -1,11 +1,13 @@
 //! Claims about velocity, moduli and adhesion: 12 to 16.
 
+use super::ClaimsError;
 use super::bench::{Bench, LAWS, Sweep, closed, exact, in_motion};
 use super::dimensions::{
-    NO_EFFECT, STRAIGHT, closed_setting, effect_setting, from_to, nominal_curves, straightness, without_effect,
+    NO_EFFECT, closed_setting, effect_setting, from_to, is_linear_rise, linear_means, nominal_curves, straightness,
+    without_effect,
 };
+use super::judge::Answer;
 use super::numbers::{change, nano};
-use super::{Claim, ClaimsError};
 use apportion::afm::{Failure, Fidelity, FrictionLaw, LuGreParameters, Options, Scene};
 
 /// Up to where CHK and LG see no effect of the velocity (m/s).
@@ -18,12 +20,8 @@ const UNMOVED: f64 = 0.05;
 /// The viscous friction that brings LuGre friction to the percentages of LG fig. 4b (N s/m).
 const VISCOUS: f64 = 0.3;
 
-pub(super) fn claims(bench: &Bench<'_>) -> Result<Vec<Claim>, ClaimsError> {
-    Ok(vec![velocity(bench)?, elastic_modulus(bench)?, contact_modulus(bench)?, adhesion(bench)?, frozen(bench)?])
-}
-
 /// Claim 12. Only the equations of motion have the velocity in them under every friction model.
-fn velocity(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
+pub(super) fn velocity(bench: &Bench<'_>) -> Result<Answer, ClaimsError> {
     let whole = Sweep { count: 5, ..bench.over("velocity")? };
     let slow = Sweep { range: (0.0, SLOW), count: 4, ..whole };
     let holdings = without_effect(bench, &slow, in_motion)?;
@@ -35,10 +33,7 @@ fn velocity(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
     let viscous = bench.curve(&slow, &viscous, &exact(FrictionLaw::LuGre))?;
     let naive = Options { fidelity: Fidelity::FixedStep, ..exact(FrictionLaw::Coulomb) };
     let naive_curve = bench.curve(&Sweep { count: 13, ..slow }, &nominal, &naive)?;
-    Ok(Claim {
-        number: 12,
-        source: "CHK fig. 11, LG fig. 3a",
-        statement: "The velocity has no effect on F_cr up to 600 nm/s.",
+    Ok(Answer {
         finding: format!(
             "A velocity of {} changes F_cr by {spreads} at the nominal scene, one of {} by {beyond}. It would change it by \
              {} under LuGre friction with a viscous part of {VISCOUS} N s/m, and by {} under Coulomb friction marched in \
@@ -54,30 +49,21 @@ fn velocity(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
             effect_setting(bench, &slow, "Equations of motion"),
             change(in_motion(FrictionLaw::LuGre).tolerance)
         ),
-        figures: &["chk-11", "lg-3a"],
-        ..Claim::judged(&holdings)
+        ..Answer::judged(&holdings)
     })
 }
 
 /// Claim 13.
-fn elastic_modulus(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
+pub(super) fn elastic_modulus(bench: &Bench<'_>) -> Result<Answer, ClaimsError> {
     let sweep = bench.over("elastic_modulus")?;
-    let mut holdings = Vec::new();
-    for (law, name) in LAWS {
-        let rule = |scene: &Scene| {
-            let curve = bench.curve(&sweep, scene, &closed(law))?;
-            Ok(curve.rises() && curve.bend().0 <= STRAIGHT)
-        };
-        holdings.push(bench.holding(format!("linear rise under {name}"), bench.sizes.points, &rule)?);
-    }
+    let points = bench.sizes.points;
+    let rise = |law, scene: &Scene| Ok(is_linear_rise(&bench.curve(&sweep, scene, &closed(law))?));
+    let mut holdings = bench.holding_under(&LAWS, "linear rise under ", |_| points, rise)?;
     let gap = |scene: &Scene| Ok(gap(bench, scene, &closed(FrictionLaw::Coulomb))?.abs());
     let diverge = |scene: &Scene| Ok(bench.curve_of(&sweep, scene, &gap)?.rises());
-    holdings.push(bench.holding("divergence of Coulomb and Hurtado-Kim", bench.sizes.points, &diverge)?);
+    holdings.push(bench.holding("divergence of Coulomb and Hurtado-Kim", points, &diverge)?);
     let nominal_gap = bench.curve_of(&sweep, &Scene::default(), &gap)?;
-    Ok(Claim {
-        number: 13,
-        source: "CHK fig. 12, LG fig. 3b",
-        statement: "F_cr rises linearly with Young's modulus of the cantilever, and the friction models diverge.",
+    Ok(Answer {
         finding: format!(
             "From {} F_cr rises {} at the nominal scene, and the gap of Coulomb to Hurtado-Kim goes {}.",
             sweep.words(),
@@ -85,13 +71,11 @@ fn elastic_modulus(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
             from_to(&nominal_gap)
         ),
         setting: format!(
-            "{} linear means rising and nowhere farther from the straight line of least squares than {} of the rise; \
-             diverging, that the gap in size grows at every step.",
+            "{} {}; diverging, that the gap in size grows at every step.",
             closed_setting(bench, &sweep)?,
-            change(STRAIGHT)
+            linear_means()
         ),
-        figures: &["chk-12", "lg-3b"],
-        ..Claim::judged(&holdings)
+        ..Answer::judged(&holdings)
     })
 }
 
@@ -101,7 +85,7 @@ fn gap(bench: &Bench<'_>, scene: &Scene, coulomb: &Options) -> Result<f64, Failu
 }
 
 /// Claim 14.
-fn contact_modulus(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
+pub(super) fn contact_modulus(bench: &Bench<'_>) -> Result<Answer, ClaimsError> {
     let sweep = bench.over("equivalent_modulus")?;
     let points = bench.sizes.points;
     let (coulomb, hurtado_kim) = (closed(FrictionLaw::Coulomb), closed(FrictionLaw::HurtadoKim));
@@ -111,11 +95,7 @@ fn contact_modulus(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
         [bench.holding("Coulomb unmoved", points, &unmoved)?, bench.holding("Hurtado-Kim falling", points, &falls)?];
     let nominal = Scene::default();
     let (flat, falling) = (bench.curve(&sweep, &nominal, &coulomb)?, bench.curve(&sweep, &nominal, &hurtado_kim)?);
-    Ok(Claim {
-        number: 14,
-        source: "CHK fig. 13",
-        statement: "The equivalent modulus leaves F_cr under Coulomb friction unmoved and lowers it under Hurtado-Kim \
-                    friction.",
+    Ok(Answer {
         finding: format!(
             "From {} F_cr goes {} under Coulomb friction, a change of {} by its term τ π a², and {} under Hurtado-Kim \
              friction, a change of {}, at the nominal scene.",
@@ -130,20 +110,16 @@ fn contact_modulus(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
             closed_setting(bench, &sweep)?,
             change(UNMOVED)
         ),
-        figures: &["chk-13"],
-        ..Claim::judged(&holdings)
+        ..Answer::judged(&holdings)
     })
 }
 
 /// Claim 15.
-fn adhesion(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
+pub(super) fn adhesion(bench: &Bench<'_>) -> Result<Answer, ClaimsError> {
     let sweep = bench.over("adhesion")?;
     let points = bench.sizes.points;
-    let mut holdings = Vec::new();
-    for (law, name) in &LAWS[..2] {
-        let rises = |scene: &Scene| Ok(bench.curve(&sweep, scene, &closed(*law))?.rises());
-        holdings.push(bench.holding(format!("rise under {name}"), points, &rises)?);
-    }
+    let rises = |law, scene: &Scene| Ok(bench.curve(&sweep, scene, &closed(law))?.rises());
+    let mut holdings = bench.holding_under(&LAWS[..2], "rise under ", |_| points, rises)?;
     let coulomb = closed(FrictionLaw::Coulomb);
     let distance = |scene: &Scene| Ok(gap(bench, scene, &coulomb)?.abs());
     let approach = |scene: &Scene| Ok(bench.curve_of(&sweep, scene, &distance)?.falls());
@@ -152,11 +128,7 @@ fn adhesion(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
     let loaded = Options { adhesion_in_load: true, ..coulomb };
     let apart = bench.curve_of(&sweep, &nominal, &distance)?;
     let apart_loaded = bench.curve_of(&sweep, &nominal, &|scene| Ok(gap(bench, scene, &loaded)?.abs()))?;
-    Ok(Claim {
-        number: 15,
-        source: "CHK fig. 14",
-        statement: "F_cr rises with the work of adhesion under Coulomb and Hurtado-Kim friction, and the two approach each \
-                    other.",
+    Ok(Answer {
         finding: format!(
             "From {} F_cr goes {} under Coulomb and {} under Hurtado-Kim friction at the nominal scene, and the gap {}. \
              With the pull-off force in the load of Coulomb friction the gap goes {}.",
@@ -171,13 +143,12 @@ fn adhesion(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
              the load.",
             closed_setting(bench, &sweep)?
         ),
-        figures: &["chk-14"],
-        ..Claim::judged(&holdings)
+        ..Answer::judged(&holdings)
     })
 }
 
 /// Claim 16.
-fn frozen(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
+pub(super) fn constant_parameters(bench: &Bench<'_>) -> Result<Answer, ClaimsError> {
     let options = closed(FrictionLaw::LuGre);
     let nominal = Scene::default();
     let from_contact = Options { lugre: LuGreParameters::Contact, ..exact(FrictionLaw::LuGre) };
@@ -198,10 +169,7 @@ fn frozen(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
             change(bench.curve(&sweep, &nominal, &loaded)?.spread())
         ));
     }
-    Ok(Claim {
-        number: 16,
-        source: "LG figs. 3c, 3d",
-        statement: "Under LuGre friction the equivalent modulus and the work of adhesion have no visible effect on F_cr.",
+    Ok(Answer {
         finding: format!(
             "At the nominal scene (F_cr {}) {}.",
             nano(bench.force(&nominal, &options)?, "N"),
@@ -214,7 +182,6 @@ fn frozen(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
             change(NO_EFFECT),
             bench.sizes.points
         ),
-        figures: &["lg-3c", "lg-3d"],
-        ..Claim::judged(&holdings)
+        ..Answer::judged(&holdings)
     })
 }

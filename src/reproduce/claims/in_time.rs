@@ -1,8 +1,9 @@
 //! Claims about one scene in time: 1, 2, 3, 5.
 
 use super::bench::{Bench, LAWS, Sweep, closed};
+use super::judge::Answer;
 use super::numbers::{change, nano, number};
-use super::{Claim, ClaimsError, Verdict};
+use super::{ClaimsError, Verdict};
 use apportion::afm::contact::Contact;
 use apportion::afm::history::{History, Sample};
 use apportion::afm::{Failure, FrictionLaw, Parameter, Scene};
@@ -31,77 +32,57 @@ const AS_GOOD_AS_NONE: f64 = 1e-4;
 /// Equal up to rounding, of the forces by geometry and by friction.
 const ROUNDING: f64 = 1e-9;
 
-pub(super) fn claims(bench: &Bench<'_>) -> Result<Vec<Claim>, ClaimsError> {
-    let [slip, displacement] = run(bench)?;
-    Ok(vec![slip, displacement, forces(bench)?, delay(bench)?, contacts(bench)?])
-}
-
-/// Claim 1, in its two halves: with the shear modulus of TS04, and for comparison with that of CHK and LG.
-fn run(bench: &Bench<'_>) -> Result<[Claim; 2], ClaimsError> {
+/// A half of claim 1: where the value of a scene lies, with the shear modulus of TS04, and for comparison with that of CHK
+/// and LG.
+fn half(
+    bench: &Bench<'_>,
+    (low, high): (f64, f64),
+    value: &dyn Fn(&History) -> Result<f64, Failure>,
+    words: fn(f64) -> String,
+    (finding, means): (&dyn Fn(String) -> String, &str),
+) -> Result<Answer, ClaimsError> {
     let nominal = Scene::default();
     let other = Scene { shear_modulus: Some(PRINTED_SHEAR_MODULUS), ..nominal };
-    let run = |scene: &Scene| -> Result<(f64, f64), ClaimsError> {
-        let History { samples, critical } = (bench.physics.history)(scene, &closed(FrictionLaw::Coulomb), DURATION)?;
-        Ok((critical.critical_time?, samples.last().map_or(0.0, |end| end.relative)))
-    };
-    let ((slip, moved), (other_slip, other_moved)) = (run(&nominal)?, run(&other)?);
-    let verdict = |value: f64, (low, high): (f64, f64)| {
-        if (low..=high).contains(&value) { Verdict::Reproduced } else { Verdict::NotReproduced }
-    };
+    let of = |scene| value(&(bench.physics.history)(scene, &closed(FrictionLaw::Coulomb), DURATION)?);
+    let (ours, theirs) = (of(&nominal)?, of(&other)?);
+    let verdict = |value: f64| Verdict::of((low..=high).contains(&value));
     let giga = |scene: &Scene| number(scene.effective_shear_modulus() / 1e9, "GPa");
-    let beside = |verdict: &Verdict, value: String| {
-        format!("with G = {}, as CHK and LG print: {} ({value})", giga(&other), verdict.word())
-    };
-    let setting = format!(
-        "Exact geometry, Coulomb friction, JKR, nominal scene at V = 100 nm/s, {DURATION} s, with G = {} = E/(2 (1 + ν)), \
-         which TS04 prints in its table 2",
-        giga(&nominal)
-    );
-    let needed = DURATION + (DISPLACEMENT.0 + DISPLACEMENT.1) / 2.0 / nominal.velocity;
-    Ok([
-        Claim {
-            number: 1,
-            source: "TS04",
-            statement: "Pushed at 100 nm/s, the particle slips near 0.2 s.",
-            verdict: verdict(slip, SLIP_TIME),
-            range: beside(&verdict(other_slip, SLIP_TIME), number(other_slip, "s")),
-            finding: format!("The particle slips after {}.", number(slip, "s")),
-            setting: format!("{setting}; near 0.2 s means from {} to {} s.", SLIP_TIME.0, SLIP_TIME.1),
-            figures: &["ts04-8", "ts04-10"],
-        },
-        Claim {
-            number: 1,
-            source: "TS04",
-            statement: "After 0.4 s the particle has moved −21 nm relative to the substrate.",
-            verdict: verdict(moved, DISPLACEMENT),
-            range: beside(&verdict(other_moved, DISPLACEMENT), nano(other_moved, "m")),
-            finding: format!(
-                "It has moved {}. At 100 nm/s, −21 nm belong to a slip at {}.",
-                nano(moved, "m"),
-                number(needed, "s")
-            ),
-            setting: format!("{setting}; −21 nm means to 1 nm."),
-            figures: &["ts04-10"],
-        },
-    ])
+    let (word, said) = (verdict(theirs).word(), words(theirs));
+    Ok(Answer {
+        verdict: verdict(ours),
+        range: format!("with G = {}, as CHK and LG print: {word} ({said})", giga(&other)),
+        finding: finding(words(ours)),
+        setting: format!(
+            "Exact geometry, Coulomb friction, JKR, nominal scene at V = 100 nm/s, {DURATION} s, with G = {} = E/(2 (1 + ν)), \
+             which TS04 prints in its table 2; {means}.",
+            giga(&nominal)
+        ),
+    })
+}
+
+/// Claim 1, first half.
+pub(super) fn slip_time(bench: &Bench<'_>) -> Result<Answer, ClaimsError> {
+    let means = format!("near 0.2 s means from {} to {} s", SLIP_TIME.0, SLIP_TIME.1);
+    let finding = |time| format!("The particle slips after {time}.");
+    half(bench, SLIP_TIME, &|history| history.critical.critical_time, |time| number(time, "s"), (&finding, &means))
+}
+
+/// Claim 1, second half.
+pub(super) fn displacement(bench: &Bench<'_>) -> Result<Answer, ClaimsError> {
+    let needed = DURATION + (DISPLACEMENT.0 + DISPLACEMENT.1) / 2.0 / Scene::default().velocity;
+    let needed = number(needed, "s");
+    let finding = |moved| format!("It has moved {moved}. At 100 nm/s, −21 nm belong to a slip at {needed}.");
+    let moved = |history: &History| Ok(history.samples.last().map_or(0.0, |end| end.relative));
+    half(bench, DISPLACEMENT, &moved, |moved| nano(moved, "m"), (&finding, "−21 nm means to 1 nm"))
 }
 
 /// Claim 2.
-fn forces(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
-    let mut holdings = Vec::new();
-    for (law, name) in &LAWS[..2] {
-        let rule = |scene: &Scene| {
-            let history = (bench.physics.history)(scene, &closed(*law), FOREVER)?;
-            Ok(rises_and_stays(&history))
-        };
-        holdings.push(bench.holding(*name, bench.sizes.slow_points, &rule)?);
-    }
+pub(super) fn forces(bench: &Bench<'_>) -> Result<Answer, ClaimsError> {
+    let rule = |law, scene: &Scene| Ok(rises_and_stays(&(bench.physics.history)(scene, &closed(law), FOREVER)?));
+    let holdings = bench.holding_under(&LAWS[..2], "", |_| bench.sizes.slow_points, rule)?;
     let nominal = (bench.physics.history)(&Scene::default(), &closed(FrictionLaw::Coulomb), DURATION)?;
     let (start, held) = ends(&nominal.samples);
-    Ok(Claim {
-        number: 2,
-        source: "TS04 figs. 8, 9, CHK fig. 5",
-        statement: "While pushing, F_Y grows and F_Z is nearly constant; F_T rises to F_cr and then stays.",
+    Ok(Answer {
         finding: format!(
             "At the nominal scene under Coulomb friction F_Y grows from {} to {}, F_Z changes by {}, F_T rises from {} \
              to {}.",
@@ -117,8 +98,7 @@ fn forces(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
             change(NEARLY),
             bench.sizes.slow_points
         ),
-        figures: &["ts04-8", "ts04-9", "chk-5"],
-        ..Claim::judged(&holdings)
+        ..Answer::judged(&holdings)
     })
 }
 
@@ -141,7 +121,7 @@ fn ends(samples: &[Sample]) -> (&Sample, &Sample) {
 }
 
 /// Claim 3.
-fn delay(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
+pub(super) fn delay(bench: &Bench<'_>) -> Result<Answer, ClaimsError> {
     let parameter = Parameter::from_name("static_friction").ok_or(ClaimsError::NoRanges)?;
     let sweep = Sweep { parameter, range: (0.1, 1.2), count: bench.sizes.curve };
     let options = closed(FrictionLaw::Coulomb);
@@ -149,10 +129,7 @@ fn delay(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
     let rule = |scene: &Scene| Ok(bench.curve_of(&sweep, scene, &slip_time)?.rises());
     let holdings = [bench.holding("later slip with higher μ_s", bench.sizes.points, &rule)?];
     let nominal = bench.curve_of(&sweep, &Scene::default(), &slip_time)?;
-    Ok(Claim {
-        number: 3,
-        source: "TS04 fig. 11",
-        statement: "A higher coefficient of friction delays the slip.",
+    Ok(Answer {
         finding: format!(
             "At the nominal scene the slip comes after {} with μ_s = 0.1 and after {} with μ_s = 1.2.",
             number(nominal.first(), "s"),
@@ -163,13 +140,12 @@ fn delay(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
              to 1.2 at the nominal scene and at {} points of the general study's box.",
             sweep.count, bench.sizes.points
         ),
-        figures: &["ts04-11"],
-        ..Claim::judged(&holdings)
+        ..Answer::judged(&holdings)
     })
 }
 
 /// Claim 5.
-fn contacts(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
+pub(super) fn contacts(bench: &Bench<'_>) -> Result<Answer, ClaimsError> {
     let options = closed(FrictionLaw::Coulomb);
     let history = |scene: &Scene| (bench.physics.history)(scene, &options, FOREVER);
     // At every step, and from the start to the slip by more than nothing.
@@ -204,10 +180,7 @@ fn contacts(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
         _ => "the tip's contact breaks".to_owned(),
     };
     let (before, after) = (start.substrate_contact, held.substrate_contact);
-    Ok(Claim {
-        number: 5,
-        source: "TS04 fig. 13",
-        statement: "Area and indentation of the tip's contact grow while pushing, those of the substrate's shrink.",
+    Ok(Answer {
         finding: format!(
             "At the nominal scene {tip_finding}; on the substrate the area of {} changes by {}, the indentation of {} by \
              {}.",
@@ -221,8 +194,7 @@ fn contacts(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
              {} in all are as good as none; nominal scene and {points} points of the general study's box.",
             change(AS_GOOD_AS_NONE)
         ),
-        figures: &["ts04-13"],
-        ..Claim::judged(&holdings)
+        ..Answer::judged(&holdings)
     })
 }
 

@@ -1,7 +1,7 @@
 //! From what holds where to a verdict, and to words.
 
+use super::Verdict;
 use super::numbers::percent_of;
-use super::{Claim, Verdict};
 use crate::reproduce::named_together;
 use apportion::uncertainty::Interval;
 
@@ -50,17 +50,27 @@ pub(super) struct Holding {
     pub share: Share,
 }
 
-impl Claim {
-    /// A claim that the scene of the paper decides, with the part of the box where it holds, and nothing said yet.
-    pub(super) fn judged(holdings: &[Holding]) -> Self {
-        Self { verdict: judge(holdings), range: over_ranges(holdings), ..Self::default() }
+/// Our answer to a claim; see [`Claim`](super::Claim).
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Answer {
+    pub verdict: Verdict,
+    pub range: String,
+    pub finding: String,
+    pub setting: String,
+}
+
+impl Answer {
+    /// The answer to a claim that the scene of the paper decides, with the part of the box where it holds, and nothing said yet.
+    pub fn judged(holdings: &[Holding]) -> Self {
+        let (finding, setting) = (String::new(), String::new());
+        Self { verdict: judge(holdings), range: over_ranges(holdings), finding, setting }
     }
 }
 
 /// The verdict on a claim as its paper shows it: reproduced if every part holds at the nominal scene, which is that of the
 /// papers' figures.
 pub(super) fn judge(holdings: &[Holding]) -> Verdict {
-    if holdings.iter().all(|holding| holding.nominal) { Verdict::Reproduced } else { Verdict::NotReproduced }
+    Verdict::of(holdings.iter().all(|holding| holding.nominal))
 }
 
 /// Where each part holds over the whole ranges, in one line; parts with the same share are named together.

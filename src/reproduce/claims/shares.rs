@@ -2,14 +2,15 @@
 
 use super::bench::{Bench, Region, closed};
 use super::dimensions::NO_EFFECT;
+use super::judge::Answer;
 use super::numbers::{change, nano};
-use super::{Claim, ClaimsError, Verdict};
+use super::{ClaimsError, Verdict};
 use crate::reproduce::order::{Agreement, OrderVerdict, Standing, VISIBLE, order_of, outweighing};
-use crate::reproduce::published::{CLOSE, PRINTED};
+use crate::reproduce::papers::{CLOSE, PRINTED};
 use crate::reproduce::{FRICTIONS, Friction, GROUPS, Published, Reproduced, named_together, published};
+use apportion::EffectEstimates;
 use apportion::afm::{Failure, FrictionLaw, Scene};
 use apportion::report::{IndexRecord, fixed, give_or_take, share};
-use apportion::{EffectEstimates, Estimate};
 
 /// F_cr counts as a product of a function of the dimensions and one of the environment if it is one to this: a
 /// thousandth moves no percentage by more than a tenth.
@@ -18,111 +19,55 @@ const PRODUCT: f64 = 1e-3;
 /// What a percentage in whole numbers may have been before rounding.
 const ROUNDED: f64 = 0.5;
 
-pub(super) fn claims(bench: &Bench<'_>, studies: &[Reproduced]) -> Result<Vec<Claim>, ClaimsError> {
-    let studies = Studies(studies);
-    Ok(vec![
-        studies.order(Order {
-            number: 17,
-            group: "dimensional",
-            statement: "Of the dimensions, the thickness has the largest share, then length, width and height.",
-            source: "CHK fig. 10, LG fig. 4a",
-            figures: &["chk-10", "lg-4a", "dimensional"],
-        })?,
-        dimensional_percentage(&studies)?,
-        most_effective(&studies)?,
-        studies.order(Order {
-            number: 18,
-            group: "environmental",
-            statement: "Of the environmental factors, Young's modulus has the largest share, then velocity and adhesion.",
-            source: "CHK fig. 15, LG fig. 4b",
-            figures: &["chk-15", "lg-4b", "environmental"],
-        })?,
-        environmental_percentages(bench, &studies)?,
-        studies.order(Order {
-            number: 19,
-            group: "general",
-            statement: "Of all factors, the thickness has the largest share, then length, width, Young's modulus, velocity \
-                        and adhesion.",
-            source: "CHK fig. 16, LG fig. 4c",
-            figures: &["chk-16", "lg-4c", "general"],
-        })?,
-        general_percentages(bench, &studies)?,
-        outweigh(&studies)?,
-    ])
-}
-
-struct Studies<'a>(&'a [Reproduced]);
-
-/// A claim about an order of factors.
-struct Order {
-    number: usize,
+/// The study of a group under a friction model, with its indices.
+fn study<'a>(
+    bench: &Bench<'a>,
     group: &'static str,
-    statement: &'static str,
-    source: &'static str,
-    figures: &'static [&'static str],
+    friction: Friction,
+) -> Result<(&'a Reproduced, &'a [IndexRecord]), ClaimsError> {
+    let study = bench.studies.iter().find(|study| study.group.key == group && study.friction == friction);
+    let indices = |study: &'a Reproduced| Some((study, study.result.outputs.first()?.indices.as_deref()?));
+    study.and_then(indices).ok_or(ClaimsError::NoIndices { group, friction: friction.name })
 }
 
-impl<'a> Studies<'a> {
-    /// The study of a group under a friction model, with its indices.
-    fn find(
-        &self,
-        group: &'static str,
-        friction: Friction,
-    ) -> Result<(&'a Reproduced, &'a [IndexRecord]), ClaimsError> {
-        let missing = ClaimsError::NoIndices { group, friction: friction.name };
-        let study = self.0.iter().find(|study| study.group.key == group && study.friction == friction);
-        let indices = |study: &'a Reproduced| Some((study, study.result.outputs.first()?.indices.as_deref()?));
-        study.and_then(indices).ok_or(missing)
-    }
+/// The study of a group whose percentages are printed, with its indices.
+fn printed<'a>(bench: &Bench<'a>, group: &'static str) -> Result<(&'a Reproduced, &'a [IndexRecord]), ClaimsError> {
+    let friction = FRICTIONS.into_iter().find(|friction| friction.key == PRINTED);
+    study(bench, group, friction.ok_or(ClaimsError::NoIndices { group, friction: PRINTED })?)
+}
 
-    fn printed(&self, group: &'static str) -> Result<(&'a Reproduced, &'a [IndexRecord]), ClaimsError> {
-        let friction = FRICTIONS.into_iter().find(|friction| friction.key == PRINTED);
-        self.find(group, friction.ok_or(ClaimsError::NoIndices { group, friction: PRINTED })?)
-    }
+fn setting(bench: &Bench<'_>, group: &'static str, means: &str) -> Result<String, ClaimsError> {
+    let (study, _) = study(bench, group, FRICTIONS[0])?;
+    let provenance = &study.result.provenance;
+    let figures = GROUPS.iter().find(|known| known.key == group).map_or("", |known| known.figures);
+    Ok(format!(
+        "The {group} studies ({figures}), {} base points, sampler {}, seed {}, 95 % intervals; {means}",
+        provenance.base_samples, provenance.sampler, provenance.seed
+    ))
+}
 
-    fn setting(&self, group: &'static str) -> Result<String, ClaimsError> {
-        let (study, _) = self.find(group, FRICTIONS[0])?;
-        let provenance = &study.result.provenance;
-        let figures = GROUPS.iter().find(|known| known.key == group).map_or("", |known| known.figures);
-        Ok(format!(
-            "The {group} studies ({figures}), {} base points, sampler {}, seed {}, 95 % intervals;",
-            provenance.base_samples, provenance.sampler, provenance.seed
-        ))
+/// The first halves of claims 17 to 19: an order of factors.
+pub(super) fn order(bench: &Bench<'_>, group: &'static str) -> Result<Answer, ClaimsError> {
+    let (mut phrases, mut findings, mut is_same) = (Vec::new(), Vec::new(), true);
+    for friction in FRICTIONS {
+        let (study, indices) = study(bench, group, friction)?;
+        let order = order_of(study);
+        is_same &= order.agreement() == Agreement::Same;
+        phrases.push((stands(&order), friction.name));
+        findings.push(format!("under {} friction {}", friction.name, shares_in_words(indices, &order)));
     }
-
-    /// The first halves of claims 17 to 19.
-    fn order(&self, claim: Order) -> Result<Claim, ClaimsError> {
-        let mut phrases = Vec::new();
-        let mut agreements = Vec::new();
-        let mut findings = Vec::new();
-        for friction in FRICTIONS {
-            let (study, indices) = self.find(claim.group, friction)?;
-            let order = order_of(study);
-            agreements.push(order.agreement());
-            phrases.push((stands(&order), friction.name));
-            findings.push(format!("under {} friction {}", friction.name, shares_in_words(indices, &order)));
-        }
-        let same = agreements.iter().all(|agreement| *agreement == Agreement::Same);
-        let each = named_together(phrases).into_iter();
-        let each = each.map(|(phrase, names)| format!("{}: {phrase}", names.join(", ")));
-        Ok(Claim {
-            number: claim.number,
-            source: claim.source,
-            statement: claim.statement,
-            verdict: if same { Verdict::Reproduced } else { Verdict::NotReproduced },
-            range: each.collect::<Vec<_>>().join("; "),
-            finding: format!(
-                "Shares by total index, with those by first order in parentheses: {}.",
-                findings.join("; ")
-            ),
-            setting: format!(
-                "{} order by total shares; a factor is before the next where their intervals are apart, and has a visible \
-                 share from {VISIBLE} % on.",
-                self.setting(claim.group)?
-            ),
-            figures: claim.figures,
-        })
-    }
+    let each = named_together(phrases).into_iter();
+    let each = each.map(|(phrase, names)| format!("{}: {phrase}", names.join(", ")));
+    let means = format!(
+        "order by total shares; a factor is before the next where their intervals are apart, and has a visible share from \
+         {VISIBLE} % on."
+    );
+    Ok(Answer {
+        verdict: Verdict::of(is_same),
+        range: each.collect::<Vec<_>>().join("; "),
+        finding: format!("Shares by total index, with those by first order in parentheses: {}.", findings.join("; ")),
+        setting: setting(bench, group, &means)?,
+    })
 }
 
 /// How an order stands to the published one, in a phrase.
@@ -192,63 +137,63 @@ fn side_by_side(indices: &[IndexRecord], printed: &Published) -> String {
     each.collect::<Vec<_>>().join(", ")
 }
 
-/// The setting of claims about percentages.
-fn percentage_setting(studies: &Studies<'_>, group: &'static str) -> Result<String, ClaimsError> {
-    Ok(format!(
-        "{} LuGre friction; percentages are the same if within {CLOSE} percentage point, under one reading for all factors. \
-         The paper does not say what its percentages are of.",
-        studies.setting(group)?
-    ))
-}
-
-/// Claim 17, second half.
-fn dimensional_percentage(studies: &Studies<'_>) -> Result<Claim, ClaimsError> {
-    let (_, indices) = studies.printed("dimensional")?;
-    let printed = published("dimensional", PRINTED);
+/// A claim about printed percentages, which something of the paper's own may contradict if they are not ours; what is said
+/// beside them, and where.
+fn printed_percentages(
+    bench: &Bench<'_>,
+    group: &'static str,
+    contradicted_by: Option<String>,
+    [finding, place]: [&str; 2],
+) -> Result<Answer, ClaimsError> {
+    let ((_, indices), printed) = (printed(bench, group)?, published(group, PRINTED));
     let (verdict, range) = percentages(indices, &printed);
-    Ok(Claim {
-        number: 17,
-        source: "LG fig. 4a",
-        statement: "Under LuGre friction the thickness has a share of 76 % among the dimensions.",
-        verdict,
+    let ours = side_by_side(indices, &printed);
+    let means = format!(
+        "LuGre friction; percentages are the same if within {CLOSE} percentage point, under one reading for all factors. The \
+         paper does not say what its percentages are of.{place}"
+    );
+    Ok(Answer {
+        verdict: match (verdict, contradicted_by) {
+            (Verdict::NotReproduced, Some(own)) => Verdict::Contradicted { own },
+            (verdict, _) => verdict,
+        },
         range,
-        finding: format!("Our shares by first order and by total index: {}.", side_by_side(indices, &printed)),
-        setting: percentage_setting(studies, "dimensional")?,
-        figures: &["lg-4a", "dimensional"],
+        finding: format!("Our shares by first order and by total index: {ours}.{finding}"),
+        setting: setting(bench, group, &means)?,
     })
 }
 
+/// Claim 17, second half.
+pub(super) fn dimensional_percentage(bench: &Bench<'_>) -> Result<Answer, ClaimsError> {
+    printed_percentages(bench, "dimensional", None, [""; 2])
+}
+
 /// Claim 17, what LG's text says of the width. A printed percentage above half is that of the most effective factor.
-fn most_effective(studies: &Studies<'_>) -> Result<Claim, ClaimsError> {
-    let (study, indices) = studies.printed("dimensional")?;
+pub(super) fn most_effective(bench: &Bench<'_>) -> Result<Answer, ClaimsError> {
+    let (study, indices) = printed(bench, "dimensional")?;
     let order = order_of(study);
-    let most =
-        published("dimensional", PRINTED).shares.iter().find(|(factor, percent)| *percent > 50.0 && *factor != "width");
-    let verdict = match most {
-        Some((factor, percent)) => Verdict::Contradicted { own: format!("{percent} % for the {factor} (LG fig. 4a)") },
-        None if order.ours.first() == Some(&"width") => Verdict::Reproduced,
-        None => Verdict::NotReproduced,
-    };
-    Ok(Claim {
-        number: 17,
-        source: "LG, text",
-        statement: "The width is the most effective dimension.",
-        verdict,
+    let printed = published("dimensional", PRINTED);
+    let most = printed.shares.iter().find(|(factor, percent)| *percent > 50.0 && *factor != "width");
+    Ok(Answer {
+        verdict: match most {
+            Some((factor, percent)) => {
+                Verdict::Contradicted { own: format!("{percent} % for the {factor} (LG fig. 4a)") }
+            }
+            None => Verdict::of(order.ours.first() == Some(&"width")),
+        },
         range: format!("ours: {}", order.ours.join(" > ")),
         finding: format!(
             "Shares by total index, with those by first-order index in parentheses: {}.",
             shares_in_words(indices, &order)
         ),
-        setting: format!("{} LuGre friction.", studies.setting("dimensional")?),
-        figures: &["lg-4a", "dimensional"],
+        setting: setting(bench, "dimensional", "LuGre friction.")?,
     })
 }
 
 /// Claim 18, second half.
-fn environmental_percentages(bench: &Bench<'_>, studies: &Studies<'_>) -> Result<Claim, ClaimsError> {
-    let (_, indices) = studies.printed("environmental")?;
-    let printed = published("environmental", PRINTED);
-    let percent = |name: &str| printed.share(name).unwrap_or(f64::NAN);
+pub(super) fn environmental_percentages(bench: &Bench<'_>) -> Result<Answer, ClaimsError> {
+    let published = published("environmental", PRINTED);
+    let percent = |name: &str| published.share(name).unwrap_or(f64::NAN);
     let (nominal, options) = (Scene::default(), closed(FrictionLaw::LuGre));
     let over = |name: &str| -> Result<f64, ClaimsError> {
         let curve = bench.curve(&bench.over(name)?, &nominal, &options)?;
@@ -257,31 +202,16 @@ fn environmental_percentages(bench: &Bench<'_>, studies: &Studies<'_>) -> Result
     let (by_modulus, by_velocity) = (over("elastic_modulus")?, over("velocity")?);
     // Variances of straight lines are to each other as the squares of their rises.
     let needed = by_modulus * (percent("velocity") / percent("elastic_modulus")).sqrt();
-    let (verdict, range) = percentages(indices, &printed);
-    let visible = needed / bench.force(&nominal, &options)? > NO_EFFECT;
-    let verdict = match verdict {
-        Verdict::NotReproduced if visible => {
-            Verdict::Contradicted { own: "figure 3a, in which the velocity has no effect".to_owned() }
-        }
-        verdict => verdict,
-    };
-    Ok(Claim {
-        number: 18,
-        source: "LG fig. 4b",
-        statement: "Under LuGre friction Young's modulus has a share of 74 % and the velocity one of 26 %.",
-        verdict,
-        range,
-        finding: format!(
-            "Our shares by first order and by total index: {}. Over its range Young's modulus changes F_cr by {}; for the \
-             printed ratio the velocity would have to change it by about {}, and changes it by {}.",
-            side_by_side(indices, &printed),
-            nano(by_modulus, "N"),
-            nano(needed, "N"),
-            nano(by_velocity, "N")
-        ),
-        setting: percentage_setting(studies, "environmental")?,
-        figures: &["lg-4b", "environmental"],
-    })
+    let is_visible = needed / bench.force(&nominal, &options)? > NO_EFFECT;
+    let own = is_visible.then(|| "figure 3a, in which the velocity has no effect".to_owned());
+    let finding = format!(
+        " Over its range Young's modulus changes F_cr by {}; for the printed ratio the velocity would have to change it by \
+         about {}, and changes it by {}.",
+        nano(by_modulus, "N"),
+        nano(needed, "N"),
+        nano(by_velocity, "N")
+    );
+    printed_percentages(bench, "environmental", own, [&finding, ""])
 }
 
 /// Whether F_cr under LuGre friction is a product of a function of the dimensions and one of the other factors: with the
@@ -311,21 +241,13 @@ fn thickness_among(printed: &Published) -> (f64, (f64, f64)) {
 }
 
 /// Claim 19, second half.
-fn general_percentages(bench: &Bench<'_>, studies: &Studies<'_>) -> Result<Claim, ClaimsError> {
-    let (_, indices) = studies.printed("general")?;
-    let printed = published("general", PRINTED);
+pub(super) fn general_percentages(bench: &Bench<'_>) -> Result<Answer, ClaimsError> {
     let alone = published("dimensional", PRINTED).share("thickness").unwrap_or(f64::NAN);
-    let (among, (low, high)) = thickness_among(&printed);
-    let product = is_product(bench)?;
-    let apart = low > alone + ROUNDED || high < alone - ROUNDED;
-    let (verdict, range) = percentages(indices, &printed);
-    let verdict = match verdict {
-        Verdict::NotReproduced if product && apart => {
-            Verdict::Contradicted { own: format!("{alone} % for the thickness among the dimensions (LG fig. 4a)") }
-        }
-        verdict => verdict,
-    };
-    let consequence = if product {
+    let (among, (low, high)) = thickness_among(&published("general", PRINTED));
+    let is_product = is_product(bench)?;
+    let is_apart = low > alone + ROUNDED || high < alone - ROUNDED;
+    let own = format!("{alone} % for the thickness among the dimensions (LG fig. 4a)");
+    let consequence = if is_product {
         format!(
             "F_cr is a product of a function of the dimensions and one of the other factors, to {} of it, so that the share \
              of the thickness among thickness, length and width must be that of the dimensional study: printed are {} % \
@@ -338,59 +260,38 @@ fn general_percentages(bench: &Bench<'_>, studies: &Studies<'_>) -> Result<Claim
     } else {
         "F_cr is not a product of a function of the dimensions and one of the other factors".to_owned()
     };
-    Ok(Claim {
-        number: 19,
-        source: "LG fig. 4c",
-        statement: "Under LuGre friction the shares of all factors are 80 % for the thickness, 12 % for the length, 5 % for \
-                    the width and 3 % for Young's modulus.",
-        verdict,
-        range,
-        finding: format!(
-            "Our shares by first order and by total index: {}. {consequence}.",
-            side_by_side(indices, &printed)
-        ),
-        setting: format!(
-            "{} Whether F_cr is a product is asked at {} points of the general study's box.",
-            percentage_setting(studies, "general")?,
-            bench.sizes.points
-        ),
-        figures: &["lg-4c", "general", "lg-4a"],
-    })
+    let points = bench.sizes.points;
+    let place = format!(" Whether F_cr is a product is asked at {points} points of the general study's box.");
+    let own = (is_product && is_apart).then_some(own);
+    printed_percentages(bench, "general", own, [&format!(" {consequence}."), &place])
 }
 
 /// Claim 20.
-fn outweigh(studies: &Studies<'_>) -> Result<Claim, ClaimsError> {
-    let mut standings: Vec<(&str, Standing)> = Vec::new();
-    let mut findings = Vec::new();
+pub(super) fn outweigh(bench: &Bench<'_>) -> Result<Answer, ClaimsError> {
+    let (mut holds, mut each, mut findings) = (true, Vec::new(), Vec::new());
     for friction in FRICTIONS {
-        let (study, _) = studies.find("general", friction)?;
+        let (study, _) = study(bench, "general", friction)?;
         let missing = ClaimsError::NoIndices { group: "general", friction: friction.name };
         let (dimensional, environmental, standing) = outweighing(study).ok_or(missing)?;
-        standings.push((friction.name, standing));
-        let total = |record: Estimate| give_or_take(record);
-        findings.push(format!("{} against {} ({})", total(dimensional), total(environmental), friction.name));
+        holds &= standing == Standing::Kept;
+        let word = match standing {
+            Standing::Kept => "so",
+            Standing::Broken => "the other way round",
+            Standing::Undecided | Standing::Unseen => "not decided at this sample size",
+        };
+        each.push(format!("{}: {word}", friction.name));
+        let [ours, others] = [dimensional, environmental].map(give_or_take);
+        findings.push(format!("{ours} against {others} ({})", friction.name));
     }
-    let all = standings.iter().all(|(_, standing)| *standing == Standing::Kept);
-    let word = |standing: &Standing| match standing {
-        Standing::Kept => "so",
-        Standing::Broken => "the other way round",
-        Standing::Undecided | Standing::Unseen => "not decided at this sample size",
-    };
-    let each = standings.iter().map(|(name, standing)| format!("{name}: {}", word(standing)));
-    Ok(Claim {
-        number: 20,
-        source: "CHK fig. 16, LG fig. 4c",
-        statement: "The dimensions of the cantilever outweigh the environment.",
-        verdict: if all { Verdict::Reproduced } else { Verdict::NotReproduced },
-        range: each.collect::<Vec<_>>().join("; "),
+    let means =
+        "each group of four factors by its joint total index; one outweighs the other where the intervals are apart.";
+    Ok(Answer {
+        verdict: Verdict::of(holds),
+        range: each.join("; "),
         finding: format!(
             "Total indices of the dimensional against the environmental factors: {}.",
             findings.join(", ")
         ),
-        setting: format!(
-            "{} each group of four factors by its joint total index; one outweighs the other where the intervals are apart.",
-            studies.setting("general")?
-        ),
-        figures: &["chk-16", "lg-4c", "general"],
+        setting: setting(bench, "general", means)?,
     })
 }

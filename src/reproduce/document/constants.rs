@@ -3,8 +3,9 @@
 use crate::reproduce::general_study;
 use apportion::afm::Scene;
 use apportion::afm::modes::ModeConstants;
-use apportion::report::document::{Column, Part, Section, Table};
+use apportion::report::document::{Part, Section, Table};
 use apportion::report::with_unit;
+use apportion::space::Factor;
 
 /// A constant: its name, what is printed and where, what is used, and why.
 type Row = [String; 4];
@@ -74,19 +75,23 @@ fn constants() -> Vec<Row> {
 pub(super) fn section() -> Section {
     let caption = "Constants that a paper prints in another way than it is used, or that no paper prints. All others are \
                    used as printed.";
-    let table = Table::new(caption, ["constant", "printed", "used", "why"].map(Column::text))
-        .with_rows(constants().into_iter().map(|row| row.map(Into::into).into()));
-    let mut parts = vec![Part::Table(table)];
+    let constants = constants();
+    let mut rows = Table::of(caption, &constants);
+    for (place, heading) in ["constant", "printed", "used", "why"].into_iter().enumerate() {
+        rows = rows.text(heading, |row| &row[place]);
+    }
+    let mut parts = vec![rows.into()];
     if let Ok(study) = general_study() {
-        let row = |factor: &apportion::space::Factor| {
+        let range = |factor: &Factor| {
             let (low, high) = factor.distribution().support();
-            let group = factor.group.clone().unwrap_or_default();
-            [factor.name.replace('_', " "), format!("{low} to {high} {}", factor.unit()), group].map(Into::into).into()
+            format!("{low} to {high} {}", factor.unit())
         };
         let caption = "The ranges of the factors, uniform, as CHK prints them in its tables 1 to 3.";
-        let table = Table::new(caption, ["factor", "range", "group"].map(Column::text))
-            .with_rows(study.space().factors().iter().map(row));
-        parts.push(Part::Details { summary: "The ranges of the factors".to_owned(), parts: vec![Part::Table(table)] });
+        let table = Table::of(caption, study.space().factors())
+            .text("factor", |factor| factor.name.replace('_', " "))
+            .text("range", range)
+            .text("group", |factor| factor.group.as_deref().unwrap_or_default());
+        parts.push(Part::Details { summary: "The ranges of the factors".to_owned(), parts: vec![table.into()] });
     }
     Section::new("constants", "Constants: printed, used, and why", vec![Part::OnPage(parts)])
 }

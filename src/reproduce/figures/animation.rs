@@ -2,7 +2,7 @@
 
 use super::FiguresError;
 use super::history::story;
-use crate::scene::{player_page, scene_csv, scene_json};
+use crate::scene::{player_page, scene_json, scene_table};
 use apportion::afm::FrictionLaw;
 
 /// Name of the animation's files without extension.
@@ -26,5 +26,5 @@ pub struct Animation {
 /// [`FiguresError`] if the scene has no answer, or the page cannot be rendered.
 pub fn animation() -> Result<Animation, FiguresError> {
     let story = story(FrictionLaw::Coulomb, |_| ())?;
-    Ok(Animation { html: player_page(&story), csv: scene_csv(&story), json: scene_json(&story) })
+    Ok(Animation { html: player_page(&story), csv: scene_table(&story).csv(), json: scene_json(&story) })
 }

@@ -21,12 +21,13 @@ pub use animation::{ANIMATION_STEM, Animation, animation};
 
 use rayon::prelude::*;
 
+use super::papers::{PrintedFigure, papers};
 use super::{Effort, Reproduced, general_study};
 use apportion::afm::Failure;
 use apportion::report::chart::Chart;
 use apportion::study::StudyError;
 use apportion::sweep::SweepError;
-use list::{FIGURES, Ours};
+use list::SCENES;
 
 /// One figure of the papers, from our computation.
 #[derive(Clone, Debug, PartialEq)]
@@ -71,15 +72,17 @@ pub enum FiguresError {
 /// [`FiguresError`] if a scene has no answer.
 pub fn figures(studies: &[Reproduced], effort: Effort) -> Result<Vec<PaperFigure>, FiguresError> {
     let general = general_study()?;
-    let draw = |&(stem, ref ours, theirs): &(&'static str, Ours, &'static str)| {
-        let drawn = match ours {
-            Ours::Sweep(figure) => figure.drawn(general.space(), effort).map(Some),
-            Ours::Scene(drawn) => drawn().map(Some),
-            Ours::Shares(group, is_shown) => Ok(shares::drawn(group, *is_shown, studies)),
+    let draw = |figure: &'static PrintedFigure| {
+        let stem = figure.stem;
+        let drawn = match (figure.factor, figure.shares) {
+            (Some(factor), _) => sweep::drawn(figure, factor, general.space(), effort).map(Some),
+            (None, Some(group)) => Ok(shares::drawn(group, stem, studies)),
+            (None, None) => SCENES.iter().find(|(scene, _)| *scene == stem).map(|(_, drawn)| drawn()).transpose(),
         };
-        drawn.map(|drawn| drawn.map(|(chart, csv)| PaperFigure { stem, label: label(stem), theirs, chart, csv }))
+        let ours = |(chart, csv)| PaperFigure { stem, label: label(stem), theirs: figure.shows, chart, csv };
+        drawn.map(|drawn| drawn.map(ours))
     };
-    FIGURES.par_iter().filter_map(|figure| draw(figure).transpose()).collect()
+    papers().figures.par_iter().filter_map(|figure| draw(figure).transpose()).collect()
 }
 
 /// A chart with its data as CSV.

@@ -4,9 +4,10 @@ use rayon::prelude::*;
 
 use super::FiguresError;
 use super::curve::{Curve, crossing};
-use super::list::{Line, SweepFigure, Variant};
+use super::list::{LINES, Line, Variant};
 use super::table::Table;
 use crate::reproduce::Effort;
+use crate::reproduce::papers::PrintedFigure;
 use apportion::afm::{Fidelity, Options, Parameter, critical_force};
 use apportion::report::chart::{Axis, Chart, Mark, Panel, Series, Stroke};
 use apportion::report::format::{three_digits as short, unit};
@@ -20,28 +21,34 @@ const VISIBLE: f64 = 5e-3;
 /// A force that changes by less than this part of its size counts as having no range but its size.
 const FLAT: f64 = 1e-3;
 
-impl SweepFigure {
-    /// The chart over the range of the factor in `space`.
-    pub fn drawn(&self, space: &Space, effort: Effort) -> Result<super::Drawn, FiguresError> {
-        let number = find(space, self.factor)?;
-        let points = match effort {
-            Effort::Full => 201,
-            Effort::Quick => 41,
-        };
-        // The march's saw needs finer teeth.
-        let is_marched = self.lines.iter().any(|line| line.variant == Variant::NaiveMarch);
-        let points = if is_marched { 4 * points - 3 } else { points };
-        let values = FactorValues::over_range(space, number, points)?.values;
-        let parameter = Parameter::from_name(self.factor).ok_or(FiguresError::NoParameter { name: self.factor })?;
-        let swept = Swept { figure: self, factor: &space.factors()[number], parameter, values };
-        let lines: Vec<Drawn> = self.lines.iter().map(|line| swept.line(line)).collect();
-        Ok((swept.chart(&lines), swept.csv(&lines)))
-    }
+/// The critical force against `factor` over its range in `space`.
+pub(super) fn drawn(
+    figure: &PrintedFigure,
+    factor: &'static str,
+    space: &Space,
+    effort: Effort,
+) -> Result<super::Drawn, FiguresError> {
+    let points = match effort {
+        Effort::Full => 201,
+        Effort::Quick => 41,
+    };
+    let lines = figure.lines.iter().filter_map(|key| LINES.iter().find(|line| line.key == *key));
+    let lines: Vec<&Line> = lines.collect();
+    // The march's saw needs finer teeth.
+    let is_marched = lines.iter().any(|line| line.variant == Variant::NaiveMarch);
+    let points = if is_marched { 4 * points - 3 } else { points };
+    let number = find(space, factor)?;
+    let values = FactorValues::over_range(space, number, points)?.values;
+    let parameter = Parameter::from_name(factor).ok_or(FiguresError::NoParameter { name: factor })?;
+    let swept = Swept { gap: figure.gap, factor: &space.factors()[number], parameter, values };
+    let lines: Vec<Drawn> = lines.into_iter().map(|line| swept.line(line)).collect();
+    Ok((swept.chart(&lines), swept.csv(&lines)))
 }
 
-/// A figure with the values of its factor.
+/// A factor with its values.
 struct Swept<'a> {
-    figure: &'a SweepFigure,
+    /// Whether the caption says how far apart the first two lines are at either end.
+    gap: bool,
     factor: &'a Factor,
     parameter: &'static Parameter,
     /// In the factor's unit.
@@ -77,7 +84,7 @@ impl Swept<'_> {
 
     fn csv(&self, lines: &[Drawn]) -> String {
         let unit = self.factor.unit().symbol().replace('/', "_per_");
-        let mut table = Table::default().with(&format!("{}_{unit}", self.figure.factor), self.values.iter().copied());
+        let mut table = Table::default().with(&format!("{}_{unit}", self.factor.name), self.values.iter().copied());
         for drawn in lines {
             table = table.with(&format!("{}_nN", drawn.line.key), drawn.force.iter().copied());
         }
@@ -130,7 +137,7 @@ impl Swept<'_> {
             listed(&courses)
         );
         if let [one, other, ..] = lines
-            && self.figure.lines[0].law != self.figure.lines[1].law
+            && one.line.law != other.line.law
         {
             text.push_str(&self.between(one, other, &unit));
         }
@@ -147,7 +154,7 @@ impl Swept<'_> {
         if let Some(x) = crossing(&gap, 0.0) {
             text.push_str(&format!("; the two are equal at {}{unit}", short(x)));
         }
-        if let (Some(first), Some(last), true) = (gap.first(), gap.last(), self.figure.gap) {
+        if let (Some(first), Some(last), true) = (gap.first(), gap.last(), self.gap) {
             let verb = if last.1.abs() > first.1.abs() { "diverge" } else { "approach each other" };
             let (first, last) = (short(first.1.abs()), short(last.1.abs()));
             text.push_str(&format!("; the two {verb}, from {first} to {last} nN apart"));

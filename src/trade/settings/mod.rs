@@ -56,7 +56,7 @@ pub struct SettingsJob<'a> {
 }
 
 /// What came out.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Comparison {
     /// What the errors are distances from.
     pub truth: TruthFound,
