@@ -25,19 +25,13 @@ pub struct Arguments {
     quick: bool,
     /// A single part of the page: the figures, or the verdicts on the claims with the percentages
     #[arg(long, value_name = "PART")]
-    only: Option<Part>,
+    only: Option<Topic>,
     #[command(flatten)]
     design: DesignChanges,
     #[command(flatten)]
     charts: ChartArguments,
     #[command(flatten)]
     threads: Threads,
-}
-
-#[derive(Clone, Copy, PartialEq, clap::ValueEnum)]
-enum Part {
-    Figures,
-    Claims,
 }
 
 impl From<ReproduceError> for Failure {
@@ -55,10 +49,7 @@ pub fn reproduce(arguments: &Arguments) -> Result<(), Failure> {
     artefacts.prepare()?;
     let request = Request {
         effort: if arguments.quick { Effort::Quick } else { Effort::Full },
-        only: arguments.only.map(|part| match part {
-            Part::Figures => Topic::Figures,
-            Part::Claims => Topic::Claims,
-        }),
+        only: arguments.only,
         overrides,
         threads: arguments.threads.number(),
     };

@@ -17,6 +17,8 @@ pub use document::document;
 pub use papers::{Published, published};
 pub use reproduction::{Event, Reproduction, Request, Topic, reproduce};
 
+use crate::scene::law_colour;
+use apportion::afm::FrictionLaw;
 use apportion::report::ResultFile;
 use apportion::report::chart::Colour;
 use apportion::run::RunError;
@@ -35,6 +37,8 @@ pub enum Effort {
 /// A friction model of the papers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Friction {
+    /// The law.
+    pub law: FrictionLaw,
     /// Its name in study files.
     pub key: &'static str,
     /// Its name for people.
@@ -43,16 +47,17 @@ pub struct Friction {
     pub colour: Colour,
 }
 
-/// The colours of the friction models, the same in all charts.
-const COULOMB: Colour = Colour::Series(0);
-const HURTADO_KIM: Colour = Colour::Series(3);
-const LUGRE: Colour = Colour::Series(2);
+impl Friction {
+    const fn new(law: FrictionLaw, name: &'static str) -> Self {
+        Self { law, key: law.name(), name, colour: law_colour(law) }
+    }
+}
 
 /// The friction models, in the order of the papers' charts.
 pub const FRICTIONS: [Friction; 3] = [
-    Friction { key: "coulomb", name: "Coulomb", colour: COULOMB },
-    Friction { key: "hk", name: "Hurtado-Kim", colour: HURTADO_KIM },
-    Friction { key: "lugre", name: "LuGre", colour: LUGRE },
+    Friction::new(FrictionLaw::Coulomb, "Coulomb"),
+    Friction::new(FrictionLaw::HurtadoKim, "Hurtado-Kim"),
+    Friction::new(FrictionLaw::LuGre, "LuGre"),
 ];
 
 /// A group of studies: the same factors under each friction model.

@@ -228,7 +228,7 @@ pub fn table(rows: &[Percentages]) -> Part {
 pub fn percentages_csv(rows: &[Percentages]) -> String {
     let studies = rows.iter().flat_map(|row| row.studies.iter().map(move |study| (row, study)));
     let all = studies.flat_map(|(row, study)| study.shares.iter().map(move |share| (row, study, share)));
-    let table: Table = Table::of("", all)
+    Table::of("", all)
         .file("friction", |(row, ..)| row.friction)
         .file("output", |(row, ..)| row.output)
         .file("measure", |(row, ..)| row.measure)
@@ -237,8 +237,7 @@ pub fn percentages_csv(rows: &[Percentages]) -> String {
         .file("share", |(.., (_, share))| *share)
         .file("published", |(_, study, (factor, _))| printed(study.group, factor))
         .file("distance", |(_, study, _)| study.distance)
-        .into();
-    table.csv()
+        .csv()
 }
 
 #[cfg(test)]

@@ -53,7 +53,7 @@ fn clear_rule_labels(panels: &mut [Panel]) {
 }
 
 /// The colour of a friction law, the same in all charts of scenes.
-pub fn law_colour(law: FrictionLaw) -> Colour {
+pub const fn law_colour(law: FrictionLaw) -> Colour {
     match law {
         FrictionLaw::Coulomb => Colour::Series(0),
         FrictionLaw::HurtadoKim => Colour::Series(3),

@@ -47,6 +47,12 @@ type Flag = (&'static str, fn(&SceneSample) -> bool);
 const FLAGS: [Flag; 4] =
     [("slipping", |s| !s.sticking), ("tip_slip", |s| s.tip_slip), ("rolling", |s| s.rolling), ("spin", |s| s.spin)];
 
+/// The number in the column called `name`, in its unit.
+pub fn scene_number(name: &str, sample: &SceneSample) -> f64 {
+    let column = COLUMNS.iter().find(|column| column.name == name).expect("a column of scenes");
+    column.factor * (column.read)(sample)
+}
+
 /// The samples as a table for CSV: names with units, then a row per sample, flags as `true` and `false`. The columns are
 /// described in `docs/scene-format.md`.
 pub fn scene_table(story: &SceneStory) -> Table {

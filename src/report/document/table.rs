@@ -256,6 +256,11 @@ impl<R: Copy> Rows<R> {
         self
     }
 
+    /// The rows as CSV.
+    pub fn csv(&self) -> String {
+        self.table.csv()
+    }
+
     fn column<C: Into<Cell>>(mut self, column: Column, cell: impl Fn(R) -> C) -> Self {
         self.table.columns.push(column);
         self.table.rows.iter_mut().zip(&self.rows).for_each(|(cells, row)| cells.push(cell(*row).into()));

@@ -4,7 +4,7 @@ use super::ClaimsError;
 use super::curve::{Curve, grid};
 use super::judge::{Holding, Share};
 use super::numbers::number;
-use crate::reproduce::{Effort, Reproduced, general_study};
+use crate::reproduce::{Effort, Friction, Reproduced, general_study};
 use apportion::afm::history::{History, history};
 use apportion::afm::modes::Pushing;
 use apportion::afm::{Critical, Failure, Fidelity, FrictionLaw, Options, Parameter, Scene, critical_force};
@@ -13,10 +13,6 @@ use apportion::model::edge_unit;
 use apportion::space::Space;
 use apportion::sum;
 use apportion::uncertainty::{Interval, StandardError, t_interval};
-
-/// The friction laws of CHK and LG, with their names for people.
-pub(super) const LAWS: [(FrictionLaw, &str); 3] =
-    [(FrictionLaw::Coulomb, "Coulomb"), (FrictionLaw::HurtadoKim, "Hurtado-Kim"), (FrictionLaw::LuGre, "LuGre")];
 
 /// The seed of every sample of the box.
 const SEED: u64 = 5;
@@ -189,15 +185,15 @@ impl<'a> Bench<'a> {
     /// The same under each of these friction laws, called by its name after `label`.
     pub fn holding_under(
         &self,
-        laws: &[(FrictionLaw, &str)],
+        frictions: &[Friction],
         label: &str,
         count: impl Fn(FrictionLaw) -> u64,
         rule: impl Fn(FrictionLaw, &Scene) -> Result<bool, Failure>,
     ) -> Result<Vec<Holding>, Failure> {
-        let under = |&(law, name): &(FrictionLaw, &str)| {
+        let under = |&Friction { law, name, .. }: &Friction| {
             self.holding(format!("{label}{name}"), count(law), &|scene| rule(law, scene))
         };
-        laws.iter().map(under).collect()
+        frictions.iter().map(under).collect()
     }
 
     fn scenes(&self, which: Region, replicate: u64, count: u64) -> Vec<Scene> {

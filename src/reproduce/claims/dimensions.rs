@@ -1,11 +1,12 @@
 //! Claims about the dimensions of the cantilever: 8 to 11.
 
 use super::ClaimsError;
-use super::bench::{Bench, LAWS, Sweep, closed, exact};
+use super::bench::{Bench, Sweep, closed, exact};
 use super::curve::Curve;
 use super::judge::Answer;
 use super::judge::Holding;
 use super::numbers::{change, nano, number};
+use crate::reproduce::FRICTIONS;
 use apportion::afm::{Failure, FrictionLaw, Options, Scene};
 
 /// A curve flattens if no step is steeper than the one before by more than this share of the mean steepness: what would
@@ -35,7 +36,7 @@ fn shaped(
 ) -> Result<Answer, ClaimsError> {
     let sweep = bench.over(factor)?;
     let rule = |law, scene: &Scene| Ok(shape(&bench.curve(&sweep, scene, &closed(law))?));
-    let holdings = bench.holding_under(&LAWS, "", |_| bench.sizes.points, rule)?;
+    let holdings = bench.holding_under(&FRICTIONS, "", |_| bench.sizes.points, rule)?;
     let curves = nominal_curves(bench, &sweep, closed, words)?;
     Ok(Answer {
         finding: format!("From {} in {factor} F_cr {goes} {curves} at the nominal scene.", sweep.words()),
@@ -51,9 +52,12 @@ pub(super) fn nominal_curves(
     options: OptionsOf,
     words: Words<'_>,
 ) -> Result<String, Failure> {
-    let each: Result<Vec<String>, Failure> = LAWS
+    let each: Result<Vec<String>, Failure> = FRICTIONS
         .iter()
-        .map(|(law, name)| Ok(format!("{} ({name})", words(&bench.curve(sweep, &Scene::default(), &options(*law))?))))
+        .map(|friction| {
+            let curve = bench.curve(sweep, &Scene::default(), &options(friction.law))?;
+            Ok(format!("{} ({})", words(&curve), friction.name))
+        })
         .collect();
     Ok(each?.join(", "))
 }
@@ -61,7 +65,7 @@ pub(super) fn nominal_curves(
 /// The setting of a claim about closed formulas along a sweep, in words that end in a semicolon.
 pub(super) fn closed_setting(bench: &Bench<'_>, sweep: &Sweep) -> Result<String, Failure> {
     let mut farthest = 0.0_f64;
-    for (law, _) in LAWS {
+    for law in FRICTIONS.map(|friction| friction.law) {
         let ends = Sweep { count: 3, ..*sweep };
         let formula = bench.curve(&ends, &Scene::default(), &closed(law))?;
         let geometry = bench.curve(&ends, &Scene::default(), &exact(law))?;
@@ -143,7 +147,7 @@ pub(super) fn height(bench: &Bench<'_>) -> Result<Answer, ClaimsError> {
 /// For each friction model, whether a sweep leaves F_cr as it is.
 pub(super) fn without_effect(bench: &Bench<'_>, sweep: &Sweep, options: OptionsOf) -> Result<Vec<Holding>, Failure> {
     let rule = |law, scene: &Scene| Ok(bench.curve(sweep, scene, &options(law))?.spread() < NO_EFFECT);
-    bench.holding_under(&LAWS, "", |law| points_of(bench, law), rule)
+    bench.holding_under(&FRICTIONS, "", |law| points_of(bench, law), rule)
 }
 
 /// Points of the box for what is not a closed formula under a friction law.

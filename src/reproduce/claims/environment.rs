@@ -1,13 +1,14 @@
 //! Claims about velocity, moduli and adhesion: 12 to 16.
 
 use super::ClaimsError;
-use super::bench::{Bench, LAWS, Sweep, closed, exact, in_motion};
+use super::bench::{Bench, Sweep, closed, exact, in_motion};
 use super::dimensions::{
     NO_EFFECT, closed_setting, effect_setting, from_to, is_linear_rise, linear_means, nominal_curves, straightness,
     without_effect,
 };
 use super::judge::Answer;
 use super::numbers::{change, nano};
+use crate::reproduce::FRICTIONS;
 use apportion::afm::{Failure, Fidelity, FrictionLaw, LuGreParameters, Options, Scene};
 
 /// Up to where CHK and LG see no effect of the velocity (m/s).
@@ -58,7 +59,7 @@ pub(super) fn elastic_modulus(bench: &Bench<'_>) -> Result<Answer, ClaimsError> 
     let sweep = bench.over("elastic_modulus")?;
     let points = bench.sizes.points;
     let rise = |law, scene: &Scene| Ok(is_linear_rise(&bench.curve(&sweep, scene, &closed(law))?));
-    let mut holdings = bench.holding_under(&LAWS, "linear rise under ", |_| points, rise)?;
+    let mut holdings = bench.holding_under(&FRICTIONS, "linear rise under ", |_| points, rise)?;
     let gap = |scene: &Scene| Ok(gap(bench, scene, &closed(FrictionLaw::Coulomb))?.abs());
     let diverge = |scene: &Scene| Ok(bench.curve_of(&sweep, scene, &gap)?.rises());
     holdings.push(bench.holding("divergence of Coulomb and Hurtado-Kim", points, &diverge)?);
@@ -119,7 +120,7 @@ pub(super) fn adhesion(bench: &Bench<'_>) -> Result<Answer, ClaimsError> {
     let sweep = bench.over("adhesion")?;
     let points = bench.sizes.points;
     let rises = |law, scene: &Scene| Ok(bench.curve(&sweep, scene, &closed(law))?.rises());
-    let mut holdings = bench.holding_under(&LAWS[..2], "rise under ", |_| points, rises)?;
+    let mut holdings = bench.holding_under(&FRICTIONS[..2], "rise under ", |_| points, rises)?;
     let coulomb = closed(FrictionLaw::Coulomb);
     let distance = |scene: &Scene| Ok(gap(bench, scene, &coulomb)?.abs());
     let approach = |scene: &Scene| Ok(bench.curve_of(&sweep, scene, &distance)?.falls());

@@ -1,9 +1,10 @@
 //! Claims about one scene in time: 1, 2, 3, 5.
 
-use super::bench::{Bench, LAWS, Sweep, closed};
+use super::bench::{Bench, Sweep, closed};
 use super::judge::Answer;
 use super::numbers::{change, nano, number};
 use super::{ClaimsError, Verdict};
+use crate::reproduce::FRICTIONS;
 use apportion::afm::contact::Contact;
 use apportion::afm::history::{History, Sample};
 use apportion::afm::{Failure, FrictionLaw, Parameter, Scene};
@@ -79,7 +80,7 @@ pub(super) fn displacement(bench: &Bench<'_>) -> Result<Answer, ClaimsError> {
 /// Claim 2.
 pub(super) fn forces(bench: &Bench<'_>) -> Result<Answer, ClaimsError> {
     let rule = |law, scene: &Scene| Ok(rises_and_stays(&(bench.physics.history)(scene, &closed(law), FOREVER)?));
-    let holdings = bench.holding_under(&LAWS[..2], "", |_| bench.sizes.slow_points, rule)?;
+    let holdings = bench.holding_under(&FRICTIONS[..2], "", |_| bench.sizes.slow_points, rule)?;
     let nominal = (bench.physics.history)(&Scene::default(), &closed(FrictionLaw::Coulomb), DURATION)?;
     let (start, held) = ends(&nominal.samples);
     Ok(Answer {

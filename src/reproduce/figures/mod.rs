@@ -7,11 +7,9 @@
 mod animation;
 mod curve;
 mod history;
-mod list;
 mod modes;
 mod shares;
 mod sweep;
-mod table;
 #[cfg(test)]
 mod tests;
 
@@ -27,7 +25,6 @@ use apportion::afm::Failure;
 use apportion::report::chart::Chart;
 use apportion::study::StudyError;
 use apportion::sweep::SweepError;
-use list::SCENES;
 
 /// One figure of the papers, from our computation.
 #[derive(Clone, Debug, PartialEq)]
@@ -87,6 +84,20 @@ pub fn figures(studies: &[Reproduced], effort: Effort) -> Result<Vec<PaperFigure
 
 /// A chart with its data as CSV.
 type Drawn = (Chart, String);
+/// Draws a figure of the nominal scene.
+type Draw = fn() -> Result<Drawn, FiguresError>;
+
+/// The figures of the nominal scene by their stems.
+const SCENES: [(&str, Draw); 8] = [
+    ("chk-5", history::two_laws),
+    ("ts04-8", history::forces_in_time),
+    ("ts04-9", history::tip_force),
+    ("ts04-10", history::displacement),
+    ("ts04-11", history::coefficients),
+    ("ts04-12", modes::against_force_angle),
+    ("ts04-12-contact-angle", modes::against_contact_angle),
+    ("ts04-13", history::contact_areas),
+];
 
 /// What the papers call the figure with a stem: `CHK fig. 6`, `TS04 fig. 12, contact angle`.
 fn label(stem: &str) -> String {

@@ -1,13 +1,12 @@
 //! TS04 figure 12: what moves the particle in which way, against the angle of the force and of the contact.
 
-use super::table::Table;
 use super::{Drawn, FiguresError};
-use crate::reproduce::COULOMB;
 use crate::scene::simulation::{pushing, scene_modes};
-use crate::scene::{ModeDiagram, mode_diagram_chart};
+use crate::scene::{ModeDiagram, law_colour, mode_diagram_chart};
 use apportion::afm::modes::Mode;
-use apportion::afm::{Failure, Options, Scene, critical_force};
+use apportion::afm::{Failure, FrictionLaw, Options, Scene, critical_force};
 use apportion::report::chart::{Axis, Chart, Colour, Mark, Panel, Series, Spacing, Stroke};
+use apportion::report::document::Table;
 use apportion::report::format::{force, three_digits as short};
 
 const NANO: f64 = 1e9;
@@ -23,12 +22,13 @@ pub(super) fn against_force_angle() -> Result<Drawn, FiguresError> {
     if let Some(said) = sliding(&diagram) {
         chart.set_caption(format!("{}; {said}.", chart.caption().trim_end_matches('.')));
     }
-    let mut table = Table::default().with("force_angle_deg", diagram.angle.iter().map(|angle| angle.to_degrees()));
+    let angle = |row: usize| diagram.angle[row].to_degrees();
+    let mut rows = Table::of("", 0..diagram.angle.len()).file("force_angle_deg", angle);
     for line in &diagram.forces {
-        let column = format!("{}_nN", line.mode.replace('-', "_"));
-        table = table.with(&column, line.force.iter().map(|force| NANO * force.unwrap_or(f64::NAN)));
+        let name = format!("{}_nN", line.mode.replace('-', "_"));
+        rows = rows.file(name, |row| line.force[row].map(|force| NANO * force));
     }
-    Ok((chart, table.csv()))
+    Ok((chart, rows.csv()))
 }
 
 /// How the force of sliding goes with the angle.
@@ -83,24 +83,24 @@ pub(super) fn against_contact_angle() -> Result<Drawn, FiguresError> {
         Against {
             key: "critical_force_nN".to_owned(),
             name: "critical force F_cr of the scene".to_owned(),
-            look: (COULOMB, Stroke::Solid),
+            look: (law_colour(FrictionLaw::Coulomb), Stroke::Solid),
             force: over(&|scene| Ok(Some(critical_force(&scene, &options)?.critical_force)))?,
         },
         Against {
             key: "slide_along_contact_nN".to_owned(),
             name: "slide, force along the contact (ψ = φ)".to_owned(),
-            look: (COULOMB, Stroke::Dashed),
+            look: (law_colour(FrictionLaw::Coulomb), Stroke::Dashed),
             force: over(&|scene| at(scene, Mode::Slide, scene.contact_angle))?,
         },
         own(Mode::TipSlip, Colour::Series(1))?,
         own(Mode::Roll, Colour::Series(4))?,
         own(Mode::Spin, Colour::Series(5))?,
     ];
-    let mut table = Table::default().with("contact_angle_deg", degrees.iter().copied());
+    let mut rows = Table::of("", 0..degrees.len()).file("contact_angle_deg", |row| degrees[row]);
     for line in &lines {
-        table = table.with(&line.key, line.force.iter().map(|force| NANO * force.unwrap_or(f64::NAN)));
+        rows = rows.file(&line.key, |row| line.force[row].map(|force| NANO * force));
     }
-    Ok((chart(&degrees, &lines), table.csv()))
+    Ok((chart(&degrees, &lines), rows.csv()))
 }
 
 fn chart(degrees: &[f64], lines: &[Against]) -> Chart {
