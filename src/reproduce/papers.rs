@@ -43,6 +43,10 @@ pub(super) struct PaperClaim {
     pub source: &'static str,
     /// What is claimed, in one sentence.
     pub statement: &'static str,
+    /// Our figures, in a sentence or two, with names in braces for what the check computes.
+    pub finding: String,
+    /// The setting in which they hold, likewise.
+    pub setting: String,
     /// Stems of the figures that show it.
     pub figures: Vec<&'static str>,
 }

@@ -2,7 +2,7 @@
 
 use super::ClaimsError;
 use super::curve::{Curve, grid};
-use super::judge::{Holding, Share};
+use super::judge::{Holding, Share, Words};
 use super::numbers::number;
 use crate::reproduce::{Effort, Friction, Reproduced, general_study};
 use apportion::afm::history::{History, history};
@@ -58,6 +58,12 @@ impl Sizes {
             Effort::Full => Self { points: 8192, slow_points: 1024, ramp_points: 64, curve: 25 },
             Effort::Quick => Self { points: 1024, slow_points: 128, ramp_points: 8, curve: 13 },
         }
+    }
+
+    /// Those that the texts of claims name.
+    pub fn words(&self) -> Words {
+        let curve = ("curve", self.curve.to_string());
+        vec![("points", self.points.to_string()), ("slow_points", self.slow_points.to_string()), curve]
     }
 }
 

@@ -3,8 +3,7 @@
 use super::ClaimsError;
 use super::bench::{Bench, Sweep, closed, exact, in_motion};
 use super::dimensions::{
-    NO_EFFECT, closed_setting, effect_setting, from_to, is_linear_rise, linear_means, nominal_curves, straightness,
-    without_effect,
+    NO_EFFECT, STRAIGHT, closed_setting, from_to, is_linear_rise, nominal_curves, straightness, without_effect,
 };
 use super::judge::Answer;
 use super::numbers::{change, nano};
@@ -25,33 +24,22 @@ const VISCOUS: f64 = 0.3;
 pub(super) fn velocity(bench: &Bench<'_>) -> Result<Answer, ClaimsError> {
     let whole = Sweep { count: 5, ..bench.over("velocity")? };
     let slow = Sweep { range: (0.0, SLOW), count: 4, ..whole };
-    let holdings = without_effect(bench, &slow, in_motion)?;
-    let spread = |curve: &super::curve::Curve| change(curve.spread());
-    let spreads = nominal_curves(bench, &slow, in_motion, &spread)?;
-    let beyond = nominal_curves(bench, &whole, in_motion, &spread)?;
+    let mut answer = without_effect(bench, &slow, in_motion)?;
     let nominal = Scene::default();
     let viscous = Scene { viscous_friction: VISCOUS, ..nominal };
     let viscous = bench.curve(&slow, &viscous, &exact(FrictionLaw::LuGre))?;
     let naive = Options { fidelity: Fidelity::FixedStep, ..exact(FrictionLaw::Coulomb) };
     let naive_curve = bench.curve(&Sweep { count: 13, ..slow }, &nominal, &naive)?;
-    Ok(Answer {
-        finding: format!(
-            "A velocity of {} changes F_cr by {spreads} at the nominal scene, one of {} by {beyond}. It would change it by \
-             {} under LuGre friction with a viscous part of {VISCOUS} N s/m, and by {} under Coulomb friction marched in \
-             steps of {} ms without locating the slip.",
-            slow.words(),
-            whole.words(),
-            change(viscous.spread()),
-            change(naive_curve.spread()),
-            naive.step * 1e3
-        ),
-        setting: format!(
-            "{} The motion is solved to {} of the force: smaller changes are as good as none.",
-            effect_setting(bench, &slow, "Equations of motion"),
-            change(in_motion(FrictionLaw::LuGre).tolerance)
-        ),
-        ..Answer::judged(&holdings)
-    })
+    answer.words.extend([
+        ("whole", whole.words()),
+        ("beyond", nominal_curves(bench, &whole, in_motion, &|curve| change(curve.spread()))?),
+        ("viscous", change(viscous.spread())),
+        ("coefficient", VISCOUS.to_string()),
+        ("naive", change(naive_curve.spread())),
+        ("step", (naive.step * 1e3).to_string()),
+        ("tolerance", change(in_motion(FrictionLaw::LuGre).tolerance)),
+    ]);
+    Ok(answer)
 }
 
 /// Claim 13.
@@ -63,21 +51,14 @@ pub(super) fn elastic_modulus(bench: &Bench<'_>) -> Result<Answer, ClaimsError> 
     let gap = |scene: &Scene| Ok(gap(bench, scene, &closed(FrictionLaw::Coulomb))?.abs());
     let diverge = |scene: &Scene| Ok(bench.curve_of(&sweep, scene, &gap)?.rises());
     holdings.push(bench.holding("divergence of Coulomb and Hurtado-Kim", points, &diverge)?);
-    let nominal_gap = bench.curve_of(&sweep, &Scene::default(), &gap)?;
-    Ok(Answer {
-        finding: format!(
-            "From {} F_cr rises {} at the nominal scene, and the gap of Coulomb to Hurtado-Kim goes {}.",
-            sweep.words(),
-            nominal_curves(bench, &sweep, closed, &straightness)?,
-            from_to(&nominal_gap)
-        ),
-        setting: format!(
-            "{} {}; diverging, that the gap in size grows at every step.",
-            closed_setting(bench, &sweep)?,
-            linear_means()
-        ),
-        ..Answer::judged(&holdings)
-    })
+    let words = [
+        ("sweep", sweep.words()),
+        ("curves", nominal_curves(bench, &sweep, closed, &straightness)?),
+        ("gap", from_to(&bench.curve_of(&sweep, &Scene::default(), &gap)?)),
+        ("closed", closed_setting(bench, &sweep)?),
+        ("straight", change(STRAIGHT)),
+    ];
+    Ok(Answer::judged(&holdings, words))
 }
 
 /// F_cr under Coulomb friction with these options, less that under Hurtado-Kim friction (N).
@@ -96,23 +77,16 @@ pub(super) fn contact_modulus(bench: &Bench<'_>) -> Result<Answer, ClaimsError> 
         [bench.holding("Coulomb unmoved", points, &unmoved)?, bench.holding("Hurtado-Kim falling", points, &falls)?];
     let nominal = Scene::default();
     let (flat, falling) = (bench.curve(&sweep, &nominal, &coulomb)?, bench.curve(&sweep, &nominal, &hurtado_kim)?);
-    Ok(Answer {
-        finding: format!(
-            "From {} F_cr goes {} under Coulomb friction, a change of {} by its term τ π a², and {} under Hurtado-Kim \
-             friction, a change of {}, at the nominal scene.",
-            sweep.words(),
-            from_to(&flat),
-            change(flat.spread()),
-            from_to(&falling),
-            change(falling.spread())
-        ),
-        setting: format!(
-            "{} unmoved means by less than {}, falling means at every step.",
-            closed_setting(bench, &sweep)?,
-            change(UNMOVED)
-        ),
-        ..Answer::judged(&holdings)
-    })
+    let words = [
+        ("sweep", sweep.words()),
+        ("flat", from_to(&flat)),
+        ("flat_change", change(flat.spread())),
+        ("falling", from_to(&falling)),
+        ("falling_change", change(falling.spread())),
+        ("closed", closed_setting(bench, &sweep)?),
+        ("least", change(UNMOVED)),
+    ];
+    Ok(Answer::judged(&holdings, words))
 }
 
 /// Claim 15.
@@ -127,25 +101,16 @@ pub(super) fn adhesion(bench: &Bench<'_>) -> Result<Answer, ClaimsError> {
     holdings.push(bench.holding("approach", points, &approach)?);
     let nominal = Scene::default();
     let loaded = Options { adhesion_in_load: true, ..coulomb };
-    let apart = bench.curve_of(&sweep, &nominal, &distance)?;
-    let apart_loaded = bench.curve_of(&sweep, &nominal, &|scene| Ok(gap(bench, scene, &loaded)?.abs()))?;
-    Ok(Answer {
-        finding: format!(
-            "From {} F_cr goes {} under Coulomb and {} under Hurtado-Kim friction at the nominal scene, and the gap {}. \
-             With the pull-off force in the load of Coulomb friction the gap goes {}.",
-            sweep.words(),
-            from_to(&bench.curve(&sweep, &nominal, &coulomb)?),
-            from_to(&bench.curve(&sweep, &nominal, &closed(FrictionLaw::HurtadoKim))?),
-            from_to(&apart),
-            from_to(&apart_loaded)
-        ),
-        setting: format!(
-            "{} rising at every step; approach means that the gap in size shrinks at every step; pull-off force not in \
-             the load.",
-            closed_setting(bench, &sweep)?
-        ),
-        ..Answer::judged(&holdings)
-    })
+    let loaded_distance = |scene: &Scene| Ok(gap(bench, scene, &loaded)?.abs());
+    let words = [
+        ("sweep", sweep.words()),
+        ("coulomb", from_to(&bench.curve(&sweep, &nominal, &coulomb)?)),
+        ("hurtado_kim", from_to(&bench.curve(&sweep, &nominal, &closed(FrictionLaw::HurtadoKim))?)),
+        ("gap", from_to(&bench.curve_of(&sweep, &nominal, &distance)?)),
+        ("loaded_gap", from_to(&bench.curve_of(&sweep, &nominal, &loaded_distance)?)),
+        ("closed", closed_setting(bench, &sweep)?),
+    ];
+    Ok(Answer::judged(&holdings, words))
 }
 
 /// Claim 16.
@@ -170,19 +135,10 @@ pub(super) fn constant_parameters(bench: &Bench<'_>) -> Result<Answer, ClaimsErr
             change(bench.curve(&sweep, &nominal, &loaded)?.spread())
         ));
     }
-    Ok(Answer {
-        finding: format!(
-            "At the nominal scene (F_cr {}) {}.",
-            nano(bench.force(&nominal, &options)?, "N"),
-            findings.join("; ")
-        ),
-        setting: format!(
-            "Closed form; the parameters of LuGre friction are held constant as in LG, by which neither factor can act: \
-             this is so by construction. Invisible means by less than {}, at the nominal scene and at {} points of the \
-             general study's box.",
-            change(NO_EFFECT),
-            bench.sizes.points
-        ),
-        ..Answer::judged(&holdings)
-    })
+    let words = [
+        ("force", nano(bench.force(&nominal, &options)?, "N")),
+        ("changes", findings.join("; ")),
+        ("no_effect", change(NO_EFFECT)),
+    ];
+    Ok(Answer::judged(&holdings, words))
 }

@@ -33,48 +33,42 @@ const AS_GOOD_AS_NONE: f64 = 1e-4;
 /// Equal up to rounding, of the forces by geometry and by friction.
 const ROUNDING: f64 = 1e-9;
 
-/// A half of claim 1: where the value of a scene lies, with the shear modulus of TS04, and for comparison with that of CHK
-/// and LG.
+/// A half of claim 1: whether a quantity of the scene in time lies in a range, with the shear modulus of TS04, and for
+/// comparison with that of CHK and LG.
 fn half(
     bench: &Bench<'_>,
     (low, high): (f64, f64),
-    value: &dyn Fn(&History) -> Result<f64, Failure>,
-    words: fn(f64) -> String,
-    (finding, means): (&dyn Fn(String) -> String, &str),
+    quantity: fn(&History) -> Result<f64, Failure>,
+    said: fn(f64) -> String,
 ) -> Result<Answer, ClaimsError> {
     let nominal = Scene::default();
     let other = Scene { shear_modulus: Some(PRINTED_SHEAR_MODULUS), ..nominal };
-    let of = |scene| value(&(bench.physics.history)(scene, &closed(FrictionLaw::Coulomb), DURATION)?);
+    let of = |scene| quantity(&(bench.physics.history)(scene, &closed(FrictionLaw::Coulomb), DURATION)?);
     let (ours, theirs) = (of(&nominal)?, of(&other)?);
     let verdict = |value: f64| Verdict::of((low..=high).contains(&value));
-    let giga = |scene: &Scene| number(scene.effective_shear_modulus() / 1e9, "GPa");
-    let (word, said) = (verdict(theirs).word(), words(theirs));
+    let [modulus, printed] = [nominal, other].map(|scene| number(scene.effective_shear_modulus() / 1e9, "GPa"));
+    let (word, theirs) = (verdict(theirs).word(), said(theirs));
     Ok(Answer {
         verdict: verdict(ours),
-        range: format!("with G = {}, as CHK and LG print: {word} ({said})", giga(&other)),
-        finding: finding(words(ours)),
-        setting: format!(
-            "Exact geometry, Coulomb friction, JKR, nominal scene at V = 100 nm/s, {DURATION} s, with G = {} = E/(2 (1 + ν)), \
-             which TS04 prints in its table 2; {means}.",
-            giga(&nominal)
-        ),
+        range: format!("with G = {printed}, as CHK and LG print: {word} ({theirs})"),
+        words: vec![("value", said(ours)), ("duration", DURATION.to_string()), ("modulus", modulus)],
     })
 }
 
 /// Claim 1, first half.
 pub(super) fn slip_time(bench: &Bench<'_>) -> Result<Answer, ClaimsError> {
-    let means = format!("near 0.2 s means from {} to {} s", SLIP_TIME.0, SLIP_TIME.1);
-    let finding = |time| format!("The particle slips after {time}.");
-    half(bench, SLIP_TIME, &|history| history.critical.critical_time, |time| number(time, "s"), (&finding, &means))
+    let mut answer = half(bench, SLIP_TIME, |history| history.critical.critical_time, |time| number(time, "s"))?;
+    answer.words.extend([("from", SLIP_TIME.0.to_string()), ("to", SLIP_TIME.1.to_string())]);
+    Ok(answer)
 }
 
 /// Claim 1, second half.
 pub(super) fn displacement(bench: &Bench<'_>) -> Result<Answer, ClaimsError> {
-    let needed = DURATION + (DISPLACEMENT.0 + DISPLACEMENT.1) / 2.0 / Scene::default().velocity;
-    let needed = number(needed, "s");
-    let finding = |moved| format!("It has moved {moved}. At 100 nm/s, −21 nm belong to a slip at {needed}.");
     let moved = |history: &History| Ok(history.samples.last().map_or(0.0, |end| end.relative));
-    half(bench, DISPLACEMENT, &moved, |moved| nano(moved, "m"), (&finding, "−21 nm means to 1 nm"))
+    let mut answer = half(bench, DISPLACEMENT, moved, |moved| nano(moved, "m"))?;
+    let needed = DURATION + (DISPLACEMENT.0 + DISPLACEMENT.1) / 2.0 / Scene::default().velocity;
+    answer.words.push(("needed", number(needed, "s")));
+    Ok(answer)
 }
 
 /// Claim 2.
@@ -83,24 +77,15 @@ pub(super) fn forces(bench: &Bench<'_>) -> Result<Answer, ClaimsError> {
     let holdings = bench.holding_under(&FRICTIONS[..2], "", |_| bench.sizes.slow_points, rule)?;
     let nominal = (bench.physics.history)(&Scene::default(), &closed(FrictionLaw::Coulomb), DURATION)?;
     let (start, held) = ends(&nominal.samples);
-    Ok(Answer {
-        finding: format!(
-            "At the nominal scene under Coulomb friction F_Y grows from {} to {}, F_Z changes by {}, F_T rises from {} \
-             to {}.",
-            nano(start.lateral_force, "N"),
-            nano(held.lateral_force, "N"),
-            change(held.normal_force / start.normal_force - 1.0),
-            nano(start.tip_force, "N"),
-            nano(held.tip_force, "N")
-        ),
-        setting: format!(
-            "Exact geometry; nearly constant means to {}; after the slip the tip is taken to hold the particle still \
-             under steady friction; nominal scene and {} points of the general study's box.",
-            change(NEARLY),
-            bench.sizes.slow_points
-        ),
-        ..Answer::judged(&holdings)
-    })
+    let words = [
+        ("lateral", nano(start.lateral_force, "N")),
+        ("held_lateral", nano(held.lateral_force, "N")),
+        ("normal", change(held.normal_force / start.normal_force - 1.0)),
+        ("tip", nano(start.tip_force, "N")),
+        ("held_tip", nano(held.tip_force, "N")),
+        ("nearly", change(NEARLY)),
+    ];
+    Ok(Answer::judged(&holdings, words))
 }
 
 /// F_Y and F_T never fall while the particle sticks, F_Z is nearly constant, and F_T is F_cr at the slip and after.
@@ -130,19 +115,8 @@ pub(super) fn delay(bench: &Bench<'_>) -> Result<Answer, ClaimsError> {
     let rule = |scene: &Scene| Ok(bench.curve_of(&sweep, scene, &slip_time)?.rises());
     let holdings = [bench.holding("later slip with higher μ_s", bench.sizes.points, &rule)?];
     let nominal = bench.curve_of(&sweep, &Scene::default(), &slip_time)?;
-    Ok(Answer {
-        finding: format!(
-            "At the nominal scene the slip comes after {} with μ_s = 0.1 and after {} with μ_s = 1.2.",
-            number(nominal.first(), "s"),
-            number(nominal.last(), "s")
-        ),
-        setting: format!(
-            "Closed form, Coulomb friction (that of TS04; Hurtado-Kim friction knows no μ_s), {} values of μ_s from 0.1 \
-             to 1.2 at the nominal scene and at {} points of the general study's box.",
-            sweep.count, bench.sizes.points
-        ),
-        ..Answer::judged(&holdings)
-    })
+    let words = [("first", number(nominal.first(), "s")), ("last", number(nominal.last(), "s"))];
+    Ok(Answer::judged(&holdings, words))
 }
 
 /// Claim 5.
@@ -170,7 +144,7 @@ pub(super) fn contacts(bench: &Bench<'_>) -> Result<Answer, ClaimsError> {
     let nominal = history(&Scene::default())?;
     let (start, held) = ends(&nominal.samples);
     let square_nano = |area: f64| number(area * 1e18, "nm²");
-    let tip_finding = match (start.tip_contact, held.tip_contact) {
+    let tip = match (start.tip_contact, held.tip_contact) {
         (Some(before), Some(after)) => format!(
             "the tip's contact grows from {} to {} and its indentation from {} to {}",
             square_nano(before.area()),
@@ -181,22 +155,15 @@ pub(super) fn contacts(bench: &Bench<'_>) -> Result<Answer, ClaimsError> {
         _ => "the tip's contact breaks".to_owned(),
     };
     let (before, after) = (start.substrate_contact, held.substrate_contact);
-    Ok(Answer {
-        finding: format!(
-            "At the nominal scene {tip_finding}; on the substrate the area of {} changes by {}, the indentation of {} by \
-             {}.",
-            square_nano(before.area()),
-            change(after.area() / before.area() - 1.0),
-            nano(before.indentation, "m"),
-            change(after.indentation / before.indentation - 1.0)
-        ),
-        setting: format!(
-            "Exact geometry, Coulomb friction, JKR, from the start to the slip, at every step of the history; changes below \
-             {} in all are as good as none; nominal scene and {points} points of the general study's box.",
-            change(AS_GOOD_AS_NONE)
-        ),
-        ..Answer::judged(&holdings)
-    })
+    let words = [
+        ("tip", tip),
+        ("area", square_nano(before.area())),
+        ("area_change", change(after.area() / before.area() - 1.0)),
+        ("indentation", nano(before.indentation, "m")),
+        ("indentation_change", change(after.indentation / before.indentation - 1.0)),
+        ("none", change(AS_GOOD_AS_NONE)),
+    ];
+    Ok(Answer::judged(&holdings, words))
 }
 
 /// Whether one contact is larger than another by more than that part, in area and in indentation.

@@ -50,20 +50,21 @@ pub(super) struct Holding {
     pub share: Share,
 }
 
+/// What was computed, in words, by the names that the texts of `papers.toml` have for it.
+pub(super) type Words = Vec<(&'static str, String)>;
+
 /// Our answer to a claim; see [`Claim`](super::Claim).
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Answer {
     pub verdict: Verdict,
     pub range: String,
-    pub finding: String,
-    pub setting: String,
+    pub words: Words,
 }
 
 impl Answer {
-    /// The answer to a claim that the scene of the paper decides, with the part of the box where it holds, and nothing said yet.
-    pub fn judged(holdings: &[Holding]) -> Self {
-        let (finding, setting) = (String::new(), String::new());
-        Self { verdict: judge(holdings), range: over_ranges(holdings), finding, setting }
+    /// The answer to a claim that the scene of the paper decides, with the part of the box where it holds.
+    pub fn judged(holdings: &[Holding], words: impl Into<Words>) -> Self {
+        Self { verdict: judge(holdings), range: over_ranges(holdings), words: words.into() }
     }
 }
 

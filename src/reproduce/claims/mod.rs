@@ -169,10 +169,23 @@ pub fn claims(studies: &[Reproduced], effort: Effort) -> Result<Vec<Claim>, Clai
 /// The claims whose numbers are among `numbers`.
 fn answered(bench: &Bench<'_>, numbers: &std::ops::RangeInclusive<usize>) -> Result<Vec<Claim>, ClaimsError> {
     let asked = papers().claims.iter().filter(|claim| numbers.contains(&claim.number));
-    let claim = |PaperClaim { number, check, source, statement, figures }: &'static PaperClaim| {
-        let (_, check) = CHECKS.iter().find(|(name, _)| name == check).expect("a check for every claim");
-        let Answer { verdict, range, finding, setting } = check(bench)?;
-        Ok(Claim { number: *number, source, statement, verdict, range, finding, setting, figures })
+    let claim = |claim: &'static PaperClaim| {
+        let (_, check) = CHECKS.iter().find(|(name, _)| *name == claim.check).expect("a check for every claim");
+        let Answer { verdict, range, mut words } = check(bench)?;
+        words.extend(bench.sizes.words());
+        let filled = |text: &String| {
+            words.iter().fold(text.clone(), |text, (name, word)| text.replace(&format!("{{{name}}}"), word))
+        };
+        Ok(Claim {
+            number: claim.number,
+            source: claim.source,
+            statement: claim.statement,
+            verdict,
+            range,
+            finding: filled(&claim.finding),
+            setting: filled(&claim.setting),
+            figures: &claim.figures,
+        })
     };
     asked.map(claim).collect()
 }

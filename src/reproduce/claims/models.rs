@@ -17,20 +17,13 @@ pub(super) fn weaker_law(bench: &Bench<'_>) -> Result<Answer, ClaimsError> {
     let nominal = Scene::default();
     let holding =
         Holding { what: "F_cr(Hurtado-Kim) < F_cr(Coulomb)".to_owned(), nominal: below(&nominal)?, share: general };
-    Ok(Answer {
-        finding: format!(
-            "At the nominal scene F_cr is {} under Hurtado-Kim and {} under Coulomb friction. Hurtado-Kim friction gives \
-             the smaller force on {}, {} and {}.",
-            nano(bench.force(&nominal, &hurtado_kim)?, "N"),
-            nano(bench.force(&nominal, &coulomb)?, "N"),
-            general.words_of("the box of the general study"),
-            dimensional.words_of("that of the dimensional study"),
-            environmental.words_of("that of the environmental study")
-        ),
-        setting: format!(
-            "Closed form, JKR; shares with 95 % intervals from 8 scrambles of {} Sobol' points each.",
-            points / 8
-        ),
-        ..Answer::judged(&[holding])
-    })
+    let words = [
+        ("hurtado_kim", nano(bench.force(&nominal, &hurtado_kim)?, "N")),
+        ("coulomb", nano(bench.force(&nominal, &coulomb)?, "N")),
+        ("general", general.words_of("the box of the general study")),
+        ("dimensional", dimensional.words_of("that of the dimensional study")),
+        ("environmental", environmental.words_of("that of the environmental study")),
+        ("each", (points / 8).to_string()),
+    ];
+    Ok(Answer::judged(&[holding], words))
 }

@@ -53,23 +53,13 @@ pub(super) fn angle(bench: &Bench<'_>) -> Result<Answer, ClaimsError> {
         };
         Ok(format!("{} to {}", words(points.first()), words(points.last())))
     };
-    let unmoved = bench.curve(&sweep, &nominal, &options)?.spread();
-    Ok(Answer {
-        finding: format!(
-            "At the nominal scene the mode diagram's F_ss* falls with ψ from {} (with the pull-off force in the load: \
-             {}). The contact angle φ from 0° to 90° changes F_cr by {}: the preload sets the normal force.",
-            ends(false)?,
-            ends(true)?,
-            change(unmoved)
-        ),
-        setting: format!(
-            "Coulomb friction, JKR; F_ss*(ψ) at {} angles from 2.9° above the angle of friction to 90°, with and \
-             without adhesion in the load; F_cr by exact geometry at {} contact angles; nominal scene and {points} points \
-             of the general study's box.",
-            bench.sizes.curve, sweep.count
-        ),
-        ..Answer::judged(&holdings)
-    })
+    let words = [
+        ("ends", ends(false)?),
+        ("loaded_ends", ends(true)?),
+        ("unmoved", change(bench.curve(&sweep, &nominal, &options)?.spread())),
+        ("count", sweep.count.to_string()),
+    ];
+    Ok(Answer::judged(&holdings, words))
 }
 
 /// Claim 6. TS04 prints no criterion for rolling: the moment criterion is ours. Between a tip that stands still and a moving
@@ -105,26 +95,16 @@ pub(super) fn rolling(bench: &Bench<'_>) -> Result<Answer, ClaimsError> {
     Ok(Answer {
         verdict: judge(&holdings[..1]),
         range: format!("by a criterion of ours; {}", over_ranges(&holdings)),
-        finding: format!(
-            "TS04 prints no criterion for rolling. By a moment criterion of ours, at the nominal scene rolling sets in {}, \
-             sliding {}, slip at the tip {}: the preload alone drives rolling with {} times what resists it, and would not \
-             with ξ above {}. Held between a tip that stands still and a moving substrate, the particle rolls only if the \
-             tip slips too: then rolling starts {}.",
-            at(roll),
-            at(slide),
-            at(tip),
-            number(excess, ""),
+        words: vec![
+            ("roll", at(roll)),
+            ("slide", at(slide)),
+            ("tip", at(tip)),
+            ("excess", number(excess, "")),
             // The resistance is proportional to xi.
-            nano(pushing.constants.rolling_shift * excess, "m"),
-            at(later(roll, tip))
-        ),
-        setting: format!(
-            "Tip force of constant F_Z and rising F_Y, each motion from where its drive first exceeds its resistance; \
-             Coulomb friction, JKR; rolling resisted at either contact by 4 F_ad (a/a0)^1.5 ξ (Dominik and Tielens 1997) \
-             with ξ = {}; friction at the tip {} (both ours); nominal scene and {points} points of the general study's \
-             box.",
-            nano(pushing.constants.rolling_shift, "m"),
-            pushing.constants.tip_friction
-        ),
+            ("least_shift", nano(pushing.constants.rolling_shift * excess, "m")),
+            ("later", at(later(roll, tip))),
+            ("shift", nano(pushing.constants.rolling_shift, "m")),
+            ("tip_friction", pushing.constants.tip_friction.to_string()),
+        ],
     })
 }

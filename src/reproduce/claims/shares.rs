@@ -36,37 +36,34 @@ fn printed<'a>(bench: &Bench<'a>, group: &'static str) -> Result<(&'a Reproduced
     study(bench, group, friction.ok_or(ClaimsError::NoIndices { group, friction: PRINTED })?)
 }
 
-fn setting(bench: &Bench<'_>, group: &'static str, means: &str) -> Result<String, ClaimsError> {
+/// The studies of a group and their design.
+fn studies(bench: &Bench<'_>, group: &'static str) -> Result<(&'static str, String), ClaimsError> {
     let (study, _) = study(bench, group, FRICTIONS[0])?;
     let provenance = &study.result.provenance;
     let figures = GROUPS.iter().find(|known| known.key == group).map_or("", |known| known.figures);
-    Ok(format!(
-        "The {group} studies ({figures}), {} base points, sampler {}, seed {}, 95 % intervals; {means}",
+    let words = format!(
+        "The {group} studies ({figures}), {} base points, sampler {}, seed {}, 95 % intervals;",
         provenance.base_samples, provenance.sampler, provenance.seed
-    ))
+    );
+    Ok(("studies", words))
 }
 
 /// The first halves of claims 17 to 19: an order of factors.
 pub(super) fn order(bench: &Bench<'_>, group: &'static str) -> Result<Answer, ClaimsError> {
-    let (mut phrases, mut findings, mut is_same) = (Vec::new(), Vec::new(), true);
+    let (mut phrases, mut shares, mut is_same) = (Vec::new(), Vec::new(), true);
     for friction in FRICTIONS {
         let (study, indices) = study(bench, group, friction)?;
         let order = order_of(study);
         is_same &= order.agreement() == Agreement::Same;
         phrases.push((stands(&order), friction.name));
-        findings.push(format!("under {} friction {}", friction.name, shares_in_words(indices, &order)));
+        shares.push(format!("under {} friction {}", friction.name, shares_in_words(indices, &order)));
     }
     let each = named_together(phrases).into_iter();
     let each = each.map(|(phrase, names)| format!("{}: {phrase}", names.join(", ")));
-    let means = format!(
-        "order by total shares; a factor is before the next where their intervals are apart, and has a visible share from \
-         {VISIBLE} % on."
-    );
     Ok(Answer {
         verdict: Verdict::of(is_same),
         range: each.collect::<Vec<_>>().join("; "),
-        finding: format!("Shares by total index, with those by first order in parentheses: {}.", findings.join("; ")),
-        setting: setting(bench, group, &means)?,
+        words: vec![("shares", shares.join("; ")), studies(bench, group)?, ("visible", VISIBLE.to_string())],
     })
 }
 
@@ -137,35 +134,25 @@ fn side_by_side(indices: &[IndexRecord], printed: &Published) -> String {
     each.collect::<Vec<_>>().join(", ")
 }
 
-/// A claim about printed percentages, which something of the paper's own may contradict if they are not ours; what is said
-/// beside them, and where.
+/// A claim about printed percentages, which something of the paper's own may contradict if they are not ours.
 fn printed_percentages(
     bench: &Bench<'_>,
     group: &'static str,
     contradicted_by: Option<String>,
-    [finding, place]: [&str; 2],
 ) -> Result<Answer, ClaimsError> {
     let ((_, indices), printed) = (printed(bench, group)?, published(group, PRINTED));
     let (verdict, range) = percentages(indices, &printed);
-    let ours = side_by_side(indices, &printed);
-    let means = format!(
-        "LuGre friction; percentages are the same if within {CLOSE} percentage point, under one reading for all factors. The \
-         paper does not say what its percentages are of.{place}"
-    );
-    Ok(Answer {
-        verdict: match (verdict, contradicted_by) {
-            (Verdict::NotReproduced, Some(own)) => Verdict::Contradicted { own },
-            (verdict, _) => verdict,
-        },
-        range,
-        finding: format!("Our shares by first order and by total index: {ours}.{finding}"),
-        setting: setting(bench, group, &means)?,
-    })
+    let verdict = match (verdict, contradicted_by) {
+        (Verdict::NotReproduced, Some(own)) => Verdict::Contradicted { own },
+        (verdict, _) => verdict,
+    };
+    let shares = ("shares", side_by_side(indices, &printed));
+    Ok(Answer { verdict, range, words: vec![shares, studies(bench, group)?, ("close", CLOSE.to_string())] })
 }
 
 /// Claim 17, second half.
 pub(super) fn dimensional_percentage(bench: &Bench<'_>) -> Result<Answer, ClaimsError> {
-    printed_percentages(bench, "dimensional", None, [""; 2])
+    printed_percentages(bench, "dimensional", None)
 }
 
 /// Claim 17, what LG's text says of the width. A printed percentage above half is that of the most effective factor.
@@ -182,11 +169,7 @@ pub(super) fn most_effective(bench: &Bench<'_>) -> Result<Answer, ClaimsError> {
             None => Verdict::of(order.ours.first() == Some(&"width")),
         },
         range: format!("ours: {}", order.ours.join(" > ")),
-        finding: format!(
-            "Shares by total index, with those by first-order index in parentheses: {}.",
-            shares_in_words(indices, &order)
-        ),
-        setting: setting(bench, "dimensional", "LuGre friction.")?,
+        words: vec![("shares", shares_in_words(indices, &order)), studies(bench, "dimensional")?],
     })
 }
 
@@ -204,14 +187,10 @@ pub(super) fn environmental_percentages(bench: &Bench<'_>) -> Result<Answer, Cla
     let needed = by_modulus * (percent("velocity") / percent("elastic_modulus")).sqrt();
     let is_visible = needed / bench.force(&nominal, &options)? > NO_EFFECT;
     let own = is_visible.then(|| "figure 3a, in which the velocity has no effect".to_owned());
-    let finding = format!(
-        " Over its range Young's modulus changes F_cr by {}; for the printed ratio the velocity would have to change it by \
-         about {}, and changes it by {}.",
-        nano(by_modulus, "N"),
-        nano(needed, "N"),
-        nano(by_velocity, "N")
-    );
-    printed_percentages(bench, "environmental", own, [&finding, ""])
+    let mut answer = printed_percentages(bench, "environmental", own)?;
+    let forces = [("by_modulus", by_modulus), ("needed", needed), ("by_velocity", by_velocity)];
+    answer.words.extend(forces.map(|(name, force)| (name, nano(force, "N"))));
+    Ok(answer)
 }
 
 /// Whether F_cr under LuGre friction is a product of a function of the dimensions and one of the other factors: with the
@@ -260,15 +239,14 @@ pub(super) fn general_percentages(bench: &Bench<'_>) -> Result<Answer, ClaimsErr
     } else {
         "F_cr is not a product of a function of the dimensions and one of the other factors".to_owned()
     };
-    let points = bench.sizes.points;
-    let place = format!(" Whether F_cr is a product is asked at {points} points of the general study's box.");
-    let own = (is_product && is_apart).then_some(own);
-    printed_percentages(bench, "general", own, [&format!(" {consequence}."), &place])
+    let mut answer = printed_percentages(bench, "general", (is_product && is_apart).then_some(own))?;
+    answer.words.push(("consequence", consequence));
+    Ok(answer)
 }
 
 /// Claim 20.
 pub(super) fn outweigh(bench: &Bench<'_>) -> Result<Answer, ClaimsError> {
-    let (mut holds, mut each, mut findings) = (true, Vec::new(), Vec::new());
+    let (mut holds, mut each, mut totals) = (true, Vec::new(), Vec::new());
     for friction in FRICTIONS {
         let (study, _) = study(bench, "general", friction)?;
         let missing = ClaimsError::NoIndices { group: "general", friction: friction.name };
@@ -281,17 +259,11 @@ pub(super) fn outweigh(bench: &Bench<'_>) -> Result<Answer, ClaimsError> {
         };
         each.push(format!("{}: {word}", friction.name));
         let [ours, others] = [dimensional, environmental].map(give_or_take);
-        findings.push(format!("{ours} against {others} ({})", friction.name));
+        totals.push(format!("{ours} against {others} ({})", friction.name));
     }
-    let means =
-        "each group of four factors by its joint total index; one outweighs the other where the intervals are apart.";
     Ok(Answer {
         verdict: Verdict::of(holds),
         range: each.join("; "),
-        finding: format!(
-            "Total indices of the dimensional against the environmental factors: {}.",
-            findings.join(", ")
-        ),
-        setting: setting(bench, "general", means)?,
+        words: vec![("totals", totals.join(", ")), studies(bench, "general")?],
     })
 }
