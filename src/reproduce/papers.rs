@@ -20,6 +20,7 @@ pub(super) struct Papers {
     pub cited: &'static str,
     shares: Vec<GroupShares>,
     pub claims: Vec<PaperClaim>,
+    pub constants: Vec<PaperConstant>,
     pub figures: Vec<PrintedFigure>,
 }
 
@@ -49,6 +50,27 @@ pub(super) struct PaperClaim {
     pub setting: String,
     /// Stems of the figures that show it.
     pub figures: Vec<&'static str>,
+}
+
+/// A constant that a paper prints in another way than it is used, or that no paper prints.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct PaperConstant {
+    pub name: &'static str,
+    /// What is printed, and where.
+    pub printed: &'static str,
+    /// What is used, with names in braces for values of the scene.
+    pub used: &'static str,
+    /// Why.
+    pub why: &'static str,
+}
+
+/// What was computed, in words, by the names in braces that stand for it.
+pub(super) type Words = Vec<(&'static str, String)>;
+
+/// `text` with `words` in the place of names in braces.
+pub(super) fn filled(text: &str, words: &Words) -> String {
+    words.iter().fold(text.to_owned(), |text, (name, word)| text.replace(&format!("{{{name}}}"), word))
 }
 
 /// A figure, and what ours is made of: a factor and lines, a group of studies, or else a scene.

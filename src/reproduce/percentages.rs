@@ -8,8 +8,8 @@ use super::papers::PRINTED;
 use super::{Effort, FRICTIONS, GROUPS, QUICK, ReproduceError, StudyGroup, published, study};
 use apportion::EffectEstimates;
 use apportion::report::document::{Part, Table};
-use apportion::report::fixed;
 use apportion::report::format::words;
+use apportion::report::{OutputRecord, ResultFile, fixed};
 
 /// Within so many percentage points a distance counts as met: three times the rounding of the printed numbers.
 const MET: f64 = 1.5;
@@ -23,10 +23,7 @@ const OUTPUTS: [(&str, &str); 2] = [("critical_force", "F_cr"), ("log_critical_f
 /// A kind of share: its symbol, and where an effect has it.
 type Measure = (&'static str, fn(&EffectEstimates) -> Option<f64>);
 
-const MEASURES: [Measure; 2] = [
-    ("S_1", |effect: &EffectEstimates| effect.share_first_order),
-    ("S_T", |effect: &EffectEstimates| effect.share_total),
-];
+const MEASURES: [Measure; 2] = [("S_1", |effect| effect.share_first_order), ("S_T", |effect| effect.share_total)];
 
 /// Our percentages in the three studies under one friction model, by one measure of one output.
 #[derive(Debug, Clone, PartialEq)]
@@ -53,6 +50,15 @@ pub struct StudyShares {
 }
 
 impl StudyShares {
+    /// The shares of an output; `None` without any.
+    fn new(group: &'static str, output: &OutputRecord, share: fn(&EffectEstimates) -> Option<f64>) -> Option<Self> {
+        let indices = output.indices.as_ref().filter(|indices| !indices.is_empty())?;
+        let shares = indices.iter().map(|index| Some((index.factor.clone(), share(&index.effect)?)));
+        let shares: Vec<(String, f64)> = shares.collect::<Option<_>>()?;
+        let distance = distance(group, shares.iter().map(|(factor, share)| (factor.as_str(), *share)));
+        Some(Self { group, shares, distance })
+    }
+
     fn share(&self, factor: &str) -> Option<f64> {
         self.shares.iter().find(|(name, _)| name == factor).map(|(_, share)| *share)
     }
@@ -75,7 +81,7 @@ impl Percentages {
 }
 
 /// The part of the thickness among thickness, length and width, in percent.
-pub(super) fn thickness_part(share: impl Fn(&str) -> Option<f64>) -> Option<f64> {
+fn thickness_part(share: impl Fn(&str) -> Option<f64>) -> Option<f64> {
     let [t, l, w] = ["thickness", "length", "width"].map(share);
     Some(100.0 * t? / (t? + l? + w?))
 }
@@ -108,47 +114,36 @@ pub fn percentages(effort: Effort, threads: usize) -> Result<Vec<Percentages>, R
     let models = FRICTIONS.iter().map(|friction| (friction.name, friction.key, &[][..])).chain([viscous]);
     let mut rows = Vec::new();
     for (friction, key, settings) in models {
-        let first = rows.len();
-        for (_, output) in OUTPUTS {
-            let row = |(measure, _): Measure| Percentages { friction, measure, output, studies: Vec::new() };
-            rows.extend(MEASURES.map(row));
-        }
-        for group in GROUPS {
-            let of_study = shares_of_study(key, group.key, settings, effort, threads)?;
-            rows[first..].iter_mut().zip(of_study).for_each(|(row, shares)| row.studies.push(shares));
+        let results = GROUPS.map(|group| run(key, group.key, settings, effort, threads));
+        let results = results.into_iter().collect::<Result<Vec<_>, _>>()?;
+        for (place, (_, output)) in OUTPUTS.into_iter().enumerate() {
+            for (measure, share) in MEASURES {
+                let of_group = |(group, result): (StudyGroup, &ResultFile)| {
+                    StudyShares::new(group.key, &result.outputs[place], share)
+                        .ok_or_else(|| ReproduceError::NoPercentages { study: result.study.name.clone(), measure })
+                };
+                let studies = GROUPS.into_iter().zip(&results).map(of_group).collect::<Result<_, _>>()?;
+                rows.push(Percentages { friction, measure, output, studies });
+            }
         }
     }
     Ok(rows)
 }
 
-/// The shares of one study: for each output, by each measure.
-fn shares_of_study(
+/// The result of one study with both outputs.
+fn run(
     friction: &str,
-    group: &'static str,
+    group: &str,
     settings: &[&str],
     effort: Effort,
     threads: usize,
-) -> Result<Vec<StudyShares>, ReproduceError> {
+) -> Result<ResultFile, ReproduceError> {
     let names = OUTPUTS.map(|(output, _)| format!("{output:?}")).join(", ");
+    let own = [format!("outputs=[{names}]"), "analysis.convergence=false".to_owned()].into_iter();
     let quick = if effort == Effort::Quick { &QUICK[..] } else { &[] };
-    let overrides: Vec<String> = [format!("outputs=[{names}]"), "analysis.convergence=false".to_owned()]
-        .into_iter()
-        .chain(settings.iter().chain(quick).map(|setting| (*setting).to_owned()))
-        .collect();
+    let overrides: Vec<String> = own.chain(settings.iter().chain(quick).map(|&setting| setting.to_owned())).collect();
     let study = study(friction, group, &overrides)?;
-    let result = apportion::report::ResultFile::new(&study, &study.runner().threads(threads).run()?);
-    let mut of_study = Vec::new();
-    for output in &result.outputs {
-        for (measure, share) in MEASURES {
-            let indices = output.indices.iter().flatten();
-            let shares = indices.map(|index| Some((index.factor.clone(), share(&index.effect)?))).collect();
-            let shares: Vec<(String, f64)> = Option::filter(shares, |shares: &Vec<_>| !shares.is_empty())
-                .ok_or_else(|| ReproduceError::NoPercentages { study: study.name().to_owned(), measure })?;
-            let distance = distance(group, shares.iter().map(|(factor, share)| (factor.as_str(), *share)));
-            of_study.push(StudyShares { group, shares, distance });
-        }
-    }
-    Ok(of_study)
+    Ok(ResultFile::new(&study, &study.runner().threads(threads).run()?))
 }
 
 /// What the percentages say: that LG does not define its own and that they contradict each other; which of ours are

@@ -2,8 +2,9 @@
 
 use super::ClaimsError;
 use super::curve::{Curve, grid};
-use super::judge::{Holding, Share, Words};
+use super::judge::{Holding, Share};
 use super::numbers::number;
+use crate::reproduce::papers::Words;
 use crate::reproduce::{Effort, Friction, Reproduced, general_study};
 use apportion::afm::history::{History, history};
 use apportion::afm::modes::Pushing;

@@ -3,6 +3,7 @@
 use super::Verdict;
 use super::numbers::percent_of;
 use crate::reproduce::named_together;
+use crate::reproduce::papers::Words;
 use apportion::uncertainty::Interval;
 
 /// From this share of the box on a rule holds everywhere: what is left is a corner that no chart of the papers shows.
@@ -49,9 +50,6 @@ pub(super) struct Holding {
     pub nominal: bool,
     pub share: Share,
 }
-
-/// What was computed, in words, by the names that the texts of `papers.toml` have for it.
-pub(super) type Words = Vec<(&'static str, String)>;
 
 /// Our answer to a claim; see [`Claim`](super::Claim).
 #[derive(Clone, Debug, PartialEq, Eq)]

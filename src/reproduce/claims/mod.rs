@@ -24,7 +24,7 @@ use std::fmt;
 use serde::Serialize;
 use thiserror::Error;
 
-use super::papers::{PaperClaim, papers};
+use super::papers::{PaperClaim, filled, papers};
 use super::{Effort, Reproduced};
 use apportion::afm::Failure;
 use apportion::report::json;
@@ -173,17 +173,14 @@ fn answered(bench: &Bench<'_>, numbers: &std::ops::RangeInclusive<usize>) -> Res
         let (_, check) = CHECKS.iter().find(|(name, _)| *name == claim.check).expect("a check for every claim");
         let Answer { verdict, range, mut words } = check(bench)?;
         words.extend(bench.sizes.words());
-        let filled = |text: &String| {
-            words.iter().fold(text.clone(), |text, (name, word)| text.replace(&format!("{{{name}}}"), word))
-        };
         Ok(Claim {
             number: claim.number,
             source: claim.source,
             statement: claim.statement,
             verdict,
             range,
-            finding: filled(&claim.finding),
-            setting: filled(&claim.setting),
+            finding: filled(&claim.finding, &words),
+            setting: filled(&claim.setting, &words),
             figures: &claim.figures,
         })
     };

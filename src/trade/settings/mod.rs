@@ -55,6 +55,14 @@ pub struct SettingsJob<'a> {
     pub on_progress: &'a dyn Fn(&str, f64),
 }
 
+impl SettingsJob<'_> {
+    /// Runs a variant of the study.
+    fn run(&self, study: &Study) -> Result<Analysis, RunError> {
+        let runner = study.runner().threads(self.threads);
+        self.stop.into_iter().fold(runner, |runner, stop| runner.stop(stop)).run()
+    }
+}
+
 /// What came out.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Comparison {
@@ -166,11 +174,7 @@ fn measured(job: &SettingsJob<'_>, curve: &Curve, truth: &Truth, seconds: f64) -
             let own = job.study.design.settings().seed.wrapping_add(seed);
             let Ok(study) = curve.study(job.study, base_samples, own) else { return Ok(all) };
             let began = Instant::now();
-            let mut runner = study.runner().threads(job.threads);
-            if let Some(stop) = job.stop {
-                runner = runner.stop(stop);
-            }
-            let analysis = match runner.run() {
+            let analysis = match job.run(&study) {
                 Ok(analysis) => analysis,
                 Err(error @ RunError::Interrupted { .. }) => return Err(error),
                 Err(_) => return Ok(all),
