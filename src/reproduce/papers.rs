@@ -18,6 +18,8 @@ pub(super) const PRINTED: &str = "lugre";
 pub(super) struct Papers {
     /// The papers in full.
     pub cited: &'static str,
+    /// What LG's percentages say, with names in braces for numbers of ours.
+    pub readings: Vec<String>,
     shares: Vec<GroupShares>,
     pub claims: Vec<PaperClaim>,
     pub constants: Vec<PaperConstant>,

@@ -4,7 +4,7 @@
 //! the critical force and of its logarithm, under each friction model and under LuGre friction with the viscous
 //! coefficient that brings the velocity to its printed share. Nothing is tuned beyond that one coefficient.
 
-use super::papers::PRINTED;
+use super::papers::{PRINTED, Words, filled, papers};
 use super::{Effort, FRICTIONS, GROUPS, QUICK, ReproduceError, StudyGroup, published, study};
 use apportion::EffectEstimates;
 use apportion::report::document::{Part, Table};
@@ -149,47 +149,35 @@ fn run(
 /// What the percentages say: that LG does not define its own and that they contradict each other; which of ours are
 /// nearest; and what the share of the velocity takes.
 pub fn summary(rows: &[Percentages]) -> Vec<String> {
-    [undefined(rows), nearest(rows), velocity(rows)].into_iter().flatten().collect()
+    let words = in_words(rows).unwrap_or_default();
+    papers().readings.iter().filter(|_| !words.is_empty()).map(|text| filled(text, &words)).collect()
 }
 
-fn undefined(rows: &[Percentages]) -> Option<String> {
-    let ours = rows.iter().find(|row| (row.friction, row.measure, row.output) == ("LuGre", "S_1", "F_cr"))?;
-    Some(format!(
-        "LG does not say of what its percentages are, and they contradict each other: of thickness, length and width \
-         together, the thickness has {} % in the dimensional and {} % in the general study, where a force that is a \
-         product of powers gives the same part in both (ours: {} and {} %).",
-        fixed(printed("dimensional", "thickness")?, 0),
-        fixed(thickness_part(|factor| printed("general", factor))?, 1),
-        fixed(ours.thickness_part("dimensional")?, 1),
-        fixed(ours.thickness_part("general")?, 1)
-    ))
-}
-
-fn nearest(rows: &[Percentages]) -> Option<String> {
+fn in_words(rows: &[Percentages]) -> Option<Words> {
+    let [dimensional, environmental, general] = GROUPS.map(|group| group.key);
+    let by_first_order =
+        |friction| rows.iter().find(|row| (row.friction, row.measure, row.output) == (friction, "S_1", "F_cr"));
+    let velocity = |friction| {
+        let row: &Percentages = by_first_order(friction)?;
+        row.studies.iter().find(|study| study.group == environmental)?.share("velocity")
+    };
+    let ours = by_first_order("LuGre")?;
     let nearest = rows.iter().min_by(|a, b| a.mean_distance().total_cmp(&b.mean_distance()))?;
     let meets_all = nearest.studies.iter().all(|study| study.distance <= MET);
     let distances = nearest.studies.iter().map(|study| format!("{} {}", study.group, fixed(study.distance, 1)));
-    Some(format!(
-        "{} of all three studies to {MET} points: the nearest on the mean is {} ({} points).",
-        if meets_all { "One reading meets the percentages" } else { "No reading meets the percentages" },
-        nearest.name(),
-        distances.collect::<Vec<_>>().join(", ")
-    ))
-}
-
-fn velocity(rows: &[Percentages]) -> Option<String> {
-    const GROUP: &str = "environmental";
-    let share = |friction: &str| {
-        let row = rows.iter().find(|row| (row.friction, row.measure, row.output) == (friction, "S_1", "F_cr"))?;
-        row.studies.iter().find(|study| study.group == GROUP)?.share("velocity")
-    };
-    Some(format!(
-        "The {} % printed for the velocity take a viscous coefficient of 0.3 N s/m ({} %) instead of the 1e-7 N s/m that LG \
-         prints ({} %).",
-        printed(GROUP, "velocity")?,
-        fixed(share("viscous LuGre")?, 1),
-        fixed(share("LuGre")?, 1)
-    ))
+    Some(vec![
+        ("dimensional", fixed(printed(dimensional, "thickness")?, 0)),
+        ("general", fixed(thickness_part(|factor| printed(general, factor))?, 1)),
+        ("ours_dimensional", fixed(ours.thickness_part(dimensional)?, 1)),
+        ("ours_general", fixed(ours.thickness_part(general)?, 1)),
+        ("meets", if meets_all { "One reading meets" } else { "No reading meets" }.to_owned()),
+        ("met", MET.to_string()),
+        ("nearest", nearest.name()),
+        ("distances", distances.collect::<Vec<_>>().join(", ")),
+        ("velocity", printed(environmental, "velocity")?.to_string()),
+        ("viscous", fixed(velocity("viscous LuGre")?, 1)),
+        ("lugre", fixed(velocity("LuGre")?, 1)),
+    ])
 }
 
 /// The table of the page: what is printed, then a row for each friction model, output and measure.

@@ -160,30 +160,22 @@ fn positions_caption(story: &SceneStory) -> String {
 
 /// TS04 figure 13.
 pub(crate) fn contacts(story: &SceneStory) -> Chart {
-    let tip = (story.colour, Stroke::Solid);
-    let substrate = (SUBSTRATE, Stroke::Dashed);
-    let absolute = |label: &str, tip_of: Read, substrate_of: Read| {
+    let absolute: &dyn Fn(&SceneSample, Read) -> f64 = &|sample, read| NANO * read(sample);
+    let relative: &dyn Fn(&SceneSample, Read) -> f64 = &|sample, read| 100.0 * change_since_start(story, sample, read);
+    let of_both = |label: &str, unit: &str, [tip, substrate]: [Read; 2], of: &dyn Fn(&SceneSample, Read) -> f64| {
         let curves = [
-            Curve { name: "at the tip", look: tip, read: &|s| NANO * tip_of(s) },
-            Curve { name: "at the substrate", look: substrate, read: &|s| NANO * substrate_of(s) },
+            Curve { name: "at the tip", look: (story.colour, Stroke::Solid), read: &|s| of(s, tip) },
+            Curve { name: "at the substrate", look: (SUBSTRATE, Stroke::Dashed), read: &|s| of(s, substrate) },
         ];
-        panel(story, Axis::new(label, "nm"), &curves)
+        panel(story, Axis::new(label, unit), &curves)
     };
-    let relative = |label: &str, tip_of: Read, substrate_of: Read| {
-        let part = |read: Read| move |s: &SceneSample| 100.0 * change_since_start(story, s, read);
-        let curves = [
-            Curve { name: "at the tip", look: tip, read: &part(tip_of) },
-            Curve { name: "at the substrate", look: substrate, read: &part(substrate_of) },
-        ];
-        panel(story, Axis::new(label, "%"), &curves)
-    };
-    let radii: (Read, Read) = (|s| s.tip_contact_radius(), |s| s.substrate_contact.radius);
-    let depths: (Read, Read) = (|s| s.tip_indentation(), |s| s.substrate_contact.indentation);
+    let radii: [Read; 2] = [|s| s.tip_contact_radius(), |s| s.substrate_contact.radius];
+    let depths: [Read; 2] = [|s| s.tip_indentation(), |s| s.substrate_contact.indentation];
     let mut panels = vec![
-        absolute("Contact radius", radii.0, radii.1),
-        absolute("Indentation", depths.0, depths.1),
-        relative("Change of radius", radii.0, radii.1),
-        relative("Change of indentation", depths.0, depths.1),
+        of_both("Contact radius", "nm", radii, absolute),
+        of_both("Indentation", "nm", depths, absolute),
+        of_both("Change of radius", "%", radii, relative),
+        of_both("Change of indentation", "%", depths, relative),
     ];
     clear_rule_labels(&mut panels[1..]);
     Chart::new("Contacts at tip and substrate", contacts_caption(story)).panels(panels)

@@ -204,20 +204,17 @@ fn compared(names: &[String], a: &OutputRecord, b: &OutputRecord) -> Result<Comp
     let value = |mean: f64| if is_same { mean } else { of_a.from_si(of_b.to_si(mean)) };
     let span = |sd: f64| if is_same { sd } else { of_a.span_from_si(of_b.span_to_si(sd)) };
     let sd = |output: &OutputRecord| output.variance.filter(|variance| *variance >= 0.0).map(f64::sqrt);
-    let factor = |name: &String| {
-        let of = |output: &OutputRecord| {
-            output.indices.iter().flatten().find(|index| index.factor == *name).map(|index| index.effect)
-        };
-        factor(name, false, of(a), of(b))
+    let of_factor = |output: &OutputRecord, name: &String| {
+        output.indices.iter().flatten().find(|index| index.factor == *name).map(|index| index.effect)
     };
-    let group = |name: &String| {
-        let of = |output: &OutputRecord| {
-            output.groups.iter().flatten().find(|group| group.group == *name).map(|group| group.effect)
-        };
-        of(b).is_some().then(|| self::factor(name, true, of(a), of(b)))
+    let of_group = |output: &OutputRecord, name: &String| {
+        output.groups.iter().flatten().find(|group| group.group == *name).map(|group| group.effect)
     };
-    let factors = names.iter().map(factor);
-    let groups = a.groups.iter().flatten().filter_map(|record| group(&record.group));
+    let factors = names.iter().map(|name| factor(name, false, of_factor(a, name), of_factor(b, name)));
+    let groups = a.groups.iter().flatten().filter_map(|record| {
+        let of_b = of_group(b, &record.group)?;
+        Some(factor(&record.group, true, Some(record.effect), Some(of_b)))
+    });
     Ok(ComparedOutput {
         name: a.name.clone(),
         unit: a.unit.clone(),
