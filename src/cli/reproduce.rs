@@ -36,10 +36,7 @@ pub struct Arguments {
 
 impl From<ReproduceError> for Failure {
     fn from(error: ReproduceError) -> Self {
-        match error {
-            ReproduceError::Study(_) => Self::Input(error.into()),
-            _ => Self::Run(error.into()),
-        }
+        Self::of(matches!(error, ReproduceError::Study(_)), error)
     }
 }
 

@@ -41,10 +41,7 @@ pub struct Arguments {
 
 impl From<ScreeningError> for Failure {
     fn from(error: ScreeningError) -> Self {
-        match error {
-            ScreeningError::Run(_) => Self::Run(error.into()),
-            _ => Self::Input(error.into()),
-        }
+        Self::of(!matches!(error, ScreeningError::Run(_)), error)
     }
 }
 

@@ -31,11 +31,11 @@ pub struct Arguments {
 
 impl From<SweepError> for Failure {
     fn from(error: SweepError) -> Self {
-        match error {
-            SweepError::Halted(Halt::GaveUp(GiveUp { is_bad_input: true, .. })) => Self::Input(error.into()),
-            SweepError::Halted(_) => Self::Run(error.into()),
-            _ => Self::Input(error.into()),
-        }
+        let is_input = match &error {
+            SweepError::Halted(halt) => matches!(halt, Halt::GaveUp(GiveUp { is_bad_input: true, .. })),
+            _ => true,
+        };
+        Self::of(is_input, error)
     }
 }
 

@@ -44,15 +44,9 @@ pub(super) fn local(bench: &mut Bench<'_>, number: usize, factor: &Factor) -> Re
     let distribution = factor.distribution();
     let x = factor.nominal;
     // A factor of single values is asked at its nominal value alone.
-    let points = match distribution {
-        Distribution::Discrete(_)
-        | Distribution::Integer(_)
-        | Distribution::Poisson(_)
-        | Distribution::Categorical(_)
-        | Distribution::Seed(_)
-        | Distribution::Constant(_) => None,
-        _ => Some(Points::of(x, distribution)),
-    };
+    let is_single =
+        distribution.is_whole() || distribution.levels().is_some() || matches!(distribution, Distribution::Constant(_));
+    let points = (!is_single).then(|| Points::of(x, distribution));
     let values = points.as_ref().map_or_else(|| vec![x], |points| points.values.clone());
     let curves = bench.curve(number, &values, None)?;
     let of_output = |(curve, has_offset): (super::OutputCurve, bool)| {

@@ -1,7 +1,6 @@
 //! A comparison as charts: the indices side by side, and their differences.
 
-use super::index::ComparedIndex;
-use super::record::{ComparedFactor, ComparedOutput, ComparisonFile};
+use super::record::{ComparedFactor, ComparedIndex, ComparedOutput, ComparisonFile};
 use crate::report::chart::{Chart, Colour, Series};
 use crate::report::factor_bars::{DIFFERENCES, INDEX, INDICES, MOST, both_orders, index_panel, not_drawn};
 use crate::report::format::name;

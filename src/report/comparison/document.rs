@@ -1,8 +1,7 @@
 //! A comparison as a document.
 
 use super::charts::{differences, side_by_side};
-use super::index::ComparedIndex;
-use super::record::{ComparedFactor, ComparedOutput, ComparedSide, ComparisonFile};
+use super::record::{ComparedFactor, ComparedIndex, ComparedOutput, ComparedSide, ComparisonFile};
 use crate::report::document::{Document, OutputReport, Part, Report, Section, Table};
 use crate::report::format::{give_or_take, name, or_dash, significant};
 use crate::report::leading::{Contender, may_lead};

@@ -1,13 +1,12 @@
 //! The comparison as a record.
 
 use serde::{Deserialize, Serialize};
+use thiserror::Error;
 
-use super::error::CompareError;
-use super::index::ComparedIndex;
 use super::settings::{SettingDifference, differences};
 use crate::quantity::Unit;
 use crate::report::result::{OutputRecord, ResultFile};
-use crate::uncertainty::{EffectEstimates, Interval};
+use crate::uncertainty::{EffectEstimates, Estimate, Interval, difference};
 
 /// Two results compared, as described in `docs/comparison-format.md`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -87,6 +86,61 @@ pub struct ComparedFactor {
     pub first_order: ComparedIndex,
     /// Total index.
     pub total: ComparedIndex,
+}
+
+/// Indices are shares of a variance: differences up to this are of the size of the rounding errors of its sums, which the
+/// intervals do not hold.
+const ROUNDING: f64 = 1e-12;
+
+/// One index in both results.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct ComparedIndex {
+    /// In A; `null` if it does not exist there.
+    pub a: Option<Estimate>,
+    /// In B; `null` if it does not exist there.
+    pub b: Option<Estimate>,
+    /// B minus A; `null` if one of them does not exist.
+    pub difference: Option<Estimate>,
+    /// Whether the interval of the difference leaves out 0, and the difference is more than rounding (1e-12); `null`
+    /// without an interval.
+    pub differs: Option<bool>,
+}
+
+impl ComparedIndex {
+    /// The index `a` in A beside the index `b` in B.
+    pub fn new(a: Option<Estimate>, b: Option<Estimate>) -> Self {
+        let difference = a.zip(b).map(|(a, b)| difference(a, b));
+        let beyond = |d: Estimate| {
+            d.interval.map(|Interval { low, high }| (low > 0.0 || high < 0.0) && d.estimate.abs() > ROUNDING)
+        };
+        let differs = difference.and_then(beyond);
+        Self { a, b, difference, differs }
+    }
+}
+
+/// Why two results cannot be compared.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum CompareError {
+    /// They have no output, or no factor, in common.
+    #[error("there is nothing to compare, the results have no {what} in common: A has {a}, B has {b}")]
+    NothingInCommon {
+        /// `output` or `factor`.
+        what: &'static str,
+        /// Those of A.
+        a: String,
+        /// Those of B.
+        b: String,
+    },
+    /// An output of one name is a quantity of two kinds.
+    #[error("the output `{output}` is not the same quantity: in {a} in A, in {b} in B")]
+    OtherQuantity {
+        /// The output.
+        output: String,
+        /// Its unit in A.
+        a: String,
+        /// Its unit in B.
+        b: String,
+    },
 }
 
 /// A result to compare, and what it is called.
