@@ -18,11 +18,12 @@ pub use papers::{Published, published};
 pub use reproduction::{Event, Reproduction, Request, Topic, reproduce};
 
 use crate::scene::law_colour;
-use apportion::afm::FrictionLaw;
+use apportion::afm::{Failure, FrictionLaw};
 use apportion::report::ResultFile;
 use apportion::report::chart::Colour;
 use apportion::run::RunError;
 use apportion::study::{Study, StudyError};
+use apportion::sweep::SweepError;
 
 /// How much is computed.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -120,12 +121,29 @@ pub enum ReproduceError {
     /// A study cannot be run.
     #[error(transparent)]
     Run(#[from] RunError),
-    /// A figure cannot be made.
+    /// A scene has no answer. At the defaults of the papers that does not happen.
+    #[error("a scene of the papers has no answer: {0}")]
+    Scene(#[from] Failure),
+    /// A factor cannot be swept.
     #[error(transparent)]
-    Figures(#[from] figures::FiguresError),
-    /// A claim cannot be answered.
-    #[error(transparent)]
-    Claims(#[from] claims::ClaimsError),
+    Sweep(#[from] SweepError),
+    /// The model has no such input.
+    #[error("the nanoparticle model has no parameter `{name}`")]
+    NoParameter {
+        /// Its name.
+        name: &'static str,
+    },
+    /// The general study lacks a factor that a claim is about.
+    #[error("the general study does not give the range of every factor that the claims are about")]
+    NoRanges,
+    /// A study that a claim is about has not been run, or has no indices.
+    #[error("claims 17 to 20 need the {group} study under {friction} friction, with its indices")]
+    NoIndices {
+        /// The study's group.
+        group: &'static str,
+        /// The name of its friction model.
+        friction: &'static str,
+    },
     /// A study has no shares to set beside the printed percentages.
     #[error("the study {study} has no shares of {measure}: its indices have no positive sum")]
     NoPercentages {

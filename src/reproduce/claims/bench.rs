@@ -1,11 +1,10 @@
 //! What the claims are put to: the physics, the nominal scene, and the box of the papers' general study.
 
-use super::ClaimsError;
 use super::curve::{Curve, grid};
 use super::judge::{Holding, Share};
 use super::numbers::number;
 use crate::reproduce::papers::Words;
-use crate::reproduce::{Effort, Friction, Reproduced, general_study};
+use crate::reproduce::{Effort, Friction, ReproduceError, Reproduced, general_study};
 use apportion::afm::history::{History, history};
 use apportion::afm::modes::Pushing;
 use apportion::afm::{Critical, Failure, Fidelity, FrictionLaw, Options, Parameter, Scene, critical_force};
@@ -108,11 +107,11 @@ pub(super) struct Bench<'a> {
 
 impl<'a> Bench<'a> {
     /// With the ranges of the general study.
-    pub fn new(physics: Physics<'a>, effort: Effort, studies: &'a [Reproduced]) -> Result<Self, ClaimsError> {
+    pub fn new(physics: Physics<'a>, effort: Effort, studies: &'a [Reproduced]) -> Result<Self, ReproduceError> {
         let study = general_study()?;
         let parameters = study.space().factors().iter().map(|factor| Parameter::from_name(&factor.name)).collect();
         let parameters: Option<Vec<_>> = parameters;
-        let parameters = parameters.ok_or(ClaimsError::NoRanges)?;
+        let parameters = parameters.ok_or(ReproduceError::NoRanges)?;
         Ok(Self { physics, sizes: Sizes::of(effort), studies, space: study.space().clone(), parameters })
     }
 
@@ -122,9 +121,9 @@ impl<'a> Bench<'a> {
     }
 
     /// A sweep of a factor over its range in the general study.
-    pub fn over(&self, name: &str) -> Result<Sweep, ClaimsError> {
+    pub fn over(&self, name: &str) -> Result<Sweep, ReproduceError> {
         let mut factors = self.space.factors().iter().zip(&self.parameters);
-        let (factor, parameter) = factors.find(|(factor, _)| factor.name == name).ok_or(ClaimsError::NoRanges)?;
+        let (factor, parameter) = factors.find(|(factor, _)| factor.name == name).ok_or(ReproduceError::NoRanges)?;
         let (low, high) = factor.distribution().support();
         let range = (factor.unit().to_si(low), factor.unit().to_si(high));
         Ok(Sweep { parameter, range, count: self.sizes.curve })

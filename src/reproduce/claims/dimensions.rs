@@ -1,11 +1,10 @@
 //! Claims about the dimensions of the cantilever: 8 to 11.
 
-use super::ClaimsError;
 use super::bench::{Bench, Sweep, closed, exact};
 use super::curve::Curve;
 use super::judge::Answer;
 use super::numbers::{change, nano, number};
-use crate::reproduce::FRICTIONS;
+use crate::reproduce::{FRICTIONS, ReproduceError};
 use apportion::afm::{Failure, FrictionLaw, Options, Scene};
 
 /// A curve flattens if no step is steeper than the one before by more than this share of the mean steepness: what would
@@ -30,7 +29,7 @@ fn shaped(
     factor: &str,
     shape: fn(&Curve) -> bool,
     words: CurveWords<'_>,
-) -> Result<Answer, ClaimsError> {
+) -> Result<Answer, ReproduceError> {
     let sweep = bench.over(factor)?;
     let rule = |law, scene: &Scene| Ok(shape(&bench.curve(&sweep, scene, &closed(law))?));
     let holdings = bench.holding_under(&FRICTIONS, "", |_| bench.sizes.points, rule)?;
@@ -88,7 +87,7 @@ pub(super) fn from_to(curve: &Curve) -> String {
 }
 
 /// Claim 8.
-pub(super) fn length(bench: &Bench<'_>) -> Result<Answer, ClaimsError> {
+pub(super) fn length(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
     shaped(bench, "length", |curve| curve.falls() && curve.steepens() <= STEEPENING, &from_to)
 }
 
@@ -98,7 +97,7 @@ pub(super) fn is_linear_rise(curve: &Curve) -> bool {
 }
 
 /// Claim 9.
-pub(super) fn width(bench: &Bench<'_>) -> Result<Answer, ClaimsError> {
+pub(super) fn width(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
     shaped(bench, "width", is_linear_rise, &straightness)
 }
 
@@ -110,18 +109,18 @@ pub(super) fn straightness(curve: &Curve) -> String {
 }
 
 /// Claim 10.
-pub(super) fn thickness(bench: &Bench<'_>) -> Result<Answer, ClaimsError> {
+pub(super) fn thickness(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
     let words = |curve: &Curve| format!("{}, as t^{}", from_to(curve), number(curve.elasticity(), ""));
     shaped(bench, "thickness", |curve| curve.rises() && curve.elasticity() > 1.0, &words)
 }
 
 /// Claim 11. The closed form has no height in it, so that only exact geometry can say anything.
-pub(super) fn height(bench: &Bench<'_>) -> Result<Answer, ClaimsError> {
+pub(super) fn height(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
     without_effect(bench, &Sweep { count: 4, ..bench.over("height")? }, exact)
 }
 
 /// A claim that a sweep leaves F_cr as it is.
-pub(super) fn without_effect(bench: &Bench<'_>, sweep: &Sweep, options: OptionsOf) -> Result<Answer, ClaimsError> {
+pub(super) fn without_effect(bench: &Bench<'_>, sweep: &Sweep, options: OptionsOf) -> Result<Answer, ReproduceError> {
     let rule = |law, scene: &Scene| Ok(bench.curve(sweep, scene, &options(law))?.spread() < NO_EFFECT);
     let holdings = bench.holding_under(&FRICTIONS, "", |law| points_of(bench, law), rule)?;
     let unmoved = format!(

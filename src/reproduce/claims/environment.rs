@@ -1,13 +1,12 @@
 //! Claims about velocity, moduli and adhesion: 12 to 16.
 
-use super::ClaimsError;
 use super::bench::{Bench, Sweep, closed, exact, in_motion};
 use super::dimensions::{
     NO_EFFECT, STRAIGHT, closed_setting, from_to, is_linear_rise, nominal_curves, straightness, without_effect,
 };
 use super::judge::Answer;
 use super::numbers::{change, nano};
-use crate::reproduce::FRICTIONS;
+use crate::reproduce::{FRICTIONS, ReproduceError};
 use apportion::afm::{Failure, Fidelity, FrictionLaw, LuGreParameters, Options, Scene};
 
 /// Up to where CHK and LG see no effect of the velocity (m/s).
@@ -21,7 +20,7 @@ const UNMOVED: f64 = 0.05;
 const VISCOUS: f64 = 0.3;
 
 /// Claim 12. Only the equations of motion have the velocity in them under every friction model.
-pub(super) fn velocity(bench: &Bench<'_>) -> Result<Answer, ClaimsError> {
+pub(super) fn velocity(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
     let whole = Sweep { count: 5, ..bench.over("velocity")? };
     let slow = Sweep { range: (0.0, SLOW), count: 4, ..whole };
     let mut answer = without_effect(bench, &slow, in_motion)?;
@@ -43,7 +42,7 @@ pub(super) fn velocity(bench: &Bench<'_>) -> Result<Answer, ClaimsError> {
 }
 
 /// Claim 13.
-pub(super) fn elastic_modulus(bench: &Bench<'_>) -> Result<Answer, ClaimsError> {
+pub(super) fn elastic_modulus(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
     let sweep = bench.over("elastic_modulus")?;
     let points = bench.sizes.points;
     let rise = |law, scene: &Scene| Ok(is_linear_rise(&bench.curve(&sweep, scene, &closed(law))?));
@@ -67,7 +66,7 @@ fn gap(bench: &Bench<'_>, scene: &Scene, coulomb: &Options) -> Result<f64, Failu
 }
 
 /// Claim 14.
-pub(super) fn contact_modulus(bench: &Bench<'_>) -> Result<Answer, ClaimsError> {
+pub(super) fn contact_modulus(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
     let sweep = bench.over("equivalent_modulus")?;
     let points = bench.sizes.points;
     let (coulomb, hurtado_kim) = (closed(FrictionLaw::Coulomb), closed(FrictionLaw::HurtadoKim));
@@ -90,7 +89,7 @@ pub(super) fn contact_modulus(bench: &Bench<'_>) -> Result<Answer, ClaimsError> 
 }
 
 /// Claim 15.
-pub(super) fn adhesion(bench: &Bench<'_>) -> Result<Answer, ClaimsError> {
+pub(super) fn adhesion(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
     let sweep = bench.over("adhesion")?;
     let points = bench.sizes.points;
     let rises = |law, scene: &Scene| Ok(bench.curve(&sweep, scene, &closed(law))?.rises());
@@ -114,7 +113,7 @@ pub(super) fn adhesion(bench: &Bench<'_>) -> Result<Answer, ClaimsError> {
 }
 
 /// Claim 16.
-pub(super) fn constant_parameters(bench: &Bench<'_>) -> Result<Answer, ClaimsError> {
+pub(super) fn constant_parameters(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
     let options = closed(FrictionLaw::LuGre);
     let nominal = Scene::default();
     let from_contact = Options { lugre: LuGreParameters::Contact, ..exact(FrictionLaw::LuGre) };

@@ -1,10 +1,10 @@
 //! Claims about one scene in time: 1, 2, 3, 5.
 
+use super::Verdict;
 use super::bench::{Bench, Sweep, closed};
 use super::judge::Answer;
 use super::numbers::{change, nano, number};
-use super::{ClaimsError, Verdict};
-use crate::reproduce::FRICTIONS;
+use crate::reproduce::{FRICTIONS, ReproduceError};
 use apportion::afm::contact::Contact;
 use apportion::afm::history::{History, Sample};
 use apportion::afm::{Failure, FrictionLaw, Parameter, Scene};
@@ -40,7 +40,7 @@ fn half(
     (low, high): (f64, f64),
     quantity: fn(&History) -> Result<f64, Failure>,
     said: fn(f64) -> String,
-) -> Result<Answer, ClaimsError> {
+) -> Result<Answer, ReproduceError> {
     let nominal = Scene::default();
     let other = Scene { shear_modulus: Some(PRINTED_SHEAR_MODULUS), ..nominal };
     let of = |scene| quantity(&(bench.physics.history)(scene, &closed(FrictionLaw::Coulomb), DURATION)?);
@@ -56,14 +56,14 @@ fn half(
 }
 
 /// Claim 1, first half.
-pub(super) fn slip_time(bench: &Bench<'_>) -> Result<Answer, ClaimsError> {
+pub(super) fn slip_time(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
     let mut answer = half(bench, SLIP_TIME, |history| history.critical.critical_time, |time| number(time, "s"))?;
     answer.words.extend([("from", SLIP_TIME.0.to_string()), ("to", SLIP_TIME.1.to_string())]);
     Ok(answer)
 }
 
 /// Claim 1, second half.
-pub(super) fn displacement(bench: &Bench<'_>) -> Result<Answer, ClaimsError> {
+pub(super) fn displacement(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
     let moved = |history: &History| Ok(history.samples.last().map_or(0.0, |end| end.relative));
     let mut answer = half(bench, DISPLACEMENT, moved, |moved| nano(moved, "m"))?;
     let needed = DURATION + (DISPLACEMENT.0 + DISPLACEMENT.1) / 2.0 / Scene::default().velocity;
@@ -72,7 +72,7 @@ pub(super) fn displacement(bench: &Bench<'_>) -> Result<Answer, ClaimsError> {
 }
 
 /// Claim 2.
-pub(super) fn forces(bench: &Bench<'_>) -> Result<Answer, ClaimsError> {
+pub(super) fn forces(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
     let rule = |law, scene: &Scene| Ok(rises_and_stays(&(bench.physics.history)(scene, &closed(law), FOREVER)?));
     let holdings = bench.holding_under(&FRICTIONS[..2], "", |_| bench.sizes.slow_points, rule)?;
     let nominal = (bench.physics.history)(&Scene::default(), &closed(FrictionLaw::Coulomb), DURATION)?;
@@ -107,8 +107,8 @@ fn ends(samples: &[Sample]) -> (&Sample, &Sample) {
 }
 
 /// Claim 3.
-pub(super) fn delay(bench: &Bench<'_>) -> Result<Answer, ClaimsError> {
-    let parameter = Parameter::from_name("static_friction").ok_or(ClaimsError::NoRanges)?;
+pub(super) fn delay(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
+    let parameter = Parameter::from_name("static_friction").ok_or(ReproduceError::NoRanges)?;
     let sweep = Sweep { parameter, range: (0.1, 1.2), count: bench.sizes.curve };
     let options = closed(FrictionLaw::Coulomb);
     let slip_time = |scene: &Scene| (bench.physics.force)(scene, &options)?.critical_time;
@@ -120,7 +120,7 @@ pub(super) fn delay(bench: &Bench<'_>) -> Result<Answer, ClaimsError> {
 }
 
 /// Claim 5.
-pub(super) fn contacts(bench: &Bench<'_>) -> Result<Answer, ClaimsError> {
+pub(super) fn contacts(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
     let options = closed(FrictionLaw::Coulomb);
     let history = |scene: &Scene| (bench.physics.history)(scene, &options, FOREVER);
     // At every step, and from the start to the slip by more than nothing.

@@ -19,16 +19,11 @@ mod shares;
 #[cfg(test)]
 mod tests;
 
-use std::fmt;
-
 use serde::Serialize;
-use thiserror::Error;
 
 use super::papers::{PaperClaim, filled, papers};
-use super::{Effort, Reproduced};
-use apportion::afm::Failure;
+use super::{Effort, ReproduceError, Reproduced};
 use apportion::report::json;
-use apportion::study::StudyError;
 use bench::{Bench, Physics};
 use judge::Answer;
 
@@ -93,40 +88,8 @@ impl Verdict {
     }
 }
 
-/// Reads as in `contradicted by the paper's own 76 % for the thickness`.
-impl fmt::Display for Verdict {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Reproduced | Self::NotReproduced => f.write_str(self.word()),
-            Self::Contradicted { own } => write!(f, "contradicted by the paper's own {own}"),
-        }
-    }
-}
-
-/// Why the claims cannot be answered.
-#[derive(Debug, Error)]
-pub enum ClaimsError {
-    /// A study of this program, from which the ranges are taken, cannot be read.
-    #[error(transparent)]
-    Study(#[from] StudyError),
-    /// The general study lacks a factor that a claim is about.
-    #[error("the general study does not give the range of every factor that the claims are about")]
-    NoRanges,
-    /// A scene has no critical force.
-    #[error("a scene that a claim is about has no answer: {0}")]
-    Scene(#[from] Failure),
-    /// A study that a claim is about has not been run, or has no indices.
-    #[error("claims 17 to 20 need the {group} study under {friction} friction, with its indices")]
-    NoIndices {
-        /// The study's group.
-        group: &'static str,
-        /// The name of its friction model.
-        friction: &'static str,
-    },
-}
-
 /// Answers a claim.
-type Check = fn(&Bench<'_>) -> Result<Answer, ClaimsError>;
+type Check = fn(&Bench<'_>) -> Result<Answer, ReproduceError>;
 
 /// The checks by the names that `papers.toml` gives them.
 const CHECKS: [(&str, Check); 25] = [
@@ -161,13 +124,13 @@ const CHECKS: [(&str, Check); 25] = [
 /// intervals; claims 17 to 20 rest on them. The same studies and effort give the same claims, to the last letter.
 ///
 /// # Errors
-/// [`ClaimsError`] if a study is missing or has no indices, or a scene has no critical force.
-pub fn claims(studies: &[Reproduced], effort: Effort) -> Result<Vec<Claim>, ClaimsError> {
+/// [`ReproduceError`] if a study is missing or has no indices, or a scene has no critical force.
+pub fn claims(studies: &[Reproduced], effort: Effort) -> Result<Vec<Claim>, ReproduceError> {
     answered(&Bench::new(Physics::ours(), effort, studies)?, &(1..=20))
 }
 
 /// The claims whose numbers are among `numbers`.
-fn answered(bench: &Bench<'_>, numbers: &std::ops::RangeInclusive<usize>) -> Result<Vec<Claim>, ClaimsError> {
+fn answered(bench: &Bench<'_>, numbers: &std::ops::RangeInclusive<usize>) -> Result<Vec<Claim>, ReproduceError> {
     let asked = papers().claims.iter().filter(|claim| numbers.contains(&claim.number));
     let claim = |claim: &'static PaperClaim| {
         let (_, check) = CHECKS.iter().find(|(name, _)| *name == claim.check).expect("a check for every claim");

@@ -1,12 +1,12 @@
 //! Claim 7: which friction model holds the particle less.
 
-use super::ClaimsError;
 use super::bench::{Bench, Region, closed};
 use super::judge::{Answer, Holding};
 use super::numbers::nano;
+use crate::reproduce::ReproduceError;
 use apportion::afm::{FrictionLaw, Scene};
 
-pub(super) fn weaker_law(bench: &Bench<'_>) -> Result<Answer, ClaimsError> {
+pub(super) fn weaker_law(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
     let (coulomb, hurtado_kim) = (closed(FrictionLaw::Coulomb), closed(FrictionLaw::HurtadoKim));
     let below = |scene: &Scene| Ok(bench.force(scene, &hurtado_kim)? < bench.force(scene, &coulomb)?);
     // One sample of each box shares the scrambles of the others, so that they differ by their factors alone.

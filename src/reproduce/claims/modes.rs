@@ -2,12 +2,12 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::ClaimsError;
 use super::bench::{Bench, Sweep, closed, exact};
 use super::curve::grid;
 use super::judge::Answer;
 use super::judge::{judge, over_ranges};
 use super::numbers::{change, nano, number};
+use crate::reproduce::ReproduceError;
 use apportion::afm::modes::{Mode, Onset, TipForce};
 use apportion::afm::{Failure, FrictionLaw, Parameter, Scene};
 
@@ -24,8 +24,8 @@ fn diagram(bench: &Bench<'_>, scene: &Scene, adhesion_in_load: bool) -> Result<V
 }
 
 /// Claim 4.
-pub(super) fn angle(bench: &Bench<'_>) -> Result<Answer, ClaimsError> {
-    let parameter = Parameter::from_name("contact_angle").ok_or(ClaimsError::NoRanges)?;
+pub(super) fn angle(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
+    let parameter = Parameter::from_name("contact_angle").ok_or(ReproduceError::NoRanges)?;
     let sweep = Sweep { parameter, range: (0.0, FRAC_PI_2), count: 5 };
     let options = exact(FrictionLaw::Coulomb);
     let against_force_angle = |scene: &Scene| {
@@ -65,7 +65,7 @@ pub(super) fn angle(bench: &Bench<'_>) -> Result<Answer, ClaimsError> {
 /// Claim 6. TS04 prints no criterion for rolling: the moment criterion is ours. Between a tip that stands still and a moving
 /// substrate the particle can only roll if it slips or rolls at the tip too, so that rolling starts where the moment
 /// criterion holds and the tip slips.
-pub(super) fn rolling(bench: &Bench<'_>) -> Result<Answer, ClaimsError> {
+pub(super) fn rolling(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
     let options = closed(FrictionLaw::Coulomb);
     let normal = |scene: &Scene| Ok::<f64, Failure>((bench.physics.force)(scene, &options)?.normal_force);
     let later = |one: Onset, other: Onset| if one > other { one } else { other };

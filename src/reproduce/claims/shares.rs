@@ -1,13 +1,13 @@
 //! Claims about the shares of the variance: 17 to 20. They rest on the nine studies.
 
+use super::Verdict;
 use super::bench::{Bench, Region, closed};
 use super::dimensions::NO_EFFECT;
 use super::judge::Answer;
 use super::numbers::{change, nano};
-use super::{ClaimsError, Verdict};
 use crate::reproduce::order::{Agreement, OrderVerdict, Standing, VISIBLE, order_of, outweighing};
 use crate::reproduce::papers::{CLOSE, PRINTED};
-use crate::reproduce::{FRICTIONS, Friction, GROUPS, Published, Reproduced, named_together, published};
+use crate::reproduce::{FRICTIONS, Friction, GROUPS, Published, ReproduceError, Reproduced, named_together, published};
 use apportion::EffectEstimates;
 use apportion::afm::{Failure, FrictionLaw, Scene};
 use apportion::report::{IndexRecord, fixed, give_or_take, share};
@@ -24,20 +24,20 @@ fn study<'a>(
     bench: &Bench<'a>,
     group: &'static str,
     friction: Friction,
-) -> Result<(&'a Reproduced, &'a [IndexRecord]), ClaimsError> {
+) -> Result<(&'a Reproduced, &'a [IndexRecord]), ReproduceError> {
     let study = bench.studies.iter().find(|study| study.group.key == group && study.friction == friction);
     let indices = |study: &'a Reproduced| Some((study, study.result.outputs.first()?.indices.as_deref()?));
-    study.and_then(indices).ok_or(ClaimsError::NoIndices { group, friction: friction.name })
+    study.and_then(indices).ok_or(ReproduceError::NoIndices { group, friction: friction.name })
 }
 
 /// The study of a group whose percentages are printed, with its indices.
-fn printed<'a>(bench: &Bench<'a>, group: &'static str) -> Result<(&'a Reproduced, &'a [IndexRecord]), ClaimsError> {
+fn printed<'a>(bench: &Bench<'a>, group: &'static str) -> Result<(&'a Reproduced, &'a [IndexRecord]), ReproduceError> {
     let friction = FRICTIONS.into_iter().find(|friction| friction.key == PRINTED);
-    study(bench, group, friction.ok_or(ClaimsError::NoIndices { group, friction: PRINTED })?)
+    study(bench, group, friction.ok_or(ReproduceError::NoIndices { group, friction: PRINTED })?)
 }
 
 /// The studies of a group and their design.
-fn studies(bench: &Bench<'_>, group: &'static str) -> Result<(&'static str, String), ClaimsError> {
+fn studies(bench: &Bench<'_>, group: &'static str) -> Result<(&'static str, String), ReproduceError> {
     let (study, _) = study(bench, group, FRICTIONS[0])?;
     let provenance = &study.result.provenance;
     let figures = GROUPS.iter().find(|known| known.key == group).map_or("", |known| known.figures);
@@ -49,7 +49,7 @@ fn studies(bench: &Bench<'_>, group: &'static str) -> Result<(&'static str, Stri
 }
 
 /// The first halves of claims 17 to 19: an order of factors.
-pub(super) fn order(bench: &Bench<'_>, group: &'static str) -> Result<Answer, ClaimsError> {
+pub(super) fn order(bench: &Bench<'_>, group: &'static str) -> Result<Answer, ReproduceError> {
     let (mut phrases, mut shares, mut is_same) = (Vec::new(), Vec::new(), true);
     for friction in FRICTIONS {
         let (study, indices) = study(bench, group, friction)?;
@@ -139,7 +139,7 @@ fn printed_percentages(
     bench: &Bench<'_>,
     group: &'static str,
     contradicted_by: Option<String>,
-) -> Result<Answer, ClaimsError> {
+) -> Result<Answer, ReproduceError> {
     let ((_, indices), printed) = (printed(bench, group)?, published(group, PRINTED));
     let (verdict, range) = percentages(indices, &printed);
     let verdict = match (verdict, contradicted_by) {
@@ -151,12 +151,12 @@ fn printed_percentages(
 }
 
 /// Claim 17, second half.
-pub(super) fn dimensional_percentage(bench: &Bench<'_>) -> Result<Answer, ClaimsError> {
+pub(super) fn dimensional_percentage(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
     printed_percentages(bench, "dimensional", None)
 }
 
 /// Claim 17, what LG's text says of the width. A printed percentage above half is that of the most effective factor.
-pub(super) fn most_effective(bench: &Bench<'_>) -> Result<Answer, ClaimsError> {
+pub(super) fn most_effective(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
     let (study, indices) = printed(bench, "dimensional")?;
     let order = order_of(study);
     let printed = published("dimensional", PRINTED);
@@ -174,11 +174,11 @@ pub(super) fn most_effective(bench: &Bench<'_>) -> Result<Answer, ClaimsError> {
 }
 
 /// Claim 18, second half.
-pub(super) fn environmental_percentages(bench: &Bench<'_>) -> Result<Answer, ClaimsError> {
+pub(super) fn environmental_percentages(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
     let published = published("environmental", PRINTED);
     let percent = |name: &str| published.share(name).unwrap_or(f64::NAN);
     let (nominal, options) = (Scene::default(), closed(FrictionLaw::LuGre));
-    let over = |name: &str| -> Result<f64, ClaimsError> {
+    let over = |name: &str| -> Result<f64, ReproduceError> {
         let curve = bench.curve(&bench.over(name)?, &nominal, &options)?;
         Ok((curve.last() - curve.first()).abs())
     };
@@ -220,7 +220,7 @@ fn thickness_among(printed: &Published) -> (f64, (f64, f64)) {
 }
 
 /// Claim 19, second half.
-pub(super) fn general_percentages(bench: &Bench<'_>) -> Result<Answer, ClaimsError> {
+pub(super) fn general_percentages(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
     let alone = published("dimensional", PRINTED).share("thickness").unwrap_or(f64::NAN);
     let (among, (low, high)) = thickness_among(&published("general", PRINTED));
     let is_product = is_product(bench)?;
@@ -245,11 +245,11 @@ pub(super) fn general_percentages(bench: &Bench<'_>) -> Result<Answer, ClaimsErr
 }
 
 /// Claim 20.
-pub(super) fn outweigh(bench: &Bench<'_>) -> Result<Answer, ClaimsError> {
+pub(super) fn outweigh(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
     let (mut holds, mut each, mut totals) = (true, Vec::new(), Vec::new());
     for friction in FRICTIONS {
         let (study, _) = study(bench, "general", friction)?;
-        let missing = ClaimsError::NoIndices { group: "general", friction: friction.name };
+        let missing = ReproduceError::NoIndices { group: "general", friction: friction.name };
         let (dimensional, environmental, standing) = outweighing(study).ok_or(missing)?;
         holds &= standing == Standing::Kept;
         let word = match standing {

@@ -1,7 +1,7 @@
 //! TS04 figure 14, the animation: a page that moves.
 
-use super::FiguresError;
 use super::history::story;
+use crate::reproduce::ReproduceError;
 use crate::scene::{player_page, scene_json, scene_table};
 use apportion::afm::FrictionLaw;
 
@@ -23,8 +23,8 @@ pub struct Animation {
 /// [`figures`](super::figures).
 ///
 /// # Errors
-/// [`FiguresError`] if the scene has no answer, or the page cannot be rendered.
-pub fn animation() -> Result<Animation, FiguresError> {
+/// [`ReproduceError`] if the scene has no answer, or the page cannot be rendered.
+pub fn animation() -> Result<Animation, ReproduceError> {
     let story = story(FrictionLaw::Coulomb, |_| ())?;
     Ok(Animation { html: player_page(&story), csv: scene_table(&story).csv(), json: scene_json(&story) })
 }

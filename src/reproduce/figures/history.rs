@@ -1,6 +1,7 @@
 //! The scene in time: CHK figure 5 and the histories of TS04.
 
-use super::{Drawn, FiguresError};
+use super::Drawn;
+use crate::reproduce::ReproduceError;
 use crate::scene::charts::{contacts, forces, positions, pushing};
 use crate::scene::simulation::scene_story;
 use crate::scene::{SceneSample, SceneStory, scene_number};
@@ -41,20 +42,20 @@ const FORCES: [&str; 3] = ["tip_force_nN", "lateral_force_nN", "normal_force_nN"
 const RELATIVE: &str = "relative_position_nm";
 
 /// TS04 figure 8.
-pub(super) fn forces_in_time() -> Result<Drawn, FiguresError> {
+pub(super) fn forces_in_time() -> Result<Drawn, ReproduceError> {
     let story = coulomb()?;
     Ok((forces(&story), table("", &[("", &story)], &FORCES).csv()))
 }
 
 /// TS04 figure 9.
-pub(super) fn tip_force() -> Result<Drawn, FiguresError> {
+pub(super) fn tip_force() -> Result<Drawn, ReproduceError> {
     let story = coulomb()?;
     let critical = NANO * story.critical.critical_force;
     Ok((pushing(&story), table("", &[("", &story)], &FORCES[..1]).file("critical_force_nN", |_| critical).csv()))
 }
 
 /// TS04 figure 13.
-pub(super) fn contact_areas() -> Result<Drawn, FiguresError> {
+pub(super) fn contact_areas() -> Result<Drawn, ReproduceError> {
     let story = coulomb()?;
     let columns =
         ["tip_contact_radius_nm", "substrate_contact_radius_nm", "tip_indentation_nm", "substrate_indentation_nm"];
@@ -84,7 +85,7 @@ fn slip(story: &SceneStory) -> String {
 }
 
 /// CHK figure 5.
-pub(super) fn two_laws() -> Result<Drawn, FiguresError> {
+pub(super) fn two_laws() -> Result<Drawn, ReproduceError> {
     let (coulomb, hk) = (coulomb()?, story(FrictionLaw::HurtadoKim, |_| ())?);
     let printed = [printed(FrictionLaw::HurtadoKim)?, printed(FrictionLaw::Coulomb)?];
     let laws = [(&coulomb, "Coulomb", Stroke::Solid), (&hk, "Hurtado-Kim", Stroke::Dashed)];
@@ -118,7 +119,7 @@ pub(super) fn two_laws() -> Result<Drawn, FiguresError> {
 }
 
 /// TS04 figure 10, with the relative position at the printed shear modulus beside ours.
-pub(super) fn displacement() -> Result<Drawn, FiguresError> {
+pub(super) fn displacement() -> Result<Drawn, ReproduceError> {
     let (story, printed) = (coulomb()?, printed(FrictionLaw::Coulomb)?);
     let ours = positions(&story);
     let modulus = PRINTED_SHEAR_MODULUS / 1e9;
@@ -144,7 +145,7 @@ pub(super) fn displacement() -> Result<Drawn, FiguresError> {
 }
 
 /// TS04 figure 11.
-pub(super) fn coefficients() -> Result<Drawn, FiguresError> {
+pub(super) fn coefficients() -> Result<Drawn, ReproduceError> {
     // All follow one line until they slip: in this order each is seen.
     let runs = COEFFICIENTS.map(|coefficient| story(FrictionLaw::Coulomb, |scene| scene.static_friction = coefficient));
     let runs = runs.into_iter().collect::<Result<Vec<_>, _>>()?;

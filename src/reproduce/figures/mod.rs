@@ -13,18 +13,13 @@ mod sweep;
 #[cfg(test)]
 mod tests;
 
-use thiserror::Error;
-
 pub use animation::{ANIMATION_STEM, Animation, animation};
 
 use rayon::prelude::*;
 
 use super::papers::{PrintedFigure, papers};
-use super::{Effort, Reproduced, general_study};
-use apportion::afm::Failure;
+use super::{Effort, ReproduceError, Reproduced, general_study};
 use apportion::report::chart::Chart;
-use apportion::study::StudyError;
-use apportion::sweep::SweepError;
 
 /// One figure of the papers, from our computation.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,33 +36,13 @@ pub struct PaperFigure {
     pub csv: String,
 }
 
-/// Why the figures cannot be made. At the defaults of the papers none of this happens.
-#[derive(Debug, Error)]
-pub enum FiguresError {
-    /// A scene has no answer.
-    #[error("a scene of the papers' figures has no answer: {0}")]
-    Scene(#[from] Failure),
-    /// The study that gives the ranges cannot be read.
-    #[error(transparent)]
-    Study(#[from] StudyError),
-    /// A factor cannot be swept.
-    #[error(transparent)]
-    Sweep(#[from] SweepError),
-    /// The model has no such input.
-    #[error("the nanoparticle model has no parameter `{name}`")]
-    NoParameter {
-        /// Its name.
-        name: &'static str,
-    },
-}
-
 /// Every figure, in the order of the papers: CHK, LG, TS04, then each group of studies with all friction models side by
 /// side. The charts of shares are made of `studies`; those of a group of which none was run are left out. The same on
 /// every run and any number of threads.
 ///
 /// # Errors
-/// [`FiguresError`] if a scene has no answer.
-pub fn figures(studies: &[Reproduced], effort: Effort) -> Result<Vec<PaperFigure>, FiguresError> {
+/// [`ReproduceError`] if a scene has no answer.
+pub fn figures(studies: &[Reproduced], effort: Effort) -> Result<Vec<PaperFigure>, ReproduceError> {
     let general = general_study()?;
     let draw = |figure: &'static PrintedFigure| {
         let stem = figure.stem;
@@ -85,7 +60,7 @@ pub fn figures(studies: &[Reproduced], effort: Effort) -> Result<Vec<PaperFigure
 /// A chart with its data as CSV.
 type Drawn = (Chart, String);
 /// Draws a figure of the nominal scene.
-type Draw = fn() -> Result<Drawn, FiguresError>;
+type Draw = fn() -> Result<Drawn, ReproduceError>;
 
 /// The figures of the nominal scene by their stems.
 const SCENES: [(&str, Draw); 8] = [

@@ -1,6 +1,7 @@
 //! TS04 figure 12: what moves the particle in which way, against the angle of the force and of the contact.
 
-use super::{Drawn, FiguresError};
+use super::Drawn;
+use crate::reproduce::ReproduceError;
 use crate::scene::simulation::{pushing, scene_modes};
 use crate::scene::{ModeDiagram, law_colour, mode_diagram_chart};
 use apportion::afm::modes::Mode;
@@ -16,7 +17,7 @@ const CONTACT_ANGLES: (f64, f64) = (40.0, 70.0);
 const STEPS: u32 = 120;
 
 /// TS04 figure 12.
-pub(super) fn against_force_angle() -> Result<Drawn, FiguresError> {
+pub(super) fn against_force_angle() -> Result<Drawn, ReproduceError> {
     let diagram = scene_modes(&Scene::default(), &Options::default())?;
     let mut chart = mode_diagram_chart(&diagram);
     if let Some(said) = sliding(&diagram) {
@@ -61,7 +62,7 @@ struct Against {
 }
 
 /// The same against the angle of the contact.
-pub(super) fn against_contact_angle() -> Result<Drawn, FiguresError> {
+pub(super) fn against_contact_angle() -> Result<Drawn, ReproduceError> {
     let (from, to) = CONTACT_ANGLES;
     let degrees: Vec<f64> = (0..=STEPS).map(|i| from + (to - from) * f64::from(i) / f64::from(STEPS)).collect();
     let over = |read: &dyn Fn(Scene) -> Result<Option<f64>, Failure>| {

@@ -2,10 +2,9 @@
 
 use rayon::prelude::*;
 
-use super::FiguresError;
 use super::curve::{Curve, crossing};
 use crate::reproduce::papers::PrintedFigure;
-use crate::reproduce::{Effort, FRICTIONS, Friction};
+use crate::reproduce::{Effort, FRICTIONS, Friction, ReproduceError};
 use apportion::afm::{Fidelity, Options, Parameter, Scene, critical_force};
 use apportion::report::chart::{Axis, Chart, Colour, Mark, Panel, Series, Stroke};
 use apportion::report::document::Table;
@@ -88,7 +87,7 @@ pub(super) fn drawn(
     factor: &'static str,
     space: &Space,
     effort: Effort,
-) -> Result<super::Drawn, FiguresError> {
+) -> Result<super::Drawn, ReproduceError> {
     let points = match effort {
         Effort::Full => 201,
         Effort::Quick => 41,
@@ -99,7 +98,7 @@ pub(super) fn drawn(
     let points = if is_marched { 4 * points - 3 } else { points };
     let number = find(space, factor)?;
     let values = FactorValues::over_range(space, number, points)?.values;
-    let parameter = Parameter::from_name(factor).ok_or(FiguresError::NoParameter { name: factor })?;
+    let parameter = Parameter::from_name(factor).ok_or(ReproduceError::NoParameter { name: factor })?;
     let swept = Swept { gap: figure.gap, factor: &space.factors()[number], parameter, values };
     let lines: Vec<Drawn> = lines.iter().map(|line| swept.line(line)).collect();
     Ok((swept.chart(&lines), swept.csv(&lines)))
