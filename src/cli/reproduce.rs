@@ -50,8 +50,8 @@ pub fn reproduce(arguments: &Arguments) -> Result<(), Failure> {
         overrides,
         threads: arguments.threads.number(),
     };
-    let meters = Meters::default();
-    let reproduction = run(&request, &|event| meters.show(&event))?;
+    let current = Mutex::new(None);
+    let reproduction = run(&request, &|event| show(&current, &event))?;
     let mut document = document(&reproduction);
     if request.only.is_none() {
         let page = live_page(&live_study()?, request.threads, on_signal())?;
@@ -65,21 +65,14 @@ fn live_study() -> Result<Study, Failure> {
     Ok(Study::parse(include_str!("../../studies/coulomb-general.toml"), Path::new("coulomb-general.toml"), &[])?)
 }
 
-/// The meter of what goes on at present.
-#[derive(Default)]
-struct Meters {
-    study: Mutex<Option<Meter>>,
-}
-
-impl Meters {
-    fn show(&self, event: &Event<'_>) {
-        let Ok(mut current) = self.study.lock() else { return };
-        match event {
-            Event::Begins { number: (number, count), name, runs } => {
-                *current = Some(Meter::new(&format!("{number} of {count} {name:<21}"), *runs));
-            }
-            Event::Progresses(progress) => current.iter().for_each(|meter| meter.update(*progress)),
-            Event::Ends { runs, seconds } => current.iter().for_each(|meter| meter.finish(*runs, *seconds)),
+/// Shows how far the current study has come.
+fn show(current: &Mutex<Option<Meter>>, event: &Event<'_>) {
+    let Ok(mut current) = current.lock() else { return };
+    match event {
+        Event::Begins { number: (number, count), name, runs } => {
+            *current = Some(Meter::new(&format!("{number} of {count} {name:<21}"), *runs));
         }
+        Event::Progresses(progress) => current.iter().for_each(|meter| meter.update(*progress)),
+        Event::Ends { runs, seconds } => current.iter().for_each(|meter| meter.finish(*runs, *seconds)),
     }
 }

@@ -230,10 +230,6 @@ fn factor_names(result: &ResultFile) -> Vec<String> {
     result.factors.iter().map(|factor| factor.name.clone()).collect()
 }
 
-fn listed(names: &[String]) -> String {
-    if names.is_empty() { "none".to_owned() } else { names.join(", ") }
-}
-
 /// The names that only one of them has, of which there must be others.
 fn one_sided(what: &'static str, a: &[String], b: &[String]) -> Result<OneSided, CompareError> {
     let without = |all: &[String], others: &[String]| -> Vec<String> {
@@ -241,7 +237,10 @@ fn one_sided(what: &'static str, a: &[String], b: &[String]) -> Result<OneSided,
     };
     let found = OneSided { a: without(a, b), b: without(b, a) };
     match found.a.len() == a.len() {
-        true => Err(CompareError::NothingInCommon { what, a: listed(a), b: listed(b) }),
+        true => {
+            let [a, b] = [a, b].map(|names| if names.is_empty() { "none".to_owned() } else { names.join(", ") });
+            Err(CompareError::NothingInCommon { what, a, b })
+        }
         false => Ok(found),
     }
 }

@@ -28,7 +28,6 @@ pub use symbols::symbols;
 pub(crate) use table::csv;
 pub use table::{Cell, Column, Mark, OnPhone, Rows, Table};
 
-use crate::model::MANY_OUTPUTS;
 use crate::report::chart::Chart;
 
 /// A result to be read.
@@ -192,18 +191,6 @@ impl Document {
     pub fn data_names(&self) -> Vec<String> {
         let of_tables = self.tables_by_file().into_iter().map(|(name, _)| name.to_owned());
         self.files.iter().map(|file| file.name.clone()).chain(of_tables).collect()
-    }
-
-    /// A section for each output, with its heading; of many outputs one section, in which each is folded.
-    pub(crate) fn sections_of_outputs(outputs: Vec<(String, Vec<Part>)>) -> Vec<Section> {
-        if outputs.len() < MANY_OUTPUTS {
-            let section = |(place, (heading, parts)): (usize, (String, Vec<Part>))| {
-                Section::new(&format!("output-{}", place + 1), &heading, parts)
-            };
-            return outputs.into_iter().enumerate().map(section).collect();
-        }
-        let folded = outputs.into_iter().map(|(summary, parts)| Part::Details { summary, parts });
-        vec![Section::new("outputs", "Output by output", folded.collect())]
     }
 
     /// These sections of it alone, with their figures numbered through.

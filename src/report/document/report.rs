@@ -1,6 +1,7 @@
 //! What a command has to say, and the one way in which it becomes a document.
 
 use super::{DataFile, Document, Figure, Part, Section, Table, figures_mut};
+use crate::model::MANY_OUTPUTS;
 use crate::report::chart::Chart;
 use crate::report::format::heading;
 use crate::report::leading::first_answers;
@@ -116,7 +117,8 @@ impl Report<'_> {
         document
     }
 
-    /// The sections of the outputs, each with its warnings first and its charts last.
+    /// A section for each output, with its warnings first and its charts last; of many outputs one section, in which each is
+    /// folded.
     fn of_outputs(&mut self) -> Vec<Section> {
         let names: Vec<&str> = self.outputs.iter().map(|output| output.name).collect();
         let charts = self.outputs.iter().flat_map(|output| &output.charts);
@@ -124,11 +126,18 @@ impl Report<'_> {
         endings.sort_unstable();
         endings.dedup();
         let stems = file_stems(&self.name, &names, &endings);
-        let of_output = |(output, stem): (OutputReport<'_>, String)| {
+        let are_many = names.len() >= MANY_OUTPUTS;
+        let section = |(number, (output, stem)): (usize, (OutputReport<'_>, String))| {
             let figure = |(ending, chart)| Figure::of(chart, format!("{stem}{ending}")).into();
             let parts = Part::warnings(output.warnings).into_iter().chain(output.parts);
-            (heading(output.name, output.unit), parts.chain(output.charts.into_iter().map(figure)).collect())
+            let parts = parts.chain(output.charts.into_iter().map(figure)).collect();
+            Section::new(&format!("output-{number}"), &heading(output.name, output.unit), parts)
         };
-        Document::sections_of_outputs(std::mem::take(&mut self.outputs).into_iter().zip(stems).map(of_output).collect())
+        let sections = (1..).zip(std::mem::take(&mut self.outputs).into_iter().zip(stems)).map(section);
+        if !are_many {
+            return sections.collect();
+        }
+        let folded = sections.map(|Section { title, parts, .. }| Part::Details { summary: title, parts });
+        vec![Section::new("outputs", "Output by output", folded.collect())]
     }
 }

@@ -72,31 +72,20 @@ pub(super) fn against_contact_angle() -> Result<Drawn, ReproduceError> {
     let options = Options::default();
     let psi = critical_force(&Scene::default(), &options)?.force_angle();
     let at = |scene: Scene, mode, angle| pushing(scene, &options).critical_tip_force(mode, angle);
-    let own = |mode: Mode, colour| -> Result<Against, Failure> {
-        Ok(Against {
-            key: format!("{}_nN", mode.name().replace('-', "_")),
-            name: format!("{}, force at ψ = {}°", mode.name(), short(psi.to_degrees())),
-            look: (colour, Stroke::Solid),
-            force: over(&|scene| at(scene, mode, psi))?,
-        })
-    };
-    let lines = [
-        Against {
-            key: "critical_force_nN".to_owned(),
-            name: "critical force F_cr of the scene".to_owned(),
-            look: (law_colour(FrictionLaw::Coulomb), Stroke::Solid),
-            force: over(&|scene| Ok(Some(critical_force(&scene, &options)?.critical_force)))?,
-        },
-        Against {
-            key: "slide_along_contact_nN".to_owned(),
-            name: "slide, force along the contact (ψ = φ)".to_owned(),
-            look: (law_colour(FrictionLaw::Coulomb), Stroke::Dashed),
-            force: over(&|scene| at(scene, Mode::Slide, scene.contact_angle))?,
-        },
-        own(Mode::TipSlip, Colour::Series(1))?,
-        own(Mode::Roll, Colour::Series(4))?,
-        own(Mode::Spin, Colour::Series(5))?,
+    let line =
+        |key: &str, name: &str, look, force| Against { key: format!("{key}_nN"), name: name.to_owned(), look, force };
+    let (colour, degrees_of_psi) = (law_colour(FrictionLaw::Coulomb), short(psi.to_degrees()));
+    let own = over(&|scene| Ok(Some(critical_force(&scene, &options)?.critical_force)))?;
+    let along = over(&|scene| at(scene, Mode::Slide, scene.contact_angle))?;
+    let mut lines = vec![
+        line("critical_force", "critical force F_cr of the scene", (colour, Stroke::Solid), own),
+        line("slide_along_contact", "slide, force along the contact (ψ = φ)", (colour, Stroke::Dashed), along),
     ];
+    for (mode, colour) in [(Mode::TipSlip, 1), (Mode::Roll, 4), (Mode::Spin, 5)] {
+        let (key, name) = (mode.name().replace('-', "_"), format!("{}, force at ψ = {degrees_of_psi}°", mode.name()));
+        let force = over(&|scene| at(scene, mode, psi))?;
+        lines.push(line(&key, &name, (Colour::Series(colour), Stroke::Solid), force));
+    }
     let mut rows = Table::of("", 0..degrees.len()).file("contact_angle_deg", |row| degrees[row]);
     for line in &lines {
         rows = rows.file(&line.key, |row| line.force[row].map(|force| NANO * force));
