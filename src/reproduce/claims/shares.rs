@@ -8,7 +8,6 @@ use super::numbers::{change, nano};
 use crate::reproduce::order::{Agreement, OrderVerdict, Standing, VISIBLE, order_of, outweighing};
 use crate::reproduce::papers::{CLOSE, PRINTED};
 use crate::reproduce::{FRICTIONS, Friction, GROUPS, Published, ReproduceError, Reproduced, named_together, published};
-use apportion::EffectEstimates;
 use apportion::afm::{Failure, FrictionLaw, Scene};
 use apportion::report::{IndexRecord, fixed, give_or_take, share};
 
@@ -105,49 +104,39 @@ fn shares_in_words(indices: &[IndexRecord], order: &OrderVerdict<'_>) -> String 
     format!("{}{rest}", visible.join(", "))
 }
 
-/// The verdict on printed percentages and under which reading it stands: all have to be ours under one reading.
-fn percentages(indices: &[IndexRecord], printed: &Published) -> (Verdict, String) {
-    let close = |reading: fn(&EffectEstimates) -> Option<f64>| {
-        printed.shares.iter().all(|(factor, percent)| {
-            let ours = indices.iter().find(|index| index.factor == *factor).and_then(|index| reading(&index.effect));
-            ours.is_some_and(|ours| (ours - percent).abs() <= CLOSE)
-        })
-    };
-    let reading = match (close(|effect| effect.share_first_order), close(|effect| effect.share_total)) {
-        (true, true) => "as shares by first-order and by total index",
-        (true, false) => "as shares by first-order index, not by total index",
-        (false, true) => "as shares by total index, not by first-order index",
-        (false, false) => {
-            return (Verdict::NotReproduced, "neither as shares by first-order nor by total index".to_owned());
-        }
-    };
-    (Verdict::Reproduced, reading.to_owned())
-}
-
-/// The printed percentages beside ours.
-fn side_by_side(indices: &[IndexRecord], printed: &Published) -> String {
-    let each = printed.shares.iter().filter_map(|(factor, percent)| {
-        let effect = &indices.iter().find(|index| index.factor == *factor)?.effect;
-        let (first, total) = (fixed(effect.share_first_order?, 1), fixed(effect.share_total?, 1));
-        Some(format!("{} {first} and {total} % ({percent} % printed)", factor.replace('_', " ")))
-    });
-    each.collect::<Vec<_>>().join(", ")
-}
-
-/// A claim about printed percentages, which something of the paper's own may contradict if they are not ours.
+/// A claim about printed percentages: all have to be ours under one reading. Something of the paper's own may contradict those
+/// that are not.
 fn printed_percentages(
     bench: &Bench<'_>,
     group: &'static str,
     contradicted_by: Option<String>,
 ) -> Result<Answer, ReproduceError> {
-    let ((_, indices), printed) = (printed(bench, group)?, published(group, PRINTED));
-    let (verdict, range) = percentages(indices, &printed);
-    let verdict = match (verdict, contradicted_by) {
-        (Verdict::NotReproduced, Some(own)) => Verdict::Contradicted { own },
-        (verdict, _) => verdict,
+    let (_, indices) = printed(bench, group)?;
+    let ours = published(group, PRINTED).shares.iter().map(|(factor, percent)| {
+        let effect = indices.iter().find(|index| index.factor == *factor).map(|index| index.effect);
+        let share = |share: Option<f64>| share.unwrap_or(f64::NAN);
+        let first_order = share(effect.and_then(|effect| effect.share_first_order));
+        (factor, percent, first_order, share(effect.and_then(|effect| effect.share_total)))
+    });
+    let by_first_order = ours.clone().all(|(_, percent, first_order, _)| (first_order - percent).abs() <= CLOSE);
+    let by_total = ours.clone().all(|(_, percent, _, total)| (total - percent).abs() <= CLOSE);
+    let beside = |(factor, percent, first_order, total): (&&str, &f64, f64, f64)| {
+        let (factor, first_order, total) = (factor.replace('_', " "), fixed(first_order, 1), fixed(total, 1));
+        format!("{factor} {first_order} and {total} % ({percent} % printed)")
     };
-    let shares = ("shares", side_by_side(indices, &printed));
-    Ok(Answer { verdict, range, words: vec![shares, studies(bench, group)?, ("close", CLOSE.to_string())] })
+    let shares = ours.map(beside).collect::<Vec<_>>().join(", ");
+    let range = match (by_first_order, by_total) {
+        (true, true) => "as shares by first-order and by total index",
+        (true, false) => "as shares by first-order index, not by total index",
+        (false, true) => "as shares by total index, not by first-order index",
+        (false, false) => "neither as shares by first-order nor by total index",
+    };
+    let verdict = match (by_first_order || by_total, contradicted_by) {
+        (false, Some(own)) => Verdict::Contradicted { own },
+        (is_ours, _) => Verdict::of(is_ours),
+    };
+    let words = vec![("shares", shares), studies(bench, group)?, ("close", CLOSE.to_string())];
+    Ok(Answer { verdict, range: range.to_owned(), words })
 }
 
 /// Claim 17, second half.

@@ -88,8 +88,7 @@ fn lead(file: &SettingsFile) -> Vec<String> {
         ),
         None => "No setting that was measured reaches an accuracy of 0.1.".to_owned(),
     };
-    let times = file.settings.iter().map(|of| of.seconds);
-    let (least, most) = times.fold((f64::INFINITY, 0.0_f64), |(low, high), s| (low.min(s), high.max(s)));
+    let (least, most) = times(file);
     let span = format!("{} settings took from {} to {} each.", file.settings.len(), seconds(least), seconds(most));
     vec![format!("{cheapest} {span}"), truth]
 }
@@ -128,14 +127,13 @@ fn lines(file: &SettingsFile) -> Vec<Part> {
 
 /// The settings of one curve after the other.
 fn curves(file: &SettingsFile, axis: Varied) -> Vec<Vec<&Measured>> {
-    let mut curves: Vec<Vec<&Measured>> = Vec::new();
-    for of in file.settings.iter().filter(|of| of.axis == axis) {
-        match curves.last_mut() {
-            Some(curve) if curve[0].curve == of.curve => curve.push(of),
-            _ => curves.push(vec![of]),
-        }
-    }
-    curves
+    let of_axis: Vec<&Measured> = file.settings.iter().filter(|of| of.axis == axis).collect();
+    of_axis.chunk_by(|a, b| a.curve == b.curve).map(<[_]>::to_vec).collect()
+}
+
+/// The shortest and the longest time of a setting.
+fn times(file: &SettingsFile) -> (f64, f64) {
+    file.settings.iter().fold((f64::INFINITY, 0.0), |(low, high), of| (low.min(of.seconds), high.max(of.seconds)))
 }
 
 /// Below what is known of the truth there is nothing to see.
@@ -183,8 +181,7 @@ fn panel() -> Panel {
 /// The error of the truth, over the times that are seen.
 fn floor(file: &SettingsFile) -> Option<crate::report::chart::Mark> {
     let error = file.truth.error.filter(|error| *error > LEAST_ERROR)?;
-    let times = file.settings.iter().map(|of| of.seconds);
-    let (least, most) = times.fold((f64::INFINITY, 0.0_f64), |(low, high), s| (low.min(s), high.max(s)));
+    let (least, most) = times(file);
     let series = Series::new("not known of the truth", Colour::Reference).stroke(Stroke::Dotted);
     Some(series.line(vec![(least, error), (most, error)]))
 }
