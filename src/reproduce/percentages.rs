@@ -65,10 +65,6 @@ impl StudyShares {
 }
 
 impl Percentages {
-    fn name(&self) -> String {
-        format!("{} of {} under {} friction", self.measure, self.output, self.friction)
-    }
-
     fn mean_distance(&self) -> f64 {
         self.studies.iter().map(|study| study.distance).sum::<f64>() / self.studies.len() as f64
     }
@@ -172,7 +168,7 @@ fn in_words(rows: &[Percentages]) -> Option<Words> {
         ("ours_general", fixed(ours.thickness_part(general)?, 1)),
         ("meets", if meets_all { "One reading meets" } else { "No reading meets" }.to_owned()),
         ("met", MET.to_string()),
-        ("nearest", nearest.name()),
+        ("nearest", format!("{} of {} under {} friction", nearest.measure, nearest.output, nearest.friction)),
         ("distances", distances.collect::<Vec<_>>().join(", ")),
         ("velocity", printed(environmental, "velocity")?.to_string()),
         ("viscous", fixed(velocity("viscous LuGre")?, 1)),

@@ -181,15 +181,11 @@ impl Swept<'_> {
     fn caption(&self, lines: &[Drawn], range: f64) -> String {
         let unit = format!(" {}", unit(self.factor.unit().symbol()));
         let (Some(from), Some(to)) = (self.values.first(), self.values.last()) else { return String::new() };
-        let mut courses: Vec<String> = Vec::new();
-        for drawn in lines {
-            courses.push(match drawn.line.is_marched() {
-                true => overshoot(drawn, &lines[0]),
-                false => {
-                    Curve { x: &self.values, y: &drawn.force, x_unit: &unit, y_unit: " nN" }.course(&drawn.line.said)
-                }
-            });
-        }
+        let course = |drawn: &Drawn| match drawn.line.is_marched() {
+            true => overshoot(drawn, &lines[0]),
+            false => Curve { x: &self.values, y: &drawn.force, x_unit: &unit, y_unit: " nN" }.course(&drawn.line.said),
+        };
+        let courses: Vec<String> = lines.iter().map(course).collect();
         let mut text = format!(
             "From {from} to {to}{unit} of {}, the critical force {}",
             self.parameter.description,
@@ -223,16 +219,18 @@ impl Swept<'_> {
 }
 
 impl Drawn<'_> {
-    /// The largest distance of the two rungs (nN).
-    fn difference(&self) -> f64 {
-        let Some(other) = &self.quasi_static else { return 0.0 };
-        largest(self.force.iter().zip(other).map(|(a, b)| (a - b).abs()))
+    /// The largest distance of the two rungs as `of` their forces: in nN, or as a part of the force.
+    fn largest(&self, of: fn(f64, f64) -> f64) -> f64 {
+        let both = self.quasi_static.iter().flat_map(|other| self.force.iter().zip(other));
+        largest(both.map(|(formula, geometry)| of(*formula, *geometry)))
     }
 
-    /// The same as a part of the force.
+    fn difference(&self) -> f64 {
+        self.largest(|formula, geometry| (formula - geometry).abs())
+    }
+
     fn relative_difference(&self) -> f64 {
-        let Some(other) = &self.quasi_static else { return 0.0 };
-        largest(self.force.iter().zip(other).map(|(a, b)| (b / a - 1.0).abs()))
+        self.largest(|formula, geometry| (geometry / formula - 1.0).abs())
     }
 }
 

@@ -62,22 +62,18 @@ pub struct Tally {
 impl Tally {
     /// Counts a number.
     fn add(&mut self, outcome: Outcome) {
-        *self.number_of(outcome) += 1;
+        *self.numbers()[outcome as usize] += 1;
     }
 
     /// How many there are of `outcome`.
     pub fn count(mut self, outcome: Outcome) -> u64 {
-        *self.number_of(outcome)
+        *self.numbers()[outcome as usize]
     }
 
-    fn number_of(&mut self, outcome: Outcome) -> &mut u64 {
-        match outcome {
-            Outcome::Right => &mut self.right,
-            Outcome::FlaggedConfirmed => &mut self.flagged_confirmed,
-            Outcome::Flagged => &mut self.flagged,
-            Outcome::Refused => &mut self.refused,
-            Outcome::Wrong => &mut self.wrong,
-        }
+    /// In the order of [`Outcome::ALL`].
+    fn numbers(&mut self) -> [&mut u64; Outcome::ALL.len()] {
+        let Self { right, flagged_confirmed, flagged, refused, wrong } = self;
+        [right, flagged_confirmed, flagged, refused, wrong]
     }
 
     /// All numbers.
