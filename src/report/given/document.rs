@@ -139,7 +139,7 @@ fn index_table(result: &GivenFile, output: &GivenOutputRecord) -> Table {
     if result.surrogate.is_none() {
         return rows.into();
     }
-    let serves = result.outputs.iter().any(GivenOutputRecord::is_served);
+    let serves = result.outputs.iter().any(|output| output.served().is_some());
     rows.number("S_1, by surrogate", |(_, of)| said(of.map(|index| index.first_order)))
         .estimate("surrogate", |(_, of)| of.map(|index| index.first_order))
         .shown(serves)

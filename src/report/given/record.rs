@@ -140,11 +140,6 @@ pub struct GivenOutputRecord {
 }
 
 impl GivenOutputRecord {
-    /// Whether its indices by surrogates are the ones to read.
-    pub(super) fn is_served(&self) -> bool {
-        self.served().is_some()
-    }
-
     /// The indices by surrogates that are to be read.
     pub(super) fn served(&self) -> Option<&SurrogateOutput> {
         self.surrogate.as_ref().filter(|surrogate| surrogate.serves)
@@ -208,7 +203,7 @@ pub fn build_given(
         output_record(indices, by_surrogate.and_then(|result: &Result<_, NoVariance>| result.as_ref().ok()), column)
     };
     let outputs: Vec<GivenOutputRecord> = indices.outputs.iter().zip(outputs).enumerate().map(of_output).collect();
-    let serves = outputs.iter().any(GivenOutputRecord::is_served);
+    let serves = outputs.iter().any(|output| output.served().is_some());
     let warnings = sentences::warnings(indices, surrogates, facts.method, facts.dropped);
     GivenFile {
         format: "apportion-given-data".to_owned(),

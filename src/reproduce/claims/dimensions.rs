@@ -1,6 +1,6 @@
 //! Claims about the dimensions of the cantilever: 8 to 11.
 
-use super::bench::{Bench, Sweep, closed, exact};
+use super::bench::{Bench, Sizes, Sweep, closed, exact};
 use super::curve::Curve;
 use super::judge::Answer;
 use super::numbers::{change, nano, number};
@@ -122,22 +122,18 @@ pub(super) fn height(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
 /// A claim that a sweep leaves F_cr as it is.
 pub(super) fn without_effect(bench: &Bench<'_>, sweep: &Sweep, options: OptionsOf) -> Result<Answer, ReproduceError> {
     let rule = |law, scene: &Scene| Ok(bench.curve(sweep, scene, &options(law))?.spread() < NO_EFFECT);
-    let holdings = bench.holding_under(&FRICTIONS, "", |law| points_of(bench, law), rule)?;
+    // What is no closed formula takes its time, the ramps of LuGre friction most of all.
+    let Sizes { slow_points, ramp_points, .. } = bench.sizes;
+    let points = |law| if law == FrictionLaw::LuGre { ramp_points } else { slow_points };
+    let holdings = bench.holding_under(&FRICTIONS, "", points, rule)?;
     let unmoved = format!(
-        "{} values of the {} from {}, at the nominal scene and at {} points of the general study's box ({} under LuGre \
-         friction); no effect means a change by less than {}.",
+        "{} values of the {} from {}, at the nominal scene and at {slow_points} points of the general study's box \
+         ({ramp_points} under LuGre friction); no effect means a change by less than {}.",
         sweep.count,
         sweep.parameter.name.replace('_', " "),
         sweep.words(),
-        bench.sizes.slow_points,
-        bench.sizes.ramp_points,
         change(NO_EFFECT)
     );
     let curves = nominal_curves(bench, sweep, options, &|curve| change(curve.spread()))?;
     Ok(Answer::judged(&holdings, [("sweep", sweep.words()), ("curves", curves), ("unmoved", unmoved)]))
-}
-
-/// Points of the box for what is not a closed formula under a friction law.
-fn points_of(bench: &Bench<'_>, law: FrictionLaw) -> u64 {
-    if law == FrictionLaw::LuGre { bench.sizes.ramp_points } else { bench.sizes.slow_points }
 }

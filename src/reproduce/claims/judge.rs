@@ -25,11 +25,6 @@ impl Share {
     }
 
     /// As in `83.2 % [82.9, 83.5] of the box`; `all of the box` only where no point failed.
-    pub fn words(&self) -> String {
-        self.words_of("the box")
-    }
-
-    /// The same of something else than `the box`.
     pub fn words_of(&self, whole: &str) -> String {
         match (self.value, self.interval) {
             (1.0, _) => format!("all of {whole}"),
@@ -74,7 +69,8 @@ pub(super) fn judge(holdings: &[Holding]) -> Verdict {
 
 /// Where each part holds over the whole ranges, in one line; parts with the same share are named together.
 pub(super) fn over_ranges(holdings: &[Holding]) -> String {
-    let shares = named_together(holdings.iter().map(|Holding { what, share, .. }| (share.words(), what.as_str())));
+    let shares =
+        named_together(holdings.iter().map(|Holding { what, share, .. }| (share.words_of("the box"), what.as_str())));
     match &shares[..] {
         [(words, _)] => words.clone(),
         _ => {
