@@ -201,7 +201,7 @@ enum Failure {
 
 impl Failure {
     /// The input was wrong, or else the run failed.
-    fn of(is_input: bool, error: impl Into<anyhow::Error>) -> Self {
+    fn input_if(is_input: bool, error: impl Into<anyhow::Error>) -> Self {
         if is_input { Self::Input(error.into()) } else { Self::Run(error.into()) }
     }
 }

@@ -36,7 +36,7 @@ pub struct Arguments {
 
 impl From<ReproduceError> for Failure {
     fn from(error: ReproduceError) -> Self {
-        Self::of(matches!(error, ReproduceError::Study(_)), error)
+        Self::input_if(matches!(error, ReproduceError::Study(_)), error)
     }
 }
 

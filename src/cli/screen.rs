@@ -41,7 +41,7 @@ pub struct Arguments {
 
 impl From<ScreeningError> for Failure {
     fn from(error: ScreeningError) -> Self {
-        Self::of(!matches!(error, ScreeningError::Run(_)), error)
+        Self::input_if(!matches!(error, ScreeningError::Run(_)), error)
     }
 }
 

@@ -31,7 +31,7 @@ fn parse_time(text: &str) -> Result<f64, String> {
 
 impl From<SimulationError> for Failure {
     fn from(error: SimulationError) -> Self {
-        Self::of(matches!(error, SimulationError::NoScene(_)), error)
+        Self::input_if(matches!(error, SimulationError::NoScene(_)), error)
     }
 }
 

@@ -35,7 +35,7 @@ impl From<SweepError> for Failure {
             SweepError::Halted(halt) => matches!(halt, Halt::GaveUp(GiveUp { is_bad_input: true, .. })),
             _ => true,
         };
-        Self::of(is_input, error)
+        Self::input_if(is_input, error)
     }
 }
 

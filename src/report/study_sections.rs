@@ -7,9 +7,9 @@ use super::format::{grouped, name, share_of_runs, significant, unit, value};
 use super::result::{ConstantRecord, CorrelationRecord, FactorRecord, StudyRecord, ValidityRecord};
 
 /// Most factors in the table of the study.
-const FACTORS: usize = 50;
+const MAX_FACTORS: usize = 50;
 /// Most values of a list in a table.
-const VALUES: usize = 8;
+const MAX_VALUES: usize = 8;
 
 /// Where the model's assumptions do not hold; on a terminal only where one was raised.
 pub(super) fn validity_section(validity: &[ValidityRecord]) -> Option<Section> {
@@ -20,7 +20,7 @@ pub(super) fn validity_section(validity: &[ValidityRecord]) -> Option<Section> {
     };
     let text = "Runs on which an assumption of the model does not hold count all the same; their share says how much of the \
                 result rests on them.";
-    let table = Table::of("Flags that the model raises, with the share of the runs on which it does.", validity)
+    let table = Table::from_rows("Flags that the model raises, with the share of the runs on which it does.", validity)
         .text("flag", |flag| flag.flag.replace('-', " "))
         .text("raised on", share)
         .text("what it means", |flag| &flag.description);
@@ -32,9 +32,9 @@ pub(super) fn validity_section(validity: &[ValidityRecord]) -> Option<Section> {
 
 /// Why runs failed: for each reason the inputs of the first run and how many there are.
 pub(super) fn failures<'a>(failures: impl IntoIterator<Item = (&'a str, String, u64)>) -> Option<Part> {
-    const MOST: usize = 50;
-    let failures: Vec<_> = failures.into_iter().take(MOST).collect();
-    let table = Table::of("Runs without a value, by reason, with the inputs of the first of each.", &failures)
+    const MAX_REASONS: usize = 50;
+    let failures: Vec<_> = failures.into_iter().take(MAX_REASONS).collect();
+    let table = Table::from_rows("Runs without a value, by reason, with the inputs of the first of each.", &failures)
         .text("reason", |(reason, ..)| *reason)
         .text("first", |(_, first, _)| first)
         .number("runs", |(.., runs)| grouped(*runs));
@@ -43,20 +43,21 @@ pub(super) fn failures<'a>(failures: impl IntoIterator<Item = (&'a str, String, 
 
 /// The inputs of a run in words, the first dozen of many.
 pub(crate) fn inputs(inputs: &Map<String, Value>) -> String {
-    const MOST: usize = 12;
-    let more = if inputs.len() > MOST { ", …" } else { "" };
-    inputs.iter().take(MOST).map(|(name, value)| format!("{name} = {value}")).collect::<Vec<_>>().join(", ") + more
+    const MAX_INPUTS: usize = 12;
+    let more = if inputs.len() > MAX_INPUTS { ", …" } else { "" };
+    inputs.iter().take(MAX_INPUTS).map(|(name, value)| format!("{name} = {value}")).collect::<Vec<_>>().join(", ")
+        + more
 }
 
 /// What was asked: the factors, the choices, the file.
 pub(crate) fn study_section(study: &StudyRecord, factors: &[FactorRecord]) -> Section {
     let mut parts = Vec::new();
-    let shown = &factors[..factors.len().min(FACTORS)];
+    let shown = &factors[..factors.len().min(MAX_FACTORS)];
     let mut caption = "The factors with their distributions.".to_owned();
     if shown.len() < factors.len() {
         caption.push_str(&format!(" The first {} of {}, all in the JSON file.", shown.len(), factors.len()));
     }
-    let mut rows = Table::of(caption, shown)
+    let mut rows = Table::from_rows(caption, shown)
         .text("factor", |factor| name(&factor.name))
         .text("distribution", |factor| distribution(&factor.distribution, &factor.unit));
     if shown.iter().any(|factor| factor.group.is_some()) {
@@ -74,7 +75,7 @@ pub(crate) fn study_section(study: &StudyRecord, factors: &[FactorRecord]) -> Se
             let places = (0..record.factors.len()).flat_map(|i| (0..i).map(move |j| (j, i)));
             places.map(move |(j, i)| (record, j, i))
         });
-        let table = Table::of("Factors that depend on each other, by a Gaussian copula.", pairs)
+        let table = Table::from_rows("Factors that depend on each other, by a Gaussian copula.", pairs)
             .text("factors", |(record, j, i)| [j, i].map(|k| name(&record.factors[k])).join(", "))
             .text("correlation", |(record, j, i)| {
                 format!("{} {}", significant(record.correlation[j][i]), measure(record))
@@ -118,7 +119,7 @@ fn distribution(distribution: &Value, symbol: &str) -> String {
 
 /// A value of JSON as people write it.
 fn plain(json: &Value) -> String {
-    let more = |all: usize| if all > VALUES { format!("; … ({all} in all)") } else { String::new() };
+    let more = |all: usize| if all > MAX_VALUES { format!("; … ({all} in all)") } else { String::new() };
     match json {
         Value::Null => "none".to_owned(),
         Value::Bool(true) => "yes".to_owned(),
@@ -126,10 +127,10 @@ fn plain(json: &Value) -> String {
         Value::Number(number) => number.as_f64().map_or_else(|| number.to_string(), |number| value(number, "")),
         Value::String(text) => text.clone(),
         Value::Array(values) => {
-            values.iter().take(VALUES).map(plain).collect::<Vec<_>>().join("; ") + &more(values.len())
+            values.iter().take(MAX_VALUES).map(plain).collect::<Vec<_>>().join("; ") + &more(values.len())
         }
         Value::Object(keys) => {
-            let pairs = keys.iter().take(VALUES).map(|(key, json)| format!("{key} {}", plain(json)));
+            let pairs = keys.iter().take(MAX_VALUES).map(|(key, json)| format!("{key} {}", plain(json)));
             pairs.collect::<Vec<_>>().join("; ") + &more(keys.len())
         }
     }

@@ -182,7 +182,7 @@ pub fn table(rows: &[Percentages]) -> Part {
                    the root mean square, in percentage points, over the factors with a printed percentage and all others \
                    taken together.";
     let number = |value: Option<f64>| value.map_or_else(String::new, |value| fixed(value, 1));
-    let mut table = Table::of(caption, std::iter::once(None).chain(rows.iter().map(Some)))
+    let mut table = Table::from_rows(caption, std::iter::once(None).chain(rows.iter().map(Some)))
         .text("friction", |row| row.map_or("printed", |row| row.friction))
         .text("output", |row| row.map_or("", |row| row.output))
         .text("share of the sum of", |row| row.map_or("", |row| row.measure));
@@ -207,7 +207,7 @@ pub fn table(rows: &[Percentages]) -> Part {
 pub fn percentages_csv(rows: &[Percentages]) -> String {
     let studies = rows.iter().flat_map(|row| row.studies.iter().map(move |study| (row, study)));
     let all = studies.flat_map(|(row, study)| study.shares.iter().map(move |share| (row, study, share)));
-    Table::of("", all)
+    Table::from_rows("", all)
         .file("friction", |(row, ..)| row.friction)
         .file("output", |(row, ..)| row.output)
         .file("measure", |(row, ..)| row.measure)

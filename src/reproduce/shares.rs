@@ -37,7 +37,7 @@ pub(super) fn shares_table<'a>(studies: &[&'a Reproduced]) -> Table {
     let caption = "First-order and total indices of every study with their 95 % intervals, their shares, and the \
                    percentages that LG prints; the CSV file has the intervals of the shares too.";
     let said = |share: Option<Estimate>| or_dash(share, |share| fixed(share.estimate, 1));
-    let table = Table::of(caption, rows)
+    let table = Table::from_rows(caption, rows)
         .text("study", |(study, _, is_first, _)| if is_first { study.group.key } else { "" })
         .value("study", |(study, ..)| study.group.key)
         .text("friction", |(study, _, is_first, _)| if is_first { study.friction.name } else { "" })

@@ -56,7 +56,7 @@ pub fn scene_number(name: &str, sample: &SceneSample) -> f64 {
 /// The samples as a table for CSV: names with units, then a row per sample, flags as `true` and `false`. The columns are
 /// described in `docs/scene-format.md`.
 pub fn scene_table(story: &SceneStory) -> Table {
-    let numbers = COLUMNS.iter().fold(Table::of("", &story.samples), |rows, column| {
+    let numbers = COLUMNS.iter().fold(Table::from_rows("", &story.samples), |rows, column| {
         rows.file(column.name, |sample| column.factor * (column.read)(sample))
     });
     FLAGS.iter().fold(numbers, |rows, (name, read)| rows.file(*name, |sample| read(sample))).into()

@@ -8,7 +8,7 @@ use apportion::report::format::{minus, with_unit};
 pub fn scene_document(story: &SceneStory, study: &str) -> Document {
     let frame = || Part::Frame { title: "The scene as an animation".to_owned(), html: player_page(story) };
     let animation = (!story.samples.is_empty()).then(frame);
-    let charts = scene_charts(story).map(|(stem, chart)| Figure::of(chart, format!("{study}-{stem}")).into());
+    let charts = scene_charts(story).map(|(stem, chart)| Figure::unnumbered(chart, format!("{study}-{stem}")).into());
     let setting = (!story.setting.is_empty()).then(|| {
         let table = Part::Table(Table::pairs("Every constant of the scene.", story.setting.iter().cloned()));
         Part::OnPage(vec![Part::Details { summary: "Every constant of the scene".to_owned(), parts: vec![table] }])
@@ -50,7 +50,7 @@ fn numbers(story: &SceneStory) -> Option<String> {
 /// The document of the modes of motion in the study called `study`, whose title is `title`.
 pub fn mode_document(diagram: &ModeDiagram, study: &str, title: &str) -> Document {
     let (name, chart) = (format!("{study}-modes"), mode_diagram_chart(diagram));
-    let mut csv = Table::of("", 0..diagram.angle.len()).file("angle_rad", |row| diagram.angle[row]);
+    let mut csv = Table::from_rows("", 0..diagram.angle.len()).file("angle_rad", |row| diagram.angle[row]);
     for line in &diagram.forces {
         csv = csv.file(format!("{}_N", line.mode), |row| line.force[row]);
     }
@@ -58,7 +58,7 @@ pub fn mode_document(diagram: &ModeDiagram, study: &str, title: &str) -> Documen
         kicker: "Modes of motion",
         title: title.to_owned(),
         lead: vec![chart.caption().to_owned()],
-        then: vec![Section::new("diagram", "Mode diagram", vec![Figure::of(chart, &name).into()])],
+        then: vec![Section::new("diagram", "Mode diagram", vec![Figure::unnumbered(chart, &name).into()])],
         csv: Some(csv.into()),
         name,
         ..Report::default()

@@ -40,7 +40,7 @@ fn sides(file: &ComparisonFile) -> Vec<Part> {
     };
     let mut parts = vec![side("A", &file.a), side("B", &file.b)];
     if !file.settings.is_empty() {
-        let settings = Table::of("In what the studies differ.", &file.settings)
+        let settings = Table::from_rows("In what the studies differ.", &file.settings)
             .text("what differs", |setting| &setting.what)
             .text("A", |setting| setting.a.as_deref().unwrap_or("–"))
             .text("B", |setting| setting.b.as_deref().unwrap_or("–"));
@@ -81,7 +81,7 @@ fn index_table(output: &ComparedOutput, what: &str, symbol: &str, of: fn(&Compar
          leaves out 0."
     );
     let star = |index: &ComparedIndex| if index.differs == Some(true) { " *" } else { "" };
-    Table::of(caption, &output.factors)
+    Table::from_rows(caption, &output.factors)
         .text("factor", |factor| format!("{}{}", if factor.group { "group " } else { "" }, name(&factor.name)))
         .number(format!("{symbol} of A"), |factor| of(factor).a)
         .number(format!("{symbol} of B"), |factor| of(factor).b)
@@ -137,7 +137,7 @@ fn all_indices(file: &ComparisonFile) -> Table {
     let rows = factors.flat_map(|(output, factor)| {
         [("first_order", &factor.first_order), ("total", &factor.total)].map(|index| (output, factor, index))
     });
-    Table::of("", rows)
+    Table::from_rows("", rows)
         .file("output", |(output, ..)| &output.name)
         .file("kind", |(_, factor, _)| if factor.group { "group" } else { "factor" })
         .file("name", |(_, factor, _)| &factor.name)

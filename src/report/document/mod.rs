@@ -6,7 +6,7 @@
 //! A command does not put its document together by hand: it fills in a [`Report`] with what it alone can say, sentences,
 //! tables and charts, output by output. [`Report::document`] adds what all commands have in common, in one order and one
 //! wording: the first answers, the range of validity, notes, the study, provenance, numbers and file names of figures, JSON and
-//! CSV. The columns of a table are said once each, see [`Table::of`]: heading, what is printed, and its name and value in
+//! CSV. The columns of a table are said once each, see [`Table::from_rows`]: heading, what is printed, and its name and value in
 //! the file.
 
 #[cfg(feature = "page")]
@@ -260,7 +260,7 @@ impl Figure {
     }
 
     /// A figure of a [`Report`], which numbers it: `chart`, whose files are called `stem`.
-    pub fn of(chart: Chart, stem: impl Into<String>) -> Self {
+    pub fn unnumbered(chart: Chart, stem: impl Into<String>) -> Self {
         Self::new(0, chart, stem, "")
     }
 

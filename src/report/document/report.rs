@@ -28,7 +28,7 @@ pub struct OutputReport<'a> {
 
 /// What a command has to say. What it leaves empty is left out.
 ///
-/// The sections come in the order of the fields. The figures that [`Figure::of`] makes are numbered as they come, and their numbers are in the file of
+/// The sections come in the order of the fields. The figures that [`Figure::unnumbered`] makes are numbered as they come, and their numbers are in the file of
 /// CSV, as are the rows of every table that has columns for a file and names none.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Report<'a> {
@@ -128,7 +128,7 @@ impl Report<'_> {
         let stems = file_stems(&self.name, &names, &endings);
         let are_many = names.len() >= MANY_OUTPUTS;
         let section = |(number, (output, stem)): (usize, (OutputReport<'_>, String))| {
-            let figure = |(ending, chart)| Figure::of(chart, format!("{stem}{ending}")).into();
+            let figure = |(ending, chart)| Figure::unnumbered(chart, format!("{stem}{ending}")).into();
             let parts = Part::warnings(output.warnings).into_iter().chain(output.parts);
             let parts = parts.chain(output.charts.into_iter().map(figure)).collect();
             Section::new(&format!("output-{number}"), &heading(output.name, output.unit), parts)

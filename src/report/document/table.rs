@@ -99,7 +99,7 @@ impl Table {
     /// ```
     /// use apportion::report::document::Table;
     ///
-    /// let table: Table = Table::of("Two factors.", &[("length", 0.25), ("width", 0.5)])
+    /// let table: Table = Table::from_rows("Two factors.", &[("length", 0.25), ("width", 0.5)])
     ///     .text("factor", |row| row.0)
     ///     .named("factor")
     ///     .number("S_T", |row| format!("{:.2}", row.1))
@@ -107,7 +107,7 @@ impl Table {
     ///     .into();
     /// assert_eq!(table.csv(), "factor,total\nlength,0.25\nwidth,0.5\n");
     /// ```
-    pub fn of<R: Copy>(caption: impl Into<String>, rows: impl IntoIterator<Item = R>) -> Rows<R> {
+    pub fn from_rows<R: Copy>(caption: impl Into<String>, rows: impl IntoIterator<Item = R>) -> Rows<R> {
         let rows: Vec<R> = rows.into_iter().collect();
         let table = Self { caption: caption.into(), rows: vec![Vec::new(); rows.len()], ..Self::default() };
         Rows { rows, table }

@@ -122,7 +122,7 @@ fn index_table(result: &GivenFile, output: &GivenOutputRecord) -> Table {
     let said = |estimate: Option<Estimate>| estimate.map_or_else(String::new, index);
     let indices = output.indices.iter().flatten().enumerate();
     let rows = indices.map(|(number, index)| (index, served.map(|of| &of.indices[number])));
-    let rows = Table::of(caption, rows)
+    let rows = Table::from_rows(caption, rows)
         .file("output", |_| &output.name)
         .text("input", |(index, _)| &index.input)
         .named("input")
@@ -164,7 +164,7 @@ fn table_parts(result: &GivenFile) -> Vec<Part> {
             three(dependence.noise)
         ));
     }
-    let inputs = Table::of("The inputs: the indices hold between these values.", &result.inputs)
+    let inputs = Table::from_rows("The inputs: the indices hold between these values.", &result.inputs)
         .text("input", |input| &input.name)
         .number("smallest", |input| significant(input.min))
         .number("largest", |input| significant(input.max));

@@ -98,7 +98,7 @@ pub(in crate::report) fn table(
             caption.push_str(" It is empty where these rows have one value only.");
         }
     }
-    let mut rows = Table::of(caption, inputs).file("output", |_| output).text(what, |of| &of.input).named(what);
+    let mut rows = Table::from_rows(caption, inputs).file("output", |_| output).text(what, |of| &of.input).named(what);
     for &measure in measures {
         let found = |of: &'_ InputMeasures| of.get(measure).map(|found| (found.estimate, found.p_value));
         let said = |of: &'_ InputMeasures| {

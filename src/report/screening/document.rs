@@ -67,7 +67,7 @@ fn effects(file: &ScreeningFile, output: &ScreenedOutput) -> Table {
         true => format!("Derivatives of {output_name}, times the range of each factor: {measures}{bound}."),
         false => format!("Elementary effects on {output_name} per full range of each factor: {measures}."),
     };
-    let mut rows = Table::of(caption, &output.factors)
+    let mut rows = Table::from_rows(caption, &output.factors)
         .file("output", |_| &output.name)
         .file("unit", |_| &output.unit)
         .text("factor", |factor| name(&factor.factor))

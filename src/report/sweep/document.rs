@@ -23,7 +23,7 @@ pub fn sweep_document(file: &SweepFile) -> Document {
     let failed = Part::Notice { mark: Mark::Mixed, kind: "Failed".to_owned(), texts };
     parts.extend(file.sweeps.iter().any(|sweep| !gap_lines(sweep).is_empty()).then_some(failed));
     parts.extend(curve_charts(file).into_iter().zip(&file.sweeps).map(|((stem, chart), sweep)| {
-        let figure = Figure::of(chart, stem).into();
+        let figure = Figure::unnumbered(chart, stem).into();
         match file.nominal.len() {
             ..MANY_OUTPUTS => figure,
             _ => Part::Details { summary: name(&sweep.factor), parts: vec![figure] },
@@ -99,7 +99,7 @@ fn effects(file: &SweepFile, nominal: &NominalOutput, number: usize) -> Part {
         name(&nominal.output)
     );
     let said = |value: Option<f64>| or_dash(value, short);
-    Table::of(caption, by_width(file, number))
+    Table::from_rows(caption, by_width(file, number))
         .text("factor", |(sweep, _)| name(&sweep.factor))
         .number("from", |(sweep, _)| sweep.value_in_words(0))
         .number("to", |(sweep, _)| sweep.value_in_words(sweep.values.len().saturating_sub(1)))
@@ -117,7 +117,7 @@ fn all_values(file: &SweepFile) -> Table {
     let curves = file.sweeps.iter().flat_map(|sweep| sweep.curves.iter().map(move |curve| (sweep, curve)));
     let outputs = curves.flat_map(|(sweep, curve)| curve.outputs.iter().map(move |of| (sweep, &curve.against, of)));
     let rows = outputs.flat_map(|row| (0..row.0.values.len()).map(move |place| (row, place)));
-    Table::of("", rows)
+    Table::from_rows("", rows)
         .file("factor", |((sweep, ..), _)| &sweep.factor)
         .file("unit", |((sweep, ..), _)| &sweep.unit)
         .file("value", |((sweep, ..), place)| match &sweep.labels {

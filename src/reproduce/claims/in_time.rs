@@ -45,7 +45,7 @@ fn half(
     let other = Scene { shear_modulus: Some(PRINTED_SHEAR_MODULUS), ..nominal };
     let of = |scene| quantity(&(bench.physics.history)(scene, &closed(FrictionLaw::Coulomb), DURATION)?);
     let (ours, theirs) = (of(&nominal)?, of(&other)?);
-    let verdict = |value: f64| Verdict::of((low..=high).contains(&value));
+    let verdict = |value: f64| Verdict::reproduced_if((low..=high).contains(&value));
     let [modulus, printed] = [nominal, other].map(|scene| number(scene.effective_shear_modulus() / 1e9, "GPa"));
     let (word, theirs) = (verdict(theirs).word(), said(theirs));
     Ok(Answer {

@@ -64,7 +64,7 @@ impl Answer {
 /// The verdict on a claim as its paper shows it: reproduced if every part holds at the nominal scene, which is that of the
 /// papers' figures.
 pub(super) fn judge(holdings: &[Holding]) -> Verdict {
-    Verdict::of(holdings.iter().all(|holding| holding.nominal))
+    Verdict::reproduced_if(holdings.iter().all(|holding| holding.nominal))
 }
 
 /// Where each part holds over the whole ranges, in one line; parts with the same share are named together.

@@ -66,7 +66,7 @@ pub enum Verdict {
 
 impl Verdict {
     /// Reproduced if it holds.
-    fn of(holds: bool) -> Self {
+    fn reproduced_if(holds: bool) -> Self {
         if holds { Self::Reproduced } else { Self::NotReproduced }
     }
 

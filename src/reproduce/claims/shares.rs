@@ -60,7 +60,7 @@ pub(super) fn order(bench: &Bench<'_>, group: &'static str) -> Result<Answer, Re
     let each = named_together(phrases).into_iter();
     let each = each.map(|(phrase, names)| format!("{}: {phrase}", names.join(", ")));
     Ok(Answer {
-        verdict: Verdict::of(is_same),
+        verdict: Verdict::reproduced_if(is_same),
         range: each.collect::<Vec<_>>().join("; "),
         words: vec![("shares", shares.join("; ")), studies(bench, group)?, ("visible", VISIBLE.to_string())],
     })
@@ -133,7 +133,7 @@ fn printed_percentages(
     };
     let verdict = match (by_first_order || by_total, contradicted_by) {
         (false, Some(own)) => Verdict::Contradicted { own },
-        (is_ours, _) => Verdict::of(is_ours),
+        (is_ours, _) => Verdict::reproduced_if(is_ours),
     };
     let words = vec![("shares", shares), studies(bench, group)?, ("close", CLOSE.to_string())];
     Ok(Answer { verdict, range: range.to_owned(), words })
@@ -155,7 +155,7 @@ pub(super) fn most_effective(bench: &Bench<'_>) -> Result<Answer, ReproduceError
             Some((factor, percent)) => {
                 Verdict::Contradicted { own: format!("{percent} % for the {factor} (LG fig. 4a)") }
             }
-            None => Verdict::of(order.ours.first() == Some(&"width")),
+            None => Verdict::reproduced_if(order.ours.first() == Some(&"width")),
         },
         range: format!("ours: {}", order.ours.join(" > ")),
         words: vec![("shares", shares_in_words(indices, &order)), studies(bench, "dimensional")?],
@@ -251,7 +251,7 @@ pub(super) fn outweigh(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
         totals.push(format!("{ours} against {others} ({})", friction.name));
     }
     Ok(Answer {
-        verdict: Verdict::of(holds),
+        verdict: Verdict::reproduced_if(holds),
         range: each.join("; "),
         words: vec![("totals", totals.join(", ")), studies(bench, "general")?],
     })

@@ -5,7 +5,7 @@ use super::*;
 use crate::reproduce::studies;
 use apportion::afm::history::{History, history};
 use apportion::afm::modes::{ModeConstants, Pushing};
-use apportion::afm::{Critical, FrictionLaw, Options, Scene, critical_force};
+use apportion::afm::{Critical, Failure, FrictionLaw, Options, Scene, critical_force};
 
 /// The nine studies at 4096 base points: enough to decide every order, and soon done.
 fn nine_studies() -> Vec<Reproduced> {

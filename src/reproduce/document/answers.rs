@@ -33,7 +33,7 @@ pub(super) fn table(studies: &[Reproduced]) -> Part {
     let caption = "The leading factor of each study: the part of the variance of the critical force that it explains alone \
                    (first-order index S_1) and with all its interactions (total index S_T), and the factors that follow \
                    with theirs.";
-    let mut rows = Table::of(caption, GROUPS).text("", |group| Cell::marked(group.title, Mark::Strong));
+    let mut rows = Table::from_rows(caption, GROUPS).text("", |group| Cell::marked(group.title, Mark::Strong));
     for friction in FRICTIONS {
         let study = |group| studies.iter().find(|study| (study.group, study.friction) == (group, friction));
         let cell = |group| study(group).map_or_else(|| "not run".into(), leader);
@@ -123,7 +123,7 @@ pub(super) fn validity(studies: &[Reproduced]) -> Option<Part> {
         "Runs outside the range of a theory, as a share of all runs; they count all the same. {}",
         means.join(" ")
     );
-    let mut rows = Table::of(caption, studies)
+    let mut rows = Table::from_rows(caption, studies)
         .text("study", |study| study.group.key)
         .text("friction", |study| study.friction.name);
     for place in places {

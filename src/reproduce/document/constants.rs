@@ -30,7 +30,7 @@ pub(super) fn section() -> Section {
     let caption = "Constants that a paper prints in another way than it is used, or that no paper prints. All others are \
                    used as printed.";
     let words = used();
-    let rows = Table::of(caption, &papers().constants)
+    let rows = Table::from_rows(caption, &papers().constants)
         .text("constant", |constant| constant.name)
         .text("printed", |constant| constant.printed)
         .text("used", |constant| filled(constant.used, &words))
@@ -42,7 +42,7 @@ pub(super) fn section() -> Section {
             format!("{low} to {high} {}", factor.unit())
         };
         let caption = "The ranges of the factors, uniform, as CHK prints them in its tables 1 to 3.";
-        let table = Table::of(caption, study.space().factors())
+        let table = Table::from_rows(caption, study.space().factors())
             .text("factor", |factor| factor.name.replace('_', " "))
             .text("range", range)
             .text("group", |factor| factor.group.as_deref().unwrap_or_default());

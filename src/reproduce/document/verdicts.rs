@@ -24,7 +24,7 @@ pub(super) fn table(claims: &[Claim]) -> Part {
     };
     let caption = "Each claim of the papers, and our answer, as the paper shows it (at its figure's scene, with its \
                    constants) and over the whole ranges of the general study.";
-    let rows = Table::of(caption, claims)
+    let rows = Table::from_rows(caption, claims)
         .text("", |claim| claim.number.to_string())
         .named("number")
         .file("source", |claim| claim.source)
@@ -47,7 +47,7 @@ pub(super) fn details(claims: &[Claim], figures: &[PaperFigure]) -> Part {
         let shown = claim.figures.iter().filter_map(|stem| Some((label(figures, stem)?, anchor(stem))));
         shown.map(|(label, anchor)| Link::new(label, format!("#{anchor}"))).collect()
     };
-    let rows = Table::of("What the verdicts rest on.", claims)
+    let rows = Table::from_rows("What the verdicts rest on.", claims)
         .text("claim", |claim| Cell { links: links(claim), ..Cell::from(claim.number.to_string()) })
         .text("our figures, and the setting they hold in", |claim| Cell {
             note: claim.setting.clone(),

@@ -4,7 +4,7 @@ use super::Drawn;
 use crate::reproduce::ReproduceError;
 use crate::scene::charts::{contacts, forces, positions, pushing};
 use crate::scene::simulation::scene_story;
-use crate::scene::{SceneSample, SceneStory, scene_number};
+use crate::scene::{SceneSample, SceneStory, player_page, scene_json, scene_number, scene_table};
 use apportion::afm::{Failure, FrictionLaw, Options, Scene};
 use apportion::report::chart::{Axis, Chart, Colour, Mark, Panel, Series, Stroke};
 use apportion::report::document::{Rows, Table};
@@ -65,7 +65,7 @@ pub(super) fn contact_areas() -> Result<Drawn, ReproduceError> {
 /// These columns of stories one below the other; with several stories, which the column `first` tells apart.
 fn table<'a>(first: &str, stories: &[(&'a str, &'a SceneStory)], columns: &[&str]) -> Rows<(&'a str, &'a SceneSample)> {
     let rows = stories.iter().flat_map(|&(name, story)| story.samples.iter().map(move |sample| (name, sample)));
-    let rows = Table::of("", rows);
+    let rows = Table::from_rows("", rows);
     let rows = if first.is_empty() { rows } else { rows.file(first, |(name, _)| name) };
     let columns = ["time_s"].iter().chain(columns);
     columns.fold(rows, |rows, name| rows.file(*name, |(_, sample)| scene_number(name, sample)))
@@ -174,4 +174,28 @@ pub(super) fn coefficients() -> Result<Drawn, ReproduceError> {
     let stories: Vec<(&str, &SceneStory)> = names.iter().map(String::as_str).zip(&runs).collect();
     let chart = Chart::new("Effect of the coefficient of friction", format!("{seen}: after {}.", listed(&slips)));
     Ok((chart.panels(panels), table("static_friction", &stories, &[FORCES[0], RELATIVE]).csv()))
+}
+
+/// Name of the animation's files without extension.
+pub const ANIMATION_STEM: &str = "ts04-14-animation";
+
+/// The moving version of TS04 figure 14, with its data.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Animation {
+    /// A whole page that needs nothing else.
+    pub html: String,
+    /// Every state.
+    pub csv: String,
+    /// The same, with setting and geometry, in the format `apportion-scene`.
+    pub json: String,
+}
+
+/// The nominal scene under Coulomb friction as a page with an animation. Its charts are among the
+/// [`figures`](super::figures).
+///
+/// # Errors
+/// [`ReproduceError`] if the scene has no answer, or the page cannot be rendered.
+pub fn animation() -> Result<Animation, ReproduceError> {
+    let story = story(FrictionLaw::Coulomb, |_| ())?;
+    Ok(Animation { html: player_page(&story), csv: scene_table(&story).csv(), json: scene_json(&story) })
 }

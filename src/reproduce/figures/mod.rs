@@ -4,7 +4,6 @@
 //! take the ranges of the papers' studies and leave everything else at the defaults; the histories are those of the
 //! nominal scene. Nothing here is typed in but what the papers say: captions are computed from what is drawn.
 
-mod animation;
 mod curve;
 mod history;
 mod modes;
@@ -13,7 +12,7 @@ mod sweep;
 #[cfg(test)]
 mod tests;
 
-pub use animation::{ANIMATION_STEM, Animation, animation};
+pub use history::{ANIMATION_STEM, Animation, animation};
 
 use rayon::prelude::*;
 

@@ -24,7 +24,7 @@ pub(super) fn against_force_angle() -> Result<Drawn, ReproduceError> {
         chart.set_caption(format!("{}; {said}.", chart.caption().trim_end_matches('.')));
     }
     let angle = |row: usize| diagram.angle[row].to_degrees();
-    let mut rows = Table::of("", 0..diagram.angle.len()).file("force_angle_deg", angle);
+    let mut rows = Table::from_rows("", 0..diagram.angle.len()).file("force_angle_deg", angle);
     for line in &diagram.forces {
         let name = format!("{}_nN", line.mode.replace('-', "_"));
         rows = rows.file(name, |row| line.force[row].map(|force| NANO * force));
@@ -86,7 +86,7 @@ pub(super) fn against_contact_angle() -> Result<Drawn, ReproduceError> {
         let force = over(&|scene| at(scene, mode, psi))?;
         lines.push(line(&key, &name, (Colour::Series(colour), Stroke::Solid), force));
     }
-    let mut rows = Table::of("", 0..degrees.len()).file("contact_angle_deg", |row| degrees[row]);
+    let mut rows = Table::from_rows("", 0..degrees.len()).file("contact_angle_deg", |row| degrees[row]);
     for line in &lines {
         rows = rows.file(&line.key, |row| line.force[row].map(|force| NANO * force));
     }

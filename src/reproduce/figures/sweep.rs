@@ -144,7 +144,7 @@ impl Swept<'_> {
     fn csv(&self, lines: &[Drawn]) -> String {
         let unit = self.factor.unit().symbol().replace('/', "_per_");
         let name = format!("{}_{unit}", self.factor.name);
-        let mut rows = Table::of("", 0..self.values.len()).file(name, |row| self.values[row]);
+        let mut rows = Table::from_rows("", 0..self.values.len()).file(name, |row| self.values[row]);
         for drawn in lines {
             rows = rows.file(format!("{}_nN", drawn.line.key), |row| drawn.force[row]);
         }

@@ -58,7 +58,7 @@ pub fn extremes_document(file: &ExtremesFile) -> Document {
         format!("{letter} – {name}: {meaning}.")
     });
     let mut parts: Vec<Part> = vec![counts(map).into(), Part::Text(by), Part::List(meanings.to_vec())];
-    let figure = |grid: &Grid| Figure::of(chart(headline, grid), format!("{name}-{}", grid.side)).into();
+    let figure = |grid: &Grid| Figure::unnumbered(chart(headline, grid), format!("{name}-{}", grid.side)).into();
     parts.extend(map.grids.iter().map(figure));
     let reasons = (!map.reasons.is_empty()).then(|| reasons(file).into());
     Report {
@@ -101,8 +101,9 @@ fn place(kind: Kind) -> &'static str {
 
 /// The numbers by kind and outcome.
 fn counts(map: &Extremes) -> Table {
-    let mut rows =
-        Table::of("Numbers at the extremes by outcome.", &map.kinds).text("where", |(kind, _)| place(*kind)).sum("all");
+    let mut rows = Table::from_rows("Numbers at the extremes by outcome.", &map.kinds)
+        .text("where", |(kind, _)| place(*kind))
+        .sum("all");
     for outcome in Outcome::ALL {
         let cell = |tally: &Tally| Cell::marked(grouped(tally.count(outcome)), mark(outcome, tally.count(outcome)));
         rows = rows.number(outcome.words().1, |(_, tally)| cell(tally)).sum(cell(&map.counts));
@@ -118,7 +119,7 @@ fn reasons(file: &ExtremesFile) -> Table {
         format!("{} {numbers}; {}", reason.output, inputs(&reason.inputs))
     };
     let caption = "Why numbers are silently wrong, flagged or refused, and the first of each.";
-    let rows = Table::of(caption, &file.map.reasons)
+    let rows = Table::from_rows(caption, &file.map.reasons)
         .text("what", |reason| Cell::marked(reason.outcome.words().1, mark(reason.outcome, reason.count)))
         .named("outcome")
         .text("where", |reason| place(reason.kind))

@@ -17,7 +17,7 @@ const SURROGATES: &str = ", surrogates";
 /// The document of a comparison.
 pub fn settings_document(file: &SettingsFile) -> Document {
     let (headline, name) = (file.study.headline(), format!("{}-trade", file.study.name));
-    let figure = |chart, ending: &str| Figure::of(chart, format!("{name}{ending}")).into();
+    let figure = |chart, ending: &str| Figure::unnumbered(chart, format!("{name}{ending}")).into();
     let advice = vec![advice_table(file), figure(chart(file, headline), "")];
     let others = vec![figure(formulas_chart(file, headline), "-formulas"), all(file)];
     let truth = &file.truth;
@@ -98,7 +98,7 @@ fn advice_table(file: &SettingsFile) -> Part {
     let of = |said: fn(&Measured) -> String, none: &'static str| {
         move |advice: &AdviceRecord| setting(file, advice).map_or_else(|| none.to_owned(), said)
     };
-    Table::of(caption, &file.advice)
+    Table::from_rows(caption, &file.advice)
         .number("accuracy", |advice| significant(advice.accuracy))
         .text("setting", of(|of| of.curve.clone(), "none of those measured"))
         .number("base samples", of(|of| grouped(of.base_samples), ""))
@@ -164,7 +164,7 @@ fn rung_table(file: &SettingsFile) -> Option<Part> {
     let cheapest = rungs.iter().map(|(seconds, _)| *seconds).fold(f64::INFINITY, f64::min);
     let caption = "The time of one model run on all threads, and the least error that any number of runs reached.";
     let times = |seconds: f64| format!("{:.1e}", seconds / cheapest).parse().unwrap_or(f64::INFINITY);
-    let table = Table::of(caption, &rungs)
+    let table = Table::from_rows(caption, &rungs)
         .text("rung", |(_, curve)| &curve[0].curve)
         .number("time of a model run", |(of_run, _)| seconds(*of_run))
         .number("times the cheapest", |(of_run, _)| significant(times(*of_run)))
@@ -231,7 +231,7 @@ fn formulas_chart(file: &SettingsFile, headline: &str) -> Chart {
 }
 
 fn all(file: &SettingsFile) -> Part {
-    Table::of("Every setting that was measured.", &file.settings)
+    Table::from_rows("Every setting that was measured.", &file.settings)
         .text("setting", |of| &of.curve)
         .named("setting")
         .file("axis", |of| of.axis.name())

@@ -26,11 +26,11 @@ use curve::Curve;
 use truth::Truth;
 
 /// Base samples that a curve begins with, and by how much it grows.
-const FIRST: u64 = 16;
+const FIRST_BASE_SAMPLES: u64 = 16;
 const STEP: u64 = 4;
 
 /// Base samples that no curve goes beyond.
-const MOST: u64 = 1 << 22;
+const MAX_BASE_SAMPLES: u64 = 1 << 22;
 
 /// Part of the time that the truth may take.
 const SHARE_OF_TRUTH: f64 = 0.25;
@@ -166,8 +166,8 @@ pub fn compare_settings(job: &SettingsJob<'_>) -> Result<Comparison, RunError> {
 fn measured(job: &SettingsJob<'_>, curve: &Curve, truth: &Truth, seconds: f64) -> Result<Vec<Measured>, RunError> {
     let start = Instant::now();
     let mut all = Vec::new();
-    let mut base_samples = FIRST;
-    while base_samples <= MOST {
+    let mut base_samples = FIRST_BASE_SAMPLES;
+    while base_samples <= MAX_BASE_SAMPLES {
         let began = start.elapsed().as_secs_f64();
         let mut point: Option<Measured> = None;
         for seed in 0..job.seeds.max(1) {
