@@ -59,7 +59,7 @@ pub fn scene_table(story: &SceneStory) -> Table {
     let numbers = COLUMNS.iter().fold(Table::from_rows("", &story.samples), |rows, column| {
         rows.file(column.name, |sample| column.factor * (column.read)(sample))
     });
-    FLAGS.iter().fold(numbers, |rows, (name, read)| rows.file(*name, |sample| read(sample))).into()
+    FLAGS.iter().fold(numbers, |rows, (name, read)| rows.file(*name, read)).into()
 }
 
 /// The story as JSON, format `apportion-scene`, version 1: see `docs/scene-format.md`. The samples are columns of the
