@@ -3,6 +3,7 @@
 use super::super::chart::{Axis, Bar, Chart, Colour, Mark, Panel, Series, Shape, Spacing, Stroke};
 use super::super::factor_bars::{MOST, not_drawn};
 use super::super::format::{axis_unit, name, printed, short_with_unit, words};
+use crate::report::document::Figure;
 use crate::report::{file_stems, listed};
 
 use super::{SweepFile, gap_lines};
@@ -17,17 +18,21 @@ const LOW_END: Colour = Colour::Series(5);
 const HIGH_END: Colour = Colour::Series(1);
 const WHOLE_RANGE: Colour = Colour::Series(6);
 
-/// One line chart per factor with a panel per output, each with the name of its files, `STUDY-sweep-FACTOR`.
-pub(super) fn curve_charts(file: &SweepFile) -> Vec<(String, Chart)> {
-    // The names of the charts of ranges, which are files of the same folder, are taken.
-    let ranges = file.nominal.iter().map(|nominal| match file.nominal.len() {
+/// Per output the ranges of all factors, `STUDY-sweep-ranges`, with the output's name at the end where there are several; and
+/// one line chart per factor, `STUDY-sweep-FACTOR`, with a panel per output.
+pub(super) fn figures(file: &SweepFile) -> (Vec<Figure>, Vec<Figure>) {
+    let of_outputs = file.nominal.iter().enumerate().map(|(number, nominal)| ranges(file, number, nominal));
+    let charts = of_outputs.chain(file.sweeps.iter().map(|sweep| lines(file, sweep)));
+    let names = file.nominal.iter().map(|nominal| match file.nominal.len() {
         1 => "ranges".to_owned(),
-        _ => format!("{}-ranges", nominal.output),
+        _ => format!("ranges-{}", nominal.output),
     });
-    let names: Vec<String> = ranges.chain(file.sweeps.iter().map(|sweep| sweep.factor.clone())).collect();
+    let names: Vec<String> = names.chain(file.sweeps.iter().map(|sweep| sweep.factor.clone())).collect();
     let names: Vec<&str> = names.iter().map(String::as_str).collect();
-    let stems = file_stems(&format!("{}-sweep", file.study.name), &names, &[""]).split_off(file.nominal.len());
-    stems.into_iter().zip(file.sweeps.iter().map(|sweep| lines(file, sweep))).collect()
+    let stems = file_stems(&format!("{}-sweep", file.study.name), &names, &[""]);
+    let mut figures: Vec<Figure> = charts.zip(stems).map(|(chart, stem)| Figure::unnumbered(chart, stem)).collect();
+    let curves = figures.split_off(file.nominal.len());
+    (figures, curves)
 }
 
 fn lines(file: &SweepFile, sweep: &Sweep) -> Chart {
@@ -138,8 +143,7 @@ fn from_to(sweep: &Sweep) -> String {
     }
 }
 
-/// The ranges of all factors for one output.
-pub(super) fn ranges_chart(file: &SweepFile, number: usize, nominal: &NominalOutput) -> Chart {
+fn ranges(file: &SweepFile, number: usize, nominal: &NominalOutput) -> Chart {
     let sweeps = || file.sweeps.iter().filter_map(|sweep| Some((sweep, sweep.effects.get(number)?)));
     let output = name(&nominal.output);
     let caption = format!(

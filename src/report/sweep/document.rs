@@ -1,33 +1,30 @@
 //! Sweeps as a document.
 
-use super::charts::{curve_charts, ranges_chart};
+use super::charts::figures;
 use super::{SweepFile, gap_lines};
 use crate::model::MANY_OUTPUTS;
-use crate::report::document::{Document, Figure, Mark, OutputReport, Part, Report, Section, Table, Value};
+use crate::report::document::{Document, Mark, OutputReport, Part, Report, Section, Table, Value};
 use crate::report::format::{axis_unit, grouped, name, or_dash, short, short_with_unit, value};
 use crate::report::json;
 use crate::sweep::{Against, NominalOutput, Sweep, SweepEffect};
 
 /// The document of sweeps.
 pub fn sweep_document(file: &SweepFile) -> Document {
-    let outputs = file.nominal.iter().enumerate().map(|(place, nominal)| OutputReport {
+    let (ranges, curves) = figures(file);
+    let outputs = file.nominal.iter().zip(ranges).enumerate().map(|(place, (nominal, ranges))| OutputReport {
         name: &nominal.output,
         unit: &nominal.unit,
         answer: widest(file, nominal, place),
-        parts: vec![Part::Text(at_nominal(nominal)), effects(file, nominal, place)],
-        charts: vec![("-ranges", ranges_chart(file, place, nominal))],
+        parts: vec![Part::Text(at_nominal(nominal)), effects(file, nominal, place), ranges.into()],
         ..OutputReport::default()
     });
     let mut parts: Vec<Part> = Part::warnings(&file.warnings).into_iter().collect();
     let texts: Vec<String> = file.sweeps.iter().flat_map(gap_lines).map(|line| format!("{line}.")).collect();
     let failed = Part::Notice { mark: Mark::Mixed, kind: "Failed".to_owned(), texts };
     parts.extend(file.sweeps.iter().any(|sweep| !gap_lines(sweep).is_empty()).then_some(failed));
-    parts.extend(curve_charts(file).into_iter().zip(&file.sweeps).map(|((stem, chart), sweep)| {
-        let figure = Figure::unnumbered(chart, stem).into();
-        match file.nominal.len() {
-            ..MANY_OUTPUTS => figure,
-            _ => Part::Details { summary: name(&sweep.factor), parts: vec![figure] },
-        }
+    parts.extend(curves.into_iter().zip(&file.sweeps).map(|(figure, sweep)| match file.nominal.len() {
+        ..MANY_OUTPUTS => figure.into(),
+        _ => Part::Details { summary: name(&sweep.factor), parts: vec![figure.into()] },
     }));
     Report {
         name: format!("{}-sweep", file.study.name),
