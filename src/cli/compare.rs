@@ -39,11 +39,8 @@ pub fn compare(arguments: &Arguments) -> Result<(), Failure> {
     let label_a = arguments.label_a.as_deref().unwrap_or(&told_a);
     let label_b = arguments.label_b.as_deref().unwrap_or(&told_b);
     let files = [&arguments.a, &arguments.b].map(|path| path.display().to_string());
-    let [a, b] = [(&a, label_a, &files[0]), (&b, label_b, &files[1])].map(|(result, label, file)| NamedResult {
-        result,
-        label,
-        file,
-    });
+    let a = NamedResult { result: &a, label: label_a, file: &files[0] };
+    let b = NamedResult { result: &b, label: label_b, file: &files[1] };
     let file = compare_results(&a, &b)
         .map_err(|error| Failure::Input(anyhow!("A is {}, B is {}: {error}", files[0], files[1])))?;
     let name = format!("{}-vs-{}", file_part(&told_a), file_part(&told_b));

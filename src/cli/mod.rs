@@ -25,7 +25,6 @@ mod stop;
 mod sweep;
 mod table;
 mod trade;
-mod trade_extremes;
 
 use std::io::{Error, ErrorKind, Write};
 use std::ops::RangeInclusive;
@@ -199,6 +198,13 @@ enum Failure {
     Run(anyhow::Error),
     /// The input was wrong, which another process has said: exit code 2.
     Silent,
+}
+
+impl Failure {
+    /// The input was wrong, or else the run failed.
+    fn input_if(is_input: bool, error: impl Into<anyhow::Error>) -> Self {
+        if is_input { Self::Input(error.into()) } else { Self::Run(error.into()) }
+    }
 }
 
 impl From<StudyError> for Failure {

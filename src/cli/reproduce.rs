@@ -25,7 +25,7 @@ pub struct Arguments {
     quick: bool,
     /// A single part of the page: the figures, or the verdicts on the claims with the percentages
     #[arg(long, value_name = "PART")]
-    only: Option<Part>,
+    only: Option<Topic>,
     #[command(flatten)]
     design: DesignChanges,
     #[command(flatten)]
@@ -34,18 +34,9 @@ pub struct Arguments {
     threads: Threads,
 }
 
-#[derive(Clone, Copy, PartialEq, clap::ValueEnum)]
-enum Part {
-    Figures,
-    Claims,
-}
-
 impl From<ReproduceError> for Failure {
     fn from(error: ReproduceError) -> Self {
-        match error {
-            ReproduceError::Study(_) => Self::Input(error.into()),
-            _ => Self::Run(error.into()),
-        }
+        Self::input_if(matches!(error, ReproduceError::Study(_)), error)
     }
 }
 
@@ -55,16 +46,13 @@ pub fn reproduce(arguments: &Arguments) -> Result<(), Failure> {
     artefacts.prepare()?;
     let request = Request {
         effort: if arguments.quick { Effort::Quick } else { Effort::Full },
-        only: arguments.only.map(|part| match part {
-            Part::Figures => Topic::Figures,
-            Part::Claims => Topic::Claims,
-        }),
+        only: arguments.only,
         overrides,
         threads: arguments.threads.number(),
     };
-    let meters = Meters::default();
-    let reproduction = run(&request, &|event| meters.show(&event))?;
-    let mut document = document(&reproduction)?;
+    let current = Mutex::new(None);
+    let reproduction = run(&request, &|event| show(&current, &event))?;
+    let mut document = document(&reproduction);
     if request.only.is_none() {
         let page = live_page(&live_study()?, request.threads, on_signal())?;
         put_beside(&mut document, LIVE, page);
@@ -77,21 +65,14 @@ fn live_study() -> Result<Study, Failure> {
     Ok(Study::parse(include_str!("../../studies/coulomb-general.toml"), Path::new("coulomb-general.toml"), &[])?)
 }
 
-/// The meter of what goes on at present.
-#[derive(Default)]
-struct Meters {
-    study: Mutex<Option<Meter>>,
-}
-
-impl Meters {
-    fn show(&self, event: &Event<'_>) {
-        let Ok(mut current) = self.study.lock() else { return };
-        match event {
-            Event::Begins { number: (number, count), name, runs } => {
-                *current = Some(Meter::new(&format!("{number} of {count} {name:<21}"), *runs));
-            }
-            Event::Progresses(progress) => current.iter().for_each(|meter| meter.update(*progress)),
-            Event::Ends { runs, seconds } => current.iter().for_each(|meter| meter.finish(*runs, *seconds)),
+/// Shows how far the current study has come.
+fn show(current: &Mutex<Option<Meter>>, event: &Event<'_>) {
+    let Ok(mut current) = current.lock() else { return };
+    match event {
+        Event::Begins { number: (number, count), name, runs } => {
+            *current = Some(Meter::new(&format!("{number} of {count} {name:<21}"), *runs));
         }
+        Event::Progresses(progress) => current.iter().for_each(|meter| meter.update(*progress)),
+        Event::Ends { runs, seconds } => current.iter().for_each(|meter| meter.finish(*runs, *seconds)),
     }
 }

@@ -25,8 +25,8 @@ pub struct Arguments {
     trajectories: u64,
     /// How the points are laid out: radial (Campolongo et al. 2011, by the study's sampler), trajectory (Morris 1991), or derivative
     /// (Sobol' and Kucherenko 2009: short steps, with bounds on total indices)
-    #[arg(long, value_enum, default_value_t = Layout::Radial)]
-    design: Layout,
+    #[arg(long, default_value = "radial", value_parser = ["radial", "trajectory", "derivative"])]
+    design: String,
     /// Levels of the trajectory design's grid, an even number [default: 4]
     #[arg(long, value_name = "P", value_parser = clap::value_parser!(u32).range(2..=i64::from(MAX_LEVELS)))]
     levels: Option<u32>,
@@ -39,19 +39,9 @@ pub struct Arguments {
     threads: Threads,
 }
 
-#[derive(Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
-enum Layout {
-    Radial,
-    Trajectory,
-    Derivative,
-}
-
 impl From<ScreeningError> for Failure {
     fn from(error: ScreeningError) -> Self {
-        match error {
-            ScreeningError::Run(_) => Self::Run(error.into()),
-            _ => Self::Input(error.into()),
-        }
+        Self::input_if(!matches!(error, ScreeningError::Run(_)), error)
     }
 }
 
@@ -63,15 +53,15 @@ fn trajectories(text: &str) -> Result<u64, String> {
 impl Arguments {
     fn settings(&self, study: &Study) -> Result<ScreeningSettings, Failure> {
         let in_study = study.design().settings();
-        let design = match (self.design, self.levels) {
-            (Layout::Radial, None) => ScreeningDesign::Radial { sampler: in_study.sampler },
-            (Layout::Derivative, None) => ScreeningDesign::Derivative { sampler: in_study.sampler },
-            (Layout::Radial | Layout::Derivative, Some(levels)) => {
-                let name = if self.design == Layout::Radial { "radial" } else { "derivative" };
+        let sampler = in_study.sampler;
+        let design = match (&*self.design, self.levels) {
+            ("trajectory", levels) => ScreeningDesign::Trajectory { levels: levels.unwrap_or(4) },
+            (name, Some(levels)) => {
                 let message = format!("--levels is of no account to the {name} design: add --design trajectory");
                 return Err(Failure::Input(anyhow!("--levels {levels}: {message}")));
             }
-            (Layout::Trajectory, levels) => ScreeningDesign::Trajectory { levels: levels.unwrap_or(4) },
+            ("derivative", None) => ScreeningDesign::Derivative { sampler },
+            _ => ScreeningDesign::Radial { sampler },
         };
         let seed = self.seed.unwrap_or(in_study.seed);
         Ok(ScreeningSettings { design, trajectories: self.trajectories, seed })

@@ -31,10 +31,7 @@ fn parse_time(text: &str) -> Result<f64, String> {
 
 impl From<SimulationError> for Failure {
     fn from(error: SimulationError) -> Self {
-        match error {
-            SimulationError::NoScene(_) => Self::Input(error.into()),
-            SimulationError::Failed(_) => Self::Run(error.into()),
-        }
+        Self::input_if(matches!(error, SimulationError::NoScene(_)), error)
     }
 }
 

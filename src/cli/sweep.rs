@@ -31,11 +31,11 @@ pub struct Arguments {
 
 impl From<SweepError> for Failure {
     fn from(error: SweepError) -> Self {
-        match error {
-            SweepError::Halted(Halt::GaveUp(GiveUp { is_bad_input: true, .. })) => Self::Input(error.into()),
-            SweepError::Halted(_) => Self::Run(error.into()),
-            _ => Self::Input(error.into()),
-        }
+        let is_input = match &error {
+            SweepError::Halted(halt) => matches!(halt, Halt::GaveUp(GiveUp { is_bad_input: true, .. })),
+            _ => true,
+        };
+        Self::input_if(is_input, error)
     }
 }
 
@@ -46,11 +46,12 @@ impl Arguments {
             let all = 0..space.factors().len();
             all.map(|factor| FactorValues::over_range(space, factor, self.points)).collect::<Result<_, _>>()?
         } else {
-            let read = |text: &String| asked("--factor", text, || self.swept(text, space));
+            let read = |text: &String| self.swept(text, space).map_err(of_option("--factor", text));
             self.factors.iter().map(read).collect::<Result<_, _>>()?
         };
         let against = self.against.as_ref();
-        let against = against.map(|text| asked("--against", text, || FactorValues::parse(text, space))).transpose()?;
+        let against =
+            against.map(|text| FactorValues::parse(text, space).map_err(of_option("--against", text))).transpose()?;
         Ok(SweepRequest { factors, against })
     }
 
@@ -78,13 +79,10 @@ fn tell_of_others(asked: &FactorValues, space: &Space) {
     }
 }
 
-/// What an option asks for, or its error with the option in front.
-fn asked(
-    option: &str,
-    text: &str,
-    read: impl FnOnce() -> Result<FactorValues, SweepError>,
-) -> Result<FactorValues, Failure> {
-    read().map_err(|error| Failure::Input(anyhow!("{option} {text}: {error}")))
+/// The error of an option with the option in front.
+fn of_option(option: &str, text: &str) -> impl FnOnce(SweepError) -> Failure {
+    let option = format!("{option} {text}");
+    move |error| Failure::Input(anyhow!("{option}: {error}"))
 }
 
 pub fn sweep(arguments: &Arguments) -> Result<(), Failure> {

@@ -137,6 +137,7 @@ values! {
     Estimate => |estimate| Self::Estimate(Some(estimate));
     Option<Estimate> => Self::Estimate;
     Option<f64> => |number: Option<f64>| number.map_or(Self::Empty, Self::Number);
+    Option<&str> => |text: Option<&str>| text.map_or(Self::Empty, Self::from);
     Option<bool> => |flag: Option<bool>| flag.map_or(Self::Empty, Self::Flag);
 }
 

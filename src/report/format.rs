@@ -69,6 +69,11 @@ pub fn chance(probability: Option<f64>) -> String {
     }
 }
 
+/// A value as `said` says it, a dash without one.
+pub fn or_dash<T>(value: Option<T>, said: impl FnOnce(T) -> String) -> String {
+    value.map_or_else(|| "–".to_owned(), said)
+}
+
 /// A value with four significant digits.
 pub fn short(value: f64) -> String {
     estimates::rounded(value, 4)

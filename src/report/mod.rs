@@ -41,7 +41,7 @@ pub use histogram_chart::histogram_chart;
 pub use run_charts::{convergence_chart, distribution_chart, indices_chart, pairs_chart, scatter_chart};
 pub use run_document::run_document;
 
-pub(crate) use study_sections::{inputs, study_section};
+pub(crate) use study_sections::inputs;
 
 // Open to the program, which is a crate of its own.
 #[cfg(feature = "page")]

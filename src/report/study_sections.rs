@@ -2,77 +2,68 @@
 
 use serde_json::{Map, Value};
 
-use super::document::{Cell, Column, Mark, Part, Section, Table};
+use super::document::{Cell, Mark, Part, Section, Table};
 use super::format::{grouped, name, share_of_runs, significant, unit, value};
 use crate::result::{ConstantRecord, CorrelationRecord, FactorRecord, StudyRecord, ValidityRecord};
 
 /// Most factors in the table of the study.
-const FACTORS: usize = 50;
+const MAX_FACTORS: usize = 50;
 /// Most values of a list in a table.
-const VALUES: usize = 8;
+const MAX_VALUES: usize = 8;
 
 /// Where the model's assumptions do not hold; on a terminal only where one was raised.
 pub(super) fn validity_section(validity: &[ValidityRecord]) -> Option<Section> {
-    let row = |flag: &ValidityRecord| {
-        let share = if flag.runs == 0 { "no run".to_owned() } else { share_of_runs(flag.share) };
-        let mark = match flag.runs {
-            0 => Mark::Good,
-            _ if flag.share < 0.5 => Mark::Mixed,
-            _ => Mark::Bad,
-        };
-        vec![flag.flag.replace('-', " ").into(), Cell::marked(share, mark), Cell::from(&flag.description)]
+    let share = |flag: &ValidityRecord| match (flag.runs, share_of_runs(flag.share)) {
+        (0, _) => Cell::marked("no run", Mark::Good),
+        (_, share) if flag.share < 0.5 => Cell::marked(share, Mark::Mixed),
+        (_, share) => Cell::marked(share, Mark::Bad),
     };
     let text = "Runs on which an assumption of the model does not hold count all the same; their share says how much of the \
                 result rests on them.";
-    let caption = "Flags that the model raises, with the share of the runs on which it does.";
-    let columns = Column::list(3, &["flag", "raised on", "what it means"]);
-    let is_raised = |place: &usize| validity[*place].runs > 0;
-    let raised: Vec<usize> = (0..validity.len()).filter(is_raised).collect();
-    let table = Table::new(caption, columns).with_rows(validity.iter().map(row));
-    let parts = vec![Part::Text(text.to_owned()), Part::Table(table)];
-    let parts = if raised.is_empty() { vec![Part::OnPage(parts)] } else { parts };
+    let table = Table::from_rows("Flags that the model raises, with the share of the runs on which it does.", validity)
+        .text("flag", |flag| flag.flag.replace('-', " "))
+        .text("raised on", share)
+        .text("what it means", |flag| &flag.description);
+    let parts = vec![Part::Text(text.to_owned()), table.into()];
+    let is_raised = validity.iter().any(|flag| flag.runs > 0);
+    let parts = if is_raised { parts } else { vec![Part::OnPage(parts)] };
     (!validity.is_empty()).then(|| Section::new("validity", "Model validity", parts))
 }
 
 /// Why runs failed: for each reason the inputs of the first run and how many there are.
 pub(super) fn failures<'a>(failures: impl IntoIterator<Item = (&'a str, String, u64)>) -> Option<Part> {
-    const MOST: usize = 50;
-    let row = |(reason, first, runs): (&str, String, u64)| vec![reason.into(), first.into(), grouped(runs).into()];
-    let caption = "Runs without a value, by reason, with the inputs of the first of each.";
-    let table = Table::new(caption, Column::list(2, &["reason", "first", "runs"]));
-    let table = table.with_rows(failures.into_iter().take(MOST).map(row));
-    (!table.rows.is_empty()).then(|| table.into())
+    const MAX_REASONS: usize = 50;
+    let failures: Vec<_> = failures.into_iter().take(MAX_REASONS).collect();
+    let table = Table::from_rows("Runs without a value, by reason, with the inputs of the first of each.", &failures)
+        .text("reason", |(reason, ..)| *reason)
+        .text("first", |(_, first, _)| first)
+        .number("runs", |(.., runs)| grouped(*runs));
+    (!failures.is_empty()).then(|| table.into())
 }
 
 /// The inputs of a run in words, the first dozen of many.
 pub(crate) fn inputs(inputs: &Map<String, Value>) -> String {
-    const MOST: usize = 12;
-    let more = if inputs.len() > MOST { ", …" } else { "" };
-    inputs.iter().take(MOST).map(|(name, value)| format!("{name} = {value}")).collect::<Vec<_>>().join(", ") + more
+    const MAX_INPUTS: usize = 12;
+    let more = if inputs.len() > MAX_INPUTS { ", …" } else { "" };
+    inputs.iter().take(MAX_INPUTS).map(|(name, value)| format!("{name} = {value}")).collect::<Vec<_>>().join(", ")
+        + more
 }
 
 /// What was asked: the factors, the choices, the file.
 pub(crate) fn study_section(study: &StudyRecord, factors: &[FactorRecord]) -> Section {
     let mut parts = Vec::new();
-    let shown = &factors[..factors.len().min(FACTORS)];
-    let has_groups = shown.iter().any(|factor| factor.group.is_some());
-    let row = |factor: &FactorRecord| {
-        let mut row: Vec<Cell> =
-            vec![name(&factor.name).into(), distribution(&factor.distribution, &factor.unit).into()];
-        row.extend(has_groups.then(|| factor.group.as_deref().unwrap_or("–").into()));
-        row.push(value(factor.nominal, &factor.unit).into());
-        row
-    };
+    let shown = &factors[..factors.len().min(MAX_FACTORS)];
     let mut caption = "The factors with their distributions.".to_owned();
     if shown.len() < factors.len() {
         caption.push_str(&format!(" The first {} of {}, all in the JSON file.", shown.len(), factors.len()));
     }
-    let headings: &[&str] = match has_groups {
-        true => &["factor", "distribution", "group", "nominal value"],
-        false => &["factor", "distribution", "nominal value"],
-    };
-    let columns = Column::list(headings.len() - 1, headings);
-    parts.push(Part::Table(Table::new(caption, columns).with_rows(shown.iter().map(row))));
+    let mut rows = Table::from_rows(caption, shown)
+        .text("factor", |factor| name(&factor.name))
+        .text("distribution", |factor| distribution(&factor.distribution, &factor.unit));
+    if shown.iter().any(|factor| factor.group.is_some()) {
+        rows = rows.text("group", |factor| factor.group.as_deref().unwrap_or("–"));
+    }
+    parts.push(rows.number("nominal value", |factor| value(factor.nominal, &factor.unit)).into());
     if !study.dependences.is_empty() {
         let measure = |record: &CorrelationRecord| match &*record.measure {
             "pearson" => "of the values (Pearson)",
@@ -82,15 +73,14 @@ pub(crate) fn study_section(study: &StudyRecord, factors: &[FactorRecord]) -> Se
         };
         let pairs = study.dependences.iter().flat_map(|record| {
             let places = (0..record.factors.len()).flat_map(|i| (0..i).map(move |j| (j, i)));
-            places.map(move |(j, i)| {
-                let names = [j, i].map(|k| name(&record.factors[k])).join(", ");
-                let correlation = format!("{} {}", significant(record.correlation[j][i]), measure(record));
-                vec![Cell::from(names), Cell::from(correlation)]
-            })
+            places.map(move |(j, i)| (record, j, i))
         });
-        let columns = Column::list(2, &["factors", "correlation"]);
-        let caption = "Factors that depend on each other, by a Gaussian copula.";
-        parts.push(Part::Table(Table::new(caption, columns).with_rows(pairs)));
+        let table = Table::from_rows("Factors that depend on each other, by a Gaussian copula.", pairs)
+            .text("factors", |(record, j, i)| [j, i].map(|k| name(&record.factors[k])).join(", "))
+            .text("correlation", |(record, j, i)| {
+                format!("{} {}", significant(record.correlation[j][i]), measure(record))
+            });
+        parts.push(table.into());
     }
     let mut choices = vec![("model".to_owned(), format!("`{}`", study.model))];
     choices.extend(study.settings.iter().map(|(key, json)| (name(key), plain(json))));
@@ -129,7 +119,7 @@ fn distribution(distribution: &Value, symbol: &str) -> String {
 
 /// A value of JSON as people write it.
 fn plain(json: &Value) -> String {
-    let more = |all: usize| if all > VALUES { format!("; … ({all} in all)") } else { String::new() };
+    let more = |all: usize| if all > MAX_VALUES { format!("; … ({all} in all)") } else { String::new() };
     match json {
         Value::Null => "none".to_owned(),
         Value::Bool(true) => "yes".to_owned(),
@@ -137,10 +127,10 @@ fn plain(json: &Value) -> String {
         Value::Number(number) => number.as_f64().map_or_else(|| number.to_string(), |number| value(number, "")),
         Value::String(text) => text.clone(),
         Value::Array(values) => {
-            values.iter().take(VALUES).map(plain).collect::<Vec<_>>().join("; ") + &more(values.len())
+            values.iter().take(MAX_VALUES).map(plain).collect::<Vec<_>>().join("; ") + &more(values.len())
         }
         Value::Object(keys) => {
-            let pairs = keys.iter().take(VALUES).map(|(key, json)| format!("{key} {}", plain(json)));
+            let pairs = keys.iter().take(MAX_VALUES).map(|(key, json)| format!("{key} {}", plain(json)));
             pairs.collect::<Vec<_>>().join("; ") + &more(keys.len())
         }
     }

@@ -6,21 +6,24 @@ pub mod claims;
 mod document;
 pub mod figures;
 mod order;
+mod papers;
 pub mod percentages;
-mod published;
 mod reproduction;
 mod shares;
 
 use thiserror::Error;
 
 pub use document::document;
-pub use published::{Published, published};
+pub use papers::{Published, published};
 pub use reproduction::{Event, Reproduction, Request, Topic, reproduce};
 
+use crate::scene::law_colour;
+use apportion::afm::{Failure, FrictionLaw};
 use apportion::report::chart::Colour;
 use apportion::result::StudyResult;
 use apportion::run::RunError;
 use apportion::study::{Study, StudyError};
+use apportion::sweep::SweepError;
 
 /// How much is computed.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -35,6 +38,8 @@ pub enum Effort {
 /// A friction model of the papers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Friction {
+    /// The law.
+    pub law: FrictionLaw,
     /// Its name in study files.
     pub key: &'static str,
     /// Its name for people.
@@ -43,16 +48,17 @@ pub struct Friction {
     pub colour: Colour,
 }
 
-/// The colours of the friction models, the same in all charts.
-const COULOMB: Colour = Colour::Series(0);
-const HURTADO_KIM: Colour = Colour::Series(3);
-const LUGRE: Colour = Colour::Series(2);
+impl Friction {
+    const fn new(law: FrictionLaw, name: &'static str) -> Self {
+        Self { law, key: law.name(), name, colour: law_colour(law) }
+    }
+}
 
 /// The friction models, in the order of the papers' charts.
 pub const FRICTIONS: [Friction; 3] = [
-    Friction { key: "coulomb", name: "Coulomb", colour: COULOMB },
-    Friction { key: "hk", name: "Hurtado-Kim", colour: HURTADO_KIM },
-    Friction { key: "lugre", name: "LuGre", colour: LUGRE },
+    Friction::new(FrictionLaw::Coulomb, "Coulomb"),
+    Friction::new(FrictionLaw::HurtadoKim, "Hurtado-Kim"),
+    Friction::new(FrictionLaw::LuGre, "LuGre"),
 ];
 
 /// A group of studies: the same factors under each friction model.
@@ -115,12 +121,29 @@ pub enum ReproduceError {
     /// A study cannot be run.
     #[error(transparent)]
     Run(#[from] RunError),
-    /// A figure cannot be made.
+    /// A scene has no answer. At the defaults of the papers that does not happen.
+    #[error("a scene of the papers has no answer: {0}")]
+    Scene(#[from] Failure),
+    /// A factor cannot be swept.
     #[error(transparent)]
-    Figures(#[from] figures::FiguresError),
-    /// A claim cannot be answered.
-    #[error(transparent)]
-    Claims(#[from] claims::ClaimsError),
+    Sweep(#[from] SweepError),
+    /// The model has no such input.
+    #[error("the nanoparticle model has no parameter `{name}`")]
+    NoParameter {
+        /// Its name.
+        name: &'static str,
+    },
+    /// The general study lacks a factor that a claim is about.
+    #[error("the general study does not give the range of every factor that the claims are about")]
+    NoRanges,
+    /// A study that a claim is about has not been run, or has no indices.
+    #[error("claims 17 to 20 need the {group} study under {friction} friction, with its indices")]
+    NoIndices {
+        /// The study's group.
+        group: &'static str,
+        /// The name of its friction model.
+        friction: &'static str,
+    },
     /// A study has no shares to set beside the printed percentages.
     #[error("the study {study} has no shares of {measure}: its indices have no positive sum")]
     NoPercentages {

@@ -4,12 +4,13 @@
 //! the critical force and of its logarithm, under each friction model and under LuGre friction with the viscous
 //! coefficient that brings the velocity to its printed share. Nothing is tuned beyond that one coefficient.
 
-use super::published::{PRINTED, published};
-use super::{Effort, FRICTIONS, GROUPS, QUICK, ReproduceError, study};
+use super::papers::{PRINTED, Words, filled, papers};
+use super::{Effort, FRICTIONS, GROUPS, QUICK, ReproduceError, StudyGroup, published, study};
 use apportion::EffectEstimates;
-use apportion::report::csv::{Csv, fields};
-use apportion::report::document::{Cell, Column, Table, Value};
+use apportion::report::document::{Part, Table};
 use apportion::report::fixed;
+use apportion::report::format::words;
+use apportion::result::{OutputResult, StudyResult};
 
 /// Within so many percentage points a distance counts as met: three times the rounding of the printed numbers.
 const MET: f64 = 1.5;
@@ -23,10 +24,7 @@ const OUTPUTS: [(&str, &str); 2] = [("critical_force", "F_cr"), ("log_critical_f
 /// A kind of share: its symbol, and where an effect has it.
 type Measure = (&'static str, fn(&EffectEstimates) -> Option<f64>);
 
-const MEASURES: [Measure; 2] = [
-    ("S_1", |effect: &EffectEstimates| effect.share_first_order),
-    ("S_T", |effect: &EffectEstimates| effect.share_total),
-];
+const MEASURES: [Measure; 2] = [("S_1", |effect| effect.share_first_order), ("S_T", |effect| effect.share_total)];
 
 /// Our percentages in the three studies under one friction model, by one measure of one output.
 #[derive(Debug, Clone, PartialEq)]
@@ -53,16 +51,21 @@ pub struct StudyShares {
 }
 
 impl StudyShares {
+    /// The shares of an output; `None` without any.
+    fn new(group: &'static str, output: &OutputResult, share: fn(&EffectEstimates) -> Option<f64>) -> Option<Self> {
+        let indices = output.indices.as_ref().filter(|indices| !indices.is_empty())?;
+        let shares = indices.iter().map(|index| Some((index.factor.clone(), share(&index.effect)?)));
+        let shares: Vec<(String, f64)> = shares.collect::<Option<_>>()?;
+        let distance = distance(group, shares.iter().map(|(factor, share)| (factor.as_str(), *share)));
+        Some(Self { group, shares, distance })
+    }
+
     fn share(&self, factor: &str) -> Option<f64> {
         self.shares.iter().find(|(name, _)| name == factor).map(|(_, share)| *share)
     }
 }
 
 impl Percentages {
-    fn name(&self) -> String {
-        format!("{} of {} under {} friction", self.measure, self.output, self.friction)
-    }
-
     fn mean_distance(&self) -> f64 {
         self.studies.iter().map(|study| study.distance).sum::<f64>() / self.studies.len() as f64
     }
@@ -75,7 +78,7 @@ impl Percentages {
 }
 
 /// The part of the thickness among thickness, length and width, in percent.
-pub(super) fn thickness_part(share: impl Fn(&str) -> Option<f64>) -> Option<f64> {
+fn thickness_part(share: impl Fn(&str) -> Option<f64>) -> Option<f64> {
     let [t, l, w] = ["thickness", "length", "width"].map(share);
     Some(100.0 * t? / (t? + l? + w?))
 }
@@ -108,150 +111,113 @@ pub fn percentages(effort: Effort, threads: usize) -> Result<Vec<Percentages>, R
     let models = FRICTIONS.iter().map(|friction| (friction.name, friction.key, &[][..])).chain([viscous]);
     let mut rows = Vec::new();
     for (friction, key, settings) in models {
-        let first = rows.len();
-        for (_, output) in OUTPUTS {
-            let row = |(measure, _): Measure| Percentages { friction, measure, output, studies: Vec::new() };
-            rows.extend(MEASURES.map(row));
-        }
-        for group in GROUPS {
-            let of_study = shares_of_study(key, group.key, settings, effort, threads)?;
-            rows[first..].iter_mut().zip(of_study).for_each(|(row, shares)| row.studies.push(shares));
+        let results = GROUPS.map(|group| run(key, group.key, settings, effort, threads));
+        let results = results.into_iter().collect::<Result<Vec<_>, _>>()?;
+        for (place, (_, output)) in OUTPUTS.into_iter().enumerate() {
+            for (measure, share) in MEASURES {
+                let of_group = |(group, result): (StudyGroup, &StudyResult)| {
+                    StudyShares::new(group.key, &result.outputs[place], share)
+                        .ok_or_else(|| ReproduceError::NoPercentages { study: result.study.name.clone(), measure })
+                };
+                let studies = GROUPS.into_iter().zip(&results).map(of_group).collect::<Result<_, _>>()?;
+                rows.push(Percentages { friction, measure, output, studies });
+            }
         }
     }
     Ok(rows)
 }
 
-/// The shares of one study: for each output, by each measure.
-fn shares_of_study(
+/// The result of one study with both outputs.
+fn run(
     friction: &str,
-    group: &'static str,
+    group: &str,
     settings: &[&str],
     effort: Effort,
     threads: usize,
-) -> Result<Vec<StudyShares>, ReproduceError> {
+) -> Result<StudyResult, ReproduceError> {
     let names = OUTPUTS.map(|(output, _)| format!("{output:?}")).join(", ");
+    let own = [format!("outputs=[{names}]"), "analysis.convergence=false".to_owned()].into_iter();
     let quick = if effort == Effort::Quick { &QUICK[..] } else { &[] };
-    let overrides: Vec<String> = [format!("outputs=[{names}]"), "analysis.convergence=false".to_owned()]
-        .into_iter()
-        .chain(settings.iter().chain(quick).map(|setting| (*setting).to_owned()))
-        .collect();
+    let overrides: Vec<String> = own.chain(settings.iter().chain(quick).map(|&setting| setting.to_owned())).collect();
     let study = study(friction, group, &overrides)?;
-    let result = study.runner().threads(threads).run()?;
-    let mut of_study = Vec::new();
-    for output in &result.outputs {
-        for (measure, share) in MEASURES {
-            let indices = output.indices.iter().flatten();
-            let shares = indices.map(|index| Some((index.factor.clone(), share(&index.effect)?))).collect();
-            let shares: Vec<(String, f64)> = Option::filter(shares, |shares: &Vec<_>| !shares.is_empty())
-                .ok_or_else(|| ReproduceError::NoPercentages { study: study.name().to_owned(), measure })?;
-            let distance = distance(group, shares.iter().map(|(factor, share)| (factor.as_str(), *share)));
-            of_study.push(StudyShares { group, shares, distance });
-        }
-    }
-    Ok(of_study)
+    Ok(study.runner().threads(threads).run()?)
 }
 
 /// What the percentages say: that LG does not define its own and that they contradict each other; which of ours are
 /// nearest; and what the share of the velocity takes.
 pub fn summary(rows: &[Percentages]) -> Vec<String> {
-    [undefined(rows), nearest(rows), velocity(rows)].into_iter().flatten().collect()
+    let words = in_words(rows).unwrap_or_default();
+    papers().readings.iter().filter(|_| !words.is_empty()).map(|text| filled(text, &words)).collect()
 }
 
-fn undefined(rows: &[Percentages]) -> Option<String> {
-    let ours = rows.iter().find(|row| (row.friction, row.measure, row.output) == ("LuGre", "S_1", "F_cr"))?;
-    Some(format!(
-        "LG does not say of what its percentages are, and they contradict each other: of thickness, length and width \
-         together, the thickness has {} % in the dimensional and {} % in the general study, where a force that is a \
-         product of powers gives the same part in both (ours: {} and {} %).",
-        fixed(printed("dimensional", "thickness")?, 0),
-        fixed(thickness_part(|factor| printed("general", factor))?, 1),
-        fixed(ours.thickness_part("dimensional")?, 1),
-        fixed(ours.thickness_part("general")?, 1)
-    ))
-}
-
-fn nearest(rows: &[Percentages]) -> Option<String> {
+fn in_words(rows: &[Percentages]) -> Option<Words> {
+    let [dimensional, environmental, general] = GROUPS.map(|group| group.key);
+    let by_first_order =
+        |friction| rows.iter().find(|row| (row.friction, row.measure, row.output) == (friction, "S_1", "F_cr"));
+    let velocity = |friction| {
+        let row: &Percentages = by_first_order(friction)?;
+        row.studies.iter().find(|study| study.group == environmental)?.share("velocity")
+    };
+    let ours = by_first_order("LuGre")?;
     let nearest = rows.iter().min_by(|a, b| a.mean_distance().total_cmp(&b.mean_distance()))?;
     let meets_all = nearest.studies.iter().all(|study| study.distance <= MET);
     let distances = nearest.studies.iter().map(|study| format!("{} {}", study.group, fixed(study.distance, 1)));
-    Some(format!(
-        "{} of all three studies to {MET} points: the nearest on the mean is {} ({} points).",
-        if meets_all { "One reading meets the percentages" } else { "No reading meets the percentages" },
-        nearest.name(),
-        distances.collect::<Vec<_>>().join(", ")
-    ))
-}
-
-fn velocity(rows: &[Percentages]) -> Option<String> {
-    const GROUP: &str = "environmental";
-    let share = |friction: &str| {
-        let row = rows.iter().find(|row| (row.friction, row.measure, row.output) == (friction, "S_1", "F_cr"))?;
-        row.studies.iter().find(|study| study.group == GROUP)?.share("velocity")
-    };
-    Some(format!(
-        "The {} % printed for the velocity take a viscous coefficient of 0.3 N s/m ({} %) instead of the 1e-7 N s/m that LG \
-         prints ({} %).",
-        printed(GROUP, "velocity")?,
-        fixed(share("viscous LuGre")?, 1),
-        fixed(share("LuGre")?, 1)
-    ))
-}
-
-/// The printed factors of each study with the headings of their columns; each study ends in its distance.
-fn columns() -> Vec<(&'static str, Option<&'static str>)> {
-    let of_group = |group: &'static str| {
-        let factors = published(group, PRINTED).shares.iter().map(|(factor, _)| Some(*factor));
-        factors.chain([None]).map(move |factor| (group, factor))
-    };
-    GROUPS.iter().flat_map(|group| of_group(group.key)).collect()
+    Some(vec![
+        ("dimensional", fixed(printed(dimensional, "thickness")?, 0)),
+        ("general", fixed(thickness_part(|factor| printed(general, factor))?, 1)),
+        ("ours_dimensional", fixed(ours.thickness_part(dimensional)?, 1)),
+        ("ours_general", fixed(ours.thickness_part(general)?, 1)),
+        ("meets", if meets_all { "One reading meets" } else { "No reading meets" }.to_owned()),
+        ("met", MET.to_string()),
+        ("nearest", format!("{} of {} under {} friction", nearest.measure, nearest.output, nearest.friction)),
+        ("distances", distances.collect::<Vec<_>>().join(", ")),
+        ("velocity", printed(environmental, "velocity")?.to_string()),
+        ("viscous", fixed(velocity("viscous LuGre")?, 1)),
+        ("lugre", fixed(velocity("LuGre")?, 1)),
+    ])
 }
 
 /// The table of the page: what is printed, then a row for each friction model, output and measure.
-pub fn table(rows: &[Percentages]) -> Table {
-    let heading = |(group, factor): &(&str, Option<&str>)| match factor {
-        Some(factor) => Column::number(format!("{group}: {}", factor.replace('_', " "))),
-        None => Column::number(format!("{group}: distance")),
-    };
-    let columns = columns();
-    let number = |value: Option<f64>| value.map_or_else(Cell::default, |value| fixed(value, 1).into());
-    let first = ["printed", "", ""].map(Cell::from).into_iter();
-    let first = first.chain(columns.iter().map(|(group, factor)| number(factor.and_then(|f| printed(group, f)))));
-    let row = |row: &Percentages| -> Vec<Cell> {
-        let cell = |(group, factor): &(&str, Option<&str>)| {
-            let study = row.studies.iter().find(|study| study.group == *group);
-            number(study.and_then(|study| factor.map_or(Some(study.distance), |factor| study.share(factor))))
-        };
-        [row.friction, row.output, row.measure].map(Cell::from).into_iter().chain(columns.iter().map(cell)).collect()
-    };
+pub fn table(rows: &[Percentages]) -> Part {
     let caption = "Our shares in percent under each reading, and their distance to the printed percentages of each study: \
                    the root mean square, in percentage points, over the factors with a printed percentage and all others \
                    taken together.";
-    let names = ["friction", "output", "share of the sum of"].map(Column::text).into_iter();
-    Table::new(caption, names.chain(columns.iter().map(heading)))
-        .with_rows([first.collect()].into_iter().chain(rows.iter().map(row)))
+    let number = |value: Option<f64>| value.map_or_else(String::new, |value| fixed(value, 1));
+    let mut table = Table::from_rows(caption, std::iter::once(None).chain(rows.iter().map(Some)))
+        .text("friction", |row| row.map_or("printed", |row| row.friction))
+        .text("output", |row| row.map_or("", |row| row.output))
+        .text("share of the sum of", |row| row.map_or("", |row| row.measure));
+    for StudyGroup { key, .. } in GROUPS {
+        let of = |row: Option<&Percentages>, read: &dyn Fn(&StudyShares) -> Option<f64>| {
+            read(row?.studies.iter().find(|study| study.group == key)?)
+        };
+        for (factor, percent) in published(key, PRINTED).shares {
+            let heading = format!("{key}: {}", words(factor));
+            let share = |row: Option<&Percentages>| match row {
+                None => Some(*percent),
+                row => of(row, &|study| study.share(factor)),
+            };
+            table = table.number(heading, |row| number(share(row)));
+        }
+        table = table.number(format!("{key}: distance"), |row| number(of(row, &|study| Some(study.distance))));
+    }
+    table.into()
 }
 
 /// One line per friction model, output, measure, study and factor; percentages and distances as in [`table`].
 pub fn percentages_csv(rows: &[Percentages]) -> String {
-    let names = ["friction", "output", "measure", "group", "factor", "share", "published", "distance"];
-    let mut csv = Csv::new(fields(&names, &[]));
-    for row in rows {
-        for study in &row.studies {
-            for (factor, share) in &study.shares {
-                csv.row::<Value>([
-                    row.friction.into(),
-                    row.output.into(),
-                    row.measure.into(),
-                    study.group.into(),
-                    factor.into(),
-                    (*share).into(),
-                    printed(study.group, factor).into(),
-                    study.distance.into(),
-                ]);
-            }
-        }
-    }
-    csv.text()
+    let studies = rows.iter().flat_map(|row| row.studies.iter().map(move |study| (row, study)));
+    let all = studies.flat_map(|(row, study)| study.shares.iter().map(move |share| (row, study, share)));
+    Table::from_rows("", all)
+        .file("friction", |(row, ..)| row.friction)
+        .file("output", |(row, ..)| row.output)
+        .file("measure", |(row, ..)| row.measure)
+        .file("group", |(_, study, _)| study.group)
+        .file("factor", |(.., (factor, _))| factor)
+        .file("share", |(.., (_, share))| *share)
+        .file("published", |(_, study, (factor, _))| printed(study.group, factor))
+        .file("distance", |(_, study, _)| study.distance)
+        .csv()
 }
 
 #[cfg(test)]

@@ -20,7 +20,7 @@ pub struct Request {
 }
 
 /// A part of the reproduction.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 pub enum Topic {
     /// The figures of the papers.
     Figures,

@@ -2,10 +2,9 @@
 
 use super::{Reproduced, published};
 use apportion::Estimate;
-use apportion::report::csv::Field;
-use apportion::report::document::{Cell, Column, Table, Value};
+use apportion::report::document::Table;
 use apportion::report::fixed;
-use apportion::report::format::words;
+use apportion::report::format::{or_dash, words};
 use apportion::result::IndexRecord;
 
 /// The indices of a study's factors.
@@ -24,45 +23,35 @@ pub(super) fn ranked(study: &Reproduced) -> Vec<usize> {
 
 /// Every index and share of every study with the printed percentage, printed with the largest total share of each study
 /// first; in the file in the order of its factors.
-pub(super) fn shares_table(studies: &[&Reproduced]) -> Table {
-    let share = |share: Option<Estimate>| {
-        let text = share.map_or_else(|| "–".to_owned(), |share| fixed(share.estimate, 1));
-        Cell::valued(text, Value::Estimate(share))
-    };
+pub(super) fn shares_table<'a>(studies: &[&'a Reproduced]) -> Table {
     let (mut rows, mut printed) = (Vec::new(), Vec::new());
     for study in studies {
         let ranked = ranked(study);
-        let print = published(study.group.key, study.friction.key);
         printed.extend(ranked.iter().map(|place| rows.len() + place));
-        for (place, IndexRecord { factor, effect }) in indices(study).iter().enumerate() {
-            // Only the first row of a study names it.
-            let named = |text: &str, value: &str| {
-                Cell::valued(if ranked.first() == Some(&place) { text } else { "" }, value.into())
-            };
-            let percent = print.share(factor);
-            rows.push(vec![
-                named(study.group.key, study.group.key),
-                named(study.friction.name, study.friction.key),
-                Cell::valued(words(factor), factor.into()),
-                effect.first_order.into(),
-                effect.total.into(),
-                share(effect.first_order_percent()),
-                share(effect.total_percent()),
-                Cell::valued(percent.map_or_else(String::new, |percent| percent.to_string()), percent.into()),
-            ]);
-        }
+        let print = published(study.group.key, study.friction.key);
+        // Only the first row of a study names it.
+        let row = |(place, index): (usize, &'a IndexRecord)| {
+            (*study, index, ranked.first() == Some(&place), print.share(&index.factor))
+        };
+        rows.extend(indices(study).iter().enumerate().map(row));
     }
     let caption = "First-order and total indices of every study with their 95 % intervals, their shares, and the \
                    percentages that LG prints; the CSV file has the intervals of the shares too.";
-    let columns = [
-        Column::text("study").named(Field::new("study")),
-        Column::text("friction").named(Field::new("friction")),
-        Column::text("factor").named(Field::new("factor")),
-        Column::number("S_1"),
-        Column::number("S_T"),
-        Column::number("% of S_1").named(Field::estimate("share_first_order")),
-        Column::number("% of S_T").named(Field::estimate("share_total")),
-        Column::number("printed").named(Field::new("published")),
-    ];
-    Table { printed: Some(printed), ..Table::new(caption, columns).with_rows(rows) }
+    let said = |share: Option<Estimate>| or_dash(share, |share| fixed(share.estimate, 1));
+    let table = Table::from_rows(caption, rows)
+        .text("study", |(study, _, is_first, _)| if is_first { study.group.key } else { "" })
+        .value("study", |(study, ..)| study.group.key)
+        .text("friction", |(study, _, is_first, _)| if is_first { study.friction.name } else { "" })
+        .value("friction", |(study, ..)| study.friction.key)
+        .text("factor", |(_, index, ..)| words(&index.factor))
+        .value("factor", |(_, index, ..)| &index.factor)
+        .number("S_1", |(_, index, ..)| index.effect.first_order)
+        .number("S_T", |(_, index, ..)| index.effect.total)
+        .number("% of S_1", |(_, index, ..)| said(index.effect.first_order_percent()))
+        .estimate("share_first_order", |(_, index, ..)| index.effect.first_order_percent())
+        .number("% of S_T", |(_, index, ..)| said(index.effect.total_percent()))
+        .estimate("share_total", |(_, index, ..)| index.effect.total_percent())
+        .number("printed", |(.., percent)| percent.map_or_else(String::new, |percent| percent.to_string()))
+        .value("published", |(.., percent)| percent);
+    Table { printed: Some(printed), ..table.into() }
 }

@@ -43,6 +43,11 @@ fn panel(story: &SceneStory, y: Axis, curves: &[Curve<'_>]) -> Panel {
     Panel::new(Axis::new("Time", "s"), y).with(curves.iter().map(line)).with(rule)
 }
 
+/// The chart of quantities of one unit.
+fn chart(story: &SceneStory, [title, caption]: [&str; 2], [label, unit]: [&str; 2], curves: &[Curve<'_>]) -> Chart {
+    Chart::new(title, caption).panels([panel(story, Axis::new(label, unit), curves)])
+}
+
 /// One label of the slip is enough for a chart.
 fn clear_rule_labels(panels: &mut [Panel]) {
     for mark in panels.iter_mut().flat_map(|panel| &mut panel.marks) {
@@ -53,7 +58,7 @@ fn clear_rule_labels(panels: &mut [Panel]) {
 }
 
 /// The colour of a friction law, the same in all charts of scenes.
-pub fn law_colour(law: FrictionLaw) -> Colour {
+pub const fn law_colour(law: FrictionLaw) -> Colour {
     match law {
         FrictionLaw::Coulomb => Colour::Series(0),
         FrictionLaw::HurtadoKim => Colour::Series(3),
@@ -69,35 +74,27 @@ pub(crate) fn forces(story: &SceneStory) -> Chart {
         Curve { name: "lateral force F_Y", look: (LATERAL, Stroke::Dashed), read: &|s| NANO * s.lateral_force },
         Curve { name: "normal force F_Z", look: (NORMAL, Stroke::Dotted), read: &|s| NANO * s.normal_force },
     ];
-    Chart::new("Forces on the tip", forces_caption(story)).panels([panel(story, Axis::new("Force", "nN"), &curves)])
+    chart(story, ["Forces on the tip", &forces_caption(story)], ["Force", "nN"], &curves)
 }
 
 fn forces_caption(story: &SceneStory) -> String {
     let (Some(first), Some(last)) = (story.samples.first(), story.samples.last()) else {
         return NO_SAMPLES.to_owned();
     };
-    let normal = spread(story.samples.iter().map(|s| s.normal_force / first.normal_force - 1.0));
-    let normal = normal.map(|spread| format!("; the normal force changes by {}", bound(spread))).unwrap_or_default();
-    match story.slip() {
-        Some(slip) => {
-            let critical = story.critical.critical_force;
-            let after = story.samples.iter().filter(|s| s.time > slip).map(|s| s.tip_force / critical - 1.0);
-            let after = spread(after)
-                .map(|spread| format!(", and then differs from it by {}", bound(spread)))
-                .unwrap_or_default();
-            format!(
-                "The tip force goes from {} to {}, at which the particle slips after {}{after}{normal}.",
-                force(first.tip_force),
-                force(critical),
-                time(slip)
-            )
-        }
-        None => format!(
-            "The tip force goes from {} to {} without a slip in the time shown{normal}.",
-            force(first.tip_force),
-            force(last.tip_force)
-        ),
-    }
+    let changes = |what: &str, parts: &mut dyn Iterator<Item = f64>| {
+        spread(parts).map(|spread| format!("{what} by {}", bound(spread))).unwrap_or_default()
+    };
+    let mut normal = story.samples.iter().map(|s| s.normal_force / first.normal_force - 1.0);
+    let normal = changes("; the normal force changes", &mut normal);
+    let begins = format!("The tip force goes from {} to", force(first.tip_force));
+    let Some(slip) = story.slip() else {
+        return format!("{begins} {} without a slip in the time shown{normal}.", force(last.tip_force));
+    };
+    let critical = story.critical.critical_force;
+    let mut after = story.samples.iter().filter(|s| s.time > slip).map(|s| s.tip_force / critical - 1.0);
+    let after = changes(", and then differs from it", &mut after);
+    let (critical, slip) = (force(critical), time(slip));
+    format!("{begins} {critical}, at which the particle slips after {slip}{after}{normal}.")
 }
 
 /// TS04 figure 9.
@@ -108,23 +105,12 @@ pub(crate) fn pushing(story: &SceneStory) -> Chart {
         Curve { name: "critical force F_cr", look: (Colour::Reference, Stroke::Dashed), read: &|_| critical },
     ];
     let largest = story.samples.iter().map(|s| s.tip_force).fold(f64::NAN, f64::max);
-    let caption = match story.slip() {
-        Some(slip) => format!(
-            "The pushing force reaches the critical force of {} after {}.",
-            force(story.critical.critical_force),
-            time(slip)
-        ),
-        None => format!(
-            "The pushing force is {} at most in the time shown; the critical force is {}.",
-            force(largest),
-            force(story.critical.critical_force)
-        ),
+    let (largest, at) = (force(largest), force(story.critical.critical_force));
+    let caption = match story.slip().map(time) {
+        Some(slip) => format!("The pushing force reaches the critical force of {at} after {slip}."),
+        None => format!("The pushing force is {largest} at most in the time shown; the critical force is {at}."),
     };
-    Chart::new("Pushing force against critical force", caption).panels([panel(
-        story,
-        Axis::new("Force", "nN"),
-        &curves,
-    )])
+    chart(story, ["Pushing force against critical force", &caption], ["Force", "nN"], &curves)
 }
 
 /// TS04 figure 10.
@@ -135,7 +121,7 @@ pub(crate) fn positions(story: &SceneStory) -> Chart {
         Curve { name: "particle relative to substrate", look: (RELATIVE, Stroke::Solid), read: &|s| NANO * s.relative },
         Curve { name: "tip base y_P", look: (TIP, Stroke::Dotted), read: &|s| NANO * s.lateral_deflection },
     ];
-    Chart::new("Positions", positions_caption(story)).panels([panel(story, Axis::new("Position", "nm"), &curves)])
+    chart(story, ["Positions", &positions_caption(story)], ["Position", "nm"], &curves)
 }
 
 fn positions_caption(story: &SceneStory) -> String {
@@ -160,30 +146,22 @@ fn positions_caption(story: &SceneStory) -> String {
 
 /// TS04 figure 13.
 pub(crate) fn contacts(story: &SceneStory) -> Chart {
-    let tip = (story.colour, Stroke::Solid);
-    let substrate = (SUBSTRATE, Stroke::Dashed);
-    let absolute = |label: &str, tip_of: Read, substrate_of: Read| {
+    let absolute: &dyn Fn(&SceneSample, Read) -> f64 = &|sample, read| NANO * read(sample);
+    let relative: &dyn Fn(&SceneSample, Read) -> f64 = &|sample, read| 100.0 * change_since_start(story, sample, read);
+    let of_both = |label: &str, unit: &str, [tip, substrate]: [Read; 2], of: &dyn Fn(&SceneSample, Read) -> f64| {
         let curves = [
-            Curve { name: "at the tip", look: tip, read: &|s| NANO * tip_of(s) },
-            Curve { name: "at the substrate", look: substrate, read: &|s| NANO * substrate_of(s) },
+            Curve { name: "at the tip", look: (story.colour, Stroke::Solid), read: &|s| of(s, tip) },
+            Curve { name: "at the substrate", look: (SUBSTRATE, Stroke::Dashed), read: &|s| of(s, substrate) },
         ];
-        panel(story, Axis::new(label, "nm"), &curves)
+        panel(story, Axis::new(label, unit), &curves)
     };
-    let relative = |label: &str, tip_of: Read, substrate_of: Read| {
-        let part = |read: Read| move |s: &SceneSample| 100.0 * change_since_start(story, s, read);
-        let curves = [
-            Curve { name: "at the tip", look: tip, read: &part(tip_of) },
-            Curve { name: "at the substrate", look: substrate, read: &part(substrate_of) },
-        ];
-        panel(story, Axis::new(label, "%"), &curves)
-    };
-    let radii: (Read, Read) = (|s| s.tip_contact_radius(), |s| s.substrate_contact.radius);
-    let depths: (Read, Read) = (|s| s.tip_indentation(), |s| s.substrate_contact.indentation);
+    let radii: [Read; 2] = [|s| s.tip_contact_radius(), |s| s.substrate_contact.radius];
+    let depths: [Read; 2] = [|s| s.tip_indentation(), |s| s.substrate_contact.indentation];
     let mut panels = vec![
-        absolute("Contact radius", radii.0, radii.1),
-        absolute("Indentation", depths.0, depths.1),
-        relative("Change of radius", radii.0, radii.1),
-        relative("Change of indentation", depths.0, depths.1),
+        of_both("Contact radius", "nm", radii, absolute),
+        of_both("Indentation", "nm", depths, absolute),
+        of_both("Change of radius", "%", radii, relative),
+        of_both("Change of indentation", "%", depths, relative),
     ];
     clear_rule_labels(&mut panels[1..]);
     Chart::new("Contacts at tip and substrate", contacts_caption(story)).panels(panels)

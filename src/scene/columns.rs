@@ -3,8 +3,7 @@
 use serde_json::{Map, Value, json};
 
 use super::{SceneSample, SceneStory};
-use apportion::report::csv::{Csv, Field};
-use apportion::report::document::Value as Cell;
+use apportion::report::document::Table;
 
 /// A column of numbers.
 struct Column {
@@ -48,20 +47,23 @@ type Flag = (&'static str, fn(&SceneSample) -> bool);
 const FLAGS: [Flag; 4] =
     [("slipping", |s| !s.sticking), ("tip_slip", |s| s.tip_slip), ("rolling", |s| s.rolling), ("spin", |s| s.spin)];
 
-/// The samples as CSV: a header of names with units, then one line per sample, numbers with as many digits as it takes
-/// to read the same bits back, flags as `true` and `false`. The columns are described in `docs/scene-format.md`.
-pub fn scene_csv(story: &SceneStory) -> String {
-    let names = COLUMNS.iter().map(|column| column.name).chain(FLAGS.iter().map(|flag| flag.0));
-    let mut csv = Csv::new(names.map(Field::new));
-    for sample in &story.samples {
-        let numbers = COLUMNS.iter().map(|column| Cell::Number(column.factor * (column.read)(sample)));
-        csv.row(numbers.chain(FLAGS.iter().map(|flag| Cell::Flag((flag.1)(sample)))));
-    }
-    csv.text()
+/// The number in the column called `name`, in its unit.
+pub fn scene_number(name: &str, sample: &SceneSample) -> f64 {
+    let column = COLUMNS.iter().find(|column| column.name == name).expect("a column of scenes");
+    column.factor * (column.read)(sample)
+}
+
+/// The samples as a table for CSV: names with units, then a row per sample, flags as `true` and `false`. The columns are
+/// described in `docs/scene-format.md`.
+pub fn scene_table(story: &SceneStory) -> Table {
+    let numbers = COLUMNS.iter().fold(Table::from_rows("", &story.samples), |rows, column| {
+        rows.file(column.name, |sample| column.factor * (column.read)(sample))
+    });
+    FLAGS.iter().fold(numbers, |rows, (name, read)| rows.file(*name, read)).into()
 }
 
 /// The story as JSON, format `apportion-scene`, version 1: see `docs/scene-format.md`. The samples are columns of the
-/// same names, units and digits as in [`scene_csv`].
+/// same names, units and digits as in [`scene_table`].
 pub fn scene_json(story: &SceneStory) -> String {
     format!("{:#}\n", scene_value(story))
 }
@@ -116,7 +118,7 @@ mod tests {
     #[test]
     fn csv_reads_back_to_the_same_bits() {
         let story = nominal_story();
-        let text = scene_csv(&story);
+        let text = scene_table(&story).csv();
         let mut reader = csv::Reader::from_reader(text.as_bytes());
         let header = reader.headers().unwrap().clone();
         assert_eq!(header.len(), COLUMNS.len() + FLAGS.len());
@@ -154,7 +156,7 @@ mod tests {
         story.samples[0].state.force_angle = f64::NAN;
         story.samples[0].state.tip_force = f64::INFINITY;
         story.critical_time = f64::NAN;
-        let text = scene_csv(&story);
+        let text = scene_table(&story).csv();
         let row: Vec<&str> = text.lines().nth(1).unwrap().split(',').collect();
         assert_eq!((row[3], row[4]), ("", ""));
         let value: Value = serde_json::from_str(&scene_json(&story)).unwrap();

@@ -1,40 +1,33 @@
 //! A scene, and the diagram of its modes, as documents.
 
-use super::{ModeDiagram, SceneStory, mode_diagram_chart, player_page, scene_charts, scene_csv, scene_json};
-use apportion::report::csv::{Csv, Field};
-use apportion::report::document::{DataFile, Document, Figure, Part, Section, Table, Value};
+use super::{ModeDiagram, SceneStory, mode_diagram_chart, player_page, scene_charts, scene_json, scene_table};
+use apportion::report::document::{Document, Figure, Part, Report, Section, Table};
 use apportion::report::format::{minus, with_unit};
 
 /// The document of a scene of the study called `study`.
 pub fn scene_document(story: &SceneStory, study: &str) -> Document {
-    let name = format!("{study}-scene");
-    let mut sections = Vec::new();
-    if !story.samples.is_empty() {
-        let frame = Part::Frame { title: "The scene as an animation".to_owned(), html: player_page(story) };
-        sections.push(Section::new("animation", "The scene", vec![frame]));
-    }
-    let charts = scene_charts(story).into_iter().enumerate().map(|(place, (stem, chart))| {
-        Part::from(Figure::new(place + 1, chart, format!("{study}-{stem}"), format!("{name}.csv")))
-    });
-    sections.push(Section::new("charts", "Charts", charts.collect()));
-    if !story.setting.is_empty() {
+    let frame = || Part::Frame { title: "The scene as an animation".to_owned(), html: player_page(story) };
+    let animation = (!story.samples.is_empty()).then(frame);
+    let charts = scene_charts(story).map(|(stem, chart)| Figure::unnumbered(chart, format!("{study}-{stem}")).into());
+    let setting = (!story.setting.is_empty()).then(|| {
         let table = Part::Table(Table::pairs("Every constant of the scene.", story.setting.iter().cloned()));
-        let details = Part::Details { summary: "Every constant of the scene".to_owned(), parts: vec![table] };
-        sections.push(Section::new("setting", "Setting", vec![Part::OnPage(vec![details])]));
-    }
-    Document {
-        name: name.clone(),
-        kicker: "A scene in time".to_owned(),
+        Part::OnPage(vec![Part::Details { summary: "Every constant of the scene".to_owned(), parts: vec![table] }])
+    });
+    Report {
+        name: format!("{study}-scene"),
+        kicker: "A scene in time",
         title: story.title.clone(),
         lead: [Some(story.outcome()), numbers(story)].into_iter().flatten().collect(),
-        sections,
-        footer: format!("Made by apportion {}.", env!("CARGO_PKG_VERSION")),
-        files: vec![
-            DataFile::new(format!("{name}.json"), scene_json(story)),
-            DataFile::new(format!("{name}.csv"), scene_csv(story)),
+        then: vec![
+            Section::new("animation", "The scene", animation.into_iter().collect()),
+            Section::new("charts", "Charts", charts.to_vec()),
+            Section::new("setting", "Setting", setting.into_iter().collect()),
         ],
-        ..Document::default()
+        json: scene_json(story),
+        csv: Some(scene_table(story)),
+        ..Report::default()
     }
+    .document()
 }
 
 /// Forces at the slip, and how far the particle has come in the end.
@@ -56,27 +49,21 @@ fn numbers(story: &SceneStory) -> Option<String> {
 
 /// The document of the modes of motion in the study called `study`, whose title is `title`.
 pub fn mode_document(diagram: &ModeDiagram, study: &str, title: &str) -> Document {
-    let name = format!("{study}-modes");
-    let chart = mode_diagram_chart(diagram);
-    let of_mode = |mode: &str| Field::new(format!("{mode}_N"));
-    let fields = diagram.forces.iter().map(|line| of_mode(&line.mode));
-    let mut csv = Csv::new([Field::new("angle_rad")].into_iter().chain(fields));
-    for (row, angle) in diagram.angle.iter().enumerate() {
-        let forces = diagram.forces.iter().map(|line| Value::from(line.force[row]));
-        csv.row([Value::from(*angle)].into_iter().chain(forces));
+    let (name, chart) = (format!("{study}-modes"), mode_diagram_chart(diagram));
+    let mut csv = Table::from_rows("", 0..diagram.angle.len()).file("angle_rad", |row| diagram.angle[row]);
+    for line in &diagram.forces {
+        csv = csv.file(format!("{}_N", line.mode), |row| line.force[row]);
     }
-    let (lead, data) = (vec![chart.caption().to_owned()], format!("{name}.csv"));
-    let figure = Figure::new(1, chart, &name, &data);
-    Document {
-        name,
-        kicker: "Modes of motion".to_owned(),
+    Report {
+        kicker: "Modes of motion",
         title: title.to_owned(),
-        lead,
-        sections: vec![Section::new("diagram", "Mode diagram", vec![figure.into()])],
-        footer: format!("Made by apportion {}.", env!("CARGO_PKG_VERSION")),
-        files: vec![DataFile::new(data, csv.text())],
-        ..Document::default()
+        lead: vec![chart.caption().to_owned()],
+        then: vec![Section::new("diagram", "Mode diagram", vec![Figure::unnumbered(chart, &name).into()])],
+        csv: Some(csv.into()),
+        name,
+        ..Report::default()
     }
+    .document()
 }
 
 #[cfg(test)]

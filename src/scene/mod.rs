@@ -13,7 +13,7 @@ pub mod simulation;
 mod view;
 
 pub use charts::{law_colour, scene_charts};
-pub use columns::{scene_csv, scene_json};
+pub use columns::{scene_json, scene_number, scene_table};
 pub use document::{mode_document, scene_document};
 pub use mode_diagram::{ModeDiagram, ModeLine, mode_diagram_chart};
 pub use player::player_page;

@@ -45,19 +45,24 @@ pub(super) fn run(
     let start = Instant::now();
     let total = trajectories * rows as u64;
     let columns = vec![Vec::new(); job.space.factors().len()];
-    let mut bench = Bench { executor, batch: Batch::new(job.model), columns, rows };
-    let mut whole = Outcome::new(job);
+    let outcome = Outcome {
+        effects: vec![Vec::new(); job.model.outputs().len()],
+        values: vec![Vec::new(); job.model.outputs().len()],
+        idle: vec![0; job.space.factors().len()],
+        flags: vec![0; job.model.flags().len()],
+        ..Outcome::default()
+    };
+    let mut bench = Bench { executor, batch: Batch::new(job.model), columns, rows, outcome };
     for first in (0..trajectories).step_by(block as usize) {
         let last = (first + block).min(trajectories);
-        let outcome = bench.block(job, points, first..last).map_err(|halt| match halt {
+        bench.block(job, points, first..last).map_err(|halt| match halt {
             Halt::GaveUp(give_up) => RunError::GaveUp(give_up),
             Halt::Interrupted => RunError::Interrupted { done: first * rows as u64, total },
         })?;
-        whole.append(outcome);
-        let done = last * rows as u64;
-        on_progress(Progress { done, recalled: 0, total, failed: whole.failed, elapsed: start.elapsed() });
+        let (done, failed) = (last * rows as u64, bench.outcome.failed);
+        on_progress(Progress { done, recalled: 0, total, failed, elapsed: start.elapsed() });
     }
-    Ok(whole)
+    Ok(bench.outcome)
 }
 
 /// What it takes to evaluate blocks.
@@ -66,6 +71,7 @@ struct Bench<'a> {
     batch: Batch,
     columns: Vec<Vec<f64>>,
     rows: usize,
+    outcome: Outcome,
 }
 
 impl Bench<'_> {
@@ -74,8 +80,8 @@ impl Bench<'_> {
         job: ScreeningJob<'_>,
         points: &Trajectories,
         numbers: std::ops::Range<u64>,
-    ) -> Result<Outcome, Halt> {
-        let mut outcome = Outcome::new(job);
+    ) -> Result<(), Halt> {
+        let outcome = &mut self.outcome;
         let mut moves: Vec<Vec<Move>> = numbers.map(|number| points.moves(number)).collect();
         let rows = self.rows * moves.len();
         let is_derivative = matches!(job.settings.design, ScreeningDesign::Derivative { .. });
@@ -104,7 +110,7 @@ impl Bench<'_> {
             values.extend(self.batch.column(output));
         }
         outcome.note(&self.batch, &inputs);
-        Ok(outcome)
+        Ok(())
     }
 }
 
@@ -137,16 +143,6 @@ fn effect(Move { step, rows: [before, after], .. }: &Move, values: &[f64]) -> f6
 }
 
 impl Outcome {
-    fn new(job: ScreeningJob<'_>) -> Self {
-        Self {
-            effects: vec![Vec::new(); job.model.outputs().len()],
-            values: vec![Vec::new(); job.model.outputs().len()],
-            idle: vec![0; job.space.factors().len()],
-            flags: vec![0; job.model.flags().len()],
-            ..Self::default()
-        }
-    }
-
     /// Takes note of the failures and flags of a settled batch.
     fn note(&mut self, batch: &Batch, inputs: &[&[f64]]) {
         let mut failed: Vec<usize> = Vec::with_capacity(batch.failures().len());
@@ -158,28 +154,8 @@ impl Outcome {
         failed.sort_unstable();
         failed.dedup();
         self.failed += failed.len() as u64;
-        add(&mut self.flags, batch.flags());
-    }
-
-    /// Adds what became of the next trajectories.
-    fn append(&mut self, next: Self) {
-        for (mine, theirs) in self.effects.iter_mut().zip(next.effects) {
-            mine.extend(theirs);
+        for (sum, raised) in self.flags.iter_mut().zip(batch.flags()) {
+            *sum += raised;
         }
-        for (mine, theirs) in self.values.iter_mut().zip(next.values) {
-            mine.extend(theirs);
-        }
-        for (key, (count, first)) in next.failures {
-            self.failures.entry(key).or_insert((0, first)).0 += count;
-        }
-        self.failed += next.failed;
-        add(&mut self.idle, &next.idle);
-        add(&mut self.flags, &next.flags);
-    }
-}
-
-fn add(mine: &mut [u64], theirs: &[u64]) {
-    for (mine, theirs) in mine.iter_mut().zip(theirs) {
-        *mine += theirs;
     }
 }

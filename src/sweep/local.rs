@@ -1,6 +1,6 @@
 //! Derivatives at the nominal point.
 
-use thiserror::Error;
+use serde::{Deserialize, Serialize};
 
 use super::request::range;
 use super::rows::Bench;
@@ -12,32 +12,27 @@ use crate::space::{Distribution, Factor};
 const STEP: f64 = 0.01;
 
 /// How one output answers to a small change of one factor at the nominal point.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct LocalSensitivity {
-    /// dy/dx, in the output's unit per factor's unit.
-    pub derivative: f64,
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct LocalSensitivity {
+    /// dy/dx at the nominal point, in the output's unit per unit of the factor; `None` where there is none.
+    pub derivative: Option<f64>,
     /// How far `derivative` may be off: the change that the last extrapolation made, and the rounding of the output.
     /// The truncation error is usually far smaller.
-    pub derivative_error: f64,
+    pub derivative_error: Option<f64>,
     /// The elasticity d ln y / d ln x = (x/y) dy/dx: by so many percent y changes when x changes by 1 %. `None` where x
     /// or y is 0, and in units such as `degC`, of which 1 % has no meaning.
     pub elasticity: Option<f64>,
     /// How far `elasticity` may be off.
     pub elasticity_error: Option<f64>,
+    /// Why there is no derivative, where there is none.
+    pub reason: Option<String>,
 }
 
-/// Why there is no derivative.
-#[derive(Debug, Clone, PartialEq, Eq, Error)]
-pub(super) enum NoDerivative {
-    /// The factor takes single values.
-    #[error("the factor is {0}, so that no small change of it has a meaning")]
-    NotContinuous(&'static str),
-    /// A run failed, at the nominal point or beside it.
-    #[error("a run at or beside the nominal point failed: {0}")]
-    Failed(String),
-    /// The difference is not finite.
-    #[error("the derivative is beyond double precision")]
-    Overflow,
+impl LocalSensitivity {
+    /// No derivative, and why.
+    fn none(reason: String) -> Self {
+        Self { reason: Some(reason), ..Self::default() }
+    }
 }
 
 /// The local sensitivities of every output to factor number `number`.
@@ -45,39 +40,44 @@ pub(super) enum NoDerivative {
 /// Differences of steps h and h/2 and one Richardson extrapolation, D = (4 D(h/2) - D(h))/3: central ones, of order h^4
 /// after it, or, where the range of the factor ends beside the nominal point, one-sided ones of three points into the
 /// range, of order h^3.
-pub(super) fn local(
-    bench: &mut Bench<'_>,
-    number: usize,
-    factor: &Factor,
-) -> Result<Vec<Result<LocalSensitivity, NoDerivative>>, Halt> {
+pub(super) fn local(bench: &mut Bench<'_>, number: usize, factor: &Factor) -> Result<Vec<LocalSensitivity>, Halt> {
     let distribution = factor.distribution();
     let x = factor.nominal;
     // A factor of single values is asked at its nominal value alone.
-    let points = match distribution {
-        Distribution::Discrete(_)
-        | Distribution::Integer(_)
-        | Distribution::Poisson(_)
-        | Distribution::Categorical(_)
-        | Distribution::Seed(_)
-        | Distribution::Constant(_) => None,
-        _ => Some(Points::of(x, distribution)),
-    };
+    let is_single =
+        distribution.is_whole() || distribution.levels().is_some() || matches!(distribution, Distribution::Constant(_));
+    let points = (!is_single).then(|| Points::of(x, distribution));
     let values = points.as_ref().map_or_else(|| vec![x], |points| points.values.clone());
     let curves = bench.curve(number, &values, None)?;
-    let of_output = |curve: super::OutputCurve| {
-        let Some(points) = &points else { return Err(NoDerivative::NotContinuous(distribution.name())) };
+    let of_output = |(curve, has_offset): (super::OutputCurve, bool)| {
+        let Some(points) = &points else {
+            let kind = distribution.name();
+            return LocalSensitivity::none(format!(
+                "the factor is {kind}, so that no small change of it has a meaning"
+            ));
+        };
         if let Some(gap) = curve.gaps.first() {
-            return Err(NoDerivative::Failed(gap.reason.clone()));
+            let reason = &gap.reason;
+            return LocalSensitivity::none(format!("a run at or beside the nominal point failed: {reason}"));
         }
         let y: Vec<f64> = curve.values.into_iter().flatten().collect();
-        points.derivative(&y).filter(|local| local.derivative.is_finite()).ok_or(NoDerivative::Overflow)
+        match points.derivative(&y).filter(|(derivative, _)| derivative.is_finite()) {
+            None => LocalSensitivity::none("the derivative is beyond double precision".to_owned()),
+            Some((derivative, error)) => {
+                let has_percents = x != 0.0 && y[0] != 0.0 && !has_offset && !factor.unit().has_offset();
+                let per_percent = has_percents.then(|| x / y[0]);
+                LocalSensitivity {
+                    derivative: Some(derivative),
+                    derivative_error: Some(error),
+                    elasticity: per_percent.map(|factor| factor * derivative),
+                    elasticity_error: per_percent.map(|factor| factor.abs() * error),
+                    reason: None,
+                }
+            }
+        }
     };
-    let locals = curves.into_iter().map(of_output).zip(bench.offsets());
-    let relative = locals.map(|(local, of_output)| match of_output || factor.unit().has_offset() {
-        true => local.map(|local| LocalSensitivity { elasticity: None, elasticity_error: None, ..local }),
-        false => local,
-    });
-    Ok(relative.collect())
+    let offsets = bench.offsets();
+    Ok(curves.into_iter().zip(offsets).map(of_output).collect())
 }
 
 /// Where the output is asked: the nominal point, then h and h/2 to both sides, or h/2, h and 2 h to one.
@@ -102,7 +102,8 @@ impl Points {
         }
     }
 
-    fn derivative(&self, y: &[f64]) -> Option<LocalSensitivity> {
+    /// The derivative, and how far it may be off.
+    fn derivative(&self, y: &[f64]) -> Option<(f64, f64)> {
         // By the steps that were made, not by those that were meant.
         let step = |from: usize, to: usize| self.values[to] - self.values[from];
         let (coarse, fine, shortest) = match (self.central, y) {
@@ -119,13 +120,7 @@ impl Points {
         };
         let derivative = fine + (fine - coarse) / 3.0;
         let size = y.iter().fold(0.0f64, |size, y| size.max(y.abs()));
-        let derivative_error = (derivative - fine).abs() + 4.0 * f64::EPSILON * size / shortest.abs();
-        let factor = (self.values[0] != 0.0 && y[0] != 0.0).then(|| self.values[0] / y[0]);
-        Some(LocalSensitivity {
-            derivative,
-            derivative_error,
-            elasticity: factor.map(|factor| factor * derivative),
-            elasticity_error: factor.map(|factor| factor.abs() * derivative_error),
-        })
+        let error = (derivative - fine).abs() + 4.0 * f64::EPSILON * size / shortest.abs();
+        Some((derivative, error))
     }
 }

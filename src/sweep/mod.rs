@@ -10,6 +10,7 @@ mod rows;
 #[cfg(test)]
 mod tests;
 
+pub use local::LocalSensitivity;
 pub use request::{FactorValues, SweepError, SweepRequest};
 #[doc(hidden)]
 pub use request::{MAX_POINTS, TAIL, find, is_logarithmic};
@@ -19,7 +20,6 @@ use serde::{Deserialize, Serialize};
 use crate::model::{Model, RowFailure, RunContext};
 use crate::run::Halt;
 use crate::space::Space;
-use local::{LocalSensitivity, NoDerivative};
 use rows::Bench;
 
 /// Sweeps that have taken place.
@@ -136,16 +136,9 @@ pub struct SweepEffect {
     /// 100 (high - low)/|nominal|: by so many percent of its nominal value the output moves; `None` where the nominal
     /// value is 0 or does not exist, or is in a unit such as `degC`, of which 1 % has no meaning.
     pub percent: Option<f64>,
-    /// dy/dx at the nominal point, in `unit` per unit of the factor.
-    pub derivative: Option<f64>,
-    /// How far `derivative` may be off.
-    pub derivative_error: Option<f64>,
-    /// (x/y) dy/dx at the nominal point.
-    pub elasticity: Option<f64>,
-    /// How far `elasticity` may be off.
-    pub elasticity_error: Option<f64>,
-    /// Why there is no derivative, where there is none.
-    pub reason: Option<String>,
+    /// Its slope at the nominal point.
+    #[serde(flatten)]
+    pub local: LocalSensitivity,
 }
 
 /// Sweeps factors of `space` through `model` as `request` asks. The result is the same on every run.
@@ -251,12 +244,11 @@ impl NominalOutput {
 }
 
 impl SweepEffect {
-    fn new(curve: &OutputCurve, nominal: Option<f64>, local: Result<LocalSensitivity, NoDerivative>) -> Self {
+    fn new(curve: &OutputCurve, nominal: Option<f64>, local: LocalSensitivity) -> Self {
         let values = || curve.values.iter().copied().flatten();
         let (low, high) = (values().reduce(f64::min), values().reduce(f64::max));
         let width = low.zip(high).map(|(low, high)| high - low);
         let percent = width.zip(nominal).map(|(width, nominal)| 100.0 * (width / nominal.abs()));
-        let slope = local.as_ref().ok();
         Self {
             output: curve.name.clone(),
             unit: curve.unit.clone(),
@@ -265,11 +257,7 @@ impl SweepEffect {
             first: curve.values.first().copied().flatten(),
             last: curve.values.last().copied().flatten(),
             percent: percent.filter(|percent| percent.is_finite()),
-            derivative: slope.map(|slope| slope.derivative),
-            derivative_error: slope.map(|slope| slope.derivative_error),
-            elasticity: slope.and_then(|slope| slope.elasticity),
-            elasticity_error: slope.and_then(|slope| slope.elasticity_error),
-            reason: local.err().map(|error| error.to_string()),
+            local,
         }
     }
 }

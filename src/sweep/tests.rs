@@ -82,15 +82,15 @@ fn curves_extents_and_slopes_are_exact() {
     }
     // Extrapolated central differences are exact for cubics; for x^-2 they are off by some 5 (h/x)^4 = 5e-8.
     for (sweep, power, tolerance) in [(length, 3.0, 1e-12), (stiffness, -2.0, 1e-7)] {
-        let local = &sweep.effects[0];
+        let local = &sweep.effects[0].local;
         assert!(close(local.elasticity.unwrap(), power, tolerance), "{local:?}");
         assert!((local.elasticity.unwrap() - power).abs() <= local.elasticity_error.unwrap());
         assert!(local.elasticity_error.unwrap() < 1e-3);
     }
-    assert!(close(length.effects[0].derivative.unwrap(), 3.0 * 2e-3 / 200.0, 1e-12));
+    assert!(close(length.effects[0].local.derivative.unwrap(), 3.0 * 2e-3 / 200.0, 1e-12));
     // z = x^2 at 0, the end of the range: a one-sided difference, exact for a parabola.
     let share = &swept.sweeps[2].effects[1];
-    assert!(share.derivative.unwrap().abs() < 1e-15 && share.elasticity.is_none());
+    assert!(share.local.derivative.unwrap().abs() < 1e-15 && share.local.elasticity.is_none());
     assert_eq!(swept.runs, 1 + 15 + 5 + 5 + 4);
 }
 
@@ -110,7 +110,7 @@ fn failed_runs_are_gaps_with_reasons() {
     assert_eq!((swept.nominal[1].value, swept.nominal[1].reason.as_deref()), (None, Some("too far")));
     let effect = &swept.sweeps[0].effects[1];
     let reason = "a run at or beside the nominal point failed: too far";
-    assert_eq!((effect.low, effect.derivative, effect.reason.as_deref()), (None, None, Some(reason)));
+    assert_eq!((effect.low, effect.local.derivative, effect.local.reason.as_deref()), (None, None, Some(reason)));
 }
 
 #[test]

@@ -143,9 +143,9 @@ fn a_sweep_shows_curves_ranges_and_slopes() {
     // F goes with the stiffness, E w t^3 / (4 L^2 ..): elasticities 1, 1, 3 and -2 but for the load on the contact.
     for (name, power) in [("width", 1.0), ("elastic_modulus", 1.0), ("thickness", 3.0), ("length", -2.0)] {
         let sweep = file.sweeps.iter().find(|sweep| sweep.factor == name).unwrap();
-        let elasticity = sweep.effects[0].elasticity.unwrap();
+        let elasticity = sweep.effects[0].local.elasticity.unwrap();
         assert!((elasticity - power).abs() < 0.02, "{name}: {elasticity}");
-        assert!(sweep.effects[0].elasticity_error.unwrap() < 1e-3);
+        assert!(sweep.effects[0].local.elasticity_error.unwrap() < 1e-3);
     }
     assert_eq!(all_files(folder.path()).len(), 3 + 2 * (8 + 1));
     assert_eq!(read(folder.path(), "coulomb-general-sweep.csv").lines().count(), 1 + 8 * 11);

@@ -1,24 +1,12 @@
 //! A comparison as charts: the indices side by side, and their differences.
 
-use super::index::ComparedIndex;
-use super::record::{ComparedFactor, ComparedOutput, ComparisonFile};
+use super::record::{ComparedFactor, ComparedIndex, ComparedOutput, ComparisonFile};
 use crate::report::chart::{Chart, Colour, Series};
 use crate::report::factor_bars::{DIFFERENCES, INDEX, INDICES, MOST, both_orders, index_panel, not_drawn};
-use crate::report::file_stems;
 use crate::report::format::name;
 
-/// For every output its indices side by side, then the differences. Of more than 20 factors, those with the largest total
-/// indices in either result.
-pub fn comparison_charts(file: &ComparisonFile) -> Vec<(String, Chart)> {
-    let names: Vec<&str> = file.outputs.iter().map(|output| output.name.as_str()).collect();
-    let drawn = file.outputs.iter().zip(file_stems("", &names, &["", "-differences"])).flat_map(|(output, stem)| {
-        let of_differences = format!("{stem}-differences");
-        [(stem, side_by_side(file, output)), (of_differences, differences(file, output))]
-    });
-    drawn.collect()
-}
-
-fn side_by_side(file: &ComparisonFile, output: &ComparedOutput) -> Chart {
+/// The indices side by side. Of more than 20 factors, those with the largest total indices in either result.
+pub(super) fn side_by_side(file: &ComparisonFile, output: &ComparedOutput) -> Chart {
     let factors = single_factors(output);
     let panel = |title: &str, of: fn(&ComparedFactor) -> &ComparedIndex| {
         let a = factors.iter().map(|factor| of(factor).a).collect();
@@ -33,7 +21,8 @@ fn side_by_side(file: &ComparisonFile, output: &ComparedOutput) -> Chart {
     Chart::new(title, caption(output)).side_by_side().panels(panels)
 }
 
-fn differences(file: &ComparisonFile, output: &ComparedOutput) -> Chart {
+/// The differences.
+pub(super) fn differences(file: &ComparisonFile, output: &ComparedOutput) -> Chart {
     let factors = single_factors(output);
     let shared = if file.shared_points { " Both use the same points: the intervals are rather too wide." } else { "" };
     let first_order = factors.iter().map(|factor| factor.first_order.difference).collect();

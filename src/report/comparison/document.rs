@@ -1,44 +1,36 @@
 //! A comparison as a document.
 
-use super::comparison_charts;
-use super::index::ComparedIndex;
-use super::record::{ComparedFactor, ComparedOutput, ComparedSide, ComparisonFile};
-use crate::report::csv::{Csv, fields};
-use crate::report::document::{Cell, Column, DataFile, Document, Figure, Part, Section, Table, Value};
-use crate::report::format::{give_or_take, heading, name, significant};
-use crate::report::leading::{Contender, Verdict, first_answers};
+use super::charts::{differences, side_by_side};
+use super::record::{ComparedFactor, ComparedIndex, ComparedOutput, ComparedSide, ComparisonFile};
+use crate::report::document::{Document, OutputReport, Part, Report, Section, Table};
+use crate::report::format::{give_or_take, name, or_dash, significant};
+use crate::report::leading::{Contender, Verdict};
 use crate::report::listed;
 use crate::result::json;
 use crate::uncertainty::{Estimate, Interval};
 
 /// The document of a comparison, whose files begin with `name`. A star marks the differences whose intervals leave out 0.
 pub fn comparison_document(file: &ComparisonFile, files: &str) -> Document {
-    let answers = file.outputs.iter().map(|output| format!("For {}, {}.", name(&output.name), leaders(output)));
-    let mut lead = first_answers(answers.collect());
-    lead.push(legend(file));
-    let mut sections = vec![Section::new("sides", "What is compared", sides(file))];
-    let mut of_outputs = Vec::new();
-    let mut figures = Figure::numbered(comparison_charts(file), (files, ""), &format!("{files}.csv")).into_iter();
-    for output in &file.outputs {
-        let mut parts = output_parts(output);
-        // Two charts for each output: the indices side by side, and their differences.
-        parts.extend(figures.by_ref().take(2).map(Part::from));
-        of_outputs.push((heading(&output.name, &output.unit), parts));
-    }
-    sections.extend(Document::sections_of_outputs(of_outputs));
-    Document {
+    let outputs = file.outputs.iter().map(|output| OutputReport {
+        name: &output.name,
+        unit: &output.unit,
+        answer: format!("For {}, {}.", name(&output.name), leaders(output)),
+        parts: output_parts(output),
+        charts: vec![("", side_by_side(file, output)), ("-differences", differences(file, output))],
+        ..OutputReport::default()
+    });
+    Report {
         name: files.to_owned(),
-        kicker: "Comparison of two results".to_owned(),
+        kicker: "Comparison of two results",
         title: format!("{} and {}", file.a.label, file.b.label),
-        lead,
-        sections,
-        footer: format!("Made by apportion {}.", env!("CARGO_PKG_VERSION")),
-        files: vec![
-            DataFile::new(format!("{files}.json"), json(file)),
-            DataFile::new(format!("{files}.csv"), comparison_csv(file)),
-        ],
-        ..Document::default()
+        lead: vec![legend(file)],
+        first: vec![Section::new("sides", "What is compared", sides(file))],
+        outputs: outputs.collect(),
+        json: json(file),
+        csv: Some(all_indices(file)),
+        ..Report::default()
     }
+    .document()
 }
 
 /// The two results, in what their studies differ, and what only one of them has.
@@ -48,18 +40,16 @@ fn sides(file: &ComparisonFile) -> Vec<Part> {
         Part::Text(format!("{letter}: {}{title} ({})", side.label, side.file))
     };
     let mut parts = vec![side("A", &file.a), side("B", &file.b)];
-    let said = |value: &Option<String>| Cell::from(value.as_deref().unwrap_or("–"));
-    let rows = file.settings.iter().map(|setting| vec![Cell::from(&setting.what), said(&setting.a), said(&setting.b)]);
-    let columns = Column::list(3, &["what differs", "A", "B"]);
-    let settings = Table::new("In what the studies differ.", columns).with_rows(rows);
-    if !settings.rows.is_empty() {
-        parts.push(Part::Table(settings));
+    if !file.settings.is_empty() {
+        let settings = Table::from_rows("In what the studies differ.", &file.settings)
+            .text("what differs", |setting| &setting.what)
+            .text("A", |setting| setting.a.as_deref().unwrap_or("–"))
+            .text("B", |setting| setting.b.as_deref().unwrap_or("–"));
+        parts.push(settings.into());
     }
     for (what, sided) in [("outputs", &file.outputs_left_out), ("factors", &file.factors_left_out)] {
-        for (side, names) in [("A", &sided.a), ("B", &sided.b)] {
-            if !names.is_empty() {
-                parts.push(Part::Text(format!("{what} of {side} alone: {}", names.join(", "))));
-            }
+        for (side, names) in [("A", &sided.a), ("B", &sided.b)].into_iter().filter(|(_, names)| !names.is_empty()) {
+            parts.push(Part::Text(format!("{what} of {side} alone: {}", names.join(", "))));
         }
     }
     parts
@@ -70,44 +60,34 @@ fn output_parts(output: &ComparedOutput) -> Vec<Part> {
     for (letter, reason) in ["A", "B"].into_iter().zip(&output.reasons) {
         parts.extend(reason.as_ref().map(|reason| Part::no_indices(format!("There are none in {letter}: {reason}."))));
     }
+    let said = |(estimate, interval): (f64, Option<Interval>)| match interval {
+        Some(_) => give_or_take(Estimate { estimate, interval }),
+        None => significant(estimate),
+    };
     let moments = [("Mean", output.mean, output.mean_interval), ("Standard deviation", output.sd, [None; 2])];
-    for (what, of, intervals) in moments {
+    for (what, of, [of_a, of_b]) in moments {
         if let [Some(a), Some(b)] = of {
-            let said = |estimate: f64, interval: Option<Interval>| {
-                let known = interval.map(|_| Estimate { estimate, interval });
-                known.map_or_else(|| significant(estimate), give_or_take)
-            };
-            parts.push(Part::Text(format!("{what}: A {}, B {}.", said(a, intervals[0]), said(b, intervals[1]))));
+            parts.push(Part::Text(format!("{what}: A {}, B {}.", said((a, of_a)), said((b, of_b)))));
         }
     }
     // Side by side they would be wider than a page.
-    parts.push(index_table(output, "First-order index S_1", ["S_1 of A", "S_1 of B"], |factor| &factor.first_order));
-    parts.push(index_table(output, "Total index S_T", ["S_T of A", "S_T of B"], |factor| &factor.total));
+    parts.push(index_table(output, "First-order index S_1", "S_1", |factor| &factor.first_order));
+    parts.push(index_table(output, "Total index S_T", "S_T", |factor| &factor.total));
     parts
 }
 
-fn index_table(
-    output: &ComparedOutput,
-    what: &str,
-    [a, b]: [&str; 2],
-    of: fn(&ComparedFactor) -> &ComparedIndex,
-) -> Part {
-    let row = |factor: &ComparedFactor| {
-        let label = if factor.group { format!("group {}", name(&factor.name)) } else { name(&factor.name) };
-        [label].into_iter().chain(cells(of(factor))).map(Cell::from).collect()
-    };
+fn index_table(output: &ComparedOutput, what: &str, symbol: &str, of: fn(&ComparedFactor) -> &ComparedIndex) -> Part {
     let caption = format!(
         "{what} in both, with the half width of its 95 % interval, and the difference; a star marks those whose interval \
          leaves out 0."
     );
-    let columns = Column::list(1, &["factor", a, b, "B − A"]);
-    Part::Table(Table::new(caption, columns).with_rows(output.factors.iter().map(row)))
-}
-
-fn cells(index: &ComparedIndex) -> [String; 3] {
-    let said = |estimate: Option<Estimate>| estimate.map_or_else(|| "–".to_owned(), give_or_take);
-    let star = if index.differs == Some(true) { " *" } else { "" };
-    [said(index.a), said(index.b), said(index.difference) + star]
+    let star = |index: &ComparedIndex| if index.differs == Some(true) { " *" } else { "" };
+    Table::from_rows(caption, &output.factors)
+        .text("factor", |factor| format!("{}{}", if factor.group { "group " } else { "" }, name(&factor.name)))
+        .number(format!("{symbol} of A"), |factor| of(factor).a)
+        .number(format!("{symbol} of B"), |factor| of(factor).b)
+        .number("B − A", |factor| or_dash(of(factor).difference, give_or_take) + star(of(factor)))
+        .into()
 }
 
 /// Which factor has the largest total index in each, as far as the intervals tell, without the output and a full stop.
@@ -153,20 +133,20 @@ fn legend(file: &ComparisonFile) -> String {
     text
 }
 
-/// A comparison as CSV: one line per output, factor or group, and index.
-fn comparison_csv(file: &ComparisonFile) -> String {
-    let mut fields = fields(&["output", "kind", "name", "index"], &["a", "b", "difference"]);
-    fields.push(crate::report::csv::Field::new("differs"));
-    let mut csv = Csv::new(fields);
-    for output in &file.outputs {
-        for factor in &output.factors {
-            let kind = if factor.group { "group" } else { "factor" };
-            for (name, index) in [("first_order", &factor.first_order), ("total", &factor.total)] {
-                let texts = [&output.name, kind, &factor.name, name].map(Value::from);
-                let numbers = [index.a, index.b, index.difference].map(Value::Estimate);
-                csv.row(texts.into_iter().chain(numbers).chain([index.differs.into()]));
-            }
-        }
-    }
-    csv.text()
+/// A line per output, factor or group, and index.
+fn all_indices(file: &ComparisonFile) -> Table {
+    let factors = file.outputs.iter().flat_map(|output| output.factors.iter().map(move |factor| (output, factor)));
+    let rows = factors.flat_map(|(output, factor)| {
+        [("first_order", &factor.first_order), ("total", &factor.total)].map(|index| (output, factor, index))
+    });
+    Table::from_rows("", rows)
+        .file("output", |(output, ..)| &output.name)
+        .file("kind", |(_, factor, _)| if factor.group { "group" } else { "factor" })
+        .file("name", |(_, factor, _)| &factor.name)
+        .file("index", |(.., (name, _))| name)
+        .file_estimate("a", |(.., (_, index))| index.a)
+        .file_estimate("b", |(.., (_, index))| index.b)
+        .file_estimate("difference", |(.., (_, index))| index.difference)
+        .file("differs", |(.., (_, index))| index.differs)
+        .into()
 }

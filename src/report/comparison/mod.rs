@@ -2,18 +2,14 @@
 
 mod charts;
 mod document;
-mod error;
-mod index;
 mod record;
 mod settings;
 #[cfg(test)]
 mod tests;
 
-pub use charts::comparison_charts;
 pub use document::comparison_document;
-pub use error::CompareError;
-pub use index::ComparedIndex;
 pub use record::{
-    ComparedFactor, ComparedOutput, ComparedSide, ComparisonFile, NamedResult, OneSided, compare_results, shared_points,
+    CompareError, ComparedFactor, ComparedIndex, ComparedOutput, ComparedSide, ComparisonFile, NamedResult, OneSided,
+    compare_results, shared_points,
 };
 pub use settings::SettingDifference;

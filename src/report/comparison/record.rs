@@ -1,13 +1,12 @@
 //! The comparison as a record.
 
 use serde::{Deserialize, Serialize};
+use thiserror::Error;
 
-use super::error::CompareError;
-use super::index::ComparedIndex;
 use super::settings::{SettingDifference, differences};
 use crate::quantity::Unit;
 use crate::result::{OutputResult, StudyResult};
-use crate::uncertainty::{EffectEstimates, Interval};
+use crate::uncertainty::{EffectEstimates, Estimate, Interval, difference};
 
 /// Two results compared, as described in `docs/comparison-format.md`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -87,6 +86,61 @@ pub struct ComparedFactor {
     pub first_order: ComparedIndex,
     /// Total index.
     pub total: ComparedIndex,
+}
+
+/// Indices are shares of a variance: differences up to this are of the size of the rounding errors of its sums, which the
+/// intervals do not hold.
+const ROUNDING: f64 = 1e-12;
+
+/// One index in both results.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct ComparedIndex {
+    /// In A; `null` if it does not exist there.
+    pub a: Option<Estimate>,
+    /// In B; `null` if it does not exist there.
+    pub b: Option<Estimate>,
+    /// B minus A; `null` if one of them does not exist.
+    pub difference: Option<Estimate>,
+    /// Whether the interval of the difference leaves out 0, and the difference is more than rounding (1e-12); `null`
+    /// without an interval.
+    pub differs: Option<bool>,
+}
+
+impl ComparedIndex {
+    /// The index `a` in A beside the index `b` in B.
+    pub fn new(a: Option<Estimate>, b: Option<Estimate>) -> Self {
+        let difference = a.zip(b).map(|(a, b)| difference(a, b));
+        let beyond = |d: Estimate| {
+            d.interval.map(|Interval { low, high }| (low > 0.0 || high < 0.0) && d.estimate.abs() > ROUNDING)
+        };
+        let differs = difference.and_then(beyond);
+        Self { a, b, difference, differs }
+    }
+}
+
+/// Why two results cannot be compared.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum CompareError {
+    /// They have no output, or no factor, in common.
+    #[error("there is nothing to compare, the results have no {what} in common: A has {a}, B has {b}")]
+    NothingInCommon {
+        /// `output` or `factor`.
+        what: &'static str,
+        /// Those of A.
+        a: String,
+        /// Those of B.
+        b: String,
+    },
+    /// An output of one name is a quantity of two kinds.
+    #[error("the output `{output}` is not the same quantity: in {a} in A, in {b} in B")]
+    OtherQuantity {
+        /// The output.
+        output: String,
+        /// Its unit in A.
+        a: String,
+        /// Its unit in B.
+        b: String,
+    },
 }
 
 /// A result to compare, and what it is called.
@@ -176,10 +230,6 @@ fn factor_names(result: &StudyResult) -> Vec<String> {
     result.factors.iter().map(|factor| factor.name.clone()).collect()
 }
 
-fn listed(names: &[String]) -> String {
-    if names.is_empty() { "none".to_owned() } else { names.join(", ") }
-}
-
 /// The names that only one of them has, of which there must be others.
 fn one_sided(what: &'static str, a: &[String], b: &[String]) -> Result<OneSided, CompareError> {
     let without = |all: &[String], others: &[String]| -> Vec<String> {
@@ -187,7 +237,10 @@ fn one_sided(what: &'static str, a: &[String], b: &[String]) -> Result<OneSided,
     };
     let found = OneSided { a: without(a, b), b: without(b, a) };
     match found.a.len() == a.len() {
-        true => Err(CompareError::NothingInCommon { what, a: listed(a), b: listed(b) }),
+        true => {
+            let [a, b] = [a, b].map(|names| if names.is_empty() { "none".to_owned() } else { names.join(", ") });
+            Err(CompareError::NothingInCommon { what, a, b })
+        }
         false => Ok(found),
     }
 }
@@ -204,20 +257,17 @@ fn compared(names: &[String], a: &OutputResult, b: &OutputResult) -> Result<Comp
     let value = |mean: f64| if is_same { mean } else { of_a.from_si(of_b.to_si(mean)) };
     let span = |sd: f64| if is_same { sd } else { of_a.span_from_si(of_b.span_to_si(sd)) };
     let sd = |output: &OutputResult| output.variance.filter(|variance| *variance >= 0.0).map(f64::sqrt);
-    let factor = |name: &String| {
-        let of = |output: &OutputResult| {
-            output.indices.iter().flatten().find(|index| index.factor == *name).map(|index| index.effect)
-        };
-        factor(name, false, of(a), of(b))
+    let of_factor = |output: &OutputResult, name: &String| {
+        output.indices.iter().flatten().find(|index| index.factor == *name).map(|index| index.effect)
     };
-    let group = |name: &String| {
-        let of = |output: &OutputResult| {
-            output.groups.iter().flatten().find(|group| group.group == *name).map(|group| group.effect)
-        };
-        of(b).is_some().then(|| self::factor(name, true, of(a), of(b)))
+    let of_group = |output: &OutputResult, name: &String| {
+        output.groups.iter().flatten().find(|group| group.group == *name).map(|group| group.effect)
     };
-    let factors = names.iter().map(factor);
-    let groups = a.groups.iter().flatten().filter_map(|record| group(&record.group));
+    let factors = names.iter().map(|name| factor(name, false, of_factor(a, name), of_factor(b, name)));
+    let groups = a.groups.iter().flatten().filter_map(|record| {
+        let of_b = of_group(b, &record.group)?;
+        Some(factor(&record.group, true, Some(record.effect), Some(of_b)))
+    });
     Ok(ComparedOutput {
         name: a.name.clone(),
         unit: a.unit.clone(),

@@ -21,48 +21,37 @@ pub struct SettingDifference {
 
 /// What the studies of two results say differently: model, its choices and constants, factors, design. Of two different
 /// models, choices and constants are not compared.
-pub(super) fn differences(a: &StudyResult, b: &StudyResult) -> Vec<SettingDifference> {
+pub(super) fn differences<'a>(a: &'a StudyResult, b: &'a StudyResult) -> Vec<SettingDifference> {
     let mut found = Vec::new();
-    let mut note = |what: &str, a: Option<String>, b: Option<String>| {
-        if a != b {
-            found.push(SettingDifference { what: what.to_owned(), a, b });
-        }
+    let mut note = |what: &str, said: &dyn Fn(&StudyResult) -> Option<String>| {
+        let (a, b) = (said(a), said(b));
+        found.extend((a != b).then(|| SettingDifference { what: what.to_owned(), a, b }));
     };
-    note("model", Some(a.study.model.clone()), Some(b.study.model.clone()));
+    note("model", &|result| Some(result.study.model.clone()));
     if a.study.model == b.study.model {
         for key in union(a.study.settings.keys(), b.study.settings.keys()) {
-            let value = |result: &StudyResult| result.study.settings.get(key).map(in_words);
-            note(key, value(a), value(b));
+            note(key, &|result| result.study.settings.get(key).map(in_words));
         }
-        let names = |result: &'_ StudyResult| result.study.constants.iter().map(|c| c.name.clone()).collect::<Vec<_>>();
-        let (of_a, of_b) = (names(a), names(b));
-        for name in union(of_a.iter(), of_b.iter()) {
-            // What is a factor in one of them is told once, there.
-            let is_factor = |result: &StudyResult| result.factors.iter().any(|factor| factor.name == *name);
-            let value = |result: &StudyResult| {
+        // What is a factor in one of them stands there.
+        let is_factor = |name: &String| [a, b].iter().any(|result| result.factors.iter().any(|f| f.name == *name));
+        let names = |result: &'a StudyResult| result.study.constants.iter().map(|constant| &constant.name);
+        for name in union(names(a), names(b)).into_iter().filter(|name| !is_factor(name)) {
+            note(name, &|result| {
                 let constant = result.study.constants.iter().find(|constant| constant.name == *name)?;
                 Some(with_unit(constant.value, &constant.unit))
-            };
-            if !is_factor(a) && !is_factor(b) {
-                note(name, value(a), value(b));
-            }
+            });
         }
     }
     for name in union(a.factors.iter().map(|f| &f.name), b.factors.iter().map(|f| &f.name)) {
         let factor = |result: &StudyResult| result.factors.iter().find(|factor| factor.name == *name).map(of_factor);
-        note(&format!("factor {name}"), factor(a), factor(b));
+        note(&format!("factor {name}"), &factor);
     }
-    let (p, q) = (&a.provenance, &b.provenance);
-    note("sampler", Some(p.sampler.clone()), Some(q.sampler.clone()));
-    for (what, a, b) in [
-        ("base samples", p.base_samples, q.base_samples),
-        ("replicates", p.replicates, q.replicates),
-        ("plain rows", p.plain_rows.into(), q.plain_rows.into()),
-        ("seed", p.seed, q.seed),
-    ] {
-        note(what, Some(a.to_string()), Some(b.to_string()));
-    }
-    note("version", Some(p.apportion_version.clone()), Some(q.apportion_version.clone()));
+    note("sampler", &|result| Some(result.provenance.sampler.clone()));
+    note("base samples", &|result| Some(result.provenance.base_samples.to_string()));
+    note("replicates", &|result| Some(result.provenance.replicates.to_string()));
+    note("plain rows", &|result| Some(result.provenance.plain_rows.to_string()));
+    note("seed", &|result| Some(result.provenance.seed.to_string()));
+    note("version", &|result| Some(result.provenance.apportion_version.clone()));
     found
 }
 

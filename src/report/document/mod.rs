@@ -2,6 +2,12 @@
 //!
 //! A [`Document`] is plain data. [`Document::html`] is its page, [`Document::text`] what a terminal shows, and its files
 //! for programs are made by [`Document::data_files`]; [`Artefacts`](crate::report::Artefacts) writes all of them.
+//!
+//! A command does not put its document together by hand: it fills in a [`Report`] with what it alone can say, sentences,
+//! tables and charts, output by output. [`Report::document`] adds what all commands have in common, in one order and one
+//! wording: the first answers, the range of validity, notes, the study, provenance, numbers and file names of figures, JSON and
+//! CSV. The columns of a table are said once each, see [`Table::from_rows`]: heading, what is printed, and its name and value in
+//! the file.
 
 #[cfg(feature = "page")]
 mod anchors;
@@ -9,6 +15,7 @@ mod anchors;
 mod drawing;
 #[cfg(feature = "page")]
 mod html;
+mod report;
 mod symbols;
 mod table;
 mod text;
@@ -16,11 +23,11 @@ mod text;
 use std::borrow::Cow;
 
 pub use super::csv::Value;
+pub use report::{OutputReport, Report};
 pub use symbols::symbols;
 pub(crate) use table::csv;
-pub use table::{Cell, Column, Mark, OnPhone, Table};
+pub use table::{Cell, Column, Mark, OnPhone, Rows, Table};
 
-use crate::model::MANY_OUTPUTS;
 use crate::report::chart::Chart;
 
 /// A result to be read.
@@ -186,29 +193,26 @@ impl Document {
         self.files.iter().map(|file| file.name.clone()).chain(of_tables).collect()
     }
 
-    /// A section for each output, with its heading; of many outputs one section, in which each is folded.
-    pub(crate) fn sections_of_outputs(outputs: Vec<(String, Vec<Part>)>) -> Vec<Section> {
-        if outputs.len() < MANY_OUTPUTS {
-            let section = |(place, (heading, parts)): (usize, (String, Vec<Part>))| {
-                Section::new(&format!("output-{}", place + 1), &heading, parts)
-            };
-            return outputs.into_iter().enumerate().map(section).collect();
-        }
-        let folded = outputs.into_iter().map(|(summary, parts)| Part::Details { summary, parts });
-        vec![Section::new("outputs", "Output by output", folded.collect())]
-    }
-
     /// These sections of it alone, with their figures numbered through.
     #[must_use]
     pub fn excerpt(mut self, ids: &[&str]) -> Self {
         self.sections.retain(|section| ids.contains(&&*section.id));
         let mut number = 0;
-        self.sections.iter_mut().for_each(|section| renumber(&mut section.parts, &mut number));
+        self.visit_mut(&mut |part| {
+            for figure in figures_mut(part).iter_mut().filter(|figure| figure.label.starts_with("Figure ")) {
+                number += 1;
+                figure.label = format!("Figure {number}");
+            }
+        });
         self
     }
 
     fn visit<'a>(&'a self, see: &mut dyn FnMut(&'a Part)) {
         self.sections.iter().for_each(|section| visit(&section.parts, see));
+    }
+
+    fn visit_mut(&mut self, change: &mut dyn FnMut(&mut Part)) {
+        self.sections.iter_mut().for_each(|section| visit_mut(&mut section.parts, change));
     }
 }
 
@@ -222,21 +226,22 @@ fn visit<'a>(parts: &'a [Part], see: &mut dyn FnMut(&'a Part)) {
     }
 }
 
-/// Numbers the figures that have a number, from the one after `number` on.
-fn renumber(parts: &mut [Part], number: &mut usize) {
-    let one = |figure: &mut Figure, number: &mut usize| {
-        if figure.label.starts_with("Figure ") {
-            *number += 1;
-            figure.label = format!("Figure {number}");
-        }
-    };
+/// Lets `change` change every part, those inside of others too.
+fn visit_mut(parts: &mut [Part], change: &mut dyn FnMut(&mut Part)) {
     for part in parts {
-        match part {
-            Part::Figure(figure) => one(figure, number),
-            Part::Gallery(small) => small.iter_mut().for_each(|figure| one(figure, number)),
-            Part::Details { parts, .. } | Part::OnPage(parts) => renumber(parts, number),
-            _ => (),
+        change(part);
+        if let Part::Details { parts, .. } | Part::OnPage(parts) = part {
+            visit_mut(parts, change);
         }
+    }
+}
+
+/// The figures of a part itself.
+fn figures_mut(part: &mut Part) -> &mut [Figure] {
+    match part {
+        Part::Figure(figure) => std::slice::from_mut(figure),
+        Part::Gallery(small) => small,
+        _ => &mut [],
     }
 }
 
@@ -254,23 +259,20 @@ impl Figure {
         }
     }
 
-    /// Figures numbered from 1: charts with what the names of their files end in after `name`, whose numbers are in the file
-    /// `data`, below the title `headline`.
-    pub(crate) fn numbered(
-        charts: impl IntoIterator<Item = (String, Chart)>,
-        (name, headline): (&str, &str),
-        data: &str,
-    ) -> Vec<Self> {
-        let charts = charts.into_iter().zip(1..);
-        let figure =
-            |((suffix, chart), number)| Self::new(number, chart, format!("{name}{suffix}"), data).below(headline);
-        charts.map(figure).collect()
+    /// A figure of a [`Report`], which numbers it: `chart`, whose files are called `stem`.
+    pub fn unnumbered(chart: Chart, stem: impl Into<String>) -> Self {
+        Self::new(0, chart, stem, "")
     }
 
     /// The same without the title of the document before that of the chart.
     pub(crate) fn below(self, title: &str) -> Self {
+        Self { title: self.own_title(title), ..self }
+    }
+
+    /// What the title of the chart says beyond that of the document.
+    fn own_title(&self, title: &str) -> Option<String> {
         let own = self.chart.title().strip_prefix(title).and_then(|rest| rest.strip_prefix(": "));
-        Self { title: own.map(crate::report::capitalised), ..self }
+        own.map(crate::report::capitalised)
     }
 }
 
@@ -306,6 +308,12 @@ impl Part {
         let texts = warnings.iter().map(|warning| format!("{}.", of_sentence(warning))).collect();
         let kind = "Warning".to_owned();
         (!warnings.is_empty()).then_some(Self::Notice { mark: Mark::Mixed, kind, texts })
+    }
+
+    /// Notes, in the same way.
+    pub(crate) fn notes(notes: &[String]) -> Option<Self> {
+        let texts = notes.iter().map(|note| format!("{}.", crate::report::capitalised(note))).collect();
+        (!notes.is_empty()).then_some(Self::Notice { mark: Mark::Plain, kind: "Note".to_owned(), texts })
     }
 
     /// A sentence that says why there are no indices.

@@ -94,6 +94,25 @@ impl Table {
         Self { rows: rows.into_iter().collect(), ..self }
     }
 
+    /// A table of `rows`, whose columns are added one after the other.
+    ///
+    /// ```
+    /// use apportion::report::document::Table;
+    ///
+    /// let table: Table = Table::from_rows("Two factors.", &[("length", 0.25), ("width", 0.5)])
+    ///     .text("factor", |row| row.0)
+    ///     .named("factor")
+    ///     .number("S_T", |row| format!("{:.2}", row.1))
+    ///     .value("total", |row| row.1)
+    ///     .into();
+    /// assert_eq!(table.csv(), "factor,total\nlength,0.25\nwidth,0.5\n");
+    /// ```
+    pub fn from_rows<R: Copy>(caption: impl Into<String>, rows: impl IntoIterator<Item = R>) -> Rows<R> {
+        let rows: Vec<R> = rows.into_iter().collect();
+        let table = Self { caption: caption.into(), rows: vec![Vec::new(); rows.len()], ..Self::default() };
+        Rows { rows, table }
+    }
+
     /// A table of labels and texts without headings.
     pub fn pairs<L: Into<String>>(caption: &str, rows: impl IntoIterator<Item = (L, String)>) -> Self {
         let rows = rows.into_iter().map(|(label, text)| vec![label.into().into(), text.into()]);
@@ -103,6 +122,11 @@ impl Table {
     /// The rows as CSV.
     pub fn csv(&self) -> String {
         csv([self])
+    }
+
+    /// Whether a file has some of its columns.
+    pub(super) fn has_fields(&self) -> bool {
+        self.columns.iter().any(|column| column.field.is_some())
     }
 
     /// The columns that are printed, with their headings and whether they hold numbers.
@@ -171,6 +195,95 @@ impl Column {
             if place < texts { Self::text(*heading) } else { Self::number(*heading) }
         };
         headings.iter().enumerate().map(column).collect()
+    }
+}
+
+/// A table in the making: of every column it is said once what stands above it, what is printed in a row, and under which
+/// name and with which value the row stands in the file of CSV.
+#[derive(Clone, Debug)]
+pub struct Rows<R> {
+    rows: Vec<R>,
+    table: Table,
+}
+
+impl<R: Copy> Rows<R> {
+    /// Adds a column of texts.
+    pub fn text<C: Into<Cell>>(self, heading: impl Into<String>, cell: impl Fn(R) -> C) -> Self {
+        self.column(Column::text(heading), cell)
+    }
+
+    /// Adds a column of numbers.
+    pub fn number<C: Into<Cell>>(self, heading: impl Into<String>, cell: impl Fn(R) -> C) -> Self {
+        self.column(Column::number(heading), cell)
+    }
+
+    /// Adds a column that is in the file alone.
+    pub fn file<V: Into<Value>>(self, name: impl Into<String>, value: impl Fn(R) -> V) -> Self {
+        self.column(Column::default(), |_| "").value(name, value)
+    }
+
+    /// Adds an estimate and its bounds, three columns that are in the file alone.
+    pub fn file_estimate(self, name: impl Into<String>, value: impl Fn(R) -> Option<Estimate>) -> Self {
+        self.column(Column::default(), |_| "").estimate(name, value)
+    }
+
+    /// The last column stands in the file under `name`, as it is printed.
+    pub fn named(self, name: impl Into<String>) -> Self {
+        self.value(name, |_| Value::Printed)
+    }
+
+    /// The last column stands in the file under `name`, with this value.
+    pub fn value<V: Into<Value>>(self, name: impl Into<String>, value: impl Fn(R) -> V) -> Self {
+        self.field(Field::new(name), value)
+    }
+
+    /// The last column stands in the file as an estimate with its bounds.
+    pub fn estimate(self, name: impl Into<String>, value: impl Fn(R) -> Option<Estimate>) -> Self {
+        self.field(Field::estimate(name), value)
+    }
+
+    /// The last column is printed only `if_shown`.
+    pub fn shown(mut self, if_shown: bool) -> Self {
+        self.table.columns.last_mut().filter(|_| !if_shown).into_iter().for_each(|column| column.heading = None);
+        self
+    }
+
+    /// What stands in the last column of the row of sums.
+    pub fn sum(mut self, cell: impl Into<Cell>) -> Self {
+        self.table.sums.resize_with(self.table.columns.len(), Cell::default);
+        self.table.sums.pop();
+        self.table.sums.push(cell.into());
+        self
+    }
+
+    /// The rows as CSV.
+    pub fn csv(&self) -> String {
+        self.table.csv()
+    }
+
+    fn column<C: Into<Cell>>(mut self, column: Column, cell: impl Fn(R) -> C) -> Self {
+        self.table.columns.push(column);
+        self.table.rows.iter_mut().zip(&self.rows).for_each(|(cells, row)| cells.push(cell(*row).into()));
+        self
+    }
+
+    fn field<V: Into<Value>>(mut self, field: Field, value: impl Fn(R) -> V) -> Self {
+        self.table.columns.last_mut().into_iter().for_each(|column| column.field = Some(field.clone()));
+        let cells = self.table.rows.iter_mut().filter_map(|cells| cells.last_mut());
+        cells.zip(&self.rows).for_each(|(cell, row)| cell.value = value(*row).into());
+        self
+    }
+}
+
+impl<R> From<Rows<R>> for Table {
+    fn from(rows: Rows<R>) -> Self {
+        rows.table
+    }
+}
+
+impl<R> From<Rows<R>> for super::Part {
+    fn from(rows: Rows<R>) -> Self {
+        rows.table.into()
     }
 }
 

@@ -4,8 +4,7 @@ use std::collections::BTreeMap;
 
 use super::record::GivenFile;
 use crate::given::{InputMeasures, MOST_ROWS_OF_KERNELS, Measure, NoVariance, PERMUTATIONS, SIGNIFICANT};
-use crate::report::csv::Field;
-use crate::report::document::{Cell, Column, Part, Section, Table, Value};
+use crate::report::document::{Part, Section, Table};
 use crate::report::format::{fixed, index as of_error};
 
 impl GivenFile {
@@ -74,26 +73,6 @@ pub(in crate::report) fn table(
     (what, inputs): (&'static str, &[InputMeasures]),
     measures: &[Measure],
 ) -> Table {
-    let mut columns = vec![Column::in_file(Field::new("output")), Column::text(what).named(Field::new(what))];
-    for measure in measures {
-        columns.push(Column::number(measure.heading()).named(Field::estimate(measure.name())));
-        columns.push(Column::in_file(Field::new(format!("{}_p", measure.name()))));
-    }
-    let row = |of: &InputMeasures| {
-        let mut row = vec![Cell::from(output), Cell::from(&of.input)];
-        for &measure in measures {
-            let found = of.get(measure);
-            let said = found.map_or_else(String::new, |found| match found.estimate.interval {
-                Some(_) => of_error(found.estimate),
-                None => fixed(found.estimate.estimate, 3),
-            });
-            let said = if of.may_be_chance(measure) { format!("({said})") } else { said };
-            row.push(Cell::valued(said, Value::Estimate(found.map(|found| found.estimate))));
-            let p_value = found.and_then(|found| found.p_value);
-            row.push(Cell::valued("", p_value.map_or(Value::Empty, Value::Number)));
-        }
-        row
-    };
     let has = |measure| measures.contains(&measure);
     let chance = match (measures == [Measure::Hsic], has(Measure::Hsic)) {
         (true, _) => "by a gamma distribution".to_owned(),
@@ -119,5 +98,20 @@ pub(in crate::report) fn table(
             caption.push_str(" It is empty where these rows have one value only.");
         }
     }
-    Table::new(caption, columns).with_rows(inputs.iter().map(row))
+    let mut rows = Table::from_rows(caption, inputs).file("output", |_| output).text(what, |of| &of.input).named(what);
+    for &measure in measures {
+        let found = |of: &'_ InputMeasures| of.get(measure).map(|found| (found.estimate, found.p_value));
+        let said = |of: &'_ InputMeasures| {
+            let text = found(of).map_or_else(String::new, |(estimate, _)| match estimate.interval {
+                Some(_) => of_error(estimate),
+                None => fixed(estimate.estimate, 3),
+            });
+            if of.may_be_chance(measure) { format!("({text})") } else { text }
+        };
+        rows = rows
+            .number(measure.heading(), said)
+            .estimate(measure.name(), |of| Some(found(of)?.0))
+            .file(format!("{}_p", measure.name()), |of| found(of).and_then(|(_, p_value)| p_value));
+    }
+    rows.into()
 }

@@ -5,13 +5,11 @@ mod document;
 mod measures;
 mod record;
 mod sentences;
-mod surrogate;
 
-pub use chart::given_chart;
+use chart::given_chart;
 pub use document::given_document;
 pub(super) use measures::{agreement, table as measures_table};
 pub use record::{
-    ColumnLeftOut, GivenFacts, GivenFile, GivenInputRecord, GivenOutputRecord, GivenProvenance, TableRecord,
-    build_given,
+    ColumnLeftOut, GivenFacts, GivenFile, GivenInputRecord, GivenOutputRecord, GivenProvenance, GivenSurrogateRecord,
+    SurrogateResult, TableRecord, build_given,
 };
-pub use surrogate::{GivenSurrogateRecord, SurrogateResult};

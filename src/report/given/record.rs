@@ -3,11 +3,10 @@
 use serde::{Deserialize, Serialize};
 
 use super::sentences;
-use super::surrogate::{GivenSurrogateRecord, SurrogateResult, surrogate_record};
 use crate::exchange::{TextColumn, TextKind};
 use crate::given::{
-    Column, Dependence, GivenIndices, InputIndices, InputMeasures, Method, NoVariance, OutputIndices, PointSet,
-    SurrogateOutput,
+    Column, Dependence, GivenIndices, InputIndices, InputMeasures, LEAST_EXPLAINED, Method, NoVariance, OutputIndices,
+    PointSet, SurrogateOutput, SurrogateRefusal, Surrogates,
 };
 use crate::quantity::Unit;
 use crate::quantity::Unlikely;
@@ -141,14 +140,38 @@ pub struct GivenOutputRecord {
 }
 
 impl GivenOutputRecord {
-    /// Whether its indices by surrogates are the ones to read.
-    pub(super) fn is_served(&self) -> bool {
-        self.served().is_some()
-    }
-
     /// The indices by surrogates that are to be read.
     pub(super) fn served(&self) -> Option<&SurrogateOutput> {
         self.surrogate.as_ref().filter(|surrogate| surrogate.serves)
+    }
+}
+
+/// Surrogates, or why there are none.
+pub type SurrogateResult = Result<Surrogates, SurrogateRefusal>;
+
+/// How surrogates were fitted to a table.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct GivenSurrogateRecord {
+    /// Why there are none, if so.
+    pub refused: Option<String>,
+    /// Rows used; `null` without surrogates.
+    pub rows: Option<u64>,
+    /// Parts of the table, each corrected by a surrogate of the others; `null` without surrogates.
+    pub folds: Option<u64>,
+    /// `"columns"`: those of the columns; `"given"`: those of a study. `null` without surrogates.
+    pub distributions: Option<String>,
+    /// Share of the variance that a surrogate must explain to serve.
+    pub least_explained: f64,
+}
+
+fn surrogate_record(result: &SurrogateResult) -> GivenSurrogateRecord {
+    let fitted = result.as_ref().ok();
+    GivenSurrogateRecord {
+        refused: result.as_ref().err().map(ToString::to_string),
+        rows: fitted.map(|all| all.rows as u64),
+        folds: fitted.map(|all| all.folds as u64),
+        distributions: fitted.map(|all| if all.given_distributions { "given" } else { "columns" }.to_owned()),
+        least_explained: LEAST_EXPLAINED,
     }
 }
 
@@ -180,7 +203,7 @@ pub fn build_given(
         output_record(indices, by_surrogate.and_then(|result: &Result<_, NoVariance>| result.as_ref().ok()), column)
     };
     let outputs: Vec<GivenOutputRecord> = indices.outputs.iter().zip(outputs).enumerate().map(of_output).collect();
-    let serves = outputs.iter().any(GivenOutputRecord::is_served);
+    let serves = outputs.iter().any(|output| output.served().is_some());
     let warnings = sentences::warnings(indices, surrogates, facts.method, facts.dropped);
     GivenFile {
         format: "apportion-given-data".to_owned(),

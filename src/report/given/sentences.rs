@@ -1,6 +1,6 @@
 //! What a result from given data says in sentences.
 
-use super::surrogate::SurrogateResult;
+use super::SurrogateResult;
 use crate::given::{GivenIndices, LEAST_EXPLAINED, Method, OutputIndices, PointSet, SurrogateOutput, bins_for};
 use crate::report::format::fixed;
 

@@ -5,21 +5,8 @@ use super::super::factor_bars::{MOST, not_drawn};
 use super::super::format::{axis_unit, index, name, words};
 use super::super::leading::{self, Contender};
 use super::ScreeningFile;
-use crate::report::file_stems;
 use crate::screening::{FIXABLE, Reading, ScreenedFactor, ScreenedOutput};
 use crate::uncertainty::Estimate;
-
-/// The charts of every output: `-screen` (mu* against sigma) and `-screen-bars`, with the output's name in between
-/// where there are several; each with what the names of its files end in.
-pub fn screening_charts(file: &ScreeningFile) -> Vec<(String, Chart)> {
-    let names: Vec<&str> = file.outputs.iter().map(|output| output.name.as_str()).collect();
-    let stems = file_stems("-screen", &names, &["", "-bars"]);
-    let drawn = file.outputs.iter().zip(stems).flat_map(|(output, stem)| {
-        let of_bars = format!("{stem}-bars");
-        [(stem, scatter(file, output)), (of_bars, bars(file, output))]
-    });
-    drawn.collect()
-}
 
 /// The series of a reading: the calmest for the plainest.
 fn series(reading: Option<Reading>) -> Series {
@@ -41,7 +28,8 @@ fn axis(symbol: &str, output: &ScreenedOutput) -> Axis {
     Axis::new(symbol, axis_unit(&output.unit))
 }
 
-fn scatter(file: &ScreeningFile, output: &ScreenedOutput) -> Chart {
+/// mu* against sigma.
+pub(super) fn scatter(file: &ScreeningFile, output: &ScreenedOutput) -> Chart {
     let known: Vec<(&ScreenedFactor, f64, f64)> = output
         .factors
         .iter()
@@ -79,7 +67,8 @@ fn readings() -> impl Iterator<Item = Option<Reading>> {
     Reading::ALL.into_iter().rev().map(Some).chain([None])
 }
 
-fn bars(file: &ScreeningFile, output: &ScreenedOutput) -> Chart {
+/// mu* with its intervals.
+pub(super) fn bars(file: &ScreeningFile, output: &ScreenedOutput) -> Chart {
     let bars = readings().flat_map(|reading| {
         let own = output.factors.iter().enumerate().filter(move |(_, factor)| factor.reading == reading);
         own.filter_map(move |(row, factor)| {

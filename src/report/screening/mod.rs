@@ -4,6 +4,5 @@ mod charts;
 mod document;
 mod record;
 
-pub use charts::screening_charts;
 pub use document::screening_document;
 pub use record::{ScreeningFile, ScreeningProvenance, build_screening};

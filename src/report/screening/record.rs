@@ -16,7 +16,7 @@ use crate::result::ValidityRecord;
 use crate::screening::{
     DERIVATIVE_STEP, FIXABLE, MIN_STEP, ScreenedOutput, Screening, ScreeningDesign, poincare_constant,
 };
-use crate::space::Distribution;
+use crate::space::{Distribution, Factor};
 use crate::study::Study;
 
 /// A whole screening.
@@ -116,50 +116,34 @@ fn provenance(screening: &Screening, facts: RunFacts) -> ScreeningProvenance {
 }
 
 fn notes(study: &Study, design: ScreeningDesign) -> Vec<String> {
-    let is_derivative = matches!(design, ScreeningDesign::Derivative { .. });
-    let factors = study.space.factors();
-    let bent = factors.iter().filter(|factor| {
-        !matches!(
-            factor.distribution(),
-            Distribution::Uniform(_)
-                | Distribution::Discrete(_)
-                | Distribution::Integer(_)
-                | Distribution::Poisson(_)
-                | Distribution::Categorical(_)
-                | Distribution::Seed(_)
-                | Distribution::Constant(_)
-        )
-    });
-    let bent: Vec<String> = bent.map(|factor| format!("{} ({})", factor.name, factor.distribution().name())).collect();
-    let still = factors.iter().filter(|factor| matches!(factor.distribution(), Distribution::Constant(_)));
-    let still: Vec<String> = still
-        .map(|factor| format!("{} = {}", factor.name, with_unit(factor.nominal, factor.unit().symbol())))
-        .collect();
+    let with_law = |factor: &Factor| format!("{} ({})", factor.name, factor.distribution().name());
+    let with_value =
+        |factor: &Factor| format!("{} = {}", factor.name, with_unit(factor.nominal, factor.unit().symbol()));
+    // A note about the factors of which something holds, if there are any.
+    let about = |text: &str, holds: &dyn Fn(&Distribution) -> bool, said: &dyn Fn(&Factor) -> String| {
+        let factors = study.space.factors().iter().filter(|factor| holds(factor.distribution()));
+        let factors: Vec<String> = factors.map(said).collect();
+        (!factors.is_empty()).then(|| format!("{text} {}", factors.join(", ")))
+    };
     let mut notes = Vec::new();
-    if is_derivative {
+    if matches!(design, ScreeningDesign::Derivative { .. }) {
         notes.push(
             "derivatives see the base points and nothing between them: a model with jumps has no bounds, and a steep place that is \
              narrower than the points are apart is missed"
                 .to_owned(),
         );
-        let unknown = factors.iter().filter(|factor| poincare_constant(factor.distribution()).is_none());
-        let unknown: Vec<String> =
-            unknown.map(|factor| format!("{} ({})", factor.name, factor.distribution().name())).collect();
-        if !unknown.is_empty() {
-            notes.push(format!(
-                "no bound on the total index by derivatives is known for the distribution of {}",
-                unknown.join(", ")
-            ));
-        }
-    } else if !bent.is_empty() {
-        notes.push(format!(
-            "effects are per step in probability, so that sigma of factors that are not uniform holds the bend of their \
-             distribution too: {}",
-            bent.join(", ")
-        ));
+        let text = "no bound on the total index by derivatives is known for the distribution of";
+        notes.extend(about(text, &|law| poincare_constant(law).is_none(), &with_law));
+    } else {
+        let text = "effects are per step in probability, so that sigma of factors that are not uniform holds the bend of their \
+                    distribution too:";
+        let is_bent = |law: &Distribution| {
+            let is_continuous = law.levels().is_none() && !law.is_whole();
+            is_continuous && !matches!(law, Distribution::Uniform(_) | Distribution::Constant(_))
+        };
+        notes.extend(about(text, &is_bent, &with_law));
     }
-    if !still.is_empty() {
-        notes.push(format!("constant, hence without effect: {}", still.join(", ")));
-    }
+    let is_constant = |law: &Distribution| matches!(law, Distribution::Constant(_));
+    notes.extend(about("constant, hence without effect:", &is_constant, &with_value));
     notes
 }

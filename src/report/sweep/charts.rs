@@ -3,6 +3,7 @@
 use super::super::chart::{Axis, Bar, Chart, Colour, Mark, Panel, Series, Shape, Spacing, Stroke};
 use super::super::factor_bars::{MOST, not_drawn};
 use super::super::format::{axis_unit, name, printed, short_with_unit, words};
+use crate::report::document::Figure;
 use crate::report::{file_stems, listed};
 
 use super::{SweepFile, gap_lines};
@@ -17,18 +18,21 @@ const LOW_END: Colour = Colour::Series(5);
 const HIGH_END: Colour = Colour::Series(1);
 const WHOLE_RANGE: Colour = Colour::Series(6);
 
-/// Per output the ranges of all factors, `-sweep-ranges`, with the output's name at the end where there are several; then one
-/// line chart per factor, `-sweep-FACTOR`, with a panel per output.
-pub fn sweep_charts(file: &SweepFile) -> Vec<(String, Chart)> {
+/// Per output the ranges of all factors, `STUDY-sweep-ranges`, with the output's name at the end where there are several; and
+/// one line chart per factor, `STUDY-sweep-FACTOR`, with a panel per output.
+pub(super) fn figures(file: &SweepFile) -> (Vec<Figure>, Vec<Figure>) {
     let of_outputs = file.nominal.iter().enumerate().map(|(number, nominal)| ranges(file, number, nominal));
     let charts = of_outputs.chain(file.sweeps.iter().map(|sweep| lines(file, sweep)));
-    let ranges = file.nominal.iter().map(|nominal| match file.nominal.len() {
+    let names = file.nominal.iter().map(|nominal| match file.nominal.len() {
         1 => "ranges".to_owned(),
         _ => format!("ranges-{}", nominal.output),
     });
-    let names: Vec<String> = ranges.chain(file.sweeps.iter().map(|sweep| sweep.factor.clone())).collect();
-    let suffixes = file_stems("-sweep", &names.iter().map(String::as_str).collect::<Vec<_>>(), &[""]);
-    suffixes.into_iter().zip(charts).collect()
+    let names: Vec<String> = names.chain(file.sweeps.iter().map(|sweep| sweep.factor.clone())).collect();
+    let names: Vec<&str> = names.iter().map(String::as_str).collect();
+    let stems = file_stems(&format!("{}-sweep", file.study.name), &names, &[""]);
+    let mut figures: Vec<Figure> = charts.zip(stems).map(|(chart, stem)| Figure::unnumbered(chart, stem)).collect();
+    let curves = figures.split_off(file.nominal.len());
+    (figures, curves)
 }
 
 fn lines(file: &SweepFile, sweep: &Sweep) -> Chart {

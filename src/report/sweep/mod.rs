@@ -4,7 +4,6 @@ mod charts;
 mod document;
 mod record;
 
-pub use charts::sweep_charts;
 pub use document::sweep_document;
 pub use record::{SweepFile, SweepProvenance, build_sweep};
 

@@ -1,10 +1,10 @@
 //! What the claims are put to: the physics, the nominal scene, and the box of the papers' general study.
 
-use super::ClaimsError;
 use super::curve::{Curve, grid};
 use super::judge::{Holding, Share};
 use super::numbers::number;
-use crate::reproduce::{Effort, general_study};
+use crate::reproduce::papers::Words;
+use crate::reproduce::{Effort, Friction, ReproduceError, Reproduced, general_study};
 use apportion::afm::history::{History, history};
 use apportion::afm::modes::Pushing;
 use apportion::afm::{Critical, Failure, Fidelity, FrictionLaw, Options, Parameter, Scene, critical_force};
@@ -13,10 +13,6 @@ use apportion::model::edge_unit;
 use apportion::space::Space;
 use apportion::sum;
 use apportion::uncertainty::{Interval, StandardError, t_interval};
-
-/// The friction laws of CHK and LG, with their names for people.
-pub(super) const LAWS: [(FrictionLaw, &str); 3] =
-    [(FrictionLaw::Coulomb, "Coulomb"), (FrictionLaw::HurtadoKim, "Hurtado-Kim"), (FrictionLaw::LuGre, "LuGre")];
 
 /// The seed of every sample of the box.
 const SEED: u64 = 5;
@@ -63,6 +59,12 @@ impl Sizes {
             Effort::Quick => Self { points: 1024, slow_points: 128, ramp_points: 8, curve: 13 },
         }
     }
+
+    /// Those that the texts of claims name.
+    pub fn words(&self) -> Words {
+        let curve = ("curve", self.curve.to_string());
+        vec![("points", self.points.to_string()), ("slow_points", self.slow_points.to_string()), curve]
+    }
 }
 
 /// One constant of the scene, moved over evenly spaced values.
@@ -97,18 +99,20 @@ pub(super) enum Region {
 pub(super) struct Bench<'a> {
     pub physics: Physics<'a>,
     pub sizes: Sizes,
+    /// The studies that have been run.
+    pub studies: &'a [Reproduced],
     space: Space,
     parameters: Vec<&'static Parameter>,
 }
 
 impl<'a> Bench<'a> {
     /// With the ranges of the general study.
-    pub fn new(physics: Physics<'a>, effort: Effort) -> Result<Self, ClaimsError> {
+    pub fn new(physics: Physics<'a>, effort: Effort, studies: &'a [Reproduced]) -> Result<Self, ReproduceError> {
         let study = general_study()?;
         let parameters = study.space().factors().iter().map(|factor| Parameter::from_name(&factor.name)).collect();
         let parameters: Option<Vec<_>> = parameters;
-        let parameters = parameters.ok_or(ClaimsError::NoRanges)?;
-        Ok(Self { physics, sizes: Sizes::of(effort), space: study.space().clone(), parameters })
+        let parameters = parameters.ok_or(ReproduceError::NoRanges)?;
+        Ok(Self { physics, sizes: Sizes::of(effort), studies, space: study.space().clone(), parameters })
     }
 
     /// F_cr (N).
@@ -117,9 +121,9 @@ impl<'a> Bench<'a> {
     }
 
     /// A sweep of a factor over its range in the general study.
-    pub fn over(&self, name: &str) -> Result<Sweep, ClaimsError> {
+    pub fn over(&self, name: &str) -> Result<Sweep, ReproduceError> {
         let mut factors = self.space.factors().iter().zip(&self.parameters);
-        let (factor, parameter) = factors.find(|(factor, _)| factor.name == name).ok_or(ClaimsError::NoRanges)?;
+        let (factor, parameter) = factors.find(|(factor, _)| factor.name == name).ok_or(ReproduceError::NoRanges)?;
         let (low, high) = factor.distribution().support();
         let range = (factor.unit().to_si(low), factor.unit().to_si(high));
         Ok(Sweep { parameter, range, count: self.sizes.curve })
@@ -182,6 +186,20 @@ impl<'a> Bench<'a> {
     ) -> Result<Holding, Failure> {
         let nominal = rule(&Scene::default())?;
         Ok(Holding { what: what.into(), nominal, share: self.share(Region::General, count, rule)? })
+    }
+
+    /// The same under each of these friction laws, called by its name after `label`.
+    pub fn holding_under(
+        &self,
+        frictions: &[Friction],
+        label: &str,
+        count: impl Fn(FrictionLaw) -> u64,
+        rule: impl Fn(FrictionLaw, &Scene) -> Result<bool, Failure>,
+    ) -> Result<Vec<Holding>, Failure> {
+        let under = |&Friction { law, name, .. }: &Friction| {
+            self.holding(format!("{label}{name}"), count(law), &|scene| rule(law, scene))
+        };
+        frictions.iter().map(under).collect()
     }
 
     fn scenes(&self, which: Region, replicate: u64, count: u64) -> Vec<Scene> {

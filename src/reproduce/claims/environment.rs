@@ -1,11 +1,12 @@
 //! Claims about velocity, moduli and adhesion: 12 to 16.
 
-use super::bench::{Bench, LAWS, Sweep, closed, exact, in_motion};
+use super::bench::{Bench, Sweep, closed, exact, in_motion};
 use super::dimensions::{
-    NO_EFFECT, STRAIGHT, closed_setting, effect_setting, from_to, nominal_curves, straightness, without_effect,
+    NO_EFFECT, STRAIGHT, closed_setting, from_to, is_linear_rise, nominal_curves, straightness, without_effect,
 };
+use super::judge::Answer;
 use super::numbers::{change, nano};
-use super::{Claim, ClaimsError};
+use crate::reproduce::{FRICTIONS, ReproduceError};
 use apportion::afm::{Failure, Fidelity, FrictionLaw, LuGreParameters, Options, Scene};
 
 /// Up to where CHK and LG see no effect of the velocity (m/s).
@@ -18,81 +19,45 @@ const UNMOVED: f64 = 0.05;
 /// The viscous friction that brings LuGre friction to the percentages of LG fig. 4b (N s/m).
 const VISCOUS: f64 = 0.3;
 
-pub(super) fn claims(bench: &Bench<'_>) -> Result<Vec<Claim>, ClaimsError> {
-    Ok(vec![velocity(bench)?, elastic_modulus(bench)?, contact_modulus(bench)?, adhesion(bench)?, frozen(bench)?])
-}
-
 /// Claim 12. Only the equations of motion have the velocity in them under every friction model.
-fn velocity(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
+pub(super) fn velocity(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
     let whole = Sweep { count: 5, ..bench.over("velocity")? };
     let slow = Sweep { range: (0.0, SLOW), count: 4, ..whole };
-    let holdings = without_effect(bench, &slow, in_motion)?;
-    let spread = |curve: &super::curve::Curve| change(curve.spread());
-    let spreads = nominal_curves(bench, &slow, in_motion, &spread)?;
-    let beyond = nominal_curves(bench, &whole, in_motion, &spread)?;
+    let mut answer = without_effect(bench, &slow, in_motion)?;
     let nominal = Scene::default();
     let viscous = Scene { viscous_friction: VISCOUS, ..nominal };
     let viscous = bench.curve(&slow, &viscous, &exact(FrictionLaw::LuGre))?;
     let naive = Options { fidelity: Fidelity::FixedStep, ..exact(FrictionLaw::Coulomb) };
     let naive_curve = bench.curve(&Sweep { count: 13, ..slow }, &nominal, &naive)?;
-    Ok(Claim {
-        number: 12,
-        source: "CHK fig. 11, LG fig. 3a",
-        statement: "The velocity has no effect on F_cr up to 600 nm/s.",
-        finding: format!(
-            "A velocity of {} changes F_cr by {spreads} at the nominal scene, one of {} by {beyond}. It would change it by \
-             {} under LuGre friction with a viscous part of {VISCOUS} N s/m, and by {} under Coulomb friction marched in \
-             steps of {} ms without locating the slip.",
-            slow.words(),
-            whole.words(),
-            change(viscous.spread()),
-            change(naive_curve.spread()),
-            naive.step * 1e3
-        ),
-        setting: format!(
-            "{} The motion is solved to {} of the force: smaller changes are as good as none.",
-            effect_setting(bench, &slow, "Equations of motion"),
-            change(in_motion(FrictionLaw::LuGre).tolerance)
-        ),
-        figures: &["chk-11", "lg-3a"],
-        ..Claim::judged(&holdings)
-    })
+    answer.words.extend([
+        ("whole", whole.words()),
+        ("beyond", nominal_curves(bench, &whole, in_motion, &|curve| change(curve.spread()))?),
+        ("viscous", change(viscous.spread())),
+        ("coefficient", VISCOUS.to_string()),
+        ("naive", change(naive_curve.spread())),
+        ("step", (naive.step * 1e3).to_string()),
+        ("tolerance", change(in_motion(FrictionLaw::LuGre).tolerance)),
+    ]);
+    Ok(answer)
 }
 
 /// Claim 13.
-fn elastic_modulus(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
+pub(super) fn elastic_modulus(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
     let sweep = bench.over("elastic_modulus")?;
-    let mut holdings = Vec::new();
-    for (law, name) in LAWS {
-        let rule = |scene: &Scene| {
-            let curve = bench.curve(&sweep, scene, &closed(law))?;
-            Ok(curve.rises() && curve.bend().0 <= STRAIGHT)
-        };
-        holdings.push(bench.holding(format!("linear rise under {name}"), bench.sizes.points, &rule)?);
-    }
+    let points = bench.sizes.points;
+    let rise = |law, scene: &Scene| Ok(is_linear_rise(&bench.curve(&sweep, scene, &closed(law))?));
+    let mut holdings = bench.holding_under(&FRICTIONS, "linear rise under ", |_| points, rise)?;
     let gap = |scene: &Scene| Ok(gap(bench, scene, &closed(FrictionLaw::Coulomb))?.abs());
     let diverge = |scene: &Scene| Ok(bench.curve_of(&sweep, scene, &gap)?.rises());
-    holdings.push(bench.holding("divergence of Coulomb and Hurtado-Kim", bench.sizes.points, &diverge)?);
-    let nominal_gap = bench.curve_of(&sweep, &Scene::default(), &gap)?;
-    Ok(Claim {
-        number: 13,
-        source: "CHK fig. 12, LG fig. 3b",
-        statement: "F_cr rises linearly with Young's modulus of the cantilever, and the friction models diverge.",
-        finding: format!(
-            "From {} F_cr rises {} at the nominal scene, and the gap of Coulomb to Hurtado-Kim goes {}.",
-            sweep.words(),
-            nominal_curves(bench, &sweep, closed, &straightness)?,
-            from_to(&nominal_gap)
-        ),
-        setting: format!(
-            "{} linear means rising and nowhere farther from the straight line of least squares than {} of the rise; \
-             diverging, that the gap in size grows at every step.",
-            closed_setting(bench, &sweep)?,
-            change(STRAIGHT)
-        ),
-        figures: &["chk-12", "lg-3b"],
-        ..Claim::judged(&holdings)
-    })
+    holdings.push(bench.holding("divergence of Coulomb and Hurtado-Kim", points, &diverge)?);
+    let words = [
+        ("sweep", sweep.words()),
+        ("curves", nominal_curves(bench, &sweep, closed, &straightness)?),
+        ("gap", from_to(&bench.curve_of(&sweep, &Scene::default(), &gap)?)),
+        ("closed", closed_setting(bench, &sweep)?),
+        ("straight", change(STRAIGHT)),
+    ];
+    Ok(Answer::judged(&holdings, words))
 }
 
 /// F_cr under Coulomb friction with these options, less that under Hurtado-Kim friction (N).
@@ -101,7 +66,7 @@ fn gap(bench: &Bench<'_>, scene: &Scene, coulomb: &Options) -> Result<f64, Failu
 }
 
 /// Claim 14.
-fn contact_modulus(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
+pub(super) fn contact_modulus(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
     let sweep = bench.over("equivalent_modulus")?;
     let points = bench.sizes.points;
     let (coulomb, hurtado_kim) = (closed(FrictionLaw::Coulomb), closed(FrictionLaw::HurtadoKim));
@@ -111,73 +76,44 @@ fn contact_modulus(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
         [bench.holding("Coulomb unmoved", points, &unmoved)?, bench.holding("Hurtado-Kim falling", points, &falls)?];
     let nominal = Scene::default();
     let (flat, falling) = (bench.curve(&sweep, &nominal, &coulomb)?, bench.curve(&sweep, &nominal, &hurtado_kim)?);
-    Ok(Claim {
-        number: 14,
-        source: "CHK fig. 13",
-        statement: "The equivalent modulus leaves F_cr under Coulomb friction unmoved and lowers it under Hurtado-Kim \
-                    friction.",
-        finding: format!(
-            "From {} F_cr goes {} under Coulomb friction, a change of {} by its term τ π a², and {} under Hurtado-Kim \
-             friction, a change of {}, at the nominal scene.",
-            sweep.words(),
-            from_to(&flat),
-            change(flat.spread()),
-            from_to(&falling),
-            change(falling.spread())
-        ),
-        setting: format!(
-            "{} unmoved means by less than {}, falling means at every step.",
-            closed_setting(bench, &sweep)?,
-            change(UNMOVED)
-        ),
-        figures: &["chk-13"],
-        ..Claim::judged(&holdings)
-    })
+    let words = [
+        ("sweep", sweep.words()),
+        ("flat", from_to(&flat)),
+        ("flat_change", change(flat.spread())),
+        ("falling", from_to(&falling)),
+        ("falling_change", change(falling.spread())),
+        ("closed", closed_setting(bench, &sweep)?),
+        ("least", change(UNMOVED)),
+    ];
+    Ok(Answer::judged(&holdings, words))
 }
 
 /// Claim 15.
-fn adhesion(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
+pub(super) fn adhesion(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
     let sweep = bench.over("adhesion")?;
     let points = bench.sizes.points;
-    let mut holdings = Vec::new();
-    for (law, name) in &LAWS[..2] {
-        let rises = |scene: &Scene| Ok(bench.curve(&sweep, scene, &closed(*law))?.rises());
-        holdings.push(bench.holding(format!("rise under {name}"), points, &rises)?);
-    }
+    let rises = |law, scene: &Scene| Ok(bench.curve(&sweep, scene, &closed(law))?.rises());
+    let mut holdings = bench.holding_under(&FRICTIONS[..2], "rise under ", |_| points, rises)?;
     let coulomb = closed(FrictionLaw::Coulomb);
     let distance = |scene: &Scene| Ok(gap(bench, scene, &coulomb)?.abs());
     let approach = |scene: &Scene| Ok(bench.curve_of(&sweep, scene, &distance)?.falls());
     holdings.push(bench.holding("approach", points, &approach)?);
     let nominal = Scene::default();
     let loaded = Options { adhesion_in_load: true, ..coulomb };
-    let apart = bench.curve_of(&sweep, &nominal, &distance)?;
-    let apart_loaded = bench.curve_of(&sweep, &nominal, &|scene| Ok(gap(bench, scene, &loaded)?.abs()))?;
-    Ok(Claim {
-        number: 15,
-        source: "CHK fig. 14",
-        statement: "F_cr rises with the work of adhesion under Coulomb and Hurtado-Kim friction, and the two approach each \
-                    other.",
-        finding: format!(
-            "From {} F_cr goes {} under Coulomb and {} under Hurtado-Kim friction at the nominal scene, and the gap {}. \
-             With the pull-off force in the load of Coulomb friction the gap goes {}.",
-            sweep.words(),
-            from_to(&bench.curve(&sweep, &nominal, &coulomb)?),
-            from_to(&bench.curve(&sweep, &nominal, &closed(FrictionLaw::HurtadoKim))?),
-            from_to(&apart),
-            from_to(&apart_loaded)
-        ),
-        setting: format!(
-            "{} rising at every step; approach means that the gap in size shrinks at every step; pull-off force not in \
-             the load.",
-            closed_setting(bench, &sweep)?
-        ),
-        figures: &["chk-14"],
-        ..Claim::judged(&holdings)
-    })
+    let loaded_distance = |scene: &Scene| Ok(gap(bench, scene, &loaded)?.abs());
+    let words = [
+        ("sweep", sweep.words()),
+        ("coulomb", from_to(&bench.curve(&sweep, &nominal, &coulomb)?)),
+        ("hurtado_kim", from_to(&bench.curve(&sweep, &nominal, &closed(FrictionLaw::HurtadoKim))?)),
+        ("gap", from_to(&bench.curve_of(&sweep, &nominal, &distance)?)),
+        ("loaded_gap", from_to(&bench.curve_of(&sweep, &nominal, &loaded_distance)?)),
+        ("closed", closed_setting(bench, &sweep)?),
+    ];
+    Ok(Answer::judged(&holdings, words))
 }
 
 /// Claim 16.
-fn frozen(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
+pub(super) fn constant_parameters(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
     let options = closed(FrictionLaw::LuGre);
     let nominal = Scene::default();
     let from_contact = Options { lugre: LuGreParameters::Contact, ..exact(FrictionLaw::LuGre) };
@@ -198,23 +134,10 @@ fn frozen(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
             change(bench.curve(&sweep, &nominal, &loaded)?.spread())
         ));
     }
-    Ok(Claim {
-        number: 16,
-        source: "LG figs. 3c, 3d",
-        statement: "Under LuGre friction the equivalent modulus and the work of adhesion have no visible effect on F_cr.",
-        finding: format!(
-            "At the nominal scene (F_cr {}) {}.",
-            nano(bench.force(&nominal, &options)?, "N"),
-            findings.join("; ")
-        ),
-        setting: format!(
-            "Closed form; the parameters of LuGre friction are held constant as in LG, by which neither factor can act: \
-             this is so by construction. Invisible means by less than {}, at the nominal scene and at {} points of the \
-             general study's box.",
-            change(NO_EFFECT),
-            bench.sizes.points
-        ),
-        figures: &["lg-3c", "lg-3d"],
-        ..Claim::judged(&holdings)
-    })
+    let words = [
+        ("force", nano(bench.force(&nominal, &options)?, "N")),
+        ("changes", findings.join("; ")),
+        ("no_effect", change(NO_EFFECT)),
+    ];
+    Ok(Answer::judged(&holdings, words))
 }

@@ -1,8 +1,10 @@
 //! Claims about one scene in time: 1, 2, 3, 5.
 
-use super::bench::{Bench, LAWS, Sweep, closed};
+use super::Verdict;
+use super::bench::{Bench, Sweep, closed};
+use super::judge::Answer;
 use super::numbers::{change, nano, number};
-use super::{Claim, ClaimsError, Verdict};
+use crate::reproduce::{FRICTIONS, ReproduceError};
 use apportion::afm::contact::Contact;
 use apportion::afm::history::{History, Sample};
 use apportion::afm::{Failure, FrictionLaw, Parameter, Scene};
@@ -31,95 +33,59 @@ const AS_GOOD_AS_NONE: f64 = 1e-4;
 /// Equal up to rounding, of the forces by geometry and by friction.
 const ROUNDING: f64 = 1e-9;
 
-pub(super) fn claims(bench: &Bench<'_>) -> Result<Vec<Claim>, ClaimsError> {
-    let [slip, displacement] = run(bench)?;
-    Ok(vec![slip, displacement, forces(bench)?, delay(bench)?, contacts(bench)?])
-}
-
-/// Claim 1, in its two halves: with the shear modulus of TS04, and for comparison with that of CHK and LG.
-fn run(bench: &Bench<'_>) -> Result<[Claim; 2], ClaimsError> {
+/// A half of claim 1: whether a quantity of the scene in time lies in a range, with the shear modulus of TS04, and for
+/// comparison with that of CHK and LG.
+fn half(
+    bench: &Bench<'_>,
+    (low, high): (f64, f64),
+    quantity: fn(&History) -> Result<f64, Failure>,
+    said: fn(f64) -> String,
+) -> Result<Answer, ReproduceError> {
     let nominal = Scene::default();
     let other = Scene { shear_modulus: Some(PRINTED_SHEAR_MODULUS), ..nominal };
-    let run = |scene: &Scene| -> Result<(f64, f64), ClaimsError> {
-        let History { samples, critical } = (bench.physics.history)(scene, &closed(FrictionLaw::Coulomb), DURATION)?;
-        Ok((critical.critical_time?, samples.last().map_or(0.0, |end| end.relative)))
-    };
-    let ((slip, moved), (other_slip, other_moved)) = (run(&nominal)?, run(&other)?);
-    let verdict = |value: f64, (low, high): (f64, f64)| {
-        if (low..=high).contains(&value) { Verdict::Reproduced } else { Verdict::NotReproduced }
-    };
-    let giga = |scene: &Scene| number(scene.effective_shear_modulus() / 1e9, "GPa");
-    let beside = |verdict: &Verdict, value: String| {
-        format!("with G = {}, as CHK and LG print: {} ({value})", giga(&other), verdict.word())
-    };
-    let setting = format!(
-        "Exact geometry, Coulomb friction, JKR, nominal scene at V = 100 nm/s, {DURATION} s, with G = {} = E/(2 (1 + ν)), \
-         which TS04 prints in its table 2",
-        giga(&nominal)
-    );
-    let needed = DURATION + (DISPLACEMENT.0 + DISPLACEMENT.1) / 2.0 / nominal.velocity;
-    Ok([
-        Claim {
-            number: 1,
-            source: "TS04",
-            statement: "Pushed at 100 nm/s, the particle slips near 0.2 s.",
-            verdict: verdict(slip, SLIP_TIME),
-            range: beside(&verdict(other_slip, SLIP_TIME), number(other_slip, "s")),
-            finding: format!("The particle slips after {}.", number(slip, "s")),
-            setting: format!("{setting}; near 0.2 s means from {} to {} s.", SLIP_TIME.0, SLIP_TIME.1),
-            figures: &["ts04-8", "ts04-10"],
-        },
-        Claim {
-            number: 1,
-            source: "TS04",
-            statement: "After 0.4 s the particle has moved −21 nm relative to the substrate.",
-            verdict: verdict(moved, DISPLACEMENT),
-            range: beside(&verdict(other_moved, DISPLACEMENT), nano(other_moved, "m")),
-            finding: format!(
-                "It has moved {}. At 100 nm/s, −21 nm belong to a slip at {}.",
-                nano(moved, "m"),
-                number(needed, "s")
-            ),
-            setting: format!("{setting}; −21 nm means to 1 nm."),
-            figures: &["ts04-10"],
-        },
-    ])
+    let of = |scene| quantity(&(bench.physics.history)(scene, &closed(FrictionLaw::Coulomb), DURATION)?);
+    let (ours, theirs) = (of(&nominal)?, of(&other)?);
+    let verdict = |value: f64| Verdict::reproduced_if((low..=high).contains(&value));
+    let [modulus, printed] = [nominal, other].map(|scene| number(scene.effective_shear_modulus() / 1e9, "GPa"));
+    let (word, theirs) = (verdict(theirs).word(), said(theirs));
+    Ok(Answer {
+        verdict: verdict(ours),
+        range: format!("with G = {printed}, as CHK and LG print: {word} ({theirs})"),
+        words: vec![("value", said(ours)), ("duration", DURATION.to_string()), ("modulus", modulus)],
+    })
+}
+
+/// Claim 1, first half.
+pub(super) fn slip_time(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
+    let mut answer = half(bench, SLIP_TIME, |history| history.critical.critical_time, |time| number(time, "s"))?;
+    answer.words.extend([("from", SLIP_TIME.0.to_string()), ("to", SLIP_TIME.1.to_string())]);
+    Ok(answer)
+}
+
+/// Claim 1, second half.
+pub(super) fn displacement(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
+    let moved = |history: &History| Ok(history.samples.last().map_or(0.0, |end| end.relative));
+    let mut answer = half(bench, DISPLACEMENT, moved, |moved| nano(moved, "m"))?;
+    let needed = DURATION + (DISPLACEMENT.0 + DISPLACEMENT.1) / 2.0 / Scene::default().velocity;
+    answer.words.push(("needed", number(needed, "s")));
+    Ok(answer)
 }
 
 /// Claim 2.
-fn forces(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
-    let mut holdings = Vec::new();
-    for (law, name) in &LAWS[..2] {
-        let rule = |scene: &Scene| {
-            let history = (bench.physics.history)(scene, &closed(*law), FOREVER)?;
-            Ok(rises_and_stays(&history))
-        };
-        holdings.push(bench.holding(*name, bench.sizes.slow_points, &rule)?);
-    }
+pub(super) fn forces(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
+    let rule = |law, scene: &Scene| Ok(rises_and_stays(&(bench.physics.history)(scene, &closed(law), FOREVER)?));
+    let holdings = bench.holding_under(&FRICTIONS[..2], "", |_| bench.sizes.slow_points, rule)?;
     let nominal = (bench.physics.history)(&Scene::default(), &closed(FrictionLaw::Coulomb), DURATION)?;
     let (start, held) = ends(&nominal.samples);
-    Ok(Claim {
-        number: 2,
-        source: "TS04 figs. 8, 9, CHK fig. 5",
-        statement: "While pushing, F_Y grows and F_Z is nearly constant; F_T rises to F_cr and then stays.",
-        finding: format!(
-            "At the nominal scene under Coulomb friction F_Y grows from {} to {}, F_Z changes by {}, F_T rises from {} \
-             to {}.",
-            nano(start.lateral_force, "N"),
-            nano(held.lateral_force, "N"),
-            change(held.normal_force / start.normal_force - 1.0),
-            nano(start.tip_force, "N"),
-            nano(held.tip_force, "N")
-        ),
-        setting: format!(
-            "Exact geometry; nearly constant means to {}; after the slip the tip is taken to hold the particle still \
-             under steady friction; nominal scene and {} points of the general study's box.",
-            change(NEARLY),
-            bench.sizes.slow_points
-        ),
-        figures: &["ts04-8", "ts04-9", "chk-5"],
-        ..Claim::judged(&holdings)
-    })
+    let words = [
+        ("lateral", nano(start.lateral_force, "N")),
+        ("held_lateral", nano(held.lateral_force, "N")),
+        ("normal", change(held.normal_force / start.normal_force - 1.0)),
+        ("tip", nano(start.tip_force, "N")),
+        ("held_tip", nano(held.tip_force, "N")),
+        ("nearly", change(NEARLY)),
+    ];
+    Ok(Answer::judged(&holdings, words))
 }
 
 /// F_Y and F_T never fall while the particle sticks, F_Z is nearly constant, and F_T is F_cr at the slip and after.
@@ -141,35 +107,20 @@ fn ends(samples: &[Sample]) -> (&Sample, &Sample) {
 }
 
 /// Claim 3.
-fn delay(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
-    let parameter = Parameter::from_name("static_friction").ok_or(ClaimsError::NoRanges)?;
+pub(super) fn delay(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
+    let parameter = Parameter::from_name("static_friction").ok_or(ReproduceError::NoRanges)?;
     let sweep = Sweep { parameter, range: (0.1, 1.2), count: bench.sizes.curve };
     let options = closed(FrictionLaw::Coulomb);
     let slip_time = |scene: &Scene| (bench.physics.force)(scene, &options)?.critical_time;
     let rule = |scene: &Scene| Ok(bench.curve_of(&sweep, scene, &slip_time)?.rises());
     let holdings = [bench.holding("later slip with higher μ_s", bench.sizes.points, &rule)?];
     let nominal = bench.curve_of(&sweep, &Scene::default(), &slip_time)?;
-    Ok(Claim {
-        number: 3,
-        source: "TS04 fig. 11",
-        statement: "A higher coefficient of friction delays the slip.",
-        finding: format!(
-            "At the nominal scene the slip comes after {} with μ_s = 0.1 and after {} with μ_s = 1.2.",
-            number(nominal.first(), "s"),
-            number(nominal.last(), "s")
-        ),
-        setting: format!(
-            "Closed form, Coulomb friction (that of TS04; Hurtado-Kim friction knows no μ_s), {} values of μ_s from 0.1 \
-             to 1.2 at the nominal scene and at {} points of the general study's box.",
-            sweep.count, bench.sizes.points
-        ),
-        figures: &["ts04-11"],
-        ..Claim::judged(&holdings)
-    })
+    let words = [("first", number(nominal.first(), "s")), ("last", number(nominal.last(), "s"))];
+    Ok(Answer::judged(&holdings, words))
 }
 
 /// Claim 5.
-fn contacts(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
+pub(super) fn contacts(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
     let options = closed(FrictionLaw::Coulomb);
     let history = |scene: &Scene| (bench.physics.history)(scene, &options, FOREVER);
     // At every step, and from the start to the slip by more than nothing.
@@ -193,7 +144,7 @@ fn contacts(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
     let nominal = history(&Scene::default())?;
     let (start, held) = ends(&nominal.samples);
     let square_nano = |area: f64| number(area * 1e18, "nm²");
-    let tip_finding = match (start.tip_contact, held.tip_contact) {
+    let tip = match (start.tip_contact, held.tip_contact) {
         (Some(before), Some(after)) => format!(
             "the tip's contact grows from {} to {} and its indentation from {} to {}",
             square_nano(before.area()),
@@ -204,26 +155,15 @@ fn contacts(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
         _ => "the tip's contact breaks".to_owned(),
     };
     let (before, after) = (start.substrate_contact, held.substrate_contact);
-    Ok(Claim {
-        number: 5,
-        source: "TS04 fig. 13",
-        statement: "Area and indentation of the tip's contact grow while pushing, those of the substrate's shrink.",
-        finding: format!(
-            "At the nominal scene {tip_finding}; on the substrate the area of {} changes by {}, the indentation of {} by \
-             {}.",
-            square_nano(before.area()),
-            change(after.area() / before.area() - 1.0),
-            nano(before.indentation, "m"),
-            change(after.indentation / before.indentation - 1.0)
-        ),
-        setting: format!(
-            "Exact geometry, Coulomb friction, JKR, from the start to the slip, at every step of the history; changes below \
-             {} in all are as good as none; nominal scene and {points} points of the general study's box.",
-            change(AS_GOOD_AS_NONE)
-        ),
-        figures: &["ts04-13"],
-        ..Claim::judged(&holdings)
-    })
+    let words = [
+        ("tip", tip),
+        ("area", square_nano(before.area())),
+        ("area_change", change(after.area() / before.area() - 1.0)),
+        ("indentation", nano(before.indentation, "m")),
+        ("indentation_change", change(after.indentation / before.indentation - 1.0)),
+        ("none", change(AS_GOOD_AS_NONE)),
+    ];
+    Ok(Answer::judged(&holdings, words))
 }
 
 /// Whether one contact is larger than another by more than that part, in area and in indentation.

@@ -1,8 +1,9 @@
 //! From what holds where to a verdict, and to words.
 
+use super::Verdict;
 use super::numbers::percent_of;
-use super::{Claim, Verdict};
 use crate::reproduce::named_together;
+use crate::reproduce::papers::Words;
 use apportion::uncertainty::Interval;
 
 /// From this share of the box on a rule holds everywhere: what is left is a corner that no chart of the papers shows.
@@ -24,11 +25,6 @@ impl Share {
     }
 
     /// As in `83.2 % [82.9, 83.5] of the box`; `all of the box` only where no point failed.
-    pub fn words(&self) -> String {
-        self.words_of("the box")
-    }
-
-    /// The same of something else than `the box`.
     pub fn words_of(&self, whole: &str) -> String {
         match (self.value, self.interval) {
             (1.0, _) => format!("all of {whole}"),
@@ -50,22 +46,31 @@ pub(super) struct Holding {
     pub share: Share,
 }
 
-impl Claim {
-    /// A claim that the scene of the paper decides, with the part of the box where it holds, and nothing said yet.
-    pub(super) fn judged(holdings: &[Holding]) -> Self {
-        Self { verdict: judge(holdings), range: over_ranges(holdings), ..Self::default() }
+/// Our answer to a claim; see [`Claim`](super::Claim).
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Answer {
+    pub verdict: Verdict,
+    pub range: String,
+    pub words: Words,
+}
+
+impl Answer {
+    /// The answer to a claim that the scene of the paper decides, with the part of the box where it holds.
+    pub fn judged(holdings: &[Holding], words: impl Into<Words>) -> Self {
+        Self { verdict: judge(holdings), range: over_ranges(holdings), words: words.into() }
     }
 }
 
 /// The verdict on a claim as its paper shows it: reproduced if every part holds at the nominal scene, which is that of the
 /// papers' figures.
 pub(super) fn judge(holdings: &[Holding]) -> Verdict {
-    if holdings.iter().all(|holding| holding.nominal) { Verdict::Reproduced } else { Verdict::NotReproduced }
+    Verdict::reproduced_if(holdings.iter().all(|holding| holding.nominal))
 }
 
 /// Where each part holds over the whole ranges, in one line; parts with the same share are named together.
 pub(super) fn over_ranges(holdings: &[Holding]) -> String {
-    let shares = named_together(holdings.iter().map(|Holding { what, share, .. }| (share.words(), what.as_str())));
+    let shares =
+        named_together(holdings.iter().map(|Holding { what, share, .. }| (share.words_of("the box"), what.as_str())));
     match &shares[..] {
         [(words, _)] => words.clone(),
         _ => {

@@ -9,7 +9,6 @@ mod bench;
 mod curve;
 mod dimensions;
 mod environment;
-mod export;
 mod in_time;
 mod judge;
 mod models;
@@ -20,20 +19,16 @@ mod shares;
 #[cfg(test)]
 mod tests;
 
-pub use export::claims_json;
-
-use std::fmt;
-
 use serde::Serialize;
-use thiserror::Error;
 
-use super::{Effort, Reproduced};
-use apportion::afm::Failure;
-use apportion::study::StudyError;
+use super::papers::{PaperClaim, filled, papers};
+use super::{Effort, ReproduceError, Reproduced};
+use apportion::result::json;
 use bench::{Bench, Physics};
+use judge::Answer;
 
 /// A claim of the papers with our answer.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Claim {
     /// Its number, from 1; a number that holds two claims comes twice.
     pub number: usize,
@@ -55,13 +50,12 @@ pub struct Claim {
 }
 
 /// The answer to a claim.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[serde(tag = "verdict", rename_all = "kebab-case")]
 pub enum Verdict {
     /// Every part of it holds.
     Reproduced,
     /// Some part of it does not hold.
-    #[default]
     NotReproduced,
     /// A number or figure of the same paper says otherwise.
     Contradicted {
@@ -71,6 +65,11 @@ pub enum Verdict {
 }
 
 impl Verdict {
+    /// Reproduced if it holds.
+    fn reproduced_if(holds: bool) -> Self {
+        if holds { Self::Reproduced } else { Self::NotReproduced }
+    }
+
     /// The verdict in a word: `reproduced`, `not reproduced`, `contradicted`.
     pub fn word(&self) -> &'static str {
         match self {
@@ -89,58 +88,76 @@ impl Verdict {
     }
 }
 
-/// Reads as in `contradicted by the paper's own 76 % for the thickness`.
-impl fmt::Display for Verdict {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Reproduced | Self::NotReproduced => f.write_str(self.word()),
-            Self::Contradicted { own } => write!(f, "contradicted by the paper's own {own}"),
-        }
-    }
-}
+/// Answers a claim.
+type Check = fn(&Bench<'_>) -> Result<Answer, ReproduceError>;
 
-/// Why the claims cannot be answered.
-#[derive(Debug, Error)]
-pub enum ClaimsError {
-    /// A study of this program, from which the ranges are taken, cannot be read.
-    #[error(transparent)]
-    Study(#[from] StudyError),
-    /// The general study lacks a factor that a claim is about.
-    #[error("the general study does not give the range of every factor that the claims are about")]
-    NoRanges,
-    /// A scene has no critical force.
-    #[error("a scene that a claim is about has no answer: {0}")]
-    Scene(#[from] Failure),
-    /// A study that a claim is about has not been run, or has no indices.
-    #[error("claims 17 to 20 need the {group} study under {friction} friction, with its indices")]
-    NoIndices {
-        /// The study's group.
-        group: &'static str,
-        /// The name of its friction model.
-        friction: &'static str,
-    },
-    /// The claims cannot be put into a file's format.
-    #[error("the claims cannot be written: {0}")]
-    Format(String),
-}
+/// The checks by the names that `papers.toml` gives them.
+const CHECKS: [(&str, Check); 25] = [
+    ("slip_time", in_time::slip_time),
+    ("displacement", in_time::displacement),
+    ("forces", in_time::forces),
+    ("delay", in_time::delay),
+    ("contacts", in_time::contacts),
+    ("angle", modes::angle),
+    ("rolling", modes::rolling),
+    ("weaker_law", models::weaker_law),
+    ("length", dimensions::length),
+    ("width", dimensions::width),
+    ("thickness", dimensions::thickness),
+    ("height", dimensions::height),
+    ("velocity", environment::velocity),
+    ("elastic_modulus", environment::elastic_modulus),
+    ("contact_modulus", environment::contact_modulus),
+    ("adhesion", environment::adhesion),
+    ("constant_parameters", environment::constant_parameters),
+    ("dimensional_order", |bench| shares::order(bench, "dimensional")),
+    ("dimensional_percentage", shares::dimensional_percentage),
+    ("most_effective", shares::most_effective),
+    ("environmental_order", |bench| shares::order(bench, "environmental")),
+    ("environmental_percentages", shares::environmental_percentages),
+    ("general_order", |bench| shares::order(bench, "general")),
+    ("general_percentages", shares::general_percentages),
+    ("outweigh", shares::outweigh),
+];
 
 /// Every claim of the papers with our answer, in the order of their numbers. `studies` are all nine studies, run with
 /// intervals; claims 17 to 20 rest on them. The same studies and effort give the same claims, to the last letter.
 ///
 /// # Errors
-/// [`ClaimsError`] if a study is missing or has no indices, or a scene has no critical force.
-pub fn claims(studies: &[Reproduced], effort: Effort) -> Result<Vec<Claim>, ClaimsError> {
-    answered(Physics::ours(), studies, effort)
+/// [`ReproduceError`] if a study is missing or has no indices, or a scene has no critical force.
+pub fn claims(studies: &[Reproduced], effort: Effort) -> Result<Vec<Claim>, ReproduceError> {
+    answered(&Bench::new(Physics::ours(), effort, studies)?, &(1..=20))
 }
 
-fn answered(physics: Physics<'_>, studies: &[Reproduced], effort: Effort) -> Result<Vec<Claim>, ClaimsError> {
-    let bench = Bench::new(physics, effort)?;
-    let mut claims = in_time::claims(&bench)?;
-    claims.extend(modes::claims(&bench)?);
-    claims.extend(models::claims(&bench)?);
-    claims.extend(dimensions::claims(&bench)?);
-    claims.extend(environment::claims(&bench)?);
-    claims.extend(shares::claims(&bench, studies)?);
-    claims.sort_by_key(|claim| claim.number);
-    Ok(claims)
+/// The claims whose numbers are among `numbers`.
+fn answered(bench: &Bench<'_>, numbers: &std::ops::RangeInclusive<usize>) -> Result<Vec<Claim>, ReproduceError> {
+    let asked = papers().claims.iter().filter(|claim| numbers.contains(&claim.number));
+    let claim = |claim: &'static PaperClaim| {
+        let (_, check) = CHECKS.iter().find(|(name, _)| *name == claim.check).expect("a check for every claim");
+        let Answer { verdict, range, mut words } = check(bench)?;
+        words.extend(bench.sizes.words());
+        Ok(Claim {
+            number: claim.number,
+            source: claim.source,
+            statement: claim.statement,
+            verdict,
+            range,
+            finding: filled(&claim.finding, &words),
+            setting: filled(&claim.setting, &words),
+            figures: &claim.figures,
+        })
+    };
+    asked.map(claim).collect()
+}
+
+/// The claims as JSON: `format` (`apportion-claims`), `version`, `claims`, each with the fields of [`Claim`], its verdict
+/// as `verdict` (`reproduced`, `not-reproduced`, `contradicted`, with `own`).
+pub fn claims_json(claims: &[Claim]) -> String {
+    #[derive(Serialize)]
+    struct ClaimsFile<'a> {
+        format: &'static str,
+        version: u32,
+        claims: &'a [Claim],
+    }
+    json(&ClaimsFile { format: "apportion-claims", version: 2, claims })
 }

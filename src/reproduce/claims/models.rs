@@ -1,12 +1,12 @@
 //! Claim 7: which friction model holds the particle less.
 
 use super::bench::{Bench, Region, closed};
-use super::judge::Holding;
+use super::judge::{Answer, Holding};
 use super::numbers::nano;
-use super::{Claim, ClaimsError};
+use crate::reproduce::ReproduceError;
 use apportion::afm::{FrictionLaw, Scene};
 
-pub(super) fn claims(bench: &Bench<'_>) -> Result<Vec<Claim>, ClaimsError> {
+pub(super) fn weaker_law(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
     let (coulomb, hurtado_kim) = (closed(FrictionLaw::Coulomb), closed(FrictionLaw::HurtadoKim));
     let below = |scene: &Scene| Ok(bench.force(scene, &hurtado_kim)? < bench.force(scene, &coulomb)?);
     // One sample of each box shares the scrambles of the others, so that they differ by their factors alone.
@@ -17,24 +17,13 @@ pub(super) fn claims(bench: &Bench<'_>) -> Result<Vec<Claim>, ClaimsError> {
     let nominal = Scene::default();
     let holding =
         Holding { what: "F_cr(Hurtado-Kim) < F_cr(Coulomb)".to_owned(), nominal: below(&nominal)?, share: general };
-    Ok(vec![Claim {
-        number: 7,
-        source: "CHK fig. 5",
-        statement: "The critical force is smaller under Hurtado-Kim friction than under Coulomb friction.",
-        finding: format!(
-            "At the nominal scene F_cr is {} under Hurtado-Kim and {} under Coulomb friction. Hurtado-Kim friction gives \
-             the smaller force on {}, {} and {}.",
-            nano(bench.force(&nominal, &hurtado_kim)?, "N"),
-            nano(bench.force(&nominal, &coulomb)?, "N"),
-            general.words_of("the box of the general study"),
-            dimensional.words_of("that of the dimensional study"),
-            environmental.words_of("that of the environmental study")
-        ),
-        setting: format!(
-            "Closed form, JKR; shares with 95 % intervals from 8 scrambles of {} Sobol' points each.",
-            points / 8
-        ),
-        figures: &["chk-5", "chk-6", "chk-8", "chk-13"],
-        ..Claim::judged(&[holding])
-    }])
+    let words = [
+        ("hurtado_kim", nano(bench.force(&nominal, &hurtado_kim)?, "N")),
+        ("coulomb", nano(bench.force(&nominal, &coulomb)?, "N")),
+        ("general", general.words_of("the box of the general study")),
+        ("dimensional", dimensional.words_of("that of the dimensional study")),
+        ("environmental", environmental.words_of("that of the environmental study")),
+        ("each", (points / 8).to_string()),
+    ];
+    Ok(Answer::judged(&[holding], words))
 }

@@ -4,18 +4,15 @@ use std::f64::consts::FRAC_PI_2;
 
 use super::bench::{Bench, Sweep, closed, exact};
 use super::curve::grid;
+use super::judge::Answer;
 use super::judge::{judge, over_ranges};
 use super::numbers::{change, nano, number};
-use super::{Claim, ClaimsError};
+use crate::reproduce::ReproduceError;
 use apportion::afm::modes::{Mode, Onset, TipForce};
 use apportion::afm::{Failure, FrictionLaw, Parameter, Scene};
 
 /// How far above the angle of friction the mode diagram begins (rad): at the angle itself F* has no bound.
 const ABOVE_FRICTION: f64 = 0.05;
-
-pub(super) fn claims(bench: &Bench<'_>) -> Result<Vec<Claim>, ClaimsError> {
-    Ok(vec![angle(bench)?, rolling(bench)?])
-}
 
 /// F*_ss (N) at each of the angles of the mode diagram; `None` where no force starts to slide the particle.
 fn diagram(bench: &Bench<'_>, scene: &Scene, adhesion_in_load: bool) -> Result<Vec<(f64, Option<f64>)>, Failure> {
@@ -27,8 +24,8 @@ fn diagram(bench: &Bench<'_>, scene: &Scene, adhesion_in_load: bool) -> Result<V
 }
 
 /// Claim 4.
-fn angle(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
-    let parameter = Parameter::from_name("contact_angle").ok_or(ClaimsError::NoRanges)?;
+pub(super) fn angle(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
+    let parameter = Parameter::from_name("contact_angle").ok_or(ReproduceError::NoRanges)?;
     let sweep = Sweep { parameter, range: (0.0, FRAC_PI_2), count: 5 };
     let options = exact(FrictionLaw::Coulomb);
     let against_force_angle = |scene: &Scene| {
@@ -56,33 +53,19 @@ fn angle(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
         };
         Ok(format!("{} to {}", words(points.first()), words(points.last())))
     };
-    let unmoved = bench.curve(&sweep, &nominal, &options)?.spread();
-    Ok(Claim {
-        number: 4,
-        source: "TS04 fig. 12",
-        statement: "A larger angle lowers the force at which the particle slides.",
-        finding: format!(
-            "At the nominal scene the mode diagram's F_ss* falls with ψ from {} (with the pull-off force in the load: \
-             {}). The contact angle φ from 0° to 90° changes F_cr by {}: the preload sets the normal force.",
-            ends(false)?,
-            ends(true)?,
-            change(unmoved)
-        ),
-        setting: format!(
-            "Coulomb friction, JKR; F_ss*(ψ) at {} angles from 2.9° above the angle of friction to 90°, with and \
-             without adhesion in the load; F_cr by exact geometry at {} contact angles; nominal scene and {points} points \
-             of the general study's box.",
-            bench.sizes.curve, sweep.count
-        ),
-        figures: &["ts04-12"],
-        ..Claim::judged(&holdings)
-    })
+    let words = [
+        ("ends", ends(false)?),
+        ("loaded_ends", ends(true)?),
+        ("unmoved", change(bench.curve(&sweep, &nominal, &options)?.spread())),
+        ("count", sweep.count.to_string()),
+    ];
+    Ok(Answer::judged(&holdings, words))
 }
 
 /// Claim 6. TS04 prints no criterion for rolling: the moment criterion is ours. Between a tip that stands still and a moving
 /// substrate the particle can only roll if it slips or rolls at the tip too, so that rolling starts where the moment
 /// criterion holds and the tip slips.
-fn rolling(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
+pub(super) fn rolling(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
     let options = closed(FrictionLaw::Coulomb);
     let normal = |scene: &Scene| Ok::<f64, Failure>((bench.physics.force)(scene, &options)?.normal_force);
     let later = |one: Onset, other: Onset| if one > other { one } else { other };
@@ -109,33 +92,19 @@ fn rolling(bench: &Bench<'_>) -> Result<Claim, ClaimsError> {
         Onset::At(lateral) => format!("at F_Y = {}", nano(lateral, "N")),
         Onset::Never => "at no F_Y".to_owned(),
     };
-    Ok(Claim {
-        number: 6,
-        source: "TS04",
-        statement: "At this scale sliding precedes rolling.",
+    Ok(Answer {
         verdict: judge(&holdings[..1]),
         range: format!("by a criterion of ours; {}", over_ranges(&holdings)),
-        finding: format!(
-            "TS04 prints no criterion for rolling. By a moment criterion of ours, at the nominal scene rolling sets in {}, \
-             sliding {}, slip at the tip {}: the preload alone drives rolling with {} times what resists it, and would not \
-             with ξ above {}. Held between a tip that stands still and a moving substrate, the particle rolls only if the \
-             tip slips too: then rolling starts {}.",
-            at(roll),
-            at(slide),
-            at(tip),
-            number(excess, ""),
+        words: vec![
+            ("roll", at(roll)),
+            ("slide", at(slide)),
+            ("tip", at(tip)),
+            ("excess", number(excess, "")),
             // The resistance is proportional to xi.
-            nano(pushing.constants.rolling_shift * excess, "m"),
-            at(later(roll, tip))
-        ),
-        setting: format!(
-            "Tip force of constant F_Z and rising F_Y, each motion from where its drive first exceeds its resistance; \
-             Coulomb friction, JKR; rolling resisted at either contact by 4 F_ad (a/a0)^1.5 ξ (Dominik and Tielens 1997) \
-             with ξ = {}; friction at the tip {} (both ours); nominal scene and {points} points of the general study's \
-             box.",
-            nano(pushing.constants.rolling_shift, "m"),
-            pushing.constants.tip_friction
-        ),
-        figures: &["ts04-12"],
+            ("least_shift", nano(pushing.constants.rolling_shift * excess, "m")),
+            ("later", at(later(roll, tip))),
+            ("shift", nano(pushing.constants.rolling_shift, "m")),
+            ("tip_friction", pushing.constants.tip_friction.to_string()),
+        ],
     })
 }

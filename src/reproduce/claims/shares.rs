@@ -1,16 +1,16 @@
 //! Claims about the shares of the variance: 17 to 20. They rest on the nine studies.
 
+use super::Verdict;
 use super::bench::{Bench, Region, closed};
 use super::dimensions::NO_EFFECT;
+use super::judge::Answer;
 use super::numbers::{change, nano};
-use super::{Claim, ClaimsError, Verdict};
 use crate::reproduce::order::{Agreement, OrderVerdict, Standing, VISIBLE, order_of, outweighing};
-use crate::reproduce::published::{CLOSE, PRINTED};
-use crate::reproduce::{FRICTIONS, Friction, GROUPS, Published, Reproduced, named_together, published};
+use crate::reproduce::papers::{CLOSE, PRINTED};
+use crate::reproduce::{FRICTIONS, Friction, GROUPS, Published, ReproduceError, Reproduced, named_together, published};
 use apportion::afm::{Failure, FrictionLaw, Scene};
 use apportion::report::{fixed, give_or_take, share};
 use apportion::result::IndexRecord;
-use apportion::{EffectEstimates, Estimate};
 
 /// F_cr counts as a product of a function of the dimensions and one of the environment if it is one to this: a
 /// thousandth moves no percentage by more than a tenth.
@@ -19,111 +19,52 @@ const PRODUCT: f64 = 1e-3;
 /// What a percentage in whole numbers may have been before rounding.
 const ROUNDED: f64 = 0.5;
 
-pub(super) fn claims(bench: &Bench<'_>, studies: &[Reproduced]) -> Result<Vec<Claim>, ClaimsError> {
-    let studies = Studies(studies);
-    Ok(vec![
-        studies.order(Order {
-            number: 17,
-            group: "dimensional",
-            statement: "Of the dimensions, the thickness has the largest share, then length, width and height.",
-            source: "CHK fig. 10, LG fig. 4a",
-            figures: &["chk-10", "lg-4a", "dimensional"],
-        })?,
-        dimensional_percentage(&studies)?,
-        most_effective(&studies)?,
-        studies.order(Order {
-            number: 18,
-            group: "environmental",
-            statement: "Of the environmental factors, Young's modulus has the largest share, then velocity and adhesion.",
-            source: "CHK fig. 15, LG fig. 4b",
-            figures: &["chk-15", "lg-4b", "environmental"],
-        })?,
-        environmental_percentages(bench, &studies)?,
-        studies.order(Order {
-            number: 19,
-            group: "general",
-            statement: "Of all factors, the thickness has the largest share, then length, width, Young's modulus, velocity \
-                        and adhesion.",
-            source: "CHK fig. 16, LG fig. 4c",
-            figures: &["chk-16", "lg-4c", "general"],
-        })?,
-        general_percentages(bench, &studies)?,
-        outweigh(&studies)?,
-    ])
-}
-
-struct Studies<'a>(&'a [Reproduced]);
-
-/// A claim about an order of factors.
-struct Order {
-    number: usize,
+/// The study of a group under a friction model, with its indices.
+fn study<'a>(
+    bench: &Bench<'a>,
     group: &'static str,
-    statement: &'static str,
-    source: &'static str,
-    figures: &'static [&'static str],
+    friction: Friction,
+) -> Result<(&'a Reproduced, &'a [IndexRecord]), ReproduceError> {
+    let study = bench.studies.iter().find(|study| study.group.key == group && study.friction == friction);
+    let indices = |study: &'a Reproduced| Some((study, study.result.outputs.first()?.indices.as_deref()?));
+    study.and_then(indices).ok_or(ReproduceError::NoIndices { group, friction: friction.name })
 }
 
-impl<'a> Studies<'a> {
-    /// The study of a group under a friction model, with its indices.
-    fn find(
-        &self,
-        group: &'static str,
-        friction: Friction,
-    ) -> Result<(&'a Reproduced, &'a [IndexRecord]), ClaimsError> {
-        let missing = ClaimsError::NoIndices { group, friction: friction.name };
-        let study = self.0.iter().find(|study| study.group.key == group && study.friction == friction);
-        let indices = |study: &'a Reproduced| Some((study, study.result.outputs.first()?.indices.as_deref()?));
-        study.and_then(indices).ok_or(missing)
-    }
+/// The study of a group whose percentages are printed, with its indices.
+fn printed<'a>(bench: &Bench<'a>, group: &'static str) -> Result<(&'a Reproduced, &'a [IndexRecord]), ReproduceError> {
+    let friction = FRICTIONS.into_iter().find(|friction| friction.key == PRINTED);
+    study(bench, group, friction.ok_or(ReproduceError::NoIndices { group, friction: PRINTED })?)
+}
 
-    fn printed(&self, group: &'static str) -> Result<(&'a Reproduced, &'a [IndexRecord]), ClaimsError> {
-        let friction = FRICTIONS.into_iter().find(|friction| friction.key == PRINTED);
-        self.find(group, friction.ok_or(ClaimsError::NoIndices { group, friction: PRINTED })?)
-    }
+/// The studies of a group and their design.
+fn studies(bench: &Bench<'_>, group: &'static str) -> Result<(&'static str, String), ReproduceError> {
+    let (study, _) = study(bench, group, FRICTIONS[0])?;
+    let provenance = &study.result.provenance;
+    let figures = GROUPS.iter().find(|known| known.key == group).map_or("", |known| known.figures);
+    let words = format!(
+        "The {group} studies ({figures}), {} base points, sampler {}, seed {}, 95 % intervals;",
+        provenance.base_samples, provenance.sampler, provenance.seed
+    );
+    Ok(("studies", words))
+}
 
-    fn setting(&self, group: &'static str) -> Result<String, ClaimsError> {
-        let (study, _) = self.find(group, FRICTIONS[0])?;
-        let provenance = &study.result.provenance;
-        let figures = GROUPS.iter().find(|known| known.key == group).map_or("", |known| known.figures);
-        Ok(format!(
-            "The {group} studies ({figures}), {} base points, sampler {}, seed {}, 95 % intervals;",
-            provenance.base_samples, provenance.sampler, provenance.seed
-        ))
+/// The first halves of claims 17 to 19: an order of factors.
+pub(super) fn order(bench: &Bench<'_>, group: &'static str) -> Result<Answer, ReproduceError> {
+    let (mut phrases, mut shares, mut is_same) = (Vec::new(), Vec::new(), true);
+    for friction in FRICTIONS {
+        let (study, indices) = study(bench, group, friction)?;
+        let order = order_of(study);
+        is_same &= order.agreement() == Agreement::Same;
+        phrases.push((stands(&order), friction.name));
+        shares.push(format!("under {} friction {}", friction.name, shares_in_words(indices, &order)));
     }
-
-    /// The first halves of claims 17 to 19.
-    fn order(&self, claim: Order) -> Result<Claim, ClaimsError> {
-        let mut phrases = Vec::new();
-        let mut agreements = Vec::new();
-        let mut findings = Vec::new();
-        for friction in FRICTIONS {
-            let (study, indices) = self.find(claim.group, friction)?;
-            let order = order_of(study);
-            agreements.push(order.agreement());
-            phrases.push((stands(&order), friction.name));
-            findings.push(format!("under {} friction {}", friction.name, shares_in_words(indices, &order)));
-        }
-        let same = agreements.iter().all(|agreement| *agreement == Agreement::Same);
-        let each = named_together(phrases).into_iter();
-        let each = each.map(|(phrase, names)| format!("{}: {phrase}", names.join(", ")));
-        Ok(Claim {
-            number: claim.number,
-            source: claim.source,
-            statement: claim.statement,
-            verdict: if same { Verdict::Reproduced } else { Verdict::NotReproduced },
-            range: each.collect::<Vec<_>>().join("; "),
-            finding: format!(
-                "Shares by total index, with those by first order in parentheses: {}.",
-                findings.join("; ")
-            ),
-            setting: format!(
-                "{} order by total shares; a factor is before the next where their intervals are apart, and has a visible \
-                 share from {VISIBLE} % on.",
-                self.setting(claim.group)?
-            ),
-            figures: claim.figures,
-        })
-    }
+    let each = named_together(phrases).into_iter();
+    let each = each.map(|(phrase, names)| format!("{}: {phrase}", names.join(", ")));
+    Ok(Answer {
+        verdict: Verdict::reproduced_if(is_same),
+        range: each.collect::<Vec<_>>().join("; "),
+        words: vec![("shares", shares.join("; ")), studies(bench, group)?, ("visible", VISIBLE.to_string())],
+    })
 }
 
 /// How an order stands to the published one, in a phrase.
@@ -164,125 +105,82 @@ fn shares_in_words(indices: &[IndexRecord], order: &OrderVerdict<'_>) -> String 
     format!("{}{rest}", visible.join(", "))
 }
 
-/// The verdict on printed percentages and under which reading it stands: all have to be ours under one reading.
-fn percentages(indices: &[IndexRecord], printed: &Published) -> (Verdict, String) {
-    let close = |reading: fn(&EffectEstimates) -> Option<f64>| {
-        printed.shares.iter().all(|(factor, percent)| {
-            let ours = indices.iter().find(|index| index.factor == *factor).and_then(|index| reading(&index.effect));
-            ours.is_some_and(|ours| (ours - percent).abs() <= CLOSE)
-        })
+/// A claim about printed percentages: all have to be ours under one reading. Something of the paper's own may contradict those
+/// that are not.
+fn printed_percentages(
+    bench: &Bench<'_>,
+    group: &'static str,
+    contradicted_by: Option<String>,
+) -> Result<Answer, ReproduceError> {
+    let (_, indices) = printed(bench, group)?;
+    let ours = published(group, PRINTED).shares.iter().map(|(factor, percent)| {
+        let effect = indices.iter().find(|index| index.factor == *factor).map(|index| index.effect);
+        let share = |share: Option<f64>| share.unwrap_or(f64::NAN);
+        let first_order = share(effect.and_then(|effect| effect.share_first_order));
+        (factor, percent, first_order, share(effect.and_then(|effect| effect.share_total)))
+    });
+    let by_first_order = ours.clone().all(|(_, percent, first_order, _)| (first_order - percent).abs() <= CLOSE);
+    let by_total = ours.clone().all(|(_, percent, _, total)| (total - percent).abs() <= CLOSE);
+    let beside = |(factor, percent, first_order, total): (&&str, &f64, f64, f64)| {
+        let (factor, first_order, total) = (factor.replace('_', " "), fixed(first_order, 1), fixed(total, 1));
+        format!("{factor} {first_order} and {total} % ({percent} % printed)")
     };
-    let reading = match (close(|effect| effect.share_first_order), close(|effect| effect.share_total)) {
+    let shares = ours.map(beside).collect::<Vec<_>>().join(", ");
+    let range = match (by_first_order, by_total) {
         (true, true) => "as shares by first-order and by total index",
         (true, false) => "as shares by first-order index, not by total index",
         (false, true) => "as shares by total index, not by first-order index",
-        (false, false) => {
-            return (Verdict::NotReproduced, "neither as shares by first-order nor by total index".to_owned());
-        }
+        (false, false) => "neither as shares by first-order nor by total index",
     };
-    (Verdict::Reproduced, reading.to_owned())
-}
-
-/// The printed percentages beside ours.
-fn side_by_side(indices: &[IndexRecord], printed: &Published) -> String {
-    let each = printed.shares.iter().filter_map(|(factor, percent)| {
-        let effect = &indices.iter().find(|index| index.factor == *factor)?.effect;
-        let (first, total) = (fixed(effect.share_first_order?, 1), fixed(effect.share_total?, 1));
-        Some(format!("{} {first} and {total} % ({percent} % printed)", factor.replace('_', " ")))
-    });
-    each.collect::<Vec<_>>().join(", ")
-}
-
-/// The setting of claims about percentages.
-fn percentage_setting(studies: &Studies<'_>, group: &'static str) -> Result<String, ClaimsError> {
-    Ok(format!(
-        "{} LuGre friction; percentages are the same if within {CLOSE} percentage point, under one reading for all factors. \
-         The paper does not say what its percentages are of.",
-        studies.setting(group)?
-    ))
+    let verdict = match (by_first_order || by_total, contradicted_by) {
+        (false, Some(own)) => Verdict::Contradicted { own },
+        (is_ours, _) => Verdict::reproduced_if(is_ours),
+    };
+    let words = vec![("shares", shares), studies(bench, group)?, ("close", CLOSE.to_string())];
+    Ok(Answer { verdict, range: range.to_owned(), words })
 }
 
 /// Claim 17, second half.
-fn dimensional_percentage(studies: &Studies<'_>) -> Result<Claim, ClaimsError> {
-    let (_, indices) = studies.printed("dimensional")?;
-    let printed = published("dimensional", PRINTED);
-    let (verdict, range) = percentages(indices, &printed);
-    Ok(Claim {
-        number: 17,
-        source: "LG fig. 4a",
-        statement: "Under LuGre friction the thickness has a share of 76 % among the dimensions.",
-        verdict,
-        range,
-        finding: format!("Our shares by first order and by total index: {}.", side_by_side(indices, &printed)),
-        setting: percentage_setting(studies, "dimensional")?,
-        figures: &["lg-4a", "dimensional"],
-    })
+pub(super) fn dimensional_percentage(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
+    printed_percentages(bench, "dimensional", None)
 }
 
 /// Claim 17, what LG's text says of the width. A printed percentage above half is that of the most effective factor.
-fn most_effective(studies: &Studies<'_>) -> Result<Claim, ClaimsError> {
-    let (study, indices) = studies.printed("dimensional")?;
+pub(super) fn most_effective(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
+    let (study, indices) = printed(bench, "dimensional")?;
     let order = order_of(study);
-    let most =
-        published("dimensional", PRINTED).shares.iter().find(|(factor, percent)| *percent > 50.0 && *factor != "width");
-    let verdict = match most {
-        Some((factor, percent)) => Verdict::Contradicted { own: format!("{percent} % for the {factor} (LG fig. 4a)") },
-        None if order.ours.first() == Some(&"width") => Verdict::Reproduced,
-        None => Verdict::NotReproduced,
-    };
-    Ok(Claim {
-        number: 17,
-        source: "LG, text",
-        statement: "The width is the most effective dimension.",
-        verdict,
+    let printed = published("dimensional", PRINTED);
+    let most = printed.shares.iter().find(|(factor, percent)| *percent > 50.0 && *factor != "width");
+    Ok(Answer {
+        verdict: match most {
+            Some((factor, percent)) => {
+                Verdict::Contradicted { own: format!("{percent} % for the {factor} (LG fig. 4a)") }
+            }
+            None => Verdict::reproduced_if(order.ours.first() == Some(&"width")),
+        },
         range: format!("ours: {}", order.ours.join(" > ")),
-        finding: format!(
-            "Shares by total index, with those by first-order index in parentheses: {}.",
-            shares_in_words(indices, &order)
-        ),
-        setting: format!("{} LuGre friction.", studies.setting("dimensional")?),
-        figures: &["lg-4a", "dimensional"],
+        words: vec![("shares", shares_in_words(indices, &order)), studies(bench, "dimensional")?],
     })
 }
 
 /// Claim 18, second half.
-fn environmental_percentages(bench: &Bench<'_>, studies: &Studies<'_>) -> Result<Claim, ClaimsError> {
-    let (_, indices) = studies.printed("environmental")?;
-    let printed = published("environmental", PRINTED);
-    let percent = |name: &str| printed.share(name).unwrap_or(f64::NAN);
+pub(super) fn environmental_percentages(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
+    let published = published("environmental", PRINTED);
+    let percent = |name: &str| published.share(name).unwrap_or(f64::NAN);
     let (nominal, options) = (Scene::default(), closed(FrictionLaw::LuGre));
-    let over = |name: &str| -> Result<f64, ClaimsError> {
+    let over = |name: &str| -> Result<f64, ReproduceError> {
         let curve = bench.curve(&bench.over(name)?, &nominal, &options)?;
         Ok((curve.last() - curve.first()).abs())
     };
     let (by_modulus, by_velocity) = (over("elastic_modulus")?, over("velocity")?);
     // Variances of straight lines are to each other as the squares of their rises.
     let needed = by_modulus * (percent("velocity") / percent("elastic_modulus")).sqrt();
-    let (verdict, range) = percentages(indices, &printed);
-    let visible = needed / bench.force(&nominal, &options)? > NO_EFFECT;
-    let verdict = match verdict {
-        Verdict::NotReproduced if visible => {
-            Verdict::Contradicted { own: "figure 3a, in which the velocity has no effect".to_owned() }
-        }
-        verdict => verdict,
-    };
-    Ok(Claim {
-        number: 18,
-        source: "LG fig. 4b",
-        statement: "Under LuGre friction Young's modulus has a share of 74 % and the velocity one of 26 %.",
-        verdict,
-        range,
-        finding: format!(
-            "Our shares by first order and by total index: {}. Over its range Young's modulus changes F_cr by {}; for the \
-             printed ratio the velocity would have to change it by about {}, and changes it by {}.",
-            side_by_side(indices, &printed),
-            nano(by_modulus, "N"),
-            nano(needed, "N"),
-            nano(by_velocity, "N")
-        ),
-        setting: percentage_setting(studies, "environmental")?,
-        figures: &["lg-4b", "environmental"],
-    })
+    let is_visible = needed / bench.force(&nominal, &options)? > NO_EFFECT;
+    let own = is_visible.then(|| "figure 3a, in which the velocity has no effect".to_owned());
+    let mut answer = printed_percentages(bench, "environmental", own)?;
+    let forces = [("by_modulus", by_modulus), ("needed", needed), ("by_velocity", by_velocity)];
+    answer.words.extend(forces.map(|(name, force)| (name, nano(force, "N"))));
+    Ok(answer)
 }
 
 /// Whether F_cr under LuGre friction is a product of a function of the dimensions and one of the other factors: with the
@@ -312,21 +210,13 @@ fn thickness_among(printed: &Published) -> (f64, (f64, f64)) {
 }
 
 /// Claim 19, second half.
-fn general_percentages(bench: &Bench<'_>, studies: &Studies<'_>) -> Result<Claim, ClaimsError> {
-    let (_, indices) = studies.printed("general")?;
-    let printed = published("general", PRINTED);
+pub(super) fn general_percentages(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
     let alone = published("dimensional", PRINTED).share("thickness").unwrap_or(f64::NAN);
-    let (among, (low, high)) = thickness_among(&printed);
-    let product = is_product(bench)?;
-    let apart = low > alone + ROUNDED || high < alone - ROUNDED;
-    let (verdict, range) = percentages(indices, &printed);
-    let verdict = match verdict {
-        Verdict::NotReproduced if product && apart => {
-            Verdict::Contradicted { own: format!("{alone} % for the thickness among the dimensions (LG fig. 4a)") }
-        }
-        verdict => verdict,
-    };
-    let consequence = if product {
+    let (among, (low, high)) = thickness_among(&published("general", PRINTED));
+    let is_product = is_product(bench)?;
+    let is_apart = low > alone + ROUNDED || high < alone - ROUNDED;
+    let own = format!("{alone} % for the thickness among the dimensions (LG fig. 4a)");
+    let consequence = if is_product {
         format!(
             "F_cr is a product of a function of the dimensions and one of the other factors, to {} of it, so that the share \
              of the thickness among thickness, length and width must be that of the dimensional study: printed are {} % \
@@ -339,59 +229,31 @@ fn general_percentages(bench: &Bench<'_>, studies: &Studies<'_>) -> Result<Claim
     } else {
         "F_cr is not a product of a function of the dimensions and one of the other factors".to_owned()
     };
-    Ok(Claim {
-        number: 19,
-        source: "LG fig. 4c",
-        statement: "Under LuGre friction the shares of all factors are 80 % for the thickness, 12 % for the length, 5 % for \
-                    the width and 3 % for Young's modulus.",
-        verdict,
-        range,
-        finding: format!(
-            "Our shares by first order and by total index: {}. {consequence}.",
-            side_by_side(indices, &printed)
-        ),
-        setting: format!(
-            "{} Whether F_cr is a product is asked at {} points of the general study's box.",
-            percentage_setting(studies, "general")?,
-            bench.sizes.points
-        ),
-        figures: &["lg-4c", "general", "lg-4a"],
-    })
+    let mut answer = printed_percentages(bench, "general", (is_product && is_apart).then_some(own))?;
+    answer.words.push(("consequence", consequence));
+    Ok(answer)
 }
 
 /// Claim 20.
-fn outweigh(studies: &Studies<'_>) -> Result<Claim, ClaimsError> {
-    let mut standings: Vec<(&str, Standing)> = Vec::new();
-    let mut findings = Vec::new();
+pub(super) fn outweigh(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
+    let (mut holds, mut each, mut totals) = (true, Vec::new(), Vec::new());
     for friction in FRICTIONS {
-        let (study, _) = studies.find("general", friction)?;
-        let missing = ClaimsError::NoIndices { group: "general", friction: friction.name };
+        let (study, _) = study(bench, "general", friction)?;
+        let missing = ReproduceError::NoIndices { group: "general", friction: friction.name };
         let (dimensional, environmental, standing) = outweighing(study).ok_or(missing)?;
-        standings.push((friction.name, standing));
-        let total = |record: Estimate| give_or_take(record);
-        findings.push(format!("{} against {} ({})", total(dimensional), total(environmental), friction.name));
+        holds &= standing == Standing::Kept;
+        let word = match standing {
+            Standing::Kept => "so",
+            Standing::Broken => "the other way round",
+            Standing::Undecided | Standing::Unseen => "not decided at this sample size",
+        };
+        each.push(format!("{}: {word}", friction.name));
+        let [ours, others] = [dimensional, environmental].map(give_or_take);
+        totals.push(format!("{ours} against {others} ({})", friction.name));
     }
-    let all = standings.iter().all(|(_, standing)| *standing == Standing::Kept);
-    let word = |standing: &Standing| match standing {
-        Standing::Kept => "so",
-        Standing::Broken => "the other way round",
-        Standing::Undecided | Standing::Unseen => "not decided at this sample size",
-    };
-    let each = standings.iter().map(|(name, standing)| format!("{name}: {}", word(standing)));
-    Ok(Claim {
-        number: 20,
-        source: "CHK fig. 16, LG fig. 4c",
-        statement: "The dimensions of the cantilever outweigh the environment.",
-        verdict: if all { Verdict::Reproduced } else { Verdict::NotReproduced },
-        range: each.collect::<Vec<_>>().join("; "),
-        finding: format!(
-            "Total indices of the dimensional against the environmental factors: {}.",
-            findings.join(", ")
-        ),
-        setting: format!(
-            "{} each group of four factors by its joint total index; one outweighs the other where the intervals are apart.",
-            studies.setting("general")?
-        ),
-        figures: &["chk-16", "lg-4c", "general"],
+    Ok(Answer {
+        verdict: Verdict::reproduced_if(holds),
+        range: each.join("; "),
+        words: vec![("totals", totals.join(", ")), studies(bench, "general")?],
     })
 }

@@ -2,9 +2,9 @@
 
 use crate::reproduce::order::VISIBLE;
 use crate::reproduce::shares::{indices, ranked};
-use crate::reproduce::{FRICTIONS, Friction, GROUPS, Reproduced, StudyGroup, named_together};
+use crate::reproduce::{FRICTIONS, GROUPS, Reproduced, StudyGroup, named_together};
 use apportion::EffectEstimates;
-use apportion::report::document::{Cell, Column, Mark, OnPhone, Part, Table};
+use apportion::report::document::{Cell, Mark, OnPhone, Part, Table};
 use apportion::report::format::words;
 use apportion::report::{fixed, listed, share_of_runs};
 use apportion::result::IndexRecord;
@@ -30,21 +30,17 @@ fn certainty(effect: &EffectEstimates) -> String {
 
 /// A row for each group of studies, a column for each friction model: the leader, its shares, how sure it is, and who
 /// follows.
-pub(super) fn table(studies: &[Reproduced]) -> Table {
-    let cell = |group: StudyGroup, friction: Friction| {
-        let study = studies.iter().find(|study| (study.group, study.friction) == (group, friction));
-        study.map_or_else(|| "not run".into(), leader)
-    };
-    let row = |group: &StudyGroup| {
-        let cells = FRICTIONS.iter().map(|friction| cell(*group, *friction));
-        [Cell::marked(group.title, Mark::Strong)].into_iter().chain(cells).collect()
-    };
+pub(super) fn table(studies: &[Reproduced]) -> Part {
     let caption = "The leading factor of each study: the part of the variance of the critical force that it explains alone \
                    (first-order index S_1) and with all its interactions (total index S_T), and the factors that follow \
                    with theirs.";
-    let frictions = FRICTIONS.iter().map(|friction| Column::text(format!("{} friction", friction.name)));
-    let columns = [Column::text("")].into_iter().chain(frictions);
-    Table { on_phone: OnPhone::StackLabelled, ..Table::new(caption, columns).with_rows(GROUPS.iter().map(row)) }
+    let mut rows = Table::from_rows(caption, GROUPS).text("", |group| Cell::marked(group.title, Mark::Strong));
+    for friction in FRICTIONS {
+        let study = |group| studies.iter().find(|study| (study.group, study.friction) == (group, friction));
+        let cell = |group| study(group).map_or_else(|| "not run".into(), leader);
+        rows = rows.text(format!("{} friction", friction.name), cell);
+    }
+    Table { on_phone: OnPhone::StackLabelled, ..rows.into() }.into()
 }
 
 fn leader(study: &Reproduced) -> Cell {
@@ -123,20 +119,19 @@ pub(super) fn validity(studies: &[Reproduced]) -> Option<Part> {
     if places.is_empty() {
         return None;
     }
-    let share = |study: &Reproduced, place: usize| match study.result.validity.get(place) {
-        Some(flag) if flag.runs > 0 => share_of_runs(flag.share),
-        _ => "none".to_owned(),
-    };
-    let row = |study: &Reproduced| {
-        let shares = places.iter().map(|&place| Cell::from(share(study, place)));
-        [study.group.key.into(), study.friction.name.into()].into_iter().chain(shares).collect()
-    };
-    let names = places.iter().map(|&place| Column::number(flags[place].flag.replace('-', " ")));
-    let means: Vec<String> = places.iter().map(|&place| flags[place].description.clone()).collect();
+    let means: Vec<&str> = places.iter().map(|&place| flags[place].description.as_str()).collect();
     let caption = format!(
         "Runs outside the range of a theory, as a share of all runs; they count all the same. {}",
         means.join(" ")
     );
-    let columns = [Column::text("study"), Column::text("friction")].into_iter().chain(names);
-    Some(Part::Table(Table::new(caption, columns).with_rows(studies.iter().map(row))))
+    let mut rows = Table::from_rows(caption, studies)
+        .text("study", |study| study.group.key)
+        .text("friction", |study| study.friction.name);
+    for place in places {
+        rows = rows.number(flags[place].flag.replace('-', " "), |study| match study.result.validity.get(place) {
+            Some(flag) if flag.runs > 0 => share_of_runs(flag.share),
+            _ => "none".to_owned(),
+        });
+    }
+    Some(rows.into())
 }

@@ -1,22 +1,19 @@
 //! The figures of the papers as they stand on the page: small, what is alike together.
 
 use super::beside_charts;
-use crate::reproduce::Reproduction;
 use crate::reproduce::figures::{ANIMATION_STEM, Animation, PaperFigure};
+use crate::reproduce::papers::papers;
+use crate::reproduce::{GROUPS, Reproduction};
 use apportion::report::document::{Figure, Link, Part, Section};
-
-/// Figures of both papers that the chart of all friction models stands for, by its stem.
-const SHOWN_TOGETHER: [(&str, [&str; 2]); 3] =
-    [("dimensional", ["chk-10", "lg-4a"]), ("environmental", ["chk-15", "lg-4b"]), ("general", ["chk-16", "lg-4c"])];
 
 /// What the captions of all sweeps have in common.
 const RUNGS: &str = "The curves of CHK and LG are those of the closed formulas. Where a caption says nothing of it, the quasi-static \
                      rung, which solves the equilibrium with exact geometry, differs by less than 0.01 %.";
 
-/// The anchor on the page of the figure with a stem.
+/// The anchor on the page of the figure with a stem: those of shares stand together in the chart of all friction models.
 pub(super) fn anchor(stem: &str) -> &str {
-    let shared = SHOWN_TOGETHER.iter().find(|(_, members)| members.contains(&stem));
-    shared.map_or(stem, |(stem, _)| stem)
+    let figure = papers().figures.iter().find(|figure| figure.stem == stem);
+    figure.and_then(|figure| figure.shares).unwrap_or(stem)
 }
 
 /// The figure that shows the one with a stem.
@@ -34,7 +31,7 @@ pub(super) fn sections(reproduction: &Reproduction) -> Vec<Section> {
         let is_shown = |figure: &&PaperFigure| figure.label.starts_with(paper) && anchor(figure.stem) == figure.stem;
         Part::Gallery(figures.iter().filter(is_shown).map(alone).collect())
     };
-    let together = SHOWN_TOGETHER.iter().filter_map(|(stem, members)| shown_together(figures, stem, members));
+    let together = GROUPS.iter().filter_map(|group| shown_together(figures, group.key));
     let rungs = Part::OnPage(vec![Part::Text(RUNGS.to_owned())]);
     let in_time = [of("TS04")].into_iter().chain(reproduction.animation.as_ref().map(moving)).collect();
     vec![
@@ -72,10 +69,10 @@ fn theirs(figure: &PaperFigure) -> String {
     format!("{paper} shows: {}", figure.theirs)
 }
 
-/// The chart of all friction models with the labels of the figures that it stands for.
-fn shown_together(figures: &[PaperFigure], stem: &str, members: &[&str]) -> Option<Figure> {
-    let figure = figures.iter().find(|figure| figure.stem == stem)?;
-    let members = || figures.iter().filter(|other| members.contains(&other.stem));
+/// The chart of all friction models in a group of studies, with the labels of the figures that it stands for.
+fn shown_together(figures: &[PaperFigure], group: &str) -> Option<Figure> {
+    let figure = figures.iter().find(|figure| figure.stem == group)?;
+    let members = || figures.iter().filter(|other| other.stem != group && anchor(other.stem) == group);
     let labels: Vec<&str> = members().map(|member| member.label.as_str()).collect();
     let beside: Vec<String> = members().map(theirs).collect();
     Some(Figure { label: labels.join(", "), beside: beside.join(" "), ..alone(figure) })

@@ -3,54 +3,58 @@
 mod answers;
 mod constants;
 mod figures;
-mod provenance;
 mod verdicts;
 
 use super::claims::claims_json;
 use super::figures::ANIMATION_STEM;
+use super::papers::papers;
 use super::percentages::{self, percentages_csv};
 use super::shares::shares_table;
-use super::{ReproduceError, Reproduced, Reproduction};
-use apportion::report::document::{DataFile, Document, Part, Section, Table};
+use super::{Effort, Reproduced, Reproduction};
+use apportion::report::document::{DataFile, Document, Part, Report, Section, Table};
+use apportion::report::grouped;
 
 /// The document about `reproduction`; what was not asked for is left out. But for the times in the results, its files are
 /// the same for every run of the same version.
-///
-/// # Errors
-/// [`ReproduceError`] if the claims cannot be written.
-pub fn document(reproduction: &Reproduction) -> Result<Document, ReproduceError> {
-    let before = [answers_section(reproduction), claims_section(reproduction)];
-    let after = [
-        percentages_section(reproduction),
-        shares_section(reproduction),
-        Some(constants::section()),
-        Some(provenance_section(reproduction)),
-    ];
-    let figures = figures::sections(reproduction).into_iter().map(Some);
-    Ok(Document {
+pub fn document(reproduction: &Reproduction) -> Document {
+    let (studies, claims) = (&reproduction.studies, &reproduction.claims);
+    let mut then =
+        vec![Section::new("answers", "Which factor matters most", when(studies, || vec![answers::table(studies)]))];
+    let of_claims = || vec![verdicts::table(claims), verdicts::details(claims, &reproduction.figures)];
+    then.push(Section::new("claims", "Are the papers right?", when(claims, of_claims)));
+    then.extend(figures::sections(reproduction));
+    let rows = &reproduction.percentages;
+    let of_percentages = || vec![Part::List(percentages::summary(rows)), percentages::table(rows)];
+    then.push(Section::new("percentages", "The percentages that LG prints", when(rows, of_percentages)));
+    then.push(Section::new("shares", "All indices and shares", when(studies, || shares(studies))));
+    then.push(constants::section());
+    let report = Report {
         name: "index".to_owned(),
-        kicker: "Reproduction of three papers".to_owned(),
+        kicker: "Reproduction of three papers",
         title: "Which factor decides the force that pushes a nanoparticle?".to_owned(),
         lead: lead(reproduction),
-        sections: before.into_iter().chain(figures).chain(after).flatten().collect(),
-        footer: format!("Made by apportion {}.", env!("CARGO_PKG_VERSION")),
-        charts: figures::files(&reproduction.figures),
-        files: files(reproduction)?,
-    })
+        then,
+        provenance: provenance(reproduction),
+        ..Report::default()
+    };
+    Document { charts: figures::files(&reproduction.figures), files: files(reproduction), ..report.document() }
+}
+
+/// The parts of a section about `all`; none where there are none.
+fn when<T>(all: &[T], parts: impl FnOnce() -> Vec<Part>) -> Vec<Part> {
+    if all.is_empty() { Vec::new() } else { parts() }
 }
 
 /// The files for programs: results, claims and percentages, and the numbers of every figure. Two tables of the page are
 /// files too: the claims and the shares.
-fn files(reproduction: &Reproduction) -> Result<Vec<DataFile>, ReproduceError> {
+fn files(reproduction: &Reproduction) -> Vec<DataFile> {
     let mut files = Vec::new();
     let mut add = |name: String, text: String| files.push(DataFile { name, text });
     for study in &reproduction.studies {
         add(format!("{}-{}.json", study.friction.key, study.group.key), study.result.json());
     }
     if !reproduction.claims.is_empty() {
-        add("claims.json".to_owned(), claims_json(&reproduction.claims)?);
-    }
-    if !reproduction.percentages.is_empty() {
+        add("claims.json".to_owned(), claims_json(&reproduction.claims));
         add("percentages.csv".to_owned(), percentages_csv(&reproduction.percentages));
     }
     if let Some(animation) = &reproduction.animation {
@@ -61,7 +65,7 @@ fn files(reproduction: &Reproduction) -> Result<Vec<DataFile>, ReproduceError> {
     for figure in &reproduction.figures {
         add(beside_charts(figure.stem, "csv"), figure.csv.clone());
     }
-    Ok(files)
+    files
 }
 
 /// A file beside those of the chart called `stem`.
@@ -69,67 +73,57 @@ fn beside_charts(stem: &str, ending: &str) -> String {
     format!("charts/{stem}.{ending}")
 }
 
-/// The papers in full, before their initials are used.
-const PAPERS: &str = "The papers are TS04: A. Tafazzoli and M. Sitti (2004), “Dynamic behavior and simulation of nanoparticles sliding \
-                      during nanoprobe-based positioning”, ASME IMECE; CHK: “Sensitivity Analysis of Coulomb and HK Friction \
-                      Models in 2D AFM-Based Nano-Manipulation: Sobol Method”, whose authors are not printed in our copy; and LG: \
-                      M. H. Korayem, M. Taheri and Z. Rastegar, “Sobol method application in sensitivity analysis of LuGre \
-                      friction model during 2D manipulation”, Scientia Iranica, Transactions B (accepted 4 November 2013).";
-
 fn lead(reproduction: &Reproduction) -> Vec<String> {
     let mut lead: Vec<String> = answers::paragraph(&reproduction.studies).into_iter().collect();
-    lead.push(PAPERS.to_owned());
+    lead.push(papers().cited.to_owned());
     if !reproduction.claims.is_empty() {
         lead.push(verdicts::sentence(&reproduction.claims));
     }
     lead
 }
 
-fn answers_section(reproduction: &Reproduction) -> Option<Section> {
-    let table = || Part::Table(answers::table(&reproduction.studies));
-    (!reproduction.studies.is_empty()).then(|| Section::new("answers", "Which factor matters most", vec![table()]))
-}
-
-fn claims_section(reproduction: &Reproduction) -> Option<Section> {
-    if reproduction.claims.is_empty() {
-        return None;
-    }
-    let details = verdicts::details(&reproduction.claims, &reproduction.figures);
-    let parts = vec![verdicts::table(&reproduction.claims).into(), Part::OnPage(vec![details])];
-    Some(Section::new("claims", "Are the papers right?", parts))
-}
-
-fn percentages_section(reproduction: &Reproduction) -> Option<Section> {
-    let rows = &reproduction.percentages;
-    if rows.is_empty() {
-        return None;
-    }
-    let parts = vec![Part::List(percentages::summary(rows)), Part::Table(percentages::table(rows))];
-    Some(Section::new("percentages", "The percentages that LG prints", parts))
-}
-
-fn shares_section(reproduction: &Reproduction) -> Option<Section> {
-    let studies = &reproduction.studies;
-    if studies.is_empty() {
-        return None;
-    }
+/// The tables of all indices, then what a careful reader should know.
+fn shares(studies: &[Reproduced]) -> Vec<Part> {
     let table = shares_table(&studies.iter().collect::<Vec<&Reproduced>>());
     let table = Table { file: "shares.csv".to_owned(), ..table };
-    let mut parts = vec![Part::Details {
-        summary: "The indices and shares of every study".to_owned(),
-        parts: vec![Part::Table(table)],
-    }];
-    parts.extend(answers::validity(studies).map(|table| Part::Details {
-        summary: "How many runs lie outside the range of a theory".to_owned(),
-        parts: vec![table],
-    }));
+    let folded = |summary: &str, part| Part::Details { summary: summary.to_owned(), parts: vec![part] };
+    let mut parts = vec![folded("The indices and shares of every study", table.into())];
+    let validity = answers::validity(studies);
+    parts.extend(validity.map(|table| folded("How many runs lie outside the range of a theory", table)));
     let cautions = answers::cautions(studies);
-    if !cautions.is_empty() {
-        parts.push(Part::List(cautions));
-    }
-    Some(Section::new("shares", "All indices and shares", parts))
+    parts.extend((!cautions.is_empty()).then_some(Part::List(cautions)));
+    parts
 }
 
-fn provenance_section(reproduction: &Reproduction) -> Section {
-    Section::new("provenance", "How this page was made", vec![Part::OnPage(vec![provenance::table(reproduction)])])
+/// Designs, estimators, intervals and cost.
+fn provenance(reproduction: &Reproduction) -> Vec<(&'static str, String)> {
+    let effort = match reproduction.effort {
+        Effort::Full => "full",
+        Effort::Quick => "quick: fewer points and repetitions, wider intervals",
+    };
+    let numbers = "the same on every machine and for any number of threads; only the times differ";
+    let mut rows = vec![("effort", effort.to_owned()), ("numbers", numbers.to_owned())];
+    if let Some(study) = reproduction.studies.first() {
+        let of = &study.result.provenance;
+        rows.extend([
+            (
+                "design",
+                format!(
+                    "{} points, {} base samples in {} replicates, seed {}",
+                    of.sampler, of.base_samples, of.replicates, of.seed
+                ),
+            ),
+            ("first-order estimator", of.first_order_estimator.clone()),
+            ("total estimator", of.total_estimator.clone()),
+        ]);
+        rows.extend(of.interval.clone().map(|words| ("95 % intervals", words)));
+        if !study.result.study.overrides.is_empty() {
+            rows.push(("changes on the command line", study.result.study.overrides.join(", ")));
+        }
+        let all = || reproduction.studies.iter().map(|study| &study.result.provenance);
+        let (runs, seconds) = (all().map(|of| of.model_runs).sum(), all().map(|of| of.wall_seconds).sum::<f64>());
+        let cost = format!("{} model runs in {seconds:.2} s on {} threads", grouped(runs), of.threads);
+        rows.push(("cost of the studies", cost));
+    }
+    rows
 }

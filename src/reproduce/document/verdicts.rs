@@ -3,8 +3,7 @@
 use super::figures::{anchor, label};
 use crate::reproduce::claims::{Claim, Verdict};
 use crate::reproduce::figures::PaperFigure;
-use apportion::report::csv::Field;
-use apportion::report::document::{Cell, Column, Link, Mark, OnPhone, Part, Table};
+use apportion::report::document::{Cell, Link, Mark, OnPhone, Part, Table};
 
 /// The word and the look of a verdict.
 fn badge(verdict: &Verdict) -> Cell {
@@ -17,58 +16,46 @@ fn badge(verdict: &Verdict) -> Cell {
 }
 
 /// The table of verdicts, a line or two each; all of every claim as CSV.
-pub(super) fn table(claims: &[Claim]) -> Table {
-    let row = |claim: &Claim| -> Vec<Cell> {
+pub(super) fn table(claims: &[Claim]) -> Part {
+    let verdict = |claim: &Claim| {
         let own = claim.verdict.own();
         let note = if own.is_empty() { String::new() } else { format!("by the paper's own {own}") };
-        vec![
-            claim.number.to_string().into(),
-            claim.source.into(),
-            Cell::valued(format!("{} ({})", claim.statement, claim.source), claim.statement.into()),
-            Cell { note, ..badge(&claim.verdict) },
-            own.into(),
-            (&claim.range).into(),
-            (&claim.finding).into(),
-            (&claim.setting).into(),
-            claim.figures.join(" ").into(),
-        ]
+        Cell { note, ..badge(&claim.verdict) }
     };
     let caption = "Each claim of the papers, and our answer, as the paper shows it (at its figure's scene, with its \
                    constants) and over the whole ranges of the general study.";
-    let in_file = |name: &str| Column::in_file(Field::new(name));
-    let printed = |heading: &str, name: &str| Column::text(heading).named(Field::new(name));
-    let columns = [
-        printed("", "number"),
-        in_file("source"),
-        printed("claim", "statement"),
-        printed("as the paper shows it", "verdict"),
-        in_file("own"),
-        printed("over the whole ranges", "range"),
-        in_file("finding"),
-        in_file("setting"),
-        in_file("figures"),
-    ];
-    let table = Table::new(caption, columns).with_rows(claims.iter().map(row));
-    Table { on_phone: OnPhone::Stack, file: "claims.csv".to_owned(), ..table }
+    let rows = Table::from_rows(caption, claims)
+        .text("", |claim| claim.number.to_string())
+        .named("number")
+        .file("source", |claim| claim.source)
+        .text("claim", |claim| format!("{} ({})", claim.statement, claim.source))
+        .value("statement", |claim| claim.statement)
+        .text("as the paper shows it", verdict)
+        .named("verdict")
+        .file("own", |claim| claim.verdict.own())
+        .text("over the whole ranges", |claim| &claim.range)
+        .named("range")
+        .file("finding", |claim| &claim.finding)
+        .file("setting", |claim| &claim.setting)
+        .file("figures", |claim| claim.figures.join(" "));
+    Table { on_phone: OnPhone::Stack, file: "claims.csv".to_owned(), ..rows.into() }.into()
 }
 
 /// Our figures for every claim, the setting they hold in, and the figures of the page that show it.
 pub(super) fn details(claims: &[Claim], figures: &[PaperFigure]) -> Part {
-    let row = |claim: &Claim| {
+    let links = |claim: &Claim| {
         let shown = claim.figures.iter().filter_map(|stem| Some((label(figures, stem)?, anchor(stem))));
-        let links = shown.map(|(label, anchor)| Link::new(label, format!("#{anchor}")));
-        vec![
-            Cell { links: links.collect(), ..Cell::from(claim.number.to_string()) },
-            Cell { note: claim.setting.clone(), ..Cell::from(&claim.finding) },
-        ]
+        shown.map(|(label, anchor)| Link::new(label, format!("#{anchor}"))).collect()
     };
-    let columns = Column::list(2, &["claim", "our figures, and the setting they hold in"]);
-    let table = Table::new("What the verdicts rest on.", columns).with_rows(claims.iter().map(row));
-    let table = Table { on_phone: OnPhone::Stack, ..table };
-    Part::Details {
-        summary: "Our figures for every claim, and the settings they hold in".to_owned(),
-        parts: vec![Part::Table(table)],
-    }
+    let rows = Table::from_rows("What the verdicts rest on.", claims)
+        .text("claim", |claim| Cell { links: links(claim), ..Cell::from(claim.number.to_string()) })
+        .text("our figures, and the setting they hold in", |claim| Cell {
+            note: claim.setting.clone(),
+            ..Cell::from(&claim.finding)
+        });
+    let summary = "Our figures for every claim, and the settings they hold in".to_owned();
+    let table = Table { on_phone: OnPhone::Stack, ..rows.into() };
+    Part::OnPage(vec![Part::Details { summary, parts: vec![table.into()] }])
 }
 
 /// `Of 25 answers to the papers' 20 claims, 14 are reproduced, 8 are not, and 3 are contradicted ...`.
@@ -102,7 +89,9 @@ mod tests {
             setting: "S".into(),
             figures: &["ts04-11", "chk-5"],
         };
-        let text = table(&[claim.clone(), Claim { verdict: Verdict::NotReproduced, ..claim }]).csv();
+        let both = [claim.clone(), Claim { verdict: Verdict::NotReproduced, ..claim }];
+        let Part::Table(table) = table(&both) else { panic!("a table") };
+        let text = table.csv();
         let mut reader = csv::Reader::from_reader(text.as_bytes());
         let rows: Vec<csv::StringRecord> = reader.records().map(Result::unwrap).collect();
         assert_eq!(rows.len(), 2);

@@ -1,12 +1,13 @@
 //! The scene in time: CHK figure 5 and the histories of TS04.
 
-use super::table::Table;
-use super::{Drawn, FiguresError};
+use super::Drawn;
+use crate::reproduce::ReproduceError;
 use crate::scene::charts::{contacts, forces, positions, pushing};
 use crate::scene::simulation::scene_story;
-use crate::scene::{SceneSample, SceneStory};
+use crate::scene::{SceneSample, SceneStory, player_page, scene_json, scene_number, scene_table};
 use apportion::afm::{Failure, FrictionLaw, Options, Scene};
 use apportion::report::chart::{Axis, Chart, Colour, Mark, Panel, Series, Stroke};
+use apportion::report::document::{Rows, Table};
 use apportion::report::format::{force, length, time};
 use apportion::report::listed;
 
@@ -35,60 +36,47 @@ fn printed(law: FrictionLaw) -> Result<SceneStory, Failure> {
     story(law, |scene| scene.shear_modulus = Some(PRINTED_SHEAR_MODULUS))
 }
 
+/// The forces on the tip, as columns of scenes.
+const FORCES: [&str; 3] = ["tip_force_nN", "lateral_force_nN", "normal_force_nN"];
+/// The relative position.
+const RELATIVE: &str = "relative_position_nm";
+
 /// TS04 figure 8.
-pub(super) fn forces_in_time() -> Result<Drawn, FiguresError> {
+pub(super) fn forces_in_time() -> Result<Drawn, ReproduceError> {
     let story = coulomb()?;
-    Ok((forces(&story), table(&story, &[TIP_FORCE, LATERAL_FORCE, NORMAL_FORCE]).csv()))
+    Ok((forces(&story), table("", &[("", &story)], &FORCES).csv()))
 }
 
 /// TS04 figure 9.
-pub(super) fn tip_force() -> Result<Drawn, FiguresError> {
+pub(super) fn tip_force() -> Result<Drawn, ReproduceError> {
     let story = coulomb()?;
-    let critical = story.samples.iter().map(|_| NANO * story.critical.critical_force);
-    Ok((pushing(&story), table(&story, &[TIP_FORCE]).with("critical_force_nN", critical).csv()))
+    let critical = NANO * story.critical.critical_force;
+    Ok((pushing(&story), table("", &[("", &story)], &FORCES[..1]).file("critical_force_nN", |_| critical).csv()))
 }
 
 /// TS04 figure 13.
-pub(super) fn contact_areas() -> Result<Drawn, FiguresError> {
+pub(super) fn contact_areas() -> Result<Drawn, ReproduceError> {
     let story = coulomb()?;
-    let columns = [TIP_RADIUS, SUBSTRATE_RADIUS, TIP_INDENTATION, SUBSTRATE_INDENTATION];
-    Ok((contacts(&story), table(&story, &columns).csv()))
+    let columns =
+        ["tip_contact_radius_nm", "substrate_contact_radius_nm", "tip_indentation_nm", "substrate_indentation_nm"];
+    Ok((contacts(&story), table("", &[("", &story)], &columns).csv()))
 }
 
-/// A column's name with its unit, and what stands in it.
-type Column = (&'static str, fn(&SceneSample) -> f64);
-
-const TIP_FORCE: Column = ("tip_force_nN", |s| NANO * s.tip_force);
-const LATERAL_FORCE: Column = ("lateral_force_nN", |s| NANO * s.lateral_force);
-const NORMAL_FORCE: Column = ("normal_force_nN", |s| NANO * s.normal_force);
-const SUBSTRATE: Column = ("substrate_position_nm", |s| NANO * s.substrate);
-const PARTICLE: Column = ("particle_position_nm", |s| NANO * s.particle);
-const RELATIVE: Column = ("relative_position_nm", |s| NANO * s.relative);
-const BASE: Column = ("tip_base_position_nm", |s| NANO * s.lateral_deflection);
-const TIP_RADIUS: Column = ("tip_contact_radius_nm", |s| NANO * s.tip_contact_radius());
-const SUBSTRATE_RADIUS: Column = ("substrate_contact_radius_nm", |s| NANO * s.substrate_contact.radius);
-const TIP_INDENTATION: Column = ("tip_indentation_nm", |s| NANO * s.tip_indentation());
-const SUBSTRATE_INDENTATION: Column = ("substrate_indentation_nm", |s| NANO * s.substrate_contact.indentation);
-
-fn table(story: &SceneStory, columns: &[Column]) -> Table {
-    let start = Table::default().with("time_s", story.samples.iter().map(|sample| sample.time));
-    columns.iter().fold(start, |table, (name, read)| table.with(name, story.samples.iter().map(read)))
-}
-
-/// Stories one below the other, distinguished by their first column.
-fn stacked(first: &str, stories: &[(String, &SceneStory)], columns: &[Column]) -> String {
-    let samples = || stories.iter().flat_map(|(_, story)| &story.samples);
-    let names = stories.iter().flat_map(|(name, story)| story.samples.iter().map(move |_| name.as_str()));
-    let start = Table::default().with_words(first, names).with("time_s", samples().map(|sample| sample.time));
-    columns.iter().fold(start, |table, (name, read)| table.with(name, samples().map(read))).csv()
+/// These columns of stories one below the other; with several stories, which the column `first` tells apart.
+fn table<'a>(first: &str, stories: &[(&'a str, &'a SceneStory)], columns: &[&str]) -> Rows<(&'a str, &'a SceneSample)> {
+    let rows = stories.iter().flat_map(|&(name, story)| story.samples.iter().map(move |sample| (name, sample)));
+    let rows = Table::from_rows("", rows);
+    let rows = if first.is_empty() { rows } else { rows.file(first, |(name, _)| name) };
+    let columns = ["time_s"].iter().chain(columns);
+    columns.fold(rows, |rows, name| rows.file(*name, |(_, sample)| scene_number(name, sample)))
 }
 
 fn line(name: String, look: (Colour, Stroke), points: Vec<(f64, f64)>) -> Mark {
     Series::new(name, look.0).stroke(look.1).line(points)
 }
 
-fn curve(story: &SceneStory, read: impl Fn(&SceneSample) -> f64) -> Vec<(f64, f64)> {
-    story.samples.iter().map(|sample| (sample.time, read(sample))).collect()
+fn curve(story: &SceneStory, column: &str) -> Vec<(f64, f64)> {
+    story.samples.iter().map(|sample| (sample.time, scene_number(column, sample))).collect()
 }
 
 /// When the particle slips, said in s.
@@ -97,16 +85,17 @@ fn slip(story: &SceneStory) -> String {
 }
 
 /// CHK figure 5.
-pub(super) fn two_laws() -> Result<Drawn, FiguresError> {
+pub(super) fn two_laws() -> Result<Drawn, ReproduceError> {
     let (coulomb, hk) = (coulomb()?, story(FrictionLaw::HurtadoKim, |_| ())?);
     let printed = [printed(FrictionLaw::HurtadoKim)?, printed(FrictionLaw::Coulomb)?];
     let laws = [(&coulomb, "Coulomb", Stroke::Solid), (&hk, "Hurtado-Kim", Stroke::Dashed)];
     let tip_force = |&(story, name, stroke): &(&SceneStory, &str, Stroke)| {
-        line(format!("{name}, tip force"), (story.colour, stroke), curve(story, TIP_FORCE.1))
+        line(format!("{name}, tip force"), (story.colour, stroke), curve(story, FORCES[0]))
     };
     let level = |&(story, name, _): &(&SceneStory, &str, Stroke)| {
         let critical = NANO * story.critical.critical_force;
-        line(format!("{name}, critical force"), (story.colour, Stroke::Dotted), curve(story, |_| critical))
+        let level = story.samples.iter().map(|sample| (sample.time, critical)).collect();
+        line(format!("{name}, critical force"), (story.colour, Stroke::Dotted), level)
     };
     let lines = laws.iter().map(tip_force).chain(laws.iter().map(level));
     let rules = laws.iter().map(|(story, name, _)| Mark::rule(story.critical_time, format!("slip, {name}")));
@@ -124,18 +113,18 @@ pub(super) fn two_laws() -> Result<Drawn, FiguresError> {
         slip(&printed[0]),
         slip(&printed[1]),
     );
-    let both = [("coulomb".to_owned(), &coulomb), ("hk".to_owned(), &hk)];
+    let both = [("coulomb", &coulomb), ("hk", &hk)];
     let chart = Chart::new("Tip force against time", caption).panels([panel]);
-    Ok((chart, stacked("friction", &both, &[TIP_FORCE, LATERAL_FORCE, NORMAL_FORCE])))
+    Ok((chart, table("friction", &both, &FORCES).csv()))
 }
 
 /// TS04 figure 10, with the relative position at the printed shear modulus beside ours.
-pub(super) fn displacement() -> Result<Drawn, FiguresError> {
+pub(super) fn displacement() -> Result<Drawn, ReproduceError> {
     let (story, printed) = (coulomb()?, printed(FrictionLaw::Coulomb)?);
     let ours = positions(&story);
     let modulus = PRINTED_SHEAR_MODULUS / 1e9;
     let look = (Colour::Series(4), Stroke::Dashed);
-    let other = line(format!("the same with G = {modulus} GPa as printed"), look, curve(&printed, RELATIVE.1));
+    let other = line(format!("the same with G = {modulus} GPa as printed"), look, curve(&printed, RELATIVE));
     let end = printed.samples.last().map_or(f64::NAN, |end| end.relative);
     let caption = format!(
         "{}, and {} if the shear modulus is the {modulus} GPa that the papers print, with which it slips {}.",
@@ -148,27 +137,29 @@ pub(super) fn displacement() -> Result<Drawn, FiguresError> {
         // After its own line, the third of the chart.
         panel.marks.insert(panel.marks.len().min(3), other);
     }
-    let both = [("E/(2(1+nu))".to_owned(), &story), (format!("{modulus} GPa"), &printed)];
-    let csv = stacked("shear_modulus", &both, &[SUBSTRATE, PARTICLE, RELATIVE, BASE]);
-    Ok((Chart::new(ours.title(), caption).panels(panels), csv))
+    let as_printed = format!("{modulus} GPa");
+    let both = [("E/(2(1+nu))", &story), (&as_printed, &printed)];
+    let rows = table("shear_modulus", &both, &["substrate_position_nm", "particle_position_nm", RELATIVE]);
+    let rows = rows.file("tip_base_position_nm", |(_, sample)| NANO * sample.lateral_deflection);
+    Ok((Chart::new(ours.title(), caption).panels(panels), rows.csv()))
 }
 
 /// TS04 figure 11.
-pub(super) fn coefficients() -> Result<Drawn, FiguresError> {
+pub(super) fn coefficients() -> Result<Drawn, ReproduceError> {
     // All follow one line until they slip: in this order each is seen.
     let runs = COEFFICIENTS.map(|coefficient| story(FrictionLaw::Coulomb, |scene| scene.static_friction = coefficient));
     let runs = runs.into_iter().collect::<Result<Vec<_>, _>>()?;
     let nominal = Scene::default().static_friction;
     let others = [1, 4, 5, 6].map(Colour::Series);
-    let panel = |label: &str, unit: &str, read: fn(&SceneSample) -> f64| {
+    let panel = |label: &str, unit: &str, column: &str| {
         let each = runs.iter().zip(COEFFICIENTS).zip(others);
         let lines = each.map(|((story, coefficient), other)| {
             let colour = if coefficient == nominal { story.colour } else { other };
-            line(format!("μ_s = {coefficient}"), (colour, Stroke::Solid), curve(story, read))
+            line(format!("μ_s = {coefficient}"), (colour, Stroke::Solid), curve(story, column))
         });
         Panel::new(Axis::new("Time", "s"), Axis::new(label, unit)).with(lines)
     };
-    let panels = [panel("Tip force F_T", "nN", TIP_FORCE.1), panel("Position on the substrate", "nm", RELATIVE.1)];
+    let panels = [panel("Tip force F_T", "nN", FORCES[0]), panel("Position on the substrate", "nm", RELATIVE)];
     let mut times: Vec<(f64, f64)> =
         COEFFICIENTS.into_iter().zip(&runs).map(|(mu, story)| (mu, story.critical_time)).collect();
     times.reverse();
@@ -179,7 +170,32 @@ pub(super) fn coefficients() -> Result<Drawn, FiguresError> {
     } else {
         "The particle slips"
     };
-    let stories: Vec<(String, &SceneStory)> = COEFFICIENTS.iter().map(|mu| mu.to_string()).zip(&runs).collect();
+    let names = COEFFICIENTS.map(|coefficient| coefficient.to_string());
+    let stories: Vec<(&str, &SceneStory)> = names.iter().map(String::as_str).zip(&runs).collect();
     let chart = Chart::new("Effect of the coefficient of friction", format!("{seen}: after {}.", listed(&slips)));
-    Ok((chart.panels(panels), stacked("static_friction", &stories, &[TIP_FORCE, RELATIVE])))
+    Ok((chart.panels(panels), table("static_friction", &stories, &[FORCES[0], RELATIVE]).csv()))
+}
+
+/// Name of the animation's files without extension.
+pub const ANIMATION_STEM: &str = "ts04-14-animation";
+
+/// The moving version of TS04 figure 14, with its data.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Animation {
+    /// A whole page that needs nothing else.
+    pub html: String,
+    /// Every state.
+    pub csv: String,
+    /// The same, with setting and geometry, in the format `apportion-scene`.
+    pub json: String,
+}
+
+/// The nominal scene under Coulomb friction as a page with an animation. Its charts are among the
+/// [`figures`](super::figures).
+///
+/// # Errors
+/// [`ReproduceError`] if the scene has no answer, or the page cannot be rendered.
+pub fn animation() -> Result<Animation, ReproduceError> {
+    let story = story(FrictionLaw::Coulomb, |_| ())?;
+    Ok(Animation { html: player_page(&story), csv: scene_table(&story).csv(), json: scene_json(&story) })
 }

@@ -4,29 +4,21 @@
 //! take the ranges of the papers' studies and leave everything else at the defaults; the histories are those of the
 //! nominal scene. Nothing here is typed in but what the papers say: captions are computed from what is drawn.
 
-mod animation;
 mod curve;
 mod history;
-mod list;
 mod modes;
 mod shares;
 mod sweep;
-mod table;
 #[cfg(test)]
 mod tests;
 
-use thiserror::Error;
-
-pub use animation::{ANIMATION_STEM, Animation, animation};
+pub use history::{ANIMATION_STEM, Animation, animation};
 
 use rayon::prelude::*;
 
-use super::{Effort, Reproduced, general_study};
-use apportion::afm::Failure;
+use super::papers::{PrintedFigure, papers};
+use super::{Effort, ReproduceError, Reproduced, general_study};
 use apportion::report::chart::Chart;
-use apportion::study::StudyError;
-use apportion::sweep::SweepError;
-use list::{FIGURES, Ours};
 
 /// One figure of the papers, from our computation.
 #[derive(Clone, Debug, PartialEq)]
@@ -43,47 +35,43 @@ pub struct PaperFigure {
     pub csv: String,
 }
 
-/// Why the figures cannot be made. At the defaults of the papers none of this happens.
-#[derive(Debug, Error)]
-pub enum FiguresError {
-    /// A scene has no answer.
-    #[error("a scene of the papers' figures has no answer: {0}")]
-    Scene(#[from] Failure),
-    /// The study that gives the ranges cannot be read.
-    #[error(transparent)]
-    Study(#[from] StudyError),
-    /// A factor cannot be swept.
-    #[error(transparent)]
-    Sweep(#[from] SweepError),
-    /// The model has no such input.
-    #[error("the nanoparticle model has no parameter `{name}`")]
-    NoParameter {
-        /// Its name.
-        name: &'static str,
-    },
-}
-
 /// Every figure, in the order of the papers: CHK, LG, TS04, then each group of studies with all friction models side by
 /// side. The charts of shares are made of `studies`; those of a group of which none was run are left out. The same on
 /// every run and any number of threads.
 ///
 /// # Errors
-/// [`FiguresError`] if a scene has no answer.
-pub fn figures(studies: &[Reproduced], effort: Effort) -> Result<Vec<PaperFigure>, FiguresError> {
+/// [`ReproduceError`] if a scene has no answer.
+pub fn figures(studies: &[Reproduced], effort: Effort) -> Result<Vec<PaperFigure>, ReproduceError> {
     let general = general_study()?;
-    let draw = |&(stem, ref ours, theirs): &(&'static str, Ours, &'static str)| {
-        let drawn = match ours {
-            Ours::Sweep(figure) => figure.drawn(general.space(), effort).map(Some),
-            Ours::Scene(drawn) => drawn().map(Some),
-            Ours::Shares(group, is_shown) => Ok(shares::drawn(group, *is_shown, studies)),
+    let draw = |figure: &'static PrintedFigure| {
+        let stem = figure.stem;
+        let drawn = match (figure.factor, figure.shares) {
+            (Some(factor), _) => sweep::drawn(figure, factor, general.space(), effort).map(Some),
+            (None, Some(group)) => Ok(shares::drawn(group, stem, studies)),
+            (None, None) => SCENES.iter().find(|(scene, _)| *scene == stem).map(|(_, drawn)| drawn()).transpose(),
         };
-        drawn.map(|drawn| drawn.map(|(chart, csv)| PaperFigure { stem, label: label(stem), theirs, chart, csv }))
+        let ours = |(chart, csv)| PaperFigure { stem, label: label(stem), theirs: figure.shows, chart, csv };
+        drawn.map(|drawn| drawn.map(ours))
     };
-    FIGURES.par_iter().filter_map(|figure| draw(figure).transpose()).collect()
+    papers().figures.par_iter().filter_map(|figure| draw(figure).transpose()).collect()
 }
 
 /// A chart with its data as CSV.
 type Drawn = (Chart, String);
+/// Draws a figure of the nominal scene.
+type Draw = fn() -> Result<Drawn, ReproduceError>;
+
+/// The figures of the nominal scene by their stems.
+const SCENES: [(&str, Draw); 8] = [
+    ("chk-5", history::two_laws),
+    ("ts04-8", history::forces_in_time),
+    ("ts04-9", history::tip_force),
+    ("ts04-10", history::displacement),
+    ("ts04-11", history::coefficients),
+    ("ts04-12", modes::against_force_angle),
+    ("ts04-12-contact-angle", modes::against_contact_angle),
+    ("ts04-13", history::contact_areas),
+];
 
 /// What the papers call the figure with a stem: `CHK fig. 6`, `TS04 fig. 12, contact angle`.
 fn label(stem: &str) -> String {

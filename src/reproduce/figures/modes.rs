@@ -1,13 +1,13 @@
 //! TS04 figure 12: what moves the particle in which way, against the angle of the force and of the contact.
 
-use super::table::Table;
-use super::{Drawn, FiguresError};
-use crate::reproduce::COULOMB;
+use super::Drawn;
+use crate::reproduce::ReproduceError;
 use crate::scene::simulation::{pushing, scene_modes};
-use crate::scene::{ModeDiagram, mode_diagram_chart};
+use crate::scene::{ModeDiagram, law_colour, mode_diagram_chart};
 use apportion::afm::modes::Mode;
-use apportion::afm::{Failure, Options, Scene, critical_force};
+use apportion::afm::{Failure, FrictionLaw, Options, Scene, critical_force};
 use apportion::report::chart::{Axis, Chart, Colour, Mark, Panel, Series, Spacing, Stroke};
+use apportion::report::document::Table;
 use apportion::report::format::{force, three_digits as short};
 
 const NANO: f64 = 1e9;
@@ -17,18 +17,19 @@ const CONTACT_ANGLES: (f64, f64) = (40.0, 70.0);
 const STEPS: u32 = 120;
 
 /// TS04 figure 12.
-pub(super) fn against_force_angle() -> Result<Drawn, FiguresError> {
+pub(super) fn against_force_angle() -> Result<Drawn, ReproduceError> {
     let diagram = scene_modes(&Scene::default(), &Options::default())?;
     let mut chart = mode_diagram_chart(&diagram);
     if let Some(said) = sliding(&diagram) {
         chart.set_caption(format!("{}; {said}.", chart.caption().trim_end_matches('.')));
     }
-    let mut table = Table::default().with("force_angle_deg", diagram.angle.iter().map(|angle| angle.to_degrees()));
+    let angle = |row: usize| diagram.angle[row].to_degrees();
+    let mut rows = Table::from_rows("", 0..diagram.angle.len()).file("force_angle_deg", angle);
     for line in &diagram.forces {
-        let column = format!("{}_nN", line.mode.replace('-', "_"));
-        table = table.with(&column, line.force.iter().map(|force| NANO * force.unwrap_or(f64::NAN)));
+        let name = format!("{}_nN", line.mode.replace('-', "_"));
+        rows = rows.file(name, |row| line.force[row].map(|force| NANO * force));
     }
-    Ok((chart, table.csv()))
+    Ok((chart, rows.csv()))
 }
 
 /// How the force of sliding goes with the angle.
@@ -61,7 +62,7 @@ struct Against {
 }
 
 /// The same against the angle of the contact.
-pub(super) fn against_contact_angle() -> Result<Drawn, FiguresError> {
+pub(super) fn against_contact_angle() -> Result<Drawn, ReproduceError> {
     let (from, to) = CONTACT_ANGLES;
     let degrees: Vec<f64> = (0..=STEPS).map(|i| from + (to - from) * f64::from(i) / f64::from(STEPS)).collect();
     let over = |read: &dyn Fn(Scene) -> Result<Option<f64>, Failure>| {
@@ -71,36 +72,25 @@ pub(super) fn against_contact_angle() -> Result<Drawn, FiguresError> {
     let options = Options::default();
     let psi = critical_force(&Scene::default(), &options)?.force_angle();
     let at = |scene: Scene, mode, angle| pushing(scene, &options).critical_tip_force(mode, angle);
-    let own = |mode: Mode, colour| -> Result<Against, Failure> {
-        Ok(Against {
-            key: format!("{}_nN", mode.name().replace('-', "_")),
-            name: format!("{}, force at ψ = {}°", mode.name(), short(psi.to_degrees())),
-            look: (colour, Stroke::Solid),
-            force: over(&|scene| at(scene, mode, psi))?,
-        })
-    };
-    let lines = [
-        Against {
-            key: "critical_force_nN".to_owned(),
-            name: "critical force F_cr of the scene".to_owned(),
-            look: (COULOMB, Stroke::Solid),
-            force: over(&|scene| Ok(Some(critical_force(&scene, &options)?.critical_force)))?,
-        },
-        Against {
-            key: "slide_along_contact_nN".to_owned(),
-            name: "slide, force along the contact (ψ = φ)".to_owned(),
-            look: (COULOMB, Stroke::Dashed),
-            force: over(&|scene| at(scene, Mode::Slide, scene.contact_angle))?,
-        },
-        own(Mode::TipSlip, Colour::Series(1))?,
-        own(Mode::Roll, Colour::Series(4))?,
-        own(Mode::Spin, Colour::Series(5))?,
+    let line =
+        |key: &str, name: &str, look, force| Against { key: format!("{key}_nN"), name: name.to_owned(), look, force };
+    let (colour, degrees_of_psi) = (law_colour(FrictionLaw::Coulomb), short(psi.to_degrees()));
+    let own = over(&|scene| Ok(Some(critical_force(&scene, &options)?.critical_force)))?;
+    let along = over(&|scene| at(scene, Mode::Slide, scene.contact_angle))?;
+    let mut lines = vec![
+        line("critical_force", "critical force F_cr of the scene", (colour, Stroke::Solid), own),
+        line("slide_along_contact", "slide, force along the contact (ψ = φ)", (colour, Stroke::Dashed), along),
     ];
-    let mut table = Table::default().with("contact_angle_deg", degrees.iter().copied());
-    for line in &lines {
-        table = table.with(&line.key, line.force.iter().map(|force| NANO * force.unwrap_or(f64::NAN)));
+    for (mode, colour) in [(Mode::TipSlip, 1), (Mode::Roll, 4), (Mode::Spin, 5)] {
+        let (key, name) = (mode.name().replace('-', "_"), format!("{}, force at ψ = {degrees_of_psi}°", mode.name()));
+        let force = over(&|scene| at(scene, mode, psi))?;
+        lines.push(line(&key, &name, (Colour::Series(colour), Stroke::Solid), force));
     }
-    Ok((chart(&degrees, &lines), table.csv()))
+    let mut rows = Table::from_rows("", 0..degrees.len()).file("contact_angle_deg", |row| degrees[row]);
+    for line in &lines {
+        rows = rows.file(&line.key, |row| line.force[row].map(|force| NANO * force));
+    }
+    Ok((chart(&degrees, &lines), rows.csv()))
 }
 
 fn chart(degrees: &[f64], lines: &[Against]) -> Chart {

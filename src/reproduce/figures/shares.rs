@@ -1,6 +1,7 @@
 //! The charts of shares, from the studies that were run.
 
 use super::Drawn;
+use crate::reproduce::papers::PRINTED;
 use crate::reproduce::shares::{indices, ranked, shares_table};
 use crate::reproduce::{Reproduced, StudyGroup, published};
 use apportion::report::chart::{Chart, Series};
@@ -8,8 +9,13 @@ use apportion::report::format::words;
 use apportion::report::{SharesSeries, listed, shares_chart};
 use apportion::result::IndexRecord;
 
-/// The shares in the studies of a group under these friction models; nothing if none of them was run.
-pub(super) fn drawn(group: &str, is_shown: fn(&str) -> bool, studies: &[Reproduced]) -> Option<Drawn> {
+/// The shares in the studies of a group under the friction models of the paper that the figure `stem` is of, or under all;
+/// nothing if none of them was run.
+pub(super) fn drawn(group: &str, stem: &str, studies: &[Reproduced]) -> Option<Drawn> {
+    let is_shown = |friction: &str| match stem.split_once('-') {
+        Some((paper, _)) => (paper == "lg") == (friction == PRINTED),
+        None => true,
+    };
     let is_member = |study: &&Reproduced| study.group.key == group && is_shown(study.friction.key);
     let members: Vec<&Reproduced> = studies.iter().filter(is_member).collect();
     let group = members.first()?.group;

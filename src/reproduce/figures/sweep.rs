@@ -2,13 +2,12 @@
 
 use rayon::prelude::*;
 
-use super::FiguresError;
 use super::curve::{Curve, crossing};
-use super::list::{Line, SweepFigure, Variant};
-use super::table::Table;
-use crate::reproduce::Effort;
-use apportion::afm::{Fidelity, Options, Parameter, critical_force};
-use apportion::report::chart::{Axis, Chart, Mark, Panel, Series, Stroke};
+use crate::reproduce::papers::PrintedFigure;
+use crate::reproduce::{Effort, FRICTIONS, Friction, ReproduceError};
+use apportion::afm::{Fidelity, Options, Parameter, Scene, critical_force};
+use apportion::report::chart::{Axis, Chart, Colour, Mark, Panel, Series, Stroke};
+use apportion::report::document::Table;
 use apportion::report::format::{three_digits as short, unit};
 use apportion::report::{capitalised, listed};
 use apportion::space::{Factor, Space};
@@ -20,28 +19,95 @@ const VISIBLE: f64 = 5e-3;
 /// A force that changes by less than this part of its size counts as having no range but its size.
 const FLAT: f64 = 1e-3;
 
-impl SweepFigure {
-    /// The chart over the range of the factor in `space`.
-    pub fn drawn(&self, space: &Space, effort: Effort) -> Result<super::Drawn, FiguresError> {
-        let number = find(space, self.factor)?;
-        let points = match effort {
-            Effort::Full => 201,
-            Effort::Quick => 41,
-        };
-        // The march's saw needs finer teeth.
-        let is_marched = self.lines.iter().any(|line| line.variant == Variant::NaiveMarch);
-        let points = if is_marched { 4 * points - 3 } else { points };
-        let values = FactorValues::over_range(space, number, points)?.values;
-        let parameter = Parameter::from_name(self.factor).ok_or(FiguresError::NoParameter { name: self.factor })?;
-        let swept = Swept { figure: self, factor: &space.factors()[number], parameter, values };
-        let lines: Vec<Drawn> = self.lines.iter().map(|line| swept.line(line)).collect();
-        Ok((swept.chart(&lines), swept.csv(&lines)))
+/// A line of a sweep.
+struct Line {
+    /// Its column's name without the unit, and its name in `papers.toml`.
+    key: &'static str,
+    /// Its name in the legend.
+    name: String,
+    /// How a sentence calls it.
+    said: String,
+    /// Its look.
+    look: (Colour, Stroke),
+    scene: Scene,
+    options: Options,
+}
+
+impl Line {
+    /// Whether the equations of motion are marched, and the force is read at the first step past the slip.
+    fn is_marched(&self) -> bool {
+        self.options.fidelity == Fidelity::FixedStep
     }
 }
 
-/// A figure with the values of its factor.
+/// The line called `key` in `papers.toml`.
+fn line(key: &'static str) -> Line {
+    let [coulomb, hk, lugre] = FRICTIONS.map(|Friction { law, name, colour, .. }| Line {
+        key,
+        name: name.to_owned(),
+        said: format!(" under {name} friction"),
+        look: (colour, Stroke::Solid),
+        scene: Scene::default(),
+        options: Options { friction: law, ..Options::default() },
+    });
+    let adhesive = |line: Line, said: &str| Line {
+        name: format!("{} with the adhesion in the load (q = 1)", line.name),
+        said: format!("{said} with the adhesion in the load"),
+        look: (line.look.0, Stroke::Dotted),
+        options: Options { adhesion_in_load: true, ..line.options },
+        ..line
+    };
+    match key {
+        "coulomb" => coulomb,
+        "hk" => hk,
+        "lugre" => lugre,
+        "coulomb_adhesion_in_load" => adhesive(coulomb, " under Coulomb friction"),
+        "lugre_adhesion_in_load" => adhesive(lugre, ""),
+        "lugre_viscous" => Line {
+            name: "LuGre with viscous friction σ₂ = 0.3 N s/m".to_owned(),
+            said: " with viscous friction of 0.3 N s/m".to_owned(),
+            look: (lugre.look.0, Stroke::Dotted),
+            scene: Scene { viscous_friction: 0.3, ..lugre.scene },
+            ..lugre
+        },
+        "lugre_fixed_step_14ms" => Line {
+            name: "LuGre marched in steps of 14 ms, no event location".to_owned(),
+            said: " when marched in steps of 14 ms without event location".to_owned(),
+            look: (Colour::Series(6), Stroke::Solid),
+            options: Options { fidelity: Fidelity::FixedStep, step: 14e-3, ..lugre.options },
+            ..lugre
+        },
+        _ => unreachable!("papers.toml is a part of this program, and names no other line"),
+    }
+}
+
+/// The critical force against `factor` over its range in `space`.
+pub(super) fn drawn(
+    figure: &PrintedFigure,
+    factor: &'static str,
+    space: &Space,
+    effort: Effort,
+) -> Result<super::Drawn, ReproduceError> {
+    let points = match effort {
+        Effort::Full => 201,
+        Effort::Quick => 41,
+    };
+    let lines: Vec<Line> = figure.lines.iter().map(|key| line(key)).collect();
+    // The march's saw needs finer teeth.
+    let is_marched = lines.iter().any(Line::is_marched);
+    let points = if is_marched { 4 * points - 3 } else { points };
+    let number = find(space, factor)?;
+    let values = FactorValues::over_range(space, number, points)?.values;
+    let parameter = Parameter::from_name(factor).ok_or(ReproduceError::NoParameter { name: factor })?;
+    let swept = Swept { gap: figure.gap, factor: &space.factors()[number], parameter, values };
+    let lines: Vec<Drawn> = lines.iter().map(|line| swept.line(line)).collect();
+    Ok((swept.chart(&lines), swept.csv(&lines)))
+}
+
+/// A factor with its values.
 struct Swept<'a> {
-    figure: &'a SweepFigure,
+    /// Whether the caption says how far apart the first two lines are at either end.
+    gap: bool,
     factor: &'a Factor,
     parameter: &'static Parameter,
     /// In the factor's unit.
@@ -58,7 +124,7 @@ struct Drawn<'a> {
 
 impl Swept<'_> {
     fn line<'a>(&self, line: &'a Line) -> Drawn<'a> {
-        let (scene, options) = line.variant.apply(line.law);
+        let (scene, options) = (line.scene, line.options);
         let force = |options: &Options| -> Vec<f64> {
             let at = |value: &f64| {
                 let mut scene = scene;
@@ -67,26 +133,25 @@ impl Swept<'_> {
             };
             self.values.par_iter().map(at).collect()
         };
-        let checked = line.variant != Variant::NaiveMarch;
+        let is_checked = !line.is_marched();
         Drawn {
             line,
             force: force(&options),
-            quasi_static: checked.then(|| force(&Options { fidelity: Fidelity::QuasiStatic, ..options })),
+            quasi_static: is_checked.then(|| force(&Options { fidelity: Fidelity::QuasiStatic, ..options })),
         }
     }
 
     fn csv(&self, lines: &[Drawn]) -> String {
         let unit = self.factor.unit().symbol().replace('/', "_per_");
-        let mut table = Table::default().with(&format!("{}_{unit}", self.figure.factor), self.values.iter().copied());
+        let name = format!("{}_{unit}", self.factor.name);
+        let mut rows = Table::from_rows("", 0..self.values.len()).file(name, |row| self.values[row]);
         for drawn in lines {
-            table = table.with(&format!("{}_nN", drawn.line.key), drawn.force.iter().copied());
+            rows = rows.file(format!("{}_nN", drawn.line.key), |row| drawn.force[row]);
         }
-        for drawn in lines {
-            if let Some(force) = &drawn.quasi_static {
-                table = table.with(&format!("{}_quasi_static_nN", drawn.line.key), force.iter().copied());
-            }
+        for (drawn, force) in lines.iter().filter_map(|drawn| Some((drawn, drawn.quasi_static.as_ref()?))) {
+            rows = rows.file(format!("{}_quasi_static_nN", drawn.line.key), |row| force[row]);
         }
-        table.csv()
+        rows.csv()
     }
 
     fn chart(&self, lines: &[Drawn]) -> Chart {
@@ -95,11 +160,10 @@ impl Swept<'_> {
         let range = range(lines);
         let mut all = Vec::new();
         // What is marched scatters over the rest, so it lies below them.
-        let (marched, rest): (Vec<_>, Vec<_>) =
-            lines.iter().partition(|drawn| drawn.line.variant == Variant::NaiveMarch);
+        let (marched, rest): (Vec<_>, Vec<_>) = lines.iter().partition(|drawn| drawn.line.is_marched());
         for drawn in marched.into_iter().chain(rest) {
             let (colour, stroke) = drawn.line.look;
-            all.push(Series::new(drawn.line.name, colour).stroke(stroke).line(points(&drawn.force)));
+            all.push(Series::new(&drawn.line.name, colour).stroke(stroke).line(points(&drawn.force)));
             if let Some(force) = drawn.quasi_static.as_ref().filter(|_| drawn.difference() > VISIBLE * range) {
                 let name = format!("{}, quasi-static", drawn.line.name);
                 all.push(Series::new(name, colour).stroke(Stroke::Dashed).line(points(force)));
@@ -117,20 +181,18 @@ impl Swept<'_> {
     fn caption(&self, lines: &[Drawn], range: f64) -> String {
         let unit = format!(" {}", unit(self.factor.unit().symbol()));
         let (Some(from), Some(to)) = (self.values.first(), self.values.last()) else { return String::new() };
-        let mut courses: Vec<String> = Vec::new();
-        for drawn in lines {
-            courses.push(match drawn.line.variant {
-                Variant::NaiveMarch => overshoot(drawn, &lines[0]),
-                _ => Curve { x: &self.values, y: &drawn.force, x_unit: &unit, y_unit: " nN" }.course(drawn.line.said),
-            });
-        }
+        let course = |drawn: &Drawn| match drawn.line.is_marched() {
+            true => overshoot(drawn, &lines[0]),
+            false => Curve { x: &self.values, y: &drawn.force, x_unit: &unit, y_unit: " nN" }.course(&drawn.line.said),
+        };
+        let courses: Vec<String> = lines.iter().map(course).collect();
         let mut text = format!(
             "From {from} to {to}{unit} of {}, the critical force {}",
             self.parameter.description,
             listed(&courses)
         );
         if let [one, other, ..] = lines
-            && self.figure.lines[0].law != self.figure.lines[1].law
+            && one.line.options.friction != other.line.options.friction
         {
             text.push_str(&self.between(one, other, &unit));
         }
@@ -147,7 +209,7 @@ impl Swept<'_> {
         if let Some(x) = crossing(&gap, 0.0) {
             text.push_str(&format!("; the two are equal at {}{unit}", short(x)));
         }
-        if let (Some(first), Some(last), true) = (gap.first(), gap.last(), self.figure.gap) {
+        if let (Some(first), Some(last), true) = (gap.first(), gap.last(), self.gap) {
             let verb = if last.1.abs() > first.1.abs() { "diverge" } else { "approach each other" };
             let (first, last) = (short(first.1.abs()), short(last.1.abs()));
             text.push_str(&format!("; the two {verb}, from {first} to {last} nN apart"));
@@ -157,16 +219,18 @@ impl Swept<'_> {
 }
 
 impl Drawn<'_> {
-    /// The largest distance of the two rungs (nN).
-    fn difference(&self) -> f64 {
-        let Some(other) = &self.quasi_static else { return 0.0 };
-        largest(self.force.iter().zip(other).map(|(a, b)| (a - b).abs()))
+    /// The largest distance of the two rungs as `of` their forces: in nN, or as a part of the force.
+    fn largest(&self, of: fn(f64, f64) -> f64) -> f64 {
+        let both = self.quasi_static.iter().flat_map(|other| self.force.iter().zip(other));
+        largest(both.map(|(formula, geometry)| of(*formula, *geometry)))
     }
 
-    /// The same as a part of the force.
+    fn difference(&self) -> f64 {
+        self.largest(|formula, geometry| (formula - geometry).abs())
+    }
+
     fn relative_difference(&self) -> f64 {
-        let Some(other) = &self.quasi_static else { return 0.0 };
-        largest(self.force.iter().zip(other).map(|(a, b)| (b / a - 1.0).abs()))
+        self.largest(|formula, geometry| (geometry / formula - 1.0).abs())
     }
 }
 

@@ -7,10 +7,9 @@ use serde::{Deserialize, Serialize};
 use super::map::{Extremes, Grid, Kind, Outcome, Reason, Tally};
 use crate::analysis::study_setup;
 use crate::report::chart::{Axis, Chart, Colour, Panel, Series, Shape, Tile};
-use crate::report::csv::Field;
-use crate::report::document::{Cell, Column, DataFile, Document, Figure, Mark, OnPhone, Part, Section, Table, Value};
+use crate::report::document::{Cell, Document, Figure, Mark, OnPhone, Part, Report, Section, Table};
 use crate::report::format::{grouped, short};
-use crate::report::{inputs, study_section};
+use crate::report::inputs;
 use crate::result::{StudySetup, json};
 use crate::study::Study;
 
@@ -49,8 +48,7 @@ pub fn build_extremes(study: &Study, seed: u64, map: &Extremes) -> ExtremesFile 
 
 /// The document of a map.
 pub fn extremes_document(file: &ExtremesFile) -> Document {
-    let (study, map, headline) = (&file.study.name, &file.map, file.study.headline());
-    let data = format!("{study}-extremes.csv");
+    let (map, headline, name) = (&file.map, file.study.headline(), format!("{}-extremes", file.study.name));
     let by = match (&map.second_calculation, &map.unchecked) {
         (Some(second), _) => format!("Checked by {second}."),
         (None, why) => {
@@ -62,33 +60,25 @@ pub fn extremes_document(file: &ExtremesFile) -> Document {
         format!("{letter} – {name}: {meaning}.")
     });
     let mut parts: Vec<Part> = vec![counts(map).into(), Part::Text(by), Part::List(meanings.to_vec())];
-    parts.extend(map.grids.iter().enumerate().map(|(place, grid)| {
-        let stem = format!("{study}-extremes-{}", grid.side);
-        Figure::new(place + 1, chart(headline, grid), stem, data.clone()).below(headline).into()
-    }));
-    let mut sections = vec![Section::new("map", "The map", parts)];
-    if !map.reasons.is_empty() {
-        sections.push(Section::new("reasons", "Reasons", vec![reasons(file, data).into()]));
-    }
-    sections.push(study_section(&file.study, &file.study.factors));
-    let rows = vec![
-        ("program", format!("apportion {}", file.apportion_version)),
-        ("points", grouped(map.points)),
-        ("seed", file.seed.to_string()),
-        ("study file, SHA-256", format!("`{}`", file.study.sha256)),
-    ];
-    let provenance = Part::OnPage(vec![Table::pairs("How the answer came about.", rows).into()]);
-    sections.push(Section::new("provenance", "Provenance", vec![provenance]));
-    Document {
-        name: format!("{study}-extremes"),
-        kicker: "A study at its extremes".to_owned(),
+    let figure = |grid: &Grid| Figure::unnumbered(chart(headline, grid), format!("{name}-{}", grid.side)).into();
+    parts.extend(map.grids.iter().map(figure));
+    let reasons = (!map.reasons.is_empty()).then(|| reasons(file).into());
+    Report {
+        kicker: "A study at its extremes",
         title: headline.to_owned(),
         lead: vec![format!("Of {} numbers at the extremes: {}.", grouped(map.counts.total()), counted(&map.counts))],
-        sections,
-        footer: format!("Made by apportion {}.", file.apportion_version),
-        files: vec![DataFile::new(format!("{study}-extremes.json"), json(file))],
-        ..Document::default()
+        then: vec![
+            Section::new("map", "The map", parts),
+            Section::new("reasons", "Reasons", reasons.into_iter().collect()),
+        ],
+        study: Some(&file.study),
+        version: &file.apportion_version,
+        provenance: vec![("points", grouped(map.points)), ("seed", file.seed.to_string())],
+        json: json(file),
+        name,
+        ..Report::default()
     }
+    .document()
 }
 
 /// Numbers by outcome: `3 right, 0 silently wrong`.
@@ -113,52 +103,39 @@ fn place(kind: Kind) -> &'static str {
 
 /// The numbers by kind and outcome.
 fn counts(map: &Extremes) -> Table {
-    let cells = |tally: &Tally| {
-        let cell = |outcome| Cell::marked(grouped(tally.count(outcome)), mark(outcome, tally.count(outcome)));
-        Outcome::ALL.map(cell)
-    };
-    let row = |(kind, tally): &(Kind, Tally)| std::iter::once(place(*kind).into()).chain(cells(tally)).collect();
-    let columns = Outcome::ALL.map(|outcome| Column::number(outcome.words().1));
-    let columns = std::iter::once(Column::text("where")).chain(columns);
-    Table {
-        sums: std::iter::once(Cell::from("all")).chain(cells(&map.counts)).collect(),
-        ..Table::new("Numbers at the extremes by outcome.", columns).with_rows(map.kinds.iter().map(row))
+    let mut rows = Table::from_rows("Numbers at the extremes by outcome.", &map.kinds)
+        .text("where", |(kind, _)| place(*kind))
+        .sum("all");
+    for outcome in Outcome::ALL {
+        let cell = |tally: &Tally| Cell::marked(grouped(tally.count(outcome)), mark(outcome, tally.count(outcome)));
+        rows = rows.number(outcome.words().1, |(_, tally)| cell(tally)).sum(cell(&map.counts));
     }
+    rows.into()
 }
 
 /// Why numbers are not right, each reason with its first number.
-fn reasons(file: &ExtremesFile, data: String) -> Table {
-    let columns = [
-        Column::text("what").named(Field::new("outcome")),
-        Column::text("where").named(Field::new("where")),
-        Column::text("why").named(Field::new("reason")),
-        Column::number("numbers").named(Field::new("numbers")),
-        Column::text("first").named(Field::new("place")),
-        Column::in_file(Field::new("output")),
-        Column::in_file(Field::new("value")),
-        Column::in_file(Field::new("reference")),
-    ];
-    let row = |reason: &Reason| {
+fn reasons(file: &ExtremesFile) -> Table {
+    let note = |reason: &Reason| {
         let numbers = [("", reason.value), (", second calculation ", reason.reference)];
         let numbers: String = numbers.iter().filter_map(|(what, x)| Some(format!("{what}{}", short((*x)?)))).collect();
-        let note = format!("{} {numbers}; {}", reason.output, inputs(&reason.inputs));
-        vec![
-            Cell::marked(reason.outcome.words().1.to_owned(), mark(reason.outcome, reason.count)),
-            Cell::from(place(reason.kind)),
-            Cell::from(&reason.reason),
-            Cell::valued(grouped(reason.count), reason.count.into()),
-            Cell { note, ..Cell::from(&reason.place) },
-            Cell::from(&reason.output),
-            Cell::valued(String::new(), reason.value.map_or(Value::Empty, Value::Number)),
-            Cell::valued(String::new(), reason.reference.map_or(Value::Empty, Value::Number)),
-        ]
+        format!("{} {numbers}; {}", reason.output, inputs(&reason.inputs))
     };
     let caption = "Why numbers are silently wrong, flagged or refused, and the first of each.";
-    Table {
-        file: data,
-        on_phone: OnPhone::StackLabelled,
-        ..Table::new(caption, columns).with_rows(file.map.reasons.iter().map(row))
-    }
+    let rows = Table::from_rows(caption, &file.map.reasons)
+        .text("what", |reason| Cell::marked(reason.outcome.words().1, mark(reason.outcome, reason.count)))
+        .named("outcome")
+        .text("where", |reason| place(reason.kind))
+        .named("where")
+        .text("why", |reason| &reason.reason)
+        .named("reason")
+        .number("numbers", |reason| grouped(reason.count))
+        .value("numbers", |reason| reason.count)
+        .text("first", |reason| Cell { note: note(reason), ..Cell::from(&reason.place) })
+        .named("place")
+        .file("output", |reason| &reason.output)
+        .file("value", |reason| reason.value)
+        .file("reference", |reason| reason.reference);
+    Table { on_phone: OnPhone::StackLabelled, ..rows.into() }
 }
 
 /// The worst outcome of every cell.

@@ -62,22 +62,18 @@ pub struct Tally {
 impl Tally {
     /// Counts a number.
     fn add(&mut self, outcome: Outcome) {
-        *self.number_of(outcome) += 1;
+        *self.numbers()[outcome as usize] += 1;
     }
 
     /// How many there are of `outcome`.
     pub fn count(mut self, outcome: Outcome) -> u64 {
-        *self.number_of(outcome)
+        *self.numbers()[outcome as usize]
     }
 
-    fn number_of(&mut self, outcome: Outcome) -> &mut u64 {
-        match outcome {
-            Outcome::Right => &mut self.right,
-            Outcome::FlaggedConfirmed => &mut self.flagged_confirmed,
-            Outcome::Flagged => &mut self.flagged,
-            Outcome::Refused => &mut self.refused,
-            Outcome::Wrong => &mut self.wrong,
-        }
+    /// In the order of [`Outcome::ALL`].
+    fn numbers(&mut self) -> [&mut u64; Outcome::ALL.len()] {
+        let Self { right, flagged_confirmed, flagged, refused, wrong } = self;
+        [right, flagged_confirmed, flagged, refused, wrong]
     }
 
     /// All numbers.
@@ -163,37 +159,35 @@ pub struct Extremes {
     pub reasons: Vec<Reason>,
 }
 
-/// A map in the making.
-pub(super) struct Collector {
-    pub map: Extremes,
-    reasons: BTreeMap<(Kind, Outcome, String), Reason>,
-}
+/// Reasons in the making.
+pub(super) type Reasons = BTreeMap<(Kind, Outcome, String), Reason>;
 
-impl Collector {
-    pub fn new(second: Result<String, String>, points: u64, grids: Vec<Grid>) -> Self {
+impl Extremes {
+    /// The map without numbers.
+    pub(super) fn new(second: Result<String, String>, points: u64, grids: Vec<Grid>) -> Self {
         let kinds = Kind::ALL.map(|kind| (kind, Tally::default())).to_vec();
         let (second_calculation, unchecked) = (second.as_ref().ok().cloned(), second.err());
         let counts = Tally::default();
-        let map = Extremes { second_calculation, unchecked, points, counts, kinds, grids, reasons: Vec::new() };
-        Self { map, reasons: BTreeMap::new() }
+        Self { second_calculation, unchecked, points, counts, kinds, grids, reasons: Vec::new() }
     }
 
     /// Adds a number, in the cell (grid, row, column) if it belongs to one.
-    pub fn add(&mut self, cell: Option<(usize, usize, usize)>, found: Reason) {
-        self.map.counts.add(found.outcome);
-        self.map.kinds[found.kind as usize].1.add(found.outcome);
+    pub(super) fn add(&mut self, cell: Option<(usize, usize, usize)>, found: Reason, reasons: &mut Reasons) {
+        self.counts.add(found.outcome);
+        self.kinds[found.kind as usize].1.add(found.outcome);
         if let Some((grid, row, column)) = cell {
-            self.map.grids[grid].cells[row][column].add(found.outcome);
+            self.grids[grid].cells[row][column].add(found.outcome);
         }
         if found.outcome != Outcome::Right {
             let key = (found.kind, found.outcome, found.reason.clone());
-            self.reasons.entry(key).or_insert(Reason { count: 0, ..found }).count += 1;
+            reasons.entry(key).or_insert(Reason { count: 0, ..found }).count += 1;
         }
     }
 
-    pub fn into_map(self) -> Extremes {
-        let mut reasons: Vec<Reason> = self.reasons.into_values().collect();
-        reasons.sort_by_key(|reason| (reason.outcome != Outcome::Wrong, reason.kind, Reverse(reason.count)));
-        Extremes { reasons, ..self.map }
+    /// The map with these reasons.
+    pub(super) fn with_reasons(mut self, reasons: Reasons) -> Self {
+        self.reasons = reasons.into_values().collect();
+        self.reasons.sort_by_key(|reason| (reason.outcome != Outcome::Wrong, reason.kind, Reverse(reason.count)));
+        self
     }
 }

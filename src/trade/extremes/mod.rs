@@ -18,7 +18,7 @@ use crate::model::{
 use crate::run::{Progress, RunError, run_each};
 use crate::space::Space;
 use crate::study::Study;
-use map::Collector;
+use map::Reasons;
 use points::{Point, grids, points};
 
 /// How much is tried.
@@ -109,7 +109,8 @@ pub fn extremes(job: &ExtremesJob<'_>) -> Result<Extremes, RunError> {
         return Err(RunError::GaveUp(reason));
     }
     let name = second.map(|second| second.name()).map_err(str::to_owned);
-    let mut map = Collector::new(name, points.len() as u64, grids(&space));
+    let mut map = Extremes::new(name, points.len() as u64, grids(&space));
+    let mut reasons = Reasons::new();
     for (point, findings) in points.iter().zip(found) {
         for (output, finding) in model.outputs().iter().zip(findings) {
             let in_unit = |value: Option<f64>| value.map(|value| output.unit.from_si(value));
@@ -126,10 +127,11 @@ pub fn extremes(job: &ExtremesJob<'_>) -> Result<Extremes, RunError> {
                     value: in_unit(finding.value),
                     reference: in_unit(finding.reference.filter(|value| value.is_finite())),
                 },
+                &mut reasons,
             );
         }
     }
-    Ok(map.into_map())
+    Ok(map.with_reasons(reasons))
 }
 
 fn inputs(space: &Space, point: &Point) -> serde_json::Map<String, serde_json::Value> {

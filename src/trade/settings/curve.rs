@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::design::{Design, DesignError, DesignSettings, Sampler};
 use crate::estimate::Estimator;
 use crate::names::named;
-use crate::study::{AnalysisOptions, Rung, Study, SurrogateChoice, Target};
+use crate::study::{AnalysisOptions, LowFidelity, Rung, Study, SurrogateChoice, Target};
 use crate::uncertainty::IntervalMethod;
 
 named! {
@@ -27,8 +27,8 @@ pub enum Axis {
 pub(super) struct Curve {
     /// What it stands for in the comparison.
     pub axis: Axis,
-    /// The model, as one of several of a ladder.
-    pub rung: Option<Rung>,
+    /// The model.
+    pub rung: Rung,
     pub sampler: Sampler,
     pub estimator: Estimator,
     pub has_surrogate: bool,
@@ -39,40 +39,30 @@ impl Curve {
     /// samplers and estimators.
     pub fn all(study: &Study) -> Vec<Self> {
         let settings = study.design.settings();
+        let rungs = rungs(study);
+        let name = study.subject.rung_name();
+        let rung = rungs.iter().find(|rung| rung.name == name).unwrap_or(&rungs[0]).clone();
         let own = Self {
             axis: Axis::Fidelity,
-            rung: None,
+            rung,
             sampler: settings.sampler,
             estimator: Estimator::Default,
             has_surrogate: false,
         };
-        let rungs = rungs(study);
-        let named = |name: &str| rungs.iter().find(|rung| rung.name == name).cloned();
-        let rung = named(&study.subject.rung_name());
-        let all: Vec<Option<Rung>> =
-            if rungs.is_empty() { vec![None] } else { rungs.iter().cloned().map(Some).collect() };
-        let mut curves = Vec::new();
-        for rung in all {
-            for has_surrogate in [false, true] {
-                curves.push(Self { rung: rung.clone(), has_surrogate, ..own.clone() });
-            }
-        }
+        let of_rung =
+            |rung: Rung| [false, true].map(|has_surrogate| Self { rung: rung.clone(), has_surrogate, ..own.clone() });
+        let mut curves: Vec<Self> = rungs.into_iter().flat_map(of_rung).collect();
         let samplers = Sampler::ALL.into_iter().filter(|sampler| *sampler != settings.sampler);
-        curves.extend(samplers.map(|sampler| Self { axis: Axis::Sampler, rung: rung.clone(), sampler, ..own.clone() }));
+        curves.extend(samplers.map(|sampler| Self { axis: Axis::Sampler, sampler, ..own.clone() }));
         let both = |estimator: &Estimator| matches!(estimator.formulas(), (Some(_), Some(_)));
         let estimators = Estimator::ALL.into_iter().filter(|e| *e != Estimator::Default && both(e));
-        curves.extend(estimators.map(|estimator| Self {
-            axis: Axis::Estimator,
-            rung: rung.clone(),
-            estimator,
-            ..own.clone()
-        }));
+        curves.extend(estimators.map(|estimator| Self { axis: Axis::Estimator, estimator, ..own.clone() }));
         curves
     }
 
     /// Its name beside the others.
     pub fn name(&self) -> String {
-        let rung = self.rung.as_ref().map_or("the model", |rung| &rung.name);
+        let rung = &self.rung.name;
         match self.axis {
             Axis::Fidelity if self.has_surrogate => format!("{rung}, surrogates"),
             Axis::Fidelity => rung.to_owned(),
@@ -84,9 +74,7 @@ impl Curve {
     /// `study` with these settings.
     pub fn study(&self, study: &Study, base_samples: u64, seed: u64) -> Result<Study, DesignError> {
         let mut variant = study.clone();
-        if let Some(rung) = &self.rung {
-            variant.subject = rung.subject.clone();
-        }
+        variant.subject = self.rung.subject.clone();
         let usual = IntervalMethod::default_for(self.sampler);
         let own = study.analysis.intervals;
         let intervals = if own.serves(self.sampler) { own } else { usual };
@@ -115,10 +103,7 @@ impl Curve {
 
     /// The lines of a study that ask for them.
     pub fn lines(&self, base_samples: u64) -> String {
-        let mut lines = String::new();
-        if let Some(rung) = self.rung.as_ref().filter(|rung| !rung.lines.is_empty()) {
-            lines.push_str(&rung.lines);
-        }
+        let mut lines = self.rung.lines.clone();
         lines.push_str(&format!("[design]\nsampler = \"{}\"\nbase_samples = {base_samples}\n", self.sampler.name()));
         let surrogate = if self.has_surrogate { SurrogateChoice::On } else { SurrogateChoice::Off };
         lines.push_str(&format!("[analysis]\nsurrogate = \"{}\"\n", surrogate.name()));
@@ -129,19 +114,19 @@ impl Curve {
     }
 }
 
-/// The rungs of the model, or the model and its cheaper ones, the cheapest first; none if there is one model alone.
+/// The rungs of the model, or the model and its cheaper ones, the cheapest first.
 pub(super) fn rungs(study: &Study) -> Vec<Rung> {
     let ladder = study.subject.rungs();
-    if !ladder.is_empty() || study.lows.is_empty() {
+    if !ladder.is_empty() {
         return ladder;
     }
-    let of_low = |low: &crate::study::LowFidelity| Rung {
+    let of_low = |low: &LowFidelity| Rung {
         name: low.name.clone(),
         subject: low.subject.clone(),
         lines: format!("# the cheaper model `{}` in the place of the model\n", low.name),
         is_finest: false,
     };
-    let own =
-        Rung { name: study.subject.rung_name(), subject: study.subject.clone(), lines: String::new(), is_finest: true };
+    let (name, subject) = (study.subject.rung_name(), study.subject.clone());
+    let own = Rung { name, subject, lines: String::new(), is_finest: true };
     study.lows.iter().rev().map(of_low).chain([own]).collect()
 }

@@ -4,10 +4,8 @@ use super::Measured;
 use super::curve::Axis as Varied;
 use super::record::{AdviceRecord, SettingsFile};
 use crate::report::chart::{Axis, Chart, Colour, Panel, Series, Spacing, Stroke};
-use crate::report::csv::{Field, Value};
-use crate::report::document::{Cell, Column, DataFile, Document, Figure, Part, Section, Table};
+use crate::report::document::{Document, Figure, Part, Report, Section, Table};
 use crate::report::format::{grouped, significant};
-use crate::report::study_section;
 use crate::result::json;
 
 /// Errors below this are drawn there.
@@ -18,35 +16,33 @@ const SURROGATES: &str = ", surrogates";
 
 /// The document of a comparison.
 pub fn settings_document(file: &SettingsFile) -> Document {
-    let study = &file.study.name;
-    let headline = file.study.headline();
-    let data = format!("{study}-trade.csv");
-    let charts = [("-trade", chart(file, headline)), ("-trade-formulas", formulas_chart(file, headline))];
-    let charts = charts.map(|(suffix, chart)| (suffix.to_owned(), chart));
-    let mut figures = Figure::numbered(charts, (study, headline), &data).into_iter();
-    let mut advice: Vec<Part> = vec![advice_table(file).into()];
-    advice.extend(figures.next().map(Part::from));
-    let mut others: Vec<Part> = figures.map(Part::from).collect();
-    others.push(all(file, &data).into());
-    let mut sections = vec![
-        Section::new("advice", "The cheapest setting for an accuracy", advice),
-        Section::new("lines", "Lines to paste", lines(file)),
-        Section::new("rungs", "What the rungs cost", rung_table(file).map(Part::from).into_iter().collect()),
-        Section::new("all", "Every setting", others),
-        study_section(&file.study, &file.study.factors),
-        Section::new("provenance", "Provenance", vec![Part::OnPage(vec![provenance(file).into()])]),
-    ];
-    sections.retain(|section| !section.parts.is_empty());
-    Document {
-        name: format!("{study}-trade"),
-        kicker: "Accuracy against time".to_owned(),
+    let (headline, name) = (file.study.headline(), format!("{}-trade", file.study.name));
+    let figure = |chart, ending: &str| Figure::unnumbered(chart, format!("{name}{ending}")).into();
+    let advice = vec![advice_table(file), figure(chart(file, headline), "")];
+    let others = vec![figure(formulas_chart(file, headline), "-formulas"), all(file)];
+    let truth = &file.truth;
+    Report {
+        kicker: "Accuracy against time",
         title: headline.to_owned(),
         lead: lead(file),
-        sections,
-        footer: format!("Made by apportion {}.", file.apportion_version),
-        files: vec![DataFile::new(format!("{study}-trade.json"), json(file))],
-        ..Document::default()
+        then: vec![
+            Section::new("advice", "The cheapest setting for an accuracy", advice),
+            Section::new("lines", "Lines to paste", lines(file)),
+            Section::new("rungs", "What the rungs cost", rung_table(file).into_iter().collect()),
+            Section::new("all", "Every setting", others),
+        ],
+        study: Some(&file.study),
+        version: &file.apportion_version,
+        provenance: vec![
+            ("threads", file.threads.to_string()),
+            ("truth", truth.words.clone()),
+            ("time and runs of the truth", format!("{}, {}", seconds(truth.seconds), grouped(truth.runs))),
+        ],
+        json: json(file),
+        name,
+        ..Report::default()
     }
+    .document()
 }
 
 fn setting<'a>(file: &'a SettingsFile, advice: &AdviceRecord) -> Option<&'a Measured> {
@@ -92,37 +88,24 @@ fn lead(file: &SettingsFile) -> Vec<String> {
         ),
         None => "No setting that was measured reaches an accuracy of 0.1.".to_owned(),
     };
-    let times = file.settings.iter().map(|of| of.seconds);
-    let (least, most) = times.fold((f64::INFINITY, 0.0_f64), |(low, high), s| (low.min(s), high.max(s)));
+    let (least, most) = times(file);
     let span = format!("{} settings took from {} to {} each.", file.settings.len(), seconds(least), seconds(most));
     vec![format!("{cheapest} {span}"), truth]
 }
 
-fn advice_table(file: &SettingsFile) -> Table {
-    let row = |advice: &AdviceRecord| -> Vec<Cell> {
-        let accuracy = significant(advice.accuracy);
-        match setting(file, advice) {
-            Some(of) => vec![
-                accuracy.into(),
-                of.curve.clone().into(),
-                grouped(of.base_samples).into(),
-                grouped(of.runs).into(),
-                seconds(of.seconds).into(),
-                short_error(of.error).into(),
-            ],
-            None => vec![accuracy.into(), "none of those measured".into(), "".into(), "".into(), "".into(), "".into()],
-        }
-    };
-    let columns = [
-        Column::number("accuracy"),
-        Column::text("setting"),
-        Column::number("base samples"),
-        Column::number("runs"),
-        Column::number("time"),
-        Column::number("largest error"),
-    ];
+fn advice_table(file: &SettingsFile) -> Part {
     let caption = "The cheapest setting whose largest error, over all indices and seeds, is no more than the accuracy.";
-    Table::new(caption, columns).with_rows(file.advice.iter().map(row))
+    let of = |said: fn(&Measured) -> String, none: &'static str| {
+        move |advice: &AdviceRecord| setting(file, advice).map_or_else(|| none.to_owned(), said)
+    };
+    Table::from_rows(caption, &file.advice)
+        .number("accuracy", |advice| significant(advice.accuracy))
+        .text("setting", of(|of| of.curve.clone(), "none of those measured"))
+        .number("base samples", of(|of| grouped(of.base_samples), ""))
+        .number("runs", of(|of| grouped(of.runs), ""))
+        .number("time", of(|of| seconds(of.seconds), ""))
+        .number("largest error", of(|of| short_error(of.error), ""))
+        .into()
 }
 
 fn lines(file: &SettingsFile) -> Vec<Part> {
@@ -144,14 +127,13 @@ fn lines(file: &SettingsFile) -> Vec<Part> {
 
 /// The settings of one curve after the other.
 fn curves(file: &SettingsFile, axis: Varied) -> Vec<Vec<&Measured>> {
-    let mut curves: Vec<Vec<&Measured>> = Vec::new();
-    for of in file.settings.iter().filter(|of| of.axis == axis) {
-        match curves.last_mut() {
-            Some(curve) if curve[0].curve == of.curve => curve.push(of),
-            _ => curves.push(vec![of]),
-        }
-    }
-    curves
+    let of_axis: Vec<&Measured> = file.settings.iter().filter(|of| of.axis == axis).collect();
+    of_axis.chunk_by(|a, b| a.curve == b.curve).map(<[_]>::to_vec).collect()
+}
+
+/// The shortest and the longest time of a setting.
+fn times(file: &SettingsFile) -> (f64, f64) {
+    file.settings.iter().fold((f64::INFINITY, 0.0), |(low, high), of| (low.min(of.seconds), high.max(of.seconds)))
 }
 
 /// Below what is known of the truth there is nothing to see.
@@ -176,28 +158,18 @@ fn seconds_of_run(curve: &[&Measured]) -> Option<f64> {
 }
 
 /// The rungs without surrogates; `None` where there is a single one.
-fn rung_table(file: &SettingsFile) -> Option<Table> {
+fn rung_table(file: &SettingsFile) -> Option<Part> {
     let curves = curves(file, Varied::Fidelity).into_iter().filter(|curve| !curve[0].has_surrogate);
     let rungs: Vec<_> = curves.filter_map(|curve| Some((seconds_of_run(&curve)?, curve))).collect();
     let cheapest = rungs.iter().map(|(seconds, _)| *seconds).fold(f64::INFINITY, f64::min);
-    let row = |(of_run, curve): &(f64, Vec<&Measured>)| -> Vec<Cell> {
-        let least = curve.iter().filter_map(|of| of.error).reduce(f64::min);
-        let times = format!("{:.1e}", of_run / cheapest).parse().unwrap_or(f64::INFINITY);
-        vec![
-            curve[0].curve.clone().into(),
-            seconds(*of_run).into(),
-            significant(times).into(),
-            short_error(least).into(),
-        ]
-    };
-    let columns = [
-        Column::text("rung"),
-        Column::number("time of a model run"),
-        Column::number("times the cheapest"),
-        Column::number("least error"),
-    ];
     let caption = "The time of one model run on all threads, and the least error that any number of runs reached.";
-    (rungs.len() > 1).then(|| Table::new(caption, columns).with_rows(rungs.iter().map(row)))
+    let times = |seconds: f64| format!("{:.1e}", seconds / cheapest).parse().unwrap_or(f64::INFINITY);
+    let table = Table::from_rows(caption, &rungs)
+        .text("rung", |(_, curve)| &curve[0].curve)
+        .number("time of a model run", |(of_run, _)| seconds(*of_run))
+        .number("times the cheapest", |(of_run, _)| significant(times(*of_run)))
+        .number("least error", |(_, curve)| short_error(curve.iter().filter_map(|of| of.error).reduce(f64::min)));
+    (rungs.len() > 1).then(|| table.into())
 }
 
 fn panel() -> Panel {
@@ -209,8 +181,7 @@ fn panel() -> Panel {
 /// The error of the truth, over the times that are seen.
 fn floor(file: &SettingsFile) -> Option<crate::report::chart::Mark> {
     let error = file.truth.error.filter(|error| *error > LEAST_ERROR)?;
-    let times = file.settings.iter().map(|of| of.seconds);
-    let (least, most) = times.fold((f64::INFINITY, 0.0_f64), |(low, high), s| (low.min(s), high.max(s)));
+    let (least, most) = times(file);
     let series = Series::new("not known of the truth", Colour::Reference).stroke(Stroke::Dotted);
     Some(series.line(vec![(least, error), (most, error)]))
 }
@@ -259,39 +230,20 @@ fn formulas_chart(file: &SettingsFile, headline: &str) -> Chart {
         .panels([of_axis(Varied::Sampler, "Samplers"), of_axis(Varied::Estimator, "Estimators")])
 }
 
-fn all(file: &SettingsFile, data: &str) -> Table {
-    let columns = [
-        Column::text("setting").named(Field::new("setting")),
-        Column::in_file(Field::new("axis")),
-        Column::number("base samples").named(Field::new("base_samples")),
-        Column::number("runs").named(Field::new("model_runs")),
-        Column::number("time").named(Field::new("seconds")),
-        Column::number("largest error").named(Field::new("largest_error")),
-        Column::text("on the front").named(Field::new("is_on_front")),
-    ];
-    let row = |of: &Measured| {
-        vec![
-            Cell::from(of.curve.clone()),
-            Cell::from(of.axis.name()),
-            Cell::valued(grouped(of.base_samples), Value::Count(of.base_samples)),
-            Cell::valued(grouped(of.runs), Value::Count(of.runs)),
-            Cell::valued(seconds(of.seconds), Value::Number(of.seconds)),
-            Cell::valued(short_error(of.error), of.error.map_or(Value::Empty, Value::Number)),
-            Cell::valued(if of.is_on_front { "yes" } else { "" }, Value::Flag(of.is_on_front)),
-        ]
-    };
-    let mut table = Table::new("Every setting that was measured.", columns).with_rows(file.settings.iter().map(row));
-    table.file = data.to_owned();
-    table
-}
-
-fn provenance(file: &SettingsFile) -> Table {
-    let rows = [
-        ("program", format!("apportion {}", file.apportion_version)),
-        ("threads", file.threads.to_string()),
-        ("truth", file.truth.words.clone()),
-        ("time and runs of the truth", format!("{}, {}", seconds(file.truth.seconds), grouped(file.truth.runs))),
-        ("study file, SHA-256", format!("`{}`", file.study.sha256)),
-    ];
-    Table::pairs("How the answer came about.", rows)
+fn all(file: &SettingsFile) -> Part {
+    Table::from_rows("Every setting that was measured.", &file.settings)
+        .text("setting", |of| &of.curve)
+        .named("setting")
+        .file("axis", |of| of.axis.name())
+        .number("base samples", |of| grouped(of.base_samples))
+        .value("base_samples", |of| of.base_samples)
+        .number("runs", |of| grouped(of.runs))
+        .value("model_runs", |of| of.runs)
+        .number("time", |of| seconds(of.seconds))
+        .value("seconds", |of| of.seconds)
+        .number("largest error", |of| short_error(of.error))
+        .value("largest_error", |of| of.error)
+        .text("on the front", |of| if of.is_on_front { "yes" } else { "" })
+        .value("is_on_front", |of| of.is_on_front)
+        .into()
 }

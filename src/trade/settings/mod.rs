@@ -26,11 +26,11 @@ use curve::Curve;
 use truth::Truth;
 
 /// Base samples that a curve begins with, and by how much it grows.
-const FIRST: u64 = 16;
+const FIRST_BASE_SAMPLES: u64 = 16;
 const STEP: u64 = 4;
 
 /// Base samples that no curve goes beyond.
-const MOST: u64 = 1 << 22;
+const MAX_BASE_SAMPLES: u64 = 1 << 22;
 
 /// Part of the time that the truth may take.
 const SHARE_OF_TRUTH: f64 = 0.25;
@@ -55,8 +55,16 @@ pub struct SettingsJob<'a> {
     pub on_progress: &'a dyn Fn(&str, f64),
 }
 
+impl SettingsJob<'_> {
+    /// Runs a variant of the study.
+    fn run(&self, study: &Study) -> Result<StudyResult, RunError> {
+        let runner = study.runner().threads(self.threads);
+        self.stop.into_iter().fold(runner, |runner, stop| runner.stop(stop)).run()
+    }
+}
+
 /// What came out.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Comparison {
     /// What the errors are distances from.
     pub truth: TruthFound,
@@ -158,19 +166,15 @@ pub fn compare_settings(job: &SettingsJob<'_>) -> Result<Comparison, RunError> {
 fn measured(job: &SettingsJob<'_>, curve: &Curve, truth: &Truth, seconds: f64) -> Result<Vec<Measured>, RunError> {
     let start = Instant::now();
     let mut all = Vec::new();
-    let mut base_samples = FIRST;
-    while base_samples <= MOST {
+    let mut base_samples = FIRST_BASE_SAMPLES;
+    while base_samples <= MAX_BASE_SAMPLES {
         let began = start.elapsed().as_secs_f64();
         let mut point: Option<Measured> = None;
         for seed in 0..job.seeds.max(1) {
             let own = job.study.design.settings().seed.wrapping_add(seed);
             let Ok(study) = curve.study(job.study, base_samples, own) else { return Ok(all) };
             let began = Instant::now();
-            let mut runner = study.runner().threads(job.threads);
-            if let Some(stop) = job.stop {
-                runner = runner.stop(stop);
-            }
-            let result = match runner.run() {
+            let result = match job.run(&study) {
                 Ok(result) => result,
                 Err(error @ RunError::Interrupted { .. }) => return Err(error),
                 Err(_) => return Ok(all),

@@ -5,7 +5,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{ACCURACIES, Comparison, Measured, TruthFound};
+use std::ops::Deref;
+
+use super::{ACCURACIES, Comparison};
 use crate::analysis::study_setup;
 use crate::result::StudySetup;
 use crate::study::Study;
@@ -23,12 +25,19 @@ pub struct SettingsFile {
     pub apportion_version: String,
     /// Threads that the runs had.
     pub threads: usize,
-    /// What the errors are distances from.
-    pub truth: TruthFound,
-    /// Every setting that was measured.
-    pub settings: Vec<Measured>,
+    /// What was found.
+    #[serde(flatten)]
+    pub comparison: Comparison,
     /// For each accuracy the cheapest setting.
     pub advice: Vec<AdviceRecord>,
+}
+
+impl Deref for SettingsFile {
+    type Target = Comparison;
+
+    fn deref(&self) -> &Comparison {
+        &self.comparison
+    }
 }
 
 /// The cheapest setting for an accuracy.
@@ -50,8 +59,7 @@ pub fn build_settings(study: &Study, threads: usize, comparison: Comparison) -> 
         study: study_setup(study),
         apportion_version: env!("CARGO_PKG_VERSION").to_owned(),
         threads,
-        truth: comparison.truth,
-        settings: comparison.settings,
+        comparison,
         advice,
     }
 }

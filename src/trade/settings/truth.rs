@@ -34,21 +34,15 @@ impl Truth {
         }
         let mut finest = study.clone();
         let rung = rungs(study).into_iter().rfind(|rung| rung.is_finest);
-        let name = rung.as_ref().map_or_else(|| "the model".to_owned(), |rung| rung.name.clone());
-        if let Some(rung) = rung {
-            finest.subject = rung.subject;
-        }
+        let name = rung.as_ref().map_or_else(String::new, |rung| rung.name.clone());
+        finest.subject = rung.map_or(finest.subject, |rung| rung.subject);
         let max_time = study.target.max_time.map_or(seconds, |limit| limit.min(seconds));
         finest.target = Target::accuracy(FINEST).max_time(max_time);
         finest.analysis.pictures = false;
         finest.analysis.second_order = false;
         finest.analysis.estimators = Vec::new();
         let start = Instant::now();
-        let mut runner = finest.runner().threads(job.threads);
-        if let Some(stop) = job.stop {
-            runner = runner.stop(stop);
-        }
-        let result = runner.run()?;
+        let result = job.run(&finest)?;
         let known = result.outputs.iter().filter(|output| output.indices.is_some());
         let error =
             known.map(OutputResult::largest_half_width).try_fold(0.0, |largest, width| Some(f64::max(largest, width?)));
