@@ -95,9 +95,11 @@ pub fn refused_title(title: &str) -> Option<String> {
 }
 
 /// What a unit or the name of an axis may be, in words that follow "must be".
+#[cfg(feature = "study")]
 pub const SHORT_TEXT: &str = "a text of up to 60 characters, without control characters";
 
 /// Whether `text` keeps to [`SHORT_TEXT`].
+#[cfg(feature = "study")]
 pub fn is_short_text(text: &str) -> bool {
     text.chars().count() <= 60 && !text.contains(is_hidden)
 }
