@@ -131,5 +131,5 @@ fn conditional_means(factor: &Factor, unit: &Unit, rows: &[(f64, f64)], exponent
     }
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "study"))]
 mod tests;

@@ -1,7 +1,7 @@
 //! Result files read back: what is no result is refused, with what is wrong and where.
 
 mod coherence;
-#[cfg(test)]
+#[cfg(all(test, feature = "charts"))]
 mod tests;
 
 use std::path::{Path, PathBuf};
