@@ -46,7 +46,7 @@ pub enum ArtefactError {
 /// # Example
 /// ```
 /// use std::path::Path;
-/// use apportion::report::{Artefacts, StudyResult, run_document};
+/// use apportion::report::{Artefacts, run_document};
 /// use apportion::Study;
 ///
 /// let study = Study::parse(include_str!("../../studies/ishigami.toml"), Path::new("ishigami.toml"), &[])?;

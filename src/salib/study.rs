@@ -29,8 +29,8 @@ use crate::uncertainty::IntervalMethod;
 /// let problem = SalibProblem::of_inputs(vec!["x1".to_owned(), "x2".to_owned()])?;
 /// let outputs = [Column { name: "y".to_owned(), values }];
 /// let (study, store) = salib_study("sum", &problem, &outputs, SalibLayout::FirstOrder, (0, 0))?;
-/// let analysis = study.runner().store(&store).run()?;
-/// assert_eq!(analysis.outputs[0].indices.as_ref().unwrap().factors.len(), 2);
+/// let result = study.runner().store(&store).run()?;
+/// assert_eq!(result.outputs[0].indices.as_ref().unwrap().len(), 2);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///

@@ -155,7 +155,7 @@ pub struct SweepEffect {
 /// let sweeps = sweep(study.space(), study.model().as_ref(), &request)?;
 /// assert_eq!(sweeps.sweeps[0].curves.len(), 1 + 3);
 /// // The stiffness goes with the third power of the thickness, and at these dimensions the force with it.
-/// assert!(sweeps.sweeps[0].effects[0].elasticity.is_some_and(|e| (1.0..3.0).contains(&e)));
+/// assert!(sweeps.sweeps[0].effects[0].local.elasticity.is_some_and(|e| (1.0..3.0).contains(&e)));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///

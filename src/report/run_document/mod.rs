@@ -34,7 +34,7 @@ use crate::result::{AggregateRecord, SpendingRecord, StudyRecord, StudyResult};
 /// # Example
 /// ```
 /// use std::path::Path;
-/// use apportion::report::{StudyResult, run_document};
+/// use apportion::report::run_document;
 /// use apportion::Study;
 ///
 /// let study = Study::parse(include_str!("../../../studies/ishigami.toml"), Path::new("ishigami.toml"), &[])?;

@@ -73,7 +73,7 @@ impl OutputDistribution {
     /// # Example
     /// ```
     /// use apportion::Unit;
-    /// use apportion::report::distribution::OutputDistribution;
+    /// use apportion::result::OutputDistribution;
     ///
     /// let forces: Vec<f64> = (0..=100).map(|k| f64::from(k) / 1e9).collect();
     /// let distribution = OutputDistribution::from_values(&forces, &Unit::parse("nN")?).expect("finite values");

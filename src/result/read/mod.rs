@@ -81,7 +81,7 @@ pub fn read_result(path: &Path) -> Result<StudyResult, ReadError> {
 ///
 /// ```
 /// use std::path::Path;
-/// use apportion::report::{StudyResult, parse_result};
+/// use apportion::result::parse_result;
 /// use apportion::Study;
 ///
 /// let study = Study::parse("model = \"ishigami\"", Path::new("a.toml"), &["design.base_samples=256".to_owned()])?;
