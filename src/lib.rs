@@ -15,7 +15,7 @@
 //! # Features
 //!
 //! Without default features the crate is the engine, the physics of the nanoparticle and the known functions. `study` adds
-//! study files, programs as models and `exchange`; `charts` adds `report`: results as JSON, text, CSV and SVG; `png` its charts as pictures, `pdf` as figures of papers; `page` its pages and folders of files.
+//! study files, programs as models and `exchange`; `charts` adds `report`: results as text, CSV and SVG; `png` its charts as pictures, `pdf` as figures of papers; `page` its pages and folders of files.
 //! `cli`, the default, is the program with all of them, and `mpi` the same on the ranks of an MPI job.
 //!
 //! # An example

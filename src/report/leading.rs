@@ -49,7 +49,7 @@ pub(super) enum Verdict {
     None,
     /// It is the largest with a probability of 0.95 or more, or nothing is known of the errors.
     Leads(usize),
-    /// These cannot be told apart, the largest estimate first.
+    /// These are indistinguishable within their errors, the largest estimate first.
     Tied(Vec<usize>),
 }
 

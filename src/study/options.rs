@@ -40,7 +40,7 @@ pub struct AnalysisOptions {
     pub dummy: bool,
     /// Whether the result has the stages of the run too: the indices at each half of the runs after it.
     pub convergence: bool,
-    /// Whether the result has the distributions of the outputs and their scatters over the factors.
+    /// Whether the result has the distributions of the outputs, and scatter plots of them over the factors.
     pub pictures: bool,
     /// How intervals are found.
     pub intervals: IntervalMethod,

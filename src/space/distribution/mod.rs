@@ -245,7 +245,7 @@ impl Distribution {
         self.categories()?.value_of(label)
     }
 
-    /// Where a factor stands that nobody placed: the most probable category, else the median.
+    /// The default nominal value: the most probable category, otherwise the median.
     pub fn central(&self) -> f64 {
         self.categories().map_or_else(|| self.median(), Values::most_probable)
     }

@@ -248,7 +248,7 @@ impl Values {
         self.labels().iter().position(|other| other == label).map(|place| self.values[place])
     }
 
-    /// The number of the most probable label, the first one of equals: where a factor stands that nobody placed.
+    /// The number of the most probable label, the first of several: the default nominal value.
     pub fn most_probable(&self) -> f64 {
         let largest = self.categories().map(|(_, _, share)| share).fold(0.0, f64::max);
         self.categories().find(|(_, _, share)| *share == largest).map_or(f64::NAN, |(_, value, _)| value)
