@@ -40,6 +40,7 @@ fn bootstrap(criterion: &mut Criterion) {
                 resamples: 1000,
                 points,
                 ranks: true,
+                correlations: &[],
                 surrogate: None,
             };
             group.bench_function(format!("{}, 2^{exponent} points", method.name()), |bencher| {

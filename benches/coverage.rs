@@ -213,6 +213,7 @@ fn sample(
             resamples: 0,
             points: None,
             ranks: false,
+            correlations: &job.design.column_correlations(),
             surrogate: None,
         };
         let layout = Layout::plain(case.first.len());

@@ -60,7 +60,8 @@ pub(super) fn output_result(
     let parts: Vec<MomentParts> = run.replicates.iter().map(|t| t.outputs[number].moments.clone()).collect();
     let kept = outputs_kept(run.replicates, number);
     let surrogate = corrected.whole.get(number).and_then(Option::as_ref);
-    let options = IntervalOptions { points: KeptPoints::all(run.design, &kept), surrogate, ..interval_options(study) };
+    let (points, correlations) = (KeptPoints::all(run.design, &kept), corrected.correlations.as_slice());
+    let options = IntervalOptions { points, correlations, surrogate, ..interval_options(study) };
     let used = merged(&parts.iter().map(MomentParts::whole).collect::<Vec<_>>());
     let layout = study.layout();
     let share = totals.runs_failed as f64 / run.design.rows() as f64;

@@ -24,7 +24,16 @@ const MIN_GAIN: f64 = 4.0;
 pub(crate) fn interval_options(study: &Study) -> IntervalOptions<'static> {
     let (analysis, seed) = (&study.analysis, study.design.settings().seed);
     let (method, threshold, resamples) = (analysis.intervals, analysis.threshold, analysis.resamples);
-    IntervalOptions { method, threshold, seed, resamples, points: None, ranks: true, surrogate: None }
+    IntervalOptions {
+        method,
+        threshold,
+        seed,
+        resamples,
+        points: None,
+        ranks: true,
+        correlations: &[],
+        surrogate: None,
+    }
 }
 
 /// What surrogates and cheaper models make of every output of the runs of `design`, the first of `replicates`, if the study
@@ -144,6 +153,8 @@ pub(super) struct Corrections {
     pub trials: Vec<Option<SurrogateTrial>>,
     /// What the rows hardly met.
     pub rare: Vec<RareLevel>,
+    /// See [`Design::column_correlations`].
+    pub correlations: Vec<f64>,
 }
 
 impl Corrections {
@@ -162,6 +173,12 @@ impl Corrections {
                 }
             }
         }
-        Self { whole, stages, trials, rare: rare_levels(&study.space, design) }
+        Self {
+            whole,
+            stages,
+            trials,
+            rare: rare_levels(&study.space, design),
+            correlations: design.column_correlations(),
+        }
     }
 }

@@ -8,7 +8,7 @@ use crate::run::Totals;
 use crate::study::Study;
 use crate::uncertainty::{
     EffectChecks, EffectEstimates, Estimate, Interval, IntervalMethod, NoiseIndices, OutputIndices, Refusal,
-    differs_clearly,
+    SurrogateUse, differs_clearly,
 };
 
 /// Warnings about the runs behind an output.
@@ -119,6 +119,9 @@ pub(super) fn of_indices(study: &Study, indices: &OutputIndices) -> Vec<Warning>
         let is_poor = study.design.plain_rows() > 0 && used.explained < MIN_EXPLAINED;
         warnings.extend(is_poor.then_some(Warning::PoorSurrogate { explained: used.explained }));
     }
+    // Corrected first-order indices do not depend on the formulas.
+    let is_corrected = |used: &SurrogateUse| used.corrects_first_order && !used.is_doubted && !used.is_heavy_tailed;
+    let is_corrected = indices.surrogate.as_ref().is_some_and(is_corrected);
     warnings.extend(of_dependent_steps(study));
     warnings.extend(indices.noise.as_ref().and_then(|noise| of_noise(study, indices, noise)));
     for ((name, effect), checks) in names_of_swaps(study).iter().zip(indices.effects()).zip(&indices.checks) {
@@ -131,7 +134,7 @@ pub(super) fn of_indices(study: &Study, indices: &OutputIndices) -> Vec<Warning>
         if checks.is_contradictory && is_visible {
             warnings.push(Warning::Contradictory { name: name.clone(), first_order, total });
         }
-        if differs_clearly(checks.gap) {
+        if !is_corrected && differs_clearly(checks.gap) {
             warnings.push(Warning::FormulasDiffer { name: name.clone(), gap: checks.gap.estimate.abs() });
         }
         warnings.extend(disagreements(study, &name, checks));

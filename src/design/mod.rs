@@ -51,6 +51,10 @@ pub fn has_room_for_orders(players: usize, factors: usize) -> bool {
 /// Most plain rows of a base point.
 pub const MAX_PLAIN_ROWS: u32 = 1000;
 
+/// Points of a replicate up to which the columns of a factor can be correlated: no pair of the first 60 dimensions is by more than 0.1
+/// at so many.
+const MAX_CORRELATED_POINTS: u64 = 1 << 10;
+
 /// Most factors of a design, whatever the sampler: every base point costs a run for each of them.
 pub const MAX_FACTORS: usize = 10_000;
 
@@ -319,6 +323,26 @@ impl Design {
         let mut columns = vec![vec![0.0; points]; 2 * self.factors()];
         self.replicate(replicate).fill(0, &mut columns);
         columns
+    }
+
+    /// The correlation over all base points of the columns of each factor in A and in B, both uniform on (0, 1). Among many factors
+    /// some pairs share leading digits over the first points: rows that differ in such a factor alone then differ too little
+    /// or too much in it. Of more than 1024 points a replicate, where this is rare, there are none.
+    pub fn column_correlations(&self) -> Vec<f64> {
+        let (points, factors) = (self.points_per_replicate(), self.factors());
+        if points > MAX_CORRELATED_POINTS || !self.settings.sampler.is_digital() || self.is_dependent() {
+            return Vec::new();
+        }
+        let mut sums = vec![0.0; factors];
+        for replicate in 0..self.settings.replicates {
+            let columns = self.first_points(replicate, points as usize);
+            let (a, b) = columns.split_at(factors);
+            for (sum, (a, b)) in sums.iter_mut().zip(a.iter().zip(b)) {
+                *sum += a.iter().zip(b).map(|(a, b)| (a - 0.5) * (b - 0.5)).sum::<f64>();
+            }
+        }
+        // The variance of a uniform number is 1/12.
+        sums.into_iter().map(|sum| 12.0 * sum / self.settings.base_samples as f64).collect()
     }
 
     /// Row number `row` of the design as a point of the unit cube: `u` has one entry per factor.

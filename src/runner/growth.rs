@@ -125,14 +125,14 @@ fn stage(study: &Study, run: &GrowingRun<'_>, lows: &[LowRun<'_>]) -> Stage {
     let mut all = Stage { widest: None, is_checked: true, squared_errors: [0.0; 2], surrogates: Vec::new() };
     let Ok(design) = run.design().with_points(run.points_per_replicate()) else { return all };
     let lows: Vec<_> = lows.iter().map(LowRun::totals).collect();
-    let mut is_known = true;
+    let (mut is_known, correlations) = (true, &design.column_correlations());
     all.surrogates = surrogates(study, &design, run.totals(), &lows, &[]);
     for number in 0..outputs {
         let parts: Vec<MomentParts> = run.totals().iter().map(|t| t.outputs[number].moments.clone()).collect();
         let kept: Vec<&PointOutputs> = run.totals().iter().map(|t| &t.outputs[number].point_outputs).collect();
         let surrogate = all.surrogates.get(number).and_then(Option::as_ref);
         let points = KeptPoints::all(&design, &kept);
-        let options = IntervalOptions { points, surrogate, ranks: false, ..options };
+        let options = IntervalOptions { points, correlations, surrogate, ranks: false, ..options };
         let found = output_indices(&parts, &layout, &options);
         if let Some(used) = found.as_ref().ok().and_then(|indices| indices.surrogate.as_ref()) {
             all.is_checked &= used.plain_half_width().is_some_and(|half| half <= MOST_PLAIN_HALF_WIDTH);

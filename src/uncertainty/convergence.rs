@@ -56,6 +56,7 @@ pub fn stages<'s>(
             points: options.points.map(|points| points.prefix(longest)),
             surrogate: surrogate(longest),
             ranks: false,
+            correlations: &[],
             ..*options
         };
         output_indices(&prefix, layout, &options).ok().map(|indices| Stage { base_samples, indices })

@@ -17,6 +17,9 @@ use super::unseen::{Unseen, half_seen, unseen};
 use super::{Estimate, Interval, NORMAL_QUANTILE};
 use crate::estimate::{Indices, MomentParts, Moments, Undefined, merged};
 
+/// Correlation of the two columns of a factor up to which the spread of the nets shows what it does to the indices.
+const MAX_CORRELATION: f64 = 0.3;
+
 /// How intervals and probabilities are found.
 #[derive(Debug, Clone, Copy)]
 pub struct IntervalOptions<'a> {
@@ -33,6 +36,8 @@ pub struct IntervalOptions<'a> {
     pub points: Option<KeptPoints<'a>>,
     /// Whether the probabilities to be first are wanted: they take most of the time of a small design.
     pub ranks: bool,
+    /// The [correlations](crate::design::Design::column_correlations) of the two samples, by factor; empty if they do not matter.
+    pub correlations: &'a [f64],
     /// What a surrogate makes of the outputs, to take the place of the plain estimates where it is more accurate.
     pub surrogate: Option<&'a SurrogateEstimates>,
 }
@@ -104,6 +109,9 @@ pub fn output_indices(
     };
     let allowed = judged.allow_for_unseen(&unseen, &still);
     judged.allow_for_half_seen(layout, &half_seen);
+    if !layout.dependent {
+        judged.allow_for_correlated(layout, options.correlations);
+    }
     // Where all rows agree the plain indices have no noise that a surrogate could take away.
     let settled: Vec<bool> = (0..layout.swaps())
         .map(|swap| {
@@ -248,6 +256,24 @@ impl Judged {
             // The sum of the first-order indices.
             if let (Some(sum), true) = (&mut self.estimates[0].interval, swap < layout.factors) {
                 sum.high += more;
+            }
+        }
+    }
+
+    /// Extends the intervals of factors whose columns of the two samples are correlated by r: of what is monotone in the factor,
+    /// rows that differ in it alone show a part 1 - r, in all nets alike if r is.
+    fn allow_for_correlated(&mut self, layout: &Layout, correlations: &[f64]) {
+        use Number::{FirstOrder, Interaction, ShareFirstOrder, ShareTotal, Total};
+        for (factor, r) in correlations.iter().enumerate().filter(|(_, r)| r.abs() > MAX_CORRELATION) {
+            for number in [FirstOrder, Total, ShareFirstOrder, ShareTotal, Interaction] {
+                let place = layout.place(factor, number);
+                let estimate = self.estimates[place].estimate;
+                let full = estimate / (1.0 - r).max(f64::EPSILON);
+                if let Some(interval) = &mut self.estimates[place].interval {
+                    *interval = Interval { low: interval.low.min(full), high: interval.high.max(full) };
+                    let error = &mut self.errors[place].error;
+                    *error = error.max((full - estimate).abs() / NORMAL_QUANTILE);
+                }
             }
         }
     }

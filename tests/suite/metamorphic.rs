@@ -63,6 +63,7 @@ fn indices(model: &Changed, base_samples: u64) -> OutputIndices {
         resamples: 0,
         points: None,
         ranks: true,
+        correlations: &[],
         surrogate: None,
     };
     output_indices(&moments, &Layout::plain(3), &options).unwrap()
