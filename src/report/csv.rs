@@ -42,73 +42,38 @@ impl Field {
     }
 }
 
-/// Columns of these names, of which the last `estimates` are estimates with their bounds.
-pub fn fields(names: &[&str], estimates: &[&str]) -> Vec<Field> {
-    let plain = names.iter().map(|name| Field::new(*name));
-    plain.chain(estimates.iter().map(|name| Field::estimate(*name))).collect()
+impl Field {
+    /// What stands above its columns.
+    pub(super) fn names(&self) -> Vec<String> {
+        let suffixes = if self.is_estimate { &["", "_low", "_high"][..] } else { &[""] };
+        suffixes.iter().map(|suffix| inert(format!("{}{suffix}", self.name))).collect()
+    }
 }
 
-/// Lines of CSV under a header.
-pub struct Csv {
-    writer: ::csv::Writer<Vec<u8>>,
-    /// Cells of the header, and of the line so far.
-    width: usize,
-    cells: usize,
+impl Value {
+    /// What stands in its columns, where `printed` is what is printed.
+    pub(super) fn cells(&self, printed: &str) -> Vec<String> {
+        vec![match self {
+            Self::Printed => inert(printed.to_owned()),
+            Self::Empty => String::new(),
+            Self::Text(text) => inert(text.clone()),
+            Self::Number(number) => exact(Some(*number)),
+            Self::Count(count) => count.to_string(),
+            Self::Flag(flag) => flag.to_string(),
+            Self::Estimate(estimate) => {
+                let interval = estimate.and_then(|estimate| estimate.interval);
+                let bounds = [interval.map(|i| i.low), interval.map(|i| i.high)];
+                return [estimate.map(|e| e.estimate)].into_iter().chain(bounds).map(exact).collect();
+            }
+        }]
+    }
 }
 
-impl Csv {
-    /// A table with a header alone.
-    pub fn new(fields: impl IntoIterator<Item = Field>) -> Self {
-        let mut csv = Self { writer: ::csv::Writer::from_writer(Vec::new()), width: 0, cells: 0 };
-        for Field { name, is_estimate } in fields {
-            csv.cell(&inert(name.clone()));
-            if is_estimate {
-                csv.cell(&inert(format!("{name}_low")));
-                csv.cell(&inert(format!("{name}_high")));
-            }
-        }
-        csv.width = csv.cells;
-        csv.end();
-        csv
-    }
-
-    /// Adds a line, which has at most as many cells as the header; those that lack are empty.
-    pub fn row<V: Into<Value>>(&mut self, values: impl IntoIterator<Item = V>) {
-        for value in values {
-            match value.into() {
-                Value::Printed | Value::Empty => self.cell(""),
-                Value::Text(text) => self.cell(&inert(text)),
-                Value::Number(number) => self.cell(&exact(Some(number))),
-                Value::Count(count) => self.cell(&count.to_string()),
-                Value::Flag(flag) => self.cell(if flag { "true" } else { "false" }),
-                Value::Estimate(estimate) => {
-                    let bounds = |Estimate { estimate, interval }: Estimate| {
-                        [Some(estimate), interval.map(|i| i.low), interval.map(|i| i.high)]
-                    };
-                    estimate.map_or([None; 3], bounds).iter().for_each(|bound| self.cell(&exact(*bound)));
-                }
-            }
-        }
-        self.end();
-    }
-
-    /// The lines.
-    pub fn text(self) -> String {
-        String::from_utf8(self.writer.into_inner().expect("into memory")).expect("text in, text out")
-    }
-
-    fn cell(&mut self, text: &str) {
-        self.writer.write_field(text).expect("into memory");
-        self.cells += 1;
-    }
-
-    fn end(&mut self) {
-        while self.cells < self.width {
-            self.cell("");
-        }
-        self.cells = 0;
-        self.writer.write_record(None::<&[u8]>).expect("no longer than the header, into memory");
-    }
+/// Lines of CSV.
+pub(super) fn lines(lines: impl IntoIterator<Item = Vec<String>>) -> String {
+    let mut writer = ::csv::Writer::from_writer(Vec::new());
+    lines.into_iter().for_each(|line| writer.write_record(line).expect("all of one length, into memory"));
+    String::from_utf8(writer.into_inner().expect("into memory")).expect("text in, text out")
 }
 
 /// A number that reads back to the same bits; empty without one.
@@ -144,15 +109,16 @@ values! {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::report::document::Table;
     use crate::uncertainty::Interval;
 
     #[test]
     fn values_keep_their_bits_and_gaps_are_empty() {
-        let mut csv = Csv::new(fields(&["a,b", "n"], &["S"]));
         let known = Estimate { estimate: 0.1, interval: Some(Interval { low: -0.5, high: 1e-300 }) };
-        csv.row([Value::from("=1+1"), Value::from(7), known.into()]);
-        csv.row([Value::Flag(true), Value::from(f64::NAN), Value::Estimate(None)]);
-        csv.row([Value::Flag(false)]);
-        assert_eq!(csv.text(), format!("\"a,b\",n,S,S_low,S_high\n'=1+1,7,0.1,-0.5,{}\ntrue,,,,\nfalse,,,,\n", 1e-300));
+        let rows = [("=1+1", 7.0, Some(known)), ("", f64::NAN, None)];
+        let table = Table::from_rows("", rows).file("a,b", |row| row.0).file("n", |row| row.1);
+        let table = table.file_estimate("S", |row| row.2).file("flag", |_| true);
+        let expected = format!("\"a,b\",n,S,S_low,S_high,flag\n'=1+1,7,0.1,-0.5,{},true\n,,,,,true\n", 1e-300);
+        assert_eq!(table.csv(), expected);
     }
 }

@@ -25,8 +25,8 @@ use std::borrow::Cow;
 pub use super::csv::Value;
 pub use report::{OutputReport, Report};
 pub use symbols::symbols;
-pub(crate) use table::csv;
 pub use table::{Cell, Column, Mark, OnPhone, Rows, Table};
+pub(crate) use table::{csv, largest};
 
 use crate::report::chart::Chart;
 

@@ -2,7 +2,7 @@
 
 use std::borrow::Borrow;
 
-use crate::report::csv::{Csv, Field, Value};
+use crate::report::csv::{Field, Value, lines};
 use crate::report::format::give_or_take;
 
 use super::Link;
@@ -84,16 +84,6 @@ pub enum Mark {
 }
 
 impl Table {
-    /// An empty table.
-    pub fn new(caption: impl Into<String>, columns: impl IntoIterator<Item = Column>) -> Self {
-        Self { caption: caption.into(), columns: columns.into_iter().collect(), ..Self::default() }
-    }
-
-    /// The table with `rows`.
-    pub fn with_rows(self, rows: impl IntoIterator<Item = Vec<Cell>>) -> Self {
-        Self { rows: rows.into_iter().collect(), ..self }
-    }
-
     /// A table of `rows`, whose columns are added one after the other.
     ///
     /// ```
@@ -115,8 +105,8 @@ impl Table {
 
     /// A table of labels and texts without headings.
     pub fn pairs<L: Into<String>>(caption: &str, rows: impl IntoIterator<Item = (L, String)>) -> Self {
-        let rows = rows.into_iter().map(|(label, text)| vec![label.into().into(), text.into()]);
-        Self::new(caption, [Column::text(""), Column::text("")]).with_rows(rows)
+        let rows: Vec<(String, String)> = rows.into_iter().map(|(label, text)| (label.into(), text)).collect();
+        Self::from_rows(caption, &rows).text("", |(label, _)| label).text("", |(_, text)| text).into()
     }
 
     /// The rows as CSV.
@@ -138,15 +128,12 @@ impl Table {
     /// The rows that are printed, with the cells of the printed columns.
     pub(super) fn printed_rows(&self) -> Vec<Vec<&Cell>> {
         let columns = self.printed_columns();
-        let cells = |row: &'_ Vec<Cell>| -> Vec<usize> {
-            columns.iter().map(|(place, ..)| *place).filter(|place| *place < row.len()).collect()
-        };
         let rows: Vec<&Vec<Cell>> = match &self.printed {
             None => self.rows.iter().collect(),
             Some(places) => places.iter().map(|&place| &self.rows[place]).collect(),
         };
         let sums = Some(&self.sums).filter(|sums| !sums.is_empty());
-        rows.into_iter().chain(sums).map(|row| cells(row).into_iter().map(|place| &row[place]).collect()).collect()
+        rows.into_iter().chain(sums).map(|row| columns.iter().map(|(place, ..)| &row[*place]).collect()).collect()
     }
 }
 
@@ -154,48 +141,22 @@ impl Table {
 pub(crate) fn csv<T: Borrow<Table>>(tables: impl IntoIterator<Item = T>) -> String {
     let mut tables = tables.into_iter().peekable();
     let Some(first) = tables.peek() else { return String::new() };
-    let mut csv = Csv::new(first.borrow().columns.iter().filter_map(|column| column.field.clone()));
-    for table in tables {
+    let fields = first.borrow().columns.iter().filter_map(|column| column.field.as_ref());
+    let header: Vec<String> = fields.flat_map(Field::names).collect();
+    let rows = tables.flat_map(|table| {
         let table = table.borrow();
-        for row in &table.rows {
+        let row = |row: &Vec<Cell>| -> Vec<String> {
             let in_file = table.columns.iter().zip(row).filter(|(column, _)| column.field.is_some());
-            csv.row(in_file.map(|(_, cell)| match &cell.value {
-                Value::Printed => Value::Text(cell.text.clone()),
-                value => value.clone(),
-            }));
-        }
-    }
-    csv.text()
+            in_file.flat_map(|(_, cell)| cell.value.cells(&cell.text)).collect()
+        };
+        table.rows.iter().map(row).collect::<Vec<_>>()
+    });
+    lines(std::iter::once(header).chain(rows))
 }
 
-impl Column {
-    /// A column of texts.
-    pub fn text(heading: impl Into<String>) -> Self {
-        Self { heading: Some(heading.into()), ..Self::default() }
-    }
-
-    /// A column of numbers.
-    pub fn number(heading: impl Into<String>) -> Self {
-        Self { numeric: true, ..Self::text(heading) }
-    }
-
-    /// A column that is in the file alone.
-    pub fn in_file(field: Field) -> Self {
-        Self { field: Some(field), ..Self::default() }
-    }
-
-    /// The column as it is called in the file.
-    pub fn named(self, field: Field) -> Self {
-        Self { field: Some(field), ..self }
-    }
-
-    /// Columns of which the first `texts` are texts and the others numbers.
-    pub fn list(texts: usize, headings: &[&str]) -> Vec<Self> {
-        let column = |(place, heading): (usize, &&str)| {
-            if place < texts { Self::text(*heading) } else { Self::number(*heading) }
-        };
-        headings.iter().enumerate().map(column).collect()
-    }
+/// `which` of how many are shown, if not all.
+pub(crate) fn largest(shown: usize, all: usize, what: &str) -> String {
+    if shown < all { format!(" The {shown} largest of {all} {what}.") } else { String::new() }
 }
 
 /// A table in the making: of every column it is said once what stands above it, what is printed in a row, and under which
@@ -209,12 +170,22 @@ pub struct Rows<R> {
 impl<R: Copy> Rows<R> {
     /// Adds a column of texts.
     pub fn text<C: Into<Cell>>(self, heading: impl Into<String>, cell: impl Fn(R) -> C) -> Self {
-        self.column(Column::text(heading), cell)
+        self.column(Column { heading: Some(heading.into()), ..Column::default() }, cell)
     }
 
     /// Adds a column of numbers.
     pub fn number<C: Into<Cell>>(self, heading: impl Into<String>, cell: impl Fn(R) -> C) -> Self {
-        self.column(Column::number(heading), cell)
+        self.column(Column { heading: Some(heading.into()), numeric: true, field: None }, cell)
+    }
+
+    /// Adds a column of estimates, printed with their errors and with their bounds in the file.
+    pub fn index(
+        self,
+        heading: impl Into<String>,
+        name: impl Into<String>,
+        value: impl Fn(R) -> Option<Estimate>,
+    ) -> Self {
+        self.number(heading, &value).estimate(name, value)
     }
 
     /// Adds a column that is in the file alone.
@@ -248,11 +219,30 @@ impl<R: Copy> Rows<R> {
         self
     }
 
+    /// Prints the first `most` of the rows in this order; the caption then says how many there are of `what`.
+    pub fn largest(mut self, order: impl IntoIterator<Item = usize>, most: usize, what: &str) -> Self {
+        let mut order: Vec<usize> = order.into_iter().collect();
+        self.table.caption.push_str(&largest(order.len().min(most), order.len(), what));
+        order.truncate(most);
+        self.table.printed = Some(order);
+        self
+    }
+
+    /// The same in the order in which they are.
+    pub fn first(self, most: usize, what: &str) -> Self {
+        let all = 0..self.rows.len();
+        self.largest(all, most, what)
+    }
+
     /// What stands in the last column of the row of sums.
     pub fn sum(mut self, cell: impl Into<Cell>) -> Self {
-        self.table.sums.resize_with(self.table.columns.len(), Cell::default);
-        self.table.sums.pop();
-        self.table.sums.push(cell.into());
+        self.table.sums.resize_with(self.table.columns.len() - 1, Cell::default);
+        self.sums([cell.into()])
+    }
+
+    /// What stands in the next columns of the row of sums.
+    pub fn sums(mut self, cells: impl IntoIterator<Item = Cell>) -> Self {
+        self.table.sums.extend(cells);
         self
     }
 
@@ -276,14 +266,17 @@ impl<R: Copy> Rows<R> {
 }
 
 impl<R> From<Rows<R>> for Table {
-    fn from(rows: Rows<R>) -> Self {
+    fn from(mut rows: Rows<R>) -> Self {
+        if !rows.table.sums.is_empty() {
+            rows.table.sums.resize_with(rows.table.columns.len(), Cell::default);
+        }
         rows.table
     }
 }
 
 impl<R> From<Rows<R>> for super::Part {
     fn from(rows: Rows<R>) -> Self {
-        rows.table.into()
+        Self::Table(rows.into())
     }
 }
 

@@ -65,15 +65,17 @@ impl<'a> Terminal<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::document::{Cell, Column, Mark, Section};
+    use crate::report::document::Section;
 
     #[test]
     fn a_terminal_shows_tables_and_sentences_and_no_empty_section() {
         let numbers = Table {
             printed: Some(vec![1]),
             sums: vec!["sum".into(), "3".into()],
-            ..Table::new("Two numbers.", [Column::text("factor"), Column::number("S_1")])
-                .with_rows([vec!["a".into(), "1".into()], vec!["b".into(), Cell::marked("2", Mark::Strong)]])
+            ..Table::from_rows("Two numbers.", [("a", "1"), ("b", "2")])
+                .text("factor", |row| row.0)
+                .number("S_1", |row| row.1)
+                .into()
         };
         let document = Document {
             lead: vec!["b decides.".to_owned()],

@@ -1,8 +1,8 @@
 //! The noise of a stochastic model: what it is of a single run, and the indices of the mean over it.
 
 use super::shared::complement;
-use super::tables::{FACTORS, first_rows};
-use crate::report::document::{Cell, Column, Part, Table};
+use super::tables::FACTORS;
+use crate::report::document::{Part, Table};
 use crate::report::format::{name, percent};
 use crate::report::leading::by_total;
 use crate::result::{IndexRecord, NoiseRecord, OutputResult};
@@ -31,16 +31,12 @@ pub(super) fn noise(output: &OutputResult) -> Vec<Part> {
 /// First-order indices of the values beside the indices of the mean over the noise.
 fn table(output: &OutputResult, noise: &NoiseRecord) -> Table {
     let order = by_total(output).unwrap_or_default();
-    let row = |(_, index): &(usize, &IndexRecord)| -> Vec<Cell> {
-        let of_mean = noise.of_mean.iter().find(|of_mean| of_mean.name == index.factor);
-        vec![
-            name(&index.factor).into(),
-            index.effect.first_order.into(),
-            of_mean.and_then(|of_mean| of_mean.first_order).into(),
-            of_mean.and_then(|of_mean| of_mean.total).into(),
-        ]
-    };
-    let caption = "Indices of the values and of the mean over the noise, each of its own variance.";
-    let columns = Column::list(1, &["factor", "S_1 of a value", "S_1 of the mean", "S_T of the mean"]);
-    first_rows(caption, columns, order.iter().map(row), (FACTORS, "factors, all in the JSON file"))
+    let of_mean = |index: &IndexRecord| noise.of_mean.iter().find(|of_mean| of_mean.name == index.factor);
+    Table::from_rows("Indices of the values and of the mean over the noise, each of its own variance.", order)
+        .text("factor", |(_, index)| name(&index.factor))
+        .number("S_1 of a value", |(_, index)| index.effect.first_order)
+        .number("S_1 of the mean", |(_, index)| of_mean(index).and_then(|of_mean| of_mean.first_order))
+        .number("S_T of the mean", |(_, index)| of_mean(index).and_then(|of_mean| of_mean.total))
+        .first(FACTORS, "factors, all in the JSON file")
+        .into()
 }

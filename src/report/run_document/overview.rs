@@ -2,10 +2,10 @@
 
 use super::figures::Figures;
 use super::shared::{definitions, failed_runs};
-use super::tables::{IN_CSV, first_rows, largest};
+use super::tables::{FACTORS, IN_CSV};
 use super::warnings::grouped_warnings;
-use crate::report::document::{Cell, Column, Part, Section, Table};
-use crate::report::format::{give_or_take, name, short, value};
+use crate::report::document::{Part, Section, Table, largest};
+use crate::report::format::{name, or_dash, short, value};
 use crate::report::leading::{Contender, Verdict, by_total, leader_of_all, of_which};
 use crate::report::listed;
 use crate::report::run_charts::{map_chart, overall_order, together_chart};
@@ -64,28 +64,26 @@ fn leads(result: &StudyResult) -> Vec<usize> {
 pub(super) fn factors(result: &StudyResult) -> Table {
     let leads = leads(result);
     let together = result.aggregate.as_ref().and_then(|aggregate| aggregate.indices.as_deref()).unwrap_or_default();
-    let row = |&factor: &usize| -> Vec<Cell> {
+    let all = |factor: usize| together.iter().find(|index| index.factor == result.factors[factor].name);
+    let totals = |&factor: &usize| {
         let total = |output: &'_ OutputResult| Some(output.indices.as_ref()?.get(factor)?.effect.total);
         let mut totals: Vec<_> =
             result.outputs.iter().filter_map(|output| Some((total(output)?, &output.name))).collect();
         totals.sort_by(|a, b| a.0.estimate.total_cmp(&b.0.estimate));
-        let own = &result.factors[factor].name;
-        let all = together.iter().find(|index| index.factor == *own);
-        let dash = || Cell::from("–");
-        vec![
-            name(own).into(),
-            all.map(|all| all.first_order).into(),
-            all.map(|all| all.total).into(),
-            leads[factor].to_string().into(),
-            totals.get(totals.len() / 2).map_or_else(dash, |(median, _)| short(median.estimate).into()),
-            totals.last().map(|(largest, _)| *largest).into(),
-            totals.last().map_or_else(dash, |(_, at)| name(at).into()),
-        ]
+        (factor, totals.get(totals.len() / 2).map(|median| median.0), totals.last().copied())
     };
     let caption = "Indices of all together, for how many a factor surely matters most, and the median and largest of its \
                    total indices.";
-    let headings = ["factor", "S_1 together", "S_T together", "first of", "median S_T", "largest S_T", "at"];
-    first_rows(caption, Column::list(1, &headings), overall_order(result).iter().map(row), IN_CSV)
+    Table::from_rows(caption, overall_order(result).iter().map(totals))
+        .text("factor", |(factor, ..)| name(&result.factors[factor].name))
+        .number("S_1 together", |(factor, ..)| all(factor).map(|all| all.first_order))
+        .number("S_T together", |(factor, ..)| all(factor).map(|all| all.total))
+        .number("first of", |(factor, ..)| leads[factor].to_string())
+        .number("median S_T", |(_, median, _)| or_dash(median, |median| short(median.estimate)))
+        .number("largest S_T", |(.., largest)| largest.map(|(total, _)| total))
+        .number("at", |(.., largest)| or_dash(largest, |(_, output)| name(output)))
+        .first(FACTORS, IN_CSV)
+        .into()
 }
 
 /// Which outputs have no indices, what the run warns of, and why runs failed.
@@ -112,24 +110,22 @@ pub(super) fn mind(result: &StudyResult) -> Vec<Part> {
 pub(super) fn every_output(result: &StudyResult) -> Part {
     let mut factors = overall_order(result);
     factors.truncate(COLUMNS);
-    let row = |output: &OutputResult| -> Vec<Cell> {
-        let number = |x: Option<f64>| x.map_or_else(|| "–".to_owned(), |x| value(x, &output.unit));
-        let moments = [name(&output.name), number(output.mean), number(output.variance.map(f64::sqrt))];
-        let totals = factors.iter().map(|&factor| {
-            let total = output.indices.as_ref().and_then(|indices| indices.get(factor)).map(|index| index.effect.total);
-            total.map_or_else(|| "–".to_owned(), give_or_take)
-        });
-        moments.into_iter().chain(totals).map(Cell::from).collect()
-    };
-    let mut columns = Column::list(1, &["output", "mean", "standard deviation"]);
-    columns.extend(factors.iter().map(|&factor| Column::number(name(&result.factors[factor].name))));
+    let number = |output: &OutputResult, x: Option<f64>| or_dash(x, |x| value(x, &output.unit));
     let all = result.outputs.len();
     let caption = format!(
         "Mean, standard deviation and total indices S_T of every output.{}{}",
-        largest(factors.len(), result.factors.len(), IN_CSV.1),
+        largest(factors.len(), result.factors.len(), IN_CSV),
         if all > OUTPUTS { format!(" The first {OUTPUTS} of {all} outputs.") } else { String::new() }
     );
-    let table = Table::new(caption, columns).with_rows(result.outputs.iter().take(OUTPUTS).map(row));
+    let rows = Table::from_rows(caption, result.outputs.iter().take(OUTPUTS))
+        .text("output", |output| name(&output.name))
+        .number("mean", |output| number(output, output.mean))
+        .number("standard deviation", |output| number(output, output.variance.map(f64::sqrt)));
+    let table = factors.iter().fold(rows, |rows, &factor| {
+        rows.number(name(&result.factors[factor].name), |output| {
+            Some(output.indices.as_ref()?.get(factor)?.effect.total)
+        })
+    });
     Part::OnPage(vec![Part::Details { summary: "Every output".to_owned(), parts: vec![table.into()] }])
 }
 

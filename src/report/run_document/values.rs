@@ -1,10 +1,10 @@
 //! The values of one output, and the surrogate that was fitted to them.
 
-use super::tables::{FACTORS_OF_ESTIMATORS, first_rows};
-use crate::report::document::{Cell, Column, Part, Table};
+use super::tables::FACTORS_OF_ESTIMATORS;
+use crate::report::document::{Part, Table};
 use crate::report::format::{among_with_unit, axis_unit, grouped, index, minus, name, significant, value};
 use crate::report::leading::by_total;
-use crate::result::{IndexRecord, OutputResult, SurrogateRecord};
+use crate::result::{OutputResult, SurrogateRecord};
 use crate::uncertainty::{Estimate, Interval, NamedTerm};
 
 /// Quantiles in the table, in percent; the JSON file has more.
@@ -38,8 +38,8 @@ pub(super) fn moments(output: &OutputResult) -> Option<Part> {
     add("largest", Some(number(sample.max)));
     let caption = "Moments and range are those of all values where nothing else is said, mean and standard deviation with their \
                    95 % intervals; quantiles are those of the values that were kept.";
-    let rows = rows.into_iter().map(|(label, text)| vec![label.into(), text.into()]);
-    Some(Part::Table(Table::new(caption, [Column::text(""), Column::number("")]).with_rows(rows)))
+    let rows = Table::from_rows(caption, &rows).text("", |(label, _)| label).number("", |(_, text)| text);
+    Some(rows.into())
 }
 
 /// The mean of an output with its error and unit.
@@ -75,26 +75,21 @@ pub(super) fn surrogate(output: &OutputResult, record: &SurrogateRecord) -> Vec<
         term.degrees.iter().map(factor).collect::<Vec<_>>().join(" × ")
     };
     let terms = record.leading_terms.iter().filter(|term| term.share >= LEAST_TERM);
-    let rows = terms.map(|term| vec![label(term).into(), format!("{} %", significant(rounded(term.share))).into()]);
     let caption =
         "The terms of the polynomials that carry most of the variance, by the degree of each factor's polynomial.";
-    let mut parts =
-        vec![Part::Table(Table::new(caption, Column::list(1, &["term", "of the variance"])).with_rows(rows))];
+    let terms = Table::from_rows(caption, terms)
+        .text("term", label)
+        .number("of the variance", |term| format!("{} %", significant(rounded(term.share))));
+    let mut parts = vec![terms.into()];
     if let Some(order) = by_total(output) {
-        let row = |&(number, index): &(usize, &IndexRecord)| -> Vec<Cell> {
-            let plain = record.plain.get(number);
-            let effect = &index.effect;
-            vec![
-                name(&index.factor).into(),
-                Cell::from(Some(effect.first_order)),
-                Cell::from(plain.and_then(|plain| plain.first_order)),
-                Cell::from(Some(effect.total)),
-                Cell::from(plain.and_then(|plain| plain.total)),
-            ]
-        };
-        let headings = ["factor", "S_1", "S_1 plain", "S_T", "S_T plain"];
-        let (caption, shown) = ("Indices with and without the surrogate.", (FACTORS_OF_ESTIMATORS, "factors"));
-        parts.push(first_rows(caption, Column::list(1, &headings), order.iter().map(row), shown).into());
+        let plain = |number: usize| record.plain.get(number);
+        let table = Table::from_rows("Indices with and without the surrogate.", order)
+            .text("factor", |(_, index)| name(&index.factor))
+            .number("S_1", |(_, index)| index.effect.first_order)
+            .number("S_1 plain", |(number, _)| plain(number).and_then(|plain| plain.first_order))
+            .number("S_T", |(_, index)| index.effect.total)
+            .number("S_T plain", |(number, _)| plain(number).and_then(|plain| plain.total));
+        parts.push(table.first(FACTORS_OF_ESTIMATORS, "factors").into());
     }
     parts
 }

@@ -1,6 +1,6 @@
 use super::*;
 use crate::report::chart::{Axis, Chart, Colour, Panel, Point, Series, Shape};
-use crate::report::document::{Cell, Column};
+use crate::report::document::Cell;
 
 fn scatter(title: &str) -> Chart {
     let point = Point { x: 1.0, y: 2.0, label: "a point".to_owned() };
@@ -52,21 +52,17 @@ fn every_part(text: &str) -> Vec<Part> {
         Part::Gallery(vec![small("f2", scatter(text))]),
         Part::Table(Table {
             on_phone: OnPhone::StackLabelled,
-            ..Table::new(t(), [Column::text(t()), Column::number(t())]).with_rows([
-                vec![t().into(), t().into()],
-                vec![
-                    Cell::marked(t(), Mark::Good),
-                    Cell {
-                        text: t(),
-                        mark: Mark::Bad,
-                        to: Some(t()),
-                        note: t(),
-                        links: vec![Link { text: t(), to: t() }],
-                        ..Cell::default()
-                    },
-                ],
-                vec![Cell::marked(t(), Mark::Strong), Cell::default()],
-            ])
+            ..Table::from_rows(t(), [Mark::Plain, Mark::Good, Mark::Strong])
+                .text(t(), |mark| Cell::marked(t(), mark))
+                .number(t(), |_| Cell {
+                    text: t(),
+                    mark: Mark::Bad,
+                    to: Some(t()),
+                    note: t(),
+                    links: vec![Link { text: t(), to: t() }],
+                    ..Cell::default()
+                })
+                .into()
         }),
     ]
 }
@@ -97,8 +93,8 @@ fn the_page_needs_nothing_else() {
 #[test]
 fn what_follows_a_number_does_not_run_into_it() {
     let cell = Cell { links: vec![Link::new("fig. 8", "#two")], ..Cell::from("1") };
-    let table = Table::new("Claims.", Column::list(1, &["claim"])).with_rows([vec![cell]]);
-    let html = page(vec![Part::Table(table)]).html();
+    let table = Table::from_rows("Claims.", [&cell]).text("claim", Cell::clone);
+    let html = page(vec![table.into()]).html();
     assert!(html.contains("1 <span class=\"files\">"), "{html}");
     // Chromium draws a heading that repeats on paper, but no button in it.
     assert!(html.contains("thead button { display: contents; }"));
