@@ -5,9 +5,9 @@ use std::io::{Error, ErrorKind, Read, Result};
 use std::path::Path;
 
 /// Most bytes that are read whole from what is not a regular file, such as a pipe: 256 MiB. A regular file has an end.
-pub const MOST_OF_A_STREAM: u64 = 256 << 20;
+pub const MAX_STREAM_BYTES: u64 = 256 << 20;
 
-/// All bytes of the file at `path`. A pipe or a device, as `/dev/stdin` is, serves as well, up to [`MOST_OF_A_STREAM`].
+/// All bytes of the file at `path`. A pipe or a device, as `/dev/stdin` is, serves as well, up to [`MAX_STREAM_BYTES`].
 ///
 /// # Errors
 /// What the operating system says; [`ErrorKind::FileTooLarge`] for a stream that has more bytes, or no end.
@@ -39,7 +39,7 @@ pub fn read_opened(file: &mut File) -> Result<Vec<u8>> {
         bytes.try_reserve_exact(length).map_err(|_| Error::from(ErrorKind::OutOfMemory))?;
         file.read_to_end(&mut bytes)?;
     } else {
-        read_at_most(file, MOST_OF_A_STREAM, &mut bytes)?;
+        read_at_most(file, MAX_STREAM_BYTES, &mut bytes)?;
     }
     Ok(bytes)
 }

@@ -114,7 +114,7 @@ pub mod trade;
 pub mod uncertainty;
 
 // The modules that are hidden are open to the program, which is a crate of its own, and promise nothing.
-pub use analysis::MOST_ROWS_OF_MEASURES;
+pub use analysis::MAX_ROWS_OF_MEASURES;
 #[doc(hidden)]
 pub use analysis::{inputs_in_words, study_setup, unlikely_outputs};
 pub use design::{Design, DesignError, DesignSettings, Rows, Sampler, SobolSequence};

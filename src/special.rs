@@ -121,7 +121,7 @@ fn polynomial(x: f64, coefficients: [f64; 8]) -> f64 {
 }
 
 /// Degrees of freedom beyond which Student's t distribution is taken as a normal one of another argument.
-const MANY: f64 = 1e5;
+const LARGE_FREEDOM: f64 = 1e5;
 
 /// P(T > t) of Student's t distribution with `freedom` > 0 degrees of freedom, in which `f64::INFINITY` is the normal one; to a
 /// relative error of some 1e-12.
@@ -132,7 +132,7 @@ pub fn t_above(t: f64, freedom: f64) -> f64 {
     if freedom.is_infinite() {
         return normal_below(-t);
     }
-    if freedom > MANY {
+    if freedom > LARGE_FREEDOM {
         // Hill 1970, Communications of the ACM 13, algorithm 395: the next term is of the order of 1/f^3.
         let y = (freedom - 0.5) * libm::log1p(t * (t / freedom));
         let b = 48.0 * (freedom - 0.5) * (freedom - 0.5);
@@ -202,8 +202,8 @@ fn root_ratio(a: f64) -> f64 {
 /// The continued fraction of the incomplete beta function I_x(a, b) (Abramowitz and Stegun 1964, 26.5.8), up to a relative change of
 /// less than `least_change`, by the modified Lentz algorithm (Press et al. 2007, Numerical Recipes, section 6.4). Some sqrt(a) terms are needed.
 pub fn beta_fraction(x: f64, a: f64, b: f64, least_change: f64) -> f64 {
-    const LEAST: f64 = 1e-300;
-    let away = |value: f64| if value.abs() < LEAST { LEAST } else { value };
+    const MIN_POSITIVE: f64 = 1e-300;
+    let away = |value: f64| if value.abs() < MIN_POSITIVE { MIN_POSITIVE } else { value };
     let (mut c, mut d) = (1.0, 1.0 / away(1.0 - (a + b) * x / (a + 1.0)));
     let mut value = d;
     for m in 1..100_000 {

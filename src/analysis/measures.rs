@@ -10,7 +10,7 @@ use crate::result::RunMeasures;
 use crate::space::{Factor, Space};
 
 /// Most rows, over all replicates, that other measures are taken from: the first of a run.
-pub const MOST_ROWS_OF_MEASURES: u64 = 1 << 12;
+pub const MAX_ROWS_OF_MEASURES: u64 = 1 << 12;
 
 /// The rows that measures are taken from: the first rows A and B of every replicate, a column for each factor.
 pub(super) struct MeasuredRows {
@@ -23,7 +23,7 @@ pub(super) struct MeasuredRows {
 
 impl MeasuredRows {
     pub fn new(design: &Design, space: &Space) -> Self {
-        let rows = FirstRows::new(design, MOST_ROWS_OF_MEASURES / 2);
+        let rows = FirstRows::new(design, MAX_ROWS_OF_MEASURES / 2);
         let known = space.factors().iter().enumerate().filter(|(_, factor)| !factor.distribution().is_noise());
         let column = |(number, factor): (usize, &Factor)| {
             let values = rows.coordinates(number).map(|u| factor.distribution().quantile(u));

@@ -14,19 +14,19 @@ const POINTS: usize = 400;
 /// Slices of equal probability of a factor that is not discrete.
 const SLICES: usize = 20;
 /// Most values of a discrete factor that are slices of their own.
-const MOST_VALUES: usize = 50;
+const MAX_VALUES: usize = 50;
 /// Most base points that the means rest on, over all replicates.
-const MOST: u64 = 1 << 14;
+const MAX_ROWS: u64 = 1 << 14;
 /// Fewest of them, however many columns the design has.
-const FEWEST: u64 = 1 << 10;
-/// Numbers of the design that are computed again for the means, beyond [`FEWEST`] points.
+const MIN_ROWS: u64 = 1 << 10;
+/// Numbers of the design that are computed again for the means, beyond [`MIN_ROWS`] points.
 const NUMBERS: u64 = 1 << 18;
 /// Half width of a 95 % interval of a mean of many values, in standard errors.
 const QUANTILE: f64 = 1.96;
 
 /// The rows that scatters are made from: fewer for many factors, to stay quick.
 pub(super) fn rows_of_scatter(design: &Design) -> FirstRows {
-    FirstRows::new(design, (NUMBERS / design.columns().max(1) as u64).clamp(FEWEST, MOST))
+    FirstRows::new(design, (NUMBERS / design.columns().max(1) as u64).clamp(MIN_ROWS, MAX_ROWS))
 }
 
 /// The scatter of an output in `unit`, of which every replicate has kept `samples`, for the factors with the largest of `indices`; `rows` are the first of its design. `None` where a
@@ -80,12 +80,12 @@ enum Slices<'a> {
 }
 
 impl<'a> Slices<'a> {
-    fn of(distribution: &'a Distribution) -> Self {
+    fn new(distribution: &'a Distribution) -> Self {
         let values = match distribution {
             Distribution::Constant(_) => vec![distribution.median()],
             other => other.levels().unwrap_or_default().into_iter().map(|(value, _)| value).collect(),
         };
-        if (1..=MOST_VALUES).contains(&values.len()) {
+        if (1..=MAX_VALUES).contains(&values.len()) {
             return Self::Values(distribution, values);
         }
         Self::Equal((0..SLICES).map(|k| distribution.quantile((k as f64 + 0.5) / SLICES as f64)).collect())
@@ -111,7 +111,7 @@ impl<'a> Slices<'a> {
 
 /// `rows` are (coordinate, output times 2^-exponent), for outputs with a value.
 fn conditional_means(factor: &Factor, unit: &Unit, rows: &[(f64, f64)], exponent: i32) -> ConditionalMeansRecord {
-    let slices = Slices::of(factor.distribution());
+    let slices = Slices::new(factor.distribution());
     let mut values = vec![Vec::new(); slices.middles().len()];
     for (u, y) in rows {
         values[slices.number(*u)].push(*y);

@@ -64,7 +64,7 @@ pub(super) fn of_flags(model: &dyn Model, whole: &Totals) -> Vec<Warning> {
 }
 
 /// Effective number of rows behind a variance below which it counts as that of few.
-const FEW_ROWS: f64 = 40.0;
+const MIN_EFFECTIVE_ROWS: f64 = 40.0;
 
 /// Share of the variance that surrogates should explain for a split design to gain (`docs/accuracy/surrogate.md`).
 const MIN_EXPLAINED: f64 = 0.9;
@@ -77,7 +77,7 @@ const MAX_KURTOSIS: f64 = 6.0;
 pub(super) fn of_values(moments: &CentralMoments) -> Option<Warning> {
     let (values, kurtosis) = (moments.count(), moments.excess_kurtosis()?);
     let rows = values as f64 / (kurtosis + 3.0);
-    (kurtosis > MAX_KURTOSIS && rows < FEW_ROWS).then_some(Warning::FewRows { rows, values, kurtosis })
+    (kurtosis > MAX_KURTOSIS && rows < MIN_EFFECTIVE_ROWS).then_some(Warning::FewRows { rows, values, kurtosis })
 }
 
 /// A warning of outputs whose size leaves few digits to what varies in them.
@@ -220,24 +220,24 @@ mod tests {
     fn heavy_tails_are_warned_of_and_small_samples_are_not() {
         // 3 rows of 1000 have another value: g2 + 3 = 1/p - 3 + 3 p..., n/(g2 + 3) = 3.0.
         let rare: Vec<f64> = (0..1000).map(|i| f64::from(u8::from(i % 400 == 0))).collect();
-        let Some(Warning::FewRows { rows, values: 1000, .. }) = of_values(&CentralMoments::of(&rare)) else {
+        let Some(Warning::FewRows { rows, values: 1000, .. }) = of_values(&CentralMoments::from_values(&rare)) else {
             panic!("no warning of few rows");
         };
         assert_eq!(rows.round(), 3.0);
         let normal: Vec<f64> = (0..16).map(|i| f64::from(i * i)).collect();
-        assert_eq!(of_values(&CentralMoments::of(&normal)), None);
-        assert_eq!(of_values(&CentralMoments::of(&[1.0; 8])), None);
+        assert_eq!(of_values(&CentralMoments::from_values(&normal)), None);
+        assert_eq!(of_values(&CentralMoments::from_values(&[1.0; 8])), None);
         let many: Vec<f64> = rare.iter().cycle().take(20_000).copied().collect();
-        assert_eq!(of_values(&CentralMoments::of(&many)), None);
+        assert_eq!(of_values(&CentralMoments::from_values(&many)), None);
     }
 
     #[test]
     fn lost_digits_are_warned_of() {
         // Steps of 1/8 about 1e15, for a standard deviation of 0.5: an error of 4/4.
         let shifted: Vec<f64> = (0..8).map(|i| 1e15 + f64::from(i % 2)).collect();
-        assert_eq!(of_digits(&CentralMoments::of(&shifted)), Some(Warning::FewDigits { error: 1.0 }));
+        assert_eq!(of_digits(&CentralMoments::from_values(&shifted)), Some(Warning::FewDigits { error: 1.0 }));
         let near: Vec<f64> = (0..8).map(|i| 1e11 + f64::from(i % 2)).collect();
-        assert_eq!(of_digits(&CentralMoments::of(&near)), None);
-        assert_eq!(of_digits(&CentralMoments::of(&[1.0; 8])), None);
+        assert_eq!(of_digits(&CentralMoments::from_values(&near)), None);
+        assert_eq!(of_digits(&CentralMoments::from_values(&[1.0; 8])), None);
     }
 }

@@ -151,7 +151,7 @@ pub fn run(arguments: &Arguments, others: Option<&dyn Ranks>) -> Result<(), Fail
 pub fn journal_path(folder: &Path, name: &str, shard: Option<Shard>) -> PathBuf {
     match shard {
         None => folder.join(format!("{name}.journal")),
-        Some(shard) => folder.join(format!("{name}-shard-{}-of-{}.journal", shard.number(), shard.of())),
+        Some(shard) => folder.join(format!("{name}-shard-{}-of-{}.journal", shard.number(), shard.count())),
     }
 }
 

@@ -34,7 +34,7 @@ impl LatinHypercube {
         self.jitter.fill(first, columns);
         for (column, permutation) in columns.iter_mut().zip(&self.permutations) {
             for (u, row) in column.iter_mut().zip(first..) {
-                *u = place(permutation.of(row), *u, self.n);
+                *u = place(permutation.place(row), *u, self.n);
             }
         }
     }
@@ -66,7 +66,7 @@ impl Permutation {
         Self { n, half_bits: bits.div_ceil(2).max(1), keys: std::array::from_fn(|_| rng.next_u64()) }
     }
 
-    fn of(&self, row: u64) -> u64 {
+    fn place(&self, row: u64) -> u64 {
         debug_assert!(row < self.n);
         let mut value = self.step(row);
         while value >= self.n {

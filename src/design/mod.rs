@@ -148,7 +148,7 @@ impl Design {
                 return Err(DesignError::NotPlayers { factors });
             }
         }
-        let runs = Runs::of(&rows, factors);
+        let runs = Runs::new(&rows, factors);
         let rows_per_point = runs.runs.len() as u64;
         let all = u128::from(points) * u128::from(replicates);
         if all * u128::from(rows_per_point) > u128::from(u64::MAX) {

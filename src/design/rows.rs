@@ -94,7 +94,7 @@ pub struct Run {
 }
 
 impl Run {
-    fn of(kind: RowKind, base: Matrix, columns: Vec<usize>, from: Matrix) -> Self {
+    fn new(kind: RowKind, base: Matrix, columns: Vec<usize>, from: Matrix) -> Self {
         Self { kind, base, columns, from, mixed: Vec::new() }
     }
 }
@@ -118,7 +118,7 @@ pub(super) struct Runs {
 impl Runs {
     /// The runs for `rows` over `factors` factors, in the order A, B, AB_s, BA_s of their first rows, then the
     /// plain ones and the steps along random orders.
-    pub fn of(rows: &Rows, factors: usize) -> Self {
+    pub fn new(rows: &Rows, factors: usize) -> Self {
         let first = factors * (2 + rows.plain_rows as usize);
         let mixed = rows.copula.clone().map(|copula| MixedColumns::new(copula, first));
         let mut unique = Unique { factors, runs: Vec::new(), numbers: BTreeMap::new(), mixed };
@@ -133,7 +133,7 @@ impl Runs {
         let ba = series(rows.ba, RowKind::Ba, Matrix::B, Matrix::A);
         let plain = |number| {
             let matrix = Matrix::Plain(number);
-            Run::of(RowKind::Plain(number), matrix, Vec::new(), matrix)
+            Run::new(RowKind::Plain(number), matrix, Vec::new(), matrix)
         };
         unique.runs.extend((0..rows.plain_rows).map(plain));
         let Unique { mut runs, mixed, .. } = unique;
@@ -142,7 +142,7 @@ impl Runs {
             OrderColumns { players: rows.players.clone(), first, factors, copula: rows.copula.clone() }
         });
         let of_orders = orders.iter().flat_map(|orders| (0..orders.steps()).map(|step| (step, orders.of_step(step))));
-        let step = |(step, mixed)| Run { mixed, ..Run::of(RowKind::Step(step), Matrix::A, Vec::new(), Matrix::B) };
+        let step = |(step, mixed)| Run { mixed, ..Run::new(RowKind::Step(step), Matrix::A, Vec::new(), Matrix::B) };
         let before = runs.len();
         runs.extend(of_orders.map(step));
         let steps = (before..runs.len()).collect();
@@ -165,7 +165,7 @@ struct Unique {
 impl Unique {
     fn swapped(&mut self, kind: RowKind, base: Matrix, swap: &Swap, redrawn: bool, from: Matrix) -> usize {
         if swap.is_empty() {
-            self.runs.push(Run::of(kind, base, Vec::new(), from));
+            self.runs.push(Run::new(kind, base, Vec::new(), from));
             return self.runs.len() - 1;
         }
         let mut columns = swap.clone();
@@ -176,7 +176,7 @@ impl Unique {
         let mixed = self.mixed.as_mut().map(of_row).unwrap_or_default();
         let number = self.numbered((key(self.factors, base, &columns, from), mixed.clone()));
         if number == self.runs.len() {
-            self.runs.push(Run { mixed, ..Run::of(kind, base, columns, from) });
+            self.runs.push(Run { mixed, ..Run::new(kind, base, columns, from) });
         }
         number
     }
@@ -185,7 +185,7 @@ impl Unique {
     fn number(&mut self, kind: RowKind, base: Matrix, columns: &[usize], from: Matrix) -> usize {
         let number = self.numbered((key(self.factors, base, columns, from), Vec::new()));
         if number == self.runs.len() {
-            self.runs.push(Run::of(kind, base, columns.to_vec(), from));
+            self.runs.push(Run::new(kind, base, columns.to_vec(), from));
         }
         number
     }
@@ -218,7 +218,7 @@ mod tests {
 
     fn runs(factors: usize, swaps: &[&[usize]], ba: bool) -> Runs {
         let swaps = swaps.iter().map(|swap| swap.to_vec()).collect();
-        Runs::of(&Rows { swaps, ba, ..Rows::default() }, factors)
+        Runs::new(&Rows { swaps, ba, ..Rows::default() }, factors)
     }
 
     /// The row of a kind, column by column, straight from its definition.

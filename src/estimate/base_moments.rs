@@ -37,7 +37,7 @@ pub(super) struct Shift {
 
 impl BaseMoments {
     /// The moments of two columns of one length.
-    pub(super) fn of(a: &[f64], b: &[f64]) -> Self {
+    pub(super) fn from_columns(a: &[f64], b: &[f64]) -> Self {
         let (ca, cb) = ((a, mean(a)), (b, mean(b)));
         Self {
             n: a.len() as u64,

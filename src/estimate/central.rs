@@ -12,8 +12,8 @@ use crate::sum::{mean, range, sums_by};
 /// ```
 /// use apportion::CentralMoments;
 ///
-/// let mut moments = CentralMoments::of(&[0.0, 0.0, f64::NAN, 0.0]);
-/// moments.merge(&CentralMoments::of(&[4.0]));
+/// let mut moments = CentralMoments::from_values(&[0.0, 0.0, f64::NAN, 0.0]);
+/// moments.merge(&CentralMoments::from_values(&[4.0]));
 /// assert_eq!((moments.count(), moments.mean(), moments.variance()), (4, Some(1.0), Some(3.0)));
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -28,7 +28,7 @@ pub struct CentralMoments {
 
 impl CentralMoments {
     /// The moments of `values`, of which those that are not finite do not count.
-    pub fn of(values: &[f64]) -> Self {
+    pub fn from_values(values: &[f64]) -> Self {
         // A mean is finite only if every value is.
         if mean(values).is_finite() {
             return Self::of_finite(values);

@@ -20,7 +20,7 @@ impl Indices {
     ///
     /// # Errors
     /// [`Undefined`] if there are fewer than two base points or the output has no usable variance.
-    pub fn of(moments: &Moments) -> Result<Self, Undefined> {
+    pub fn from_moments(moments: &Moments) -> Result<Self, Undefined> {
         let has_ba = moments.has_ba();
         Self::by(moments, FirstOrder::default_for(has_ba), Total::default_for(has_ba))
     }
@@ -89,7 +89,7 @@ mod tests {
 
     fn indices(a: &[f64], b: &[f64], swapped: &[f64]) -> Result<Indices, Undefined> {
         let block = BlockOutputs { a, b, ab: &[swapped], ..BlockOutputs::default() };
-        Indices::of(&Moments::of_block(block, &mut Workspace::default()))
+        Indices::from_moments(&Moments::of_block(block, &mut Workspace::default()))
     }
 
     #[test]

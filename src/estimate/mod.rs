@@ -1,6 +1,6 @@
 //! Sobol' indices from centred sums.
 //!
-//! [`Moments`] accumulate during the run; [`Indices::of`] reads them once it is over, and [`FirstOrder`], [`Total`] and
+//! [`Moments`] accumulate during the run; [`Indices::from_moments`] reads them once it is over, and [`FirstOrder`], [`Total`] and
 //! [`SecondOrder`] name the other formulas that can be read from the same sums. Indices are what the formulas give,
 //! never clamped: a first-order index of -0.001 says that 0 is within its error.
 

@@ -53,26 +53,26 @@ impl Moments {
     /// let (a, b) = ([0.0, 0.0, 1.0, 1.0], [0.0, 1.0, 0.0, 1.0]);
     /// let block = BlockOutputs { a: &a, b: &b, ab: &[&b], ..BlockOutputs::default() };
     /// let moments = Moments::of_block(block, &mut Workspace::default());
-    /// assert_eq!(Indices::of(&moments)?.total, [1.0]);
+    /// assert_eq!(Indices::from_moments(&moments)?.total, [1.0]);
     /// # Ok::<(), apportion::Undefined>(())
     /// ```
     pub fn of_block(outputs: BlockOutputs<'_>, work: &mut Workspace) -> Self {
         let BlockOutputs { a, b, ab, ba, paired, shapley } = outputs;
-        let all = BaseMoments::of(a, b);
+        let all = BaseMoments::from_columns(a, b);
         let complete = Some(all).filter(|all| all.mean_a.is_finite() && all.mean_b.is_finite());
         let swaps = (0..ab.len())
             .map(|swap| {
                 let columns = Columns { a, b, ab: ab[swap], ba: ba.get(swap).copied() };
-                SwapMoments::of(complete, columns, work)
+                SwapMoments::from_columns(complete, columns, work)
             })
             .collect();
-        let pairs = (!paired.is_empty()).then(|| PairMoments::of(paired, (a, b), (ab, ba), work));
-        let shapley = (!shapley.is_empty()).then(|| ShapleyMoments::of(shapley));
+        let pairs = (!paired.is_empty()).then(|| PairMoments::from_columns(paired, (a, b), (ab, ba), work));
+        let shapley = (!shapley.is_empty()).then(|| ShapleyMoments::from_contributions(shapley));
         match complete {
             Some(base) => Self { base, range: range(a, b), swaps, pairs, shapley },
             None => {
                 let (a, b) = work.without_failures(a, b);
-                Self { base: BaseMoments::of(a, b), range: range(a, b), swaps, pairs, shapley }
+                Self { base: BaseMoments::from_columns(a, b), range: range(a, b), swaps, pairs, shapley }
             }
         }
     }

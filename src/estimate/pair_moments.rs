@@ -39,7 +39,7 @@ impl Difference {
 
 impl PairMoments {
     /// The means of one block for `swaps`: `a` and `b` are the outputs of A and B, `ab` and `ba` those of all swaps.
-    pub(super) fn of(
+    pub(super) fn from_columns(
         swaps: &[usize],
         (a, b): (&[f64], &[f64]),
         (ab, ba): (&[&[f64]], &[&[f64]]),
@@ -54,7 +54,7 @@ impl PairMoments {
         for (j, of_j) in work.paired.iter().enumerate() {
             for (k, of_k) in work.paired.iter().enumerate() {
                 if j != k {
-                    means.push(PairMean::of(&of_j.e, &of_k.d));
+                    means.push(PairMean::new(&of_j.e, &of_k.d));
                 }
             }
         }
@@ -91,7 +91,7 @@ impl PairMoments {
 }
 
 impl PairMean {
-    fn of(e: &Difference, d: &Difference) -> Self {
+    fn new(e: &Difference, d: &Difference) -> Self {
         let n = match (&e.succeeded[..], &d.succeeded[..]) {
             ([], []) => e.values.len() as u64,
             ([], some) | (some, []) => some.iter().sum::<f64>() as u64,

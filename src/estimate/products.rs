@@ -55,7 +55,7 @@ pub struct ProductWork {
 
 impl Products {
     /// The products behind `whole`, the moments of all base points.
-    pub fn of(whole: Moments) -> Self {
+    pub fn new(whole: Moments) -> Self {
         let mut of_swap = WITH_AB.to_vec();
         if whole.has_ba() {
             of_swap.extend(WITH_BA);

@@ -25,10 +25,10 @@ impl SecondOrder {
     /// The index of the swaps `j` and `k`; NaN unless they are two of the paired ones, have base points, and the output
     /// has variance.
     pub fn estimate(self, moments: &Moments, j: usize, k: usize) -> f64 {
-        self.of(moments, j.min(k), j.max(k)).unwrap_or(f64::NAN)
+        self.by_pair(moments, j.min(k), j.max(k)).unwrap_or(f64::NAN)
     }
 
-    fn of(self, moments: &Moments, j: usize, k: usize) -> Option<f64> {
+    fn by_pair(self, moments: &Moments, j: usize, k: usize) -> Option<f64> {
         let pairs = moments.pairs()?;
         let mean = |j, k| pairs.mean(j, k).filter(|(_, n)| *n > 0).map(|(mean, _)| mean);
         let variance = moments.variance();

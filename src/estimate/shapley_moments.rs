@@ -14,7 +14,7 @@ pub struct ShapleyMoments {
 
 impl ShapleyMoments {
     /// The sums of [`contributions`], a column for each player.
-    pub(super) fn of(contributions: &[&[f64]]) -> Self {
+    pub(super) fn from_contributions(contributions: &[&[f64]]) -> Self {
         let points = contributions.first().map_or(0, |column| column.len());
         let mut moments = Self { n: 0, sums: vec![0.0; contributions.len()] };
         for point in (0..points).filter(|point| contributions[0][*point].is_finite()) {
@@ -90,7 +90,7 @@ mod tests {
         assert_eq!(of_first, [3.0, 9.0, 6.0], "half of 6 times the steps of 1, 3 and 2");
         assert!(added.iter().all(|column| column[1].is_nan()));
         let columns: Vec<&[f64]> = added.iter().map(Vec::as_slice).collect();
-        let mut moments = ShapleyMoments::of(&columns);
+        let mut moments = ShapleyMoments::from_contributions(&columns);
         moments.merge(&moments.clone());
         assert_eq!((moments.n, moments.sums.iter().sum::<f64>()), (2, 36.0));
         assert_eq!(moments.effects()[order[1]], 0.5);

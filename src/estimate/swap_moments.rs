@@ -52,13 +52,13 @@ pub(super) struct Columns<'a> {
 impl SwapMoments {
     /// The moments of one block. `base` are those of A and B if they have no failure in the block; an output that is
     /// not finite is a failure.
-    pub(super) fn of(base: Option<BaseMoments>, columns: Columns<'_>, work: &mut Workspace) -> Self {
+    pub(super) fn from_columns(base: Option<BaseMoments>, columns: Columns<'_>, work: &mut Workspace) -> Self {
         // A sum over a column is finite only if the column is: no pass of its own looks for failures.
         let whole = base.map(|base| Self::of_complete(base, columns, work)).filter(Self::finite);
         whole.unwrap_or_else(|| {
             let mut kept = std::mem::take(&mut work.kept);
             let columns = columns.without_failures(&mut kept);
-            let moments = Self::of_complete(BaseMoments::of(columns.a, columns.b), columns, work);
+            let moments = Self::of_complete(BaseMoments::from_columns(columns.a, columns.b), columns, work);
             work.kept = kept;
             moments
         })

@@ -287,7 +287,7 @@ impl AfmWorker<'_> {
     fn write(&mut self, row: usize, critical: &Critical, batch: &mut Batch) {
         let model = self.model;
         for (column, output) in model.which.iter().enumerate() {
-            match output.of(critical) {
+            match output.value(critical) {
                 Ok(value) => batch.set(row, column, value),
                 Err(failure) => batch.fail(row, column, self.reason(failure)),
             }

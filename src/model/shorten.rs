@@ -1,11 +1,11 @@
 //! Words of programs in ours: short, on one line, and equal for equal causes.
 
 /// Characters of a program's words that a reason keeps.
-const MOST: usize = 120;
+const MAX_LETTERS: usize = 120;
 
 /// One line of a program's own words, shortened, for reasons.
 pub(crate) fn shortened(text: &str) -> String {
-    cut(text.trim(), MOST)
+    cut(text.trim(), MAX_LETTERS)
 }
 
 /// The text on one line of at most `most` characters, without those that would change the terminal.
@@ -70,7 +70,7 @@ mod tests {
     #[test]
     fn long_words_are_cut_and_stay_on_one_line() {
         let long = shortened(&"wörd\t".repeat(100));
-        assert_eq!(long.chars().count(), MOST + 3);
+        assert_eq!(long.chars().count(), MAX_LETTERS + 3);
         assert!(!long.contains('\t') && long.ends_with("..."));
     }
 
@@ -78,7 +78,7 @@ mod tests {
         #[test]
         fn no_text_panics(text in proptest::prelude::any::<String>()) {
             let masked = masked(&text);
-            proptest::prop_assert!(masked.chars().count() <= MOST + 3 && !masked.chars().any(char::is_control));
+            proptest::prop_assert!(masked.chars().count() <= MAX_LETTERS + 3 && !masked.chars().any(char::is_control));
         }
     }
 }

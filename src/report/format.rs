@@ -84,9 +84,9 @@ pub fn short_among(value: f64, spread: f64) -> String {
     /// Digits of the spread that are shown.
     const TOLD: i32 = 3;
     /// Those that a double has.
-    const MOST: i32 = 15;
+    const MAX_DIGITS: i32 = 15;
     let digits = match value != 0.0 && value.is_finite() && spread > 0.0 {
-        true => (estimates::exponent(value) - estimates::exponent(spread) + TOLD).clamp(4, MOST),
+        true => (estimates::exponent(value) - estimates::exponent(spread) + TOLD).clamp(4, MAX_DIGITS),
         false => 4,
     };
     estimates::rounded(value, digits as usize)
@@ -148,10 +148,10 @@ pub fn length(metres: f64) -> String {
 /// A change as a part, said in percent with its sign; its direction alone where it is too small to be read; `None` if it is
 /// not finite.
 pub fn change(part: f64) -> Option<String> {
-    const LEAST: f64 = 1e-3;
+    const MIN_PROBABILITY: f64 = 1e-3;
     let percent = 100.0 * part;
-    if percent != 0.0 && percent.abs() < LEAST {
-        return Some(format!("less than {LEAST} % ({})", if percent > 0.0 { "up" } else { "down" }));
+    if percent != 0.0 && percent.abs() < MIN_PROBABILITY {
+        return Some(format!("less than {MIN_PROBABILITY} % ({})", if percent > 0.0 { "up" } else { "down" }));
     }
     let sign = if part > 0.0 { "+" } else { "" };
     part.is_finite().then(|| format!("{sign}{} %", three_digits(percent)))

@@ -42,14 +42,14 @@ impl Tally {
 }
 
 /// Most reasons that are told apart.
-pub const MOST_REASONS: usize = 100;
+pub const MAX_REASONS: usize = 100;
 
 /// What is said of rows whose reasons are not told apart.
 const OTHERS: &str = "other reasons";
 
 /// Why rows failed, and how often each.
 ///
-/// More than [`MOST_REASONS`] reasons differ by numbers of their rows: every number in them then becomes `#`. If that leaves more, the
+/// More than [`MAX_REASONS`] reasons differ by numbers of their rows: every number in them then becomes `#`. If that leaves more, the
 /// first ones in the order of letters are told apart. What is left does not depend on the order in which rows are counted.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Failures {
@@ -63,11 +63,11 @@ impl Failures {
     pub fn count(&mut self, reason: &RowFailure, tally: Tally) {
         let reason = if self.is_masked { without_numbers(reason) } else { reason.clone() };
         self.reasons.entry(reason).and_modify(|mine| mine.add(tally)).or_insert(tally);
-        if self.reasons.len() > MOST_REASONS && !self.is_masked {
+        if self.reasons.len() > MAX_REASONS && !self.is_masked {
             self.mask();
         }
         // The first reasons in the order of their texts are kept: more rows can only move the others further back.
-        while self.reasons.len() > MOST_REASONS
+        while self.reasons.len() > MAX_REASONS
             && let Some((_, last)) = self.reasons.pop_last()
         {
             self.count_others(last);

@@ -32,7 +32,7 @@ use std::time::Duration;
 pub use each::run_each;
 pub use error::RunError;
 pub(crate) use executor::Executor;
-pub use failures::{Failures, MOST_REASONS, Place, Tally};
+pub use failures::{Failures, MAX_REASONS, Place, Tally};
 pub use growing::GrowingRun;
 pub use pilot::Pilot;
 pub use remote::RemoteWorkers;

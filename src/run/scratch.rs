@@ -151,8 +151,8 @@ impl OutputTotals {
             self.point_outputs = PointOutputs::of_block(runs);
         }
         self.moments = MomentParts::new(place.part_length, a.len() as u64, parts);
-        self.values = CentralMoments::of(a);
-        self.values.merge(&CentralMoments::of(b));
+        self.values = CentralMoments::from_values(a);
+        self.values.merge(&CentralMoments::from_values(b));
         self.sample = a.iter().zip(b).take(place.sampled).flat_map(|(a, b)| [*a, *b]).collect();
     }
 }

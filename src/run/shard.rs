@@ -9,7 +9,7 @@ use thiserror::Error;
 use crate::design::Design;
 
 /// Most parts.
-const MOST: u64 = 1_000_000;
+const MAX_SHARDS: u64 = 1_000_000;
 
 /// One of several parts of a design, as equal as can be: consecutive base points with all of their rows.
 ///
@@ -28,7 +28,7 @@ pub struct Shard {
 
 /// A text that names no part.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error("expected a part as in 3/8, the third of eight (from 1/8 to 8/8; at most {MOST} parts), not {found:?}")]
+#[error("expected a part as in 3/8, the third of eight (from 1/8 to 8/8; at most {MAX_SHARDS} parts), not {found:?}")]
 pub struct ShardError {
     found: String,
 }
@@ -39,7 +39,7 @@ impl FromStr for Shard {
     fn from_str(text: &str) -> Result<Self, ShardError> {
         let parsed = text.split_once('/').and_then(|(number, of)| Some((number.parse().ok()?, of.parse().ok()?)));
         match parsed {
-            Some((number, of)) if (1..=of).contains(&number) && of <= MOST => Ok(Self { number, of }),
+            Some((number, of)) if (1..=of).contains(&number) && of <= MAX_SHARDS => Ok(Self { number, of }),
             _ => Err(ShardError { found: text.to_owned() }),
         }
     }
@@ -58,7 +58,7 @@ impl Shard {
     }
 
     /// How many there are.
-    pub fn of(self) -> u64 {
+    pub fn count(self) -> u64 {
         self.of
     }
 

@@ -227,7 +227,9 @@ fn every_estimator_finds_the_indices_of_an_interaction() {
 #[test]
 fn a_dummy_factor_is_the_noise_of_the_model() {
     let rows = || Rows::plain(vec![vec![0], vec![1], vec![]]);
-    let total = |model: &Of| crate::estimate::Indices::of(&with_rows(rows(), model).moments.whole()).unwrap().total[2];
+    let total = |model: &Of| {
+        crate::estimate::Indices::from_moments(&with_rows(rows(), model).moments.whole()).unwrap().total[2]
+    };
     assert_eq!(total(&Of::new(|x, _| x[0] + x[1])), 0.0);
     // Noise of +-0.1 from row to row beside a variance of 1/6: 0.01/(1/6 + 0.01) of the whole.
     let noisy = total(&Of::new(|x, row| {

@@ -12,19 +12,19 @@ use crate::uncertainty::{IntervalMethod, IntervalOptions, KeptPoints, SurrogateE
 
 /// Base samples below which missing intervals say nothing of those of more runs: an output that is rarely anything but 0 may not vary
 /// in a net of few points.
-const FEW_BASE_SAMPLES: u64 = 1 << 12;
+const MIN_BASE_SAMPLES: u64 = 1 << 12;
 
 /// The same where so many runs fail that there will be no indices: how many do is known much sooner.
-const FEW_BASE_SAMPLES_OF_FAILURES: u64 = 1 << 8;
+const MIN_BASE_SAMPLES_OF_FAILURES: u64 = 1 << 8;
 
 /// Why a run that grew has ended, and what surrogates and cheaper models make of every output.
 pub(super) type Grown = (Stopped, Vec<Option<SurrogateEstimates>>);
 
 /// Base samples to which a run goes on for the rare levels of factors.
-const MOST_FOR_RARE_LEVELS: f64 = (1 << 14) as f64;
+const MAX_FOR_RARE_LEVELS: f64 = (1 << 14) as f64;
 
 /// Half width of plain indices from which on they could contradict corrected ones.
-const MOST_PLAIN_HALF_WIDTH: f64 = 0.5;
+const MAX_PLAIN_HALF_WIDTH: f64 = 0.5;
 
 /// Part of the squared error that cheaper models need not go below.
 const ENOUGH: f64 = 1.0 / 16.0;
@@ -135,7 +135,7 @@ fn stage(study: &Study, run: &GrowingRun<'_>, lows: &[LowRun<'_>]) -> Stage {
         let options = IntervalOptions { points, correlations, surrogate, ranks: false, ..options };
         let found = output_indices(&parts, &layout, &options);
         if let Some(used) = found.as_ref().ok().and_then(|indices| indices.surrogate.as_ref()) {
-            all.is_checked &= used.plain_half_width().is_some_and(|half| half <= MOST_PLAIN_HALF_WIDTH);
+            all.is_checked &= used.plain_half_width().is_some_and(|half| half <= MAX_PLAIN_HALF_WIDTH);
         }
         match found.map(|indices| indices.largest_half_width()) {
             Ok(Some(widest)) if all.widest.is_none_or(|before| widest > before) => {
@@ -162,17 +162,17 @@ fn reason_to_stop(study: &Study, run: &GrowingRun<'_>, longest: &Design, stage: 
     // Whatever the points, one replicate has no spread.
     let has_none =
         replicates < 2 && matches!(study.analysis.intervals, IntervalMethod::Nets | IntervalMethod::Replicates);
-    let has_too_few = base_samples >= FEW_BASE_SAMPLES_OF_FAILURES && fails_too_often(study, run);
+    let has_too_few = base_samples >= MIN_BASE_SAMPLES_OF_FAILURES && fails_too_often(study, run);
     let is_met = stage.is_checked && accuracy.zip(widest).is_some_and(|(target, widest)| widest <= target);
     let design = is_met.then(|| longest.with_points(run.points_per_replicate()).ok()).flatten();
     let rare = design.map_or_else(Vec::new, |design| rare_levels(&study.space, &design));
     let reason = match (accuracy, widest) {
         (Some(_), _) if has_too_few => StopReason::NoIntervals { base_samples },
         (Some(target), Some(widest)) if is_met && rare.is_empty() => StopReason::TargetMet { widest, target },
-        (Some(_), Some(widest)) if enough_base_samples(&rare) > MOST_FOR_RARE_LEVELS => {
+        (Some(_), Some(widest)) if enough_base_samples(&rare) > MAX_FOR_RARE_LEVELS => {
             StopReason::RareLevels { widest, base_samples: enough_base_samples(&rare) }
         }
-        (Some(_), None) if has_none || base_samples >= FEW_BASE_SAMPLES => StopReason::NoIntervals { base_samples },
+        (Some(_), None) if has_none || base_samples >= MIN_BASE_SAMPLES => StopReason::NoIntervals { base_samples },
         _ if next > longest.points_per_replicate() => StopReason::EndOfSequence,
         _ if run.room_for(next).is_err() => StopReason::Memory,
         _ => match (max_runs, max_time) {

@@ -25,7 +25,7 @@ const FIRST_OWN_BASE_SAMPLES: u64 = 1 << 10;
 const FIRST_OWN_POINTS: u64 = 4;
 
 /// Rows of the own design, at most: their outputs are kept.
-const MOST_OWN_ROWS: u64 = 1 << 22;
+const MAX_OWN_ROWS: u64 = 1 << 22;
 
 /// Largest cost of a run over that of the model itself with which a model counts as cheaper.
 const CHEAPER: f64 = 0.5;
@@ -186,7 +186,7 @@ impl<'a> LowRun<'a> {
         let points = self.runs[1].0.points_per_replicate() * 2;
         let design = &self.study.parts[1].longest;
         let rows = points * design.settings().replicates * design.rows_per_point();
-        self.study.base_samples.is_none() && rows <= MOST_OWN_ROWS && points <= design.points_per_replicate()
+        self.study.base_samples.is_none() && rows <= MAX_OWN_ROWS && points <= design.points_per_replicate()
     }
 
     /// Seconds of a run at the rows of the model; 0 before any.

@@ -90,7 +90,7 @@ impl Shards {
         let rows = shard.rows(&study.design);
         let lacking = rows.into_iter().flat_map(|(replicate, rows)| store.missing(replicate, rows));
         let lacking = lacking.map(|rows| rows.end - rows.start).sum();
-        self.0.entry(shard.of()).or_default().insert(shard.number(), lacking);
+        self.0.entry(shard.count()).or_default().insert(shard.number(), lacking);
     }
 
     /// Which parts are missing or incomplete; `None` if the journals are not of one division into parts.

@@ -262,9 +262,9 @@ impl<'a> Runner<'a> {
         'a: 'r,
     {
         // More are refused by some systems and accepted by others, at the price of minutes.
-        const MOST_THREADS: usize = 1024;
-        if self.threads > MOST_THREADS {
-            let source = format!("at most {MOST_THREADS}").into();
+        const MAX_THREADS: usize = 1024;
+        if self.threads > MAX_THREADS {
+            let source = format!("at most {MAX_THREADS}").into();
             return Err(RunError::Threads { threads: self.threads, source });
         }
         let run = GrowingRun::new(job, context, self.threads)?.with_failures(self.study.analysis.failures);

@@ -37,7 +37,7 @@ struct Player<'a> {
 /// keyboard or on its own. It loads nothing from anywhere and works without a network; inside the frame of another page it
 /// leaves out its title.
 pub fn player_page(story: &SceneStory) -> String {
-    let view = View::of(story);
+    let view = View::new(story);
     let page = Player {
         story,
         outcome: unbroken(&story.outcome()),

@@ -16,7 +16,7 @@ pub(super) struct View {
 impl View {
     /// Factors with which the probe leans by at most 0.25 rad (or a quarter of its height) and the particle travels at
     /// most 0.8 of its radius.
-    pub fn of(story: &SceneStory) -> Self {
+    pub fn new(story: &SceneStory) -> Self {
         let largest = |read: fn(&SceneSample) -> f64| {
             let sizes = story.samples.iter().map(|sample| read(sample).abs()).filter(|size| size.is_finite());
             sizes.fold(0.0, f64::max)
@@ -84,7 +84,7 @@ mod tests {
 
     #[test]
     fn the_nominal_scene_is_seen() {
-        let view = View::of(&nominal_story());
+        let view = View::new(&nominal_story());
         assert_eq!(view, View { probe: 200.0, travel: 2.0 });
         assert!(view.sentence().contains("exaggerated 200 times"), "{}", view.sentence());
         assert_eq!(factor(0.02), "reduced 50 times");
@@ -95,6 +95,6 @@ mod tests {
     fn a_story_without_motion_is_to_scale() {
         let mut story = nominal_story();
         story.samples.clear();
-        assert_eq!(View::of(&story), View { probe: 1.0, travel: 1.0 });
+        assert_eq!(View::new(&story), View { probe: 1.0, travel: 1.0 });
     }
 }

@@ -22,7 +22,7 @@ pub use file::{
     KnownSubject, NEW_PROGRAM, Problem, StudyError, TemplateRequest, edited, model_guide, new_program, study_schema,
     template,
 };
-pub use options::{AnalysisOptions, MOST_OUTPUTS_OF_MEASURES, SurrogateChoice, Target};
+pub use options::{AnalysisOptions, MAX_OUTPUTS_OF_MEASURES, SurrogateChoice, Target};
 use subject::CustomSubject;
 pub use subject::{LowFidelity, Rung, Subject};
 

@@ -32,7 +32,7 @@ pub struct AnalysisOptions {
     /// Who the players are. `None` for the factors.
     pub shapley_players: Option<ShapleyPlayers>,
     /// Other measures than Sobol' indices that stand beside them, from the first
-    /// [`MOST_ROWS_OF_MEASURES`](crate::MOST_ROWS_OF_MEASURES) rows A and B; of at most [`MOST_OUTPUTS_OF_MEASURES`](crate::study::MOST_OUTPUTS_OF_MEASURES) outputs.
+    /// [`MAX_ROWS_OF_MEASURES`](crate::MAX_ROWS_OF_MEASURES) rows A and B; of at most [`MAX_OUTPUTS_OF_MEASURES`](crate::study::MAX_OUTPUTS_OF_MEASURES) outputs.
     pub measures: Vec<Measure>,
     /// Whether indices over all outputs together are asked for.
     pub aggregate: bool,
@@ -240,7 +240,7 @@ const FIRST_TRIAL_POINTS: u64 = 4;
 const FREE_SHAPLEY_FACTORS: usize = 4;
 
 /// Most outputs of a study with other measures: each takes a second or so.
-pub const MOST_OUTPUTS_OF_MEASURES: usize = 100;
+pub const MAX_OUTPUTS_OF_MEASURES: usize = 100;
 
 pub(super) const DEFAULT_RESAMPLES: usize = 1000;
 

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::options::{MOST_OUTPUTS_OF_MEASURES, RESAMPLES, sizes_within};
+use super::options::{MAX_OUTPUTS_OF_MEASURES, RESAMPLES, sizes_within};
 use super::{AnalysisOptions, BuildError, LowFidelity, SurrogateChoice, Target};
 use crate::design::{MAX_ORDERED_FACTORS, Sampler, has_room_for_orders};
 use crate::estimate::{Estimator, MAX_SHAPLEY_FACTORS, ShapleyMethod, ShapleyPlayers};
@@ -114,8 +114,8 @@ pub(super) fn checked_options(
             format!("beside \"{}\"", intervals.name()),
         );
     }
-    if !options.measures.is_empty() && outputs > MOST_OUTPUTS_OF_MEASURES {
-        let expected = format!("those of at most {MOST_OUTPUTS_OF_MEASURES} outputs");
+    if !options.measures.is_empty() && outputs > MAX_OUTPUTS_OF_MEASURES {
+        let expected = format!("those of at most {MAX_OUTPUTS_OF_MEASURES} outputs");
         return wrong("measures", expected, format!("of {outputs}"));
     }
     for subset in &mut options.subsets {

@@ -32,11 +32,11 @@ pub fn aggregate_indices(
     method: IntervalMethod,
 ) -> Result<AggregateIndices, Undefined> {
     let of = |moments: &Moments| {
-        Indices::of(moments)
+        Indices::from_moments(moments)
             .map(|Indices { first_order, total, .. }| (moments.variance(), [first_order, total].concat()))
     };
     // Output by output: the sums of all at once, without each part, would fill the memory.
-    let all: Vec<LeftOut<_>> = outputs.par_iter().map(|replicates| LeftOut::of(replicates, &of)).collect();
+    let all: Vec<LeftOut<_>> = outputs.par_iter().map(|replicates| LeftOut::new(replicates, &of)).collect();
     let whole = aggregated(all.iter().map(|output| &output.whole), scaling)?;
     let largest = |of: &dyn Fn(&LeftOut<_>) -> f64| all.iter().map(of).fold(0.0, f64::max);
     let parts = all.iter().map(|output| output.without.len()).min().unwrap_or(0);
@@ -46,7 +46,7 @@ pub fn aggregate_indices(
     let replicates = outputs.first().ok_or(Undefined::NoRuns)?;
     let influences = Influences::new(replicates, whole, &without, largest(&|output| output.points), &points);
     let pooled = vec![true; influences.whole.len()];
-    let mut first_order = Judged::of(influences, method, &pooled, 0..0, &|_| Side::Above).estimates;
+    let mut first_order = Judged::from_nets(influences, method, &pooled, 0..0, &|_| Side::Above).estimates;
     let total = first_order.split_off(first_order.len() / 2);
     let both = first_order.into_iter().zip(total).map(|(first, total)| agreeing(first, total));
     let (first_order, total) = both.map(|(first, total, _)| (first, total)).unzip();

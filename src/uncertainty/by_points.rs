@@ -31,7 +31,7 @@ impl ByPoints<'_> {
         estimates: &[f64],
         quantities: &(dyn Fn(&Moments) -> Option<Vec<f64>> + Sync),
     ) -> Vec<Bounds> {
-        let products = Products::of(whole);
+        let products = Products::new(whole);
         let none = (StandardError { error: f64::NAN, freedom: 0.0 }, None);
         if self.method == IntervalMethod::Delta {
             let sums = influence_sums(self.points, &products, quantities).unwrap_or_default();

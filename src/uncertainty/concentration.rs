@@ -21,7 +21,7 @@ const MANY_ROWS: f64 = 0.03;
 const WEIGHT: f64 = 1.5;
 
 /// Fewest degrees of freedom of the longer side: t = 6.0.
-const FEWEST: f64 = 1.5;
+const MIN_FREEDOM: f64 = 1.5;
 
 /// On which sides of an estimate the truth may be where few rows carry it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -39,7 +39,7 @@ pub(super) fn interval(estimate: f64, error: StandardError, parts: &PartInfluenc
     if kurtosis <= MANY_ROWS || error.error == 0.0 {
         return Some(even);
     }
-    let freedom = (1.0 / (1.0 / error.freedom + WEIGHT * kurtosis)).max(FEWEST);
+    let freedom = (1.0 / (1.0 / error.freedom + WEIGHT * kurtosis)).max(MIN_FREEDOM);
     let long = t_quantile(freedom.min(error.freedom))? * error.error;
     let low = if side == Side::Both { estimate - long } else { even.low };
     Interval { low, high: estimate + long }.finite()

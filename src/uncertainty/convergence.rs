@@ -16,7 +16,7 @@ pub struct Stage {
 }
 
 /// Fewest parts of a replicate that make a stage: fewer say next to nothing of its error.
-const FEWEST_PARTS: usize = 4;
+const MIN_PARTS: usize = 4;
 
 /// How many parts of a replicate each stage but the last has, in ascending order.
 fn sizes_of_stages(replicates: &[&MomentParts]) -> Vec<usize> {
@@ -24,7 +24,7 @@ fn sizes_of_stages(replicates: &[&MomentParts]) -> Vec<usize> {
     let mut sizes = Vec::new();
     // Down from the largest power of two below the whole: prefixes of a net are nets.
     let mut size = parts.next_power_of_two() / 2;
-    while size >= FEWEST_PARTS {
+    while size >= MIN_PARTS {
         sizes.push(size);
         size /= 2;
     }

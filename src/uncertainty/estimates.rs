@@ -189,7 +189,7 @@ impl Layout {
 
 /// Everything reported about an output with `moments`, NaN for what does not exist. `None` if there are no indices.
 pub(super) fn quantities(layout: &Layout, moments: &Moments) -> Option<Vec<f64>> {
-    let indices = if layout.salib { Indices::of_salib(moments) } else { Indices::of(moments) };
+    let indices = if layout.salib { Indices::of_salib(moments) } else { Indices::from_moments(moments) };
     let Indices { first_order, total, check } = indices.ok()?;
     let share_first_order = all_shares(layout, &first_order);
     let share_total = all_shares(layout, &total);

@@ -58,9 +58,9 @@ pub struct Influences {
 impl Influences {
     /// `quantities` turns the moments of an output into a list of numbers of fixed length, or `None` where they are
     /// undefined. Returns `None` if they are undefined on the whole.
-    pub fn of(replicates: &[MomentParts], quantities: &dyn Fn(&Moments) -> Option<Vec<f64>>) -> Option<Self> {
+    pub fn from_moments(replicates: &[MomentParts], quantities: &dyn Fn(&Moments) -> Option<Vec<f64>>) -> Option<Self> {
         let replicates: Vec<&MomentParts> = replicates.iter().collect();
-        let LeftOut { whole, without, points, points_of_parts } = LeftOut::of(&replicates, quantities);
+        let LeftOut { whole, without, points, points_of_parts } = LeftOut::new(&replicates, quantities);
         Some(Self::new(&replicates, whole?, &without, points, &points_of_parts))
     }
 
@@ -97,7 +97,7 @@ pub struct LeftOut<T> {
 
 impl<T> LeftOut<T> {
     /// What `of` makes of the parts of `replicates`.
-    pub fn of(replicates: &[&MomentParts], of: &dyn Fn(&Moments) -> T) -> Self {
+    pub fn new(replicates: &[&MomentParts], of: &dyn Fn(&Moments) -> T) -> Self {
         let parts: Vec<&Moments> = replicates.iter().flat_map(|replicate| replicate.parts()).collect();
         let sums: Vec<Moments> = replicates.iter().map(|replicate| replicate.whole()).collect();
         let all = merged(&sums);

@@ -61,8 +61,8 @@ pub type PartInfluences = Vec<Vec<f64>>;
 /// All quantities have the same nets and parts. A quantity that no part influences has error 0.
 pub fn net_errors(quantities: &[PartInfluences], pooled: &[bool]) -> Vec<StandardError> {
     let Some(first) = quantities.first() else { return Vec::new() };
-    let shape = Shape::of(first);
-    let levels: Vec<Option<Levels>> = quantities.iter().map(|q| Levels::of(q, &shape)).collect();
+    let shape = Shape::new(first);
+    let levels: Vec<Option<Levels>> = quantities.iter().map(|q| Levels::new(q, &shape)).collect();
     let is_pooled = |(k, _): &(usize, &Option<Levels>)| pooled.get(*k).copied().unwrap_or(false);
     let pool: Vec<&Levels> = levels.iter().enumerate().filter(is_pooled).filter_map(|(_, l)| l.as_ref()).collect();
     // Without any quantity to pool, all of them are.
@@ -81,7 +81,7 @@ struct Shape {
 }
 
 impl Shape {
-    fn of(quantity: &PartInfluences) -> Self {
+    fn new(quantity: &PartInfluences) -> Self {
         let parts = quantity.first().map_or(0, Vec::len);
         Self { nets: quantity.len(), parts, depth: parts.checked_ilog2().unwrap_or(0) as usize }
     }
@@ -113,7 +113,7 @@ struct Levels {
 
 impl Levels {
     /// `None` if no part has any influence.
-    fn of(quantity: &PartInfluences, shape: &Shape) -> Option<Self> {
+    fn new(quantity: &PartInfluences, shape: &Shape) -> Option<Self> {
         let size = quantity.iter().flatten().fold(0.0, |largest: f64, x| largest.max(x.abs()));
         if size == 0.0 || !size.is_finite() {
             return None;

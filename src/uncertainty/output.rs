@@ -52,7 +52,7 @@ impl<'a> IntervalOptions<'a> {
 /// Mean and variance of one output from the parts of its replicates; `None` without any base point.
 pub fn output_moments(replicates: &[MomentParts], options: &IntervalOptions<'_>) -> Option<OutputMoments> {
     let of = |m: &Moments| (m.count() > 0).then(|| vec![m.mean(), m.variance()]);
-    let influences = Influences::of(replicates, &of)?;
+    let influences = Influences::from_moments(replicates, &of)?;
     let bounds = options.by_points().map(|by_points| {
         let whole: Vec<Moments> = replicates.iter().map(MomentParts::whole).collect();
         by_points.bounds(merged(&whole).without_swaps(), &influences.whole, &of)
@@ -62,7 +62,7 @@ pub fn output_moments(replicates: &[MomentParts], options: &IntervalOptions<'_>)
         // The mean may be missed on both sides, the variance above.
         None => {
             let sides = |place| if place == 0 { Side::Both } else { Side::Above };
-            Judged::of(influences, options.method, &[true, true], 0..0, &sides)
+            Judged::from_nets(influences, options.method, &[true, true], 0..0, &sides)
         }
     };
     let mut estimates = [judged.estimates[0], judged.estimates[1]];
@@ -89,8 +89,9 @@ pub fn output_indices(
 ) -> Result<OutputIndices, Undefined> {
     let whole: Vec<Moments> = replicates.iter().map(MomentParts::whole).collect();
     let whole = merged(&whole);
-    Indices::of(&whole)?;
-    let influences = Influences::of(replicates, &|moments| quantities(layout, moments)).ok_or(Undefined::NoRuns)?;
+    Indices::from_moments(&whole)?;
+    let influences =
+        Influences::from_moments(replicates, &|moments| quantities(layout, moments)).ok_or(Undefined::NoRuns)?;
     let pooled = layout.pooled(influences.whole.len());
     let unseen = unseen(layout, &whole, &influences.whole);
     let half_seen: Vec<bool> = (0..layout.swaps()).map(|swap| half_seen(&whole, swap)).collect();
@@ -104,7 +105,7 @@ pub fn output_indices(
         None => {
             // Rounding says nothing of how errors decay.
             let pooled: Vec<bool> = pooled.iter().zip(&still).map(|(pooled, still)| *pooled && !still).collect();
-            Judged::of(influences, options.method, &pooled, layout.random(), &|place| layout.side(place))
+            Judged::from_nets(influences, options.method, &pooled, layout.random(), &|place| layout.side(place))
         }
     };
     let allowed = judged.allow_for_unseen(&unseen, &still);
@@ -177,7 +178,7 @@ pub(super) struct Judged {
 impl Judged {
     /// `side` tells for the number of a quantity where its interval must reach further if few rows carry it.
     /// The errors of those in the range of places `random` decay at a rate of their own.
-    pub fn of(
+    pub fn from_nets(
         influences: Influences,
         method: IntervalMethod,
         pooled: &[bool],

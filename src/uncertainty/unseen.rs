@@ -19,13 +19,13 @@ const RULE_OF_THREE: f64 = 2.995_732_273_553_991;
 const ROUNDING: f64 = 1e-11;
 
 /// Least part of the sum of squares of A and B that B must have, for first-order indices by rows AB to be judged by their spread.
-const LEAST_PART: f64 = 0.2;
+const MIN_PART: f64 = 0.2;
 
 /// Whether the sample B has hardly any of the large outputs: the formula sum (y_B - f0)(y_AB - y_A) has then not seen what
 /// they contribute to a first-order index, and its spread says nothing of it. With rows BA no one sample decides.
 pub(super) fn half_seen(moments: &Moments, swap: usize) -> bool {
     let sums = moments.swap(swap);
-    sums.ba.is_none() && sums.base.bb < LEAST_PART * (sums.base.aa + sums.base.bb)
+    sums.ba.is_none() && sums.base.bb < MIN_PART * (sums.base.aa + sums.base.bb)
 }
 
 /// What an estimate without spread may be off by.

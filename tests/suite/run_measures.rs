@@ -3,7 +3,7 @@
 use crate::common::{Folder, apportion, run_in_parts, stderr, succeed, text};
 use ::apportion::given::{Column, Measure, Method, analyse, measures};
 use ::apportion::{
-    AnalysisOptions, Distribution, MOST_ROWS_OF_MEASURES, Sampler, Study, SurrogateChoice, function_model,
+    AnalysisOptions, Distribution, MAX_ROWS_OF_MEASURES, Sampler, Study, SurrogateChoice, function_model,
 };
 
 /// A sum of three normal factors with slopes 3, 2 and 1, and one that does nothing; rows with a large first factor fail if asked.
@@ -28,7 +28,7 @@ fn what_is_known_exactly_is_found_from_nets_and_random_rows() {
     for sampler in [Sampler::Sobol, Sampler::Random, Sampler::LatinHypercube] {
         let analysis = linear(sampler, 1 << 13, &[Measure::Delta, Measure::Fourier], false).run().unwrap();
         let found = analysis.outputs[0].measures.as_ref().unwrap();
-        assert_eq!(found.rows as u64, MOST_ROWS_OF_MEASURES, "{sampler:?}");
+        assert_eq!(found.rows as u64, MAX_ROWS_OF_MEASURES, "{sampler:?}");
         let names: Vec<&str> = found.factors.iter().map(|factor| factor.input.as_str()).collect();
         assert_eq!(names, ["x1", "x2", "x3", "idle"]);
         for (factor, (delta, first)) in found.factors.iter().zip([(0.3873, 9.0), (0.2016, 4.0), (0.0890, 1.0)]) {

@@ -16,7 +16,7 @@ struct Transition {
 
 impl Transition {
     #[inline]
-    fn of(lambda: f64) -> Self {
+    fn new(lambda: f64) -> Self {
         let log = libm::log(lambda);
         // (x - 1)/(x + 1), from -1 to 1.
         let blend = |x: f64| 1.0 - 2.0 / (x + 1.0);
@@ -41,7 +41,7 @@ pub(super) fn contact(pair: &Pair, load: f64) -> Result<Contact, Failure> {
     if pair.adhesion == 0.0 {
         return hertz::contact(pair, load);
     }
-    let Transition { alpha, rest, pull_off } = Transition::of(pair.transition());
+    let Transition { alpha, rest, pull_off } = Transition::new(pair.transition());
     let margin = load + pair.unit_load() * pull_off;
     if margin < 0.0 {
         return Err(Failure::BeyondPullOff);
@@ -56,5 +56,5 @@ pub(super) fn contact(pair: &Pair, load: f64) -> Result<Contact, Failure> {
 
 /// pi w R [7/4 - (1/4) (4.04 lambda^1.4 - 1)/(4.04 lambda^1.4 + 1)].
 pub(super) fn pull_off(pair: &Pair) -> f64 {
-    pair.unit_load() * Transition::of(pair.transition()).pull_off
+    pair.unit_load() * Transition::new(pair.transition()).pull_off
 }

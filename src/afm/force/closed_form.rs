@@ -50,7 +50,7 @@ pub(super) fn of_law(substrate: &Substrate, normal_force: f64, capacity: f64) ->
     if substrate.options.friction != FrictionLaw::LuGre {
         return capacity * substrate.error();
     }
-    let law = LuGre::of(substrate.scene);
+    let law = LuGre::from_scene(substrate.scene);
     let load = normal_force + substrate.adhesive_load;
     (law.stribeck(load, 0.0) - law.stribeck(load, substrate.scene.velocity)).abs()
 }
@@ -58,7 +58,7 @@ pub(super) fn of_law(substrate: &Substrate, normal_force: f64, capacity: f64) ->
 /// The flags of the slip, and that of the fast form.
 #[inline(always)]
 pub(super) fn flags(slip: &Slip, scene: &Scene, options: &Options) -> Flags {
-    let is_fast = !LuGre::of(scene).is_slow(scene.velocity);
+    let is_fast = !LuGre::from_scene(scene).is_slow(scene.velocity);
     let is_lugre = options.friction == FrictionLaw::LuGre;
     slip.flags(scene, options).with(Flag::FastLuGreForm, is_lugre & is_fast)
 }
@@ -73,7 +73,7 @@ pub(super) fn error(
 ) -> f64 {
     let mut error = twisting(substrate, probe, slip) + Swing::new(substrate.scene, probe).left_out(slip, substrate);
     error.lateral += of_law;
-    let of_forces = error.of(slip);
+    let of_forces = error.value(slip);
     if substrate.options.accurate_time {
         of_forces.max(time_error(substrate, probe, (slip, presliding), of_law))
     } else {

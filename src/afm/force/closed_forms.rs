@@ -72,7 +72,7 @@ macro_rules! columns {
         struct Columns { $($field: Column),+ }
 
         impl Columns {
-            fn of(scene: &Scene) -> Self {
+            fn from_scene(scene: &Scene) -> Self {
                 Self { $($field: [scene.$field; AT_ONCE]),+ }
             }
 
@@ -99,7 +99,7 @@ impl ClosedForms {
     /// Scenes that differ from `scene` in `parameters`. `None` if they are to be computed one by one: by another rung, by a
     /// law that is integrated, with other parameters than there are columns, or with numbers that may overflow.
     pub fn new(scene: &Scene, options: &Options, parameters: &[&'static Parameter]) -> Option<Self> {
-        let mut columns = Columns::of(scene);
+        let mut columns = Columns::from_scene(scene);
         let is_closed = options.fidelity == Fidelity::ClosedForm && options.friction != FrictionLaw::LemaitreCarlson;
         let has_columns = parameters.iter().all(|parameter| columns.get(parameter.name).is_some());
         let others = || Parameter::ALL.iter().filter(|other| parameters.iter().all(|one| one.name != other.name));
@@ -299,7 +299,7 @@ fn touch(scene: &Scene, options: &Options, columns: &Columns, probes: &mut Probe
 fn hold_by_coulomb(scene: &Scene, columns: &Columns, probes: &Probes, radius: &Column, capacity: &mut Column) {
     for i in 0..AT_ONCE {
         let load = probes.preload_force[i] + probes.adhesive_load[i];
-        capacity[i] = Coulomb::of(&columns.scene(i, scene)).capacity(Pressed { load, radius: radius[i] });
+        capacity[i] = Coulomb::from_scene(&columns.scene(i, scene)).capacity(Pressed { load, radius: radius[i] });
     }
 }
 

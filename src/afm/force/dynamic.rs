@@ -71,7 +71,7 @@ pub(super) fn critical_force(scene: &Scene, options: &Options) -> Result<Critica
     let critical = slip.critical(&substrate, Fidelity::Dynamic);
     let of_time = if options.accurate_time { of_time.min(1.0) } else { 0.0 };
     // NaN where nothing holds the particle, which `max` passes over.
-    Ok(Critical { error_estimate: error.of(&slip).max(of_time), cost: Cost { evaluations }, ..critical })
+    Ok(Critical { error_estimate: error.value(&slip).max(of_time), cost: Cost { evaluations }, ..critical })
 }
 
 /// Whether friction holds the tip without a look at the law: its force is below that of the quasi-static slip, and F_Z,

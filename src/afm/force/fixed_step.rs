@@ -36,7 +36,7 @@ pub(super) fn critical_force(scene: &Scene, options: &Options) -> Result<Critica
     // The particle creeps as on the quasi-static rung, and the slip is met at the end of a step.
     let of_step = options.step * scene.velocity / (slip.travel + slip.advance);
     let of_time = if options.accurate_time { (of_creep + of_step).min(1.0) } else { 0.0 };
-    Ok(Critical { error_estimate: error.of(&slip).max(of_time), cost: Cost { evaluations }, ..critical })
+    Ok(Critical { error_estimate: error.value(&slip).max(of_time), cost: Cost { evaluations }, ..critical })
 }
 
 fn march(motion: &Motion, substrate: &Substrate, limit: &Slip) -> Result<(Slip, u64), Failure> {

@@ -40,7 +40,7 @@ fn solve(scene: &Scene, options: &Options, swings: bool) -> Result<(Critical, f6
     let substrate = Substrate::new(scene, options, &probe, LuGreForm::Ramp);
     let statics = Statics::new(scene, &probe)?;
     let (slip, mut evaluations) = statics.slip(&substrate)?;
-    let of_forces = left_out(&slip, scene, &substrate, &probe).of(&slip);
+    let of_forces = left_out(&slip, scene, &substrate, &probe).value(&slip);
     let (mut slip, of_creep, spent) = statics.timed(&slip, &substrate)?;
     evaluations += spent;
     let swing = Swing::new(scene, &probe);
@@ -60,7 +60,7 @@ fn solve(scene: &Scene, options: &Options, swings: bool) -> Result<(Critical, f6
             if !swing.is_followed(slip.travel, scene.velocity) {
                 error.lateral += overshoot(&slip, &substrate);
             }
-            error.of(&slip).max(if options.accurate_time { of_swing } else { 0.0 })
+            error.value(&slip).max(if options.accurate_time { of_swing } else { 0.0 })
         }
         _ if slip.slowdown > 1.0 => of_time,
         _ => 0.0,

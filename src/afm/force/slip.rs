@@ -46,7 +46,7 @@ impl Add for Error {
 impl Error {
     /// The relative error of F_cr: |dF_cr| <= (F_Z |dF_Z| + F_Y |dF_Y|)/F_cr. At most 1, which claims nothing.
     #[inline(always)]
-    pub fn of(self, slip: &Slip) -> f64 {
+    pub fn value(self, slip: &Slip) -> f64 {
         let shift = slip.normal_force.abs() * self.normal + slip.lateral_force * self.lateral;
         let squared = slip.squared();
         if !(squared.is_normal() && shift.is_finite()) {

@@ -31,7 +31,7 @@ pub(super) fn inertia_about_apex(scene: &Scene) -> f64 {
 }
 
 /// Most of the swing that is followed on bristles, from start to slip (rad): steps by the thousand, not by the million.
-const MOST_TURNS: f64 = 1e3;
+const MAX_TURNS: f64 = 1e3;
 
 impl Swing {
     #[inline(always)]
@@ -63,7 +63,7 @@ impl Swing {
 
     /// Whether the dynamic rung follows it on bristles, up to a slip after the travel (m) at the velocity (m/s).
     pub fn is_followed(&self, travel: f64, velocity: f64) -> bool {
-        self.frequency * (travel / velocity) < MOST_TURNS
+        self.frequency * (travel / velocity) < MAX_TURNS
     }
 
     /// The relative error of the critical time where the swing is left out, which brings the slip forward; at most 1.

@@ -17,7 +17,7 @@ pub struct Coulomb {
 impl Coulomb {
     /// The law with the constants of `scene`.
     #[inline(always)]
-    pub fn of(scene: &Scene) -> Self {
+    pub fn from_scene(scene: &Scene) -> Self {
         Self { coefficient: scene.static_friction, shear_strength: scene.shear_strength }
     }
 

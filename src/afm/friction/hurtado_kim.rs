@@ -30,7 +30,7 @@ pub struct HurtadoKim {
 impl HurtadoKim {
     /// The law with the constants of `scene`.
     #[inline]
-    pub fn of(scene: &Scene) -> Self {
+    pub fn from_scene(scene: &Scene) -> Self {
         let &Scene { particle_shear_modulus: g1, substrate_shear_modulus: g2, burgers_vector, .. } = scene;
         Self { shear_modulus: 2.0 * g1 * g2 / (g1 + g2), burgers_vector }
     }
@@ -105,6 +105,6 @@ mod tests {
     /// By hand: G* = 2 * 27 * 31.2/58.2 GPa.
     #[test]
     fn effective_modulus_of_gold_on_oxide() {
-        assert!((HurtadoKim::of(&Scene::default()).shear_modulus / (1684.8e9 / 58.2) - 1.0).abs() < 1e-15);
+        assert!((HurtadoKim::from_scene(&Scene::default()).shear_modulus / (1684.8e9 / 58.2) - 1.0).abs() < 1e-15);
     }
 }

@@ -152,7 +152,7 @@ mod tests {
     /// Stress over mubar over the last half of a strain of `strain`, at `velocity` through a spring of `stiffness`:
     /// least and largest.
     fn swing(velocity: f64, stiffness: f64, strain: f64) -> (f64, f64) {
-        let drive = Drive { tolerance: 1e-6, ..Drive::of(&Scene::default(), stiffness) };
+        let drive = Drive { tolerance: 1e-6, ..Drive::from_scene(&Scene::default(), stiffness) };
         let scene = Scene::default();
         let layer = LemaitreCarlson(&scene).sheared(PI * PRESSED.radius.powi(2), velocity, stiffness);
         let mut march = March::<Rodas, _, 2>::new(&layer, (0.0, [0.0, 0.06]), layer.control(&drive));
@@ -191,7 +191,7 @@ mod tests {
     /// Break-away lies above steady sliding, and higher for an older (less disordered) layer.
     #[test]
     fn break_away_rises_with_age() {
-        let drive = Drive::of(&Scene::default(), 30.0);
+        let drive = Drive::from_scene(&Scene::default(), 30.0);
         let force = |initial_disorder| {
             let scene = Scene { initial_disorder, ..Scene::default() };
             LemaitreCarlson(&scene).capacity(PRESSED, &drive).unwrap().force
@@ -202,7 +202,7 @@ mod tests {
 
     #[test]
     fn a_layer_at_rest_has_no_break_away_force() {
-        let drive = Drive { velocity: 0.0, ..Drive::of(&Scene::default(), 30.0) };
+        let drive = Drive { velocity: 0.0, ..Drive::from_scene(&Scene::default(), 30.0) };
         assert_eq!(LemaitreCarlson(&Scene::default()).capacity(PRESSED, &drive), Err(Failure::VelocityZero));
     }
 

@@ -46,7 +46,7 @@ pub(crate) fn particle_mass(scene: &Scene) -> f64 {
 impl LuGre {
     /// The law with the constants of `scene`.
     #[inline(always)]
-    pub fn of(scene: &Scene) -> Self {
+    pub fn from_scene(scene: &Scene) -> Self {
         Self {
             stiffness: scene.bristle_stiffness,
             damping: scene.bristle_damping,
@@ -59,7 +59,7 @@ impl LuGre {
 
     /// The law with `parameters` for a contact of radius `radius` (m).
     pub fn with(scene: &Scene, parameters: LuGreParameters, radius: f64) -> Self {
-        let law = Self::of(scene);
+        let law = Self::from_scene(scene);
         match parameters {
             LuGreParameters::Frozen => law,
             LuGreParameters::Contact => {
@@ -152,7 +152,7 @@ mod tests {
         let law = LuGre::with(&Scene::default(), LuGreParameters::Contact, 9.09e-9);
         assert!((law.stiffness / 620.7 - 1.0).abs() < 1e-3, "{}", law.stiffness);
         assert!((law.damping / 1.584e-7 - 1.0).abs() < 1e-3, "{}", law.damping);
-        assert_eq!(LuGre::with(&Scene::default(), LuGreParameters::Frozen, 1.0), LuGre::of(&Scene::default()));
+        assert_eq!(LuGre::with(&Scene::default(), LuGreParameters::Frozen, 1.0), LuGre::from_scene(&Scene::default()));
     }
 
     /// Steady sliding: z' = 0 leaves z = Fss/sigma0 and F = Fss + sigma2 v.

@@ -107,7 +107,7 @@ impl Held {
 impl Drive {
     /// Pulled at the velocity of `scene` through a spring of `stiffness` (N/m): frozen LuGre parameters, fast form, a
     /// tolerance of 1e-8 and a million steps.
-    pub fn of(scene: &Scene, stiffness: f64) -> Self {
+    pub fn from_scene(scene: &Scene, stiffness: f64) -> Self {
         Self {
             velocity: scene.velocity,
             stiffness,
@@ -136,10 +136,10 @@ impl FrictionLaw {
     pub fn capacity(self, scene: &Scene, pressed: Pressed, drive: &Drive) -> Result<Held, Failure> {
         let load = pressed.load;
         let force = match self {
-            Self::Coulomb => Coulomb::of(scene).capacity(pressed),
-            Self::HurtadoKim => HurtadoKim::of(scene).capacity(pressed.radius),
+            Self::Coulomb => Coulomb::from_scene(scene).capacity(pressed),
+            Self::HurtadoKim => HurtadoKim::from_scene(scene).capacity(pressed.radius),
             Self::LuGre => match drive.form {
-                LuGreForm::Fast => LuGre::of(scene).steady_force(load, drive.velocity),
+                LuGreForm::Fast => LuGre::from_scene(scene).steady_force(load, drive.velocity),
                 LuGreForm::Ramp => {
                     return ramp::peak(&LuGre::with(scene, drive.lugre, pressed.radius), load, drive);
                 }

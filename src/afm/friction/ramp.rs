@@ -181,11 +181,11 @@ mod tests {
     use crate::afm::ode::{DormandPrince, assert_jacobian};
 
     fn drive(velocity: f64, tolerance: f64) -> Drive {
-        Drive { velocity, stiffness: 30.0, tolerance, ..Drive::of(&Scene::default(), 30.0) }
+        Drive { velocity, stiffness: 30.0, tolerance, ..Drive::from_scene(&Scene::default(), 30.0) }
     }
 
     fn law() -> LuGre {
-        LuGre::of(&Scene::default())
+        LuGre::from_scene(&Scene::default())
     }
 
     /// The same ramp in plain units, F and z, with v from the balance by bisection.

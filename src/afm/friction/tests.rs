@@ -167,7 +167,7 @@ fn armstrong_break_away_rises_with_rest() {
 #[test]
 fn capacity_is_the_break_away_force() {
     let scene = Scene { frictional_lag: 0.0, ..Scene::default() };
-    let drive = Drive { stiffness: 1e9, form: LuGreForm::Ramp, ..Drive::of(&scene, 1.0) };
+    let drive = Drive { stiffness: 1e9, form: LuGreForm::Ramp, ..Drive::from_scene(&scene, 1.0) };
     for law in FrictionLaw::ALL {
         let held = law.capacity(&scene, PRESSED, &drive).unwrap().force;
         let by_hand = match law {
@@ -193,7 +193,7 @@ fn laws_that_live_on_load_hold_nothing_without_it() {
     let scene = Scene { viscous_friction: 0.0, ..Scene::default() };
     for &law in FrictionLaw::ALL.iter().filter(|law| !law.lives_on_area()) {
         for form in [LuGreForm::Fast, LuGreForm::Ramp] {
-            let drive = Drive { form, ..Drive::of(&scene, 30.0) };
+            let drive = Drive { form, ..Drive::from_scene(&scene, 30.0) };
             assert_eq!(law.capacity(&scene, Pressed { load: 0.0, radius: 0.0 }, &drive).unwrap().force, 0.0, "{law:?}");
         }
     }

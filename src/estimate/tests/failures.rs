@@ -61,17 +61,17 @@ fn a_swap_that_always_fails_is_no_index_and_a_constant_remainder_has_no_variance
     sample.ab[1].fill(f64::NAN);
     let moments = sample.moments();
     assert_eq!((moments.count(), moments.fewest()), (50, 0));
-    assert_eq!(Indices::of(&moments), Err(Undefined::NoRuns));
+    assert_eq!(Indices::from_moments(&moments), Err(Undefined::NoRuns));
     // A and B vary, but not where the rows of swap 0 succeeded.
     let mut sample = Sample::noise(50, 0.0);
     sample.ab[0][4..].fill(f64::NAN);
     sample.a[..4].fill(0.1);
     sample.b[..4].fill(0.1);
-    assert_eq!(Indices::of(&sample.moments()), Err(Undefined::ZeroVariance));
+    assert_eq!(Indices::from_moments(&sample.moments()), Err(Undefined::ZeroVariance));
 }
 
 #[test]
 fn outputs_whose_differences_overflow_have_no_indices() {
     let sample = Sample::noise(64, 0.0).map(|y| if y > 0.0 { f64::MAX } else { -f64::MAX });
-    assert_eq!(Indices::of(&sample.moments()), Err(Undefined::Unrepresentable));
+    assert_eq!(Indices::from_moments(&sample.moments()), Err(Undefined::Unrepresentable));
 }

@@ -74,9 +74,9 @@ proptest! {
         exponent in -200i32..200,
     ) {
         let values: Vec<f64> = noise(500, 4).iter().map(|y| (libm::exp(*y) + offset) * 2f64.powi(exponent)).collect();
-        let mut merged = CentralMoments::of(&values[..cut]);
-        merged.merge(&CentralMoments::of(&values[cut..]));
-        let whole = CentralMoments::of(&values);
+        let mut merged = CentralMoments::from_values(&values[..cut]);
+        merged.merge(&CentralMoments::from_values(&values[cut..]));
+        let whole = CentralMoments::from_values(&values);
         prop_assert_eq!((merged.count(), merged.range()), (500, whole.range()));
         let near = |a: Option<f64>, b: Option<f64>| (a.unwrap() / b.unwrap() - 1.0).abs() < 1e-9;
         prop_assert!(near(merged.mean(), whole.mean()) && near(merged.variance(), whole.variance()));
@@ -100,7 +100,7 @@ fn merging_nothing_changes_nothing() {
 fn central_moments_of_known_distributions() {
     // Uniform on an even grid of n points: variance (n^2 - 1)/12, no skewness, kurtosis -6/5 (n^2 + 1)/(n^2 - 1).
     let grid: Vec<f64> = (0..1001).map(|i| 1e6 + f64::from(i)).collect();
-    let moments = CentralMoments::of(&grid);
+    let moments = CentralMoments::from_values(&grid);
     let n2 = 1001.0f64.powi(2);
     assert_eq!((moments.mean(), moments.range()), (Some(1_000_500.0), Some((1e6, 1_001_000.0))));
     assert!((moments.variance().unwrap() / ((n2 - 1.0) / 12.0) - 1.0).abs() < 1e-14);
@@ -109,17 +109,17 @@ fn central_moments_of_known_distributions() {
     // One 1 among n - 1 zeros, p = 1/n: skewness (1 - 2p)/sqrt(p(1 - p)), kurtosis (1 - 6p(1 - p))/(p(1 - p)).
     let mut rare = vec![0.0; 50];
     rare[7] = 1.0;
-    let (moments, pq) = (CentralMoments::of(&rare), 0.02 * 0.98f64);
+    let (moments, pq) = (CentralMoments::from_values(&rare), 0.02 * 0.98f64);
     assert!((moments.skewness().unwrap() - 0.96 / pq.sqrt()).abs() < 1e-13);
     assert!((moments.excess_kurtosis().unwrap() - (1.0 - 6.0 * pq) / pq).abs() < 1e-12);
 }
 
 #[test]
 fn central_moments_without_values_or_variance_say_so() {
-    let none = CentralMoments::of(&[f64::NAN, f64::INFINITY]);
+    let none = CentralMoments::from_values(&[f64::NAN, f64::INFINITY]);
     assert_eq!((none.count(), none.mean(), none.variance(), none.range()), (0, None, None, None));
     assert_eq!((none.skewness(), none.excess_kurtosis()), (None, None));
-    let constant = CentralMoments::of(&[0.1; 30]);
+    let constant = CentralMoments::from_values(&[0.1; 30]);
     assert_eq!((constant.mean(), constant.variance()), (Some(0.1), Some(0.0)));
     assert_eq!((constant.skewness(), constant.excess_kurtosis()), (None, None));
 }

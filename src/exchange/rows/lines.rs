@@ -2,7 +2,7 @@
 
 use std::io::{BufRead, BufReader, Cursor, Error, ErrorKind, Read, Result};
 
-use crate::files::MOST_OF_A_STREAM;
+use crate::files::MAX_STREAM_BYTES;
 
 /// Most bytes of a line, so that a file without ends of lines takes no memory without end.
 const LONGEST_LINE: usize = 16 << 20;
@@ -140,9 +140,9 @@ fn separator(begin: &[u8]) -> u8 {
 /// A text in UTF-16 that begins so, as bytes of UTF-8.
 fn utf16(begin: Vec<u8>, rest: Box<dyn Read>) -> Result<Vec<u8>> {
     let (mut bytes, invalid) = (begin, |what: String| Error::new(ErrorKind::InvalidData, what));
-    rest.take(MOST_OF_A_STREAM).read_to_end(&mut bytes)?;
-    if bytes.len() as u64 > MOST_OF_A_STREAM {
-        return Err(invalid(format!("a text in UTF-16 of more than {} MiB: save it as UTF-8", MOST_OF_A_STREAM >> 20)));
+    rest.take(MAX_STREAM_BYTES).read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > MAX_STREAM_BYTES {
+        return Err(invalid(format!("a text in UTF-16 of more than {} MiB: save it as UTF-8", MAX_STREAM_BYTES >> 20)));
     }
     let of_pair = if bytes[0] == 0xff { u16::from_le_bytes } else { u16::from_be_bytes };
     let units: Vec<u16> = bytes[2..].chunks_exact(2).map(|pair| of_pair([pair[0], pair[1]])).collect();

@@ -41,7 +41,7 @@ impl AfmHistory {
     }
 
     /// The value in SI units.
-    fn of(self, sample: &Sample) -> f64 {
+    fn value(self, sample: &Sample) -> f64 {
         match self {
             Self::Force => sample.tip_force,
             Self::Position => sample.particle,
@@ -133,7 +133,7 @@ impl Histories {
     pub fn write(&self, scene: &Scene, options: &Options, row: usize, batch: &mut Batch) -> Result<(), Failure> {
         at_times(scene, options, &self.times, |place, sample| {
             for (history, series) in self.which.iter().zip(&self.series) {
-                batch.set(row, series.first + place, history.of(sample));
+                batch.set(row, series.first + place, history.value(sample));
             }
         })
     }

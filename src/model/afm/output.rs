@@ -84,7 +84,7 @@ impl AfmOutput {
     }
 
     /// The value in SI units.
-    pub(super) fn of(self, critical: &Critical) -> Result<f64, Failure> {
+    pub(super) fn value(self, critical: &Critical) -> Result<f64, Failure> {
         Ok(match self {
             Self::CriticalForce => critical.critical_force,
             Self::LateralForce => critical.lateral_force,

@@ -90,7 +90,7 @@ fn by_rung(
         }
         Err(failure) => return Err(Unchecked::NotAvailable(failure.to_string())),
     };
-    let value = output.of(other).map_err(|failure| Unchecked::NotAvailable(failure.to_string()))?;
+    let value = output.value(other).map_err(|failure| Unchecked::NotAvailable(failure.to_string()))?;
     let relative = HIGHER_ORDER * (own_error + other.error_estimate);
     let absolute = HIGHER_ORDER * (own_error * own.abs() + other.error_estimate * value.abs());
     let (stated, covered) = match output {
@@ -183,7 +183,7 @@ mod tests {
                     for (output, formula) in AfmOutput::ALL.into_iter().zip(&second.formulas) {
                         let Some(formula) = formula else { continue };
                         let precise = formula.precise(&inputs).unwrap();
-                        let value = output.of(&critical).unwrap();
+                        let value = output.value(&critical).unwrap();
                         assert!((value / precise - 1.0).abs() < 1e-13, "{output:?} {options:?}");
                         read += 1;
                     }

@@ -18,7 +18,7 @@ const HEAD: f64 = 8.0;
 /// Longest label of a point on a phone, px.
 const LONGEST_LABEL: f64 = 110.0;
 /// Most points that are labelled: more would be a thicket.
-const MOST_LABELS: usize = 60;
+const MAX_LABELS: usize = 60;
 
 impl Chart {
     /// The chart as an SVG document for a page column, the same bytes for the same chart.
@@ -231,7 +231,7 @@ impl<'a> Sheet<'a> {
             .zip(&shown)
             .map(|(number, (point, at))| {
                 // Without a label, or beyond the most labels, there is no room of any width.
-                let labelled = number < MOST_LABELS && !point.label.trim().is_empty();
+                let labelled = number < MAX_LABELS && !point.label.trim().is_empty();
                 let width = if labelled { TICK.width(&text(&point.label)) } else { f64::INFINITY };
                 Label { at: *at, width, height: TICK.cap_height() }
             })

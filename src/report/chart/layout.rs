@@ -25,7 +25,7 @@ const LONGEST_NAME: f64 = 220.0;
 /// px.
 const LANE: f64 = 6.0;
 const LABELLED_LANE: f64 = 10.0;
-const LEAST_BARS: f64 = 16.0;
+const MIN_BARS: f64 = 16.0;
 /// Between the bars of two rows, px.
 pub(super) const ROW_GAP: f64 = 8.0;
 /// Height of the line of text above a row on a phone, px.
@@ -103,7 +103,7 @@ impl Rows {
         };
         let in_row = |panel: &Panel, row| panel.bars().filter(|(_, bar)| bar.row == row).count();
         let most = panels.iter().flat_map(|panel| (0..panel.y.names.len()).map(move |row| in_row(panel, row))).max();
-        let bars = (most.unwrap_or(0) as f64 * lane).max(LEAST_BARS);
+        let bars = (most.unwrap_or(0) as f64 * lane).max(MIN_BARS);
         Self { pitch: bars + ROW_GAP + page.choose(0.0, HEADING), bars }
     }
 }

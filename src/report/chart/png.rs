@@ -12,7 +12,7 @@ use super::font::{BOLD, FAMILY, REGULAR, covers};
 /// Pixels per px of the SVG: sharp on dense screens and in print.
 pub const PNG_SCALE: u32 = 2;
 /// Most pixels of a picture: 256 MB while it is drawn.
-const MOST_PIXELS: f64 = 64.0e6;
+const MAX_PIXELS: f64 = 64.0e6;
 
 /// A PNG picture.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -95,7 +95,7 @@ pub fn png(svg: &str) -> Result<Png, PngError> {
     let width = (f64::from(tree.size().width()) * scale).ceil();
     let height = (f64::from(tree.size().height()) * scale).ceil();
     let too_large = || PngError::TooLarge { width, height };
-    if width * height > MOST_PIXELS {
+    if width * height > MAX_PIXELS {
         return Err(too_large());
     }
     let mut pixels = Pixmap::new(width as u32, height as u32).ok_or_else(too_large)?;

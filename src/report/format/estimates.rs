@@ -6,7 +6,7 @@ use crate::uncertainty::{Estimate, Interval};
 /// Up to this ratio of its longer part to the shorter one an interval is told by the longer one.
 const EVEN: f64 = 1.5;
 /// Below this part of the estimate nobody needs both ends of an interval.
-const LEAST: f64 = 0.01;
+const MIN_SHOWN: f64 = 0.01;
 /// Significant digits of an estimate of which no error is known.
 const WITHOUT_ERROR: usize = 3;
 /// Numbers below this magnitude are written with a power of ten.
@@ -27,7 +27,7 @@ pub fn give_or_take(record: Estimate) -> String {
     }
     let most = most_decimals(estimate);
     let (nearer, farther) = (f64::min(estimate - low, high - estimate), f64::max(estimate - low, high - estimate));
-    if nearer * EVEN >= farther || half < LEAST * estimate.abs() {
+    if nearer * EVEN >= farther || half < MIN_SHOWN * estimate.abs() {
         return match decimals(farther) > most {
             // Its digits stand beyond those of the estimate, which needs no zeros at its end then.
             true => {

@@ -63,7 +63,7 @@ pub(super) fn notes(by_surrogate: bool) -> Vec<String> {
 
 /// Fewer rows than this make bins too wide for a function of a few periods: at 100 rows the 95 % intervals by bins held in
 /// 89 % of the cases for the Ishigami function, at 300 in 94 %.
-const FEW_FOR_BINS: usize = 300;
+const MIN_ROWS_FOR_BINS: usize = 300;
 
 /// What a careful reader should know of the table.
 pub(super) fn warnings(
@@ -99,9 +99,9 @@ pub(super) fn warnings(
             "no estimate by ranks, which does not converge here, and no intervals: {reason}. The estimates by bins stand"
         ));
     }
-    if method != Method::Rank && indices.points == PointSet::Independent && indices.rows < FEW_FOR_BINS {
+    if method != Method::Rank && indices.points == PointSet::Independent && indices.rows < MIN_ROWS_FOR_BINS {
         warnings.push(format!(
-            "fewer than {FEW_FOR_BINS} rows: the intervals by bins do not know of dependence finer than a bin, and may be too \
+            "fewer than {MIN_ROWS_FOR_BINS} rows: the intervals by bins do not know of dependence finer than a bin, and may be too \
              narrow; those by ranks are safer"
         ));
     }

@@ -5,7 +5,7 @@ use serde_json::Value;
 use crate::result::FactorRecord;
 
 /// More categories than this are drawn by their numbers: their labels would be no longer than a letter.
-const MOST: usize = 12;
+const MAX_CATEGORIES: usize = 12;
 
 /// The labels of a factor, and the numbers that stand for them in the result.
 pub(super) struct Categories {
@@ -27,7 +27,7 @@ impl Categories {
             ),
             _ => return None,
         };
-        let few = (1..=MOST).contains(&labels.len()) && labels.len() == values.len();
+        let few = (1..=MAX_CATEGORIES).contains(&labels.len()) && labels.len() == values.len();
         few.then_some(Self { labels, values })
     }
 

@@ -9,7 +9,7 @@ use crate::result::{OutputResult, StudyResult};
 use crate::uncertainty::Estimate;
 
 /// Most factors: of more, the figures would not fit into the cells of a phone.
-const MOST: usize = 15;
+const MAX_PAIRS: usize = 15;
 /// The lightest shade.
 const NOTHING: &str = "below 0.01, or may be 0";
 
@@ -18,7 +18,7 @@ const NOTHING: &str = "below 0.01, or may be 0";
 pub fn pairs_chart(result: &StudyResult, output: &OutputResult) -> Chart {
     let title = format!("{}: what acts on {} two by two", result.study.headline(), name(&output.name));
     let order = by_total(output).unwrap_or_default();
-    let factors = &order[..order.len().min(MOST)];
+    let factors = &order[..order.len().min(MAX_PAIRS)];
     let sure = surely_interact(output.second_order.as_deref().unwrap_or_default());
     let mut tiles: Vec<(usize, Tile)> = Vec::new();
     for (row, (_, below)) in factors.iter().enumerate() {
@@ -47,7 +47,7 @@ pub fn pairs_chart(result: &StudyResult, output: &OutputResult) -> Chart {
     let caption = format!(
         "Below the diagonal, what two factors do together beyond what each does alone (S_ij); on it, what each does alone \
          (S_i).{}",
-        not_drawn(order.len(), MOST)
+        not_drawn(order.len(), MAX_PAIRS)
     );
     Chart::new(title, caption).panels([Panel::new(columns, rows).with(marks)])
 }

@@ -10,7 +10,7 @@ use crate::uncertainty::{Estimate, Interval, NamedTerm};
 /// Quantiles in the table, in percent; the JSON file has more.
 const QUANTILES: [f64; 7] = [2.5, 5.0, 25.0, 50.0, 75.0, 95.0, 97.5];
 /// Share of the variance, in percent, below which a term of a surrogate is not shown.
-const LEAST_TERM: f64 = 0.01;
+const MIN_TERM_SHARE: f64 = 0.01;
 
 /// Moments and quantiles of an output's values.
 pub(super) fn moments(output: &OutputResult) -> Option<Part> {
@@ -74,7 +74,7 @@ pub(super) fn surrogate(output: &OutputResult, record: &SurrogateRecord) -> Vec<
         };
         term.degrees.iter().map(factor).collect::<Vec<_>>().join(" × ")
     };
-    let terms = record.leading_terms.iter().filter(|term| term.share >= LEAST_TERM);
+    let terms = record.leading_terms.iter().filter(|term| term.share >= MIN_TERM_SHARE);
     let caption =
         "The terms of the polynomials that carry most of the variance, by the degree of each factor's polynomial.";
     let terms = Table::from_rows(caption, terms)

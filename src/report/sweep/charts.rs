@@ -10,7 +10,7 @@ use super::{SweepFile, gap_lines};
 use crate::sweep::{NominalOutput, Sweep, SweepCurve, SweepEffect};
 
 /// Up to so many values, each is marked by a point.
-const FEW_VALUES: usize = 12;
+const MAX_MARKED_VALUES: usize = 12;
 /// A logarithmic axis from this ratio of the largest to the least value on.
 const WIDE: f64 = 50.0;
 /// Colours at the low and the high end of a factor, and of whole ranges.
@@ -103,7 +103,7 @@ fn line(sweep: &Sweep, curve: &SweepCurve, place: usize, number: usize) -> Mark 
     let stroke = match &sweep.labels {
         // There is nothing between two categories.
         Some(_) => Stroke::Points,
-        None if sweep.values.len() <= FEW_VALUES => Stroke::SolidWithPoints,
+        None if sweep.values.len() <= MAX_MARKED_VALUES => Stroke::SolidWithPoints,
         None => stroke,
     };
     Series::new(name, Colour::Series(place)).stroke(stroke).line(points.collect())

@@ -53,7 +53,7 @@ pub(super) struct Sizes {
 }
 
 impl Sizes {
-    fn of(effort: Effort) -> Self {
+    fn new(effort: Effort) -> Self {
         match effort {
             Effort::Full => Self { points: 8192, slow_points: 1024, ramp_points: 64, curve: 25 },
             Effort::Quick => Self { points: 1024, slow_points: 128, ramp_points: 8, curve: 13 },
@@ -112,7 +112,7 @@ impl<'a> Bench<'a> {
         let parameters = study.space().factors().iter().map(|factor| Parameter::from_name(&factor.name)).collect();
         let parameters: Option<Vec<_>> = parameters;
         let parameters = parameters.ok_or(ReproduceError::NoRanges)?;
-        Ok(Self { physics, sizes: Sizes::of(effort), studies, space: study.space().clone(), parameters })
+        Ok(Self { physics, sizes: Sizes::new(effort), studies, space: study.space().clone(), parameters })
     }
 
     /// F_cr (N).

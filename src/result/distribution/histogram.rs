@@ -3,14 +3,14 @@
 use super::{Histogram, Sample};
 
 /// Most bins.
-const MOST_BINS: f64 = 100.0;
+const MAX_BINS: f64 = 100.0;
 
 /// The histogram of a sample, in the scale of its values.
 pub(super) fn of(sample: &Sample<'_>) -> Histogram {
     let (low, high) = sample.reach;
     let root = libm::cbrt(sample.n());
     let width = if sample.iqr > 0.0 { 2.0 * sample.iqr / root } else { 3.49 * sample.sd / root };
-    let bins = ((high - low) / width).ceil().clamp(1.0, MOST_BINS) as usize;
+    let bins = ((high - low) / width).ceil().clamp(1.0, MAX_BINS) as usize;
     let mut edges: Vec<f64> = (0..=bins).map(|k| low + (high - low) * k as f64 / bins as f64).collect();
     edges[bins] = high;
     let (values, below, above) = sample.within();

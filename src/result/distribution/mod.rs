@@ -89,9 +89,9 @@ impl OutputDistribution {
         sorted.sort_unstable_by(f64::total_cmp);
         let (min, max) = (*sorted.first()?, *sorted.last()?);
         let scale = Scale { exponent, unit };
-        let moments = Moments::of(&sorted);
+        let moments = Moments::from_values(&sorted);
         let varied = max - min > ROUNDING;
-        let sample = varied.then(|| Sample::of(&sorted, moments.sd));
+        let sample = varied.then(|| Sample::new(&sorted, moments.sd));
         let histogram = sample.as_ref().map(|sample| histogram::of(sample));
         Some(Self {
             unit: unit.clone(),
@@ -161,7 +161,7 @@ struct Moments {
 }
 
 impl Moments {
-    fn of(values: &[f64]) -> Self {
+    fn from_values(values: &[f64]) -> Self {
         let n = values.len() as f64;
         let mean = mean(values);
         let (centred, exponent) = rescaled(&values.iter().map(|v| v - mean).collect::<Vec<f64>>());
@@ -186,7 +186,7 @@ struct Sample<'a> {
 }
 
 impl<'a> Sample<'a> {
-    fn of(sorted: &'a [f64], sd: f64) -> Self {
+    fn new(sorted: &'a [f64], sd: f64) -> Self {
         /// In interquartile ranges beyond the quartiles.
         const REACH: f64 = 6.0;
         let (lower, upper) = (quantile(sorted, 0.25), quantile(sorted, 0.75));

@@ -53,7 +53,7 @@ fn file_name(key: &str, name: &str, most: usize) -> Result<(), Fault> {
 }
 
 /// Largest count: up to here sums of a few counts, and the counts as numbers, are exact.
-const MOST: u64 = 1 << 53;
+const MAX_COUNT: u64 = 1 << 53;
 
 /// Numbers that are no counts.
 const NO_COUNTS: [&str; 2] = ["seed", "first_row"];
@@ -69,7 +69,9 @@ pub(super) fn counts(value: &Value, key: &str) -> Result<(), Fault> {
             list.iter().enumerate().try_for_each(|(place, value)| counts(value, &format!("{key}[{place}]")))
         }
         Value::Number(number) => match number.as_u64() {
-            Some(count) if count > MOST => Err((key.to_owned(), format!("expected a count up to 2^53, found {count}"))),
+            Some(count) if count > MAX_COUNT => {
+                Err((key.to_owned(), format!("expected a count up to 2^53, found {count}")))
+            }
             _ => Ok(()),
         },
         _ => Ok(()),

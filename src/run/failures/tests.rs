@@ -17,8 +17,8 @@ fn reasons_with_numbers_in_them_are_one() {
     let reasons = |count: u64| -> Vec<(u64, String)> {
         (0..count).map(|k| (k, format!("no root at t = {}.5, x = -{k}e-3", k * k))).collect()
     };
-    let few = counted(&reasons(MOST_REASONS as u64));
-    assert_eq!(few.iter().count(), MOST_REASONS);
+    let few = counted(&reasons(MAX_REASONS as u64));
+    assert_eq!(few.iter().count(), MAX_REASONS);
     let many = counted(&reasons(100_000));
     let found: Vec<_> = many.iter().map(|(reason, tally)| (reason.to_string(), tally.count)).collect();
     assert_eq!(found, [("no root at t = #, x = #".to_owned(), 100_000)]);
@@ -30,8 +30,8 @@ fn of_more_words_than_that_the_first_are_told_apart() {
     let word = |k: u32| [k / 26 % 26, k % 26].map(|place| char::from(b'a' + place as u8)).iter().collect::<String>();
     let all = counted(&(0..300).rev().map(|k| (u64::from(k), word(k))).collect::<Vec<_>>());
     let found: Vec<_> = all.iter().collect();
-    assert_eq!(found.len(), MOST_REASONS + 1);
-    assert!(found[..MOST_REASONS].iter().enumerate().all(|(k, (reason, _))| reason.to_string() == word(k as u32)));
+    assert_eq!(found.len(), MAX_REASONS + 1);
+    assert!(found[..MAX_REASONS].iter().enumerate().all(|(k, (reason, _))| reason.to_string() == word(k as u32)));
     assert_eq!((found[100].0.to_string().as_str(), found[100].1.count, found[100].1.first.point), (OTHERS, 200, 100));
 }
 

@@ -116,11 +116,11 @@ pub(in crate::run) fn record(reader: &mut Reader<'_>) -> Option<Piece> {
 }
 
 /// Most rows that a replicate may have by what a journal says: beyond any design, and far from where sums overflow.
-const MOST_ROWS: u64 = 1 << 60;
+const MAX_ROWS: u64 = 1 << 60;
 
 fn piece(reader: &mut Reader<'_>) -> Option<Piece> {
     let (replicate, first, count) = (u64::read(reader)?, u64::read(reader)?, u64::read(reader)?);
-    if first > MOST_ROWS {
+    if first > MAX_ROWS {
         return None;
     }
     let values = reader.take(usize::try_from(count).ok()?.checked_mul(8)?)?;

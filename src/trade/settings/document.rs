@@ -9,7 +9,7 @@ use crate::report::format::{grouped, significant};
 use crate::result::json;
 
 /// Errors below this are drawn there.
-const LEAST_ERROR: f64 = 1e-6;
+const MIN_ERROR: f64 = 1e-6;
 
 /// What the names of curves with surrogates end in.
 const SURROGATES: &str = ", surrogates";
@@ -138,7 +138,7 @@ fn times(file: &SettingsFile) -> (f64, f64) {
 
 /// Below what is known of the truth there is nothing to see.
 fn least_drawn(file: &SettingsFile) -> f64 {
-    file.truth.error.unwrap_or(0.0).max(LEAST_ERROR)
+    file.truth.error.unwrap_or(0.0).max(MIN_ERROR)
 }
 
 fn points(file: &SettingsFile, curve: &[&Measured]) -> Vec<(f64, f64)> {
@@ -180,7 +180,7 @@ fn panel() -> Panel {
 
 /// The error of the truth, over the times that are seen.
 fn floor(file: &SettingsFile) -> Option<crate::report::chart::Mark> {
-    let error = file.truth.error.filter(|error| *error > LEAST_ERROR)?;
+    let error = file.truth.error.filter(|error| *error > MIN_ERROR)?;
     let (least, most) = times(file);
     let series = Series::new("not known of the truth", Colour::Reference).stroke(Stroke::Dotted);
     Some(series.line(vec![(least, error), (most, error)]))

@@ -15,15 +15,15 @@ struct Sample {
 impl Sample {
     /// x0 + 2 x1 + 3 x0 x1 + `offset`: the last factor does nothing.
     fn new(points: u64, ba: bool, offset: f64) -> Self {
-        Self::of(points, Rows { ba, second_order: ba, ..Rows::default() }, offset)
+        Self::from_rows(points, Rows { ba, second_order: ba, ..Rows::default() }, offset)
     }
 
     /// The same along random orders of the factors.
     fn with_orders(points: u64) -> Self {
-        Self::of(points, Rows { players: vec![vec![0], vec![1], vec![2]], ..Rows::default() }, 0.0)
+        Self::from_rows(points, Rows { players: vec![vec![0], vec![1], vec![2]], ..Rows::default() }, 0.0)
     }
 
-    fn of(points: u64, rows: Rows, offset: f64) -> Self {
+    fn from_rows(points: u64, rows: Rows, offset: f64) -> Self {
         let (has_ba, second_order) = (rows.ba, rows.second_order);
         let shapley = (!rows.players.is_empty()).then_some(ShapleyMethod::Permutations);
         let settings = DesignSettings { sampler: Sampler::Random, base_samples: points, replicates: 1, seed: 5 };
@@ -117,7 +117,7 @@ fn resampled_moments_are_those_of_resampled_rows() {
         let kept = sample.kept();
         let replicates = [&kept];
         let points = KeptPoints::all(&sample.design, &replicates).unwrap();
-        let products = Products::of(sample.whole());
+        let products = Products::new(sample.whole());
         let list = |moments: &Moments| quantities(&sample.layout, moments);
         let got = resampled(points, &products, 9, 40, &list);
         assert_eq!(got.len(), 40);
@@ -140,7 +140,7 @@ fn influences_are_what_another_copy_of_the_point_does() {
         let replicates = [&kept];
         let points = KeptPoints::all(&sample.design, &replicates).unwrap();
         let list = |moments: &Moments| quantities(&sample.layout, moments);
-        let sums = influence_sums(points, &Products::of(sample.whole()), &list).unwrap();
+        let sums = influence_sums(points, &Products::new(sample.whole()), &list).unwrap();
         let whole = list(&sample.whole()).unwrap();
         let n = sample.columns[0].len();
         let without = |point: usize| {
@@ -174,7 +174,7 @@ fn the_error_of_a_mean_is_the_textbook_one() {
         let points = KeptPoints::all(&sample.design, &replicates).unwrap();
         let mean = |moments: &Moments| Some(vec![moments.mean()]);
         let whole = sample.whole().without_swaps();
-        let got = influence_sums(points, &Products::of(whole), &mean).unwrap()[0].error();
+        let got = influence_sums(points, &Products::new(whole), &mean).unwrap()[0].error();
         let halves: Vec<f64> = sample.columns[0].iter().zip(&sample.columns[1]).map(|(a, b)| (a + b) / 2.0).collect();
         let centre = halves.iter().sum::<f64>() / 1000.0;
         let variance = halves.iter().map(|y| (y - centre).powi(2)).sum::<f64>() / 999.0;

@@ -41,7 +41,7 @@ fn printed(scene: &Scene, friction: FrictionLaw) -> Printed {
             FrictionLaw::Coulomb => {
                 Extended::from(scene.static_friction) * f_z + Extended::from(scene.shear_strength) * pi * a * a
             }
-            FrictionLaw::HurtadoKim => HurtadoKim::of(scene).capacity(a.value()).into(),
+            FrictionLaw::HurtadoKim => HurtadoKim::from_scene(scene).capacity(a.value()).into(),
             // LuGre far below v_s, Dahl with mu_d, Stribeck at rest.
             _ => {
                 Extended::from(if friction == FrictionLaw::Dahl {
