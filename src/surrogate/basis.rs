@@ -1,5 +1,6 @@
 //! Orthonormal polynomials of the factors: the terms of a surrogate.
 
+use super::knots::Knotted;
 use super::own::{OwnPolynomials, Recurrence};
 use crate::space::Distribution;
 use crate::special::normal_quantile;
@@ -30,6 +31,8 @@ pub enum Family {
     Own(Box<OwnPolynomials>),
     /// Those of the values of a column, orthonormal in its own distribution, at these values.
     Column(Box<Recurrence>),
+    /// Others with steps and kinks among them, all of which count as degrees.
+    Knotted(Box<Knotted>),
 }
 
 impl Family {
@@ -59,12 +62,18 @@ impl Family {
         Self::Column(Box::new(recurrence.unwrap_or_default()))
     }
 
+    /// Its polynomials without steps and kinks.
+    pub fn smooth(&self) -> &Self {
+        if let Self::Knotted(own) = self { own.base() } else { self }
+    }
+
     /// The largest degree that there is.
     fn degree(&self) -> usize {
         match self {
             Self::Legendre | Self::Hermite => MOST_DEGREES,
             Self::Own(own) => own.degree(),
             Self::Column(own) => own.degree(),
+            Self::Knotted(own) => own.degree(),
         }
     }
 }
@@ -118,7 +127,7 @@ impl<'a> Caps<'a> {
         let fits = |(factor, degree): &(usize, usize)| *degree <= self.families[*factor].degree();
         term.iter().all(fits)
             && degree(&|_| true) <= self.degree
-            && degree(&|factor| self.families[factor] == Family::Hermite) <= self.hermite_degree
+            && degree(&|factor| *self.families[factor].smooth() == Family::Hermite) <= self.hermite_degree
     }
 }
 
@@ -211,7 +220,8 @@ fn next_members(members: &mut [usize], factors: usize) -> bool {
 }
 
 /// The terms `active` by falling square of their coefficients, and then, for each in this order, its neighbours: with one and
-/// two degrees more in one of its factors, and with one of the leading factors as a partner.
+/// two degrees more in one of its factors, and with one of the leading factors as a partner: in degree 1, and one with steps or kinks
+/// also in the degree of its leading term.
 pub fn neighbours(active: &[Term], coefficients: &[f64], caps: Caps<'_>) -> Vec<Term> {
     let mut order: Vec<usize> = (0..active.len()).collect();
     order.sort_by(|&i, &j| {
@@ -239,13 +249,28 @@ pub fn neighbours(active: &[Term], coefficients: &[f64], caps: Caps<'_>) -> Vec<
             if term.len() < MOST_FACTORS_OF_NEIGHBOURS
                 && let Err(place) = term.binary_search_by_key(&factor, |(factor, _)| *factor)
             {
-                let mut next = term.clone();
-                next.insert(place, (factor, 1));
-                put(next);
+                let strongest = match caps.families[factor] {
+                    Family::Knotted(_) => leading_degree(active, &order, factor),
+                    _ => 1,
+                };
+                for degree in [1, strongest] {
+                    let mut next = term.clone();
+                    next.insert(place, (factor, degree));
+                    put(next);
+                }
             }
         }
     }
     terms
+}
+
+/// The degree of the first term of `factor` alone.
+fn leading_degree(active: &[Term], order: &[usize], factor: usize) -> usize {
+    let degree = |&place: &usize| match active[place][..] {
+        [(other, degree)] if other == factor => Some(degree),
+        _ => None,
+    };
+    order.iter().find_map(degree).unwrap_or(1)
 }
 
 /// The factors whose terms carry most variance, the first ones first.
@@ -273,6 +298,7 @@ pub fn polynomials(family: &Family, u: &[f64], degree: usize) -> Vec<Vec<f64>> {
     let mut columns: Vec<Vec<f64>> = Vec::with_capacity(degree);
     match family {
         Family::Own(own) => columns = own.columns(u),
+        Family::Knotted(own) => columns = own.columns(polynomials(own.base(), u, own.degree()), degree),
         Family::Column(own) => columns = own.columns(u, degree),
         Family::Legendre => {
             let x: Vec<f64> = u.iter().map(|u| 2.0 * u - 1.0).collect();

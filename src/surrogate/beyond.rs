@@ -4,12 +4,16 @@
 //! unbounded variable has most of its variance there. How far it departs in the tails from its own tangents at their edges is
 //! therefore a part of the error of every number that it enters; less of it the better the expansion fits and the lower its
 //! degree is, since what is close to a polynomial of low degree goes on like one.
+//!
+//! Nor do runs show where a step lies between two values drawn. How far the two sides of a knot depart from one another counts as if it
+//! were uniform over the width within which the knot lies, of standard deviation width/sqrt(12).
 
 use std::collections::BTreeMap;
 
 use super::basis::{Family, Term, polynomials};
 use super::corrected::{touches, within};
 use super::fit::Expansion;
+use crate::uncertainty::Knot;
 
 /// Width of the panels of the midpoint rule in ln u, and their number, to 1e-17 of the edge.
 const STEP: f64 = 0.25;
@@ -18,13 +22,18 @@ const PANELS: usize = 160;
 /// Distance of two values of u about the edge over that of the edge, for slopes.
 const NEAR: f64 = 1e-5;
 
+/// Distance in u of either side of a knot.
+const KNOT_SIDE: f64 = 1e-9;
+
 /// How many times the root mean square of the rest counts for every degree of a polynomial, times its departure; at most all of
 /// that does. Polynomials that are small where the runs are grow so fast beyond them, as those of Chebyshev do. Measured on
 /// sines, exponentials and powers of normal factors.
 const GROWTH: f64 = 3.2;
 
-/// One tail of a factor, from its edge outwards.
+/// One tail of a factor, from its edge outwards; or a knot, with its two sides in place of the tail and its tangents.
 struct Tail {
+    /// Whether a close fit tells nothing of it.
+    is_knot: bool,
     /// Probabilities of the nodes.
     weights: Vec<f64>,
     /// The polynomials of degree 1, 2, ... at the nodes.
@@ -36,9 +45,11 @@ struct Tail {
 impl Tail {
     /// Both tails of a factor with polynomials of `family`, each of the probability `mass`; none where polynomials have no tails.
     fn both(family: &Family, mass: f64, degree: usize) -> Vec<Self> {
+        let (with_knots, family) = (family, family.smooth());
+        let degree = if let Family::Knotted(own) = with_knots { own.degree() } else { degree };
         let is_upper: &[bool] = match family {
             Family::Hermite | Family::Own(_) => &[false, true],
-            Family::Legendre | Family::Column(_) => &[],
+            Family::Legendre | Family::Column(_) | Family::Knotted(_) => &[],
         };
         let logarithms = (0..PANELS).map(|k| STEP * (k as f64 + 0.5));
         let nodes: Vec<f64> = logarithms.map(|s| mass * libm::exp(-s)).collect();
@@ -54,8 +65,11 @@ impl Tail {
             if upper && *family == Family::Hermite {
                 values.iter_mut().step_by(2).flatten().for_each(|value| *value = -*value);
             }
-            let [edge, near] = [PANELS, PANELS + 1];
             let x = values.first().cloned().unwrap_or_default();
+            if let Family::Knotted(own) = with_knots {
+                values = own.columns(values, degree);
+            }
+            let [edge, near] = [PANELS, PANELS + 1];
             let tangent = |of: &Vec<f64>| -> Vec<f64> {
                 let slope = (of[edge] - of[near]) / (x[edge] - x[near]);
                 // Between two levels of a discrete distribution there is none.
@@ -64,9 +78,20 @@ impl Tail {
             };
             let tangents = values.iter().map(tangent).collect();
             values.iter_mut().for_each(|of| of.truncate(PANELS));
-            Self { weights: weights.clone(), values, tangents }
+            Self { is_knot: false, weights: weights.clone(), values, tangents }
         };
         is_upper.iter().map(tail).collect()
+    }
+
+    /// Steps and kinks of a factor with functions of `family`.
+    fn knots(family: &Family) -> Vec<Self> {
+        let Family::Knotted(own) = family else { return Vec::new() };
+        let of_knot = |knot: &Knot| {
+            let [before, after] = [-KNOT_SIDE, KNOT_SIDE].map(|by| polynomials(family, &[knot.u + by], own.degree()));
+            let weights = vec![knot.width / 12.0f64.sqrt()];
+            Self { is_knot: true, weights, values: before, tangents: after }
+        };
+        own.knots().iter().map(of_knot).collect()
     }
 
     /// How far the polynomial with `coefficients` (degree, coefficient) and the constant `offset` departs from its tangent: the
@@ -123,16 +148,23 @@ impl Beyond {
         for (factor, family) in families.iter().enumerate() {
             let degree_of = |expansion: &Expansion| degree(&expansion.terms, factor);
             let degree = expansions.iter().map(degree_of).max().unwrap_or(0);
-            let tails = if degree > 1 { Tail::both(family, mass, degree) } else { Vec::new() };
+            let mut tails = if degree > 1 { Tail::both(family, mass, degree) } else { Vec::new() };
+            tails.extend(Tail::knots(family));
             for expansion in expansions.iter().filter(|_| !tails.is_empty()) {
                 for (others, Group { coefficients, offset }) in groups(expansion, factor) {
                     let highest = coefficients.iter().map(|(degree, _)| *degree).max().unwrap_or(0);
                     let weight = (libm::pow(GROWTH, highest as f64) * rest).min(1.0) / expansions.len() as f64;
-                    let sum = |[a, b]: [f64; 2], tail: &Tail| {
-                        let [more_a, more_b] = tail.departure(&coefficients, offset);
-                        [a + more_a, b + more_b]
+                    let sum_of = |is_knot: bool| {
+                        let sum = |[a, b]: [f64; 2], tail: &Tail| {
+                            let [more_a, more_b] = tail.departure(&coefficients, offset);
+                            [a + more_a, b + more_b]
+                        };
+                        tails.iter().filter(|tail| tail.is_knot == is_knot).fold([0.0; 2], sum)
                     };
-                    let [of_mean, of_square] = tails.iter().fold([0.0; 2], sum).map(|sum| weight * sum);
+                    let [[tail_mean, tail_square], [knot_mean, knot_square]] = [false, true].map(sum_of);
+                    let share = 1.0 / expansions.len() as f64;
+                    let of_mean = weight * tail_mean + share * knot_mean;
+                    let of_square = weight * tail_square + share * knot_square;
                     if others.is_empty() {
                         all.mean += of_mean;
                     }
@@ -201,6 +233,7 @@ mod tests {
     use super::*;
     use crate::space::Distribution;
     use crate::special::{normal_below, normal_quantile};
+    use crate::surrogate::knots::Knotted;
 
     fn beyond(family: Family, terms: Vec<Term>, coefficients: Vec<f64>, rest: f64) -> Beyond {
         let families = [family, Family::Legendre];
@@ -220,6 +253,24 @@ mod tests {
         // Well fitted, it goes on like that.
         let fitted = beyond(Family::Hermite, vec![vec![(0, 2)]], vec![1.0], 1e-12);
         assert!((fitted.variance / (found.variance * 3.2_f64.powi(2) * 1e-6) - 1.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn steps_may_lie_anywhere_within_their_width() {
+        let of = |width: f64| {
+            let knots = [Knot { u: 0.3, width, is_step: true }];
+            Family::Knotted(Box::new(Knotted::new(&Family::Legendre, &knots, 6)))
+        };
+        // The rest does not matter.
+        let found = [0.0, 0.01].map(|width| beyond(of(width), vec![vec![(0, 1)], vec![(0, 2)]], vec![0.3, 0.8], 1e-9));
+        let at = |u: f64| {
+            let columns = polynomials(&of(0.01), &[u], 6);
+            (0.3 * columns[0][0] + 0.8 * columns[1][0]).powi(2)
+        };
+        let exact = 0.01 / 12.0f64.sqrt() * (at(0.3 + 1e-9) - at(0.3 - 1e-9)).abs();
+        assert_eq!(found[0].variance, 0.0);
+        assert!(exact > 1e-4 && (found[1].total[0] / exact - 1.0).abs() < 1e-9, "{} {exact}", found[1].total[0]);
+        assert_eq!(found[1].total[1], 0.0);
     }
 
     #[test]

@@ -32,7 +32,7 @@ impl<'a> Carried<'a> {
     pub fn new(nets: &'a [Net], caps: Caps<'a>) -> Self {
         let of_factor = |(factor, family): (usize, &Family)| {
             let spreads: Vec<_> = nets.iter().map(|net| net.spreads(factor)).collect();
-            match family {
+            match family.smooth() {
                 Family::Own(own) if own.has_levels() => {
                     spreads.iter().map(|net| carried_degrees(net)).min().unwrap_or(0)
                 }

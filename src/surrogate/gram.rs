@@ -245,7 +245,7 @@ impl Path {
 }
 
 /// The inverse of a lower triangular matrix.
-fn inverse(lower: &[Vec<f64>]) -> Vec<Vec<f64>> {
+pub fn inverse(lower: &[Vec<f64>]) -> Vec<Vec<f64>> {
     let mut rows: Vec<Vec<f64>> = Vec::with_capacity(lower.len());
     for (i, row) in lower.iter().enumerate() {
         let mut new = vec![0.0; i + 1];

@@ -10,6 +10,7 @@ pub mod carried;
 pub mod corrected;
 pub mod fit;
 pub mod gram;
+pub mod knots;
 pub mod low_fidelity;
 pub mod net;
 mod own;

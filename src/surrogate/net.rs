@@ -10,6 +10,8 @@ use crate::design::{Design, Run};
 pub struct Net {
     /// For each matrix and factor a column for each degree from 1.
     columns: Arc<Vec<Vec<Vec<f64>>>>,
+    /// For each matrix and factor the quantiles.
+    quantiles: Arc<Vec<Vec<f64>>>,
     factors: usize,
     /// For each run its outputs, less the mean of all and over their standard deviation.
     pub outputs: Vec<Vec<f64>>,
@@ -39,15 +41,14 @@ impl Net {
         let mut base = vec![vec![0.0; count]; design.columns()];
         design.replicate(replicate).fill(first, &mut base);
         let factors = design.factors();
-        let of_column = |(number, u): (usize, &Vec<f64>)| {
-            let u: Vec<f64> = good.iter().map(|&p| u[p]).collect();
-            polynomials(&families[number % factors], &u, degree)
-        };
+        let base: Vec<Vec<f64>> = base.iter().map(|u| good.iter().map(|&p| u[p]).collect()).collect();
+        let of_column = |(number, u): (usize, &Vec<f64>)| polynomials(&families[number % factors], u, degree);
         let matrix = |run: &Run, factor: usize| {
             design.first_column(if run.columns.binary_search(&factor).is_ok() { run.from } else { run.base }) / factors
         };
         Self {
             columns: Arc::new(base.iter().enumerate().map(of_column).collect()),
+            quantiles: Arc::new(base),
             factors,
             outputs: outputs.iter().map(|run| good.iter().map(|&p| run[p]).collect()).collect(),
             matrices: Arc::new(
@@ -61,14 +62,22 @@ impl Net {
     pub fn of_rows(columns: Vec<Vec<Vec<f64>>>, outputs: Vec<f64>) -> Self {
         let (factors, points) = (columns.len(), outputs.len());
         let matrices = Arc::new(vec![vec![0; factors]]);
-        Self { columns: Arc::new(columns), factors, outputs: vec![outputs], matrices, points }
+        Self {
+            columns: Arc::new(columns),
+            quantiles: Arc::default(),
+            factors,
+            outputs: vec![outputs],
+            matrices,
+            points,
+        }
     }
 
     /// Other `outputs` at the same rows.
     pub fn with_outputs(&self, outputs: Vec<Vec<f64>>) -> Self {
-        let Self { columns, factors, matrices, points, .. } = self;
+        let Self { columns, quantiles, factors, matrices, points, .. } = self;
         Self {
             columns: Arc::clone(columns),
+            quantiles: Arc::clone(quantiles),
             factors: *factors,
             outputs,
             matrices: Arc::clone(matrices),
@@ -89,6 +98,11 @@ impl Net {
     /// The polynomial of `degree` of `factor` at the base points of `run`.
     fn column(&self, run: usize, factor: usize, degree: usize) -> &[f64] {
         &self.columns[self.matrices[run][factor] * self.factors + factor][degree - 1]
+    }
+
+    /// The quantiles of `factor` at the base points of `run`.
+    pub fn quantiles(&self, run: usize, factor: usize) -> &[f64] {
+        &self.quantiles[self.matrices[run][factor] * self.factors + factor]
     }
 
     /// Of the polynomials of every degree of `factor` their mean and their mean square over the columns of all matrices.

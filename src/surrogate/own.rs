@@ -172,7 +172,7 @@ fn of_quantiles(distribution: &Distribution) -> Vec<(f64, f64)> {
 }
 
 /// Nodes and weights of the rule on each of some parts of `low` to `high`.
-fn rule(low: f64, high: f64) -> impl Iterator<Item = (f64, f64)> {
+pub(super) fn rule(low: f64, high: f64) -> impl Iterator<Item = (f64, f64)> {
     let width = (high - low) / f64::from(PARTS);
     let of_part = move |part: u32| {
         RULE.into_iter()

@@ -7,22 +7,29 @@ use std::collections::BTreeMap;
 use rayon::prelude::*;
 
 use super::basis::{Caps, Family, Term};
-use super::corrected::Contributions;
+use super::corrected::{Contributions, values_and_rest};
 use super::fit::{Expansion, Expansions, Training};
+use super::knots::{Knotted, MOST_MOVED, knots};
 use super::net::Net;
 use super::{
-    Corrected, Scaled, Trial, estimates, fewest_points, fitted_among, fitted_design, fitted_to_others, in_chunks,
-    scaled, sorted_swaps, surrogate_estimates, takes_surrogates, trials,
+    Corrected, MANY_HERMITE_DEGREES, Scaled, Trial, estimates, fewest_points, fitted_among, fitted_design,
+    fitted_to_others, in_chunks, scaled, sorted_swaps, surrogate_estimates, takes_surrogates, trials,
 };
 use crate::design::Design;
 use crate::estimate::PointOutputs;
-use crate::uncertainty::{ChosenTerms, Layout, SurrogateEstimates};
+use crate::uncertainty::{ChosenTerms, Knot, Layout, SurrogateEstimates};
 
 /// Outputs up to which each has terms of its own: what that gains is worth its time.
 const MOST_ALONE: usize = 32;
 
 /// About as many neighbours share their terms. Outputs of a series change slowly along it.
 const NEIGHBOURS: usize = 64;
+
+/// Share of the variance that polynomials leave of an output above which it may have steps and kinks.
+const ROUGH: f64 = 1e-4;
+
+/// How much of what polynomials leave may be left with knots, to be taken in their place.
+const KNOTS_RATIO: f64 = 0.9;
 
 /// What [`surrogate_estimates`] makes of each of `outputs`, which have the outputs of every replicate, by the terms of the same
 /// output in `longer`, the estimates of a longer run, if these are known; of more than 32 by terms that neighbours share.
@@ -96,14 +103,17 @@ pub(super) fn of_neighbours(
         output.0.iter().zip(&good).map(of_replicate).collect()
     };
     let runs: Vec<Vec<Vec<Vec<f64>>>> = outputs.par_iter().map(at_good).collect();
-    let trials = trials(families).into_iter().enumerate().filter(|(kind, _)| chosen.is_none_or(|of| of.kind == *kind));
+    let trials: Vec<(usize, Trial)> = match chosen {
+        Some(chosen) if !chosen.knots.is_empty() => vec![(chosen.kind, with_knots(families, &chosen.knots))],
+        _ => trials(families).into_iter().enumerate().collect(),
+    };
+    let trials = trials.into_iter().filter(|(kind, _)| chosen.is_none_or(|of| of.kind == *kind));
     let of_nets = chosen.map(|chosen| chosen.of_nets.as_slice());
     let fits: Vec<(usize, Fit)> =
         trials.map(|(kind, trial)| (kind, Fit::new(&fitted, trial, outputs[0], &runs, of_nets))).collect();
     let (swaps, pairs) = (sorted_swaps(design), if layout.second_order { layout.pair_list() } else { Vec::new() });
     let of_output = |number: usize| {
-        let mut best: Option<(usize, Corrected)> = None;
-        for (kind, Fit { nets, families, degree, expansions, ratio }) in &fits {
+        let corrected = |Fit { nets, families, degree, expansions, .. }: &Fit| {
             let expansions: Vec<_> = expansions.iter().map(|of_net| of_net.of_output(number)).collect();
             let of = |net: &Net, expansion: &Expansion| Contributions::new(design, net, expansion, &swaps, &pairs);
             let of_net = |k: usize| {
@@ -116,17 +126,58 @@ pub(super) fn of_neighbours(
                 })
             };
             let nets = (0..nets.len()).into_par_iter().map(of_net).collect();
-            let next = Corrected::new(&fitted, nets, expansions, families, &pairs);
-            let is_better = best.as_ref().is_none_or(|(_, best)| next.unknown() < ratio * best.unknown());
+            Corrected::new(&fitted, nets, expansions, families, &pairs)
+        };
+        let mut best: Option<(usize, Corrected)> = None;
+        for (kind, fit) in &fits {
+            let next = corrected(fit);
+            let is_better = best.as_ref().is_none_or(|(_, best)| next.unknown() < fit.ratio * best.unknown());
             best = if is_better { Some((*kind, next)) } else { best };
         }
-        let (kind, best) = best?;
+        let (kind, mut best) = best?;
+        let mut knots = chosen.map_or_else(Vec::new, |chosen| chosen.knots.clone());
+        // What a few rows carry where factors have no bounds is a tail.
+        let is_tail = families.contains(&Family::Hermite) && best.is_heavy_tailed();
+        if chosen.is_none() && outputs.len() == 1 && best.residual() > ROUGH && !is_tail {
+            let (mut next, mut terms) = (fits[kind].1.knots(families, &best.expansions), None);
+            for (is_last, ratio) in [(false, KNOTS_RATIO), (true, 1.0)] {
+                let fit = match next.iter().any(|of_factor| !of_factor.is_empty()) {
+                    true => Fit::new(&fitted, with_knots(families, &next), outputs[0], &runs, terms.as_deref()),
+                    false => break,
+                };
+                let found = corrected(&fit);
+                if found.residual() > ratio * best.residual() {
+                    break;
+                }
+                // The second time in the terms of the first, with the knots where that says that they lie.
+                let of_found = |of: &Expansion| of.terms.clone();
+                terms = Some(found.expansions.iter().map(of_found).collect::<Vec<Vec<Term>>>());
+                let placed = if is_last { Vec::new() } else { fit.placed(&fitted, outputs[0], &found.expansions) };
+                if found.unknown() <= ratio * best.unknown() {
+                    (knots, best) = (next, found);
+                }
+                next = placed;
+            }
+        }
         let terms = |of: &Expansion| of.terms.clone();
-        let chosen =
-            (outputs.len() == 1).then(|| ChosenTerms { kind, of_nets: best.expansions.iter().map(terms).collect() });
+        let chosen = (outputs.len() == 1).then(|| ChosenTerms {
+            kind,
+            knots,
+            of_nets: best.expansions.iter().map(terms).collect(),
+        });
         Some(SurrogateEstimates { chosen, ..estimates(&best, &[], outputs[number].1) })
     };
     (0..outputs.len()).into_par_iter().map(of_output).collect()
+}
+
+/// Functions of all factors with these `knots`: what is tried of an output whose polynomials leave much.
+fn with_knots(families: &[Family], knots: &[Vec<Knot>]) -> Trial {
+    let degree = Caps::degree_of(families.len());
+    let of_factor = |(family, knots): (&Family, &Vec<Knot>)| {
+        if knots.is_empty() { family.clone() } else { Family::Knotted(Box::new(Knotted::new(family, knots, degree))) }
+    };
+    let families = families.iter().zip(knots).map(of_factor).collect();
+    Trial { families, hermite_degree: MANY_HERMITE_DEGREES, ratio: 1.0 }
 }
 
 /// A trial fitted to all outputs: for every net the expansions of the others.
@@ -168,11 +219,50 @@ impl Fit {
     }
 }
 
+impl Fit {
+    /// The knots of every factor, whose polynomials are `families`, that what these expansions of its output leave shows.
+    fn knots(&self, families: &[Family], expansions: &[Expansion]) -> Vec<Vec<Knot>> {
+        let nets = self.nets.iter().zip(expansions);
+        let rest: Vec<Vec<Vec<f64>>> = nets.map(|(net, expansion)| values_and_rest(net, expansion).1).collect();
+        let of_factor = |factor: usize| knots(&self.nets, &rest, factor, &families[factor], self.degree);
+        (0..families.len()).into_par_iter().map(of_factor).collect()
+    }
+
+    /// Its knots, where these expansions of its output say that they lie.
+    fn placed(&self, design: &Design, output: &Scaled, expansions: &[Expansion]) -> Vec<Vec<Knot>> {
+        let points = design.points_per_replicate() as usize;
+        let moved = |by: f64| -> Vec<Vec<Vec<f64>>> {
+            let of_factor = |family: &Family| match family {
+                Family::Knotted(own) => Family::Knotted(Box::new(Knotted::clone(own).moved(by))),
+                smooth => smooth.clone(),
+            };
+            let families: Vec<Family> = self.families.iter().map(of_factor).collect();
+            let of_net = |(k, expansion): (usize, &Expansion)| {
+                let runs: Vec<&[f64]> = output.0[k].iter().map(|run| &run[..points]).collect();
+                values_and_rest(&Net::of_points(design, k as u64, 0, &families, self.degree, &runs), expansion).0
+            };
+            expansions.par_iter().enumerate().map(of_net).collect()
+        };
+        let [left, right] = [-MOST_MOVED, MOST_MOVED].map(moved);
+        let of_factor = |(factor, family): (usize, &Family)| {
+            let Family::Knotted(own) = family else { return Vec::new() };
+            let alone = |(term, b): (&Term, &f64)| match term[..] {
+                [(other, degree)] if other == factor => Some((degree, *b)),
+                _ => None,
+            };
+            let of = |of: &Expansion| of.terms.iter().zip(&of.coefficients).filter_map(alone).collect::<Vec<_>>();
+            own.placed(&self.nets, [&left, &right], factor, &expansions.iter().flat_map(of).collect::<Vec<_>>())
+        };
+        self.families.iter().enumerate().map(of_factor).collect()
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::design::{DesignSettings, Rows};
     use crate::space::Distribution;
+    use crate::uncertainty::Influenced;
 
     /// Outputs of every run and point of each replicate of `design`.
     fn kept(design: &Design, f: impl Fn(&[f64]) -> f64) -> Vec<PointOutputs> {
@@ -216,5 +306,41 @@ mod tests {
         // Fewer are fitted one by one, to the same bits.
         let few = surrogates_together(&design, &families, &layout, &refs[..3], &[]);
         assert_eq!(few[1], surrogate_estimates(&design, &families, &layout, &refs[1], None));
+    }
+
+    #[test]
+    fn steps_and_kinks_are_found_where_they_lie() {
+        let settings = DesignSettings { base_samples: 512, ..DesignSettings::default() };
+        let design = Design::new(settings, 3, Rows::plain((0..3).map(|factor| vec![factor]).collect())).unwrap();
+        let (layout, families) = (Layout::plain(3), vec![Family::Legendre; 3]);
+        let estimates = |design: &Design, kept: &[PointOutputs], chosen: Option<&ChosenTerms>| {
+            surrogate_estimates(design, &families, &layout, &kept.iter().collect::<Vec<_>>(), chosen).unwrap()
+        };
+        let rough = kept(&design, |u| if u[0] > 0.37 { 1.0 + u[1] } else { 0.0 } + 4.0 * (u[2] - 0.6).abs());
+        let found = estimates(&design, &rough, None);
+        // With p = .63: a product of independent parts, and the moments of 4 |u - .6|.
+        let p: f64 = 0.63;
+        let parts = [p * (1.0 - p) * 2.25, p * p / 12.0, 16.0 * ((0.216 + 0.064) / 3.0 - 0.26 * 0.26)];
+        let both = p * (1.0 - p) / 12.0;
+        let variance = parts.iter().sum::<f64>() + both;
+        for (factor, part) in parts.iter().enumerate() {
+            let total = part + if factor < 2 { both } else { 0.0 };
+            let error = |of: &Influenced, exact: f64| (of.estimate - exact / variance).abs();
+            let errors = [error(&found.first_order[factor], *part), error(&found.total[factor], total)];
+            assert!(errors.iter().all(|error| *error < 1e-3), "{factor}: {errors:?}");
+        }
+        let chosen = found.chosen.unwrap();
+        let [step, none, kink] = &chosen.knots[..] else { panic!("{:?}", chosen.knots) };
+        assert!(step.len() == 1 && step[0].is_step && (step[0].u - 0.37).abs() <= step[0].width, "{step:?}");
+        assert!(kink.len() == 1 && !kink[0].is_step && (kink[0].u - 0.6).abs() < 1.0 / 256.0, "{kink:?}");
+        assert_eq!(none, &[]);
+        // Some of the rows, in the same terms.
+        let half = design.with_points(64).unwrap();
+        let first: Vec<PointOutputs> = rough.iter().map(|kept| kept.prefix(64)).collect();
+        let of_half = estimates(&half, &first, Some(&chosen));
+        assert!(of_half.explained > 0.99, "{}", of_half.explained);
+        // Nothing of the kind is seen where the output is smooth.
+        let smooth = kept(&design, |u| libm::exp(u[0]) * libm::sin(9.0 * u[1]) + u[2]);
+        assert_eq!(estimates(&design, &smooth, None).chosen.unwrap().knots, [] as [Vec<Knot>; 0]);
     }
 }

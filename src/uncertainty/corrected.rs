@@ -85,11 +85,24 @@ pub struct LowFidelityUse {
     pub explained: f64,
 }
 
+/// Where an output has a step or a kink in a factor.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Knot {
+    /// The quantile.
+    pub u: f64,
+    /// How wide the quantiles are within which it lies.
+    pub width: f64,
+    /// Whether it is a step more than a kink.
+    pub is_step: bool,
+}
+
 /// The terms of the surrogates of every net.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ChosenTerms {
     /// Number of the kind of polynomials.
     pub kind: usize,
+    /// The knots of every factor; none at all of polynomials alone.
+    pub knots: Vec<Vec<Knot>>,
     /// Of each net the terms of the surrogate of the others: the factors in each, by number, with their degrees.
     pub of_nets: Vec<Vec<Vec<(usize, usize)>>>,
 }

@@ -27,7 +27,9 @@ mod unseen;
 
 pub use aggregate::{AggregateIndices, aggregate_indices};
 pub use convergence::{Stage, points_of_stages, stages};
-pub use corrected::{ChosenTerms, LowFidelityUse, NamedTerm, Refusal, SurrogateEstimates, SurrogateTerm, SurrogateUse};
+pub use corrected::{
+    ChosenTerms, Knot, LowFidelityUse, NamedTerm, Refusal, SurrogateEstimates, SurrogateTerm, SurrogateUse,
+};
 pub(crate) use effects::largest_half_width;
 pub use effects::{DependentEstimates, EffectChecks, EffectEstimates, OtherEstimates, OutputIndices, OutputMoments};
 pub use estimates::{BesideNoise, Layout, NoiseLayout};
