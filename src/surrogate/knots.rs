@@ -12,7 +12,7 @@ use super::own::rule;
 use crate::uncertainty::Knot;
 
 /// Most knots of a factor.
-const MOST_KNOTS: usize = 4;
+const MAX_KNOTS: usize = 4;
 
 /// Least and largest number of bins, and base points for each: four values of a factor.
 const BINS: (usize, usize) = (16, 256);
@@ -28,7 +28,7 @@ const SIGNIFICANT: f64 = 10.0;
 const APART: f64 = 0.04;
 
 /// How far a knot is moved, in its widths.
-pub const MOST_MOVED: f64 = 1.5;
+pub const MAX_MOVED: f64 = 1.5;
 
 /// Share of its own square that a column must keep beyond others.
 const INDEPENDENT: f64 = 1e-6;
@@ -128,7 +128,7 @@ impl Knotted {
             let (slope, step) = (part(2 + 2 * place), part(3 + 2 * place));
             let near = 0.01 * knot.width;
             let x = &polynomials(&self.base, &[knot.u - near, knot.u + near], 1)[0];
-            let most = MOST_MOVED * knot.width;
+            let most = MAX_MOVED * knot.width;
             let by = (-step / slope * 2.0 * near / (x[1] - x[0])).clamp(-most, most);
             if knot.is_step || !by.is_finite() { *knot } else { Knot { u: knot.u + by, width: by.abs(), ..*knot } }
         };
@@ -146,7 +146,7 @@ impl Knotted {
         coefficients: &[(usize, f64)],
     ) -> Vec<Knot> {
         let place = |knot: Knot| {
-            let reach = MOST_MOVED * knot.width;
+            let reach = MAX_MOVED * knot.width;
             if !knot.is_step {
                 return knot;
             }
@@ -205,7 +205,7 @@ pub fn knots(nets: &[Net], rest: Rows<'_>, factor: usize, family: &Family, degre
     known.extend(vec![1.0; bins]);
     columns.into_iter().for_each(|column| known.extend(column));
     let mut found: Vec<Knot> = Vec::new();
-    while found.len() < MOST_KNOTS {
+    while found.len() < MAX_KNOTS {
         let is_free = |u: f64| found.iter().all(|knot| (knot.u - u).abs() >= APART);
         let Some((gain, t, is_step)) = known.best(&x, is_free) else { break };
         let freedom = bins as f64 - known.basis.len() as f64 - 2.0;

@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use super::basis::{Caps, Family, Term};
 use super::corrected::{Contributions, values_and_rest};
 use super::fit::{Expansion, Expansions, Training};
-use super::knots::{Knotted, MOST_MOVED, knots};
+use super::knots::{Knotted, MAX_MOVED, knots};
 use super::net::Net;
 use super::{
     Corrected, MANY_HERMITE_DEGREES, Scaled, Trial, estimates, fewest_points, fitted_among, fitted_design,
@@ -243,7 +243,7 @@ impl Fit {
             };
             expansions.par_iter().enumerate().map(of_net).collect()
         };
-        let [left, right] = [-MOST_MOVED, MOST_MOVED].map(moved);
+        let [left, right] = [-MAX_MOVED, MAX_MOVED].map(moved);
         let of_factor = |(factor, family): (usize, &Family)| {
             let Family::Knotted(own) = family else { return Vec::new() };
             let alone = |(term, b): (&Term, &f64)| match term[..] {
