@@ -8,7 +8,7 @@ use apportion::report::sweep::SweepFile;
 use apportion::result::json;
 use apportion::screening::Reading;
 
-use crate::common::{Folder, all_files, apportion, stderr, stdout, study_path, succeed, text};
+use crate::common::{Folder, all_files, apportion, stderr, study_path, succeed, text};
 
 fn read(folder: &Path, name: &str) -> String {
     std::fs::read_to_string(folder.join(name)).unwrap()

@@ -65,21 +65,8 @@ impl Expression {
     }
 }
 
-/// Formulas in 320 bits as a second calculation.
-pub(crate) struct PreciseFormulas {
-    formulas: Vec<Expression>,
-    /// The values of all inputs, where the factors have not overwritten them.
-    base: Vec<f64>,
-    /// For each factor of the space: the input it drives.
-    factors: Vec<usize>,
-}
-
-impl PreciseFormulas {
-    /// `formulas` of inputs with the values `base`, of which the factors drive those numbered in `factors`.
-    pub fn new(formulas: Vec<Expression>, base: Vec<f64>, factors: Vec<usize>) -> Self {
-        Self { formulas, base, factors }
-    }
-}
+/// Formulas of the factors in 320 bits as a second calculation.
+pub(crate) struct PreciseFormulas(pub Vec<Expression>);
 
 impl SecondCalculation for PreciseFormulas {
     fn name(&self) -> String {
@@ -87,9 +74,7 @@ impl SecondCalculation for PreciseFormulas {
     }
 
     fn calculate(&self, x: &[f64], _: &Answered) -> Vec<Result<Reference, Unchecked>> {
-        let mut inputs = self.base.clone();
-        self.factors.iter().zip(x).for_each(|(&input, &value)| inputs[input] = value);
-        self.formulas.iter().map(|formula| reference(formula, &inputs)).collect()
+        self.0.iter().map(|formula| reference(formula, x)).collect()
     }
 }
 
