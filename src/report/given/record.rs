@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::sentences;
-use crate::exchange::{TextColumn, TextKind};
+use crate::exchange::TextColumn;
 use crate::given::{
     Column, Dependence, GivenIndices, InputIndices, InputMeasures, LEAST_EXPLAINED, Method, NoVariance, OutputIndices,
     PointSet, SurrogateOutput, SurrogateRefusal, Surrogates,
@@ -80,8 +80,6 @@ pub struct TableRecord {
 pub struct ColumnLeftOut {
     /// Its name.
     pub name: String,
-    /// `"decimal-comma"`, `"unit"` (a number with a unit behind it) or `"text"`.
-    pub holds: String,
     /// Its first cell that is no number; `null` where the file says that there are none.
     pub example: Option<String>,
 }
@@ -90,19 +88,12 @@ impl GivenFile {
     /// The result of a table in which these columns hold text: it says so first.
     #[must_use]
     pub fn without(mut self, columns: &[TextColumn]) -> Self {
-        self.table.columns_left_out = columns.iter().map(column_left_out).collect();
+        let left_out =
+            |column: &TextColumn| ColumnLeftOut { name: column.name.clone(), example: column.example.clone() };
+        self.table.columns_left_out = columns.iter().map(left_out).collect();
         self.warnings.splice(0..0, columns.iter().map(ToString::to_string));
         self
     }
-}
-
-fn column_left_out(column: &TextColumn) -> ColumnLeftOut {
-    let holds = match column.kind() {
-        TextKind::DecimalComma => "decimal-comma",
-        TextKind::Unit => "unit",
-        TextKind::Text => "text",
-    };
-    ColumnLeftOut { name: column.name.clone(), holds: holds.to_owned(), example: column.example.clone() }
 }
 
 /// An input: indices hold for its values in the table, between these bounds.
