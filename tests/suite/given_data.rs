@@ -86,16 +86,15 @@ fn a_table_becomes_a_result() {
 }
 
 #[test]
-fn columns_are_chosen_and_methods_too() {
+fn columns_are_chosen() {
     let content = table(&random(3, 100, 2));
-    let result = Run::of(&content, &["--outputs", "y,x3", "--inputs", "x2,x1", "--method", "binned"]).result();
+    let result = Run::of(&content, &["--outputs", "y,x3", "--inputs", "x2,x1"]).result();
     assert_eq!(result.inputs.iter().map(|input| input.name.as_str()).collect::<Vec<_>>(), ["x2", "x1"]);
     let output = &result.outputs[1];
     assert_eq!(output.name, "x3");
     let index = &output.indices.as_ref().unwrap()[0];
-    assert!(index.rank.is_none() && index.binned.is_some_and(|binned| binned.bins == 6));
+    assert!(index.rank.is_some() && index.binned.bins == 6);
     Run::of(&content, &["--outputs", "z"]).refused("no column is called `z`");
-    Run::of(&content, &["--outputs", "y", "--method", "kernel"]).refused("expected one of rank, binned, both");
     Run::of(&content, &["--outputs", "y,,"]).refused("expected names of columns");
     Run::of(&content, &[]).refused("--outputs");
 }
@@ -120,12 +119,11 @@ fn faults_are_refused_with_their_place() {
 #[test]
 fn rows_that_are_no_independent_draws_are_refused_or_warned_of() {
     let content = table(&sobol(3, 256, 1));
-    Run::of(&content, &["--outputs", "y", "--method", "rank"]).refused("the rank estimator is refused");
     let result = Run::of(&content, &["--outputs", "y"]).result();
     assert_eq!(result.table.points, "too-even");
     assert!(result.warnings[0].contains("no estimate by ranks"), "{:?}", result.warnings);
     let index = &result.outputs[0].indices.as_ref().unwrap()[0];
-    let binned = index.binned.unwrap().estimate;
+    let binned = index.binned.estimate;
     assert!(index.rank.is_none() && binned.interval.is_none());
     // 16 bins lose 1/256 of a linear effect; means over a net are exact to 1e-3.
     assert!((binned.estimate - 9.0 / 14.0).abs() < 0.006, "{binned:?}");

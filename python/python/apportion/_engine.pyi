@@ -85,7 +85,6 @@ def given_data(
     inputs: tuple[list[str], NDArray[np.float64]],
     outputs: tuple[list[str], NDArray[np.float64]],
     *,
-    method: str,
     surrogate: bool,
     measures: bool,
     distributions: Study | None,

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::sentences;
 use crate::exchange::TextColumn;
 use crate::given::{
-    Column, Dependence, GivenIndices, InputIndices, InputMeasures, LEAST_EXPLAINED, Method, NoVariance, OutputIndices,
+    Column, Dependence, GivenIndices, InputIndices, InputMeasures, LEAST_EXPLAINED, NoVariance, OutputIndices,
     PointSet, SurrogateOutput, SurrogateRefusal, Surrogates,
 };
 use crate::quantity::Unit;
@@ -43,8 +43,6 @@ pub struct GivenFile {
 pub struct GivenProvenance {
     /// Version of this program.
     pub apportion_version: String,
-    /// The method asked for.
-    pub method: String,
     /// Seed of the order of ties in the intervals of the rank estimator.
     pub seed: u64,
     /// What the estimates are.
@@ -175,8 +173,6 @@ pub struct GivenFacts {
     pub sha256: String,
     /// Rows left out, and the line of the first.
     pub dropped: Option<(u64, u64)>,
-    /// The method asked for.
-    pub method: Method,
     /// The seed.
     pub seed: u64,
 }
@@ -195,15 +191,14 @@ pub fn build_given(
     };
     let outputs: Vec<GivenOutputRecord> = indices.outputs.iter().zip(outputs).enumerate().map(of_output).collect();
     let serves = outputs.iter().any(|output| output.served().is_some());
-    let warnings = sentences::warnings(indices, surrogates, facts.method, facts.dropped);
+    let warnings = sentences::warnings(indices, surrogates, facts.dropped);
     GivenFile {
         format: "apportion-given-data".to_owned(),
         version: 1,
         provenance: GivenProvenance {
             apportion_version: env!("CARGO_PKG_VERSION").to_owned(),
-            method: facts.method.name().to_owned(),
             seed: facts.seed,
-            estimators: sentences::estimators(indices, surrogates, facts.method),
+            estimators: sentences::estimators(indices, surrogates),
             interval: sentences::interval(indices, serves),
         },
         table: TableRecord {
@@ -246,12 +241,12 @@ fn input_record(column: &Column) -> GivenInputRecord {
 
 fn output_record(output: &OutputIndices, surrogate: Option<&SurrogateOutput>, column: &Column) -> GivenOutputRecord {
     let indices = output.indices.as_ref();
-    let leading = |index: &InputIndices| index.leading().map(|estimate| estimate.estimate);
+    let leading = |index: &InputIndices| index.leading().estimate;
     GivenOutputRecord {
         name: output.name.clone(),
         distribution: OutputDistribution::from_values(&column.values, &Unit::dimensionless()),
         indices: indices.ok().cloned(),
-        sum_first_order: indices.ok().and_then(|indices| indices.iter().map(leading).sum()),
+        sum_first_order: indices.ok().map(|indices| indices.iter().map(leading).sum()),
         surrogate: surrogate.filter(|_| indices.is_ok()).cloned(),
         measures: None,
         reason: indices.err().map(ToString::to_string),
