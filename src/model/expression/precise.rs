@@ -94,7 +94,7 @@ pub(crate) fn reference(formula: &Expression, x: &[f64]) -> Result<Reference, Un
 fn is_rounded(step: &Step) -> bool {
     match step {
         Step::Input(_) | Step::Number(_) | Step::Negate | Step::Compare(_) | Step::Select => false,
-        Step::One(OfOne { name, .. }) => !matches!(*name, "abs" | "floor" | "ceil" | "round" | "rint"),
+        Step::One(OfOne { name, .. }) => !matches!(*name, "abs" | "floor" | "ceil" | "round"),
         Step::Two(OfTwo { name, .. }) => !matches!(*name, "min" | "max"),
         _ => true,
     }
@@ -138,7 +138,6 @@ fn evaluate(step: Step, operands: &[BigFloat], x: &[f64], c: &mut Consts) -> Opt
 
 fn of_one(name: &str, x: &BigFloat, c: &mut Consts) -> Option<BigFloat> {
     let is_tiny = x.exponent().is_none_or(|exponent| exponent < TINY);
-    let half_turn = number(180.0);
     Some(match name {
         "sin" => x.sin(BITS, ToEven, c),
         "cos" => x.cos(BITS, ToEven, c),
@@ -158,22 +157,17 @@ fn of_one(name: &str, x: &BigFloat, c: &mut Consts) -> Option<BigFloat> {
         "log10" => x.log10(BITS, ToEven, c),
         "sqrt" => x.sqrt(BITS, ToEven),
         "cbrt" => x.cbrt(BITS, ToEven),
-        "square" => x.mul(x, BITS, ToEven),
         "abs" => x.abs(),
         "floor" => x.floor(),
         "ceil" => x.ceil(),
         "round" if x.is_negative() => x.sub(&number(0.5), WIDE, ToEven).ceil(),
         "round" => x.add(&number(0.5), WIDE, ToEven).floor(),
-        "rint" => x.round(0, ToEven),
-        "radians" => x.mul(&c.pi(BITS, ToEven), BITS, ToEven).div(&half_turn, BITS, ToEven),
-        "degrees" => x.mul(&half_turn, BITS, ToEven).div(&c.pi(BITS, ToEven), BITS, ToEven),
         _ => return None,
     })
 }
 
 fn of_two(name: &str, a: &BigFloat, b: &BigFloat, c: &mut Consts) -> Option<BigFloat> {
     Some(match name {
-        "power" => a.pow(b, BITS, ToEven, c),
         "hypot" => a.mul(a, BITS, ToEven).add(&b.mul(b, BITS, ToEven), BITS, ToEven).sqrt(BITS, ToEven),
         "min" | "max" if a.is_nan() || b.is_nan() => number(f64::NAN),
         "min" => (if a < b { a } else { b }).clone(),
