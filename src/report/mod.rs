@@ -6,7 +6,6 @@ mod atomic_write;
 #[doc(hidden)]
 pub mod chart;
 #[doc(hidden)]
-pub mod comparison;
 #[doc(hidden)]
 pub mod csv;
 #[doc(hidden)]
