@@ -135,7 +135,7 @@ fn failed_runs_are_told_with_their_factors() {
 #[test]
 fn a_sweep_shows_curves_and_ranges() {
     let (folder, file, table) = swept("coulomb-general", &["--points", "11"]);
-    assert_eq!((file.format.as_str(), file.version), ("apportion-sweep", 1));
+    assert_eq!((file.format.as_str(), file.version), ("apportion-sweep", 2));
     assert_eq!(json(&file), read(folder.path(), "coulomb-general-sweep.json"));
     assert_eq!(file.sweeps.len(), 8);
     let thickness = &file.sweeps[2];

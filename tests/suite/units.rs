@@ -87,8 +87,8 @@ fn sweeps_and_screenings_are_in_the_declared_units() {
     let json = std::fs::read_to_string(out.join("s-sweep.json")).unwrap();
     assert!(json.contains("\"percent\": null"), "{json}");
     let screening = succeed(&["screen", text(&study), "--trajectories", "8", "--out", text(&folder.path("screen"))]);
-    // The full range: 47.9 degF are 26.61 degC, without the zero of either.
-    assert!(screening.contains("26.61"), "{screening}");
+    // The full range: 18 degF are 10 degC, without the zero of either.
+    assert!(screening.contains("of its effects is 10 "), "{screening}");
     // What stands at the edge of a points file is what was typed.
     let points = folder.with("points.csv", "T,k\n68,1\n50.5,1\n");
     succeed(&["evaluate", text(&study), text(&points), "-o", text(&folder.path("answers.csv"))]);
