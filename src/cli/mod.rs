@@ -3,6 +3,7 @@
 mod analyze;
 mod check;
 mod check_plan;
+mod compare;
 mod completions;
 mod evaluate;
 mod given_data;
@@ -62,6 +63,8 @@ enum Command {
     Merge(merge::Arguments),
     /// Draw the page, tables and charts of a result again, from its JSON file alone
     Report(report::Arguments),
+    /// Set two results side by side: by how much the indices differ, and whether that is more than their errors
+    Compare(compare::Arguments),
     /// Screen many factors for those that matter, by elementary effects: a few runs for each factor
     Screen(screen::Arguments),
     /// Move one factor at a time around the nominal point: curves, ranges and slopes of every output
@@ -273,6 +276,7 @@ fn command_line(others: Option<&dyn Ranks>) -> ExitCode {
         Command::Sample(arguments) => sample::sample(&arguments),
         Command::Analyze(arguments) => analyze::analyze(&arguments),
         Command::Report(arguments) => report::report(&arguments),
+        Command::Compare(arguments) => compare::compare(&arguments),
         Command::Screen(arguments) => screen::screen(&arguments),
         Command::Sweep(arguments) => sweep::sweep(&arguments),
         Command::Trade(arguments) => trade::trade(&arguments),

@@ -10,8 +10,10 @@ use crate::uncertainty::{EffectEstimates, Estimate, Interval};
 pub(super) const MOST: usize = 20;
 /// The axis of indices.
 pub(super) const INDEX: &str = "Sobol' index: part of the variance";
-/// Estimates beyond these bounds say nothing of an index, which is between 0 and 1; nor do intervals longer than `LONGEST`.
-const INDICES: (f64, f64) = (-0.1, 1.1);
+/// Estimates beyond these bounds say nothing of an index, which is between 0 and 1, or of a difference of two; nor do intervals
+/// longer than `LONGEST`.
+pub(super) const INDICES: (f64, f64) = (-0.1, 1.1);
+pub(super) const DIFFERENCES: (f64, f64) = (-1.1, 1.1);
 const LONGEST: f64 = 1.0;
 /// Intervals are drawn so far beyond.
 const BEYOND: f64 = 0.1;
@@ -44,11 +46,11 @@ pub(super) fn pair_panel(
     let alone: Vec<f64> = first_order.iter().map(|index| index.map_or(0.0, |index| index.estimate.max(0.0))).collect();
     let [(of_first, first_order), (of_total, total)] = both_orders(first_order, total);
     let split = total.into_iter().zip(&alone).enumerate().map(|(row, (total, alone))| {
-        let bar = index_bar(row, total);
+        let bar = index_bar(row, total, INDICES);
         let beyond = Some((alone.min(bar.to.max(0.0)), with_others.clone()));
         of_total.mark(Shape::Bar(Bar { beyond, ..bar }))
     });
-    panel(INDEX, factors, bars((of_first, first_order)).chain(split), keys)
+    panel(INDEX, factors, bars((of_first, first_order), INDICES).chain(split), keys)
 }
 
 /// A panel with a row for each factor, those with the largest keys on top, and bars of their indices.
@@ -56,25 +58,26 @@ pub(super) fn index_panel(
     label: &str,
     factors: Vec<String>,
     series: impl IntoIterator<Item = IndexSeries>,
+    possible: (f64, f64),
     keys: &[f64],
 ) -> Panel {
-    panel(label, factors, series.into_iter().flat_map(bars), keys)
+    panel(label, factors, series.into_iter().flat_map(|series| bars(series, possible)), keys)
 }
 
 fn panel(label: &str, factors: Vec<String>, marks: impl Iterator<Item = Mark>, keys: &[f64]) -> Panel {
     Panel::new(Axis::new(label, ""), Axis::from_names("", factors)).with(marks).ranked(keys, MOST)
 }
 
-fn bars((series, values): IndexSeries) -> impl Iterator<Item = Mark> {
+fn bars((series, values): IndexSeries, possible: (f64, f64)) -> impl Iterator<Item = Mark> {
     let bars = values.into_iter().enumerate();
-    bars.map(move |(row, value)| series.mark(Shape::Bar(index_bar(row, value))))
+    bars.map(move |(row, value)| series.mark(Shape::Bar(index_bar(row, value, possible))))
 }
 
 /// The bar of an index. One of which nothing is known says so: its bar would be read all the same.
-fn index_bar(row: usize, value: Option<Estimate>) -> Bar {
+fn index_bar(row: usize, value: Option<Estimate>, possible: (f64, f64)) -> Bar {
     let Some(index) = value else { return Bar { row, to: f64::NAN, ..Bar::default() } };
     let length = index.interval.map(Interval::width);
-    let is_possible = (INDICES.0..=INDICES.1).contains(&index.estimate);
+    let is_possible = (possible.0..=possible.1).contains(&index.estimate);
     if !is_possible || length.is_some_and(|length| length > LONGEST) {
         return Bar { row, to: f64::NAN, label: UNKNOWN.to_owned(), ..Bar::default() };
     }
@@ -86,7 +89,7 @@ fn index_bar(row: usize, value: Option<Estimate>) -> Bar {
         true => minus(&fixed(index.estimate, DECIMALS)),
         false => printed.to_owned(),
     };
-    let interval = index.interval.map(|i| (i.low.max(INDICES.0 - BEYOND), i.high.min(INDICES.1 + BEYOND)));
+    let interval = index.interval.map(|i| (i.low.max(possible.0 - BEYOND), i.high.min(possible.1 + BEYOND)));
     Bar { row, to: index.estimate, interval, label, said, ..Bar::default() }
 }
 
@@ -169,7 +172,7 @@ pub fn study_chart(result: &StudyResult, output: &OutputResult) -> Chart {
         let effects: Vec<Option<Estimate>> = effects.into_iter().map(Some).collect();
         let keys: Vec<f64> = effects.iter().map(|effect| effect.map_or(f64::NAN, |effect| effect.estimate)).collect();
         let series = (Series::new("Shapley effect", Colour::Series(0)), effects);
-        let panel = index_panel("Shapley effect: part of the variance", names, [series], &keys);
+        let panel = index_panel("Shapley effect: part of the variance", names, [series], INDICES, &keys);
         let caption = format!("Shapley effects on {}: they sum to 100 % of the variance.", name(&output.name));
         return Chart::new(title, caption).panels([panel]);
     }
@@ -219,9 +222,13 @@ mod tests {
         let names: Vec<String> = ["a", "b", "c", "d"].map(str::to_owned).to_vec();
         let alone = Some(Estimate::alone(2.73));
         let values = vec![about(-1.73, 0.2), alone, about(0.4, 0.6), about(0.02, 0.04)];
-        let panel = index_panel(INDEX, names, [(Series::default(), values)], &keys);
+        let panel = index_panel(INDEX, names.clone(), [(Series::default(), values)], INDICES, &keys);
         let labels: Vec<String> = drawn(&panel).into_iter().map(|bar| bar.label).collect();
         assert_eq!(labels, [UNKNOWN, UNKNOWN, UNKNOWN, "0.02"]);
         assert!(drawn(&panel)[0].to.is_nan() && drawn(&panel)[3].said == "0.02 ± 0.04");
+        let differences = vec![about(-0.73, 0.2), alone, about(0.4, 0.3), about(0.000_013, 0.000_002)];
+        let panel = index_panel(INDEX, names, [(Series::default(), differences)], DIFFERENCES, &keys);
+        let labels: Vec<String> = drawn(&panel).into_iter().map(|bar| bar.label).collect();
+        assert_eq!(labels, ["\u{2212}0.7", UNKNOWN, "0.4", "0.000013"]);
     }
 }

@@ -6,6 +6,7 @@ mod atomic_write;
 #[doc(hidden)]
 pub mod chart;
 #[doc(hidden)]
+pub mod comparison;
 #[doc(hidden)]
 pub mod csv;
 #[doc(hidden)]

@@ -1,4 +1,4 @@
-//! What a user does with results and studies beside running them.
+//! What a user does with results and studies beside running them: report, compare.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -83,8 +83,10 @@ fn what_is_no_result_is_refused_with_file_and_place() {
         ("{\"format\": \"apportion-result\", \"version\": 9}", "version 9 of the format is not known"),
     ] {
         std::fs::write(&path, content).unwrap();
-        let message = refused(&["report", text(&path)]);
-        assert!(message.contains("x.json: ") && message.contains(expected), "{message}");
+        for command in [vec!["report", text(&path)], vec!["compare", text(&path), text(&path)]] {
+            let message = refused(&command);
+            assert!(message.contains("x.json: ") && message.contains(expected), "{message}");
+        }
     }
     run("ishigami", folder.path(), &[]);
     let json = std::fs::read_to_string(folder.path().join("ishigami.json")).unwrap();
@@ -97,6 +99,56 @@ fn what_is_no_result_is_refused_with_file_and_place() {
     assert!(cut.contains("EOF while parsing"), "{cut}");
     std::fs::write(&path, [0xff, 0xfe, 0x00]).unwrap();
     assert!(refused(&["report", text(&path)]).contains("x.json: not a result"));
+}
+
+#[test]
+fn compare_tells_what_differs_and_by_how_much() {
+    let folder = tempfile::tempdir().unwrap();
+    let (a, b, out) = (folder.path().join("a"), folder.path().join("b"), folder.path().join("out"));
+    run("soft-cantilever", &a, &[]);
+    run("soft-cantilever", &b, &["afm.friction=hk", "factor.thickness.max=2.8", "design.seed=2"]);
+    let (a, b) = (a.join("soft-cantilever.json"), b.join("soft-cantilever.json"));
+    let said = succeed(&["compare", text(&a), text(&b), "--out", text(&out)]);
+    for expected in
+        ["friction", "coulomb", "hk", "factor thickness", "max 2.8", "seed", "leaves out 0", "critical time (s)"]
+    {
+        assert!(said.contains(expected), "{expected}: {said}");
+    }
+    // The studies have one name and the files too: their folders tell them apart.
+    let written = contents(&out);
+    let charts = ["critical_force", "critical_force-differences", "critical_time", "critical_time-differences"];
+    for chart in
+        charts.iter().flat_map(|chart| [format!("charts/a-vs-b-{chart}.svg"), format!("charts/a-vs-b-{chart}.png")])
+    {
+        assert!(written.contains_key(&chart), "{chart}: {:?}", written.keys());
+    }
+    assert_eq!(written.len(), 3 + 8);
+    let json: serde_json::Value = serde_json::from_slice(&written["a-vs-b.json"]).unwrap();
+    assert_eq!((&json["format"], &json["version"]), (&"apportion-comparison".into(), &1.into()));
+    // Every number of the table is that of the results.
+    let csv = String::from_utf8(written["a-vs-b.csv"].clone()).unwrap();
+    let index = |json: &Path| {
+        let result: serde_json::Value = serde_json::from_slice(&std::fs::read(json).unwrap()).unwrap();
+        result["outputs"][0]["indices"][0]["total"]["estimate"].as_f64().unwrap()
+    };
+    let line = csv.lines().find(|line| line.starts_with("critical_force,factor,thickness,total,")).unwrap();
+    let cells: Vec<f64> = line.split(',').skip(4).take(9).map(|cell| cell.parse().unwrap()).collect();
+    assert_eq!((cells[0], cells[3], cells[6]), (index(&a), index(&b), index(&b) - index(&a)));
+    // Labels of the user's own.
+    let said = succeed(&["compare", text(&a), text(&b), "--out", text(&out), "--label-a", "dry", "--label-b", "humid"]);
+    assert!(said.contains("A: dry") && said.contains("B: humid"), "{said}");
+}
+
+#[test]
+fn compare_refuses_other_outputs_and_writes_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    run("ishigami", folder.path(), &[]);
+    run("coulomb-dimensional", folder.path(), &[]);
+    let (a, b) = (folder.path().join("ishigami.json"), folder.path().join("coulomb-dimensional.json"));
+    let out = folder.path().join("out");
+    let message = refused(&["compare", text(&a), text(&b), "--out", text(&out)]);
+    assert!(message.contains("no output in common: A has y, B has critical_force"), "{message}");
+    assert!(message.contains("ishigami.json") && !out.exists());
 }
 
 /// The commands that the program's own help lists.
@@ -133,7 +185,7 @@ fn bash_completes_with_the_script() {
         text(&script)
     );
     let Ok(answer) = std::process::Command::new("bash").args(["-c", &ask]).output() else { return };
-    assert_eq!(String::from_utf8(answer.stdout).unwrap().trim(), "completions", "{:?}", answer.stderr);
+    assert_eq!(String::from_utf8(answer.stdout).unwrap().trim(), "compare completions", "{:?}", answer.stderr);
 }
 
 #[test]

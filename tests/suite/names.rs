@@ -78,11 +78,13 @@ fn outputs_whose_files_would_be_the_same_have_files_of_their_own() {
     // Each chart is that of its output: the title names it.
     let title = |file: &str| std::fs::read_to_string(out.join(file)).unwrap();
     assert!(title("charts/s-y-indices.svg").contains("indices of y<"), "the chart of the indices of y");
-    // The same again from the result.
+    // The same again from the result, and from two of them.
     let (json, again) = (out.join("s.json"), folder.path("again"));
     assert_eq!(apportion(&["report", text(&json), "--out", text(&again)]).status.code(), Some(0));
     assert_eq!(all_files(&again).len(), 5 + names.len() * 10);
-    let screened = folder.path("screened");
+    let (both, screened) = (folder.path("both"), folder.path("screened"));
+    assert_eq!(apportion(&["compare", text(&json), text(&json), "--out", text(&both)]).status.code(), Some(0));
+    assert_eq!(all_files(&both).len(), 3 + names.len() * 4);
     assert_eq!(apportion(&["screen", text(&path), "--out", text(&screened)]).status.code(), Some(0));
     assert_eq!(all_files(&screened).len(), 3 + names.len() * 4);
 }

@@ -114,6 +114,10 @@ fn every_command_that_draws_writes_a_page() {
     assert!(whole(&out, "soft-cantilever-scene").contains("<iframe"));
     succeed(&[&["simulate", text(&study), "--mode-diagram"], &to[..]].concat());
     whole(&out, "soft-cantilever-modes");
+    let json = out.join("soft-cantilever.json");
+    let both = ["compare", text(&json), text(&json), "--label-a", "one", "--label-b", "two"];
+    succeed(&[&both[..], &to].concat());
+    assert!(whole(&out, "A-vs-B").contains("All indices are the same"));
     let rows: String = (0..60).map(|k| format!("{},{}\n", k * 37 % 60, (k * 37 % 60) * (k * 23 % 60))).collect();
     let table = folder.with("table.csv", format!("x,y\n{rows}"));
     succeed(&[&["given-data", text(&table), "--outputs", "y"], &to[..]].concat());

@@ -58,9 +58,11 @@ fn a_program_works_in_the_units_of_its_study() {
     assert!((time.mean.unwrap() - 2.0).abs() < 0.01 && (time.variance.unwrap().sqrt() - 0.25).abs() < 0.02);
     let factor = &result.factors[0];
     assert_eq!((factor.unit.as_str(), factor.nominal), ("degC", 25.05));
-    // The result is read again, labels and all.
+    // The result is read again, labels and all, and compared with itself.
     let json = folder.path("out/study.json");
     succeed(&["report", text(&json), "--out", text(&folder.path("again"))]);
+    let compared = succeed(&["compare", text(&json), text(&json), "--out", text(&folder.path("compared"))]);
+    assert!(compared.contains("heat"), "{compared}");
 }
 
 #[test]
@@ -156,4 +158,38 @@ fn labels_of_outputs_are_any_short_text() {
             stderr(&output)
         );
     }
+    // Other units of one kind convert when results are compared; labels do not.
+    let result = |unit: &str, folder: &Folder| {
+        let study = format!(
+            "model = \"command\"\ncommand = [\"python3\", \"m.py\"]\noutputs.y = \"{unit}\"\n[factors.x]\nmin = 20\nmax = 30\n[design]\nbase_samples = 64\n"
+        );
+        folder.with(
+            "m.py",
+            "import sys\nsys.stdin.readline()\nfor line in sys.stdin:\n    print(line.strip(), flush=True)\n",
+        );
+        let path = folder.with("s.toml", study);
+        let out = folder.path(&unit.replace('/', "_"));
+        succeed(&["run", text(&path), "--out", text(&out)]);
+        out.join("s.json")
+    };
+    let (celsius, kelvin, label) = (result("degC", &folder), result("K", &folder), result("EUR", &folder));
+    let out = folder.path("compared");
+    succeed(&["compare", text(&celsius), text(&kelvin), "--out", text(&out)]);
+    let json = std::fs::read_to_string(
+        std::fs::read_dir(&out)
+            .unwrap()
+            .map(|e| e.unwrap().path())
+            .find(|p| p.extension().is_some_and(|e| e == "json"))
+            .unwrap(),
+    )
+    .unwrap();
+    let compared: serde_json::Value = serde_json::from_str(&json).unwrap();
+    let output = &compared["outputs"][0];
+    // 25 degC beside 25 K, which is -248.15 degC, and one spread.
+    assert!((output["mean"][0].as_f64().unwrap() - 25.0).abs() < 0.05, "{output}");
+    assert!((output["mean"][1].as_f64().unwrap() + 248.15).abs() < 0.05, "{output}");
+    let sd = |side: usize| output["sd"][side].as_f64().unwrap();
+    assert!((sd(0) - sd(1)).abs() < 1e-9, "{output}");
+    let refused = apportion(&["compare", text(&celsius), text(&label), "--out", text(&folder.path("none"))]);
+    assert_ne!(refused.status.code(), Some(0), "{}", stdout(&refused));
 }

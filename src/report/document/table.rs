@@ -222,6 +222,11 @@ impl<R: Copy> Rows<R> {
         self.column(Column::default(), |_| "").value(name, value)
     }
 
+    /// Adds an estimate and its bounds, three columns that are in the file alone.
+    pub fn file_estimate(self, name: impl Into<String>, value: impl Fn(R) -> Option<Estimate>) -> Self {
+        self.column(Column::default(), |_| "").estimate(name, value)
+    }
+
     /// The last column stands in the file under `name`, as it is printed.
     pub fn named(self, name: impl Into<String>) -> Self {
         self.value(name, |_| Value::Printed)

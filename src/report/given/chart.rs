@@ -3,7 +3,7 @@
 use super::{GivenFile, GivenOutputRecord};
 use crate::given::InputIndices;
 use crate::report::chart::{Chart, Colour, Series};
-use crate::report::factor_bars::{INDEX, MOST, index_panel, not_drawn};
+use crate::report::factor_bars::{INDEX, INDICES, MOST, index_panel, not_drawn};
 use crate::report::leading::{Contender, leader};
 
 /// The indices of one output as parts of its variance, one bar per input and method, with their intervals; the input of
@@ -30,7 +30,7 @@ pub fn given_chart(result: &GivenFile, output: &GivenOutputRecord) -> Chart {
         Some(_) => (INDEX, "Indices"),
         None => ("first-order index: part of the variance", "First-order indices"),
     };
-    let panel = index_panel(axis, inputs, used, &keys);
+    let panel = index_panel(axis, inputs, used, INDICES, &keys);
     Chart::new(format!("{title} of {}", output.name), caption(result, output) + &beyond).panels([panel])
 }
 

@@ -1,7 +1,7 @@
 //! The indices themselves: first order with total.
 
 use super::super::chart::Chart;
-use super::super::factor_bars::{INDEX, MOST, both_orders, index_panel, not_drawn, pair_panel};
+use super::super::factor_bars::{INDEX, INDICES, MOST, both_orders, index_panel, not_drawn, pair_panel};
 use super::super::format::name;
 use super::super::leading::leader_of;
 use crate::result::{IndexRecord, OutputResult, StudyResult};
@@ -21,7 +21,7 @@ pub fn indices_chart(result: &StudyResult, output: &OutputResult) -> Chart {
             let mut series = both_orders(first_order, total);
             let names = ["S_1, first order: with all that it tells of others", "S_T, total: what it has on its own"];
             series.iter_mut().zip(names).for_each(|((series, _), name)| series.name = name.to_owned());
-            index_panel(INDEX, factors, series, &keys)
+            index_panel(INDEX, factors, series, INDICES, &keys)
         }
         false => pair_panel(factors, first_order, total, &keys),
     };

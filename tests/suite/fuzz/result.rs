@@ -1,5 +1,6 @@
 //! Result files: whatever is read as one can be drawn.
 
+use apportion::report::comparison::{NamedResult, compare_results, comparison_document};
 use apportion::report::document::Document;
 use apportion::report::run_document;
 use apportion::result::{StudyResult, parse_result};
@@ -16,6 +17,10 @@ pub fn run(bytes: &[u8]) {
 /// Draws everything that can be drawn of a result.
 pub fn drawn(result: &StudyResult) {
     written(&run_document(result));
+    let [a, b] = [("A", "a.json"), ("B", "b.json")].map(|(label, file)| NamedResult { result, label, file });
+    if let Ok(file) = compare_results(&a, &b) {
+        written(&comparison_document(&file, "a-vs-b"));
+    }
 }
 
 /// Makes everything that is written of a document.

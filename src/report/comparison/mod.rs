@@ -1,0 +1,15 @@
+//! Two results side by side: by how much their indices differ, and whether that is more than the errors of both.
+
+mod charts;
+mod document;
+mod record;
+mod settings;
+#[cfg(test)]
+mod tests;
+
+pub use document::comparison_document;
+pub use record::{
+    CompareError, ComparedFactor, ComparedIndex, ComparedOutput, ComparedSide, ComparisonFile, NamedResult, OneSided,
+    compare_results, shared_points,
+};
+pub use settings::SettingDifference;
