@@ -7,7 +7,9 @@ use std::fmt::Write;
 use std::path::Path;
 
 use apportion::Study;
-use apportion::exchange::{AnswersRequest, Manifest, MissingOutputs, ReadOptions, open_table, read_answers, sample};
+use apportion::exchange::{
+    AnswersRequest, Format, Manifest, MissingOutputs, ReadOptions, open_table, read_answers, sample,
+};
 use apportion::report::{run_document, stream_atomically, write_atomically};
 
 const STUDY: &str = r#"
@@ -34,7 +36,7 @@ fn sampled(points: &Path) -> Result<(), Box<dyn Error>> {
     let study = Study::parse(STUDY, Path::new("spring.toml"), &[])?;
     let mut manifest = None;
     stream_atomically(points, |out| {
-        manifest = Some(sample(&study, Path::new("spring.toml"), out)?);
+        manifest = Some(sample(&study, Path::new("spring.toml"), Format::Csv, out)?);
         Ok(())
     })?;
     let manifest = manifest.ok_or("no manifest")?;
@@ -61,7 +63,7 @@ pub fn main() -> Result<(), Box<dyn Error>> {
     // The third: outputs that are not those of the points in the manifest are refused, with the first place that shows it.
     let manifest = Manifest::parse(&std::fs::read_to_string(Manifest::path_beside(&points))?)?;
     let request = AnswersRequest { manifest: &manifest, outputs: &[], units: &[], missing: MissingOutputs::Refuse };
-    let answers = read_answers(&mut open_table(&outputs, &ReadOptions::default())?, &request)?;
+    let answers = read_answers(open_table(&outputs, &ReadOptions::default())?.as_mut(), &request)?;
     let result = answers.study.runner().store(&answers.store).run()?;
     print!("{}", run_document(&result).text());
 

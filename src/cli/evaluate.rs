@@ -18,9 +18,9 @@ pub struct Arguments {
     #[command(flatten)]
     study: StudyArguments,
     /// The points: columns named after factors, values in the study's units, as CSV (cells separated by commas, semicolons,
-    /// tabs or blanks)
+    /// tabs or blanks) or NPY
     points: PathBuf,
-    /// Names of the columns, separated by commas, of a file without a header
+    /// Names of the columns, separated by commas, of a file that has none: NPY, or text without a header
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     names: Vec<String>,
     #[command(flatten)]
@@ -51,7 +51,7 @@ pub fn evaluate(arguments: &Arguments) -> Result<(), Failure> {
     let context = RunContext::new(Some(on_signal()), say);
     let mut outcome = None;
     let written = stream_atomically(&arguments.output, |out| {
-        let result = evaluate_in(&study, &mut rows, &mut Stoppable::new(out), arguments.with_points, &context);
+        let result = evaluate_in(&study, rows.as_mut(), &mut Stoppable::new(out), arguments.with_points, &context);
         let complete = result.is_ok();
         outcome = Some(result);
         // Whatever went wrong, half a file must not take the target's place.

@@ -17,9 +17,9 @@ use super::table::{TableArguments, say_of_table};
 #[derive(clap::Args)]
 pub struct Arguments {
     /// The table: columns by name, a row of numbers per run, as CSV (cells separated by commas, semicolons, tabs or
-    /// blanks)
+    /// blanks) or NPY
     table: PathBuf,
-    /// Names of the columns, separated by commas, of a table without a header
+    /// Names of the columns, separated by commas, of a table that has none: NPY, or text without a header
     #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = column_name)]
     names: Vec<String>,
     #[command(flatten)]
@@ -68,7 +68,7 @@ pub fn given_data(arguments: &Arguments) -> Result<(), Failure> {
     let sha256 = Sha256::digest(&bytes).iter().map(|byte| format!("{byte:02x}")).collect();
     let mut rows =
         table_of_bytes(bytes, &arguments.reading.options(&arguments.names)).map_err(|error| wrong(&error))?;
-    let table = read_table(&mut rows, &selection).map_err(|error| wrong(&error))?;
+    let table = read_table(rows.as_mut(), &selection).map_err(|error| wrong(&error))?;
     let Table { inputs, outputs, dropped, skipped } = table;
     let names: Vec<String> = skipped.iter().map(|column| column.name.clone()).collect();
     say_of_table(&arguments.table, &names, rows.is_unended());

@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use anyhow::anyhow;
 use apportion::Resume;
-use apportion::exchange::{check_ending, save_outputs};
+use apportion::exchange::{Format, save_outputs};
 use apportion::inputs_in_words;
 use apportion::report::{Artefacts, prepare_file, run_document, stream_atomically};
 use apportion::result::{OutputResult, StudyResult, read_result};
@@ -29,7 +29,7 @@ pub struct Arguments {
     output: OutputArguments,
     #[command(flatten)]
     threads: Threads,
-    /// Also write the points and outputs of all runs to a file (.csv)
+    /// Also write the points and outputs of all runs to a file (.csv or .npy)
     #[arg(long, value_name = "FILE", conflicts_with = "shard")]
     save_outputs: Option<PathBuf>,
     #[command(flatten)]
@@ -97,9 +97,9 @@ pub fn run(arguments: &Arguments, others: Option<&dyn Ranks>) -> Result<(), Fail
             return Err(Failure::Input(anyhow!("--save-outputs: {why}")));
         }
         Some(path) => {
-            check_ending(path).map_err(|error| Failure::Input(anyhow!("{}: {error}", path.display())))?;
+            let format = Format::of(path).map_err(|error| Failure::Input(anyhow!("{}: {error}", path.display())))?;
             prepare_file(path)?;
-            Some(path.as_path())
+            Some((path.as_path(), format))
         }
     };
     let journal = (!asked.no_journal).then(|| journal_path(&folder, study.name(), asked.shard));
@@ -141,8 +141,8 @@ pub fn run(arguments: &Arguments, others: Option<&dyn Ranks>) -> Result<(), Fail
         Some(spending) => meter.finish_after(spending.runs.saturating_sub(runs), runs, seconds),
         None => meter.finish(runs, seconds),
     }
-    if let Some((path, store)) = saved.zip(store.as_ref()) {
-        save(&study, &result, store, path)?;
+    if let Some(((path, format), store)) = saved.zip(store.as_ref()) {
+        save(&study, &result, store, path, format)?;
     }
     deliver(&study, &artefacts, &result, &arguments.live)
 }
@@ -156,11 +156,11 @@ pub fn journal_path(folder: &Path, name: &str, shard: Option<Shard>) -> PathBuf 
 }
 
 /// Writes points and outputs of all runs, which may be more than the study began with.
-fn save(study: &Study, result: &StudyResult, store: &Store, path: &Path) -> Result<(), Failure> {
+fn save(study: &Study, result: &StudyResult, store: &Store, path: &Path, format: Format) -> Result<(), Failure> {
     let settings = study.design().settings();
     let points = result.provenance.base_samples / settings.replicates;
     let design = study.design().with_points(points).map_err(|error| Failure::Run(error.into()))?;
-    stream_atomically(path, |out| save_outputs(study, &design, store, &mut Stoppable::new(out)))?;
+    stream_atomically(path, |out| save_outputs(study, &design, store, format, &mut Stoppable::new(out)))?;
     say(&format!("wrote the points and outputs of {} runs to {}", design.rows(), path.display()));
     Ok(())
 }

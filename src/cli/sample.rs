@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
 use apportion::exchange::{
-    Manifest, ReadOptions, check_ending, open_table, random_design, sample as write_sample, write_rows,
+    Format, Manifest, ReadOptions, open_table, random_design, sample as write_sample, write_rows,
 };
 use apportion::files::read_text;
 use apportion::report::{prepare_file, stream_atomically, write_atomically};
@@ -31,7 +31,7 @@ pub struct Arguments {
     /// Overwrite a file that exists and is no design of this study
     #[arg(long)]
     force: bool,
-    /// The file for the points (.csv) [default: NAME-design.csv, or NAME-random.csv]
+    /// The file for the points, .csv or .npy [default: NAME-design.csv, or NAME-random.csv]
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
 }
@@ -42,7 +42,7 @@ pub fn sample(arguments: &Arguments) -> Result<(), Failure> {
     let kind = if arguments.random.is_some() { "random" } else { "design" };
     let default = || PathBuf::from(format!("{}-{kind}.csv", study.name()));
     let path = arguments.output.clone().unwrap_or_else(default);
-    check_ending(&path).map_err(|error| Failure::Input(anyhow!("{}: {error}", path.display())))?;
+    let format = Format::of(&path).map_err(|error| Failure::Input(anyhow!("{}: {error}", path.display())))?;
     let beside = Manifest::path_beside(&path);
     if !arguments.force && path.is_file() && !is_own(&path, study.name()) {
         let what = "exists already, and is no design that `sample` wrote of this study";
@@ -63,13 +63,13 @@ pub fn sample(arguments: &Arguments) -> Result<(), Failure> {
     let factors = counted(study.space().factors().len() as u64, "factor");
     if let Some(rows) = arguments.random {
         let design = random_design(&study, rows).map_err(|error| Failure::Input(error.into()))?;
-        stream_atomically(&path, |out| write_rows(&study, &design, rows, &mut Stoppable::new(out)).map(drop))?;
+        stream_atomically(&path, |out| write_rows(&study, &design, rows, format, &mut Stoppable::new(out)).map(drop))?;
         say(&format!("wrote {rows} random points of {factors} to {}", path.display()));
         return Ok(());
     }
     let mut manifest = None;
     stream_atomically(&path, |out| {
-        manifest = Some(write_sample(&study, &arguments.study.study, &mut Stoppable::new(out))?);
+        manifest = Some(write_sample(&study, &arguments.study.study, format, &mut Stoppable::new(out))?);
         Ok(())
     })?;
     if let Some(manifest) = &manifest {

@@ -13,8 +13,8 @@ pub enum TableError {
     WrongCell {
         /// Row of the table, from 1, the header not counted.
         row: u64,
-        /// Line of the file, from 1.
-        line: u64,
+        /// Line of the file, from 1, if it has lines.
+        line: Option<u64>,
         /// Number of the column, from 1.
         column: usize,
         /// The column.
@@ -32,4 +32,9 @@ pub enum TableError {
 /// Refuses a table for this reason.
 pub(super) fn refused<T>(reason: impl Into<String>) -> Result<T, TableError> {
     Err(TableError::Refused(reason.into()))
+}
+
+/// Where a cell stands: a line of the file where it has lines, else a row of the table.
+pub(super) fn place_in_words(line: Option<u64>, row: u64) -> String {
+    line.map_or_else(|| format!("row {row}"), |line| format!("line {line}"))
 }

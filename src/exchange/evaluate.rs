@@ -8,7 +8,7 @@ use thiserror::Error;
 use super::design_rows::factor_column;
 use super::error::TableError;
 use super::points::PointsReader;
-use super::rows::{ColumnKind, RowReader, RowWriter};
+use super::rows::{ColumnKind, Format, RowReader, row_writer};
 use crate::model::{Batch, Output, RowFailure, RunContext};
 use crate::run::{Executor, Halt};
 use crate::space::Factor;
@@ -56,7 +56,11 @@ pub struct Evaluated {
 ///
 /// # Errors
 /// [`EvaluateError`] if the points are wrong, the outputs cannot be written, or the model gives up.
-pub fn evaluate(study: &Study, points: &mut RowReader, outputs: &mut dyn Write) -> Result<Evaluated, EvaluateError> {
+pub fn evaluate(
+    study: &Study,
+    points: &mut dyn RowReader,
+    outputs: &mut dyn Write,
+) -> Result<Evaluated, EvaluateError> {
     evaluate_in(study, points, outputs, false, &RunContext::default())
 }
 
@@ -67,7 +71,7 @@ pub fn evaluate(study: &Study, points: &mut RowReader, outputs: &mut dyn Write) 
 /// As for [`evaluate`], and [`Halt::Interrupted`] if the run is to end.
 pub fn evaluate_in(
     study: &Study,
-    points: &mut RowReader,
+    points: &mut dyn RowReader,
     outputs: &mut dyn Write,
     with_points: bool,
     context: &RunContext<'_>,
@@ -87,7 +91,7 @@ pub fn evaluate_in(
     let copied: &[Factor] = if with_points { factors } else { &[] };
     let kinds = copied.iter().map(factor_column);
     let kinds = kinds.chain(model.outputs().iter().map(|output| ColumnKind::numbers(&output.name))).collect();
-    let mut writer = RowWriter::new(outputs, kinds)?;
+    let mut writer = row_writer(Format::Csv, outputs, kinds, 0)?;
     loop {
         let rows = reader.read(factors, most, &mut columns)?;
         if rows == 0 {

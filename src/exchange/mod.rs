@@ -19,7 +19,7 @@ pub use answers::{AnswersRequest, MissingOutputs, read_answers};
 pub use error::TableError;
 pub use evaluate::{EvaluateError, Evaluated, evaluate};
 pub use manifest::Manifest;
-pub use rows::{ReadOptions, RowReader, check_ending, open_table};
+pub use rows::{Format, ReadOptions, RowReader, open_table};
 pub use sample::{random_design, sample, write_rows};
 pub use save::save_outputs;
 pub use table::{Missing, Selection, Table, TextColumn, read_table};
@@ -32,6 +32,6 @@ pub use {
     evaluate::evaluate_in,
     manifest::{ManifestDesign, ManifestFactor, ManifestRun, ManifestStudy},
     points::PointsReader,
-    rows::{ColumnKind, RowWriter, table_of_bytes},
+    rows::{ColumnKind, RowWriter, row_writer, table_of_bytes},
     table::DroppedRows,
 };

@@ -1,19 +1,21 @@
 //! Points from a table: columns named after factors, values in the factors' units.
 
 use super::design_rows::factor_column;
-use super::error::{TableError, refused};
+use super::error::{TableError, place_in_words, refused};
 use super::rows::{ColumnKind, RowReader};
 use crate::space::{Factor, Space};
 use crate::study::{did_you_mean, nearest};
 
 /// Reads points block by block.
 pub struct PointsReader<'a> {
-    rows: &'a mut RowReader,
+    rows: &'a mut dyn RowReader,
     /// For each column that is read: its place in the file with what it holds, and the number of its factor.
     wanted: Vec<(usize, ColumnKind)>,
     factors: Vec<usize>,
     skipped: Vec<String>,
     cells: Vec<Vec<f64>>,
+    /// Rows read.
+    read: u64,
 }
 
 impl<'a> PointsReader<'a> {
@@ -21,7 +23,7 @@ impl<'a> PointsReader<'a> {
     ///
     /// # Errors
     /// [`TableError`] if there are no names, or one of them is unknown.
-    pub fn new(rows: &'a mut RowReader, space: &Space) -> Result<Self, TableError> {
+    pub fn new(rows: &'a mut dyn RowReader, space: &Space) -> Result<Self, TableError> {
         let known = || space.factors().iter().map(|factor| factor.name.as_str());
         let known_text = || known().collect::<Vec<_>>().join(", ");
         let Some(names) = rows.names().map(<[String]>::to_vec) else {
@@ -47,7 +49,7 @@ impl<'a> PointsReader<'a> {
             }
         }
         let cells = vec![Vec::new(); wanted.len()];
-        Ok(Self { rows, wanted, factors, skipped, cells })
+        Ok(Self { rows, wanted, factors, skipped, cells, read: 0 })
     }
 
     /// The names of the columns of text that are not read.
@@ -72,9 +74,9 @@ impl<'a> PointsReader<'a> {
     /// [`TableError`] with the place of the first cell that is not a finite number.
     pub fn read(&mut self, factors: &[Factor], rows: usize, columns: &mut [Vec<f64>]) -> Result<usize, TableError> {
         let count = self.rows.read(&self.wanted, rows, &mut self.cells).map_err(|error| match error {
-            TableError::WrongCell { line, column, found, .. } => {
+            TableError::WrongCell { row, line, column, found, .. } => {
                 let k = self.wanted.iter().position(|(place, _)| place + 1 == column).unwrap_or_default();
-                wrong_cell(&factors[self.factors[k]], line, column, format!("{found:?}"))
+                wrong_cell(&factors[self.factors[k]], place_in_words(line, row), column, format!("{found:?}"))
             }
             error => error,
         })?;
@@ -85,19 +87,21 @@ impl<'a> PointsReader<'a> {
         for ((cells, (place, _)), factor) in self.cells.iter().zip(&self.wanted).zip(&self.factors) {
             if let Some(row) = cells.iter().position(|value| !value.is_finite()) {
                 let found = if cells[row].is_nan() { "nothing".to_owned() } else { cells[row].to_string() };
-                return Err(wrong_cell(&factors[*factor], self.rows.line(row), place + 1, found));
+                let at = place_in_words(self.rows.line(row), self.read + row as u64 + 1);
+                return Err(wrong_cell(&factors[*factor], at, place + 1, found));
             }
             columns[*factor].copy_from_slice(cells);
         }
+        self.read += count as u64;
         Ok(count)
     }
 }
 
-fn wrong_cell(factor: &Factor, line: u64, column: usize, found: String) -> TableError {
+fn wrong_cell(factor: &Factor, place: String, column: usize, found: String) -> TableError {
     let expected = match factor.distribution().labels() {
         Some(labels) => format!("one of {}", labels.join(", ")),
         None => format!("a finite number in {}", factor.unit()),
     };
     let name = &factor.name;
-    TableError::Refused(format!("line {line}: column {column} (`{name}`): expected {expected}, not {found}"))
+    TableError::Refused(format!("{place}: column {column} (`{name}`): expected {expected}, not {found}"))
 }

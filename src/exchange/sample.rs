@@ -5,7 +5,7 @@ use std::path::Path;
 
 use super::design_rows::{DesignRows, RowsDigest, factor_column};
 use super::manifest::Manifest;
-use super::rows::RowWriter;
+use super::rows::{Format, row_writer};
 use crate::design::{Design, DesignError, DesignSettings, Rows, Sampler};
 use crate::study::Study;
 
@@ -14,8 +14,8 @@ use crate::study::Study;
 ///
 /// # Errors
 /// Whatever the file's system says.
-pub fn sample(study: &Study, study_file: &Path, out: &mut dyn Write) -> std::io::Result<Manifest> {
-    let digest = write_rows(study, &study.design, study.design.rows(), out)?;
+pub fn sample(study: &Study, study_file: &Path, format: Format, out: &mut dyn Write) -> std::io::Result<Manifest> {
+    let digest = write_rows(study, &study.design, study.design.rows(), format, out)?;
     Ok(Manifest::new(study, study_file, digest))
 }
 
@@ -41,10 +41,16 @@ pub fn random_design(study: &Study, rows: u64) -> Result<Design, DesignError> {
 ///
 /// # Errors
 /// Whatever the file's system says.
-pub fn write_rows(study: &Study, design: &Design, most: u64, out: &mut dyn Write) -> std::io::Result<String> {
+pub fn write_rows(
+    study: &Study,
+    design: &Design,
+    most: u64,
+    format: Format,
+    out: &mut dyn Write,
+) -> std::io::Result<String> {
     let space = &study.space;
     let kinds = space.factors().iter().map(factor_column).collect();
-    let mut writer = RowWriter::new(out, kinds)?;
+    let mut writer = row_writer(format, out, kinds, most)?;
     let mut rows = DesignRows::new(space, design);
     let mut columns = vec![Vec::new(); design.factors()];
     let (mut digest, mut left) = (RowsDigest::default(), most);

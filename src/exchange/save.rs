@@ -3,22 +3,28 @@
 use std::io::Write;
 
 use super::design_rows::{DesignRows, factor_column};
-use super::rows::{ColumnKind, RowWriter};
+use super::rows::{ColumnKind, Format, row_writer};
 use crate::design::Design;
 use crate::run::Store;
 use crate::study::Study;
 
 /// Writes the rows of `design` with the outputs that `store` has of them: the factors of `study`, then its outputs, each
-/// in its unit, in the order of [`Design::locate`]. An output that failed is an empty cell. Runs in constant memory beside the store.
+/// in its unit, in the order of [`Design::locate`]. An output that failed is an empty cell (CSV) or NaN (NPY). Runs in constant memory beside the store.
 ///
 /// # Errors
 /// What the operating system says, or that rows are missing in the store.
-pub fn save_outputs(study: &Study, design: &Design, store: &Store, out: &mut dyn Write) -> std::io::Result<()> {
+pub fn save_outputs(
+    study: &Study,
+    design: &Design,
+    store: &Store,
+    format: Format,
+    out: &mut dyn Write,
+) -> std::io::Result<()> {
     let (space, model) = (&study.space, study.model());
     let outputs = model.outputs();
     let kinds = space.factors().iter().map(factor_column);
     let kinds = kinds.chain(outputs.iter().map(|output| ColumnKind::numbers(&output.name))).collect();
-    let mut writer = RowWriter::new(out, kinds)?;
+    let mut writer = row_writer(format, out, kinds, design.rows())?;
     let mut rows = DesignRows::new(space, design);
     let mut points = vec![Vec::new(); design.factors()];
     let mut answers = vec![Vec::new(); outputs.len()];

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::error::{TableError, refused};
+use super::error::{TableError, place_in_words, refused};
 use super::rows::{ColumnKind, RowReader};
 use crate::given::Column;
 use crate::model::shorten::cut;
@@ -91,7 +91,7 @@ const BLOCK: usize = 1 << 12;
 ///
 /// # Errors
 /// [`TableError`] with the place of the first fault.
-pub fn read_table(reader: &mut RowReader, selection: &Selection<'_>) -> Result<Table, TableError> {
+pub fn read_table(reader: &mut dyn RowReader, selection: &Selection<'_>) -> Result<Table, TableError> {
     let Some(names) = reader.names().map(<[String]>::to_vec) else {
         let width = reader.width();
         return refused(format!("its {width} columns have no names: name them in their order (--names)"));
@@ -117,41 +117,46 @@ pub fn read_table(reader: &mut RowReader, selection: &Selection<'_>) -> Result<T
     let wanted: Vec<_> = chosen.iter().map(|&place| (place, kind(place))).collect();
     let mut columns: Vec<Column> =
         chosen.iter().map(|&place| Column { name: names[place].clone(), values: Vec::new() }).collect();
-    let not_a_number = |line: u64, at: usize, found: String| {
+    let not_a_number = |place: String, at: usize, found: String| {
         let is_chosen = !selection.inputs.is_empty() || outputs.contains(&at);
         let advice = if is_chosen { "" } else { "; if the column is no input, name the inputs (--inputs)" };
         let (column, name) = (at + 1, &names[at]);
         TableError::Refused(format!(
-            "line {line}: column {column} (`{name}`): expected a finite number, not {found:?}{advice}; {REMEDY}"
+            "{place}: column {column} (`{name}`): expected a finite number, not {found:?}{advice}; {REMEDY}"
         ))
     };
-    let (mut dropped, mut cells): (Option<DroppedRows>, _) = (None, vec![Vec::new(); wanted.len()]);
+    let (mut dropped, mut cells, mut before): (Option<DroppedRows>, _, u64) = (None, vec![Vec::new(); wanted.len()], 0);
     loop {
         let count = reader.read(&wanted, BLOCK, &mut cells).map_err(|error| match error {
-            TableError::WrongCell { line, column, found, .. } => not_a_number(line, column - 1, found),
+            TableError::WrongCell { row, line, column, found, .. } => {
+                not_a_number(place_in_words(line, row), column - 1, found)
+            }
             error => error,
         })?;
         if count == 0 {
             break;
         }
         for row in 0..count {
-            let line = reader.line(row);
+            let (line, number) = (reader.line(row), before + row as u64 + 1);
             let Some(first) = cells.iter().position(|column| !column[row].is_finite()) else {
                 columns.iter_mut().zip(&cells).for_each(|(column, cells)| column.values.push(cells[row]));
                 continue;
             };
             // An infinity anywhere in the row is no missing value.
             if let Some(at) = cells.iter().position(|column| column[row].is_infinite()) {
-                return Err(not_a_number(line, chosen[at], cells[at][row].to_string()));
+                return Err(not_a_number(place_in_words(line, number), chosen[at], cells[at][row].to_string()));
             }
             if selection.missing == Missing::Refuse {
-                let (column, name) = (chosen[first] + 1, &names[chosen[first]]);
+                let (place, column) = (place_in_words(line, number), chosen[first] + 1);
+                let name = &names[chosen[first]];
                 return refused(format!(
-                    "line {line}: column {column} (`{name}`): the value is missing; --drop-missing leaves such rows out"
+                    "{place}: column {column} (`{name}`): the value is missing; --drop-missing leaves such rows out"
                 ));
             }
-            dropped.get_or_insert(DroppedRows { rows: 0, first_line: line }).rows += 1;
+            let first_line = line.unwrap_or(number);
+            dropped.get_or_insert(DroppedRows { rows: 0, first_line }).rows += 1;
         }
+        before += count as u64;
     }
     let outputs = columns.split_off(inputs.len());
     Ok(Table { inputs: columns, outputs, dropped, skipped })

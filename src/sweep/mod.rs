@@ -7,9 +7,9 @@ mod range;
 #[cfg(test)]
 mod tests;
 
+pub use range::values_over_range;
 #[doc(hidden)]
 pub use range::MAX_POINTS;
-pub use range::values_over_range;
 
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
@@ -187,8 +187,7 @@ pub fn sweep(
         let values = values_over_range(factor.distribution(), points)?;
         let mut outputs = bench.curve(number, &values)?;
         for ((swept, nominal), output) in outputs.iter_mut().zip(&nominal).zip(model.outputs()) {
-            swept.percent =
-                nominal.value.filter(|_| !output.unit.has_offset()).and_then(|value| swept.percent_of(value));
+            swept.percent = nominal.value.filter(|_| !output.unit.has_offset()).and_then(|value| swept.percent_of(value));
         }
         Ok(Sweep::new(factor, values, outputs))
     };

@@ -3,8 +3,7 @@
     python tests/peers/salib_layout.py PROGRAM
 
 SALib makes the points, its test functions are evaluated here, and PROGRAM (target/release/apportion) reads what a user
-would write down: CSV as NumPy and pandas print it, with the points or without. Ends with code 1 if S1, ST or S2 differ by more than the
-tolerance.
+would write down: CSV as NumPy and pandas print it, or NPY. Ends with code 1 if S1, ST or S2 differ by more than the tolerance.
 """
 
 import json
@@ -43,9 +42,9 @@ def points(sampler, problem, second_order):
 
 def written(folder, form, x, y, problem):
     """The file that a user would have, and the options that it needs."""
-    if form == "outputs":
-        path = folder / "outputs.csv"
-        np.savetxt(path, y, fmt="%.17g", header="y", comments="")
+    if form == "npy":
+        path = folder / "outputs.npy"
+        np.save(path, y)
         return path, []
     path = folder / "table.csv"
     header = ",".join([*problem["names"], "y"])
@@ -64,12 +63,12 @@ def main():
                 x = points(sampler, problem, second_order)
                 y = function(x)
                 theirs = analyze.analyze(problem, y, calc_second_order=second_order, num_resamples=2, seed=1)
-                for form in ("table", "outputs"):
+                for form in ("csv", "npy"):
                     with tempfile.TemporaryDirectory() as folder:
                         folder = Path(folder)
                         (folder / "problem.json").write_text(json.dumps(problem))
                         path, options = written(folder, form, x, y, problem)
-                        options += ["--second-order" if second_order else "--first-order-only"] if form == "outputs" else []
+                        options += ["--second-order" if second_order else "--first-order-only"] if form == "npy" else []
                         command = [program, "analyze", path, "--layout", "salib", "--problem", folder / "problem.json"]
                         command += ["--resamples", "0", "--out", folder / "out", *options]
                         subprocess.run(command, check=True, capture_output=True)

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use apportion::exchange::{ColumnKind, ReadOptions, RowWriter, open_table};
+use apportion::exchange::{ColumnKind, Format, ReadOptions, open_table, row_writer};
 use apportion::result::{StudyResult, read_result};
 
 use crate::common::{apportion, files, gap, numbers, stderr, study_path, succeed, text};
@@ -99,14 +99,14 @@ fn columns(path: &Path) -> Vec<Vec<f64>> {
 fn write_columns(path: &Path, names: &[&str], columns: &[Vec<f64>]) {
     let mut bytes = Vec::new();
     let kinds = names.iter().map(|name| ColumnKind::numbers(name)).collect();
-    let mut writer = RowWriter::new(&mut bytes, kinds).unwrap();
+    let mut writer = row_writer(Format::of(path).unwrap(), &mut bytes, kinds, columns[0].len() as u64).unwrap();
     writer.write(&columns.iter().map(Vec::as_slice).collect::<Vec<_>>()).unwrap();
     writer.finish().unwrap();
     std::fs::write(path, bytes).unwrap();
 }
 
 #[test]
-fn three_steps_give_the_bits_of_one_run() {
+fn three_steps_give_the_bits_of_one_run_in_every_format() {
     let study = study_path("ishigami");
     let folder = tempfile::tempdir().unwrap();
     let at = |name: &str| folder.path().join(name);
@@ -115,14 +115,22 @@ fn three_steps_give_the_bits_of_one_run() {
     succeed(&["sample", text(&study), "--base-samples", "512", "-o", text(&at("design.csv"))]);
     succeed(&["evaluate", text(&study), text(&at("design.csv")), "-o", text(&at("y.csv"))]);
     let (points, y) = (columns(&at("design.csv")), columns(&at("y.csv")));
-    let (design, outputs, out) = (at("design.csv"), at("y.csv"), at("analyzed"));
-    // Outputs alone, then the design with the outputs in it.
-    succeed(&["analyze", text(&outputs), "--design", text(&design), "--out", text(&out)]);
-    assert_eq!(read_result(&out.join("ishigami.json")).unwrap().outputs, whole.outputs);
-    assert_eq!(files(&out), files(&at("run")));
-    write_columns(&design, &["x1", "x2", "x3", "y"], &[points, y].concat());
-    succeed(&["analyze", text(&design), "--out", text(&out)]);
-    assert_eq!(read_result(&out.join("ishigami.json")).unwrap().outputs, whole.outputs);
+    for format in Format::ALL {
+        let ending = format.name();
+        let (design, outputs) = (at(&format!("d.{ending}")), at(&format!("outputs.{ending}")));
+        succeed(&["sample", text(&study), "--base-samples", "512", "-o", text(&design)]);
+        assert_eq!(columns(&design), points, "{format:?}");
+        // Outputs alone, then the design with the outputs in it.
+        write_columns(&outputs, &["y"], &y);
+        let out = at("analyzed");
+        succeed(&["analyze", text(&outputs), "--design", text(&design), "--out", text(&out)]);
+        assert_eq!(read_result(&out.join("ishigami.json")).unwrap().outputs, whole.outputs, "{format:?}");
+        assert_eq!(files(&out), files(&at("run")));
+        let names = ["x1", "x2", "x3", "y"];
+        write_columns(&design, &names, &[points.clone(), y.clone()].concat());
+        succeed(&["analyze", text(&design), "--out", text(&out)]);
+        assert_eq!(read_result(&out.join("ishigami.json")).unwrap().outputs, whole.outputs, "{format:?}");
+    }
 }
 
 #[test]
@@ -265,13 +273,13 @@ fn formats_are_known_by_their_endings() {
     let sampled = answered();
     let output = apportion(&["sample", &sampled.name("s.toml"), "-o", &sampled.name("d.xlsx")]);
     assert_eq!(output.status.code(), Some(2));
-    assert!(stderr(&output).contains("expected the ending .csv"), "{}", stderr(&output));
+    assert!(stderr(&output).contains("expected .csv or .npy"), "{}", stderr(&output));
     std::fs::write(sampled.path("data.parquet"), b"PAR1,b\n").unwrap();
     sampled.refused("data.parquet", &["--design", &sampled.name("design.csv")], "it is a Parquet file");
-    std::fs::write(sampled.path("bare.csv"), "1.0,2.0\n".repeat(320)).unwrap();
+    write_columns(&sampled.path("data.npy"), &["p", "q"], &[vec![1.0; 320], vec![2.0; 320]]);
     let expected =
         "the file has 2 columns, without names: expected 1 (the outputs) or 4 (the 3 factors, then the outputs)";
-    sampled.refused("bare.csv", &["--no-header", "--design", &sampled.name("design.csv")], expected);
+    sampled.refused("data.npy", &["--design", &sampled.name("design.csv")], expected);
 }
 
 #[test]
@@ -306,15 +314,22 @@ fn whole_numbers_of_a_design_have_no_decimal_point() {
 }
 
 #[test]
-fn points_and_outputs_of_a_run_are_saved() {
+fn points_and_outputs_of_a_run_are_saved_in_every_format() {
     let folder = tempfile::tempdir().unwrap();
     let study = study_path("ishigami");
-    let (saved, out) = (folder.path().join("saved.csv"), folder.path().join("out"));
-    succeed(&["run", text(&study), "--base-samples", "256", "--out", text(&out), "--save-outputs", text(&saved)]);
-    let all = columns(&saved);
+    let mut all = Vec::new();
+    for format in Format::ALL {
+        let saved = folder.path().join(format!("saved.{}", format.name()));
+        let out = folder.path().join("out");
+        let journal: &[&str] = if format == Format::Csv { &["--no-journal"] } else { &[] };
+        let run = ["run", text(&study), "--base-samples", "256", "--out", text(&out), "--save-outputs", text(&saved)];
+        succeed(&[&run[..], journal].concat());
+        all.push(columns(&saved));
+    }
+    assert!(all.iter().all(|columns| *columns == all[0]));
     let points = folder.path().join("points.csv");
-    write_columns(&points, &["x1", "x2", "x3"], &all[..3]);
+    write_columns(&points, &["x1", "x2", "x3"], &all[0][..3]);
     let y = folder.path().join("y.csv");
     succeed(&["evaluate", text(&study), text(&points), "-o", text(&y)]);
-    assert_eq!(columns(&y)[0], all[3]);
+    assert_eq!(columns(&y)[0], all[0][3]);
 }

@@ -1,6 +1,6 @@
 //! Tables in every format that `evaluate` and `given-data` read, and what of them is skipped or doubted.
 
-use apportion::exchange::{ColumnKind, RowWriter};
+use apportion::exchange::{ColumnKind, Format, row_writer};
 use apportion::report::given::GivenFile;
 
 use crate::common::{Folder, apportion, stderr, succeed, text};
@@ -12,7 +12,9 @@ const STUDY: &str = "model = \"ishigami\"\n[design]\nbase_samples = 64\nsampler 
 fn points_of_every_format_give_the_same_outputs() {
     let folder = Folder::new();
     let study = folder.with("s.toml", STUDY);
-    succeed(&["sample", text(&study), "-o", text(&folder.path("p.csv"))]);
+    for name in ["p.csv", "p.npy"] {
+        succeed(&["sample", text(&study), "-o", text(&folder.path(name))]);
+    }
     let plain = std::fs::read_to_string(folder.path("p.csv")).unwrap();
     let bare = plain.split_once('\n').unwrap().1;
     folder.with("semicolons.txt", plain.replace(',', ";"));
@@ -32,7 +34,9 @@ fn points_of_every_format_give_the_same_outputs() {
     let (_, _, expected) = evaluate("p.csv", &[]);
     assert_eq!(expected.lines().count(), 64 * 5 + 1);
     let names = ["--names", "x1, x2, x3"];
-    for (points, more) in [("semicolons.txt", &[][..]), ("tabs.tsv", &[]), ("bare.csv", &names), ("bare.dat", &names)] {
+    for (points, more) in
+        [("p.npy", &names[..]), ("semicolons.txt", &[]), ("tabs.tsv", &[]), ("bare.csv", &names), ("bare.dat", &names)]
+    {
         let (code, said, outputs) = evaluate(points, more);
         assert_eq!(code, Some(0), "{points}: {said}");
         assert!(outputs == expected && !said.contains("warning"), "{points}: {said}");
@@ -41,7 +45,7 @@ fn points_of_every_format_give_the_same_outputs() {
     assert!(code == Some(0) && outputs == expected && said.contains("columns of text are skipped: id, when"), "{said}");
     // What is missing is asked for.
     for (points, more, reason) in [
-        ("bare.csv", &["--no-header"][..], "its 3 columns have no names"),
+        ("p.npy", &[][..], "its 3 columns have no names"),
         ("bare.csv", &[], "line 1 holds numbers where the names of the columns are expected"),
         ("bare.csv", &["--names", "x1,x2"], "2 names are given, but it has 3 columns"),
         ("p.csv", &names, "it names its columns itself (x1, x2, x3): leave --names out"),
@@ -61,11 +65,13 @@ fn tables_of_every_format_give_the_same_indices() {
     let mut columns = random(3, 200, 1);
     columns.push((0..200).map(|k| columns[0][k] + 2.0 * columns[1][k] * columns[2][k]).collect());
     let kinds = ["x1", "x2", "x3", "y"].map(ColumnKind::numbers).to_vec();
-    let mut bytes = Vec::new();
-    let mut writer = RowWriter::new(&mut bytes, kinds).unwrap();
-    writer.write(&columns.iter().map(Vec::as_slice).collect::<Vec<_>>()).unwrap();
-    writer.finish().unwrap();
-    folder.with("t.csv", bytes);
+    for format in Format::ALL {
+        let mut bytes = Vec::new();
+        let mut writer = row_writer(format, &mut bytes, kinds.clone(), 200).unwrap();
+        writer.write(&columns.iter().map(Vec::as_slice).collect::<Vec<_>>()).unwrap();
+        writer.finish().unwrap();
+        folder.with(&format!("t.{}", format.name()), bytes);
+    }
     let plain = std::fs::read_to_string(folder.path("t.csv")).unwrap();
     folder.with("t.txt", plain.replace(',', ";"));
     folder.with("bare.csv", plain.split_once('\n').unwrap().1);
@@ -85,14 +91,14 @@ fn tables_of_every_format_give_the_same_indices() {
     };
     let expected = given("t.csv", &[]).2.unwrap();
     let names = ["--names", "x1,x2,x3,y"];
-    for (table, more) in [("t.txt", &[][..]), ("bare.csv", &names), ("kinds.tsv", &[])] {
+    for (table, more) in [("t.npy", &names[..]), ("t.txt", &[]), ("bare.csv", &names), ("kinds.tsv", &[])] {
         let (code, said, result) = given(table, more);
         assert_eq!(code, Some(0), "{table}: {said}");
         let result = result.unwrap();
         assert!(result.outputs == expected.outputs && result.inputs == expected.inputs, "{table}");
         assert_eq!(said.contains("columns of text are skipped: kind"), table == "kinds.tsv", "{said}");
     }
-    let (code, said, _) = given("bare.csv", &["--no-header"]);
+    let (code, said, _) = given("t.npy", &[]);
     assert!(
         code == Some(2) && said.contains("its 4 columns have no names: name them in their order (--names)"),
         "{said}"

@@ -21,9 +21,9 @@ use super::{Failure, Threads, say, say_notes};
 #[derive(clap::Args)]
 #[command(after_help = "Examples:\n  apportion analyze outputs.csv --design design.csv\n  \
                         apportion analyze design.csv --outputs y      (the design file with a column y added)\n  \
-                        apportion analyze y.csv --layout salib --names x1,x2,x3")]
+                        apportion analyze y.npy --layout salib --names x1,x2,x3")]
 pub struct Arguments {
-    /// The outputs, a row for each point in the order of the points, with or without the points themselves (CSV)
+    /// The outputs, a row for each point in the order of the points, with or without the points themselves (CSV or NPY)
     data: PathBuf,
     #[command(flatten)]
     table: TableArguments,
@@ -93,7 +93,7 @@ fn of_design(arguments: &Arguments) -> Result<Read, Failure> {
     let request = AnswersRequest { manifest: &manifest, outputs: &arguments.outputs, units: &arguments.units, missing };
     let wrong = |error: &dyn std::fmt::Display| Failure::Input(anyhow!("{data}: {error}"));
     let mut reader = open_table(&arguments.data, &arguments.table.options(&[])).map_err(|error| wrong(&error))?;
-    let answers = read_answers(&mut reader, &request).map_err(|error| wrong(&error))?;
+    let answers = read_answers(reader.as_mut(), &request).map_err(|error| wrong(&error))?;
     say_of_table(&arguments.data, &[], reader.is_unended());
     match answers.compared.len() {
         0 => say("note: the file holds no points: its rows are taken in the order of the design"),

@@ -95,7 +95,7 @@ fn table(arguments: &super::Arguments) -> Result<Table, Failure> {
     let mut reader = open_table(&arguments.data, &arguments.table.options(&[])).map_err(|error| wrong(&error))?;
     let problem = problem(&arguments.salib)?;
     let known = problem.as_ref().map(|problem| problem.inputs.clone());
-    let (inputs, outputs) = columns(&reader, known, &arguments.outputs).map_err(|error| wrong(&error))?;
+    let (inputs, outputs) = columns(reader.as_ref(), known, &arguments.outputs).map_err(|error| wrong(&error))?;
     let input_names: Vec<String> = inputs.iter().map(|(_, name)| name.clone()).collect();
     let problem = match problem {
         Some(problem) => problem,
@@ -123,7 +123,11 @@ fn table(arguments: &super::Arguments) -> Result<Table, Failure> {
 type Places = Vec<(usize, String)>;
 
 /// Which columns are inputs (none if the file does not hold all of them), and which are outputs.
-fn columns(reader: &RowReader, inputs: Option<Vec<String>>, outputs: &[String]) -> anyhow::Result<(Places, Places)> {
+fn columns(
+    reader: &dyn RowReader,
+    inputs: Option<Vec<String>>,
+    outputs: &[String],
+) -> anyhow::Result<(Places, Places)> {
     let Some(names) = reader.names() else {
         let Some(inputs) = inputs else {
             anyhow::bail!("the columns have no names: name the inputs (--names, --problem)")

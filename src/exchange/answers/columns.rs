@@ -22,7 +22,7 @@ pub(super) struct Columns {
 }
 
 impl Columns {
-    pub fn find(reader: &RowReader, study: &Study, request: &AnswersRequest<'_>) -> Result<Self, TableError> {
+    pub fn find(reader: &dyn RowReader, study: &Study, request: &AnswersRequest<'_>) -> Result<Self, TableError> {
         let own: Vec<String> = study.model().outputs().iter().map(|output| output.name.to_string()).collect();
         let factors = study.space.factors();
         let Some(names) = reader.names() else {

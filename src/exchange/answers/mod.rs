@@ -58,7 +58,7 @@ pub struct Answers {
 /// # Errors
 /// [`TableError`] if manifest and file do not belong together, with the first place where that shows; if an output is
 /// missing and such rows are refused.
-pub fn read_answers(reader: &mut RowReader, request: &AnswersRequest<'_>) -> Result<Answers, TableError> {
+pub fn read_answers(reader: &mut dyn RowReader, request: &AnswersRequest<'_>) -> Result<Answers, TableError> {
     let mut study = request.manifest.study()?;
     let columns = Columns::find(reader, &study, request)?;
     study.subject = subject(&study, &columns.outputs, request)?;
@@ -80,7 +80,7 @@ pub fn read_answers(reader: &mut RowReader, request: &AnswersRequest<'_>) -> Res
 
 /// A file on its way into a store.
 struct Reading<'a> {
-    reader: &'a mut RowReader,
+    reader: &'a mut dyn RowReader,
     study: &'a Study,
     model: &'a dyn Model,
     columns: &'a Columns,

@@ -4,15 +4,17 @@ use std::collections::VecDeque;
 use std::io::{BufWriter, Read, Write};
 
 use super::lines::Lines;
-use super::{ColumnKind, ReadOptions, check_names, expanded, is_error_word, names_of_columns, number};
+use super::{
+    ColumnKind, ReadOptions, RowReader, RowWriter, check_names, expanded, is_error_word, names_of_columns, number,
+};
 use crate::exchange::error::{TableError, refused};
 use crate::text::{csv_field, plain_field};
 
 /// Rows that are looked at to tell columns of text from those of numbers.
 const AHEAD: usize = 100;
 
-/// Reads a table block by block: spaces around cells are ignored, empty lines and comments (`#`) are skipped.
-pub struct RowReader {
+/// Reads CSV: spaces around cells are ignored, empty lines and comments (`#`) are skipped.
+pub(super) struct CsvRows {
     csv: csv::Reader<Lines>,
     names: Option<Vec<String>>,
     width: usize,
@@ -27,7 +29,7 @@ pub struct RowReader {
     rows: u64,
 }
 
-impl RowReader {
+impl CsvRows {
     pub(super) fn new(text: Box<dyn Read>, options: &ReadOptions) -> Result<Self, TableError> {
         let lines = Lines::new(text)?;
         let mut builder = csv::ReaderBuilder::new();
@@ -122,22 +124,18 @@ impl RowReader {
     fn name(&self, place: usize) -> String {
         self.names.as_ref().map_or_else(|| format!("number {}", place + 1), |names| names[place].clone())
     }
+}
 
-    /// Names of all columns, in order; `None` of a table without a header whose columns were not named.
-    pub fn names(&self) -> Option<&[String]> {
+impl RowReader for CsvRows {
+    fn names(&self) -> Option<&[String]> {
         self.names.as_deref()
     }
 
-    /// Number of all columns.
-    pub fn width(&self) -> usize {
+    fn width(&self) -> usize {
         self.width
     }
 
-    /// The columns that hold text, by the first values in them.
-    ///
-    /// # Errors
-    /// [`TableError`] if the file cannot be read.
-    pub fn text_columns(&mut self) -> Result<Vec<usize>, TableError> {
+    fn text_columns(&mut self) -> Result<Vec<usize>, TableError> {
         while self.ahead.len() < AHEAD
             && let Some(next) = self.next_row()?
         {
@@ -152,30 +150,21 @@ impl RowReader {
         Ok((0..self.width).filter(is_text).collect())
     }
 
-    /// The first cell of a column of text that is no number, among those that were looked at to tell.
-    pub(in crate::exchange) fn text_example(&self, place: usize) -> Option<String> {
+    fn text_example(&self, place: usize) -> Option<String> {
         let number = ColumnKind::default();
         let mut cells = self.ahead.iter().filter_map(|(record, _)| record.get(place));
         cells.find(|cell| number.value(cell).is_none()).map(str::to_owned)
     }
 
-    /// The line of the file, from 1, on which row number `row` of the last block ends.
-    pub(in crate::exchange) fn line(&self, row: usize) -> u64 {
-        self.lines[row]
+    fn line(&self, row: usize) -> Option<u64> {
+        self.lines.get(row).copied()
     }
 
-    /// Whether the last line of the file, read to its end, has no end: it may have been cut short, within a number too.
-    pub fn is_unended(&self) -> bool {
+    fn is_unended(&self) -> bool {
         self.csv.get_ref().is_unended()
     }
 
-    /// Reads the next rows, at most `rows`, of some columns into `into`, one vector for each of `wanted` (number of the
-    /// column below [`width`](Self::width), what it holds; the same ones in every call), and returns how many there were; 0
-    /// at the end.
-    ///
-    /// # Errors
-    /// [`TableError`] with the place of the first fault.
-    pub fn read(
+    fn read(
         &mut self,
         wanted: &[(usize, ColumnKind)],
         rows: usize,
@@ -197,7 +186,7 @@ impl RowReader {
                     let decimal_comma = kind.labels.is_empty() && number(&cell.replacen(',', ".", 1)).is_some();
                     TableError::WrongCell {
                         row: self.rows,
-                        line,
+                        line: Some(line),
                         column: place + 1,
                         name: self.name(*place),
                         expected: kind.expected() + if decimal_comma { " with a decimal point" } else { "" },
@@ -223,29 +212,23 @@ fn wrong_record(source: csv::Error, line: u64) -> TableError {
     }
 }
 
-/// Writes a table block by block, every number with as many digits as it takes to read the same bits back.
-pub struct RowWriter<'a> {
+/// Writes CSV, every number with as many digits as it takes to read the same bits back.
+pub(super) struct CsvWriter<'a> {
     out: BufWriter<&'a mut dyn Write>,
     columns: Vec<ColumnKind>,
 }
 
-impl<'a> RowWriter<'a> {
-    /// A writer of these columns to `out`: labels as text, a missing value as an empty cell.
-    ///
-    /// # Errors
-    /// Whatever the file's system says.
-    pub fn new(out: &'a mut dyn Write, columns: Vec<ColumnKind>) -> std::io::Result<Self> {
+impl<'a> CsvWriter<'a> {
+    pub(super) fn new(out: &'a mut dyn Write, columns: Vec<ColumnKind>) -> std::io::Result<Self> {
         let mut out = BufWriter::new(out);
         let names: Vec<String> = columns.iter().map(|column| csv_field(&column.name)).collect();
         writeln!(out, "{}", names.join(","))?;
         Ok(Self { out, columns })
     }
+}
 
-    /// Writes rows: one slice for each column, all of one length.
-    ///
-    /// # Errors
-    /// Whatever the file's system says.
-    pub fn write(&mut self, columns: &[&[f64]]) -> std::io::Result<()> {
+impl RowWriter for CsvWriter<'_> {
+    fn write(&mut self, columns: &[&[f64]]) -> std::io::Result<()> {
         let out = &mut self.out;
         for row in 0..columns.first().map_or(0, |column| column.len()) {
             for (number, (values, kind)) in columns.iter().zip(&self.columns).enumerate() {
@@ -267,11 +250,7 @@ impl<'a> RowWriter<'a> {
         Ok(())
     }
 
-    /// Writes what is left to be written.
-    ///
-    /// # Errors
-    /// Whatever the file's system says.
-    pub fn finish(mut self) -> std::io::Result<()> {
+    fn finish(mut self: Box<Self>) -> std::io::Result<()> {
         self.out.flush()
     }
 }

@@ -2,6 +2,8 @@
 
 use std::io::{BufRead, BufReader, Cursor, Error, ErrorKind, Read, Result};
 
+use crate::files::MOST_OF_A_STREAM;
+
 /// Most bytes of a line, so that a file without ends of lines takes no memory without end.
 const LONGEST_LINE: usize = 16 << 20;
 
@@ -23,9 +25,15 @@ pub(super) struct Lines {
 }
 
 impl Lines {
-    /// The lines of a text in UTF-8.
+    /// The lines of a text in UTF-8, or in UTF-16 with a byte-order mark.
     pub(super) fn new(mut reader: Box<dyn Read>) -> Result<Self> {
         let mut begin = beginning(&mut reader)?;
+        if begin.starts_with(b"\xff\xfe") || begin.starts_with(b"\xfe\xff") {
+            let text = utf16(begin, reader)?;
+            begin = Vec::new();
+            reader = Box::new(Cursor::new(text));
+            begin.extend(beginning(&mut reader)?);
+        }
         if begin.starts_with(b"\xef\xbb\xbf") {
             begin.drain(..3);
         }
@@ -127,4 +135,18 @@ fn separator(begin: &[u8]) -> u8 {
     let has_blanks = cells(first) > 1 && second.is_none_or(|second| cells(second) == cells(first));
     let is_text = second.is_none() && first.iter().any(u8::is_ascii_alphabetic);
     if has_blanks && !is_text { b' ' } else { b',' }
+}
+
+/// A text in UTF-16 that begins so, as bytes of UTF-8.
+fn utf16(begin: Vec<u8>, rest: Box<dyn Read>) -> Result<Vec<u8>> {
+    let (mut bytes, invalid) = (begin, |what: String| Error::new(ErrorKind::InvalidData, what));
+    rest.take(MOST_OF_A_STREAM).read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > MOST_OF_A_STREAM {
+        return Err(invalid(format!("a text in UTF-16 of more than {} MiB: save it as UTF-8", MOST_OF_A_STREAM >> 20)));
+    }
+    let of_pair = if bytes[0] == 0xff { u16::from_le_bytes } else { u16::from_be_bytes };
+    let units: Vec<u16> = bytes[2..].chunks_exact(2).map(|pair| of_pair([pair[0], pair[1]])).collect();
+    String::from_utf16(&units)
+        .map(String::into_bytes)
+        .map_err(|_| invalid("it is no text in UTF-16, as its first bytes say: save it as UTF-8".to_owned()))
 }

@@ -1,4 +1,4 @@
-//! Tables of numbers by rows, as CSV.
+//! Tables of numbers by rows, as CSV or NPY, behind one interface.
 //!
 //! Every cell is a number. A value that is missing is NaN; a label of a category is the number that stands for it, by
 //! the labels that the caller knows of the column. Readers and writers take blocks of rows, so that a file may be
@@ -6,45 +6,62 @@
 
 mod csv_rows;
 mod lines;
+mod npy;
 #[cfg(test)]
 mod tests;
 
-pub use csv_rows::{RowReader, RowWriter};
-
 use std::collections::BTreeMap;
 use std::fs::File;
-use std::io::{Cursor, Read};
+use std::io::{Cursor, Read, Seek, Write};
 use std::path::Path;
 
 use flate2::read::MultiGzDecoder;
 
 use super::error::{TableError, refused};
+use crate::files::read_opened;
 use crate::model::items_of_header;
-use crate::names::refused_name;
+use crate::names::{named, refused_name};
 
-/// Refuses a name for a table to be written that has another ending than `.csv`, in capitals or not.
-///
-/// ```
-/// use apportion::exchange::check_ending;
-///
-/// assert!(check_ending("runs/design.CSV".as_ref()).is_ok());
-/// assert!(check_ending("design.xlsx".as_ref()).is_err());
-/// ```
-///
-/// # Errors
-/// [`TableError`], with what makes a file of another format of one of CSV.
-pub fn check_ending(path: &Path) -> Result<(), TableError> {
-    let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
-    let others = match ending.as_deref() {
-        Some("csv") => return Ok(()),
-        Some("npy") => ": `numpy.loadtxt(\"FILE.csv\", delimiter=\",\", skiprows=1)` reads CSV as an array",
-        Some("parquet") => {
-            ": `pandas.read_csv(\"FILE.csv\").to_parquet(\"FILE.parquet\")` makes a Parquet file of one of CSV"
+named! {
+    /// How a table is written down, known by the ending of a file's name.
+    pub enum Format {
+        /// Text: a header of names, then one line per row.
+        Csv = "csv",
+        /// NumPy's array file: numbers in rows and columns, without names.
+        Npy = "npy",
+    }
+}
+
+impl Format {
+    /// The format that the ending of `path` says, in capitals or not.
+    ///
+    /// ```
+    /// use apportion::exchange::Format;
+    ///
+    /// assert_eq!(Format::of("runs/design.CSV".as_ref())?, Format::Csv);
+    /// assert!(Format::of("design.xlsx".as_ref()).is_err());
+    /// # Ok::<(), apportion::exchange::TableError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`TableError`] for any other.
+    pub fn of(path: &Path) -> Result<Self, TableError> {
+        let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
+        let known = |format: &Self| ending.as_deref() == Some(format.name());
+        if let Some(format) = Self::ALL.into_iter().find(known) {
+            return Ok(format);
         }
-        _ => "",
-    };
-    let found = ending.map_or_else(String::new, |ending| format!(", not .{ending}"));
-    refused(format!("tables are written as CSV: expected the ending .csv{found}{others}"))
+        let found = match ending.as_deref() {
+            None => String::new(),
+            Some("parquet") => {
+                ", not .parquet: in Python `pandas.read_csv(\"FILE.csv\").to_parquet(\"FILE.parquet\")` makes one \
+                                of a CSV file"
+                    .to_owned()
+            }
+            Some(ending) => format!(", not .{ending}"),
+        };
+        refused(format!("the ending of the name tells the format: expected .csv or .npy{found}"))
+    }
 }
 
 /// What the file of a table does not say itself.
@@ -127,52 +144,133 @@ fn is_error_word(cell: &str) -> bool {
     WORDS.iter().any(|word| cell.eq_ignore_ascii_case(word))
 }
 
-/// Opens the table in `path`, CSV whatever its name, which may be compressed by gzip. Text is read in constant memory, from a
-/// pipe too.
+/// Reads a table block by block.
+pub trait RowReader {
+    /// Names of all columns, in order; `None` for a format without names.
+    fn names(&self) -> Option<&[String]>;
+
+    /// Number of all columns.
+    fn width(&self) -> usize;
+
+    /// The columns that hold text, by their type, or by the first values in them.
+    ///
+    /// # Errors
+    /// [`TableError`] if the file cannot be read.
+    fn text_columns(&mut self) -> Result<Vec<usize>, TableError> {
+        Ok(Vec::new())
+    }
+
+    /// The first cell of a column of text that is no number, where the cells were looked at to tell.
+    fn text_example(&self, _place: usize) -> Option<String> {
+        None
+    }
+
+    /// The line of the file, from 1, on which row number `row` of the last block ends; `None` in a format without lines.
+    fn line(&self, _row: usize) -> Option<u64> {
+        None
+    }
+
+    /// Whether the file, read to its end, is a text whose last line has no end: it may have been cut short, within a number
+    /// too.
+    fn is_unended(&self) -> bool {
+        false
+    }
+
+    /// Reads the next rows, at most `rows`, of some columns into `into`, one vector for each of `wanted` (number of the
+    /// column below [`width`](Self::width), what it holds; the
+    /// same ones in every call), and returns how many there were; 0 at the end.
+    ///
+    /// # Errors
+    /// [`TableError`] with the place of the first fault.
+    fn read(&mut self, wanted: &[(usize, ColumnKind)], rows: usize, into: &mut [Vec<f64>])
+    -> Result<usize, TableError>;
+}
+
+/// Opens the table in `path`, in the format that its first bytes say, whatever its name: NPY, or text as CSV, which may be
+/// compressed by gzip. Text is read in constant memory, from a pipe too.
 ///
 /// # Errors
 /// [`TableError`] if the file cannot be read or is of another format, or names do not fit.
-pub fn open_table(path: &Path, options: &ReadOptions) -> Result<RowReader, TableError> {
-    let file = File::open(path)?;
-    match file.metadata()?.is_dir() {
-        true => Err(std::io::Error::from(std::io::ErrorKind::IsADirectory).into()),
-        false => table_of(Box::new(file), options),
+pub fn open_table(path: &Path, options: &ReadOptions) -> Result<Box<dyn RowReader>, TableError> {
+    let mut file = File::open(path)?;
+    let about = file.metadata()?;
+    if about.is_dir() {
+        return Err(std::io::Error::from(std::io::ErrorKind::IsADirectory).into());
     }
+    let mut begin = Vec::new();
+    (&mut file).take(8).read_to_end(&mut begin)?;
+    if !begin.starts_with(npy::MAGIC) {
+        return text(&begin.clone(), Box::new(Cursor::new(begin).chain(file)), options);
+    }
+    if about.is_file() {
+        file.rewind()?;
+        return Ok(Box::new(npy::NpyRows::new(file, options)?));
+    }
+    begin.extend(read_opened(&mut file)?);
+    table_of_bytes(begin, options)
 }
 
 /// The table in `bytes`, as [`open_table`] reads it.
 ///
 /// # Errors
 /// As for [`open_table`].
-pub fn table_of_bytes(bytes: Vec<u8>, options: &ReadOptions) -> Result<RowReader, TableError> {
-    table_of(Box::new(Cursor::new(bytes)), options)
+pub fn table_of_bytes(bytes: Vec<u8>, options: &ReadOptions) -> Result<Box<dyn RowReader>, TableError> {
+    if bytes.starts_with(npy::MAGIC) {
+        return Ok(Box::new(npy::NpyRows::new(Cursor::new(bytes), options)?));
+    }
+    let begin: Vec<u8> = bytes.iter().take(8).copied().collect();
+    text(&begin, Box::new(Cursor::new(bytes)), options)
 }
 
-fn table_of(mut all: Box<dyn Read>, options: &ReadOptions) -> Result<RowReader, TableError> {
-    let mut begin = Vec::new();
-    (&mut all).take(8).read_to_end(&mut begin)?;
-    let is_compressed = begin.starts_with(b"\x1f\x8b");
-    match begin[..] {
+/// The table in a text that begins so.
+fn text(begin: &[u8], all: Box<dyn Read>, options: &ReadOptions) -> Result<Box<dyn RowReader>, TableError> {
+    let all: Box<dyn Read> = match begin {
         [b'P', b'A', b'R', b'1', ..] => {
             return refused(
                 "it is a Parquet file: write it as CSV, in Python with `pandas.read_parquet(\"FILE.parquet\").to_csv(\"FILE.csv\", \
                  index=False)`",
             );
         }
-        [0x93, b'N', b'U', b'M', b'P', b'Y', ..] => {
-            return refused(
-                "it is an NPY file: write it as CSV, in Python with `numpy.savetxt(\"FILE.csv\", numpy.load(\"FILE.npy\"), \
-                 delimiter=\",\")`",
-            );
-        }
         [b'P', b'K', 3 | 5, 4 | 6, ..] | [0xd0, 0xcf, 0x11, 0xe0, ..] => {
             return refused("it is a workbook or an archive (.xlsx, .xls, .ods, .zip, .npz): save the table as CSV");
         }
-        [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => return refused("it is text in UTF-16: save it as UTF-8"),
-        _ => (),
-    }
-    let all: Box<dyn Read> = Box::new(Cursor::new(begin).chain(all));
-    RowReader::new(if is_compressed { Box::new(MultiGzDecoder::new(all)) } else { all }, options)
+        [0x1f, 0x8b, ..] => Box::new(MultiGzDecoder::new(all)),
+        _ => all,
+    };
+    Ok(Box::new(csv_rows::CsvRows::new(all, options)?))
+}
+
+/// Writes a table block by block.
+pub trait RowWriter {
+    /// Writes rows: one slice for each column, all of one length.
+    ///
+    /// # Errors
+    /// Whatever the file's system says.
+    fn write(&mut self, columns: &[&[f64]]) -> std::io::Result<()>;
+
+    /// Writes what is left to be written.
+    ///
+    /// # Errors
+    /// Whatever the file's system says; or if the rows are not as many as were announced.
+    fn finish(self: Box<Self>) -> std::io::Result<()>;
+}
+
+/// A writer of `rows` rows of these columns to `out`. Numbers come back from reading as the same bits.
+///
+/// Labels are written as text in CSV, as their numbers in NPY; a missing value is an empty cell, or NaN.
+///
+/// # Errors
+/// Whatever the file's system says.
+pub fn row_writer<'a>(
+    format: Format,
+    out: &'a mut dyn Write,
+    columns: Vec<ColumnKind>,
+    rows: u64,
+) -> std::io::Result<Box<dyn RowWriter + 'a>> {
+    Ok(match format {
+        Format::Csv => Box::new(csv_rows::CsvWriter::new(out, columns)?),
+        Format::Npy => Box::new(npy::NpyWriter::new(out, (rows, columns.len()))?),
+    })
 }
 
 /// Names of all columns: `y[0..3]` stands for the columns `y[0]`, `y[1]` and `y[2]`.

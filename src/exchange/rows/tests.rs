@@ -1,12 +1,10 @@
-use std::io::Write;
-
 use proptest::prelude::*;
 
 use super::*;
 
-fn written(columns: &[ColumnKind], values: &[Vec<f64>]) -> Vec<u8> {
+fn written(format: Format, columns: &[ColumnKind], values: &[Vec<f64>]) -> Vec<u8> {
     let mut bytes = Vec::new();
-    let mut writer = RowWriter::new(&mut bytes, columns.to_vec()).unwrap();
+    let mut writer = row_writer(format, &mut bytes, columns.to_vec(), values[0].len() as u64).unwrap();
     let half = values[0].len() / 2;
     for part in [0..half, half..values[0].len()] {
         let slices: Vec<&[f64]> = values.iter().map(|column| &column[part.clone()]).collect();
@@ -44,16 +42,41 @@ fn probe() -> ColumnKind {
 fn labels_are_text_where_there_is_text() {
     let columns = [probe(), ColumnKind::numbers("y, \"z\"")];
     let values = [vec![7.5, 0.0], vec![f64::NAN, 1e-300]];
-    let csv = written(&columns, &values);
-    assert_eq!(bits(&read(&csv, &columns, 5).unwrap()), bits(&values));
+    for format in Format::ALL {
+        let bytes = written(format, &columns, &values);
+        assert_eq!(bits(&read(&bytes, &columns, 5).unwrap()), bits(&values), "{format:?}");
+        let has_text = String::from_utf8_lossy(&bytes).contains("nitride");
+        assert_eq!(has_text, format != Format::Npy, "{format:?}");
+    }
+    let csv = written(Format::Csv, &columns, &values);
     assert_eq!(String::from_utf8(csv).unwrap(), "probe,\"y, \"\"z\"\"\"\nnitride,\n\"silicon, doped\",1e-300\n");
+}
+
+/// A file of NumPy with this dictionary and data.
+fn npy(header: &str, data: &[u8]) -> Vec<u8> {
+    let mut bytes = b"\x93NUMPY\x02\x00".to_vec();
+    bytes.extend_from_slice(&(header.len() as u32).to_le_bytes());
+    bytes.extend_from_slice(header.as_bytes());
+    bytes.extend_from_slice(data);
+    bytes
+}
+
+#[test]
+fn arrays_of_other_types_and_orders_are_read() {
+    let plain = |bytes: &[u8]| read(bytes, &[], 2).unwrap();
+    let data: Vec<u8> = [1.5f32, -2.0, 3.25, 4.0, 5.0, 6.0].iter().flat_map(|x| x.to_be_bytes()).collect();
+    let header = "{\"descr\": \">f4\", 'fortran_order': True, 'shape': (3, 2)}\n";
+    assert_eq!(plain(&npy(header, &data)), [[1.5, -2.0, 3.25], [4.0, 5.0, 6.0]]);
+    let data: Vec<u8> = [-1i16, 300, 2].iter().flat_map(|x| x.to_le_bytes()).collect();
+    assert_eq!(plain(&npy("{'descr': '<i2', 'fortran_order': False, 'shape': (3,), }", &data)), [[-1.0, 300.0, 2.0]]);
+    assert_eq!(plain(&npy("{'descr': '|b1', 'fortran_order': False, 'shape': (1, 2), }", &[1, 0])), [[1.0], [0.0]]);
 }
 
 #[test]
 fn whole_numbers_are_text_that_programs_take_for_integers() {
     let columns = [ColumnKind { whole: true, ..ColumnKind::numbers("layers") }, ColumnKind::numbers("x")];
     let values = [vec![4.0, -1e15], vec![4.0, 1e15]];
-    let csv = written(&columns, &values);
+    let csv = written(Format::Csv, &columns, &values);
     assert_eq!(String::from_utf8(csv.clone()).unwrap(), "layers,x\n4,4.0\n-1000000000000000,1000000000000000.0\n");
     assert_eq!(bits(&read(&csv, &columns, 5).unwrap()), bits(&values));
 }
@@ -69,8 +92,6 @@ fn faults_are_named_with_their_place() {
         (b"a,b\n1,0\n\n2\n", "line 4: expected 2 cells as in the header, not 1"),
         (b"PAR1,b\n1,3\n", "it is a Parquet file"),
         (b"PK\x03\x04\x14", "it is a workbook"),
-        (b"\x93NUMPY\x01\x00", "it is an NPY file"),
-        (b"\xff\xfea\x00", "it is text in UTF-16"),
         (b"1,2\n3,4\n", "line 1 holds numbers"),
         (b"# a comment\na,1.5\n3,4\n", "line 2 holds numbers"),
     ] {
@@ -78,13 +99,20 @@ fn faults_are_named_with_their_place() {
         assert!(message.starts_with(reason), "{message}");
     }
     for (text, column) in [("a,b\nred,0\n", 1), ("a;b\n1,5;0\n", 1), ("a,b\n1,3\n", 2)] {
-        let TableError::WrongCell { row: 1, line: 2, column: at, .. } = refused(text.as_bytes()) else {
+        let TableError::WrongCell { row: 1, line: Some(2), column: at, .. } = refused(text.as_bytes()) else {
             panic!("{text:?}")
         };
         assert_eq!(at, column);
     }
-    for name in ["a.xlsx", "a.parquet", "a.npy", "a"] {
-        assert!(check_ending(name.as_ref()).unwrap_err().to_string().contains("expected the ending .csv"));
+    for header in [
+        "{'descr': '<c16', 'fortran_order': False, 'shape': (1,)}",
+        "{'descr': '<f8', 'fortran_order': False, 'shape': (1, 1, 1)}",
+        "{'descr': '<f8', 'fortran_order': False, 'shape': (18446744073709551615, 2)}",
+    ] {
+        assert!(refused(&npy(header, &[0; 7])).to_string().starts_with("not an NPY file that can be read: "));
+    }
+    for name in ["a.xlsx", "a.parquet", "a"] {
+        assert!(Format::of(name.as_ref()).unwrap_err().to_string().contains("expected .csv or .npy"));
     }
 }
 
@@ -102,8 +130,10 @@ fn other_separators_and_tables_without_names_are_read() {
     assert_eq!(quoted.names().unwrap(), ["a,x", "b"]);
     let mut columns = vec![Vec::new(); 2];
     let wanted = [(0, ColumnKind::numbers("a")), (1, ColumnKind::numbers("b"))];
+    let numbers =
+        written(Format::Npy, &[ColumnKind::numbers("a"), ColumnKind::numbers("b")], &[vec![1.0, 2.0], vec![7.5, 0.0]]);
     let named = |list: &[&str]| ReadOptions { names: names(list), ..ReadOptions::default() };
-    for bytes in ["\u{feff}1,7.5\n2,0\n".as_bytes().to_vec(), b"1;7.5\n2;0".to_vec()] {
+    for bytes in ["\u{feff}1,7.5\n2,0\n".as_bytes().to_vec(), b"1;7.5\n2;0".to_vec(), numbers.clone()] {
         let mut rows = table_of_bytes(bytes.clone(), &named(&["a", "b"])).unwrap();
         assert_eq!(rows.names().unwrap(), names(&["a", "b"]));
         assert_eq!(rows.read(&wanted, 5, &mut columns).unwrap(), 2);
@@ -111,6 +141,7 @@ fn other_separators_and_tables_without_names_are_read() {
         let refused = table_of_bytes(bytes, &named(&["a"])).err().unwrap();
         assert_eq!(refused.to_string(), "1 names are given, but it has 2 columns");
     }
+    assert!(table_of_bytes(numbers, &ReadOptions::default()).unwrap().names().is_none());
     let refused = table_of_bytes(b"a,b\n1,2\n".to_vec(), &named(&["a", "b"])).err().unwrap();
     assert!(refused.to_string().starts_with("it names its columns itself (a, b)"));
     let without = ReadOptions { no_header: true, ..ReadOptions::default() };
@@ -126,6 +157,10 @@ fn gzip(text: &[u8]) -> Vec<u8> {
 
 #[test]
 fn texts_of_other_programs_are_read() {
+    let utf16 = |text: &str, big: bool| -> Vec<u8> {
+        let bytes = |unit: u16| if big { unit.to_be_bytes() } else { unit.to_le_bytes() };
+        "\u{feff}".encode_utf16().chain(text.encode_utf16()).flat_map(bytes).collect()
+    };
     let plain = b"a,b\n1,7.5\n2,0\n";
     for text in [
         &b"sep=;\na;b\n1;7.5\n2;0\n"[..],
@@ -136,6 +171,8 @@ fn texts_of_other_programs_are_read() {
         b"  a    b\n  1  7.5\n  2  0.0\n",
         b"a,b\n0.1D+01,7.5d0\n2,0\n",
         &gzip(plain),
+        &utf16("a,b\r\n1,7.5\r\n2,0\r\n", false),
+        &utf16("a;b\n1;7.5\n2;0\n", true),
     ] {
         let mut rows = table_of_bytes(text.to_vec(), &ReadOptions::default()).unwrap();
         let name = String::from_utf8_lossy(text);
@@ -172,7 +209,7 @@ fn columns_of_text_are_told_from_those_of_numbers() {
     // Nothing is lost by looking.
     let mut columns = vec![Vec::new()];
     assert_eq!(rows.read(&[(1, ColumnKind::numbers("a"))], 9, &mut columns).unwrap(), 2);
-    assert_eq!((&columns[0][..], rows.line(1), rows.is_unended()), (&[1.0, 2.0][..], 3, false));
+    assert_eq!((&columns[0][..], rows.line(1), rows.is_unended()), (&[1.0, 2.0][..], Some(3), false));
 }
 
 #[test]
@@ -190,7 +227,7 @@ fn names_that_a_spreadsheet_would_run_are_written_as_text_and_come_back() {
     let labels = vec![("+1".to_owned(), 1.0), ("=1+1".to_owned(), 2.0)];
     let columns = [ColumnKind::numbers("=cmd()"), ColumnKind { labels, ..ColumnKind::numbers("@b") }];
     let values = [vec![-1.5, 2.0], vec![1.0, 2.0]];
-    let csv = written(&columns, &values);
+    let csv = written(Format::Csv, &columns, &values);
     assert_eq!(String::from_utf8(csv.clone()).unwrap(), "'=cmd(),'@b\n-1.5,+1\n2.0,'=1+1\n");
     assert_eq!(table_of_bytes(csv.clone(), &ReadOptions::default()).unwrap().names().unwrap(), ["=cmd()", "@b"]);
     assert_eq!(read(&csv, &columns, 5).unwrap(), values);
@@ -205,23 +242,28 @@ proptest! {
     ) {
         let (a, b): (Vec<f64>, Vec<f64>) = values.into_iter().unzip();
         let columns = [ColumnKind::numbers("a"), ColumnKind::numbers("b")];
-        let bytes = written(&columns, &[a.clone(), b.clone()]);
-        prop_assert_eq!(bits(&read(&bytes, &columns, block).unwrap()), bits(&[a, b]));
+        for format in Format::ALL {
+            let bytes = written(format, &columns, &[a.clone(), b.clone()]);
+            prop_assert_eq!(bits(&read(&bytes, &columns, block).unwrap()), bits(&[a.clone(), b.clone()]));
+        }
     }
 
     #[test]
     fn no_file_panics(bytes in prop::collection::vec(any::<u8>(), 0..80), near in "[a,b\n\r\"0-9.e-]{0,40}") {
-        let _ = (read(&bytes, &[], 3), read(near.as_bytes(), &[probe()], 3));
+        let npy = [&npy::MAGIC[..], &bytes].concat();
+        let _ = (read(&bytes, &[], 3), read(near.as_bytes(), &[probe()], 3), read(&npy, &[], 3));
     }
 
     #[test]
     fn no_damaged_file_panics(changes in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..6)) {
         let columns = [ColumnKind::numbers("a"), probe()];
-        let mut bytes = written(&columns, &[vec![1.0, f64::NAN, 3.0], vec![0.0, 7.5, 0.0]]);
-        for (place, byte) in &changes {
-            let place = place.index(bytes.len());
-            bytes[place] = *byte;
+        for format in Format::ALL {
+            let mut bytes = written(format, &columns, &[vec![1.0, f64::NAN, 3.0], vec![0.0, 7.5, 0.0]]);
+            for (place, byte) in &changes {
+                let place = place.index(bytes.len());
+                bytes[place] = *byte;
+            }
+            let _ = read(&bytes, &columns, 2);
         }
-        let _ = read(&bytes, &columns, 2);
     }
 }

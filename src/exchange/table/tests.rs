@@ -6,7 +6,7 @@ fn read(text: &str, outputs: &[&str], inputs: &[&str], missing: Missing) -> Resu
     let owned = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect::<Vec<_>>();
     let (outputs, inputs) = (owned(outputs), owned(inputs));
     let mut rows = table_of_bytes(text.as_bytes().to_vec(), &ReadOptions::default())?;
-    read_table(&mut rows, &Selection { outputs: &outputs, inputs: &inputs, missing, kinds: &[] })
+    read_table(rows.as_mut(), &Selection { outputs: &outputs, inputs: &inputs, missing, kinds: &[] })
 }
 
 #[test]
@@ -77,7 +77,7 @@ proptest! {
             let selection = Selection { outputs: &outputs, inputs: &[], missing, kinds: &[] };
             for bytes in [&bytes[..], near.as_bytes()] {
                 if let Ok(mut rows) = table_of_bytes(bytes.to_vec(), &ReadOptions::default()) {
-                    let _ = read_table(&mut rows, &selection);
+                    let _ = read_table(rows.as_mut(), &selection);
                 }
             }
         }
