@@ -5,7 +5,7 @@
 
 use std::fmt::Write as _;
 
-use apportion::given::{Column, Measure, Method, analyse, measures};
+use apportion::given::{Column, Measure, analyse, measures};
 use apportion::{
     AnalysisOptions, Dependence, Distribution, Estimate, Sampler, ShapleyMethod, Study, SurrogateChoice, function_model,
 };
@@ -323,9 +323,9 @@ fn given(text: &mut String, seeds: u64) {
             }
             let y = |k: usize| inputs.iter().zip(SLOPES).map(|(input, slope)| slope * input.values[k]).sum();
             let outputs = [Column { name: "y".to_owned(), values: (0..rows).map(y).collect() }];
-            let Ok(result) = analyse(&inputs, &outputs, Method::Both, seed) else { continue };
+            let Ok(result) = analyse(&inputs, &outputs, seed) else { continue };
             for (of_input, exact) in result.outputs[0].indices.iter().flatten().zip(indices) {
-                let methods = [of_input.rank, of_input.binned.map(|binned| binned.estimate)];
+                let methods = [of_input.rank, Some(of_input.binned.estimate)];
                 for (held, estimate) in held[place].iter_mut().zip(methods) {
                     estimate.into_iter().for_each(|estimate| held.add(estimate, exact));
                 }

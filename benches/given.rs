@@ -11,7 +11,7 @@ mod points;
 use std::time::Instant;
 
 use apportion::design::Sampler;
-use apportion::given::{Column, Method, PointSet, analyse};
+use apportion::given::{Column, PointSet, analyse};
 use apportion::model::KnownAnswer;
 use points::*;
 
@@ -59,10 +59,10 @@ fn coverage(case: &Case, rows: usize, sample: Sample) {
     for seed in 0..SEEDS {
         let columns = sample(case.exact.len(), rows, seed);
         let y = evaluated(case, &columns);
-        let Ok(result) = analyse(&named(columns), &[y], Method::Both, 0) else { continue };
+        let Ok(result) = analyse(&named(columns), &[y], 0) else { continue };
         for (index, exact) in result.outputs[0].indices.iter().flatten().zip(&case.exact) {
             count += 1.0;
-            let estimates = [index.rank, index.binned.map(|binned| binned.estimate)];
+            let estimates = [index.rank, Some(index.binned.estimate)];
             for (k, estimate) in estimates.into_iter().enumerate() {
                 let Some((estimate, interval)) = estimate.and_then(|e| Some((e.estimate, e.interval?))) else {
                     continue;
@@ -89,7 +89,7 @@ fn refused(tables: u64, table: impl Fn(u64) -> Columns) -> u64 {
     let independent = |seed: &u64| {
         let columns = table(*seed);
         let y = Column { name: "y".to_owned(), values: columns[0].clone() };
-        analyse(&named(columns), &[y], Method::Binned, 0).is_ok_and(|result| result.points == PointSet::Independent)
+        analyse(&named(columns), &[y], 0).is_ok_and(|result| result.points == PointSet::Independent)
     };
     tables - (0..tables).filter(independent).count() as u64
 }
@@ -150,7 +150,7 @@ fn main() {
         let y = evaluated(case, &columns);
         let inputs = named(columns);
         let start = Instant::now();
-        let result = analyse(&inputs, &[y], Method::Both, 0);
+        let result = analyse(&inputs, &[y], 0);
         println!(
             "8 inputs, {rows} rows: {:.3} s, {}",
             start.elapsed().as_secs_f64(),

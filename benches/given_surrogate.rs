@@ -11,7 +11,7 @@ mod points;
 use std::time::Instant;
 
 use apportion::Distribution;
-use apportion::given::{Column, Method, analyse, surrogate_indices};
+use apportion::given::{Column, analyse, surrogate_indices};
 use apportion::model::{KnownAnswer, KnownFunction};
 use points::*;
 
@@ -43,7 +43,7 @@ fn measure(function: &KnownFunction, rows: usize, sample: Sample, known: bool, s
         let inputs: Vec<Column> = list.iter().zip(&columns).map(named).collect();
         let y = |row: usize| function.value(&inputs.iter().map(|input| input.values[row]).collect::<Vec<f64>>());
         let output = [Column { name: "y".to_owned(), values: (0..rows).map(y).collect() }];
-        let Ok(result) = analyse(&inputs, &output, Method::Both, 0) else { continue };
+        let Ok(result) = analyse(&inputs, &output, 0) else { continue };
         let start = Instant::now();
         let Ok(surrogates) = surrogate_indices(&inputs, &output, &result, known.then_some(&distributions[..])) else {
             continue;
@@ -67,7 +67,7 @@ fn measure(function: &KnownFunction, rows: usize, sample: Sample, known: bool, s
                 sums.widths[k] += (interval.high - interval.low) / 2.0;
             }
             let rank = others[j].rank.map_or(f64::NAN, |rank| rank.estimate);
-            let binned = others[j].binned.map_or(f64::NAN, |binned| binned.estimate.estimate);
+            let binned = others[j].binned.estimate.estimate;
             sums.squares[2] += (rank - exact.first_order[j]).powi(2);
             sums.squares[3] += (binned - exact.first_order[j]).powi(2);
         }

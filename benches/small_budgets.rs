@@ -10,7 +10,7 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use apportion::given::{Column, Method, analyse, surrogate_indices};
+use apportion::given::{Column, analyse, surrogate_indices};
 use apportion::model::{Batch, KnownAnswer, RunContext};
 use apportion::screening::{ScreeningDesign, ScreeningJob, ScreeningSettings, screen};
 use apportion::{AnalysisOptions, Distribution, Sampler, Space, Study, StudyBuilder, SurrogateChoice, function_model};
@@ -169,7 +169,7 @@ fn one(known: &Known, method: usize, budget: u64, seed: u64, errors: &mut Errors
     match method {
         0 => {
             let (inputs, outputs, _) = table(name, seed, budget);
-            let found = analyse(&inputs, &outputs, Method::Rank, seed).ok();
+            let found = analyse(&inputs, &outputs, seed).ok();
             let of = |given: apportion::given::GivenIndices| {
                 let indices = given.outputs[0].indices.as_ref().ok()?;
                 indices.iter().map(|index| Some((index.rank.as_ref()?.estimate, None))).collect::<Option<Vec<_>>>()
@@ -178,7 +178,7 @@ fn one(known: &Known, method: usize, budget: u64, seed: u64, errors: &mut Errors
         }
         1 => {
             let (inputs, outputs, laws) = table(name, seed, budget);
-            let given = analyse(&inputs, &outputs, Method::Rank, seed).ok();
+            let given = analyse(&inputs, &outputs, seed).ok();
             let found = given.and_then(|given| surrogate_indices(&inputs, &outputs, &given, Some(&laws)).ok());
             let found = found.and_then(|found| found.outputs.into_iter().next()?.ok()).filter(|found| found.serves);
             let of = |found: apportion::given::SurrogateOutput| {

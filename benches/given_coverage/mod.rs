@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 use std::fmt::Write as _;
 
 use apportion::Distribution;
-use apportion::given::{Column, Method, analyse};
+use apportion::given::{Column, analyse};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -154,12 +154,12 @@ pub fn table(seeds: u64) -> String {
                     let named = columns.iter().zip(["a", "b", "c"]);
                     let inputs: Vec<Column> =
                         named.map(|(values, name)| Column { name: name.to_owned(), values: values.clone() }).collect();
-                    let Ok(result) = analyse(&inputs, &[y], Method::Both, seed) else { continue };
+                    let Ok(result) = analyse(&inputs, &[y], seed) else { continue };
                     // Inputs that act.
                     for (index, exact) in
                         result.outputs[0].indices.iter().flatten().zip(exact).filter(|of| *of.1 > 1e-9)
                     {
-                        let estimates = [index.rank, index.binned.map(|binned| binned.estimate)];
+                        let estimates = [index.rank, Some(index.binned.estimate)];
                         for (held, estimate) in own.iter_mut().zip(estimates) {
                             let Some((estimate, interval)) = estimate.and_then(|e| Some((e.estimate, e.interval?)))
                             else {

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::{Arc, Mutex};
 
 use apportion::Estimate;
-use apportion::given::{Column, Measure, Method, analyse, measures};
+use apportion::given::{Column, Measure, analyse, measures};
 use apportion::report::write_atomically;
 use apportion::screening::{ScreenedFactor, ScreeningDesign, ScreeningJob, ScreeningSettings, screen};
 use apportion::{AnalysisOptions, Sampler, ShapleyMethod, Study, SurrogateChoice, function_model};
@@ -69,7 +69,7 @@ fn given(folder: &Path) -> anyhow::Result<Value> {
     let column = |j: usize, name: String| Column { name, values: rows.iter().map(|row| row[j]).collect() };
     let inputs: Vec<Column> = (0..3).map(|j| column(j, format!("x{}", j + 1))).collect();
     let outputs = [column(3, "y".to_owned())];
-    let indices = analyse(&inputs, &outputs, Method::Both, 0)?;
+    let indices = analyse(&inputs, &outputs, 0)?;
     let measured = measures(&inputs, &outputs, &indices, 0).remove(0)?;
     let of = |measure: Measure| {
         let found = || measured.iter().filter_map(|input| input.get(measure));

@@ -1,6 +1,6 @@
 //! Arrays of points and outputs that exist already.
 
-use apportion::given::{Column, Method, analyse, measures as measured, surrogate_indices};
+use apportion::given::{Column, analyse, measures as measured, surrogate_indices};
 use apportion::report::given::{GivenFacts, build_given, given_document};
 use apportion::salib::{SalibLayout, SalibProblem, salib_study};
 use numpy::{PyReadonlyArray1, PyReadonlyArray2};
@@ -24,13 +24,12 @@ pub fn columns(names: Vec<String>, values: &PyReadonlyArray2<'_, f64>) -> PyResu
 
 /// Indices from rows that are independent draws.
 #[pyfunction]
-#[pyo3(signature = (inputs, outputs, *, method, surrogate, measures, distributions, seed, name, sha256))]
+#[pyo3(signature = (inputs, outputs, *, surrogate, measures, distributions, seed, name, sha256))]
 #[expect(clippy::too_many_arguments, reason = "by name")]
 pub fn given_data(
     py: Python<'_>,
     inputs: (Vec<String>, PyReadonlyArray2<'_, f64>),
     outputs: (Vec<String>, PyReadonlyArray2<'_, f64>),
-    method: &str,
     surrogate: bool,
     measures: bool,
     distributions: Option<&crate::study::Study>,
@@ -38,19 +37,16 @@ pub fn given_data(
     name: &str,
     sha256: String,
 ) -> PyResult<Document> {
-    let names = Method::ALL.map(Method::name).join(", ");
-    let method = Method::ALL.into_iter().find(|known| known.name() == method);
-    let method = method.ok_or_else(|| input(format!("method: expected one of {names}")))?;
     let (inputs, outputs) = (columns(inputs.0, &inputs.1)?, columns(outputs.0, &outputs.1)?);
     let laws = distributions.map(|study| study.distributions_of(&inputs)).transpose()?;
     let name = name.to_owned();
     let work = move |stop: &Stop| {
         let going_on = || if stop.is_set() { Err("interrupted".to_owned()) } else { Ok(()) };
-        let indices = analyse(&inputs, &outputs, method, seed).map_err(|error| error.to_string())?;
+        let indices = analyse(&inputs, &outputs, seed).map_err(|error| error.to_string())?;
         going_on()?;
         let surrogates = surrogate.then(|| surrogate_indices(&inputs, &outputs, &indices, laws.as_deref()));
         going_on()?;
-        let facts = GivenFacts { file: name.clone(), sha256, dropped: None, method, seed };
+        let facts = GivenFacts { file: name.clone(), sha256, dropped: None, seed };
         let mut result = build_given(&indices, surrogates.as_ref(), &inputs, &outputs, &facts);
         if measures {
             result = result.with_measures(&measured(&inputs, &outputs, &indices, seed));

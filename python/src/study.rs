@@ -11,7 +11,7 @@ use apportion::report::sweep::{build_sweep, sweep_document};
 use apportion::result::{RunFacts, StudyResult};
 use apportion::run::{Piece, Store, threads_in_force};
 use apportion::screening::{ScreeningDesign, ScreeningJob, ScreeningSettings, screen_in};
-use apportion::sweep::{FactorValues, SweepRequest, find, sweep_in};
+use apportion::sweep::{find, sweep};
 use apportion::{Batch, Distribution, Resume, RowFailure, RunContext, Runner};
 use numpy::{PyArray2, PyArrayMethods, PyReadonlyArray2};
 use pyo3::exceptions::PyMemoryError;
@@ -289,7 +289,7 @@ impl Study {
         })
     }
 
-    /// One factor at a time; `factors` and `against` are as on the command line, NAME or NAME=VALUES.
+    /// One factor at a time over its range; all factors if none is named.
     fn sweep(
         &self,
         py: Python<'_>,
@@ -297,24 +297,11 @@ impl Study {
         stop: &Stop,
         factors: Vec<String>,
         points: usize,
-        against: Option<String>,
     ) -> PyResult<Document> {
-        let space = self.study.space();
-        let over_range = |factor| FactorValues::over_range(space, factor, points);
-        let values = |text: &String| {
-            if text.contains('=') { FactorValues::parse(text, space) } else { find(space, text).and_then(over_range) }
-        };
-        let factors = if factors.is_empty() {
-            (0..space.factors().len()).map(over_range).collect::<Result<_, _>>()
-        } else {
-            factors.iter().map(values).collect::<Result<_, _>>()
-        };
-        let against = against.map(|text| FactorValues::parse(&text, space)).transpose().map_err(input)?;
-        let request = SweepRequest { factors: factors.map_err(input)?, against };
-        request.check(space).map_err(input)?;
+        let factors = find(self.study.space(), &factors).map_err(input)?;
         self.with_function(py, function, stop, &Listeners::default(), |study, _| {
             let (model, context) = (study.model(), RunContext::new(Some(stop.flag()), |_| ()));
-            let sweeps = sweep_in(study.space(), model.as_ref(), &request, &context).map_err(failed)?;
+            let sweeps = sweep(study.space(), model.as_ref(), &factors, points, &context).map_err(failed)?;
             let file = build_sweep(study, model.as_ref(), sweeps);
             Ok(Document::new(sweep_document(&file)))
         })

@@ -42,7 +42,7 @@ def test_every_family_of_the_engine_has_a_constructor():
     for family, summary, _ in _engine.distributions():
         name = _distributions._name_of(family)
         assert name in ap.__all__ and getattr(ap, name).__name__ == name, family
-        assert name in ("LogNormal", "Histogram", "Mixture") or getattr(ap, name).__doc__.startswith(summary)
+        assert name in ("LogNormal", "Histogram") or getattr(ap, name).__doc__.startswith(summary)
     assert ap.Normal(1, sd=2, unit="nm").keys == {"distribution": "normal", "mean": 1, "sd": 2, "unit": "nm"}
     assert ap.Beta(2, 3).keys == {"distribution": "beta", "alpha": 2, "beta": 3, "min": 0.0, "max": 1.0}
     for wrong in (lambda: ap.Normal(1), lambda: ap.Boolean(unit="m"), lambda: ap.Uniform(0, 1, 2)):

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
-use apportion::model::{ModelKind, Output, RunContext, imported_neighbours};
+use apportion::model::{ModelKind, Output, RunContext};
 use apportion::report::{significant, table, two_digits, with_unit};
 use apportion::run::{Job, Pilot};
 use apportion::space::distribution::Parameter;
@@ -74,14 +74,6 @@ fn subject(study: &Study) -> String {
     if study.subject().name() == ModelKind::COMMAND.name {
         let names = if files.is_empty() { "none".to_owned() } else { file_names_of(&files) };
         text.push_str(&format!("files that a journal knows it by: {names}\n"));
-    }
-    let imported = imported_neighbours(&files);
-    if !imported.is_empty() {
-        text.push_str(&format!(
-            "warning: the program imports {}, which a journal does not know: if it changes, runs of before are used as if it had \
-             not; list it in `depends_on` of [command]\n",
-            file_names_of(&imported)
-        ));
     }
     for (name, value) in study.settings() {
         match value.as_object() {

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use anyhow::anyhow;
 use apportion::exchange::{ColumnKind, Missing, Selection, Table, factor_column, read_table, table_of_bytes};
 use apportion::files::read_whole;
-use apportion::given::{Column, Method, analyse, measures, surrogate_indices};
+use apportion::given::{Column, analyse, measures, surrogate_indices};
 use apportion::report::given::{GivenFacts, build_given, given_document};
 use apportion::{Distribution, Study};
 use sha2::{Digest, Sha256};
@@ -30,9 +30,6 @@ pub struct Arguments {
     /// Columns that are inputs, separated by commas [default: all of numbers that are no outputs]
     #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = column_name)]
     inputs: Vec<String>,
-    /// How to estimate: by ranks, by bins, or by ranks with the bins as a check
-    #[arg(long, value_name = "METHOD", default_value = "both", value_parser = parse_method)]
-    method: Method,
     /// Total indices too, and first-order ones that are far more accurate where the model is smooth: by a surrogate, fitted to
     /// the rows and corrected by those that it has not seen
     #[arg(long)]
@@ -41,7 +38,7 @@ pub struct Arguments {
     /// knows the distributions is more accurate
     #[arg(long, value_name = "STUDY")]
     study: Option<PathBuf>,
-    /// Other measures too: Borgonovo's delta, the distance of Kolmogorov, PAWN, R2-HSIC, and S_1 by the spectrum
+    /// Other measures too: Borgonovo's delta, PAWN, R2-HSIC, and S_1 by the spectrum
     #[arg(long)]
     measures: bool,
     /// Leave out rows without a value in one of these columns, and count them
@@ -57,11 +54,6 @@ pub struct Arguments {
 fn column_name(text: &str) -> Result<String, String> {
     let name = text.trim();
     if name.is_empty() { Err("expected names of columns, separated by commas".to_owned()) } else { Ok(name.to_owned()) }
-}
-
-fn parse_method(text: &str) -> Result<Method, String> {
-    let names = Method::ALL.map(Method::name).join(", ");
-    Method::ALL.into_iter().find(|method| method.name() == text).ok_or_else(|| format!("expected one of {names}"))
 }
 
 pub fn given_data(arguments: &Arguments) -> Result<(), Failure> {
@@ -80,7 +72,7 @@ pub fn given_data(arguments: &Arguments) -> Result<(), Failure> {
     let Table { inputs, outputs, dropped, skipped } = table;
     let names: Vec<String> = skipped.iter().map(|column| column.name.clone()).collect();
     say_of_table(&arguments.table, &names, rows.is_unended());
-    let indices = analyse(&inputs, &outputs, arguments.method, arguments.seed).map_err(|error| wrong(&error))?;
+    let indices = analyse(&inputs, &outputs, arguments.seed).map_err(|error| wrong(&error))?;
     let known = study.as_ref().filter(|_| arguments.surrogate);
     let distributions = known.map(|study| distributions(study, &inputs)).transpose()?;
     let fit = || surrogate_indices(&inputs, &outputs, &indices, distributions.as_deref());
@@ -91,7 +83,6 @@ pub fn given_data(arguments: &Arguments) -> Result<(), Failure> {
         file: path.to_string(),
         sha256,
         dropped: dropped.map(|dropped| (dropped.rows, dropped.first_line)),
-        method: arguments.method,
         seed: arguments.seed,
     };
     let mut result = build_given(&indices, surrogates.as_ref(), &inputs, &outputs, &facts).without(&skipped);

@@ -14,7 +14,6 @@ mod rows;
 mod sample;
 mod save;
 mod table;
-mod text_column;
 
 pub use answers::{AnswersRequest, MissingOutputs, read_answers};
 pub use error::TableError;
@@ -23,8 +22,7 @@ pub use manifest::Manifest;
 pub use rows::{Format, ReadOptions, RowReader, open_table};
 pub use sample::{random_design, sample, write_rows};
 pub use save::save_outputs;
-pub use table::{Missing, Selection, Table, read_table};
-pub use text_column::{TextColumn, TextKind};
+pub use table::{Missing, Selection, Table, TextColumn, read_table};
 
 // What the program and the tests use beside it.
 #[doc(hidden)]

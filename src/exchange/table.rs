@@ -1,22 +1,37 @@
 //! A table of inputs and outputs, whoever made it.
 
+use std::fmt;
+
 use super::error::{TableError, place_in_words, refused};
 use super::rows::{ColumnKind, RowReader};
-use super::text_column::{TextColumn, TextKind};
 use crate::given::Column;
+use crate::model::shorten::cut;
 use crate::study::{did_you_mean, nearest};
 
-/// Why columns of text are no inputs, and what would make them so.
-fn why(skipped: &[TextColumn]) -> String {
-    let reason = |column: &TextColumn| format!("; {}: {}", column.reason(), column.kind().remedy());
-    skipped.iter().map(reason).collect()
+/// A column that is no input because its cells are no numbers.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct TextColumn {
+    /// Its name.
+    pub name: String,
+    /// Its first cell that is no number, among those that were looked at.
+    pub example: Option<String>,
 }
 
-fn advice(found: &str, chosen: bool) -> String {
-    match TextKind::of(found) {
-        TextKind::Text if chosen => String::new(),
-        TextKind::Text => "; if the column is no input, name the inputs (--inputs)".to_owned(),
-        kind => format!("; {}", kind.remedy()),
+/// What makes a table of numbers of one with text.
+const REMEDY: &str = "write numbers with a point (1.5, not 1,5), their unit into the name of the column, and a number in the place of \
+                      each word";
+
+impl TextColumn {
+    fn reason(&self) -> String {
+        let example = self.example.as_ref().map_or_else(String::new, |cell| format!(" ({})", cut(cell, 24)));
+        format!("the column `{}` holds text{example}", self.name)
+    }
+}
+
+impl fmt::Display for TextColumn {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let reason = self.reason();
+        write!(f, "{reason}, and was left out: the indices are those of the other inputs alone; {REMEDY}")
     }
 }
 
@@ -92,8 +107,9 @@ pub fn read_table(reader: &mut dyn RowReader, selection: &Selection<'_>) -> Resu
         inputs = of_numbers;
     }
     if inputs.is_empty() {
-        let (why, known) = (why(&skipped), names.join(", "));
-        return refused(format!("no column of numbers is left as an input{why}; the columns are {known}"));
+        let why: String = skipped.iter().map(|column| format!("; {}", column.reason())).collect();
+        let known = names.join(", ");
+        return refused(format!("no column of numbers is left as an input{why}; the columns are {known}; {REMEDY}"));
     }
     let chosen: Vec<usize> = inputs.iter().chain(&outputs).copied().collect();
     let kind = |name: &String| selection.kinds.iter().find(|kind| kind.name == *name).cloned();
@@ -102,10 +118,11 @@ pub fn read_table(reader: &mut dyn RowReader, selection: &Selection<'_>) -> Resu
     let mut columns: Vec<Column> =
         chosen.iter().map(|&place| Column { name: names[place].clone(), values: Vec::new() }).collect();
     let not_a_number = |place: String, at: usize, found: String| {
-        let chosen = !selection.inputs.is_empty() || outputs.contains(&at);
-        let (column, name, advice) = (at + 1, &names[at], advice(&found, chosen));
+        let is_chosen = !selection.inputs.is_empty() || outputs.contains(&at);
+        let advice = if is_chosen { "" } else { "; if the column is no input, name the inputs (--inputs)" };
+        let (column, name) = (at + 1, &names[at]);
         TableError::Refused(format!(
-            "{place}: column {column} (`{name}`): expected a finite number, not {found:?}{advice}"
+            "{place}: column {column} (`{name}`): expected a finite number, not {found:?}{advice}; {REMEDY}"
         ))
     };
     let (mut dropped, mut cells, mut before): (Option<DroppedRows>, _, u64) = (None, vec![Vec::new(); wanted.len()], 0);

@@ -37,26 +37,11 @@ pub use surrogate::{
     LEAST_EXPLAINED, SurrogateIndices, SurrogateOutput, SurrogateRefusal, Surrogates, surrogate_indices,
 };
 
-use crate::names::named;
 pub(crate) use column::centred;
 use order::Order;
 
 /// Fewest rows that are analysed: below, an interval is wider than the range of an index.
 pub const FEWEST_ROWS: usize = 30;
-
-named! {
-/// How indices are estimated from given data.
-#[derive(Default)]
-pub enum Method {
-    /// By ranks: [`rank_first_order`].
-    Rank = "rank",
-    /// By bins: [`binned_first_order`].
-    Binned = "binned",
-    /// By ranks, with the bins as a check.
-    #[default]
-    Both = "both",
-}
-}
 
 /// Why a table is not analysed.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
@@ -125,15 +110,6 @@ pub enum GivenError {
         /// Rows of the table.
         rows: usize,
     },
-    /// Ranks were asked for, but the rows do not allow it.
-    #[error(
-        "the rank estimator is refused: {reason}. On such points it does not converge, however many there are; method \
-         `binned` remains"
-    )]
-    RankRefused {
-        /// What was found.
-        reason: String,
-    },
 }
 
 /// What came out of a table.
@@ -156,12 +132,12 @@ pub struct GivenIndices {
 ///
 /// # Errors
 /// [`GivenError`]: no columns, columns of different lengths, values that are not finite, fewer than [`FEWEST_ROWS`] rows,
-/// rows that are not independent because they belong to a design or repeat each other, or [`Method::Rank`] on points for
-/// which it does not converge. (With [`Method::Both`] such points are analysed by bins alone.)
+/// or rows that are not independent because they belong to a design or repeat each other. Points that are too even for ranks
+/// are analysed by bins alone.
 ///
 /// # Example
 /// ```
-/// use apportion::given::{Column, Method, analyse};
+/// use apportion::given::{Column, analyse};
 ///
 /// // y = 3 a + b with independent uniform a and b: exactly S_a = 0.9, S_b = 0.1.
 /// let mut state = 7u64;
@@ -174,14 +150,14 @@ pub struct GivenIndices {
 /// let values = a.values.iter().zip(&b.values).map(|(a, b)| 3.0 * a + b).collect();
 /// let y = Column { name: "y".into(), values };
 ///
-/// let result = analyse(&[a, b], &[y], Method::Both, 0)?;
+/// let result = analyse(&[a, b], &[y], 0)?;
 /// let indices = result.outputs[0].indices.as_ref().map_err(|no_variance| no_variance.to_string())?;
 /// let s_a = indices[0].rank.ok_or("no estimate")?;
 /// let interval = s_a.interval.ok_or("no interval")?;
 /// assert!(interval.low < 0.9 && 0.9 < interval.high);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub fn analyse(inputs: &[Column], outputs: &[Column], method: Method, seed: u64) -> Result<GivenIndices, GivenError> {
+pub fn analyse(inputs: &[Column], outputs: &[Column], seed: u64) -> Result<GivenIndices, GivenError> {
     let rows = check(inputs, outputs)?;
     let orders: Vec<Order> = inputs.iter().map(|input| Order::of(&input.values)).collect();
     let varying: Vec<usize> = (0..inputs.len()).filter(|&j| orders[j].groups() > 1).collect();
@@ -192,17 +168,9 @@ pub fn analyse(inputs: &[Column], outputs: &[Column], method: Method, seed: u64)
         repeats::check(&varied, rows)?;
         evenness::point_set(&varied, rows)
     };
-    if let (Method::Rank, Some(reason)) = (method, points.reason()) {
-        return Err(GivenError::RankRefused { reason });
-    }
     let dependence = dependence::between(&varied, rows);
-    let settings = outcome::Settings {
-        rank: method != Method::Binned && points == PointSet::Independent,
-        binned: method != Method::Rank,
-        independent: points == PointSet::Independent,
-        seed,
-    };
-    let outputs = outputs.iter().map(|output| outcome::of_output(output, inputs, &orders, settings)).collect();
+    let is_random = points == PointSet::Independent;
+    let outputs = outputs.iter().map(|output| outcome::of_output(output, inputs, &orders, is_random, seed)).collect();
     Ok(GivenIndices { rows, points, dependence, outputs })
 }
 

@@ -16,52 +16,48 @@ pub struct OutputIndices {
     pub indices: Result<Vec<InputIndices>, NoVariance>,
 }
 
-/// The first-order index of one input, by each method that was used.
+/// The first-order index of one input.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct InputIndices {
     /// The input.
     pub input: String,
     /// Whether it has one value only; its index is then 0 by definition.
     pub constant: bool,
-    /// By ranks.
+    /// By ranks, of independent rows.
     pub rank: Option<Estimate>,
     /// By bins.
-    pub binned: Option<Binned>,
+    pub binned: Binned,
 }
 
 impl InputIndices {
     /// The estimate that stands first in reports: by ranks if there is one, else by bins.
-    pub fn leading(&self) -> Option<Estimate> {
-        self.rank.or(self.binned.map(|binned| binned.estimate))
+    pub fn leading(&self) -> Estimate {
+        self.rank.unwrap_or(self.binned.estimate)
     }
 
     /// Whether the two methods disagree by more than both intervals allow: their half widths on the facing sides do not
     /// meet.
     pub fn disagree(&self) -> bool {
-        let intervals = self.rank.and_then(|rank| rank.interval).zip(self.binned.and_then(|b| b.estimate.interval));
+        let intervals = self.rank.and_then(|rank| rank.interval).zip(self.binned.estimate.interval);
         intervals.is_some_and(|(a, b)| a.high < b.low || b.high < a.low)
     }
 }
 
-/// What is estimated.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Settings {
-    pub rank: bool,
-    pub binned: bool,
-    pub independent: bool,
-    pub seed: u64,
-}
-
-pub(super) fn of_output(output: &Column, inputs: &[Column], orders: &[Order], settings: Settings) -> OutputIndices {
+pub(super) fn of_output(
+    output: &Column,
+    inputs: &[Column],
+    orders: &[Order],
+    is_random: bool,
+    seed: u64,
+) -> OutputIndices {
     let indices = centred(&output.values).map(|z| {
-        let each = inputs.iter().zip(orders).enumerate();
-        each.map(|(j, (input, order))| InputIndices {
+        let of_input = |(j, (input, order)): (usize, (&Column, &Order))| InputIndices {
             input: input.name.clone(),
             constant: order.groups() < 2,
-            rank: settings.rank.then(|| rank::of_order(order, &z, (settings.seed, j as u64))),
-            binned: settings.binned.then(|| binned::of_order(order, &input.values, &z, settings.independent)),
-        })
-        .collect()
+            rank: is_random.then(|| rank::of_order(order, &z, (seed, j as u64))),
+            binned: binned::of_order(order, &input.values, &z, is_random),
+        };
+        inputs.iter().zip(orders).enumerate().map(of_input).collect()
     });
     OutputIndices { name: output.name.clone(), indices }
 }

@@ -29,7 +29,7 @@ pub use catalogue::{ModelKind, known_inputs};
 #[cfg(feature = "study")]
 pub use command::{
     CommandModel, CommandOutput, CommandSettings, Form, InputTemplate, Match, PerRun, Pick, Program, Protocol, Source,
-    TemplateError, TemplateProblem, Way, imported_neighbours, parse_answer, program_files,
+    TemplateError, TemplateProblem, Way, parse_answer, program_files,
 };
 pub use context::{Messages, RunContext};
 pub use counter::{Counter, CounterKind, Counts};

@@ -101,14 +101,7 @@ fn distribution(distribution: &Value, symbol: &str) -> String {
     let Value::Object(keys) = distribution else { return "unknown".to_owned() };
     let family = keys.get("name").and_then(Value::as_str).unwrap_or("unknown");
     let parameters = keys.iter().filter(|(key, _)| *key != "name");
-    // Distributions in distributions, those of a mixture.
-    let inner = |json: &Value| {
-        let all = json.as_array().filter(|all| all.iter().all(Value::is_object))?;
-        Some(all.iter().map(|law| format!("({})", self::distribution(law, ""))).collect::<Vec<_>>().join(", "))
-    };
-    let parameter = |(key, json): (&String, &Value)| {
-        format!("{} {}", key.replace('_', " "), inner(json).unwrap_or_else(|| plain(json)))
-    };
+    let parameter = |(key, json): (&String, &Value)| format!("{} {}", key.replace('_', " "), plain(json));
     let parameters: Vec<String> = parameters.map(parameter).collect();
     let unit = match symbol {
         "" | "1" => String::new(),
@@ -150,8 +143,5 @@ mod tests {
         assert_eq!(distribution(&Value::Null, "1"), "unknown");
         let formulas: Map<String, Value> = (0..12).map(|k| (format!("y{k:02}"), Value::from("a"))).collect();
         assert!(plain(&Value::Object(formulas)).ends_with("; y07 a; … (12 in all)"));
-        let mixture = serde_json::json!({"name": "mixture", "components": [uniform, {"name": "gamma", "shape": 2, "truncate": [1, "inf"]}]});
-        let words = "mixture, components (uniform, min 0.25, max 2.5), (gamma, shape 2, truncate 1; inf) (µm)";
-        assert_eq!(distribution(&mixture, "um"), words);
     }
 }

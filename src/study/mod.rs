@@ -68,7 +68,6 @@ pub struct Study {
 }
 
 /// The end of a message about a name that does not exist, where one like it does; two that are meant are joined by "and".
-#[cfg(feature = "study")]
 pub(crate) fn did_you_mean(nearest: &Option<String>) -> String {
     nearest.as_ref().map_or_else(String::new, |name| format!(": did you mean `{}`?", name.replace(" and ", "` and `")))
 }

@@ -33,7 +33,7 @@ pub trait Subject: fmt::Debug + Send + Sync + Any {
     /// # Errors
     /// The reason.
     fn second_calculation(&self, _space: &Space) -> Result<Box<dyn SecondCalculation>, &'static str> {
-        Err("the model is a program, and nothing else computes what it does")
+        Err("nothing else computes what the model does")
     }
 
     /// Inputs that are no factors of `space`, and whose extremes are worth a look all the same.

@@ -1,26 +1,24 @@
-//! Sweeps: one factor at a time over its range, every other at its nominal value, and the slopes at the nominal point.
+//! Sweeps: one factor at a time over its range, every other at its nominal value.
 //!
 //! A look, not an analysis: it shows how the output goes with each factor where the others stand, and says nothing of
 //! how they act together. A run that fails leaves a gap in its curve, with the reason.
 
-mod local;
-mod request;
-mod rows;
-
+mod range;
 #[cfg(test)]
 mod tests;
 
-pub use local::LocalSensitivity;
-pub use request::{FactorValues, SweepError, SweepRequest};
 #[doc(hidden)]
-pub use request::{MAX_POINTS, TAIL, find, is_logarithmic};
+pub use range::MAX_POINTS;
+pub use range::values_over_range;
 
 use serde::{Deserialize, Serialize};
+use thiserror::Error;
 
-use crate::model::{Model, RowFailure, RunContext};
-use crate::run::Halt;
-use crate::space::Space;
-use rows::Bench;
+use crate::model::{Batch, Model, Output, RowFailure, RunContext};
+use crate::run::{Executor, Halt};
+use crate::space::{Factor, Space};
+use crate::study::{did_you_mean, nearest};
+use range::is_logarithmic;
 
 /// Sweeps that have taken place.
 #[derive(Debug, Clone, PartialEq)]
@@ -48,7 +46,7 @@ pub struct NominalOutput {
     pub reason: Option<String>,
 }
 
-/// One factor moved over its values.
+/// One factor moved over its range.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Sweep {
     /// The factor.
@@ -61,44 +59,16 @@ pub struct Sweep {
     pub spacing: String,
     /// Its values in `unit`.
     pub values: Vec<f64>,
-    /// Whether these were asked for, and are not those over its range.
-    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
-    pub given: bool,
     /// What the values stand for, of a factor of categories.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub labels: Option<Vec<String>>,
-    /// The outputs over the values: first with all other factors nominal, then the curves of the family, if any.
-    pub curves: Vec<SweepCurve>,
-    /// One entry per output: how far it goes over the first curve, and its slope at the nominal point.
-    pub effects: Vec<SweepEffect>,
-}
-
-/// One curve of each output.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct SweepCurve {
-    /// The other factor that is not nominal; `null` for the curve at nominal values.
-    pub against: Option<Against>,
-    /// One entry per output.
-    pub outputs: Vec<OutputCurve>,
-}
-
-/// The factor that tells the curves of a family apart.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Against {
-    /// The factor.
-    pub factor: String,
-    /// Its value in `unit`.
-    pub value: f64,
-    /// What the value stands for, of a factor of categories.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub label: Option<String>,
-    /// Its unit.
-    pub unit: String,
+    /// The outputs over the values.
+    pub outputs: Vec<SweptOutput>,
 }
 
 /// One output over the values of a sweep.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct OutputCurve {
+pub struct SweptOutput {
     /// The output.
     pub name: String,
     /// Its unit.
@@ -107,6 +77,13 @@ pub struct OutputCurve {
     pub values: Vec<Option<f64>>,
     /// The runs that failed.
     pub gaps: Vec<Gap>,
+    /// Its least value.
+    pub low: Option<f64>,
+    /// Its largest value.
+    pub high: Option<f64>,
+    /// 100 (high - low)/|nominal|: by so many percent of its nominal value the output moves; `None` where the nominal
+    /// value is 0 or does not exist, or is in a unit such as `degC`, of which 1 % has no meaning.
+    pub percent: Option<f64>,
 }
 
 /// A run that failed.
@@ -118,124 +95,125 @@ pub struct Gap {
     pub reason: String,
 }
 
-/// How one output answers to one factor.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct SweepEffect {
-    /// The output.
-    pub output: String,
-    /// Its unit.
-    pub unit: String,
-    /// Its least value over the sweep.
-    pub low: Option<f64>,
-    /// Its largest value over the sweep.
-    pub high: Option<f64>,
-    /// Its value at the first place of the sweep.
-    pub first: Option<f64>,
-    /// Its value at the last place of the sweep.
-    pub last: Option<f64>,
-    /// 100 (high - low)/|nominal|: by so many percent of its nominal value the output moves; `None` where the nominal
-    /// value is 0 or does not exist, or is in a unit such as `degC`, of which 1 % has no meaning.
-    pub percent: Option<f64>,
-    /// Its slope at the nominal point.
-    #[serde(flatten)]
-    pub local: LocalSensitivity,
+/// Why there is no sweep.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum SweepError {
+    /// The model gave up, or the sweep was asked to end.
+    #[error(transparent)]
+    Halted(#[from] Halt),
+    /// There is no such factor.
+    #[error("the study has no factor `{name}`{}; its factors are {}", did_you_mean(nearest), known.join(", "))]
+    UnknownFactor {
+        /// The name given.
+        name: String,
+        /// The nearest factor.
+        nearest: Option<String>,
+        /// All factors of the study.
+        known: Vec<String>,
+    },
+    /// A factor asked for twice.
+    #[error("factor `{0}` is asked for twice")]
+    Repeated(String),
+    /// Too few or too many points.
+    #[error("{0} points: a sweep needs from 2 to {MAX_POINTS}")]
+    Points(usize),
 }
 
-/// Sweeps factors of `space` through `model` as `request` asks. The result is the same on every run.
+/// The numbers of the factors of these names; of all factors if none is named.
 ///
+/// # Errors
+/// [`SweepError`]: an unknown name, or one that stands there twice.
+pub fn find(space: &Space, names: &[impl AsRef<str>]) -> Result<Vec<usize>, SweepError> {
+    let known = || space.factors().iter().map(|factor| factor.name.as_str());
+    let mut found = Vec::new();
+    for name in names.iter().map(|name| name.as_ref().trim()) {
+        let number = known().position(|known| known == name).ok_or_else(|| SweepError::UnknownFactor {
+            name: name.to_owned(),
+            nearest: nearest(name, known()),
+            known: known().map(str::to_owned).collect(),
+        })?;
+        if found.contains(&number) {
+            return Err(SweepError::Repeated(name.to_owned()));
+        }
+        found.push(number);
+    }
+    Ok(if names.is_empty() { (0..space.factors().len()).collect() } else { found })
+}
+
+/// Moves each of `factors`, by their numbers, over its range at so many points, every other factor at its nominal value.
+///
+/// # Errors
+/// [`SweepError`] for a number of points that is out of range; [`SweepError::Halted`] if the model gives up or is
+/// stopped.
+///
+/// # Example
 /// ```
-/// use std::path::Path;
-/// use apportion::sweep::{FactorValues, SweepRequest, sweep};
-/// use apportion::Study;
+/// use apportion::model::{RunContext, known_model};
+/// use apportion::space::{Factor, Space};
+/// use apportion::sweep::sweep;
+/// use apportion::{KnownAnswer, Unit};
 ///
-/// let study = Study::parse(include_str!("../../studies/soft-cantilever.toml"), Path::new("s.toml"), &[])?;
-/// let thickness = FactorValues::over_range(study.space(), 0, 11)?;
-/// let sizes = FactorValues::parse("particle_radius=20,40,60 nm", study.space())?;
-/// let request = SweepRequest { factors: vec![thickness], against: Some(sizes) };
-/// let sweeps = sweep(study.space(), study.model().as_ref(), &request)?;
-/// assert_eq!(sweeps.sweeps[0].curves.len(), 1 + 3);
-/// // The stiffness goes with the third power of the thickness, and at these dimensions the force with it.
-/// assert!(sweeps.sweeps[0].effects[0].local.elasticity.is_some_and(|e| (1.0..3.0).contains(&e)));
+/// let function = KnownAnswer::from_name("linear").ok_or("no such function")?.default_function();
+/// let factor = |input: &apportion::model::KnownInput| {
+///     Factor::new(input.name.as_str(), Unit::dimensionless(), input.distribution.clone())
+/// };
+/// let space = Space::new(function.inputs().iter().map(factor).collect::<Result<_, _>>()?);
+/// let count = function.inputs().len();
+/// let model = known_model(function, vec![0.0; count], (0..count).collect());
+/// let swept = sweep(&space, &model, &[0], 3, &RunContext::default())?;
+/// let y = &swept.sweeps[0].outputs[0];
+/// assert!(y.high.zip(y.low).is_some_and(|(high, low)| high > low));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-///
-/// # Errors
-/// [`SweepError`] if a factor is asked for twice, or against itself alone, or the model gives up. Runs that fail are
-/// part of the result.
-///
-/// # Panics
-/// If a factor's number is not one of the space.
-pub fn sweep(space: &Space, model: &dyn Model, request: &SweepRequest) -> Result<Sweeps, SweepError> {
-    sweep_in(space, model, request, &RunContext::default())
-}
-
-/// The same as the run of `context`, which may end it.
-///
-/// # Errors
-/// As for [`sweep`], and [`Halt::Interrupted`] if the run is to end.
-///
-/// # Panics
-/// As for [`sweep`].
-pub fn sweep_in(
+pub fn sweep(
     space: &Space,
     model: &dyn Model,
-    request: &SweepRequest,
+    factors: &[usize],
+    points: usize,
     context: &RunContext<'_>,
 ) -> Result<Sweeps, SweepError> {
-    request.check(space)?;
-    let mut bench = Bench::new(space, model, context);
+    let mut bench = Bench {
+        space,
+        outputs: model.outputs(),
+        executor: Executor::new(model, context, 0),
+        batch: Batch::new(model),
+        runs: 0,
+        flags: vec![0; model.flags().len()],
+    };
     let first = space.factors().first().map_or(f64::NAN, |factor| factor.nominal);
-    let nominal: Vec<NominalOutput> = bench.curve(0, &[first], None)?.into_iter().map(NominalOutput::new).collect();
-    let sweeps = request.factors.iter().map(|asked| one(&mut bench, space, asked, &nominal, request));
-    let sweeps = sweeps.collect::<Result<_, _>>()?;
+    let nominal: Vec<NominalOutput> = bench.curve(0, &[first])?.into_iter().map(NominalOutput::new).collect();
+    let one = |&number: &usize| {
+        let factor = &space.factors()[number];
+        let values = values_over_range(factor.distribution(), points)?;
+        let mut outputs = bench.curve(number, &values)?;
+        for ((swept, nominal), output) in outputs.iter_mut().zip(&nominal).zip(model.outputs()) {
+            swept.percent =
+                nominal.value.filter(|_| !output.unit.has_offset()).and_then(|value| swept.percent_of(value));
+        }
+        Ok(Sweep::new(factor, values, outputs))
+    };
+    let sweeps = factors.iter().map(one).collect::<Result<_, SweepError>>()?;
     context.messages().finish();
     Ok(Sweeps { nominal, sweeps, runs: bench.runs, flags: bench.flags })
 }
 
-fn one(
-    bench: &mut Bench<'_>,
-    space: &Space,
-    asked: &FactorValues,
-    nominal: &[NominalOutput],
-    request: &SweepRequest,
-) -> Result<Sweep, Halt> {
-    let FactorValues { factor: number, values } = asked.clone();
-    let factor = &space.factors()[number];
-    let mut curves = vec![SweepCurve { against: None, outputs: bench.curve(number, &values, None)? }];
-    let against = request.against.iter().filter(|against| against.factor != number);
-    for (other, value) in against.flat_map(|against| against.values.iter().map(|value| (against.factor, *value))) {
-        let outputs = bench.curve(number, &values, Some((other, value)))?;
-        let other = &space.factors()[other];
-        let against = Against {
-            factor: other.name.clone(),
-            value,
-            label: other.distribution().label(value).map(str::to_owned),
-            unit: other.unit().to_string(),
-        };
-        curves.push(SweepCurve { against: Some(against), outputs });
+impl Sweep {
+    fn new(factor: &Factor, values: Vec<f64>, outputs: Vec<SweptOutput>) -> Self {
+        let law = factor.distribution();
+        Self {
+            factor: factor.name.clone(),
+            unit: factor.unit().to_string(),
+            nominal: factor.nominal,
+            spacing: if is_logarithmic(law) { "logarithmic" } else { "linear" }.to_owned(),
+            labels: values.iter().map(|value| law.label(*value).map(str::to_owned)).collect(),
+            values,
+            outputs,
+        }
     }
-    // Of a temperature in degC there are no percent.
-    let offsets = bench.offsets();
-    let nominal = nominal.iter().zip(offsets).map(|(nominal, offset)| nominal.value.filter(|_| !offset));
-    let local = local::local(bench, number, factor)?;
-    let effects = curves[0].outputs.iter().zip(nominal).zip(local);
-    let over_range = FactorValues::over_range(space, number, values.len().max(2));
-    Ok(Sweep {
-        factor: factor.name.clone(),
-        unit: factor.unit().to_string(),
-        nominal: factor.nominal,
-        spacing: if is_logarithmic(factor.distribution()) { "logarithmic" } else { "linear" }.to_owned(),
-        given: over_range.map_or(true, |range| range.values != values),
-        labels: values.iter().map(|value| factor.distribution().label(*value).map(str::to_owned)).collect(),
-        effects: effects.map(|((curve, nominal), local)| SweepEffect::new(curve, nominal, local)).collect(),
-        curves,
-        values,
-    })
 }
 
 impl NominalOutput {
-    /// That of a curve of one value.
-    fn new(curve: OutputCurve) -> Self {
+    fn new(curve: SweptOutput) -> Self {
         let value = curve.values.into_iter().next().flatten();
         let failure = curve.gaps.into_iter().next().map(|gap| gap.reason);
         let reason = value.is_none().then(|| failure.unwrap_or_else(|| RowFailure::not_finite().to_string()));
@@ -243,21 +221,57 @@ impl NominalOutput {
     }
 }
 
-impl SweepEffect {
-    fn new(curve: &OutputCurve, nominal: Option<f64>, local: LocalSensitivity) -> Self {
-        let values = || curve.values.iter().copied().flatten();
-        let (low, high) = (values().reduce(f64::min), values().reduce(f64::max));
-        let width = low.zip(high).map(|(low, high)| high - low);
-        let percent = width.zip(nominal).map(|(width, nominal)| 100.0 * (width / nominal.abs()));
-        Self {
-            output: curve.name.clone(),
-            unit: curve.unit.clone(),
-            low,
-            high,
-            first: curve.values.first().copied().flatten(),
-            last: curve.values.last().copied().flatten(),
-            percent: percent.filter(|percent| percent.is_finite()),
-            local,
+impl SweptOutput {
+    fn new(output: &Output) -> Self {
+        let (name, unit) = (output.name.to_string(), output.unit.to_string());
+        Self { name, unit, values: Vec::new(), gaps: Vec::new(), low: None, high: None, percent: None }
+    }
+
+    fn percent_of(&self, nominal: f64) -> Option<f64> {
+        let width = self.high? - self.low?;
+        Some(100.0 * (width / nominal.abs())).filter(|percent| percent.is_finite())
+    }
+}
+
+/// A model with its factors at their nominal values.
+struct Bench<'a> {
+    space: &'a Space,
+    outputs: &'a [Output],
+    executor: Executor<'a>,
+    batch: Batch,
+    /// Runs so far.
+    runs: u64,
+    /// For each validity flag: runs so far that raised it.
+    flags: Vec<u64>,
+}
+
+impl Bench<'_> {
+    /// Every output for each of `values` of one factor, in its unit.
+    fn curve(&mut self, factor: usize, values: &[f64]) -> Result<Vec<SweptOutput>, Halt> {
+        let factors = self.space.factors();
+        let mut swept: Vec<SweptOutput> = self.outputs.iter().map(SweptOutput::new).collect();
+        let most = self.executor.rows_at_once();
+        for (block, values) in values.chunks(most).enumerate() {
+            let nominal = |factor: &Factor| vec![factor.unit().to_si(factor.nominal); values.len()];
+            let mut columns: Vec<Vec<f64>> = factors.iter().map(nominal).collect();
+            columns[factor] = values.iter().map(|value| factors[factor].unit().to_si(*value)).collect();
+            let inputs: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
+            self.batch.reset(values.len());
+            self.executor.run_table(&inputs, &mut self.batch)?;
+            self.runs += values.len() as u64;
+            self.flags.iter_mut().zip(self.batch.flags()).for_each(|(sum, raised)| *sum += raised);
+            for (number, (output, swept)) in self.outputs.iter().zip(&mut swept).enumerate() {
+                let column = self.batch.column(number).iter();
+                swept.values.extend(column.map(|value| value.is_finite().then(|| output.unit.from_si(*value))));
+            }
+            for (output, row, reason) in self.batch.failures() {
+                swept[*output].gaps.push(Gap { place: block * most + row, reason: reason.to_string() });
+            }
         }
+        for swept in &mut swept {
+            let values = || swept.values.iter().copied().flatten();
+            (swept.low, swept.high) = (values().reduce(f64::min), values().reduce(f64::max));
+        }
+        Ok(swept)
     }
 }

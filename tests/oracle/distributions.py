@@ -185,24 +185,6 @@ def gamma_tails(shape):
     )
 
 
-def inverse_gaussian_tails(mean, scale):
-    def parts(x):
-        root = mp.sqrt(mp.mpf(scale) / x)
-        with mp.workdps(120):
-            far = mp.exp(2 * mp.mpf(scale) / mean) * mp.ncdf(-root * (x / mean + 1))
-        return root * (x / mean - 1), far
-
-    def below(x):
-        t, far = parts(x)
-        return mp.ncdf(t) + far
-
-    def above(x):
-        t, far = parts(x)
-        return mp.ncdf(-t) - far
-
-    return below, above
-
-
 def moved(tails, location, scale):
     below, above = tails
     return lambda x: below((x - location) / scale), lambda x: above((x - location) / scale)
@@ -241,19 +223,6 @@ def pareto_tails(shape, least):
 def t_density(df):
     constant = mp.gamma((df + 1) / mp.mpf(2)) / mp.gamma(df / mp.mpf(2)) / mp.sqrt(df * mp.pi)
     return lambda z: constant * (1 + z * z / mp.mpf(df)) ** (-(df + 1) / mp.mpf(2))
-
-
-def mixed(parts):
-    """Tails, mean and standard deviation of a mixture of (weight, tails, mean, sd)."""
-    total = mp.fsum(w for w, *_ in parts)
-    mean = mp.fsum(w * m for w, _, m, _ in parts) / total
-    variance = mp.fsum(w * (s * s + (m - mean) ** 2) for w, _, m, s in parts) / total
-    tails = tuple(lambda x, side=side: mp.fsum(w * t[side](x) for w, t, *_ in parts) / total for side in (0, 1))
-    return tails, mean, mp.sqrt(variance)
-
-
-def normal_tails(mean, sd):
-    return (lambda x: mp.ncdf((x - mean) / sd), lambda x: mp.ncdf((mean - x) / sd))
 
 
 class Histogram:
@@ -301,22 +270,12 @@ def truncated_cases():
         lambda x: mp.betainc(2, 5, 0, x, regularized=True),
         lambda x: mp.betainc(2, 5, x, 1, regularized=True),
     )
-    wald = inverse_gaussian_tails(mp.mpf(2), mp.mpf(3))
     ramp = (lambda x: (x / 2) ** 2, lambda x: (1 - x / 2) * (1 + x / 2))
     for name, keys, tails, density, (low, high), ends, middle in [
         ("logistic", dict(location=0, scale=1), logistic, lambda x: mp.exp(-abs(x)) / (1 + mp.exp(-abs(x))) ** 2, (-1, 6), (-1, 6), 1),
         ("exponential", dict(scale=1, location=0), exponential, lambda x: mp.exp(-x), (0.25, 3), (0.25, 3), 1),
         ("weibull", dict(shape=1.5, scale=1, location=0), weibull, lambda x: mp.mpf("1.5") * mp.sqrt(x) * mp.exp(-(x ** mp.mpf("1.5"))), (0.5, 2), (0.5, 2), 1),
         ("beta", dict(alpha=2, beta=5, min=0, max=1), beta, lambda x: 30 * x * (1 - x) ** 4, (0.25, 0.75), (0.25, 0.75), 0.4),
-        (
-            "inverse-gaussian",
-            dict(mean=2, scale=3),
-            wald,
-            lambda x: mp.sqrt(3 / (2 * mp.pi * x**3)) * mp.exp(-3 * (x - 2) ** 2 / (8 * x)),
-            (0.5, 8),
-            (0.5, 8),
-            2,
-        ),
         ("triangular", dict(min=0, mode=2, max=2), ramp, lambda x: x / 2, (0.5, 1.5), (0.5, 1.5), 1),
     ]:
         tails, moments = truncated(tails, low, high, density)
@@ -324,7 +283,7 @@ def truncated_cases():
 
 
 def exact_cases():
-    """(family, parameters, exact distribution) of the families that are solved for, and of truncations and mixtures."""
+    """(family, parameters, exact distribution) of the families that are solved for, and of truncations."""
     for a, s, x in [(0.01, 1, 0), (0.3, 2, 0), (1, 3, 1), (2.5, 1e-9, 0), (30, 1, -5), (1000, 0.5, 0)]:
         tails = moved(gamma_tails(mp.mpf(a)), mp.mpf(x), mp.mpf(s))
         ends = (x + s * mp.mpf(10) ** (-330 / a if a < 1 else -330), x + s * (a + 60 * mp.sqrt(a) + 800))
@@ -334,10 +293,6 @@ def exact_cases():
         end = 100 * s * mp.mpf(10) ** (330 / df)
         std = s * mp.sqrt(mp.mpf(df) / (mp.mpf(df) - 2))
         yield "student-t", dict(df=df, location=m, scale=s), Exact(*tails, (m - end, m + end), m, std)
-    for m, s in [(1, 1), (2, 1e-3), (1, 1e-6), (3e-9, 1e-8), (1, 50), (10, 1e5)]:
-        tails = inverse_gaussian_tails(mp.mpf(m), mp.mpf(s))
-        ends = (mp.mpf(10) ** -4 * min(m, s), m * (4 + 2000 * mp.mpf(m) / s))
-        yield "inverse-gaussian", dict(mean=m, scale=s), Exact(*tails, ends, m, m * mp.sqrt(mp.mpf(m) / s))
     inf = mp.inf
     for low, high in [(0.5, 2), (0, 0.1), (8, inf), (40, 41), (1e-3, inf)]:
         tails, moments = truncated(gamma_tails(mp.mpf(2)), low, high, gamma_density(2))
@@ -355,15 +310,6 @@ def exact_cases():
         yield "log-normal", dict(log_mean=m, log_sd=s, truncate=[low, high]), Exact(*tails, (low, high), *moments(1.5))
     tails, moments = truncated(pareto_tails(0.8, 2), 2, 1000, lambda x: mp.mpf("0.8") / x * (2 / x) ** mp.mpf("0.8"))
     yield "pareto", dict(shape=0.8, min=2, truncate=[-inf, 1000]), Exact(*tails, (2, 1000), *moments(30))
-    normals = [(3, 0, 1), (1, 5, mp.mpf("0.5"))]
-    tails, mean, std = mixed([(w, normal_tails(m, s), m, s) for w, m, s in normals])
-    components = [dict(distribution="normal", mean=m, sd=float(s)) for _, m, s in normals]
-    keys = dict(components=components, weights=[3, 1])
-    yield "mixture", keys, Exact(*tails, (-40, 40), mean, std)
-    parts = [(2, gamma_tails(mp.mpf(3)), 3, mp.sqrt(3)), (1, log_normal_tails(-10, 1), mp.exp(-9.5), mp.exp(-9.5) * mp.sqrt(mp.e - 1))]
-    tails, mean, std = mixed(parts)
-    components = [dict(distribution="gamma", shape=3, scale=1, location=0), dict(distribution="log-normal", log_mean=-10, log_sd=1)]
-    yield "mixture", dict(components=components, weights=[2, 1]), Exact(*tails, (mp.mpf(10) ** -30, 800), mean, std)
 
 
 CASES = [

@@ -81,9 +81,6 @@ def check_given(checks, ours, table):
     slides = [np.max(distances(x[:, j], y, 10)[:, 1:], axis=1) for j in range(3)]
     checks.close("given data: PAWN median, SciPy's distances", values["pawn_median"], np.median(slides, axis=1))
     checks.close("given data: PAWN max, SciPy's distances", values["pawn_max"], np.max(slides, axis=1))
-    fine = [distances(x[:, j], y, classes_for(len(y))) for j in range(3)]
-    mean = [np.average(np.max(ends[:, 1:], axis=1), weights=ends[:, 0]) for ends in fine]
-    checks.close("given data: Kolmogorov, SciPy's distances", values["kolmogorov"], mean)
     checks.close("given data: R2-HSIC, formula", values["r2_hsic"], [r2_hsic(x[:, j], y) for j in range(3)])
     if openturns is None:
         print("OpenTURNS is not installed: nothing compared with it")

@@ -1,7 +1,7 @@
 //! Indices from given data: exact answers, honest intervals, and every table that must be refused.
 
 use apportion::design::Sampler;
-use apportion::given::{Column, GivenError, GivenIndices, InputIndices, Method, NoVariance, PointSet, analyse};
+use apportion::given::{Column, GivenError, GivenIndices, InputIndices, NoVariance, PointSet, analyse};
 use apportion::model::{KnownAnswer, KnownFunction};
 use proptest::prelude::*;
 
@@ -30,13 +30,13 @@ fn evaluated(name: &str, columns: &Columns) -> Column {
     Column { name: "y".to_owned(), values: (0..columns[0].len()).map(at).collect() }
 }
 
-fn analysed(columns: Columns, y: Column, method: Method) -> Result<GivenIndices, GivenError> {
-    analyse(&named(columns), &[y], method, 0)
+fn analysed(columns: Columns, y: Column) -> Result<GivenIndices, GivenError> {
+    analyse(&named(columns), &[y], 0)
 }
 
 fn points_of(columns: Columns) -> Result<PointSet, GivenError> {
     let y = Column { name: "y".to_owned(), values: columns[0].iter().map(|x| x * x).collect() };
-    analysed(columns, y, Method::Both).map(|result| result.points)
+    analysed(columns, y).map(|result| result.points)
 }
 
 fn indices(result: &GivenIndices) -> &[InputIndices] {
@@ -51,9 +51,9 @@ fn coverage(function: &str, rows: usize, seeds: u64) -> ([f64; 2], [f64; 2]) {
     for seed in 0..seeds {
         let columns = random(exact.len(), rows, seed);
         let y = evaluated(function, &columns);
-        let result = analysed(columns, y, Method::Both).unwrap();
+        let result = analysed(columns, y).unwrap();
         for (index, exact) in indices(&result).iter().zip(&exact) {
-            let estimates = [index.rank.unwrap(), index.binned.unwrap().estimate];
+            let estimates = [index.rank.unwrap(), index.binned.estimate];
             for (k, estimate) in estimates.into_iter().enumerate() {
                 let interval = estimate.interval.unwrap();
                 held[k] += f64::from(interval.low <= *exact && *exact <= interval.high);
@@ -86,13 +86,13 @@ fn both_methods_converge_to_the_exact_indices() {
         for sample in [random, latin] {
             let columns = sample(exact.len(), 100_000, 1);
             let y = evaluated(function, &columns);
-            let result = analysed(columns, y, Method::Both).unwrap();
+            let result = analysed(columns, y).unwrap();
             assert_eq!(result.points, PointSet::Independent);
             for (index, exact) in indices(&result).iter().zip(&exact) {
                 // Standard errors are below 0.0045 by ranks (0.96/sqrt N times the effect of the fourth moment) and 0.003
                 // by bins; four of them.
                 assert!((index.rank.unwrap().estimate - exact).abs() < 0.018, "{index:?}, exactly {exact}");
-                assert!((index.binned.unwrap().estimate.estimate - exact).abs() < 0.012, "{index:?}, exactly {exact}");
+                assert!((index.binned.estimate.estimate - exact).abs() < 0.012, "{index:?}, exactly {exact}");
                 assert!(!index.disagree());
             }
         }
@@ -104,7 +104,7 @@ fn one_input_that_decides_everything_has_index_one() {
     for rows in [30, 300, 3000] {
         let columns = random(1, rows, 3);
         let y = Column { name: "y".to_owned(), values: columns[0].iter().map(|x| x.exp()).collect() };
-        let result = analysed(columns, y, Method::Both).unwrap();
+        let result = analysed(columns, y).unwrap();
         let rank = indices(&result)[0].rank.unwrap();
         let interval = rank.interval.unwrap();
         // The pair that closes the circle of ranks costs (e - 1)^2/2 of the variance 0.242, over N: 6.1/N, and the bound
@@ -124,17 +124,17 @@ fn discrete_inputs_are_inputs() {
         random(2, 4000, 9).iter().map(|c| c.iter().map(|u| f64::from(u8::from(*u < 0.5))).collect()).collect();
     let y =
         Column { name: "y".to_owned(), values: (0..4000).map(|k| 2.0 * coins[0][k] + coins[1][k] + 10.0).collect() };
-    let result = analysed(coins, y, Method::Both).unwrap();
+    let result = analysed(coins, y).unwrap();
     for (index, exact) in indices(&result).iter().zip([0.8, 0.2]) {
         // The standard error of both is 0.009 for S = 0.8 (0.4 x 0.4 ... of the coins' frequencies); four of them.
         assert!((index.rank.unwrap().estimate - exact).abs() < 0.036, "{index:?}");
-        assert!((index.binned.unwrap().estimate.estimate - exact).abs() < 0.036, "{index:?}");
-        assert_eq!(index.binned.unwrap().bins, 2);
+        assert!((index.binned.estimate.estimate - exact).abs() < 0.036, "{index:?}");
+        assert_eq!(index.binned.bins, 2);
     }
 }
 
 #[test]
-fn quasi_random_points_are_found_and_ranks_refused() {
+fn quasi_random_points_are_found_and_have_no_ranks() {
     let kinds: [(&str, Sample); 5] = [
         ("sobol", sobol),
         ("sobol plain", sobol_plain),
@@ -160,12 +160,10 @@ fn quasi_random_points_are_found_and_ranks_refused() {
     }
     let columns = sobol(3, 1024, 0);
     let y = evaluated("ishigami", &columns);
-    let error = analysed(columns.clone(), y.clone(), Method::Rank).unwrap_err();
-    assert!(matches!(&error, GivenError::RankRefused { reason } if reason.contains("too even")), "{error}");
-    let result = analysed(columns, y, Method::Both).unwrap();
+    let result = analysed(columns, y).unwrap();
     for (index, exact) in indices(&result).iter().zip(first_order("ishigami")) {
         assert_eq!(index.rank, None);
-        let binned = index.binned.unwrap().estimate;
+        let binned = index.binned.estimate;
         // Means over bins of a net are exact to a few permille; 32 bins lose 1.3 % of sin^2 over two periods.
         assert!((binned.estimate - exact).abs() < 0.012, "{index:?}, exactly {exact}");
         assert_eq!(binned.interval, None);
@@ -231,41 +229,41 @@ fn a_design_that_lost_rows_is_still_known() {
 #[test]
 fn dependence_between_inputs_is_seen() {
     let mut columns = random(3, 500, 1);
-    let independent = analysed(columns.clone(), evaluated("ishigami", &columns), Method::Both).unwrap();
+    let independent = analysed(columns.clone(), evaluated("ishigami", &columns)).unwrap();
     let dependence = independent.dependence.unwrap();
     assert!(!dependence.correlated() && dependence.uneven.is_none(), "{dependence:?}");
 
     columns[2] = columns[0].iter().zip(&columns[2]).map(|(a, b)| b - 0.5 * a).collect();
     let y = evaluated("ishigami", &columns);
-    let dependence = analysed(columns.clone(), y.clone(), Method::Both).unwrap().dependence.unwrap();
+    let dependence = analysed(columns.clone(), y.clone()).unwrap().dependence.unwrap();
     assert!(dependence.correlated());
     assert_eq!(dependence.strongest.inputs, ("x1".to_owned(), "x3".to_owned()));
     assert!((-0.6..-0.3).contains(&dependence.strongest.spearman), "{dependence:?}");
 
     // A parabola has no rank correlation.
     columns[2] = columns[0].iter().map(|a| (a - 0.5).powi(2)).collect();
-    let dependence = analysed(columns, y, Method::Both).unwrap().dependence.unwrap();
+    let dependence = analysed(columns, y).unwrap().dependence.unwrap();
     assert!(dependence.correlated() || dependence.uneven == Some(("x1".to_owned(), "x3".to_owned())), "{dependence:?}");
 }
 
 #[test]
 fn degenerate_tables_have_a_name() {
     let y = |n: usize| Column { name: "y".to_owned(), values: (0..n).map(|k| (k as f64).sin()).collect() };
-    assert_eq!(analysed(random(2, 29, 1), y(29), Method::Both), Err(GivenError::TooFewRows { rows: 29 }));
-    assert_eq!(analyse(&[], &[y(40)], Method::Both, 0), Err(GivenError::Nothing { inputs: 0, outputs: 1 }));
-    assert!(matches!(analysed(random(2, 40, 1), y(41), Method::Both), Err(GivenError::Length { found: 41, .. })));
+    assert_eq!(analysed(random(2, 29, 1), y(29)), Err(GivenError::TooFewRows { rows: 29 }));
+    assert_eq!(analyse(&[], &[y(40)], 0), Err(GivenError::Nothing { inputs: 0, outputs: 1 }));
+    assert!(matches!(analysed(random(2, 40, 1), y(41)), Err(GivenError::Length { found: 41, .. })));
     let mut columns = random(2, 40, 1);
     columns[1][7] = f64::NAN;
-    let error = analysed(columns, y(40), Method::Both).unwrap_err();
+    let error = analysed(columns, y(40)).unwrap_err();
     assert_eq!(error, GivenError::NotFinite { name: "x2".to_owned(), row: 8 });
 
     let constant = Column { name: "y".to_owned(), values: vec![0.1; 40] };
-    let result = analysed(random(2, 40, 1), constant, Method::Both).unwrap();
+    let result = analysed(random(2, 40, 1), constant).unwrap();
     assert_eq!(result.outputs[0].indices, Err(NoVariance::Constant));
 
     let mut columns = random(2, 40, 1);
     columns[1] = vec![5.0; 40];
-    let result = analysed(columns, y(40), Method::Both).unwrap();
+    let result = analysed(columns, y(40)).unwrap();
     assert_eq!(result.dependence, None);
     assert!(indices(&result)[1].constant);
     assert_eq!(indices(&result)[1].rank.unwrap().estimate, 0.0);
@@ -281,14 +279,14 @@ proptest! {
         let b = rows.iter().map(|r| f64::from(r.1)).collect();
         let values = rows.iter().map(|r| if r.2.is_finite() { r.2 } else { 0.0 }).collect();
         let y = Column { name: "y".to_owned(), values };
-        if let Ok(result) = analysed(vec![a, b], y, Method::Both) {
+        if let Ok(result) = analysed(vec![a, b], y) {
             for index in result.outputs[0].indices.iter().flatten() {
                 let rank = index.rank.map_or(0.0, |r| r.estimate);
                 prop_assert!(rank.is_finite() && rank <= 1.0 + 1e-12, "{index:?}");
                 if let Some(interval) = index.rank.and_then(|r| r.interval) {
                     prop_assert!(interval.low.is_finite() && interval.low <= interval.high);
                 }
-                prop_assert!(index.binned.is_none_or(|b| b.estimate.estimate.is_finite()), "{index:?}");
+                prop_assert!(index.binned.estimate.estimate.is_finite(), "{index:?}");
             }
         }
     }

@@ -2,9 +2,7 @@
 //! that must be refused.
 
 use apportion::Distribution;
-use apportion::given::{
-    Column, Method, NoVariance, SurrogateOutput, SurrogateRefusal, Surrogates, analyse, surrogate_indices,
-};
+use apportion::given::{Column, NoVariance, SurrogateOutput, SurrogateRefusal, Surrogates, analyse, surrogate_indices};
 use apportion::model::KnownAnswer;
 
 use crate::points::*;
@@ -21,7 +19,7 @@ fn evaluated(columns: &Columns, function: impl Fn(&[f64]) -> f64) -> Column {
 
 fn fitted(columns: &Columns, y: Column, known: Option<&[Distribution]>) -> Result<Surrogates, SurrogateRefusal> {
     let (inputs, outputs) = (named(columns), [y]);
-    let indices = analyse(&inputs, &outputs, Method::Both, 0).unwrap();
+    let indices = analyse(&inputs, &outputs, 0).unwrap();
     surrogate_indices(&inputs, &outputs, &indices, known)
 }
 

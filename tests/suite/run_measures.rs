@@ -1,7 +1,7 @@
 //! Other measures than Sobol' indices beside those of a run, from its first rows A and B.
 
 use crate::common::{Folder, apportion, run_in_parts, stderr, succeed, text};
-use ::apportion::given::{Column, Measure, Method, analyse, measures};
+use ::apportion::given::{Column, Measure, analyse, measures};
 use ::apportion::{
     AnalysisOptions, Distribution, MAX_ROWS_OF_MEASURES, Sampler, Study, SurrogateChoice, function_model,
 };
@@ -71,7 +71,7 @@ fn rows_of_a_run_are_given_data() {
     }
     assert_eq!(found.rows, y.len());
     let outputs = [Column { name: "y".to_owned(), values: y }];
-    let indices = analyse(&inputs, &outputs, Method::Both, 3).unwrap();
+    let indices = analyse(&inputs, &outputs, 3).unwrap();
     assert_eq!(measures(&inputs, &outputs, &indices, 3).remove(0).unwrap(), found.factors);
 }
 

@@ -161,7 +161,7 @@ fn labels_that_evaluate_wrote_are_read_by_the_study() {
     assert_eq!(inputs, ["a", "wet", "probe"]);
     assert_eq!((result.inputs[2].min, result.inputs[2].max), (0.0, 1.0));
     // V = 1/12 + 1/4 + 1: the probe has 3/4 of it.
-    let index = result.outputs[0].indices.as_ref().unwrap()[2].binned.as_ref().unwrap();
+    let index = result.outputs[0].indices.as_ref().unwrap()[2].binned;
     assert!((index.estimate.estimate - 0.75).abs() < 0.05, "{:?}", index.estimate);
     let without = given(&folder, "table.csv", &[]);
     assert_eq!(without.table.columns_left_out[0].name, "probe");

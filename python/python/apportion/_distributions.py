@@ -60,7 +60,6 @@ _REMARKS = {
     "exponential": "`scale` is the standard deviation, one over the rate.",
     "student-t": "More than 2 degrees of freedom, unless it is truncated on both sides.",
     "pareto": "`shape` is above 2, unless it is truncated above.",
-    "inverse-gaussian": "`scale` is the lambda of textbooks, and the variance is `mean**3 / scale`.",
     "seed": "A whole number from 0 to 2**31 - 1: the noise, which is none of the factors.",
 }
 _READ: dict[str, tuple[str, Callable[[Any], Any]]] = {
@@ -144,30 +143,11 @@ def Histogram(
     return Factor({"distribution": "histogram", **keys, "unit": unit, "group": group, "nominal": nominal})
 
 
-def Mixture(
-    components: Sequence[Any],
-    weights: Sequence[float] | None = None,
-    *,
-    unit: str | None = None,
-    group: str | None = None,
-    nominal: Any = None,
-) -> Factor:
-    """One of `components` (whatever stands for a factor), with `weights` (equal by default)."""
-    factors = [Factor.of(component) for component in components]
-    for factor in factors:
-        beside = [key for key in ("unit", "group", "nominal") if key in factor.keys]
-        if beside or factor.quantile is not None:
-            what = f"has {beside[0]}, which belongs to the mixture" if beside else "is known by its quantiles alone"
-            raise StudyError(f"{factor!r} cannot be in a mixture: it {what}")
-    keys = {"components": [factor.keys for factor in factors], "weights": _plain(weights)}
-    return Factor({"distribution": "mixture", **keys, "unit": unit, "group": group, "nominal": nominal})
-
-
 def from_scipy(distribution: Any, *, group: str | None = None) -> Factor:
     """A frozen distribution of `scipy.stats`, such as `stats.gamma(2)`, as a factor.
 
     Where the engine has the same one it becomes that: uniform, norm, loguniform, lognorm, triang, beta, weibull_min, gumbel_r,
-    gamma, expon, logistic, t (more than 2 degrees of freedom), pareto (of a shape above 2), invgauss, truncnorm, poisson and
+    gamma, expon, logistic, t (more than 2 degrees of freedom), pareto (of a shape above 2), truncnorm, poisson and
     randint, moved and stretched where that stays of the family; one of up to 1024 whole numbers, or of values with probabilities,
     becomes `Discrete`. Any other one becomes a number u between 0 and 1 to the
     engine, and the function gets `distribution.ppf(u)`: so it serves functions of Python, and no models of the engine.
@@ -215,8 +195,6 @@ def _of_engine(name: str, frozen: Any) -> Factor | None:
         return StudentT(a[0], loc, s)
     if name == "pareto" and at_zero and a[0] > 2.0:
         return Pareto(a[0], s)
-    if name == "invgauss" and at_zero:
-        return InverseGaussian(a[0] * s, s)
     if name == "truncnorm":
         return Normal(loc, s).truncated(loc + a[0] * s, loc + a[1] * s)
     if name == "poisson" and at_zero:

@@ -79,15 +79,12 @@ class Study:
         threads: int,
         progress: Callable[[int, int, int, int], None] | None,
     ) -> Document: ...
-    def sweep(
-        self, function: dict[str, Any] | None, stop: Stop, factors: list[str], points: int, against: str | None
-    ) -> Document: ...
+    def sweep(self, function: dict[str, Any] | None, stop: Stop, factors: list[str], points: int) -> Document: ...
 
 def given_data(
     inputs: tuple[list[str], NDArray[np.float64]],
     outputs: tuple[list[str], NDArray[np.float64]],
     *,
-    method: str,
     surrogate: bool,
     measures: bool,
     distributions: Study | None,

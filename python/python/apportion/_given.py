@@ -20,7 +20,6 @@ def given_data(
     inputs: Any,
     outputs: Any,
     *,
-    method: str = "both",
     surrogate: bool = False,
     measures: bool = False,
     factors: Mapping[str, Any] | None = None,
@@ -29,9 +28,9 @@ def given_data(
 ) -> Document:
     """Indices from rows that are independent draws, whoever made them: no design, and no further runs.
 
-    `inputs` and `outputs` are mappings from names to (rows,), `pandas.DataFrame`s, or arrays of (rows, columns). `method` is
-    "rank", "binned" or "both". With `surrogate` there are total indices too; `factors` tells it the distributions. `measures`
-    adds Borgonovo's delta, the distance of Kolmogorov, PAWN, R2-HSIC and S_1 by the spectrum, with p-values.
+    `inputs` and `outputs` are mappings from names to (rows,), `pandas.DataFrame`s, or arrays of (rows, columns). With
+    `surrogate` there are total indices too; `factors` tells it the distributions. `measures`
+    adds Borgonovo's delta, PAWN, R2-HSIC and S_1 by the spectrum, with p-values.
     A `StudyError` names the column that holds no numbers, or entries that are NaN, infinite, masked or missing.
     """
     x, y = _table(inputs, "x", "the inputs"), _table(outputs, "y", "the outputs")
@@ -39,7 +38,7 @@ def given_data(
     digest = hashlib.sha256(x[1].tobytes() + y[1].tobytes()).hexdigest()
     study = None if factors is None else Study(None, factors)._study
     document = _engine.given_data(
-        x, y, method=method, surrogate=surrogate, measures=measures, distributions=study, seed=seed, name=name, sha256=digest
+        x, y, surrogate=surrogate, measures=measures, distributions=study, seed=seed, name=name, sha256=digest
     )
     return Document(document)
 

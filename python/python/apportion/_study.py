@@ -316,11 +316,11 @@ class Study:
         )
         return Document(document)
 
-    def sweep(self, *factors: str, points: int = 101, against: str | None = None) -> Document:
+    def sweep(self, *factors: str, points: int = 101) -> Document:
         """One factor at a time over its range, every other at its nominal value; all of them if none is named."""
         points = whole("points", points, 2, _MOST_POINTS)
         stop = _engine.Stop()
-        return Document(self._study.sweep(self._function(stop, None, None), stop, list(factors), points, against))
+        return Document(self._study.sweep(self._function(stop, None, None), stop, list(factors), points))
 
     def _function(self, stop: _engine.Stop, executor: Any, in_flight: int | None) -> dict[str, Any] | None:
         """What the engine calls."""

@@ -37,9 +37,6 @@ pub enum Measure {
     /// input is known. From shares of values and kernel densities in classes of the input (Plischke, Borgonovo and Smith 2013,
     /// Eur. J. Oper. Res. 226, 536-550), less what chance would put there.
     Delta = "delta",
-    /// The mean over classes of the input of the largest distance between the distribution functions of the output in the class
-    /// and overall: Baucells and Borgonovo (2013), Manage. Sci. 59, 2536-2549.
-    Kolmogorov = "kolmogorov",
     /// The median over ten classes of the input of the distance of Kolmogorov and Smirnov: PAWN, Pianosi and Wagener (2018),
     /// Environ. Model. Softw. 108, 197-207.
     PawnMedian = "pawn_median",
@@ -58,7 +55,6 @@ impl Measure {
         match self {
             Self::Fourier => "S_1, Fourier",
             Self::Delta => "delta",
-            Self::Kolmogorov => "Kolmogorov",
             Self::PawnMedian => "PAWN median",
             Self::PawnMax => "PAWN max",
             Self::Hsic => "R2-HSIC",
@@ -126,7 +122,7 @@ const FINER_PERMUTATIONS: usize = 40;
 const PAWN_CLASSES: usize = 10;
 
 /// What is measured by permutations: all but the kernels.
-const PERMUTED: usize = 5;
+const PERMUTED: usize = 4;
 
 /// The measures of every output with respect to every input, of the columns that gave `indices`.
 ///
@@ -185,8 +181,6 @@ struct Job<'a> {
 
 /// Classes of the rows by one input.
 struct Classes {
-    /// Of the mean distance.
-    fine: Partition,
     /// Those of delta, and twice as many.
     delta: [Partition; 2],
     /// Those of PAWN.
@@ -199,13 +193,13 @@ impl Classes {
         // Shares of values need fewer rows than densities, and lose more of an output that goes on inside a class.
         let of_delta = if has_atoms { 2 * count } else { count };
         let delta = [of_delta, 2 * of_delta].map(|count| order.classes(count));
-        Self { fine: order.classes(count), delta, coarse: order.classes(PAWN_CLASSES) }
+        Self { delta, coarse: order.classes(PAWN_CLASSES) }
     }
 
     /// The classes with the rows in another order.
     fn permuted(&self, rows: &[usize]) -> Self {
         let permuted = |(labels, count): &Partition| (rows.iter().map(|&row| labels[row]).collect(), *count);
-        Self { fine: permuted(&self.fine), delta: self.delta.each_ref().map(permuted), coarse: permuted(&self.coarse) }
+        Self { delta: self.delta.each_ref().map(permuted), coarse: permuted(&self.coarse) }
     }
 }
 
@@ -218,7 +212,7 @@ struct Chance {
     finer_delta: f64,
 }
 
-/// Classes for delta and the mean distances (Plischke, Borgonovo and Smith 2013, as in SALib): at most 48.
+/// Classes for delta (Plischke, Borgonovo and Smith 2013, as in SALib): at most 48.
 fn classes_for(rows: usize) -> usize {
     let rows = rows as f64;
     let power = 2.0 / (7.0 + libm::tanh((1500.0 - rows) / 500.0));
@@ -291,15 +285,13 @@ impl<'a> Job<'a> {
 
     /// All but the kernels, of the rows in the order of the input.
     fn plain(&self, order: &Order, classes: &Classes, rows: &[usize]) -> [f64; PERMUTED] {
-        let fine = distances(&self.order, &classes.fine);
-        let mut slides: Vec<f64> = distances(&self.order, &classes.coarse).iter().map(|of| of.largest).collect();
+        let mut slides = distances(&self.order, &classes.coarse);
         slides.sort_by(f64::total_cmp);
         let middle = slides.len() / 2;
         let median = if slides.len() % 2 == 1 { slides[middle] } else { (slides[middle - 1] + slides[middle]) / 2.0 };
         [
             fourier::first_order(&rows.iter().map(|&row| self.z[row]).collect::<Vec<f64>>(), order.starts()),
             if self.wants(Measure::Delta) { self.plain_delta(&classes.delta[0], 1.0) } else { f64::NAN },
-            fine.iter().map(|distance| distance.rows * distance.largest).sum::<f64>() / self.z.len() as f64,
             median,
             slides[slides.len() - 1],
         ]

@@ -11,7 +11,6 @@ use std::process::ExitStatus;
 use std::sync::atomic::Ordering;
 use std::time::Duration;
 
-use super::line_to_change::line_to_change;
 use super::process::{Ending, Event, Process};
 use super::program::status_in_words;
 use super::protocol::{is_answer_without_number, parse_answer};
@@ -156,12 +155,14 @@ impl<'a> KeptAliveWorker<'a> {
             },
         };
         if !model.state.has_answered() || is_answer_without_number(protocol, &model.names, line) {
-            let program = &model.settings.program;
-            let change = line_to_change(program, protocol, &model.names);
+            let change = match protocol {
+                Protocol::Csv => r#"print(row["id"], y, sep=",", flush=True)"#,
+                Protocol::JsonLines => r#"print(json.dumps({"id": row["id"], "y": y}), flush=True)"#,
+            };
             let reason = format!(
                 "the program printed a line without the number of its row: {words}. Each row begins with its number, `id`, and each \
-                 answer with that of its row: {change}. All other output belongs on standard error \
-                 (docs/worker-protocol.md)"
+                 answer with that of its row, in Python as in `{change}` (other languages: docs/worker-protocol.md). All other output \
+                 belongs on standard error"
             );
             return Err(Fault::GiveUp(GiveUp { reason: RowFailure::new(&reason), is_bad_input: true }));
         }

@@ -6,12 +6,10 @@
 
 mod json_answer;
 mod kept_alive;
-mod line_to_change;
 mod per_run;
 mod pick;
 mod process;
 mod program;
-mod program_files;
 mod protocol;
 mod row;
 mod standard_error;
@@ -22,8 +20,7 @@ use std::time::Duration;
 
 pub use per_run::PerRun;
 pub use pick::{Match, Pick, Source, Way};
-pub use program::Program;
-pub use program_files::{imported_neighbours, program_files};
+pub use program::{Program, program_files};
 pub use protocol::{Protocol, parse_answer};
 pub use template::{InputTemplate, TemplateError, TemplateProblem};
 

@@ -63,6 +63,17 @@ impl Program {
     }
 }
 
+/// The existing files among the program and its arguments. What a program reads or imports besides is not among them.
+pub fn program_files(program: &Program) -> Vec<PathBuf> {
+    let arguments = program.arguments.iter().enumerate();
+    // A program without a slash is looked for in PATH.
+    let arguments = arguments.filter(|(place, _)| *place > 0 || program.file().is_some());
+    let paths = arguments.map(|(_, argument)| program.directory.join(argument).components().collect::<PathBuf>());
+    let mut files: Vec<PathBuf> = paths.filter(|path| path.is_file()).collect();
+    files.dedup();
+    files
+}
+
 /// Gives the child a process group, so that it can be ended with all that it starts; on Linux it is also ended by the
 /// system when the thread that started it ends, as when the engine is killed.
 #[cfg(unix)]

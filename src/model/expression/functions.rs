@@ -116,52 +116,6 @@ pub(super) fn number(name: &str) -> Option<f64> {
     NUMBERS.into_iter().find(|(other, _)| *other == name).map(|(_, number)| number)
 }
 
-/// What a name of Python's modules stands for.
-pub(super) enum Member {
-    Function(Function),
-    Number(f64),
-}
-
-/// Functions of NumPy and of Python's `math` that have another name here, or none.
-const PYTHON: [Named; 17] = [
-    // In Python always the natural one.
-    ("log", one("ln", libm::log).1),
-    ("arcsin", one("asin", libm::asin).1),
-    ("arccos", one("acos", libm::acos).1),
-    ("arctan", one("atan", libm::atan).1),
-    ("arctan2", two("atan2", libm::atan2).1),
-    ("absolute", one("abs", f64::abs).1),
-    ("fabs", one("abs", f64::abs).1),
-    one("square", square),
-    two("power", libm::pow),
-    ("pow", two("power", libm::pow).1),
-    ("maximum", several("max", largest).1),
-    ("minimum", several("min", least).1),
-    ("where", Function::Select),
-    // Python rounds halves to even numbers.
-    ("round", one("rint", f64::round_ties_even).1),
-    one("rint", f64::round_ties_even),
-    one("radians", f64::to_radians),
-    one("degrees", f64::to_degrees),
-];
-
-/// What `name`, such as `np.sin` or `math.pi`, stands for.
-pub(super) fn member(name: &str) -> Option<Member> {
-    let (module, name) = name.split_once('.')?;
-    if !matches!(module, "np" | "numpy" | "math") {
-        return None;
-    }
-    let python = PYTHON.into_iter().find(|(other, _)| *other == name).map(|(_, function)| function);
-    // No module has a function of these names that means the same: NumPy's min and max are of one array.
-    let function = python.or_else(|| named(name).filter(|_| !matches!(name, "if" | "min" | "max" | "ln")));
-    let number = || if name == "e" { Some(std::f64::consts::E) } else { number(name) };
-    function.map(Member::Function).or_else(|| number().map(Member::Number))
-}
-
-fn square(x: f64) -> f64 {
-    x * x
-}
-
 pub(super) fn vocabulary() -> Vec<&'static str> {
     FUNCTIONS.into_iter().map(|(name, _)| name).chain(NUMBERS.into_iter().map(|(name, _)| name)).collect()
 }

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::Symbol;
 use super::error::{ExpressionError, ExpressionProblem};
-use super::functions::{self, Function, Member};
+use super::functions::{self, Function};
 use super::program::{Comparison, Program, Step};
 use super::token::{Token, tokens};
 
@@ -65,7 +65,7 @@ impl Parser<'_> {
     fn expected(&self, expected: &'static str) -> ExpressionError {
         let found = match self.peek() {
             Token::Number(number) => format!("the number {number}"),
-            Token::Name(name) | Token::Member(name) => format!("`{name}`"),
+            Token::Name(name) => format!("`{name}`"),
             Token::Sign(sign) => format!("`{sign}`"),
             Token::End => "the end of the formula".to_owned(),
         };
@@ -170,25 +170,6 @@ impl Parser<'_> {
                 }
                 let function = self.function(&name, place.clone())?;
                 self.call(&name, function, place)
-            }
-            Token::Member(name) => {
-                let place = self.place();
-                self.advance();
-                let is_call = self.take("(");
-                let problem = match functions::member(&name) {
-                    Some(Member::Function(function)) if is_call => return self.call(&name, function, place),
-                    Some(Member::Number(number)) if !is_call => {
-                        self.program.push(Step::Number(number));
-                        return Ok(());
-                    }
-                    Some(Member::Function(function)) => {
-                        ExpressionProblem::NoArguments { name, arguments: function.arguments() }
-                    }
-                    Some(Member::Number(_)) => ExpressionProblem::NotAFunction(name),
-                    None if is_call => ExpressionProblem::UnknownFunction(name),
-                    None => ExpressionProblem::UnknownName(name),
-                };
-                Err(ExpressionError { problem, place })
             }
             Token::Sign("(") => {
                 self.advance();

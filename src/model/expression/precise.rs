@@ -65,21 +65,8 @@ impl Expression {
     }
 }
 
-/// Formulas in 320 bits as a second calculation.
-pub(crate) struct PreciseFormulas {
-    formulas: Vec<Expression>,
-    /// The values of all inputs, where the factors have not overwritten them.
-    base: Vec<f64>,
-    /// For each factor of the space: the input it drives.
-    factors: Vec<usize>,
-}
-
-impl PreciseFormulas {
-    /// `formulas` of inputs with the values `base`, of which the factors drive those numbered in `factors`.
-    pub fn new(formulas: Vec<Expression>, base: Vec<f64>, factors: Vec<usize>) -> Self {
-        Self { formulas, base, factors }
-    }
-}
+/// Formulas of the factors in 320 bits as a second calculation.
+pub(crate) struct PreciseFormulas(pub Vec<Expression>);
 
 impl SecondCalculation for PreciseFormulas {
     fn name(&self) -> String {
@@ -87,9 +74,7 @@ impl SecondCalculation for PreciseFormulas {
     }
 
     fn calculate(&self, x: &[f64], _: &Answered) -> Vec<Result<Reference, Unchecked>> {
-        let mut inputs = self.base.clone();
-        self.factors.iter().zip(x).for_each(|(&input, &value)| inputs[input] = value);
-        self.formulas.iter().map(|formula| reference(formula, &inputs)).collect()
+        self.0.iter().map(|formula| reference(formula, x)).collect()
     }
 }
 
@@ -109,7 +94,7 @@ pub(crate) fn reference(formula: &Expression, x: &[f64]) -> Result<Reference, Un
 fn is_rounded(step: &Step) -> bool {
     match step {
         Step::Input(_) | Step::Number(_) | Step::Negate | Step::Compare(_) | Step::Select => false,
-        Step::One(OfOne { name, .. }) => !matches!(*name, "abs" | "floor" | "ceil" | "round" | "rint"),
+        Step::One(OfOne { name, .. }) => !matches!(*name, "abs" | "floor" | "ceil" | "round"),
         Step::Two(OfTwo { name, .. }) => !matches!(*name, "min" | "max"),
         _ => true,
     }
@@ -153,7 +138,6 @@ fn evaluate(step: Step, operands: &[BigFloat], x: &[f64], c: &mut Consts) -> Opt
 
 fn of_one(name: &str, x: &BigFloat, c: &mut Consts) -> Option<BigFloat> {
     let is_tiny = x.exponent().is_none_or(|exponent| exponent < TINY);
-    let half_turn = number(180.0);
     Some(match name {
         "sin" => x.sin(BITS, ToEven, c),
         "cos" => x.cos(BITS, ToEven, c),
@@ -173,22 +157,17 @@ fn of_one(name: &str, x: &BigFloat, c: &mut Consts) -> Option<BigFloat> {
         "log10" => x.log10(BITS, ToEven, c),
         "sqrt" => x.sqrt(BITS, ToEven),
         "cbrt" => x.cbrt(BITS, ToEven),
-        "square" => x.mul(x, BITS, ToEven),
         "abs" => x.abs(),
         "floor" => x.floor(),
         "ceil" => x.ceil(),
         "round" if x.is_negative() => x.sub(&number(0.5), WIDE, ToEven).ceil(),
         "round" => x.add(&number(0.5), WIDE, ToEven).floor(),
-        "rint" => x.round(0, ToEven),
-        "radians" => x.mul(&c.pi(BITS, ToEven), BITS, ToEven).div(&half_turn, BITS, ToEven),
-        "degrees" => x.mul(&half_turn, BITS, ToEven).div(&c.pi(BITS, ToEven), BITS, ToEven),
         _ => return None,
     })
 }
 
 fn of_two(name: &str, a: &BigFloat, b: &BigFloat, c: &mut Consts) -> Option<BigFloat> {
     Some(match name {
-        "power" => a.pow(b, BITS, ToEven, c),
         "hypot" => a.mul(a, BITS, ToEven).add(&b.mul(b, BITS, ToEven), BITS, ToEven).sqrt(BITS, ToEven),
         "min" | "max" if a.is_nan() || b.is_nan() => number(f64::NAN),
         "min" => (if a < b { a } else { b }).clone(),

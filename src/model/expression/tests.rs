@@ -51,34 +51,12 @@ fn operators_bind_as_in_mathematics() {
     }
 }
 
-/// Formulas come from Python, where these names have one meaning.
 #[test]
-fn functions_of_numpy_and_math_are_understood() {
-    let cases: [(&str, f64); 12] = [
-        ("np.sin(x) - sin(x)", 0.0),
-        ("math.sqrt(y) + numpy.pi - pi", 2.0),
-        ("np.log(math.e)", 1.0),
-        ("math.log10(100)", 2.0),
-        ("np.power(x, 2) - math.pow(x, 2)", 0.0),
-        ("np.maximum(x, y) + np.minimum(x, y)", 7.0),
-        ("np.where(x > 2, 10, 20)", 10.0),
-        ("np.arctan2(0, -1) - pi", 0.0),
-        ("np.arcsin(1) - math.asin(1)", 0.0),
-        ("np.square(x)", 9.0),
-        ("np.round(2.5) + round(2.5)", 5.0),
-        ("np.degrees(np.radians(90))", 90.0),
-    ];
-    for (text, expected) in cases {
-        assert!((value(text, &[3.0, 4.0]) - expected).abs() < 1e-15, "{text}");
-    }
+fn names_with_points_are_nothing() {
     for (text, message, place) in [
-        ("np.sinn(x)", "there is no function `np.sinn`", "np.sinn"),
+        ("np.sin(x)", "there is no function `np.sin`", "np.sin"),
         ("1 + scipy.special.erf(x)", "there is no function `scipy.special.erf`", "scipy.special.erf"),
         ("np.x1", "there is no `np.x1`", "np.x1"),
-        ("np.sin", "`np.sin` is a function: write np.sin(x)", "np.sin"),
-        ("np.pi(2)", "`np.pi` is no function", "np.pi"),
-        ("np.min(x, y)", "there is no function `np.min`", "np.min"),
-        ("np.sin(x, y)", "`np.sin` takes one argument, not 2", "np.sin(x, y)"),
         ("np.", "`.` is no number", "."),
     ] {
         let error = Expression::parse(text, &symbol).expect_err(text);
@@ -187,7 +165,6 @@ proptest! {
             "x + y - x", "x*y - y*x + a", "(x^3 - y^2)/(y + 4)", "sin(x)*exp(-y) + cos(a*x)", "sqrt(y)*cbrt(a) - ln(y)",
             "y^x + tanh(a/100)", "atan2(x, y) + hypot(x, a)", "max(x, y, a) - min(x, y)", "if(x < 0, log10(y), log2(y))",
             "abs(x) + floor(a) - round(y)", "expm1(x) + log1p(y) + sinh(x) - cosh(x)", "asin(x/3) - acos(x/3) + tan(x/3)",
-            "np.square(x) + np.power(y, 2.5) + math.radians(a)",
         ];
         for text in formulas {
             let formula = Expression::parse(text, &symbol).unwrap();
@@ -225,7 +202,7 @@ fn precise_values_are_those_of_mathematics() {
         ("atan2(x, -1)", 1e-300, std::f64::consts::PI),
         ("atan2(x, 0)", -2.0, -std::f64::consts::FRAC_PI_2),
         ("atan2(x, -1)", -1.0, -0.75 * std::f64::consts::PI),
-        ("round(x) + np.rint(x)", -2.5, -5.0),
+        ("round(x)", -2.5, -3.0),
         ("floor(x) + ceil(x)", -0.5, -1.0),
         ("x^-3 + (-8)^(x + 1)", 2.0, 0.125 - 512.0),
         ("exp(x)", -1e300, 0.0),

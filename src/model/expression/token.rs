@@ -8,9 +8,8 @@ use super::error::{ExpressionError, ExpressionProblem};
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Token {
     Number(f64),
+    /// A name, or several joined by points, as in `np.sin`, which nothing is called.
     Name(String),
-    /// Names joined by points, as in `np.sin`.
-    Member(String),
     Sign(&'static str),
     End,
 }
@@ -45,8 +44,7 @@ pub(super) fn tokens(text: &str) -> Result<Vec<(Token, Range<usize>)>, Expressio
             length
         } else if begins_name(first) {
             let length = dotted_length(rest);
-            let name = rest[..length].to_owned();
-            tokens.push((if name.contains('.') { Token::Member(name) } else { Token::Name(name) }, at..at + length));
+            tokens.push((Token::Name(rest[..length].to_owned()), at..at + length));
             length
         } else if let Some(sign) = SIGNS.into_iter().find(|sign| rest.starts_with(sign)) {
             let plain = match sign {

@@ -51,10 +51,6 @@ impl Function for Borehole {
         Some(if all_positive(x) { radii } else { "an input is not positive" })
     }
 
-    fn expression(&self) -> String {
-        "2*pi*Tu*(Hu - Hl)/(ln(r/rw)*(1 + 2*L*Tu/(ln(r/rw)*rw^2*Kw) + Tu/Tl))".to_owned()
-    }
-
     fn exact(&self) -> Exact {
         // S_i and ST_i.
         let indices = [

@@ -1,6 +1,6 @@
 //! The alternating sum of products of Bratley, Fox and Niederreiter.
 
-use super::function::{product, sum, unit_cube, xs};
+use super::function::unit_cube;
 use super::parameters::FINITE;
 use super::{Entry, Exact, Function, Made, ParameterInfo};
 
@@ -37,11 +37,6 @@ impl Function for Bratley {
             sum += product;
         }
         sum
-    }
-
-    fn expression(&self) -> String {
-        let term = |length: usize| product(xs(length).map(|x| format!("(-{x})")));
-        sum((1..=self.d).map(term))
     }
 
     fn exact(&self) -> Exact {

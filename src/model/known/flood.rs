@@ -50,10 +50,6 @@ impl Function for Flood {
         Some(if all_positive(x) { "the bed of the river does not fall: Zm <= Zv" } else { "an input is not positive" })
     }
 
-    fn expression(&self) -> String {
-        "Zv + (Q/(B*Ks*sqrt((Zm - Zv)/L)))^0.6 - Hd - Cb".to_owned()
-    }
-
     fn exact(&self) -> Exact {
         // S_i and ST_i.
         let indices = [

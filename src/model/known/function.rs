@@ -26,10 +26,6 @@ pub trait Function: Send + Sync {
     /// The value at `x`, which has one entry per input; NaN where there is none. Allocates nothing.
     fn value(&self, x: &[f64]) -> f64;
 
-    /// The value once more, where there is one: a formula of the inputs by their names in the language of
-    /// [`Expression`](crate::model::Expression), to check it by in more digits.
-    fn expression(&self) -> String;
-
     /// Why there is no value at `x`, where the function can say so: a sentence without a full stop.
     fn reason(&self, _x: &[f64]) -> Option<&'static str> {
         None
@@ -84,24 +80,4 @@ pub(super) fn uniform(min: f64, max: f64) -> Distribution {
 /// Whether every entry is finite and greater than 0.
 pub(super) fn all_positive(x: &[f64]) -> bool {
     x.iter().all(|&x| x > 0.0 && x < f64::INFINITY)
-}
-
-/// `number` as formulas are written.
-pub(super) fn written(number: f64) -> String {
-    format!("({number:?})")
-}
-
-/// The sum of `terms`.
-pub(super) fn sum(terms: impl IntoIterator<Item = String>) -> String {
-    terms.into_iter().collect::<Vec<_>>().join(" + ")
-}
-
-/// The product of `factors`, each of which is written as one thing.
-pub(super) fn product(factors: impl IntoIterator<Item = String>) -> String {
-    factors.into_iter().collect::<Vec<_>>().join("*")
-}
-
-/// The names x1 to xd.
-pub(super) fn xs(count: usize) -> impl Iterator<Item = String> {
-    (1..=count).map(|number| format!("x{number}"))
 }

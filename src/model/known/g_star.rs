@@ -1,6 +1,6 @@
 //! The modified Sobol' G.
 
-use super::function::{product, unit_cube, written, xs};
+use super::function::unit_cube;
 use super::parameters::{DIMENSION, NOT_NEGATIVE, PORTION, POSITIVE};
 use super::{Entry, Exact, Function, Made, ParameterInfo};
 
@@ -49,15 +49,6 @@ impl Function for GStar {
             product *= ((1.0 + alpha) * bent + a) / (1.0 + a);
         }
         product
-    }
-
-    fn expression(&self) -> String {
-        let parameters = self.a.iter().zip(&self.delta).zip(&self.alpha);
-        product(xs(self.a.len()).zip(parameters).map(|(x, ((&a, &delta), &alpha))| {
-            let [a, delta, alpha] = [a, delta, alpha].map(written);
-            let part = format!("({x} + {delta} - floor({x} + {delta}))");
-            format!("(((1 + {alpha})*abs(2*{part} - 1)^{alpha} + {a})/(1 + {a}))")
-        }))
     }
 
     fn exact(&self) -> Exact {

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::function::{alike, uniform, written};
+use super::function::{alike, uniform};
 use super::parameters::FINITE;
 use super::{Entry, Exact, Function, Made, ParameterInfo};
 
@@ -33,10 +33,6 @@ struct Ishigami {
 impl Function for Ishigami {
     fn value(&self, x: &[f64]) -> f64 {
         libm::sin(x[0]) + self.a * libm::sin(x[1]).powi(2) + self.b * x[2].powi(4) * libm::sin(x[0])
-    }
-
-    fn expression(&self) -> String {
-        format!("sin(x1) + {}*sin(x2)^2 + {}*x3^4*sin(x1)", written(self.a), written(self.b))
     }
 
     fn exact(&self) -> Exact {

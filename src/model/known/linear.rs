@@ -1,6 +1,6 @@
 //! A weighted sum.
 
-use super::function::{sum, unit_cube, written, xs};
+use super::function::unit_cube;
 use super::parameters::{DIMENSION, FINITE};
 use super::{Entry, Exact, Function, Made, ParameterInfo};
 
@@ -30,10 +30,6 @@ struct Linear {
 impl Function for Linear {
     fn value(&self, x: &[f64]) -> f64 {
         x.iter().zip(&self.c).map(|(x, c)| c * x).sum()
-    }
-
-    fn expression(&self) -> String {
-        sum(xs(self.c.len()).zip(&self.c).map(|(x, &c)| format!("{}*{x}", written(c))))
     }
 
     fn exact(&self) -> Exact {

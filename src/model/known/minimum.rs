@@ -1,6 +1,6 @@
 //! The smallest of several inputs.
 
-use super::function::{unit_cube, xs};
+use super::function::unit_cube;
 use super::parameters::Range;
 use super::{Entry, Exact, Function, Made, ParameterInfo};
 
@@ -30,10 +30,6 @@ struct Minimum {
 impl Function for Minimum {
     fn value(&self, x: &[f64]) -> f64 {
         x.iter().copied().fold(f64::INFINITY, f64::min)
-    }
-
-    fn expression(&self) -> String {
-        format!("min({})", xs(self.d).collect::<Vec<_>>().join(", "))
     }
 
     fn exact(&self) -> Exact {

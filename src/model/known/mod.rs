@@ -37,8 +37,6 @@ pub use parameters::{MAX_INPUTS, ParameterError, ParameterInfo, ParameterValue};
 use function::Made;
 use parameters::Given;
 
-use super::{Expression, Symbol};
-
 /// What the list of functions holds of each.
 struct Entry {
     name: &'static str,
@@ -188,15 +186,6 @@ impl KnownFunction {
     /// The value at `x`, which has one entry per input; NaN where there is none.
     pub fn value(&self, x: &[f64]) -> f64 {
         self.function.value(x)
-    }
-
-    /// The value as a formula of the inputs, by their numbers: another way to compute it where there is one.
-    ///
-    /// # Panics
-    /// Never: a test goes through all of them.
-    pub fn expression(&self) -> Expression {
-        let symbol = |name: &str| self.inputs.iter().position(|input| input.name == name).map(Symbol::Input);
-        Expression::parse(&self.function.expression(), &symbol).expect("formulas of this program")
     }
 
     /// Why there is no value at `x`, where the function can say so.

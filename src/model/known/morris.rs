@@ -1,6 +1,6 @@
 //! Morris's function of twenty inputs.
 
-use super::function::{product, sum, unit_cube, written};
+use super::function::unit_cube;
 use super::{Entry, Exact, Function, Made};
 
 pub(super) const ENTRY: Entry = Entry {
@@ -61,16 +61,6 @@ impl Function for Morris {
             }
         }
         sum
-    }
-
-    fn expression(&self) -> String {
-        let bent_or_not = |i: usize| match bent(i) {
-            true => format!("(2*(1.1*x{0}/(x{0} + 0.1) - 0.5))", i + 1),
-            false => format!("(2*(x{} - 0.5))", i + 1),
-        };
-        let term =
-            |(set, b): (Vec<usize>, f64)| format!("{}*{}", written(b), product(set.into_iter().map(bent_or_not)));
-        sum(terms().into_iter().map(term))
     }
 
     fn exact(&self) -> Exact {

@@ -4,7 +4,7 @@ use std::sync::LazyLock;
 
 use serde::Deserialize;
 
-use super::function::{alike, sum, written, xs};
+use super::function::alike;
 use super::{Entry, Exact, Function, Made};
 use crate::space::Distribution;
 
@@ -54,16 +54,6 @@ impl Function for OakleyOHagan {
             sum += c.a1[i] * x[i] + c.a2[i] * sin + c.a3[i] * cos + x[i] * quadratic;
         }
         sum
-    }
-
-    fn expression(&self) -> String {
-        let c = &*CONSTANTS;
-        let names: Vec<String> = xs(INPUTS).collect();
-        sum(c.m.chunks_exact(INPUTS).zip(&names).enumerate().map(|(i, (row, x))| {
-            let [a1, a2, a3] = [c.a1[i], c.a2[i], c.a3[i]].map(written);
-            let quadratic = sum(row.iter().zip(&names).map(|(&m, other)| format!("{}*{other}", written(m))));
-            format!("{a1}*{x} + {a2}*sin({x}) + {a3}*cos({x}) + {x}*({quadratic})")
-        }))
     }
 
     fn exact(&self) -> Exact {

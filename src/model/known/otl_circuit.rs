@@ -41,11 +41,6 @@ impl Function for OtlCircuit {
         Some("an input is not positive")
     }
 
-    fn expression(&self) -> String {
-        let c = "(beta*(Rc2 + 9))";
-        format!("(12*Rb2/(Rb1 + Rb2) + 0.74)*{c}/({c} + Rf) + 11.35*Rf/({c} + Rf) + 0.74*Rf*{c}/(({c} + Rf)*Rc1)")
-    }
-
     fn exact(&self) -> Exact {
         // S_i and ST_i.
         let indices = [

@@ -46,12 +46,6 @@ impl Function for Piston {
         Some("an input is not positive")
     }
 
-    fn expression(&self) -> String {
-        let a = "(P0*S + 19.62*M - k*V0/S)";
-        let v = format!("(S/(2*k)*(sqrt({a}^2 + 4*k*P0*V0*Ta/T0) - {a}))");
-        format!("2*pi*sqrt(M/(k + S^2*P0*V0*Ta/(T0*{v}^2)))")
-    }
-
     fn exact(&self) -> Exact {
         // S_i and ST_i.
         let indices = [

@@ -1,6 +1,5 @@
 //! A product of normal inputs.
 
-use super::function::{product, xs};
 use super::parameters::{DIMENSION, FINITE, POSITIVE};
 use super::{Entry, Exact, Function, KnownInput, Made, ParameterError, ParameterInfo};
 use crate::space::Distribution;
@@ -46,10 +45,6 @@ struct Product {
 impl Function for Product {
     fn value(&self, x: &[f64]) -> f64 {
         x.iter().product()
-    }
-
-    fn expression(&self) -> String {
-        product(xs(self.mu.len()))
     }
 
     fn exact(&self) -> Exact {

@@ -1,6 +1,6 @@
 //! The indicator of a simplex.
 
-use super::function::{sum, unit_cube, xs};
+use super::function::unit_cube;
 use super::parameters::Range;
 use super::{Entry, Exact, Function, Made, ParameterInfo};
 
@@ -34,10 +34,6 @@ struct Simplex {
 impl Function for Simplex {
     fn value(&self, x: &[f64]) -> f64 {
         f64::from(u8::from(x.iter().sum::<f64>() <= 1.0))
-    }
-
-    fn expression(&self) -> String {
-        format!("{} <= 1", sum(xs(self.d)))
     }
 
     fn exact(&self) -> Exact {

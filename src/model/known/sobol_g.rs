@@ -1,6 +1,6 @@
 //! Sobol' G.
 
-use super::function::{product, unit_cube, written, xs};
+use super::function::unit_cube;
 use super::parameters::{DIMENSION, NOT_NEGATIVE};
 use super::{Entry, Exact, Function, Made, ParameterInfo};
 
@@ -34,11 +34,6 @@ struct SobolG {
 impl Function for SobolG {
     fn value(&self, x: &[f64]) -> f64 {
         x.iter().zip(&self.a).map(|(x, a)| ((4.0 * x - 2.0).abs() + a) / (1.0 + a)).product()
-    }
-
-    fn expression(&self) -> String {
-        let factor = |(x, &a): (String, &f64)| format!("((abs(4*{x} - 2) + {0})/(1 + {0}))", written(a));
-        product(xs(self.a.len()).zip(&self.a).map(factor))
     }
 
     fn exact(&self) -> Exact {

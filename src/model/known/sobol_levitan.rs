@@ -1,7 +1,7 @@
 //! The exponential of Sobol' and Levitan.
 
 use super::exact::{mean_of_exponential, relative_variance_of_exponential};
-use super::function::{sum, unit_cube, written, xs};
+use super::function::unit_cube;
 use super::parameters::{DIMENSION, FINITE, Range};
 use super::{Entry, Exact, Function, Made, ParameterError, ParameterInfo};
 
@@ -46,11 +46,6 @@ impl Function for SobolLevitan {
     fn value(&self, x: &[f64]) -> f64 {
         let exponent: f64 = x.iter().zip(&self.b).map(|(x, b)| b * x).sum();
         libm::exp(exponent) - self.mean + self.c0
-    }
-
-    fn expression(&self) -> String {
-        let exponent = sum(xs(self.b.len()).zip(&self.b).map(|(x, &b)| format!("{}*{x}", written(b))));
-        format!("exp({exponent}) - {} + {}", written(self.mean), written(self.c0))
     }
 
     fn exact(&self) -> Exact {

@@ -1,6 +1,6 @@
 //! A product of steps.
 
-use super::function::{product, unit_cube, written, xs};
+use super::function::unit_cube;
 use super::parameters::{DIMENSION, FINITE, PORTION};
 use super::{Entry, Exact, Function, Made, ParameterInfo};
 
@@ -38,14 +38,6 @@ impl Function for Steps {
     fn value(&self, x: &[f64]) -> f64 {
         let step = |x: f64, c: f64, t: f64| 1.0 + if x > t { c * t } else { c * (t - 1.0) };
         x.iter().zip(&self.c).zip(&self.t).map(|((&x, &c), &t)| step(x, c, t)).product()
-    }
-
-    fn expression(&self) -> String {
-        let step = |(x, (&c, &t)): (String, (&f64, &f64))| {
-            let [c, t] = [c, t].map(written);
-            format!("(1 + {c}*(({x} > {t}) - 1 + {t}))")
-        };
-        product(xs(self.c.len()).zip(self.c.iter().zip(&self.t)).map(step))
     }
 
     fn exact(&self) -> Exact {

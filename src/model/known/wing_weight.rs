@@ -60,13 +60,6 @@ impl Function for WingWeight {
         Some("an input is not positive, or the sweep reaches 90 degrees")
     }
 
-    fn expression(&self) -> String {
-        let cos = "cos(Lambda*pi/180)";
-        format!(
-            "0.036*Sw^0.758*Wfw^0.0035*(A/{cos}^2)^0.6*q^0.006*lambda^0.04*(100*tc/{cos})^(-0.3)*(Nz*Wdg)^0.49 + Sw*Wp"
-        )
-    }
-
     fn exact(&self) -> Exact {
         // S_i and ST_i.
         let indices = [

@@ -11,7 +11,7 @@ use crate::report::leading::{Contender, leader};
 pub fn given_chart(result: &GivenFile, output: &GivenOutputRecord) -> Chart {
     let indices = output.indices.as_deref().unwrap_or_default();
     let ranks: Vec<_> = indices.iter().map(|index| index.rank).collect();
-    let bins: Vec<_> = indices.iter().map(|index| index.binned.map(|binned| binned.estimate)).collect();
+    let bins: Vec<_> = indices.iter().map(|index| Some(index.binned.estimate)).collect();
     let served = output.served().map(|of| &of.indices);
     let by_surrogate: Vec<_> = (0..indices.len()).map(|k| served.map(|list| list[k].first_order)).collect();
     let total: Vec<_> = (0..indices.len()).map(|k| served.map(|list| list[k].total)).collect();
@@ -38,10 +38,9 @@ pub fn given_chart(result: &GivenFile, output: &GivenOutputRecord) -> Chart {
 fn caption(result: &GivenFile, output: &GivenOutputRecord) -> String {
     let contender = |(number, index): (usize, &InputIndices)| {
         let by_surrogate = output.served().map(|of| of.indices[number].first_order);
-        let index_of = by_surrogate.or(index.rank).or(index.binned.map(|binned| binned.estimate))?;
-        Some(Contender::new(&index.input, index_of))
+        Contender::new(&index.input, by_surrogate.unwrap_or(index.leading()))
     };
-    let known: Vec<Contender> = output.indices.iter().flatten().enumerate().filter_map(contender).collect();
+    let known: Vec<Contender> = output.indices.iter().flatten().enumerate().map(contender).collect();
     match (leader(&known, &format!("For {}", output.name), "first-order index S_1", ""), &output.reason) {
         (Some(sentence), _) => format!("{sentence} From {} given rows.", result.table.rows),
         (None, Some(reason)) => format!("No indices of {}: {reason}.", output.name),

@@ -29,7 +29,6 @@ pub fn given_document(result: &GivenFile, name: &str) -> Document {
         ("rows used", table.rows.to_string()),
         ("rows left out", table.rows_dropped.to_string()),
         ("points", table.points.clone()),
-        ("method", provenance.method.clone()),
     ];
     rows.extend(provenance.estimators.iter().map(|estimator| ("estimator", estimator.clone())));
     rows.extend(provenance.interval.iter().map(|interval| ("intervals", interval.clone())));
@@ -106,7 +105,7 @@ fn three(estimate: f64) -> String {
 
 fn index_table(result: &GivenFile, output: &GivenOutputRecord) -> Table {
     let all = || result.outputs.iter().flat_map(|output| output.indices.iter().flatten());
-    let (ranks, bins) = (all().any(|index| index.rank.is_some()), all().any(|index| index.binned.is_some()));
+    let ranks = all().any(|index| index.rank.is_some());
     let served = output.served();
     let first_order =
         "First-order index of each input, the part of the variance that knowing it removes, with its 95 % interval.";
@@ -132,11 +131,10 @@ fn index_table(result: &GivenFile, output: &GivenOutputRecord) -> Table {
         .estimate("rank", |(index, _)| index.rank)
         .shown(ranks)
         .sum(sum(ranks))
-        .number("S_1, by bins", |(index, _)| said(index.binned.map(|binned| binned.estimate)))
-        .estimate("binned", |(index, _)| index.binned.map(|binned| binned.estimate))
-        .shown(bins)
+        .number("S_1, by bins", |(index, _)| self::index(index.binned.estimate))
+        .estimate("binned", |(index, _)| Some(index.binned.estimate))
         .sum(sum(!ranks))
-        .file("bins", |(index, _)| index.binned.map_or(Value::Empty, |binned| Value::Count(binned.bins as u64)));
+        .file("bins", |(index, _)| Value::Count(index.binned.bins as u64));
     if result.surrogate.is_none() {
         return rows.into();
     }

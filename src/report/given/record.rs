@@ -3,9 +3,9 @@
 use serde::{Deserialize, Serialize};
 
 use super::sentences;
-use crate::exchange::{TextColumn, TextKind};
+use crate::exchange::TextColumn;
 use crate::given::{
-    Column, Dependence, GivenIndices, InputIndices, InputMeasures, LEAST_EXPLAINED, Method, NoVariance, OutputIndices,
+    Column, Dependence, GivenIndices, InputIndices, InputMeasures, LEAST_EXPLAINED, NoVariance, OutputIndices,
     PointSet, SurrogateOutput, SurrogateRefusal, Surrogates,
 };
 use crate::quantity::Unit;
@@ -43,8 +43,6 @@ pub struct GivenFile {
 pub struct GivenProvenance {
     /// Version of this program.
     pub apportion_version: String,
-    /// The method asked for.
-    pub method: String,
     /// Seed of the order of ties in the intervals of the rank estimator.
     pub seed: u64,
     /// What the estimates are.
@@ -80,8 +78,6 @@ pub struct TableRecord {
 pub struct ColumnLeftOut {
     /// Its name.
     pub name: String,
-    /// `"decimal-comma"`, `"unit"` (a number with a unit behind it) or `"text"`.
-    pub holds: String,
     /// Its first cell that is no number; `null` where the file says that there are none.
     pub example: Option<String>,
 }
@@ -90,19 +86,12 @@ impl GivenFile {
     /// The result of a table in which these columns hold text: it says so first.
     #[must_use]
     pub fn without(mut self, columns: &[TextColumn]) -> Self {
-        self.table.columns_left_out = columns.iter().map(column_left_out).collect();
+        let left_out =
+            |column: &TextColumn| ColumnLeftOut { name: column.name.clone(), example: column.example.clone() };
+        self.table.columns_left_out = columns.iter().map(left_out).collect();
         self.warnings.splice(0..0, columns.iter().map(ToString::to_string));
         self
     }
-}
-
-fn column_left_out(column: &TextColumn) -> ColumnLeftOut {
-    let holds = match column.kind() {
-        TextKind::DecimalComma => "decimal-comma",
-        TextKind::Unit => "unit",
-        TextKind::Text => "text",
-    };
-    ColumnLeftOut { name: column.name.clone(), holds: holds.to_owned(), example: column.example.clone() }
 }
 
 /// An input: indices hold for its values in the table, between these bounds.
@@ -184,8 +173,6 @@ pub struct GivenFacts {
     pub sha256: String,
     /// Rows left out, and the line of the first.
     pub dropped: Option<(u64, u64)>,
-    /// The method asked for.
-    pub method: Method,
     /// The seed.
     pub seed: u64,
 }
@@ -204,15 +191,14 @@ pub fn build_given(
     };
     let outputs: Vec<GivenOutputRecord> = indices.outputs.iter().zip(outputs).enumerate().map(of_output).collect();
     let serves = outputs.iter().any(|output| output.served().is_some());
-    let warnings = sentences::warnings(indices, surrogates, facts.method, facts.dropped);
+    let warnings = sentences::warnings(indices, surrogates, facts.dropped);
     GivenFile {
         format: "apportion-given-data".to_owned(),
         version: 1,
         provenance: GivenProvenance {
             apportion_version: env!("CARGO_PKG_VERSION").to_owned(),
-            method: facts.method.name().to_owned(),
             seed: facts.seed,
-            estimators: sentences::estimators(indices, surrogates, facts.method),
+            estimators: sentences::estimators(indices, surrogates),
             interval: sentences::interval(indices, serves),
         },
         table: TableRecord {
@@ -255,12 +241,12 @@ fn input_record(column: &Column) -> GivenInputRecord {
 
 fn output_record(output: &OutputIndices, surrogate: Option<&SurrogateOutput>, column: &Column) -> GivenOutputRecord {
     let indices = output.indices.as_ref();
-    let leading = |index: &InputIndices| index.leading().map(|estimate| estimate.estimate);
+    let leading = |index: &InputIndices| index.leading().estimate;
     GivenOutputRecord {
         name: output.name.clone(),
         distribution: OutputDistribution::from_values(&column.values, &Unit::dimensionless()),
         indices: indices.ok().cloned(),
-        sum_first_order: indices.ok().and_then(|indices| indices.iter().map(leading).sum()),
+        sum_first_order: indices.ok().map(|indices| indices.iter().map(leading).sum()),
         surrogate: surrogate.filter(|_| indices.is_ok()).cloned(),
         measures: None,
         reason: indices.err().map(ToString::to_string),

@@ -1,10 +1,10 @@
 //! What a result from given data says in sentences.
 
 use super::SurrogateResult;
-use crate::given::{GivenIndices, LEAST_EXPLAINED, Method, OutputIndices, PointSet, SurrogateOutput, bins_for};
+use crate::given::{GivenIndices, LEAST_EXPLAINED, OutputIndices, PointSet, SurrogateOutput, bins_for};
 use crate::report::format::fixed;
 
-pub(super) fn estimators(indices: &GivenIndices, surrogates: Option<&SurrogateResult>, method: Method) -> Vec<String> {
+pub(super) fn estimators(indices: &GivenIndices, surrogates: Option<&SurrogateResult>) -> Vec<String> {
     let rank = "rank: Gamboa, Gremaud, Klein and Lagnoux 2022, averaged over the orders of ties".to_owned();
     let bins = bins_for(indices.rows);
     let binned = match indices.points {
@@ -13,7 +13,7 @@ pub(super) fn estimators(indices: &GivenIndices, surrogates: Option<&SurrogateRe
         }
         _ => format!("binned: variance of lines in {bins} bins of equal probability"),
     };
-    let ranked = method != Method::Binned && indices.points == PointSet::Independent;
+    let ranked = indices.points == PointSet::Independent;
     let surrogate = surrogates.and_then(|result| result.as_ref().ok()).map(|all| {
         let polynomials = if all.given_distributions { "the given distributions" } else { "the columns\' distributions" };
         format!(
@@ -23,7 +23,7 @@ pub(super) fn estimators(indices: &GivenIndices, surrogates: Option<&SurrogateRe
             all.folds
         )
     });
-    let list = [ranked.then_some(rank), (method != Method::Rank).then_some(binned), surrogate];
+    let list = [ranked.then_some(rank), Some(binned), surrogate];
     list.into_iter().flatten().collect()
 }
 
@@ -69,7 +69,6 @@ const MIN_ROWS_FOR_BINS: usize = 300;
 pub(super) fn warnings(
     indices: &GivenIndices,
     surrogates: Option<&SurrogateResult>,
-    method: Method,
     dropped: Option<(u64, u64)>,
 ) -> Vec<String> {
     let mut warnings = Vec::new();
@@ -99,7 +98,7 @@ pub(super) fn warnings(
             "no estimate by ranks, which does not converge here, and no intervals: {reason}. The estimates by bins stand"
         ));
     }
-    if method != Method::Rank && indices.points == PointSet::Independent && indices.rows < MIN_ROWS_FOR_BINS {
+    if indices.points == PointSet::Independent && indices.rows < MIN_ROWS_FOR_BINS {
         warnings.push(format!(
             "fewer than {MIN_ROWS_FOR_BINS} rows: the intervals by bins do not know of dependence finer than a bin, and may be too \
              narrow; those by ranks are safer"

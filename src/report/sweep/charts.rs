@@ -7,7 +7,7 @@ use crate::report::document::Figure;
 use crate::report::{file_stems, listed};
 
 use super::{SweepFile, gap_lines};
-use crate::sweep::{NominalOutput, Sweep, SweepCurve, SweepEffect};
+use crate::sweep::{NominalOutput, Sweep, SweptOutput};
 
 /// Up to so many values, each is marked by a point.
 const MAX_MARKED_VALUES: usize = 12;
@@ -37,8 +37,6 @@ pub(super) fn figures(file: &SweepFile) -> (Vec<Figure>, Vec<Figure>) {
 
 fn lines(file: &SweepFile, sweep: &Sweep) -> Chart {
     let logarithmic = sweep.spacing == "logarithmic" && sweep.values.iter().all(|value| *value > 0.0);
-    // With a family, the curve at nominal values would only be in its way.
-    let drawn = if sweep.curves.len() > 1 { &sweep.curves[1..] } else { &sweep.curves[..] };
     let x = match &sweep.labels {
         // Names have no unit.
         Some(labels) => Axis::from_names(words(&sweep.factor), labels.clone()),
@@ -49,17 +47,16 @@ fn lines(file: &SweepFile, sweep: &Sweep) -> Chart {
         }),
     };
     let panel = |(number, nominal): (usize, &NominalOutput)| {
-        let spacing = if is_wide(drawn, number) { Spacing::Logarithmic } else { Spacing::Linear };
+        let spacing = if is_wide(&sweep.outputs[number]) { Spacing::Logarithmic } else { Spacing::Linear };
         let y = Axis::new(words(&nominal.output), axis_unit(&nominal.unit)).spaced(spacing);
-        let curves = drawn.iter().enumerate().map(|(place, curve)| line(sweep, curve, place, number));
         let rule = place_of(sweep, sweep.nominal).filter(|_| number == 0).map(|x| Mark::rule(x, "nominal"));
-        Panel::new(x.clone(), y).with(curves).with(rule)
+        Panel::new(x.clone(), y).with([line(sweep, &sweep.outputs[number])]).with(rule)
     };
     let mut axes: Vec<String> = file
         .nominal
         .iter()
         .enumerate()
-        .filter(|(number, _)| is_wide(drawn, *number))
+        .filter(|(number, _)| is_wide(&sweep.outputs[*number]))
         .map(|(_, nominal)| name(&nominal.output))
         .collect();
     if logarithmic {
@@ -82,44 +79,30 @@ fn place_of(sweep: &Sweep, value: f64) -> Option<f64> {
     }
 }
 
-/// Whether an output spans so much over its curves that a linear axis would hide the lower ones.
-fn is_wide(curves: &[SweepCurve], number: usize) -> bool {
-    let values = || curves.iter().flat_map(|curve| curve.outputs[number].values.iter().copied().flatten());
-    let (low, high) = values().fold((f64::INFINITY, 0.0f64), |(low, high), y| (low.min(y), high.max(y)));
-    low > 0.0 && high / low > WIDE
+/// Whether an output spans so much that a linear axis would hide the lower part.
+fn is_wide(output: &SweptOutput) -> bool {
+    output.low.zip(output.high).is_some_and(|(low, high)| low > 0.0 && high / low > WIDE)
 }
 
-/// The curve at `place` of an output by its number.
-fn line(sweep: &Sweep, curve: &SweepCurve, place: usize, number: usize) -> Mark {
-    let points = sweep.values.iter().zip(&curve.outputs[number].values);
+/// The curve of an output.
+fn line(sweep: &Sweep, output: &SweptOutput) -> Mark {
+    let points = sweep.values.iter().zip(&output.values);
     let points = points.filter_map(|(x, y)| Some((place_of(sweep, *x)?, y.unwrap_or(f64::NAN))));
-    let (name, stroke) = match &curve.against {
-        None => (String::new(), Stroke::Solid),
-        Some(against) => (
-            format!("{} = {}", words(&against.factor), against.value_in_words()),
-            [Stroke::Solid, Stroke::Dashed, Stroke::Dotted][place % 3],
-        ),
-    };
     let stroke = match &sweep.labels {
         // There is nothing between two categories.
         Some(_) => Stroke::Points,
         None if sweep.values.len() <= MAX_MARKED_VALUES => Stroke::SolidWithPoints,
-        None => stroke,
+        None => Stroke::Solid,
     };
-    Series::new(name, Colour::Series(place)).stroke(stroke).line(points.collect())
+    Series::new("", Colour::Series(0)).stroke(stroke).line(points.collect())
 }
 
 /// What is seen: how far each output goes, and what is missing.
 fn caption(sweep: &Sweep) -> String {
-    let factor = words(&sweep.factor);
-    let family = match sweep.curves.iter().find_map(|curve| curve.against.as_ref()) {
-        Some(against) => format!(" for {} values of {}", sweep.curves.len() - 1, name(&against.factor)),
-        None => String::new(),
-    };
-    let mut text = format!("Over {factor}, {}{family}; every other factor is nominal.", from_to(sweep));
-    for effect in &sweep.effects {
-        if let Some(percent) = effect.percent {
-            let (output, percent) = (name(&effect.output), printed(percent));
+    let mut text = format!("Over {}, {}; every other factor is nominal.", words(&sweep.factor), from_to(sweep));
+    for output in &sweep.outputs {
+        if let Some(percent) = output.percent {
+            let (output, percent) = (name(&output.name), printed(percent));
             text.push_str(&format!(" It moves {output} by {percent} % of the nominal value in all."));
         }
     }
@@ -144,7 +127,7 @@ fn from_to(sweep: &Sweep) -> String {
 }
 
 fn ranges(file: &SweepFile, number: usize, nominal: &NominalOutput) -> Chart {
-    let sweeps = || file.sweeps.iter().filter_map(|sweep| Some((sweep, sweep.effects.get(number)?)));
+    let sweeps = || file.sweeps.iter().filter_map(|sweep| Some((sweep, sweep.outputs.get(number)?)));
     let output = name(&nominal.output);
     let caption = format!(
         "Values of {output} with one factor at either end of its range and every other at its nominal value; the percentages are \
@@ -152,7 +135,7 @@ fn ranges(file: &SweepFile, number: usize, nominal: &NominalOutput) -> Chart {
         not_drawn(file.sweeps.len(), MOST)
     );
     let x = Axis::new(words(&nominal.output), axis_unit(&nominal.unit));
-    let row_name = |(sweep, effect): (&Sweep, &SweepEffect)| {
+    let row_name = |(sweep, effect): (&Sweep, &SweptOutput)| {
         let percent = effect.percent.map_or_else(String::new, |percent| format!(" by {} %", printed(percent)));
         format!("{}{percent}: {}", words(&sweep.factor), from_to(sweep))
     };
@@ -167,17 +150,19 @@ fn ranges(file: &SweepFile, number: usize, nominal: &NominalOutput) -> Chart {
 }
 
 /// The bars of a factor: its ends, or its whole range where these are not the extremes.
-fn row_marks(row: usize, sweep: &Sweep, effect: &SweepEffect, nominal: Option<f64>) -> Vec<Mark> {
+fn row_marks(row: usize, sweep: &Sweep, effect: &SweptOutput, nominal: Option<f64>) -> Vec<Mark> {
     let bar = |name: &str, colour, from, to| {
         Series::new(name, colour).mark(Shape::Bar(Bar { row, from, to, ..Bar::default() }))
     };
-    let ends = || [effect.first, effect.last, nominal].into_iter().flatten();
+    let end = |value: Option<&Option<f64>>| value.copied().flatten();
+    let (first, last) = (end(effect.values.first()), end(effect.values.last()));
+    let ends = || [first, last, nominal].into_iter().flatten();
     let beyond = |low: f64, high: f64| ends().all(|end| end > low) || ends().all(|end| end < high);
     match (nominal, effect.low.zip(effect.high)) {
         (_, None) => Vec::new(),
         (Some(from), Some((low, high))) if sweep.labels.is_none() && !beyond(low, high) => vec![
-            bar("factor at its low end", LOW_END, from, effect.first.unwrap_or(f64::NAN)),
-            bar("factor at its high end", HIGH_END, from, effect.last.unwrap_or(f64::NAN)),
+            bar("factor at its low end", LOW_END, from, first.unwrap_or(f64::NAN)),
+            bar("factor at its high end", HIGH_END, from, last.unwrap_or(f64::NAN)),
         ],
         (_, Some((low, high))) => vec![bar("whole range, where the ends are not the extremes", WHOLE_RANGE, low, high)],
     }

@@ -6,7 +6,7 @@ use crate::model::MANY_OUTPUTS;
 use crate::report::document::{Document, Mark, OutputReport, Part, Report, Section, Table, Value};
 use crate::report::format::{axis_unit, grouped, name, or_dash, short, short_with_unit, value};
 use crate::result::json;
-use crate::sweep::{Against, NominalOutput, Sweep, SweepEffect};
+use crate::sweep::{NominalOutput, Sweep, SweptOutput};
 
 /// The document of sweeps.
 pub fn sweep_document(file: &SweepFile) -> Document {
@@ -47,9 +47,8 @@ pub fn sweep_document(file: &SweepFile) -> Document {
 fn widest(file: &SweepFile, nominal: &NominalOutput, number: usize) -> String {
     let output = name(&nominal.output);
     match by_width(file, number).first() {
-        Some((sweep, SweepEffect { low: Some(low), high: Some(high), .. })) if high > low => format!(
-            "Over {}, with all others nominal, {} moves {output} most: between {} and {}.",
-            if sweep.given { "the given values" } else { "its range" },
+        Some((sweep, SweptOutput { low: Some(low), high: Some(high), .. })) if high > low => format!(
+            "Over its range, with all others nominal, {} moves {output} most: between {} and {}.",
             name(&sweep.factor),
             value(*low, ""),
             value(*high, &nominal.unit)
@@ -60,9 +59,9 @@ fn widest(file: &SweepFile, nominal: &NominalOutput, number: usize) -> String {
 }
 
 /// The sweeps with what they do to an output, the widest first.
-fn by_width(file: &SweepFile, number: usize) -> Vec<(&Sweep, &SweepEffect)> {
-    let mut sweeps: Vec<(&Sweep, &SweepEffect)> =
-        file.sweeps.iter().filter_map(|sweep| Some((sweep, sweep.effects.get(number)?))).collect();
+fn by_width(file: &SweepFile, number: usize) -> Vec<(&Sweep, &SweptOutput)> {
+    let mut sweeps: Vec<(&Sweep, &SweptOutput)> =
+        file.sweeps.iter().filter_map(|sweep| Some((sweep, sweep.outputs.get(number)?))).collect();
     sweeps.sort_by(|a, b| b.1.width().total_cmp(&a.1.width()));
     sweeps
 }
@@ -91,8 +90,7 @@ fn effects(file: &SweepFile, nominal: &NominalOutput, number: usize) -> Part {
         unit => format!("{what} ({unit})"),
     };
     let caption = format!(
-        "How far each factor alone moves {}, all others nominal, the widest range first; the elasticity is its slope there \
-         in percent per percent.",
+        "How far each factor alone moves {}, all others nominal, the widest range first.",
         name(&nominal.output)
     );
     let said = |value: Option<f64>| or_dash(value, short);
@@ -100,38 +98,29 @@ fn effects(file: &SweepFile, nominal: &NominalOutput, number: usize) -> Part {
         .text("factor", |(sweep, _)| name(&sweep.factor))
         .number("from", |(sweep, _)| sweep.value_in_words(0))
         .number("to", |(sweep, _)| sweep.value_in_words(sweep.values.len().saturating_sub(1)))
-        .number(in_unit("output from"), |(_, effect)| said(effect.first))
-        .number(in_unit("to"), |(_, effect)| said(effect.last))
+        .number(in_unit("output from"), |(_, effect)| said(effect.values.first().copied().flatten()))
+        .number(in_unit("to"), |(_, effect)| said(effect.values.last().copied().flatten()))
         .number(in_unit("least"), |(_, effect)| said(effect.low))
         .number(in_unit("largest"), |(_, effect)| said(effect.high))
         .number("moves by %", |(_, effect)| said(effect.percent))
-        .number("elasticity", |(_, effect)| said(effect.local.elasticity))
         .into()
 }
 
 /// A line per factor, curve, output and value; an empty cell where there is no number, with the reason in the last column.
 fn all_values(file: &SweepFile) -> Table {
-    let curves = file.sweeps.iter().flat_map(|sweep| sweep.curves.iter().map(move |curve| (sweep, curve)));
-    let outputs = curves.flat_map(|(sweep, curve)| curve.outputs.iter().map(move |of| (sweep, &curve.against, of)));
+    let outputs = file.sweeps.iter().flat_map(|sweep| sweep.outputs.iter().map(move |output| (sweep, output)));
     let rows = outputs.flat_map(|row| (0..row.0.values.len()).map(move |place| (row, place)));
     Table::from_rows("", rows)
-        .file("factor", |((sweep, ..), _)| &sweep.factor)
-        .file("unit", |((sweep, ..), _)| &sweep.unit)
-        .file("value", |((sweep, ..), place)| match &sweep.labels {
+        .file("factor", |((sweep, _), _)| &sweep.factor)
+        .file("unit", |((sweep, _), _)| &sweep.unit)
+        .file("value", |((sweep, _), place)| match &sweep.labels {
             Some(labels) => Value::from(&labels[place]),
             None => sweep.values[place].into(),
         })
-        .file("against", |((_, against, _), _)| against.as_ref().map(|a| a.factor.as_str()))
-        .file("against_unit", |((_, against, _), _)| against.as_ref().map(|a| a.unit.as_str()))
-        .file("against_value", |((_, against, _), _)| match against {
-            Some(Against { label: Some(label), .. }) => label.into(),
-            Some(Against { value, .. }) => Value::from(*value),
-            None => Value::Empty,
-        })
-        .file("output", |((.., output), _)| &output.name)
-        .file("output_unit", |((.., output), _)| &output.unit)
-        .file("output_value", |((.., output), place)| output.values[place])
-        .file("failure", |((.., output), place)| {
+        .file("output", |((_, output), _)| &output.name)
+        .file("output_unit", |((_, output), _)| &output.unit)
+        .file("output_value", |((_, output), place)| output.values[place])
+        .file("failure", |((_, output), place)| {
             output.gaps.iter().find(|gap| gap.place == place).map(|gap| gap.reason.as_str())
         })
         .into()

@@ -12,7 +12,7 @@ use crate::sweep::Sweep;
 /// For each output and reason: at how many points of the sweep it has no value, over all curves.
 fn gap_lines(sweep: &Sweep) -> Vec<String> {
     let mut counts: Vec<(&str, &str, usize)> = Vec::new();
-    for output in sweep.curves.iter().flat_map(|curve| &curve.outputs) {
+    for output in &sweep.outputs {
         for gap in &output.gaps {
             match counts.iter_mut().find(|(name, reason, _)| *name == output.name && *reason == gap.reason) {
                 Some((_, _, count)) => *count += 1,
@@ -20,7 +20,7 @@ fn gap_lines(sweep: &Sweep) -> Vec<String> {
             }
         }
     }
-    let points = sweep.values.len() * sweep.curves.len();
+    let points = sweep.values.len();
     let line = |(name, reason, count): (&str, &str, usize)| {
         format!("{name} at {count} of {points} points of {}: {reason}", sweep.factor)
     };

@@ -1,6 +1,6 @@
 //! The sweep file: JSON that other programs can rely on.
 //!
-//! Format `apportion-sweep`, version 1, described key by key in `docs/sweep-format.md`. Later versions of the program
+//! Format `apportion-sweep`, version 2, described key by key in `docs/sweep-format.md`. Later versions of the program
 //! only add keys. A number that does not exist is `null`.
 
 use serde::{Deserialize, Serialize};
@@ -13,7 +13,7 @@ use crate::quantity::Unlikely;
 use crate::result::StudySetup;
 use crate::result::ValidityRecord;
 use crate::study::Study;
-use crate::sweep::{Against, NominalOutput, Sweep, SweepEffect, Sweeps};
+use crate::sweep::{NominalOutput, Sweep, Sweeps, SweptOutput};
 
 /// All sweeps of a study.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -42,7 +42,7 @@ pub struct SweepFile {
 pub struct SweepProvenance {
     /// Version of the program.
     pub apportion_version: String,
-    /// Runs of the model, those for the slopes among them.
+    /// Runs of the model.
     pub model_runs: u64,
 }
 
@@ -57,24 +57,17 @@ impl Sweep {
     }
 }
 
-impl Against {
-    /// The value, or what it stands for, with its unit.
-    pub(super) fn value_in_words(&self) -> String {
-        self.label.clone().unwrap_or_else(|| short_with_unit(self.value, &self.unit))
-    }
-}
-
-impl SweepEffect {
+impl SweptOutput {
     /// How far the output goes; below every width where it has no value.
     pub(super) fn width(&self) -> f64 {
         self.low.zip(self.high).map_or(f64::NEG_INFINITY, |(low, high)| high - low)
     }
 }
 
-/// A sentence on the unlikely value of output number `place`, if it has one; runs are counted curve by curve.
+/// A sentence on the unlikely value of output number `place`, if it has one; runs are counted sweep by sweep.
 fn unlikely(sweeps: &Sweeps, place: usize, output: &str) -> Option<String> {
-    let curves = sweeps.sweeps.iter().flat_map(|sweep| &sweep.curves).map(|curve| &curve.outputs[place]);
-    let values: Vec<f64> = curves.flat_map(|curve| curve.values.iter().map(|y| y.unwrap_or(f64::NAN))).collect();
+    let values = sweeps.sweeps.iter().flat_map(|sweep| &sweep.outputs[place].values);
+    let values: Vec<f64> = values.map(|y| y.unwrap_or(f64::NAN)).collect();
     Unlikely::find(&values).map(|found| format!("{output}: {}", found.in_runs(found.first + 1)))
 }
 
@@ -82,7 +75,7 @@ fn unlikely(sweeps: &Sweeps, place: usize, output: &str) -> Option<String> {
 pub fn build_sweep(study: &Study, model: &dyn Model, sweeps: Sweeps) -> SweepFile {
     SweepFile {
         format: "apportion-sweep".to_owned(),
-        version: 1,
+        version: 2,
         study: study_setup(study),
         provenance: SweepProvenance {
             apportion_version: env!("CARGO_PKG_VERSION").to_owned(),

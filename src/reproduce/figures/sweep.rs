@@ -11,7 +11,7 @@ use apportion::report::document::Table;
 use apportion::report::format::{three_digits as short, unit};
 use apportion::report::{capitalised, listed};
 use apportion::space::{Factor, Space};
-use apportion::sweep::{FactorValues, find};
+use apportion::sweep::{find, values_over_range};
 
 const NANO: f64 = 1e9;
 /// The quasi-static rung is drawn beside the closed form where they differ by more than this part of the force's range.
@@ -96,8 +96,8 @@ pub(super) fn drawn(
     // The march's saw needs finer teeth.
     let is_marched = lines.iter().any(Line::is_marched);
     let points = if is_marched { 4 * points - 3 } else { points };
-    let number = find(space, factor)?;
-    let values = FactorValues::over_range(space, number, points)?.values;
+    let number = find(space, &[factor])?[0];
+    let values = values_over_range(space.factors()[number].distribution(), points)?;
     let parameter = Parameter::from_name(factor).ok_or(ReproduceError::NoParameter { name: factor })?;
     let swept = Swept { gap: figure.gap, factor: &space.factors()[number], parameter, values };
     let lines: Vec<Drawn> = lines.iter().map(|line| swept.line(line)).collect();

@@ -22,8 +22,6 @@ pub enum Parameter {
     /// Two bounds of which one may be infinite, which is written as a text: `[2.0, "inf"]`.
     #[serde(serialize_with = "bounds")]
     Bounds(f64, f64),
-    /// A list of distributions.
-    Laws(Vec<Distribution>),
     /// Values by their probabilities; results have the bins that they make.
     #[serde(skip)]
     Quantiles(Vec<(f64, f64)>),

@@ -117,25 +117,6 @@ impl Histogram {
     pub(crate) fn bins(&self) -> impl Iterator<Item = (f64, f64, [f64; 2])> {
         self.bins.iter().map(|bin| (bin.before, bin.before + bin.probability, [bin.min, bin.max]))
     }
-
-    /// What is left of the bins between two bounds; `None` if nothing is.
-    pub(super) fn between(&self, min: f64, max: f64) -> Result<Option<Distribution>, DistributionError> {
-        let (mut edges, mut weights) = (Vec::new(), Vec::new());
-        for (bin, weight) in self.edges.windows(2).zip(&self.weights) {
-            let (from, to) = (bin[0].max(min), bin[1].min(max));
-            if from < to {
-                if edges.is_empty() {
-                    edges.push(from);
-                }
-                edges.push(to);
-                weights.push(weight * ((to - from) / (bin[1] - bin[0])));
-            }
-        }
-        match weights.iter().all(|weight| *weight == 0.0) {
-            true => Ok(None),
-            false => Distribution::histogram(&edges, &weights).map(Some),
-        }
-    }
 }
 
 pub(super) const ENTRIES: &[Entry] = &[Entry {

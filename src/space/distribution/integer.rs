@@ -58,12 +58,6 @@ impl Integer {
         (self.count <= Self::MAX_LEVELS).then(|| (0..self.count as u32).map(level).collect())
     }
 
-    /// Those between `min` and `max`, both included; `None` if there are none.
-    pub(super) fn between(&self, min: f64, max: f64) -> Result<Option<Distribution>, DistributionError> {
-        let (min, max) = (min.ceil(), max.floor());
-        if min <= max { Distribution::integer(min, max).map(Some) } else { Ok(None) }
-    }
-
     fn max(&self) -> f64 {
         self.min + (self.count - 1.0)
     }

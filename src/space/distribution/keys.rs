@@ -34,8 +34,6 @@ pub enum KeyKind {
     Texts,
     /// A table of values by probabilities.
     Quantiles,
-    /// A list of distributions.
-    Distributions,
 }
 
 /// How a number becomes one of SI.
@@ -60,8 +58,8 @@ const fn quantile(name: &'static str, description: &'static str) -> Key {
 }
 
 /// All keys of distributions.
-pub static KEYS: [Key; 33] = {
-    use KeyKind::{Bounds, Distributions, Number, Numbers, Quantiles, Text, Texts};
+pub static KEYS: [Key; 32] = {
+    use KeyKind::{Bounds, Number, Numbers, Quantiles, Text, Texts};
     use Measure::{Log, Pure, Span, Value};
     [
         key("min", Number, Value, "Lower bound."),
@@ -74,12 +72,7 @@ pub static KEYS: [Key; 33] = {
         key("alpha", Number, Pure, "First shape parameter of a beta distribution."),
         key("beta", Number, Pure, "Second shape parameter of a beta distribution."),
         key("shape", Number, Pure, "Shape parameter of a Weibull, gamma or Pareto distribution."),
-        key(
-            "scale",
-            Number,
-            Span,
-            "Scale parameter of a distribution that has one; lambda of an inverse Gaussian one.",
-        ),
+        key("scale", Number, Span, "Scale parameter of a distribution that has one."),
         key(
             "location",
             Number,
@@ -99,7 +92,7 @@ pub static KEYS: [Key; 33] = {
         key("probability", Number, Pure, "Probability of true, of a boolean; 0.5 by default."),
         key("value", Number, Value, "The one value of a constant."),
         key("values", Numbers, Value, "The values of a discrete distribution, measured ones, or those of labels."),
-        key("weights", Numbers, Pure, "The weights of values, bins or components; equal by default (but of bins)."),
+        key("weights", Numbers, Pure, "The weights of values or bins; equal by default (but of bins)."),
         key("edges", Numbers, Value, "The edges of the bins of a histogram, one more than weights."),
         key(
             "quantiles",
@@ -107,7 +100,6 @@ pub static KEYS: [Key; 33] = {
             Value,
             "Quantiles that a histogram goes through: values by their probabilities from 0 to 1, as in { \"0\" = 1, \"1\" = 5 }.",
         ),
-        key("components", Distributions, Value, "The distributions of a mixture, each with its own keys."),
         key(
             "truncate",
             Bounds,
@@ -398,11 +390,6 @@ pub(super) fn in_si(
         match parameter {
             Parameter::Number(value) => number(value),
             Parameter::List(list) => list.iter_mut().for_each(number),
-            Parameter::Laws(laws) => {
-                for law in laws {
-                    *law = law.to_si(unit)?;
-                }
-            }
             _ => (),
         }
     }

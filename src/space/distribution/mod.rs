@@ -17,12 +17,10 @@ mod gamma;
 mod gumbel;
 mod histogram;
 mod integer;
-mod inverse_gaussian;
 mod keys;
 mod log_normal;
 mod log_uniform;
 mod logistic;
-mod mixture;
 mod normal;
 mod pareto;
 mod poisson;
@@ -119,9 +117,7 @@ families! {
     StudentT(StudentT) = student_t::ENTRIES,
     Logistic(Logistic) = logistic::ENTRIES,
     Pareto(Pareto) = pareto::ENTRIES,
-    InverseGaussian(InverseGaussian) = inverse_gaussian::ENTRIES,
     Histogram(Histogram) = histogram::ENTRIES,
-    Mixture(Mixture) = mixture::ENTRIES,
     Discrete(Values) = values::DISCRETE,
     Integer(Integer) = integer::ENTRIES,
     Categorical(Values) = values::CATEGORICAL,
@@ -191,11 +187,7 @@ impl Distribution {
 
     /// Whether values are converted to SI one by one, since whole numbers in another unit are none.
     pub(super) fn is_converted_by_value(&self) -> bool {
-        match self {
-            Self::Integer(_) | Self::Poisson(_) => true,
-            Self::Mixture(mixture) => mixture.components().any(|(component, _)| component.is_converted_by_value()),
-            _ => false,
-        }
+        matches!(self, Self::Integer(_) | Self::Poisson(_))
     }
 
     /// Whether its values are the seeds of a stochastic model: the factor is the noise, and no input that anybody knows.
@@ -207,15 +199,8 @@ impl Distribution {
     pub fn is_open_below(&self) -> bool {
         let (low, _) = self.support();
         match self {
-            Self::LogNormal(_)
-            | Self::Weibull(_)
-            | Self::Gamma(_)
-            | Self::Exponential(_)
-            | Self::InverseGaussian(_) => true,
+            Self::LogNormal(_) | Self::Weibull(_) | Self::Gamma(_) | Self::Exponential(_) => true,
             Self::Truncated(truncated) => truncated.law().support().0 == low && truncated.law().is_open_below(),
-            Self::Mixture(mixture) => {
-                mixture.components().all(|(component, _)| component.support().0 > low || component.is_open_below())
-            }
             _ => false,
         }
     }

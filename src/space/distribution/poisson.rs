@@ -12,8 +12,6 @@ const MEANS: (f64, f64) = (1e-300, 1e6);
 #[derive(Clone, Debug, PartialEq)]
 pub struct Poisson {
     mean: f64,
-    /// The least and the largest number of events left by a truncation.
-    bounds: (f64, f64),
     table: Arc<Table>,
 }
 
@@ -21,7 +19,6 @@ pub struct Poisson {
 #[derive(PartialEq)]
 struct Table {
     first: f64,
-    probabilities: Vec<f64>,
     /// P(X <= k) of each.
     below: Vec<f64>,
     /// P(X > k) of each.
@@ -62,9 +59,7 @@ impl Distribution {
     /// ```
     pub fn poisson(mean: f64) -> Result<Self, DistributionError> {
         within("mean", finite("mean", mean)?, MEANS)?;
-        let bounds = (0.0, f64::INFINITY);
-        let table = Table::new(mean, bounds).ok_or_else(|| overflow("poisson"))?;
-        Self::Poisson(Poisson { mean, bounds, table: Arc::new(table) }).finite()
+        Self::Poisson(Poisson { mean, table: Arc::new(Table::new(mean)) }).finite()
     }
 }
 
@@ -73,18 +68,6 @@ impl Poisson {
     const MAX_LEVELS: usize = 1024;
     /// Levels that are rarer than this together on either side do not count among them.
     const RARE: f64 = 1e-3;
-
-    /// The whole numbers between `min` and `max`, both included, with their shares; `None` if there are none.
-    pub(super) fn between(&self, min: f64, max: f64) -> Result<Option<Distribution>, DistributionError> {
-        let (low, high) = (self.bounds.0.max(min.ceil()), self.bounds.1.min(max.floor()));
-        let is_likely = low <= self.table.last() && self.table.first <= high;
-        match Table::new(self.mean, (low, high)).filter(|_| is_likely) {
-            Some(table) => Distribution::Poisson(Self { mean: self.mean, bounds: (low, high), table: Arc::new(table) })
-                .finite()
-                .map(Some),
-            None => Ok(None),
-        }
-    }
 
     /// The numbers that occur, but for the rare ones, each with a `u` at which it is the quantile; `None` if they are
     /// more than 1024.
@@ -102,24 +85,16 @@ impl Poisson {
         };
         (last - first < Self::MAX_LEVELS).then(|| (first..=last).map(level).collect())
     }
-
-    fn is_whole(&self) -> bool {
-        self.bounds == (0.0, f64::INFINITY)
-    }
 }
 
 impl Table {
-    /// `None` if there is no number between the bounds, both included.
-    fn new(mean: f64, (low, high): (f64, f64)) -> Option<Self> {
+    fn new(mean: f64) -> Self {
         const MIN_RATIO: f64 = 1e-300;
-        if low > high {
-            return None;
-        }
-        let mode = mean.floor().clamp(low, high);
+        let mode = mean.floor();
         // Up and down from the most probable number, whose own probability is found by the sum.
         let mut falling = vec![1.0];
         let mut k = mode;
-        while k > low {
+        while k > 0.0 {
             let next = falling[falling.len() - 1] * (k / mean);
             if next < MIN_RATIO {
                 break;
@@ -130,7 +105,7 @@ impl Table {
         let first = k;
         let mut probabilities: Vec<f64> = falling.into_iter().rev().collect();
         k = mode;
-        while k < high {
+        loop {
             let next = probabilities[probabilities.len() - 1] * (mean / (k + 1.0));
             if next < MIN_RATIO {
                 break;
@@ -152,13 +127,7 @@ impl Table {
         let middle = below.partition_point(|sum| *sum < 0.5 * total);
         let above = from.iter().skip(1).chain([&0.0]).map(|sum| sum / total).collect();
         let below = below.iter().map(|sum| sum / total).collect();
-        probabilities.iter_mut().for_each(|probability| *probability /= total);
-        Some(Self { first, probabilities, below, above, middle })
-    }
-
-    /// The largest number in it.
-    fn last(&self) -> f64 {
-        self.first + (self.probabilities.len() - 1) as f64
+        Self { first, below, above, middle }
     }
 
     /// The place of the quantile at `u`, `v` being 1 - u.
@@ -169,14 +138,6 @@ impl Table {
             self.above.partition_point(|above| *above >= v).max(self.middle)
         };
         place.min(self.below.len() - 1)
-    }
-
-    fn expectation(&self, function: impl Fn(f64) -> f64) -> f64 {
-        self.probabilities
-            .iter()
-            .enumerate()
-            .map(|(k, probability)| function(self.first + k as f64) * probability)
-            .sum()
     }
 }
 
@@ -190,9 +151,8 @@ pub(super) const ENTRIES: &[Entry] = &[Entry {
 
 impl Family for Poisson {
     fn at(&self, u: f64, v: f64) -> f64 {
-        let (low, high) = self.bounds;
         if u <= 0.0 || v <= 0.0 {
-            return if u <= 0.0 { low } else { high };
+            return if u <= 0.0 { 0.0 } else { f64::INFINITY };
         }
         self.table.first + self.table.place(u, v) as f64
     }
@@ -204,24 +164,18 @@ impl Family for Poisson {
     }
 
     fn mean(&self) -> f64 {
-        if self.is_whole() { self.mean } else { self.table.expectation(|k| k) }
+        self.mean
     }
 
     fn sd(&self) -> f64 {
-        if self.is_whole() {
-            return self.mean.sqrt();
-        }
-        let mean = self.mean();
-        self.table.expectation(|k| (k - mean) * (k - mean)).sqrt()
+        self.mean.sqrt()
     }
 
     fn support(&self) -> (f64, f64) {
-        self.bounds
+        (0.0, f64::INFINITY)
     }
 
     fn parameters(&self) -> Vec<(&'static str, Parameter)> {
-        let (min, max) = self.bounds;
-        let truncate = (!self.is_whole()).then_some(("truncate", Parameter::Bounds(min, max)));
-        [("mean", self.mean.into())].into_iter().chain(truncate).collect()
+        vec![("mean", self.mean.into())]
     }
 }

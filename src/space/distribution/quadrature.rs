@@ -26,33 +26,22 @@ pub(super) fn integral(from: f64, to: f64, function: impl Fn(f64) -> f64) -> f64
     half * (0..PANELS).map(|index| panel(from + half * f64::from(2 * index + 1), half, &function)).sum::<f64>()
 }
 
-/// The integral of a function that is smooth over a short way, from `middle` - `half` to `middle` + `half`, by five points.
-pub(super) fn short_integral((middle, half): (f64, f64), function: impl Fn(f64) -> f64) -> f64 {
-    half * panel(middle, half, &function)
-}
-
-/// Mean and standard deviation of the values `quantile(u, v)`, v = 1 - u, for u from 0 to 1, with a kink at `kinks`.
+/// Mean and standard deviation of the values `quantile(u, v)`, v = 1 - u, for u from 0 to 1.
 ///
 /// By the tanh-sinh rule (Takahasi and Mori 1974, Publ. RIMS Kyoto Univ. 9, 721-741), which endures singularities at the
 /// ends; `u` and `v` go down to 1e-290.
-pub(super) fn moments(quantile: impl Fn(f64, f64) -> f64, kinks: &[f64]) -> (f64, f64) {
+pub(super) fn moments(quantile: impl Fn(f64, f64) -> f64) -> (f64, f64) {
     const STEP: f64 = 1.0 / 32.0;
-    let mut ends = vec![0.0];
-    ends.extend(kinks.iter().copied().filter(|u| 0.0 < *u && *u < 1.0));
-    ends.push(1.0);
     let origin = quantile(0.5, 0.5);
     let (mut first, mut second) = (0.0, 0.0);
-    for pair in ends.windows(2) {
-        let (from, length) = (pair[0], pair[1] - pair[0]);
-        for t in (-193..=193).map(|index| STEP * f64::from(index)) {
-            let ratio = libm::exp(-PI * libm::sinh(t).abs());
-            let (small, large) = (ratio / (1.0 + ratio), 1.0 / (1.0 + ratio));
-            let weight = STEP * PI * libm::cosh(t) * small * large * length;
-            let (below, above) = if t < 0.0 { (small, large) } else { (large, small) };
-            let deviation = quantile(from + length * below, (1.0 - pair[1]) + length * above) - origin;
-            first += weight * deviation;
-            second += weight * deviation * deviation;
-        }
+    for t in (-193..=193).map(|index| STEP * f64::from(index)) {
+        let ratio = libm::exp(-PI * libm::sinh(t).abs());
+        let (small, large) = (ratio / (1.0 + ratio), 1.0 / (1.0 + ratio));
+        let weight = STEP * PI * libm::cosh(t) * small * large;
+        let (below, above) = if t < 0.0 { (small, large) } else { (large, small) };
+        let deviation = quantile(below, above) - origin;
+        first += weight * deviation;
+        second += weight * deviation * deviation;
     }
     (origin + first, (second - first * first).max(0.0).sqrt())
 }

@@ -84,30 +84,31 @@ impl Distribution {
         if min <= low && high <= max {
             return self.clone().finite();
         }
-        let nothing = DistributionError::NothingLeft { distribution, min, max };
-        let is_single = matches!(self, Self::Discrete(_) | Self::Empirical(_) | Self::Integer(_) | Self::Poisson(_));
-        let (min, max) = (min.max(low), max.min(high));
-        if min > max || min == max && !is_single && !matches!(self, Self::Mixture(_)) {
-            return Err(nothing);
+        if matches!(
+            self,
+            Self::Discrete(_) | Self::Empirical(_) | Self::Integer(_) | Self::Poisson(_) | Self::Histogram(_)
+        ) {
+            let message =
+                format!("`truncate` cuts no {distribution} distribution off: leave out of it what lies outside");
+            return Err(refused("truncate", message));
         }
-        let left = match self {
-            Self::Uniform(_) => return Self::uniform(min, max),
-            Self::LogUniform(_) => return Self::log_uniform(min, max),
-            Self::Truncated(truncated) => return truncated.law.truncated(min, max),
-            Self::Pareto(pareto) if max == f64::INFINITY => return pareto.beginning_at(min),
-            Self::Discrete(values) | Self::Empirical(values) => values.between(min, max)?,
-            Self::Integer(integer) => integer.between(min, max)?,
-            Self::Poisson(poisson) => poisson.between(min, max)?,
-            Self::Histogram(histogram) => histogram.between(min, max)?,
-            Self::Mixture(mixture) => mixture.between(min, max)?,
+        let (min, max) = (min.max(low), max.min(high));
+        let nothing = || DistributionError::NothingLeft { distribution, min, max };
+        if min >= max {
+            return Err(nothing());
+        }
+        match self {
+            Self::Uniform(_) => Self::uniform(min, max),
+            Self::LogUniform(_) => Self::log_uniform(min, max),
+            Self::Truncated(truncated) => truncated.law.truncated(min, max),
+            Self::Pareto(pareto) if max == f64::INFINITY => pareto.beginning_at(min),
             law => {
                 if let Self::StudentT(student) = law {
                     student.refuse_one_long_tail((min, max))?;
                 }
-                Truncated::new(law, (min, max)).map(|truncated| Self::Truncated(truncated).finite()).transpose()?
+                Self::Truncated(Truncated::new(law, (min, max)).ok_or_else(nothing)?).finite()
             }
-        };
-        left.ok_or(nothing)
+        }
     }
 
     /// Normal with mean `mean` and standard deviation `sd` *before* it is [`truncated`](Self::truncated) to [`min`, `max`].
@@ -245,7 +246,7 @@ impl Truncated {
                 let reach = (-libm::log1p(45.0 / log), 46.0);
                 self.moments_around(mode, *scale, reach, |t| libm::exp(-t - log * libm::expm1(-t)))
             }
-            _ => moments(|u, v| self.at(u, v), &[]),
+            _ => moments(|u, v| self.at(u, v)),
         }
     }
 

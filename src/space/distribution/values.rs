@@ -205,18 +205,6 @@ impl Values {
         }
     }
 
-    /// The values between `min` and `max`, both included, with their weights; `None` if there are none.
-    pub(super) fn between(&self, min: f64, max: f64) -> Result<Option<Distribution>, DistributionError> {
-        let weight = |place: usize| self.weights.as_ref().map_or(1.0, |weights| weights[place]);
-        let pairs = self.values.iter().enumerate().map(|(place, value)| (*value, weight(place)));
-        let (values, weights): (Vec<f64>, Vec<f64>) = pairs.filter(|(value, _)| (min..=max).contains(value)).unzip();
-        if weights.iter().all(|weight| *weight == 0.0) {
-            return Ok(None);
-        }
-        let weights = self.weights.as_ref().map(|_| weights.as_slice());
-        Self::new(&values, weights, self.origin.clone())?.distribution().finite().map(Some)
-    }
-
     /// The labels as given; none of values without.
     pub fn labels(&self) -> &[String] {
         if let Origin::Labels { labels, .. } = &self.origin { labels } else { &[] }

@@ -1,11 +1,9 @@
 //! The distribution of a factor, from the keys of its `[[factor]]` table.
 
-use std::ops::Range;
-
 use super::context::{Context, Fault, unknown_name, wrong};
 use super::error::Problem;
 use super::measured;
-use super::sections::{At, ComponentSection, FactorSection, OF_FACTORS, TypedKey, TypedValue};
+use super::sections::{At, FactorSection, TypedKey, TypedValue};
 use crate::space::distribution::{Kind, Parameter};
 use crate::space::{Distribution, DistributionError};
 
@@ -24,18 +22,9 @@ pub(super) fn is_determined(fields: &FactorSection, distribution: &Distribution)
 /// The distribution of a factor.
 pub(super) fn of_factor(context: &Context<'_>, section: &At<FactorSection>) -> Result<Distribution, Fault> {
     let fields = section.get_ref();
-    distribution(context, fields.name.get_ref(), fields.name.span(), fields)
-}
-
-/// The distribution that `fields` say, of the factor of that name, which stand at `place`.
-fn distribution(
-    context: &Context<'_>,
-    factor: &str,
-    place: Range<usize>,
-    fields: &FactorSection,
-) -> Result<Distribution, Fault> {
+    let factor = fields.name.get_ref();
     let kind = kind(context, fields)?;
-    let values = fields.keys.iter().map(|typed| Ok((typed.key.name, parameter(context, factor, fields, kind, typed)?)));
+    let values = fields.keys.iter().map(|typed| Ok((typed.key.name, parameter(context, fields, kind, typed)?)));
     let values = values.collect::<Result<Vec<_>, Fault>>()?;
     kind.make(&values).map_err(|source| {
         let first = || fields.keys.first().map(|typed| typed.span.clone());
@@ -43,7 +32,7 @@ fn distribution(
             DistributionError::Missing { .. } => None,
             _ => source.key().and_then(|key| fields.place(key)).or_else(first),
         };
-        context.fault(of_key.unwrap_or(place), refused(factor, &source))
+        context.fault(of_key.unwrap_or(fields.name.span()), refused(factor, &source))
     })
 }
 
@@ -64,13 +53,7 @@ fn kind(context: &Context<'_>, fields: &FactorSection) -> Result<Kind, Fault> {
 }
 
 /// What a key says.
-fn parameter(
-    context: &Context<'_>,
-    factor: &str,
-    fields: &FactorSection,
-    kind: Kind,
-    typed: &TypedKey,
-) -> Result<Parameter, Fault> {
+fn parameter(context: &Context<'_>, fields: &FactorSection, kind: Kind, typed: &TypedKey) -> Result<Parameter, Fault> {
     Ok(match &typed.value {
         TypedValue::Parameter(parameter) => parameter.clone(),
         TypedValue::Text(file) if typed.key.name == "file" && kind.name() == "empirical" => {
@@ -100,24 +83,5 @@ fn parameter(
             };
             Parameter::Quantiles(table.iter().map(pair).collect::<Result<_, Fault>>()?)
         }
-        TypedValue::Components(components) => {
-            let component = |section| component(context, factor, section);
-            Parameter::Laws(components.iter().map(component).collect::<Result<_, Fault>>()?)
-        }
     })
-}
-
-/// One distribution of a mixture, whose unit is that of the factor.
-fn component(context: &Context<'_>, factor: &str, section: &At<ComponentSection>) -> Result<Distribution, Fault> {
-    let ComponentSection(fields) = section.get_ref();
-    let own_name = Some(fields.name.span()).filter(|span| !span.is_empty());
-    let [unit, group] = [&fields.unit, &fields.group].map(|key| key.as_ref().map(At::span));
-    let spans = [own_name, unit, group, fields.nominal.as_ref().map(At::span)];
-    match OF_FACTORS.into_iter().zip(spans).find_map(|(key, span)| Some((key, span?))) {
-        Some((key, span)) => {
-            let right = "it belongs to the whole factor, beside `components`";
-            Err(context.fault(span, Problem::misplaced(key, right)))
-        }
-        None => distribution(context, factor, section.span(), fields),
-    }
 }

@@ -8,7 +8,7 @@ use toml::de::{DeTable, DeValue};
 
 use super::context::{Context, Fault};
 use super::error::Problem;
-use super::sections::{At, ComponentSection, FactorSection, StudyFile};
+use super::sections::{At, FactorSection, LineSection, StudyFile};
 
 /// Brings `root`, a study file, to the form that `StudyFile` has: `noise = "seed"` is `noise.name = "seed"`.
 pub(super) fn normalise(context: &Context<'_>, root: &mut DeTable<'_>) -> Result<(), Fault> {
@@ -59,7 +59,7 @@ pub(super) fn join_factors(context: &Context<'_>, file: &mut StudyFile) -> Resul
     }
     for (name, line) in lines {
         let span = line.span();
-        let ComponentSection(fields) = line.into_inner();
+        let LineSection(fields) = line.into_inner();
         if !fields.name.span().is_empty() {
             let right = "the name of this factor stands before its table";
             return Err(context.fault(fields.name.span(), Problem::misplaced("name", right)));

@@ -95,9 +95,6 @@ pub(super) fn distribution_key(key: &Key) -> Value {
         KeyKind::Text => text,
         KeyKind::Texts => json!({ "type": "array", "items": text }),
         KeyKind::Quantiles => json!({ "type": "object", "additionalProperties": number }),
-        KeyKind::Distributions => {
-            json!({ "type": "array", "items": { "$ref": "#/definitions/ComponentSection" }, "minItems": 1 })
-        }
     };
     schema["description"] = json!(key.description);
     schema

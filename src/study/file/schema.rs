@@ -6,7 +6,7 @@ use schemars::transform::RecursiveTransform;
 use serde_json::{Value, json};
 
 use super::key_schemas;
-use super::sections::{OF_FACTORS, StudyFile};
+use super::sections::StudyFile;
 use crate::space::distribution::KEYS;
 
 /// The JSON Schema (draft 7, which editors understand) of study files. It knows every key and every name, not what the
@@ -23,13 +23,6 @@ pub fn study_schema() -> Value {
     if let Some(properties) = factor["properties"].as_object_mut() {
         properties.extend(KEYS.iter().map(|key| (key.name.to_owned(), key_schemas::distribution_key(key))));
     }
-    let mut component = factor.clone();
-    component["description"] = json!("A distribution in a mixture.");
-    component.as_object_mut().and_then(|component| component.remove("required"));
-    if let Some(properties) = component["properties"].as_object_mut() {
-        properties.retain(|key, _| !OF_FACTORS.contains(&key.as_str()));
-    }
-    schema["definitions"]["ComponentSection"] = component;
     let mut line = schema["definitions"]["FactorSection"].clone();
     line["properties"].as_object_mut().and_then(|keys| keys.remove("name"));
     line.as_object_mut().and_then(|line| line.remove("required"));

@@ -81,7 +81,7 @@ pub(super) struct StudyFile {
     /// The same, a line for each.
     #[serde(default)]
     #[schemars(skip)]
-    pub factors: BTreeMap<At<String>, At<ComponentSection>>,
+    pub factors: BTreeMap<At<String>, At<LineSection>>,
 }
 
 /// Names of outputs, or a table of what each is.
@@ -269,7 +269,6 @@ pub(super) enum TypedValue {
     Text(At<String>),
     Bounds(Vec<f64>),
     Quantiles(BTreeMap<At<String>, At<f64>>),
-    Components(Vec<At<ComponentSection>>),
 }
 
 impl FactorSection {
@@ -286,11 +285,11 @@ impl<'de> Deserialize<'de> for FactorSection {
     }
 }
 
-/// A factor whose name stands before its table, or a distribution in a mixture.
+/// A factor whose name stands before its table.
 #[derive(Debug)]
-pub(super) struct ComponentSection(pub FactorSection);
+pub(super) struct LineSection(pub FactorSection);
 
-impl<'de> Deserialize<'de> for ComponentSection {
+impl<'de> Deserialize<'de> for LineSection {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         deserializer.deserialize_map(FactorVisitor).map(Self)
     }
@@ -340,12 +339,11 @@ fn typed_value<'de, A: MapAccess<'de>>(kind: KeyKind, map: &mut A) -> Result<(Ra
         KeyKind::Texts => parts(map.next_value()?, |texts| plain(Parameter::Texts(texts))),
         KeyKind::Bounds => parts(map.next_value()?, TypedValue::Bounds),
         KeyKind::Quantiles => parts(map.next_value()?, TypedValue::Quantiles),
-        KeyKind::Distributions => parts(map.next_value()?, TypedValue::Components),
     })
 }
 
-/// Keys of a factor that are not about its distribution; the components of a mixture do not have them.
-pub(super) const OF_FACTORS: [&str; 4] = ["name", "unit", "group", "nominal"];
+/// Keys of a factor that are not about its distribution.
+const OF_FACTORS: [&str; 4] = ["name", "unit", "group", "nominal"];
 
 /// All keys of a factor.
 static FACTOR_KEYS: LazyLock<Vec<&str>> =

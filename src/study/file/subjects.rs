@@ -236,10 +236,9 @@ impl Subject for ExpressionSubject {
     }
 
     #[cfg(feature = "extremes")]
-    fn second_calculation(&self, space: &Space) -> Result<Box<dyn SecondCalculation>, &'static str> {
-        let formulas = self.formulas.iter().map(|formula| formula.expression.clone()).collect();
-        let factors = space.factors().len();
-        Ok(Box::new(PreciseFormulas::new(formulas, vec![0.0; factors], (0..factors).collect())))
+    fn second_calculation(&self, _: &Space) -> Result<Box<dyn SecondCalculation>, &'static str> {
+        let formulas = self.formulas.iter().map(|formula| formula.expression.clone());
+        Ok(Box::new(PreciseFormulas(formulas.collect())))
     }
 
     fn constants(&self, _space: &Space) -> Vec<(String, f64, String)> {
@@ -288,22 +287,16 @@ impl Subject for CommandSubject {
     }
 }
 
-impl KnownSubject {
-    /// The values of all inputs where they are no factors of `space`, and for each of its factors the input it drives.
-    fn inputs(&self, space: &Space) -> (Vec<f64>, Vec<usize>) {
-        let inputs = known_inputs(&self.function);
-        let place = |factor: &Factor| inputs.iter().position(|input| input.name == factor.name);
-        (inputs.iter().map(|i| i.nominal).collect(), space.factors().iter().filter_map(place).collect())
-    }
-}
-
 impl Subject for KnownSubject {
     fn name(&self) -> &'static str {
         self.function.answer().name()
     }
 
     fn model(&self, space: &Space) -> Box<dyn Model> {
-        let (base, factors) = self.inputs(space);
+        let inputs = known_inputs(&self.function);
+        let place = |factor: &Factor| inputs.iter().position(|input| input.name == factor.name);
+        let base = inputs.iter().map(|input| input.nominal).collect();
+        let factors = space.factors().iter().filter_map(place).collect();
         Box::new(known_model(self.function.clone(), base, factors))
     }
 
@@ -316,12 +309,6 @@ impl Subject for KnownSubject {
         let all = factors.len() == inputs.len() && factors.iter().zip(&inputs).all(is_own);
         let indices = self.function.exact().indices.filter(|_| all)?;
         Some((indices.first_order, indices.total))
-    }
-
-    #[cfg(feature = "extremes")]
-    fn second_calculation(&self, space: &Space) -> Result<Box<dyn SecondCalculation>, &'static str> {
-        let (base, factors) = self.inputs(space);
-        Ok(Box::new(PreciseFormulas::new(vec![self.function.expression()], base, factors)))
     }
 
     fn settings(&self) -> Vec<(&'static str, Value)> {

@@ -71,7 +71,8 @@ impl<'a> ExtremesJob<'a> {
 /// use apportion::Study;
 /// use apportion::trade::extremes::{ExtremesJob, extremes};
 ///
-/// let study = Study::parse(include_str!("../../../studies/flood.toml"), Path::new("flood.toml"), &[])?;
+/// let text = "model = \"expression\"\noutputs.y = \"sqrt(a)\"\n[factors]\na = { min = 1, max = 2 }\n";
+/// let study = Study::parse(text, Path::new("root.toml"), &[])?;
 /// let map = extremes(&ExtremesJob::new(&study))?;
 /// assert!(map.counts.right > 0);
 /// assert_eq!(map.counts.wrong, 0);

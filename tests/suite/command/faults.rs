@@ -32,7 +32,7 @@ fn a_program_without_faults_gives_what_the_formula_gives() {
     let objects = "import json, sys\nfor line in sys.stdin:\n    x = json.loads(line)\n    \
                    print(json.dumps({'id': x['id'], 'y': x['x1'] + 2*x['x2'] + x['x1']*x['x3']}), flush=True)\n";
     is_whole(&Case::new("protocol = \"json-lines\"", objects));
-    is_whole(&Case::new("protocol = \"json-lines\"\nrow_numbers = true", objects));
+    is_whole(&Case::new("protocol = \"json-lines\"", objects));
 }
 
 #[test]

@@ -16,8 +16,7 @@ fn refused(keys: &str, expected: &[&str]) {
 fn keys_are_checked_with_their_places() {
     refused("protocl = \"csv\"", &["study.toml:6:1:", "unknown key `protocl`: did you mean `protocol`?"]);
     refused("protocol = \"xml\"", &["study.toml:6:12:", "unknown protocol `xml`", "known: csv, json-lines"]);
-    refused("row_numbers = 1", &["study.toml:6:15:"]);
-    refused("row_numbers = false", &["study.toml:6:15:", "begins with the number of its row"]);
+    refused("row_numbers = true", &["study.toml:6:1:", "unknown key `row_numbers`"]);
     let named = |protocol: &str| Case::new(&format!("protocol = \"{protocol}\""), "");
     let case = named("csv").replace("name = \"x1\"", "name = \"id\"");
     let message = stderr(&apportion(&["check", text(&case.path("study.toml"))]));
@@ -37,7 +36,6 @@ fn keys_are_checked_with_their_places() {
     refused("template = \"no.in\"", &["study.toml:6:12:", "no.in: cannot read the template"]);
     refused("template = \"model.py\"", &["`outputs.y` must be a table that says where the number stands"]);
     refused("template = \"model.py\"\nprotocol = \"csv\"", &["study.toml:7:12:", "without `template`"]);
-    refused("template = \"model.py\"\nrow_numbers = true", &["study.toml:7:15:", "without `template`"]);
     refused("template = \"model.py\"\ninput = \"../x\"", &["study.toml:7:9:", "the name of a file, without a folder"]);
     refused("template = \"model.py\"\nfiles = [\"no.dat\"]", &["study.toml:7:10:", "there is no such file"]);
     let pick = "template = \"model.py\"\noutputs.y = ";

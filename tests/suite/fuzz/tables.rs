@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::LazyLock;
 
 use apportion::exchange::{Missing, ReadOptions, RowReader, Selection, Table, evaluate, read_table, table_of_bytes};
-use apportion::given::{Method, analyse};
+use apportion::given::analyse;
 use apportion::report::given::{GivenFacts, build_given, given_document};
 use apportion::study::Study;
 
@@ -67,13 +67,11 @@ fn analysed(table: &Table) {
     if outputs.is_empty() || rows * (inputs.len() + outputs.len()) > CELLS {
         return;
     }
-    let method = Method::Both;
-    let Ok(indices) = analyse(inputs, outputs, method, 0) else { return };
+    let Ok(indices) = analyse(inputs, outputs, 0) else { return };
     let facts = GivenFacts {
         file: "table.csv".to_owned(),
         sha256: String::new(),
         dropped: dropped.map(|dropped| (dropped.rows, dropped.first_line)),
-        method,
         seed: 0,
     };
     let result = build_given(&indices, None, inputs, outputs, &facts);

@@ -39,7 +39,7 @@ fn closed_forms_are_met() {
 
 /// One of each family that is solved for, and what has to be given beside mean and standard deviation or quantiles.
 fn samples() -> Vec<(Distribution, Stated)> {
-    let cases: [(Result<Distribution, Error>, Stated); 16] = [
+    let cases: [(Result<Distribution, Error>, Stated); 15] = [
         (Distribution::uniform(-1.0, 2.5), vec![]),
         (Distribution::log_uniform(0.5, 40.0), vec![]),
         (Distribution::normal(1e6, 0.5), vec![]),
@@ -54,7 +54,6 @@ fn samples() -> Vec<(Distribution, Stated)> {
         (Distribution::logistic(1.0, 2.0), vec![]),
         (Distribution::student_t(5.0, 1.0, 2.0), vec![("df", 5.0)]),
         (Distribution::pareto(3.5, 2.0), vec![]),
-        (Distribution::inverse_gaussian(2.0, 6.0), vec![]),
         (Distribution::triangular(1.0, 2.0, 4.0), vec![("mode", 2.0)]),
     ];
     cases.into_iter().map(|(distribution, beside)| (made(distribution), beside)).collect()

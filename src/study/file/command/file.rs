@@ -22,10 +22,6 @@ pub struct CommandSection {
     /// How rows are handed over to a program that is kept alive.
     #[schemars(extend("enum" = names(&Protocol::ALL, Protocol::name), "default" = "csv"))]
     pub protocol: Option<At<String>>,
-    /// Every row has a number (`id`: the first column of CSV, a key of a JSON object), which the program writes back with its
-    /// answer. Studies need not say so any more, and cannot say otherwise.
-    #[schemars(extend("const" = true))]
-    pub row_numbers: Option<At<bool>>,
     /// Processes at once; by default as many as there are cores.
     #[schemars(range(min = 1, max = 1024))]
     pub workers: Option<At<u64>>,

@@ -55,7 +55,6 @@ pub(super) fn subject(
             refuse_outside_of_run(context, place, file, reach(section))?;
         }
     }
-    refuse_without_numbers(context, section)?;
     let (form, notes) = match &section.template {
         None => {
             let protocol = protocol(context, section, all.first_pick.as_ref())?;
@@ -148,18 +147,6 @@ fn protocol(
         return Err(context.fault(span, wrong(key, RUNS, "without one".to_owned())));
     }
     Ok(choice_if_said(context, &section.protocol, "protocol")?.unwrap_or(Protocol::Csv))
-}
-
-/// Rows have numbers always: studies that say so are right.
-fn refuse_without_numbers(context: &Context<'_>, section: &CommandSection) -> Result<(), Fault> {
-    match &section.row_numbers {
-        Some(typed) if !typed.get_ref() => {
-            let expected = "true, or left out: each answer begins with the number of its row, as in `print(row[\"id\"], y, \
-                            sep=\",\")`; a program that cannot do so runs once for each row, with a `template`";
-            context.refuse(typed, "row_numbers", expected, "false".to_owned())
-        }
-        _ => Ok(()),
-    }
 }
 
 /// A factor, or an output of JSON, called as the number of a row is.

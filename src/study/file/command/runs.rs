@@ -24,13 +24,9 @@ pub(super) fn form(
     template: &At<String>,
     space: &Space,
 ) -> Result<(PerRun, Vec<String>), Fault> {
-    let kept_alive = [
-        ("protocol", section.protocol.as_ref().map(At::span)),
-        ("row_numbers", section.row_numbers.as_ref().map(At::span)),
-    ];
-    if let Some((key, span)) = kept_alive.into_iter().find_map(|(key, span)| Some((key, span?))) {
+    if let Some(protocol) = &section.protocol {
         let expected = "only of a program that is kept alive, without `template`";
-        return Err(context.fault(span, wrong(key, expected, "beside one".to_owned())));
+        return Err(context.fault(protocol.span(), wrong("protocol", expected, "beside one".to_owned())));
     }
     let template_file = resolve(context, template, reach(section))?;
     let file_name = template_file.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());

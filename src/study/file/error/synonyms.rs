@@ -3,7 +3,7 @@
 use crate::names::nearest;
 
 /// Our word, or two of them, and what SciPy, SALib, UQLab and everyday language call it.
-const SYNONYMS: [(&[&str], &[&str]); 48] = [
+const SYNONYMS: [(&[&str], &[&str]); 46] = [
     // Keys of a factor.
     (&["distribution"], &["dist", "distr", "law", "type", "pdf"]),
     (&["min", "max"], &["bounds", "bound", "range", "limits", "interval"]),
@@ -19,9 +19,7 @@ const SYNONYMS: [(&[&str], &[&str]); 48] = [
     (&["gamma"], &["erlang"]),
     (&["exponential"], &["expon", "exp"]),
     (&["student-t"], &["t", "student", "student_t", "studentt"]),
-    (&["inverse-gaussian"], &["invgauss", "wald", "inverse-normal", "inverse_gaussian", "inversenormal"]),
     (&["histogram"], &["rv_histogram", "piecewise", "piecewise-uniform", "cumulative", "percentiles"]),
-    (&["mixture"], &["mix"]),
     (&["poisson"], &["pois"]),
     (&["p50"], &["median"]),
     (&["nominal"], &["default", "reference"]),
