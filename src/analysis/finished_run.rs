@@ -37,7 +37,7 @@ pub(crate) struct FinishedRun<'a> {
 pub(crate) struct LowTotals<'a> {
     /// Its name.
     pub name: &'a str,
-    /// Totals of each replicate at the rows of the dear model.
+    /// Totals of each replicate at the rows of the expensive model.
     pub shared: &'a [Totals],
     /// A design of its own.
     pub design: &'a Design,

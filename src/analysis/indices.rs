@@ -79,7 +79,7 @@ fn noise_record(study: &Study, indices: &OutputIndices, noise: &NoiseIndices) ->
     }
 }
 
-/// What is told of all swaps without the noise, which is told of by itself.
+/// What is reported of all swaps without the noise, which has an entry of its own.
 fn without_noise<T>(study: &Study, of_swaps: impl Iterator<Item = T>) -> Vec<T> {
     let noise = study.space.noise();
     of_swaps.enumerate().filter(|(swap, _)| Some(*swap) != noise).map(|(_, of)| of).collect()

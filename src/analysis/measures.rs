@@ -5,7 +5,7 @@
 
 use super::first_rows::FirstRows;
 use crate::design::{Design, DesignSettings, Sampler};
-use crate::given::{Column, FEWEST_ROWS, Measure, measures_of_rows};
+use crate::given::{Column, MIN_ROWS, Measure, measures_of_rows};
 use crate::result::RunMeasures;
 use crate::space::{Factor, Space};
 
@@ -46,7 +46,7 @@ impl MeasuredRows {
             values.iter().zip(&has_value).filter(|(_, has_value)| **has_value).map(|(value, _)| *value).collect()
         };
         let outputs = kept(&outputs);
-        if outputs.len() < FEWEST_ROWS {
+        if outputs.len() < MIN_ROWS {
             return None;
         }
         let of_factor = |column: &Column| Column { name: column.name.clone(), values: kept(&column.values) };

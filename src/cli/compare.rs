@@ -56,9 +56,9 @@ fn told_apart(sides: [(&String, &PathBuf); 2]) -> [String; 2] {
         sides.map(|(_, path)| part(path.file_stem())),
         sides.map(|(_, path)| folder(path)),
     ];
-    let told = candidates.into_iter().find_map(|names| match names {
+    let distinct = candidates.into_iter().find_map(|names| match names {
         [Some(a), Some(b)] if a != b && !a.is_empty() && !b.is_empty() => Some([a, b]),
         _ => None,
     });
-    told.unwrap_or_else(|| ["A".to_owned(), "B".to_owned()])
+    distinct.unwrap_or_else(|| ["A".to_owned(), "B".to_owned()])
 }

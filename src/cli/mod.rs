@@ -338,7 +338,7 @@ fn print_raw(bytes: &[u8]) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Writes `text` to standard output without panicking when nobody reads it.
+/// Writes `text` to standard output without panicking when its reader is gone.
 fn print(text: &str) -> Result<(), Failure> {
     print_raw(printable(text).as_bytes())
 }

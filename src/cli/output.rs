@@ -1,4 +1,4 @@
-//! The files of a command: in which formats, written, and told.
+//! The files of a command: their formats, writing and listing.
 
 use std::path::{Path, PathBuf};
 

@@ -97,7 +97,8 @@ pub fn run(arguments: &Arguments, others: Option<&dyn Ranks>) -> Result<(), Fail
             return Err(Failure::Input(anyhow!("--save-outputs: {why}")));
         }
         Some(path) => {
-            let format = Format::of(path).map_err(|error| Failure::Input(anyhow!("{}: {error}", path.display())))?;
+            let format =
+                Format::from_path(path).map_err(|error| Failure::Input(anyhow!("{}: {error}", path.display())))?;
             prepare_file(path)?;
             Some((path.as_path(), format))
         }
@@ -117,7 +118,7 @@ pub fn run(arguments: &Arguments, others: Option<&dyn Ranks>) -> Result<(), Fail
             runner.threads(threads).remote_workers(others)
         }
     };
-    // From here on: whoever waits for an input that never comes can be ended at once.
+    // From here on: a wait for an input that never comes can be ended at once.
     let stop = stop::on_signal();
     let mut runner =
         runner.on_message(say).stop(stop).resume(asked.resume(journal.as_ref().is_some_and(|path| path.exists())));

@@ -42,7 +42,7 @@ pub fn sample(arguments: &Arguments) -> Result<(), Failure> {
     let kind = if arguments.random.is_some() { "random" } else { "design" };
     let default = || PathBuf::from(format!("{}-{kind}.csv", study.name()));
     let path = arguments.output.clone().unwrap_or_else(default);
-    let format = Format::of(&path).map_err(|error| Failure::Input(anyhow!("{}: {error}", path.display())))?;
+    let format = Format::from_path(&path).map_err(|error| Failure::Input(anyhow!("{}: {error}", path.display())))?;
     let beside = Manifest::path_beside(&path);
     if !arguments.force && path.is_file() && !is_own(&path, study.name()) {
         let what = "exists already, and is no design that `sample` wrote of this study";

@@ -20,10 +20,10 @@ const TABLES: [&str; 2] = [
 pub type Directions = [u32; BITS];
 
 /// Of most studies, so that a short run does not read thousands of dimensions.
-const FEW: usize = 128;
+const FIRST_DIMENSIONS: usize = 128;
 
 /// The first few and all dimensions, each read once for the whole program.
-static FIRST: LazyLock<Vec<Directions>> = LazyLock::new(|| read(FEW));
+static FIRST: LazyLock<Vec<Directions>> = LazyLock::new(|| read(FIRST_DIMENSIONS));
 static ALL: LazyLock<Vec<Directions>> = LazyLock::new(|| read(MAX_DIMENSIONS));
 
 fn read(dimensions: usize) -> Vec<Directions> {
@@ -42,7 +42,7 @@ fn read(dimensions: usize) -> Vec<Directions> {
 /// If `dimensions` exceeds [`MAX_DIMENSIONS`]; [`crate::design::Design`] checks this before.
 pub fn directions(dimensions: usize) -> &'static [Directions] {
     assert!(dimensions <= MAX_DIMENSIONS, "at most {MAX_DIMENSIONS} dimensions");
-    if dimensions <= FEW { &FIRST[..dimensions] } else { &ALL[..dimensions] }
+    if dimensions <= FIRST_DIMENSIONS { &FIRST[..dimensions] } else { &ALL[..dimensions] }
 }
 
 /// Before the bits are reversed: the most significant bit of an entry stands for 1/2.

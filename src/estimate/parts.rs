@@ -9,7 +9,7 @@ pub const MAX_PARTS: usize = 64;
 const MAX_NUMBERS: usize = 1 << 19;
 
 /// Outputs, series value by value, above which parts have eight points at least.
-const MANY_OUTPUTS: usize = 256;
+const OUTPUTS_OF_SHORT_PARTS: usize = 256;
 
 /// Moments of consecutive base points, kept as those of up to [`MAX_PARTS`] consecutive parts of equal length, a power
 /// of two; the last part may be shorter.
@@ -117,7 +117,7 @@ pub fn merged(parts: &[Moments]) -> Moments {
 /// many outputs, a part has eight points at least, so that sums do not need many times the memory of the outputs.
 pub fn part_length(block: u64, size: u64, outputs: usize) -> u64 {
     let points = (block + 1).next_power_of_two() * size;
-    let least = if outputs > MANY_OUTPUTS { 8 } else { 1 };
+    let least = if outputs > OUTPUTS_OF_SHORT_PARTS { 8 } else { 1 };
     (points / MAX_PARTS as u64 / 2).clamp(least, size)
 }
 

@@ -1,4 +1,4 @@
-//! A table of inputs and outputs, whoever made it.
+//! A table of inputs and outputs, from any source.
 
 use std::fmt;
 

@@ -52,7 +52,7 @@ pub fn bins_for(rows: usize) -> usize {
 /// If the slices differ in length.
 pub fn binned_first_order(x: &[f64], y: &[f64]) -> Result<Binned, NoVariance> {
     assert_eq!(x.len(), y.len(), "one output per input value");
-    Ok(of_order(&Order::of(x), x, &centred(y)?, true))
+    Ok(of_order(&Order::from_values(x), x, &centred(y)?, true))
 }
 
 /// The same for centred outputs `z` and the order of the input `x`.

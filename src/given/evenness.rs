@@ -14,10 +14,10 @@ pub(super) const GRIDS: [usize; 6] = [4, 8, 16, 32, 64, 128];
 const TOO_EVEN: f64 = -6.0;
 
 /// Fewest degrees of freedom of a test: with fewer, perfectly even counts occur by chance.
-const LEAST_FREEDOM: f64 = 27.0;
+const MIN_FREEDOM: f64 = 27.0;
 
 /// Pairs of inputs that are looked at.
-const MOST_PAIRS: usize = 500;
+const MAX_PAIRS: usize = 500;
 
 /// What kind of points the rows of a table are.
 #[derive(Debug, Clone, PartialEq)]
@@ -120,7 +120,7 @@ fn too_even(inputs: &[(&str, &Order)], rows: usize, grid: usize) -> Option<Strin
 
 /// Pairs of column numbers, neighbours first, as many as are looked at.
 fn nearest_pairs(columns: usize) -> impl Iterator<Item = (usize, usize)> {
-    (1..columns).flat_map(move |lag| (lag..columns).map(move |j| (j - lag, j))).take(MOST_PAIRS)
+    (1..columns).flat_map(move |lag| (lag..columns).map(move |j| (j - lag, j))).take(MAX_PAIRS)
 }
 
 /// Pearson's chi-square statistic with its degrees of freedom.
@@ -144,7 +144,7 @@ impl Deviation {
     }
 
     fn too_even(self) -> Option<f64> {
-        Some(self.normal()).filter(|&z| self.freedom >= LEAST_FREEDOM && z < TOO_EVEN)
+        Some(self.normal()).filter(|&z| self.freedom >= MIN_FREEDOM && z < TOO_EVEN)
     }
 }
 

@@ -1,4 +1,4 @@
-//! Sobol' indices from data that exist already: a table of inputs and outputs, whoever made it.
+//! Sobol' indices from data that exist already: a table of inputs and outputs, from any source.
 //!
 //! There is no design to rely on, and rows must be independent draws. [`analyse`] looks at the rows first ([`PointSet`]) and
 //! refuses what would give wrong numbers; then it estimates S_j = V(E[Y|X_j])/V(Y) by [`rank`](rank_first_order) and by
@@ -29,19 +29,19 @@ pub use dependence::{Dependence, PairDependence};
 #[doc(hidden)]
 pub use evenness::PointSet;
 pub(crate) use measures::measures_of_rows;
-pub use measures::{InputMeasures, MOST_ROWS_OF_KERNELS, Measure, Measured, PERMUTATIONS, SIGNIFICANT, measures};
+pub use measures::{InputMeasures, MAX_ROWS_OF_KERNELS, Measure, Measured, PERMUTATIONS, SIGNIFICANT, measures};
 pub use outcome::{InputIndices, OutputIndices};
 #[doc(hidden)]
 pub use rank::rank_first_order;
 pub use surrogate::{
-    LEAST_EXPLAINED, SurrogateIndices, SurrogateOutput, SurrogateRefusal, Surrogates, surrogate_indices,
+    MIN_EXPLAINED, SurrogateIndices, SurrogateOutput, SurrogateRefusal, Surrogates, surrogate_indices,
 };
 
 pub(crate) use column::centred;
 use order::Order;
 
 /// Fewest rows that are analysed: below, an interval is wider than the range of an index.
-pub const FEWEST_ROWS: usize = 30;
+pub const MIN_ROWS: usize = 30;
 
 /// Why a table is not analysed.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
@@ -73,9 +73,7 @@ pub enum GivenError {
         row: usize,
     },
     /// Too few rows.
-    #[error(
-        "the table has {rows} usable rows; at least {FEWEST_ROWS} are needed, and some hundreds for narrow intervals"
-    )]
+    #[error("the table has {rows} usable rows; at least {MIN_ROWS} are needed, and some hundreds for narrow intervals")]
     TooFewRows {
         /// Rows found.
         rows: usize,
@@ -131,7 +129,7 @@ pub struct GivenIndices {
 /// for the interval of the rank estimator; the estimates do not depend on it.
 ///
 /// # Errors
-/// [`GivenError`]: no columns, columns of different lengths, values that are not finite, fewer than [`FEWEST_ROWS`] rows,
+/// [`GivenError`]: no columns, columns of different lengths, values that are not finite, fewer than [`MIN_ROWS`] rows,
 /// or rows that are not independent because they belong to a design or repeat each other. Points that are too even for ranks
 /// are analysed by bins alone.
 ///
@@ -159,7 +157,7 @@ pub struct GivenIndices {
 /// ```
 pub fn analyse(inputs: &[Column], outputs: &[Column], seed: u64) -> Result<GivenIndices, GivenError> {
     let rows = check(inputs, outputs)?;
-    let orders: Vec<Order> = inputs.iter().map(|input| Order::of(&input.values)).collect();
+    let orders: Vec<Order> = inputs.iter().map(|input| Order::from_values(&input.values)).collect();
     let varying: Vec<usize> = (0..inputs.len()).filter(|&j| orders[j].groups() > 1).collect();
     let varied: Vec<(&str, &Order)> = varying.iter().map(|&j| (inputs[j].name.as_str(), &orders[j])).collect();
     let points = if evenness::is_grid(&varied, rows) {
@@ -199,7 +197,7 @@ fn check(inputs: &[Column], outputs: &[Column]) -> Result<usize, GivenError> {
             return Err(GivenError::NotFinite { name: name.clone(), row: row + 1 });
         }
     }
-    if rows < FEWEST_ROWS {
+    if rows < MIN_ROWS {
         return Err(GivenError::TooFewRows { rows });
     }
     Ok(rows)

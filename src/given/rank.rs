@@ -34,7 +34,7 @@ use crate::uncertainty::{Estimate, Interval, LEVEL};
 /// If the slices differ in length or hold fewer than 4 rows.
 pub fn rank_first_order(x: &[f64], y: &[f64], seed: u64) -> Result<Estimate, NoVariance> {
     assert_eq!(x.len(), y.len(), "one output per input value");
-    Ok(of_order(&Order::of(x), &centred(y)?, (seed, 0)))
+    Ok(of_order(&Order::from_values(x), &centred(y)?, (seed, 0)))
 }
 
 /// The same for centred outputs `z` and the order of the input; `random` is seed and stream.
@@ -44,7 +44,7 @@ pub(super) fn of_order(order: &Order, z: &[f64], random: (u64, u64)) -> Estimate
     }
     let n = z.len() as f64;
     let square_sum: f64 = z.iter().map(|z| z * z).sum();
-    let ties: Vec<Tie> = order.iter().map(|rows| Tie::of(rows, z)).collect();
+    let ties: Vec<Tie> = order.iter().map(|rows| Tie::new(rows, z)).collect();
     let within: f64 = ties.iter().map(Tie::neighbours).sum();
     let between: f64 = ties.windows(2).map(|pair| pair[0].mean() * pair[1].mean()).sum();
     let (first, last) = (&ties[0], &ties[ties.len() - 1]);
@@ -66,7 +66,7 @@ struct Tie {
 }
 
 impl Tie {
-    fn of(rows: &[usize], z: &[f64]) -> Self {
+    fn new(rows: &[usize], z: &[f64]) -> Self {
         let (sum, square_sum) = rows.iter().fold((0.0, 0.0), |(s, q), &row| (s + z[row], q + z[row] * z[row]));
         Self { count: rows.len() as f64, sum, square_sum }
     }

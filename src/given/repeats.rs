@@ -4,7 +4,7 @@ use super::GivenError;
 use super::order::Order;
 
 /// Columns with fewer values than this repeat themselves by nature.
-const FEW_VALUES: usize = 10;
+const MAX_LISTED_VALUES: usize = 10;
 
 /// Refuses rows that repeat each other, one-at-a-time designs and pick-freeze designs. `inputs` are those that vary.
 ///
@@ -21,7 +21,7 @@ pub(super) fn check(inputs: &[(&str, &Order)], rows: usize) -> Result<(), GivenE
     if tied.iter().all(|&pairs| pairs == 0.0) {
         return Ok(());
     }
-    let equal = Equal::of(&labels);
+    let equal = Equal::new(&labels);
     let expected = all_pairs * tied.iter().map(|pairs| pairs / all_pairs).product::<f64>();
     let least_tied = tied.iter().copied().fold(f64::INFINITY, f64::min);
     let excess = equal.pairs > 4.0 * expected + 10.0 && equal.pairs >= 0.5 * least_tied;
@@ -47,7 +47,7 @@ struct Equal {
 }
 
 impl Equal {
-    fn of(labels: &[Vec<usize>]) -> Self {
+    fn new(labels: &[Vec<usize>]) -> Self {
         let rows = labels[0].len();
         let row = |k: usize| labels.iter().map(move |column| column[k]);
         let mut order: Vec<usize> = (0..rows).collect();
@@ -82,7 +82,7 @@ fn single_steps(labels: &[Vec<usize>], tied: &[f64], all_pairs: f64) -> Option<u
 /// Whether equal values of one input come with equal values of another in too many pairs of rows: in a pick-freeze
 /// design of three inputs or more, A and AB_j share all but one.
 fn joint_repeats(inputs: &[(&str, &Order)], labels: &[Vec<usize>], equal_pairs: f64, rows: usize) -> bool {
-    let many: Vec<usize> = (0..inputs.len()).filter(|&j| inputs[j].1.groups() >= FEW_VALUES).collect();
+    let many: Vec<usize> = (0..inputs.len()).filter(|&j| inputs[j].1.groups() >= MAX_LISTED_VALUES).collect();
     if many.len() < 3 {
         return false;
     }
@@ -113,7 +113,7 @@ fn jointly_tied(order: &Order, other: &[usize]) -> f64 {
 }
 
 /// Whether all inputs have the same two multiplicities equally often, or one alone, as the values of A and of B have in a
-/// pick-freeze design, however few its inputs. A full grid, which is told apart by [`PointSet`](super::PointSet), has
+/// pick-freeze design, however few its inputs. A full grid, which is recognised by [`PointSet`](super::PointSet), has
 /// few values, each many times.
 fn same_multiplicities(inputs: &[(&str, &Order)], rows: usize) -> bool {
     let multiplicities = |order: &Order| {

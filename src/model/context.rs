@@ -23,7 +23,7 @@ pub struct RunContext<'a> {
 
 impl<'a> RunContext<'a> {
     /// A run that ends when `stop` is set, and passes every message of its workers, a line, to `on_message`. (The
-    /// default is a run that nobody stops or listens to.)
+    /// default is a run without a stop and without a listener.)
     pub fn new(stop: Option<&'a AtomicBool>, on_message: impl Fn(&str) + Send + Sync + 'static) -> Self {
         let messages = Messages { receiver: Some(Arc::new(on_message)), lines: Arc::default() };
         Self { stop, ended: AtomicBool::new(false), messages }
@@ -41,7 +41,7 @@ impl<'a> RunContext<'a> {
         &self.messages
     }
 
-    /// Whether whoever started the run wants it to end.
+    /// Whether the caller wants the run to end.
     pub(crate) fn is_interrupted(&self) -> bool {
         self.stop.is_some_and(|stop| stop.load(Ordering::Relaxed))
     }
@@ -53,7 +53,7 @@ impl<'a> RunContext<'a> {
 }
 
 /// Lines that a program prints on standard error and that are passed on; the others are counted.
-const MOST_LINES: u64 = 20;
+const MAX_LINES: u64 = 20;
 
 type Receiver = Arc<dyn Fn(&str) + Send + Sync>;
 
@@ -82,14 +82,14 @@ impl Messages {
     /// Sends a line that a program has printed, unless there have been enough.
     #[cfg(feature = "study")]
     pub(crate) fn send_printed(&self, line: &str) {
-        if self.lines.fetch_add(1, Ordering::Relaxed) < MOST_LINES {
+        if self.lines.fetch_add(1, Ordering::Relaxed) < MAX_LINES {
             self.send(line);
         }
     }
 
     /// Says how many lines of programs were not sent; to be called at the end of a run.
     pub(crate) fn finish(&self) {
-        let left_out = self.lines.swap(0, Ordering::Relaxed).saturating_sub(MOST_LINES);
+        let left_out = self.lines.swap(0, Ordering::Relaxed).saturating_sub(MAX_LINES);
         if left_out > 0 {
             let lines = if left_out == 1 { "line" } else { "lines" };
             self.send(&format!("the program: {left_out} more {lines} on standard error left out"));

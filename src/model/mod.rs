@@ -46,7 +46,7 @@ pub use known::{
 pub use repeated::RepeatedModel;
 pub use second::{Answered, Reference, SecondCalculation, Unchecked};
 #[cfg(feature = "study")]
-pub(crate) use series::MOST_VALUES;
+pub(crate) use series::MAX_SERIES_VALUES;
 pub use series::{OutputSeries, SeriesAxis, SeriesError};
 #[cfg(feature = "study")]
 pub(crate) use series::{item_of_list, items_of_header};
@@ -57,7 +57,7 @@ use std::sync::Arc;
 use crate::quantity::{Domain, Unit};
 use crate::space::Distribution;
 
-/// From so many outputs on they are told together: an overview in the place of files for each.
+/// From so many outputs on they are shown together: an overview in the place of files for each.
 pub(crate) const MANY_OUTPUTS: usize = 12;
 
 /// One output of a model.

@@ -8,13 +8,13 @@ use super::Output;
 use crate::quantity::Unit;
 
 /// Most values of a series: each is an output, with sums of its own.
-pub const MOST_VALUES: usize = 10_000;
+pub const MAX_SERIES_VALUES: usize = 10_000;
 
 /// What is wrong with an axis.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum SeriesError {
     /// Too few values, or too many.
-    #[error("a series has 2 to {MOST_VALUES} values, not {found}")]
+    #[error("a series has 2 to {MAX_SERIES_VALUES} values, not {found}")]
     Length {
         /// How many it has.
         found: usize,
@@ -44,7 +44,7 @@ impl SeriesAxis {
     /// [`SeriesError`] unless there are 2 to 10,000 positions, finite and in rising order.
     pub fn new(label: &str, unit: &str, positions: Vec<f64>) -> Result<Self, SeriesError> {
         let found = positions.len();
-        if !(2..=MOST_VALUES).contains(&found) {
+        if !(2..=MAX_SERIES_VALUES).contains(&found) {
             return Err(SeriesError::Length { found });
         }
         let rises = |place: &usize| {
@@ -62,7 +62,7 @@ impl SeriesAxis {
     /// # Errors
     /// As for [`new`](Self::new).
     pub fn even(label: &str, unit: &str, length: usize, start: f64, step: f64) -> Result<Self, SeriesError> {
-        if length > MOST_VALUES {
+        if length > MAX_SERIES_VALUES {
             return Err(SeriesError::Length { found: length });
         }
         Self::new(label, unit, (0..length).map(|place| start + step * place as f64).collect())
@@ -145,7 +145,7 @@ pub(crate) fn items_of_header(header: &str) -> Option<impl Iterator<Item = Strin
     let (first, end) = range.split_once("..")?;
     let (first, end) = (number(first)?, number(end)?);
     let items = end.checked_sub(first)?;
-    let is_list = !list.is_empty() && (1..=MOST_VALUES).contains(&items);
+    let is_list = !list.is_empty() && (1..=MAX_SERIES_VALUES).contains(&items);
     let list = list.to_owned();
     is_list.then(|| (first..end).map(move |place| format!("{list}[{place}]")))
 }

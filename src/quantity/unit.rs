@@ -190,7 +190,7 @@ impl Unit {
         self.is_label
     }
 
-    /// Whether it measures something: it is neither a label nor that of pure numbers, which stands where nobody has said a unit.
+    /// Whether it measures something: it is neither a label nor that of pure numbers, which stands where no unit is given.
     #[cfg(feature = "study")]
     pub(crate) fn is_of_kind(&self) -> bool {
         !self.is_label && self.dimension != Dimension::NUMBER

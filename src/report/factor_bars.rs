@@ -7,7 +7,7 @@ use crate::result::{OutputResult, StudyResult};
 use crate::uncertainty::{EffectEstimates, Estimate, Interval};
 
 /// Most factors in a chart.
-pub(super) const MOST: usize = 20;
+pub(super) const MAX_BARS: usize = 20;
 /// The axis of indices.
 pub(super) const INDEX: &str = "Sobol' index: part of the variance";
 /// Estimates beyond these bounds say nothing of an index, which is between 0 and 1, or of a difference of two; nor do intervals
@@ -65,7 +65,7 @@ pub(super) fn index_panel(
 }
 
 fn panel(label: &str, factors: Vec<String>, marks: impl Iterator<Item = Mark>, keys: &[f64]) -> Panel {
-    Panel::new(Axis::new(label, ""), Axis::from_names("", factors)).with(marks).ranked(keys, MOST)
+    Panel::new(Axis::new(label, ""), Axis::from_names("", factors)).with(marks).ranked(keys, MAX_BARS)
 }
 
 fn bars((series, values): IndexSeries, possible: (f64, f64)) -> impl Iterator<Item = Mark> {
@@ -127,13 +127,13 @@ pub fn shares_chart(title: &str, caption: &str, factors: &[&str], series: &[Shar
             })
         });
         let panel = Panel::new(Axis::new("share of the sum of indices (%)", ""), names).titled(title).with(bars);
-        panel.ranked(&keys, MOST)
+        panel.ranked(&keys, MAX_BARS)
     };
     let panels = [
         panel("First-order indices", EffectEstimates::first_order_percent),
         panel("Total indices", EffectEstimates::total_percent),
     ];
-    Chart::new(title, format!("{caption}{}", not_drawn(factors.len(), MOST))).side_by_side().panels(panels)
+    Chart::new(title, format!("{caption}{}", not_drawn(factors.len(), MAX_BARS))).side_by_side().panels(panels)
 }
 
 /// Shares beyond these bounds, in percent, and intervals longer than this mean nothing.

@@ -36,7 +36,7 @@ impl ChartFormat {
 }
 
 /// What the files of each of `names` begin with, so that with `suffixes` behind it no two files have one name, not even
-/// where capitals are not told from small letters: the name, with a number where it would stand for another's file.
+/// where capitals and small letters are the same: the name, with a number where it would stand for another's file.
 ///
 /// ```
 /// let stems = apportion::report::file_stems("s", &["y", "y-indices", "Y"], &["", "-indices"]);

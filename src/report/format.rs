@@ -13,7 +13,7 @@ pub fn with_unit(value: f64, unit: &str) -> String {
     if matches!(unit, "" | "1") { value } else { format!("{value} {}", self::unit(unit)) }
 }
 
-/// A share of the runs that is not zero, in percent; what is not all is not told as 100 %.
+/// A share of the runs that is not zero, in percent; what is not all is not printed as 100 %.
 pub fn share_of_runs(share: f64) -> String {
     match share {
         ..0.001 => "less than 0.1 %".to_owned(),

@@ -62,7 +62,7 @@ impl TextTable {
 
 impl fmt::Display for TextTable {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        // Terminals that nobody looks at, such as those of mpirun, have no columns.
+        // Terminals without a screen, such as those of mpirun, have no columns.
         f.write_str(&self.drawn(Table::new().width().filter(|width| *width > 0)))
     }
 }

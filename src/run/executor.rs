@@ -1,7 +1,7 @@
 //! The one place where rows are handed out one by one: workers take batches of rows from a source, evaluate them, and hand
 //! the outputs back.
 //!
-//! Batches are sized, stops watched, failures counted and progress told here, whatever is run: rows of a design that go into a
+//! Batches are sized, stops watched, failures counted and progress reported here, whatever is run: rows of a design that go into a
 //! store and a journal, or a table of points.
 
 use std::collections::VecDeque;
@@ -66,7 +66,7 @@ pub(crate) trait RowSource: Sync {
 /// run. There are as many as the model asks for by its [concurrency](Model::concurrency), or else as many as threads.
 ///
 /// [Workers in other processes](super::RemoteWorkers) (MPI ranks, an executor of another language) come in here, with the
-/// threads of [`execute`](Self::execute): each has a thread that takes batches for it and hands over what it makes of them.
+/// threads of [`execute`](Self::execute): each has a thread that takes batches for it and returns what it makes of them.
 pub(crate) struct Executor<'a> {
     model: &'a dyn Model,
     context: &'a RunContext<'a>,

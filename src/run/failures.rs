@@ -41,16 +41,16 @@ impl Tally {
     }
 }
 
-/// Most reasons that are told apart.
+/// Most reasons that are counted apart.
 pub const MAX_REASONS: usize = 100;
 
-/// What is said of rows whose reasons are not told apart.
+/// What is said of rows whose reasons are not counted apart.
 const OTHERS: &str = "other reasons";
 
 /// Why rows failed, and how often each.
 ///
 /// More than [`MAX_REASONS`] reasons differ by numbers of their rows: every number in them then becomes `#`. If that leaves more, the
-/// first ones in the order of letters are told apart. What is left does not depend on the order in which rows are counted.
+/// first ones in the order of letters are counted apart. What is left does not depend on the order in which rows are counted.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Failures {
     reasons: BTreeMap<RowFailure, Tally>,
@@ -101,7 +101,7 @@ impl Failures {
         }));
     }
 
-    /// Every reason with its count, in the order of letters, and at last those that are not told apart.
+    /// Every reason with its count, in the order of letters, and at last those that are not counted apart.
     pub fn iter(&self) -> impl Iterator<Item = (RowFailure, Tally)> {
         let others = self.others.map(|tally| (RowFailure::new(OTHERS), tally));
         self.reasons.iter().map(|(reason, tally)| (reason.clone(), *tally)).chain(others)

@@ -1,4 +1,4 @@
-//! A run that is told how well the indices must be known, and chooses what gets there at the least cost.
+//! A run with a given accuracy of the indices, which chooses what gets there at the least cost.
 //!
 //! Runs begin with a small trial. If the study has cheaper models, these stand in, and each doubling goes where it takes most of
 //! the squared error away for its cost; that makes the squared errors of all parts proportional to what they cost, the optimal

@@ -14,7 +14,7 @@ use crate::study::{LowFidelity, Study, SurrogateChoice, Target};
 use crate::surrogate::families;
 use crate::surrogate::low_fidelity::OwnOutputs;
 
-/// Apart from the seed of the model's design by this, that of the cheaper models' own points is one that nobody types.
+/// Apart from the seed of the model's design by this, that of the cheaper models' own points is one that no user types.
 const OWN_SEED: u64 = 0x6c6f_7720_6669_6465;
 
 /// Base samples of the own design where nothing is said and nothing is to be chosen.

@@ -41,7 +41,7 @@ impl Reading {
     pub const ALL: [Self; 4] = [Self::Linear, Self::Monotone, Self::AlmostMonotone, Self::NonLinearOrInteracting];
 
     /// The reading of a ratio sigma / mu*.
-    pub fn of(ratio: f64) -> Self {
+    pub fn from_ratio(ratio: f64) -> Self {
         match ratio {
             r if r < 0.1 => Self::Linear,
             r if r < 0.5 => Self::Monotone,

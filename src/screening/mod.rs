@@ -275,7 +275,7 @@ fn screened(
             mu: measures.map(|m| m.mu),
             sigma: measures.map(|m| m.sigma),
             ratio,
-            reading: ratio.map(|ratio| Reading::of(ratio.estimate)),
+            reading: ratio.map(|ratio| Reading::from_ratio(ratio.estimate)),
             could_be_fixed: None,
             nu: derivative.map(|d| d.nu),
             total_bound: derivative.and_then(|d| d.total_bound),

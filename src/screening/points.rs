@@ -79,7 +79,7 @@ impl Trajectories {
             }
             ScreeningDesign::Trajectory { .. } => Shape::Walk,
         };
-        Ok(Self { shape, seed, grids: space.factors().iter().map(|factor| Grid::of(factor, design)).collect() })
+        Ok(Self { shape, seed, grids: space.factors().iter().map(|factor| Grid::new(factor, design)).collect() })
     }
 
     /// The moves of all factors in trajectory `number`.
@@ -189,7 +189,7 @@ fn half_way_round(u: f64) -> f64 {
 }
 
 impl Grid {
-    fn of(factor: &Factor, design: ScreeningDesign) -> Self {
+    fn new(factor: &Factor, design: ScreeningDesign) -> Self {
         if factor.distribution().is_noise() {
             return Self::Seeds;
         }

@@ -132,7 +132,7 @@ fn a_parabola_and_a_product_have_their_known_moments() {
             // Standard errors 1.15/64 and 0.58/64 for independent points; three of them.
             assert!(m.mu.estimate.abs() < 0.06 && (m.mu_star.estimate - 1.0).abs() < 0.03, "{m:?}");
             assert!((m.sigma.estimate - 2.0 / 3f64.sqrt()).abs() < 0.03, "{m:?}");
-            assert_eq!(Reading::of(m.ratio.unwrap().estimate), Reading::NonLinearOrInteracting);
+            assert_eq!(Reading::from_ratio(m.ratio.unwrap().estimate), Reading::NonLinearOrInteracting);
         }
     }
 }

@@ -12,7 +12,7 @@ use crate::design::{Design, DesignSettings, Sampler};
 use crate::model::Model;
 use crate::quantity::Unit;
 use crate::space::{Dependence, Distribution, Factor, Space};
-use crate::surrogate::FEWEST_NETS;
+use crate::surrogate::MIN_NETS;
 use crate::uncertainty::IntervalMethod;
 
 /// A study in the making; [`Study::builder`] begins one.
@@ -221,8 +221,8 @@ impl StudyBuilder {
                 "base_samples = {base_samples} is not a multiple of {replicates} replicates: {used} are used"
             ));
         }
-        if analysis.surrogate == SurrogateChoice::On && replicates < FEWEST_NETS as u64 {
-            notes.push(format!("`surrogate` has no effect with fewer than {FEWEST_NETS} replicates"));
+        if analysis.surrogate == SurrogateChoice::On && replicates < MIN_NETS as u64 {
+            notes.push(format!("`surrogate` has no effect with fewer than {MIN_NETS} replicates"));
         }
         if analysis.resamples != DEFAULT_RESAMPLES && analysis.intervals != IntervalMethod::Percentile {
             notes.push("`resamples` has no effect but with intervals = \"percentile\"".to_owned());

@@ -26,7 +26,7 @@ impl Study {
                 "name": factor.name,
                 "unit": factor.unit().to_string(),
                 "distribution": factor.distribution(),
-                // Long lists of values are told in short by the line above.
+                // Long lists of values are shortened by the line above.
                 "digest": digest(&format!("{:?}", factor.distribution())),
             })
         };

@@ -31,7 +31,7 @@ pub use crate::names::nearest;
 use crate::design::{Design, DesignError};
 use crate::model::Model;
 use crate::space::Space;
-use crate::surrogate::{FEWEST_NETS, fewest_points};
+use crate::surrogate::{MIN_NETS, fewest_points};
 use crate::uncertainty::{IntervalMethod, Layout, NoiseLayout};
 #[cfg(feature = "charts")]
 pub(crate) use options::rows;
@@ -216,7 +216,7 @@ impl Study {
         let fits = has_points
             && is_plain
             && self.analysis.intervals == IntervalMethod::Nets
-            && design.settings().replicates >= FEWEST_NETS as u64;
+            && design.settings().replicates >= MIN_NETS as u64;
         fits && match self.analysis.surrogate {
             SurrogateChoice::Off => false,
             SurrogateChoice::On => true,

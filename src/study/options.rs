@@ -9,7 +9,7 @@ use crate::names::named;
 use crate::result::Warning;
 use crate::run::FailurePolicy;
 use crate::space::Space;
-use crate::surrogate::FEWEST_NETS;
+use crate::surrogate::MIN_NETS;
 use crate::uncertainty::IntervalMethod;
 
 /// What is asked of the runs.
@@ -128,7 +128,7 @@ impl AnalysisOptions {
         self.surrogate != SurrogateChoice::Off
             && self.intervals == IntervalMethod::Nets
             && sampler != Sampler::LatinHypercube
-            && replicates >= FEWEST_NETS as u64
+            && replicates >= MIN_NETS as u64
             && space.copula().is_none()
             && !self.has_shapley(space)
     }

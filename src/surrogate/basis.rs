@@ -6,10 +6,10 @@ use crate::space::Distribution;
 use crate::special::normal_quantile;
 
 /// Most factors in a term of the first candidates.
-const MOST_FACTORS: usize = 3;
+const MAX_FACTORS: usize = 3;
 
 /// Most factors in a term at all.
-const MOST_FACTORS_OF_NEIGHBOURS: usize = 5;
+const MAX_FACTORS_OF_NEIGHBOURS: usize = 5;
 
 /// The norm of hyperbolic truncation: of two terms with equal sums of degrees, that of fewer factors comes first.
 const NORM: f64 = 0.75;
@@ -48,7 +48,7 @@ impl Family {
             | Distribution::Weibull(_)
             | Distribution::Gumbel(_) => Self::Hermite,
             // Those without bounds of the rest have none of their own, and are taken by their quantiles.
-            _ => OwnPolynomials::new(distribution, MOST_DEGREES).map_or(Self::Legendre, |own| Self::Own(Box::new(own))),
+            _ => OwnPolynomials::new(distribution, MAX_DEGREES).map_or(Self::Legendre, |own| Self::Own(Box::new(own))),
         }
     }
 
@@ -58,7 +58,7 @@ impl Family {
         let (low, high) = values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), bounds);
         let weight = 1.0 / values.len() as f64;
         let nodes: Vec<(f64, f64)> = values.iter().map(|x| (*x, weight)).collect();
-        let recurrence = Recurrence::new(&nodes, (low, high), MOST_DEGREES);
+        let recurrence = Recurrence::new(&nodes, (low, high), MAX_DEGREES);
         Self::Column(Box::new(recurrence.unwrap_or_default()))
     }
 
@@ -70,7 +70,7 @@ impl Family {
     /// The largest degree that there is.
     fn degree(&self) -> usize {
         match self {
-            Self::Legendre | Self::Hermite => MOST_DEGREES,
+            Self::Legendre | Self::Hermite => MAX_DEGREES,
             Self::Own(own) => own.degree(),
             Self::Column(own) => own.degree(),
             Self::Knotted(own) => own.degree(),
@@ -79,7 +79,7 @@ impl Family {
 }
 
 /// Largest degree of any polynomial.
-const MOST_DEGREES: usize = 14;
+const MAX_DEGREES: usize = 14;
 
 /// A product of polynomials of different factors: (factor, degree) by rising factor, degrees from 1; the empty one is the
 /// constant.
@@ -113,7 +113,7 @@ impl<'a> Caps<'a> {
     /// Largest sum of degrees of a term, of that many factors.
     pub fn degree_of(factors: usize) -> usize {
         match factors {
-            0..=4 => MOST_DEGREES,
+            0..=4 => MAX_DEGREES,
             5..=10 => 10,
             _ => 6,
         }
@@ -135,7 +135,7 @@ impl<'a> Caps<'a> {
 pub fn first_terms(caps: Caps<'_>, count: usize) -> Vec<Term> {
     let (factors, degree) = (caps.families.len(), caps.degree);
     let mut patterns: Vec<(f64, Vec<usize>)> = Vec::new();
-    for members in 1..=MOST_FACTORS.min(factors) {
+    for members in 1..=MAX_FACTORS.min(factors) {
         // Rising degrees, each to be dealt to factors in every way.
         let most = match members {
             1 => degree,
@@ -246,7 +246,7 @@ pub fn neighbours(active: &[Term], coefficients: &[f64], caps: Caps<'_>) -> Vec<
             }
         }
         for &factor in &leading {
-            if term.len() < MOST_FACTORS_OF_NEIGHBOURS
+            if term.len() < MAX_FACTORS_OF_NEIGHBOURS
                 && let Err(place) = term.binary_search_by_key(&factor, |(factor, _)| *factor)
             {
                 let strongest = match caps.families[factor] {

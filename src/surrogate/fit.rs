@@ -7,7 +7,7 @@ use super::net::Net;
 use crate::sum::product;
 
 /// Most terms of a surrogate.
-const MOST_TERMS: usize = 150;
+const MAX_TERMS: usize = 150;
 
 /// Rows by which terms are chosen.
 const SELECTION_ROWS: usize = 3000;
@@ -173,7 +173,7 @@ fn chosen(candidates: &[Term], nets: &[&NetSums]) -> Chosen {
     let rows: usize = nets.iter().map(|net| net.rows).sum();
     let folds = nets.len() as f64;
     let most = (TERMS_PER_ROW * rows as f64 * (folds - 1.0) / folds) as usize;
-    let most = MOST_TERMS.min(candidates.len()).min(most.max(2));
+    let most = MAX_TERMS.min(candidates.len()).min(most.max(2));
     let outputs = nets.first().map_or(0, |net| net.right.len());
     let mut errors = vec![vec![0.0; most]; outputs];
     for (left_out, net) in nets.iter().enumerate() {

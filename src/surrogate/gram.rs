@@ -18,7 +18,7 @@ const HEIGHT: usize = WIDTH / 2;
 const INDEPENDENT: f64 = 1e-6;
 
 /// Gain in the sum of squares below which no further column is chosen, of outputs scaled to standard deviation 1.
-const LEAST_GAIN: f64 = 1e-26;
+const MIN_GAIN: f64 = 1e-26;
 
 /// A square matrix, row by row.
 #[derive(Debug, Clone, PartialEq)]
@@ -161,7 +161,7 @@ impl Path {
         for rest in &rest {
             squares.iter_mut().zip(rest).for_each(|(sum, rest)| *sum += rest * rest);
         }
-        let least = LEAST_GAIN * rest.len() as f64;
+        let least = MIN_GAIN * rest.len() as f64;
         let mut fewest: Vec<f64> = own.iter().map(|own| INDEPENDENT * own).collect();
         let mut gains = vec![0.0; size];
         let mut factors: Vec<Vec<f64>> = Vec::new();

@@ -187,7 +187,7 @@ pub fn knots(nets: &[Net], rest: Rows<'_>, factor: usize, family: &Family, degre
     let Some(x) = columns.first().cloned().filter(|x| x.is_sorted_by(|a, b| a < b)) else { return Vec::new() };
     if *family == Family::Hermite {
         // Their tails are steep: both serve.
-        columns.truncate(super::FEW_HERMITE_DEGREES);
+        columns.truncate(super::SAFE_HERMITE_DEGREES);
         columns.append(&mut polynomials(&Family::Legendre, &centres, degree));
     }
     let (mut sums, mut weights) = (vec![0.0; bins], vec![0.0; bins]);

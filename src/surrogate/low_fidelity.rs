@@ -1,4 +1,4 @@
-//! Indices of a dear model by those of a cheaper one.
+//! Indices of an expensive model by those of a cheaper one.
 //!
 //! The cheaper model g stands in for f together with a surrogate P of what it leaves: h = alpha g + P. Its indices come from
 //! many runs of g at points of their own, and those of f follow from the rows at which both were evaluated: any number Q that
@@ -19,7 +19,7 @@ use super::corrected::{Contributions, mean_power, values_and_rest};
 use super::fit::Expansion;
 use super::net::Net;
 use super::{
-    Corrected, FEW_HERMITE_DEGREES, MAX_FITTED_ROWS, cross_fitted, estimates, expansion_without, fewest_points,
+    Corrected, MAX_FITTED_ROWS, SAFE_HERMITE_DEGREES, cross_fitted, estimates, expansion_without, fewest_points,
     in_chunks, scaled, sorted_swaps, takes_surrogates,
 };
 use crate::design::Design;
@@ -31,13 +31,13 @@ use crate::uncertainty::{Layout, LowFidelityUse, SurrogateEstimates};
 pub struct LowOutputs<'a> {
     /// The name of the cheaper model.
     pub name: &'a str,
-    /// Its outputs at the rows of the dear model, of every replicate.
+    /// Its outputs at the rows of the expensive model, of every replicate.
     pub shared: Vec<&'a PointOutputs>,
     /// Its outputs at points of its own.
     pub own: &'a OwnOutputs,
 }
 
-/// One output of a cheaper model at the rows of a design of its own, whose points are independent of those of the dear model.
+/// One output of a cheaper model at the rows of a design of its own, whose points are independent of those of the expensive model.
 pub struct OwnOutputs {
     design: Design,
     /// Mean and standard deviation by which the outputs are scaled.
@@ -59,7 +59,7 @@ impl OwnOutputs {
             return None;
         }
         let (outputs, scale) = scaled(replicates, design.runs().len(), None)?;
-        let caps = Caps::new(families, FEW_HERMITE_DEGREES);
+        let caps = Caps::new(families, SAFE_HERMITE_DEGREES);
         let mut nets = Vec::new();
         if design.rows() <= MAX_FITTED_ROWS {
             let net = |(number, outputs)| Net::new(design, number as u64, families, caps.degree, outputs);
@@ -76,7 +76,7 @@ impl OwnOutputs {
     }
 }
 
-/// What stands in for one net of the dear model: slope and constant of the cheaper model, and an expansion of the rest.
+/// What stands in for one net of the expensive model: slope and constant of the cheaper model, and an expansion of the rest.
 struct StandIn {
     slope: f64,
     offset: f64,
@@ -99,7 +99,7 @@ pub fn low_fidelity_estimates(
     let (mut f, scale) = scaled(replicates, runs, None)?;
     let (g, _) = scaled(&low.shared, runs, Some(low.own.scale))?;
     leave_out_points_that_failed(&mut f, &g);
-    let caps = Caps::new(families, FEW_HERMITE_DEGREES);
+    let caps = Caps::new(families, SAFE_HERMITE_DEGREES);
     let net = |number: usize| {
         let (f, g) = (&f[number], &g[number]);
         let of_dear = Net::new(design, number as u64, families, caps.degree, f);
@@ -107,24 +107,25 @@ pub fn low_fidelity_estimates(
         let of_cheap = of_dear.with_outputs((0..runs).map(good).collect());
         (of_dear, of_cheap)
     };
-    let (dear, cheap): (Vec<Net>, Vec<Net>) =
+    let (expensive, cheap): (Vec<Net>, Vec<Net>) =
         (0..f.len()).into_par_iter().map(net).collect::<Vec<_>>().into_iter().unzip();
-    if dear.iter().any(|net| net.points() < fewest_points(design)) {
+    if expensive.iter().any(|net| net.points() < fewest_points(design)) {
         return None;
     }
     let pairs = if layout.second_order { layout.pair_list() } else { Vec::new() };
     let swaps = sorted_swaps(design);
-    let stand_ins: Vec<StandIn> = (0..dear.len()).into_par_iter().map(|k| stand_in(&dear, &cheap, k, caps)).collect();
-    let nets: Vec<Contributions> = (0..dear.len())
+    let stand_ins: Vec<StandIn> =
+        (0..expensive.len()).into_par_iter().map(|k| stand_in(&expensive, &cheap, k, caps)).collect();
+    let nets: Vec<Contributions> = (0..expensive.len())
         .into_par_iter()
-        .map(|k| differences(design, &dear[k], &cheap[k], &stand_ins[k], &swaps, &pairs))
+        .map(|k| differences(design, &expensive[k], &cheap[k], &stand_ins[k], &swaps, &pairs))
         .collect();
     let of_low = own_contributions(low.own, families, &stand_ins, &swaps, &pairs);
     let slope = stand_ins.iter().map(|of| of.slope).sum::<f64>() / stand_ins.len() as f64;
     let used = LowFidelityUse {
         name: low.name.to_owned(),
         slope: slope * (scale.1 / low.own.scale.1),
-        explained: 1.0 - alone(&dear, &cheap, &stand_ins),
+        explained: 1.0 - alone(&expensive, &cheap, &stand_ins),
     };
     let expansions = stand_ins.into_iter().map(|of| of.rest).collect();
     let corrected = Corrected::new(design, nets, expansions, families, &pairs);
@@ -146,47 +147,47 @@ fn leave_out_points_that_failed(f: &mut [Vec<Vec<f64>>], g: &[Vec<Vec<f64>>]) {
 }
 
 /// Fitted to all nets but number `k`.
-fn stand_in(dear: &[Net], cheap: &[Net], k: usize, caps: Caps<'_>) -> StandIn {
+fn stand_in(expensive: &[Net], cheap: &[Net], k: usize, caps: Caps<'_>) -> StandIn {
     let others = |nets: &[Net]| -> Vec<f64> {
         let of_others = nets.iter().enumerate().filter(|(place, _)| *place != k);
         of_others.flat_map(|(_, net)| net.outputs.iter().flatten().copied()).collect()
     };
-    let (f, g) = (others(dear), others(cheap));
+    let (f, g) = (others(expensive), others(cheap));
     let (mean_f, mean_g) = (crate::sum::mean(&f), crate::sum::mean(&g));
     let square: f64 = g.iter().map(|g| (g - mean_g).powi(2)).sum();
     let product: f64 = f.iter().zip(&g).map(|(f, g)| (f - mean_f) * (g - mean_g)).sum();
     let slope = if square > 0.0 { product / square } else { 0.0 };
     let offset = mean_f - slope * mean_g;
     let left = |(f, g): (&Net, &Net)| f.with_outputs(rest(f, g, slope, offset));
-    let left: Vec<Net> = dear.iter().zip(cheap).map(left).collect();
+    let left: Vec<Net> = expensive.iter().zip(cheap).map(left).collect();
     StandIn { slope, offset, rest: expansion_without(&left, k, caps) }
 }
 
 /// f - alpha g - offset at every run and point.
-fn rest(dear: &Net, cheap: &Net, slope: f64, offset: f64) -> Vec<Vec<f64>> {
+fn rest(expensive: &Net, cheap: &Net, slope: f64, offset: f64) -> Vec<Vec<f64>> {
     let of_run = |(f, g): (&Vec<f64>, &Vec<f64>)| f.iter().zip(g).map(|(f, g)| f - slope * g - offset).collect();
-    dear.outputs.iter().zip(&cheap.outputs).map(of_run).collect()
+    expensive.outputs.iter().zip(&cheap.outputs).map(of_run).collect()
 }
 
-/// Share of the variance of the dear model, which is 1, that the cheaper one leaves without any expansion.
-fn alone(dear: &[Net], cheap: &[Net], stand_ins: &[StandIn]) -> f64 {
+/// Share of the variance of the expensive model, which is 1, that the cheaper one leaves without any expansion.
+fn alone(expensive: &[Net], cheap: &[Net], stand_ins: &[StandIn]) -> f64 {
     let of_net = |((f, g), of): ((&Net, &Net), &StandIn)| mean_power(&rest(f, g, of.slope, of.offset), 2);
-    dear.iter().zip(cheap).zip(stand_ins).map(of_net).sum::<f64>() / dear.len() as f64
+    expensive.iter().zip(cheap).zip(stand_ins).map(of_net).sum::<f64>() / expensive.len() as f64
 }
 
 /// What every base point of a net contributes to Q(f) - Q(h), and what is exact of Q(h).
 fn differences(
     design: &Design,
-    dear: &Net,
+    expensive: &Net,
     cheap: &Net,
     stand_in: &StandIn,
     swaps: &[Vec<usize>],
     pairs: &[(usize, usize)],
 ) -> Contributions {
     let StandIn { slope, offset, rest: expansion } = stand_in;
-    let left = dear.with_outputs(rest(dear, cheap, *slope, *offset));
+    let left = expensive.with_outputs(rest(expensive, cheap, *slope, *offset));
     let (_, e) = values_and_rest(&left, expansion);
-    let f = &dear.outputs;
+    let f = &expensive.outputs;
     let h: Vec<Vec<f64>> = f.iter().zip(&e).map(|(f, e)| f.iter().zip(e).map(|(f, e)| f - e).collect()).collect();
     let mean = |columns: &[&Vec<f64>]| {
         let count = columns.iter().map(|column| column.len()).sum::<usize>().max(1);
@@ -195,9 +196,9 @@ fn differences(
     let of_runs = |columns: &[Vec<f64>]| mean(&columns.iter().collect::<Vec<_>>());
     let (mean_f, mean_h) = (of_runs(f), of_runs(&h));
     let ([f_ab, h_ab], runs) = ([f, &h].map(|of| mean(&[&of[0], &of[1]])), f.len() as f64);
-    let mut all = Contributions::zeros(swaps.len(), pairs.len(), dear);
+    let mut all = Contributions::zeros(swaps.len(), pairs.len(), expensive);
     all.residual = (mean_power(&e, 2), mean_power(&e, 4));
-    for p in 0..dear.points() {
+    for p in 0..expensive.points() {
         let square = |(f, h): (&Vec<f64>, &Vec<f64>)| (f[p] - mean_f).powi(2) - (h[p] - mean_h).powi(2);
         all.variance[p] = f.iter().zip(&h).map(square).sum::<f64>() / runs;
         all.mean[p] = offset + e.iter().map(|e| e[p]).sum::<f64>() / runs;
@@ -205,7 +206,7 @@ fn differences(
     for (swap, &ab) in design.ab_runs().iter().enumerate() {
         let half_square = |y: &[Vec<f64>], p: usize| (y[0][p] - y[ab][p]).powi(2) / 2.0;
         let product = |y: &[Vec<f64>], mean: f64, p: usize| (y[1][p] - mean) * (y[ab][p] - y[0][p]);
-        for p in 0..dear.points() {
+        for p in 0..expensive.points() {
             all.first_order[swap][p] = product(f, f_ab, p) - product(&h, h_ab, p);
             all.total[0][swap][p] = half_square(f, p) - half_square(&h, p);
         }

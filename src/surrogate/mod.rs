@@ -35,20 +35,20 @@ use fit::{Expansion, Expansions, NetSums, Training, first_candidates, fit, fit_i
 use net::Net;
 
 /// Fewest nets: a surrogate of the others has its number of terms by leaving out one of them.
-pub const FEWEST_NETS: usize = 3;
+pub const MIN_NETS: usize = 3;
 
 /// Fewest base points of a net.
-const FEWEST_POINTS: usize = 4;
+const MIN_POINTS: usize = 4;
 
 /// The same if each has plain rows, which teach more than those of a base point that share their columns.
-const FEWEST_POINTS_WITH_PLAIN_ROWS: usize = 2;
+const MIN_POINTS_WITH_PLAIN_ROWS: usize = 2;
 
 /// Largest sum of degrees of Hermite polynomials in a term. Those of high degree are large where hardly any row is: few rows
 /// decide their coefficients, and no row shows what they do beyond.
-const FEW_HERMITE_DEGREES: usize = 4;
+const SAFE_HERMITE_DEGREES: usize = 4;
 
 /// The same where this leaves clearly less of the runs that the surrogates were not fitted to: of powers and exponentials.
-const MANY_HERMITE_DEGREES: usize = 10;
+const MAX_HERMITE_DEGREES: usize = 10;
 
 /// What is clearly less.
 const CLEARLY_LESS: f64 = 0.25;
@@ -56,7 +56,7 @@ const CLEARLY_LESS: f64 = 0.25;
 /// Share of the variance that the surrogates leave, and rows that carry it, three over their kurtosis times their number, from
 /// and below which corrected intervals must hold the plain ones too: what is missing from the runs is missing from a fit to them.
 const RESIDUAL: f64 = 1e-3;
-const FEW_ROWS: f64 = 50.0;
+const MIN_EFFECTIVE_ROWS: f64 = 50.0;
 
 /// Share of the variance by which a factor matters.
 const MATTERS: f64 = 0.02;
@@ -68,7 +68,7 @@ pub const MAX_FITTED_ROWS: u64 = 1 << 16;
 /// Base points that are corrected at a time where there are more than the surrogates are fitted to.
 const CHUNK: usize = 1 << 13;
 
-/// Terms that are told of.
+/// Terms that are reported.
 const TOLD_TERMS: usize = 12;
 
 /// The polynomials of every factor of `space`.
@@ -95,12 +95,12 @@ pub fn surrogate_estimates(
 
 /// Whether there are enough nets, and points that are nets.
 fn takes_surrogates(design: &Design, replicates: usize) -> bool {
-    design.settings().sampler != Sampler::LatinHypercube && replicates >= FEWEST_NETS
+    design.settings().sampler != Sampler::LatinHypercube && replicates >= MIN_NETS
 }
 
 /// Fewest base points of a net of `design` that surrogates are fitted to.
 pub fn fewest_points(design: &Design) -> usize {
-    if design.plain_rows() > 0 { FEWEST_POINTS_WITH_PLAIN_ROWS } else { FEWEST_POINTS }
+    if design.plain_rows() > 0 { MIN_POINTS_WITH_PLAIN_ROWS } else { MIN_POINTS }
 }
 
 /// Polynomials that are tried.
@@ -121,12 +121,12 @@ pub fn trials(families: &[Family]) -> Vec<Trial> {
         hermite_degree,
         ratio,
     };
-    let mut trials = vec![trial(families, FEW_HERMITE_DEGREES, 1.0)];
+    let mut trials = vec![trial(families, SAFE_HERMITE_DEGREES, 1.0)];
     if families.contains(&Family::Hermite) {
         let of_quantiles = |family: &Family| if *family == Family::Hermite { Family::Legendre } else { family.clone() };
         let bounded: Vec<Family> = families.iter().map(of_quantiles).collect();
         trials.push(trial(&bounded, 0, 1.0));
-        trials.push(trial(families, MANY_HERMITE_DEGREES, CLEARLY_LESS));
+        trials.push(trial(families, MAX_HERMITE_DEGREES, CLEARLY_LESS));
     }
     trials
 }
@@ -168,7 +168,7 @@ impl Corrected {
         let (two, four) = residual_powers(&self.nets);
         let rows: usize = self.nets.iter().map(|net| net.rows).sum();
         // Outputs have variance 1.
-        two > RESIDUAL && 3.0 * rows as f64 * two * two < FEW_ROWS * four
+        two > RESIDUAL && 3.0 * rows as f64 * two * two < MIN_EFFECTIVE_ROWS * four
     }
 }
 

@@ -12,7 +12,7 @@ use super::fit::{Expansion, Expansions, Training};
 use super::knots::{Knotted, MAX_MOVED, knots};
 use super::net::Net;
 use super::{
-    Corrected, MANY_HERMITE_DEGREES, Scaled, Trial, estimates, fewest_points, fitted_among, fitted_design,
+    Corrected, MAX_HERMITE_DEGREES, Scaled, Trial, estimates, fewest_points, fitted_among, fitted_design,
     fitted_to_others, in_chunks, scaled, sorted_swaps, surrogate_estimates, takes_surrogates, trials,
 };
 use crate::design::Design;
@@ -20,7 +20,7 @@ use crate::estimate::PointOutputs;
 use crate::uncertainty::{ChosenTerms, Knot, Layout, SurrogateEstimates};
 
 /// Outputs up to which each has terms of its own: what that gains is worth its time.
-const MOST_ALONE: usize = 32;
+const MAX_ALONE: usize = 32;
 
 /// About as many neighbours share their terms. Outputs of a series change slowly along it.
 const NEIGHBOURS: usize = 64;
@@ -45,7 +45,7 @@ pub fn surrogates_together(
         surrogate_estimates(design, families, layout, replicates, chosen)
     };
     let replicates = outputs.first().map_or(0, Vec::len);
-    if outputs.len() <= MOST_ALONE || !takes_surrogates(design, replicates) {
+    if outputs.len() <= MAX_ALONE || !takes_surrogates(design, replicates) {
         return outputs.iter().enumerate().map(alone).collect();
     }
     let all: Vec<Option<Scaled>> =
@@ -60,7 +60,7 @@ pub fn surrogates_together(
         // Lists of nearly one length.
         let length = members.len().div_ceil(members.len().div_ceil(NEIGHBOURS));
         for members in members.chunks(length) {
-            let of_members: Vec<Option<SurrogateEstimates>> = if members.len() <= MOST_ALONE {
+            let of_members: Vec<Option<SurrogateEstimates>> = if members.len() <= MAX_ALONE {
                 members.par_iter().map(|&number| alone((number, &outputs[number]))).collect()
             } else {
                 let scaled: Vec<&Scaled> = members.iter().filter_map(|&number| all[number].as_ref()).collect();
@@ -177,7 +177,7 @@ fn with_knots(families: &[Family], knots: &[Vec<Knot>]) -> Trial {
         if knots.is_empty() { family.clone() } else { Family::Knotted(Box::new(Knotted::new(family, knots, degree))) }
     };
     let families = families.iter().zip(knots).map(of_factor).collect();
-    Trial { families, hermite_degree: MANY_HERMITE_DEGREES, ratio: 1.0 }
+    Trial { families, hermite_degree: MAX_HERMITE_DEGREES, ratio: 1.0 }
 }
 
 /// A trial fitted to all outputs: for every net the expansions of the others.

@@ -14,7 +14,7 @@ use super::net_decay::{PartInfluences, StandardError};
 use super::{Interval, t_quantile};
 
 /// Excess kurtosis of a sum up to which it counts as one of many terms: less lengthens no interval by more than a twentieth.
-const MANY_ROWS: f64 = 0.03;
+const EVEN_SHARE: f64 = 0.03;
 
 /// What the excess kurtosis takes off: 1/f' = 1/f + WEIGHT kappa. Theory for random points says 1/2; measured best 1 to 2,
 /// since what a sample shows of its kurtosis is too small as well.
@@ -36,7 +36,7 @@ pub(super) enum Side {
 pub(super) fn interval(estimate: f64, error: StandardError, parts: &PartInfluences, side: Side) -> Option<Interval> {
     let even = super::t_interval(estimate, error)?;
     let kurtosis = excess_kurtosis(parts);
-    if kurtosis <= MANY_ROWS || error.error == 0.0 {
+    if kurtosis <= EVEN_SHARE || error.error == 0.0 {
         return Some(even);
     }
     let freedom = (1.0 / (1.0 / error.freedom + WEIGHT * kurtosis)).max(MIN_FREEDOM);

@@ -79,7 +79,7 @@ pub struct SurrogateEstimates {
 pub struct LowFidelityUse {
     /// Its name.
     pub name: String,
-    /// How much the output of the dear model rises with that of the cheaper one, by least squares.
+    /// How much the output of the expensive model rises with that of the cheaper one, by least squares.
     pub slope: f64,
     /// Share of the variance that the cheaper model explains by itself, of the runs that its slope was not fitted to.
     pub explained: f64,

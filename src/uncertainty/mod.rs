@@ -169,8 +169,8 @@ pub fn t_interval(estimate: f64, error: StandardError) -> Option<Interval> {
 fn t_quantile(freedom: f64) -> Option<f64> {
     // Beyond this many the quantile is the normal one with its first correction (Abramowitz and Stegun 1964, 26.7.5), to
     // 1e-8.
-    const MANY: f64 = 1e4;
-    if freedom > MANY {
+    const LARGE_FREEDOM: f64 = 1e4;
+    if freedom > LARGE_FREEDOM {
         let z = NORMAL_QUANTILE;
         return Some(z + (z.powi(3) + z) / (4.0 * freedom)).filter(|_| freedom.is_finite());
     }

@@ -3,7 +3,7 @@
 //! What base points contribute to a corrected index behaves almost like independent noise, and is skewed: squares of what
 //! the surrogate leaves are rarely large. The spread within the nets has many degrees of freedom, but says too much where nets
 //! are more even than random points: up to fifty times the variance, at many points. That between the nets has no such
-//! error, and few degrees of freedom; over all indices of a kind it tells how much of the spread within is to be believed. The
+//! error, and few degrees of freedom; over all indices of a kind it tells how much of the spread within counts. The
 //! variance is the mean of both, and each side of an interval has the degrees of freedom that its largest contributions leave.
 
 use super::influence::Influenced;

@@ -99,7 +99,7 @@ fn columns(path: &Path) -> Vec<Vec<f64>> {
 fn write_columns(path: &Path, names: &[&str], columns: &[Vec<f64>]) {
     let mut bytes = Vec::new();
     let kinds = names.iter().map(|name| ColumnKind::numbers(name)).collect();
-    let mut writer = row_writer(Format::of(path).unwrap(), &mut bytes, kinds, columns[0].len() as u64).unwrap();
+    let mut writer = row_writer(Format::from_path(path).unwrap(), &mut bytes, kinds, columns[0].len() as u64).unwrap();
     writer.write(&columns.iter().map(Vec::as_slice).collect::<Vec<_>>()).unwrap();
     writer.finish().unwrap();
     std::fs::write(path, bytes).unwrap();

@@ -1,6 +1,6 @@
 //! The closed form of many scenes at once, column by column: the same operations on each scene as
 //! [`critical_force`](super::critical_force), so that the compiler takes several scenes in one wide register, and
-//! nothing that nobody asks for.
+//! nothing that is not asked for.
 
 use std::f64::consts::FRAC_PI_2;
 use std::ops::RangeInclusive;

@@ -115,7 +115,7 @@ impl Presliding {
     /// V/(V - v) when the slip counts: how much longer the force takes to rise than on a spring whose end stands still.
     fn slowdown(&self) -> f64 {
         let slowdown = 1.0 + 1.0 / (self.stiffness * libm::pow(self.reserve(1.0 - REACHED), self.exponent));
-        // Above 1 on bristles however stiff, by which they are told from a rigid contact.
+        // Above 1 on bristles however stiff, by which they differ from a rigid contact.
         slowdown.max(1.0_f64.next_up())
     }
 

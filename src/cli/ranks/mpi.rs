@@ -114,7 +114,7 @@ impl RemoteWorkers for Others {
 
     fn stop(&self) {
         if !self.is_stopped.swap(true, Ordering::Relaxed) {
-            // Where nobody sends letters any more, nobody is left to be stopped.
+            // Where no rank sends letters any more, none is left to be stopped.
             let _ = self.letters.send(Letter::Stop);
         }
     }
@@ -159,7 +159,7 @@ fn lead(world: &SimpleCommunicator, command: impl FnOnce(&dyn Ranks) -> ExitCode
     })
 }
 
-/// Sends letters, and hands out answers, until there are no more letters.
+/// Sends letters, and passes answers on, until there are no more letters.
 fn carry(world: &SimpleCommunicator, outbox: &Receiver<Letter>) {
     let (mut pause, mut inboxes, mut per_rank) = (SHORT, Vec::new(), 1);
     let mut counted = Counted::default();

@@ -38,14 +38,14 @@ impl Format {
     /// ```
     /// use apportion::exchange::Format;
     ///
-    /// assert_eq!(Format::of("runs/design.CSV".as_ref())?, Format::Csv);
-    /// assert!(Format::of("design.xlsx".as_ref()).is_err());
+    /// assert_eq!(Format::from_path("runs/design.CSV".as_ref())?, Format::Csv);
+    /// assert!(Format::from_path("design.xlsx".as_ref()).is_err());
     /// # Ok::<(), apportion::exchange::TableError>(())
     /// ```
     ///
     /// # Errors
     /// [`TableError`] for any other.
-    pub fn of(path: &Path) -> Result<Self, TableError> {
+    pub fn from_path(path: &Path) -> Result<Self, TableError> {
         let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
         let known = |format: &Self| ending.as_deref() == Some(format.name());
         if let Some(format) = Self::ALL.into_iter().find(known) {

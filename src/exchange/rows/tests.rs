@@ -112,7 +112,7 @@ fn faults_are_named_with_their_place() {
         assert!(refused(&npy(header, &[0; 7])).to_string().starts_with("not an NPY file that can be read: "));
     }
     for name in ["a.xlsx", "a.parquet", "a"] {
-        assert!(Format::of(name.as_ref()).unwrap_err().to_string().contains("expected .csv or .npy"));
+        assert!(Format::from_path(name.as_ref()).unwrap_err().to_string().contains("expected .csv or .npy"));
     }
 }
 

@@ -47,7 +47,8 @@ impl OutputDistribution {
         let others: Vec<usize> = (0..values.len()).filter(|row| atom_of[*row].is_none()).collect();
         let mut scores = vec![0.0; values.len()];
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-        let of_others = centred_scores(&Order::of(&others.iter().map(|&row| values[row]).collect::<Vec<f64>>()));
+        let of_others =
+            centred_scores(&Order::from_values(&others.iter().map(|&row| values[row]).collect::<Vec<f64>>()));
         for (&row, score) in others.iter().zip(of_others) {
             scores[row] = score;
             (low, high) = (low.min(score), high.max(score));

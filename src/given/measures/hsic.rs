@@ -5,7 +5,7 @@ use statrs::distribution::{ContinuousCDF, Gamma};
 use crate::given::drawn_rows;
 
 /// Most rows that are looked at, a random part of those of a larger table: the time grows with their square.
-pub const MOST_ROWS: usize = 4096;
+pub const MAX_ROWS: usize = 4096;
 
 /// A column in Gaussian kernels of the width of its standard deviation: k(a, b) = exp(-(a - b)^2/(2 s^2)).
 struct Kernel {
@@ -60,12 +60,12 @@ pub struct Outputs {
 }
 
 impl Outputs {
-    /// At most [`MOST_ROWS`] rows of a table, by `seed`: the first ones of a sorted table would be a part of the input's range.
+    /// At most [`MAX_ROWS`] rows of a table, by `seed`: the first ones of a sorted table would be a part of the input's range.
     /// `None` if they have one value.
     pub fn new(z: &[f64], seed: u64) -> Option<Self> {
         let mut rows: Vec<usize> = (0..z.len()).collect();
-        if z.len() > MOST_ROWS {
-            rows = drawn_rows(z.len(), MOST_ROWS, seed);
+        if z.len() > MAX_ROWS {
+            rows = drawn_rows(z.len(), MAX_ROWS, seed);
             rows.sort_unstable();
         }
         let kernel = Kernel::new(&taken(z, &rows))?;
@@ -129,7 +129,7 @@ mod tests {
 
     #[test]
     fn a_sorted_table_says_what_it_says_in_any_order() {
-        let rows = 3 * MOST_ROWS;
+        let rows = 3 * MAX_ROWS;
         let a: Vec<f64> = (0..rows).map(|k| k as f64 / rows as f64).collect();
         let b: Vec<f64> = (0..rows).map(|k| (k * 7919 % rows) as f64 / rows as f64).collect();
         let y: Vec<f64> = a.iter().zip(&b).map(|(a, b)| f64::from(u8::from(*a > 0.5)) + 0.2 * b).collect();
@@ -143,7 +143,7 @@ mod tests {
 
     #[test]
     fn one_value_in_the_rows_that_are_looked_at_gives_no_number() {
-        let rows = 2 * MOST_ROWS;
+        let rows = 2 * MAX_ROWS;
         let x: Vec<f64> = (0..rows).map(|k| k as f64).collect();
         let mut one = vec![1.0; rows];
         let outputs = Outputs::new(&x, 0).unwrap();

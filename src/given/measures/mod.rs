@@ -22,7 +22,7 @@ use crate::names::named;
 use crate::uncertainty::{Estimate, Interval, NORMAL_QUANTILE};
 use density::OutputDistribution;
 use distances::distances;
-pub use hsic::MOST_ROWS as MOST_ROWS_OF_KERNELS;
+pub use hsic::MAX_ROWS as MAX_ROWS_OF_KERNELS;
 
 named! {
 /// A measure of the influence of an input on an output.
@@ -95,7 +95,7 @@ impl InputMeasures {
         self.measures.get(&measure).copied()
     }
 
-    /// Whether the measure cannot be told from that of an input without influence: its p-value is above [`SIGNIFICANT`].
+    /// Whether the measure cannot be distinguished from that of an input without influence: its p-value is above [`SIGNIFICANT`].
     pub fn may_be_chance(&self, measure: Measure) -> bool {
         self.get(measure).and_then(|found| found.p_value).is_some_and(|p_value| p_value > SIGNIFICANT)
     }
@@ -126,7 +126,7 @@ const PERMUTED: usize = 4;
 
 /// The measures of every output with respect to every input, of the columns that gave `indices`.
 ///
-/// Costs O(N log N) for each input and permutation, and O(N^2) for the kernels, of at most [`MOST_ROWS_OF_KERNELS`] rows, a
+/// Costs O(N log N) for each input and permutation, and O(N^2) for the kernels, of at most [`MAX_ROWS_OF_KERNELS`] rows, a
 /// random part of a larger table. `seed` is that of these rows, permutations, resamples, and the order of equal inputs in the
 /// spectrum.
 pub fn measures(
@@ -135,7 +135,7 @@ pub fn measures(
     indices: &GivenIndices,
     seed: u64,
 ) -> Vec<Result<Vec<InputMeasures>, NoVariance>> {
-    let orders: Vec<Order> = inputs.iter().map(|input| Order::of(&input.values)).collect();
+    let orders: Vec<Order> = inputs.iter().map(|input| Order::from_values(&input.values)).collect();
     let is_random = indices.points == PointSet::Independent;
     let of_output = |(number, output): (usize, &Column)| {
         let job = Job::new(&output.values, &Measure::ALL, [seed, number as u64])?;
@@ -155,7 +155,7 @@ pub(crate) fn measures_of_rows(
     independent: bool,
 ) -> Result<Vec<InputMeasures>, NoVariance> {
     let job = Job::new(output, wanted, seed)?;
-    let orders: Vec<Order> = inputs.iter().map(|input| Order::of(&input.values)).collect();
+    let orders: Vec<Order> = inputs.iter().map(|input| Order::from_values(&input.values)).collect();
     let known = Known { has_p_values: independent, has_intervals: true };
     Ok(job.measures(inputs, &orders, known))
 }
@@ -221,7 +221,7 @@ fn classes_for(rows: usize) -> usize {
 
 impl<'a> Job<'a> {
     fn new(values: &[f64], wanted: &'a [Measure], seed: [u64; 2]) -> Result<Self, NoVariance> {
-        let (z, order, distribution) = (centred(values)?, Order::of(values), OutputDistribution::new(values));
+        let (z, order, distribution) = (centred(values)?, Order::from_values(values), OutputDistribution::new(values));
         Ok(Self { wanted, z, order, distribution, seed })
     }
 
@@ -265,7 +265,7 @@ impl<'a> Job<'a> {
                     let delta = &mut values[Measure::Delta as usize];
                     delta.estimate = self.delta(classes, delta.estimate.estimate, chance, number as u64);
                     if let (Some(interval), Some(SIGNIFICANT..)) = (&mut delta.estimate.interval, delta.p_value) {
-                        // What is not told from chance may be nothing.
+                        // What is not distinguished from chance may be nothing.
                         interval.low = 0.0;
                     }
                 }

@@ -42,7 +42,7 @@ fn other_programs_have_the_same_numbers() {
     let y = output(&inputs, |x| libm::exp(x[0]) + 4.0 * (x[1] - 0.5).powi(2) * x[0]);
     let job = Job::new(&y.values, &Measure::ALL, [0, 0]).unwrap();
     for (input, expected) in inputs.iter().zip(EXPECTED) {
-        let order = Order::of(&input.values);
+        let order = Order::from_values(&input.values);
         let found = job.plain(&order, &Classes::new(&order, 720, false), order.rows());
         for (found, expected) in found.iter().zip(expected) {
             assert!((found - expected).abs() < 1e-12, "{}: {found} {expected}", input.name);

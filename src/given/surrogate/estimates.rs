@@ -1,7 +1,7 @@
 //! Indices and intervals from the contributions of all folds.
 
 use super::contributions::{FoldSums, Folded};
-use super::{Fitted, LEAST_EXPLAINED, SurrogateIndices, SurrogateOutput, told_terms};
+use super::{Fitted, MIN_EXPLAINED, SurrogateIndices, SurrogateOutput, told_terms};
 use crate::uncertainty::{Estimate, Influenced, Interval, Noise};
 
 /// What all folds say of the indices of the inputs of these names.
@@ -45,7 +45,7 @@ pub(super) fn of(fitted: &Fitted, names: &[&str]) -> SurrogateOutput {
     SurrogateOutput {
         explained,
         unknown,
-        serves: explained >= LEAST_EXPLAINED,
+        serves: explained >= MIN_EXPLAINED,
         polynomials_of: (*polynomials_of).to_owned(),
         terms: expansions.iter().map(|e| e.terms.len() as f64).sum::<f64>() / expansions.len() as f64,
         leading_terms: leading.iter().map(|term| term.named(names)).collect(),

@@ -28,16 +28,16 @@ use coordinates::Coordinates;
 
 /// Share of the variance of rows that it has not seen which a surrogate must explain to serve: what it leaves adds to the upper
 /// end of every interval.
-pub const LEAST_EXPLAINED: f64 = 0.9;
+pub const MIN_EXPLAINED: f64 = 0.9;
 
 /// Parts of the table, each of which is corrected by an expansion of the others.
 const FOLDS: usize = 8;
 
 /// Most rows that are used.
-const MOST_ROWS: usize = 1 << 16;
+const MAX_ROWS: usize = 1 << 16;
 
 /// Most values of polynomials that are kept.
-const MOST_VALUES: usize = 100_000_000;
+const MAX_VALUES: usize = 100_000_000;
 
 /// Why no surrogate is fitted to a table.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -91,7 +91,7 @@ pub struct SurrogateOutput {
     /// The rest, between 0 and 1: an index may be larger than its estimate by so much, whatever the number of rows. The upper
     /// ends of the intervals contain it.
     pub unknown: f64,
-    /// Whether the surrogates explain at least [`LEAST_EXPLAINED`]; else the other estimates are the ones to read.
+    /// Whether the surrogates explain at least [`MIN_EXPLAINED`]; else the other estimates are the ones to read.
     pub serves: bool,
     /// In which variable of the inputs the surrogates are polynomials, in words.
     pub polynomials_of: String,
@@ -143,7 +143,7 @@ pub fn surrogate_indices(
         Column { name: column.name.clone(), values: rows.iter().flatten().map(|&row| column.values[row]).collect() }
     };
     let inputs: Vec<Column> = inputs.iter().map(chosen).collect();
-    let orders: Vec<Order> = inputs.iter().map(|input| Order::of(&input.values)).collect();
+    let orders: Vec<Order> = inputs.iter().map(|input| Order::from_values(&input.values)).collect();
     let coordinates = match distributions {
         Some(list) if list.len() != inputs.len() => {
             return Err(SurrogateRefusal::Distributions { distributions: list.len(), inputs: inputs.len() });
@@ -167,7 +167,7 @@ pub fn surrogate_indices(
 /// The numbers of the rows of every fold, each in rising order. They are dealt at random, but always in the same way: rows of
 /// Sobol' points that are at equal distances in their order fill a part of the space only.
 fn used_rows(rows: usize, inputs: usize) -> Vec<Vec<usize>> {
-    let most = MOST_ROWS.min(MOST_VALUES / (inputs * Caps::degree_of(inputs))).max(super::FEWEST_ROWS);
+    let most = MAX_ROWS.min(MAX_VALUES / (inputs * Caps::degree_of(inputs))).max(super::MIN_ROWS);
     let all = drawn_rows(rows, most, 0);
     let mut folds = vec![Vec::new(); FOLDS];
     all.into_iter().enumerate().for_each(|(place, row)| folds[place % FOLDS].push(row));

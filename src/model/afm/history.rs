@@ -51,7 +51,7 @@ impl AfmHistory {
     }
 }
 
-/// The moments at which histories are told: evenly spaced, the last one at the end of the duration, none at time 0.
+/// The moments at which histories are given: evenly spaced, the last one at the end of the duration, none at time 0.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AfmMoments {
     duration: f64,

@@ -21,7 +21,7 @@ fn keys(outputs: &[String]) -> impl Iterator<Item = Key<'_>> {
     };
     outputs.chunk_by(follows).flat_map(|names| {
         let list = item_of_list(&names[0]).filter(|(_, first)| *first == 0 && names.len() > 1);
-        // What is no list from its beginning is told one by one.
+        // What is no list from its beginning is named one by one.
         let length = if list.is_some() { names.len() } else { 1 };
         names.chunks(length).map(move |names| Key { list: list.map(|(list, _)| list), names })
     })

@@ -10,7 +10,7 @@ use std::time::{Duration, Instant, SystemTime};
 use sha2::{Digest, Sha256};
 use tempfile::TempDir;
 
-use super::pick::{MOST_BYTES, Source, Texts};
+use super::pick::{MAX_BYTES, Source, Texts};
 use super::program::{Running, status_in_words};
 use super::row::ValueWriter;
 use super::standard_error::listen;
@@ -158,7 +158,7 @@ impl<'a> PerRunWorker<'a> {
                 return Err(Fault::Run(format!("the program took longer than {}", seconds(timeout))));
             }
             let size = |name| std::fs::metadata(directory.join(name)).map_or(0, |data| data.len());
-            if size(STDOUT).max(size(STDERR)) > MOST_BYTES {
+            if size(STDOUT).max(size(STDERR)) > MAX_BYTES {
                 return Err(Fault::Run("the program printed more than 256 MiB".to_owned()));
             }
             pause = (pause * 2).min(Duration::from_millis(50));

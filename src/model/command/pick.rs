@@ -91,7 +91,7 @@ impl PartialEq for Way {
 }
 
 /// Bytes of a file that are read.
-pub(super) const MOST_BYTES: u64 = 1 << 28;
+pub(super) const MAX_BYTES: u64 = 1 << 28;
 
 impl Source {
     fn in_words(&self) -> String {
@@ -113,7 +113,7 @@ impl Source {
                 return Err(format!("the run left no file `{file}`"));
             }
             Err(error) => return Err(unreadable(error.to_string())),
-            Ok(data) if data.len() > MOST_BYTES => return Err(unreadable("it has more than 256 MiB".to_owned())),
+            Ok(data) if data.len() > MAX_BYTES => return Err(unreadable("it has more than 256 MiB".to_owned())),
             Ok(data) if !data.is_file() => return Err(unreadable("it is not a file".to_owned())),
             Ok(_) => (),
         }

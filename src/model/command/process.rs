@@ -143,7 +143,7 @@ impl Process {
 impl Drop for Process {
     fn drop(&mut self) {
         self.input = None;
-        // What still comes is nobody's.
+        // What still comes is dropped.
         self.events = mpsc::sync_channel(0).1;
         self.running.ends_within(PATIENCE);
         self.running.end();
@@ -170,7 +170,7 @@ fn read_all(mut stdout: ChildStdout, tell: &SyncSender<Event>) {
             Ok(0) => break,
             Ok(count) => {
                 bytes.truncate(count);
-                // What comes after the last row is nobody's, but the process shall not wait for it to be read.
+                // What comes after the last row is dropped, but the process shall not wait for it to be read.
                 listened_to = listened_to && tell.send(Event::Output(bytes)).is_ok();
             }
             Err(error) if error.kind() == io::ErrorKind::Interrupted => (),

@@ -161,7 +161,7 @@ impl Running {
         #[cfg(unix)]
         {
             use rustix::process::{Pid, Signal, kill_process_group};
-            // Refused where nobody of the group is left.
+            // Fails where no process of the group is left.
             let _ = kill_process_group(Pid::from_child(&self.child), Signal::KILL);
         }
         #[cfg(not(unix))]

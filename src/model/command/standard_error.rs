@@ -7,7 +7,7 @@ use crate::model::Messages;
 use crate::model::shorten::cut;
 
 /// Characters of a line that are passed on.
-const MOST_LETTERS: usize = 400;
+const MAX_LETTERS: usize = 400;
 
 /// Passes on what a process prints on standard error until it ends, and leaves its last line in `last`.
 pub(super) fn listen(messages: &Messages, mut from: impl Read, last: &Mutex<String>) {
@@ -37,7 +37,7 @@ fn take(messages: &Messages, line: &mut Vec<u8>, last: &Mutex<String>) {
     let text = String::from_utf8_lossy(line).into_owned();
     line.clear();
     if !text.trim().is_empty() {
-        messages.send_printed(&format!("the program: {}", cut(&text, MOST_LETTERS)));
+        messages.send_printed(&format!("the program: {}", cut(&text, MAX_LETTERS)));
         text.trim().clone_into(&mut last.lock().unwrap_or_else(PoisonError::into_inner));
     }
 }

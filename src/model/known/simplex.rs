@@ -11,13 +11,13 @@ pub(super) const ENTRY: Entry = Entry {
     source: "this program; the integrals are Dirichlet's",
     parameters: &[ParameterInfo { name: "dimension", description: "number of inputs d, 2 to 12 [3]" }],
     build: |given| {
-        let d = given.dimension(3, FEW)?;
+        let d = given.dimension(3, DIMENSIONS)?;
         Ok(Made::new(unit_cube(d), Simplex { d }))
     },
 };
 
 /// Beyond 12 the simplex is too small to be met by any sample.
-const FEW: Range = (|d| (2.0..=12.0).contains(&d), "a whole number from 2 to 12");
+const DIMENSIONS: Range = (|d| (2.0..=12.0).contains(&d), "a whole number from 2 to 12");
 
 /// 1 where sum x_i <= 1, else 0; x uniform on (0, 1)^d.
 ///

@@ -154,7 +154,7 @@ impl<'a> Figure<'a> {
                 let (left, top, fill) = (Px(x), Px(y - 5.0), colour.hex());
                 let area: Attributes =
                     &[("x", &left), ("y", &top), ("width", &"12"), ("height", &"10"), ("fill", &fill)];
-                // The lightest shades are told from the paper by it, as in the map.
+                // The lightest shades are set off from the paper by it, as in the map.
                 let rim: Attributes = match colour {
                     Colour::Shade(_) => &[("stroke", &MUTED), ("stroke-width", &"0.6")],
                     _ => &[],

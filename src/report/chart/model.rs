@@ -103,7 +103,7 @@ pub struct Point {
     pub label: String,
 }
 
-/// A cell of a map, told by its colour and by a letter.
+/// A cell of a map, marked by its colour and by a letter.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Tile {
     /// Its row.

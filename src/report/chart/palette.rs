@@ -10,7 +10,7 @@ const COLOURS: [&str; 11] = [
     "#929292",
 ];
 
-/// The shades of maps from little to much, ever darker, so that they are told apart in grey too (ColorBrewer's YlGnBu).
+/// The shades of maps from little to much, ever darker, so that they differ in grey too (ColorBrewer's YlGnBu).
 const SHADES: [&str; 9] =
     ["#ffffd9", "#edf8b1", "#c7e9b4", "#7fcdbb", "#41b6c4", "#1d91c0", "#225ea8", "#253494", "#081d58"];
 
@@ -29,7 +29,7 @@ const SYMBOLS: [&str; 4] = [
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Colour {
     /// That of a series by its number: dark blue, orange, green, plum, blue, rust, grey, and four more; then again from the
-    /// first. Those that are told apart best come first.
+    /// first. The most distinct ones come first.
     Series(usize),
     /// References and exact values: nearly black.
     Reference,

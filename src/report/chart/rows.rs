@@ -123,7 +123,7 @@ impl<'a> Sheet<'a> {
                     ("width", &Px((right - left - TILE_GAP).max(1.0))),
                     ("height", &Px(self.layout.rows.bars)),
                     ("fill", &colour.hex()),
-                    // The lightest shades are told from the paper by it.
+                    // The lightest shades are set off from the paper by it.
                     ("stroke", &MUTED),
                     ("stroke-width", &"0.6"),
                 ],

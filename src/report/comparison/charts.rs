@@ -2,7 +2,7 @@
 
 use super::record::{ComparedFactor, ComparedIndex, ComparedOutput, ComparisonFile};
 use crate::report::chart::{Chart, Colour, Series};
-use crate::report::factor_bars::{DIFFERENCES, INDEX, INDICES, MOST, both_orders, index_panel, not_drawn};
+use crate::report::factor_bars::{DIFFERENCES, INDEX, INDICES, MAX_BARS, both_orders, index_panel, not_drawn};
 use crate::report::format::name;
 
 /// The indices side by side. Of more than 20 factors, those with the largest total indices in either result.
@@ -61,6 +61,6 @@ fn caption(output: &ComparedOutput) -> String {
     format!(
         "{sure} of {} total indices differ by more than the errors of both.{}",
         singles.len(),
-        not_drawn(singles.len(), MOST)
+        not_drawn(singles.len(), MAX_BARS)
     )
 }

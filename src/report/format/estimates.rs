@@ -3,9 +3,9 @@
 use super::{SIGNIFICANT, minus, significant, significant_to};
 use crate::uncertainty::{Estimate, Interval};
 
-/// Up to this ratio of its longer part to the shorter one an interval is told by the longer one.
+/// Up to this ratio of its longer part to the shorter one an interval is printed by the longer one.
 const EVEN: f64 = 1.5;
-/// Below this part of the estimate nobody needs both ends of an interval.
+/// Below this part of the estimate both ends of an interval are not needed.
 const MIN_SHOWN: f64 = 0.01;
 /// Significant digits of an estimate of which no error is known.
 const WITHOUT_ERROR: usize = 3;

@@ -3,7 +3,7 @@
 use super::{GivenFile, GivenOutputRecord};
 use crate::given::InputIndices;
 use crate::report::chart::{Chart, Colour, Series};
-use crate::report::factor_bars::{INDEX, INDICES, MOST, index_panel, not_drawn};
+use crate::report::factor_bars::{INDEX, INDICES, MAX_BARS, index_panel, not_drawn};
 use crate::report::leading::{Contender, leader};
 
 /// The indices of one output as parts of its variance, one bar per input and method, with their intervals; the input of
@@ -25,7 +25,7 @@ pub fn given_chart(result: &GivenFile, output: &GivenOutputRecord) -> Chart {
     ];
     let used = series.into_iter().filter(|(_, values)| values.iter().any(Option::is_some));
     let inputs: Vec<String> = indices.iter().map(|index| index.input.clone()).collect();
-    let beyond = not_drawn(inputs.len(), MOST);
+    let beyond = not_drawn(inputs.len(), MAX_BARS);
     let (axis, title) = match served {
         Some(_) => (INDEX, "Indices"),
         None => ("first-order index: part of the variance", "First-order indices"),

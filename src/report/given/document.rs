@@ -57,7 +57,7 @@ pub fn given_document(result: &GivenFile, name: &str) -> Document {
     .document()
 }
 
-/// Which columns are not among the inputs although nobody left them out.
+/// Which columns are not among the inputs although they were not left out.
 fn not_read(result: &GivenFile) -> Option<String> {
     let left_out = &result.table.columns_left_out;
     let names: Vec<String> = left_out.iter().map(|column| format!("`{}`", column.name)).collect();

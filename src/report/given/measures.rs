@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::record::GivenFile;
-use crate::given::{InputMeasures, MOST_ROWS_OF_KERNELS, Measure, NoVariance, PERMUTATIONS, SIGNIFICANT};
+use crate::given::{InputMeasures, MAX_ROWS_OF_KERNELS, Measure, NoVariance, PERMUTATIONS, SIGNIFICANT};
 use crate::report::document::{Part, Section, Table};
 use crate::report::format::{fixed, index as of_error};
 
@@ -93,7 +93,7 @@ pub(in crate::report) fn table(
         caption.push_str(" Delta has its 95 % interval.");
     }
     if has(Measure::Hsic) {
-        caption.push_str(&format!(" R2-HSIC is of {MOST_ROWS_OF_KERNELS} rows at most, drawn at random from more."));
+        caption.push_str(&format!(" R2-HSIC is of {MAX_ROWS_OF_KERNELS} rows at most, drawn at random from more."));
         if inputs.iter().any(|of| of.get(Measure::Hsic).is_none()) {
             caption.push_str(" It is empty where these rows have one value only.");
         }

@@ -5,8 +5,8 @@ use serde::{Deserialize, Serialize};
 use super::sentences;
 use crate::exchange::TextColumn;
 use crate::given::{
-    Column, Dependence, GivenIndices, InputIndices, InputMeasures, LEAST_EXPLAINED, NoVariance, OutputIndices,
-    PointSet, SurrogateOutput, SurrogateRefusal, Surrogates,
+    Column, Dependence, GivenIndices, InputIndices, InputMeasures, MIN_EXPLAINED, NoVariance, OutputIndices, PointSet,
+    SurrogateOutput, SurrogateRefusal, Surrogates,
 };
 use crate::quantity::Unit;
 use crate::quantity::Unlikely;
@@ -160,7 +160,7 @@ fn surrogate_record(result: &SurrogateResult) -> GivenSurrogateRecord {
         rows: fitted.map(|all| all.rows as u64),
         folds: fitted.map(|all| all.folds as u64),
         distributions: fitted.map(|all| if all.given_distributions { "given" } else { "columns" }.to_owned()),
-        least_explained: LEAST_EXPLAINED,
+        least_explained: MIN_EXPLAINED,
     }
 }
 

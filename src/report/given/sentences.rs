@@ -1,7 +1,7 @@
 //! What a result from given data says in sentences.
 
 use super::SurrogateResult;
-use crate::given::{GivenIndices, LEAST_EXPLAINED, OutputIndices, PointSet, SurrogateOutput, bins_for};
+use crate::given::{GivenIndices, MIN_EXPLAINED, OutputIndices, PointSet, SurrogateOutput, bins_for};
 use crate::report::format::fixed;
 
 pub(super) fn estimators(indices: &GivenIndices, surrogates: Option<&SurrogateResult>) -> Vec<String> {
@@ -126,7 +126,7 @@ pub(super) fn output_warnings(output: &OutputIndices, surrogate: Option<&Surroga
             "the surrogate does not serve: of rows that it was not fitted to it explains {} of the variance, and {} are \
              needed. Read the first-order indices by ranks and bins; there are no total indices",
             percent(surrogate.explained.max(0.0)),
-            percent(LEAST_EXPLAINED)
+            percent(MIN_EXPLAINED)
         ));
     }
     for index in output.indices.iter().flatten() {
@@ -149,7 +149,7 @@ pub(super) fn percent(share: f64) -> String {
     if share > 0.0 && share < 0.01 { "less than 1 %".to_owned() } else { format!("{} %", fixed(100.0 * share, 0)) }
 }
 
-/// Shares of the variance below this are not told.
+/// Shares of the variance below this are not reported.
 pub(super) const VISIBLE: f64 = 5e-4;
 
 /// What the surrogate of an output that serves did.

@@ -1,7 +1,7 @@
 //! The indices themselves: first order with total.
 
 use super::super::chart::Chart;
-use super::super::factor_bars::{INDEX, INDICES, MOST, both_orders, index_panel, not_drawn, pair_panel};
+use super::super::factor_bars::{INDEX, INDICES, MAX_BARS, both_orders, index_panel, not_drawn, pair_panel};
 use super::super::format::name;
 use super::super::leading::leader_of;
 use crate::result::{IndexRecord, OutputResult, StudyResult};
@@ -26,5 +26,5 @@ pub fn indices_chart(result: &StudyResult, output: &OutputResult) -> Chart {
         false => pair_panel(factors, first_order, total, &keys),
     };
     let title = format!("{}: indices of {}", result.study.headline(), name(&output.name));
-    Chart::new(title, leader_of(output) + &not_drawn(indices.len(), MOST)).panels([panel])
+    Chart::new(title, leader_of(output) + &not_drawn(indices.len(), MAX_BARS)).panels([panel])
 }

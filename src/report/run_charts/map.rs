@@ -1,7 +1,7 @@
 //! Many outputs at a glance: a map of factors and outputs, and the bars of all outputs together.
 
 use super::super::chart::{Axis, Chart, Colour, Panel, Series, Shape, Tile};
-use super::super::factor_bars::{MOST, not_drawn, pair_panel};
+use super::super::factor_bars::{MAX_BARS, not_drawn, pair_panel};
 use super::super::format::{fixed, index, name};
 use crate::result::{IndexRecord, PlainIndexRecord, StudyResult};
 use crate::uncertainty::Estimate;
@@ -50,7 +50,7 @@ pub(in crate::report) fn map_chart(result: &StudyResult) -> Chart {
 }
 
 /// The places of the factors by falling total index over all outputs together, or by their sum where there is none: the
-/// order of everything that is told of many outputs.
+/// order of everything that is shown of many outputs.
 pub(in crate::report) fn overall_order(result: &StudyResult) -> Vec<usize> {
     let together = result.aggregate.as_ref().and_then(|aggregate| aggregate.indices.as_deref()).unwrap_or_default();
     let known = result.outputs.iter().filter_map(|output| output.indices.as_ref());
@@ -105,7 +105,7 @@ pub(in crate::report) fn together_chart(result: &StudyResult) -> Chart {
     let caption = match &result.aggregate {
         Some(aggregate) if aggregate.indices.is_some() => {
             let count = aggregate.outputs.len();
-            format!("Over {count} outputs: {}.{}", aggregate.weighting, not_drawn(result.factors.len(), MOST))
+            format!("Over {count} outputs: {}.{}", aggregate.weighting, not_drawn(result.factors.len(), MAX_BARS))
         }
         aggregate => {
             let reason = aggregate.as_ref().and_then(|aggregate| aggregate.reason.as_deref());

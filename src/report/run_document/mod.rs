@@ -48,7 +48,7 @@ use crate::result::{AggregateRecord, SpendingRecord, StudyRecord, StudyResult};
 pub fn run_document(result: &StudyResult) -> Document {
     let stems = Stems::new(result);
     let (mut sections, drawn) = series::sections(result, &stems.series);
-    // Series are told apart from all other outputs.
+    // Series have sections of their own.
     let others = (!result.series.is_empty()).then(|| series::single_outputs(result));
     let single = others.as_ref().unwrap_or(result);
     let mut figures = Figures::new(single, stems, drawn);

@@ -30,8 +30,8 @@ pub(super) fn moments(output: &OutputResult) -> Option<Part> {
     add("excess kurtosis", sample.excess_kurtosis.map(|x| value(x, "")));
     add("smallest", Some(number(sample.min)));
     if sample.histogram.is_some() {
-        let told = |percent: f64| QUANTILES.contains(&percent) && sample.tells(percent);
-        for quantile in sample.quantiles.iter().filter(|quantile| told(quantile.percent)) {
+        let is_known = |percent: f64| QUANTILES.contains(&percent) && sample.tells(percent);
+        for quantile in sample.quantiles.iter().filter(|quantile| is_known(quantile.percent)) {
             add(&format!("{} % quantile", significant(quantile.percent)), Some(number(quantile.value)));
         }
     }

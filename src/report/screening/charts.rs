@@ -1,7 +1,7 @@
 //! The charts of a screening: mu* against sigma, and mu* with its intervals.
 
 use super::super::chart::{Axis, Bar, Chart, Colour, Panel, Point, Series, Shape, Stroke};
-use super::super::factor_bars::{MOST, not_drawn};
+use super::super::factor_bars::{MAX_BARS, not_drawn};
 use super::super::format::{axis_unit, index, name, words};
 use super::super::leading::{self, Contender};
 use super::ScreeningFile;
@@ -88,7 +88,7 @@ pub(super) fn bars(file: &ScreeningFile, output: &ScreenedOutput) -> Chart {
         effects_of(file),
         100.0 * FIXABLE,
         leader(output),
-        not_drawn(output.factors.len(), MOST)
+        not_drawn(output.factors.len(), MAX_BARS)
     );
     let x = axis(
         if is_derivative(file) {
@@ -100,7 +100,7 @@ pub(super) fn bars(file: &ScreeningFile, output: &ScreenedOutput) -> Chart {
     );
     let rows = Axis::from_names("", output.factors.iter().map(|factor| words(&factor.factor)).collect());
     let keys: Vec<f64> = output.factors.iter().map(|factor| -(factor.rank as f64)).collect();
-    Chart::new(title(file, output), caption).panels([Panel::new(x, rows).with(bars).ranked(&keys, MOST)])
+    Chart::new(title(file, output), caption).panels([Panel::new(x, rows).with(bars).ranked(&keys, MAX_BARS)])
 }
 
 /// An effect with its error and unit.

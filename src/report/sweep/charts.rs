@@ -1,7 +1,7 @@
 //! The charts of sweeps: every output against each factor, and how far each factor moves each output.
 
 use super::super::chart::{Axis, Bar, Chart, Colour, Mark, Panel, Series, Shape, Spacing, Stroke};
-use super::super::factor_bars::{MOST, not_drawn};
+use super::super::factor_bars::{MAX_BARS, not_drawn};
 use super::super::format::{axis_unit, name, printed, short_with_unit, words};
 use crate::report::document::Figure;
 use crate::report::{file_stems, listed};
@@ -132,7 +132,7 @@ fn ranges(file: &SweepFile, number: usize, nominal: &NominalOutput) -> Chart {
     let caption = format!(
         "Values of {output} with one factor at either end of its range and every other at its nominal value; the percentages are \
          of the nominal value.{}",
-        not_drawn(file.sweeps.len(), MOST)
+        not_drawn(file.sweeps.len(), MAX_BARS)
     );
     let x = Axis::new(words(&nominal.output), axis_unit(&nominal.unit));
     let row_name = |(sweep, effect): (&Sweep, &SweptOutput)| {
@@ -146,7 +146,7 @@ fn ranges(file: &SweepFile, number: usize, nominal: &NominalOutput) -> Chart {
     let keys: Vec<f64> = sweeps().map(|(_, effect)| effect.width()).collect();
     let panel = Panel::new(x, rows).with(nominal.value.map(|value| Mark::rule(value, label(value)))).with(marks);
     let title = format!("{}: how far each factor moves {output}", file.study.headline());
-    Chart::new(title, caption).panels([panel.ranked(&keys, MOST)])
+    Chart::new(title, caption).panels([panel.ranked(&keys, MAX_BARS)])
 }
 
 /// The bars of a factor: its ends, or its whole range where these are not the extremes.

@@ -132,7 +132,7 @@ fn a_particle_that_cannot_roll_slides_first() {
     }
 }
 
-/// The same history, told backwards.
+/// The same history backwards.
 #[test]
 fn a_history_that_runs_the_other_way_changes_verdicts() {
     let backwards = |scene: &Scene, options: &Options, duration: f64| -> Result<History, Failure> {

@@ -4,7 +4,7 @@ use apportion::report::format::three_digits as short;
 
 /// Below this part of its size a change is rounding.
 const ROUNDING: f64 = 1e-6;
-/// Below this part of its size a change is small: it is told as such.
+/// Below this part of its size a change is small: it is reported as such.
 const SMALL: f64 = 1e-2;
 /// A curve this close to its chord, as a part of the change, is called straight.
 const STRAIGHT: f64 = 0.02;

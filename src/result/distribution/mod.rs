@@ -115,7 +115,7 @@ impl OutputDistribution {
         self.tells(2.5).then(|| self.quantile(2.5).zip(self.quantile(97.5))).flatten()
     }
 
-    /// How far most values lie apart: the width of the central 95 %, or of all where that is 0 or not told.
+    /// How far most values lie apart: the width of the central 95 %, or of all where that is 0 or unknown.
     pub fn spread(&self) -> f64 {
         let central = self.central().map(|(low, high)| high - low);
         central.filter(|width| *width > 0.0).unwrap_or(self.max - self.min)

@@ -4,11 +4,11 @@ use serde_json::Value;
 
 /// In what the identity of a journal differs from that of a study, in sentences, at most a few; none if they are equal.
 pub fn differences(journal: &Value, study: &Value) -> Vec<String> {
-    const MOST: usize = 3;
+    const MAX_LISTED: usize = 3;
     let mut found = Vec::new();
     compare("", journal, study, &mut found);
-    let more = found.len().saturating_sub(MOST);
-    found.truncate(MOST);
+    let more = found.len().saturating_sub(MAX_LISTED);
+    found.truncate(MAX_LISTED);
     if more > 0 {
         found.push(format!("and {more} more"));
     }
@@ -19,7 +19,7 @@ fn compare(key: &str, journal: &Value, study: &Value, found: &mut Vec<String>) {
     match (journal, study) {
         (Value::Object(a), Value::Object(b)) => {
             let keys = a.keys().chain(b.keys().filter(|key| !a.contains_key(*key)));
-            // A digest says that something differs; it is told only where nothing says what.
+            // A digest says that something differs; it is reported only where nothing says what.
             let (digests, others): (Vec<_>, Vec<_>) = keys.partition(|key| *key == "digest");
             let before = found.len();
             for name in others.into_iter().chain(digests) {
@@ -47,7 +47,7 @@ fn compare(key: &str, journal: &Value, study: &Value, found: &mut Vec<String>) {
 }
 
 fn short(value: &Value) -> String {
-    const MOST: usize = 60;
+    const MAX_LISTED: usize = 60;
     let text = value.to_string();
-    if text.chars().count() <= MOST { text } else { text.chars().take(MOST).chain("...".chars()).collect() }
+    if text.chars().count() <= MAX_LISTED { text } else { text.chars().take(MAX_LISTED).chain("...".chars()).collect() }
 }

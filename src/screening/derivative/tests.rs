@@ -62,7 +62,7 @@ fn a_linear_function_has_the_squares_of_its_slopes() {
         // That of the variance of 4096 points.
         let slack = if sampler == Sampler::Sobol { 0.02 } else { 0.1 };
         for (number, ([nu, bound], slope)) in found(&screened).into_iter().zip(slopes).enumerate() {
-            // A constant has no derivative that could be told.
+            // A constant has no derivative that could be measured.
             near(nu, if number == 5 { 0.0 } else { slope * slope }, 1e-6);
             match number {
                 // Exactly the total index of a normal factor; 12/pi^2 of it of a uniform one, 4 times of an exponential one.

@@ -10,7 +10,7 @@ use super::key_schemas::afm_choices;
 use super::sections::At;
 use super::units::{in_words_of_units, with_unit, wrong_unit};
 use crate::afm::{Fidelity, FrictionLaw, Options, Parameter, Scene};
-use crate::model::{AfmMoments, MOST_VALUES, edge_unit};
+use crate::model::{AfmMoments, MAX_SERIES_VALUES, edge_unit};
 use crate::names::Named;
 use crate::quantity::{Dimension, Quantity, Unit};
 
@@ -83,7 +83,7 @@ pub(super) fn moments(context: &Context<'_>, table: &BTreeMap<At<String>, At<Val
                 "duration" => duration = positive("history.duration", "\"0.4 s\"", typed).map_err(fault)?,
                 "points" => {
                     let number = typed.as_integer().and_then(|points| usize::try_from(points).ok());
-                    points = number.filter(|points| (2..=MOST_VALUES).contains(points)).ok_or_else(|| {
+                    points = number.filter(|points| (2..=MAX_SERIES_VALUES).contains(points)).ok_or_else(|| {
                         fault(wrong("history.points", "a whole number from 2 to 10000", typed.to_string()))
                     })?;
                 }

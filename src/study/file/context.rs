@@ -1,4 +1,4 @@
-//! The text of a study file while it is read, and how its faults are told.
+//! The text of a study file while it is read, and how its faults are reported.
 
 use std::ops::Range;
 use std::path::PathBuf;

@@ -1,5 +1,5 @@
 //! The registry of the models that a study file can name: for each table that belongs to a kind of model, how it is read,
-//! what a new study says of it, and what people are told.
+//! what a new study says of it, and what its users read.
 
 use std::ops::Range;
 use std::sync::Arc;

@@ -26,7 +26,7 @@ pub struct AfmSubject {
     pub options: Options,
     /// The outputs asked for.
     pub outputs: Vec<AfmOutput>,
-    /// The histories asked for, and the moments at which they are told.
+    /// The histories asked for, and the moments at which they are given.
     pub histories: Vec<AfmHistory>,
     pub moments: AfmMoments,
 }
@@ -186,7 +186,7 @@ impl Subject for AfmSubject {
     }
 
     fn constants(&self, space: &Space) -> Vec<(String, f64, String)> {
-        // A shear modulus that nobody set follows E and nu: it is no constant.
+        // A shear modulus that is not set follows E and nu: it is no constant.
         let is_set = |p: &Parameter| p.name != "shear_modulus" || self.scene.shear_modulus.is_some();
         let constants = Parameter::ALL.iter().filter(|p| !is_factor(space, p.name) && is_set(p));
         let constant = |p: &Parameter| {

@@ -1,7 +1,7 @@
 //! The settings of a study against each other: how long each takes, and how far its indices are from the truth.
 //!
 //! The truth is the exact answer of a function that has one, else the indices by the finest model, as accurate as a part of
-//! the time allows; what is not known of these is part of every error that is told. Times are measured, so that a comparison
+//! the time allows; what is not known of these is part of every error that is reported. Times are measured, so that a comparison
 //! is not the same twice; the indices are.
 
 mod curve;
@@ -51,7 +51,7 @@ pub struct SettingsJob<'a> {
     pub threads: usize,
     /// Ends it soon after it is set.
     pub stop: Option<&'a AtomicBool>,
-    /// Is told what is measured next, and which part of the whole has been.
+    /// Receives what is measured next, and which part of the whole has been.
     pub on_progress: &'a dyn Fn(&str, f64),
 }
 
@@ -258,7 +258,7 @@ mod tests {
     fn on_the_front_is_what_nothing_beats_in_both() {
         let all = [(3.0, 0.01), (1.0, 0.5), (2.0, 0.6), (2.5, 0.2), (4.0, f64::INFINITY), (5.0, 1e-9), (6.0, 1e-12)];
         assert_eq!(comparison(0.0, &all).front(), [1, 3, 0, 5, 6]);
-        // What the truth cannot tell apart is not told apart.
+        // What the truth cannot distinguish is level.
         assert_eq!(comparison(1e-6, &all).front(), [1, 3, 0, 5]);
     }
 

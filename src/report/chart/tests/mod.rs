@@ -113,9 +113,10 @@ fn title_and_caption_are_drawn_and_told() {
     assert_eq!(root.attribute("role"), Some("img"));
     let child = |name: &str| root.children().find(|n| n.has_tag_name(name)).and_then(|n| n.text());
     assert_eq!(child("title"), Some("A start"));
-    let told = child("desc").expect("a description");
+    let description = child("desc").expect("a description");
     assert!(
-        told.starts_with("Pressure until the valve opens. horizontal axis Time (ms), vertical axis Pressure (bar)")
+        description
+            .starts_with("Pressure until the valve opens. horizontal axis Time (ms), vertical axis Pressure (bar)")
     );
     // The title's baseline is near 25 px, below it the legend; a bold title has some hundred dark pixels.
     assert!(dark_pixels(&svg, 10.0, 30.0) > 400, "{}", dark_pixels(&svg, 10.0, 30.0));
