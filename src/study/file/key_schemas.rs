@@ -42,7 +42,7 @@ pub(super) fn afm(_: &mut SchemaGenerator) -> Schema {
         "step_budget" => json!({ "type": "integer", "minimum": 1 }),
         "history" => json!({
             "type": "object",
-            "description": "Over which time the outputs that are histories are told, and at how many moments.",
+            "description": "Over which time the outputs that are histories run, and at how many moments.",
             "properties": { "duration": { "type": "string" }, "points": { "type": "integer", "minimum": 2 } },
             "additionalProperties": false,
         }),
