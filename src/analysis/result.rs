@@ -13,7 +13,7 @@ use super::setup::{factor_record, study_record, validity};
 use super::stop::Stopped;
 use super::surrogates::Corrections;
 use crate::estimate::{FirstOrder, Scaling, Total};
-use crate::model::{EVALUATIONS, LARGEST_ERROR, MANY_OUTPUTS, Model, RUNGS};
+use crate::model::{EVALUATIONS, LARGEST_ERROR, MIN_OUTPUTS_TOGETHER, Model, RUNGS};
 use crate::result::{AggregateRecord, EffortRecord, LowRuns, Provenance, RungRecord, StoppingRecord, StudyResult};
 use crate::run::Totals;
 use crate::study::Study;
@@ -112,7 +112,7 @@ fn aggregate(run: &FinishedRun<'_>) -> Option<AggregateRecord> {
     let FinishedRun { study, model, .. } = *run;
     let (outputs, single) = (model.outputs(), single_outputs(model));
     let places = if study.analysis.aggregate { (0..outputs.len()).collect() } else { single };
-    if places.len() < 2 || !study.analysis.aggregate && places.len() < MANY_OUTPUTS {
+    if places.len() < 2 || !study.analysis.aggregate && places.len() < MIN_OUTPUTS_TOGETHER {
         return None;
     }
     let same_unit = places.iter().all(|&place| outputs[place].unit.compatible(&outputs[places[0]].unit));

@@ -58,7 +58,7 @@ use crate::quantity::{Domain, Unit};
 use crate::space::Distribution;
 
 /// From so many outputs on they are shown together: an overview in the place of files for each.
-pub(crate) const MANY_OUTPUTS: usize = 12;
+pub(crate) const MIN_OUTPUTS_TOGETHER: usize = 12;
 
 /// One output of a model.
 #[derive(Debug, Clone, PartialEq)]

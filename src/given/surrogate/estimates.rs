@@ -5,7 +5,7 @@ use super::{Fitted, MIN_EXPLAINED, SurrogateIndices, SurrogateOutput, told_terms
 use crate::uncertainty::{Estimate, Influenced, Interval, Noise};
 
 /// What all folds say of the indices of the inputs of these names.
-pub(super) fn of(fitted: &Fitted, names: &[&str]) -> SurrogateOutput {
+pub(super) fn surrogate_output(fitted: &Fitted, names: &[&str]) -> SurrogateOutput {
     let Fitted { folds, expansions, beyond, polynomials_of } = fitted;
     let rows = folds.iter().map(|fold| fold.rows).sum::<usize>() as f64;
     let left_mean = folds.iter().map(|fold| fold.left.0).sum::<f64>() / rows;

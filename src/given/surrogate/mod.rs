@@ -224,7 +224,7 @@ impl Job<'_> {
                 best = fitted;
             }
         }
-        estimates::of(&best, self.names)
+        estimates::surrogate_output(&best, self.names)
     }
 
     fn fitted(&self, coordinates: &Coordinates, z: &[f64]) -> Fitted {

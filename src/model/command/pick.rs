@@ -51,7 +51,7 @@ impl Match {
     }
 
     /// The one that is meant.
-    fn of<T>(self, mut all: impl Iterator<Item = T>) -> Option<T> {
+    fn select<T>(self, mut all: impl Iterator<Item = T>) -> Option<T> {
         match self {
             Self::First => all.next(),
             Self::Last => all.last(),
@@ -125,7 +125,7 @@ impl Source {
 impl Pick {
     /// The number in what a run left, of which `texts` holds what has been read; not finite where the program wrote so.
     pub(super) fn number(&self, texts: &mut Texts<'_>) -> Result<f64, String> {
-        self.way.number(texts.of(&self.source)?, &self.source.in_words())
+        self.way.number(texts.text(&self.source)?, &self.source.in_words())
     }
 
     /// Where value number `number` of a series stands, from 0: the match or row of that number, or the item of a list.
@@ -153,7 +153,7 @@ impl<'a> Texts<'a> {
         Self { directory, stdout, read: Vec::new() }
     }
 
-    fn of(&mut self, source: &Source) -> Result<&str, String> {
+    fn text(&mut self, source: &Source) -> Result<&str, String> {
         let place = self.read.iter().position(|(known, _)| known == source).unwrap_or_else(|| {
             self.read.push((source.clone(), source.text(self.directory, self.stdout)));
             self.read.len() - 1
@@ -180,7 +180,7 @@ impl Way {
         let missing = |missing: String| format!("{of} has no {missing}");
         let found = match self {
             Self::Regex(regex, which) => {
-                let groups = which.of(regex.captures_iter(text));
+                let groups = which.select(regex.captures_iter(text));
                 let found = groups.and_then(|groups| groups.get(1).or_else(|| groups.get(0)));
                 let none = || match which {
                     Match::Number(_) => missing(which.in_words("match of the regex")),
@@ -215,7 +215,7 @@ fn cell(text: &str, column: &str, which: Match, of: &str) -> Result<String, Stri
     let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).flexible(true).from_reader(text.as_bytes());
     let place = reader.headers().ok().and_then(|names| names.iter().position(|name| name == column));
     let place = place.ok_or_else(|| missing(format!("column `{column}`")))?;
-    let row = which.of(reader.records().map_while(Result::ok));
+    let row = which.select(reader.records().map_while(Result::ok));
     let row = row.ok_or_else(|| match which {
         Match::Number(_) => missing(which.in_words("row")),
         Match::First | Match::Last => missing("row".to_owned()),

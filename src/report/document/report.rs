@@ -1,7 +1,7 @@
 //! What a command has to say, and the one way in which it becomes a document.
 
 use super::{DataFile, Document, Figure, Part, Section, Table, figures_mut};
-use crate::model::MANY_OUTPUTS;
+use crate::model::MIN_OUTPUTS_TOGETHER;
 use crate::report::chart::Chart;
 use crate::report::format::heading;
 use crate::report::leading::first_answers;
@@ -127,7 +127,7 @@ impl Report<'_> {
         endings.sort_unstable();
         endings.dedup();
         let stems = file_stems(&self.name, &names, &endings);
-        let are_many = names.len() >= MANY_OUTPUTS;
+        let are_many = names.len() >= MIN_OUTPUTS_TOGETHER;
         let section = |(number, (output, stem)): (usize, (OutputReport<'_>, String))| {
             let figure = |(ending, chart)| Figure::unnumbered(chart, format!("{stem}{ending}")).into();
             let parts = Part::warnings(output.warnings).into_iter().chain(output.parts);

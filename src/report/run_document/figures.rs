@@ -1,6 +1,6 @@
 //! The charts of a run as figures, numbered through.
 
-use crate::model::MANY_OUTPUTS;
+use crate::model::MIN_OUTPUTS_TOGETHER;
 use crate::report::chart::Chart;
 use crate::report::document::{Figure, Part};
 use crate::report::format::name as words;
@@ -47,7 +47,7 @@ impl Stems {
         let single = result.outputs.iter().enumerate().filter(|(place, _)| is_single(*place));
         let mut names: Vec<&str> = single.map(|(_, output)| output.name.as_str()).collect();
         // Charts of all of many outputs together have names like those of an only series.
-        let is_many = names.len() >= MANY_OUTPUTS;
+        let is_many = names.len() >= MIN_OUTPUTS_TOGETHER;
         if is_many {
             names = vec!["outputs"];
         }

@@ -1,6 +1,6 @@
 //! What a hurried reader should take along: which factor matters most, how sure that is, and what is warned of.
 
-use crate::model::MANY_OUTPUTS;
+use crate::model::MIN_OUTPUTS_TOGETHER;
 use crate::report::format::{grouped, index, is_above_zero, name, percent, two_digits};
 use crate::report::interval_widths::{WIDE, indices_measured, widest_interval};
 use crate::report::leading::{Contender, Verdict, by_total, first_answers, leader_of};
@@ -17,7 +17,7 @@ pub(super) fn lead(result: &StudyResult, single: &StudyResult) -> Vec<String> {
     let series = result.series.iter().map(|series| super::series::answer(result, series));
     let mut lead = first_answers(series.collect());
     lead.extend(match single.outputs.len() {
-        ..MANY_OUTPUTS => first_answers(single.outputs.iter().map(answer).collect()),
+        ..MIN_OUTPUTS_TOGETHER => first_answers(single.outputs.iter().map(answer).collect()),
         _ => overview::answers(single),
     });
     let failed = result.outputs.iter().map(|output| output.runs_failed).max().unwrap_or(0);

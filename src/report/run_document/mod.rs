@@ -17,7 +17,7 @@ use output::Topic;
 pub use series::one_output;
 use warnings::grouped_warnings;
 
-use crate::model::{MANY_OUTPUTS, ModelKind};
+use crate::model::{MIN_OUTPUTS_TOGETHER, ModelKind};
 use crate::study::edited;
 
 use super::document::{DataFile, Document, Mark, Part, Section, Table};
@@ -52,7 +52,7 @@ pub fn run_document(result: &StudyResult) -> Document {
     let others = (!result.series.is_empty()).then(|| series::single_outputs(result));
     let single = others.as_ref().unwrap_or(result);
     let mut figures = Figures::new(single, stems, drawn);
-    let is_many = single.outputs.len() >= MANY_OUTPUTS;
+    let is_many = single.outputs.len() >= MIN_OUTPUTS_TOGETHER;
     sections.extend(if is_many { overview::sections(&mut figures) } else { of_outputs(&mut figures) });
     sections.extend(validity_section(&result.validity));
     sections.extend(own_ranges(&result.study));

@@ -1,6 +1,6 @@
 //! The tables of one output, and the files of CSV that hold more than they show.
 
-use crate::model::MANY_OUTPUTS;
+use crate::model::MIN_OUTPUTS_TOGETHER;
 use crate::report::document::{Cell, Part, Rows, Table, csv};
 use crate::report::format::{chance, name, share};
 use crate::report::leading::{by_total, surely_interact};
@@ -276,7 +276,7 @@ pub(super) fn aggregate_of(result: &StudyResult, record: &AggregateRecord, indic
     order.sort_by(|&a, &b| lines[b].total.estimate.total_cmp(&lines[a].total.estimate));
     // The names of hundreds, in every line, would be most of the file.
     let outputs = match record.outputs.len() {
-        ..MANY_OUTPUTS => record.outputs.join(" + "),
+        ..MIN_OUTPUTS_TOGETHER => record.outputs.join(" + "),
         all if all == result.outputs.len() => "all outputs".to_owned(),
         _ => "all outputs that are no series".to_owned(),
     };

@@ -2,7 +2,7 @@
 
 use super::charts::figures;
 use super::{SweepFile, gap_lines};
-use crate::model::MANY_OUTPUTS;
+use crate::model::MIN_OUTPUTS_TOGETHER;
 use crate::report::document::{Document, Mark, OutputReport, Part, Report, Section, Table, Value};
 use crate::report::format::{axis_unit, grouped, name, or_dash, short, short_with_unit, value};
 use crate::result::json;
@@ -23,7 +23,7 @@ pub fn sweep_document(file: &SweepFile) -> Document {
     let failed = Part::Notice { mark: Mark::Mixed, kind: "Failed".to_owned(), texts };
     parts.extend(file.sweeps.iter().any(|sweep| !gap_lines(sweep).is_empty()).then_some(failed));
     parts.extend(curves.into_iter().zip(&file.sweeps).map(|(figure, sweep)| match file.nominal.len() {
-        ..MANY_OUTPUTS => figure.into(),
+        ..MIN_OUTPUTS_TOGETHER => figure.into(),
         _ => Part::Details { summary: name(&sweep.factor), parts: vec![figure.into()] },
     }));
     Report {

@@ -6,7 +6,7 @@ use super::{Histogram, Sample};
 const MAX_BINS: f64 = 100.0;
 
 /// The histogram of a sample, in the scale of its values.
-pub(super) fn of(sample: &Sample<'_>) -> Histogram {
+pub(super) fn histogram(sample: &Sample<'_>) -> Histogram {
     let (low, high) = sample.reach;
     let root = libm::cbrt(sample.n());
     let width = if sample.iqr > 0.0 { 2.0 * sample.iqr / root } else { 3.49 * sample.sd / root };

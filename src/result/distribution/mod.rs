@@ -92,7 +92,7 @@ impl OutputDistribution {
         let moments = Moments::from_values(&sorted);
         let varied = max - min > ROUNDING;
         let sample = varied.then(|| Sample::new(&sorted, moments.sd));
-        let histogram = sample.as_ref().map(|sample| histogram::of(sample));
+        let histogram = sample.as_ref().map(|sample| histogram::histogram(sample));
         Some(Self {
             unit: unit.clone(),
             count: sorted.len() as u64,

@@ -50,7 +50,7 @@ fn setting<'a>(file: &'a SettingsFile, advice: &AdviceRecord) -> Option<&'a Meas
 }
 
 /// A setting in words.
-fn said(of: &Measured) -> String {
+fn describe_setting(of: &Measured) -> String {
     format!("{} with {} base samples", of.curve, grouped(of.base_samples))
 }
 
@@ -82,7 +82,7 @@ fn lead(file: &SettingsFile) -> Vec<String> {
         Some((advice, of)) => format!(
             "For an accuracy of {} the cheapest setting is {}: {} in {} runs.",
             significant(advice.accuracy),
-            said(of),
+            describe_setting(of),
             seconds(of.seconds),
             grouped(of.runs)
         ),
@@ -114,7 +114,7 @@ fn lines(file: &SettingsFile) -> Vec<Part> {
     for advice in &file.advice {
         let Some(of) = setting(file, advice) else { continue };
         if before != advice.setting {
-            parts.push(Part::Text(format!("For an accuracy of {}: {}.", significant(advice.accuracy), said(of))));
+            parts.push(Part::Text(format!("For an accuracy of {}: {}.", significant(advice.accuracy), describe_setting(of))));
             parts.push(Part::Code(of.lines.clone()));
         }
         before = advice.setting;
