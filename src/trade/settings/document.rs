@@ -114,7 +114,11 @@ fn lines(file: &SettingsFile) -> Vec<Part> {
     for advice in &file.advice {
         let Some(of) = setting(file, advice) else { continue };
         if before != advice.setting {
-            parts.push(Part::Text(format!("For an accuracy of {}: {}.", significant(advice.accuracy), describe_setting(of))));
+            parts.push(Part::Text(format!(
+                "For an accuracy of {}: {}.",
+                significant(advice.accuracy),
+                describe_setting(of)
+            )));
             parts.push(Part::Code(of.lines.clone()));
         }
         before = advice.setting;
