@@ -17,7 +17,7 @@ const MAX_SHARDS: u64 = 1_000_000;
 /// use apportion::Shard;
 ///
 /// let shard: Shard = "3/8".parse()?;
-/// assert_eq!((shard.number(), shard.of()), (3, 8));
+/// assert_eq!((shard.number(), shard.count()), (3, 8));
 /// # Ok::<(), apportion::ShardError>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

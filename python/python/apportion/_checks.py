@@ -8,14 +8,14 @@ from typing import Any
 from ._engine import StudyError
 
 # As the program has it.
-MOST_THREADS = 1024
-MOST_SEED = 2**64 - 1
+MAX_THREADS = 1024
+MAX_SEED = 2**64 - 1
 
 
 def whole(name: str, value: Any, least: int, most: int) -> int:
     """`value` as an `int` from `least` to `most`; a `StudyError` says what was expected of `name`."""
     is_whole = isinstance(value, numbers.Integral) and not isinstance(value, bool)
     if not is_whole or not least <= int(value) <= most:
-        end = "2**64 - 1" if most == MOST_SEED else str(most)
+        end = "2**64 - 1" if most == MAX_SEED else str(most)
         raise StudyError(f"{name} must be a whole number from {least} to {end}, not {value!r}")
     return int(value)

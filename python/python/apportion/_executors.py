@@ -22,7 +22,7 @@ ATTEMPTS = 4
 # Blocks under way for each worker, so that none waits for the next one.
 AHEAD = 2
 # A thread of the engine waits for each.
-MOST_IN_FLIGHT = 8192
+MAX_IN_FLIGHT = 8192
 
 
 def workers_of(executor: Any, in_flight: int | None) -> int:
@@ -36,7 +36,7 @@ def workers_of(executor: Any, in_flight: int | None) -> int:
             "ProcessPoolExecutor(8)"
         )
     if in_flight is not None:
-        return whole("in_flight", in_flight, 1, MOST_IN_FLIGHT)
+        return whole("in_flight", in_flight, 1, MAX_IN_FLIGHT)
     client = getattr(executor, "_client", None)
     count = os.cpu_count() or 1
     if client is not None and hasattr(client, "nthreads"):
@@ -47,7 +47,7 @@ def workers_of(executor: Any, in_flight: int | None) -> int:
             if isinstance(told, int) and told > 0:
                 count = told
                 break
-    return min(AHEAD * count, MOST_IN_FLIGHT)
+    return min(AHEAD * count, MAX_IN_FLIGHT)
 
 
 class _Closed(Exception):

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from . import _engine
-from ._checks import MOST_SEED, whole
+from ._checks import MAX_SEED, whole
 from ._engine import StudyError
 from ._result import Document
 from ._study import Study
@@ -34,7 +34,7 @@ def given_data(
     A `StudyError` names the column that holds no numbers, or entries that are NaN, infinite, masked or missing.
     """
     x, y = _table(inputs, "x", "the inputs"), _table(outputs, "y", "the outputs")
-    seed = whole("seed", seed, 0, MOST_SEED)
+    seed = whole("seed", seed, 0, MAX_SEED)
     digest = hashlib.sha256(x[1].tobytes() + y[1].tobytes()).hexdigest()
     study = None if factors is None else Study(None, factors)._study
     document = _engine.given_data(

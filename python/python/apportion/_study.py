@@ -11,7 +11,7 @@ import numpy as np
 
 from . import _engine, _toml
 from ._answers import AnswerError, NoAnswer, expanded
-from ._checks import MOST_SEED, MOST_THREADS, whole
+from ._checks import MAX_SEED, MAX_THREADS, whole
 from ._distributions import Seed
 from ._engine import RunError, StudyError
 from ._executors import called_elsewhere, workers_of
@@ -38,7 +38,7 @@ from ._tables import named, numbers, placed
 _TRIED = 8
 # Keywords of `Study` that are named in its signature.
 _NAMED = ("outputs", "name", "title", "vectorised", "call", "accuracy", "max_time", "noise")
-_MOST_TRAJECTORIES, _MOST_LEVELS, _MOST_POINTS = 2**32, 2**16, 10**6
+_MAX_TRAJECTORIES, _MAX_LEVELS, _MAX_POINTS = 2**32, 2**16, 10**6
 
 
 class Study:
@@ -274,7 +274,7 @@ class Study:
         where it was interrupted (`resume` may also be "require", "retry-failed" or "never"). `progress`: True for a bar by
         tqdm, a function of (done, total), False for nothing; by default a bar, if tqdm is there and somebody looks.
         """
-        threads = whole("threads", threads, 0, MOST_THREADS)
+        threads = whole("threads", threads, 0, MAX_THREADS)
         stop = _engine.Stop()
         function = self._function(stop, executor, in_flight)
         path = None if journal is None else os.fspath(journal)
@@ -298,10 +298,10 @@ class Study:
         what total indices are at most (Sobol' and Kucherenko 2009)."""
         if derivatives and levels is not None:
             raise StudyError("levels are of no account to derivatives: leave out one of them")
-        trajectories = whole("trajectories", trajectories, 1, _MOST_TRAJECTORIES)
-        levels = None if levels is None else whole("levels", levels, 2, _MOST_LEVELS)
-        seed = None if seed is None else whole("seed", seed, 0, MOST_SEED)
-        threads = whole("threads", threads, 0, MOST_THREADS)
+        trajectories = whole("trajectories", trajectories, 1, _MAX_TRAJECTORIES)
+        levels = None if levels is None else whole("levels", levels, 2, _MAX_LEVELS)
+        seed = None if seed is None else whole("seed", seed, 0, MAX_SEED)
+        threads = whole("threads", threads, 0, MAX_THREADS)
         stop = _engine.Stop()
         function = self._function(stop, None, None)
         document = self._study.screen(
@@ -318,7 +318,7 @@ class Study:
 
     def sweep(self, *factors: str, points: int = 101) -> Document:
         """One factor at a time over its range, every other at its nominal value; all of them if none is named."""
-        points = whole("points", points, 2, _MOST_POINTS)
+        points = whole("points", points, 2, _MAX_POINTS)
         stop = _engine.Stop()
         return Document(self._study.sweep(self._function(stop, None, None), stop, list(factors), points))
 

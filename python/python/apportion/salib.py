@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 
 from . import _engine
-from ._checks import MOST_SEED, whole
+from ._checks import MAX_SEED, whole
 from ._distributions import Factor, LogNormal, LogUniform, Normal, Triangular, TruncatedNormal, Uniform
 from ._engine import StudyError
 from ._study import Study
@@ -27,8 +27,8 @@ from ._tables import numbers
 __all__ = ["Sensitivities", "analyze", "from_problem", "sample"]
 
 # As the program has it.
-_MOST_RESAMPLES = 10**6
-_LEAST_RESAMPLES = 100
+_MAX_RESAMPLES = 10**6
+_MIN_RESAMPLES = 100
 
 
 def from_problem(problem: Mapping[str, Any]) -> dict[str, Factor]:
@@ -133,13 +133,13 @@ def analyze(
     `*_conf` are half widths of the percentile bootstrap's 95 % intervals (of at least 100 resamples; without any, of intervals by
     the delta method); other levels are not offered. A `nan` in `Y` leaves its base point out, with a warning.
     """
-    num_resamples = whole("num_resamples", num_resamples, 0, _MOST_RESAMPLES)
-    seed = whole("seed", seed, 0, MOST_SEED)
+    num_resamples = whole("num_resamples", num_resamples, 0, _MAX_RESAMPLES)
+    seed = whole("seed", seed, 0, MAX_SEED)
     if conf_level != 0.95:
         raise StudyError("conf_level: the intervals are those of 95 %")
     names = [member for member, _ in _members(problem)]
     y = numbers(Y, "the outputs are").ravel()
-    resamples = max(num_resamples, _LEAST_RESAMPLES) if num_resamples else 0
+    resamples = max(num_resamples, _MIN_RESAMPLES) if num_resamples else 0
     first, total, pairs, told = _engine.salib_indices(
         y, len(names), second_order=calc_second_order, resamples=resamples, seed=seed
     )
