@@ -75,8 +75,7 @@ pub(super) fn surrogate(output: &OutputResult, record: &SurrogateRecord) -> Vec<
         term.degrees.iter().map(factor).collect::<Vec<_>>().join(" × ")
     };
     let terms = record.leading_terms.iter().filter(|term| term.share >= MIN_TERM_SHARE);
-    let caption =
-        "The terms that carry most of the variance, by the degree in each factor: steps and kinks count as degrees too.";
+    let caption = "The terms that carry most of the variance, by the degree in each factor: steps and kinks count as degrees too.";
     let terms = Table::from_rows(caption, terms)
         .text("term", label)
         .number("of the variance", |term| format!("{} %", significant(rounded(term.share))));
