@@ -71,8 +71,8 @@ impl Value {
 
 /// Lines of CSV.
 pub(super) fn lines(lines: impl IntoIterator<Item = Vec<String>>) -> String {
-    let mut writer = ::csv::Writer::from_writer(Vec::new());
-    lines.into_iter().for_each(|line| writer.write_record(line).expect("all of one length, into memory"));
+    let mut writer = ::csv::WriterBuilder::new().flexible(true).from_writer(Vec::new());
+    lines.into_iter().for_each(|line| writer.write_record(line).expect("into memory"));
     String::from_utf8(writer.into_inner().expect("into memory")).expect("text in, text out")
 }
 

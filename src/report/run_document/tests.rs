@@ -179,3 +179,19 @@ fn warnings_of_a_kind_are_one() {
     let of_few_rows: Vec<&String> = grouped.iter().filter(|text| text.contains("rests on few rows")).collect();
     assert!(of_few_rows.len() == 1 && of_few_rows[0].contains("(2 outputs: y and z)"), "{grouped:?}");
 }
+
+#[test]
+fn outputs_of_a_file_that_lack_a_measure_leave_its_columns_empty() {
+    let text = "outputs = { y = \"a*b\", z = \"a + b\" }\nmodel = \"expression\"\n[design]\nbase_samples = 64\n\
+                [analysis]\nmeasures = [\"pawn_median\", \"pawn_max\"]\n[factors]\na = { min = 0, max = 1 }\nb = { min = 0, max = 1 }\n";
+    let mut result = result(text);
+    let measures = result.outputs[1].measures.as_mut().unwrap();
+    for factor in &mut measures.factors {
+        factor.measures.pop_last();
+    }
+    let page = page(&result);
+    let files = page.data_files();
+    let file = files.iter().find(|file| file.name == "small-measures.csv").unwrap();
+    let widths: Vec<usize> = file.text.lines().map(|line| line.split(',').count()).collect();
+    assert_eq!(widths, [widths[0]; 5], "{}", file.text);
+}
