@@ -110,7 +110,7 @@ pub(super) fn of_indices(study: &Study, indices: &OutputIndices) -> Vec<Warning>
         warnings.push(Warning::NoIntervals);
     }
     if let Some(used) = &indices.surrogate {
-        warnings.extend(used.is_heavy_tailed.then_some(Warning::HeavyTailedSurrogate));
+        warnings.extend((used.is_heavy_tailed && used.refusal.is_none()).then_some(Warning::HeavyTailedSurrogate));
         warnings.extend(used.is_doubted.then_some(Warning::DoubtedSurrogate));
         warnings.extend(used.refusal.map(|refusal| match refusal {
             Refusal::Contradiction { times } => Warning::ContradictedSurrogate { times },

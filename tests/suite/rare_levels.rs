@@ -149,3 +149,14 @@ fn a_trial_says_why_indices_are_plain() {
         assert!(trial.runs >= 8192 && trial.runs < analysis.provenance.model_runs);
     }
 }
+
+/// What is refused has no intervals that hold the plain ones too.
+#[test]
+fn surrogates_that_are_refused_are_warned_of_once() {
+    let text = "model = \"expression\"\noutputs.y = \"a*b + 100*d\"\naccuracy = 0.01\n[factors]\na = { min = 0, max = 1 }\n\
+                b = { min = 0, max = 1 }\nd = { distribution = \"boolean\", probability = 1e-4 }\n";
+    let result = Study::parse(text, "rare.toml".as_ref(), &[]).unwrap().run().unwrap();
+    let warnings = &result.outputs[0].warnings;
+    assert!(warnings.iter().any(|warning| matches!(warning, Warning::ContradictedSurrogate { .. })), "{warnings:?}");
+    assert!(!warnings.contains(&Warning::HeavyTailedSurrogate), "{warnings:?}");
+}
