@@ -7,14 +7,13 @@ use apportion::design::Design;
 use apportion::estimate::{MomentParts, PointOutputs};
 use apportion::model::RunContext;
 use apportion::run::{GrowingRun, Job, Totals};
-use apportion::study::Study;
 use apportion::uncertainty::{IntervalMethod, IntervalOptions, KeptPoints, Layout, output_indices};
 use criterion::{Criterion, criterion_group, criterion_main};
 
 /// The random design of `base_samples`, and its run through Sobol' G with the outputs kept.
 fn finished(base_samples: u64) -> (Design, Vec<Totals>) {
     let text = format!("model = \"sobol-g\"\n[design]\nsampler = \"random\"\nbase_samples = {base_samples}");
-    let study = Study::parse(&text, "bootstrap.toml".as_ref(), &[]).expect("a study");
+    let study = apportion_files::parse_study(&text, "bootstrap.toml".as_ref(), &[]).expect("a study");
     let model = study.model();
     let job = Job { design: study.design(), space: study.space(), model: model.as_ref() };
     let context = RunContext::default();

@@ -9,8 +9,6 @@ use std::path::Path;
 use std::process::Command;
 use std::time::Instant;
 
-use apportion::study::Study;
-
 /// Base samples: 2^18 x 5 rows are 1.3 million, 200,000 x 5 are one.
 const BASE_SAMPLES: u64 = 200_000;
 
@@ -43,7 +41,7 @@ fn seconds_of_study(folder: &Path, program: &str, workers: &str) -> (f64, u64) {
     for name in ["x1", "x2", "x3"] {
         text.push_str(&format!("[[factor]]\nname = \"{name}\"\nmin = 0\nmax = 1\n"));
     }
-    let study = Study::parse(&text, &folder.join("study.toml"), &[]).expect("a study");
+    let study = apportion_files::parse_study(&text, &folder.join("study.toml"), &[]).expect("a study");
     let start = Instant::now();
     let result = study.run().expect("the program answers");
     (start.elapsed().as_secs_f64(), result.provenance.model_runs)

@@ -18,7 +18,6 @@ use std::fmt::Write as _;
 use apportion::estimate::MomentParts;
 use apportion::model::KnownAnswer;
 use apportion::run::{Job, run};
-use apportion::study::Study;
 use apportion::uncertainty::{IntervalMethod, IntervalOptions, Layout, output_indices};
 
 const SEEDS: u64 = 100;
@@ -201,7 +200,7 @@ fn sample(
             format!("design.seed={seed}"),
             format!("design.sampler={sampler}"),
         ];
-        let study = Study::parse(&case.text, "coverage.toml".as_ref(), &overrides).expect("a study");
+        let study = apportion_files::parse_study(&case.text, "coverage.toml".as_ref(), &overrides).expect("a study");
         let model = study.model();
         let job = Job { design: study.design(), space: study.space(), model: model.as_ref() };
         let totals = run(job, 0, &|_| ()).expect("threads");
@@ -268,7 +267,7 @@ fn cell(sample: &Sample, exact: &[f64], ideal: &[f64]) -> Cell {
 fn main() {
     let seeds = std::env::args().filter_map(|argument| argument.parse().ok()).next();
     let write = seeds.is_none();
-    let docs = concat!(env!("CARGO_MANIFEST_DIR"), "/docs");
+    let docs = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs");
     if std::env::args().any(|argument| argument == "skewed") {
         let csv = skewed(seeds.unwrap_or(2 * SEEDS));
         std::fs::write(format!("{docs}/coverage-skewed.csv"), csv).expect("docs/ can be written");

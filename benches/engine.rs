@@ -6,14 +6,13 @@
 use std::time::Instant;
 
 use apportion::design::{Design, DesignSettings, Rows};
-use apportion::model::RunContext;
-use apportion::model::{Batch, Model};
+use apportion::model::{Batch, Model, RunContext};
 use apportion::study::Study;
 
 fn study(base_samples: u64) -> Study {
     let overrides = [format!("design.base_samples={base_samples}")];
     let text = include_str!("../studies/coulomb-general.toml");
-    Study::parse(text, "coulomb-general.toml".as_ref(), &overrides).expect("a study of this repository")
+    apportion_files::parse_study(text, "coulomb-general.toml".as_ref(), &overrides).expect("a study of this repository")
 }
 
 /// Seconds for `rows` evaluations in blocks of 256 on one thread, nothing else: no sampling, no sums.

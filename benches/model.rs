@@ -28,7 +28,7 @@ fn group(criterion: &mut Criterion, title: &str, studies: &[(&str, &str)]) {
     let mut group = criterion.benchmark_group(title);
     group.throughput(Throughput::Elements(ROWS as u64));
     for &(name, text) in studies {
-        let study = Study::parse(text, name.as_ref(), &[]).expect("a study of this repository");
+        let study = apportion_files::parse_study(text, name.as_ref(), &[]).expect("a study of this repository");
         let (model, columns) = (study.model(), columns(&study));
         let inputs: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
         let context = RunContext::default();

@@ -11,8 +11,8 @@ use std::f64::consts::PI;
 use std::fmt::Write as _;
 use std::path::Path;
 
+use apportion::Estimate;
 use apportion::model::KnownAnswer;
-use apportion::{Estimate, Study};
 use rayon::prelude::*;
 
 /// Base samples of the dear model, of the cheaper model's own design, and of a single model at no less cost.
@@ -135,7 +135,7 @@ fn measured(pair: &Pair, seeds: u64, base_samples: u64, analysis: &str, low: Opt
             "{}[design]\nbase_samples = {base_samples}\nseed = {seed}\n[analysis]\nsurrogate = \"{analysis}\"\n{fidelity}",
             pair.study
         );
-        let study = Study::parse(&text, Path::new("pair.toml"), &[]).expect("a study");
+        let study = apportion_files::parse_study(&text, Path::new("pair.toml"), &[]).expect("a study");
         let result = study.runner().threads(1).run().expect("a result");
         let indices = result.outputs[0].indices.as_ref().expect("indices");
         let first = indices.iter().map(|index| index.effect.first_order).zip(&pair.first);
@@ -197,7 +197,7 @@ fn main() {
         }
     }
     if asked.is_none() {
-        let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/accuracy/multi-fidelity.md");
+        let page = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join("docs/accuracy/multi-fidelity.md");
         let head = include_str!("multi_fidelity.md.in");
         std::fs::write(page, format!("{head}\n{text}")).expect("docs/accuracy can be written");
     }

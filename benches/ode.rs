@@ -7,8 +7,8 @@ mod driven;
 
 use std::hint::black_box;
 
-use apportion::afm::ode::{DormandPrince, Rodas};
-use apportion::afm::{Fidelity, FrictionLaw, Options, Scene, critical_force};
+use apportion_afm::ode::{DormandPrince, Rodas};
+use apportion_afm::{Fidelity, FrictionLaw, Options, Scene, critical_force};
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use driven::crossing;
 

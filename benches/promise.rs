@@ -49,7 +49,8 @@ enum Way {
 }
 
 fn study(name: &str, seed: u64, way: &Way) -> Study {
-    let known = Study::parse(&format!("model = \"{name}\"\n"), Path::new("known.toml"), &[]).expect("a study");
+    let known =
+        apportion_files::parse_study(&format!("model = \"{name}\"\n"), Path::new("known.toml"), &[]).expect("a study");
     let mut builder = known
         .space()
         .factors()
@@ -141,9 +142,10 @@ fn functions(seeds: u64) -> String {
 
 fn motion(seeds: u64) -> String {
     let load = |name: &str, more: &[String]| {
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("studies").join(format!("{name}.toml"));
+        let path =
+            Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join("studies").join(format!("{name}.toml"));
         let sets = [&["afm.fidelity=dynamic".to_owned()], more].concat();
-        Study::load(&path, &sets).expect("a study of the repository")
+        apportion_files::load_study(&path, &sets).expect("a study of the repository")
     };
     let mut text = String::from(
         "| study | accuracy | kept, of seeds | seconds, median | plain pick-freeze, median | ratio | runs | plain runs |\n\
@@ -195,7 +197,7 @@ fn main() {
     }
     let (first, second) = (functions(seeds), motion(seeds));
     if asked.is_none() {
-        let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/accuracy/promise.md");
+        let page = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join("docs/accuracy/promise.md");
         let head = include_str!("promise.md.in");
         std::fs::write(page, format!("{head}\n{first}\n{second}")).expect("docs/accuracy can be written");
     }

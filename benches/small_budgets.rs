@@ -44,7 +44,8 @@ fn functions() -> Vec<Known> {
 
 /// The study of a function, whose design is still to be said.
 fn builder(name: &str, seed: u64, surrogate: SurrogateChoice) -> StudyBuilder {
-    let known = Study::parse(&format!("model = \"{name}\"\n"), Path::new("known.toml"), &[]).expect("a study");
+    let known =
+        apportion_files::parse_study(&format!("model = \"{name}\"\n"), Path::new("known.toml"), &[]).expect("a study");
     let (factors, model) = (known.space().factors().to_vec(), known.model());
     let of_row = move |x: &[f64]| {
         let columns: Vec<[f64; 1]> = x.iter().map(|x| [*x]).collect();
@@ -244,7 +245,7 @@ fn main() {
     print!("{text}");
     if asked.is_none() {
         let head = include_str!("small_budgets.md.in");
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/small-budgets.md");
+        let path = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join("docs/small-budgets.md");
         std::fs::write(path, head.replace("SEEDS", &seeds.to_string()) + &text).expect("the page can be written");
     }
 }

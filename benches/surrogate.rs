@@ -16,7 +16,7 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use apportion::model::KnownAnswer;
-use apportion::{Estimate, OutputResult, Study};
+use apportion::{Estimate, OutputResult};
 use rayon::prelude::*;
 
 /// Base samples in all.
@@ -224,7 +224,7 @@ fn measured(case: &Case, size: u64, seeds: u64) -> (Row, f64, f64) {
         let seed = format!("design.seed={}", 1000 + seed);
         let overrides = more.iter().copied().chain([&seed[..], "analysis.convergence=false"]);
         let overrides: Vec<String> = overrides.map(str::to_owned).collect();
-        let study = Study::parse(&case.text, Path::new("case.toml"), &overrides).expect("a study");
+        let study = apportion_files::parse_study(&case.text, Path::new("case.toml"), &overrides).expect("a study");
         let result = study.runner().threads(1).run().expect("a result");
         // Of rare events all rows of a few may be alike.
         result.outputs[0].indices.is_some().then(|| result.outputs[0].clone())
@@ -456,7 +456,7 @@ fn write(folder: &Path, cells: &[Cell]) {
 
 fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).filter(|text| text != "--bench").collect();
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/accuracy");
+    let folder = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join("docs/accuracy");
     let table = folder.join("surrogate.csv");
     if arguments.first().is_some_and(|word| word == "draw") {
         write(&folder, &written_before(&table));

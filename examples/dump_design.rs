@@ -13,11 +13,9 @@ mod measures;
 
 use std::path::Path;
 
-use apportion::estimate::SecondOrder;
-use apportion::estimate::{Moments, Workspace};
-use apportion::report::{prepare_folder, write_atomically};
-use apportion::{DesignSettings, Sampler, SobolSequence};
-use apportion::{FirstOrder, Total};
+use apportion::estimate::{Moments, SecondOrder, Workspace};
+use apportion::{DesignSettings, FirstOrder, Sampler, SobolSequence, Total};
+use apportion_report::{prepare_folder, write_atomically};
 use outputs::{Outputs, design, function, inputs};
 use serde_json::{Map, Value, json};
 

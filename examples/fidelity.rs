@@ -82,7 +82,7 @@ fn study(of: &Area, fidelity: &str, tolerance: f64) -> Study {
     let (name, text, changes) = of;
     let own = [format!("afm.fidelity=\"{fidelity}\""), format!("afm.tolerance={tolerance:e}")];
     let changes: Vec<String> = changes.iter().map(|change| (*change).to_owned()).chain(own).collect();
-    Study::parse(text, name.as_ref(), &changes).expect("a study of this repository")
+    apportion_files::parse_study(text, name.as_ref(), &changes).expect("a study of this repository")
 }
 
 /// Evaluates scenes of a study, given in the unit cube.

@@ -5,9 +5,7 @@
 use std::error::Error;
 use std::f64::consts::PI;
 
-use apportion::Distribution;
-use apportion::Study;
-use apportion::function_model;
+use apportion::{Distribution, Study, function_model};
 
 pub fn main() -> Result<(), Box<dyn Error>> {
     // The function of Ishigami and Homma (1990), whose indices are known.

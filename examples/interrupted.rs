@@ -8,11 +8,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::Duration;
 
-use apportion::Distribution;
-use apportion::Study;
-use apportion::StudyResult;
-use apportion::function_model;
-use apportion::{Progress, RunError};
+use apportion::{Distribution, Progress, RunError, Study, StudyResult, function_model};
 
 /// A study of a function that takes its time and counts its calls.
 fn study(base_samples: u64, calls: &Arc<AtomicU64>) -> Result<Study, Box<dyn Error>> {

@@ -4,11 +4,8 @@
 
 use std::error::Error;
 
-use apportion::Study;
-use apportion::Unit;
-use apportion::{CommandModel, CommandOutput, CommandSettings, function_model};
-use apportion::{Distribution, Factor};
-use apportion::{Form, Program, Protocol};
+use apportion::{Distribution, Factor, Study, Unit, function_model};
+use apportion_files::{CommandModel, CommandOutput, CommandSettings, Form, Program, Protocol};
 
 /// Reads a header, then a line of a row number, length (mm), thickness (mm) and load (N) for each run; prints the number and
 /// the outputs for each.

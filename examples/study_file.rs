@@ -4,10 +4,8 @@
 
 use std::error::Error;
 
-use apportion::Study;
-
 pub fn main() -> Result<(), Box<dyn Error>> {
-    let study = Study::load("studies/ishigami.toml".as_ref(), &[])?;
+    let study = apportion_files::load_study("studies/ishigami.toml".as_ref(), &[])?;
     let result = study.runner().on_progress(|progress| eprintln!("{} runs", progress.done)).run()?;
     for factor in study.space().factors() {
         let total = result.output("y")?.factor(&factor.name)?.total;

@@ -6,11 +6,10 @@ use std::error::Error;
 use std::fmt::Write;
 use std::path::Path;
 
-use apportion::Study;
-use apportion::exchange::{
+use apportion_files::exchange::{
     AnswersRequest, Format, Manifest, MissingOutputs, ReadOptions, open_table, read_answers, sample,
 };
-use apportion::report::{run_document, stream_atomically, write_atomically};
+use apportion_report::{run_document, stream_atomically, write_atomically};
 
 const STUDY: &str = r#"
 title = "The force of a spring"
@@ -33,7 +32,7 @@ unit = "nm"
 
 /// The first step: the points, and beside them a manifest that says whose they are.
 fn sampled(points: &Path) -> Result<(), Box<dyn Error>> {
-    let study = Study::parse(STUDY, Path::new("spring.toml"), &[])?;
+    let study = apportion_files::parse_study(STUDY, Path::new("spring.toml"), &[])?;
     let mut manifest = None;
     stream_atomically(points, |out| {
         manifest = Some(sample(&study, Path::new("spring.toml"), Format::Csv, out)?);

@@ -5,11 +5,8 @@
 use std::error::Error;
 use std::f64::consts::PI;
 
-use apportion::Distribution;
-use apportion::Unit;
-use apportion::report::run_document;
-use apportion::{AnalysisOptions, Study};
-use apportion::{FunctionModel, Output, RowFailure};
+use apportion::{AnalysisOptions, Distribution, FunctionModel, Output, RowFailure, Study, Unit};
+use apportion_report::run_document;
 
 pub fn main() -> Result<(), Box<dyn Error>> {
     let force = Output::new("critical_force", Unit::parse("kN")?, "Euler's force of buckling");

@@ -44,7 +44,7 @@
 //!     sd = 5
 //!     unit = "um"
 //! "#;
-//! let study = Study::parse(text, "example.toml".as_ref(), &[])?;
+//! let study = apportion_files::parse_study(text, "example.toml".as_ref(), &[])?;
 //! let result = study.run()?;
 //! let thickness = result.output("critical_force")?.factor("thickness")?;
 //! assert!(thickness.share_total.is_some_and(|percent| percent > 90.0));
@@ -68,70 +68,41 @@
 
 #![cfg_attr(not(test), deny(clippy::disallowed_methods))]
 
-pub mod afm;
-mod analysis;
+pub mod analysis;
 mod binary;
-mod clock;
-#[doc(hidden)]
+pub mod clock;
 pub mod design;
-#[doc(hidden)]
 pub mod estimate;
-#[cfg(feature = "study")]
-pub mod exchange;
-#[doc(hidden)]
 pub mod files;
 pub mod given;
-#[doc(hidden)]
 pub mod model;
-mod names;
-#[doc(hidden)]
+pub mod names;
 pub mod quantity;
-#[cfg(feature = "charts")]
-pub mod report;
 pub mod result;
-#[doc(hidden)]
 pub mod run;
 mod runner;
-#[cfg(feature = "study")]
 pub mod salib;
 pub mod screening;
-#[doc(hidden)]
 pub mod space;
-mod special;
-#[doc(hidden)]
+pub mod special;
 pub mod study;
-#[doc(hidden)]
 pub mod sum;
-#[doc(hidden)]
 pub mod surrogate;
 pub mod sweep;
-#[cfg(feature = "study")]
-mod text;
-#[cfg(feature = "charts")]
-#[doc(hidden)]
-pub mod trade;
-#[doc(hidden)]
+pub mod text;
 pub mod uncertainty;
 
-// The modules that are hidden are open to the program, which is a crate of its own, and promise nothing.
-pub use analysis::MAX_ROWS_OF_MEASURES;
-#[doc(hidden)]
-pub use analysis::{inputs_in_words, study_setup, unlikely_outputs};
 pub use design::{Design, DesignError, DesignSettings, Rows, Sampler, SobolSequence};
 pub use estimate::{CentralMoments, Estimator, FirstOrder, Scaling, ShapleyMethod, ShapleyPlayers, Total, Undefined};
 pub use model::{
-    AfmModel, AfmOutput, Batch, Counter, CounterKind, ExactIndices, Expression, ExpressionError, ExpressionModel, Flag,
-    FunctionModel, GiveUp, KnownAnswer, KnownFunction, Messages, Model, Output, OutputSeries, RepeatedModel,
-    RowFailure, RunContext, SeriesAxis, SeriesError, Worker, function_model,
+    Batch, Counter, CounterKind, ExactIndices, Expression, ExpressionError, ExpressionModel, Flag, FunctionModel,
+    GiveUp, KnownAnswer, KnownFunction, Messages, Model, Output, OutputSeries, RepeatedModel, RowFailure, RunContext,
+    SeriesAxis, SeriesError, Worker, function_model,
 };
-#[cfg(feature = "study")]
-pub use model::{CommandModel, CommandOutput, CommandSettings, Form, PerRun, Program, Protocol};
 pub use quantity::{Domain, Quantity, Unit, UnitError, Unlikely};
 pub use result::{LookupError, OutputResult, StudyResult, Warning};
 pub use run::{FailurePolicy, Progress, RemoteWorkers, Requests, RunError, Shard, ShardError};
 pub use runner::{Resume, Runner, WorkerStudy};
 pub use space::{CorrelationMeasure, Dependence, DependenceError, Distribution, DistributionError, Factor, Space};
 pub use study::{AnalysisOptions, BuildError, Study, StudyBuilder, SurrogateChoice, Target};
-#[cfg(feature = "study")]
-pub use study::{Diagnostic, StudyError};
 pub use uncertainty::{DependentEstimates, EffectEstimates, Estimate, Interval, IntervalMethod};

@@ -4,6 +4,7 @@
 //! names of files are safe and unique all the same, whatever the names they are made of.
 
 /// Declares an enum without fields together with `ALL` and `name`, so that the three cannot drift apart.
+#[macro_export]
 macro_rules! named {
     ($(#[$meta:meta])* pub enum $type:ident { $($(#[$variant_meta:meta])* $variant:ident = $name:literal,)+ }) => {
         $(#[$meta])*
@@ -26,10 +27,9 @@ macro_rules! named {
     };
 }
 
-pub(crate) use named;
+pub use named;
 
 /// An enum that is chosen by name.
-#[cfg_attr(not(feature = "study"), allow(dead_code, reason = "only study files choose by name"))]
 pub trait Named: Copy + 'static {
     /// All of them with their names, in the order of declaration.
     const CHOICES: &'static [(&'static str, Self)];
@@ -95,11 +95,9 @@ pub fn refused_title(title: &str) -> Option<String> {
 }
 
 /// What a unit or the name of an axis may be, in words that follow "must be".
-#[cfg(feature = "study")]
 pub const SHORT_TEXT: &str = "a text of up to 60 characters, without control characters";
 
 /// Whether `text` keeps to [`SHORT_TEXT`].
-#[cfg(feature = "study")]
 pub fn is_short_text(text: &str) -> bool {
     text.chars().count() <= 60 && !text.contains(is_hidden)
 }
@@ -117,7 +115,7 @@ pub fn shown(text: &str) -> String {
 /// `name` as part of the name of a file: without characters that mean something to a file system, and not too long.
 ///
 /// ```
-/// assert_eq!(apportion::report::file_part("../x: y"), ".._x_ y");
+/// assert_eq!(apportion::names::file_part("../x: y"), ".._x_ y");
 /// ```
 pub fn file_part(name: &str) -> String {
     let safe = |c: char| if is_hidden(c) || "/\\:*?\"<>|".contains(c) { '_' } else { c };

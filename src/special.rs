@@ -226,9 +226,10 @@ pub fn beta_fraction(x: f64, a: f64, b: f64, least_change: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
     use statrs::function::erf::erfc_inv;
+
+    use super::*;
 
     fn close(got: f64, expected: f64, tolerance: f64, what: &str) {
         assert!((got / expected - 1.0).abs() < tolerance || got == expected, "{what}: {got} against {expected}");

@@ -1,11 +1,11 @@
-//! Texts for people, and texts as cells of CSV that no spreadsheet runs.
+//! Texts for people, texts as cells of CSV that no spreadsheet runs, and the words of programs: short, on one line, and
+//! equal for equal causes.
 
 /// A list as people say it: `a`, `a and b`, `a, b and c`.
 ///
 /// ```
-/// assert_eq!(apportion::report::listed(&["length", "width", "height"]), "length, width and height");
+/// assert_eq!(apportion::text::listed(&["length", "width", "height"]), "length, width and height");
 /// ```
-#[cfg(feature = "charts")]
 pub fn listed<S: AsRef<str>>(items: &[S]) -> String {
     match items {
         [] => String::new(),
@@ -24,11 +24,9 @@ pub fn capitalised(word: &str) -> String {
 }
 
 /// Most letters and digits of a subscript; what is longer is a name, unless it is that of a Greek letter.
-#[cfg(feature = "charts")]
 const LONGEST_SUBSCRIPT: usize = 4;
 
 /// Names that stand for a letter in a subscript.
-#[cfg(feature = "charts")]
 const GREEK: [(&str, &str); 12] = [
     ("theta", "θ"),
     ("phi", "φ"),
@@ -45,27 +43,23 @@ const GREEK: [(&str, &str); 12] = [
 ];
 
 /// The subscript as it is set, if it may be one: at most four letters or digits, or the name of a Greek letter.
-#[cfg(feature = "charts")]
-pub(crate) fn subscript(text: &str) -> Option<&str> {
+pub fn subscript(text: &str) -> Option<&str> {
     let greek = GREEK.iter().find(|(name, _)| *name == text).map(|(_, letter)| *letter);
     let fits = (1..=LONGEST_SUBSCRIPT).contains(&text.chars().count());
     greek.or((fits && text.chars().all(is_of_symbol)).then_some(text))
 }
 
 /// Whether a symbol may begin with the letter.
-#[cfg(feature = "charts")]
-pub(crate) fn is_letter(c: char) -> bool {
+pub fn is_letter(c: char) -> bool {
     c.is_ascii_alphabetic() || matches!(c, 'Α'..='Ω' | 'α'..='ω' | 'ϕ' | 'ϑ' | 'µ')
 }
 
-#[cfg(feature = "charts")]
 fn is_of_symbol(c: char) -> bool {
     is_letter(c) || c.is_ascii_digit()
 }
 
 /// The letter and the subscript of a word such as `F_cr`; `None` if it is no symbol.
-#[cfg(feature = "charts")]
-pub(crate) fn symbol(word: &str) -> Option<(&str, &str)> {
+pub fn symbol(word: &str) -> Option<(&str, &str)> {
     let (letter, below) = word.split_once('_')?;
     let mut letters = letter.chars();
     let single = letters.next().is_some_and(is_letter) && letters.next().is_none();
@@ -91,6 +85,61 @@ pub fn plain_field(text: &str) -> &str {
     text.strip_prefix('\'').filter(|text| text.starts_with(FORMULA)).unwrap_or(text)
 }
 
+/// Characters of a program's words that a reason keeps.
+const MAX_LETTERS: usize = 120;
+
+/// One line of a program's own words, shortened, for reasons.
+pub fn shortened(text: &str) -> String {
+    cut(text.trim(), MAX_LETTERS)
+}
+
+/// The text on one line of at most `most` characters, without those that would change the terminal.
+pub fn cut(text: &str, most: usize) -> String {
+    let clean = text.trim_end().chars().map(|c| if c.is_control() { ' ' } else { c });
+    let mut short: String = clean.take(most).collect();
+    if text.trim_end().chars().nth(most).is_some() {
+        short.push_str("...");
+    }
+    short
+}
+
+/// The same with every number as `#`: reasons that differ by the numbers of their rows alone are counted together.
+pub fn masked(text: &str) -> String {
+    let mut out = String::new();
+    let mut letters = text.trim().chars().peekable();
+    let mut before = ' ';
+    while let Some(c) = letters.next() {
+        let begins = c.is_ascii_digit() && !before.is_alphanumeric() && before != '_';
+        if !begins {
+            out.push(c);
+            before = c;
+            continue;
+        }
+        if out.ends_with(['-', '+']) {
+            out.pop();
+        }
+        let mut last = c;
+        while let Some(&next) = letters.peek() {
+            let goes_on = next.is_ascii_digit()
+                || matches!(next, '.' | 'e' | 'E')
+                || (matches!(next, '-' | '+') && matches!(last, 'e' | 'E'));
+            if !goes_on {
+                break;
+            }
+            last = next;
+            letters.next();
+        }
+        out.push('#');
+        before = '#';
+    }
+    shortened(&out)
+}
+
+/// A duration as people write it.
+pub fn seconds(duration: std::time::Duration) -> String {
+    format!("{} s", duration.as_secs_f64())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -112,5 +161,27 @@ mod tests {
             assert_eq!(plain_field(&inert), text);
         }
         assert_eq!(plain_field("'quoted'"), "'quoted'");
+    }
+
+    #[test]
+    fn numbers_are_masked_and_names_are_not() {
+        assert_eq!(masked("  no root at t=-1.5e-3, x2 = 7.\n"), "no root at t=#, x2 = #");
+        assert_eq!(masked("1.0,2,-3E+5"), "#,#,#");
+        assert_eq!(masked("float32 and a1b2"), "float32 and a1b2");
+    }
+
+    #[test]
+    fn long_words_are_cut_and_stay_on_one_line() {
+        let long = shortened(&"wörd\t".repeat(100));
+        assert_eq!(long.chars().count(), MAX_LETTERS + 3);
+        assert!(!long.contains('\t') && long.ends_with("..."));
+    }
+
+    proptest::proptest! {
+        #[test]
+        fn no_text_panics(text in proptest::prelude::any::<String>()) {
+            let masked = masked(&text);
+            proptest::prop_assert!(masked.chars().count() <= MAX_LETTERS + 3 && !masked.chars().any(char::is_control));
+        }
     }
 }

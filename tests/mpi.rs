@@ -166,7 +166,9 @@ fn a_job_whose_ranks_are_killed_goes_on_with_any_number_of_them() {
 #[test]
 fn the_scripts_of_the_page_run() {
     const SRUN: &str = "#!/bin/sh\nshift\nexec mpirun -n 3 \"$@\"\n";
-    let page = std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/clusters.md")).unwrap();
+    let page =
+        std::fs::read_to_string(Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join("docs/clusters.md"))
+            .unwrap();
     let lines: Vec<&str> =
         page.lines().filter(|line| line.starts_with("srun --mpi") || line.starts_with("mpirun ")).collect();
     assert_eq!(lines.len(), 2, "{lines:?}");

@@ -2,7 +2,7 @@
 
 use apportion::design::Sampler;
 use apportion::estimate::{FirstOrder, Total};
-use apportion::report::chart::{Axis, Chart, Colour, Mark, Panel, Series, Spacing, Stroke, png};
+use apportion_report::chart::{Axis, Chart, Colour, Mark, Panel, Series, Spacing, Stroke, png};
 
 use super::{Curve, Formula, SEEDS};
 

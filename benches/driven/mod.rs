@@ -1,7 +1,7 @@
 //! The problem on which the solvers are compared: an oscillator that follows a slow target, y'' = omega^2 (sin t - y), up
 //! to the event y = 1/2. It has the shape of the tip between its fast swing and its slow ramp.
 
-use apportion::afm::ode::{Control, March, Method, Outcome, Problem};
+use apportion_afm::ode::{Control, March, Method, Outcome, Problem};
 
 /// Relative tolerance asked of every solver.
 pub const TOLERANCE: f64 = 1e-6;

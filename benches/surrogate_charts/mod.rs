@@ -1,6 +1,6 @@
 //! The chart of `docs/accuracy/surrogate.md`.
 
-use apportion::report::chart::{Axis, Chart, Colour, Mark, Panel, Series, Spacing, Stroke, png};
+use apportion_report::chart::{Axis, Chart, Colour, Mark, Panel, Series, Spacing, Stroke, png};
 
 use super::{Cell, KINDS, METHODS};
 

@@ -3,11 +3,10 @@
 use std::path::Path;
 use std::sync::{Arc, Mutex};
 
-use apportion::Estimate;
 use apportion::given::{Column, Measure, analyse, measures};
-use apportion::report::write_atomically;
 use apportion::screening::{ScreenedFactor, ScreeningDesign, ScreeningJob, ScreeningSettings, screen};
-use apportion::{AnalysisOptions, Sampler, ShapleyMethod, Study, SurrogateChoice, function_model};
+use apportion::{AnalysisOptions, Estimate, Sampler, ShapleyMethod, Study, SurrogateChoice, function_model};
+use apportion_report::write_atomically;
 use serde_json::{Map, Value, json};
 
 use super::outputs::function;

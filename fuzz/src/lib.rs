@@ -7,7 +7,6 @@ pub mod targets;
 use std::sync::OnceLock;
 
 pub use libfuzzer_sys;
-
 use targets::{Dictionary, Random, mutated, target};
 
 /// Changes the first `size` bytes of `data` and returns how many there are then, at most `most`: a text mostly by its words.

@@ -3,9 +3,9 @@
 use std::borrow::Cow;
 use std::path::PathBuf;
 
-use apportion::report::document::Part;
-use apportion::report::{Artefacts, ChartFormat, run_document};
 use apportion::result::parse_result;
+use apportion_report::document::Part;
+use apportion_report::{Artefacts, ChartFormat, run_document};
 use pyo3::prelude::*;
 
 use crate::errors::{failed, input};
@@ -13,13 +13,13 @@ use crate::errors::{failed, input};
 /// What a command has to say, with the JSON that it is made from.
 #[pyclass(frozen)]
 pub struct Document {
-    document: apportion::report::Document,
+    document: apportion_report::Document,
     json: String,
 }
 
 impl Document {
     /// The JSON is one of the document's files.
-    pub fn new(document: apportion::report::Document) -> Self {
+    pub fn new(document: apportion_report::Document) -> Self {
         let json = document.files.iter().find(|file| file.name.ends_with(".json"));
         let json = json.map(|file| file.text.clone()).unwrap_or_default();
         Self { document, json }

@@ -1,8 +1,8 @@
 //! Arrays of points and outputs that exist already.
 
 use apportion::given::{Column, analyse, measures as measured, surrogate_indices};
-use apportion::report::given::{GivenFacts, build_given, given_document};
 use apportion::salib::{SalibLayout, SalibProblem, salib_study};
+use apportion_report::given::{GivenFacts, build_given, given_document};
 use numpy::{PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 

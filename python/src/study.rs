@@ -5,14 +5,14 @@ use std::sync::mpsc::channel;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use apportion::given::Column;
-use apportion::report::run_document;
-use apportion::report::screening::{build_screening, screening_document};
-use apportion::report::sweep::{build_sweep, sweep_document};
 use apportion::result::{RunFacts, StudyResult};
 use apportion::run::{Piece, Store, threads_in_force};
 use apportion::screening::{ScreeningDesign, ScreeningJob, ScreeningSettings, screen_in};
 use apportion::sweep::{find, sweep};
 use apportion::{Batch, Distribution, Resume, RowFailure, RunContext, Runner};
+use apportion_report::run_document;
+use apportion_report::screening::{build_screening, screening_document};
+use apportion_report::sweep::{build_sweep, sweep_document};
 use numpy::{PyArray2, PyArrayMethods, PyReadonlyArray2};
 use pyo3::exceptions::PyMemoryError;
 use pyo3::prelude::*;
@@ -44,13 +44,13 @@ impl Study {
     /// The study of a text in the format of study files; `path` is for messages and names the study.
     #[staticmethod]
     fn parse(text: &str, path: PathBuf, overrides: Vec<String>) -> PyResult<Self> {
-        apportion::Study::parse(text, &path, &overrides).map(|study| Self { study }).map_err(input)
+        apportion_files::parse_study(text, &path, &overrides).map(|study| Self { study }).map_err(input)
     }
 
     /// The study of a file.
     #[staticmethod]
     fn load(path: PathBuf, overrides: Vec<String>) -> PyResult<Self> {
-        apportion::Study::load(&path, &overrides).map(|study| Self { study }).map_err(input)
+        apportion_files::load_study(&path, &overrides).map(|study| Self { study }).map_err(input)
     }
 
     #[getter]

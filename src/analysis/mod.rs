@@ -20,9 +20,7 @@ pub(crate) use finished_run::{FinishedRun, LowTotals, named_inputs, outputs_kept
 pub use measures::MAX_ROWS_OF_MEASURES;
 pub(crate) use rare_levels::{enough_base_samples, rare_levels};
 pub(crate) use result::result;
-pub use setup::study_setup;
-#[cfg(feature = "charts")]
-pub(crate) use setup::validity;
+pub use setup::{study_setup, validity};
 pub(crate) use stop::{StopReason, Stopped};
 pub(crate) use surrogates::{interval_options, surrogates};
 pub use unlikely::unlikely_outputs;

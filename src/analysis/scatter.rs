@@ -131,5 +131,5 @@ fn conditional_means(factor: &Factor, unit: &Unit, rows: &[(f64, f64)], exponent
     }
 }
 
-#[cfg(all(test, feature = "study"))]
+#[cfg(test)]
 mod tests;

@@ -51,7 +51,7 @@ fn dependence_record(dependence: &Dependence) -> CorrelationRecord {
 }
 
 /// The validity flags with the number of the `runs` that have raised each.
-pub(crate) fn validity<'a>(raised: impl Iterator<Item = (&'a Flag, u64)>, runs: u64) -> Vec<ValidityRecord> {
+pub fn validity<'a>(raised: impl Iterator<Item = (&'a Flag, u64)>, runs: u64) -> Vec<ValidityRecord> {
     let reported = raised.filter(|(flag, runs)| !flag.warns || *runs > 0);
     let record = |(flag, raised): (&Flag, u64)| ValidityRecord {
         flag: flag.name.to_string(),

@@ -22,13 +22,12 @@ pub use base::BasePoints;
 pub use error::DesignError;
 pub use joe_kuo::MAX_DIMENSIONS;
 pub use latin::LatinHypercube;
+use orders::Orders;
 pub use random::RandomPoints;
+use rows::Runs;
 pub use rows::{Matrix, RowKind, Rows, Run, Swap};
 pub use settings::{DesignSettings, Sampler};
 pub use sobol::SobolSequence;
-
-use orders::Orders;
-use rows::Runs;
 
 /// Most base points one replicate can hold: the length of the 32-bit Sobol' sequence.
 pub const MAX_POINTS: u64 = 1 << 32;

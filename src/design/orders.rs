@@ -149,10 +149,11 @@ impl Orders {
 
 #[cfg(test)]
 mod tests {
+    use nalgebra::DMatrix;
+
     use super::*;
     use crate::design::{Design, DesignSettings, RowKind, Rows, Sampler};
     use crate::space::normal_scores;
-    use nalgebra::DMatrix;
 
     fn design(sampler: Sampler, players: Vec<Vec<usize>>, copula: Option<GaussianCopula>) -> Design {
         let settings = DesignSettings { sampler, base_samples: 64, replicates: 4, seed: 3 };

@@ -23,8 +23,6 @@ mod shapley_moments;
 mod swap_moments;
 mod workspace;
 
-use thiserror::Error;
-
 pub use aggregate::{Scaling, aggregated};
 pub use base_moments::BaseMoments;
 pub use central::CentralMoments;
@@ -41,6 +39,7 @@ pub use second_order::SecondOrder;
 pub use shapley::{MAX_SHAPLEY_FACTORS, ShapleyMethod, ShapleyPlayers, proper_subsets, shapley_effects};
 pub use shapley_moments::{ShapleyMoments, contributions};
 pub use swap_moments::{BaMoments, SwapMoments};
+use thiserror::Error;
 pub use workspace::Workspace;
 
 /// Why an output has no indices.

@@ -1,8 +1,12 @@
 //! Columns of a table, and an output prepared for sums.
 
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::sum;
+use crate::text::cut;
 
 /// A named column of a table.
 #[derive(Debug, Clone, PartialEq)]
@@ -67,5 +71,33 @@ mod tests {
         assert_eq!(centred(&[0.0; 9]), Err(NoVariance::Constant));
         assert_eq!(centred(&[1.0, 1.0 + f64::EPSILON, 1.0]), Err(NoVariance::Rounding));
         assert!(centred(&[1.0, 1.0 + 1e-12, 1.0]).is_ok());
+    }
+}
+
+/// A column that is no input because its cells are no numbers.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct TextColumn {
+    /// Its name.
+    pub name: String,
+    /// Its first cell that is no number, among those that were looked at; `null` where the file says that there are none.
+    pub example: Option<String>,
+}
+
+impl TextColumn {
+    /// What makes a table of numbers of one with text.
+    pub const REMEDY: &str = "write numbers with a point (1.5, not 1,5), their unit into the name of the column, and a number in the \
+                              place of each word";
+
+    /// Why it is no input.
+    pub fn reason(&self) -> String {
+        let example = self.example.as_ref().map_or_else(String::new, |cell| format!(" ({})", cut(cell, 24)));
+        format!("the column `{}` holds text{example}", self.name)
+    }
+}
+
+impl fmt::Display for TextColumn {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (reason, remedy) = (self.reason(), Self::REMEDY);
+        write!(f, "{reason}, and was left out: the indices are those of the other inputs alone; {remedy}")
     }
 }

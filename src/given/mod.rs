@@ -17,28 +17,22 @@ mod rank;
 mod repeats;
 mod surrogate;
 
-use rand::{RngExt, SeedableRng};
-use rand_chacha::ChaCha8Rng;
-use thiserror::Error;
-
-#[doc(hidden)]
 pub use binned::{Binned, binned_first_order, bins_for};
-pub use column::{Column, NoVariance};
-#[doc(hidden)]
+pub(crate) use column::centred;
+pub use column::{Column, NoVariance, TextColumn};
 pub use dependence::{Dependence, PairDependence};
-#[doc(hidden)]
 pub use evenness::PointSet;
 pub(crate) use measures::measures_of_rows;
 pub use measures::{InputMeasures, MAX_ROWS_OF_KERNELS, Measure, Measured, PERMUTATIONS, SIGNIFICANT, measures};
+use order::Order;
 pub use outcome::{InputIndices, OutputIndices};
-#[doc(hidden)]
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
 pub use rank::rank_first_order;
 pub use surrogate::{
     MIN_EXPLAINED, SurrogateIndices, SurrogateOutput, SurrogateRefusal, Surrogates, surrogate_indices,
 };
-
-pub(crate) use column::centred;
-use order::Order;
+use thiserror::Error;
 
 /// Fewest rows that are analysed: below, an interval is wider than the range of an index.
 pub const MIN_ROWS: usize = 30;

@@ -129,8 +129,9 @@ impl Order {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use proptest::prelude::*;
+
+    use super::*;
 
     #[test]
     fn small_orders_by_hand() {

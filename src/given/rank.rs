@@ -102,8 +102,9 @@ fn standard_error(rows: &[usize], z: &[f64], s: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use proptest::prelude::*;
+
+    use super::*;
 
     /// The formula as printed, ties in the order of `rows`.
     fn printed(rows: &[usize], y: &[f64]) -> f64 {

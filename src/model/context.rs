@@ -47,7 +47,7 @@ impl<'a> RunContext<'a> {
     }
 
     /// Lets the workers end what they are at, for a reason of the run's own.
-    pub(crate) fn end(&self) {
+    pub fn end(&self) {
         self.ended.store(true, Ordering::Relaxed);
     }
 }
@@ -80,15 +80,14 @@ impl Messages {
     }
 
     /// Sends a line that a program has printed, unless there have been enough.
-    #[cfg(feature = "study")]
-    pub(crate) fn send_printed(&self, line: &str) {
+    pub fn send_printed(&self, line: &str) {
         if self.lines.fetch_add(1, Ordering::Relaxed) < MAX_LINES {
             self.send(line);
         }
     }
 
     /// Says how many lines of programs were not sent; to be called at the end of a run.
-    pub(crate) fn finish(&self) {
+    pub fn finish(&self) {
         let left_out = self.lines.swap(0, Ordering::Relaxed).saturating_sub(MAX_LINES);
         if left_out > 0 {
             let lines = if left_out == 1 { "line" } else { "lines" };

@@ -4,6 +4,13 @@ use std::borrow::Cow;
 
 use crate::binary::{Binary, Reader, binary_fields};
 
+/// Beginning of the names of counters of rows that a rung of the ladder of fidelities answered.
+pub const RUNGS: &str = "rungs.";
+/// Name of the counter of evaluations of the right-hand side.
+pub const EVALUATIONS: &str = "evaluations";
+/// Name of the counter of the largest relative error estimate of any row.
+pub const LARGEST_ERROR: &str = "largest_error_estimate";
+
 /// A number that a model counts over the rows of a run.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Counter {

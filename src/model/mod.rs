@@ -4,61 +4,37 @@
 //! rows (one slice of SI values per factor) into a [`Batch`] of outputs. A row may fail, wholly or in one output, with
 //! a [`RowFailure`]; it never panics and never answers with a number that only looks like a result.
 
-mod afm;
 mod batch;
-mod catalogue;
-#[cfg(feature = "study")]
-mod command;
 mod context;
 mod counter;
-mod expression;
+pub mod expression;
 mod external;
 mod function;
 mod known;
 mod repeated;
-#[cfg_attr(not(feature = "extremes"), allow(dead_code, reason = "only the program has second calculations"))]
-mod second;
 mod series;
-pub(crate) mod shorten;
 
-#[cfg(feature = "extremes")]
-pub(crate) use afm::AfmSecond;
-pub use afm::{AfmHistory, AfmModel, AfmMoments, AfmOutput, EVALUATIONS, LARGEST_ERROR, RUNGS, edge_unit};
+use std::borrow::Cow;
+use std::sync::Arc;
+
 pub use batch::{Batch, GiveUp, RowFailure};
-pub use catalogue::{ModelKind, known_inputs};
-#[cfg(feature = "study")]
-pub use command::{
-    CommandModel, CommandOutput, CommandSettings, Form, InputTemplate, Match, PerRun, Pick, Program, Protocol, Source,
-    TemplateError, TemplateProblem, Way, parse_answer, program_files,
-};
 pub use context::{Messages, RunContext};
-pub use counter::{Counter, CounterKind, Counts};
-#[cfg(feature = "extremes")]
-pub(crate) use expression::PreciseFormulas;
+pub use counter::{Counter, CounterKind, Counts, EVALUATIONS, LARGEST_ERROR, RUNGS};
 pub use expression::{Expression, ExpressionError, ExpressionModel, ExpressionProblem, Symbol};
 pub use external::ExternalModel;
 pub use function::{FunctionModel, function_model};
 pub use known::{
     Basis, Exact, ExactIndices, KnownAnswer, KnownFunction, KnownInput, MAX_INPUTS, ParameterError, ParameterInfo,
-    ParameterValue, known_model,
+    ParameterValue, known_inputs, known_model, known_output,
 };
-
 pub use repeated::RepeatedModel;
-pub use second::{Answered, Reference, SecondCalculation, Unchecked};
-#[cfg(feature = "study")]
-pub(crate) use series::MAX_SERIES_VALUES;
-pub use series::{OutputSeries, SeriesAxis, SeriesError};
-#[cfg(feature = "study")]
-pub(crate) use series::{item_of_list, items_of_header};
-
-use std::borrow::Cow;
-use std::sync::Arc;
+pub use series::{MAX_SERIES_VALUES, OutputSeries, SeriesAxis, SeriesError, item_of_list, items_of_header};
 
 use crate::quantity::{Domain, Unit};
 use crate::space::Distribution;
 
 /// From so many outputs on they are shown together: an overview in the place of files for each.
-pub(crate) const MIN_OUTPUTS_TOGETHER: usize = 12;
+pub const MIN_OUTPUTS_TOGETHER: usize = 12;
 
 /// One output of a model.
 #[derive(Debug, Clone, PartialEq)]

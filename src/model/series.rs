@@ -107,14 +107,13 @@ impl OutputSeries {
     }
 
     /// Its values as outputs in `unit`.
-    pub(crate) fn outputs(&self, unit: &Unit, description: &'static str) -> impl Iterator<Item = Output> {
+    pub fn outputs(&self, unit: &Unit, description: &'static str) -> impl Iterator<Item = Output> {
         let names = Self::value_names(&self.name, self.axis.positions.len());
         names.map(move |name| Output::new(name, unit.clone(), description))
     }
 
     /// Those of `all` whose values are among the places `chosen`, all of them and in order; they stand where they are chosen.
-    #[cfg(feature = "study")]
-    pub(crate) fn chosen(all: &[Self], chosen: &[usize]) -> Vec<Self> {
+    pub fn chosen(all: &[Self], chosen: &[usize]) -> Vec<Self> {
         let place = |series: &Self| {
             let first = chosen.iter().position(|place| *place == series.first)?;
             let values = chosen.get(first..first + series.axis.positions.len())?;
@@ -125,8 +124,7 @@ impl OutputSeries {
 }
 
 /// The list and the place in it that a name such as `infected[12]` stands for.
-#[cfg(feature = "study")]
-pub(crate) fn item_of_list(name: &str) -> Option<(&str, usize)> {
+pub fn item_of_list(name: &str) -> Option<(&str, usize)> {
     let (list, place) = name.strip_suffix(']')?.rsplit_once('[')?;
     let is_plain = !list.is_empty() && !place.is_empty() && place.bytes().all(|byte| byte.is_ascii_digit());
     let place: usize = place.parse().ok().filter(|_| is_plain)?;
@@ -135,8 +133,7 @@ pub(crate) fn item_of_list(name: &str) -> Option<(&str, usize)> {
 
 /// The names that a header such as `infected[0..365]` stands for: those of the items from the first number on up to the second,
 /// which is not among them. `None` of any other header, and of more than 10,000 items.
-#[cfg(feature = "study")]
-pub(crate) fn items_of_header(header: &str) -> Option<impl Iterator<Item = String> + use<>> {
+pub fn items_of_header(header: &str) -> Option<impl Iterator<Item = String> + use<>> {
     let (list, range) = header.strip_suffix(']')?.rsplit_once('[')?;
     let number = |digits: &str| {
         let is_plain = !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit());
@@ -168,7 +165,6 @@ mod tests {
     }
 
     #[test]
-    #[cfg(feature = "study")]
     fn a_series_is_chosen_whole_or_not_at_all() {
         let axis = SeriesAxis::even("t", "", 3, 0.0, 1.0).unwrap();
         let series = OutputSeries { name: "y".to_owned(), first: 1, axis };
@@ -182,7 +178,6 @@ mod tests {
     }
 
     #[test]
-    #[cfg(feature = "study")]
     fn names_of_items_are_read() {
         assert_eq!(item_of_list("infected[12]"), Some(("infected", 12)));
         assert_eq!(item_of_list("a[1][2]"), Some(("a[1]", 2)));

@@ -74,7 +74,7 @@ impl Unit {
     }
 
     /// The unit `text`, if it is one.
-    pub(crate) fn known(text: &str) -> Option<Self> {
+    pub fn known(text: &str) -> Option<Self> {
         Self::read(text, |_| None).ok()
     }
 
@@ -185,14 +185,12 @@ impl Unit {
     }
 
     /// Whether it is a label, which is none of the units that are known.
-    #[cfg(feature = "study")]
-    pub(crate) fn is_label(&self) -> bool {
+    pub fn is_label(&self) -> bool {
         self.is_label
     }
 
     /// Whether it measures something: it is neither a label nor that of pure numbers, which stands where no unit is given.
-    #[cfg(feature = "study")]
-    pub(crate) fn is_of_kind(&self) -> bool {
+    pub fn is_of_kind(&self) -> bool {
         !self.is_label && self.dimension != Dimension::NUMBER
     }
 

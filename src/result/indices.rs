@@ -6,7 +6,7 @@ use crate::uncertainty::{EffectEstimates, Estimate, LowFidelityUse, NamedTerm};
 
 /// The indices of one factor.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "study", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct IndexRecord {
     /// The factor.
     pub factor: String,
@@ -17,7 +17,7 @@ pub struct IndexRecord {
 
 /// First-order and total index of one factor at a stage of a run, or over several outputs together.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "study", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct PlainIndexRecord {
     /// The factor.
     pub factor: String,
@@ -29,7 +29,7 @@ pub struct PlainIndexRecord {
 
 /// The indices of one group of factors.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "study", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct GroupRecord {
     /// The group.
     pub group: String,
@@ -42,7 +42,7 @@ pub struct GroupRecord {
 
 /// The Shapley effect of a group, or of a factor that has none, where groups share out the variance.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "study", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct PlayerRecord {
     /// The name of the group, or of the factor.
     pub player: String,
@@ -54,7 +54,7 @@ pub struct PlayerRecord {
 
 /// The joint indices of a subset of the factors that the study lists.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "study", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct SubsetRecord {
     /// Its factors.
     pub factors: Vec<String>,
@@ -65,7 +65,7 @@ pub struct SubsetRecord {
 
 /// The second-order index of two factors.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "study", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct PairRecord {
     /// The two factors.
     pub factors: [String; 2],
@@ -75,7 +75,7 @@ pub struct PairRecord {
 
 /// Indices by one estimator besides the default ones.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "study", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct EstimatorRecord {
     /// Its name in study files.
     pub estimator: String,
@@ -89,7 +89,7 @@ pub struct EstimatorRecord {
 
 /// Indices of one factor, group or subset besides the default ones, or of the mean over the noise.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "study", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct OtherIndexRecord {
     /// The factor, the group, or the factors of the subset joined by " + ".
     pub name: String,
@@ -101,7 +101,7 @@ pub struct OtherIndexRecord {
 
 /// The noise of a stochastic model: its indices, which are of the variance of a single run, and those of the mean over it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "study", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct NoiseRecord {
     /// The name under which the model gets its seed.
     pub name: String,
@@ -117,7 +117,7 @@ pub struct NoiseRecord {
 /// The surrogates of an output: polynomials fitted to the runs of all replicates but one, which correct the indices of that
 /// one.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "study", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct SurrogateRecord {
     /// Share of the variance that they explain of runs that they were not fitted to, Q^2.
     pub explained: f64,

@@ -8,14 +8,12 @@ mod indices;
 mod output;
 mod rare_level;
 mod read;
-#[cfg(feature = "study")]
+#[cfg(feature = "schema")]
 mod schema;
 mod setup;
 mod warning;
 
 use std::ops::Range;
-
-use serde::{Deserialize, Serialize};
 
 pub use distribution::{Histogram, OutputDistribution, PERCENTS, QuantileRecord, quantile};
 pub use indices::*;
@@ -24,8 +22,9 @@ pub use output::*;
 pub(crate) use rare_level::PAIRS_OF_POINT;
 pub use rare_level::RareLevel;
 pub use read::{ReadError, ReadProblem, parse_result, read_result};
-#[cfg(feature = "study")]
+#[cfg(feature = "schema")]
 pub use schema::result_schema;
+use serde::{Deserialize, Serialize};
 pub use setup::{RunFacts, StudySetup, json};
 pub use warning::{Warning, Warnings};
 
@@ -47,14 +46,14 @@ pub use warning::{Warning, Warnings};
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "study", derive(schemars::JsonSchema))]
-#[cfg_attr(feature = "study", schemars(title = "apportion result"))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", schemars(title = "apportion result"))]
 pub struct StudyResult {
     /// Always `apportion-result`.
-    #[cfg_attr(feature = "study", schemars(extend("const" = "apportion-result")))]
+    #[cfg_attr(feature = "schema", schemars(extend("const" = "apportion-result")))]
     pub format: String,
     /// Version of the format.
-    #[cfg_attr(feature = "study", schemars(extend("const" = 1)))]
+    #[cfg_attr(feature = "schema", schemars(extend("const" = 1)))]
     pub version: u32,
     /// What was asked.
     pub study: StudyRecord,
@@ -111,7 +110,7 @@ impl StudyResult {
 
 /// What was asked.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "study", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct StudyRecord {
     /// Name of the study.
     pub name: String,
@@ -134,7 +133,7 @@ pub struct StudyRecord {
 
 /// Factors that depend on each other, by a Gaussian copula.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "study", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct CorrelationRecord {
     /// The factors.
     pub factors: Vec<String>,
@@ -146,7 +145,7 @@ pub struct CorrelationRecord {
 
 /// An input fixed in the study.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "study", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ConstantRecord {
     /// The input.
     pub name: String,
@@ -160,7 +159,7 @@ pub struct ConstantRecord {
 /// study if it has some: they give the same numbers again. `CITATION.cff` in the sources of the program says how to cite
 /// the program itself.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "study", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Provenance {
     /// Version of the program.
     pub apportion_version: String,
@@ -205,7 +204,7 @@ pub struct Provenance {
 
 /// A factor.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "study", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct FactorRecord {
     /// Its name.
     pub name: String,
@@ -221,7 +220,7 @@ pub struct FactorRecord {
 
 /// Indices over several outputs together.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "study", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct AggregateRecord {
     /// The outputs.
     pub outputs: Vec<String>,
@@ -238,7 +237,7 @@ pub struct AggregateRecord {
 
 /// A validity flag.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "study", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ValidityRecord {
     /// Its name.
     pub flag: String,
@@ -252,7 +251,7 @@ pub struct ValidityRecord {
 
 /// Consecutive outputs that are the values of one quantity along an axis.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "study", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct SeriesRecord {
     /// Its name.
     pub name: String,
@@ -281,7 +280,7 @@ impl SeriesRecord {
 
 /// What a run that was asked for an accuracy chose, and why.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "study", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct SpendingRecord {
     /// The half width that was asked for.
     pub accuracy: f64,
@@ -298,7 +297,7 @@ pub struct SpendingRecord {
 
 /// Why a growing run ended.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "study", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct StoppingRecord {
     /// In words.
     pub reason: String,
@@ -314,7 +313,7 @@ pub struct StoppingRecord {
 
 /// What a model with a ladder of fidelities spent.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "study", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct EffortRecord {
     /// The rungs that answered, and how many runs each.
     pub rungs: Vec<RungRecord>,
@@ -326,7 +325,7 @@ pub struct EffortRecord {
 
 /// How many runs a rung answered.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "study", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct RungRecord {
     /// The rung.
     pub rung: String,
@@ -336,7 +335,7 @@ pub struct RungRecord {
 
 /// The runs of a cheaper model beside those of the model.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "study", derive(schemars::JsonSchema), schemars(rename = "LowRecord"))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(rename = "LowRecord"))]
 #[non_exhaustive]
 pub struct LowRuns {
     /// Its name.

@@ -13,7 +13,7 @@ use crate::uncertainty::{EffectEstimates, Estimate, Interval, largest_half_width
 
 /// Everything about one output.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "study", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct OutputResult {
     /// Its name.
     pub name: String,
@@ -145,7 +145,7 @@ pub(super) fn find<'a, T>(
 
 /// How the values of an output are distributed, as far as the rows A and B tell.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "study", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct DistributionRecord {
     /// Values that mean, standard deviation, skewness, kurtosis and range rest on: those of all rows A and B.
     pub values: u64,
@@ -156,7 +156,7 @@ pub struct DistributionRecord {
 
 /// The indices as they were when the run had so many base points.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "study", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct StageRecord {
     /// Base points in all.
     pub base_samples: u64,
@@ -170,7 +170,7 @@ pub struct StageRecord {
 
 /// How an output goes with the factors of the largest total indices.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "study", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ScatterRecord {
     /// At most six factors, the largest total index first.
     pub factors: Vec<String>,
@@ -184,7 +184,7 @@ pub struct ScatterRecord {
 /// Means of the output over slices of a factor: an estimate of E[Y | X_i], whose variance is the numerator of the
 /// first-order index. They describe the scatter of the kept rows A and B; no index is computed from them.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "study", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ConditionalMeansRecord {
     /// The factor.
     pub factor: String,
@@ -201,7 +201,7 @@ pub struct ConditionalMeansRecord {
 
 /// A trial of surrogates on the first runs of a quick model: all runs are corrected if it gains enough.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "study", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct SurrogateTrial {
     /// Model runs in it.
@@ -214,7 +214,7 @@ pub struct SurrogateTrial {
 
 /// A reason for which runs failed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "study", derive(schemars::JsonSchema), schemars(rename = "FailureRecord"))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(rename = "FailureRecord"))]
 #[non_exhaustive]
 pub struct FailureCount {
     /// The reason.
@@ -229,7 +229,7 @@ pub struct FailureCount {
 
 /// Other measures of one output.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "study", derive(schemars::JsonSchema), schemars(rename = "MeasuresRecord"))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(rename = "MeasuresRecord"))]
 #[non_exhaustive]
 pub struct RunMeasures {
     /// Rows A and B with a value that they were taken from: at most [`MAX_ROWS_OF_MEASURES`](crate::MAX_ROWS_OF_MEASURES).

@@ -299,13 +299,13 @@ impl PartialEq for Warning {
 
 /// The warnings of an output: as JSON their sentences, and in the same order their codes.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "study", derive(schemars::JsonSchema), schemars(with = "WarningKeys"))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(with = "WarningKeys"))]
 #[serde(from = "WarningKeys", into = "WarningKeys")]
 pub struct Warnings(pub Vec<Warning>);
 
 /// The keys of warnings in JSON.
 #[derive(Serialize, Deserialize)]
-#[cfg_attr(feature = "study", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 struct WarningKeys {
     /// What a careful reader should know.
     warnings: Vec<String>,

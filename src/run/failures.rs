@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use crate::design::Design;
 use crate::model::RowFailure;
-use crate::model::shorten::masked;
+use crate::text::masked;
 
 /// Where a row stands in a design, however many base points that has. Places are ordered as rows are counted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

@@ -31,7 +31,6 @@ use std::time::Duration;
 
 pub use each::run_each;
 pub use error::RunError;
-pub(crate) use executor::Executor;
 pub use failures::{Failures, MAX_REASONS, Place, Tally};
 pub use growing::GrowingRun;
 pub use pilot::Pilot;
@@ -44,7 +43,7 @@ pub use serve::Requests;
 pub(crate) use serve::{RemoteServer, refusal};
 pub use shard::{Shard, ShardError};
 pub use store::{Piece, Store};
-pub use table::Halt;
+pub use table::{Halt, TableRun};
 pub use totals::{OutputTotals, SAMPLE, Totals};
 
 use crate::design::Design;

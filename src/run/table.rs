@@ -9,7 +9,7 @@ use super::executor::{Executor, RowRange, RowSource};
 use super::rows::RowValues;
 use super::{Progress, RunError};
 use crate::clock::Instant;
-use crate::model::{Batch, GiveUp};
+use crate::model::{Batch, GiveUp, Model, RunContext};
 
 /// Why rows were not evaluated to their end.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
@@ -25,10 +25,19 @@ pub enum Halt {
 /// Fewest rows of a piece of a quick model: fewer are not worth a thread.
 const MIN_QUICK_ROWS: u64 = 1024;
 
-impl Executor<'_> {
+/// The workers of a model for points that come as tables.
+pub struct TableRun<'a>(Executor<'a>);
+
+impl<'a> TableRun<'a> {
+    /// Workers of `model` for the run of `context`, on at most `threads` threads (0: as many as the model asks for, or one per
+    /// core).
+    pub fn new(model: &'a dyn Model, context: &'a RunContext<'a>, threads: usize) -> Self {
+        Self(Executor::new(model, context, threads))
+    }
+
     /// How many rows of a table are best handed over at once.
     pub fn rows_at_once(&self) -> usize {
-        if self.model().concurrency().is_some() { 1 << 16 } else { 1 << 14 }
+        if self.0.model().concurrency().is_some() { 1 << 16 } else { 1 << 14 }
     }
 
     /// Evaluates rows as [`Worker::run`](crate::model::Worker::run) does, and settles the batch. It is the same for any
@@ -36,15 +45,15 @@ impl Executor<'_> {
     ///
     /// # Errors
     /// [`Halt`] if the model gave up or the run is to end; the batch then has no meaning.
-    pub fn run_table(&self, inputs: &[&[f64]], batch: &mut Batch) -> Result<(), Halt> {
+    pub fn run(&self, inputs: &[&[f64]], batch: &mut Batch) -> Result<(), Halt> {
         let total = batch.rows() as u64;
         if total == 0 {
             return Ok(());
         }
         let before = Progress { done: 0, recalled: 0, total, failed: 0, elapsed: Duration::ZERO };
-        let is_quick = self.model().concurrency().is_none();
+        let is_quick = self.0.model().concurrency().is_none();
         let table = Table { inputs, is_quick, sink: Mutex::new((0, batch)) };
-        self.execute(&table, before, Instant::now(), &|_| ()).map_err(|error| match error {
+        self.0.execute(&table, before, Instant::now(), &|_| ()).map_err(|error| match error {
             RunError::GaveUp(give_up) => Halt::GaveUp(give_up),
             // A table has no failures that end it, and no sink that fails.
             _ => Halt::Interrupted,

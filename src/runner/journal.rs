@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, OnceLock, PoisonError};
 use std::time::Duration;
 
+pub(super) use recall::{recorded, rows_on_record};
 use serde_json::{Value, json};
 
 use super::Resume;
@@ -14,7 +15,6 @@ use crate::model::Messages;
 use crate::run::journal::{Contents, Journal, JournalError, differences, read_journal_file, with_ending};
 use crate::run::{OutputSink, Piece, Progress, RunError, Shard, Store};
 use crate::study::Study;
-pub(super) use recall::{recorded, rows_on_record};
 
 /// Runs that are expected to take longer than this are worth a journal.
 const LONG_RUN: Duration = Duration::from_secs(10);

@@ -13,6 +13,11 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
+use growth::Grown;
+use journal::{JournalRequest, RunJournal};
+use low_fidelity::{LowRun, LowStudy};
+pub use worker::WorkerStudy;
+
 use crate::analysis::{FinishedRun, LowTotals, StopReason, result};
 use crate::model::{Messages, RunContext};
 use crate::result::{StudyResult, Warning};
@@ -21,10 +26,6 @@ use crate::run::{
     rows_to_repeat, threads_in_force,
 };
 use crate::study::Study;
-use growth::Grown;
-use journal::{JournalRequest, RunJournal};
-use low_fidelity::{LowRun, LowStudy};
-pub use worker::WorkerStudy;
 
 impl Study {
     /// Runs the study on all cores and estimates its indices.
@@ -34,7 +35,7 @@ impl Study {
     /// use apportion::Study;
     ///
     /// let text = include_str!("../../studies/ishigami.toml");
-    /// let study = Study::parse(text, Path::new("ishigami.toml"), &[])?;
+    /// let study = apportion_files::parse_study(text, Path::new("ishigami.toml"), &[])?;
     /// let result = study.run()?;
     /// assert!((result.output("y")?.factor("x1")?.first_order.estimate - 0.3139).abs() < 0.003);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -90,7 +91,7 @@ impl Resume {
 /// use apportion::Study;
 ///
 /// let text = include_str!("../../studies/ishigami.toml");
-/// let study = Study::parse(text, Path::new("ishigami.toml"), &["design.base_samples=1024".to_owned()])?;
+/// let study = apportion_files::parse_study(text, Path::new("ishigami.toml"), &["design.base_samples=1024".to_owned()])?;
 /// let folder = tempfile::tempdir()?;
 /// let journal = folder.path().join("ishigami.journal");
 /// let first = study.runner().threads(2).on_progress(|progress| eprintln!("{}", progress.done)).journal(&journal).run()?;

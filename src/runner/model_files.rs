@@ -5,9 +5,10 @@ use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-use crate::study::Study;
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
+
+use crate::study::Study;
 
 /// The digests of the files of `study` (path: SHA-256); files that cannot be read are left out.
 pub(super) fn digests(study: &Study) -> Value {

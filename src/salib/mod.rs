@@ -10,12 +10,9 @@ mod study;
 #[cfg(test)]
 mod tests;
 
-pub use layout::SalibLayout;
-#[doc(hidden)]
-pub use layout::recognise;
+pub use layout::{SalibLayout, recognise};
 pub use problem::SalibProblem;
 pub use study::salib_study;
-
 use thiserror::Error;
 
 /// Why a table or a description is not one of SALib's, and what would be right.

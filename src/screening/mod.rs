@@ -26,17 +26,17 @@ mod settings;
 mod tests;
 
 pub use derivative::poincare_constant;
-#[doc(hidden)]
-pub use measures::FIXABLE;
-pub use measures::Reading;
-#[doc(hidden)]
+use derivative::{derivative_measures, range, sum_of_bounds};
+pub use measures::{FIXABLE, Reading};
 pub use points::TAIL;
-#[doc(hidden)]
-pub use settings::{DERIVATIVE_STEP, MAX_LEVELS, MAX_RUNS, MIN_STEP, MIN_TRAJECTORIES};
-pub use settings::{ScreeningDesign, ScreeningError, ScreeningSettings};
-
+use points::Trajectories;
+use run::Outcome;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
+pub use settings::{
+    DERIVATIVE_STEP, MAX_LEVELS, MAX_RUNS, MIN_STEP, MIN_TRAJECTORIES, ScreeningDesign, ScreeningError,
+    ScreeningSettings,
+};
 
 use crate::analysis::named_inputs;
 use crate::model::{Model, Output, RunContext};
@@ -44,9 +44,6 @@ use crate::quantity::Unlikely;
 use crate::run::Progress;
 use crate::space::{Factor, Space};
 use crate::uncertainty::Estimate;
-use derivative::{derivative_measures, range, sum_of_bounds};
-use points::Trajectories;
-use run::Outcome;
 
 /// What is screened.
 #[derive(Clone, Copy)]
@@ -148,7 +145,7 @@ pub struct ScreeningFailure {
 /// use apportion::screening::{Reading, ScreeningJob, ScreeningSettings, screen};
 /// use apportion::Study;
 ///
-/// let study = Study::parse(include_str!("../../studies/ishigami.toml"), Path::new("ishigami.toml"), &[])?;
+/// let study = apportion_files::parse_study(include_str!("../../studies/ishigami.toml"), Path::new("ishigami.toml"), &[])?;
 /// let model = study.model();
 /// let settings = ScreeningSettings::default();
 /// let job = ScreeningJob { space: study.space(), model: model.as_ref(), settings };

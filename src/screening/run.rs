@@ -8,7 +8,7 @@ use super::settings::DERIVATIVE_STEP;
 use super::{ScreeningDesign, ScreeningError, ScreeningJob};
 use crate::clock::Instant;
 use crate::model::{Batch, RowFailure, RunContext};
-use crate::run::{Executor, Halt, Progress, RunError};
+use crate::run::{Halt, Progress, RunError, TableRun};
 use crate::space::Factor;
 
 /// What became of some trajectories.
@@ -38,10 +38,10 @@ pub(super) fn run(
     context: &RunContext<'_>,
     on_progress: &(dyn Fn(Progress) + Sync),
 ) -> Result<Outcome, ScreeningError> {
-    let executor = Executor::new(job.model, context, threads);
+    let run = TableRun::new(job.model, context, threads);
     let rows = job.space.factors().len() + 1;
     // Whole trajectories, and one at least.
-    let block = (executor.rows_at_once() / rows).max(1) as u64;
+    let block = (run.rows_at_once() / rows).max(1) as u64;
     let start = Instant::now();
     let total = trajectories * rows as u64;
     let columns = vec![Vec::new(); job.space.factors().len()];
@@ -52,7 +52,7 @@ pub(super) fn run(
         flags: vec![0; job.model.flags().len()],
         ..Outcome::default()
     };
-    let mut bench = Bench { executor, batch: Batch::new(job.model), columns, rows, outcome };
+    let mut bench = Bench { run, batch: Batch::new(job.model), columns, rows, outcome };
     for first in (0..trajectories).step_by(block as usize) {
         let last = (first + block).min(trajectories);
         bench.block(job, points, first..last).map_err(|halt| match halt {
@@ -67,7 +67,7 @@ pub(super) fn run(
 
 /// What it takes to evaluate blocks.
 struct Bench<'a> {
-    executor: Executor<'a>,
+    run: TableRun<'a>,
     batch: Batch,
     columns: Vec<Vec<f64>>,
     rows: usize,
@@ -99,7 +99,7 @@ impl Bench<'_> {
         }
         self.batch.reset(rows);
         let inputs: Vec<&[f64]> = self.columns.iter().map(Vec::as_slice).collect();
-        self.executor.run_table(&inputs, &mut self.batch)?;
+        self.run.run(&inputs, &mut self.batch)?;
         for (output, effects) in outcome.effects.iter_mut().enumerate() {
             let values = self.batch.column(output).chunks_exact(self.rows);
             for (moves, values) in moves.iter().zip(values) {

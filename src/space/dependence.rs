@@ -3,13 +3,13 @@
 mod nataf;
 
 use nalgebra::DMatrix;
+use nataf::of_normal_scores;
 
 use super::copula::GaussianCopula;
 use super::distribution::Distribution;
 use super::{Factor, Space};
 use crate::names::named;
 use crate::special::normal_quantile;
-use nataf::of_normal_scores;
 
 /// Why factors cannot depend on each other as stated, and what would be right.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

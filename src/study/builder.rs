@@ -19,20 +19,30 @@ use crate::uncertainty::IntervalMethod;
 #[must_use]
 pub struct StudyBuilder {
     name: String,
-    pub(super) title: Option<String>,
+    /// A title for people.
+    pub title: Option<String>,
     subject: Arc<dyn Subject>,
-    pub(super) factors: Vec<Result<Factor, BuildError>>,
-    pub(super) sampler: Sampler,
-    pub(super) length: Length,
-    pub(super) replicates: Option<u64>,
-    pub(super) seed: u64,
-    pub(super) analysis: Option<AnalysisOptions>,
-    pub(super) lows: Vec<LowFidelity>,
-    pub(super) dependences: Vec<Dependence>,
+    /// The factors, in the order of the Sobol' dimensions.
+    pub factors: Vec<Result<Factor, BuildError>>,
+    /// How points are made.
+    pub sampler: Sampler,
+    /// How long the run is.
+    pub length: Length,
+    /// Independent scrambles; the intervals' own number if there is none.
+    pub replicates: Option<u64>,
+    /// Seed of the points.
+    pub seed: u64,
+    /// What is asked of the runs; the sampler's own if there is nothing.
+    pub analysis: Option<AnalysisOptions>,
+    /// Cheaper models of the same outputs.
+    pub lows: Vec<LowFidelity>,
+    /// Which factors depend on each other.
+    pub dependences: Vec<Dependence>,
 }
 
 impl StudyBuilder {
-    pub(super) fn new(name: &str, subject: Arc<dyn Subject>) -> Self {
+    /// A study of `subject` with neither factors nor settings; result files are named after `name`.
+    pub fn new(name: &str, subject: Arc<dyn Subject>) -> Self {
         let DesignSettings { sampler, seed, .. } = DesignSettings::default();
         Self {
             name: name.to_owned(),
@@ -181,7 +191,10 @@ impl StudyBuilder {
     }
 
     /// The study, which obeys every rule, without the text that it is made from.
-    pub(super) fn checked(self) -> Result<Study, BuildError> {
+    ///
+    /// # Errors
+    /// [`BuildError`] with what is wrong and what would be right.
+    pub fn checked(self) -> Result<Study, BuildError> {
         rules::check_title(&self.name, self.title.as_deref())?;
         let factors = self.factors.into_iter().collect::<Result<Vec<Factor>, _>>()?;
         let space = Space::new(factors);

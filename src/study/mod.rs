@@ -5,8 +5,6 @@
 
 mod build_error;
 mod builder;
-#[cfg(feature = "study")]
-mod file;
 mod identity;
 mod options;
 mod rules;
@@ -16,26 +14,17 @@ use std::sync::Arc;
 
 pub use build_error::BuildError;
 pub use builder::StudyBuilder;
-#[cfg(feature = "study")]
-pub use file::{
-    AfmSubject, CommandSubject, Diagnostic, ExpressionConstant, ExpressionSubject, ExternalSubject, Formula,
-    KnownSubject, NEW_PROGRAM, Problem, StudyError, TemplateRequest, edited, model_guide, new_program, study_schema,
-    template,
-};
 pub use options::{AnalysisOptions, MAX_OUTPUTS_OF_MEASURES, SurrogateChoice, Target};
+use options::{MAX_AUTOMATIC_VALUES, MAX_AUTOMATIC_VALUES_AFTER_TRIAL, MAX_AUTOMATIC_VALUES_OF_PROGRAMS, rows};
 use subject::CustomSubject;
-pub use subject::{LowFidelity, Rung, Subject};
+pub use subject::{ExternalSubject, LowFidelity, RepeatedSubject, Rung, Subject};
 
-pub use crate::names::nearest;
-
-use crate::design::{Design, DesignError};
+use crate::design::{Design, DesignError, DesignSettings};
 use crate::model::Model;
+pub use crate::names::nearest;
 use crate::space::Space;
 use crate::surrogate::{MIN_NETS, fewest_points};
 use crate::uncertainty::{IntervalMethod, Layout, NoiseLayout};
-#[cfg(feature = "charts")]
-pub(crate) use options::rows;
-use options::{MAX_AUTOMATIC_VALUES, MAX_AUTOMATIC_VALUES_AFTER_TRIAL, MAX_AUTOMATIC_VALUES_OF_PROGRAMS};
 
 /// A checked study: a subject, the space of its factors, and the design that explores it.
 #[derive(Debug, Clone)]
@@ -67,8 +56,21 @@ pub struct Study {
     pub(crate) notes: Vec<String>,
 }
 
+/// The file that a study was read from.
+#[derive(Debug, Clone, Default)]
+pub struct StudySource {
+    /// The file, word for word.
+    pub text: String,
+    /// Its SHA-256 in hexadecimal.
+    pub sha256: String,
+    /// Changes made to it on the command line, as given.
+    pub overrides: Vec<String>,
+    /// What was read otherwise than it was written, in sentences.
+    pub notes: Vec<String>,
+}
+
 /// The end of a message about a name that does not exist, where one like it does; two that are meant are joined by "and".
-pub(crate) fn did_you_mean(nearest: &Option<String>) -> String {
+pub fn did_you_mean(nearest: &Option<String>) -> String {
     nearest.as_ref().map_or_else(String::new, |name| format!(": did you mean `{}`?", name.replace(" and ", "` and `")))
 }
 
@@ -136,8 +138,8 @@ impl Study {
     }
 
     /// What is studied.
-    pub fn subject(&self) -> &dyn Subject {
-        &*self.subject
+    pub fn subject(&self) -> &Arc<dyn Subject> {
+        &self.subject
     }
 
     /// The factors.
@@ -164,6 +166,45 @@ impl Study {
     /// Cheaper models of the same outputs, which stand in for the model where they help.
     pub fn low_fidelities(&self) -> &[LowFidelity] {
         &self.lows
+    }
+
+    /// The study of another subject, with the same outputs or others.
+    #[must_use]
+    pub fn with_subject(self, subject: Arc<dyn Subject>) -> Self {
+        Self { subject, ..self }
+    }
+
+    /// Adds a note on how the study was read, in a sentence.
+    pub fn note(&mut self, note: String) {
+        self.notes.push(note);
+    }
+
+    /// The study with another end of a run that grows; one that does not grow has the default target.
+    #[must_use]
+    pub fn with_target(self, target: Target) -> Self {
+        Self { target, ..self }
+    }
+
+    /// The study at the points of `settings`, of whose runs `analysis` is asked.
+    ///
+    /// # Errors
+    /// [`DesignError`] if there is no such design.
+    pub fn with_design(self, settings: DesignSettings, analysis: AnalysisOptions) -> Result<Self, DesignError> {
+        let design = Design::new(settings, self.design.factors(), rows(&analysis, &self.space, 0))?;
+        Ok(Self { design, analysis, ..self })
+    }
+
+    /// The study without cheaper models.
+    #[must_use]
+    pub fn without_low_fidelities(self) -> Self {
+        Self { lows: Vec::new(), ..self }
+    }
+
+    /// The study as one that was read from a file.
+    #[must_use]
+    pub fn with_source(mut self, source: StudySource) -> Self {
+        self.notes.extend(source.notes);
+        Self { source: source.text, sha256: source.sha256, overrides: source.overrides, ..self }
     }
 
     /// Changes made to the file on the command line, as given.

@@ -290,7 +290,7 @@ fn split(runs: u64, runs_per_point: u64, replicates: u64, for_surrogates: bool) 
 
 /// The rows for what is asked: the factors, the groups, the subsets; of dependent factors these once more, redrawn; the dummy; and
 /// the subsets or the random orders that Shapley effects need.
-pub(crate) fn rows(analysis: &AnalysisOptions, space: &Space, plain_rows: u32) -> Rows {
+pub(super) fn rows(analysis: &AnalysisOptions, space: &Space, plain_rows: u32) -> Rows {
     let factors = space.factors().len();
     let single = (0..factors).map(|number| vec![number]);
     let groups = space.groups().into_iter().map(|group| group.factors);

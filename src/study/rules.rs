@@ -183,7 +183,7 @@ pub(super) fn check_dependent(
 }
 
 /// How long a run is, said in one way: by base samples, by runs, or by an accuracy; and limits where it grows.
-pub(super) struct Length {
+pub struct Length {
     pub base_samples: Option<u64>,
     pub runs: Option<u64>,
     pub target: Target,

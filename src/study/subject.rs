@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use serde_json::Value;
 
-use crate::model::{Model, RepeatedModel, SecondCalculation};
+use crate::model::{ExternalModel, Model, Output, OutputSeries, RepeatedModel};
 use crate::space::{Factor, Space};
 
 /// A model with its choices made, ready to be run on the factors of any space.
@@ -26,14 +26,6 @@ pub trait Subject: fmt::Debug + Send + Sync + Any {
     /// The inputs that are not factors, as (name, value, unit).
     fn constants(&self, _space: &Space) -> Vec<(String, f64, String)> {
         Vec::new()
-    }
-
-    /// The outputs on the factors of `space` by another way, to check them by; or why there is none, in a few words.
-    ///
-    /// # Errors
-    /// The reason.
-    fn second_calculation(&self, _space: &Space) -> Result<Box<dyn SecondCalculation>, &'static str> {
-        Err("nothing else computes what the model does")
     }
 
     /// Inputs that are no factors of `space`, and whose extremes are worth a look all the same.
@@ -74,7 +66,6 @@ pub trait Subject: fmt::Debug + Send + Sync + Any {
 
 /// One of several models of the same outputs.
 #[derive(Debug, Clone)]
-#[non_exhaustive]
 pub struct Rung {
     /// Its name.
     pub name: String,
@@ -88,7 +79,6 @@ pub struct Rung {
 
 /// A cheaper model of the same outputs.
 #[derive(Debug, Clone)]
-#[non_exhaustive]
 pub struct LowFidelity {
     /// Its name.
     pub name: String,
@@ -124,12 +114,11 @@ impl dyn Subject {
 
 /// A stochastic model, several runs of which make a row: see [`RepeatedModel`].
 #[derive(Debug)]
-#[cfg_attr(not(feature = "study"), allow(dead_code, reason = "only study files ask for repetitions"))]
-pub(super) struct RepeatedSubject {
-    pub(super) subject: Arc<dyn Subject>,
+pub struct RepeatedSubject {
+    pub subject: Arc<dyn Subject>,
     /// The number of the factor that is its seed.
-    pub(super) seed: usize,
-    pub(super) repetitions: usize,
+    pub seed: usize,
+    pub repetitions: usize,
 }
 
 impl Subject for RepeatedSubject {
@@ -181,5 +170,28 @@ impl Subject for CustomSubject {
 
     fn settings(&self) -> Vec<(&'static str, Value)> {
         self.version.iter().map(|version| ("version", Value::from(version.as_str()))).collect()
+    }
+}
+
+/// A model outside of this program.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ExternalSubject {
+    /// What it computes.
+    pub outputs: Vec<Output>,
+    /// Those of the outputs that are series.
+    pub series: Vec<OutputSeries>,
+}
+
+impl Subject for ExternalSubject {
+    fn name(&self) -> &'static str {
+        "external"
+    }
+
+    fn model(&self, _space: &Space) -> Box<dyn Model> {
+        Box::new(ExternalModel::new(self.outputs.clone()).with_series(self.series.clone()))
+    }
+
+    fn is_external(&self) -> bool {
+        true
     }
 }

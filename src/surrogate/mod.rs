@@ -16,10 +16,15 @@ pub mod net;
 mod own;
 mod together;
 
+use basis::{Caps, Family, Term};
+use beyond::Beyond;
+use carried::Carried;
+use corrected::Contributions;
+use fit::{Expansion, Expansions, NetSums, Training, first_candidates, fit, fit_in_rounds, selection_rows};
+use net::Net;
+use rayon::prelude::*;
 pub use together::surrogates_together;
 use together::{good_points, of_neighbours};
-
-use rayon::prelude::*;
 
 use crate::design::{Design, Sampler};
 use crate::estimate::PointOutputs;
@@ -27,12 +32,6 @@ use crate::space::Space;
 use crate::uncertainty::{
     ChosenTerms, Influenced, Layout, PartInfluences, SurrogateEstimates, SurrogateTerm, in_parts,
 };
-use basis::{Caps, Family, Term};
-use beyond::Beyond;
-use carried::Carried;
-use corrected::Contributions;
-use fit::{Expansion, Expansions, NetSums, Training, first_candidates, fit, fit_in_rounds, selection_rows};
-use net::Net;
 
 /// Fewest nets: a surrogate of the others has its number of terms by leaving out one of them.
 pub const MIN_NETS: usize = 3;

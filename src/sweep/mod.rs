@@ -6,19 +6,15 @@
 mod range;
 #[cfg(test)]
 mod tests;
-
-#[doc(hidden)]
-pub use range::MAX_POINTS;
-pub use range::values_over_range;
-
+use range::is_logarithmic;
+pub use range::{MAX_POINTS, values_over_range};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::model::{Batch, Model, Output, RowFailure, RunContext};
-use crate::run::{Executor, Halt};
+use crate::run::{Halt, TableRun};
 use crate::space::{Factor, Space};
 use crate::study::{did_you_mean, nearest};
-use range::is_logarithmic;
 
 /// Sweeps that have taken place.
 #[derive(Debug, Clone, PartialEq)]
@@ -175,7 +171,7 @@ pub fn sweep(
     let mut bench = Bench {
         space,
         outputs: model.outputs(),
-        executor: Executor::new(model, context, 0),
+        run: TableRun::new(model, context, 0),
         batch: Batch::new(model),
         runs: 0,
         flags: vec![0; model.flags().len()],
@@ -237,7 +233,7 @@ impl SweptOutput {
 struct Bench<'a> {
     space: &'a Space,
     outputs: &'a [Output],
-    executor: Executor<'a>,
+    run: TableRun<'a>,
     batch: Batch,
     /// Runs so far.
     runs: u64,
@@ -250,14 +246,14 @@ impl Bench<'_> {
     fn curve(&mut self, factor: usize, values: &[f64]) -> Result<Vec<SweptOutput>, Halt> {
         let factors = self.space.factors();
         let mut swept: Vec<SweptOutput> = self.outputs.iter().map(SweptOutput::new).collect();
-        let most = self.executor.rows_at_once();
+        let most = self.run.rows_at_once();
         for (block, values) in values.chunks(most).enumerate() {
             let nominal = |factor: &Factor| vec![factor.unit().to_si(factor.nominal); values.len()];
             let mut columns: Vec<Vec<f64>> = factors.iter().map(nominal).collect();
             columns[factor] = values.iter().map(|value| factors[factor].unit().to_si(*value)).collect();
             let inputs: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
             self.batch.reset(values.len());
-            self.executor.run_table(&inputs, &mut self.batch)?;
+            self.run.run(&inputs, &mut self.batch)?;
             self.runs += values.len() as u64;
             self.flags.iter_mut().zip(self.batch.flags()).for_each(|(sum, raised)| *sum += raised);
             for (number, (output, swept)) in self.outputs.iter().zip(&mut swept).enumerate() {

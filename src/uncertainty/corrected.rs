@@ -2,14 +2,14 @@
 
 use std::collections::BTreeMap;
 
+use serde::{Deserialize, Serialize};
+
 use super::effects::largest_half_width;
 use super::estimates::{Layout, Number};
 use super::influence::Influenced;
-use super::mean;
 use super::net_decay::StandardError;
 use super::noise::{Noise, Replacement};
-use super::{Estimate, Interval, difference};
-use serde::{Deserialize, Serialize};
+use super::{Estimate, Interval, difference, mean};
 
 /// Distance of plain and corrected indices, over what their intervals allow, beyond which the corrected ones are refused: of one
 /// index, and the root mean square over those of one kind. Of smooth functions, where the corrected ones are right, the largest
@@ -74,7 +74,7 @@ pub struct SurrogateEstimates {
 
 /// What was made of a cheaper model.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "study", derive(schemars::JsonSchema), schemars(rename = "LowUseRecord"))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(rename = "LowUseRecord"))]
 #[non_exhaustive]
 pub struct LowFidelityUse {
     /// Its name.
@@ -126,7 +126,7 @@ impl SurrogateTerm {
 
 /// A term of the surrogates.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "study", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct NamedTerm {
     /// The degree of its polynomial of each factor in it.
     pub degrees: BTreeMap<String, usize>,

@@ -1,9 +1,10 @@
 //! What is found of one output: indices of factors, groups and subsets, each with its interval.
 
+use serde::{Deserialize, Serialize};
+
 use super::corrected::SurrogateUse;
 use super::mean::NoiseIndices;
 use super::{Estimate, Interval};
-use serde::{Deserialize, Serialize};
 
 /// Indices of one output.
 #[derive(Debug, Clone, PartialEq)]
@@ -54,7 +55,7 @@ pub(crate) fn largest_half_width(estimates: impl IntoIterator<Item = Estimate>) 
 
 /// The indices of one factor, group or subset, and what they are of the sum over all factors (or groups) in percent.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "study", derive(schemars::JsonSchema), schemars(rename = "EffectRecord"))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(rename = "EffectRecord"))]
 pub struct EffectEstimates {
     /// First-order index (of several factors: closed first-order index).
     pub first_order: Estimate,
@@ -107,7 +108,7 @@ pub struct EffectChecks {
 /// Annoni 2012, Comput. Phys. Commun. 183, 937-946); the other two are those of Mara, Tarantola and Annoni (2015), Environ. Model.
 /// Softw. 72, 173-183.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "study", derive(schemars::JsonSchema), schemars(rename = "DependentRecord"))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(rename = "DependentRecord"))]
 pub struct DependentEstimates {
     /// First-order index of what the factor has on its own, given all others.
     pub independent_first_order: Estimate,

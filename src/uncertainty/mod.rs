@@ -42,7 +42,6 @@ pub use noise::{Noise, in_parts};
 pub use output::{IntervalOptions, differs_clearly, output_indices, output_moments};
 pub use points::KeptPoints;
 pub use ranks::{probability_above, probability_first};
-
 use serde::{Deserialize, Serialize};
 
 use crate::special::t_quantile_outside;
@@ -55,7 +54,7 @@ pub(crate) const NORMAL_QUANTILE: f64 = 1.959_963_984_540_054;
 
 /// A two-sided confidence interval.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "study", derive(schemars::JsonSchema), schemars(rename = "IntervalRecord"))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(rename = "IntervalRecord"))]
 pub struct Interval {
     /// Lower bound.
     pub low: f64,
@@ -75,7 +74,7 @@ impl Interval {
     }
 
     /// The interval with changed ends; `None` if one of them is beyond double precision.
-    pub(crate) fn map(self, change: impl Fn(f64) -> f64) -> Option<Self> {
+    pub fn map(self, change: impl Fn(f64) -> f64) -> Option<Self> {
         Self { low: change(self.low), high: change(self.high) }.finite()
     }
 
@@ -88,7 +87,7 @@ impl Interval {
 /// A number with its interval, where there is one. Files have it as `estimate`, `low` and `high`.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(from = "EstimateRecord", into = "EstimateRecord")]
-#[cfg_attr(feature = "study", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Estimate {
     /// The estimate.
     pub estimate: f64,
@@ -105,7 +104,7 @@ impl Estimate {
 
 /// An estimate with its interval.
 #[derive(Clone, Copy, Serialize, Deserialize)]
-#[cfg_attr(feature = "study", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 struct EstimateRecord {
     /// The estimate.
     estimate: f64,

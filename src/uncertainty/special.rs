@@ -65,8 +65,9 @@ fn tetragamma(x: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use std::f64::consts::PI;
+
+    use super::*;
 
     #[test]
     fn values_in_closed_form() {

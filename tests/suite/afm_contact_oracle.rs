@@ -1,7 +1,7 @@
 //! Maugis-Dugdale contacts against `tests/oracle/maugis_dugdale.json`, computed to 60 digits by the script beside it.
 
-use apportion::afm::ContactTheory::MaugisDugdale;
-use apportion::afm::contact::Pair;
+use apportion_afm::ContactTheory::MaugisDugdale;
+use apportion_afm::contact::Pair;
 use serde::Deserialize;
 
 #[derive(Deserialize)]

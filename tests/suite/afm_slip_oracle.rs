@@ -1,6 +1,6 @@
 //! Every rung against slips that SciPy integrated, frozen in `tests/oracle/afm_slip.json` by the script beside it.
 
-use apportion::afm::{Critical, Failure, Fidelity, FrictionLaw, Options, Scene, critical_force};
+use apportion_afm::{Critical, Failure, Fidelity, FrictionLaw, Options, Scene, critical_force};
 use serde::Deserialize;
 
 #[derive(Deserialize)]

@@ -1,8 +1,9 @@
 //! Indices against exact answers. Seeds are fixed; the tolerances are those the project promises.
 
-use crate::common::{analysed, gap, indices, numbers};
 use apportion::model::KnownAnswer;
 use apportion::result::StudyResult;
+
+use crate::common::{analysed, gap, indices, numbers};
 
 /// Exact first-order and total indices of a function with its default parameters.
 fn exact(name: &str) -> (Vec<f64>, Vec<f64>) {

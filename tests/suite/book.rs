@@ -38,7 +38,7 @@ use page::Page;
 
 /// The README, the pages of `docs`, and the others that users read.
 fn pages() -> Vec<PathBuf> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let root = crate::common::root();
     let mut found = vec![root.join("README.md"), root.join("studies/README.md"), root.join("python/README.md")];
     for folder in ["docs", "docs/accuracy"] {
         let entries = std::fs::read_dir(root.join(folder)).unwrap().map(|entry| entry.unwrap().path());
@@ -51,7 +51,7 @@ fn pages() -> Vec<PathBuf> {
 }
 
 fn read(path: &Path) -> Page {
-    let name = path.strip_prefix(env!("CARGO_MANIFEST_DIR")).unwrap().display().to_string();
+    let name = path.strip_prefix(crate::common::root()).unwrap().display().to_string();
     Page::new(&name, &std::fs::read_to_string(path).unwrap())
 }
 

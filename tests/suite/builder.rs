@@ -30,7 +30,9 @@ fn a_built_study_gives_the_bits_of_the_file() {
     let study = study.base_samples(1024).seed(3).build().unwrap();
     let built = study.runner().threads(2).run().unwrap();
     let path = std::path::Path::new("ishigami.toml");
-    let typed = Study::parse("model = \"ishigami\"\n[design]\nbase_samples = 1024\nseed = 3", path, &[]).unwrap();
+    let typed =
+        apportion_files::parse_study("model = \"ishigami\"\n[design]\nbase_samples = 1024\nseed = 3", path, &[])
+            .unwrap();
     let typed = typed.runner().threads(1).run().unwrap();
     assert_eq!(built.outputs[0].indices, typed.outputs[0].indices);
     assert_eq!((built.study.model.as_str(), built.provenance.study_sha256.len()), ("custom", 64));
@@ -94,7 +96,7 @@ fn a_number_of_runs_makes_the_design_of_the_file() {
     let study = sum().factor("a", unit()).factor("b", unit()).runs(100).build().unwrap();
     let text = "model = \"expression\"\noutputs.y = \"a + b\"\n[design]\nruns = 100\n\
         [[factor]]\nname = \"a\"\nmin = 0\nmax = 1\n[[factor]]\nname = \"b\"\nmin = 0\nmax = 1\n";
-    let file = Study::parse(text, Path::new("mine.toml"), &[]).unwrap();
+    let file = apportion_files::parse_study(text, Path::new("mine.toml"), &[]).unwrap();
     assert_eq!(study.design().plain_rows(), file.design().plain_rows());
     assert_eq!(study.design().settings(), file.design().settings());
     assert!(study.design().plain_rows() > 0 && study.design().rows() <= 100);
@@ -179,7 +181,7 @@ fn many_runs_go_side_by_side_on_the_threads_of_another_pool() {
     let text = "model = \"ishigami\"\n[design]\nbase_samples = 64\n";
     let run = |seed: u64| {
         let seed = format!("design.seed={seed}");
-        let study = Study::parse(text, std::path::Path::new("many.toml"), &[seed]).unwrap();
+        let study = apportion_files::parse_study(text, std::path::Path::new("many.toml"), &[seed]).unwrap();
         study.runner().threads(1).run().unwrap().outputs[0].mean.unwrap()
     };
     let means: Vec<f64> = pool.install(|| (0..100).into_par_iter().map(run).collect());

@@ -8,7 +8,6 @@ use std::sync::LazyLock;
 
 use apportion::EffectEstimates;
 use apportion::result::{IndexRecord, OutputResult, StudyResult};
-use apportion::study::Study;
 
 /// Ishigami's function where |x3| < 3, and a failure in the other 4.5 % of the rows.
 pub const HOLES: &str = "model = \"expression\"\n\
@@ -111,15 +110,20 @@ pub fn run_in_parts(file: &Path, merged: &Path) {
     succeed(&merge);
 }
 
+/// The folder of the sources.
+pub fn root() -> &'static Path {
+    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))
+}
+
 /// A study of this repository.
 pub fn study_path(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("studies").join(format!("{name}.toml"))
+    root().join("studies").join(format!("{name}.toml"))
 }
 
 /// The result of a study of this repository under overrides.
 pub fn analysed(name: &str, overrides: &[&str]) -> StudyResult {
     let overrides: Vec<String> = overrides.iter().map(|text| (*text).to_owned()).collect();
-    let study = Study::load(&study_path(name), &overrides).unwrap();
+    let study = apportion_files::load_study(&study_path(name), &overrides).unwrap();
     study.run().unwrap()
 }
 

@@ -1,6 +1,5 @@
 //! The corpus of the fuzzers, and texts made from it at random, through the same targets on any compiler.
 
-use std::path::Path;
 use std::time::{Duration, Instant};
 
 use crate::fuzz::{Dictionary, Random, TARGETS, Target, mutated, mutated_bytes, target};
@@ -13,7 +12,7 @@ const LONGEST: Duration = Duration::from_secs(60);
 
 /// The files of a target's corpus, by name; none in the published crate, which has no corpus.
 fn corpus(target: &Target) -> Vec<(String, Vec<u8>)> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("fuzz/corpus").join(target.name);
+    let folder = crate::common::root().join("fuzz/corpus").join(target.name);
     let Ok(entries) = std::fs::read_dir(&folder) else { return Vec::new() };
     let mut files: Vec<(String, Vec<u8>)> = entries
         .map(|entry| entry.unwrap().path())
@@ -101,7 +100,7 @@ fn tables() {
 /// Every target of `fuzz/` is one of those above.
 #[test]
 fn no_target_is_left_out() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("fuzz/fuzz_targets");
+    let folder = crate::common::root().join("fuzz/fuzz_targets");
     let Ok(entries) = std::fs::read_dir(folder) else { return };
     let mut fuzzers: Vec<String> =
         entries.map(|entry| entry.unwrap().path().file_stem().unwrap().to_string_lossy().into_owned()).collect();

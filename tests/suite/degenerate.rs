@@ -3,12 +3,12 @@
 use std::path::Path;
 
 use apportion::result::{OutputResult, StudyResult, parse_result};
-use apportion::study::Study;
 
 use crate::common::HOLES;
 
 fn analysed(text: &str) -> StudyResult {
-    let study = Study::parse(text, Path::new("degenerate.toml"), &[]).unwrap_or_else(|error| panic!("{error}"));
+    let study =
+        apportion_files::parse_study(text, Path::new("degenerate.toml"), &[]).unwrap_or_else(|error| panic!("{error}"));
     study.run().unwrap()
 }
 

@@ -1,10 +1,11 @@
 //! Factors that depend on each other: indices against closed forms.
 
-use crate::common::{effects, study_path};
 use ::apportion::{
     AnalysisOptions, CorrelationMeasure, Dependence, Distribution, EffectEstimates, Estimate, Study, function_model,
 };
 use statrs::distribution::{ContinuousCDF, Normal};
+
+use crate::common::{effects, study_path};
 
 /// Normal factors with standard deviations `sd` and correlations `r`, and the output sum b x.
 pub struct Linear {
@@ -305,7 +306,8 @@ pub fn portfolio_costs() -> ([f64; 4], [f64; 10]) {
 
 #[test]
 fn the_portfolio_has_the_published_indices() {
-    let study = Study::load(&study_path("portfolio"), &["design.base_samples=65536".to_owned()]).unwrap();
+    let study =
+        apportion_files::load_study(&study_path("portfolio"), &["design.base_samples=65536".to_owned()]).unwrap();
     let analysis = study.run().unwrap();
     let output = analysis.output("value").unwrap();
     let first = [1_537_600.0 / 3_033_600.0, 1_210_000.0 / 3_033_600.0, 0.0, 0.0];

@@ -54,7 +54,7 @@ fn from_json(case: &Value) -> Distribution {
 /// Families without a variance of their own are truncated in study files alone.
 fn by_study(keys: &str) -> Distribution {
     let text = format!("model = 'expression'\n[outputs]\ny = 'x'\n[factors.x]\n{keys}");
-    let study = apportion::Study::parse(&text, std::path::Path::new("s.toml"), &[]);
+    let study = apportion_files::parse_study(&text, std::path::Path::new("s.toml"), &[]);
     study.unwrap_or_else(|error| panic!("{error}")).space().factors()[0].distribution().clone()
 }
 

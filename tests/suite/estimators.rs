@@ -39,7 +39,7 @@ fn every_estimator_is_within_its_error_of_every_closed_form_on_every_sampler() {
                 .concat();
         let uneven = exact.mean.powi(2) / exact.variance + 1.0;
         let text = format!("model = \"{}\"", answer.name());
-        let study = Study::parse(&text, Path::new("estimators.toml"), &[]).unwrap();
+        let study = apportion_files::parse_study(&text, Path::new("estimators.toml"), &[]).unwrap();
         for sampler in Sampler::ALL {
             for base_samples in [256, 1024] {
                 let all = estimates(&study, sampler, base_samples);

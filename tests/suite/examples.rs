@@ -17,6 +17,8 @@ mod units_and_failures;
 
 #[test]
 fn examples_run() {
+    // Users start them in the folder of the sources; no other test looks where it stands.
+    std::env::set_current_dir(crate::common::root()).unwrap();
     function_model::main().unwrap();
     pendulum::main().unwrap();
     study_file::main().unwrap();

@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use apportion::exchange::{ColumnKind, Format, ReadOptions, open_table, row_writer};
 use apportion::result::{StudyResult, read_result};
+use apportion_files::exchange::{ColumnKind, Format, ReadOptions, open_table, row_writer};
 
 use crate::common::{apportion, files, gap, numbers, stderr, study_path, succeed, text};
 

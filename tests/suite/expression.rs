@@ -2,8 +2,6 @@
 
 use std::path::Path;
 
-use apportion::study::Study;
-
 use crate::common::{analysed, apportion, gap, numbers, stderr, stdout, study_path};
 
 /// The Ishigami function, as a user would write it.
@@ -31,7 +29,7 @@ max = 3.141592653589793
 
 #[test]
 fn ishigami_by_formula_is_the_built_in_one() {
-    let study = Study::parse(ISHIGAMI, Path::new("formula.toml"), &[]).unwrap();
+    let study = apportion_files::parse_study(ISHIGAMI, Path::new("formula.toml"), &[]).unwrap();
     let by_formula = study.run().unwrap();
     let built_in = analysed("ishigami", &["design.base_samples=4096"]);
     let (first, total) = numbers(&by_formula.outputs[0]);
@@ -118,7 +116,8 @@ fn faults_are_named_with_line_and_column() {
 
 #[test]
 fn what_stands_in_no_formula_is_said() {
-    let study = Study::parse(&ISHIGAMI.replace("b*x3^4*sin(x1)", "1"), Path::new("s.toml"), &[]).unwrap();
+    let study =
+        apportion_files::parse_study(&ISHIGAMI.replace("b*x3^4*sin(x1)", "1"), Path::new("s.toml"), &[]).unwrap();
     assert_eq!(study.notes(), ["factor `x3` stands in no formula", "constant `b` stands in no formula"]);
 }
 

@@ -1,7 +1,7 @@
 //! Every friction law with every contact theory at every fidelity, at the edges of what a user can ask for: a finite
 //! answer or a named reason, never NaN, a panic or an endless loop.
 
-use apportion::afm::{
+use apportion_afm::{
     ContactTheory, Critical, Failure, Fidelity, FrictionLaw, Options, Parameter, Scene, critical_force,
 };
 

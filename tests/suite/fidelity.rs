@@ -3,7 +3,8 @@
 use std::path::Path;
 
 use apportion::result::read_result;
-use apportion::{Distribution, Study, Target, function_model};
+use apportion::run::{GrowingRun, Job, Store, run};
+use apportion::{Distribution, RunContext, Study, Target, function_model};
 
 use crate::common::{Folder, apportion, effects, stderr, study_path, succeed, text};
 
@@ -17,7 +18,7 @@ const PAIR: &str = "model = \"expression\"\n[outputs]\ny = \"sin(x1) + 5*sin(x2)
 
 fn study(text: &str, more: &[&str]) -> Study {
     let overrides: Vec<String> = more.iter().map(|text| (*text).to_owned()).collect();
-    Study::parse(text, Path::new("fidelity.toml"), &overrides).unwrap()
+    apportion_files::parse_study(text, Path::new("fidelity.toml"), &overrides).unwrap()
 }
 
 /// First-order and total indices of the first output.
@@ -227,10 +228,26 @@ fn one_way_to_size_a_run_takes_the_place_of_another() {
     let path = study_path("ishigami");
     let loaded = |overrides: &[&str]| {
         let overrides: Vec<String> = overrides.iter().map(|text| (*text).to_owned()).collect();
-        Study::load(&path, &overrides).unwrap()
+        apportion_files::load_study(&path, &overrides).unwrap()
     };
     assert!(loaded(&["accuracy=0.01"]).target().accuracy.is_some());
     assert_eq!(loaded(&["accuracy=0.01", "design.base_samples=64"]).target(), Target::default());
     let split = loaded(&["design.runs=200"]);
     assert!(split.design().plain_rows() > 0 && split.design().rows() <= 200);
+}
+
+#[test]
+fn the_physics_gives_the_same_bits_row_by_row() {
+    for fidelity in ["closed-form", "quasi-static"] {
+        let changes = [format!("afm.fidelity=\"{fidelity}\""), "design.base_samples=64".to_owned()];
+        let study = apportion_files::load_study(&study_path("lugre-general"), &changes).unwrap();
+        let model = study.model();
+        let job = Job { design: study.design(), space: study.space(), model: model.as_ref() };
+        let plain = run(job, 1, &|_| ()).unwrap();
+        let store = Store::new(study.design(), model.as_ref());
+        let context = RunContext::default();
+        let mut run = GrowingRun::new(job, &context, 2).unwrap().with_store(&store);
+        run.grow_to(u64::MAX, &|_| ()).unwrap();
+        assert!(run.totals() == plain, "{fidelity}");
+    }
 }

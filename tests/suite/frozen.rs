@@ -2,11 +2,11 @@
 //!
 //! `FREEZE=1 cargo test --release frozen` writes the files anew; do so only where a change of numbers is meant.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use serde_json::{Value, json};
 
-use crate::common::{Folder, analysed, succeed, text};
+use crate::common::{Folder, analysed, study_path, succeed, text};
 
 /// Largest relative difference: sums in another order would pass, other formulas would not.
 const RELATIVE: f64 = 1e-12;
@@ -24,7 +24,7 @@ const WITH_UNIT: [&str; 5] = ["mean", "variance", "mean_interval", "variance_int
 const PLAIN: &str = "analysis.surrogate=\"off\"";
 
 fn folder() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/frozen")
+    crate::common::root().join("tests/frozen")
 }
 
 /// The values of a series among the outputs.
@@ -106,7 +106,7 @@ fn hold(name: &str, found: &Value) {
 /// Every study of the folder `studies` that is evaluated in this process, with fewer base samples.
 #[test]
 fn studies_give_the_numbers_they_gave() {
-    let mut names: Vec<String> = std::fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("studies"))
+    let mut names: Vec<String> = std::fs::read_dir(crate::common::root().join("studies"))
         .unwrap()
         .filter_map(|entry| Some(entry.unwrap().file_name().to_str()?.strip_suffix(".toml")?.to_owned()))
         .collect();
@@ -143,7 +143,8 @@ fn a_journal_of_before_is_gone_on_with() {
 fn a_design_of_before_is_analysed() {
     let folder_of_run = Folder::new();
     let design = folder_of_run.path("design.csv");
-    succeed(&["sample", "studies/ishigami.toml", "--base-samples", "64", "--set", PLAIN, "-o", text(&design)]);
+    let study = study_path("ishigami");
+    succeed(&["sample", text(&study), "--base-samples", "64", "--set", PLAIN, "-o", text(&design)]);
     let points = std::fs::read_to_string(&design).unwrap();
     let held = folder().join("ishigami-design.csv");
     if std::env::var_os("FREEZE").is_some() {

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use apportion::given::Measure;
-use apportion::report::given::GivenFile;
+use apportion_report::given::GivenFile;
 
 use crate::common::{apportion, stderr, stdout, text};
 use crate::points::{Columns, random, saltelli, sobol};

@@ -3,9 +3,8 @@
 use std::path::Path;
 
 use apportion::Estimate;
-use apportion::report::{give_or_take, run_document, significant};
 use apportion::result::{OutputResult, StudyResult};
-use apportion::study::Study;
+use apportion_report::{give_or_take, run_document, significant};
 
 const UNIFORM: &str = "distribution = \"uniform\"\nmin = 0\nmax = 1";
 const NORMAL: &str = "distribution = \"normal\"\nmean = 0\nsd = 1";
@@ -15,7 +14,8 @@ fn analysed(formula: &str, distribution: &str, design: &str) -> StudyResult {
     let factors: String =
         ["a", "b", "c"].map(|name| format!("[[factor]]\nname = \"{name}\"\n{distribution}\n")).concat();
     let text = format!("model = \"expression\"\n[outputs]\ny = \"{formula}\"\n[design]\n{design}\n{factors}");
-    let study = Study::parse(&text, Path::new("small.toml"), &[]).unwrap_or_else(|error| panic!("{error}"));
+    let study =
+        apportion_files::parse_study(&text, Path::new("small.toml"), &[]).unwrap_or_else(|error| panic!("{error}"));
     study.run().unwrap()
 }
 
@@ -137,8 +137,10 @@ fn mean_and_variance_are_those_of_all_rows_that_succeeded() {
 fn intervals_hold_where_the_columns_of_a_factor_are_correlated() {
     let text = "model = \"wing-weight\"\n[design]\nbase_samples = 64\n[analysis]\nsurrogate = \"off\"\n";
     let held = (1..=120).filter(|seed| {
-        let result =
-            Study::parse(text, Path::new("wing.toml"), &[format!("design.seed={seed}")]).unwrap().run().unwrap();
+        let result = apportion_files::parse_study(text, Path::new("wing.toml"), &[format!("design.seed={seed}")])
+            .unwrap()
+            .run()
+            .unwrap();
         let [_, (low, _, high)] = bounds(&result, 8);
         // By a corrected run of 65,536 base samples.
         low <= 0.0876 && 0.0876 <= high

@@ -4,12 +4,12 @@ use std::path::Path;
 
 use apportion::model::{Basis, KnownAnswer};
 use apportion::result::{OutputResult, StudyResult};
-use apportion::study::Study;
 
 use crate::common::numbers;
 
 fn analysed(text: &str, overrides: &[String]) -> StudyResult {
-    let study = Study::parse(text, Path::new("known.toml"), overrides).unwrap_or_else(|error| panic!("{error}"));
+    let study = apportion_files::parse_study(text, Path::new("known.toml"), overrides)
+        .unwrap_or_else(|error| panic!("{error}"));
     study.run().unwrap()
 }
 
@@ -99,10 +99,11 @@ fn factors_take_their_own_distributions_and_others_stand_still() {
         some.factors.iter().map(|factor| (&*factor.name, factor.distribution["name"].clone())).collect();
     assert_eq!(names, [("Hd", "uniform".into()), ("Q", "truncated-gumbel".into())]);
     let mixed = "model = \"sobol-g\"\n[function]\na = [0, 1, 2]\n[[factor]]\nname = \"x3\"\nmin = 0.25\nmax = 0.5\n[[factor]]\nname = \"x1\"";
-    let study = Study::parse(mixed, Path::new("mixed.toml"), &[]).unwrap();
+    let study = apportion_files::parse_study(mixed, Path::new("mixed.toml"), &[]).unwrap();
     assert_eq!(study.constants(), [("x2".to_owned(), 0.75, "1".to_owned())]);
     assert_eq!(study.space().factors()[0].distribution().support(), (0.25, 0.5));
-    let overridden = Study::parse("model = \"linear\"", Path::new("l.toml"), &["function.c=[1, 2, 3]".to_owned()]);
+    let overridden =
+        apportion_files::parse_study("model = \"linear\"", Path::new("l.toml"), &["function.c=[1, 2, 3]".to_owned()]);
     assert_eq!(overridden.unwrap().space().factors().len(), 3);
 }
 

@@ -1,6 +1,5 @@
 //! What must not matter: the output's offset and scale, the order of the factors, the number of threads.
 
-use crate::common::{analysed, apportion, gap, numbers, study_path};
 use apportion::design::{Design, DesignSettings, Rows};
 use apportion::model::{Batch, KnownAnswer, KnownFunction, Model, Output, RunContext, Worker};
 use apportion::quantity::Unit;
@@ -8,6 +7,8 @@ use apportion::run::{Job, run};
 use apportion::space::{Distribution, Factor, Space};
 use apportion::uncertainty::{Estimate, IntervalMethod, IntervalOptions, Layout, OutputIndices, output_indices};
 use proptest::prelude::*;
+
+use crate::common::{analysed, apportion, gap, numbers, study_path};
 
 /// Ishigami's function times `scale` plus `offset`, with its inputs in the order `order`.
 struct Changed {

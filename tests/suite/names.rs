@@ -167,7 +167,7 @@ fn no_path_leads_out_of_the_studys_folder_unless_it_says_so() {
             "model = \"command\"\noutputs.y = {{ regex = \"(.*)\" }}\n{outputs}\n[command]\nprogram = [\"true\"]\n{keys}\n{more}\
              [[factor]]\nname = \"a\"\nmin = 0\nmax = 1\n"
         );
-        apportion::study::Study::load(&folder.with("inner/s.toml", study), &[]).map_err(|error| error.to_string())
+        apportion_files::load_study(&folder.with("inner/s.toml", study), &[]).map_err(|error| error.to_string())
     };
     for (keys, more, is_refused) in KEYS {
         match load(keys, more) {
@@ -181,5 +181,5 @@ fn no_path_leads_out_of_the_studys_folder_unless_it_says_so() {
     folder.with("table.csv", "1\n2\n4\n7\n");
     let measured = "model = \"expression\"\noutputs.y = \"a\"\n[[factor]]\nname = \"a\"\n\
                     distribution = \"empirical\"\nfile = \"../table.csv\"\n";
-    apportion::study::Study::load(&folder.with("inner/s.toml", measured), &[]).unwrap();
+    apportion_files::load_study(&folder.with("inner/s.toml", measured), &[]).unwrap();
 }

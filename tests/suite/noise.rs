@@ -156,8 +156,8 @@ fn mean_and_variance_over_repetitions_have_their_indices() {
 const FORMULA: &str =
     "model = \"expression\"\nnoise = \"seed\"\noutputs.y = \"x + sin(seed)\"\n[design]\nbase_samples = 256\n";
 
-fn parsed(text: &str) -> Result<Study, apportion::StudyError> {
-    Study::parse(text, Path::new("noise.toml"), &[])
+fn parsed(text: &str) -> Result<Study, apportion_files::StudyError> {
+    apportion_files::parse_study(text, Path::new("noise.toml"), &[])
 }
 
 #[test]
@@ -256,7 +256,7 @@ fn a_run_tells_random_programs_from_those_that_remember() {
 fn the_example_says_which_question_each_number_answers() {
     let folder = Folder::new();
     for name in ["stochastic.toml", "model.py"] {
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("studies/stochastic").join(name);
+        let path = crate::common::root().join("studies/stochastic").join(name);
         folder.with(name, std::fs::read(path).unwrap());
     }
     let study = folder.path("stochastic.toml");

@@ -1,11 +1,12 @@
 //! Rare levels and thin tails: surrogates do not claim what rows cannot carry, and what rows never met is said to be unknown.
 
-use crate::common::effects;
 use apportion::model::{Model, Output, RunContext, Worker};
 use apportion::{
     AnalysisOptions, Distribution, Sampler, Study, StudyBuilder, StudyResult, SurrogateChoice, Target, Warning,
     function_model,
 };
+
+use crate::common::effects;
 
 /// A model that says that it takes its time, as a program does.
 struct Program<M>(M);
@@ -155,7 +156,7 @@ fn a_trial_says_why_indices_are_plain() {
 fn surrogates_that_are_refused_are_warned_of_once() {
     let text = "model = \"expression\"\noutputs.y = \"a*b + 100*d\"\naccuracy = 0.01\n[factors]\na = { min = 0, max = 1 }\n\
                 b = { min = 0, max = 1 }\nd = { distribution = \"boolean\", probability = 1e-4 }\n";
-    let result = Study::parse(text, "rare.toml".as_ref(), &[]).unwrap().run().unwrap();
+    let result = apportion_files::parse_study(text, "rare.toml".as_ref(), &[]).unwrap().run().unwrap();
     let warnings = &result.outputs[0].warnings;
     assert!(warnings.iter().any(|warning| matches!(warning, Warning::ContradictedSurrogate { .. })), "{warnings:?}");
     assert!(!warnings.contains(&Warning::HeavyTailedSurrogate), "{warnings:?}");

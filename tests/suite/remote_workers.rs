@@ -77,7 +77,7 @@ fn with_workers<R>(study: &Study, workers: usize, answers: usize, run: impl FnOn
 
 fn load(name: &str, overrides: &[&str]) -> Study {
     let overrides: Vec<String> = overrides.iter().map(ToString::to_string).collect();
-    Study::load(&study_path(name), &overrides).unwrap()
+    apportion_files::load_study(&study_path(name), &overrides).unwrap()
 }
 
 fn json(result: &StudyResult) -> serde_json::Value {

@@ -1,10 +1,10 @@
 //! Other measures than Sobol' indices beside those of a run, from its first rows A and B.
 
-use crate::common::{Folder, apportion, run_in_parts, stderr, succeed, text};
+use ::apportion::analysis::MAX_ROWS_OF_MEASURES;
 use ::apportion::given::{Column, Measure, analyse, measures};
-use ::apportion::{
-    AnalysisOptions, Distribution, MAX_ROWS_OF_MEASURES, Sampler, Study, SurrogateChoice, function_model,
-};
+use ::apportion::{AnalysisOptions, Distribution, Sampler, Study, SurrogateChoice, function_model};
+
+use crate::common::{Folder, apportion, run_in_parts, stderr, succeed, text};
 
 /// A sum of three normal factors with slopes 3, 2 and 1, and one that does nothing; rows with a large first factor fail if asked.
 fn linear(sampler: Sampler, base_samples: u64, wanted: &[Measure], fails: bool) -> Study {

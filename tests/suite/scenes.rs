@@ -50,7 +50,7 @@ fn scenes_that_cannot_be_told_say_why() {
 
 #[test]
 fn every_friction_law_contact_theory_and_fidelity_runs_from_a_study_file() {
-    use apportion::afm::{ContactTheory, Fidelity, FrictionLaw};
+    use apportion_afm::{ContactTheory, Fidelity, FrictionLaw};
     let run = |key: &str, name: &str| {
         let overrides = [&format!("afm.{key}={name}")[..], "design.base_samples=32", "afm.tolerance=1e-4"];
         let result = crate::common::analysed("coulomb-dimensional", &overrides);

@@ -58,7 +58,7 @@ fn a_study_of_all_families_fits_the_schema() {
 #[test]
 fn new_studies_of_all_models_fit_the_schema() {
     let (validator, folder) = (validator("study"), tempfile::tempdir().unwrap());
-    for model in apportion::model::ModelKind::all() {
+    for model in apportion_files::ModelKind::all() {
         let path = folder.path().join(format!("{}.toml", model.name));
         let output = apportion(&["new", path.to_str().unwrap(), "--model", model.name]);
         assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
@@ -99,7 +99,7 @@ fn wrong_keys_names_and_types_are_refused() {
     ] {
         assert!(!validator.is_valid(&study(wrong)), "{wrong}");
         let path = std::path::Path::new("wrong.toml");
-        assert!(apportion::study::Study::parse(wrong, path, &[]).is_err(), "{wrong}");
+        assert!(apportion_files::parse_study(wrong, path, &[]).is_err(), "{wrong}");
     }
 }
 

@@ -3,10 +3,10 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use apportion::report::screening::ScreeningFile;
-use apportion::report::sweep::SweepFile;
 use apportion::result::json;
 use apportion::screening::Reading;
+use apportion_report::screening::ScreeningFile;
+use apportion_report::sweep::SweepFile;
 
 use crate::common::{Folder, all_files, apportion, stderr, study_path, succeed, text};
 

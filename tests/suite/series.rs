@@ -2,11 +2,11 @@
 
 use std::f64::consts::TAU;
 
-use apportion::report::run_document;
 use apportion::{
     CorrelationMeasure, Dependence, Distribution, FunctionModel, RowFailure, SeriesAxis, Study, StudyBuilder,
     StudyResult, SurrogateChoice, Unit,
 };
+use apportion_report::run_document;
 
 /// A study of a series of `f` at `positions`, of factors between -1 and 1.
 fn study(
@@ -188,7 +188,7 @@ fn the_push_against_time() {
                 afm = { fidelity = \"quasi-static\", history = { duration = \"2 s\", points = 100 } }\n\
                 design = { base_samples = 1024 }\nanalysis = { surrogate = \"off\" }\n\
                 [factors.velocity]\nmin = 80\nmax = 120\nunit = \"nm/s\"\n[factors.thickness]\nmin = 0.9\nmax = 1.1\nunit = \"um\"\n";
-    let study = Study::parse(text, "push.toml".as_ref(), &[]).unwrap();
+    let study = apportion_files::parse_study(text, "push.toml".as_ref(), &[]).unwrap();
     let analysis = study.run().unwrap();
     let position = analysis.series("position_history").unwrap();
     assert_eq!((&*position.axis, &*position.axis_unit), ("time", "s"));
@@ -205,13 +205,13 @@ fn the_push_against_time() {
     assert!(document.contains("force_history") || document.contains("force history"), "{document}");
     let refused = |history: &str| {
         let text = text.replace("{ duration = \"2 s\", points = 100 }", history);
-        Study::parse(&text, "push.toml".as_ref(), &[]).unwrap_err().to_string()
+        apportion_files::parse_study(&text, "push.toml".as_ref(), &[]).unwrap_err().to_string()
     };
     assert!(refused("{ duration = \"2 um\" }").contains("history.duration"));
     assert!(refused("{ points = 1 }").contains("history.points"));
     assert!(refused("{ point = 10 }").contains("points"));
     assert!(refused("0.4").contains("a table such as"));
     let idle = text.replace("\"position_history\", \"critical_force\", \"force_history\"", "\"critical_force\"");
-    let notes = Study::parse(&idle, "push.toml".as_ref(), &[]).unwrap();
+    let notes = apportion_files::parse_study(&idle, "push.toml".as_ref(), &[]).unwrap();
     assert!(notes.notes().iter().any(|note| note.contains("`history` has no effect")), "{:?}", notes.notes());
 }

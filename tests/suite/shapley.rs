@@ -1,11 +1,12 @@
 //! Shapley effects along random permutations of the factors, against closed forms and through the program.
 
-use crate::common::{Folder, apportion, run_in_parts, stderr, study_path, succeed, text};
-use crate::dependent::{Linear, cases, correlations, portfolio_costs};
 use ::apportion::estimate::{ShapleyMethod, proper_subsets, shapley_effects};
 use ::apportion::{
     AnalysisOptions, BuildError, Distribution, Estimate, Sampler, Study, SurrogateChoice, function_model,
 };
+
+use crate::common::{Folder, apportion, run_in_parts, stderr, study_path, succeed, text};
+use crate::dependent::{Linear, cases, correlations, portfolio_costs};
 
 fn permutations(sampler: Sampler) -> AnalysisOptions {
     let shapley_method = Some(ShapleyMethod::Permutations);
@@ -77,7 +78,7 @@ fn ishigami_and_the_portfolio_have_their_effects() {
         }
     }
     let asked = ["design.base_samples=65536", "analysis.shapley_method=\"permutations\""].map(str::to_owned);
-    let study = Study::load(&study_path("portfolio"), &asked).unwrap();
+    let study = apportion_files::load_study(&study_path("portfolio"), &asked).unwrap();
     let (total, proper) = portfolio_costs();
     for (found, exact) in effects(&study, "value").iter().zip(shapley_effects(&total, &proper)) {
         assert!((found.estimate - exact).abs() < 0.015, "{found:?}, {exact}");

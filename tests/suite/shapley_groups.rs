@@ -1,12 +1,13 @@
 //! Shapley effects of groups of factors: the players of the game are the groups, and the factors that have none.
 
-use crate::common::{Folder, apportion, effects, stderr, succeed, text};
-use crate::dependent::{Linear, correlations};
 use ::apportion::estimate::{ShapleyMethod, ShapleyPlayers, proper_subsets, shapley_effects};
 use ::apportion::{
     AnalysisOptions, BuildError, Dependence, Distribution, Estimate, Factor, OutputResult, Sampler, Study,
     SurrogateChoice, Unit, function_model,
 };
+
+use crate::common::{Folder, apportion, effects, stderr, succeed, text};
+use crate::dependent::{Linear, correlations};
 
 fn factor(name: &str, law: Distribution, group: Option<&str>) -> Factor {
     let mut factor = Factor::new(name, Unit::dimensionless(), law).unwrap();

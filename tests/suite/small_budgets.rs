@@ -1,6 +1,6 @@
 //! Few runs: random points as a table for `given-data`.
 
-use apportion::report::given::GivenFile;
+use apportion_report::given::GivenFile;
 
 use crate::common::{Folder, apportion, stderr, succeed, text};
 

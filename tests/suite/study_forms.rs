@@ -3,18 +3,19 @@
 use std::path::Path;
 
 use apportion::design::DesignError;
-use apportion::study::{BuildError, Problem, Study, StudyError};
+use apportion::study::{BuildError, Study};
+use apportion_files::{Problem, StudyError};
 
 use crate::common::{Folder, apportion, stderr, succeed, text};
 
 fn parsed(study: &str) -> Study {
-    Study::parse(study, Path::new("s.toml"), &[]).unwrap_or_else(|error| panic!("{study}\n{error}"))
+    apportion_files::parse_study(study, Path::new("s.toml"), &[]).unwrap_or_else(|error| panic!("{study}\n{error}"))
 }
 
 /// The study is refused, with all of `expected` in the message.
 #[track_caller]
 fn refused(study: &str, expected: &[&str]) {
-    let error = match Study::parse(study, Path::new("s.toml"), &[]) {
+    let error = match apportion_files::parse_study(study, Path::new("s.toml"), &[]) {
         Ok(_) => panic!("not refused:\n{study}"),
         Err(error) => error.to_string(),
     };
@@ -134,7 +135,7 @@ fn more_factors_than_any_study_can_have_are_refused_while_they_are_read() {
     let head = "model = \"expression\"\noutputs.y = \"x0\"\n";
     let forms: [String; 2] = [format!("[factors]\n{}", lines(10_001)), tables(10_001)];
     for form in forms {
-        let error = Study::parse(&format!("{head}{form}"), Path::new("s.toml"), &[]).unwrap_err();
+        let error = apportion_files::parse_study(&format!("{head}{form}"), Path::new("s.toml"), &[]).unwrap_err();
         let StudyError::Invalid(diagnostic) = error else { panic!("{error}") };
         let too_many = DesignError::FarTooManyFactors { factors: 10_001 };
         assert_eq!(diagnostic.problem, Problem::Build(BuildError::Design(too_many)));

@@ -15,7 +15,7 @@ fn refused(output: &std::process::Output, words: &str) {
 
 fn study(text: &str, more: &[&str]) -> Study {
     let overrides: Vec<String> = more.iter().map(|text| (*text).to_owned()).collect();
-    Study::parse(text, Path::new("surrogate.toml"), &overrides).unwrap()
+    apportion_files::parse_study(text, Path::new("surrogate.toml"), &overrides).unwrap()
 }
 
 const ON: &str = "analysis.surrogate=\"on\"";

@@ -1,7 +1,7 @@
 //! Tables in every format that `evaluate` and `given-data` read, and what of them is skipped or doubted.
 
-use apportion::exchange::{ColumnKind, Format, row_writer};
-use apportion::report::given::GivenFile;
+use apportion_files::exchange::{ColumnKind, Format, row_writer};
+use apportion_report::given::GivenFile;
 
 use crate::common::{Folder, apportion, stderr, succeed, text};
 use crate::points::random;

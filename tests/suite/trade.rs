@@ -1,7 +1,6 @@
 //! `apportion trade`: settings against each other.
 
-use apportion::Study;
-use apportion::trade::settings::SettingsFile;
+use apportion_cli::trade::settings::SettingsFile;
 
 use crate::common::{Folder, all_files, apportion, stderr, study_path, succeed, text};
 
@@ -27,7 +26,7 @@ fn a_function_with_exact_indices_is_compared_with_these() {
     assert!(file.settings[cheapest].error.unwrap() <= 0.1 && file.settings[cheapest].is_on_front);
     // The lines are those of a study.
     let study = format!("model = \"ishigami\"\n{}", file.settings[cheapest].lines);
-    let study = Study::parse(&study, std::path::Path::new("pasted.toml"), &[]).unwrap();
+    let study = apportion_files::parse_study(&study, std::path::Path::new("pasted.toml"), &[]).unwrap();
     assert_eq!(study.design().settings().base_samples, file.settings[cheapest].base_samples);
     let files = all_files(&out);
     for name in

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use apportion::Study;
-use apportion::trade::extremes::{Extremes, ExtremesFile, ExtremesJob, ExtremesSettings, Outcome, extremes};
+use apportion_cli::trade::extremes::{Extremes, ExtremesFile, ExtremesJob, ExtremesSettings, Outcome, extremes};
 
 use crate::common::{all_files, apportion, stderr, study_path, succeed, text};
 
@@ -27,7 +27,7 @@ const STEPS: &str = "afm.step_budget=20000";
 fn loaded(path: &Path) -> Study {
     let text = std::fs::read_to_string(path).unwrap();
     let changes = if text.contains("[afm]") { vec![STEPS.to_owned()] } else { Vec::new() };
-    Study::load(path, &changes).unwrap()
+    apportion_files::load_study(path, &changes).unwrap()
 }
 
 fn map_of(study: &Study, settings: ExtremesSettings) -> Extremes {
@@ -81,7 +81,7 @@ fn other_seeds_find_nothing_either() {
 
 #[test]
 fn the_map_is_the_same_in_every_bit_on_any_threads() {
-    let study = Study::load(&study_path("hk-general"), &[]).unwrap();
+    let study = apportion_files::load_study(&study_path("hk-general"), &[]).unwrap();
     let settings = ExtremesSettings { points: 60, seed: 5 };
     let on = |threads| extremes(&ExtremesJob { settings, threads, ..ExtremesJob::new(&study) }).unwrap();
     // Values that are not numbers are none here, so that maps that are alike are equal.
@@ -105,7 +105,7 @@ fn cancellation_and_underflow_are_flagged() {
         min = 1
         max = 2
     "#;
-    let study = Study::parse(source, Path::new("lost.toml"), &[]).unwrap();
+    let study = apportion_files::parse_study(source, Path::new("lost.toml"), &[]).unwrap();
     let map = map_of(&study, ExtremesSettings { points: 100, seed: 0 });
     assert_nothing_is_silently_wrong("lost", &map);
     let flagged = |output: &str| {

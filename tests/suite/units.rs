@@ -103,7 +103,7 @@ fn sweeps_and_screenings_are_in_the_declared_units() {
 fn spans_have_no_zero_and_ratios_are_refused_in_degrees() {
     let study = |keys: &str| {
         let text = format!("model = \"expression\"\noutputs.y = \"T\"\n[factors.T]\nunit = \"degC\"\n{keys}\n");
-        apportion::study::Study::parse(&text, Path::new("s.toml"), &[])
+        apportion_files::parse_study(&text, Path::new("s.toml"), &[])
     };
     for keys in [
         "distribution = \"normal\"\nmean = 20\nsd = 2",

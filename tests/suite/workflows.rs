@@ -162,8 +162,8 @@ fn evaluate_takes_no_points_as_no_points_and_many_as_many() {
 fn models_lists_every_model_and_shows_each_in_full() {
     let listed = succeed(&["models"]);
     let place = |name: &str| listed.find(&format!("\n  {name} ")).unwrap_or_else(|| panic!("{name}"));
-    let functions = |kind: &apportion::model::ModelKind| kind.known.is_some();
-    for kind in apportion::model::ModelKind::all().into_iter().filter(functions) {
+    let functions = |kind: &apportion_files::ModelKind| kind.known.is_some();
+    for kind in apportion_files::ModelKind::all().into_iter().filter(functions) {
         assert!(place("afm") < place(kind.name), "the flagship comes first");
         let shown = succeed(&["models", kind.name]);
         for input in kind.inputs() {
@@ -173,8 +173,8 @@ fn models_lists_every_model_and_shows_each_in_full() {
     }
     assert!(listed.lines().count() < 40);
     let shown = succeed(&["models", "afm"]);
-    let inputs = apportion::afm::Parameter::ALL.iter().map(|parameter| parameter.name);
-    let outputs = apportion::model::AfmOutput::ALL.iter().map(|output| output.name());
+    let inputs = apportion_afm::Parameter::ALL.iter().map(|parameter| parameter.name);
+    let outputs = apportion_afm::AfmOutput::ALL.iter().map(|output| output.name());
     let keys = ["adhesion_in_load", "tolerance", "step", "maugis-dugdale", "quasi-static"];
     for name in inputs.chain(outputs).chain(keys) {
         assert!(shown.contains(name), "{name}");

@@ -3,12 +3,11 @@
 use std::path::Path;
 
 use apportion::Study;
-use apportion::model::ModelKind;
-use apportion::report::document::{DataFile, symbols};
-use apportion::report::{one_output, run_document};
+use apportion::analysis::study_setup;
 use apportion::result::StudyResult;
-use apportion::study::{StudyError, edited};
-use apportion::study_setup;
+use apportion_files::{ModelKind, StudyError, edited};
+use apportion_report::document::{DataFile, symbols};
+use apportion_report::{one_output, run_document};
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
@@ -92,7 +91,7 @@ impl Request {
     }
 
     fn study(&self) -> Result<Study, String> {
-        let study = Study::parse(&self.text, Path::new("study.toml"), &self.changes);
+        let study = apportion_files::parse_study(&self.text, Path::new("study.toml"), &self.changes);
         study.map_err(|error| in_words(&error))
     }
 

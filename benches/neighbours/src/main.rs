@@ -8,7 +8,7 @@ mod driven;
 
 use std::time::Instant;
 
-use apportion::afm::ode::{DormandPrince, Rodas};
+use apportion_afm::ode::{DormandPrince, Rodas};
 use diffsol::{NalgebraLU, NalgebraMat, OdeBuilder, OdeSolverMethod, OdeSolverStopReason};
 use driven::{STEPS, TOLERANCE, crossing};
 

@@ -1,7 +1,8 @@
 //! What must not matter: offset, scale, and where a sample is cut into blocks.
 
-use super::*;
 use proptest::prelude::*;
+
+use super::*;
 
 /// The estimators that no offset may touch.
 fn centred(all: Vec<(String, f64)>) -> Vec<(String, f64)> {

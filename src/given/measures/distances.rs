@@ -27,8 +27,9 @@ pub fn distances(order: &Order, (labels, count): &Partition) -> Vec<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use proptest::prelude::*;
+
+    use super::*;
 
     proptest! {
         #[test]

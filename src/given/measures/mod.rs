@@ -10,6 +10,9 @@ mod hsic;
 
 use std::collections::BTreeMap;
 
+use density::OutputDistribution;
+use distances::distances;
+pub use hsic::MAX_ROWS as MAX_ROWS_OF_KERNELS;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
@@ -20,14 +23,11 @@ use super::order::{Order, Partition};
 use super::{GivenIndices, PointSet, centred};
 use crate::names::named;
 use crate::uncertainty::{Estimate, Interval, NORMAL_QUANTILE};
-use density::OutputDistribution;
-use distances::distances;
-pub use hsic::MAX_ROWS as MAX_ROWS_OF_KERNELS;
 
 named! {
 /// A measure of the influence of an input on an output.
 #[derive(PartialOrd, Ord, Serialize, Deserialize)]
-#[cfg_attr(feature = "study", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Measure {
     /// First-order index from the spectrum of the output in the order of the input: EASI, Plischke (2010), Reliab. Eng. Syst. Saf.
@@ -64,7 +64,7 @@ impl Measure {
 
 /// A measure of one input.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "study", derive(schemars::JsonSchema), schemars(rename = "MeasuredRecord"))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(rename = "MeasuredRecord"))]
 #[non_exhaustive]
 pub struct Measured {
     /// The measure, with its interval where it has one: of delta, of independent rows and those of a run.
@@ -79,7 +79,7 @@ pub struct Measured {
 
 /// The measures of one input.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "study", derive(schemars::JsonSchema), schemars(rename = "GivenMeasuresRecord"))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(rename = "GivenMeasuresRecord"))]
 #[non_exhaustive]
 pub struct InputMeasures {
     /// The input.

@@ -10,6 +10,8 @@ mod coordinates;
 mod estimates;
 mod marginals;
 
+use contributions::{Contributions, FoldSums};
+use coordinates::Coordinates;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
@@ -23,8 +25,6 @@ use crate::surrogate::fit::Expansion;
 use crate::surrogate::net::Net;
 use crate::surrogate::{cross_fitted, told_terms};
 use crate::uncertainty::{Estimate, NamedTerm};
-use contributions::{Contributions, FoldSums};
-use coordinates::Coordinates;
 
 /// Share of the variance of rows that it has not seen which a surrogate must explain to serve: what it leaves adds to the upper
 /// end of every interval.

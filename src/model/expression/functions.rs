@@ -2,18 +2,14 @@
 
 /// A function of one argument.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct OfOne {
-    // Read by the second calculation of formulas alone.
-    #[cfg_attr(not(feature = "extremes"), allow(dead_code))]
+pub struct OfOne {
     pub name: &'static str,
     pub value: fn(f64) -> f64,
 }
 
 /// A function of two arguments.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct OfTwo {
-    // Read by the second calculation of formulas alone.
-    #[cfg_attr(not(feature = "extremes"), allow(dead_code))]
+pub struct OfTwo {
     pub name: &'static str,
     pub value: fn(f64, f64) -> f64,
 }

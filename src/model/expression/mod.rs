@@ -7,17 +7,14 @@
 mod error;
 mod functions;
 mod parse;
-#[cfg(feature = "extremes")]
-mod precise;
-mod program;
+pub mod program;
 mod token;
 
 pub use error::{ExpressionError, ExpressionProblem};
-#[cfg(feature = "extremes")]
-pub(crate) use precise::{PreciseFormulas, reference};
+pub use functions::{OfOne, OfTwo};
+use program::{Program, Stack, TILE};
 
 use super::{Batch, Model, Output, RowFailure, RunContext, Worker};
-use program::{Program, Stack, TILE};
 
 /// What a name in a formula stands for.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -71,6 +68,11 @@ impl Expression {
     /// The formula as written.
     pub fn text(&self) -> &str {
         &self.text
+    }
+
+    /// The formula as steps on a stack of columns.
+    pub fn program(&self) -> &Program {
+        &self.program
     }
 
     /// Whether the input of that number stands in the formula.

@@ -3,11 +3,11 @@
 use super::functions::{OfOne, OfTwo};
 
 /// Rows computed at a time: a few columns of them stay in the nearest cache.
-pub(super) const TILE: usize = 256;
+pub const TILE: usize = 256;
 
 /// A comparison of two numbers: 1 if it holds, 0 if not, NaN if one of them is NaN.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Comparison {
+pub enum Comparison {
     Less,
     LessOrEqual,
     Greater,
@@ -35,7 +35,7 @@ impl Comparison {
 
 /// One step: takes its operands from the stack and leaves its result there.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Step {
+pub enum Step {
     Input(usize),
     Number(f64),
     Negate,
@@ -54,13 +54,13 @@ pub(super) enum Step {
 
 /// The steps of a formula, in order.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Program {
+pub struct Program {
     steps: Vec<Step>,
 }
 
 /// Columns of intermediate values, one after the other; kept from one tile to the next.
 #[derive(Default)]
-pub(super) struct Stack {
+pub struct Stack {
     columns: Vec<[f64; TILE]>,
 }
 
@@ -91,7 +91,6 @@ impl Program {
         self.steps.pop();
     }
 
-    #[cfg(feature = "extremes")]
     pub fn steps(&self) -> &[Step] {
         &self.steps
     }

@@ -29,13 +29,11 @@ use std::fmt;
 use std::sync::Arc;
 
 pub use exact::{Basis, Exact, ExactIndices};
-pub use function::{Function, KnownInput};
-pub use model::known_model;
-pub(super) use model::known_output;
-pub use parameters::{MAX_INPUTS, ParameterError, ParameterInfo, ParameterValue};
-
 use function::Made;
+pub use function::{Function, KnownInput};
+pub use model::{known_inputs, known_model, known_output};
 use parameters::Given;
+pub use parameters::{MAX_INPUTS, ParameterError, ParameterInfo, ParameterValue};
 
 /// What the list of functions holds of each.
 struct Entry {

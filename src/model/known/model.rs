@@ -1,11 +1,11 @@
 //! A function with known indices as a model.
 
-use super::KnownFunction;
-use crate::model::{FunctionModel, Model, Output, RowFailure};
+use super::{KnownFunction, KnownInput};
+use crate::model::{FunctionModel, Input, Model, Output, RowFailure};
 use crate::quantity::Unit;
 
 /// The one output, y.
-pub(in crate::model) fn known_output() -> Output {
+pub fn known_output() -> Output {
     Output::new("y", Unit::dimensionless(), "value of the function")
 }
 
@@ -26,4 +26,19 @@ pub fn known_model(function: KnownFunction, base: Vec<f64>, factors: Vec<usize>)
             None => Ok(()),
         }
     })
+}
+
+/// The inputs of a function with its parameters chosen. An input that is no factor stands at its upper quartile: at
+/// their middle, many of these functions hide what the other inputs do (Sobol' G of a_1 = 0 is 0 there).
+pub fn known_inputs(function: &KnownFunction) -> Vec<Input> {
+    let input = |input: &KnownInput| Input {
+        symbol: input.name.clone(),
+        name: input.name.clone(),
+        unit: Unit::dimensionless(),
+        nominal: input.distribution.quantile(0.75),
+        domain: input.domain,
+        description: input.description.clone(),
+        distribution: Some(input.distribution.clone()),
+    };
+    function.inputs().iter().map(input).collect()
 }

@@ -54,7 +54,7 @@ pub struct ParameterError {
 
 impl ParameterError {
     /// The function has no such parameter.
-    pub(crate) fn unknown(parameter: &str) -> Self {
+    pub fn unknown(parameter: &str) -> Self {
         Self { parameter: parameter.to_owned(), problem: format!("the function has no parameter `{parameter}`") }
     }
 

@@ -1,8 +1,9 @@
 //! Tests of units.
 
+use proptest::prelude::*;
+
 use super::*;
 use crate::quantity::symbols::spellings;
-use proptest::prelude::*;
 
 fn unit(text: &str) -> Unit {
     Unit::parse(text).unwrap_or_else(|error| panic!("{error}"))

@@ -3,19 +3,18 @@
 mod histogram;
 mod quantile;
 
-use serde::{Deserialize, Serialize};
-
 pub use quantile::{PERCENTS, quantile};
+use serde::{Deserialize, Serialize};
 
 use crate::quantity::Unit;
 use crate::sum::{mean, rescaled};
 
 /// The distribution of one output over a sample, as it stands in result files. Numbers are in `unit`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "study", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct OutputDistribution {
     /// The unit of the numbers.
-    #[cfg_attr(feature = "study", schemars(with = "String"))]
+    #[cfg_attr(feature = "schema", schemars(with = "String"))]
     pub unit: Unit,
     /// Number of values n.
     pub count: u64,
@@ -39,7 +38,7 @@ pub struct OutputDistribution {
 
 /// A quantile.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "study", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct QuantileRecord {
     /// Its probability in percent.
     pub percent: f64,
@@ -54,7 +53,7 @@ pub struct QuantileRecord {
 /// of Freedman and Diaconis (1981), 2 IQR n^(-1/3), or where the IQR is 0 that of Scott (1979), 3.49 sd n^(-1/3), and not
 /// less than a hundredth of the whole.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "study", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Histogram {
     /// Edges of the bins, ascending, one more than bins. A value on an inner edge belongs to the bin above it.
     pub edges: Vec<f64>,

@@ -1,8 +1,6 @@
 //! Result files read back: what is no result is refused, with what is wrong and where.
 
 mod coherence;
-#[cfg(all(test, feature = "charts"))]
-mod tests;
 
 use std::path::{Path, PathBuf};
 
@@ -84,7 +82,7 @@ pub fn read_result(path: &Path) -> Result<StudyResult, ReadError> {
 /// use apportion::result::parse_result;
 /// use apportion::Study;
 ///
-/// let study = Study::parse("model = \"ishigami\"", Path::new("a.toml"), &["design.base_samples=256".to_owned()])?;
+/// let study = apportion_files::parse_study("model = \"ishigami\"", Path::new("a.toml"), &["design.base_samples=256".to_owned()])?;
 /// let result = study.run()?;
 /// assert_eq!(parse_result(result.json().as_bytes())?, result);
 /// # Ok::<(), Box<dyn std::error::Error>>(())

@@ -18,12 +18,11 @@ use std::sync::{Mutex, PoisonError};
 use std::thread;
 use std::time::Duration;
 
-use serde_json::Value;
-
 pub use error::JournalError;
 pub use format::{Contents, read_journal};
 pub(super) use format::{record, write_record};
 pub use identity::differences;
+use serde_json::Value;
 
 use super::Piece;
 use crate::clock::Instant;

@@ -7,8 +7,6 @@ use crate::model::{Batch, FunctionModel, Model, Output, RowFailure, RunContext, 
 use crate::quantity::Unit;
 use crate::run::{BLOCK, GrowingRun, Progress, Shard, Totals, run};
 use crate::space::{Distribution, Factor, Space};
-#[cfg(feature = "study")]
-use crate::study::Study;
 
 fn space() -> Space {
     let unit_interval = || Distribution::uniform(0.0, 1.0).unwrap();
@@ -53,24 +51,6 @@ fn totals_from_a_store_are_those_of_a_plain_run() {
         // Nothing is evaluated twice.
         assert!(with_store(&design, &model, &store, u64::MAX).unwrap() == plain);
         assert_eq!(rows.load(Ordering::Relaxed), design.rows());
-    }
-}
-
-#[test]
-#[cfg(feature = "study")]
-fn the_physics_gives_the_same_bits_row_by_row() {
-    for fidelity in ["closed-form", "quasi-static"] {
-        let text = include_str!("../../../studies/lugre-general.toml");
-        let changes = [format!("afm.fidelity=\"{fidelity}\""), "design.base_samples=64".to_owned()];
-        let study = Study::parse(text, "lugre-general.toml".as_ref(), &changes).unwrap();
-        let model = study.model();
-        let job = Job { design: &study.design, space: &study.space, model: model.as_ref() };
-        let plain = run(job, 1, &|_| ()).unwrap();
-        let store = Store::new(&study.design, model.as_ref());
-        let context = RunContext::default();
-        let mut run = GrowingRun::new(job, &context, 2).unwrap().with_store(&store);
-        run.grow_to(u64::MAX, &|_| ()).unwrap();
-        assert!(run.totals() == plain, "{fidelity}");
     }
 }
 

@@ -1,7 +1,7 @@
-use super::*;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 
+use super::*;
 use crate::model::{FunctionModel, Model, Output, RowFailure, RunContext, Worker};
 use crate::quantity::Unit;
 
@@ -67,10 +67,10 @@ fn rows_keep_their_places_and_failures_for_any_number_of_workers() {
     for workers in [1, 2, 3, 16, 1024] {
         let model = slow(workers, -1.0);
         let context = RunContext::default();
-        let (executor, mut batch) = (Executor::new(&model, &context, 0), Batch::new(&model));
+        let (table, mut batch) = (TableRun::new(&model, &context, 0), Batch::new(&model));
         for _ in 0..2 {
             batch.reset(x.len());
-            executor.run_table(&[&x], &mut batch).unwrap();
+            table.run(&[&x], &mut batch).unwrap();
             assert_eq!(batch.failures(), expected.failures());
             assert!(batch.column(0).iter().zip(expected.column(0)).all(|(a, b)| a.to_bits() == b.to_bits()));
         }
@@ -86,7 +86,7 @@ fn no_rows_are_no_work() {
     let model = slow(4, -1.0);
     let mut batch = Batch::new(&model);
     batch.reset(0);
-    Executor::new(&model, &RunContext::default(), 0).run_table(&[&[]], &mut batch).unwrap();
+    TableRun::new(&model, &RunContext::default(), 0).run(&[&[]], &mut batch).unwrap();
     assert!(batch.failures().is_empty());
 }
 
@@ -97,7 +97,7 @@ fn a_model_that_gives_up_ends_the_work() {
     let mut batch = Batch::new(&model);
     batch.reset(x.len());
     let context = RunContext::default();
-    let halt = Executor::new(&model, &context, 0).run_table(&[&x], &mut batch).unwrap_err();
+    let halt = TableRun::new(&model, &context, 0).run(&[&x], &mut batch).unwrap_err();
     assert_eq!(halt, Halt::GaveUp(RowFailure::new("enough").into()));
 }
 
@@ -108,8 +108,8 @@ fn a_stop_ends_the_work() {
     let mut batch = Batch::new(&model);
     batch.reset(x.len());
     let context = RunContext::new(Some(&stop), |_| ());
-    let executor = Executor::new(&model, &context, 0);
+    let workers = TableRun::new(&model, &context, 0);
     stop.store(true, Ordering::Relaxed);
-    assert_eq!(executor.run_table(&[&x], &mut batch), Err(Halt::Interrupted));
+    assert_eq!(workers.run(&[&x], &mut batch), Err(Halt::Interrupted));
     assert!(model.threads.lock().unwrap().is_empty());
 }

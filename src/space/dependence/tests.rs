@@ -1,6 +1,7 @@
+use std::f64::consts::PI;
+
 use super::*;
 use crate::quantity::Unit;
-use std::f64::consts::PI;
 
 fn space(laws: Vec<Distribution>) -> Space {
     let names = ["a", "b", "c", "d"];

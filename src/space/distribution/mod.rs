@@ -35,16 +35,15 @@ mod uniform;
 mod values;
 mod weibull;
 
-use serde::ser::{Serialize, SerializeMap, Serializer};
-
-use crate::quantity::Unit;
-use family::Family;
-
 pub use error::DistributionError;
+use family::Family;
 pub use family::Parameter;
 pub use keys::{Argument, KEYS, Key, KeyKind, Kind};
 pub(crate) use seed::{mixed, seed_of};
+use serde::ser::{Serialize, SerializeMap, Serializer};
 pub use values::{MeasuredFile, Values};
+
+use crate::quantity::Unit;
 
 /// The smallest `u` at which quantiles are promised to be finite, 2^-64.
 pub const SMALLEST_U: f64 = 1.0 / (1u128 << 64) as f64;

@@ -1,10 +1,10 @@
 //! Tests of what a distribution promises apart from its numbers, which `tests/distributions.rs` checks.
 
+use DistributionError as Error;
 use proptest::prelude::*;
+use student_t::StudentT;
 
 use super::*;
-use DistributionError as Error;
-use student_t::StudentT;
 
 mod refused;
 mod solved;

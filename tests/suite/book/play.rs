@@ -17,7 +17,7 @@ pub fn faults(page: &Page) -> Vec<String> {
     let mut corrections = Vec::new();
     let mut faults = page.faults.clone();
     let folder = Folder::new();
-    let studies = Path::new(env!("CARGO_MANIFEST_DIR")).join("studies");
+    let studies = crate::common::root().join("studies");
     std::os::unix::fs::symlink(studies, folder.path("studies")).unwrap();
     let mut printed: Option<String> = None;
     for block in &page.blocks {
@@ -146,7 +146,7 @@ fn in_an_example(shown: &str) -> Option<String> {
         text.lines().map(str::trim).filter(|line| !line.is_empty()).map(str::to_owned).collect()
     };
     let wanted = lines(shown);
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples");
+    let folder = crate::common::root().join("examples");
     let paths = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
     let is_there = paths.filter(|path| path.extension().is_some_and(|ending| ending == "rs")).any(|path| {
         let program = lines(&std::fs::read_to_string(path).unwrap());

@@ -1,7 +1,6 @@
 //! Puts what came out into the page: `BOOK=update`.
 
 use std::collections::BTreeSet;
-use std::path::Path;
 
 use super::page::{Block, Page};
 use super::play::is_alike;
@@ -70,7 +69,7 @@ fn cut_like(line: &str, printed: &str) -> String {
 
 /// Writes the corrected outputs into the page.
 pub fn write(page: &Page, corrections: &[(&Block, String)]) {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(&page.name);
+    let path = crate::common::root().join(&page.name);
     let text = std::fs::read_to_string(&path).unwrap();
     let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
     for (block, corrected) in corrections.iter().rev() {

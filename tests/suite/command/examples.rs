@@ -1,13 +1,12 @@
 //! The worked examples in `studies/` run and give the indices that are known.
 
 use apportion::result::OutputResult;
-use apportion::study::Study;
 
 use crate::common::{gap, numbers, study_path};
 
 fn analysed(name: &str, base_samples: u64) -> Vec<OutputResult> {
     let path = study_path(&format!("{name}/{name}"));
-    let study = Study::load(&path, &[format!("design.base_samples={base_samples}")]).unwrap();
+    let study = apportion_files::load_study(&path, &[format!("design.base_samples={base_samples}")]).unwrap();
     let result = study.run().unwrap();
     assert_eq!(
         result.outputs.iter().map(|output| output.runs_failed).sum::<u64>(),

@@ -5,7 +5,6 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use apportion::run::RowValues;
 use apportion::run::journal::read_journal;
-use apportion::study::Study;
 
 use super::{Case, failures};
 use crate::common::stderr;
@@ -154,7 +153,7 @@ impl Trial {
 
 /// Rows in the journal of a case: all, those with the number of the formula, and those with another.
 fn on_record(case: &Case) -> (usize, usize, usize) {
-    let study = Study::load(&case.path("study.toml"), &[]).unwrap();
+    let study = apportion_files::load_study(&case.path("study.toml"), &[]).unwrap();
     let journal = case.path("out/study.journal");
     let contents = read_journal(&journal, &std::fs::read(&journal).unwrap()).unwrap();
     let (mut all, mut right, mut wrong) = (0, 0, 0);

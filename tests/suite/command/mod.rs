@@ -145,7 +145,7 @@ pub fn by_formula(case: &Case, formula: &str) -> StudyResult {
     let text = format!("{}{}", &text[..start], &text[end..]);
     let text = text.replace("model = \"command\"", "model = \"expression\"");
     let text = text.replace("outputs = [\"y\"]", &format!("outputs.y = \"{formula}\""));
-    let study = apportion::study::Study::parse(&text, Path::new("formula.toml"), &[]).unwrap();
+    let study = apportion_files::parse_study(&text, Path::new("formula.toml"), &[]).unwrap();
     study.run().unwrap()
 }
 
@@ -155,7 +155,7 @@ pub const FORMULA: &str = "x1 + 2*x2 + x1*x3";
 /// Rows of the study at which a condition on the first factor holds.
 pub fn rows_where(condition: impl Fn(f64) -> bool) -> u64 {
     let case = Case::new("", "");
-    let study = apportion::study::Study::load(&case.path("study.toml"), &[]).unwrap();
+    let study = apportion_files::load_study(&case.path("study.toml"), &[]).unwrap();
     let design = study.design();
     let (mut count, points) = (0, design.points_per_replicate() as usize);
     for replicate in 0..design.settings().replicates {

@@ -50,7 +50,7 @@ fn keys_are_checked_with_their_places() {
 fn a_study_without_program_or_outputs_is_refused() {
     let refused = |text: &str, expected: &[&str]| {
         let text = format!("{text}\n[[factor]]\nname = \"x\"\nmin = 0\nmax = 1\n");
-        let error = apportion::study::Study::parse(&text, "s.toml".as_ref(), &[]).unwrap_err().to_string();
+        let error = apportion_files::parse_study(&text, "s.toml".as_ref(), &[]).unwrap_err().to_string();
         contains(&error, expected);
     };
     refused("model = \"command\"", &["the study has no program", "command = [\"python3\", \"my_model.py\"]"]);

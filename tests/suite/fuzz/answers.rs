@@ -1,6 +1,6 @@
 //! What a program prints that is a model.
 
-use apportion::model::{Protocol, parse_answer};
+use apportion_files::{Protocol, parse_answer};
 
 /// Every line is an answer with a value for each output, a failure with a reason, or no answer.
 pub fn run(bytes: &[u8]) {

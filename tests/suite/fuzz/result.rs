@@ -1,9 +1,9 @@
 //! Result files: whatever is read as one can be drawn.
 
-use apportion::report::comparison::{NamedResult, compare_results, comparison_document};
-use apportion::report::document::Document;
-use apportion::report::run_document;
 use apportion::result::{StudyResult, parse_result};
+use apportion_report::comparison::{NamedResult, compare_results, comparison_document};
+use apportion_report::document::Document;
+use apportion_report::run_document;
 
 /// A result is refused, or drawn in every way there is; written again it is the same.
 pub fn run(bytes: &[u8]) {

@@ -1,7 +1,7 @@
 //! Files of points and outputs, and what stands beside them.
 
-use apportion::exchange::{ColumnKind, Manifest, ReadOptions, table_of_bytes};
 use apportion::salib::SalibProblem;
+use apportion_files::exchange::{ColumnKind, Manifest, ReadOptions, table_of_bytes};
 
 /// Rows up to which a table is read.
 const ROWS: usize = 1 << 16;

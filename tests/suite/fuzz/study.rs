@@ -4,7 +4,9 @@ use std::path::Path;
 
 use apportion::model::{Batch, RunContext};
 use apportion::result::parse_result;
-use apportion::study::{AfmSubject, Study, StudyError, TemplateRequest, template};
+use apportion::study::Study;
+use apportion_afm::AfmSubject;
+use apportion_files::{StudyError, TemplateRequest, template};
 
 /// What stands between the file and the changes, one a line.
 const CHANGES: &str = "\n--set\n";
@@ -28,14 +30,14 @@ pub fn run(bytes: &[u8]) {
     }
     let (text, changes) = text.split_once(CHANGES).unwrap_or((text, ""));
     let changes: Vec<String> = changes.lines().map(str::to_owned).collect();
-    let mut study = match Study::parse(text, Path::new("fuzz/study.toml"), &changes) {
+    let mut study = match apportion_files::parse_study(text, Path::new("fuzz/study.toml"), &changes) {
         Ok(study) => study,
         Err(error) => return refused(&error),
     };
     if let Some(afm) = study.subject().downcast_ref::<AfmSubject>() {
         let budget = format!("afm.step_budget={}", afm.options.step_budget.min(STEPS));
         let changes = [changes, vec![budget]].concat();
-        let Ok(patient) = Study::parse(text, Path::new("fuzz/study.toml"), &changes) else { return };
+        let Ok(patient) = apportion_files::parse_study(text, Path::new("fuzz/study.toml"), &changes) else { return };
         study = patient;
     }
     begun(&study);
@@ -88,14 +90,15 @@ fn answered(study: &Study) {
 
 /// A study to begin with, of the same model, factors and outputs.
 fn begun(study: &Study) {
-    let Some(model) = apportion::model::ModelKind::from_name(study.subject().name()) else { return };
+    let Some(model) = apportion_files::ModelKind::from_name(study.subject().name()) else { return };
     let names = study.space().factors().iter().map(|factor| factor.name.clone());
     let outputs = study.model().outputs().iter().map(|output| output.name.to_string()).collect();
     let request =
         TemplateRequest { model, title: study.title().map(str::to_owned), factors: names.take(8).collect(), outputs };
     // Inputs that a function has only by its parameters are not inputs of the function as it comes.
     let Ok(text) = template(&request) else { return };
-    let begun = Study::parse(&text, Path::new("new.toml"), &[]).unwrap_or_else(|error| panic!("{error}\n{text}"));
+    let begun = apportion_files::parse_study(&text, Path::new("new.toml"), &[])
+        .unwrap_or_else(|error| panic!("{error}\n{text}"));
     let names = |study: &Study| study.model().outputs().iter().map(|output| output.name.clone()).collect::<Vec<_>>();
     assert_eq!(names(&begun), names(study));
 }

@@ -3,10 +3,12 @@
 use std::path::Path;
 use std::sync::LazyLock;
 
-use apportion::exchange::{Missing, ReadOptions, RowReader, Selection, Table, evaluate, read_table, table_of_bytes};
 use apportion::given::analyse;
-use apportion::report::given::{GivenFacts, build_given, given_document};
 use apportion::study::Study;
+use apportion_files::exchange::{
+    Missing, ReadOptions, RowReader, Selection, Table, evaluate, read_table, table_of_bytes,
+};
+use apportion_report::given::{GivenFacts, build_given, given_document};
 
 /// A study with a factor of every kind.
 static STUDY: LazyLock<Study> = LazyLock::new(|| {
@@ -18,7 +20,7 @@ static STUDY: LazyLock<Study> = LazyLock::new(|| {
             { name = "c", distribution = "boolean" },
             { name = "d", distribution = "categorical", labels = ["steel", "brass, 1"], values = [2, 1] },
         ]"#;
-    Study::parse(text, Path::new("points.toml"), &[]).expect("the study is right")
+    apportion_files::parse_study(text, Path::new("points.toml"), &[]).expect("the study is right")
 });
 
 /// Cells up to which a table is analysed too.

@@ -1,0 +1,103 @@
+//! Validity flags: a result exists, but an assumption behind it is strained.
+
+use apportion::names::named;
+
+named! {
+    /// One strained assumption.
+    pub enum Flag {
+        /// The contact radius exceeds 0.3 particle radii: half-space contact mechanics no longer holds.
+        LargeContact = "large-contact",
+        /// The mean pressure F_Z/(pi a^2) exceeds the hardness of the particle: it would flow plastically.
+        AboveHardness = "above-hardness",
+        /// The cantilever twists by more than 0.1 rad: the small-angle geometry no longer holds.
+        LargeTwist = "large-twist",
+        /// The Tabor parameter lies outside the range of the chosen contact theory. Never raised without adhesion,
+        /// where all theories agree.
+        TaborOutOfRange = "tabor-out-of-range",
+        /// The LuGre fast form was used although the velocity is above 1 % of the Stribeck velocity.
+        FastLuGreForm = "fast-lugre-form",
+    }
+}
+
+impl Flag {
+    /// A sentence for reports.
+    pub const fn description(self) -> &'static str {
+        match self {
+            Self::LargeContact => {
+                "The contact radius exceeds 0.3 particle radii: half-space contact mechanics no longer holds."
+            }
+            Self::AboveHardness => {
+                "The mean contact pressure exceeds the hardness: the particle would flow plastically."
+            }
+            Self::LargeTwist => "The cantilever twists by more than 0.1 rad: the small-angle geometry no longer holds.",
+            Self::TaborOutOfRange => "The Tabor parameter lies outside the range of the chosen contact theory.",
+            Self::FastLuGreForm => {
+                "The fast form of the LuGre law was used although the velocity is above 1 % of the Stribeck velocity."
+            }
+        }
+    }
+
+    #[inline]
+    const fn bit(self) -> u8 {
+        1 << self as u8
+    }
+}
+
+/// A set of [`Flag`]s.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Flags(u8);
+
+impl Flags {
+    /// The set without any flag.
+    pub const NONE: Self = Self(0);
+
+    /// This set, and `flag` too if `raised`.
+    #[inline(always)]
+    #[must_use]
+    pub const fn with(self, flag: Flag, raised: bool) -> Self {
+        Self(self.0 | if raised { flag.bit() } else { 0 })
+    }
+
+    /// Whether `flag` is in the set.
+    #[inline]
+    pub const fn contains(self, flag: Flag) -> bool {
+        self.0 & flag.bit() != 0
+    }
+
+    /// Whether no flag is in the set.
+    #[inline]
+    pub const fn is_empty(self) -> bool {
+        self.0 == 0
+    }
+
+    /// The set as bits: bit `i` stands for `Flag::ALL[i]`.
+    pub const fn bits(self) -> u8 {
+        self.0
+    }
+
+    /// The flags in the set, in the order of [`Flag::ALL`].
+    pub fn iter(self) -> impl Iterator<Item = Flag> {
+        Flag::ALL.iter().copied().filter(move |&flag| self.contains(flag))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bits_follow_the_order_of_all() {
+        for (index, &flag) in Flag::ALL.iter().enumerate() {
+            assert_eq!(Flags::NONE.with(flag, true).bits(), 1 << index);
+            assert!(Flags::NONE.with(flag, false).is_empty());
+        }
+    }
+
+    #[test]
+    fn a_set_gives_back_what_was_put_in() {
+        let set = Flags::NONE.with(Flag::TaborOutOfRange, true).with(Flag::LargeContact, true);
+        assert_eq!(set.iter().collect::<Vec<_>>(), [Flag::LargeContact, Flag::TaborOutOfRange]);
+        assert_eq!(set.with(Flag::LargeContact, false), set, "with adds, it never removes");
+        assert!(!set.contains(Flag::LargeTwist));
+    }
+}

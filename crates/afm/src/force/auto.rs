@@ -1,0 +1,20 @@
+//! The lowest rung that is accurate enough.
+
+use super::{Cost, Critical, Options, closed_form, dynamic, quasi_static};
+use crate::{Failure, Scene};
+
+/// Climbs from the closed form until an error estimate meets the tolerance, or no higher rung does better; what the lower
+/// rungs cost is counted too. A failure of a rung is the answer: a lower one is not more able.
+pub(super) fn critical_force(scene: &Scene, options: &Options) -> Result<Critical, Failure> {
+    let closed = closed_form::critical_force(scene, options)?;
+    if closed.error_estimate <= options.tolerance {
+        return Ok(closed);
+    }
+    let spent = closed.cost.evaluations;
+    let (exact, shared) = quasi_static::with_swing(scene, options)?;
+    // At rest nothing is dynamic.
+    let best = exact.error_estimate <= options.tolerance + shared || scene.velocity == 0.0;
+    let (found, spent) =
+        if best { (exact, spent) } else { (dynamic::critical_force(scene, options)?, spent + exact.cost.evaluations) };
+    Ok(Critical { cost: Cost { evaluations: spent + found.cost.evaluations }, ..found })
+}

@@ -1,0 +1,174 @@
+//! The tip pushing a particle with mass on LuGre bristles.
+
+use super::motion::{Motion, local_tolerance};
+use super::presliding::REACHED;
+use super::slip::Slip;
+use super::substrate::Substrate;
+use crate::Failure;
+use crate::friction::{LuGre, particle_mass};
+use crate::ode::{Control, End, March, Outcome, Problem, Rodas};
+
+/// The tip of [`Motion`] whose apex follows the particle, m_p x'' = F_Y - F, F = sigma0 z + sigma1 z' + sigma2 x', where
+/// x is what the particle crept back on the moving substrate. Unknowns, in the units of `Motion`: K_y y_P, theta', x, x'
+/// and sigma0 z.
+///
+/// The reaction of the tip's mass to x'' is left out, as in the tip's own equations, which let the apex move steadily.
+pub(super) struct Bristles<'a> {
+    motion: &'a Motion<'a>,
+    substrate: &'a Substrate<'a>,
+    limit: &'a Slip,
+    law: LuGre,
+    velocity: f64,
+    /// Acceleration of the particle per unit of force, in units of V per unit of time.
+    agility: f64,
+    /// sigma0, sigma1 and sigma2 in units of force, length and velocity.
+    stiffness: f64,
+    damping: f64,
+    viscosity: f64,
+}
+
+impl<'a> Bristles<'a> {
+    /// Bristles of the contact whose quasi-static slip is `limit`.
+    pub fn new(motion: &'a Motion<'a>, substrate: &'a Substrate<'a>, limit: &'a Slip) -> Self {
+        let scene = substrate.scene;
+        let law = LuGre::with(scene, substrate.options.lugre, limit.contact.radius);
+        let velocity = scene.velocity;
+        Self {
+            motion,
+            substrate,
+            limit,
+            law,
+            velocity,
+            agility: motion.time() * motion.force / (particle_mass(scene) * velocity),
+            stiffness: law.stiffness * motion.length / motion.force,
+            damping: law.damping * velocity / motion.force,
+            viscosity: law.viscous_friction * velocity / motion.force,
+        }
+    }
+
+    /// Marches to the largest force, or so near that what is left to rise is below the tolerance; then again from a step
+    /// before the force reaches the slip.
+    ///
+    /// dF/dt vanishes with 1 - x'. That is no sign of it by itself: the swing of the tip takes x' past V for moments from
+    /// the start. But at the maximum F is the force of steady sliding at V, or has passed it: before, either the
+    /// bristles still stretch or the dashpots are still to come up to V. With viscous friction that comes long after the
+    /// bristles have given way, a few sigma2/k_lat.
+    pub fn slip(&self) -> Result<(Slip, u64), Failure> {
+        let followed = self.motion.swing().is_followed(self.motion.length, self.velocity);
+        let swing = if followed { 0.0 } else { self.motion.swing().spring / self.motion.force };
+        // In vain finer than a tenth of the swing that is not followed. And not coarse: where the bristles give way at once, a
+        // long step does not see it.
+        let tolerance = local_tolerance(self.substrate.options).max(0.1 * swing).min(1e-7);
+        // Of the particle on its bristles and the spring of the probe.
+        let shaking = (self.agility * (1.0 + self.stiffness)).sqrt();
+        let control = Control {
+            tolerance,
+            scale: [1.0, self.motion.frequency().max(1.0), 1.0, shaking.max(1.0), 1.0],
+            first_step: 1e-3,
+            longest_step: 0.1,
+            step_budget: self.substrate.options.step_budget,
+        };
+        // Where the bristles limit the approach, 1 - x'/V is sigma0/k_lat times what is left to rise.
+        let near = (10.0 * tolerance * self.stiffness).clamp(1e-3, 0.5);
+        let start = [0.0, if followed { 1.0 } else { self.slow_turning() }, 0.0, 0.0, 0.0];
+        let mut largest = End { t: 0.0, y: start };
+        // The last step well before the slip, whose force is 1 by the quasi-static rung.
+        let mut before = End { t: 0.0, y: start };
+        let event = |t: f64, y: &[f64; 5]| {
+            let &[q, _, x, u, _] = y;
+            if q < REACHED - 1e-3 && t > before.t {
+                before = End { t, y: *y };
+            }
+            if q > largest.y[0] {
+                largest = End { t, y: *y };
+            }
+            let steady = self.strength(self.load(t - x, q), 1.0) + self.viscosity;
+            Ok((q / steady - 1.0 + tolerance).min(u - 1.0 + near))
+        };
+        // Bristles and dashpots each approach their end exponentially, by 1e-12 in 28 of their times.
+        let horizon = 10.0 + 30.0 * (1.0 + 3.0 / self.stiffness);
+        // While the bristles stretch, the velocity of the particle counts by what it moves them. Where they give way, it
+        // decides by itself when the force is largest.
+        let mut stretching = March::<Rodas, _, 5>::new(self, (0.0, start), control);
+        let halfway = |t: f64, y: &[f64; 5]| Ok(y[0] / self.strength(self.load(t - y[2], y[0]), 1.0) - 0.5);
+        let (Outcome::Event(half) | Outcome::Horizon(half)) = stretching.until(horizon, halfway)?;
+        let [forces, turning, way, _, bristles] = control.scale;
+        let control = Control { scale: [forces, turning, way, 1.0, bristles], ..control };
+        let mut march = March::<Rodas, _, 5>::new(self, (half.t, half.y), control);
+        let outcome = march.until(horizon, event)?;
+        let end = match outcome {
+            Outcome::Event(end) => end,
+            // It passed below the force of steady sliding: the largest it had.
+            Outcome::Horizon(_) => largest,
+        };
+        let level = REACHED * end.y[0];
+        let from = if before.y[0] > 0.0 && before.y[0] < level { before } else { half };
+        let mut again = March::<Rodas, _, 5>::new(self, (from.t, from.y), control);
+        let reached = if from.y[0] < level {
+            let (Outcome::Event(end) | Outcome::Horizon(end)) = again.until(horizon, |_, y| Ok(y[0] / level - 1.0))?;
+            end.t
+        } else {
+            from.t
+        };
+        let [q, w, creep, _, _] = end.y;
+        let tip = self.motion.tip(end.t - creep, &[q, w]);
+        let slip = Slip {
+            normal_force: tip.normal_force,
+            // What the particle feels: the reaction of the tip's mass is left out here too.
+            lateral_force: q * self.motion.force,
+            travel: (end.t - creep) * self.motion.length,
+            twist: tip.twist,
+            contact: self.substrate.contact(tip.normal_force)?,
+            advance: (reached - (end.t - creep)) * self.motion.length,
+            slowdown: self.limit.slowdown,
+        };
+        Ok((slip, stretching.evaluations() + march.evaluations() + again.evaluations()))
+    }
+
+    /// theta' of the tip in equilibrium at the start, the apex moving at V less what the bristles yield: a start without
+    /// a swing.
+    fn slow_turning(&self) -> f64 {
+        self.motion.turning(0.0) * self.stiffness / (1.0 + self.stiffness)
+    }
+
+    /// The load that friction feels (N).
+    fn load(&self, s: f64, q: f64) -> f64 {
+        self.motion.normal_spring(self.motion.twist(s, q)) + self.substrate.adhesive_load
+    }
+
+    fn strength(&self, load: f64, u: f64) -> f64 {
+        self.law.stribeck(load, u * self.velocity) / self.motion.force
+    }
+}
+
+impl Problem<5> for Bristles<'_> {
+    fn rate(&self, t: f64, &[q, w, x, u, p]: &[f64; 5]) -> [f64; 5] {
+        let [rise, turn] = self.motion.rates([t - x, 1.0 - u], &[q, w]);
+        let sprung = u - u.abs() * p / self.strength(self.load(t - x, q), u);
+        let friction = p + self.damping * sprung + self.viscosity * u;
+        [rise, turn, u, self.agility * (q - friction), self.stiffness * sprung]
+    }
+
+    /// Without the change of the load by the twist, which is of second order; the error estimate watches over it.
+    fn jacobian(&self, t: f64, &[q, w, x, u, p]: &[f64; 5]) -> [[f64; 5]; 5] {
+        let [[rise_q, rise_w, rise_s], [turn_q, turn_w, turn_s]] = self.motion.slopes(t - x, &[q, w]);
+        let load = self.load(t - x, q);
+        let strength = self.strength(load, u);
+        let slope = self.law.stribeck_slope(load, u * self.velocity) * self.velocity / self.motion.force;
+        let by_p = -u.abs() / strength;
+        let by_u = 1.0 - u.signum() * p / strength + u.abs() * p * slope / (strength * strength);
+        let g = self.agility;
+        [
+            [rise_q, rise_w, -rise_s, -self.motion.stiffness(), 0.0],
+            [turn_q, turn_w, -turn_s, 0.0, 0.0],
+            [0.0, 0.0, 0.0, 1.0, 0.0],
+            [g, 0.0, 0.0, -g * (self.damping * by_u + self.viscosity), -g * (1.0 + self.damping * by_p)],
+            [0.0, 0.0, 0.0, self.stiffness * by_u, self.stiffness * by_p],
+        ]
+    }
+
+    fn time_rate(&self, t: f64, &[q, w, x, _, _]: &[f64; 5]) -> [f64; 5] {
+        let [[_, _, rise_s], [_, _, turn_s]] = self.motion.slopes(t - x, &[q, w]);
+        [rise_s, turn_s, 0.0, 0.0, 0.0]
+    }
+}

@@ -1,0 +1,347 @@
+//! The closed form of many scenes at once, column by column: the same operations on each scene as
+//! [`critical_force`](super::critical_force), so that the compiler takes several scenes in one wide register, and
+//! nothing that is not asked for.
+
+use std::f64::consts::FRAC_PI_2;
+use std::ops::RangeInclusive;
+
+use apportion::quantity::Domain;
+use multiversion::multiversion;
+
+use super::presliding::Presliding;
+use super::slip::{ORDINARY_SQUARES, Slip, critical_time};
+use super::substrate::{Substrate, adhesion};
+use super::{Fidelity, Options, closed_form};
+use crate::contact::{Contact, Pair};
+use crate::friction::{Coulomb, Drive, LuGreForm, Pressed};
+use crate::probe::Probe;
+use crate::{ContactTheory, Failure, Flag, Flags, FrictionLaw, Parameter, Scene, Torsion};
+
+/// Most scenes at once: their columns stay in the nearest cache.
+pub const AT_ONCE: usize = 64;
+
+/// A number of each scene.
+pub type Column = [f64; AT_ONCE];
+
+/// Scenes whose parameters lie far from where numbers overflow, at once.
+pub struct ClosedForms {
+    scene: Scene,
+    options: Options,
+    drive: Drive,
+    columns: Columns,
+    probes: Probes,
+    slips: Slips,
+    flags: [Flags; AT_ONCE],
+}
+
+/// What is found of each scene.
+pub struct Slips {
+    /// Normal force on the tip (N).
+    pub normal_force: Column,
+    /// Lateral force on the tip (N).
+    pub lateral_force: Column,
+    /// Critical force (N).
+    pub critical_force: Column,
+    /// Travel of the substrate (m).
+    pub travel: Column,
+    /// Radius of the contact between particle and substrate (m).
+    pub contact_radius: Column,
+    /// Twist of the cantilever (rad).
+    pub twist: Column,
+    /// Estimated relative error of the critical force.
+    pub error_estimate: Column,
+}
+
+/// Stiffnesses and forces on the way, of each scene.
+struct Probes {
+    normal: Column,
+    lateral: Column,
+    torsional: Column,
+    apex: Column,
+    preload_force: Column,
+    adhesive_load: Column,
+    support: Column,
+    of_law: Column,
+    presliding: [Option<Presliding>; AT_ONCE],
+}
+
+macro_rules! columns {
+    ($($field:ident)+) => {
+        /// The parameters that may differ between the scenes.
+        struct Columns { $($field: Column),+ }
+
+        impl Columns {
+            fn from_scene(scene: &Scene) -> Self {
+                Self { $($field: [scene.$field; AT_ONCE]),+ }
+            }
+
+            /// The column of a parameter, if it has one.
+            fn get(&mut self, name: &str) -> Option<&mut Column> {
+                match name { $(stringify!($field) => Some(&mut self.$field),)+ _ => None }
+            }
+
+            #[inline(always)]
+            fn scene(&self, i: usize, rest: &Scene) -> Scene {
+                Scene { $($field: self.$field[i],)+ ..*rest }
+            }
+        }
+    };
+}
+
+columns! {
+    length width thickness height velocity elastic_modulus equivalent_modulus adhesion poisson_ratio probe_density
+    tip_base_radius particle_radius static_friction dynamic_friction shear_strength viscous_friction stribeck_velocity
+    equilibrium_separation hardness
+}
+
+impl ClosedForms {
+    /// Scenes that differ from `scene` in `parameters`. `None` if they are to be computed one by one: by another rung, by a
+    /// law that is integrated, with other parameters than there are columns, or with numbers that may overflow.
+    pub fn new(scene: &Scene, options: &Options, parameters: &[&'static Parameter]) -> Option<Self> {
+        let mut columns = Columns::from_scene(scene);
+        let is_closed = options.fidelity == Fidelity::ClosedForm && options.friction != FrictionLaw::LemaitreCarlson;
+        let has_columns = parameters.iter().all(|parameter| columns.get(parameter.name).is_some());
+        let others = || Parameter::ALL.iter().filter(|other| parameters.iter().all(|one| one.name != other.name));
+        let are_ordinary = others().all(|other| ordinary(other.domain).contains(&(other.get)(scene)));
+        if !(is_closed && has_columns && are_ordinary && options.check().is_ok()) {
+            return None;
+        }
+        let probe = Probe::new(scene, options.torsion);
+        let drive = Substrate::new(scene, options, &probe, LuGreForm::Fast).drive;
+        let (probes, slips, flags) = (Probes::none(), Slips::none(), [Flags::NONE; AT_ONCE]);
+        Some(Self { scene: *scene, options: *options, drive, columns, probes, slips, flags })
+    }
+
+    /// Gives the first scenes these values of `parameter`, at most [`AT_ONCE`]. False if there is one with which they are
+    /// to be computed one by one.
+    pub fn set(&mut self, parameter: &Parameter, values: &[f64]) -> bool {
+        let Some(column) = self.columns.get(parameter.name) else { return false };
+        column[..values.len()].copy_from_slice(values);
+        let ordinary = ordinary(parameter.domain);
+        // One pass without an early end, many values at a time.
+        values.iter().fold(true, |all, value| all & ordinary.contains(value))
+    }
+
+    /// What was found last.
+    pub fn slips(&self) -> &Slips {
+        &self.slips
+    }
+
+    /// The slips of all scenes.
+    pub fn solve(&mut self) {
+        let Self { scene, options, drive, columns, probes, slips, .. } = self;
+        press(scene, options, columns, probes, &mut slips.contact_radius);
+        let capacity = &mut slips.lateral_force;
+        if options.friction == FrictionLaw::Coulomb {
+            hold_by_coulomb(scene, columns, probes, &slips.contact_radius, capacity);
+        } else {
+            for (i, capacity) in capacity.iter_mut().enumerate() {
+                let scene = columns.scene(i, scene);
+                let pressed = Pressed {
+                    load: probes.preload_force[i] + probes.adhesive_load[i],
+                    radius: slips.contact_radius[i],
+                };
+                let drive = Drive { velocity: scene.velocity, stiffness: probes.apex[i], ..*drive };
+                let held = options.friction.capacity(&scene, pressed, &drive);
+                *capacity = held.map_or(f64::NAN, |held| held.force);
+                let substrate = probes.substrate(i, &scene, options, drive);
+                probes.of_law[i] = closed_form::of_law(&substrate, probes.preload_force[i], *capacity);
+                let (probe, contact) = (probes.probe(i), Contact { radius: slips.contact_radius[i], indentation: 0.0 });
+                let slip = closed_form::slip(&probe, scene.height, *capacity, contact);
+                // Only a march fails, and laws that are marched are not computed here.
+                probes.presliding[i] = Presliding::new(&substrate, &slip, &probe, probe.apex).unwrap_or_default();
+            }
+        }
+        finish(scene, options, drive, columns, probes, slips);
+        doubt(scene, options, columns, slips, &mut self.flags);
+    }
+
+    /// Whether what was found of the first `scenes` stands. Otherwise [`critical_force`](super::critical_force) has the
+    /// answers.
+    pub fn are_ordinary(&self, scenes: usize) -> bool {
+        let Slips { critical_force, travel, contact_radius, twist, error_estimate, .. } = &self.slips;
+        let forces = ORDINARY_SQUARES.start().sqrt()..=ORDINARY_SQUARES.end().sqrt();
+        (0..scenes).fold(true, |all, i| {
+            all & forces.contains(&critical_force[i])
+                & (contact_radius[i] <= 1e60)
+                & (travel[i] <= f64::MAX)
+                & (twist[i] <= f64::MAX)
+                & (error_estimate[i] <= 1.0)
+        })
+    }
+
+    /// Adds how often each flag is raised by the first `scenes`, in the order of [`Flag::ALL`].
+    pub fn count_flags(&self, scenes: usize, mut add: impl FnMut(usize, u64)) {
+        for (number, &flag) in Flag::ALL.iter().enumerate() {
+            // At most `AT_ONCE`, which is little enough for eight bits.
+            let raised = self.flags[..scenes].iter().fold(0, |raised, flags| raised + u8::from(flags.contains(flag)));
+            add(number, raised.into());
+        }
+    }
+
+    /// Time until scene number `i` slips (s).
+    ///
+    /// # Errors
+    /// As in [`Critical::critical_time`](super::Critical::critical_time).
+    pub fn critical_time(&self, i: usize) -> Result<f64, Failure> {
+        critical_time(self.slips.travel[i], self.columns.velocity[i])
+    }
+
+    /// Indentation of the contact between particle and substrate of scene number `i` (m).
+    ///
+    /// # Errors
+    /// Those of [`ContactTheory::contact`].
+    pub fn indentation(&self, i: usize) -> Result<f64, Failure> {
+        let pair = Pair::substrate(&self.columns.scene(i, &self.scene));
+        Ok(self.options.contact.contact(&pair, self.slips.normal_force[i])?.indentation)
+    }
+}
+
+impl Probes {
+    fn none() -> Self {
+        let none = [0.0; AT_ONCE];
+        Self {
+            normal: none,
+            lateral: none,
+            torsional: none,
+            apex: none,
+            preload_force: none,
+            adhesive_load: none,
+            support: none,
+            of_law: none,
+            presliding: [None; AT_ONCE],
+        }
+    }
+
+    #[inline(always)]
+    fn probe(&self, i: usize) -> Probe {
+        Probe {
+            normal: self.normal[i],
+            lateral: self.lateral[i],
+            torsional: self.torsional[i],
+            apex: self.apex[i],
+            preload_deflection: 0.0,
+            preload_force: self.preload_force[i],
+        }
+    }
+
+    #[inline(always)]
+    fn substrate<'a>(&self, i: usize, scene: &'a Scene, options: &'a Options, drive: Drive) -> Substrate<'a> {
+        let (adhesive_load, support) = (self.adhesive_load[i], self.support[i]);
+        Substrate { scene, options, pair: Pair::substrate(scene), adhesive_load, support, drive }
+    }
+}
+
+impl Slips {
+    fn none() -> Self {
+        let none = [0.0; AT_ONCE];
+        Self {
+            normal_force: none,
+            lateral_force: none,
+            critical_force: none,
+            travel: none,
+            contact_radius: none,
+            twist: none,
+            error_estimate: none,
+        }
+    }
+}
+
+/// The part of a domain from which no intermediate result overflows unseen.
+fn ordinary(domain: Domain) -> RangeInclusive<f64> {
+    match domain {
+        Domain::Positive => 1e-60..=1e60,
+        Domain::NonNegative => 0.0..=1e60,
+        Domain::PoissonRatio => (-1.0_f64).next_up()..=0.5,
+        Domain::AcuteAngle => 0.0..=FRAC_PI_2,
+    }
+}
+
+/// Each theory and formula with loops of its own, in which it is a constant.
+#[multiversion(targets("x86_64+avx512f", "x86_64+avx2"))]
+fn press(scene: &Scene, options: &Options, columns: &Columns, probes: &mut Probes, radius: &mut Column) {
+    match options.torsion {
+        Torsion::ThinStrip => bend(scene, Torsion::ThinStrip, columns, probes),
+        Torsion::Rectangle => bend(scene, Torsion::Rectangle, columns, probes),
+    }
+    match options.contact {
+        ContactTheory::Jkr => {
+            touch(scene, &Options { contact: ContactTheory::Jkr, ..*options }, columns, probes, radius)
+        }
+        _ => touch(scene, options, columns, probes, radius),
+    }
+}
+
+#[inline(always)]
+fn bend(scene: &Scene, torsion: Torsion, columns: &Columns, probes: &mut Probes) {
+    let sine = libm::sin(scene.preload_angle);
+    for i in 0..AT_ONCE {
+        let probe = Probe::with_sine(&columns.scene(i, scene), torsion, sine);
+        probes.normal[i] = probe.normal;
+        probes.lateral[i] = probe.lateral;
+        probes.torsional[i] = probe.torsional;
+        probes.apex[i] = probe.apex;
+        probes.preload_force[i] = probe.preload_force;
+    }
+}
+
+#[inline(always)]
+fn touch(scene: &Scene, options: &Options, columns: &Columns, probes: &mut Probes, radius: &mut Column) {
+    for (i, radius) in radius.iter_mut().enumerate() {
+        let pair = Pair::substrate(&columns.scene(i, scene));
+        *radius = options.contact.radius(&pair, probes.preload_force[i]);
+        (probes.adhesive_load[i], probes.support[i]) = adhesion(options, &pair);
+    }
+}
+
+#[multiversion(targets("x86_64+avx512f", "x86_64+avx2"))]
+fn hold_by_coulomb(scene: &Scene, columns: &Columns, probes: &Probes, radius: &Column, capacity: &mut Column) {
+    for i in 0..AT_ONCE {
+        let load = probes.preload_force[i] + probes.adhesive_load[i];
+        capacity[i] = Coulomb::from_scene(&columns.scene(i, scene)).capacity(Pressed { load, radius: radius[i] });
+    }
+}
+
+#[multiversion(targets("x86_64+avx512f", "x86_64+avx2"))]
+fn finish(rest: &Scene, options: &Options, drive: &Drive, columns: &Columns, probes: &Probes, slips: &mut Slips) {
+    for i in 0..AT_ONCE {
+        let scene = columns.scene(i, rest);
+        let (probe, substrate) = (probes.probe(i), probes.substrate(i, &scene, options, *drive));
+        let contact = Contact { radius: slips.contact_radius[i], indentation: 0.0 };
+        let slip: Slip = closed_form::slip(&probe, scene.height, slips.lateral_force[i], contact);
+        let presliding = probes.presliding[i].as_ref();
+        let slip = presliding.map_or(slip, |presliding| presliding.timed(&slip, probe.apex));
+        let squared = slip.squared();
+        slips.normal_force[i] = slip.normal_force;
+        slips.critical_force[i] = squared.sqrt();
+        slips.travel[i] = slip.travel + slip.advance;
+        slips.twist[i] = slip.twist;
+        slips.error_estimate[i] = closed_form::error(&substrate, &probe, (&slip, presliding), probes.of_law[i]);
+    }
+}
+
+#[multiversion(targets("x86_64+avx512f", "x86_64+avx2"))]
+fn doubt(rest: &Scene, options: &Options, columns: &Columns, slips: &Slips, flags: &mut [Flags; AT_ONCE]) {
+    match options.contact {
+        ContactTheory::Jkr => look(rest, &Options { contact: ContactTheory::Jkr, ..*options }, columns, slips, flags),
+        _ => look(rest, options, columns, slips, flags),
+    }
+}
+
+#[inline(always)]
+fn look(rest: &Scene, options: &Options, columns: &Columns, slips: &Slips, flags: &mut [Flags; AT_ONCE]) {
+    for (i, flags) in flags.iter_mut().enumerate() {
+        let scene = columns.scene(i, rest);
+        let contact = Contact { radius: slips.contact_radius[i], indentation: 0.0 };
+        let slip = Slip {
+            normal_force: slips.normal_force[i],
+            lateral_force: slips.lateral_force[i],
+            travel: slips.travel[i],
+            twist: slips.twist[i],
+            contact,
+            advance: 0.0,
+            slowdown: 1.0,
+        };
+        *flags = closed_form::flags(&slip, &scene, options);
+    }
+}

@@ -1,0 +1,153 @@
+//! The equations of motion of the tip, its apex fixed to the particle (Tafazzoli & Sitti 2004).
+//!
+//! With y_P the lateral deflection of the cantilever and theta its twist, and the apex at s = V t,
+//!
+//!   y_P + H sin theta = s,  I_T theta'' = H (K_y y_P cos theta + K_z z_P sin theta) - K_theta theta,
+//!
+//! with I_T = I_p + m H^2/2 the moment of inertia about the apex. Marched as y_P' = V - H theta' cos theta beside theta',
+//! the twist from the constraint: y_P and not theta, since F_Y = K_y y_P and the cantilever is far stiffer sideways than
+//! in torsion. In units of the quasi-static slip: its F_Y for forces, its time for time, V/H for theta'.
+
+use super::quasi_static::Statics;
+use super::slip::Slip;
+use super::swing::{Swing, inertia_about_apex};
+use crate::ode::Problem;
+use crate::{Options, Scene};
+
+/// The tip pushed by a stuck particle. Unknowns: K_y y_P and theta'.
+pub(super) struct Motion<'a> {
+    pub scene: &'a Scene,
+    pub statics: &'a Statics<'a>,
+    /// Units of force (N) and of length V t_cr (m).
+    pub force: f64,
+    pub length: f64,
+    /// I_T (kg m2) and m (kg).
+    pub inertia: f64,
+    mass: f64,
+}
+
+/// The tip at an instant, in SI.
+pub(super) struct Tip {
+    pub twist: f64,
+    pub lateral_force: f64,
+    pub normal_force: f64,
+}
+
+impl<'a> Motion<'a> {
+    /// The motion of a scene whose quasi-static slip is `slip`, at a velocity above zero.
+    pub fn new(scene: &'a Scene, statics: &'a Statics<'a>, slip: &Slip) -> Self {
+        Self {
+            scene,
+            statics,
+            force: slip.lateral_force,
+            length: slip.travel,
+            inertia: inertia_about_apex(scene),
+            mass: scene.effective_tip_mass(),
+        }
+    }
+
+    /// Time unit (s): travel to the slip over V.
+    pub fn time(&self) -> f64 {
+        self.length / self.scene.velocity
+    }
+
+    /// The fastest motion: the swing of the tip about the apex, in radians per unit of time.
+    pub fn frequency(&self) -> f64 {
+        self.swing().frequency * self.time()
+    }
+
+    pub fn swing(&self) -> Swing {
+        Swing::new(self.scene, &self.statics.probe)
+    }
+
+    /// Twist at the apex position `s` (units of length), with the lateral force `q` (units of force). Not a number where
+    /// the tip would have to be longer.
+    pub fn twist(&self, s: f64, q: f64) -> f64 {
+        let deflection = q * self.force / self.statics.probe.lateral;
+        libm::asin((s * self.length - deflection) / self.scene.height)
+    }
+
+    /// Moment about the apex over H (N): F_Y cos theta + F_Z sin theta - K_theta theta/H.
+    fn moment(&self, theta: f64, q: f64) -> f64 {
+        q * self.force * libm::cos(theta) - self.statics.lateral_moment(theta)
+    }
+
+    /// theta'' in units of V/H per unit of time, per newton of moment over H.
+    fn agility(&self) -> f64 {
+        let height = self.scene.height;
+        height * self.time() * (height / self.scene.velocity) / self.inertia
+    }
+
+    /// y' of `Motion` at the apex position `s`, which moves at `u` (units of V).
+    pub fn rates(&self, [s, u]: [f64; 2], &[q, w]: &[f64; 2]) -> [f64; 2] {
+        let theta = self.twist(s, q);
+        [self.stiffness() * (u - w * libm::cos(theta)), self.agility() * self.moment(theta, q)]
+    }
+
+    /// F_Z (N) of the probe alone at a twist.
+    pub fn normal_spring(&self, theta: f64) -> f64 {
+        self.statics.normal_force(theta)
+    }
+
+    /// K_y over the unit of stiffness.
+    pub fn stiffness(&self) -> f64 {
+        self.statics.probe.lateral * self.length / self.force
+    }
+
+    /// Derivatives of [`rates`](Self::rates) by q, w, and s.
+    pub fn slopes(&self, s: f64, &[q, w]: &[f64; 2]) -> [[f64; 3]; 2] {
+        let theta = self.twist(s, q);
+        let (sin, cos) = libm::sincos(theta);
+        let by_s = self.length / (self.scene.height * cos);
+        let by_q = -by_s / self.stiffness();
+        let turning = self.stiffness() * w * sin;
+        let moment = -q * self.force * sin - self.statics.lateral_moment_slope(theta);
+        let agility = self.agility();
+        [
+            [turning * by_q, -self.stiffness() * cos, turning * by_s],
+            [agility * (self.force * cos + moment * by_q), 0.0, agility * moment * by_s],
+        ]
+    }
+
+    /// Forces of the tip on the particle, by the printed equations, at the apex position `s`; the accelerations of the
+    /// indentations, which follow the forces, left out.
+    pub fn tip(&self, s: f64, &[q, w]: &[f64; 2]) -> Tip {
+        let twist = self.twist(s, q);
+        let (sin, cos) = libm::sincos(twist);
+        let height = self.scene.height;
+        let spin = w * self.scene.velocity / height;
+        let lateral_spring = q * self.force;
+        let moment = self.moment(twist, q);
+        let angular = height * moment / self.inertia;
+        let half = 0.5 * self.mass * height;
+        // I_p = I_T - m H^2/2.
+        let turning = (self.inertia - half * height) / height * angular;
+        let normal_spring = self.statics.normal_force(twist);
+        // [K_theta th/H] sin th + K_z z_P cos^2 th - K_y y_P sin th cos th, less the moment it contains.
+        let normal_force = normal_spring - moment * sin + turning * sin - half * cos * spin * spin;
+        let lateral_force = lateral_spring + half * (spin * spin * sin - angular * cos);
+        Tip { twist, lateral_force, normal_force }
+    }
+}
+
+impl Problem<2> for Motion<'_> {
+    fn rate(&self, t: f64, y: &[f64; 2]) -> [f64; 2] {
+        self.rates([t, 1.0], y)
+    }
+
+    fn jacobian(&self, t: f64, y: &[f64; 2]) -> [[f64; 2]; 2] {
+        self.slopes(t, y).map(|[by_q, by_w, _]| [by_q, by_w])
+    }
+
+    fn time_rate(&self, t: f64, y: &[f64; 2]) -> [f64; 2] {
+        self.slopes(t, y).map(|[_, _, by_s]| by_s)
+    }
+}
+
+/// Least local tolerance: below, rounding shows.
+pub(super) const FINEST: f64 = 1e-12;
+
+/// Tolerance of a step.
+pub(super) fn local_tolerance(options: &Options) -> f64 {
+    (0.1 * options.tolerance).max(FINEST)
+}

@@ -1,0 +1,173 @@
+//! The instant of slip, as every rung finds it, made into the common result.
+
+use std::f64::consts::PI;
+use std::ops::{Add, RangeInclusive};
+
+use super::substrate::Substrate;
+use super::{Cost, Critical, Fidelity, Options};
+use crate::contact::{Contact, Pair};
+use crate::{Failure, Flag, Flags, Scene};
+
+/// State at the slip.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Slip {
+    pub normal_force: f64,
+    pub lateral_force: f64,
+    /// Travel of the apex (m).
+    pub travel: f64,
+    /// How much further the substrate has travelled when the slip counts (m): by what the particle crept on its bristles, less
+    /// what the apex still travels from then on.
+    pub advance: f64,
+    /// How many times longer than the force of a particle at rest its force takes to rise then; 1 without bristles.
+    pub slowdown: f64,
+    pub twist: f64,
+    pub contact: Contact,
+}
+
+/// Estimated errors of the two forces (N), >= 0.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Error {
+    pub normal: f64,
+    pub lateral: f64,
+}
+
+/// A few dozen roundings: no rung is more accurate.
+const ROUNDING: f64 = 1e-14;
+
+impl Add for Error {
+    type Output = Self;
+
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        Self { normal: self.normal + other.normal, lateral: self.lateral + other.lateral }
+    }
+}
+
+impl Error {
+    /// The relative error of F_cr: |dF_cr| <= (F_Z |dF_Z| + F_Y |dF_Y|)/F_cr. At most 1, which claims nothing.
+    #[inline(always)]
+    pub fn value(self, slip: &Slip) -> f64 {
+        let shift = slip.normal_force.abs() * self.normal + slip.lateral_force * self.lateral;
+        let squared = slip.squared();
+        if !(squared.is_normal() && shift.is_finite()) {
+            return self.of_extreme(slip);
+        }
+        // Errors far above the forces themselves are of second order: dF_cr <= hypot(dF_Z, dF_Y).
+        let second = self.normal * self.normal + self.lateral * self.lateral;
+        let shift = if second > shift { shift + second } else { shift };
+        if shift > 0.0 { (ROUNDING + shift / squared).min(1.0) } else { ROUNDING }
+    }
+
+    /// The same where squares over- or underflow. An error that is not a number claims nothing.
+    #[cold]
+    fn of_extreme(self, slip: &Slip) -> f64 {
+        let size = libm::hypot(slip.normal_force, slip.lateral_force);
+        if size == 0.0 && self.normal == 0.0 && self.lateral == 0.0 {
+            return ROUNDING;
+        }
+        let part = |force: f64, error: f64| if error == 0.0 { 0.0 } else { force.abs() / size * (error / size) };
+        let relative = part(slip.normal_force, self.normal) + part(slip.lateral_force, self.lateral);
+        if relative.is_nan() { 1.0 } else { (ROUNDING + relative).min(1.0) }
+    }
+}
+
+impl Slip {
+    /// How far this slip lies from `other`, beyond what is `allowed`.
+    pub(super) fn beyond(&self, other: &Self, allowed: Error) -> Error {
+        let excess = |here: f64, there: f64, allowed: f64| {
+            let apart = (here - there).abs();
+            // An allowance that is not a number allows nothing.
+            if apart <= allowed { 0.0 } else { apart - allowed.max(0.0) }
+        };
+        Error {
+            normal: excess(self.normal_force, other.normal_force, allowed.normal),
+            lateral: excess(self.lateral_force, other.lateral_force, allowed.lateral),
+        }
+    }
+
+    /// This slip, if friction held the tip back.
+    ///
+    /// # Errors
+    /// [`Failure::StepTooSmall`] for a march that ended in rounding: far outside any laboratory one force may drown
+    /// another.
+    pub fn held_back(self) -> Result<Self, Failure> {
+        if self.lateral_force < 0.0 || self.twist < 0.0 { Err(Failure::StepTooSmall) } else { Ok(self) }
+    }
+
+    /// Relative change of the critical time for a relative change of the force alone.
+    pub fn sensitivity(&self) -> f64 {
+        self.slowdown * self.travel / (self.travel + self.advance)
+    }
+
+    /// F_cr^2 (N^2).
+    #[inline(always)]
+    pub fn squared(&self) -> f64 {
+        self.normal_force * self.normal_force + self.lateral_force * self.lateral_force
+    }
+
+    /// A bound of |dF_Y*/dF_Z| here, see [`Substrate::slope`].
+    #[inline(always)]
+    pub fn slope(&self, substrate: &Substrate) -> f64 {
+        substrate.slope(self.lateral_force, self.normal_force).abs()
+    }
+
+    /// The result of a rung, with error and cost left to fill in.
+    #[inline]
+    pub fn critical(&self, substrate: &Substrate, rung: Fidelity) -> Critical {
+        let &Slip { normal_force, lateral_force, twist, contact, .. } = self;
+        let travel = self.travel + self.advance;
+        Critical {
+            normal_force,
+            lateral_force,
+            critical_force: magnitude(self.squared(), normal_force, lateral_force),
+            travel,
+            critical_time: critical_time(travel, substrate.scene.velocity),
+            contact_radius: contact.radius,
+            indentation: contact.indentation,
+            twist,
+            flags: self.flags(substrate.scene, substrate.options),
+            error_estimate: 0.0,
+            cost: Cost::default(),
+            rung,
+        }
+    }
+
+    #[inline(always)]
+    pub fn flags(&self, scene: &Scene, options: &Options) -> Flags {
+        let pair = Pair::substrate(scene);
+        let radius = self.contact.radius;
+        Flags::NONE
+            .with(Flag::LargeContact, radius > 0.3 * pair.radius)
+            .with(Flag::AboveHardness, self.normal_force > scene.hardness * (PI * radius * radius))
+            .with(Flag::LargeTwist, self.twist > 0.1)
+            .with(Flag::TaborOutOfRange, !options.contact.suits_pair(&pair))
+    }
+}
+
+impl Critical {
+    /// The state at the slip, without its time.
+    pub(crate) fn slip(&self) -> Slip {
+        let contact = Contact { radius: self.contact_radius, indentation: self.indentation };
+        let &Self { normal_force, lateral_force, travel, twist, .. } = self;
+        Slip { normal_force, lateral_force, travel, twist, contact, advance: 0.0, slowdown: 1.0 }
+    }
+}
+
+/// Squares whose roots lose nothing to overflow or underflow.
+pub(super) const ORDINARY_SQUARES: RangeInclusive<f64> = 1e-200..=1e200;
+
+/// F_cr from its square, or from its parts (F_Z, F_Y) where the square left the numbers.
+#[inline]
+fn magnitude(squared: f64, normal_force: f64, lateral_force: f64) -> f64 {
+    if ORDINARY_SQUARES.contains(&squared) { squared.sqrt() } else { libm::hypot(normal_force, lateral_force) }
+}
+
+/// s/V.
+#[inline]
+pub(super) fn critical_time(travel: f64, velocity: f64) -> Result<f64, Failure> {
+    if velocity == 0.0 {
+        return Err(Failure::VelocityZero);
+    }
+    let time = travel / velocity;
+    if time.is_finite() { Ok(time) } else { Err(Failure::NotFinite { quantity: "critical_time" }) }
+}

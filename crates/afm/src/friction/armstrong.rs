@@ -1,0 +1,116 @@
+//! Armstrong's seven-parameter law.
+
+use crate::Scene;
+
+/// Friction with presliding, lag and memory of rest (Armstrong-Helouvry, Dupont & Canudas de Wit 1994, "A survey of
+/// models, analysis tools and compensation methods for the control of machines with friction", section 4.3).
+///
+/// Sticking: F = sigma0 x. Sliding: F = {F_C + F_S(gamma, t_d)/[1 + (v(t - tau_l)/v_s)^2]} sgn v + F_v v, with
+/// F_S(gamma, t_d) = F_S,a + (F_S,inf - F_S,a) t_d/(t_d + gamma) after a rest of t_d. Its F_S is what static friction
+/// has above F_C; here F_C = mu_d N, F_S,a = (mu_a - mu_d) N and F_S,inf = (mu_s - mu_d) N.
+#[derive(Clone, Copy, Debug)]
+pub struct Armstrong<'a>(pub &'a Scene);
+
+/// How a sticking contact comes to slide.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Loading {
+    /// Rate at which the force grows (N/s), >= 0.
+    pub rate: f64,
+    /// Time at rest before it does (s), >= 0.
+    pub rest: f64,
+}
+
+impl Armstrong<'_> {
+    /// Static friction F_C + F_S(gamma, t_d) (N) under `load` (N) after a rest of `dwell` (s), which may be infinite.
+    pub fn static_force(&self, load: f64, dwell: f64) -> f64 {
+        let aged = 1.0 / (1.0 + self.0.dwell_constant / dwell);
+        load * (self.0.fresh_friction * (1.0 - aged) + self.0.static_friction * aged)
+    }
+
+    /// Friction of sliding at `velocity` (m/s), >= 0, under `load` (N), where `lagged` is the velocity one lag ago and
+    /// `dwell` (s) the rest before it slid.
+    pub fn sliding_force(&self, load: f64, velocity: f64, lagged: f64, dwell: f64) -> f64 {
+        let coulomb = self.0.dynamic_friction * load;
+        let ratio = lagged / self.0.stribeck_velocity;
+        let excess = self.static_force(load, dwell) - coulomb;
+        coulomb + excess / (1.0 + ratio * ratio) + self.0.viscous_friction * velocity
+    }
+
+    /// The force (N) at which a sticking contact breaks away when loaded steadily: static friction after the rest and the
+    /// loading itself, F = static_force(rest + F/rate), the positive root of a quadratic.
+    pub fn break_away(&self, load: f64, loading: Loading) -> f64 {
+        let Loading { rate, rest } = loading;
+        let fresh = self.0.fresh_friction * load;
+        let gain = (self.0.static_friction - self.0.fresh_friction) * load;
+        // F^2 + p F - q = 0 with q >= 0.
+        let p = rate * (rest + self.0.dwell_constant) - fresh - gain;
+        let q = rate * (fresh * self.0.dwell_constant + (fresh + gain) * rest);
+        if !(p.is_finite() && q.is_finite()) {
+            // Loaded at once.
+            return self.static_force(load, rest);
+        }
+        let half = 0.5 * p;
+        let root = libm::hypot(half, q.sqrt());
+        if half > 0.0 { q / (half + root) } else { root - half }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    /// Fresh at once, halfway after gamma, old for ever.
+    #[test]
+    fn static_friction_rises_with_the_dwell_time() {
+        for (dwell, coefficient) in [(0.0, 0.75), (1.0, 0.775), (f64::INFINITY, 0.8)] {
+            assert!((Armstrong(&Scene::default()).static_force(1.0, dwell) - coefficient).abs() < 1e-15);
+        }
+    }
+
+    #[test]
+    fn sliding_starts_at_static_friction_and_ends_at_coulomb() {
+        let at = |velocity| Armstrong(&Scene::default()).sliding_force(1.0, velocity, velocity, 1.0);
+        assert!((at(0.0) - 0.775).abs() < 1e-15);
+        assert!((at(1e-3) - (0.7 + 0.0375 + 1e-10)).abs() < 1e-15);
+        assert!((at(1e3) - (0.7 + 1e-4)).abs() < 1e-12);
+    }
+
+    /// Friction answers the velocity of one lag ago: the same velocity, slower before, holds more.
+    #[test]
+    fn friction_lags() {
+        let at = |lagged| Armstrong(&Scene::default()).sliding_force(1.0, 1e-3, lagged, 1.0);
+        assert!(at(0.5e-3) > at(1e-3) && at(1e-3) > at(2e-3));
+    }
+
+    proptest! {
+        /// The quadratic's root solves the equation it came from; 1e-12 through cancelling terms of p.
+        #[test]
+        fn break_away_is_consistent(rate in -12.0..3.0_f64, rest in 0.0..10.0_f64, fresh in 0.0..1.0_f64) {
+            let scene = Scene { fresh_friction: fresh, ..Scene::default() };
+            let law = Armstrong(&scene);
+            let loading = Loading { rate: libm::pow(10.0, rate), rest };
+            let force = law.break_away(4e-7, loading);
+            let again = law.static_force(4e-7, rest + force / loading.rate);
+            prop_assert!((force / again - 1.0).abs() < 1e-12, "{force} {again}");
+        }
+
+        #[test]
+        fn slower_loading_or_longer_rest_holds_more(rate in -9.0..-5.0_f64, rest in 0.0..10.0_f64) {
+            let at = |rate: f64, rest| Armstrong(&Scene::default()).break_away(4e-7, Loading { rate, rest });
+            let rate = libm::pow(10.0, rate);
+            prop_assert!(at(rate, rest) > at(2.0 * rate, rest));
+            prop_assert!(at(rate, rest + 1.0) > at(rate, rest));
+        }
+    }
+
+    #[test]
+    fn the_limits_of_the_loading() {
+        let at = |rate| Armstrong(&Scene::default()).break_away(4e-7, Loading { rate, rest: 0.0 });
+        assert!((at(0.0) / 3.2e-7 - 1.0).abs() < 1e-15);
+        assert!((at(1e9) / 3e-7 - 1.0).abs() < 1e-15);
+        assert!((at(f64::MAX) / 3e-7 - 1.0).abs() < 1e-15);
+        assert_eq!(Armstrong(&Scene::default()).break_away(0.0, Loading { rate: 1.0, rest: 0.0 }), 0.0);
+    }
+}

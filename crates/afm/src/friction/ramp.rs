@@ -1,0 +1,279 @@
+//! A particle on LuGre bristles, pulled by a spring whose other end moves steadily.
+
+use super::{Drive, Held, LuGre};
+use crate::Failure;
+use crate::ode::{Control, End, March, Outcome, Problem, Rodas};
+
+/// dF/dt = k_lat (V - v), with v from the balance F = sigma0 z + sigma1 z' + sigma2 v of a massless particle, or from
+/// m v' = F - friction of one with mass.
+///
+/// In units of F0, the largest friction at hand, for forces, V for velocities and F0/(k_lat V) for time: p = sigma0 z,
+/// u = v, and w = (F - p)/s, the force on the dashpots in units of s, their size at V. So F is not subtracted from p,
+/// which it equals to many digits.
+#[derive(Clone, Copy)]
+pub(super) struct Ramp {
+    law: LuGre,
+    load: f64,
+    velocity: f64,
+    unit: f64,
+    /// sigma0/k_lat.
+    stiffness: f64,
+    /// sigma1 V and sigma2 V as shares of their sum, and the sum over F0.
+    damping: f64,
+    viscosity: f64,
+    dashpots: f64,
+    /// m k_lat V^2/F0^2 over `dashpots`; 0 for a particle whose mass does not matter.
+    mass: f64,
+    inertia: f64,
+}
+
+/// The largest force of the ramp (N). Its peak, where v reaches V; the force of steady sliding where v tends to V from
+/// below.
+///
+/// # Errors
+/// Those of [`March`].
+pub(super) fn peak(law: &LuGre, load: f64, drive: &Drive) -> Result<Held, Failure> {
+    let velocity = drive.velocity;
+    let steady = law.steady_force(load, velocity);
+    let largest = law.stribeck(load, 0.0).max(law.stribeck(load, velocity));
+    if stays_near_steady(law, load, drive) || largest <= 0.0 {
+        return Ok(Held { force: steady, evaluations: 0 });
+    }
+    let ramp = Ramp::new(law, load, drive);
+    // Bristles hold no more than the largest friction, the dashpots up to V no more than at V, and a mass that is brought to
+    // V takes V sqrt(k_lat m): more comes of steps too long to see the bristles give way, far outside any laboratory.
+    let inertial = velocity * (drive.stiffness * drive.mass).sqrt();
+    let most = largest + (law.damping + law.viscous_friction) * velocity + inertial;
+    // The rise left when v is this near V is below the tolerance, whether v passes V or only tends to it. The start, where
+    // inertia may let v swing past V, is left out.
+    let near = drive.tolerance * ramp.stiffness.min(1.0);
+    let (end, evaluations) =
+        ramp.climb(drive, |ramp, y| if ramp.force(y) > 0.1 * ramp.unit { y[2] - 1.0 + near } else { -1.0 })?;
+    let climbed = Held { force: ramp.force(&end.y), evaluations };
+    climbed.within(UNDERSHOOT * steady..=OVERSHOOT * most)
+}
+
+/// Travel V t (m) of the far end of the spring when the force first reaches `force` (N), below its peak; and the evaluations.
+///
+/// # Errors
+/// Those of [`March`].
+pub(crate) fn travel(law: &LuGre, load: f64, drive: &Drive, force: f64) -> Result<(f64, u64), Failure> {
+    let ramp = Ramp::new(law, load, drive);
+    let (end, evaluations) = ramp.climb(drive, |ramp, y| ramp.force(y) / force - 1.0)?;
+    Ok((end.t * ramp.unit / drive.stiffness, evaluations))
+}
+
+/// What a peak may exceed its bound by.
+const OVERSHOOT: f64 = 1.01;
+/// Share of the force of steady sliding that a peak reaches in any case.
+const UNDERSHOOT: f64 = 0.5;
+
+/// Whether the peak lies [near enough](Drive::near_steady) to the force of steady sliding, by bounds.
+///
+/// The force rises while v is below V. Where v only tends to V, it is the steady force that is approached. Where v passes
+/// V, p = sigma0 z must be above Fss(V) then: by Fss(0) - Fss(V) at most. And p passes Fss(V) while v is still below V;
+/// from then on p' <= W F' with W = sigma0 V |Fss'|/(k_lat Fss), the rest, (1 - W) F' at least, moves the dashpots on to V,
+/// and so p gains W/(1 - W) of their force at most.
+fn stays_near_steady(law: &LuGre, load: f64, drive: &Drive) -> bool {
+    let velocity = drive.velocity;
+    let strength = law.stribeck(load, velocity);
+    // The curve is steepest at v_s/sqrt(2).
+    let steepest = velocity.min(law.stribeck_velocity * std::f64::consts::FRAC_1_SQRT_2);
+    let slope = (-law.stribeck_slope(load, steepest)).max(0.0);
+    let weakening = law.stiffness * velocity * slope / (drive.stiffness * strength);
+    let spread = (law.stribeck(load, 0.0) - strength).max(0.0);
+    let gained = weakening / (1.0 - weakening) * (law.damping + law.viscous_friction) * velocity;
+    let near = drive.near_steady() * law.steady_force(load, velocity);
+    velocity == 0.0 || weakening < 0.1 && law.damping * velocity < strength && spread.min(gained) <= near
+}
+
+impl Ramp {
+    fn new(law: &LuGre, load: f64, drive: &Drive) -> Self {
+        let velocity = drive.velocity;
+        let largest = law.stribeck(load, 0.0).max(law.stribeck(load, velocity));
+        let unit = largest + law.viscous_friction * velocity;
+        let forces = [law.damping * velocity / unit, law.viscous_friction * velocity / unit];
+        let damped = forces[0] + forces[1] > 0.0;
+        let dashpots = if damped { forces[0] + forces[1] } else { 1.0 };
+        let inertia = drive.mass * (drive.stiffness * velocity / unit) * (velocity / unit) / dashpots;
+        Self {
+            law: *law,
+            load,
+            velocity,
+            unit,
+            stiffness: law.stiffness / drive.stiffness,
+            damping: forces[0] / dashpots,
+            viscosity: forces[1] / dashpots,
+            dashpots,
+            // Without dashpots only its mass gives the particle a velocity.
+            mass: if damped { 0.0 } else { inertia },
+            inertia,
+        }
+    }
+
+    /// The transmitted force (N).
+    fn force(&self, y: &[f64; 3]) -> f64 {
+        self.unit * (y[0] + self.dashpots * y[1])
+    }
+
+    /// Marches until `event` rises through zero.
+    fn climb(&self, drive: &Drive, event: impl Fn(&Self, &[f64; 3]) -> f64) -> Result<(End<3>, u64), Failure> {
+        // The velocity of a particle that swings on its bristles counts by what it moves them: u over the frequency.
+        let inertia = self.mass * self.dashpots;
+        let swing = if inertia > 0.0 { ((1.0 + self.stiffness) / inertia).sqrt().max(1.0) } else { 1.0 };
+        let control = Control {
+            tolerance: drive.tolerance,
+            scale: [1.0, 1.0, swing],
+            first_step: 1e-6,
+            longest_step: f64::INFINITY,
+            step_budget: drive.step_budget,
+        };
+        let mut march = March::<Rodas, _, 3>::new(self, (0.0, [0.0; 3]), control);
+        match march.until(f64::MAX, |_, y| Ok(event(self, y))) {
+            Ok(Outcome::Event(end) | Outcome::Horizon(end)) => Ok((end, march.evaluations())),
+            // Where friction weakens faster than the dashpots hold, a massless particle has no velocity to go on with.
+            Err(Failure::StepTooSmall) if self.mass == 0.0 && self.inertia > 0.0 => {
+                Self { mass: self.inertia, ..*self }.climb(drive, event)
+            }
+            Err(failure) => Err(failure),
+        }
+    }
+
+    fn strength(&self, u: f64) -> f64 {
+        self.law.stribeck(self.load, u * self.velocity) / self.unit
+    }
+
+    /// z'/V.
+    fn sprung(&self, p: f64, u: f64) -> f64 {
+        u - u.abs() * p / self.strength(u)
+    }
+}
+
+impl Problem<3> for Ramp {
+    fn rate(&self, _: f64, &[p, w, u]: &[f64; 3]) -> [f64; 3] {
+        let sprung = self.sprung(p, u);
+        let rise = self.stiffness * sprung;
+        [rise, 1.0 - u - rise, w - self.damping * sprung - self.viscosity * u]
+    }
+
+    fn jacobian(&self, _: f64, &[p, _, u]: &[f64; 3]) -> [[f64; 3]; 3] {
+        let strength = self.strength(u);
+        let slope = self.law.stribeck_slope(self.load, u * self.velocity) * self.velocity / self.unit;
+        let by_p = -u.abs() / strength;
+        let by_u = 1.0 - u.signum() * p / strength + u.abs() * p * slope / (strength * strength);
+        let k = self.stiffness;
+        [
+            [k * by_p, 0.0, k * by_u],
+            [-k * by_p, 0.0, -1.0 - k * by_u],
+            [-self.damping * by_p, 1.0, -self.damping * by_u - self.viscosity],
+        ]
+    }
+
+    fn mass(&self) -> [f64; 3] {
+        [1.0, self.dashpots, self.mass]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Scene;
+    use crate::ode::{DormandPrince, assert_jacobian};
+
+    fn drive(velocity: f64, tolerance: f64) -> Drive {
+        Drive { velocity, stiffness: 30.0, tolerance, ..Drive::from_scene(&Scene::default(), 30.0) }
+    }
+
+    fn law() -> LuGre {
+        LuGre::from_scene(&Scene::default())
+    }
+
+    /// The same ramp in plain units, F and z, with v from the balance by bisection.
+    struct Plain {
+        law: LuGre,
+        velocity: f64,
+    }
+
+    impl Plain {
+        fn particle_velocity(&self, force: f64, z: f64) -> f64 {
+            let (mut low, mut high) = (0.0, 1.0);
+            for _ in 0..100 {
+                let v = 0.5 * (low + high);
+                if self.law.force(4e-7, z, v) < force { low = v } else { high = v }
+            }
+            low
+        }
+    }
+
+    impl Problem<2> for Plain {
+        fn rate(&self, _: f64, y: &[f64; 2]) -> [f64; 2] {
+            let v = self.particle_velocity(y[0] * 1e-7, y[1] * 1e-10);
+            [30.0 * (self.velocity - v) * 1e7, self.law.deflection_rate(4e-7, y[1] * 1e-10, v) * 1e10]
+        }
+
+        fn jacobian(&self, _: f64, _: &[f64; 2]) -> [[f64; 2]; 2] {
+            [[0.0; 2]; 2]
+        }
+    }
+
+    /// Fast and heavily damped enough for the explicit method: the peak of F over its steps. 1e-6 for the steps.
+    #[test]
+    fn agrees_with_an_explicit_march() {
+        for (velocity, damping) in [(3e-4, 1e-4), (1e-3, 1e-4), (1e-3, 3e-5)] {
+            let law = LuGre { damping, viscous_friction: 1e-4, ..law() };
+            let control = Control {
+                tolerance: 1e-9,
+                scale: [1.0; 2],
+                first_step: 1e-9,
+                longest_step: 1e-7,
+                step_budget: 1_000_000,
+            };
+            let plain = Plain { law, velocity };
+            let mut march = March::<DormandPrince, _, 2>::new(&plain, (0.0, [0.0; 2]), control);
+            let mut largest = 0.0_f64;
+            while march.state().t < 3.0 * 4e-7 / (30.0 * velocity) {
+                march.advance(1.0).unwrap();
+                largest = largest.max(march.state().y[0]);
+            }
+            let peak = peak(&law, 4e-7, &drive(velocity, 1e-8)).unwrap();
+            assert!((peak.force * 1e7 / largest - 1.0).abs() < 1e-6, "{velocity} {peak:?} {largest}");
+        }
+    }
+
+    /// Far below v_s the peak is the steady force; at 100 nm/s it takes 1e-9 of the Stribeck curve to tell them apart.
+    #[test]
+    fn slow_ramps_peak_at_the_fast_form() {
+        for velocity in [0.0, 1e-9, 1e-7, 8e-7] {
+            for tolerance in [1e-6, 1e-11] {
+                let force = peak(&law(), 4e-7, &drive(velocity, tolerance)).unwrap().force;
+                assert!((force / law().steady_force(4e-7, velocity) - 1.0).abs() < 2e-7, "{velocity} {force}");
+            }
+        }
+    }
+
+    /// Near v_s friction weakens so fast that the particle breaks loose above the steady force, and below static friction
+    /// plus dashpots.
+    #[test]
+    fn fast_ramps_overshoot() {
+        let velocity = 1e-3;
+        let force = peak(&law(), 4e-7, &drive(velocity, 1e-8)).unwrap().force;
+        let steady = law().steady_force(4e-7, velocity);
+        assert!(force > 1.001 * steady && force < law().stribeck(4e-7, 0.0) + 2.6e-7 * velocity, "{force} {steady}");
+    }
+
+    #[test]
+    fn no_damping_no_strength_and_no_load_have_answers() {
+        let undamped = LuGre { damping: 0.0, viscous_friction: 0.0, ..law() };
+        let force = peak(&undamped, 4e-7, &drive(1e-7, 1e-10)).unwrap().force;
+        assert!((force / 3.2e-7 - 1.0).abs() < 1e-6, "{force}");
+        let smooth = LuGre { static_friction: 0.0, dynamic_friction: 0.0, ..law() };
+        assert_eq!(peak(&smooth, 4e-7, &drive(1e-7, 1e-10)).unwrap().force, 1e-7 * 1e-7);
+        assert_eq!(peak(&law(), 0.0, &drive(1e-7, 1e-10)).unwrap().force, 1e-7 * 1e-7);
+    }
+
+    #[test]
+    fn the_jacobian_is_the_derivative() {
+        let ramp = Ramp::new(&law(), 4e-7, &drive(1e-3, 1e-8));
+        assert_jacobian(&ramp, [0.4, 0.3, 0.7], 1e-5);
+    }
+}

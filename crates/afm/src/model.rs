@@ -1,0 +1,348 @@
+//! The critical pushing force of a nanoparticle as a model: the adapter between factors and [`critical_force`].
+
+mod history;
+mod output;
+
+use std::ops::Range;
+
+use apportion::model::{
+    Batch, Choice, Counter, CounterKind, EVALUATIONS, Flag, Input, LARGEST_ERROR, Model, Output, OutputSeries, RUNGS,
+    RowFailure, RunContext, Worker,
+};
+use apportion::quantity::Unit;
+use history::Histories;
+pub use history::{AfmHistory, AfmMoments};
+pub use output::AfmOutput;
+use output::edge;
+
+use crate::force::{AT_ONCE, ClosedForms};
+use crate::{
+    ContactTheory, Critical, Failure, Fidelity, FrictionLaw, LuGreParameters, Options, Parameter, Scene, Torsion,
+    critical_force,
+};
+
+/// The unit in which people give a parameter of the scene.
+pub fn edge_unit(parameter: &Parameter) -> Unit {
+    edge(match parameter.name {
+        "length" | "width" | "thickness" | "height" | "tip_base_radius" => "um",
+        "particle_radius" | "tip_radius" | "burgers_vector" | "equilibrium_separation" => "nm",
+        "velocity" => "nm/s",
+        "stribeck_velocity" => "mm/s",
+        "contact_angle" | "preload_angle" => "deg",
+        "shear_strength" => "MPa",
+        _ if parameter.unit == "Pa" => "GPa",
+        _ => parameter.unit,
+    })
+}
+
+/// The parameters of the scene as inputs of the model.
+pub fn afm_inputs() -> Vec<Input> {
+    Parameter::ALL.iter().map(afm_input).collect()
+}
+
+fn afm_input(parameter: &Parameter) -> Input {
+    let unit = edge_unit(parameter);
+    Input {
+        name: parameter.name.to_owned(),
+        symbol: parameter.symbol.to_owned(),
+        nominal: unit.from_si((parameter.get)(&Scene::default())),
+        unit,
+        domain: Some(parameter.domain),
+        distribution: None,
+        description: parameter.description.to_owned(),
+    }
+}
+
+/// Every output, then every history.
+pub fn afm_outputs() -> Vec<Output> {
+    AfmOutput::ALL
+        .iter()
+        .map(|output| output.info())
+        .chain(AfmHistory::ALL.iter().map(|history| history.info()))
+        .collect()
+}
+
+/// The choices of `[afm]`.
+pub fn afm_choices() -> Vec<Choice> {
+    fn names<T: Copy>(all: &[T], name: fn(T) -> &'static str) -> Vec<&'static str> {
+        all.iter().map(|&choice| name(choice)).collect()
+    }
+    vec![
+        ("friction", names(&FrictionLaw::ALL, FrictionLaw::name)),
+        ("contact", names(&ContactTheory::ALL, ContactTheory::name)),
+        ("fidelity", names(&Fidelity::ALL, Fidelity::name)),
+        ("torsion", names(&Torsion::ALL, Torsion::name)),
+        ("adhesion_in_load", vec!["false", "true"]),
+        ("lugre_parameters (lugre at quasi-static and above)", names(&LuGreParameters::ALL, LuGreParameters::name)),
+        ("tolerance (quasi-static and above)", vec!["a number, 1e-6"]),
+        ("step (fixed-step)", vec!["a time, \"10 ms\""]),
+        ("step_budget (marched rungs)", vec!["a whole number, 1000000"]),
+        ("history (of the outputs NAME_history)", vec!["a table, { duration = \"0.4 s\", points = 40 }"]),
+    ]
+}
+
+/// Rows between two looks at whether the run is to end: rows of the finest fidelity take milliseconds.
+const ROWS_BETWEEN_LOOKS: usize = 16;
+
+/// A study's version of the nanoparticle model.
+#[derive(Debug, Clone)]
+pub struct AfmModel {
+    scene: Scene,
+    options: Options,
+    factors: Vec<&'static Parameter>,
+    outputs: Vec<Output>,
+    which: Vec<AfmOutput>,
+    /// Series, whose values stand after the outputs in `which`.
+    histories: Histories,
+    flags: Vec<Flag>,
+    /// Rows by rung, in the order of [`Fidelity::ALL`]; then [`EVALUATIONS`] and [`LARGEST_ERROR`].
+    counters: Vec<Counter>,
+}
+
+impl AfmModel {
+    /// The model of `scene` under `options` whose factors are `factors`, in the order of the space. Its errors are those of the
+    /// critical time too if that is one of the outputs.
+    pub fn new(scene: Scene, options: Options, factors: Vec<&'static Parameter>, which: Vec<AfmOutput>) -> Self {
+        let accurate_time = options.accurate_time || which.contains(&AfmOutput::CriticalTime);
+        let options = Options { accurate_time, ..options };
+        let outputs = which.iter().map(|output| output.info()).collect();
+        let flags = crate::Flag::ALL
+            .iter()
+            .map(|f| Flag { name: f.name().into(), description: f.description().into(), warns: false })
+            .collect();
+        let counter = |name: String, kind| Counter { name: name.into(), kind };
+        let rungs = Fidelity::ALL.iter().map(|rung| counter(format!("{RUNGS}{}", rung.name()), CounterKind::Sum));
+        let cost = [(EVALUATIONS, CounterKind::Sum), (LARGEST_ERROR, CounterKind::Maximum)];
+        let counters = rungs.chain(cost.map(|(name, kind)| counter(name.to_owned(), kind))).collect();
+        Self { scene, options, factors, outputs, which, histories: Histories::none(), flags, counters }
+    }
+
+    /// The model with these histories after its outputs, each a series of values at `moments`.
+    #[must_use]
+    pub fn with_histories(self, which: &[AfmHistory], moments: &AfmMoments) -> Self {
+        let first = self.outputs.len();
+        let histories = Histories::new(which, moments, first);
+        let outputs = self.outputs.into_iter().chain(histories.outputs()).collect();
+        Self { outputs, histories, ..self }
+    }
+}
+
+impl Model for AfmModel {
+    fn outputs(&self) -> &[Output] {
+        &self.outputs
+    }
+
+    fn series(&self) -> &[OutputSeries] {
+        self.histories.series()
+    }
+
+    fn flags(&self) -> &[Flag] {
+        &self.flags
+    }
+
+    fn counters(&self) -> &[Counter] {
+        &self.counters
+    }
+
+    /// Where the equations of motion are marched.
+    fn is_slow(&self) -> bool {
+        matches!(self.options.fidelity, Fidelity::Dynamic | Fidelity::FixedStep)
+    }
+
+    fn worker<'a>(&'a self, context: &'a RunContext<'a>) -> Box<dyn Worker + 'a> {
+        let forms = ClosedForms::new(&self.scene, &self.options, &self.factors).map(Box::new);
+        let scene = self.scene;
+        Box::new(AfmWorker { model: self, context, scene, forms, reasons: Vec::new(), spent: Spent::default() })
+    }
+}
+
+struct AfmWorker<'a> {
+    model: &'a AfmModel,
+    context: &'a RunContext<'a>,
+    scene: Scene,
+    /// Rows in closed form are computed many at once.
+    forms: Option<Box<ClosedForms>>,
+    /// The failures met so far, in words: there are few, and each is put into words once.
+    reasons: Vec<(Failure, RowFailure)>,
+    spent: Spent,
+}
+
+/// What was spent on the rows of a batch.
+#[derive(Default)]
+struct Spent {
+    rungs: [u64; Fidelity::ALL.len()],
+    evaluations: u64,
+    largest_error: f64,
+}
+
+impl Worker for AfmWorker<'_> {
+    fn run(&mut self, inputs: &[&[f64]], batch: &mut Batch) {
+        self.spent = Spent::default();
+        let is_quick = self.forms.is_some() && self.model.histories.is_empty();
+        let step = if is_quick { AT_ONCE } else { ROWS_BETWEEN_LOOKS };
+        for first in (0..batch.rows()).step_by(step) {
+            if self.context.is_stopped() {
+                batch.give_up(RowFailure::interrupted());
+                break;
+            }
+            let rows = first..batch.rows().min(first + step);
+            match self.forms.take() {
+                Some(forms) => self.forms = Some(self.run_at_once(forms, inputs, rows.clone(), batch)),
+                None => rows.clone().for_each(|row| self.run_row(inputs, row, batch)),
+            }
+            if !self.model.histories.is_empty() {
+                rows.for_each(|row| self.run_histories(inputs, row, batch));
+            }
+        }
+        let Spent { rungs, evaluations, largest_error } = &self.spent;
+        for (counter, rows) in rungs.iter().chain([evaluations]).enumerate() {
+            batch.count(counter, *rows as f64);
+        }
+        batch.count(rungs.len() + 1, *largest_error);
+    }
+}
+
+impl AfmWorker<'_> {
+    fn set_scene(&mut self, inputs: &[&[f64]], row: usize) {
+        for (parameter, column) in self.model.factors.iter().zip(inputs) {
+            (parameter.set)(&mut self.scene, column[row]);
+        }
+    }
+
+    fn run_row(&mut self, inputs: &[&[f64]], row: usize, batch: &mut Batch) {
+        self.set_scene(inputs, row);
+        match critical_force(&self.scene, &self.model.options) {
+            Err(failure) => {
+                let reason = self.reason(failure);
+                (0..self.model.which.len()).for_each(|column| batch.fail(row, column, reason.clone()));
+            }
+            Ok(critical) => self.write(row, &critical, batch),
+        }
+    }
+
+    fn run_histories(&mut self, inputs: &[&[f64]], row: usize, batch: &mut Batch) {
+        self.set_scene(inputs, row);
+        let model = self.model;
+        if let Err(failure) = model.histories.write(&self.scene, &model.options, row, batch) {
+            let reason = self.reason(failure);
+            model.histories.columns().for_each(|column| batch.fail(row, column, reason.clone()));
+        }
+    }
+
+    fn run_at_once(
+        &mut self,
+        mut forms: Box<ClosedForms>,
+        inputs: &[&[f64]],
+        rows: Range<usize>,
+        batch: &mut Batch,
+    ) -> Box<ClosedForms> {
+        let columns = self.model.factors.iter().zip(inputs);
+        let are_set = columns.fold(true, |all, (parameter, column)| all & forms.set(parameter, &column[rows.clone()]));
+        forms.solve();
+        if !are_set || !forms.are_ordinary(rows.len()) {
+            rows.for_each(|row| self.run_row(inputs, row, batch));
+            return forms;
+        }
+        for (column, output) in self.model.which.iter().enumerate() {
+            if let Some(values) = output.column(forms.slips()) {
+                batch.column_mut(column)[rows.clone()].copy_from_slice(&values[..rows.len()]);
+                continue;
+            }
+            for (i, row) in rows.clone().enumerate() {
+                match output.of_many(i, &forms) {
+                    Ok(value) => batch.set(row, column, value),
+                    Err(failure) => batch.fail(row, column, self.reason(failure)),
+                }
+            }
+        }
+        let slips = forms.slips();
+        self.spent.rungs[Fidelity::ClosedForm as usize] += rows.len() as u64;
+        self.spent.evaluations += rows.len() as u64;
+        self.spent.largest_error =
+            slips.error_estimate[..rows.len()].iter().fold(self.spent.largest_error, |a, b| a.max(*b));
+        forms.count_flags(rows.len(), |flag, raised| batch.raise_by(flag, raised));
+        forms
+    }
+
+    fn reason(&mut self, failure: Failure) -> RowFailure {
+        if let Some((_, reason)) = self.reasons.iter().find(|(known, _)| *known == failure) {
+            return reason.clone();
+        }
+        let reason = RowFailure::new(&failure.to_string());
+        self.reasons.push((failure, reason.clone()));
+        reason
+    }
+
+    fn write(&mut self, row: usize, critical: &Critical, batch: &mut Batch) {
+        let model = self.model;
+        for (column, output) in model.which.iter().enumerate() {
+            match output.value(critical) {
+                Ok(value) => batch.set(row, column, value),
+                Err(failure) => batch.fail(row, column, self.reason(failure)),
+            }
+        }
+        // `Fidelity::ALL` is in the order of the declaration.
+        self.spent.rungs[critical.rung as usize] += 1;
+        self.spent.evaluations += critical.cost.evaluations;
+        self.spent.largest_error = self.spent.largest_error.max(critical.error_estimate);
+        // So is `Flag::ALL`.
+        critical.flags.iter().for_each(|flag| batch.raise(flag as usize));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_edge_unit_is_known_and_of_the_right_kind() {
+        for parameter in Parameter::ALL {
+            let si = Unit::parse(parameter.unit).unwrap();
+            assert!(edge_unit(parameter).compatible(&si), "{}", parameter.name);
+        }
+    }
+
+    /// One bad row among many: it fails with its reason, and costs the others not a bit.
+    #[test]
+    fn rows_are_the_same_in_any_company() {
+        let outputs = AfmOutput::ALL.to_vec();
+        let factors = ["length", "velocity"].map(|name| Parameter::from_name(name).unwrap());
+        let model = AfmModel::new(Scene::default(), Options::default(), factors.to_vec(), outputs);
+        let run = |length: &[f64], velocity: &[f64]| {
+            let mut batch = Batch::new(&model);
+            batch.reset(length.len());
+            model.worker(&RunContext::default()).run(&[length, velocity], &mut batch);
+            batch.settle();
+            batch
+        };
+        let lengths: Vec<f64> = (0..150).map(|i| 200e-6 + 1e-6 * f64::from(i)).collect();
+        let velocities: Vec<f64> = (0..150).map(|i| 1e-9 * f64::from(i)).collect();
+        let mut broken = lengths.clone();
+        broken[100] = -1.0;
+        let (whole, other) = (run(&lengths, &velocities), run(&broken, &velocities));
+        for output in 0..AfmOutput::ALL.len() {
+            for row in 0..150 {
+                let alone = run(&lengths[row..=row], &velocities[row..=row]);
+                let same = |batch: &Batch| batch.column(output)[row].to_bits() == alone.column(output)[0].to_bits();
+                assert!(same(&whole) && (row == 100 || same(&other)), "{output} {row}");
+            }
+        }
+        assert_eq!(whole.failures().len(), 1, "the time at rest");
+        assert_eq!(other.failures().len(), 1 + AfmOutput::ALL.len());
+        assert_eq!((whole.flags()[3], other.flags()[3]), (150, 149));
+    }
+
+    #[test]
+    fn still_substrate_fails_in_time_alone() {
+        let outputs = vec![AfmOutput::CriticalForce, AfmOutput::CriticalTime];
+        let velocity = Parameter::from_name("velocity").unwrap();
+        let model = AfmModel::new(Scene::default(), Options::default(), vec![velocity], outputs);
+        let mut batch = Batch::new(&model);
+        batch.reset(2);
+        model.worker(&RunContext::default()).run(&[&[100e-9, 0.0]], &mut batch);
+        batch.settle();
+        assert_eq!(batch.column(0)[0], batch.column(0)[1]);
+        assert!(batch.column(1)[0] > 0.0);
+        assert_eq!(batch.failures(), [(1, 1, RowFailure::new(&Failure::VelocityZero.to_string()))]);
+    }
+}

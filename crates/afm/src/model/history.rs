@@ -1,0 +1,189 @@
+//! Outputs of the nanoparticle model against time.
+
+use std::ops::Range;
+
+use apportion::model::{Batch, Output, OutputSeries, SeriesAxis, SeriesError};
+use apportion::names::named;
+
+use super::output::edge;
+use crate::history::{Sample, at_times};
+use crate::{Failure, Options, Scene};
+
+named! {
+/// A quantity of the push against time: the tip drags the particle along until it slips, and holds it still from then on
+/// (Tafazzoli and Sitti 2004), see [`crate::history`]. The slip is that of the quasi-static rung whatever the fidelity.
+pub enum AfmHistory {
+    /// F_T, the tip force.
+    Force = "force_history",
+    /// The travel of the particle.
+    Position = "position_history",
+    /// Radius of the contact between particle and substrate.
+    SubstrateContact = "substrate_contact_history",
+    /// Radius of the contact between tip and particle; 0 where the tip force pulls it apart.
+    TipContact = "tip_contact_history",
+}
+}
+
+impl AfmHistory {
+    /// What it is, as an output.
+    pub fn info(self) -> Output {
+        let (unit, description) = self.row();
+        Output::new(self.name(), edge(unit), description)
+    }
+
+    /// Unit and description.
+    fn row(self) -> (&'static str, &'static str) {
+        match self {
+            Self::Force => ("nN", "tip force F_T against time"),
+            Self::Position => ("nm", "travel of the particle against time"),
+            Self::SubstrateContact => ("nm", "radius of the contact with the substrate against time"),
+            Self::TipContact => ("nm", "radius of the contact with the tip against time"),
+        }
+    }
+
+    /// The value in SI units.
+    fn value(self, sample: &Sample) -> f64 {
+        match self {
+            Self::Force => sample.tip_force,
+            Self::Position => sample.particle,
+            Self::SubstrateContact => sample.substrate_contact.radius,
+            Self::TipContact => sample.tip_contact.map_or(0.0, |contact| contact.radius),
+        }
+    }
+}
+
+/// The moments at which histories are given: evenly spaced, the last one at the end of the duration, none at time 0.
+#[derive(Debug, Clone, PartialEq)]
+pub struct AfmMoments {
+    duration: f64,
+    axis: SeriesAxis,
+}
+
+impl AfmMoments {
+    /// So many `points` over `duration` (s).
+    ///
+    /// # Errors
+    /// [`SeriesError`] unless there are 2 to 10,000 points and the duration is a positive number.
+    pub fn new(duration: f64, points: usize) -> Result<Self, SeriesError> {
+        let step = duration / points.max(1) as f64;
+        let axis = SeriesAxis::even("time", "s", points, step, step)?;
+        if step > 0.0 { Ok(Self { duration, axis }) } else { Err(SeriesError::Position { place: 0, found: step }) }
+    }
+
+    /// How long the push is followed (s).
+    pub fn duration(&self) -> f64 {
+        self.duration
+    }
+
+    /// The times (s), in rising order.
+    pub fn times(&self) -> &[f64] {
+        self.axis.positions()
+    }
+}
+
+/// The histories of a model, whose values are its last outputs.
+#[derive(Debug, Clone)]
+pub(super) struct Histories {
+    which: Vec<AfmHistory>,
+    times: Vec<f64>,
+    series: Vec<OutputSeries>,
+}
+
+impl Histories {
+    pub fn none() -> Self {
+        Self { which: Vec::new(), times: Vec::new(), series: Vec::new() }
+    }
+
+    /// Those of a model with `first` other outputs.
+    pub fn new(which: &[AfmHistory], moments: &AfmMoments, first: usize) -> Self {
+        let times = moments.times().to_vec();
+        let series = |(number, history): (usize, &AfmHistory)| OutputSeries {
+            name: history.name().to_owned(),
+            first: first + number * times.len(),
+            axis: moments.axis.clone(),
+        };
+        let series = which.iter().enumerate().map(series).collect();
+        Self { which: which.to_vec(), times, series }
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.which.is_empty()
+    }
+
+    pub fn series(&self) -> &[OutputSeries] {
+        &self.series
+    }
+
+    /// Their values as outputs.
+    pub fn outputs(&self) -> Vec<Output> {
+        let all = self.which.iter().zip(&self.series);
+        all.flat_map(|(history, series)| {
+            let Output { unit, .. } = history.info();
+            series.outputs(&unit, history.row().1).collect::<Vec<Output>>()
+        })
+        .collect()
+    }
+
+    /// The columns of their values.
+    pub fn columns(&self) -> Range<usize> {
+        let first = self.series.first().map_or(0, |series| series.first);
+        first..first + self.which.len() * self.times.len()
+    }
+
+    /// Writes the values of a row.
+    pub fn write(&self, scene: &Scene, options: &Options, row: usize, batch: &mut Batch) -> Result<(), Failure> {
+        at_times(scene, options, &self.times, |place, sample| {
+            for (history, series) in self.which.iter().zip(&self.series) {
+                batch.set(row, series.first + place, history.value(sample));
+            }
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use apportion::model::{Model, RunContext};
+    use apportion::quantity::Unit;
+
+    use super::*;
+    use crate::{AfmModel, AfmOutput, Fidelity, Parameter};
+
+    #[test]
+    fn moments_end_with_the_duration() {
+        let moments = AfmMoments::new(0.4, 4).unwrap();
+        assert_eq!((moments.times(), moments.duration()), (&[0.1, 0.2, 0.30000000000000004, 0.4][..], 0.4));
+        for (duration, points) in
+            [(0.0, 4), (-1.0, 4), (f64::NAN, 4), (f64::INFINITY, 4), (1.0, 1), (1.0, 10_001), (1e-323, 50)]
+        {
+            assert!(AfmMoments::new(duration, points).is_err(), "{duration} {points}");
+        }
+        AfmHistory::ALL.iter().for_each(|history| assert!(Unit::parse(history.row().0).is_ok()));
+    }
+
+    /// Values stand after the outputs; a bad row fails in all of them, once each, and costs the others nothing.
+    #[test]
+    fn histories_stand_beside_the_outputs() {
+        let factors = ["velocity", "length"].map(|name| Parameter::from_name(name).unwrap());
+        let moments = AfmMoments::new(0.4, 3).unwrap();
+        let options = Options { fidelity: Fidelity::QuasiStatic, ..Options::default() };
+        let model = AfmModel::new(Scene::default(), options, factors.to_vec(), vec![AfmOutput::CriticalForce])
+            .with_histories(&AfmHistory::ALL, &moments);
+        let names: Vec<&str> = model.outputs().iter().map(|output| &*output.name).collect();
+        assert_eq!(
+            (names.len(), names[0], names[1], names[12]),
+            (13, "critical_force", "force_history[0]", "tip_contact_history[2]")
+        );
+        assert_eq!(model.series()[3].places(), 10..13);
+        let mut batch = Batch::new(&model);
+        batch.reset(3);
+        model.worker(&RunContext::default()).run(&[&[100e-9, 100e-9, 0.0], &[225e-6, -1.0, 225e-6]], &mut batch);
+        batch.settle();
+        assert_eq!(batch.failures().len(), 13);
+        assert!(batch.failures().iter().all(|(_, row, reason)| *row == 1 && reason.to_string().contains("length")));
+        // At 0.4 s it has slipped, at rest it has not moved.
+        let last = |history: usize, row: usize| batch.column(1 + 3 * history + 2)[row];
+        assert!((last(0, 0) / batch.column(0)[0] - 1.0).abs() < 1e-6);
+        assert_eq!((last(1, 2), last(2, 0).is_finite()), (0.0, true));
+        assert!(last(3, 0) > last(3, 2));
+    }
+}

@@ -1,0 +1,131 @@
+//! The fields of a [`Scene`] by name, and the check that each lies in its domain.
+
+use apportion::quantity::Domain;
+
+use super::{Failure, Scene};
+
+/// One parameter of a [`Scene`].
+#[derive(Clone, Copy, Debug)]
+pub struct Parameter {
+    /// Name of the field, as a study file writes it.
+    pub name: &'static str,
+    /// Symbol in the papers, in plain letters.
+    pub symbol: &'static str,
+    /// Symbol of the SI unit; `1` for a pure number.
+    pub unit: &'static str,
+    /// What it is, in a few words.
+    pub description: &'static str,
+    /// Where it is physical.
+    pub domain: Domain,
+    /// Reads it (SI). For those with a derived value the one in force, given or derived.
+    pub get: fn(&Scene) -> f64,
+    /// Sets it (SI), without looking at the domain. Setting one with a derived value cuts its tie to the others.
+    pub set: fn(&mut Scene, f64),
+}
+
+impl Parameter {
+    /// The parameter of that name, if there is one.
+    pub fn from_name(name: &str) -> Option<&'static Self> {
+        Self::ALL.iter().find(|parameter| parameter.name == name)
+    }
+}
+
+impl Scene {
+    /// Whether every parameter lies in its physical domain.
+    ///
+    /// # Errors
+    /// [`Failure::OutOfDomain`] names the first parameter of [`Parameter::ALL`] that does not.
+    #[inline]
+    pub fn check(&self) -> Result<(), Failure> {
+        if self.looks_physical() { Ok(()) } else { self.look_closely() }
+    }
+
+    /// The same as [`look_closely`](Self::look_closely) for the hot path.
+    #[inline]
+    fn looks_physical(&self) -> bool {
+        let (mut positive, mut not_negative, mut others) =
+            (0, 0, Domain::Positive.contains(self.effective_shear_modulus()));
+        self.for_each_given(|domain, value| match domain {
+            // As integers the positive finite numbers are one range, so that one comparison of the largest does for all.
+            Domain::Positive => positive = value.to_bits().wrapping_sub(1).max(positive),
+            // Adding zero makes minus zero zero.
+            Domain::NonNegative => not_negative = (value + 0.0).to_bits().max(not_negative),
+            Domain::AcuteAngle | Domain::PoissonRatio => others &= domain.contains(value),
+        });
+        others & (positive < f64::MAX.to_bits()) & (not_negative <= f64::MAX.to_bits())
+    }
+
+    #[cold]
+    fn look_closely(&self) -> Result<(), Failure> {
+        Parameter::ALL.iter().try_for_each(|one| Failure::unless_in(one.domain, one.name, (one.get)(self)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::HashSet;
+
+    use super::*;
+
+    #[test]
+    fn the_main_factors_come_first() {
+        let symbols: Vec<_> = Parameter::ALL[..8].iter().map(|parameter| parameter.symbol).collect();
+        assert_eq!(symbols, ["L", "w", "t", "H", "V", "E", "K", "omega"]);
+    }
+
+    #[test]
+    fn names_and_symbols_are_unique() {
+        let names: HashSet<_> = Parameter::ALL.iter().map(|parameter| parameter.name).collect();
+        let symbols: HashSet<_> = Parameter::ALL.iter().map(|parameter| parameter.symbol).collect();
+        assert_eq!((names.len(), symbols.len()), (Parameter::ALL.len(), Parameter::ALL.len()));
+    }
+
+    #[test]
+    fn set_then_get_gives_the_value_back_and_moves_nothing_else() {
+        // Those with a derived value are fixed first, since unset they follow others.
+        let before =
+            Scene { shear_modulus: Some(1.0), tip_mass: Some(1.0), tip_inertia: Some(1.0), ..Scene::default() };
+        for parameter in Parameter::ALL {
+            let mut scene = before;
+            (parameter.set)(&mut scene, 0.123);
+            let moved: Vec<_> =
+                Parameter::ALL.iter().filter(|p| (p.get)(&scene) != (p.get)(&before)).map(|p| p.name).collect();
+            assert_eq!(moved, [parameter.name]);
+            assert_eq!((parameter.get)(&scene), 0.123);
+        }
+    }
+
+    #[test]
+    fn defaults_are_physical() {
+        for parameter in Parameter::ALL {
+            assert!(parameter.domain.contains((parameter.get)(&Scene::default())), "{}", parameter.name);
+        }
+    }
+
+    /// Each parameter alone, set to each value outside its domain: this also proves that the digest
+    /// covers the table.
+    #[test]
+    fn every_parameter_is_checked_and_named() {
+        for parameter in Parameter::ALL {
+            let outside = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, -1.0, 0.0, 0.6, 2.0];
+            for value in outside.into_iter().filter(|&value| !parameter.domain.contains(value)) {
+                let mut scene = Scene::default();
+                (parameter.set)(&mut scene, value);
+                let expected = Failure::OutOfDomain { parameter: parameter.name, domain: parameter.domain };
+                assert_eq!(scene.check(), Err(expected), "{} = {value}", parameter.name);
+            }
+        }
+    }
+
+    #[test]
+    fn nothing_inside_a_domain_is_refused() {
+        for parameter in Parameter::ALL {
+            for value in [0.0, 1e-300, 0.4, 0.5, 1.5, 1e300].into_iter().filter(|&v| parameter.domain.contains(v)) {
+                let mut scene =
+                    Scene { shear_modulus: Some(1.0), tip_mass: Some(1.0), tip_inertia: Some(1.0), ..Scene::default() };
+                (parameter.set)(&mut scene, value);
+                assert_eq!(scene.check(), Ok(()), "{} = {value}", parameter.name);
+            }
+        }
+    }
+}

@@ -1,0 +1,157 @@
+//! `apportion analyze --layout salib`: outputs at points that SALib made.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::anyhow;
+use apportion::Unlikely;
+use apportion::files::read_text;
+use apportion::given::Column;
+use apportion::salib::{SalibLayout, SalibProblem, recognise, salib_study};
+use apportion_files::exchange::{ColumnKind, RowReader, first_output, open_table, output_columns};
+
+use super::super::output::stem;
+use super::super::table::say_of_table;
+use super::super::{Failure, number_in, say};
+
+#[derive(clap::Args)]
+pub struct SalibArguments {
+    /// SALib's problem as JSON (names, groups), or a study (.toml) with the same inputs in the same order
+    #[arg(long, value_name = "FILE", requires = "layout", conflicts_with = "names")]
+    problem: Option<PathBuf>,
+    /// Names of the inputs in SALib's order, separated by commas [default: all columns that are no outputs]
+    #[arg(long, value_name = "NAMES", requires = "layout", value_delimiter = ',')]
+    names: Vec<String>,
+    /// The points were made with second order (calc_second_order=True, SALib's default)
+    #[arg(long, requires = "layout", conflicts_with = "first_order_only")]
+    second_order: bool,
+    /// The points were made without second order (calc_second_order=False)
+    #[arg(long, requires = "layout")]
+    first_order_only: bool,
+    /// Resamples of the bootstrap that gives the intervals; 0 for the delta method instead
+    #[arg(long, value_name = "N", requires = "layout", default_value_t = 1000, value_parser = resamples)]
+    resamples: usize,
+    /// Seed of the bootstrap
+    #[arg(long, value_name = "S", requires = "layout", default_value_t = 0)]
+    seed: u64,
+}
+
+fn resamples(text: &str) -> Result<usize, String> {
+    if text == "0" { Ok(0) } else { number_in(text, 100..=1_000_000).map_err(|error| format!("{error}, or 0")) }
+}
+
+/// The columns of a file.
+struct Table {
+    problem: SalibProblem,
+    /// The inputs, if the file holds them.
+    inputs: Option<Vec<(String, Vec<f64>)>>,
+    outputs: Vec<Column>,
+}
+
+/// The outputs in a table in SALib's order, as the runs of a study.
+pub fn study(arguments: &super::Arguments) -> Result<super::Read, Failure> {
+    let wrong = |error: &dyn std::fmt::Display| Failure::Input(anyhow!("{}: {error}", arguments.data.display()));
+    let Table { problem, inputs, outputs } = table(arguments)?;
+    let rows = outputs[0].values.len();
+    let SalibArguments { second_order, first_order_only, resamples, seed, .. } = arguments.salib;
+    let asked = match (second_order, first_order_only) {
+        (true, _) => Some(SalibLayout::SecondOrder),
+        (_, true) => Some(SalibLayout::FirstOrder),
+        _ => None,
+    };
+    let layout = recognise(rows, &problem.members, asked, inputs.as_deref()).map_err(|error| wrong(&error))?;
+    match inputs {
+        Some(_) => say("the points in the file are laid out as SALib makes them"),
+        None => say("note: the file holds no points: its rows are taken in the order in which SALib makes them"),
+    }
+    let made = salib_study(&stem(&arguments.data), &problem, &outputs, layout, (resamples, seed));
+    let (study, store) = made.map_err(|error| wrong(&error))?;
+    let unlikely = |output: &Column| Unlikely::find(&output.values).map(|found| found.in_table(found.first + 1));
+    Ok(super::Read { study, store, unlikely: outputs.iter().map(unlikely).collect() })
+}
+
+/// What the problem file says, if there is one.
+fn problem(arguments: &SalibArguments) -> Result<Option<SalibProblem>, Failure> {
+    let wrong = |path: &Path, error: &dyn std::fmt::Display| Failure::Input(anyhow!("{}: {error}", path.display()));
+    let Some(path) = &arguments.problem else {
+        if arguments.names.is_empty() {
+            return Ok(None);
+        }
+        let names = arguments.names.iter().map(|name| name.trim().to_owned()).collect();
+        let problem = SalibProblem::of_inputs(names);
+        return problem.map(Some).map_err(|error| Failure::Input(anyhow!("--names: {error}")));
+    };
+    if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml")) {
+        let study = apportion_files::load_study(path, &[])?;
+        let names = study.space().factors().iter().map(|factor| factor.name.clone()).collect();
+        return SalibProblem::of_inputs(names).map(Some).map_err(|error| wrong(path, &error));
+    }
+    let text = read_text(path).map_err(|error| wrong(path, &format!("cannot read the problem: {error}")))?;
+    SalibProblem::parse(&text).map(Some).map_err(|error| wrong(path, &error))
+}
+
+fn table(arguments: &super::Arguments) -> Result<Table, Failure> {
+    let wrong = |error: &dyn std::fmt::Display| Failure::Input(anyhow!("{}: {error}", arguments.data.display()));
+    let mut reader = open_table(&arguments.data, &arguments.table.options(&[])).map_err(|error| wrong(&error))?;
+    let problem = problem(&arguments.salib)?;
+    let known = problem.as_ref().map(|problem| problem.inputs.clone());
+    let (inputs, outputs) = columns(reader.as_ref(), known, &arguments.outputs).map_err(|error| wrong(&error))?;
+    let input_names: Vec<String> = inputs.iter().map(|(_, name)| name.clone()).collect();
+    let problem = match problem {
+        Some(problem) => problem,
+        None => SalibProblem::of_inputs(input_names).map_err(|error| wrong(&error))?,
+    };
+    let wanted: Vec<(usize, ColumnKind)> =
+        inputs.iter().chain(&outputs).map(|(place, name)| (*place, ColumnKind::numbers(name))).collect();
+    let (mut all, mut part) = (vec![Vec::new(); wanted.len()], vec![Vec::new(); wanted.len()]);
+    while reader.read(&wanted, 1 << 13, &mut part).map_err(|error| wrong(&error))? > 0 {
+        all.iter_mut().zip(&part).for_each(|(all, part)| all.extend_from_slice(part));
+    }
+    say_of_table(&arguments.data, &[], reader.is_unended());
+    for ((_, kind), column) in wanted.iter().zip(&all).take(inputs.len()) {
+        if let Some(row) = column.iter().position(|value| !value.is_finite()) {
+            return Err(wrong(&format!("row {}, column `{}`: the input is missing", row + 1, kind.name)));
+        }
+    }
+    let values = all.split_off(inputs.len());
+    let outputs = outputs.into_iter().zip(values).map(|((_, name), values)| Column { name, values }).collect();
+    let inputs: Vec<(String, Vec<f64>)> = inputs.into_iter().map(|(_, name)| name).zip(all).collect();
+    Ok(Table { problem, inputs: (!inputs.is_empty()).then_some(inputs), outputs })
+}
+
+/// Columns with their names.
+type Places = Vec<(usize, String)>;
+
+/// Which columns are inputs (none if the file does not hold all of them), and which are outputs.
+fn columns(
+    reader: &dyn RowReader,
+    inputs: Option<Vec<String>>,
+    outputs: &[String],
+) -> anyhow::Result<(Places, Places)> {
+    let Some(names) = reader.names() else {
+        let Some(inputs) = inputs else {
+            anyhow::bail!("the columns have no names: name the inputs (--names, --problem)")
+        };
+        let width = reader.width();
+        let is_one = outputs.is_empty() && (width == 1 || width == inputs.len() + 1);
+        let outputs = if is_one { &["y".to_owned()] } else { outputs };
+        let first = first_output(width, inputs.len(), outputs.len())?;
+        let inputs = inputs.into_iter().take(first).enumerate().collect();
+        return Ok((inputs, (first..).zip(outputs.iter().cloned()).collect()));
+    };
+    let is_input = |name: &str| inputs.iter().flatten().any(|input| input == name);
+    let asked: Vec<String> = match (outputs, &inputs) {
+        ([], Some(_)) => names.iter().filter(|name| !is_input(name)).cloned().collect(),
+        ([], None) => {
+            anyhow::bail!("which columns are outputs? name them (--outputs), or the inputs (--names, --problem)")
+        }
+        (asked, _) => asked.to_vec(),
+    };
+    let outputs = output_columns(names, &asked, &is_input)?;
+    let inputs = inputs.unwrap_or_else(|| names.iter().filter(|name| !asked.contains(name)).cloned().collect());
+    if inputs.is_empty() {
+        anyhow::bail!("how many inputs are there? the file holds outputs only: name the inputs (--names, --problem)");
+    }
+    let place = |name: &String| Some((names.iter().position(|known| known == name)?, name.clone()));
+    let there: Option<Places> = inputs.iter().map(place).collect();
+    Ok((there.unwrap_or_default(), outputs))
+}

@@ -1,0 +1,64 @@
+//! `apportion compare`: two results side by side.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::anyhow;
+use apportion::names::{file_part, refused_name};
+use apportion::result::read_result;
+use apportion_report::comparison::{NamedResult, compare_results, comparison_document};
+
+use super::Failure;
+use super::output::{OutputArguments, deliver};
+
+#[derive(clap::Args)]
+pub struct Arguments {
+    /// The result of a run (NAME.json)
+    #[arg(value_name = "A.json")]
+    a: PathBuf,
+    /// The result of another run
+    #[arg(value_name = "B.json")]
+    b: PathBuf,
+    /// What A is called in tables and charts [default: its study, or what tells the two files apart]
+    #[arg(long, value_name = "TEXT")]
+    label_a: Option<String>,
+    /// What B is called in tables and charts
+    #[arg(long, value_name = "TEXT")]
+    label_b: Option<String>,
+    #[command(flatten)]
+    output: OutputArguments,
+}
+
+pub fn compare(arguments: &Arguments) -> Result<(), Failure> {
+    let (a, b) = (read_result(&arguments.a)?, read_result(&arguments.b)?);
+    let [told_a, told_b] = told_apart([(&a.study.name, &arguments.a), (&b.study.name, &arguments.b)]);
+    for label in [&arguments.label_a, &arguments.label_b].into_iter().flatten() {
+        if let Some(expected) = refused_name(label) {
+            return Err(Failure::Input(anyhow!("--label-a, --label-b: expected {expected}")));
+        }
+    }
+    let label_a = arguments.label_a.as_deref().unwrap_or(&told_a);
+    let label_b = arguments.label_b.as_deref().unwrap_or(&told_b);
+    let files = [&arguments.a, &arguments.b].map(|path| path.display().to_string());
+    let a = NamedResult { result: &a, label: label_a, file: &files[0] };
+    let b = NamedResult { result: &b, label: label_b, file: &files[1] };
+    let file = compare_results(&a, &b)
+        .map_err(|error| Failure::Input(anyhow!("A is {}, B is {}: {error}", files[0], files[1])))?;
+    let name = format!("{}-vs-{}", file_part(&told_a), file_part(&told_b));
+    deliver(&arguments.output.artefacts(&name), &comparison_document(&file, &name))
+}
+
+/// Two names that are not the same: the studies', the files', their folders', or else A and B.
+fn told_apart(sides: [(&String, &PathBuf); 2]) -> [String; 2] {
+    let part = |part: Option<&std::ffi::OsStr>| part.map(|part| part.to_string_lossy().into_owned());
+    let folder = |path: &Path| path.canonicalize().ok().and_then(|path| part(path.parent()?.file_name()));
+    let candidates = [
+        sides.map(|(study, _)| Some(study.clone())),
+        sides.map(|(_, path)| part(path.file_stem())),
+        sides.map(|(_, path)| folder(path)),
+    ];
+    let distinct = candidates.into_iter().find_map(|names| match names {
+        [Some(a), Some(b)] if a != b && !a.is_empty() && !b.is_empty() => Some([a, b]),
+        _ => None,
+    });
+    distinct.unwrap_or_else(|| ["A".to_owned(), "B".to_owned()])
+}

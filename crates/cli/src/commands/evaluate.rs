@@ -1,0 +1,98 @@
+//! `apportion evaluate`: the model at the user's own points.
+
+use std::path::PathBuf;
+
+use anyhow::anyhow;
+use apportion::model::{GiveUp, RunContext};
+use apportion::run::Halt;
+use apportion::space::Space;
+use apportion_files::exchange::{EvaluateError, Evaluated, evaluate_in, open_table};
+use apportion_report::{prepare_file, significant, stream_atomically};
+
+use super::stop::{Stoppable, on_signal};
+use super::table::{TableArguments, say_of_table};
+use super::{Failure, StudyArguments, same_file, say};
+
+#[derive(clap::Args)]
+pub struct Arguments {
+    #[command(flatten)]
+    study: StudyArguments,
+    /// The points: columns named after factors, values in the study's units, as CSV (cells separated by commas, semicolons,
+    /// tabs or blanks) or NPY
+    points: PathBuf,
+    /// Names of the columns, separated by commas, of a file that has none: NPY, or text without a header
+    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    names: Vec<String>,
+    #[command(flatten)]
+    table: TableArguments,
+    /// The points too, before their outputs: a table for `apportion given-data`
+    #[arg(long)]
+    with_points: bool,
+    /// The CSV file for the outputs
+    #[arg(short, long, value_name = "FILE")]
+    output: PathBuf,
+}
+
+pub fn evaluate(arguments: &Arguments) -> Result<(), Failure> {
+    let study = arguments.study.load()?;
+    let points = arguments.points.display();
+    let options = arguments.table.options(&arguments.names);
+    let rows = open_table(&arguments.points, &options);
+    let mut rows = rows.map_err(|error| Failure::Input(anyhow!("{points}: {error}")))?;
+    for input in [&arguments.points, &arguments.study.study] {
+        if same_file(input, &arguments.output) {
+            let output = arguments.output.display();
+            return Err(Failure::Input(anyhow!(
+                "--output {output}: this file is read, and would be overwritten: give another name"
+            )));
+        }
+    }
+    prepare_file(&arguments.output)?;
+    let context = RunContext::new(Some(on_signal()), say);
+    let mut outcome = None;
+    let written = stream_atomically(&arguments.output, |out| {
+        let result = evaluate_in(&study, rows.as_mut(), &mut Stoppable::new(out), arguments.with_points, &context);
+        let complete = result.is_ok();
+        outcome = Some(result);
+        // Whatever went wrong, half a file must not take the target's place.
+        if complete { Ok(()) } else { Err(std::io::Error::other("incomplete")) }
+    });
+    match outcome {
+        Some(Err(EvaluateError::Points(error))) => Err(Failure::Input(anyhow!("{points}: {error}"))),
+        Some(Err(error @ EvaluateError::Halted { halt: Halt::GaveUp(GiveUp { is_bad_input: true, .. }), .. })) => {
+            Err(Failure::Input(error.into()))
+        }
+        Some(Err(error @ EvaluateError::Halted { .. })) => Err(Failure::Run(error.into())),
+        Some(Err(error)) => Err(Failure::Run(anyhow!("{}: {error}", arguments.output.display()))),
+        Some(Ok(evaluated)) => {
+            written?;
+            report(&evaluated, arguments, study.space());
+            Ok(())
+        }
+        None => Ok(written?),
+    }
+}
+
+fn report(evaluated: &Evaluated, arguments: &Arguments, space: &Space) {
+    say_of_table(&arguments.points, &evaluated.skipped, evaluated.unended);
+    if !evaluated.nominal.is_empty() {
+        let value = |&number: &usize| {
+            let factor = &space.factors()[number];
+            let unit = match factor.unit().symbol() {
+                "" | "1" => String::new(),
+                symbol => format!(" {symbol}"),
+            };
+            format!("{} = {}{unit}", factor.name, factor.in_words(factor.nominal, significant))
+        };
+        let values: Vec<String> = evaluated.nominal.iter().map(value).collect();
+        let points = arguments.points.display();
+        say(&format!("note: {points}: factors without a column stand at their nominal values: {}", values.join(", ")));
+    }
+    for ((output, failure), (count, first)) in &evaluated.failures {
+        say(&format!("warning: {output} is empty at {count} points: {failure} (first at point {first})"));
+    }
+    if evaluated.points == 0 {
+        say("warning: the file holds a header but no points");
+    }
+    say(&format!("wrote {} points to {}", evaluated.points, arguments.output.display()));
+}

@@ -1,0 +1,109 @@
+//! `apportion given-data`: indices from a table that exists already.
+
+use std::path::PathBuf;
+
+use anyhow::anyhow;
+use apportion::files::read_whole;
+use apportion::given::{Column, analyse, measures, surrogate_indices};
+use apportion::{Distribution, Study};
+use apportion_files::exchange::{ColumnKind, Missing, Selection, Table, factor_column, read_table, table_of_bytes};
+use apportion_report::given::{GivenFacts, build_given, given_document};
+use sha2::{Digest, Sha256};
+
+use super::Failure;
+use super::output::{OutputArguments, deliver, stem};
+use super::table::{TableArguments, say_of_table};
+
+#[derive(clap::Args)]
+pub struct Arguments {
+    /// The table: columns by name, a row of numbers per run, as CSV (cells separated by commas, semicolons, tabs or
+    /// blanks) or NPY
+    table: PathBuf,
+    /// Names of the columns, separated by commas, of a table that has none: NPY, or text without a header
+    #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = column_name)]
+    names: Vec<String>,
+    #[command(flatten)]
+    reading: TableArguments,
+    /// Columns that are outputs, separated by commas
+    #[arg(long, value_name = "NAMES", required = true, value_delimiter = ',', value_parser = column_name)]
+    outputs: Vec<String>,
+    /// Columns that are inputs, separated by commas [default: all of numbers that are no outputs]
+    #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = column_name)]
+    inputs: Vec<String>,
+    /// Total indices too, and first-order ones that are far more accurate where the model is smooth: by a surrogate, fitted to
+    /// the rows and corrected by those that it has not seen
+    #[arg(long)]
+    surrogate: bool,
+    /// Study whose factors the inputs are, by name and in their units: it knows the labels of categories, and a surrogate that
+    /// knows the distributions is more accurate
+    #[arg(long, value_name = "STUDY")]
+    study: Option<PathBuf>,
+    /// Other measures too: Borgonovo's delta, PAWN, R2-HSIC, and S_1 by the spectrum
+    #[arg(long)]
+    measures: bool,
+    /// Leave out rows without a value in one of these columns, and count them
+    #[arg(long)]
+    drop_missing: bool,
+    /// Seed of the order of equal inputs in the intervals by ranks; the estimates do not depend on it
+    #[arg(long, value_name = "S", default_value_t = 0)]
+    seed: u64,
+    #[command(flatten)]
+    output: OutputArguments,
+}
+
+fn column_name(text: &str) -> Result<String, String> {
+    let name = text.trim();
+    if name.is_empty() { Err("expected names of columns, separated by commas".to_owned()) } else { Ok(name.to_owned()) }
+}
+
+pub fn given_data(arguments: &Arguments) -> Result<(), Failure> {
+    let path = arguments.table.display();
+    let wrong = |error: &dyn std::fmt::Display| Failure::Input(anyhow!("{path}: {error}"));
+    let bytes = read_whole(&arguments.table).map_err(|error| wrong(&format!("cannot read the table: {error}")))?;
+    let missing = if arguments.drop_missing { Missing::Drop } else { Missing::Refuse };
+    let study = arguments.study.as_deref().map(|study| apportion_files::load_study(study, &[])).transpose()?;
+    let kinds: Vec<ColumnKind> =
+        study.iter().flat_map(|study| study.space().factors().iter().map(factor_column)).collect();
+    let selection = Selection { outputs: &arguments.outputs, inputs: &arguments.inputs, missing, kinds: &kinds };
+    let sha256 = Sha256::digest(&bytes).iter().map(|byte| format!("{byte:02x}")).collect();
+    let mut rows =
+        table_of_bytes(bytes, &arguments.reading.options(&arguments.names)).map_err(|error| wrong(&error))?;
+    let table = read_table(rows.as_mut(), &selection).map_err(|error| wrong(&error))?;
+    let Table { inputs, outputs, dropped, skipped } = table;
+    let names: Vec<String> = skipped.iter().map(|column| column.name.clone()).collect();
+    say_of_table(&arguments.table, &names, rows.is_unended());
+    let indices = analyse(&inputs, &outputs, arguments.seed).map_err(|error| wrong(&error))?;
+    let known = study.as_ref().filter(|_| arguments.surrogate);
+    let distributions = known.map(|study| distributions(study, &inputs)).transpose()?;
+    let fit = || surrogate_indices(&inputs, &outputs, &indices, distributions.as_deref());
+    let surrogates = arguments.surrogate.then(fit);
+    let name = stem(&arguments.table);
+    let artefacts = arguments.output.artefacts(&name).beside_input(&arguments.table);
+    let facts = GivenFacts {
+        file: path.to_string(),
+        sha256,
+        dropped: dropped.map(|dropped| (dropped.rows, dropped.first_line)),
+        seed: arguments.seed,
+    };
+    let mut result = build_given(&indices, surrogates.as_ref(), &inputs, &outputs, &facts).without(&skipped);
+    if arguments.measures {
+        result = result.with_measures(&measures(&inputs, &outputs, &indices, arguments.seed));
+    }
+    deliver(&artefacts, &given_document(&result, &name))
+}
+
+/// The distributions that the study has for the `inputs`.
+fn distributions(study: &Study, inputs: &[Column]) -> Result<Vec<Distribution>, Failure> {
+    let of_input = |input: &Column| {
+        let factor = study.space().factors().iter().find(|factor| factor.name == input.name);
+        factor.map(|factor| factor.distribution().clone()).ok_or_else(|| {
+            let known: Vec<&str> = study.space().factors().iter().map(|factor| factor.name.as_str()).collect();
+            Failure::Input(anyhow!(
+                "--study: the input `{}` is no factor of the study, which are {}; choose the inputs by --inputs",
+                input.name,
+                known.join(", ")
+            ))
+        })
+    };
+    inputs.iter().map(of_input).collect()
+}

@@ -1,0 +1,74 @@
+//! `apportion live`: a study as a page that computes.
+
+use std::path::PathBuf;
+
+use apportion::result::StudyResult;
+use apportion_report::document::Document;
+use apportion_report::{prepare_file, prepare_folder, write_atomically};
+
+use super::output::default_folder;
+use super::stop::on_signal;
+use super::{DesignChanges, Failure, StudyArguments, Threads, say};
+use crate::live::{LiveError, file_name, live_page, own_text, page_of_result, put_beside};
+
+#[derive(clap::Args)]
+pub struct Arguments {
+    #[command(flatten)]
+    study: StudyArguments,
+    #[command(flatten)]
+    design: DesignChanges,
+    /// The page [default: results/NAME/NAME-live.html]
+    #[arg(short, long, value_name = "FILE")]
+    out: Option<PathBuf>,
+    #[command(flatten)]
+    threads: Threads,
+}
+
+/// The live page beside the page of a result, which links to it.
+#[derive(Default, clap::Args)]
+pub struct LiveArguments {
+    /// Leave out the page in which other ranges can be tried (NAME-live.html, 2 MB), written where a page can run the study
+    #[arg(long)]
+    no_live: bool,
+}
+
+impl LiveArguments {
+    /// Adds the page to the `document` of `result`, if there is to be one. Without it the result is whole still.
+    pub fn put_beside(&self, document: &mut Document, result: &StudyResult) {
+        if self.no_live {
+            return;
+        }
+        match page_of_result(document, result) {
+            Ok(Some(page)) => put_beside(document, &file_name(&result.study.name), page),
+            Ok(None) => (),
+            Err(error) => say(&format!("note: no page to try other ranges in: {error}")),
+        }
+    }
+}
+
+impl From<LiveError> for Failure {
+    fn from(error: LiveError) -> Self {
+        match error {
+            LiveError::Model { .. } | LiveError::Factors { .. } | LiveError::Files { .. } | LiveError::Study(_) => {
+                Self::Input(error.into())
+            }
+            LiveError::Run(error) => error.into(),
+            LiveError::Template(_) => Self::Run(error.into()),
+        }
+    }
+}
+
+pub fn live(arguments: &Arguments) -> Result<(), Failure> {
+    let study = arguments.study.load_with(&arguments.design.overrides())?;
+    own_text(&study)?;
+    let name = study.name();
+    let path = arguments.out.clone().unwrap_or_else(|| default_folder(name).join(file_name(name)));
+    if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
+        prepare_folder(folder)?;
+    }
+    prepare_file(&path)?;
+    let page = live_page(&study, arguments.threads.number(), on_signal())?;
+    write_atomically(&path, page.as_bytes())?;
+    say(&format!("wrote {}", path.display()));
+    Ok(())
+}

@@ -1,0 +1,383 @@
+//! The command line: arguments, progress, messages and exit codes. Everything else is the library's.
+
+mod analyze;
+mod check;
+mod check_plan;
+mod compare;
+mod completions;
+mod evaluate;
+mod given_data;
+mod live;
+mod merge;
+mod models;
+mod new;
+mod output;
+mod progress;
+mod ranks;
+mod report;
+mod reproduce;
+mod run;
+mod sample;
+mod schema;
+mod screen;
+mod simulate;
+mod stop;
+mod sweep;
+mod table;
+mod trade;
+
+use std::io::{Error, ErrorKind, Write};
+use std::ops::RangeInclusive;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use apportion::model::GiveUp;
+use apportion::result::ReadError;
+use apportion::run::RunError;
+use apportion::run::journal::JournalError;
+use apportion::study::Study;
+use apportion_files::StudyError;
+use apportion_report::WriteError;
+use clap::{Args, CommandFactory, Parser, Subcommand};
+use ranks::Ranks;
+
+/// Sobol' global sensitivity analysis: which factor decides an output, and by how many percent.
+///
+/// Exit codes: 0 done, 1 the run failed, 2 the input was wrong.
+#[derive(Parser)]
+#[command(name = "apportion", version, about, long_about, max_term_width = 110)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Write a study file to begin with, whose comments explain it
+    New(new::Arguments),
+    /// Reproduce the papers: figures, a verdict on every claim, what their percentages could mean, on one page
+    Reproduce(reproduce::Arguments),
+    /// Run a study: design, model runs, indices, charts
+    Run(run::Arguments),
+    /// Join the parts of a run (run --shard I/N) into its result
+    Merge(merge::Arguments),
+    /// Draw the page, tables and charts of a result again, from its JSON file alone
+    Report(report::Arguments),
+    /// Set two results side by side: by how much the indices differ, and whether that is more than their errors
+    Compare(compare::Arguments),
+    /// Screen many factors for those that matter, by elementary effects: a few runs for each factor
+    Screen(screen::Arguments),
+    /// Move one factor at a time around the nominal point: curves, ranges and slopes of every output
+    Sweep(sweep::Arguments),
+    /// Accuracy against time: which settings give which accuracy at the least cost; or what becomes of a study at its extremes
+    Trade(trade::Arguments),
+    /// Write the points of a study to a file, for a model outside
+    Sample(sample::Arguments),
+    /// Indices from the outputs that a model outside computed at the points of `sample`, or of SALib
+    Analyze(analyze::Arguments),
+    /// Evaluate a study's model at points from a CSV file
+    Evaluate(evaluate::Arguments),
+    /// Indices from a table of inputs and outputs that exists already
+    GivenData(given_data::Arguments),
+    /// Explain a study before running it: factors, cost (by a short pilot), memory, files
+    Check(check::Arguments),
+    /// Follow one scene of a study in time, every factor at its nominal value: forces, positions, contacts
+    Simulate(simulate::Arguments),
+    /// Write a page in which a study can be tried: drag a range, and the percentages follow
+    Live(live::Arguments),
+    /// List what can be studied, or show one model in full: formula, factors, outputs, exact indices
+    Models(models::Arguments),
+    /// Print the JSON Schema of study or result files, for editors and programs
+    Schema(schema::Arguments),
+    /// Print the script with which a shell completes commands and options
+    Completions(completions::Arguments),
+}
+
+/// A study file and the changes to it that the command line makes.
+#[derive(Args)]
+struct StudyArguments {
+    /// The study file (TOML)
+    study: PathBuf,
+    /// Change a setting of the study: afm.friction=hk, factor.length.max=500, outputs='["critical_time"]'
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    set: Vec<String>,
+}
+
+/// Changes to the design of a study that the command line makes.
+#[derive(Args)]
+struct DesignChanges {
+    /// Base samples in all, over the replicates (the same as --set design.base_samples=N)
+    #[arg(long, value_name = "N", value_parser = whole_number)]
+    base_samples: Option<u64>,
+    /// Half width that the 95 % interval of every index must reach; the run chooses what gets there at the least cost (the same
+    /// as --set accuracy=A)
+    #[arg(long, value_name = "A", conflicts_with_all = ["base_samples", "runs"])]
+    accuracy: Option<f64>,
+    /// Model runs in all: the best design for at most so many (the same as --set design.runs=N)
+    #[arg(long, value_name = "N", value_parser = whole_number, conflicts_with = "base_samples")]
+    runs: Option<u64>,
+    /// Seed of the design (the same as --set design.seed=S)
+    #[arg(long, value_name = "S", value_parser = whole_number, allow_negative_numbers = true)]
+    seed: Option<u64>,
+}
+
+/// The whole numbers from 0 that TOML can hold.
+fn whole_number(text: &str) -> Result<u64, String> {
+    let number = text.replace('_', "").parse::<u64>().ok().filter(|number| *number <= i64::MAX as u64);
+    number.ok_or_else(|| format!("expected a whole number from 0 to {}, as in 4096 or 1_000_000", i64::MAX))
+}
+
+impl DesignChanges {
+    fn overrides(&self) -> Vec<String> {
+        let base_samples = self.base_samples.map(|n| format!("design.base_samples={n}"));
+        let seed = self.seed.map(|s| format!("design.seed={s}"));
+        let accuracy = self.accuracy.map(|a| format!("accuracy={a:?}"));
+        let runs = self.runs.map(|n| format!("design.runs={n}"));
+        base_samples.into_iter().chain(accuracy).chain(runs).chain(seed).collect()
+    }
+}
+
+impl StudyArguments {
+    /// The study as it stands in its file, with the changes of `--set`.
+    fn load(&self) -> Result<Study, Failure> {
+        self.load_with(&[])
+    }
+
+    /// The study with the changes of `--set`, then `more`; its model can be run.
+    fn load_with(&self, more: &[String]) -> Result<Study, Failure> {
+        let study = self.load_any(more)?;
+        if study.subject().is_external() {
+            return Err(Failure::Input(anyhow::anyhow!(
+                "{}: its model runs outside of this program: write the points by `apportion sample`, and read its outputs \
+                 by `apportion analyze`",
+                self.study.display()
+            )));
+        }
+        say_notes(&study);
+        Ok(study)
+    }
+
+    /// The study with the changes of `--set`, then `more`, whether or not its model can be run.
+    fn load_any(&self, more: &[String]) -> Result<Study, Failure> {
+        Ok(apportion_files::load_study(&self.study, &[&self.set, more].concat())?)
+    }
+}
+
+fn say_notes(study: &Study) {
+    for note in study.notes() {
+        say(&format!("note: {note}"));
+    }
+}
+
+/// Number of worker threads.
+#[derive(Args)]
+struct Threads {
+    /// Worker threads, and processes of a program at most; one per core if not given. The result does not depend on it
+    #[arg(long, value_name = "T", value_parser = |text: &str| number_in(text, 1..=1024))]
+    threads: Option<usize>,
+}
+
+impl Threads {
+    /// The number for the library, where 0 stands for one per core.
+    fn number(&self) -> usize {
+        self.threads.unwrap_or(0)
+    }
+}
+
+/// A whole number in `range`.
+fn number_in(text: &str, range: RangeInclusive<usize>) -> Result<usize, String> {
+    let number = text.parse().ok().filter(|number| range.contains(number));
+    number.ok_or_else(|| format!("expected a whole number from {} to {}", range.start(), range.end()))
+}
+
+/// Why a command did not do what was asked, with its exit code.
+enum Failure {
+    /// The input was wrong: exit code 2.
+    Input(anyhow::Error),
+    /// The run failed: exit code 1.
+    Run(anyhow::Error),
+    /// The input was wrong, which another process has said: exit code 2.
+    Silent,
+}
+
+impl Failure {
+    /// The input was wrong, or else the run failed.
+    fn input_if(is_input: bool, error: impl Into<anyhow::Error>) -> Self {
+        if is_input { Self::Input(error.into()) } else { Self::Run(error.into()) }
+    }
+}
+
+impl From<StudyError> for Failure {
+    fn from(error: StudyError) -> Self {
+        Self::Input(error.into())
+    }
+}
+
+impl From<ReadError> for Failure {
+    fn from(error: ReadError) -> Self {
+        Self::Input(error.into())
+    }
+}
+
+impl From<RunError> for Failure {
+    fn from(error: RunError) -> Self {
+        match error {
+            RunError::Refused { .. }
+            | RunError::GaveUp(GiveUp { is_bad_input: true, .. })
+            | RunError::Journal(
+                JournalError::NotAJournal { .. } | JournalError::OtherVersion { .. } | JournalError::NoFile { .. },
+            ) => Self::Input(error.into()),
+            _ => Self::Run(error.into()),
+        }
+    }
+}
+
+impl From<WriteError> for Failure {
+    fn from(error: WriteError) -> Self {
+        // The path that was given, and not what became of it.
+        match error.source.kind() {
+            ErrorKind::NotADirectory => Self::Input(error.into()),
+            _ => Self::Run(error.into()),
+        }
+    }
+}
+
+impl From<std::io::Error> for Failure {
+    fn from(error: std::io::Error) -> Self {
+        Self::Run(error.into())
+    }
+}
+
+/// Runs the program and returns its exit code.
+pub fn main() -> ExitCode {
+    stop::hear_of_size_limits();
+    #[cfg(feature = "mpi")]
+    if let Some((size, _)) = ranks::job() {
+        return ranks::mpi::main(size, |others| command_line(Some(others)));
+    }
+    command_line(None)
+}
+
+/// Does what the command line says, in the company of other ranks if there are any.
+fn command_line(others: Option<&dyn Ranks>) -> ExitCode {
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(error) => {
+            // There is nowhere to complain if that cannot be printed.
+            let _ = error.print();
+            return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2));
+        }
+    };
+    exit_code(match cli.command {
+        Command::New(arguments) => new::new(&arguments),
+        Command::Reproduce(arguments) => reproduce::reproduce(&arguments),
+        Command::Run(arguments) => run::run(&arguments, others),
+        Command::Merge(arguments) => merge::merge(&arguments),
+        Command::Sample(arguments) => sample::sample(&arguments),
+        Command::Analyze(arguments) => analyze::analyze(&arguments),
+        Command::Report(arguments) => report::report(&arguments),
+        Command::Compare(arguments) => compare::compare(&arguments),
+        Command::Screen(arguments) => screen::screen(&arguments),
+        Command::Sweep(arguments) => sweep::sweep(&arguments),
+        Command::Trade(arguments) => trade::trade(&arguments),
+        Command::Evaluate(arguments) => evaluate::evaluate(&arguments),
+        Command::GivenData(arguments) => given_data::given_data(&arguments),
+        Command::Check(arguments) => check::check(&arguments),
+        Command::Simulate(arguments) => simulate::simulate(&arguments),
+        Command::Live(arguments) => live::live(&arguments),
+        Command::Models(arguments) => models::models(&arguments),
+        Command::Schema(arguments) => schema::schema(&arguments),
+        Command::Completions(arguments) => completions::completions(&arguments),
+    })
+}
+
+/// The exit code of what came out; what went wrong is said.
+fn exit_code(outcome: Result<(), Failure>) -> ExitCode {
+    match outcome {
+        Ok(()) => ExitCode::SUCCESS,
+        // A reader that closes the pipe early has seen what it wanted.
+        Err(Failure::Run(error)) if is_broken_pipe(&error) => ExitCode::SUCCESS,
+        Err(Failure::Run(error)) => fail(&error, 1),
+        Err(Failure::Input(error)) => fail(&error, 2),
+        Err(Failure::Silent) => ExitCode::from(2),
+    }
+}
+
+fn fail(error: &anyhow::Error, code: u8) -> ExitCode {
+    say(&format!("error: {error}"));
+    ExitCode::from(code)
+}
+
+fn is_broken_pipe(error: &anyhow::Error) -> bool {
+    error.downcast_ref::<Error>().is_some_and(|e| e.kind() == ErrorKind::BrokenPipe)
+}
+
+/// Whether two paths lead to one file.
+fn same_file(a: &Path, b: &Path) -> bool {
+    matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b)
+}
+
+/// A path or an argument as it is typed in a shell.
+fn quoted(text: &str) -> String {
+    let plain = |c: char| c.is_alphanumeric() || "/._-+,:@%=".contains(c);
+    if !text.is_empty() && text.chars().all(plain) {
+        text.to_owned()
+    } else {
+        format!("'{}'", text.replace('\'', r"'\''"))
+    }
+}
+
+/// The command line as clap knows it.
+fn command() -> clap::Command {
+    Cli::command()
+}
+
+/// Writes what the program itself has made, for other programs, to standard output.
+fn print_raw(bytes: &[u8]) -> Result<(), Failure> {
+    std::io::stdout().write_all(bytes).map_err(unprinted)?;
+    Ok(())
+}
+
+/// Writes `text` to standard output without panicking when its reader is gone.
+fn print(text: &str) -> Result<(), Failure> {
+    print_raw(printable(text).as_bytes())
+}
+
+/// An error of standard output, which the operating system does not name.
+fn unprinted(error: Error) -> Error {
+    Error::new(error.kind(), format!("cannot write to standard output: {error}"))
+}
+
+/// Writes a line to standard error; there is nowhere to complain if that fails.
+fn say(line: &str) {
+    let _ = writeln!(std::io::stderr(), "{}", printable(line));
+}
+
+/// A text without characters that would change the terminal: names and titles are the user's, or somebody else's.
+fn printable(text: &str) -> String {
+    text.chars()
+        .map(|c| if c.is_control() && c != '\n' && c != '\t' { char::REPLACEMENT_CHARACTER } else { c })
+        .collect()
+}
+
+fn counted(number: u64, what: &str) -> String {
+    format!("{number} {what}{}", if number == 1 { "" } else { "s" })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn arguments_are_typed_as_a_shell_reads_them() {
+        for (text, typed) in [
+            ("studies/my-study.toml", "studies/my-study.toml"),
+            ("design.seed=3", "design.seed=3"),
+            ("my study.toml", "'my study.toml'"),
+            ("it's $HOME.toml", r"'it'\''s $HOME.toml'"),
+            ("", "''"),
+        ] {
+            assert_eq!(quoted(text), typed);
+        }
+    }
+}

@@ -1,0 +1,87 @@
+//! `apportion new`: a study file to begin with.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::anyhow;
+use apportion_files::{ModelKind, NEW_PROGRAM, Problem, TemplateRequest, new_program, template};
+use apportion_report::{prepare_file, write_atomically};
+
+use super::models::find_model;
+use super::{Failure, quoted, say};
+
+#[derive(clap::Args)]
+#[command(after_help = "Example: apportion new my-study.toml --factors thickness,velocity --outputs critical_force")]
+pub struct Arguments {
+    /// The study file to write (TOML)
+    study: PathBuf,
+    /// The model: afm, expression, command (a program of your own), or a function of `apportion models`
+    #[arg(long, value_name = "NAME", default_value = "afm")]
+    model: String,
+    /// Inputs that become factors, separated by commas [default: the main ones; of a function all]
+    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    factors: Vec<String>,
+    /// Outputs, separated by commas [default: the main one]
+    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    outputs: Vec<String>,
+    /// Title of the study
+    #[arg(long, value_name = "TEXT")]
+    title: Option<String>,
+    /// Overwrite a file that exists
+    #[arg(long)]
+    force: bool,
+}
+
+pub fn new(arguments: &Arguments) -> Result<(), Failure> {
+    let path = &arguments.study;
+    let model = find_model(&arguments.model)?;
+    for (option, names) in [("--factors", &arguments.factors), ("--outputs", &arguments.outputs)] {
+        if names.iter().any(|name| name.trim().is_empty()) {
+            return Err(Failure::Input(anyhow!("{option}: a name is empty: expected names separated by commas")));
+        }
+    }
+    let request = TemplateRequest {
+        model,
+        title: arguments.title.clone(),
+        factors: arguments.factors.clone(),
+        outputs: arguments.outputs.clone(),
+    };
+    let text = template(&request).map_err(|problem| wrong(&problem, model))?;
+    let study = apportion_files::parse_study(&text, path, &[])?;
+    if !arguments.force && path.exists() {
+        return Err(Failure::Input(anyhow!("{} exists already: give another name, or add --force", path.display())));
+    }
+    prepare_file(path)?;
+    write_atomically(path, text.as_bytes())?;
+    let (factors, runs) = (study.space().factors().len(), study.design().rows());
+    let factors = if factors == 1 { "1 factor".to_owned() } else { format!("{factors} factors") };
+    say(&format!("wrote {}: {factors}, {runs} runs", path.display()));
+    if let Some(program) = new_program(&request) {
+        write_program(&path.with_file_name(NEW_PROGRAM), &program)?;
+    }
+    let step = if model == ModelKind::EXTERNAL { "sample" } else { "run" };
+    say(&format!(
+        "next: edit it, then `apportion check {0}` and `apportion {step} {0}`",
+        quoted(&path.display().to_string())
+    ));
+    Ok(())
+}
+
+/// Writes the program beside its study, unless there is one: it may be somebody's work.
+fn write_program(path: &Path, text: &str) -> Result<(), Failure> {
+    if path.exists() {
+        say(&format!("{} is there already and stays as it is", path.display()));
+        return Ok(());
+    }
+    write_atomically(path, text.as_bytes())?;
+    say(&format!("wrote {}: the model, a sum to be replaced", path.display()));
+    Ok(())
+}
+
+fn wrong(problem: &Problem, model: ModelKind) -> Failure {
+    let option = match problem {
+        Problem::UnknownName { what: "output", .. } | Problem::Repeated { what: "output", .. } => "--outputs",
+        _ => "--factors",
+    };
+    let help = problem.help().map(|help| format!("\n{help}")).unwrap_or_default();
+    Failure::Input(anyhow!("{option}: {problem} (model {}){help}", model.name))
+}

@@ -1,0 +1,140 @@
+//! The files of a command: their formats, writing and listing.
+
+use std::path::{Path, PathBuf};
+
+use apportion_report::chart::{ChartWidth, PaperWidth};
+use apportion_report::document::Document;
+use apportion_report::{ArtefactError, Artefacts, ChartFormat};
+
+use super::stop::on_signal;
+use super::{Failure, counted, print, say};
+
+#[derive(clap::Args)]
+pub struct ChartArguments {
+    /// Formats of the charts in the folder `charts`, separated by commas: svg, png, pdf; or none. The page has its charts inside
+    #[arg(long, value_name = "FORMATS", default_value = "svg,png", value_parser = formats)]
+    charts: Formats,
+    /// Width of the charts in the folder `charts` on paper, such as 88mm or 180mm: without title and caption, which the text of
+    /// a paper has, letters of 7 to 9 pt at that width, PNG with 600 dpi, PDF in that size [default: a page column, with title and caption]
+    #[arg(long, value_name = "WIDTH")]
+    chart_width: Option<PaperWidth>,
+}
+
+/// Where the files of a command go, and its charts.
+#[derive(clap::Args)]
+pub struct OutputArguments {
+    /// Folder for the results [default: results/NAME]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    #[command(flatten)]
+    charts: ChartArguments,
+}
+
+impl OutputArguments {
+    /// The folder for what is called `name`.
+    pub fn folder(&self, name: &str) -> PathBuf {
+        self.out.clone().unwrap_or_else(|| default_folder(name))
+    }
+
+    /// The files of a document about what is called `name`.
+    pub fn artefacts(&self, name: &str) -> Artefacts {
+        self.charts.artefacts(self.folder(name))
+    }
+}
+
+#[derive(Clone)]
+struct Formats(Vec<ChartFormat>);
+
+fn formats(text: &str) -> Result<Formats, String> {
+    if text == "none" {
+        return Ok(Formats(Vec::new()));
+    }
+    let mut formats = Vec::new();
+    for name in text.split(',').map(str::trim) {
+        match ChartFormat::ALL.into_iter().find(|format| format.ending() == name) {
+            Some(format) if formats.contains(&format) => (),
+            Some(format) => formats.push(format),
+            None => return Err("expected svg, png and pdf, separated by commas, or none".to_owned()),
+        }
+    }
+    Ok(Formats(formats))
+}
+
+impl ChartArguments {
+    /// The files of a document in `folder`.
+    pub fn artefacts(&self, folder: impl Into<PathBuf>) -> Artefacts {
+        let width = self.chart_width.map_or(ChartWidth::Wide, ChartWidth::Paper);
+        Artefacts::new(folder).with_charts(&self.charts.0).with_width(width)
+    }
+}
+
+impl From<ArtefactError> for Failure {
+    fn from(error: ArtefactError) -> Self {
+        match error {
+            ArtefactError::Input { .. } => Self::Input(error.into()),
+            ArtefactError::Write(error) => error.into(),
+            _ => Self::Run(error.into()),
+        }
+    }
+}
+
+/// The folder for results of the study called `name`.
+pub fn default_folder(name: &str) -> PathBuf {
+    Path::new("results").join(name)
+}
+
+/// The name of a table's results: that of its file without the ending.
+pub fn stem(table: &Path) -> String {
+    table.file_stem().map_or_else(|| "table".to_owned(), |stem| stem.to_string_lossy().into_owned())
+}
+
+/// Writes the files of `document`, prints it as text, and says where the files are.
+pub fn deliver(artefacts: &Artefacts, document: &Document) -> Result<(), Failure> {
+    let written = artefacts.write_until(document, on_signal())?;
+    print(&document.text())?;
+    let ends_with = |path: &Path, ending: &str| path.extension().is_some_and(|of| of == ending);
+    let (live, data): (Vec<&PathBuf>, Vec<&PathBuf>) = written.data.iter().partition(|path| is_live(path));
+    let names = live.iter().filter_map(|path| path.file_name()).map(|name| name.to_string_lossy());
+    let live: String = names.map(|name| format!(", and {name} to try other ranges in")).collect();
+    say(&format!("wrote {}{live}", written.page.display()));
+    let (json, others): (Vec<&PathBuf>, Vec<&PathBuf>) = data.into_iter().partition(|path| ends_with(path, "json"));
+    match (&json[..], others.len()) {
+        ([], 0) => (),
+        ([], tables) => say(&format!("wrote {} beside it", counted(tables as u64, "table"))),
+        ([json], 0) => say(&format!("wrote {}", json.display())),
+        ([json], tables) => say(&format!("wrote {} and {} beside it", json.display(), counted(tables as u64, "table"))),
+        (several, tables) => say(&format!("wrote {} beside it", counted((several.len() + tables) as u64, "file"))),
+    }
+    if let Some((folder, charts)) = &written.charts {
+        say(&format!("wrote {} to {}", counted(*charts as u64, "chart"), folder.display()));
+    }
+    Ok(())
+}
+
+/// Whether a file is a page to try other ranges in, and not an animation.
+fn is_live(path: &Path) -> bool {
+    path.file_name().is_some_and(|name| name.to_string_lossy().ends_with("live.html"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn live_pages_are_told_from_animations() {
+        assert!(is_live(Path::new("out/ishigami-live.html")) && is_live(Path::new("live.html")));
+        assert!(!is_live(Path::new("charts/ts04-14-animation.html")) && !is_live(Path::new("alive.json")));
+    }
+
+    #[test]
+    fn formats_are_a_list_or_none() {
+        let read = |text: &str| formats(text).map(|formats| formats.0);
+        assert_eq!(read("none"), Ok(Vec::new()));
+        assert_eq!(read("png"), Ok(vec![ChartFormat::Png]));
+        assert_eq!(read("svg, png,svg"), Ok(vec![ChartFormat::Svg, ChartFormat::Png]));
+        assert_eq!(read("pdf,svg"), Ok(vec![ChartFormat::Pdf, ChartFormat::Svg]));
+        for wrong in ["", "gif", "svg,", "none,svg"] {
+            assert!(read(wrong).unwrap_err().contains("or none"), "{wrong}");
+        }
+    }
+}

@@ -1,0 +1,61 @@
+//! `apportion report`: the page, tables and charts of a result, without running anything.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::anyhow;
+use apportion::files::read_whole;
+use apportion::result::{ReadError, ReadProblem, parse_result};
+use apportion_report::run_document;
+
+use super::live::LiveArguments;
+use super::output::{ChartArguments, deliver};
+use super::{Failure, same_file, say};
+
+#[derive(clap::Args)]
+pub struct Arguments {
+    /// The result of a run (NAME.json)
+    result: PathBuf,
+    /// Folder for what is drawn [default: that of the result]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    #[command(flatten)]
+    charts: ChartArguments,
+    #[command(flatten)]
+    live: LiveArguments,
+}
+
+pub fn report(arguments: &Arguments) -> Result<(), Failure> {
+    let path = &arguments.result;
+    let wrong = |problem: ReadProblem| ReadError { path: path.clone(), problem };
+    let bytes = read_whole(path).map_err(|error| wrong(error.into()))?;
+    let result = parse_result(&bytes).map_err(wrong)?;
+    let beside = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let folder = arguments.out.as_deref().unwrap_or(beside);
+    let mut document = run_document(&result);
+    let name = format!("{}.json", result.study.name);
+    // The page links to the result, so it must lie beside it: this one, word for word.
+    let json = folder.join(&name);
+    if !same_file(&json, path) {
+        refuse_another(&json, &bytes)?;
+    }
+    let text = String::from_utf8(bytes).map_err(|_| Failure::Input(anyhow!("{}: not text", path.display())))?;
+    document.files.iter_mut().filter(|file| file.name == name).for_each(|file| file.text.clone_from(&text));
+    arguments.live.put_beside(&mut document, &result);
+    if result.provenance.apportion_version != env!("CARGO_PKG_VERSION") {
+        let version = &result.provenance.apportion_version;
+        say(&format!("note: the numbers are those of apportion {version}; only the drawing is this version's"));
+    }
+    deliver(&arguments.charts.artefacts(folder), &document)
+}
+
+/// Charts of one result must not come to lie beside the JSON of another.
+fn refuse_another(json: &Path, bytes: &[u8]) -> Result<(), Failure> {
+    match read_whole(json) {
+        Ok(there) if there != bytes => {
+            let message =
+                "is another result, whose page and charts would be overwritten: give another folder with --out";
+            Err(Failure::Input(anyhow!("{} {message}", json.display())))
+        }
+        _ => Ok(()),
+    }
+}

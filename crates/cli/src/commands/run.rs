@@ -1,0 +1,268 @@
+//! `apportion run`: a study from file to files.
+
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use anyhow::anyhow;
+use apportion::Resume;
+use apportion::analysis::inputs_in_words;
+use apportion::result::{OutputResult, StudyResult, read_result};
+use apportion::run::{RunError, Shard, Store};
+use apportion::study::Study;
+use apportion_files::exchange::{Format, save_outputs};
+use apportion_report::{Artefacts, prepare_file, run_document, stream_atomically};
+
+use super::live::LiveArguments;
+use super::output::{self, OutputArguments};
+use super::progress::Meter;
+use super::ranks::{self, Ranks};
+use super::stop::Stoppable;
+use super::{DesignChanges, Failure, StudyArguments, Threads, say, stop};
+
+#[derive(clap::Args)]
+pub struct Arguments {
+    #[command(flatten)]
+    study: StudyArguments,
+    #[command(flatten)]
+    design: DesignChanges,
+    #[command(flatten)]
+    output: OutputArguments,
+    #[command(flatten)]
+    threads: Threads,
+    /// Also write the points and outputs of all runs to a file (.csv or .npy)
+    #[arg(long, value_name = "FILE", conflicts_with = "shard")]
+    save_outputs: Option<PathBuf>,
+    #[command(flatten)]
+    live: LiveArguments,
+    #[command(flatten)]
+    record: RecordArguments,
+}
+
+/// What becomes of runs that are on record.
+#[derive(clap::Args)]
+struct RecordArguments {
+    /// Resume an interrupted run; refused if its journal is missing or of another study. (Without this option a journal
+    /// of the same study is used if there is one)
+    #[arg(long, conflicts_with_all = ["restart", "no_journal"])]
+    resume: bool,
+    /// Evaluate the runs that failed again, and keep all others
+    #[arg(long, conflicts_with_all = ["restart", "no_journal"])]
+    retry_failed: bool,
+    /// Evaluate every run anew; a journal that is there is moved aside
+    #[arg(long)]
+    restart: bool,
+    /// Keep a journal however quick the runs are (without this option: if they take longer than 10 s, or the model is a program)
+    #[arg(long, conflicts_with = "no_journal")]
+    journal: bool,
+    /// Neither use nor write a journal
+    #[arg(long)]
+    no_journal: bool,
+    /// Twice the base samples of the result in the folder, whose runs are kept
+    #[arg(long, conflicts_with_all = ["base_samples", "accuracy", "runs", "shard"])]
+    double: bool,
+    /// Evaluate one of N parts of the runs into a journal of its own, for `apportion merge`
+    #[arg(long, value_name = "I/N", conflicts_with_all = ["no_journal", "retry_failed"])]
+    shard: Option<Shard>,
+}
+
+impl RecordArguments {
+    fn resume(&self, has_journal: bool) -> Resume {
+        match self {
+            Self { retry_failed: true, .. } => Resume::RetryFailed,
+            Self { resume: true, .. } => Resume::Require,
+            Self { restart: true, .. } => Resume::Restart,
+            // A journal of another design has nothing that could be doubled.
+            Self { double: true, .. } if has_journal => Resume::Require,
+            _ => Resume::IfThere,
+        }
+    }
+}
+
+pub fn run(arguments: &Arguments, others: Option<&dyn Ranks>) -> Result<(), Failure> {
+    if arguments.record.shard.is_none() {
+        ranks::refuse_copies()?;
+    }
+    let study = study_of(arguments)?;
+    let folder = arguments.output.folder(study.name());
+    let artefacts = arguments.output.artefacts(study.name());
+    let asked = &arguments.record;
+    artefacts.prepare()?;
+    if asked.shard.is_some() && study.target().grows() {
+        return Err(Failure::Input(anyhow!("--shard: {}", RunError::NoSize)));
+    }
+    let saved = match &arguments.save_outputs {
+        None => None,
+        Some(_) if study.target().accuracy.is_some() => {
+            let why = "with `accuracy` the run chooses its rows: run once more with the lines that the result shows";
+            return Err(Failure::Input(anyhow!("--save-outputs: {why}")));
+        }
+        Some(path) => {
+            let format =
+                Format::from_path(path).map_err(|error| Failure::Input(anyhow!("{}: {error}", path.display())))?;
+            prepare_file(path)?;
+            Some((path.as_path(), format))
+        }
+    };
+    let journal = (!asked.no_journal).then(|| journal_path(&folder, study.name(), asked.shard));
+    let store = saved.as_ref().map(|_| Store::new(study.design(), study.model().as_ref()));
+    let meter = Meter::new(study.name(), study.design().rows());
+    let runner = study.runner().threads(arguments.threads.number()).on_progress(|progress| meter.update(progress));
+    let runner = match others {
+        None => runner,
+        Some(others) => {
+            // A job has a rank for every core, unless it says otherwise.
+            let threads = arguments.threads.number().max(1);
+            others.begin(&study, &arguments.study.study, threads);
+            let workers = if threads == 1 { "a worker".to_owned() } else { format!("{threads} workers") };
+            say(&format!("note: {} ranks with {workers} each", others.count_all()));
+            runner.threads(threads).remote_workers(others)
+        }
+    };
+    // From here on: a wait for an input that never comes can be ended at once.
+    let stop = stop::on_signal();
+    let mut runner =
+        runner.on_message(say).stop(stop).resume(asked.resume(journal.as_ref().is_some_and(|path| path.exists())));
+    if let Some(journal) = &journal {
+        runner = if asked.journal { runner.journal(journal) } else { runner.journal_if_long(journal) };
+    }
+    if let Some(store) = &store {
+        runner = runner.store(store);
+    }
+    let failed = |error| with_journal(&study, error, journal.as_deref());
+    if let Some((shard, journal)) = asked.shard.zip(journal.as_ref()) {
+        let begun = Instant::now();
+        let rows = runner.run_shard(shard).map_err(failed)?;
+        meter.finish(rows, begun.elapsed().as_secs_f64());
+        say(&format!("{}: the {rows} runs of shard {shard} are in {}", study.name(), journal.display()));
+        return Ok(());
+    }
+    let result = runner.run().map_err(failed)?;
+    let (runs, seconds) = (result.provenance.model_runs, result.provenance.wall_seconds);
+    match &result.spending {
+        Some(spending) => meter.finish_after(spending.runs.saturating_sub(runs), runs, seconds),
+        None => meter.finish(runs, seconds),
+    }
+    if let Some(((path, format), store)) = saved.zip(store.as_ref()) {
+        save(&study, &result, store, path, format)?;
+    }
+    deliver(&study, &artefacts, &result, &arguments.live)
+}
+
+/// The journal of the study called `name`, or of one of its shards, in `folder`.
+pub fn journal_path(folder: &Path, name: &str, shard: Option<Shard>) -> PathBuf {
+    match shard {
+        None => folder.join(format!("{name}.journal")),
+        Some(shard) => folder.join(format!("{name}-shard-{}-of-{}.journal", shard.number(), shard.count())),
+    }
+}
+
+/// Writes points and outputs of all runs, which may be more than the study began with.
+fn save(study: &Study, result: &StudyResult, store: &Store, path: &Path, format: Format) -> Result<(), Failure> {
+    let settings = study.design().settings();
+    let points = result.provenance.base_samples / settings.replicates;
+    let design = study.design().with_points(points).map_err(|error| Failure::Run(error.into()))?;
+    stream_atomically(path, |out| save_outputs(study, &design, store, format, &mut Stoppable::new(out)))?;
+    say(&format!("wrote the points and outputs of {} runs to {}", design.rows(), path.display()));
+    Ok(())
+}
+
+/// The study, with the changes that the command line makes to it.
+fn study_of(arguments: &Arguments) -> Result<Study, Failure> {
+    let changes = arguments.design.overrides();
+    let study = arguments.study.load_with(&changes)?;
+    let RecordArguments { double, retry_failed, .. } = arguments.record;
+    if !double && !retry_failed || arguments.design.base_samples.is_some() {
+        return Ok(study);
+    }
+    let json = arguments.output.folder(study.name()).join(format!("{}.json", study.name()));
+    let result = match read_result(&json) {
+        Ok(result) => result,
+        Err(_) if !double => return Ok(study),
+        Err(error) => return Err(Failure::Input(anyhow!("--double: there is no result to double: {error}"))),
+    };
+    let (base_samples, plain_rows) = (result.provenance.base_samples, result.provenance.plain_rows);
+    let wanted = if double { base_samples.saturating_mul(2) } else { base_samples };
+    if wanted == study.design().settings().base_samples && plain_rows == study.design().plain_rows() {
+        return Ok(study);
+    }
+    match &result.spending {
+        Some(_) if !double && study.target().accuracy.is_some() => return Ok(study),
+        Some(spending) => {
+            let (option, accuracy) =
+                if double { ("--double", spending.accuracy / 2.0) } else { ("--retry-failed", spending.accuracy) };
+            return Err(Failure::Input(anyhow!(
+                "{option}: {} is of a run that was asked for an accuracy, and chose its design by itself: ask for one again, \
+                 which goes on with its runs: --accuracy {accuracy}",
+                json.display()
+            )));
+        }
+        None => (),
+    }
+    if plain_rows != study.design().plain_rows() {
+        return Err(Failure::Input(anyhow!(
+            "{}: the result is of another design than the study: run it again",
+            json.display()
+        )));
+    }
+    study.with_base_samples(wanted).map_err(|error| Failure::Input(error.into()))
+}
+
+/// Writes the files of a result, and says what came out.
+pub fn deliver(
+    study: &Study,
+    artefacts: &Artefacts,
+    result: &StudyResult,
+    live: &LiveArguments,
+) -> Result<(), Failure> {
+    let mut document = run_document(result);
+    live.put_beside(&mut document, result);
+    output::deliver(artefacts, &document)?;
+    let lost: Vec<&OutputResult> = result.outputs.iter().filter(|output| lost(study, output)).collect();
+    let Some(first) = lost.first() else { return Ok(()) };
+    let others = if lost.len() > 1 { format!(" and of {} more outputs", lost.len() - 1) } else { String::new() };
+    Err(Failure::Run(anyhow!(
+        "no indices of {}{others}: too many runs failed (max_failed = {} in [analysis]; the result says which and why)",
+        first.name,
+        study.analysis().max_failed
+    )))
+}
+
+/// What was done before an error is of use to the user.
+fn with_journal(study: &Study, error: RunError, journal: Option<&Path>) -> Failure {
+    if matches!(&error, RunError::GaveUp(give_up) if give_up.is_bad_input) {
+        return error.into();
+    }
+    let nothing = |journal: &Path| study.runner().journal(journal).recorded_runs().is_ok_and(|runs| runs == 0);
+    let kept = match (&error, journal.filter(|journal| journal.exists())) {
+        (RunError::Interrupted { .. } | RunError::GaveUp(_), Some(journal)) if nothing(journal) => String::new(),
+        (RunError::Interrupted { .. } | RunError::GaveUp(_) | RunError::NotKept { .. }, Some(journal)) => {
+            // What failed before the model gave up is no answer of a model that has been mended.
+            let (option, again) = match error {
+                RunError::GaveUp(_) => ("--retry-failed", ", and evaluates those that failed again"),
+                _ => ("--resume", ""),
+            };
+            let path = journal.display();
+            format!("\nfinished runs are kept in {path}: the same command with {option} goes on with them{again}")
+        }
+        (RunError::Interrupted { .. }, _) => "\nno journal was kept: the runs are lost".to_owned(),
+        _ => return with_inputs(study, error),
+    };
+    Failure::Run(anyhow!("{error}{kept}"))
+}
+
+/// Whether an output has no indices because runs failed, and not because it does not vary.
+fn lost(study: &Study, output: &OutputResult) -> bool {
+    let share = output.runs_failed as f64 / (output.runs_ok + output.runs_failed) as f64;
+    let too_many = share > study.analysis().max_failed || output.base_points_used < 2;
+    output.indices.is_none() && output.runs_failed > 0 && too_many
+}
+
+/// A row that failed is of use to the user by its inputs.
+pub fn with_inputs(study: &Study, error: RunError) -> Failure {
+    match &error {
+        RunError::RowFailed { row, .. } => {
+            Failure::Run(anyhow!("{error}\nthe run's inputs: {}", inputs_in_words(study, *row)))
+        }
+        _ => error.into(),
+    }
+}

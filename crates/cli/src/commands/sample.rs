@@ -1,0 +1,92 @@
+//! `apportion sample`: the points of a study as a file, for a model outside.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::anyhow;
+use apportion::files::read_text;
+use apportion_files::exchange::{
+    Format, Manifest, ReadOptions, open_table, random_design, sample as write_sample, write_rows,
+};
+use apportion_report::{prepare_file, stream_atomically, write_atomically};
+
+use super::stop::Stoppable;
+use super::{DesignChanges, Failure, StudyArguments, counted, say, say_notes};
+
+/// Most random points.
+const MAX_RANDOM: u64 = 2 * apportion::design::MAX_POINTS;
+
+#[derive(clap::Args)]
+#[command(
+    after_help = "Beside FILE, FILE.manifest.json says whose points they are: keep them together. When the outputs \
+                        are there: apportion analyze OUTPUTS --design FILE"
+)]
+pub struct Arguments {
+    #[command(flatten)]
+    study: StudyArguments,
+    #[command(flatten)]
+    design: DesignChanges,
+    /// Random points instead of those of the design, so many: for few runs, whose table `apportion given-data` reads
+    #[arg(long, value_name = "N", conflicts_with_all = ["base_samples", "accuracy", "runs"], value_parser = clap::value_parser!(u64).range(1..=MAX_RANDOM))]
+    random: Option<u64>,
+    /// Overwrite a file that exists and is no design of this study
+    #[arg(long)]
+    force: bool,
+    /// The file for the points, .csv or .npy [default: NAME-design.csv, or NAME-random.csv]
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+}
+
+pub fn sample(arguments: &Arguments) -> Result<(), Failure> {
+    let study = arguments.study.load_any(&arguments.design.overrides())?;
+    say_notes(&study);
+    let kind = if arguments.random.is_some() { "random" } else { "design" };
+    let default = || PathBuf::from(format!("{}-{kind}.csv", study.name()));
+    let path = arguments.output.clone().unwrap_or_else(default);
+    let format = Format::from_path(&path).map_err(|error| Failure::Input(anyhow!("{}: {error}", path.display())))?;
+    let beside = Manifest::path_beside(&path);
+    if !arguments.force && path.is_file() && !is_own(&path, study.name()) {
+        let what = "exists already, and is no design that `sample` wrote of this study";
+        return Err(Failure::Input(anyhow!("{} {what}: give another name, or add --force", path.display())));
+    }
+    prepare_file(&path)?;
+    prepare_file(&beside)?;
+    if arguments.random.is_none() && study.target().grows() {
+        say("note: the study grows until it knows enough, but a file does not: these are the points it begins with");
+    }
+    // A manifest of other points must not outlive them.
+    match std::fs::remove_file(&beside) {
+        Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
+            return Err(Failure::Run(anyhow!("cannot replace {}: {error}", beside.display())));
+        }
+        _ => (),
+    }
+    let factors = counted(study.space().factors().len() as u64, "factor");
+    if let Some(rows) = arguments.random {
+        let design = random_design(&study, rows).map_err(|error| Failure::Input(error.into()))?;
+        stream_atomically(&path, |out| write_rows(&study, &design, rows, format, &mut Stoppable::new(out)).map(drop))?;
+        say(&format!("wrote {rows} random points of {factors} to {}", path.display()));
+        return Ok(());
+    }
+    let mut manifest = None;
+    stream_atomically(&path, |out| {
+        manifest = Some(write_sample(&study, &arguments.study.study, format, &mut Stoppable::new(out))?);
+        Ok(())
+    })?;
+    if let Some(manifest) = &manifest {
+        write_atomically(&beside, manifest.json().as_bytes())?;
+    }
+    let rows = study.design().rows();
+    say(&format!("wrote {rows} points of {factors} to {}", path.display()));
+    say(&format!("wrote {}", beside.display()));
+    Ok(())
+}
+
+/// Whether the file at `path` is a design of the study called `name` as `sample` wrote it: the manifest beside it says so, and no
+/// outputs have been put in.
+fn is_own(path: &Path, name: &str) -> bool {
+    let manifest = read_text(&Manifest::path_beside(path)).ok().and_then(|text| Manifest::parse(&text).ok());
+    let width = open_table(path, &ReadOptions::default()).map(|rows| rows.width());
+    manifest
+        .zip(width.ok())
+        .is_some_and(|(manifest, width)| manifest.study.name == name && manifest.factors.len() == width)
+}

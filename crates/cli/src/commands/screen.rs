@@ -1,0 +1,94 @@
+//! `apportion screen`: which of many factors matter, for a few runs each.
+
+use std::time::Instant;
+
+use anyhow::anyhow;
+use apportion::model::RunContext;
+use apportion::result::RunFacts;
+use apportion::run::threads_in_force;
+use apportion::screening::{
+    MAX_LEVELS, MIN_TRAJECTORIES, ScreeningDesign, ScreeningError, ScreeningJob, ScreeningSettings, screen_in,
+};
+use apportion::study::Study;
+use apportion_report::screening::{build_screening, screening_document};
+
+use super::output::{OutputArguments, deliver};
+use super::progress::Meter;
+use super::stop::on_signal;
+use super::{Failure, StudyArguments, Threads, say, whole_number};
+
+#[derive(clap::Args)]
+pub struct Arguments {
+    #[command(flatten)]
+    study: StudyArguments,
+    /// Trajectories; each costs one run more than there are factors
+    #[arg(long, value_name = "R", default_value_t = 32, value_parser = trajectories, allow_negative_numbers = true)]
+    trajectories: u64,
+    /// How the points are laid out: radial (Campolongo et al. 2011, by the study's sampler), trajectory (Morris 1991), or derivative
+    /// (Sobol' and Kucherenko 2009: short steps, with bounds on total indices)
+    #[arg(long, default_value = "radial", value_parser = ["radial", "trajectory", "derivative"])]
+    design: String,
+    /// Levels of the trajectory design's grid, an even number [default: 4]
+    #[arg(long, value_name = "P", value_parser = clap::value_parser!(u32).range(2..=i64::from(MAX_LEVELS)))]
+    levels: Option<u32>,
+    /// Seed of the points [default: the study's]
+    #[arg(long, value_name = "S", value_parser = whole_number, allow_negative_numbers = true)]
+    seed: Option<u64>,
+    #[command(flatten)]
+    output: OutputArguments,
+    #[command(flatten)]
+    threads: Threads,
+}
+
+impl From<ScreeningError> for Failure {
+    fn from(error: ScreeningError) -> Self {
+        Self::input_if(!matches!(error, ScreeningError::Run(_)), error)
+    }
+}
+
+fn trajectories(text: &str) -> Result<u64, String> {
+    let number = text.parse().ok().filter(|number| *number >= MIN_TRAJECTORIES);
+    number.ok_or_else(|| format!("expected a whole number, at least {MIN_TRAJECTORIES}"))
+}
+
+impl Arguments {
+    fn settings(&self, study: &Study) -> Result<ScreeningSettings, Failure> {
+        let in_study = study.design().settings();
+        let sampler = in_study.sampler;
+        let design = match (&*self.design, self.levels) {
+            ("trajectory", levels) => ScreeningDesign::Trajectory { levels: levels.unwrap_or(4) },
+            (name, Some(levels)) => {
+                let message = format!("--levels is of no account to the {name} design: add --design trajectory");
+                return Err(Failure::Input(anyhow!("--levels {levels}: {message}")));
+            }
+            ("derivative", None) => ScreeningDesign::Derivative { sampler },
+            _ => ScreeningDesign::Radial { sampler },
+        };
+        let seed = self.seed.unwrap_or(in_study.seed);
+        Ok(ScreeningSettings { design, trajectories: self.trajectories, seed })
+    }
+}
+
+pub fn screen(arguments: &Arguments) -> Result<(), Failure> {
+    let study = arguments.study.load()?;
+    let settings = arguments.settings(&study)?;
+    let (in_force, _) = settings.in_force(study.space().factors().len())?;
+    if in_force.trajectories != settings.trajectories {
+        let (asked, used) = (settings.trajectories, in_force.trajectories);
+        say(&format!("note: {asked} trajectories do not make equal parts for the intervals: {used} are used"));
+    }
+    let model = study.model();
+    let artefacts = arguments.output.artefacts(study.name());
+    artefacts.prepare()?;
+    let runs = in_force.trajectories * (study.space().factors().len() as u64 + 1);
+    let meter = Meter::new(study.name(), runs);
+    let start = Instant::now();
+    let job = ScreeningJob { space: study.space(), model: model.as_ref(), settings };
+    let context = RunContext::new(Some(on_signal()), say);
+    let screening = screen_in(job, arguments.threads.number(), &|progress| meter.update(progress), &context)?;
+    let threads = threads_in_force(arguments.threads.number());
+    let facts = RunFacts { threads, wall_seconds: start.elapsed().as_secs_f64() };
+    meter.finish(screening.runs, facts.wall_seconds);
+    let file = build_screening(&study, model.as_ref(), &screening, facts);
+    deliver(&artefacts, &screening_document(&file))
+}

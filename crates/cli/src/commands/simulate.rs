@@ -1,0 +1,53 @@
+//! `apportion simulate`: one scene of a study in time.
+
+use apportion::quantity::{Dimension, Quantity};
+
+use super::output::{OutputArguments, deliver};
+use super::{Failure, StudyArguments};
+use crate::scene::simulation::{SimulationError, mode_diagram, simulate as simulate_scene};
+use crate::scene::{mode_document, scene_document};
+
+#[derive(clap::Args)]
+pub struct Arguments {
+    #[command(flatten)]
+    study: StudyArguments,
+    #[command(flatten)]
+    output: OutputArguments,
+    /// How long to simulate, as in "0.4 s" [default: twice the critical time]
+    #[arg(long, value_name = "TIME", value_parser = parse_time, allow_hyphen_values = true)]
+    duration: Option<f64>,
+    /// Draw the mode diagram instead: the force at which the particle slides, slips at the tip, rolls or spins
+    #[arg(long, conflicts_with = "duration")]
+    mode_diagram: bool,
+}
+
+fn parse_time(text: &str) -> Result<f64, String> {
+    let quantity = Quantity::parse(text).map_err(|error| error.to_string())?;
+    if quantity.unit.dimension() != Dimension::TIME || quantity.value <= 0.0 {
+        return Err("expected a time greater than 0 with its unit, as in \"0.4 s\"".to_owned());
+    }
+    Ok(quantity.to_si())
+}
+
+impl From<SimulationError> for Failure {
+    fn from(error: SimulationError) -> Self {
+        Self::input_if(matches!(error, SimulationError::NoScene(_)), error)
+    }
+}
+
+/// Simulates the scene in which every factor stands at its nominal value.
+pub fn simulate(arguments: &Arguments) -> Result<(), Failure> {
+    let study = arguments.study.load()?;
+    let artefacts = arguments.output.artefacts(study.name());
+    let document = if arguments.mode_diagram {
+        let diagram = mode_diagram(&study)?;
+        artefacts.prepare()?;
+        let title = study.title().unwrap_or(study.name());
+        mode_document(&diagram, study.name(), title)
+    } else {
+        artefacts.prepare()?;
+        let story = simulate_scene(&study, arguments.duration)?;
+        scene_document(&story, study.name())
+    };
+    deliver(&artefacts, &document)
+}

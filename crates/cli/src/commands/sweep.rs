@@ -1,0 +1,45 @@
+//! `apportion sweep`: one factor at a time around the nominal point.
+
+use apportion::model::{GiveUp, RunContext};
+use apportion::run::Halt;
+use apportion::sweep::{MAX_POINTS, SweepError, find};
+use apportion_report::sweep::{build_sweep, sweep_document};
+
+use super::output::{OutputArguments, deliver};
+use super::stop::on_signal;
+use super::{Failure, StudyArguments, number_in, say};
+
+#[derive(clap::Args)]
+pub struct Arguments {
+    #[command(flatten)]
+    study: StudyArguments,
+    /// A factor to sweep over its range; once for each [default: every factor]
+    #[arg(long = "factor", value_name = "NAME")]
+    factors: Vec<String>,
+    /// Points over the range of each factor
+    #[arg(long, value_name = "N", default_value_t = 101, value_parser = |text: &str| number_in(text, 2..=MAX_POINTS))]
+    points: usize,
+    #[command(flatten)]
+    output: OutputArguments,
+}
+
+impl From<SweepError> for Failure {
+    fn from(error: SweepError) -> Self {
+        let is_input = match &error {
+            SweepError::Halted(halt) => matches!(halt, Halt::GaveUp(GiveUp { is_bad_input: true, .. })),
+            _ => true,
+        };
+        Self::input_if(is_input, error)
+    }
+}
+
+pub fn sweep(arguments: &Arguments) -> Result<(), Failure> {
+    let study = arguments.study.load()?;
+    let factors = find(study.space(), &arguments.factors)?;
+    let model = study.model();
+    let artefacts = arguments.output.artefacts(study.name());
+    artefacts.prepare()?;
+    let context = RunContext::new(Some(on_signal()), say);
+    let sweeps = apportion::sweep::sweep(study.space(), model.as_ref(), &factors, arguments.points, &context)?;
+    deliver(&artefacts, &sweep_document(&build_sweep(&study, model.as_ref(), sweeps)))
+}

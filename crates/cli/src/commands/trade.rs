@@ -1,0 +1,109 @@
+//! `apportion trade`: accuracy against time, and what becomes of a study at its extremes.
+
+use std::time::Instant;
+
+use anyhow::anyhow;
+use apportion::Study;
+use apportion::run::{RunError, threads_in_force};
+use apportion_report::Artefacts;
+
+use super::output::{OutputArguments, deliver};
+use super::progress::Meter;
+use super::stop::on_signal;
+use super::{Failure, StudyArguments, Threads, say, whole_number};
+use crate::trade::extremes::{ExtremesJob, ExtremesSettings, build_extremes, extremes, extremes_document};
+use crate::trade::settings::{SettingsJob, build_settings, compare_settings, settings_document};
+
+/// Seconds that a comparison takes, and a quick one.
+const SECONDS: f64 = 300.0;
+const QUICK_SECONDS: f64 = 40.0;
+
+#[derive(clap::Args)]
+pub struct Arguments {
+    #[command(flatten)]
+    study: StudyArguments,
+    /// Map what becomes of the study at its extremes instead: numbers that are right, flagged, or refused with a reason
+    #[arg(long)]
+    extremes: bool,
+    /// About how many points the model is evaluated at, besides the steps past its bounds [default: 600; of a program, 160]
+    #[arg(long, value_name = "N", requires = "extremes", value_parser = clap::value_parser!(u64).range(1..=10_000_000))]
+    cells: Option<u64>,
+    /// Seed of the points that are chosen at random [default: the study's]
+    #[arg(long, value_name = "S", requires = "extremes", value_parser = whole_number)]
+    seed: Option<u64>,
+    /// Compare settings for less than a minute, not for five
+    #[arg(long, conflicts_with_all = ["extremes", "seconds"])]
+    quick: bool,
+    /// Compare settings for about so many seconds [default: 300]
+    #[arg(long, value_name = "S", conflicts_with = "extremes", value_parser = parse_seconds)]
+    seconds: Option<f64>,
+    /// Seeds of every setting; the largest of their errors counts
+    #[arg(long, value_name = "N", default_value_t = 3, conflicts_with = "extremes", value_parser = clap::value_parser!(u64).range(1..=1000))]
+    seeds: u64,
+    #[command(flatten)]
+    output: OutputArguments,
+    #[command(flatten)]
+    threads: Threads,
+}
+
+fn parse_seconds(text: &str) -> Result<f64, String> {
+    let seconds = text.parse::<f64>().ok().filter(|seconds| *seconds > 0.0 && seconds.is_finite());
+    seconds.ok_or_else(|| "expected a number of seconds above 0, as in 60".to_owned())
+}
+
+pub fn trade(arguments: &Arguments) -> Result<(), Failure> {
+    let study = arguments.study.load()?;
+    if !study.space().dependences().is_empty() {
+        return Err(Failure::Input(anyhow!(
+            "factors of this study depend on each other, and what is compared here, surrogates, cheaper models and other samplers, \
+             serves independent ones: expected a study without [[dependence]]"
+        )));
+    }
+    let artefacts = arguments.output.artefacts(study.name());
+    artefacts.prepare()?;
+    if arguments.extremes {
+        trade_extremes(&study, arguments, &artefacts)
+    } else {
+        trade_settings(&study, arguments, &artefacts)
+    }
+}
+
+/// The settings of the study against each other.
+fn trade_settings(study: &Study, arguments: &Arguments, artefacts: &Artefacts) -> Result<(), Failure> {
+    let usual = if arguments.quick { QUICK_SECONDS } else { SECONDS };
+    let job = SettingsJob {
+        study,
+        seconds: arguments.seconds.unwrap_or(usual),
+        seeds: arguments.seeds,
+        threads: arguments.threads.number(),
+        stop: Some(on_signal()),
+        on_progress: &|what, share| say(&format!("{:3.0} % of the time: {what}", 100.0 * share)),
+    };
+    let comparison = compare_settings(&job).map_err(|error: RunError| Failure::from(error))?;
+    let threads = threads_in_force(arguments.threads.number());
+    deliver(artefacts, &settings_document(&build_settings(study, threads, comparison)))
+}
+
+/// What becomes of the study at its extremes.
+fn trade_extremes(study: &Study, arguments: &Arguments, artefacts: &Artefacts) -> Result<(), Failure> {
+    let own = ExtremesSettings::for_study(study);
+    let settings =
+        ExtremesSettings { points: arguments.cells.unwrap_or(own.points), seed: arguments.seed.unwrap_or(own.seed) };
+    let meter = Meter::new(study.name(), settings.points);
+    let start = Instant::now();
+    let job = ExtremesJob {
+        settings,
+        threads: arguments.threads.number(),
+        stop: Some(on_signal()),
+        on_message: say,
+        on_progress: &|progress| meter.update(progress),
+        ..ExtremesJob::new(study)
+    };
+    let map = extremes(&job)?;
+    meter.finish(map.points, start.elapsed().as_secs_f64());
+    deliver(artefacts, &extremes_document(&build_extremes(study, settings.seed, &map)))?;
+    match map.counts.wrong {
+        0 => Ok(()),
+        wrong => Err(Failure::Run(anyhow!("{wrong} numbers are silently wrong: see the reasons"))),
+    }
+}

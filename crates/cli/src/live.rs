@@ -1,0 +1,243 @@
+//! Pages that compute: a study with the engine inside, compiled to WebAssembly (`web/`).
+
+use std::path::{Path, PathBuf};
+use std::sync::atomic::AtomicBool;
+
+use apportion::result::StudyResult;
+use apportion::run::RunError;
+use apportion::study::Study;
+use apportion_files::{ModelKind, StudyError, edited};
+use apportion_report::document::{DataFile, Document, Link, Part, Section, symbols};
+use apportion_report::{TRY, one_output, run_document};
+use askama::Template;
+use serde_json::json;
+use thiserror::Error;
+use toml_edit::DocumentMut;
+
+/// Why there is no page.
+#[derive(Debug, Error)]
+pub enum LiveError {
+    /// The model is a program, or outside.
+    #[error("a page cannot run the study {study}: its model is neither afm nor a formula nor a known function")]
+    Model {
+        /// The name of the study.
+        study: String,
+    },
+    /// A page has the points of so many factors.
+    #[error("a page cannot run the study {study}: it has {factors} factors, more than {MAX_FACTORS}")]
+    Factors {
+        /// The name of the study.
+        study: String,
+        /// How many factors it has.
+        factors: usize,
+    },
+    /// The study is not whole without files beside it.
+    #[error("a page cannot run the study {study}: it needs files beside it ({source})")]
+    Files {
+        /// The name of the study.
+        study: String,
+        /// What is missing without them.
+        source: Box<StudyError>,
+    },
+    /// The study cannot be changed.
+    #[error(transparent)]
+    Study(#[from] StudyError),
+    /// The run of its first result has ended.
+    #[error(transparent)]
+    Run(#[from] RunError),
+    /// The template cannot be rendered.
+    #[error("cannot make the page: {0}")]
+    Template(#[from] askama::Error),
+}
+
+/// The engine, compiled to WebAssembly by `web/build.sh`: gzip in base64.
+const ENGINE: &str = include_str!("../../../assets/web/engine.b64");
+
+/// The studies that a page of the nanoparticle offers beside its own.
+const PRESETS: [(&str, &str); 4] = [
+    ("coulomb-dimensional", include_str!("../../../studies/coulomb-dimensional.toml")),
+    ("coulomb-environmental", include_str!("../../../studies/coulomb-environmental.toml")),
+    ("coulomb-general", include_str!("../../../studies/coulomb-general.toml")),
+    ("soft-cantilever", include_str!("../../../studies/soft-cantilever.toml")),
+];
+
+/// Two columns of Sobol' points for each, of the 1024 that the engine has in a page.
+const MAX_FACTORS: usize = 512;
+
+/// What the page shows of a result, in this order, where the result has it.
+const SECTIONS: [&str; 7] = ["warnings", "indices", "shares", "series-1", "interactions", "distribution", "validity"];
+
+#[derive(Template)]
+#[template(path = "live/live.html")]
+struct Page<'a> {
+    page_title: &'a str,
+    title: String,
+    lead: Vec<String>,
+    state: String,
+    ranges: String,
+    sections: Vec<SectionView<'a>>,
+    footer: String,
+    /// The studies as JSON, in an element of script: without `<`.
+    study: String,
+    style: String,
+    script: String,
+    beginning: &'static str,
+    worker: &'static str,
+    engine: &'static str,
+    version: &'static str,
+}
+
+struct SectionView<'a> {
+    id: &'a str,
+    title: String,
+    body: String,
+}
+
+/// The page of `study`, with its result by this program on `threads` threads to begin with, unless `stop` is set.
+///
+/// # Errors
+/// [`LiveError`] if a page cannot run the study, or its first run fails.
+pub fn live_page(study: &Study, threads: usize, stop: &AtomicBool) -> Result<String, LiveError> {
+    let text = own_text(study)?;
+    let study = apportion_files::parse_study(&text, Path::new(&format!("{}.toml", study.name())), &[])?;
+    let result = study.runner().threads(threads).stop(stop).run()?;
+    page(&study, &text, &result)
+}
+
+/// The page of the study in `result`, with this result to begin with; `None` if a page cannot run the study. No file that the study
+/// names is read: `document`, that of the result, tells how to try other ranges only if it names none.
+///
+/// # Errors
+/// [`LiveError`] if a part of the page cannot be drawn.
+pub fn page_of_result(document: &Document, result: &StudyResult) -> Result<Option<String>, LiveError> {
+    if document.sections.iter().all(|section| section.id != TRY) {
+        return Ok(None);
+    }
+    let path = PathBuf::from(format!("{}.toml", result.study.name));
+    let text = apportion_files::parse_study(&result.study.source, &path, &result.study.overrides);
+    let Some(text) = text.ok().and_then(|study| own_text(&study).ok()) else { return Ok(None) };
+    page(&apportion_files::parse_study(&text, &path, &[])?, &text, result).map(Some)
+}
+
+/// The name of the live page of the study called `name`.
+pub fn file_name(name: &str) -> String {
+    format!("{name}-live.html")
+}
+
+/// Puts the live `page` beside a document, as the file `name` that a section links to: in the place of the section that tells
+/// how to make one, if there is one.
+pub fn put_beside(document: &mut Document, name: &str, page: String) {
+    const TITLE: &str = "Try your own ranges";
+    let text = "What if your own factors vary less, or more? A page beside this one computes it while a \
+                range is dragged, with the engine of this program inside; it needs no network.";
+    let parts = vec![Part::Text(text.to_owned()), Part::Links(vec![Link::new(TITLE, name)])];
+    document.sections.retain(|section| section.id != TRY);
+    // Before how it was made.
+    let place = document.sections.iter().position(|section| matches!(&*section.id, "cost" | "provenance"));
+    let place = place.unwrap_or(document.sections.len());
+    document.sections.insert(place, Section::new(TRY, TITLE, vec![Part::OnPage(parts)]));
+    document.files.push(DataFile::new(name, page));
+}
+
+/// The text of a study with all changes made, as a page can run it: for as many base samples as it likes, without files.
+///
+/// # Errors
+/// [`LiveError`] if there is no such text.
+pub fn own_text(study: &Study) -> Result<String, LiveError> {
+    let kind = ModelKind::from_name(study.subject().name());
+    let computes = |kind: ModelKind| kind == ModelKind::AFM || kind == ModelKind::EXPRESSION || kind.known.is_some();
+    if !kind.is_some_and(computes) {
+        return Err(LiveError::Model { study: study.name().to_owned() });
+    }
+    let factors = study.space().factors().len();
+    if factors > MAX_FACTORS {
+        return Err(LiveError::Factors { study: study.name().to_owned(), factors });
+    }
+    let text = edited(study.source(), study.overrides())?;
+    let text = without_target(&text).unwrap_or(text);
+    // Where there is no file beside it.
+    let alone = Path::new("no-such-folder-of-a-page").join(format!("{}.toml", study.name()));
+    apportion_files::parse_study(&text, &alone, &[])
+        .map_err(|source| LiveError::Files { study: study.name().to_owned(), source: Box::new(source) })?;
+    Ok(text)
+}
+
+/// The text without what decides by itself how long a run is.
+fn without_target(text: &str) -> Option<String> {
+    let mut document: DocumentMut = text.parse().ok()?;
+    document.remove("accuracy");
+    if let Some(design) = document.get_mut("design").and_then(|design| design.as_table_like_mut()) {
+        for key in ["runs", "max_runs", "max_time"] {
+            design.remove(key);
+        }
+    }
+    Some(document.to_string())
+}
+
+fn page(study: &Study, text: &str, result: &StudyResult) -> Result<String, LiveError> {
+    // One output at a time.
+    let result = one_output(result, None);
+    let document = run_document(&result);
+    let title = study.title().unwrap_or(study.name());
+    let preset = |name: &str, title: &str, text: &str| json!({ "name": name, "title": title, "heading": symbols(title), "text": text });
+    let mut presets = vec![preset(study.name(), title, text)];
+    if study.subject().name() == ModelKind::AFM.name {
+        for (name, other) in PRESETS {
+            let Some(text) = without_target(other) else { continue };
+            let other = apportion_files::parse_study(&text, Path::new("preset.toml"), &[])?;
+            if other.title() != study.title() {
+                presets.push(preset(name, other.title().unwrap_or(name), &text));
+            }
+        }
+    }
+    let ranges = ranges(&document);
+    let mut sections = Vec::new();
+    let document = document.excerpt(&SECTIONS);
+    for id in SECTIONS {
+        let body = document.section_html(id);
+        let title = document.sections.iter().find(|section| section.id == id).map(|section| symbols(&section.title));
+        sections.extend(body.zip(title).map(|(body, title)| SectionView { id, title, body }));
+    }
+    let page = Page {
+        page_title: title,
+        title: symbols(title),
+        lead: document.lead.iter().map(|text| symbols(text)).collect(),
+        state: format!("{} runs of the model by the program.", result.provenance.model_runs),
+        ranges,
+        sections,
+        footer: symbols(&document.footer),
+        // A title may hold what would end the element.
+        study: json!({ "presets": presets }).to_string().replace('<', "\\u003c"),
+        style: compact(concat!(
+            include_str!("../../report/templates/page/page.css"),
+            include_str!("../templates/live/live.css")
+        )),
+        script: compact(concat!(
+            include_str!("../templates/live/live.js"),
+            include_str!("../templates/live/controls.js"),
+            include_str!("../../report/templates/page/charts.js")
+        )),
+        beginning: include_str!("../templates/live/begin.js"),
+        worker: include_str!("../templates/live/worker.js"),
+        engine: ENGINE,
+        version: env!("CARGO_PKG_VERSION"),
+    };
+    Ok(page.render()?)
+}
+
+/// A script or a style without indentation and lines of comment, so that a page stays below 2 MB.
+fn compact(text: &str) -> String {
+    let lines = text.lines().map(str::trim_start).filter(|line| !line.is_empty() && !line.starts_with("//"));
+    lines.fold(String::new(), |all, line| all + line + "\n")
+}
+
+/// The tables of what was asked, for those who see no controls: on paper, and without scripts.
+fn ranges(document: &Document) -> String {
+    let mut document = document.clone().excerpt(&["study"]);
+    for part in document.sections.iter_mut().flat_map(|section| &mut section.parts) {
+        if let Part::OnPage(parts) = part {
+            parts.retain(|part| matches!(part, Part::Table(_)));
+        }
+    }
+    document.section_html("study").unwrap_or_default()
+}

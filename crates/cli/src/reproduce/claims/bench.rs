@@ -1,0 +1,236 @@
+//! What the claims are put to: the physics, the nominal scene, and the box of the papers' general study.
+
+use apportion::design::SobolSequence;
+use apportion::space::Space;
+use apportion::sum;
+use apportion::uncertainty::{Interval, StandardError, t_interval};
+use apportion_afm::history::{History, history};
+use apportion_afm::modes::Pushing;
+use apportion_afm::{Critical, Failure, Fidelity, FrictionLaw, Options, Parameter, Scene, critical_force, edge_unit};
+
+use super::curve::{Curve, grid};
+use super::judge::{Holding, Share};
+use super::numbers::number;
+use crate::reproduce::papers::Words;
+use crate::reproduce::{Effort, Friction, ReproduceError, Reproduced, general_study};
+
+/// The seed of every sample of the box.
+const SEED: u64 = 5;
+
+/// Independent scrambles behind the interval of a share: enough degrees of freedom for a t-quantile near 2.
+const REPLICATES: u64 = 8;
+
+/// The critical force of a scene, as [`critical_force`].
+pub(super) type ForceOf<'a> = &'a dyn Fn(&Scene, &Options) -> Result<Critical, Failure>;
+/// A scene in time, as [`history`].
+pub(super) type HistoryOf<'a> = &'a dyn Fn(&Scene, &Options, f64) -> Result<History, Failure>;
+
+/// The physics that is asked: ours, or a bent one that a test puts in its place.
+#[derive(Clone, Copy)]
+pub(super) struct Physics<'a> {
+    pub force: ForceOf<'a>,
+    pub history: HistoryOf<'a>,
+    pub pushing: &'a dyn Fn(Scene) -> Pushing,
+}
+
+impl Physics<'static> {
+    pub fn ours() -> Self {
+        Self { force: &critical_force, history: &history, pushing: &Pushing::new }
+    }
+}
+
+/// How many points are asked.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sizes {
+    /// Points of the box where a question takes closed formulas.
+    pub points: u64,
+    /// Points of the box where it takes a history or a search for equilibria.
+    pub slow_points: u64,
+    /// Points of the box where it takes an integration of LuGre friction, a third of a millisecond each.
+    pub ramp_points: u64,
+    /// Points of a curve.
+    pub curve: usize,
+}
+
+impl Sizes {
+    fn new(effort: Effort) -> Self {
+        match effort {
+            Effort::Full => Self { points: 8192, slow_points: 1024, ramp_points: 64, curve: 25 },
+            Effort::Quick => Self { points: 1024, slow_points: 128, ramp_points: 8, curve: 13 },
+        }
+    }
+
+    /// Those that the texts of claims name.
+    pub fn words(&self) -> Words {
+        let curve = ("curve", self.curve.to_string());
+        vec![("points", self.points.to_string()), ("slow_points", self.slow_points.to_string()), curve]
+    }
+}
+
+/// One constant of the scene, moved over evenly spaced values.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sweep {
+    pub parameter: &'static Parameter,
+    /// First and last value (SI).
+    pub range: (f64, f64),
+    /// Number of values.
+    pub count: usize,
+}
+
+impl Sweep {
+    /// As in `200 to 700 um`.
+    pub fn words(&self) -> String {
+        let unit = edge_unit(self.parameter);
+        let (low, high) = (unit.from_si(self.range.0), unit.from_si(self.range.1));
+        format!("{} to {}", number(low, ""), number(high, &unit.to_string()))
+    }
+}
+
+/// Which factors vary over their ranges; the others stand at their nominal values.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Region {
+    /// All eight.
+    General,
+    /// Those of this group of the general study.
+    Group(&'static str),
+}
+
+/// The bench at which every claim is tried.
+pub(super) struct Bench<'a> {
+    pub physics: Physics<'a>,
+    pub sizes: Sizes,
+    /// The studies that have been run.
+    pub studies: &'a [Reproduced],
+    space: Space,
+    parameters: Vec<&'static Parameter>,
+}
+
+impl<'a> Bench<'a> {
+    /// With the ranges of the general study.
+    pub fn new(physics: Physics<'a>, effort: Effort, studies: &'a [Reproduced]) -> Result<Self, ReproduceError> {
+        let study = general_study()?;
+        let parameters = study.space().factors().iter().map(|factor| Parameter::from_name(&factor.name)).collect();
+        let parameters: Option<Vec<_>> = parameters;
+        let parameters = parameters.ok_or(ReproduceError::NoRanges)?;
+        Ok(Self { physics, sizes: Sizes::new(effort), studies, space: study.space().clone(), parameters })
+    }
+
+    /// F_cr (N).
+    pub fn force(&self, scene: &Scene, options: &Options) -> Result<f64, Failure> {
+        Ok((self.physics.force)(scene, options)?.critical_force)
+    }
+
+    /// A sweep of a factor over its range in the general study.
+    pub fn over(&self, name: &str) -> Result<Sweep, ReproduceError> {
+        let mut factors = self.space.factors().iter().zip(&self.parameters);
+        let (factor, parameter) = factors.find(|(factor, _)| factor.name == name).ok_or(ReproduceError::NoRanges)?;
+        let (low, high) = factor.distribution().support();
+        let range = (factor.unit().to_si(low), factor.unit().to_si(high));
+        Ok(Sweep { parameter, range, count: self.sizes.curve })
+    }
+
+    /// F_cr along a sweep of one constant of `scene`.
+    pub fn curve(&self, sweep: &Sweep, scene: &Scene, options: &Options) -> Result<Curve, Failure> {
+        self.curve_of(sweep, scene, &|scene| self.force(scene, options))
+    }
+
+    /// Any quantity along a sweep of one constant of `scene`.
+    pub fn curve_of(
+        &self,
+        sweep: &Sweep,
+        scene: &Scene,
+        quantity: &dyn Fn(&Scene) -> Result<f64, Failure>,
+    ) -> Result<Curve, Failure> {
+        let x = grid(sweep.range, sweep.count);
+        let mut scene = *scene;
+        let mut y = Vec::with_capacity(x.len());
+        for &value in &x {
+            (sweep.parameter.set)(&mut scene, value);
+            y.push(quantity(&scene)?);
+        }
+        Ok(Curve { x, y })
+    }
+
+    /// The share of `count` points of a box where `rule` holds: Sobol' points, in independent scrambles that give the
+    /// interval.
+    pub fn share(
+        &self,
+        which: Region,
+        count: u64,
+        rule: &dyn Fn(&Scene) -> Result<bool, Failure>,
+    ) -> Result<Share, Failure> {
+        let each = (count / REPLICATES).max(1);
+        let mut shares = Vec::new();
+        for replicate in 0..REPLICATES {
+            let mut held = 0_u64;
+            for scene in self.scenes(which, replicate, each) {
+                held += u64::from(rule(&scene)?);
+            }
+            shares.push(held as f64 / each as f64);
+        }
+        let replicates = REPLICATES as f64;
+        let value = sum::mean(&shares);
+        let spread = sum::centred_product((&shares, value), (&shares, value));
+        let error = (spread / (replicates * (replicates - 1.0))).sqrt();
+        let interval = t_interval(value, StandardError { error, freedom: replicates - 1.0 });
+        let interval = interval.map(|i| Interval { low: i.low.max(0.0), high: i.high.min(1.0) });
+        Ok(Share { value, interval, points: each * REPLICATES })
+    }
+
+    /// Whether `rule` holds at the nominal scene, and on how much of the general box.
+    pub fn holding(
+        &self,
+        what: impl Into<String>,
+        count: u64,
+        rule: &dyn Fn(&Scene) -> Result<bool, Failure>,
+    ) -> Result<Holding, Failure> {
+        let nominal = rule(&Scene::default())?;
+        Ok(Holding { what: what.into(), nominal, share: self.share(Region::General, count, rule)? })
+    }
+
+    /// The same under each of these friction laws, called by its name after `label`.
+    pub fn holding_under(
+        &self,
+        frictions: &[Friction],
+        label: &str,
+        count: impl Fn(FrictionLaw) -> u64,
+        rule: impl Fn(FrictionLaw, &Scene) -> Result<bool, Failure>,
+    ) -> Result<Vec<Holding>, Failure> {
+        let under = |&Friction { law, name, .. }: &Friction| {
+            self.holding(format!("{label}{name}"), count(law), &|scene| rule(law, scene))
+        };
+        frictions.iter().map(under).collect()
+    }
+
+    fn scenes(&self, which: Region, replicate: u64, count: u64) -> Vec<Scene> {
+        let mut scenes = vec![Scene::default(); count as usize];
+        let sequence = SobolSequence::scrambled(self.parameters.len(), SEED, replicate);
+        let (mut u, mut si) = (vec![0.0; scenes.len()], vec![0.0; scenes.len()]);
+        for (place, (factor, parameter)) in self.space.factors().iter().zip(&self.parameters).enumerate() {
+            if let Region::Group(group) = which
+                && factor.group.as_deref() != Some(group)
+            {
+                continue;
+            }
+            sequence.fill(place, 0, &mut u);
+            factor.fill_si(&u, &mut si);
+            scenes.iter_mut().zip(&si).for_each(|(scene, &value)| (parameter.set)(scene, value));
+        }
+        scenes
+    }
+}
+
+/// The closed formulas under `friction`, everything else as in the papers: what the nine studies compute.
+pub(super) fn closed(friction: FrictionLaw) -> Options {
+    Options { friction, ..Options::default() }
+}
+
+/// Exact geometry and the ramps of LuGre friction, to 1e-5 of the force: a thousandth of what any claim here asks.
+pub(super) fn exact(friction: FrictionLaw) -> Options {
+    Options { friction, fidelity: Fidelity::QuasiStatic, tolerance: 1e-3, ..Options::default() }
+}
+
+/// The equations of motion, to 1e-6 of the force.
+pub(super) fn in_motion(friction: FrictionLaw) -> Options {
+    Options { friction, fidelity: Fidelity::Dynamic, ..Options::default() }
+}

@@ -1,0 +1,140 @@
+//! Claims about the dimensions of the cantilever: 8 to 11.
+
+use apportion_afm::{Failure, FrictionLaw, Options, Scene};
+
+use super::bench::{Bench, Sizes, Sweep, closed, exact};
+use super::curve::Curve;
+use super::judge::Answer;
+use super::numbers::{change, nano, number};
+use crate::reproduce::{FRICTIONS, ReproduceError};
+
+/// A curve flattens if no step is steeper than the one before by more than this share of the mean steepness: what would
+/// not be seen in a chart.
+const STEEPENING: f64 = 0.01;
+
+/// A rise is linear if no point is farther from the straight line of least squares than this share of the rise: about
+/// the width of a chart's line.
+pub(super) const STRAIGHT: f64 = 0.01;
+
+/// A factor has no effect if it changes F_cr by less than this share.
+pub(super) const NO_EFFECT: f64 = 0.01;
+
+/// The options under a friction law: those of a rung.
+type OptionsOf = fn(FrictionLaw) -> Options;
+/// A curve in words.
+type CurveWords<'a> = &'a dyn Fn(&Curve) -> String;
+
+/// A claim about the shape of the curves of the closed formulas along a factor, whose nominal curves are put into `words`.
+fn shaped(
+    bench: &Bench<'_>,
+    factor: &str,
+    shape: fn(&Curve) -> bool,
+    words: CurveWords<'_>,
+) -> Result<Answer, ReproduceError> {
+    let sweep = bench.over(factor)?;
+    let rule = |law, scene: &Scene| Ok(shape(&bench.curve(&sweep, scene, &closed(law))?));
+    let holdings = bench.holding_under(&FRICTIONS, "", |_| bench.sizes.points, rule)?;
+    let words = [
+        ("sweep", sweep.words()),
+        ("curves", nominal_curves(bench, &sweep, closed, words)?),
+        ("closed", closed_setting(bench, &sweep)?),
+        ("steepening", change(STEEPENING)),
+        ("straight", change(STRAIGHT)),
+    ];
+    Ok(Answer::judged(&holdings, words))
+}
+
+/// The nominal curve under each friction model, put into words and joined.
+pub(super) fn nominal_curves(
+    bench: &Bench<'_>,
+    sweep: &Sweep,
+    options: OptionsOf,
+    words: CurveWords<'_>,
+) -> Result<String, Failure> {
+    let each: Result<Vec<String>, Failure> = FRICTIONS
+        .iter()
+        .map(|friction| {
+            let curve = bench.curve(sweep, &Scene::default(), &options(friction.law))?;
+            Ok(format!("{} ({})", words(&curve), friction.name))
+        })
+        .collect();
+    Ok(each?.join(", "))
+}
+
+/// The setting of a claim about closed formulas along a sweep, in words that end in a semicolon.
+pub(super) fn closed_setting(bench: &Bench<'_>, sweep: &Sweep) -> Result<String, Failure> {
+    let mut farthest = 0.0_f64;
+    for law in FRICTIONS.map(|friction| friction.law) {
+        let ends = Sweep { count: 3, ..*sweep };
+        let formula = bench.curve(&ends, &Scene::default(), &closed(law))?;
+        let geometry = bench.curve(&ends, &Scene::default(), &exact(law))?;
+        for (a, b) in formula.y.iter().zip(&geometry.y) {
+            farthest = farthest.max((a / b - 1.0).abs());
+        }
+    }
+    Ok(format!(
+        "Closed form (exact geometry is within {} of it at the nominal scene), JKR; {} values of the {} from {}, at the \
+         nominal scene and at {} points of the general study's box;",
+        change(farthest),
+        sweep.count,
+        sweep.parameter.name.replace('_', " "),
+        sweep.words(),
+        bench.sizes.points
+    ))
+}
+
+pub(super) fn from_to(curve: &Curve) -> String {
+    format!("from {} to {}", nano(curve.first(), "N"), nano(curve.last(), "N"))
+}
+
+/// Claim 8.
+pub(super) fn length(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
+    shaped(bench, "length", |curve| curve.falls() && curve.steepens() <= STEEPENING, &from_to)
+}
+
+/// A rise in a straight line.
+pub(super) fn is_linear_rise(curve: &Curve) -> bool {
+    curve.rises() && curve.bend().0 <= STRAIGHT
+}
+
+/// Claim 9.
+pub(super) fn width(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
+    shaped(bench, "width", is_linear_rise, &straightness)
+}
+
+/// The ends of a rise, and how far it is from straight.
+pub(super) fn straightness(curve: &Curve) -> String {
+    let (bend, r_squared) = curve.bend();
+    let r_squared = if r_squared > 0.999_95 { "above 0.9999".to_owned() } else { format!("{r_squared:.4}") };
+    format!("{}, off a straight line by {} of the rise, R² {r_squared}", from_to(curve), change(bend))
+}
+
+/// Claim 10.
+pub(super) fn thickness(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
+    let words = |curve: &Curve| format!("{}, as t^{}", from_to(curve), number(curve.elasticity(), ""));
+    shaped(bench, "thickness", |curve| curve.rises() && curve.elasticity() > 1.0, &words)
+}
+
+/// Claim 11. The closed form has no height in it, so that only exact geometry can say anything.
+pub(super) fn height(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
+    without_effect(bench, &Sweep { count: 4, ..bench.over("height")? }, exact)
+}
+
+/// A claim that a sweep leaves F_cr as it is.
+pub(super) fn without_effect(bench: &Bench<'_>, sweep: &Sweep, options: OptionsOf) -> Result<Answer, ReproduceError> {
+    let rule = |law, scene: &Scene| Ok(bench.curve(sweep, scene, &options(law))?.spread() < NO_EFFECT);
+    // What is no closed formula takes its time, the ramps of LuGre friction most of all.
+    let Sizes { slow_points, ramp_points, .. } = bench.sizes;
+    let points = |law| if law == FrictionLaw::LuGre { ramp_points } else { slow_points };
+    let holdings = bench.holding_under(&FRICTIONS, "", points, rule)?;
+    let unmoved = format!(
+        "{} values of the {} from {}, at the nominal scene and at {slow_points} points of the general study's box \
+         ({ramp_points} under LuGre friction); no effect means a change by less than {}.",
+        sweep.count,
+        sweep.parameter.name.replace('_', " "),
+        sweep.words(),
+        change(NO_EFFECT)
+    );
+    let curves = nominal_curves(bench, sweep, options, &|curve| change(curve.spread()))?;
+    Ok(Answer::judged(&holdings, [("sweep", sweep.words()), ("curves", curves), ("unmoved", unmoved)]))
+}

@@ -1,0 +1,144 @@
+//! Claims about velocity, moduli and adhesion: 12 to 16.
+
+use apportion_afm::{Failure, Fidelity, FrictionLaw, LuGreParameters, Options, Scene};
+
+use super::bench::{Bench, Sweep, closed, exact, in_motion};
+use super::dimensions::{
+    NO_EFFECT, STRAIGHT, closed_setting, from_to, is_linear_rise, nominal_curves, straightness, without_effect,
+};
+use super::judge::Answer;
+use super::numbers::{change, nano};
+use crate::reproduce::{FRICTIONS, ReproduceError};
+
+/// Up to where CHK and LG see no effect of the velocity (m/s).
+const SLOW: f64 = 600e-9;
+
+/// "Unmoved" by the contact modulus: less than this share. Coulomb's law has a small term in the contact's area, tau pi
+/// a^2, so that the claim can only mean that nothing is seen beside the fall of the other model.
+const UNMOVED: f64 = 0.05;
+
+/// The viscous friction that brings LuGre friction to the percentages of LG fig. 4b (N s/m).
+const VISCOUS: f64 = 0.3;
+
+/// Claim 12. Only the equations of motion have the velocity in them under every friction model.
+pub(super) fn velocity(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
+    let whole = Sweep { count: 5, ..bench.over("velocity")? };
+    let slow = Sweep { range: (0.0, SLOW), count: 4, ..whole };
+    let mut answer = without_effect(bench, &slow, in_motion)?;
+    let nominal = Scene::default();
+    let viscous = Scene { viscous_friction: VISCOUS, ..nominal };
+    let viscous = bench.curve(&slow, &viscous, &exact(FrictionLaw::LuGre))?;
+    let naive = Options { fidelity: Fidelity::FixedStep, ..exact(FrictionLaw::Coulomb) };
+    let naive_curve = bench.curve(&Sweep { count: 13, ..slow }, &nominal, &naive)?;
+    answer.words.extend([
+        ("whole", whole.words()),
+        ("beyond", nominal_curves(bench, &whole, in_motion, &|curve| change(curve.spread()))?),
+        ("viscous", change(viscous.spread())),
+        ("coefficient", VISCOUS.to_string()),
+        ("naive", change(naive_curve.spread())),
+        ("step", (naive.step * 1e3).to_string()),
+        ("tolerance", change(in_motion(FrictionLaw::LuGre).tolerance)),
+    ]);
+    Ok(answer)
+}
+
+/// Claim 13.
+pub(super) fn elastic_modulus(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
+    let sweep = bench.over("elastic_modulus")?;
+    let points = bench.sizes.points;
+    let rise = |law, scene: &Scene| Ok(is_linear_rise(&bench.curve(&sweep, scene, &closed(law))?));
+    let mut holdings = bench.holding_under(&FRICTIONS, "linear rise under ", |_| points, rise)?;
+    let gap = |scene: &Scene| Ok(gap(bench, scene, &closed(FrictionLaw::Coulomb))?.abs());
+    let diverge = |scene: &Scene| Ok(bench.curve_of(&sweep, scene, &gap)?.rises());
+    holdings.push(bench.holding("divergence of Coulomb and Hurtado-Kim", points, &diverge)?);
+    let words = [
+        ("sweep", sweep.words()),
+        ("curves", nominal_curves(bench, &sweep, closed, &straightness)?),
+        ("gap", from_to(&bench.curve_of(&sweep, &Scene::default(), &gap)?)),
+        ("closed", closed_setting(bench, &sweep)?),
+        ("straight", change(STRAIGHT)),
+    ];
+    Ok(Answer::judged(&holdings, words))
+}
+
+/// F_cr under Coulomb friction with these options, less that under Hurtado-Kim friction (N).
+fn gap(bench: &Bench<'_>, scene: &Scene, coulomb: &Options) -> Result<f64, Failure> {
+    Ok(bench.force(scene, coulomb)? - bench.force(scene, &closed(FrictionLaw::HurtadoKim))?)
+}
+
+/// Claim 14.
+pub(super) fn contact_modulus(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
+    let sweep = bench.over("equivalent_modulus")?;
+    let points = bench.sizes.points;
+    let (coulomb, hurtado_kim) = (closed(FrictionLaw::Coulomb), closed(FrictionLaw::HurtadoKim));
+    let unmoved = |scene: &Scene| Ok(bench.curve(&sweep, scene, &coulomb)?.spread() < UNMOVED);
+    let falls = |scene: &Scene| Ok(bench.curve(&sweep, scene, &hurtado_kim)?.falls());
+    let holdings =
+        [bench.holding("Coulomb unmoved", points, &unmoved)?, bench.holding("Hurtado-Kim falling", points, &falls)?];
+    let nominal = Scene::default();
+    let (flat, falling) = (bench.curve(&sweep, &nominal, &coulomb)?, bench.curve(&sweep, &nominal, &hurtado_kim)?);
+    let words = [
+        ("sweep", sweep.words()),
+        ("flat", from_to(&flat)),
+        ("flat_change", change(flat.spread())),
+        ("falling", from_to(&falling)),
+        ("falling_change", change(falling.spread())),
+        ("closed", closed_setting(bench, &sweep)?),
+        ("least", change(UNMOVED)),
+    ];
+    Ok(Answer::judged(&holdings, words))
+}
+
+/// Claim 15.
+pub(super) fn adhesion(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
+    let sweep = bench.over("adhesion")?;
+    let points = bench.sizes.points;
+    let rises = |law, scene: &Scene| Ok(bench.curve(&sweep, scene, &closed(law))?.rises());
+    let mut holdings = bench.holding_under(&FRICTIONS[..2], "rise under ", |_| points, rises)?;
+    let coulomb = closed(FrictionLaw::Coulomb);
+    let distance = |scene: &Scene| Ok(gap(bench, scene, &coulomb)?.abs());
+    let approach = |scene: &Scene| Ok(bench.curve_of(&sweep, scene, &distance)?.falls());
+    holdings.push(bench.holding("approach", points, &approach)?);
+    let nominal = Scene::default();
+    let loaded = Options { adhesion_in_load: true, ..coulomb };
+    let loaded_distance = |scene: &Scene| Ok(gap(bench, scene, &loaded)?.abs());
+    let words = [
+        ("sweep", sweep.words()),
+        ("coulomb", from_to(&bench.curve(&sweep, &nominal, &coulomb)?)),
+        ("hurtado_kim", from_to(&bench.curve(&sweep, &nominal, &closed(FrictionLaw::HurtadoKim))?)),
+        ("gap", from_to(&bench.curve_of(&sweep, &nominal, &distance)?)),
+        ("loaded_gap", from_to(&bench.curve_of(&sweep, &nominal, &loaded_distance)?)),
+        ("closed", closed_setting(bench, &sweep)?),
+    ];
+    Ok(Answer::judged(&holdings, words))
+}
+
+/// Claim 16.
+pub(super) fn constant_parameters(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
+    let options = closed(FrictionLaw::LuGre);
+    let nominal = Scene::default();
+    let from_contact = Options { lugre: LuGreParameters::Contact, ..exact(FrictionLaw::LuGre) };
+    let loaded = Options { adhesion_in_load: true, ..options };
+    let mut holdings = Vec::new();
+    let mut findings = Vec::new();
+    for (name, symbol) in [("equivalent_modulus", "K"), ("adhesion", "ω")] {
+        let sweep = bench.over(name)?;
+        let rule = |scene: &Scene| Ok(bench.curve(&sweep, scene, &options)?.spread() < NO_EFFECT);
+        holdings.push(bench.holding(format!("{symbol} invisible"), bench.sizes.points, &rule)?);
+        let few = Sweep { count: 4, ..sweep };
+        findings.push(format!(
+            "{symbol} of {} changes F_cr by {} (by {} with bristles that follow the contact, by {} with the pull-off force \
+             in the load)",
+            sweep.words(),
+            change(bench.curve(&sweep, &nominal, &options)?.spread()),
+            change(bench.curve(&few, &nominal, &from_contact)?.spread()),
+            change(bench.curve(&sweep, &nominal, &loaded)?.spread())
+        ));
+    }
+    let words = [
+        ("force", nano(bench.force(&nominal, &options)?, "N")),
+        ("changes", findings.join("; ")),
+        ("no_effect", change(NO_EFFECT)),
+    ];
+    Ok(Answer::judged(&holdings, words))
+}

@@ -1,0 +1,101 @@
+//! From what holds where to a verdict, and to words.
+
+use apportion::uncertainty::Interval;
+
+use super::Verdict;
+use super::numbers::percent_of;
+use crate::reproduce::named_together;
+use crate::reproduce::papers::Words;
+
+/// From this share of the box on a rule holds everywhere: what is left is a corner that no chart of the papers shows.
+const EVERYWHERE: f64 = 0.999;
+
+/// The share of a box where a rule holds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Share {
+    pub value: f64,
+    /// At the level of every interval; `None` where nothing is known of the error.
+    pub interval: Option<Interval>,
+    /// Points asked.
+    pub points: u64,
+}
+
+impl Share {
+    pub fn everywhere(&self) -> bool {
+        self.value >= EVERYWHERE
+    }
+
+    /// As in `83.2 % [82.9, 83.5] of the box`; `all of the box` only where no point failed.
+    pub fn words_of(&self, whole: &str) -> String {
+        match (self.value, self.interval) {
+            (1.0, _) => format!("all of {whole}"),
+            (0.0, _) => format!("none of {whole}"),
+            (value, Some(i)) if i.high > i.low => {
+                format!("{} % [{}, {}] of {whole}", percent_of(value), percent_of(i.low), percent_of(i.high))
+            }
+            (value, _) => format!("{} % of {whole}", percent_of(value)),
+        }
+    }
+}
+
+/// One part of a claim: whether it holds at the nominal scene, and on how much of the box.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Holding {
+    /// What part, such as a friction model.
+    pub what: String,
+    pub nominal: bool,
+    pub share: Share,
+}
+
+/// Our answer to a claim; see [`Claim`](super::Claim).
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Answer {
+    pub verdict: Verdict,
+    pub range: String,
+    pub words: Words,
+}
+
+impl Answer {
+    /// The answer to a claim that the scene of the paper decides, with the part of the box where it holds.
+    pub fn judged(holdings: &[Holding], words: impl Into<Words>) -> Self {
+        Self { verdict: judge(holdings), range: over_ranges(holdings), words: words.into() }
+    }
+}
+
+/// The verdict on a claim as its paper shows it: reproduced if every part holds at the nominal scene, which is that of the
+/// papers' figures.
+pub(super) fn judge(holdings: &[Holding]) -> Verdict {
+    Verdict::reproduced_if(holdings.iter().all(|holding| holding.nominal))
+}
+
+/// Where each part holds over the whole ranges, in one line; parts with the same share are named together.
+pub(super) fn over_ranges(holdings: &[Holding]) -> String {
+    let shares =
+        named_together(holdings.iter().map(|Holding { what, share, .. }| (share.words_of("the box"), what.as_str())));
+    match &shares[..] {
+        [(words, _)] => words.clone(),
+        _ => {
+            shares.iter().map(|(words, parts)| format!("{}: {words}", parts.join(", "))).collect::<Vec<_>>().join("; ")
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn holding(what: &str, nominal: bool, value: f64) -> Holding {
+        let interval = Some(Interval { low: value - 0.001, high: value + 0.001 });
+        Holding { what: what.into(), nominal, share: Share { value, interval, points: 1024 } }
+    }
+
+    #[test]
+    fn the_scene_of_the_paper_decides_and_the_box_says_how_far() {
+        let (all, half) = (holding("Coulomb", true, 1.0), holding("LuGre", true, 0.5));
+        assert_eq!(judge(&[all.clone(), half.clone()]), Verdict::Reproduced);
+        assert_eq!(over_ranges(&[all.clone(), all.clone()]), "all of the box");
+        assert_eq!(over_ranges(&[all, half]), "Coulomb: all of the box; LuGre: 50 % [49.9, 50.1] of the box");
+        // Everywhere in the box but not at the nominal scene is no reproduction of a chart drawn there.
+        assert_eq!(judge(&[holding("Coulomb", false, 1.0)]), Verdict::NotReproduced);
+    }
+}

@@ -1,0 +1,163 @@
+//! What the papers claim, each answered by a check that computes.
+//!
+//! A check asks the physics (or the studies that have been run) a question with explicit criteria. One rule serves all
+//! claims: the answer at the scene and with the constants of the paper's figure makes the [`Verdict`]; on what share of
+//! the general study's box it holds stands next to it. Nothing is typed in by hand: the tests replace the physics, and
+//! the verdicts change.
+
+mod bench;
+mod curve;
+mod dimensions;
+mod environment;
+mod in_time;
+mod judge;
+mod models;
+mod modes;
+mod numbers;
+mod shares;
+
+#[cfg(test)]
+mod tests;
+
+use apportion::result::json;
+use bench::{Bench, Physics};
+use judge::Answer;
+use serde::Serialize;
+
+use super::papers::{PaperClaim, filled, papers};
+use super::{Effort, ReproduceError, Reproduced};
+
+/// A claim of the papers with our answer.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Claim {
+    /// Its number, from 1; a number that holds two claims comes twice.
+    pub number: usize,
+    /// Where it stands, such as `CHK fig. 6, LG fig. 2a`.
+    pub source: &'static str,
+    /// What is claimed, in one sentence.
+    pub statement: &'static str,
+    /// Our answer, as the paper shows it: at its figure's scene, with its constants.
+    #[serde(flatten)]
+    pub verdict: Verdict,
+    /// Where it holds over the whole ranges of the general study; for orders and percentages, under which friction model.
+    pub range: String,
+    /// Our figures, in a sentence or two.
+    pub finding: String,
+    /// The setting in which the finding holds: models, ranges, fidelity, what was varied and how finely.
+    pub setting: String,
+    /// Stems of the figures that show it.
+    pub figures: &'static [&'static str],
+}
+
+/// The answer to a claim.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[serde(tag = "verdict", rename_all = "kebab-case")]
+pub enum Verdict {
+    /// Every part of it holds.
+    Reproduced,
+    /// Some part of it does not hold.
+    NotReproduced,
+    /// A number or figure of the same paper says otherwise.
+    Contradicted {
+        /// Which, and where.
+        own: String,
+    },
+}
+
+impl Verdict {
+    /// Reproduced if it holds.
+    fn reproduced_if(holds: bool) -> Self {
+        if holds { Self::Reproduced } else { Self::NotReproduced }
+    }
+
+    /// The verdict in a word: `reproduced`, `not reproduced`, `contradicted`.
+    pub fn word(&self) -> &'static str {
+        match self {
+            Self::Reproduced => "reproduced",
+            Self::NotReproduced => "not reproduced",
+            Self::Contradicted { .. } => "contradicted",
+        }
+    }
+
+    /// What of the paper's own contradicts it; empty for the others.
+    pub fn own(&self) -> &str {
+        match self {
+            Self::Contradicted { own } => own,
+            Self::Reproduced | Self::NotReproduced => "",
+        }
+    }
+}
+
+/// Answers a claim.
+type Check = fn(&Bench<'_>) -> Result<Answer, ReproduceError>;
+
+/// The checks by the names that `papers.toml` gives them.
+const CHECKS: [(&str, Check); 25] = [
+    ("slip_time", in_time::slip_time),
+    ("displacement", in_time::displacement),
+    ("forces", in_time::forces),
+    ("delay", in_time::delay),
+    ("contacts", in_time::contacts),
+    ("angle", modes::angle),
+    ("rolling", modes::rolling),
+    ("weaker_law", models::weaker_law),
+    ("length", dimensions::length),
+    ("width", dimensions::width),
+    ("thickness", dimensions::thickness),
+    ("height", dimensions::height),
+    ("velocity", environment::velocity),
+    ("elastic_modulus", environment::elastic_modulus),
+    ("contact_modulus", environment::contact_modulus),
+    ("adhesion", environment::adhesion),
+    ("constant_parameters", environment::constant_parameters),
+    ("dimensional_order", |bench| shares::order(bench, "dimensional")),
+    ("dimensional_percentage", shares::dimensional_percentage),
+    ("most_effective", shares::most_effective),
+    ("environmental_order", |bench| shares::order(bench, "environmental")),
+    ("environmental_percentages", shares::environmental_percentages),
+    ("general_order", |bench| shares::order(bench, "general")),
+    ("general_percentages", shares::general_percentages),
+    ("outweigh", shares::outweigh),
+];
+
+/// Every claim of the papers with our answer, in the order of their numbers. `studies` are all nine studies, run with
+/// intervals; claims 17 to 20 rest on them. The same studies and effort give the same claims, to the last letter.
+///
+/// # Errors
+/// [`ReproduceError`] if a study is missing or has no indices, or a scene has no critical force.
+pub fn claims(studies: &[Reproduced], effort: Effort) -> Result<Vec<Claim>, ReproduceError> {
+    answered(&Bench::new(Physics::ours(), effort, studies)?, &(1..=20))
+}
+
+/// The claims whose numbers are among `numbers`.
+fn answered(bench: &Bench<'_>, numbers: &std::ops::RangeInclusive<usize>) -> Result<Vec<Claim>, ReproduceError> {
+    let asked = papers().claims.iter().filter(|claim| numbers.contains(&claim.number));
+    let claim = |claim: &'static PaperClaim| {
+        let (_, check) = CHECKS.iter().find(|(name, _)| *name == claim.check).expect("a check for every claim");
+        let Answer { verdict, range, mut words } = check(bench)?;
+        words.extend(bench.sizes.words());
+        Ok(Claim {
+            number: claim.number,
+            source: claim.source,
+            statement: claim.statement,
+            verdict,
+            range,
+            finding: filled(&claim.finding, &words),
+            setting: filled(&claim.setting, &words),
+            figures: &claim.figures,
+        })
+    };
+    asked.map(claim).collect()
+}
+
+/// The claims as JSON: `format` (`apportion-claims`), `version`, `claims`, each with the fields of [`Claim`], its verdict
+/// as `verdict` (`reproduced`, `not-reproduced`, `contradicted`, with `own`).
+pub fn claims_json(claims: &[Claim]) -> String {
+    #[derive(Serialize)]
+    struct ClaimsFile<'a> {
+        format: &'static str,
+        version: u32,
+        claims: &'a [Claim],
+    }
+    json(&ClaimsFile { format: "apportion-claims", version: 2, claims })
+}

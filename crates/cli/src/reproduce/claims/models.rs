@@ -1,0 +1,30 @@
+//! Claim 7: which friction model holds the particle less.
+
+use apportion_afm::{FrictionLaw, Scene};
+
+use super::bench::{Bench, Region, closed};
+use super::judge::{Answer, Holding};
+use super::numbers::nano;
+use crate::reproduce::ReproduceError;
+
+pub(super) fn weaker_law(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
+    let (coulomb, hurtado_kim) = (closed(FrictionLaw::Coulomb), closed(FrictionLaw::HurtadoKim));
+    let below = |scene: &Scene| Ok(bench.force(scene, &hurtado_kim)? < bench.force(scene, &coulomb)?);
+    // One sample of each box shares the scrambles of the others, so that they differ by their factors alone.
+    let points = bench.sizes.points;
+    let general = bench.share(Region::General, points, &below)?;
+    let dimensional = bench.share(Region::Group("dimensional"), points, &below)?;
+    let environmental = bench.share(Region::Group("environmental"), points, &below)?;
+    let nominal = Scene::default();
+    let holding =
+        Holding { what: "F_cr(Hurtado-Kim) < F_cr(Coulomb)".to_owned(), nominal: below(&nominal)?, share: general };
+    let words = [
+        ("hurtado_kim", nano(bench.force(&nominal, &hurtado_kim)?, "N")),
+        ("coulomb", nano(bench.force(&nominal, &coulomb)?, "N")),
+        ("general", general.words_of("the box of the general study")),
+        ("dimensional", dimensional.words_of("that of the dimensional study")),
+        ("environmental", environmental.words_of("that of the environmental study")),
+        ("each", (points / 8).to_string()),
+    ];
+    Ok(Answer::judged(&[holding], words))
+}

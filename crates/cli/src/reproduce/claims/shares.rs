@@ -1,0 +1,260 @@
+//! Claims about the shares of the variance: 17 to 20. They rest on the nine studies.
+
+use apportion::result::IndexRecord;
+use apportion_afm::{Failure, FrictionLaw, Scene};
+use apportion_report::{fixed, give_or_take, share};
+
+use super::Verdict;
+use super::bench::{Bench, Region, closed};
+use super::dimensions::NO_EFFECT;
+use super::judge::Answer;
+use super::numbers::{change, nano};
+use crate::reproduce::order::{Agreement, OrderVerdict, Standing, VISIBLE, order_of, outweighing};
+use crate::reproduce::papers::{CLOSE, PRINTED};
+use crate::reproduce::{FRICTIONS, Friction, GROUPS, Published, ReproduceError, Reproduced, named_together, published};
+
+/// F_cr counts as a product of a function of the dimensions and one of the environment if it is one to this: a
+/// thousandth moves no percentage by more than a tenth.
+const PRODUCT: f64 = 1e-3;
+
+/// What a percentage in whole numbers may have been before rounding.
+const ROUNDED: f64 = 0.5;
+
+/// The study of a group under a friction model, with its indices.
+fn study<'a>(
+    bench: &Bench<'a>,
+    group: &'static str,
+    friction: Friction,
+) -> Result<(&'a Reproduced, &'a [IndexRecord]), ReproduceError> {
+    let study = bench.studies.iter().find(|study| study.group.key == group && study.friction == friction);
+    let indices = |study: &'a Reproduced| Some((study, study.result.outputs.first()?.indices.as_deref()?));
+    study.and_then(indices).ok_or(ReproduceError::NoIndices { group, friction: friction.name })
+}
+
+/// The study of a group whose percentages are printed, with its indices.
+fn printed<'a>(bench: &Bench<'a>, group: &'static str) -> Result<(&'a Reproduced, &'a [IndexRecord]), ReproduceError> {
+    let friction = FRICTIONS.into_iter().find(|friction| friction.key == PRINTED);
+    study(bench, group, friction.ok_or(ReproduceError::NoIndices { group, friction: PRINTED })?)
+}
+
+/// The studies of a group and their design.
+fn studies(bench: &Bench<'_>, group: &'static str) -> Result<(&'static str, String), ReproduceError> {
+    let (study, _) = study(bench, group, FRICTIONS[0])?;
+    let provenance = &study.result.provenance;
+    let figures = GROUPS.iter().find(|known| known.key == group).map_or("", |known| known.figures);
+    let words = format!(
+        "The {group} studies ({figures}), {} base points, sampler {}, seed {}, 95 % intervals;",
+        provenance.base_samples, provenance.sampler, provenance.seed
+    );
+    Ok(("studies", words))
+}
+
+/// The first halves of claims 17 to 19: an order of factors.
+pub(super) fn order(bench: &Bench<'_>, group: &'static str) -> Result<Answer, ReproduceError> {
+    let (mut phrases, mut shares, mut is_same) = (Vec::new(), Vec::new(), true);
+    for friction in FRICTIONS {
+        let (study, indices) = study(bench, group, friction)?;
+        let order = order_of(study);
+        is_same &= order.agreement() == Agreement::Same;
+        phrases.push((stands(&order), friction.name));
+        shares.push(format!("under {} friction {}", friction.name, shares_in_words(indices, &order)));
+    }
+    let each = named_together(phrases).into_iter();
+    let each = each.map(|(phrase, names)| format!("{}: {phrase}", names.join(", ")));
+    Ok(Answer {
+        verdict: Verdict::reproduced_if(is_same),
+        range: each.collect::<Vec<_>>().join("; "),
+        words: vec![("shares", shares.join("; ")), studies(bench, group)?, ("visible", VISIBLE.to_string())],
+    })
+}
+
+/// How an order stands to the published one, in a phrase.
+fn stands(order: &OrderVerdict<'_>) -> String {
+    let pairs = |wanted| {
+        let words = order.pairs_that_are(wanted).into_iter().map(|(one, other)| format!("{one} before {other}"));
+        words.collect::<Vec<_>>().join(" and ")
+    };
+    let phrase = match order.agreement() {
+        Agreement::Same => "the whole order".to_owned(),
+        Agreement::Beginning => {
+            format!("the order as far as there are visible shares, which {} lack", order.unseen.join(" and "))
+        }
+        Agreement::Undecided => format!("not decided at this sample size: {}", pairs(Standing::Undecided)),
+        Agreement::Other => {
+            let broken = Some(pairs(Standing::Broken)).filter(|text| !text.is_empty());
+            let broken = broken.map(|text| format!("not {text}"));
+            let intruders = Some(order.intruders.join(" and ")).filter(|text| !text.is_empty());
+            let intruders = intruders.map(|text| format!("a visible share of {text}, which the paper does not rank"));
+            format!("another order: {}", broken.into_iter().chain(intruders).collect::<Vec<_>>().join(", "))
+        }
+    };
+    phrase.replace('_', " ")
+}
+
+/// The visible total shares with their intervals, the largest first, those by first order in parentheses.
+fn shares_in_words(indices: &[IndexRecord], order: &OrderVerdict<'_>) -> String {
+    let of = |name: &str| indices.iter().find(|index| index.factor == name);
+    let one = |index: &IndexRecord| {
+        let first = index.effect.share_first_order.map_or_else(|| "-".to_owned(), |share| fixed(share, 1));
+        format!("{} {} % ({first} %)", index.factor.replace('_', " "), share(index.effect.total_percent()))
+    };
+    let visible: Vec<String> = order.ours.iter().filter_map(|name| of(name)).map(one).collect();
+    let rest = match order.unseen[..] {
+        [] => String::new(),
+        _ => format!(", {} below {VISIBLE} %", order.unseen.join(" and ").replace('_', " ")),
+    };
+    format!("{}{rest}", visible.join(", "))
+}
+
+/// A claim about printed percentages: all have to be ours under one reading. Something of the paper's own may contradict those
+/// that are not.
+fn printed_percentages(
+    bench: &Bench<'_>,
+    group: &'static str,
+    contradicted_by: Option<String>,
+) -> Result<Answer, ReproduceError> {
+    let (_, indices) = printed(bench, group)?;
+    let ours = published(group, PRINTED).shares.iter().map(|(factor, percent)| {
+        let effect = indices.iter().find(|index| index.factor == *factor).map(|index| index.effect);
+        let share = |share: Option<f64>| share.unwrap_or(f64::NAN);
+        let first_order = share(effect.and_then(|effect| effect.share_first_order));
+        (factor, percent, first_order, share(effect.and_then(|effect| effect.share_total)))
+    });
+    let by_first_order = ours.clone().all(|(_, percent, first_order, _)| (first_order - percent).abs() <= CLOSE);
+    let by_total = ours.clone().all(|(_, percent, _, total)| (total - percent).abs() <= CLOSE);
+    let beside = |(factor, percent, first_order, total): (&&str, &f64, f64, f64)| {
+        let (factor, first_order, total) = (factor.replace('_', " "), fixed(first_order, 1), fixed(total, 1));
+        format!("{factor} {first_order} and {total} % ({percent} % printed)")
+    };
+    let shares = ours.map(beside).collect::<Vec<_>>().join(", ");
+    let range = match (by_first_order, by_total) {
+        (true, true) => "as shares by first-order and by total index",
+        (true, false) => "as shares by first-order index, not by total index",
+        (false, true) => "as shares by total index, not by first-order index",
+        (false, false) => "neither as shares by first-order nor by total index",
+    };
+    let verdict = match (by_first_order || by_total, contradicted_by) {
+        (false, Some(own)) => Verdict::Contradicted { own },
+        (is_ours, _) => Verdict::reproduced_if(is_ours),
+    };
+    let words = vec![("shares", shares), studies(bench, group)?, ("close", CLOSE.to_string())];
+    Ok(Answer { verdict, range: range.to_owned(), words })
+}
+
+/// Claim 17, second half.
+pub(super) fn dimensional_percentage(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
+    printed_percentages(bench, "dimensional", None)
+}
+
+/// Claim 17, what LG's text says of the width. A printed percentage above half is that of the most effective factor.
+pub(super) fn most_effective(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
+    let (study, indices) = printed(bench, "dimensional")?;
+    let order = order_of(study);
+    let printed = published("dimensional", PRINTED);
+    let most = printed.shares.iter().find(|(factor, percent)| *percent > 50.0 && *factor != "width");
+    Ok(Answer {
+        verdict: match most {
+            Some((factor, percent)) => {
+                Verdict::Contradicted { own: format!("{percent} % for the {factor} (LG fig. 4a)") }
+            }
+            None => Verdict::reproduced_if(order.ours.first() == Some(&"width")),
+        },
+        range: format!("ours: {}", order.ours.join(" > ")),
+        words: vec![("shares", shares_in_words(indices, &order)), studies(bench, "dimensional")?],
+    })
+}
+
+/// Claim 18, second half.
+pub(super) fn environmental_percentages(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
+    let published = published("environmental", PRINTED);
+    let percent = |name: &str| published.share(name).unwrap_or(f64::NAN);
+    let (nominal, options) = (Scene::default(), closed(FrictionLaw::LuGre));
+    let over = |name: &str| -> Result<f64, ReproduceError> {
+        let curve = bench.curve(&bench.over(name)?, &nominal, &options)?;
+        Ok((curve.last() - curve.first()).abs())
+    };
+    let (by_modulus, by_velocity) = (over("elastic_modulus")?, over("velocity")?);
+    // Variances of straight lines are to each other as the squares of their rises.
+    let needed = by_modulus * (percent("velocity") / percent("elastic_modulus")).sqrt();
+    let is_visible = needed / bench.force(&nominal, &options)? > NO_EFFECT;
+    let own = is_visible.then(|| "figure 3a, in which the velocity has no effect".to_owned());
+    let mut answer = printed_percentages(bench, "environmental", own)?;
+    let forces = [("by_modulus", by_modulus), ("needed", needed), ("by_velocity", by_velocity)];
+    answer.words.extend(forces.map(|(name, force)| (name, nano(force, "N"))));
+    Ok(answer)
+}
+
+/// Whether F_cr under LuGre friction is a product of a function of the dimensions and one of the other factors: with the
+/// others at the nominal scene, or the dimensions, or both, the product of two forces is that of the other two.
+fn is_product(bench: &Bench<'_>) -> Result<bool, Failure> {
+    let options = closed(FrictionLaw::LuGre);
+    let nominal = Scene::default();
+    let force = |scene: &Scene| bench.force(scene, &options);
+    let rule = |scene: &Scene| {
+        let &Scene { length, width, thickness, height, .. } = scene;
+        let dimensions = Scene { length, width, thickness, height, ..nominal };
+        let Scene { length, width, thickness, height, .. } = nominal;
+        let environment = Scene { length, width, thickness, height, ..*scene };
+        let ratio = force(scene)? / force(&dimensions)? * (force(&nominal)? / force(&environment)?);
+        Ok((ratio - 1.0).abs() <= PRODUCT)
+    };
+    Ok(bench.share(Region::General, bench.sizes.points, &rule)?.everywhere())
+}
+
+/// Share in percent of the thickness among thickness, length and width, as printed for the general study, and between
+/// which values rounding leaves it.
+fn thickness_among(printed: &Published) -> (f64, (f64, f64)) {
+    let percent = |name: &str| printed.share(name).unwrap_or(0.0);
+    let (thickness, others) = (percent("thickness"), percent("length") + percent("width"));
+    let share = |by: f64| 100.0 * (thickness + by) / ((thickness + by) + (others - 2.0 * by));
+    (share(0.0), (share(-ROUNDED), share(ROUNDED)))
+}
+
+/// Claim 19, second half.
+pub(super) fn general_percentages(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
+    let alone = published("dimensional", PRINTED).share("thickness").unwrap_or(f64::NAN);
+    let (among, (low, high)) = thickness_among(&published("general", PRINTED));
+    let is_product = is_product(bench)?;
+    let is_apart = low > alone + ROUNDED || high < alone - ROUNDED;
+    let own = format!("{alone} % for the thickness among the dimensions (LG fig. 4a)");
+    let consequence = if is_product {
+        format!(
+            "F_cr is a product of a function of the dimensions and one of the other factors, to {} of it, so that the share \
+             of the thickness among thickness, length and width must be that of the dimensional study: printed are {} % \
+             ({} to {} % before rounding) and {alone} %",
+            change(PRODUCT),
+            fixed(among, 1),
+            fixed(low, 1),
+            fixed(high, 1)
+        )
+    } else {
+        "F_cr is not a product of a function of the dimensions and one of the other factors".to_owned()
+    };
+    let mut answer = printed_percentages(bench, "general", (is_product && is_apart).then_some(own))?;
+    answer.words.push(("consequence", consequence));
+    Ok(answer)
+}
+
+/// Claim 20.
+pub(super) fn outweigh(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
+    let (mut holds, mut each, mut totals) = (true, Vec::new(), Vec::new());
+    for friction in FRICTIONS {
+        let (study, _) = study(bench, "general", friction)?;
+        let missing = ReproduceError::NoIndices { group: "general", friction: friction.name };
+        let (dimensional, environmental, standing) = outweighing(study).ok_or(missing)?;
+        holds &= standing == Standing::Kept;
+        let word = match standing {
+            Standing::Kept => "so",
+            Standing::Broken => "the other way round",
+            Standing::Undecided | Standing::Unseen => "not decided at this sample size",
+        };
+        each.push(format!("{}: {word}", friction.name));
+        let [ours, others] = [dimensional, environmental].map(give_or_take);
+        totals.push(format!("{ours} against {others} ({})", friction.name));
+    }
+    Ok(Answer {
+        verdict: Verdict::reproduced_if(holds),
+        range: each.join("; "),
+        words: vec![("totals", totals.join(", ")), studies(bench, "general")?],
+    })
+}

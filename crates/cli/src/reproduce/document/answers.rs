@@ -1,0 +1,139 @@
+//! The answer in short: which factor leads in each study, how sure that is, and in what order the rest follow.
+
+use apportion::EffectEstimates;
+use apportion::result::IndexRecord;
+use apportion::text::listed;
+use apportion_report::document::{Cell, Mark, OnPhone, Part, Table};
+use apportion_report::format::words;
+use apportion_report::{fixed, share_of_runs};
+
+use crate::reproduce::order::VISIBLE;
+use crate::reproduce::shares::{indices, ranked};
+use crate::reproduce::{FRICTIONS, GROUPS, Reproduced, StudyGroup, named_together};
+
+/// An index in percent of the variance, to a whole percent; one decimal below 10 %.
+fn percent(index: f64) -> String {
+    format!("{} %", fixed(100.0 * index, if index < 0.0995 { 1 } else { 0 }))
+}
+
+/// What a factor explains alone and with its interactions.
+fn explained(effect: &EffectEstimates) -> (String, String) {
+    (percent(effect.first_order.estimate), percent(effect.total.estimate))
+}
+
+/// How sure it is that the leader leads.
+fn certainty(effect: &EffectEstimates) -> String {
+    match effect.probability_first {
+        Some(p) if p > 0.999 => "largest with probability > 0.999".to_owned(),
+        Some(p) => format!("largest with probability {}", fixed(p, 3)),
+        None => "one replicate gives no probability".to_owned(),
+    }
+}
+
+/// A row for each group of studies, a column for each friction model: the leader, its shares, how sure it is, and who
+/// follows.
+pub(super) fn table(studies: &[Reproduced]) -> Part {
+    let caption = "The leading factor of each study: the part of the variance of the critical force that it explains alone \
+                   (first-order index S_1) and with all its interactions (total index S_T), and the factors that follow \
+                   with theirs.";
+    let mut rows = Table::from_rows(caption, GROUPS).text("", |group| Cell::marked(group.title, Mark::Strong));
+    for friction in FRICTIONS {
+        let study = |group| studies.iter().find(|study| (study.group, study.friction) == (group, friction));
+        let cell = |group| study(group).map_or_else(|| "not run".into(), leader);
+        rows = rows.text(format!("{} friction", friction.name), cell);
+    }
+    Table { on_phone: OnPhone::StackLabelled, ..rows.into() }.into()
+}
+
+fn leader(study: &Reproduced) -> Cell {
+    let mut ranked = ranked(study).into_iter().map(|place| &indices(study)[place]);
+    let Some(IndexRecord { factor, effect }) = ranked.next() else { return "no indices".into() };
+    let others = ranked.filter(|index| index.effect.share_total.is_some_and(|share| share >= VISIBLE));
+    let others: Vec<String> =
+        others.map(|index| format!("{} ({})", words(&index.factor), percent(index.effect.total.estimate))).collect();
+    let followed = if others.is_empty() { "nothing else".to_owned() } else { others.join(", ") };
+    let (alone, together) = explained(effect);
+    Cell {
+        note: format!("{alone} alone, {together} with interactions; {}; then {followed}", certainty(effect)),
+        ..Cell::marked(words(factor), Mark::Strong)
+    }
+}
+
+/// A paragraph for the top of the page: what decides the force, and where the model does not hold.
+pub(super) fn paragraph(studies: &[Reproduced]) -> Option<String> {
+    let sentences: Vec<String> = [2, 0, 1].iter().filter_map(|&place| sentence(studies, GROUPS[place])).collect();
+    (!sentences.is_empty()).then(|| format!("{}{}", sentences.join(" "), where_it_holds(studies)))
+}
+
+/// On how many of the runs the model leaves its range, by the flag that is raised most.
+fn where_it_holds(studies: &[Reproduced]) -> String {
+    let flags = studies.iter().flat_map(|study| &study.result.validity).filter(|flag| flag.runs > 0);
+    let Some(worst) = flags.max_by(|a, b| a.share.total_cmp(&b.share)) else { return String::new() };
+    let shares = studies.iter().filter_map(|study| study.result.validity.iter().find(|flag| flag.flag == worst.flag));
+    let least = shares.map(|flag| flag.share).fold(1.0, f64::min);
+    let runs = match (fixed(100.0 * least, 0), fixed(100.0 * worst.share, 0)) {
+        (least, most) if least == most => format!("{most} %"),
+        (least, most) => format!("{least} to {most} %"),
+    };
+    format!(
+        " The model does not hold everywhere: on {runs} of the runs of a study, {}",
+        worst.description.replacen("The ", "the ", 1)
+    )
+}
+
+/// `Thickness explains 33 % of the variance of the critical force alone and 67 % with its interactions (Coulomb); ...`.
+fn sentence(studies: &[Reproduced], group: StudyGroup) -> Option<String> {
+    let of_group = studies.iter().filter(|study| study.group == group);
+    let leaders = of_group.filter_map(|study| {
+        let IndexRecord { factor, effect } = &indices(study)[*ranked(study).first()?];
+        Some(((factor, explained(effect)), study.friction.name))
+    });
+    let mut said: Vec<String> = Vec::new();
+    for ((factor, (alone, together)), frictions) in named_together(leaders) {
+        let (factor, under) = (words(factor), listed(&frictions));
+        said.push(match said.is_empty() {
+            true => format!(
+                "{factor} explains {alone} of the variance of the critical force alone and {together} with its \
+                 interactions under {under} friction"
+            ),
+            false => format!("{factor} {alone} and {together} under {under} friction"),
+        });
+    }
+    (!said.is_empty()).then(|| format!("{}, {}.", group.among, said.join("; ")))
+}
+
+/// What a careful reader should know of each study, a sentence each.
+pub(super) fn cautions(studies: &[Reproduced]) -> Vec<String> {
+    let said = |study: &Reproduced| -> Vec<String> {
+        let warnings = study.result.outputs.iter().flat_map(|output| output.warnings.iter());
+        warnings.map(|warning| format!("{}, {} study: {warning}.", study.friction.name, study.group.key)).collect()
+    };
+    studies.iter().flat_map(said).collect()
+}
+
+/// On which share of the runs each assumption of the model does not hold: a column for each flag that was raised
+/// anywhere, a row for each study.
+pub fn validity(studies: &[Reproduced]) -> Option<Part> {
+    let flags = &studies.first()?.result.validity;
+    let raised =
+        |place: &usize| studies.iter().any(|study| study.result.validity.get(*place).is_some_and(|f| f.runs > 0));
+    let places: Vec<usize> = (0..flags.len()).filter(raised).collect();
+    if places.is_empty() {
+        return None;
+    }
+    let means: Vec<&str> = places.iter().map(|&place| flags[place].description.as_str()).collect();
+    let caption = format!(
+        "Runs outside the range of a theory, as a share of all runs; they count all the same. {}",
+        means.join(" ")
+    );
+    let mut rows = Table::from_rows(caption, studies)
+        .text("study", |study| study.group.key)
+        .text("friction", |study| study.friction.name);
+    for place in places {
+        rows = rows.number(flags[place].flag.replace('-', " "), |study| match study.result.validity.get(place) {
+            Some(flag) if flag.runs > 0 => share_of_runs(flag.share),
+            _ => "none".to_owned(),
+        });
+    }
+    Some(rows.into())
+}

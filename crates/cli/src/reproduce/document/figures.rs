@@ -1,0 +1,93 @@
+//! The figures of the papers as they stand on the page: small, what is alike together.
+
+use apportion_report::document::{Figure, Link, Part, Section};
+
+use super::beside_charts;
+use crate::reproduce::figures::{ANIMATION_STEM, Animation, PaperFigure};
+use crate::reproduce::papers::papers;
+use crate::reproduce::{GROUPS, Reproduction};
+
+/// What the captions of all sweeps have in common.
+const RUNGS: &str = "The curves of CHK and LG are those of the closed formulas. Where a caption says nothing of it, the quasi-static \
+                     rung, which solves the equilibrium with exact geometry, differs by less than 0.01 %.";
+
+/// The anchor on the page of the figure with a stem: those of shares stand together in the chart of all friction models.
+pub(super) fn anchor(stem: &str) -> &str {
+    let figure = papers().figures.iter().find(|figure| figure.stem == stem);
+    figure.and_then(|figure| figure.shares).unwrap_or(stem)
+}
+
+/// The figure that shows the one with a stem.
+pub(super) fn label<'a>(figures: &'a [PaperFigure], stem: &str) -> Option<&'a str> {
+    figures.iter().find(|figure| figure.stem == stem).map(|figure| figure.label.as_str())
+}
+
+/// The sections of figures: the shares, then each paper.
+pub(super) fn sections(reproduction: &Reproduction) -> Vec<Section> {
+    let figures = &reproduction.figures;
+    if figures.is_empty() {
+        return Vec::new();
+    }
+    let of = |paper: &str| {
+        let is_shown = |figure: &&PaperFigure| figure.label.starts_with(paper) && anchor(figure.stem) == figure.stem;
+        Part::Gallery(figures.iter().filter(is_shown).map(alone).collect())
+    };
+    let together = GROUPS.iter().filter_map(|group| shown_together(figures, group.key));
+    let rungs = Part::OnPage(vec![Part::Text(RUNGS.to_owned())]);
+    let in_time = [of("TS04")].into_iter().chain(reproduction.animation.as_ref().map(moving)).collect();
+    vec![
+        Section::new("overview", "Shares under every friction model", together.map(Part::from).collect()),
+        Section::new("chk", "Figures of CHK: Coulomb and Hurtado-Kim friction", vec![rungs, of("CHK")]),
+        Section::new("lg", "Figures of LG: LuGre friction", vec![of("LG")]),
+        Section::new("ts04", "Figures of TS04: a push in time", in_time),
+    ]
+}
+
+/// The figures that are files alone, since another stands for them on the page.
+pub(super) fn files(figures: &[PaperFigure]) -> Vec<Figure> {
+    figures.iter().filter(|figure| anchor(figure.stem) != figure.stem).map(alone).collect()
+}
+
+/// A figure of a paper by itself.
+fn alone(figure: &PaperFigure) -> Figure {
+    Figure {
+        id: figure.stem.to_owned(),
+        label: figure.label.clone(),
+        title: None,
+        beside: match figure.label.split_once(" fig") {
+            Some(_) => theirs(figure),
+            None => figure.theirs.to_owned(),
+        },
+        chart: figure.chart.clone(),
+        stem: figure.stem.to_owned(),
+        data: beside_charts(figure.stem, "csv"),
+    }
+}
+
+/// What a paper shows, with its name.
+fn theirs(figure: &PaperFigure) -> String {
+    let paper = figure.label.split(' ').next().unwrap_or_default();
+    format!("{paper} shows: {}", figure.theirs)
+}
+
+/// The chart of all friction models in a group of studies, with the labels of the figures that it stands for.
+fn shown_together(figures: &[PaperFigure], group: &str) -> Option<Figure> {
+    let figure = figures.iter().find(|figure| figure.stem == group)?;
+    let members = || figures.iter().filter(|other| other.stem != group && anchor(other.stem) == group);
+    let labels: Vec<&str> = members().map(|member| member.label.as_str()).collect();
+    let beside: Vec<String> = members().map(theirs).collect();
+    Some(Figure { label: labels.join(", "), beside: beside.join(" "), ..alone(figure) })
+}
+
+/// The push in time as an animation.
+fn moving(animation: &Animation) -> Part {
+    let html = animation.html.clone();
+    let frame = Part::Frame { title: "TS04 fig. 14 as an animation".to_owned(), html };
+    let file = |ending: &str| beside_charts(ANIMATION_STEM, ending);
+    let links = Part::Links(vec![
+        Link::new("the animation as a page of its own", file("html")),
+        Link::new("every state as CSV", file("csv")),
+        Link::new("as JSON", file("json")),
+    ]);
+    Part::Details { summary: "The scene in motion as an animation".to_owned(), parts: vec![frame, links] }
+}

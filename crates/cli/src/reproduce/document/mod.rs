@@ -1,0 +1,130 @@
+//! The document of the reproduction: verdicts, figures, percentages, tables and provenance.
+
+mod answers;
+mod constants;
+mod figures;
+mod verdicts;
+
+use apportion_report::document::{DataFile, Document, Part, Report, Section, Table};
+use apportion_report::grouped;
+
+use super::claims::claims_json;
+use super::figures::ANIMATION_STEM;
+use super::papers::papers;
+use super::percentages::{self, percentages_csv};
+use super::shares::shares_table;
+use super::{Effort, Reproduced, Reproduction};
+
+/// The document about `reproduction`; what was not asked for is left out. But for the times in the results, its files are
+/// the same for every run of the same version.
+pub fn document(reproduction: &Reproduction) -> Document {
+    let (studies, claims) = (&reproduction.studies, &reproduction.claims);
+    let mut then =
+        vec![Section::new("answers", "Which factor matters most", when(studies, || vec![answers::table(studies)]))];
+    let of_claims = || vec![verdicts::table(claims), verdicts::details(claims, &reproduction.figures)];
+    then.push(Section::new("claims", "Are the papers right?", when(claims, of_claims)));
+    then.extend(figures::sections(reproduction));
+    let rows = &reproduction.percentages;
+    let of_percentages = || vec![Part::List(percentages::summary(rows)), percentages::table(rows)];
+    then.push(Section::new("percentages", "The percentages that LG prints", when(rows, of_percentages)));
+    then.push(Section::new("shares", "All indices and shares", when(studies, || shares(studies))));
+    then.push(constants::section());
+    let report = Report {
+        name: "index".to_owned(),
+        kicker: "Reproduction of three papers",
+        title: "Which factor decides the force that pushes a nanoparticle?".to_owned(),
+        lead: lead(reproduction),
+        then,
+        provenance: provenance(reproduction),
+        ..Report::default()
+    };
+    Document { charts: figures::files(&reproduction.figures), files: files(reproduction), ..report.document() }
+}
+
+/// The parts of a section about `all`; none where there are none.
+fn when<T>(all: &[T], parts: impl FnOnce() -> Vec<Part>) -> Vec<Part> {
+    if all.is_empty() { Vec::new() } else { parts() }
+}
+
+/// The files for programs: results, claims and percentages, and the numbers of every figure. Two tables of the page are
+/// files too: the claims and the shares.
+fn files(reproduction: &Reproduction) -> Vec<DataFile> {
+    let mut files = Vec::new();
+    let mut add = |name: String, text: String| files.push(DataFile { name, text });
+    for study in &reproduction.studies {
+        add(format!("{}-{}.json", study.friction.key, study.group.key), study.result.json());
+    }
+    if !reproduction.claims.is_empty() {
+        add("claims.json".to_owned(), claims_json(&reproduction.claims));
+        add("percentages.csv".to_owned(), percentages_csv(&reproduction.percentages));
+    }
+    if let Some(animation) = &reproduction.animation {
+        for (ending, text) in [("html", &animation.html), ("csv", &animation.csv), ("json", &animation.json)] {
+            add(beside_charts(ANIMATION_STEM, ending), text.clone());
+        }
+    }
+    for figure in &reproduction.figures {
+        add(beside_charts(figure.stem, "csv"), figure.csv.clone());
+    }
+    files
+}
+
+/// A file beside those of the chart called `stem`.
+fn beside_charts(stem: &str, ending: &str) -> String {
+    format!("charts/{stem}.{ending}")
+}
+
+fn lead(reproduction: &Reproduction) -> Vec<String> {
+    let mut lead: Vec<String> = answers::paragraph(&reproduction.studies).into_iter().collect();
+    lead.push(papers().cited.to_owned());
+    if !reproduction.claims.is_empty() {
+        lead.push(verdicts::sentence(&reproduction.claims));
+    }
+    lead
+}
+
+/// The tables of all indices, then what a careful reader should know.
+fn shares(studies: &[Reproduced]) -> Vec<Part> {
+    let table = shares_table(&studies.iter().collect::<Vec<&Reproduced>>());
+    let table = Table { file: "shares.csv".to_owned(), ..table };
+    let folded = |summary: &str, part| Part::Details { summary: summary.to_owned(), parts: vec![part] };
+    let mut parts = vec![folded("The indices and shares of every study", table.into())];
+    let validity = answers::validity(studies);
+    parts.extend(validity.map(|table| folded("How many runs lie outside the range of a theory", table)));
+    let cautions = answers::cautions(studies);
+    parts.extend((!cautions.is_empty()).then_some(Part::List(cautions)));
+    parts
+}
+
+/// Designs, estimators, intervals and cost.
+fn provenance(reproduction: &Reproduction) -> Vec<(&'static str, String)> {
+    let effort = match reproduction.effort {
+        Effort::Full => "full",
+        Effort::Quick => "quick: fewer points and repetitions, wider intervals",
+    };
+    let numbers = "the same on every machine and for any number of threads; only the times differ";
+    let mut rows = vec![("effort", effort.to_owned()), ("numbers", numbers.to_owned())];
+    if let Some(study) = reproduction.studies.first() {
+        let of = &study.result.provenance;
+        rows.extend([
+            (
+                "design",
+                format!(
+                    "{} points, {} base samples in {} replicates, seed {}",
+                    of.sampler, of.base_samples, of.replicates, of.seed
+                ),
+            ),
+            ("first-order estimator", of.first_order_estimator.clone()),
+            ("total estimator", of.total_estimator.clone()),
+        ]);
+        rows.extend(of.interval.clone().map(|words| ("95 % intervals", words)));
+        if !study.result.study.overrides.is_empty() {
+            rows.push(("changes on the command line", study.result.study.overrides.join(", ")));
+        }
+        let all = || reproduction.studies.iter().map(|study| &study.result.provenance);
+        let (runs, seconds) = (all().map(|of| of.model_runs).sum(), all().map(|of| of.wall_seconds).sum::<f64>());
+        let cost = format!("{} model runs in {seconds:.2} s on {} threads", grouped(runs), of.threads);
+        rows.push(("cost of the studies", cost));
+    }
+    rows
+}

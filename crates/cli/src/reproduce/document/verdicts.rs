@@ -1,0 +1,107 @@
+//! The verdicts on the claims: a table, and a sentence that counts them.
+
+use apportion_report::document::{Cell, Link, Mark, OnPhone, Part, Table};
+
+use super::figures::{anchor, label};
+use crate::reproduce::claims::{Claim, Verdict};
+use crate::reproduce::figures::PaperFigure;
+
+/// The word and the look of a verdict.
+fn badge(verdict: &Verdict) -> Cell {
+    let mark = match verdict {
+        Verdict::Reproduced => Mark::Good,
+        Verdict::NotReproduced => Mark::Mixed,
+        Verdict::Contradicted { .. } => Mark::Bad,
+    };
+    Cell::marked(verdict.word(), mark)
+}
+
+/// The table of verdicts, a line or two each; all of every claim as CSV.
+pub(super) fn table(claims: &[Claim]) -> Part {
+    let verdict = |claim: &Claim| {
+        let own = claim.verdict.own();
+        let note = if own.is_empty() { String::new() } else { format!("by the paper's own {own}") };
+        Cell { note, ..badge(&claim.verdict) }
+    };
+    let caption = "Each claim of the papers, and our answer, as the paper shows it (at its figure's scene, with its \
+                   constants) and over the whole ranges of the general study.";
+    let rows = Table::from_rows(caption, claims)
+        .text("", |claim| claim.number.to_string())
+        .named("number")
+        .file("source", |claim| claim.source)
+        .text("claim", |claim| format!("{} ({})", claim.statement, claim.source))
+        .value("statement", |claim| claim.statement)
+        .text("as the paper shows it", verdict)
+        .named("verdict")
+        .file("own", |claim| claim.verdict.own())
+        .text("over the whole ranges", |claim| &claim.range)
+        .named("range")
+        .file("finding", |claim| &claim.finding)
+        .file("setting", |claim| &claim.setting)
+        .file("figures", |claim| claim.figures.join(" "));
+    Table { on_phone: OnPhone::Stack, file: "claims.csv".to_owned(), ..rows.into() }.into()
+}
+
+/// Our figures for every claim, the setting they hold in, and the figures of the page that show it.
+pub(super) fn details(claims: &[Claim], figures: &[PaperFigure]) -> Part {
+    let links = |claim: &Claim| {
+        let shown = claim.figures.iter().filter_map(|stem| Some((label(figures, stem)?, anchor(stem))));
+        shown.map(|(label, anchor)| Link::new(label, format!("#{anchor}"))).collect()
+    };
+    let rows = Table::from_rows("What the verdicts rest on.", claims)
+        .text("claim", |claim| Cell { links: links(claim), ..Cell::from(claim.number.to_string()) })
+        .text("our figures, and the setting they hold in", |claim| Cell {
+            note: claim.setting.clone(),
+            ..Cell::from(&claim.finding)
+        });
+    let summary = "Our figures for every claim, and the settings they hold in".to_owned();
+    let table = Table { on_phone: OnPhone::Stack, ..rows.into() };
+    Part::OnPage(vec![Part::Details { summary, parts: vec![table.into()] }])
+}
+
+/// `Of 25 answers to the papers' 20 claims, 14 are reproduced, 8 are not, and 3 are contradicted ...`.
+pub(super) fn sentence(claims: &[Claim]) -> String {
+    let count = |word: &str| claims.iter().filter(|claim| claim.verdict.word() == word).count();
+    format!(
+        "Of {} answers to the papers' {} claims, {} are reproduced, {} are not reproduced, and {} are contradicted by the \
+         same paper.",
+        claims.len(),
+        claims.last().map_or(0, |claim| claim.number),
+        count("reproduced"),
+        count("not reproduced"),
+        count("contradicted")
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn claims_are_read_back_from_their_file() {
+        let own = "\"here\", not there".to_owned();
+        let claim = Claim {
+            number: 3,
+            source: "TS04 fig. 11",
+            statement: "A statement, with a comma.",
+            verdict: Verdict::Contradicted { own },
+            range: "all of the box".into(),
+            finding: "Two\nlines.".into(),
+            setting: "S".into(),
+            figures: &["ts04-11", "chk-5"],
+        };
+        let both = [claim.clone(), Claim { verdict: Verdict::NotReproduced, ..claim }];
+        let Part::Table(table) = table(&both) else { panic!("a table") };
+        let text = table.csv();
+        let mut reader = csv::Reader::from_reader(text.as_bytes());
+        let rows: Vec<csv::StringRecord> = reader.records().map(Result::unwrap).collect();
+        assert_eq!(rows.len(), 2);
+        let first: Vec<&str> = rows[0].iter().collect();
+        assert_eq!(first[..3], ["3", "TS04 fig. 11", "A statement, with a comma."]);
+        assert_eq!(
+            first[3..],
+            ["contradicted", "\"here\", not there", "all of the box", "Two\nlines.", "S", "ts04-11 chk-5"]
+        );
+        assert_eq!((&rows[1][3], &rows[1][4]), ("not reproduced", ""));
+    }
+}

@@ -1,0 +1,202 @@
+//! The scene in time: CHK figure 5 and the histories of TS04.
+
+use apportion::text::listed;
+use apportion_afm::{Failure, FrictionLaw, Options, Scene};
+use apportion_report::chart::{Axis, Chart, Colour, Mark, Panel, Series, Stroke};
+use apportion_report::document::{Rows, Table};
+use apportion_report::format::{force, length, time};
+
+use super::Drawn;
+use crate::reproduce::ReproduceError;
+use crate::scene::charts::{contacts, forces, positions, pushing};
+use crate::scene::simulation::scene_story;
+use crate::scene::{SceneSample, SceneStory, player_page, scene_json, scene_number, scene_table};
+
+/// How long the papers follow the scene (s).
+pub(super) const DURATION: f64 = 0.4;
+/// The shear modulus of the cantilever that the papers print (Pa); ours is that of an isotropic solid, E/(2 (1 + nu)).
+const PRINTED_SHEAR_MODULUS: f64 = 40.5e9;
+/// Coefficients of static friction in TS04 figure 11: about the nominal one.
+const COEFFICIENTS: [f64; 4] = [1.0, 0.8, 0.6, 0.4];
+const NANO: f64 = 1e9;
+
+/// The nominal scene under `law` for [`DURATION`], changed by `change`.
+pub(super) fn story(law: FrictionLaw, change: impl FnOnce(&mut Scene)) -> Result<SceneStory, Failure> {
+    let mut scene = Scene::default();
+    change(&mut scene);
+    let options = Options { friction: law, ..Options::default() };
+    scene_story("Pushing a gold particle on silicon oxide".to_owned(), &scene, &options, DURATION)
+}
+
+fn coulomb() -> Result<SceneStory, Failure> {
+    story(FrictionLaw::Coulomb, |_| ())
+}
+
+/// The same with the shear modulus that the papers print.
+fn printed(law: FrictionLaw) -> Result<SceneStory, Failure> {
+    story(law, |scene| scene.shear_modulus = Some(PRINTED_SHEAR_MODULUS))
+}
+
+/// The forces on the tip, as columns of scenes.
+const FORCES: [&str; 3] = ["tip_force_nN", "lateral_force_nN", "normal_force_nN"];
+/// The relative position.
+const RELATIVE: &str = "relative_position_nm";
+
+/// TS04 figure 8.
+pub(super) fn forces_in_time() -> Result<Drawn, ReproduceError> {
+    let story = coulomb()?;
+    Ok((forces(&story), table("", &[("", &story)], &FORCES).csv()))
+}
+
+/// TS04 figure 9.
+pub(super) fn tip_force() -> Result<Drawn, ReproduceError> {
+    let story = coulomb()?;
+    let critical = NANO * story.critical.critical_force;
+    Ok((pushing(&story), table("", &[("", &story)], &FORCES[..1]).file("critical_force_nN", |_| critical).csv()))
+}
+
+/// TS04 figure 13.
+pub(super) fn contact_areas() -> Result<Drawn, ReproduceError> {
+    let story = coulomb()?;
+    let columns =
+        ["tip_contact_radius_nm", "substrate_contact_radius_nm", "tip_indentation_nm", "substrate_indentation_nm"];
+    Ok((contacts(&story), table("", &[("", &story)], &columns).csv()))
+}
+
+/// These columns of stories one below the other; with several stories, which the column `first` tells apart.
+fn table<'a>(first: &str, stories: &[(&'a str, &'a SceneStory)], columns: &[&str]) -> Rows<(&'a str, &'a SceneSample)> {
+    let rows = stories.iter().flat_map(|&(name, story)| story.samples.iter().map(move |sample| (name, sample)));
+    let rows = Table::from_rows("", rows);
+    let rows = if first.is_empty() { rows } else { rows.file(first, |(name, _)| name) };
+    let columns = ["time_s"].iter().chain(columns);
+    columns.fold(rows, |rows, name| rows.file(*name, |(_, sample)| scene_number(name, sample)))
+}
+
+fn line(name: String, look: (Colour, Stroke), points: Vec<(f64, f64)>) -> Mark {
+    Series::new(name, look.0).stroke(look.1).line(points)
+}
+
+fn curve(story: &SceneStory, column: &str) -> Vec<(f64, f64)> {
+    story.samples.iter().map(|sample| (sample.time, scene_number(column, sample))).collect()
+}
+
+/// When the particle slips, said in s.
+fn slip(story: &SceneStory) -> String {
+    format!("after {}", time(story.critical_time))
+}
+
+/// CHK figure 5.
+pub(super) fn two_laws() -> Result<Drawn, ReproduceError> {
+    let (coulomb, hk) = (coulomb()?, story(FrictionLaw::HurtadoKim, |_| ())?);
+    let printed = [printed(FrictionLaw::HurtadoKim)?, printed(FrictionLaw::Coulomb)?];
+    let laws = [(&coulomb, "Coulomb", Stroke::Solid), (&hk, "Hurtado-Kim", Stroke::Dashed)];
+    let tip_force = |&(story, name, stroke): &(&SceneStory, &str, Stroke)| {
+        line(format!("{name}, tip force"), (story.colour, stroke), curve(story, FORCES[0]))
+    };
+    let level = |&(story, name, _): &(&SceneStory, &str, Stroke)| {
+        let critical = NANO * story.critical.critical_force;
+        let level = story.samples.iter().map(|sample| (sample.time, critical)).collect();
+        line(format!("{name}, critical force"), (story.colour, Stroke::Dotted), level)
+    };
+    let lines = laws.iter().map(tip_force).chain(laws.iter().map(level));
+    let rules = laws.iter().map(|(story, name, _)| Mark::rule(story.critical_time, format!("slip, {name}")));
+    let panel = Panel::new(Axis::new("Time", "s"), Axis::new("Tip force F_T", "nN")).with(lines).with(rules);
+    let reached = |story: &SceneStory, law: &str| {
+        format!("{} {} under {law} friction", force(story.critical.critical_force), slip(story))
+    };
+    let caption = format!(
+        "The tip force rises from {} until the particle slips, at {} and at {}; with the shear modulus of {} GPa that \
+         the papers print it slips {} and {}.",
+        coulomb.samples.first().map_or_else(String::new, |start| force(start.tip_force)),
+        reached(&hk, "Hurtado-Kim"),
+        reached(&coulomb, "Coulomb"),
+        PRINTED_SHEAR_MODULUS / 1e9,
+        slip(&printed[0]),
+        slip(&printed[1]),
+    );
+    let both = [("coulomb", &coulomb), ("hk", &hk)];
+    let chart = Chart::new("Tip force against time", caption).panels([panel]);
+    Ok((chart, table("friction", &both, &FORCES).csv()))
+}
+
+/// TS04 figure 10, with the relative position at the printed shear modulus beside ours.
+pub(super) fn displacement() -> Result<Drawn, ReproduceError> {
+    let (story, printed) = (coulomb()?, printed(FrictionLaw::Coulomb)?);
+    let ours = positions(&story);
+    let modulus = PRINTED_SHEAR_MODULUS / 1e9;
+    let look = (Colour::Series(4), Stroke::Dashed);
+    let other = line(format!("the same with G = {modulus} GPa as printed"), look, curve(&printed, RELATIVE));
+    let end = printed.samples.last().map_or(f64::NAN, |end| end.relative);
+    let caption = format!(
+        "{}, and {} if the shear modulus is the {modulus} GPa that the papers print, with which it slips {}.",
+        ours.caption().trim_end_matches('.'),
+        length(end),
+        slip(&printed)
+    );
+    let mut panels = ours.all_panels().to_vec();
+    if let Some(panel) = panels.first_mut() {
+        // After its own line, the third of the chart.
+        panel.marks.insert(panel.marks.len().min(3), other);
+    }
+    let as_printed = format!("{modulus} GPa");
+    let both = [("E/(2(1+nu))", &story), (&as_printed, &printed)];
+    let rows = table("shear_modulus", &both, &["substrate_position_nm", "particle_position_nm", RELATIVE]);
+    let rows = rows.file("tip_base_position_nm", |(_, sample)| NANO * sample.lateral_deflection);
+    Ok((Chart::new(ours.title(), caption).panels(panels), rows.csv()))
+}
+
+/// TS04 figure 11.
+pub(super) fn coefficients() -> Result<Drawn, ReproduceError> {
+    // All follow one line until they slip: in this order each is seen.
+    let runs = COEFFICIENTS.map(|coefficient| story(FrictionLaw::Coulomb, |scene| scene.static_friction = coefficient));
+    let runs = runs.into_iter().collect::<Result<Vec<_>, _>>()?;
+    let nominal = Scene::default().static_friction;
+    let others = [1, 4, 5, 6].map(Colour::Series);
+    let panel = |label: &str, unit: &str, column: &str| {
+        let each = runs.iter().zip(COEFFICIENTS).zip(others);
+        let lines = each.map(|((story, coefficient), other)| {
+            let colour = if coefficient == nominal { story.colour } else { other };
+            line(format!("μ_s = {coefficient}"), (colour, Stroke::Solid), curve(story, column))
+        });
+        Panel::new(Axis::new("Time", "s"), Axis::new(label, unit)).with(lines)
+    };
+    let panels = [panel("Tip force F_T", "nN", FORCES[0]), panel("Position on the substrate", "nm", RELATIVE)];
+    let mut times: Vec<(f64, f64)> =
+        COEFFICIENTS.into_iter().zip(&runs).map(|(mu, story)| (mu, story.critical_time)).collect();
+    times.reverse();
+    let slips: Vec<String> = times.iter().map(|(mu, at)| format!("{} at {mu}", time(*at))).collect();
+    let later = times.windows(2).all(|pair| pair[1].1 > pair[0].1);
+    let seen = if later {
+        "The larger the coefficient of static friction, the later the particle slips"
+    } else {
+        "The particle slips"
+    };
+    let names = COEFFICIENTS.map(|coefficient| coefficient.to_string());
+    let stories: Vec<(&str, &SceneStory)> = names.iter().map(String::as_str).zip(&runs).collect();
+    let chart = Chart::new("Effect of the coefficient of friction", format!("{seen}: after {}.", listed(&slips)));
+    Ok((chart.panels(panels), table("static_friction", &stories, &[FORCES[0], RELATIVE]).csv()))
+}
+
+/// Name of the animation's files without extension.
+pub const ANIMATION_STEM: &str = "ts04-14-animation";
+
+/// The moving version of TS04 figure 14, with its data.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Animation {
+    /// A whole page that needs nothing else.
+    pub html: String,
+    /// Every state.
+    pub csv: String,
+    /// The same, with setting and geometry, in the format `apportion-scene`.
+    pub json: String,
+}
+
+/// The nominal scene under Coulomb friction as a page with an animation. Its charts are among the
+/// [`figures`](super::figures).
+///
+/// # Errors
+/// [`ReproduceError`] if the scene has no answer, or the page cannot be rendered.
+pub fn animation() -> Result<Animation, ReproduceError> {
+    let story = story(FrictionLaw::Coulomb, |_| ())?;
+    Ok(Animation { html: player_page(&story), csv: scene_table(&story).csv(), json: scene_json(&story) })
+}

@@ -1,0 +1,80 @@
+//! Every figure that the papers draw from computation, drawn from ours.
+//!
+//! [`figures`] makes them all, each with the data behind it; [`animation`] makes the page of the moving one. The sweeps
+//! take the ranges of the papers' studies and leave everything else at the defaults; the histories are those of the
+//! nominal scene. Nothing here is typed in but what the papers say: captions are computed from what is drawn.
+
+mod curve;
+mod history;
+mod modes;
+mod shares;
+mod sweep;
+#[cfg(test)]
+mod tests;
+
+use apportion_report::chart::Chart;
+pub use history::{ANIMATION_STEM, Animation, animation};
+use rayon::prelude::*;
+
+use super::papers::{PrintedFigure, papers};
+use super::{Effort, ReproduceError, Reproduced, general_study};
+
+/// One figure of the papers, from our computation.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PaperFigure {
+    /// Name of its files without extension, and its anchor on the page, such as `chk-6`.
+    pub stem: &'static str,
+    /// What it is called, such as `CHK fig. 6`.
+    pub label: String,
+    /// What the paper's figure shows, in a short statement.
+    pub theirs: &'static str,
+    /// Ours.
+    pub chart: Chart,
+    /// Our data.
+    pub csv: String,
+}
+
+/// Every figure, in the order of the papers: CHK, LG, TS04, then each group of studies with all friction models side by
+/// side. The charts of shares are made of `studies`; those of a group of which none was run are left out. The same on
+/// every run and any number of threads.
+///
+/// # Errors
+/// [`ReproduceError`] if a scene has no answer.
+pub fn figures(studies: &[Reproduced], effort: Effort) -> Result<Vec<PaperFigure>, ReproduceError> {
+    let general = general_study()?;
+    let draw = |figure: &'static PrintedFigure| {
+        let stem = figure.stem;
+        let drawn = match (figure.factor, figure.shares) {
+            (Some(factor), _) => sweep::drawn(figure, factor, general.space(), effort).map(Some),
+            (None, Some(group)) => Ok(shares::drawn(group, stem, studies)),
+            (None, None) => SCENES.iter().find(|(scene, _)| *scene == stem).map(|(_, drawn)| drawn()).transpose(),
+        };
+        let ours = |(chart, csv)| PaperFigure { stem, label: label(stem), theirs: figure.shows, chart, csv };
+        drawn.map(|drawn| drawn.map(ours))
+    };
+    papers().figures.par_iter().filter_map(|figure| draw(figure).transpose()).collect()
+}
+
+/// A chart with its data as CSV.
+type Drawn = (Chart, String);
+/// Draws a figure of the nominal scene.
+type Draw = fn() -> Result<Drawn, ReproduceError>;
+
+/// The figures of the nominal scene by their stems.
+const SCENES: [(&str, Draw); 8] = [
+    ("chk-5", history::two_laws),
+    ("ts04-8", history::forces_in_time),
+    ("ts04-9", history::tip_force),
+    ("ts04-10", history::displacement),
+    ("ts04-11", history::coefficients),
+    ("ts04-12", modes::against_force_angle),
+    ("ts04-12-contact-angle", modes::against_contact_angle),
+    ("ts04-13", history::contact_areas),
+];
+
+/// What the papers call the figure with a stem: `CHK fig. 6`, `TS04 fig. 12, contact angle`.
+fn label(stem: &str) -> String {
+    let Some((paper, figure)) = stem.split_once('-') else { return "All friction models".to_owned() };
+    let figure = figure.replacen('-', ", ", 1).replace('-', " ");
+    format!("{} fig. {figure}", paper.to_uppercase())
+}

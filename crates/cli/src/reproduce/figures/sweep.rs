@@ -1,0 +1,264 @@
+//! The critical force against one factor, all others at their defaults.
+
+use apportion::space::{Factor, Space};
+use apportion::sweep::{find, values_over_range};
+use apportion::text::{capitalised, listed};
+use apportion_afm::{Fidelity, Options, Parameter, Scene, critical_force};
+use apportion_report::chart::{Axis, Chart, Colour, Mark, Panel, Series, Stroke};
+use apportion_report::document::Table;
+use apportion_report::format::{three_digits as short, unit};
+use rayon::prelude::*;
+
+use super::curve::{Curve, crossing};
+use crate::reproduce::papers::PrintedFigure;
+use crate::reproduce::{Effort, FRICTIONS, Friction, ReproduceError};
+
+const NANO: f64 = 1e9;
+/// The quasi-static rung is drawn beside the closed form where they differ by more than this part of the force's range.
+const VISIBLE: f64 = 5e-3;
+/// A force that changes by less than this part of its size counts as having no range but its size.
+const FLAT: f64 = 1e-3;
+
+/// A line of a sweep.
+struct Line {
+    /// Its column's name without the unit, and its name in `papers.toml`.
+    key: &'static str,
+    /// Its name in the legend.
+    name: String,
+    /// How a sentence calls it.
+    said: String,
+    /// Its look.
+    look: (Colour, Stroke),
+    scene: Scene,
+    options: Options,
+}
+
+impl Line {
+    /// Whether the equations of motion are marched, and the force is read at the first step past the slip.
+    fn is_marched(&self) -> bool {
+        self.options.fidelity == Fidelity::FixedStep
+    }
+}
+
+/// The line called `key` in `papers.toml`.
+fn line(key: &'static str) -> Line {
+    let [coulomb, hk, lugre] = FRICTIONS.map(|Friction { law, name, colour, .. }| Line {
+        key,
+        name: name.to_owned(),
+        said: format!(" under {name} friction"),
+        look: (colour, Stroke::Solid),
+        scene: Scene::default(),
+        options: Options { friction: law, ..Options::default() },
+    });
+    let adhesive = |line: Line, said: &str| Line {
+        name: format!("{} with the adhesion in the load (q = 1)", line.name),
+        said: format!("{said} with the adhesion in the load"),
+        look: (line.look.0, Stroke::Dotted),
+        options: Options { adhesion_in_load: true, ..line.options },
+        ..line
+    };
+    match key {
+        "coulomb" => coulomb,
+        "hk" => hk,
+        "lugre" => lugre,
+        "coulomb_adhesion_in_load" => adhesive(coulomb, " under Coulomb friction"),
+        "lugre_adhesion_in_load" => adhesive(lugre, ""),
+        "lugre_viscous" => Line {
+            name: "LuGre with viscous friction σ₂ = 0.3 N s/m".to_owned(),
+            said: " with viscous friction of 0.3 N s/m".to_owned(),
+            look: (lugre.look.0, Stroke::Dotted),
+            scene: Scene { viscous_friction: 0.3, ..lugre.scene },
+            ..lugre
+        },
+        "lugre_fixed_step_14ms" => Line {
+            name: "LuGre marched in steps of 14 ms, no event location".to_owned(),
+            said: " when marched in steps of 14 ms without event location".to_owned(),
+            look: (Colour::Series(6), Stroke::Solid),
+            options: Options { fidelity: Fidelity::FixedStep, step: 14e-3, ..lugre.options },
+            ..lugre
+        },
+        _ => unreachable!("papers.toml is a part of this program, and names no other line"),
+    }
+}
+
+/// The critical force against `factor` over its range in `space`.
+pub(super) fn drawn(
+    figure: &PrintedFigure,
+    factor: &'static str,
+    space: &Space,
+    effort: Effort,
+) -> Result<super::Drawn, ReproduceError> {
+    let points = match effort {
+        Effort::Full => 201,
+        Effort::Quick => 41,
+    };
+    let lines: Vec<Line> = figure.lines.iter().map(|key| line(key)).collect();
+    // The march's saw needs finer teeth.
+    let is_marched = lines.iter().any(Line::is_marched);
+    let points = if is_marched { 4 * points - 3 } else { points };
+    let number = find(space, &[factor])?[0];
+    let values = values_over_range(space.factors()[number].distribution(), points)?;
+    let parameter = Parameter::from_name(factor).ok_or(ReproduceError::NoParameter { name: factor })?;
+    let swept = Swept { gap: figure.gap, factor: &space.factors()[number], parameter, values };
+    let lines: Vec<Drawn> = lines.iter().map(|line| swept.line(line)).collect();
+    Ok((swept.chart(&lines), swept.csv(&lines)))
+}
+
+/// A factor with its values.
+struct Swept<'a> {
+    /// Whether the caption says how far apart the first two lines are at either end.
+    gap: bool,
+    factor: &'a Factor,
+    parameter: &'static Parameter,
+    /// In the factor's unit.
+    values: Vec<f64>,
+}
+
+/// A computed line, forces in nN; NaN where there is none.
+struct Drawn<'a> {
+    line: &'a Line,
+    force: Vec<f64>,
+    /// The same by the quasi-static rung, unless the line is of a rung of its own.
+    quasi_static: Option<Vec<f64>>,
+}
+
+impl Swept<'_> {
+    fn line<'a>(&self, line: &'a Line) -> Drawn<'a> {
+        let (scene, options) = (line.scene, line.options);
+        let force = |options: &Options| -> Vec<f64> {
+            let at = |value: &f64| {
+                let mut scene = scene;
+                (self.parameter.set)(&mut scene, self.factor.unit().to_si(*value));
+                critical_force(&scene, options).map_or(f64::NAN, |critical| NANO * critical.critical_force)
+            };
+            self.values.par_iter().map(at).collect()
+        };
+        let is_checked = !line.is_marched();
+        Drawn {
+            line,
+            force: force(&options),
+            quasi_static: is_checked.then(|| force(&Options { fidelity: Fidelity::QuasiStatic, ..options })),
+        }
+    }
+
+    fn csv(&self, lines: &[Drawn]) -> String {
+        let unit = self.factor.unit().symbol().replace('/', "_per_");
+        let name = format!("{}_{unit}", self.factor.name);
+        let mut rows = Table::from_rows("", 0..self.values.len()).file(name, |row| self.values[row]);
+        for drawn in lines {
+            rows = rows.file(format!("{}_nN", drawn.line.key), |row| drawn.force[row]);
+        }
+        for (drawn, force) in lines.iter().filter_map(|drawn| Some((drawn, drawn.quasi_static.as_ref()?))) {
+            rows = rows.file(format!("{}_quasi_static_nN", drawn.line.key), |row| force[row]);
+        }
+        rows.csv()
+    }
+
+    fn chart(&self, lines: &[Drawn]) -> Chart {
+        let unit = unit(self.factor.unit().symbol());
+        let points = |force: &[f64]| self.values.iter().copied().zip(force.iter().copied()).collect();
+        let range = range(lines);
+        let mut all = Vec::new();
+        // What is marched scatters over the rest, so it lies below them.
+        let (marched, rest): (Vec<_>, Vec<_>) = lines.iter().partition(|drawn| drawn.line.is_marched());
+        for drawn in marched.into_iter().chain(rest) {
+            let (colour, stroke) = drawn.line.look;
+            all.push(Series::new(&drawn.line.name, colour).stroke(stroke).line(points(&drawn.force)));
+            if let Some(force) = drawn.quasi_static.as_ref().filter(|_| drawn.difference() > VISIBLE * range) {
+                let name = format!("{}, quasi-static", drawn.line.name);
+                all.push(Series::new(name, colour).stroke(Stroke::Dashed).line(points(force)));
+            }
+        }
+        let symbol = self.parameter.symbol.replace("omega", "ω");
+        let label = format!("{}, {symbol}", capitalised(self.parameter.description));
+        let nominal = Mark::rule(self.factor.nominal, format!("nominal: {} {unit}", self.factor.nominal));
+        let panel =
+            Panel::new(Axis::new(label, unit), Axis::new("Critical force F_cr", "nN")).with(all).with([nominal]);
+        let title = format!("Critical force against {}", self.parameter.description);
+        Chart::new(title, self.caption(lines, range)).panels([panel])
+    }
+
+    fn caption(&self, lines: &[Drawn], range: f64) -> String {
+        let unit = format!(" {}", unit(self.factor.unit().symbol()));
+        let (Some(from), Some(to)) = (self.values.first(), self.values.last()) else { return String::new() };
+        let course = |drawn: &Drawn| match drawn.line.is_marched() {
+            true => overshoot(drawn, &lines[0]),
+            false => Curve { x: &self.values, y: &drawn.force, x_unit: &unit, y_unit: " nN" }.course(&drawn.line.said),
+        };
+        let courses: Vec<String> = lines.iter().map(course).collect();
+        let mut text = format!(
+            "From {from} to {to}{unit} of {}, the critical force {}",
+            self.parameter.description,
+            listed(&courses)
+        );
+        if let [one, other, ..] = lines
+            && one.line.options.friction != other.line.options.friction
+        {
+            text.push_str(&self.between(one, other, &unit));
+        }
+        text.push_str(&agreement(lines, range));
+        text.push('.');
+        text
+    }
+
+    /// Where two lines meet, and how far apart they are at the ends.
+    fn between(&self, one: &Drawn, other: &Drawn, unit: &str) -> String {
+        let gap: Vec<(f64, f64)> =
+            self.values.iter().zip(one.force.iter().zip(&other.force)).map(|(x, (a, b))| (*x, a - b)).collect();
+        let mut text = String::new();
+        if let Some(x) = crossing(&gap, 0.0) {
+            text.push_str(&format!("; the two are equal at {}{unit}", short(x)));
+        }
+        if let (Some(first), Some(last), true) = (gap.first(), gap.last(), self.gap) {
+            let verb = if last.1.abs() > first.1.abs() { "diverge" } else { "approach each other" };
+            let (first, last) = (short(first.1.abs()), short(last.1.abs()));
+            text.push_str(&format!("; the two {verb}, from {first} to {last} nN apart"));
+        }
+        text
+    }
+}
+
+impl Drawn<'_> {
+    /// The largest distance of the two rungs as `of` their forces: in nN, or as a part of the force.
+    fn largest(&self, of: fn(f64, f64) -> f64) -> f64 {
+        let both = self.quasi_static.iter().flat_map(|other| self.force.iter().zip(other));
+        largest(both.map(|(formula, geometry)| of(*formula, *geometry)))
+    }
+
+    fn difference(&self) -> f64 {
+        self.largest(|formula, geometry| (formula - geometry).abs())
+    }
+
+    fn relative_difference(&self) -> f64 {
+        self.largest(|formula, geometry| (geometry / formula - 1.0).abs())
+    }
+}
+
+/// The largest of the finite values, at least 0.
+fn largest(values: impl Iterator<Item = f64>) -> f64 {
+    values.filter(|value| value.is_finite()).fold(0.0, f64::max)
+}
+
+/// Over which range of force the lines go (nN); their size if they are level.
+fn range(lines: &[Drawn]) -> f64 {
+    let values = || lines.iter().flat_map(|drawn| &drawn.force).copied().filter(|force| force.is_finite());
+    let (low, high) = (values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max));
+    if high - low > FLAT * high.abs() { high - low } else { high.abs() }
+}
+
+/// How much the naive march reads too much.
+fn overshoot(naive: &Drawn, right: &Drawn) -> String {
+    let most = largest(naive.force.iter().zip(&right.force).map(|(a, b)| a - b));
+    format!("is read up to {} nN too high{}", short(most), naive.line.said)
+}
+
+/// What the quasi-static rung says to the closed form, where it differs by 0.01 % or more: the page says once that all
+/// others agree.
+fn agreement(lines: &[Drawn], range: f64) -> String {
+    let most = largest(lines.iter().map(Drawn::relative_difference));
+    if most < 1e-4 {
+        return String::new();
+    }
+    let drawn = if lines.iter().any(|line| line.difference() > VISIBLE * range) { " (dashed)" } else { "" };
+    format!("; the quasi-static rung{drawn} differs from the closed forms by at most {} %", short(100.0 * most))
+}

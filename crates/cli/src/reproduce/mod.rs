@@ -1,0 +1,224 @@
+//! The papers reproduced: their studies, figures, claims and percentages.
+//!
+//! [`reproduce()`] computes, [`document()`] makes the page, its files and the text for a terminal of it.
+
+pub mod claims;
+mod document;
+pub mod figures;
+mod order;
+mod papers;
+pub mod percentages;
+mod reproduction;
+mod shares;
+
+use apportion::result::StudyResult;
+use apportion::run::RunError;
+use apportion::study::Study;
+use apportion::sweep::SweepError;
+use apportion_afm::{Failure, FrictionLaw};
+use apportion_files::StudyError;
+use apportion_report::chart::Colour;
+pub use document::document;
+pub use papers::{Published, published};
+pub use reproduction::{Event, Reproduction, Request, Topic, reproduce};
+use thiserror::Error;
+
+use crate::scene::law_colour;
+
+/// How much is computed.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Effort {
+    /// What the conclusions rest on.
+    #[default]
+    Full,
+    /// A look: the same with fewer points.
+    Quick,
+}
+
+/// A friction model of the papers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Friction {
+    /// The law.
+    pub law: FrictionLaw,
+    /// Its name in study files.
+    pub key: &'static str,
+    /// Its name for people.
+    pub name: &'static str,
+    /// Its colour in charts.
+    pub colour: Colour,
+}
+
+impl Friction {
+    const fn new(law: FrictionLaw, name: &'static str) -> Self {
+        Self { law, key: law.name(), name, colour: law_colour(law) }
+    }
+}
+
+/// The friction models, in the order of the papers' charts.
+pub const FRICTIONS: [Friction; 3] = [
+    Friction::new(FrictionLaw::Coulomb, "Coulomb"),
+    Friction::new(FrictionLaw::HurtadoKim, "Hurtado-Kim"),
+    Friction::new(FrictionLaw::LuGre, "LuGre"),
+];
+
+/// A group of studies: the same factors under each friction model.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct StudyGroup {
+    /// Its name in file names.
+    pub key: &'static str,
+    /// The figures of the papers that it reproduces.
+    pub figures: &'static str,
+    /// What varies.
+    pub title: &'static str,
+    /// The same at the beginning of a sentence.
+    pub among: &'static str,
+}
+
+/// The groups, in the order of the papers.
+pub const GROUPS: [StudyGroup; 3] = [
+    StudyGroup {
+        key: "dimensional",
+        figures: "CHK fig. 10, LG fig. 4a",
+        title: "the cantilever's dimensions",
+        among: "Among the dimensions alone",
+    },
+    StudyGroup {
+        key: "environmental",
+        figures: "CHK fig. 15, LG fig. 4b",
+        title: "the environment",
+        among: "Among the factors of the environment alone",
+    },
+    StudyGroup {
+        key: "general",
+        figures: "CHK fig. 16, LG fig. 4c",
+        title: "all eight factors",
+        among: "Of all eight factors together",
+    },
+];
+
+/// The study files, by name: part of the program, so that it reproduces the papers wherever it is installed.
+const STUDIES: [(&str, &str); 9] = [
+    ("coulomb-dimensional", include_str!("../../../../studies/coulomb-dimensional.toml")),
+    ("hk-dimensional", include_str!("../../../../studies/hk-dimensional.toml")),
+    ("lugre-dimensional", include_str!("../../../../studies/lugre-dimensional.toml")),
+    ("coulomb-environmental", include_str!("../../../../studies/coulomb-environmental.toml")),
+    ("hk-environmental", include_str!("../../../../studies/hk-environmental.toml")),
+    ("lugre-environmental", include_str!("../../../../studies/lugre-environmental.toml")),
+    ("coulomb-general", include_str!("../../../../studies/coulomb-general.toml")),
+    ("hk-general", include_str!("../../../../studies/hk-general.toml")),
+    ("lugre-general", include_str!("../../../../studies/lugre-general.toml")),
+];
+
+/// The settings of every study in a quick reproduction, unless the overrides say otherwise.
+const QUICK: [&str; 1] = ["design.base_samples=2048"];
+
+/// Why a reproduction failed.
+#[derive(Debug, Error)]
+pub enum ReproduceError {
+    /// A study cannot be read, for example because of an override.
+    #[error(transparent)]
+    Study(#[from] StudyError),
+    /// A study cannot be run.
+    #[error(transparent)]
+    Run(#[from] RunError),
+    /// A scene has no answer. At the defaults of the papers that does not happen.
+    #[error("a scene of the papers has no answer: {0}")]
+    Scene(#[from] Failure),
+    /// A factor cannot be swept.
+    #[error(transparent)]
+    Sweep(#[from] SweepError),
+    /// The model has no such input.
+    #[error("the nanoparticle model has no parameter `{name}`")]
+    NoParameter {
+        /// Its name.
+        name: &'static str,
+    },
+    /// The general study lacks a factor that a claim is about.
+    #[error("the general study does not give the range of every factor that the claims are about")]
+    NoRanges,
+    /// A study that a claim is about has not been run, or has no indices.
+    #[error("claims 17 to 20 need the {group} study under {friction} friction, with its indices")]
+    NoIndices {
+        /// The study's group.
+        group: &'static str,
+        /// The name of its friction model.
+        friction: &'static str,
+    },
+    /// A study has no shares to set beside the printed percentages.
+    #[error("the study {study} has no shares of {measure}: its indices have no positive sum")]
+    NoPercentages {
+        /// The study.
+        study: String,
+        /// `S_1` or `S_T`.
+        measure: &'static str,
+    },
+}
+
+/// One study that has been run.
+#[derive(Debug, Clone)]
+pub struct Reproduced {
+    /// Its friction model.
+    pub friction: Friction,
+    /// Its group.
+    pub group: StudyGroup,
+    /// What came out.
+    pub result: StudyResult,
+}
+
+/// The nine studies, read and checked, after applying `overrides` to each; group by group. Meant for overrides of the
+/// design: under others they are no longer the papers' studies.
+///
+/// # Errors
+/// [`StudyError`] if an override makes no sense.
+pub fn studies(overrides: &[String]) -> Result<Vec<(StudyGroup, Friction, Study)>, StudyError> {
+    let all = GROUPS.into_iter().flat_map(|group| FRICTIONS.map(|friction| (group, friction)));
+    all.map(|(group, friction)| Ok((group, friction, study(friction.key, group.key, overrides)?))).collect()
+}
+
+/// The study of a group under a friction model, by their keys.
+fn study(friction: &str, group: &str, overrides: &[String]) -> Result<Study, StudyError> {
+    let name = format!("{friction}-{group}");
+    let text = STUDIES.iter().find(|(study, _)| *study == name).map_or("", |(_, text)| text);
+    apportion_files::parse_study(text, format!("studies/{name}.toml").as_ref(), overrides)
+}
+
+/// The study that has all factors with their ranges.
+fn general_study() -> Result<Study, StudyError> {
+    study("coulomb", "general", &[])
+}
+
+/// The names that share what is said of them, in the order of the first of each.
+fn named_together<'a, T: PartialEq>(said: impl IntoIterator<Item = (T, &'a str)>) -> Vec<(T, Vec<&'a str>)> {
+    let mut groups: Vec<(T, Vec<&str>)> = Vec::new();
+    for (said, name) in said {
+        match groups.iter_mut().find(|(known, _)| *known == said) {
+            Some((_, names)) => names.push(name),
+            None => groups.push((said, vec![name])),
+        }
+    }
+    groups
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn all_nine_studies_are_there_with_their_own_factors() {
+        let studies = studies(&[]).unwrap();
+        assert_eq!(studies.len(), 9);
+        for (group, friction, study) in &studies {
+            assert_eq!(study.name(), format!("{}-{}", friction.key, group.key));
+            assert_eq!(study.design().settings().base_samples, 1 << 12);
+            let factors = study.space().factors().len();
+            assert_eq!(factors, if group.key == "general" { 8 } else { 4 });
+            assert_eq!(study.space().groups().len(), if group.key == "general" { 2 } else { 0 });
+        }
+    }
+
+    #[test]
+    fn overrides_reach_every_study() {
+        let studies = studies(&["design.base_samples=64".to_owned()]).unwrap();
+        assert!(studies.iter().all(|(_, _, study)| study.design().settings().base_samples == 64));
+    }
+}

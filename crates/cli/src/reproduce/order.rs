@@ -1,0 +1,196 @@
+//! Whether our order of the factors is the published one, as far as our intervals decide it.
+
+use apportion::Estimate;
+use apportion::result::IndexRecord;
+use apportion::uncertainty::Interval;
+
+use super::shares::indices;
+use super::{Reproduced, published};
+
+/// A factor counts as having a share from this many percent on: less would be printed as 0 in whole percents, which is
+/// how LG prints, and is hardly to be seen as a bar.
+pub(super) const VISIBLE: f64 = 0.5;
+
+/// A factor with its share in percent.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct FactorShare<'a> {
+    pub factor: &'a str,
+    pub share: Estimate,
+}
+
+/// The interval of a share; everything where nothing is known of its error.
+fn bounds(share: Estimate) -> Interval {
+    share.interval.unwrap_or(Interval { low: f64::NEG_INFINITY, high: f64::INFINITY })
+}
+
+/// No share that could be seen, whatever the true one in its interval.
+fn unseen(share: Estimate) -> bool {
+    bounds(share).high < VISIBLE
+}
+
+/// What our shares say of "this before that".
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Standing {
+    /// It is so: the intervals do not overlap.
+    Kept,
+    /// It is the other way round: they do not overlap either.
+    Broken,
+    /// The intervals overlap, or do not say whether there is anything to be seen.
+    Undecided,
+    /// Neither share could be seen.
+    Unseen,
+}
+
+/// What our shares say of `first` before `second`.
+pub(super) fn standing(first: Estimate, second: Estimate) -> Standing {
+    if unseen(first) && unseen(second) {
+        return Standing::Unseen;
+    }
+    let (one, other) = (bounds(first), bounds(second));
+    if one.low > other.high && one.low >= VISIBLE {
+        Standing::Kept
+    } else if other.low > one.high && other.low >= VISIBLE {
+        Standing::Broken
+    } else {
+        Standing::Undecided
+    }
+}
+
+/// How our order stands to the published one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Agreement {
+    /// Every factor is before the next.
+    Same,
+    /// Every factor is before the next, up to a rest without visible shares.
+    Beginning,
+    /// Not decided by this sample: no pair is the other way round, but the intervals of some overlap.
+    Undecided,
+    /// Some pair is the other way round, or a factor that is not in the published order has a visible share.
+    Other,
+}
+
+/// Our order against a published one.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct OrderVerdict<'a> {
+    /// Our factors that may have a visible share, the largest share first.
+    pub ours: Vec<&'a str>,
+    /// Each neighbouring pair of the published order.
+    pub pairs: Vec<(&'a str, &'a str, Standing)>,
+    /// Factors with a visible share that are not in the published order.
+    pub intruders: Vec<&'a str>,
+    /// Published factors without a visible share of ours.
+    pub unseen: Vec<&'a str>,
+}
+
+/// Compares the shares with the published order, whose factors are among them.
+pub(super) fn order_verdict<'a>(shares: &[FactorShare<'a>], published: &[&str]) -> OrderVerdict<'a> {
+    let mut ranked: Vec<&FactorShare<'a>> = shares.iter().filter(|one| !unseen(one.share)).collect();
+    ranked.sort_by(|a, b| b.share.estimate.total_cmp(&a.share.estimate));
+    let known: Vec<&FactorShare<'a>> =
+        published.iter().filter_map(|name| shares.iter().find(|share| share.factor == *name)).collect();
+    let pair = |pair: &[&FactorShare<'a>]| (pair[0].factor, pair[1].factor, standing(pair[0].share, pair[1].share));
+    let stranger = |one: &&&FactorShare<'a>| bounds(one.share).low >= VISIBLE && !published.contains(&one.factor);
+    OrderVerdict {
+        ours: ranked.iter().map(|share| share.factor).collect(),
+        pairs: known.windows(2).map(pair).collect(),
+        intruders: ranked.iter().filter(stranger).map(|share| share.factor).collect(),
+        unseen: known.iter().filter(|one| unseen(one.share)).map(|share| share.factor).collect(),
+    }
+}
+
+impl<'a> OrderVerdict<'a> {
+    pub fn agreement(&self) -> Agreement {
+        let any = |wanted: Standing| self.pairs.iter().any(|(.., standing)| *standing == wanted);
+        if any(Standing::Broken) || !self.intruders.is_empty() {
+            Agreement::Other
+        } else if any(Standing::Undecided) {
+            Agreement::Undecided
+        } else if any(Standing::Unseen) {
+            Agreement::Beginning
+        } else {
+            Agreement::Same
+        }
+    }
+
+    /// The pairs that stand so, as in `length and width`.
+    pub fn pairs_that_are(&self, wanted: Standing) -> Vec<(&'a str, &'a str)> {
+        self.pairs.iter().filter(|(.., standing)| *standing == wanted).map(|&(one, other, _)| (one, other)).collect()
+    }
+}
+
+/// The order of a study's factors by total shares against the published one.
+pub(super) fn order_of<'a>(member: &'a Reproduced) -> OrderVerdict<'a> {
+    let share =
+        |index: &'a IndexRecord| Some(FactorShare { factor: &index.factor, share: index.effect.total_percent()? });
+    let shares: Vec<FactorShare<'a>> = indices(member).iter().filter_map(share).collect();
+    order_verdict(&shares, published(member.group.key, member.friction.key).ranking)
+}
+
+/// The total indices of the dimensional and the environmental factors of a general study, and whether the first is the
+/// larger; `None` where there are no groups.
+pub(super) fn outweighing(member: &Reproduced) -> Option<(Estimate, Estimate, Standing)> {
+    let groups = member.result.outputs.first()?.groups.as_ref()?;
+    let total = |name: &str| groups.iter().find(|group| group.group == name).map(|group| group.effect.total);
+    let (dimensional, environmental) = (total("dimensional")?, total("environmental")?);
+    let percent = |index: Estimate| Estimate {
+        estimate: 100.0 * index.estimate,
+        interval: index.interval.map(|i| Interval { low: 100.0 * i.low, high: 100.0 * i.high }),
+    };
+    Some((dimensional, environmental, standing(percent(dimensional), percent(environmental))))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn share(factor: &str, share: f64, half_width: f64) -> FactorShare<'_> {
+        let interval = Some(Interval { low: share - half_width, high: share + half_width });
+        FactorShare { factor, share: Estimate { estimate: share, interval } }
+    }
+
+    const PUBLISHED: [&str; 4] = ["thickness", "length", "width", "height"];
+
+    fn agreement(shares: &[FactorShare<'_>]) -> Agreement {
+        order_verdict(shares, &PUBLISHED).agreement()
+    }
+
+    #[test]
+    fn an_order_holds_where_neighbours_are_apart() {
+        let shares = [share("length", 34.0, 1.0), share("width", 19.0, 1.0), share("thickness", 47.0, 1.0)];
+        let with = |height| [&shares[..], &[height]].concat();
+        assert_eq!(agreement(&with(share("height", 3.0, 1.0))), Agreement::Same);
+        assert_eq!(agreement(&with(share("height", 0.0, 0.0))), Agreement::Same, "nothing is less than something");
+        assert_eq!(agreement(&with(share("height", 25.0, 1.0))), Agreement::Other);
+        let verdict = order_verdict(&with(share("height", 0.0, 0.0)), &PUBLISHED);
+        assert_eq!((verdict.ours, verdict.unseen), (vec!["thickness", "length", "width"], vec!["height"]));
+    }
+
+    /// At few points the intervals of length and thickness overlap: that decides nothing, least of all against.
+    #[test]
+    fn overlapping_neighbours_decide_nothing() {
+        let shares = [
+            share("length", 42.3, 3.9),
+            share("width", 17.5, 3.4),
+            share("thickness", 38.4, 3.9),
+            share("height", 0.0, 0.0),
+        ];
+        let verdict = order_verdict(&shares, &PUBLISHED);
+        assert_eq!(verdict.agreement(), Agreement::Undecided);
+        assert_eq!(verdict.pairs_that_are(Standing::Undecided), [("thickness", "length")]);
+        let unknown = shares.map(|one| FactorShare { share: Estimate { interval: None, ..one.share }, ..one });
+        assert_eq!(agreement(&unknown), Agreement::Undecided);
+    }
+
+    #[test]
+    fn what_cannot_be_seen_has_no_order_and_what_is_not_published_must_not_be_seen() {
+        let tail = [share("thickness", 99.0, 0.5), share("length", 0.1, 0.01), share("width", 0.3, 0.01)];
+        let verdict = order_verdict(&tail, &PUBLISHED[..3]);
+        assert_eq!((verdict.agreement(), verdict.unseen), (Agreement::Beginning, vec!["length", "width"]));
+        let stranger = [share("thickness", 60.0, 1.0), share("length", 10.0, 1.0), share("velocity", 30.0, 1.0)];
+        assert_eq!(order_verdict(&stranger, &PUBLISHED[..2]).agreement(), Agreement::Other);
+        let faint = [share("thickness", 60.0, 1.0), share("length", 39.0, 1.0), share("velocity", 1.0, 0.8)];
+        assert_eq!(order_verdict(&faint, &PUBLISHED[..2]).agreement(), Agreement::Same);
+        // Whether there is anything to be seen is not known.
+        assert_eq!(standing(share("a", 0.0, 0.0).share, share("b", 0.5, 0.2).share), Standing::Undecided);
+    }
+}

@@ -1,0 +1,58 @@
+//! Our shares beside the published ones, as one table: for the page, for a terminal, and as CSV.
+
+use apportion::Estimate;
+use apportion::result::IndexRecord;
+use apportion_report::document::Table;
+use apportion_report::fixed;
+use apportion_report::format::{or_dash, words};
+
+use super::{Reproduced, published};
+
+/// The indices of a study's factors.
+pub(super) fn indices(study: &Reproduced) -> &[IndexRecord] {
+    study.result.outputs.first().and_then(|output| output.indices.as_deref()).unwrap_or_default()
+}
+
+/// The places of a study's factors among its [`indices`], the largest total share first.
+pub(super) fn ranked(study: &Reproduced) -> Vec<usize> {
+    let shares = indices(study).iter().enumerate();
+    let mut ranked: Vec<(usize, f64)> =
+        shares.filter_map(|(place, index)| Some((place, index.effect.share_total?))).collect();
+    ranked.sort_by(|a, b| b.1.total_cmp(&a.1));
+    ranked.into_iter().map(|(place, _)| place).collect()
+}
+
+/// Every index and share of every study with the printed percentage, printed with the largest total share of each study
+/// first; in the file in the order of its factors.
+pub(super) fn shares_table<'a>(studies: &[&'a Reproduced]) -> Table {
+    let (mut rows, mut printed) = (Vec::new(), Vec::new());
+    for study in studies {
+        let ranked = ranked(study);
+        printed.extend(ranked.iter().map(|place| rows.len() + place));
+        let print = published(study.group.key, study.friction.key);
+        // Only the first row of a study names it.
+        let row = |(place, index): (usize, &'a IndexRecord)| {
+            (*study, index, ranked.first() == Some(&place), print.share(&index.factor))
+        };
+        rows.extend(indices(study).iter().enumerate().map(row));
+    }
+    let caption = "First-order and total indices of every study with their 95 % intervals, their shares, and the \
+                   percentages that LG prints; the CSV file has the intervals of the shares too.";
+    let said = |share: Option<Estimate>| or_dash(share, |share| fixed(share.estimate, 1));
+    let table = Table::from_rows(caption, rows)
+        .text("study", |(study, _, is_first, _)| if is_first { study.group.key } else { "" })
+        .value("study", |(study, ..)| study.group.key)
+        .text("friction", |(study, _, is_first, _)| if is_first { study.friction.name } else { "" })
+        .value("friction", |(study, ..)| study.friction.key)
+        .text("factor", |(_, index, ..)| words(&index.factor))
+        .value("factor", |(_, index, ..)| &index.factor)
+        .number("S_1", |(_, index, ..)| index.effect.first_order)
+        .number("S_T", |(_, index, ..)| index.effect.total)
+        .number("% of S_1", |(_, index, ..)| said(index.effect.first_order_percent()))
+        .estimate("share_first_order", |(_, index, ..)| index.effect.first_order_percent())
+        .number("% of S_T", |(_, index, ..)| said(index.effect.total_percent()))
+        .estimate("share_total", |(_, index, ..)| index.effect.total_percent())
+        .number("printed", |(.., percent)| percent.map_or_else(String::new, |percent| percent.to_string()))
+        .value("published", |(.., percent)| percent);
+    Table { printed: Some(printed), ..table.into() }
+}

@@ -1,0 +1,274 @@
+//! The charts of a scene in time, after the figures of Tafazzoli & Sitti 2004.
+
+use apportion_afm::FrictionLaw;
+use apportion_report::chart::{Axis, Chart, Colour, Mark, Panel, Series, Shape, Stroke};
+use apportion_report::format::{change, force, length, three_digits as short, time};
+
+use super::{SceneSample, SceneStory};
+
+/// The colours of the quantities, the same in the animation: the pushing force has that of the friction law.
+pub(super) const LATERAL: Colour = Colour::Series(4);
+pub(super) const NORMAL: Colour = Colour::Series(6);
+pub(super) const SUBSTRATE: Colour = Colour::Series(6);
+const PARTICLE: Colour = Colour::Series(1);
+const RELATIVE: Colour = Colour::Series(4);
+const TIP: Colour = Colour::Series(5);
+
+/// From SI to nN and nm.
+const NANO: f64 = 1e9;
+
+/// The story's charts: forces, pushing against critical force, positions, contacts, each against time
+/// with the slip marked, each with the name of its files. The caption of each says in one sentence what came out.
+pub fn scene_charts(story: &SceneStory) -> [(&'static str, Chart); 4] {
+    [
+        ("scene-forces", forces(story)),
+        ("scene-pushing", pushing(story)),
+        ("scene-positions", positions(story)),
+        ("scene-contacts", contacts(story)),
+    ]
+}
+
+/// A quantity in a chart: its name, colour, and how to read it in the chart's unit.
+struct Curve<'a> {
+    name: &'a str,
+    look: (Colour, Stroke),
+    read: &'a dyn Fn(&SceneSample) -> f64,
+}
+
+fn panel(story: &SceneStory, y: Axis, curves: &[Curve<'_>]) -> Panel {
+    let line = |curve: &Curve<'_>| {
+        let points = story.samples.iter().map(|sample| (sample.time, (curve.read)(sample)));
+        Series::new(curve.name, curve.look.0).stroke(curve.look.1).line(points.collect())
+    };
+    let rule = story.slip().map(|t| Mark::rule(t, format!("slip at {}", time(t))));
+    Panel::new(Axis::new("Time", "s"), y).with(curves.iter().map(line)).with(rule)
+}
+
+/// The chart of quantities of one unit.
+fn chart(story: &SceneStory, [title, caption]: [&str; 2], [label, unit]: [&str; 2], curves: &[Curve<'_>]) -> Chart {
+    Chart::new(title, caption).panels([panel(story, Axis::new(label, unit), curves)])
+}
+
+/// One label of the slip is enough for a chart.
+fn clear_rule_labels(panels: &mut [Panel]) {
+    for mark in panels.iter_mut().flat_map(|panel| &mut panel.marks) {
+        if let Shape::Rule(_, label) = &mut mark.shape {
+            label.clear();
+        }
+    }
+}
+
+/// The colour of a friction law, the same in all charts of scenes.
+pub const fn law_colour(law: FrictionLaw) -> Colour {
+    match law {
+        FrictionLaw::Coulomb => Colour::Series(0),
+        FrictionLaw::HurtadoKim => Colour::Series(3),
+        FrictionLaw::LuGre => Colour::Series(2),
+        _ => Colour::Series(1),
+    }
+}
+
+/// TS04 figure 8, CHK figure 5.
+pub(crate) fn forces(story: &SceneStory) -> Chart {
+    let curves = [
+        Curve { name: "tip force F_T", look: (story.colour, Stroke::Solid), read: &|s| NANO * s.tip_force },
+        Curve { name: "lateral force F_Y", look: (LATERAL, Stroke::Dashed), read: &|s| NANO * s.lateral_force },
+        Curve { name: "normal force F_Z", look: (NORMAL, Stroke::Dotted), read: &|s| NANO * s.normal_force },
+    ];
+    chart(story, ["Forces on the tip", &forces_caption(story)], ["Force", "nN"], &curves)
+}
+
+fn forces_caption(story: &SceneStory) -> String {
+    let (Some(first), Some(last)) = (story.samples.first(), story.samples.last()) else {
+        return NO_SAMPLES.to_owned();
+    };
+    let changes = |what: &str, parts: &mut dyn Iterator<Item = f64>| {
+        spread(parts).map(|spread| format!("{what} by {}", bound(spread))).unwrap_or_default()
+    };
+    let mut normal = story.samples.iter().map(|s| s.normal_force / first.normal_force - 1.0);
+    let normal = changes("; the normal force changes", &mut normal);
+    let begins = format!("The tip force goes from {} to", force(first.tip_force));
+    let Some(slip) = story.slip() else {
+        return format!("{begins} {} without a slip in the time shown{normal}.", force(last.tip_force));
+    };
+    let critical = story.critical.critical_force;
+    let mut after = story.samples.iter().filter(|s| s.time > slip).map(|s| s.tip_force / critical - 1.0);
+    let after = changes(", and then differs from it", &mut after);
+    let (critical, slip) = (force(critical), time(slip));
+    format!("{begins} {critical}, at which the particle slips after {slip}{after}{normal}.")
+}
+
+/// TS04 figure 9.
+pub(crate) fn pushing(story: &SceneStory) -> Chart {
+    let critical = NANO * story.critical.critical_force;
+    let curves = [
+        Curve { name: "pushing force F_T", look: (story.colour, Stroke::Solid), read: &|s| NANO * s.tip_force },
+        Curve { name: "critical force F_cr", look: (Colour::Reference, Stroke::Dashed), read: &|_| critical },
+    ];
+    let largest = story.samples.iter().map(|s| s.tip_force).fold(f64::NAN, f64::max);
+    let (largest, at) = (force(largest), force(story.critical.critical_force));
+    let caption = match story.slip().map(time) {
+        Some(slip) => format!("The pushing force reaches the critical force of {at} after {slip}."),
+        None => format!("The pushing force is {largest} at most in the time shown; the critical force is {at}."),
+    };
+    chart(story, ["Pushing force against critical force", &caption], ["Force", "nN"], &curves)
+}
+
+/// TS04 figure 10.
+pub(crate) fn positions(story: &SceneStory) -> Chart {
+    let curves = [
+        Curve { name: "substrate", look: (SUBSTRATE, Stroke::Dashed), read: &|s| NANO * s.substrate },
+        Curve { name: "particle", look: (PARTICLE, Stroke::Solid), read: &|s| NANO * s.particle },
+        Curve { name: "particle relative to substrate", look: (RELATIVE, Stroke::Solid), read: &|s| NANO * s.relative },
+        Curve { name: "tip base y_P", look: (TIP, Stroke::Dotted), read: &|s| NANO * s.lateral_deflection },
+    ];
+    chart(story, ["Positions", &positions_caption(story)], ["Position", "nm"], &curves)
+}
+
+fn positions_caption(story: &SceneStory) -> String {
+    let Some(last) = story.samples.last() else { return NO_SAMPLES.to_owned() };
+    let at_slip = story.slip().and_then(|slip| story.nearest(slip));
+    match at_slip {
+        Some(slip) => format!(
+            "Substrate and particle travel together for {}; at {} the particle stands {} from where it was on the \
+             substrate.",
+            length(slip.substrate),
+            time(last.time),
+            length(last.relative)
+        ),
+        None => format!(
+            "At {} the substrate has travelled {}, and the particle stands {} from where it was on it.",
+            time(last.time),
+            length(last.substrate),
+            length(last.relative)
+        ),
+    }
+}
+
+/// TS04 figure 13.
+pub(crate) fn contacts(story: &SceneStory) -> Chart {
+    let absolute: &dyn Fn(&SceneSample, Read) -> f64 = &|sample, read| NANO * read(sample);
+    let relative: &dyn Fn(&SceneSample, Read) -> f64 = &|sample, read| 100.0 * change_since_start(story, sample, read);
+    let of_both = |label: &str, unit: &str, [tip, substrate]: [Read; 2], of: &dyn Fn(&SceneSample, Read) -> f64| {
+        let curves = [
+            Curve { name: "at the tip", look: (story.colour, Stroke::Solid), read: &|s| of(s, tip) },
+            Curve { name: "at the substrate", look: (SUBSTRATE, Stroke::Dashed), read: &|s| of(s, substrate) },
+        ];
+        panel(story, Axis::new(label, unit), &curves)
+    };
+    let radii: [Read; 2] = [|s| s.tip_contact_radius(), |s| s.substrate_contact.radius];
+    let depths: [Read; 2] = [|s| s.tip_indentation(), |s| s.substrate_contact.indentation];
+    let mut panels = vec![
+        of_both("Contact radius", "nm", radii, absolute),
+        of_both("Indentation", "nm", depths, absolute),
+        of_both("Change of radius", "%", radii, relative),
+        of_both("Change of indentation", "%", depths, relative),
+    ];
+    clear_rule_labels(&mut panels[1..]);
+    Chart::new("Contacts at tip and substrate", contacts_caption(story)).panels(panels)
+}
+
+type Read = fn(&SceneSample) -> f64;
+
+/// The change of a quantity since the first sample, as a part of it; NaN where it does not exist.
+fn change_since_start(story: &SceneStory, sample: &SceneSample, read: Read) -> f64 {
+    story.samples.first().map_or(f64::NAN, |first| read(sample) / read(first) - 1.0)
+}
+
+fn contacts_caption(story: &SceneStory) -> String {
+    let end = story.slip().and_then(|slip| story.nearest(slip)).or(story.samples.last());
+    let Some(end) = end else { return NO_SAMPLES.to_owned() };
+    let said = |read: Read| change(change_since_start(story, end, read)).unwrap_or_else(|| short(f64::NAN));
+    format!(
+        "From the start to {}, the contact radius changes by {} at the tip and {} at the substrate, the indentation by \
+         {} and {}.",
+        time(end.time),
+        said(|s| s.tip_contact_radius()),
+        said(|s| s.substrate_contact.radius),
+        said(|s| s.tip_indentation()),
+        said(|s| s.substrate_contact.indentation)
+    )
+}
+
+const NO_SAMPLES: &str = "The story holds no sample.";
+
+/// A relative size in words.
+fn bound(spread: f64) -> String {
+    if spread < 1e-4 { "less than 0.01 %".to_owned() } else { format!("at most {} %", short(100.0 * spread)) }
+}
+
+/// The largest size of the finite values, if there are any.
+fn spread(values: impl Iterator<Item = f64>) -> Option<f64> {
+    values.map(f64::abs).filter(|size| size.is_finite()).reduce(f64::max)
+}
+
+#[cfg(test)]
+mod tests {
+    use apportion_afm::contact::Contact;
+    use apportion_afm::history::Sample;
+    use resvg::usvg::roxmltree::Document;
+
+    use super::super::nominal_story;
+    use super::*;
+
+    #[test]
+    fn charts_are_sound_and_mark_the_slip() {
+        for (stem, chart) in scene_charts(&nominal_story()) {
+            let svg = chart.svg();
+            let document = Document::parse(&svg).unwrap();
+            assert!(document.descendants().any(|node| node.text() == Some("slip at 0.131 s")), "{stem}");
+        }
+    }
+
+    #[test]
+    fn captions_are_computed() {
+        let story = nominal_story();
+        assert_eq!(
+            forces(&story).caption(),
+            "The tip force goes from 489 nN to 631 nN, at which the particle slips after 0.131 s, and then differs from \
+             it by less than 0.01 %; the normal force changes by less than 0.01 %."
+        );
+        assert_eq!(
+            positions(&story).caption(),
+            "Substrate and particle travel together for 13.1 nm; at 0.400 s the particle stands \u{2212}26.9 nm from \
+             where it was on the substrate."
+        );
+        assert!(contacts(&story).caption().contains("+27.0 % at the tip and less than 0.001 % (down)"));
+        let mut early = story;
+        early.samples.retain(|sample| sample.time < 0.1);
+        assert!(forces(&early).caption().contains("without a slip in the time shown"));
+        assert!(pushing(&early).caption().contains("the critical force is 631 nN"));
+        assert!(positions(&early).caption().starts_with("At 0.098"));
+    }
+
+    #[test]
+    fn degenerate_stories_have_charts() {
+        let whole = nominal_story();
+        for count in 0..3 {
+            for time in [0.0, whole.critical_time, f64::NAN] {
+                let mut story = whole.clone();
+                story.samples.truncate(count);
+                story.critical_time = time;
+                for (_, chart) in scene_charts(&story) {
+                    let svg = chart.svg();
+                    Document::parse(&svg).unwrap();
+                    assert!(!svg.contains("NaN") && !svg.contains("inf"), "{svg}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn numbers_that_do_not_exist_are_gaps() {
+        let mut story = nominal_story();
+        let broken: Vec<SceneSample> = story.samples.clone();
+        for (sample, whole) in story.samples.iter_mut().zip(broken).step_by(3) {
+            let tip_contact = whole.tip_contact.map(|contact| Contact { indentation: f64::INFINITY, ..contact });
+            sample.state = Sample { tip_force: f64::NAN, tip_contact, twist: f64::NAN, ..whole.state };
+        }
+        for (_, chart) in scene_charts(&story) {
+            let svg = chart.svg();
+            assert!(!svg.contains("NaN") && !svg.contains("inf"), "{svg}");
+        }
+    }
+}

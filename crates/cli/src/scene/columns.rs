@@ -1,0 +1,174 @@
+//! The story as a table: CSV for a spreadsheet, JSON for a program.
+
+use apportion_report::document::Table;
+use serde_json::{Map, Value, json};
+
+use super::{SceneSample, SceneStory};
+
+/// A column of numbers.
+struct Column {
+    /// Name with unit.
+    name: &'static str,
+    /// From SI to that unit.
+    factor: f64,
+    read: fn(&SceneSample) -> f64,
+}
+
+/// From N to nN and from m to nm.
+const NANO: f64 = 1e9;
+
+const fn column(name: &'static str, factor: f64, read: fn(&SceneSample) -> f64) -> Column {
+    Column { name, factor, read }
+}
+
+/// The numbers of a sample, in the order of the files.
+const COLUMNS: [Column; 15] = [
+    column("time_s", 1.0, |s| s.time),
+    column("lateral_force_nN", NANO, |s| s.lateral_force),
+    column("normal_force_nN", NANO, |s| s.normal_force),
+    column("tip_force_nN", NANO, |s| s.tip_force),
+    column("force_angle_rad", 1.0, |s| s.force_angle),
+    column("twist_rad", 1.0, |s| s.twist),
+    column("base_lateral_nm", NANO, |s| s.lateral_deflection),
+    column("deflection_nm", NANO, |s| s.normal_deflection),
+    column("substrate_position_nm", NANO, |s| s.substrate),
+    column("particle_position_nm", NANO, |s| s.particle),
+    column("relative_position_nm", NANO, |s| s.relative),
+    column("substrate_contact_radius_nm", NANO, |s| s.substrate_contact.radius),
+    column("substrate_indentation_nm", NANO, |s| s.substrate_contact.indentation),
+    column("tip_contact_radius_nm", NANO, |s| s.tip_contact_radius()),
+    column("tip_indentation_nm", NANO, |s| s.tip_indentation()),
+];
+
+/// A flag's name and how to read it.
+type Flag = (&'static str, fn(&SceneSample) -> bool);
+
+/// The flags of a sample, after its numbers.
+const FLAGS: [Flag; 4] =
+    [("slipping", |s| !s.sticking), ("tip_slip", |s| s.tip_slip), ("rolling", |s| s.rolling), ("spin", |s| s.spin)];
+
+/// The number in the column called `name`, in its unit.
+pub fn scene_number(name: &str, sample: &SceneSample) -> f64 {
+    let column = COLUMNS.iter().find(|column| column.name == name).expect("a column of scenes");
+    column.factor * (column.read)(sample)
+}
+
+/// The samples as a table for CSV: names with units, then a row per sample, flags as `true` and `false`. The columns are
+/// described in `docs/scene-format.md`.
+pub fn scene_table(story: &SceneStory) -> Table {
+    let numbers = COLUMNS.iter().fold(Table::from_rows("", &story.samples), |rows, column| {
+        rows.file(column.name, |sample| column.factor * (column.read)(sample))
+    });
+    FLAGS.iter().fold(numbers, |rows, (name, read)| rows.file(*name, read)).into()
+}
+
+/// The story as JSON, format `apportion-scene`, version 1: see `docs/scene-format.md`. The samples are columns of the
+/// same names, units and digits as in [`scene_table`].
+pub fn scene_json(story: &SceneStory) -> String {
+    format!("{:#}\n", scene_value(story))
+}
+
+/// The story as a JSON value. A number that is not finite is `null`.
+pub(super) fn scene_value(story: &SceneStory) -> Value {
+    let setting: Vec<Value> =
+        story.setting.iter().map(|(label, value)| json!({ "label": label, "value": value })).collect();
+    let (scene, critical) = (&story.scene, &story.critical);
+    let nano = |value: f64| json!(NANO * value);
+    json!({
+        "format": "apportion-scene",
+        "version": 1,
+        "title": story.title,
+        "setting": setting,
+        "geometry": {
+            "particle_radius_nm": nano(scene.particle_radius),
+            "tip_radius_nm": nano(scene.tip_radius),
+            "height_nm": nano(scene.height),
+            "contact_angle_rad": json!(scene.contact_angle),
+            "length_nm": nano(scene.length),
+            "width_nm": nano(scene.width),
+            "thickness_nm": nano(scene.thickness),
+        },
+        "critical": {
+            "time_s": json!(story.critical_time),
+            "critical_force_nN": nano(critical.critical_force),
+            "lateral_force_nN": nano(critical.lateral_force),
+            "normal_force_nN": nano(critical.normal_force),
+        },
+        "samples": samples(&story.samples),
+    })
+}
+
+fn samples(samples: &[SceneSample]) -> Map<String, Value> {
+    let numbers = COLUMNS.iter().map(|column| {
+        let values: Vec<f64> = samples.iter().map(|sample| column.factor * (column.read)(sample)).collect();
+        (column.name.to_owned(), json!(values))
+    });
+    let flags = FLAGS.iter().map(|(name, read)| {
+        let values: Vec<bool> = samples.iter().map(read).collect();
+        ((*name).to_owned(), json!(values))
+    });
+    numbers.chain(flags).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::nominal_story;
+    use super::*;
+
+    #[test]
+    fn csv_reads_back_to_the_same_bits() {
+        let story = nominal_story();
+        let text = scene_table(&story).csv();
+        let mut reader = csv::Reader::from_reader(text.as_bytes());
+        let header = reader.headers().unwrap().clone();
+        assert_eq!(header.len(), COLUMNS.len() + FLAGS.len());
+        assert_eq!((&header[0], &header[1], &header[18]), ("time_s", "lateral_force_nN", "spin"));
+        let rows: Vec<csv::StringRecord> = reader.records().map(Result::unwrap).collect();
+        assert_eq!(rows.len(), story.samples.len());
+        for (row, sample) in rows.iter().zip(&story.samples) {
+            assert_eq!(row[0].parse::<f64>().unwrap(), sample.time);
+            assert_eq!(row[1].parse::<f64>().unwrap(), 1e9 * sample.lateral_force);
+            assert_eq!(row[10].parse::<f64>().unwrap(), 1e9 * sample.relative);
+            assert_eq!(row[14].parse::<f64>().unwrap(), 1e9 * sample.tip_indentation());
+            assert_eq!(row[15].parse::<bool>().unwrap(), !sample.sticking);
+            assert_eq!(row[17].parse::<bool>().unwrap(), sample.rolling);
+        }
+    }
+
+    #[test]
+    fn json_reads_back_to_the_same_bits() {
+        let story = nominal_story();
+        let value: Value = serde_json::from_str(&scene_json(&story)).unwrap();
+        assert_eq!((&value["format"], &value["version"]), (&json!("apportion-scene"), &json!(1)));
+        assert_eq!(value["critical"]["time_s"].as_f64(), Some(story.critical_time));
+        assert_eq!(value["geometry"]["height_nm"].as_f64(), Some(1e9 * story.scene.height));
+        assert_eq!(value["setting"][0]["label"], json!(story.setting[0].0));
+        let twist = value["samples"]["twist_rad"].as_array().unwrap();
+        let read: Vec<f64> = twist.iter().map(|number| number.as_f64().unwrap()).collect();
+        assert_eq!(read, story.samples.iter().map(|sample| sample.twist).collect::<Vec<_>>());
+        assert_eq!(value["samples"].as_object().unwrap().len(), COLUMNS.len() + FLAGS.len());
+    }
+
+    #[test]
+    fn what_is_not_finite_is_empty_or_null() {
+        let mut story = nominal_story();
+        story.samples.truncate(1);
+        story.samples[0].state.force_angle = f64::NAN;
+        story.samples[0].state.tip_force = f64::INFINITY;
+        story.critical_time = f64::NAN;
+        let text = scene_table(&story).csv();
+        let row: Vec<&str> = text.lines().nth(1).unwrap().split(',').collect();
+        assert_eq!((row[3], row[4]), ("", ""));
+        let value: Value = serde_json::from_str(&scene_json(&story)).unwrap();
+        assert!(value["samples"]["force_angle_rad"][0].is_null());
+        assert!(value["critical"]["time_s"].is_null());
+    }
+
+    #[test]
+    fn every_column_is_documented() {
+        let documentation = include_str!("../../../../docs/scene-format.md");
+        for name in COLUMNS.iter().map(|column| column.name).chain(FLAGS.iter().map(|flag| flag.0)) {
+            assert!(documentation.contains(&format!("`{name}`")), "{name}");
+        }
+    }
+}

@@ -1,0 +1,122 @@
+//! A scene in time: its document with an animation, its charts, CSV and JSON.
+//!
+//! A [`SceneStory`] is plain data in SI; who computed it does not matter here. The exporters draw the figures of
+//! Tafazzoli & Sitti 2004 (8, 9, 10, 12, 13 and, moving, 14). A number that is not finite is an empty cell in CSV,
+//! `null` in JSON and a gap in a chart.
+
+pub(crate) mod charts;
+mod columns;
+mod document;
+pub(crate) mod mode_diagram;
+mod player;
+pub mod simulation;
+mod view;
+
+use std::ops::Deref;
+
+use apportion_afm::history::Sample;
+use apportion_afm::{Critical, Scene};
+use apportion_report::chart::Colour;
+use apportion_report::format;
+pub use charts::{law_colour, scene_charts};
+pub use columns::{scene_json, scene_number, scene_table};
+pub use document::{mode_document, scene_document};
+pub use mode_diagram::{ModeDiagram, ModeLine, mode_diagram_chart};
+pub use player::player_page;
+
+/// One scene, from the start of the push through sticking and slipping.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SceneStory {
+    /// Headline.
+    pub title: String,
+    /// What was chosen, as label and value with unit, such as ("friction", "coulomb"): the page's table of settings.
+    pub setting: Vec<(String, String)>,
+    /// The scene, whose lengths are drawn to scale.
+    pub scene: Scene,
+    /// At which forces the particle slips.
+    pub critical: Critical,
+    /// When it slips (s).
+    pub critical_time: f64,
+    /// The colour of the pushing force: that of the friction law, see [`law_colour`].
+    pub colour: Colour,
+    /// The states in the order of time; unevenly spaced, and as few as one or none.
+    pub samples: Vec<SceneSample>,
+}
+
+/// The state at one time, and what else the particle might do then.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SceneSample {
+    /// The state. Positions are along the motion of the substrate, from where each thing stood at the start.
+    pub state: Sample,
+    /// Whether the tip would slip on the particle (a diagnostic).
+    pub tip_slip: bool,
+    /// Whether the particle would roll (a diagnostic).
+    pub rolling: bool,
+    /// Whether the particle would spin about the vertical (a diagnostic).
+    pub spin: bool,
+}
+
+impl Deref for SceneSample {
+    type Target = Sample;
+
+    fn deref(&self) -> &Sample {
+        &self.state
+    }
+}
+
+impl SceneSample {
+    /// Contact radius at the tip (m); NaN where the contact is pulled apart.
+    pub fn tip_contact_radius(&self) -> f64 {
+        self.tip_contact.map_or(f64::NAN, |contact| contact.radius)
+    }
+
+    /// Indentation at the tip (m); NaN where the contact is pulled apart.
+    pub fn tip_indentation(&self) -> f64 {
+        self.tip_contact.map_or(f64::NAN, |contact| contact.indentation)
+    }
+}
+
+impl SceneStory {
+    /// The critical time if the samples reach it: only then can it be drawn.
+    fn slip(&self) -> Option<f64> {
+        let time = self.critical_time;
+        let (first, last) = (self.samples.first()?.time, self.samples.last()?.time);
+        (first <= time && time <= last).then_some(time)
+    }
+
+    /// The sample nearest to a time.
+    fn nearest(&self, time: f64) -> Option<&SceneSample> {
+        self.samples.iter().min_by(|a, b| (a.time - time).abs().total_cmp(&(b.time - time).abs()))
+    }
+
+    /// The outcome in one sentence.
+    fn outcome(&self) -> String {
+        let at = format::force(self.critical.critical_force);
+        let time = format::time(self.critical_time);
+        match self.slip() {
+            Some(_) => format!("The particle slips after {time}, at a tip force of {at}."),
+            None => format!("The particle slips at {time}, outside the time shown, at a tip force of {at}."),
+        }
+    }
+}
+
+/// The nominal scene under Coulomb friction, for tests.
+#[cfg(test)]
+fn nominal_story() -> SceneStory {
+    let title = "A gold particle pushed on silicon oxide".to_owned();
+    simulation::scene_story(title, &Scene::default(), &Default::default(), 0.4).expect("a scene with an answer")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_outcome_is_said_for_every_story() {
+        let story = nominal_story();
+        assert_eq!(story.outcome(), "The particle slips after 0.131 s, at a tip force of 631 nN.");
+        let mut early = story;
+        early.samples.retain(|sample| sample.time < 0.1);
+        assert!(early.outcome().contains("0.131 s, outside the time shown"), "{}", early.outcome());
+    }
+}

@@ -1,0 +1,132 @@
+//! The animation of a scene as a page that needs nothing else.
+
+use apportion_report::chart::Colour;
+use askama::Template;
+use serde_json::Value;
+
+use super::SceneStory;
+use super::charts::{LATERAL, NORMAL, SUBSTRATE};
+use super::columns::scene_value;
+use super::view::View;
+
+/// The parts of the page's script, each using those before it.
+const SCRIPT: [&str; 4] = [
+    include_str!("../../templates/scene/story.js"),
+    include_str!("../../templates/scene/draw.js"),
+    include_str!("../../templates/scene/pictures.js"),
+    include_str!("../../templates/scene/player.js"),
+];
+
+/// The template escapes every text; what it takes as it is (`safe`) comes from this program: style, script, data made
+/// by [`script_json`].
+#[derive(Template)]
+#[template(path = "scene/player.html")]
+struct Player<'a> {
+    story: &'a SceneStory,
+    outcome: String,
+    exaggeration: String,
+    colours: [(&'static str, &'static str); 5],
+    style: &'static str,
+    script: [&'static str; 4],
+    data: String,
+    view: String,
+    version: &'static str,
+}
+
+/// The animation as a page of HTML: probe, particle and contacts beside the growing force curve, moved by a slider, the
+/// keyboard or on its own. It loads nothing from anywhere and works without a network; inside the frame of another page it
+/// leaves out its title.
+pub fn player_page(story: &SceneStory) -> String {
+    let view = View::new(story);
+    let page = Player {
+        story,
+        outcome: unbroken(&story.outcome()),
+        exaggeration: view.sentence(),
+        colours: [
+            ("push", story.colour.hex()),
+            ("lateral", LATERAL.hex()),
+            ("normal", NORMAL.hex()),
+            ("substrate", SUBSTRATE.hex()),
+            ("slip", Colour::Series(1).hex()),
+        ],
+        style: include_str!("../../templates/scene/player.css"),
+        script: SCRIPT,
+        data: script_json(&scene_value(story)),
+        view: script_json(&view.value()),
+        version: env!("CARGO_PKG_VERSION"),
+    };
+    page.render().expect("texts and numbers, into memory")
+}
+
+/// A sentence in which numbers stay on one line with their units.
+fn unbroken(sentence: &str) -> String {
+    sentence.replace(" nN", "\u{a0}nN").replace(" s,", "\u{a0}s,")
+}
+
+/// JSON that may stand in a script element: no text in it can end the element or open a comment.
+fn script_json(value: &Value) -> String {
+    let text = value.to_string();
+    text.replace('<', "\\u003c").replace('>', "\\u003e").replace('&', "\\u0026")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::nominal_story;
+    use super::*;
+
+    fn page(story: &SceneStory) -> String {
+        player_page(story)
+    }
+
+    /// The JSON of a script element.
+    fn embedded(page: &str, id: &str) -> Value {
+        let (_, rest) = page.split_once(&format!("id=\"{id}\">")).unwrap();
+        serde_json::from_str(rest.split_once("</script>").unwrap().0).unwrap()
+    }
+
+    #[test]
+    fn the_page_needs_nothing_else() {
+        let page = page(&nominal_story());
+        let own = page.replace("http://www.w3.org/2000/svg", "");
+        for outside in ["http:", "https:", "src=", "@import", "url(", "//cdn", "fetch("] {
+            assert!(!own.contains(outside), "{outside}");
+        }
+        assert!(page.contains("The particle slips after 0.131\u{a0}s, at a tip force of 631\u{a0}nN."));
+        assert!(page.contains("exaggerated 200 times"));
+        assert!(page.contains("--push:#00527f"));
+    }
+
+    #[test]
+    fn texts_cannot_break_out() {
+        let mut story = nominal_story();
+        let evil = "</script><script>alert('&\"')</script><!--";
+        story.title = evil.to_owned();
+        let page = page(&story);
+        assert!(!page.contains("</script><script>alert"));
+        assert!(!page.contains("<!--"));
+        assert_eq!(page.matches("</script>").count(), 3);
+        assert_eq!(embedded(&page, "scene-data")["title"], evil);
+    }
+
+    #[test]
+    fn the_data_are_those_of_the_file() {
+        let story = nominal_story();
+        let page = page(&story);
+        let file: Value = serde_json::from_str(&crate::scene::scene_json(&story)).unwrap();
+        assert_eq!(embedded(&page, "scene-data"), file);
+        assert_eq!(embedded(&page, "scene-view")["probe_factor"], 200.0);
+    }
+
+    #[test]
+    fn degenerate_stories_have_pages() {
+        let whole = nominal_story();
+        for count in 0..3 {
+            let mut story = whole.clone();
+            story.samples.truncate(count);
+            story.scene.particle_radius = f64::NAN;
+            let page = page(&story);
+            assert!(!page.contains("NaN"), "{count}");
+            assert_eq!(page.contains("id=\"player\""), count > 0);
+        }
+    }
+}

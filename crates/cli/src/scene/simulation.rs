@@ -1,0 +1,156 @@
+//! One scene of a study in time, and the diagram of what else the particle may do.
+
+use apportion::study::Study;
+use apportion_afm::history::{Sample, history};
+use apportion_afm::modes::{Mode, Pushing, TipForce};
+use apportion_afm::{AfmSubject, Failure, Fidelity, Options, Parameter, Scene, critical_force, edge_unit};
+use apportion_report::chart::Colour;
+use apportion_report::with_unit;
+use thiserror::Error;
+
+use crate::scene::{ModeDiagram, ModeLine, SceneSample, SceneStory, law_colour};
+
+/// Why a scene cannot be simulated.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum SimulationError {
+    /// The study is about something else.
+    #[error("only the nanoparticle model (model = \"afm\") has a scene in time, and this study is about `{0}`")]
+    NoScene(&'static str),
+    /// The scene has no answer.
+    #[error("the scene cannot be simulated: {0}")]
+    Failed(#[from] Failure),
+}
+
+/// The scene of a study: its constants, with every factor at its nominal value.
+///
+/// # Errors
+/// [`SimulationError::NoScene`] if the study is not about the nanoparticle model.
+fn scene_of(study: &Study) -> Result<(Scene, Options), SimulationError> {
+    let Some(afm) = study.subject().downcast_ref::<AfmSubject>() else {
+        return Err(SimulationError::NoScene(study.subject().name()));
+    };
+    let mut scene = afm.scene;
+    for factor in study.space().factors() {
+        if let Some(parameter) = Parameter::from_name(&factor.name) {
+            (parameter.set)(&mut scene, factor.unit().to_si(factor.nominal));
+        }
+    }
+    Ok((scene, afm.options))
+}
+
+/// The scene of `study` in time, for `duration` seconds; by default for twice the critical time.
+///
+/// # Errors
+/// [`SimulationError`] if the study has no scene, or the scene no answer, as at velocity 0.
+pub fn simulate(study: &Study, duration: Option<f64>) -> Result<SceneStory, SimulationError> {
+    let (scene, options) = scene_of(study)?;
+    let duration = match duration {
+        Some(duration) => duration,
+        None => 2.0 * critical_force(&scene, &Options { fidelity: Fidelity::QuasiStatic, ..options })?.critical_time?,
+    };
+    let title = study.title().unwrap_or(study.name()).to_owned();
+    Ok(scene_story(title, &scene, &options, duration)?)
+}
+
+/// A scene in time, for `duration` seconds, by the quasi-static rung whatever the fidelity of the options.
+///
+/// # Errors
+/// Those of [`history`].
+///
+/// # Example
+/// ```
+/// use apportion_afm::{Options, Scene};
+/// use apportion::simulation::scene_story;
+///
+/// let story = scene_story("Nominal".to_owned(), &Scene::default(), &Options::default(), 0.4)?;
+/// assert!(story.critical_time < 0.4);
+/// assert!(story.samples.last().is_some_and(|end| !end.sticking));
+/// # Ok::<(), apportion_afm::Failure>(())
+/// ```
+pub fn scene_story(title: String, scene: &Scene, options: &Options, duration: f64) -> Result<SceneStory, Failure> {
+    let outcome = history(scene, options, duration)?;
+    let pushing = pushing(*scene, options);
+    let samples = outcome.samples.iter().map(|sample| scene_sample(sample, &pushing)).collect::<Result<_, _>>()?;
+    Ok(SceneStory {
+        title,
+        setting: setting(scene, options),
+        scene: *scene,
+        critical: outcome.critical,
+        critical_time: outcome.critical.critical_time?,
+        colour: law_colour(options.friction),
+        samples,
+    })
+}
+
+/// What may move the particle of a scene under its options, with the default constants of the modes.
+pub(crate) fn pushing(scene: Scene, options: &Options) -> Pushing {
+    Pushing { theory: options.contact, adhesion_in_load: options.adhesion_in_load, ..Pushing::new(scene) }
+}
+
+fn scene_sample(sample: &Sample, pushing: &Pushing) -> Result<SceneSample, Failure> {
+    let force = TipForce { normal: sample.normal_force, lateral: sample.lateral_force };
+    // A force that pulls a contact apart leaves nothing to slip, roll or spin there.
+    let moves = |mode| match pushing.balance(mode, force) {
+        Ok(balance) => Ok(balance.moves()),
+        Err(Failure::BeyondPullOff) => Ok(false),
+        Err(failure) => Err(failure),
+    };
+    Ok(SceneSample {
+        state: *sample,
+        tip_slip: moves(Mode::TipSlip)?,
+        rolling: moves(Mode::Roll)?,
+        spin: moves(Mode::Spin)?,
+    })
+}
+
+fn setting(scene: &Scene, options: &Options) -> Vec<(String, String)> {
+    let choices = [
+        ("friction", options.friction.name()),
+        ("contact", options.contact.name()),
+        ("torsion", options.torsion.name()),
+        ("adhesion in load", if options.adhesion_in_load { "yes" } else { "no" }),
+        // The history is quasi-static whatever the study's critical forces are computed by.
+        ("motion", Fidelity::QuasiStatic.name()),
+    ];
+    let value = |parameter: &Parameter| {
+        let unit = edge_unit(parameter);
+        let text = with_unit(unit.from_si((parameter.get)(scene)), unit.symbol());
+        (parameter.name.replace('_', " "), text)
+    };
+    let choices = choices.into_iter().map(|(label, choice)| (label.to_owned(), choice.to_owned()));
+    choices.chain(Parameter::ALL.iter().map(value)).collect()
+}
+
+/// Angles in the mode diagram.
+const ANGLES: usize = 180;
+
+/// For every way to give way, the tip force at which the particle of `study` begins to, against the force's angle from
+/// the vertical (Tafazzoli and Sitti 2004, fig. 12).
+///
+/// # Errors
+/// [`SimulationError`] if the study has no scene, or the scene no answer.
+pub fn mode_diagram(study: &Study) -> Result<ModeDiagram, SimulationError> {
+    let (scene, options) = scene_of(study)?;
+    Ok(scene_modes(&scene, &options)?)
+}
+
+/// The mode diagram of a scene, as [`mode_diagram`] draws it for a study.
+///
+/// # Errors
+/// Those of [`critical_force`] and of [`Pushing::balance`].
+pub fn scene_modes(scene: &Scene, options: &Options) -> Result<ModeDiagram, Failure> {
+    let pushing = pushing(*scene, options);
+    let critical = critical_force(scene, options)?;
+    // The scene's own angle among them, so that its slip can be read off the steep curves.
+    let grid = (1..ANGLES).map(|i| std::f64::consts::FRAC_PI_2 * i as f64 / ANGLES as f64);
+    let mut angle: Vec<f64> = grid.chain([critical.force_angle()]).collect();
+    angle.sort_by(f64::total_cmp);
+    let colours = [law_colour(options.friction), Colour::Series(1), Colour::Series(4), Colour::Series(5)];
+    let mut lines = Vec::new();
+    for (&mode, colour) in Mode::ALL.iter().zip(colours) {
+        let sets_in = |&psi: &f64| pushing.critical_tip_force(mode, psi);
+        let force = angle.iter().map(sets_in).collect::<Result<Vec<_>, Failure>>()?;
+        lines.push(ModeLine { mode: mode.name().to_owned(), colour, force });
+    }
+    Ok(ModeDiagram { angle, forces: lines, current: (critical.force_angle(), critical.critical_force) })
+}

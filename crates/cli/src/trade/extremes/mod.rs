@@ -1,0 +1,241 @@
+//! What becomes of a study's model at the extremes of its inputs: a map of where its numbers are right, where they are
+//! flagged, where there are none, and where they are silently wrong, see [`Outcome`].
+
+mod afm_second;
+mod document;
+mod map;
+mod points;
+mod precise;
+mod second;
+
+use std::sync::OnceLock;
+use std::sync::atomic::AtomicBool;
+
+use apportion::model::{Batch, GiveUp, LARGEST_ERROR, Model, RowFailure, RunContext, Worker};
+use apportion::run::{Progress, RunError, run_each};
+use apportion::space::Space;
+use apportion::study::Study;
+pub use document::{ExtremesFile, build_extremes, extremes_document};
+use map::Reasons;
+pub use map::{Extremes, Grid, Kind, Outcome, Reason, Tally};
+use points::{Point, grids, points};
+use second::{Answered, Reference, SecondCalculation, Unchecked, second_calculation};
+
+/// How much is tried.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ExtremesSettings {
+    /// About how many points the model is evaluated at. All steps of every factor past its bounds are among them,
+    /// however many those are.
+    pub points: u64,
+    /// Seed of the points that are chosen at random.
+    pub seed: u64,
+}
+
+impl ExtremesSettings {
+    /// What takes some seconds: fewer points of a program.
+    pub fn for_study(study: &Study) -> Self {
+        let points = if study.model().concurrency().is_some() { 160 } else { 600 };
+        Self { points, seed: study.design().settings().seed }
+    }
+}
+
+/// A study whose extremes are looked for.
+#[derive(Clone, Copy)]
+pub struct ExtremesJob<'a> {
+    /// The study.
+    pub study: &'a Study,
+    /// How much is tried.
+    pub settings: ExtremesSettings,
+    /// Threads; 0 for one per core. The result is the same in every bit on any number.
+    pub threads: usize,
+    /// Ends the search soon after it is set.
+    pub stop: Option<&'a AtomicBool>,
+    /// Receives messages of programs.
+    pub on_message: fn(&str),
+    /// Receives the number of points that are done.
+    pub on_progress: &'a (dyn Fn(Progress) + Sync),
+}
+
+impl<'a> ExtremesJob<'a> {
+    /// With the settings of [`ExtremesSettings::for_study`], on one thread per core, without messages.
+    pub fn new(study: &'a Study) -> Self {
+        let settings = ExtremesSettings::for_study(study);
+        Self { study, settings, threads: 0, stop: None, on_message: |_| (), on_progress: &|_| () }
+    }
+}
+
+/// The map of the extremes of a study.
+///
+/// ```
+/// use std::path::Path;
+/// use apportion::Study;
+/// use apportion_cli::trade::extremes::{ExtremesJob, extremes};
+///
+/// let text = "model = \"expression\"\noutputs.y = \"sqrt(a)\"\n[factors]\na = { min = 1, max = 2 }\n";
+/// let study = apportion_files::parse_study(text, Path::new("root.toml"), &[])?;
+/// let map = extremes(&ExtremesJob::new(&study))?;
+/// assert!(map.counts.right > 0);
+/// assert_eq!(map.counts.wrong, 0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// [`RunError`] if threads cannot be started, the model gives up or the search is stopped. Failed rows are part of the map.
+pub fn extremes(job: &ExtremesJob<'_>) -> Result<Extremes, RunError> {
+    let study = job.study;
+    let context = RunContext::new(job.stop, job.on_message);
+    let factors = study.space().factors().iter().cloned();
+    let space = Space::new(factors.chain(study.subject().further_inputs(study.space())).collect());
+    let model = study.subject().model(&space);
+    let second = second_calculation(&**study.subject(), &space);
+    let points = points(&space, job.settings.points, job.settings.seed);
+    let gave_up = OnceLock::new();
+    let found = run_each(
+        model.as_ref(),
+        job.threads,
+        &context,
+        points.len() as u64,
+        |worker, number| {
+            let (findings, given_up) = evaluate(model.as_ref(), worker, &points[number as usize].x, &second);
+            if let Some(reason) = given_up {
+                // It would at every other point.
+                let _ = gave_up.set(reason);
+                context.end();
+            }
+            findings
+        },
+        job.on_progress,
+    )?;
+    if let Some(reason) = gave_up.into_inner() {
+        return Err(RunError::GaveUp(reason));
+    }
+    let name = second.map(|second| second.name()).map_err(str::to_owned);
+    let mut map = Extremes::new(name, points.len() as u64, grids(&space));
+    let mut reasons = Reasons::new();
+    for (point, findings) in points.iter().zip(found) {
+        for (output, finding) in model.outputs().iter().zip(findings) {
+            let in_unit = |value: Option<f64>| value.map(|value| output.unit.from_si(value));
+            map.add(
+                point.cell,
+                Reason {
+                    kind: point.kind,
+                    outcome: finding.outcome,
+                    reason: finding.reason,
+                    count: 1,
+                    place: point.place.clone(),
+                    inputs: inputs(&space, point),
+                    output: output.name.to_string(),
+                    value: in_unit(finding.value),
+                    reference: in_unit(finding.reference.filter(|value| value.is_finite())),
+                },
+                &mut reasons,
+            );
+        }
+    }
+    Ok(map.with_reasons(reasons))
+}
+
+fn inputs(space: &Space, point: &Point) -> serde_json::Map<String, serde_json::Value> {
+    let inputs = space.factors().iter().zip(&point.x);
+    inputs.map(|(factor, &x)| (factor.name.clone(), factor.unit().from_si(x).into())).collect()
+}
+
+/// What became of an output at a point; its numbers in SI units.
+struct Finding {
+    outcome: Outcome,
+    /// Empty for a number that is right.
+    reason: String,
+    value: Option<f64>,
+    reference: Option<f64>,
+}
+
+impl Finding {
+    fn new(outcome: Outcome, reason: impl Into<String>) -> Self {
+        Self { outcome, reason: reason.into(), value: None, reference: None }
+    }
+}
+
+/// What became of every output at the point `x`, and why the model gave up if it did.
+fn evaluate(
+    model: &dyn Model,
+    worker: &mut dyn Worker,
+    x: &[f64],
+    second: &Result<Box<dyn SecondCalculation>, &'static str>,
+) -> (Vec<Finding>, Option<GiveUp>) {
+    let mut batch = Batch::new(model);
+    batch.reset(1);
+    let inputs: Vec<&[f64]> = x.iter().map(std::slice::from_ref).collect();
+    worker.run(&inputs, &mut batch);
+    batch.settle();
+    let outputs = 0..model.outputs().len();
+    let of_output = |output: usize| match batch.failures().iter().find(|(failed, ..)| *failed == output) {
+        Some((.., why)) => Err(why.clone()),
+        None => Ok(batch.column(output)[0]),
+    };
+    let values: Vec<Result<f64, RowFailure>> = outputs.clone().map(of_output).collect();
+    let raised = model.flags().iter().zip(batch.flags()).filter(|(_, raised)| **raised > 0);
+    let flags: Vec<&str> = raised.map(|(flag, _)| &*flag.name).collect();
+    let counter = model.counters().iter().position(|counter| counter.name == LARGEST_ERROR);
+    let error_estimate = counter.and_then(|number| batch.counts().values().nth(number));
+    let answered = values.iter().map(|value| value.as_ref().ok().copied()).collect();
+    let references = match second {
+        Ok(second) => second.calculate(x, &Answered { values: answered, error_estimate }),
+        Err(why) => outputs.map(|_| Err(Unchecked::NotAvailable((*why).to_owned()))).collect(),
+    };
+    let judged = values.into_iter().zip(&references).map(|(value, reference)| judge(value, &flags, reference));
+    (judged.collect(), batch.given_up().cloned())
+}
+
+/// What became of an output with a `value` or a reason why it has none, the `flags` that the model raised, and a second
+/// calculation.
+fn judge(value: Result<f64, RowFailure>, flags: &[&str], second: &Result<Reference, Unchecked>) -> Finding {
+    let value = match value {
+        Ok(value) => value,
+        Err(failure) => return Finding::new(Outcome::Refused, failure.to_string()),
+    };
+    let flagged = (!flags.is_empty()).then(|| format!("flags of the model: {}", flags.join(", ")));
+    let finding = match second {
+        Err(Unchecked::NotAvailable(why)) => {
+            Finding::new(Outcome::Flagged, flagged.unwrap_or_else(|| format!("not checked: {why}")))
+        }
+        Err(Unchecked::NoValue(why)) => Finding::new(Outcome::Wrong, format!("a number where there is none: {why}")),
+        Ok(reference) => match (reference.agrees(value), flagged) {
+            (Some(true), None) => Finding::new(Outcome::Right, ""),
+            (Some(true), Some(flags)) => Finding::new(Outcome::FlaggedConfirmed, flags),
+            (Some(false), flags) => {
+                Finding::new(Outcome::Flagged, flags.unwrap_or_else(|| reference.covered.to_owned()))
+            }
+            (None, _) => Finding::new(Outcome::Wrong, "the second calculation differs by more than is stated"),
+        },
+    };
+    Finding { value: Some(value), reference: second.as_ref().ok().map(|reference| reference.value), ..finding }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_outcome_has_its_case() {
+        let reference = Reference { value: 2.0, stated: Some(0.1), tolerance: 1e-3, floor: 1e-6, covered: "" };
+        let outcome = |value, flags: &[&str], reference| judge(Ok(value), flags, &Ok(reference)).outcome;
+        assert_eq!(outcome(2.001, &[], reference), Outcome::Right);
+        assert_eq!(outcome(2.001, &["odd"], reference), Outcome::FlaggedConfirmed);
+        assert_eq!(outcome(2.05, &["odd"], reference), Outcome::Flagged);
+        assert_eq!(outcome(2.05, &[], reference), Outcome::Flagged);
+        // More than is stated is wrong, flags or not.
+        assert_eq!(outcome(2.2, &["odd"], reference), Outcome::Wrong);
+        assert_eq!(outcome(2.2, &[], reference), Outcome::Wrong);
+        let certain = Reference { stated: Some(0.0), ..reference };
+        assert_eq!(outcome(2.000_001, &[], certain), Outcome::Right);
+        assert_eq!(outcome(2.000_01, &[], certain), Outcome::Wrong);
+        assert_eq!(outcome(2.2, &[], Reference { stated: None, ..reference }), Outcome::Flagged);
+        assert_eq!(outcome(1e300, &[], Reference { value: f64::INFINITY, ..reference }), Outcome::Wrong);
+        assert_eq!(outcome(0.0, &[], Reference { value: 1e-323, stated: Some(0.0), ..reference }), Outcome::Right);
+        let refused = judge(Err(RowFailure::new("no motion")), &["odd"], &Ok(reference));
+        assert_eq!((refused.outcome, refused.reason.as_str()), (Outcome::Refused, "no motion"));
+        let unchecked = |unchecked| judge(Ok(1.0), &[], &Err(unchecked)).outcome;
+        assert_eq!(unchecked(Unchecked::NotAvailable("none".to_owned())), Outcome::Flagged);
+        assert_eq!(unchecked(Unchecked::NoValue("nothing slips".to_owned())), Outcome::Wrong);
+    }
+}

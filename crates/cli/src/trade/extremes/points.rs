@@ -1,0 +1,220 @@
+//! The points at which the model is evaluated: at the bounds of the factors and past them.
+
+use apportion::space::{Factor, LARGEST_U, SMALLEST_U, Space};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+use super::map::{Grid, Kind, Tally};
+
+/// Powers of ten past a bound.
+const POWERS: [i32; 9] = [0, 1, 2, 3, 6, 12, 30, 100, 300];
+/// Below a lower bound there are also these: the least positive number, zero, and, if the bound is not negative, minus the
+/// upper bound.
+const SPECIAL: [&str; 3] = ["least", "0", "< 0"];
+/// Powers of ten for several factors at once.
+const TOGETHER: [i32; 6] = [1, 2, 3, 6, 12, 30];
+/// Corners at which the other factors stand while one goes past its bounds, besides the nominal point.
+const COMPANIONS: usize = 2;
+
+/// A point of the map.
+pub(super) struct Point {
+    pub kind: Kind,
+    /// Its cell as (grid, row, column).
+    pub cell: Option<(usize, usize, usize)>,
+    /// The SI values of the factors.
+    pub x: Vec<f64>,
+    /// Where it is, in words.
+    pub place: String,
+}
+
+/// Where a factor can go, in SI units.
+struct Reach {
+    name: String,
+    low: f64,
+    high: f64,
+    nominal: f64,
+    /// Whether it can go past its bounds: a category cannot.
+    leaves: bool,
+}
+
+impl Reach {
+    /// Bounds are those of the distribution, or the outermost values that a design can have.
+    fn new(factor: &Factor) -> Self {
+        let mut outermost = [0.0; 2];
+        factor.fill_si(&[SMALLEST_U, LARGEST_U], &mut outermost);
+        let (low, high) = factor.distribution().support();
+        let si = |bound: f64, outermost: f64| if bound.is_finite() { factor.unit().to_si(bound) } else { outermost };
+        Self {
+            name: factor.name.clone(),
+            low: si(low, outermost[0]),
+            high: si(high, outermost[1]),
+            nominal: factor.unit().to_si(factor.nominal),
+            leaves: factor.distribution().labels().is_none(),
+        }
+    }
+
+    /// 10^power past the upper bound.
+    fn above(&self, power: i32) -> f64 {
+        let factor = 10_f64.powi(power);
+        match power {
+            0 => self.high,
+            _ if self.high > 0.0 => self.high * factor,
+            _ => self.high + (self.high - self.low).max(1.0) * factor,
+        }
+    }
+
+    /// 10^power past the lower bound: towards zero from above it, and away from it below.
+    fn below(&self, power: i32) -> f64 {
+        let factor = 10_f64.powi(power);
+        match power {
+            0 => self.low,
+            _ if self.low > 0.0 => self.low / factor,
+            _ if self.low < 0.0 => self.low * factor,
+            _ => -self.high.abs().max(f64::MIN_POSITIVE) * factor,
+        }
+    }
+
+    /// The values of the columns of grid 0 (below) or 1 (above); not a number where there is none.
+    fn steps(&self, grid: usize) -> Vec<f64> {
+        if grid == 1 {
+            return POWERS.map(|power| self.above(power)).to_vec();
+        }
+        let negative = if self.low >= 0.0 { -self.high.abs() } else { f64::NAN };
+        POWERS.into_iter().map(|power| self.below(power)).chain([f64::from_bits(1), 0.0, negative]).collect()
+    }
+}
+
+/// The grids of the points below and above the bounds, empty.
+pub(super) fn grids(space: &Space) -> Vec<Grid> {
+    let rows: Vec<String> = space.factors().iter().map(|factor| factor.name.replace('_', " ")).collect();
+    let above: Vec<String> = POWERS.iter().map(ToString::to_string).collect();
+    let below = above.iter().cloned().chain(SPECIAL.map(str::to_owned)).collect();
+    let grid = |(side, columns): (&str, Vec<String>)| {
+        let cells = vec![vec![Tally::default(); columns.len()]; rows.len()];
+        Grid { side: side.to_owned(), rows: rows.clone(), columns, cells }
+    };
+    [("below", below), ("above", above)].map(grid).to_vec()
+}
+
+/// All steps of every factor past its bounds, however many those are, and about `count` points in all; those chosen at
+/// random by `seed`.
+pub(super) fn points(space: &Space, count: u64, seed: u64) -> Vec<Point> {
+    let reaches: Vec<Reach> = space.factors().iter().map(Reach::new).collect();
+    let mut rng = ChaCha8Rng::seed_from_u64(seed);
+    let mut points = Vec::new();
+    let quarter = (count / 4).max(2) as usize;
+    corners(&reaches, quarter, &mut rng, &mut points);
+    beyond(&reaches, 2 * quarter, &mut rng, &mut points);
+    together(&reaches, quarter, &mut rng, &mut points);
+    points
+}
+
+/// The corner at which the factors that `is_high` names are at their upper bounds.
+fn corner(reaches: &[Reach], mut is_high: impl FnMut(usize) -> bool) -> Vec<f64> {
+    let bound = |(number, reach): (usize, &Reach)| if is_high(number) { reach.high } else { reach.low };
+    reaches.iter().enumerate().map(bound).collect()
+}
+
+/// All corners, or `max` of them, the lowest and the highest included.
+fn corners(reaches: &[Reach], max: usize, rng: &mut ChaCha8Rng, points: &mut Vec<Point>) {
+    let all = 1_usize.checked_shl(reaches.len() as u32).filter(|all| *all <= max);
+    for number in 0..all.unwrap_or(max) {
+        let x = match (all, number) {
+            (Some(_), _) => corner(reaches, |factor| number >> factor & 1 == 1),
+            (None, 0 | 1) => corner(reaches, |_| number == 1),
+            _ => corner(reaches, |_| rng.random()),
+        };
+        points.push(Point { kind: Kind::Corners, cell: None, x, place: "a corner".to_owned() });
+    }
+}
+
+/// Every factor from its bounds on, the others at the nominal point and, as far as `max` points allow, at some corners.
+fn beyond(reaches: &[Reach], max: usize, rng: &mut ChaCha8Rng, points: &mut Vec<Point>) {
+    let steps = reaches.len() * (2 * POWERS.len() + SPECIAL.len());
+    let companions = (max / steps.max(1)).clamp(1, 1 + COMPANIONS);
+    for (row, reach) in reaches.iter().enumerate().filter(|(_, reach)| reach.leaves) {
+        for companion in 0..companions {
+            let others = match companion {
+                0 => reaches.iter().map(|reach| reach.nominal).collect(),
+                _ => corner(reaches, |_| rng.random()),
+            };
+            for (grid, side) in ["below its lower", "above its upper"].into_iter().enumerate() {
+                let finite = reach.steps(grid).into_iter().enumerate().filter(|(_, value)| value.is_finite());
+                for (column, value) in finite {
+                    let mut x = others.clone();
+                    x[row] = value;
+                    let place = match POWERS.get(column) {
+                        Some(power) => format!("{} 10^{power} {side} bound", reach.name),
+                        None => format!("{} at {value:e} in SI units", reach.name),
+                    };
+                    points.push(Point { kind: Kind::Beyond, cell: Some((grid, row, column)), x, place });
+                }
+            }
+        }
+    }
+}
+
+/// Every factor at random past one of its bounds, or at one of them.
+fn together(reaches: &[Reach], max: usize, rng: &mut ChaCha8Rng, points: &mut Vec<Point>) {
+    for _ in 0..max {
+        let mut x = corner(reaches, |_| rng.random());
+        let mut moved = 0;
+        for (x, reach) in x.iter_mut().zip(reaches) {
+            let power = TOGETHER[rng.random_range(0..TOGETHER.len())];
+            let value = match rng.random_range(0..4) {
+                // Below a bound of zero most models have no value.
+                0 if reach.low != 0.0 => reach.below(power),
+                1 => reach.above(power),
+                _ => continue,
+            };
+            if reach.leaves && value.is_finite() {
+                *x = value;
+                moved += 1;
+            }
+        }
+        points.push(Point { kind: Kind::Together, cell: None, x, place: format!("{moved} factors past their bounds") });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use apportion::quantity::Unit;
+    use apportion::space::Distribution;
+
+    use super::*;
+
+    fn space(bounds: &[(f64, f64)]) -> Space {
+        let factor = |(number, &(min, max)): (usize, &(f64, f64))| {
+            let unit = Unit::parse("um").unwrap();
+            Factor::new(&format!("x{number}"), unit, Distribution::uniform(min, max).unwrap()).unwrap()
+        };
+        Space::new(bounds.iter().enumerate().map(factor).collect())
+    }
+
+    #[test]
+    fn bounds_and_what_lies_past_them_are_in_the_units_of_the_factors() {
+        let points = points(&space(&[(1.0, 2.0), (0.0, 5.0), (-1.0, 1.0)]), 500, 0);
+        assert_eq!(points.iter().filter(|point| point.kind == Kind::Corners).count(), 8);
+        let at = |grid, row, column| {
+            points.iter().find(|point| point.cell == Some((grid, row, column))).map(|point| point.x[row])
+        };
+        assert_eq!(at(1, 0, 0), Some(2e-6));
+        assert!((at(1, 0, 4).unwrap() / 2.0 - 1.0).abs() < 1e-12);
+        assert!((at(0, 0, 4).unwrap() / 1e-12 - 1.0).abs() < 1e-12);
+        assert_eq!((at(0, 0, 9), at(0, 0, 10), at(0, 0, 11)), (Some(f64::from_bits(1)), Some(0.0), Some(-2e-6)));
+        // Below 0 there are negative numbers, and below a negative bound there is no further sign to try.
+        assert!(at(0, 1, 1).unwrap() < 0.0 && at(0, 2, 1).unwrap() < -9e-6 && at(0, 2, 11).is_none());
+        assert!(points.iter().all(|point| point.x.iter().all(|x| x.is_finite())));
+    }
+
+    #[test]
+    fn many_corners_are_chosen_by_the_seed() {
+        let space = space(&[(0.0, 1.0); 70]);
+        let corners = |seed| -> Vec<Vec<f64>> {
+            let points = points(&space, 100, seed).into_iter();
+            points.filter(|point| point.kind == Kind::Corners).map(|point| point.x).collect()
+        };
+        assert_eq!((corners(1).len(), corners(1) == corners(1), corners(1) == corners(2)), (25, true, false));
+        assert_eq!(corners(1)[..2], [vec![0.0; 70], vec![1e-6; 70]]);
+    }
+}

@@ -1,0 +1,125 @@
+//! What is compared: a study's settings, each at a growing number of base samples.
+
+use apportion::design::{DesignError, DesignSettings, Sampler};
+use apportion::estimate::Estimator;
+use apportion::names::named;
+use apportion::study::{AnalysisOptions, LowFidelity, Rung, Study, SurrogateChoice, Target};
+use apportion::uncertainty::IntervalMethod;
+use serde::{Deserialize, Serialize};
+
+named! {
+/// What varies along a curve.
+#[derive(Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Axis {
+    /// How faithful the model is, with and without surrogates.
+    Fidelity = "fidelity",
+    /// Where points come from.
+    Sampler = "sampler",
+    /// The formulas of the indices.
+    Estimator = "estimator",
+}
+}
+
+/// Settings that stay the same while base samples grow.
+#[derive(Debug, Clone)]
+pub(super) struct Curve {
+    /// What it stands for in the comparison.
+    pub axis: Axis,
+    /// The model.
+    pub rung: Rung,
+    pub sampler: Sampler,
+    pub estimator: Estimator,
+    pub has_surrogate: bool,
+}
+
+impl Curve {
+    /// All curves of `study`: every rung with and without surrogates, and at its own rung, without surrogates, the other
+    /// samplers and estimators.
+    pub fn all(study: &Study) -> Vec<Self> {
+        let settings = study.design().settings();
+        let rungs = rungs(study);
+        let name = study.subject().rung_name();
+        let rung = rungs.iter().find(|rung| rung.name == name).unwrap_or(&rungs[0]).clone();
+        let own = Self {
+            axis: Axis::Fidelity,
+            rung,
+            sampler: settings.sampler,
+            estimator: Estimator::Default,
+            has_surrogate: false,
+        };
+        let of_rung =
+            |rung: Rung| [false, true].map(|has_surrogate| Self { rung: rung.clone(), has_surrogate, ..own.clone() });
+        let mut curves: Vec<Self> = rungs.into_iter().flat_map(of_rung).collect();
+        let samplers = Sampler::ALL.into_iter().filter(|sampler| *sampler != settings.sampler);
+        curves.extend(samplers.map(|sampler| Self { axis: Axis::Sampler, sampler, ..own.clone() }));
+        let both = |estimator: &Estimator| matches!(estimator.formulas(), (Some(_), Some(_)));
+        let estimators = Estimator::ALL.into_iter().filter(|e| *e != Estimator::Default && both(e));
+        curves.extend(estimators.map(|estimator| Self { axis: Axis::Estimator, estimator, ..own.clone() }));
+        curves
+    }
+
+    /// Its name beside the others.
+    pub fn name(&self) -> String {
+        let rung = &self.rung.name;
+        match self.axis {
+            Axis::Fidelity if self.has_surrogate => format!("{rung}, surrogates"),
+            Axis::Fidelity => rung.to_owned(),
+            Axis::Sampler => self.sampler.name().to_owned(),
+            Axis::Estimator => self.estimator.name().to_owned(),
+        }
+    }
+
+    /// `study` with these settings.
+    pub fn study(&self, study: &Study, base_samples: u64, seed: u64) -> Result<Study, DesignError> {
+        let usual = IntervalMethod::default_for(self.sampler);
+        let own = study.analysis().intervals;
+        let intervals = if own.serves(self.sampler) { own } else { usual };
+        let surrogate = if self.has_surrogate { SurrogateChoice::On } else { SurrogateChoice::Off };
+        let estimators = if self.estimator == Estimator::Default { Vec::new() } else { vec![self.estimator] };
+        let analysis = AnalysisOptions {
+            intervals,
+            surrogate,
+            estimators,
+            second_order: false,
+            pictures: false,
+            ..study.analysis().clone()
+        };
+        let replicates = match self.sampler == study.design().settings().sampler {
+            true => study.design().settings().replicates,
+            false => analysis.intervals.default_replicates(),
+        };
+        let settings = DesignSettings { sampler: self.sampler, base_samples, replicates, seed };
+        let variant = study.clone().with_subject(self.rung.subject.clone()).with_target(Target::default());
+        variant.without_low_fidelities().with_design(settings, analysis)
+    }
+
+    /// The lines of a study that ask for them.
+    pub fn lines(&self, base_samples: u64) -> String {
+        let mut lines = self.rung.lines.clone();
+        lines.push_str(&format!("[design]\nsampler = \"{}\"\nbase_samples = {base_samples}\n", self.sampler.name()));
+        let surrogate = if self.has_surrogate { SurrogateChoice::On } else { SurrogateChoice::Off };
+        lines.push_str(&format!("[analysis]\nsurrogate = \"{}\"\n", surrogate.name()));
+        if self.estimator != Estimator::Default {
+            lines.push_str(&format!("estimators = [\"{}\"]\n", self.estimator.name()));
+        }
+        lines
+    }
+}
+
+/// The rungs of the model, or the model and its cheaper ones, the cheapest first.
+pub(super) fn rungs(study: &Study) -> Vec<Rung> {
+    let ladder = study.subject().rungs();
+    if !ladder.is_empty() {
+        return ladder;
+    }
+    let of_low = |low: &LowFidelity| Rung {
+        name: low.name.clone(),
+        subject: low.subject.clone(),
+        lines: format!("# the cheaper model `{}` in the place of the model\n", low.name),
+        is_finest: false,
+    };
+    let (name, subject) = (study.subject().rung_name(), study.subject().clone());
+    let own = Rung { name, subject, lines: String::new(), is_finest: true };
+    study.low_fidelities().iter().rev().map(of_low).chain([own]).collect()
+}

@@ -1,0 +1,126 @@
+//! What can be studied: every model with its inputs and outputs, for study files and for people. One entry for each kind;
+//! how a study file's tables become a model is in the registry of the study files.
+
+use std::fmt;
+
+use apportion::model::{Choice, Input, KnownAnswer, Output, known_inputs, known_output};
+use apportion_afm::model::{afm_choices, afm_inputs, afm_outputs};
+
+/// A model that a study can name, and what is known of it before there is a study.
+#[derive(Clone, Copy)]
+pub struct ModelKind {
+    /// The name in study files.
+    pub name: &'static str,
+    /// One line for people.
+    pub description: &'static str,
+    /// The table of a study file that belongs to it.
+    pub table: &'static str,
+    /// The inputs that become factors in a new study; all of them if there are none here.
+    pub main_inputs: &'static [&'static str],
+    /// The function, of a function with known indices.
+    pub known: Option<KnownAnswer>,
+    inputs: fn(Option<KnownAnswer>) -> Vec<Input>,
+    outputs: fn() -> Vec<Output>,
+    choices: fn() -> Vec<Choice>,
+}
+
+impl ModelKind {
+    /// The critical pushing force of a nanoparticle.
+    pub const AFM: Self = Self {
+        name: "afm",
+        description: "critical force with which an AFM tip pushes a nanoparticle over a substrate",
+        table: "afm",
+        main_inputs: &["length", "width", "thickness"],
+        known: None,
+        inputs: |_| afm_inputs(),
+        outputs: afm_outputs,
+        choices: afm_choices,
+    };
+    /// Formulas of the study's own factors.
+    pub const EXPRESSION: Self = Self::users_own("expression", "formulas in the study file, of factors of its own");
+    /// A program of the user's own.
+    pub const COMMAND: Self = Self::users_own("command", "a program of your own, in any language");
+    /// A model that runs outside of this program.
+    pub const EXTERNAL: Self = Self::users_own(
+        "external",
+        "any model outside of this program: `sample` writes the points, `analyze` reads its outputs",
+    );
+    /// The model of a study that names none.
+    pub const DEFAULT: Self = Self::AFM;
+
+    const fn users_own(name: &'static str, description: &'static str) -> Self {
+        Self {
+            name,
+            description,
+            table: name,
+            main_inputs: &[],
+            known: None,
+            inputs: |_| Vec::new(),
+            outputs: Vec::new,
+            choices: Vec::new,
+        }
+    }
+
+    /// A function with known indices.
+    pub fn from_known(answer: KnownAnswer) -> Self {
+        Self {
+            name: answer.name(),
+            description: answer.description(),
+            table: "function",
+            main_inputs: &[],
+            known: Some(answer),
+            inputs: |answer| answer.map_or_else(Vec::new, |answer| known_inputs(&answer.default_function())),
+            outputs: || vec![known_output()],
+            choices: Vec::new,
+        }
+    }
+
+    /// Every model, the default first.
+    pub fn all() -> Vec<Self> {
+        [Self::AFM, Self::EXPRESSION, Self::COMMAND, Self::EXTERNAL]
+            .into_iter()
+            .chain(KnownAnswer::all().map(Self::from_known))
+            .collect()
+    }
+
+    /// The model of that name.
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::all().into_iter().find(|kind| kind.name == name)
+    }
+
+    /// Whether inputs and outputs are those that a study names.
+    pub fn is_users_own(self) -> bool {
+        self.outputs().is_empty()
+    }
+
+    /// The inputs, the main ones first; of a function, those it has with its default parameters; none of a model whose
+    /// inputs are the factors of a study.
+    pub fn inputs(self) -> Vec<Input> {
+        (self.inputs)(self.known)
+    }
+
+    /// The outputs, the default one first; none of a model whose outputs a study names.
+    pub fn outputs(self) -> Vec<Output> {
+        (self.outputs)()
+    }
+
+    /// The choices of its table.
+    pub fn choices(self) -> Vec<Choice> {
+        (self.choices)()
+    }
+}
+
+/// Models are known by their names.
+impl PartialEq for ModelKind {
+    fn eq(&self, other: &Self) -> bool {
+        self.name == other.name
+    }
+}
+
+impl Eq for ModelKind {}
+
+impl fmt::Debug for ModelKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_tuple("ModelKind").field(&self.name).finish()
+    }
+}

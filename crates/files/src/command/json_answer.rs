@@ -1,0 +1,141 @@
+//! Answers that are JSON: an object with the outputs by their names, where a list holds those of a series.
+
+use apportion::model::item_of_list;
+use apportion::text::masked;
+use serde_json::Value;
+
+use super::protocol::{Answer, failed};
+
+/// What an object holds under one key: a single output, or a list of several.
+struct Key<'a> {
+    /// The name of the list, of several outputs.
+    list: Option<&'a str>,
+    names: &'a [String],
+}
+
+/// The keys of an object with `outputs`, in order: `y[0]`, `y[1]` and so on are the items of a list `y`.
+fn keys(outputs: &[String]) -> impl Iterator<Item = Key<'_>> {
+    let follows = |one: &String, next: &String| match (item_of_list(one), item_of_list(next)) {
+        (Some((list, place)), Some((same, following))) => list == same && following == place + 1,
+        _ => false,
+    };
+    outputs.chunk_by(follows).flat_map(|names| {
+        let list = item_of_list(&names[0]).filter(|(_, first)| *first == 0 && names.len() > 1);
+        // What is no list from its beginning is named one by one.
+        let length = if list.is_some() { names.len() } else { 1 };
+        names.chunks(length).map(move |names| Key { list: list.map(|(list, _)| list), names })
+    })
+}
+
+/// The keys of an object with `outputs`, as in `peak, infected (a list of 365)`.
+pub(super) fn keys_in_words(outputs: &[String]) -> String {
+    let words = |key: Key<'_>| match key.list {
+        Some(list) => format!("{list} (a list of {})", key.names.len()),
+        None => key.names[0].clone(),
+    };
+    keys(outputs).map(words).collect::<Vec<_>>().join(", ")
+}
+
+pub(super) fn json(text: &str) -> Result<Value, String> {
+    let parsed = serde_json::from_str(text).or_else(|_| serde_json::from_str(&without_nan(text)));
+    parsed.map_err(|_| format!("`{}`", masked(text)))
+}
+
+/// The answer that `parsed` is: one value for each of `outputs`, or why the row failed; or what it is instead.
+pub(super) fn json_answer(outputs: &[String], parsed: &Value) -> Result<Answer, String> {
+    let mut values = Vec::with_capacity(outputs.len());
+    let number = |value: &Value, of: &str| match value {
+        Value::Null => Ok(f64::NAN),
+        Value::Number(number) => Ok(number.as_f64().unwrap_or(f64::NAN)),
+        other => Err(format!("{} as `{of}`", kind(other))),
+    };
+    let Value::Object(object) = parsed else { return Err(kind(parsed).to_owned()) };
+    match object.get("error") {
+        Some(Value::String(reason)) => return Ok(failed(reason)),
+        None | Some(Value::Null) => (),
+        Some(_) if outputs.iter().any(|name| name == "error") => (),
+        Some(other) => return Err(format!("{} as `error`, which is a text", kind(other))),
+    }
+    for key in keys(outputs) {
+        let by_name = |name: &String| match object.get(name) {
+            Some(value) => number(value, name),
+            None => Err(format!("an object without `{}`", key.list.unwrap_or(name))),
+        };
+        let list = key.list.filter(|_| !object.contains_key(&key.names[0]));
+        match list.and_then(|list| Some((list, object.get(list)?))) {
+            None => values.extend(key.names.iter().map(by_name).collect::<Result<Vec<f64>, _>>()?),
+            Some((list, Value::Array(items))) if items.len() == key.names.len() => {
+                values.extend(items.iter().map(|item| number(item, list)).collect::<Result<Vec<f64>, _>>()?);
+            }
+            Some((list, Value::Array(items))) => return Err(format!("a list of {} as `{list}`", items.len())),
+            Some((list, other)) => return Err(format!("{} as `{list}`", kind(other))),
+        }
+    }
+    Ok(Ok(values))
+}
+
+fn kind(value: &Value) -> &'static str {
+    match value {
+        Value::Null => "null",
+        Value::Bool(_) => "true or false",
+        Value::Number(_) => "a number",
+        Value::String(_) => "a text",
+        Value::Array(_) => "a list",
+        Value::Object(_) => "an object",
+    }
+}
+
+/// The text with `NaN` and `Infinity`, which Python writes though JSON has no such thing, as null.
+fn without_nan(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    let (mut rest, mut in_string) = (text, false);
+    while let Some(c) = rest.chars().next() {
+        let word = ["-Infinity", "Infinity", "NaN"].into_iter().find(|word| !in_string && rest.starts_with(word));
+        let length = match word {
+            Some(word) => {
+                out.push_str("null");
+                word.len()
+            }
+            // An escape and what it escapes.
+            None if in_string && c == '\\' => 1 + rest.chars().nth(1).map_or(0, char::len_utf8),
+            None => c.len_utf8(),
+        };
+        if word.is_none() {
+            out.push_str(&rest[..length]);
+        }
+        in_string ^= c == '"';
+        rest = &rest[length..];
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(outputs: &[&str], text: &str) -> Result<Vec<f64>, String> {
+        let outputs: Vec<String> = outputs.iter().map(|&name| name.to_owned()).collect();
+        json_answer(&outputs, &json(text)?).flatten()
+    }
+
+    #[test]
+    fn a_list_holds_the_values_of_a_series() {
+        let outputs = ["peak", "y[0]", "y[1]", "y[2]", "z[4]"];
+        assert_eq!(read(&outputs, r#"{"y": [1, 2, 3], "z[4]": 5, "peak": 4}"#), Ok(vec![4.0, 1.0, 2.0, 3.0, 5.0]));
+        assert!(read(&outputs, r#"{"y": [1, NaN, 3], "z[4]": 5, "peak": 4}"#).unwrap()[2].is_nan());
+        let one_by_one = r#"{"y[0]": 1, "y[1]": 2, "y[2]": 3, "z[4]": 5, "peak": 4, "y": "anything"}"#;
+        assert_eq!(read(&outputs, one_by_one), Ok(vec![4.0, 1.0, 2.0, 3.0, 5.0]));
+        let refused = |text: &str| read(&outputs[..4], text).unwrap_err();
+        assert_eq!(refused(r#"{"y": [1, 2], "peak": 4}"#), "a list of 2 as `y`");
+        assert_eq!(refused(r#"{"y": [1, "a", 3], "peak": 4}"#), "a text as `y`");
+        assert_eq!(refused(r#"{"y": 3, "peak": 4}"#), "a number as `y`");
+        assert_eq!(refused(r#"{"peak": 4}"#), "an object without `y`");
+        assert_eq!(refused(r#"{"y[0]": 1, "y[2]": 3, "peak": 4}"#), "an object without `y`");
+    }
+
+    #[test]
+    fn long_lists_are_short_in_words() {
+        let outputs = ["peak", "y[0]", "y[1]", "z[4]", "z[5]"].map(str::to_owned);
+        assert_eq!(keys_in_words(&outputs), "peak, y (a list of 2), z[4], z[5]");
+    }
+}

@@ -1,0 +1,263 @@
+//! A worker that keeps one process alive and asks it row by row, several rows ahead of the answers.
+//!
+//! A row is asked or answered: its answer brings back its number, so that answers may come in any order. Where a process ends
+//! over rows that it was asked, one of them may be why. They are asked again one at a time ([`Rows::suspects`]), and a row has
+//! failed once a process ended that had been started for it alone.
+
+mod rows;
+mod session;
+
+use std::process::ExitStatus;
+use std::sync::atomic::Ordering;
+use std::time::Duration;
+
+use apportion::model::{Batch, GiveUp, RowFailure, RunContext, Worker};
+use apportion::text::{masked, seconds};
+use rows::Rows;
+use session::{LONGEST, Lookup, Session};
+
+use super::process::{Ending, Event, Process};
+use super::program::status_in_words;
+use super::protocol::{is_answer_without_number, parse_answer};
+use super::row::RowWriter;
+use super::{CommandModel, Protocol, State};
+
+/// Bytes of rows that are written at once.
+const TEXT: usize = 1 << 15;
+/// How long it may take until an interruption is seen.
+const ATTENTION: Duration = Duration::from_millis(100);
+/// A process that is silent for so long, and for so many times the longest time that an answer has taken, may have skipped a
+/// row: its input is closed, upon which it answers what it has read and ends.
+const QUIET: Duration = Duration::from_secs(2);
+const TIMES: u32 = 5;
+/// The same until the first answer of all.
+const FIRST_START: Duration = Duration::from_secs(60);
+
+pub(super) struct KeptAliveWorker<'a> {
+    model: &'a CommandModel,
+    context: &'a RunContext<'a>,
+    protocol: Protocol,
+    writer: RowWriter,
+    session: Option<Session>,
+}
+
+/// Why a process gives no more answers, or no process does.
+enum Fault {
+    Closed(Ending),
+    Silent,
+    LongLine,
+    GiveUp(GiveUp),
+}
+
+impl<'a> KeptAliveWorker<'a> {
+    pub(super) fn new(model: &'a CommandModel, context: &'a RunContext<'a>, protocol: Protocol) -> Self {
+        let writer = RowWriter::new(protocol, &model.factors);
+        Self { model, context, protocol, writer, session: None }
+    }
+
+    /// Asks until every row has an answer or has failed.
+    fn answer(&mut self, rows: &mut Rows<'_>) -> Result<(), GiveUp> {
+        while rows.open > 0 {
+            if self.context.is_stopped() {
+                drop(self.session.take().map(|mut session| session.process.end(false)));
+                return Err(RowFailure::interrupted().into());
+            }
+            if self.session.is_none() {
+                let program = &self.model.settings.program;
+                let process = Process::start(program, self.context.messages())
+                    .map_err(|error| RowFailure::new(&program.refusal(&error)))?;
+                self.session = Some(Session::new(process));
+            }
+            self.send(rows);
+            match self.step(rows) {
+                Ok(()) => (),
+                Err(Fault::GiveUp(give_up)) => return Err(give_up),
+                Err(fault) => self.end(fault, rows)?,
+            }
+        }
+        Ok(())
+    }
+
+    /// Sends the rows that may be sent: before the first answer of the program, and while rows are under suspicion, one.
+    fn send(&mut self, rows: &mut Rows<'_>) {
+        let Some(session) = self.session.as_mut().filter(|session| !session.is_closed) else { return };
+        let is_ahead = self.model.state.has_answered() && rows.suspects.is_empty();
+        while session.credit > 0 {
+            let mut text = String::new();
+            while text.len() < TEXT
+                && (is_ahead && session.has_room() || session.asked.is_empty())
+                && let Some(row) = rows.next()
+            {
+                if session.sent == 0 {
+                    text = self.writer.header();
+                }
+                self.writer.write(rows.inputs, row, session.ask(row), &mut text);
+            }
+            if text.is_empty() {
+                return;
+            }
+            session.credit -= 1;
+            session.process.send(text);
+        }
+    }
+
+    /// Takes what comes next.
+    fn step(&mut self, rows: &mut Rows<'_>) -> Result<(), Fault> {
+        let Some(session) = &mut self.session else { return Ok(()) };
+        let left = self.model.settings.timeout.map(|timeout| timeout.saturating_sub(session.silent_for()));
+        match session.process.event(left.map_or(ATTENTION, |left| left.min(ATTENTION))) {
+            Some(Event::Output(bytes)) => {
+                for line in session.lines(&bytes) {
+                    self.hear(&line, rows)?;
+                }
+                match &self.session {
+                    Some(session) if session.unfinished() > LONGEST => Err(Fault::LongLine),
+                    _ => Ok(()),
+                }
+            }
+            Some(Event::Sent) => {
+                session.credit += 1;
+                Ok(())
+            }
+            Some(Event::Closed) => Err(Fault::Closed(session.process.end(true))),
+            None if left == Some(Duration::ZERO) => Err(Fault::Silent),
+            None => {
+                self.wait();
+                Ok(())
+            }
+        }
+    }
+
+    /// Takes a line that the process has printed.
+    fn hear(&mut self, line: &[u8], rows: &mut Rows<'_>) -> Result<(), Fault> {
+        let (model, protocol) = (self.model, self.protocol);
+        let Some(session) = &mut self.session else { return Ok(()) };
+        let words = match parse_answer(protocol, &model.names, line) {
+            Err(words) => words,
+            Ok((number, answer)) => match session.find(number) {
+                Lookup::Asked(row) => {
+                    match answer {
+                        Ok(values) => rows.answer(row, &values),
+                        Err(reason) => rows.fail(row, &reason),
+                    }
+                    model.state.note_answer(session.note_answer());
+                    return Ok(());
+                }
+                Lookup::Answered => {
+                    return Err(Fault::GiveUp(
+                        RowFailure::new(&format!(
+                            "the program answered the row with the number {number} twice: which of the answers is right is \
+                             unknown; print one line for each row"
+                        ))
+                        .into(),
+                    ));
+                }
+                Lookup::Unknown => format!("{number} as the number of a row, which is not one of those asked"),
+            },
+        };
+        if !model.state.has_answered() || is_answer_without_number(protocol, &model.names, line) {
+            let change = match protocol {
+                Protocol::Csv => r#"print(row["id"], y, sep=",", flush=True)"#,
+                Protocol::JsonLines => r#"print(json.dumps({"id": row["id"], "y": y}), flush=True)"#,
+            };
+            let reason = format!(
+                "the program printed a line without the number of its row: {words}. Each row begins with its number, `id`, and each \
+                 answer with that of its row, in Python as in `{change}` (other languages: docs/worker-protocol.md). All other output \
+                 belongs on standard error"
+            );
+            return Err(Fault::GiveUp(GiveUp { reason: RowFailure::new(&reason), is_bad_input: true }));
+        }
+        State::send_once(
+            &model.state.strayed,
+            self.context.messages(),
+            &format!("warning: the program printed a line that is no answer, which is left out: {words}"),
+        );
+        session.note_stray(words, line.len());
+        if session.strayed > LONGEST { Err(Fault::LongLine) } else { Ok(()) }
+    }
+
+    /// Nothing has come for a while.
+    fn wait(&mut self) {
+        let state = &self.model.state;
+        let Some(session) = &mut self.session else { return };
+        // Others that it has started may hold its output open.
+        session.process.clear_away();
+        let silent_for = session.silent_for();
+        let quiet = match state.has_answered() {
+            true => QUIET.max(TIMES * Duration::from_micros(state.slowest.load(Ordering::Relaxed))),
+            false => FIRST_START,
+        };
+        if !state.has_answered() && silent_for > self.model.silence {
+            State::send_once(
+                &state.hinted,
+                self.context.messages(),
+                "still waiting for the program's first answer: it may still be starting (imports), be long over its \
+                 first row, or not flush what it prints, as print(..., flush=True) does",
+            );
+        }
+        if silent_for > quiet {
+            session.close();
+        }
+    }
+
+    /// Ends the process, and finds out what becomes of the rows that it was asked.
+    fn end(&mut self, fault: Fault, rows: &mut Rows<'_>) -> Result<(), GiveUp> {
+        let Some(mut session) = self.session.take() else { return Ok(()) };
+        let reason = self.reason(fault, &mut session);
+        let is_own = session.sent == 1;
+        for row in session.asked.into_values() {
+            if rows.suspect(row, is_own) > self.model.settings.retries && is_own {
+                rows.fail(row, &reason);
+                let hint = "each row begins with its number, `id`, and so does each answer: docs/worker-protocol.md";
+                self.model.state.note_failure(&format!("{reason}; {hint}"))?;
+            }
+        }
+        Ok(())
+    }
+
+    fn reason(&self, fault: Fault, session: &mut Session) -> String {
+        match fault {
+            Fault::Closed(ending) if ending.by_itself && session.is_closed && is_success(ending.status) => {
+                match &session.stray {
+                    Some(words) => format!("not an answer: {words}"),
+                    None => "the program gave no answer to the row".to_owned(),
+                }
+            }
+            Fault::Closed(ending) if ending.by_itself => {
+                let last = masked(&ending.last_words);
+                let last = if last.is_empty() { last } else { format!(": {last}") };
+                format!("the program ended with {}{last}", status_in_words(ending.status))
+            }
+            Fault::Closed(_) => "the program closed its standard output".to_owned(),
+            Fault::Silent => {
+                session.process.end(false);
+                let timeout = self.model.settings.timeout.map_or_else(String::new, seconds);
+                let hint = if self.model.state.has_answered() { "" } else { "; does the program flush its output?" };
+                format!("no answer within {timeout}{hint}")
+            }
+            Fault::LongLine => {
+                session.process.end(false);
+                "the program printed more than 1 MiB without an answer".to_owned()
+            }
+            Fault::GiveUp(give_up) => give_up.reason.to_string(),
+        }
+    }
+}
+
+fn is_success(status: Option<ExitStatus>) -> bool {
+    status.is_some_and(|status| status.success())
+}
+
+impl Worker for KeptAliveWorker<'_> {
+    fn run(&mut self, inputs: &[&[f64]], batch: &mut Batch) {
+        let mut rows = Rows::new(inputs, batch.rows(), self.model.settings.outputs.len());
+        let outcome = self.answer(&mut rows);
+        rows.hand_over(self.model, batch);
+        if let Err(give_up) = outcome {
+            batch.give_up(give_up);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

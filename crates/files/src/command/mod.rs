@@ -1,0 +1,214 @@
+//! The user's own program as a model: kept alive and asked row by row over its standard input and output, or started
+//! anew for each row in a directory of its own, with an input file made from a template.
+//!
+//! No shell is involved. A program is the leader of a process group, which is ended with it; what it does wrong has a
+//! reason in the result, and never costs a row that it answered.
+
+mod json_answer;
+mod kept_alive;
+mod per_run;
+mod pick;
+mod process;
+mod program;
+mod protocol;
+mod row;
+mod standard_error;
+mod template;
+
+use std::sync::atomic::{AtomicBool, AtomicU32, AtomicU64, Ordering};
+use std::time::Duration;
+
+use apportion::model::{Messages, Model, Output, OutputSeries, RowFailure, RunContext, Worker};
+use apportion::quantity::Unit;
+use apportion::space::Factor;
+use kept_alive::KeptAliveWorker;
+pub use per_run::PerRun;
+use per_run::PerRunWorker;
+pub use pick::{Match, Pick, Source, Way};
+pub use program::{Program, program_files};
+pub use protocol::{Protocol, parse_answer};
+pub use template::{InputTemplate, TemplateError, TemplateProblem};
+
+/// How a program is asked.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Form {
+    /// It is kept alive, reads rows and writes answers, each with the number of its row.
+    KeptAlive(Protocol),
+    /// It runs once for each row.
+    PerRun(PerRun),
+}
+
+/// An output that a program gives.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CommandOutput {
+    /// Its name.
+    pub name: String,
+    /// The unit of the program's numbers, in which it is reported too.
+    pub unit: Unit,
+    /// Where it stands after a run, of a program that runs once for each row.
+    pub pick: Option<Pick>,
+}
+
+/// A program as a model, with all that is said of it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CommandSettings {
+    /// What is started.
+    pub program: Program,
+    /// How it is asked.
+    pub form: Form,
+    /// All outputs that it gives, in its order.
+    pub outputs: Vec<CommandOutput>,
+    /// Those of them that are series.
+    pub series: Vec<OutputSeries>,
+    /// Places of those that are asked for.
+    pub asked: Vec<usize>,
+    /// Processes at once; as many as there are cores if not said.
+    pub workers: Option<usize>,
+    /// How long the answer to a row may take; as long as it takes if not said.
+    pub timeout: Option<Duration>,
+    /// How often a row is tried again on which the program died, hung, or answered what is no answer.
+    pub retries: u32,
+}
+
+/// A program as a model.
+///
+/// ```
+/// use apportion_files::{Form, Program, Protocol};
+/// use apportion_files::{CommandModel, CommandOutput, CommandSettings};
+/// use apportion::Model;
+/// use apportion::Unit;
+/// use apportion::{Distribution, Factor};
+///
+/// let program = Program {
+///     arguments: ["python3", "my_model.py"].map(str::to_owned).to_vec(),
+///     directory: std::env::current_dir()?,
+///     environment: Vec::new(),
+/// };
+/// let settings = CommandSettings {
+///     program,
+///     form: Form::KeptAlive(Protocol::Csv),
+///     outputs: vec![CommandOutput { name: "force".to_owned(), unit: Unit::parse("nN")?, pick: None }],
+///     series: Vec::new(),
+///     asked: vec![0],
+///     workers: Some(2),
+///     timeout: None,
+///     retries: 1,
+/// };
+/// let factor = Factor::new("length", Unit::parse("um")?, Distribution::uniform(1.0, 2.0)?)?;
+/// let model = CommandModel::new(settings, vec![factor]);
+/// assert_eq!(model.concurrency(), Some(2));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// `examples/own_program.rs` writes such a program, studies it by [`Study::builder`](apportion::study::Study::builder) and
+/// compares the result with that of a function.
+pub struct CommandModel {
+    settings: CommandSettings,
+    factors: Vec<Factor>,
+    outputs: Vec<Output>,
+    series: Vec<OutputSeries>,
+    /// The names of all outputs of the program.
+    names: Vec<String>,
+    /// How long it may be silent at its first row without a hint.
+    silence: Duration,
+    state: State,
+}
+
+/// What the workers of a model share.
+#[derive(Debug, Default)]
+struct State {
+    /// Whether the program has ever answered.
+    has_answered: AtomicBool,
+    /// Rows that failed before it ever did.
+    failed_first: AtomicU32,
+    /// The longest that an answer took, the start of its process included, in microseconds.
+    slowest: AtomicU64,
+    /// Whether its silence, and lines that are no answers, have been spoken of.
+    hinted: AtomicBool,
+    strayed: AtomicBool,
+}
+
+/// How long a program that has never answered may be silent without a hint.
+const SILENCE: Duration = Duration::from_secs(10);
+
+/// Rows that may fail before there has been any answer.
+const MAX_FAILED_FIRST: u32 = 5;
+
+impl State {
+    fn has_answered(&self) -> bool {
+        self.has_answered.load(Ordering::Relaxed)
+    }
+
+    /// The program has answered, after so long.
+    fn note_answer(&self, took: Duration) {
+        self.has_answered.store(true, Ordering::Relaxed);
+        self.slowest.fetch_max(took.as_micros() as u64, Ordering::Relaxed);
+    }
+
+    /// Counts a row that failed without an answer. It is an error that ends the run if the first rows all do.
+    fn note_failure(&self, reason: &str) -> Result<(), RowFailure> {
+        if self.has_answered() || self.failed_first.fetch_add(1, Ordering::Relaxed) + 1 < MAX_FAILED_FIRST {
+            return Ok(());
+        }
+        Err(RowFailure::new(&format!("the program has answered none of its first {MAX_FAILED_FIRST} rows: {reason}")))
+    }
+
+    /// Sends `line`, unless `sent` says that it was sent before.
+    fn send_once(sent: &AtomicBool, messages: &Messages, line: &str) {
+        if !sent.swap(true, Ordering::Relaxed) {
+            messages.send(line);
+        }
+    }
+}
+
+impl CommandModel {
+    /// The model whose inputs are `factors`, in their order, each in its unit.
+    ///
+    /// # Panics
+    /// If `asked` names an output that is not there.
+    pub fn new(settings: CommandSettings, factors: Vec<Factor>) -> Self {
+        let output = |place: &usize| {
+            let CommandOutput { name, unit, .. } = &settings.outputs[*place];
+            Output::new(name.clone(), unit.clone(), "of the program")
+        };
+        let outputs = settings.asked.iter().map(output).collect();
+        let names = settings.outputs.iter().map(|output| output.name.clone()).collect();
+        let series = OutputSeries::chosen(&settings.series, &settings.asked);
+        Self { settings, factors, outputs, series, names, silence: SILENCE, state: State::default() }
+    }
+}
+
+impl Model for CommandModel {
+    fn outputs(&self) -> &[Output] {
+        &self.outputs
+    }
+
+    fn series(&self) -> &[OutputSeries] {
+        &self.series
+    }
+
+    fn concurrency(&self) -> Option<usize> {
+        let cores = || std::thread::available_parallelism().map_or(1, usize::from);
+        Some(self.settings.workers.unwrap_or_else(cores))
+    }
+
+    fn may_be_random(&self) -> bool {
+        true
+    }
+
+    fn worker<'a>(&'a self, context: &'a RunContext<'a>) -> Box<dyn Worker + 'a> {
+        match &self.settings.form {
+            Form::KeptAlive(protocol) => Box::new(KeptAliveWorker::new(self, context, *protocol)),
+            Form::PerRun(form) => Box::new(PerRunWorker::new(self, context, form)),
+        }
+    }
+}
+
+/// A value that is none.
+fn not_a_value(value: f64) -> RowFailure {
+    RowFailure::new(if value.is_nan() {
+        "the program gave no value (an empty cell, nan or null)"
+    } else {
+        "the program gave an infinite value"
+    })
+}

@@ -1,0 +1,220 @@
+//! A worker that runs a program once for each row, in a directory of its own.
+
+use std::fs::File;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::process::Stdio;
+use std::sync::Mutex;
+use std::time::{Duration, Instant, SystemTime};
+
+use apportion::model::{Batch, RowFailure, RunContext, Worker};
+use apportion::text::{masked, seconds};
+use sha2::{Digest, Sha256};
+use tempfile::TempDir;
+
+use super::pick::{MAX_BYTES, Source, Texts};
+use super::program::{Running, status_in_words};
+use super::row::ValueWriter;
+use super::standard_error::listen;
+use super::template::InputTemplate;
+use super::{CommandModel, not_a_value};
+
+/// How a program runs once for each row.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct PerRun {
+    /// The template of the input file.
+    pub template_file: PathBuf,
+    /// The same, read.
+    pub template: InputTemplate,
+    /// The name of the input file in the directory of a run.
+    pub input: String,
+    /// Files that are copied there too.
+    pub files: Vec<PathBuf>,
+    /// Where the directories of runs stay; they are removed if nothing is said.
+    pub keep: Option<PathBuf>,
+}
+
+/// Names of the files in a run's directory that hold what the program wrote.
+const STDOUT: &str = "stdout.txt";
+const STDERR: &str = "stderr.txt";
+
+/// The time at which files that are copied for a run were written, if outputs are read from them: a run that has written
+/// nothing has no output.
+const BEFORE: SystemTime = SystemTime::UNIX_EPOCH;
+
+pub(super) struct PerRunWorker<'a> {
+    model: &'a CommandModel,
+    context: &'a RunContext<'a>,
+    form: &'a PerRun,
+    values: ValueWriter,
+}
+
+/// Why a run has no outputs.
+enum Fault {
+    /// No run will ever have some.
+    Fatal(RowFailure),
+    /// This one has none; another try may.
+    Run(String),
+}
+
+impl<'a> PerRunWorker<'a> {
+    pub(super) fn new(model: &'a CommandModel, context: &'a RunContext<'a>, form: &'a PerRun) -> Self {
+        Self { model, context, form, values: ValueWriter::new(&model.factors) }
+    }
+
+    /// Runs the program on one row, again if it fails, and sets what it gives.
+    fn row(&self, inputs: &[&[f64]], row: usize, batch: &mut Batch) -> Result<(), RowFailure> {
+        let mut tries = 0;
+        let reason = loop {
+            let (directory, _temporary) = self.directory(inputs, row).map_err(|error| self.unwritable(&error))?;
+            match self.run_in(&directory, inputs, row) {
+                Ok(()) => return self.pick(&directory, row, batch),
+                Err(Fault::Fatal(reason)) => return Err(reason),
+                Err(Fault::Run(reason)) if tries == self.model.settings.retries => break reason,
+                Err(Fault::Run(_)) => tries += 1,
+            }
+        };
+        batch.fail_row(row, &RowFailure::new(&reason));
+        self.model.state.note_failure(&reason)
+    }
+
+    fn unwritable(&self, error: &io::Error) -> RowFailure {
+        let place = self.form.keep.clone().unwrap_or_else(std::env::temp_dir);
+        RowFailure::new(&format!("cannot prepare the directory of a run in {}: {error}", place.display()))
+    }
+
+    /// A directory for a run, which is removed with what comes beside it unless it is kept.
+    fn directory(&self, inputs: &[&[f64]], row: usize) -> io::Result<(PathBuf, Option<TempDir>)> {
+        let Some(keep) = &self.form.keep else {
+            let temporary = tempfile::Builder::new().prefix("apportion-run-").tempdir()?;
+            return Ok((temporary.path().to_owned(), Some(temporary)));
+        };
+        let text = self.values.table(inputs, row);
+        // The same point has the same directory, whatever the order of runs.
+        let digest = Sha256::digest(text.as_bytes());
+        let name: String = digest.iter().take(8).map(|byte| format!("{byte:02x}")).collect();
+        let path = keep.join(format!("run-{name}"));
+        match std::fs::remove_dir_all(&path) {
+            Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
+            _ => std::fs::create_dir_all(&path)?,
+        }
+        std::fs::write(path.join("factors.csv"), text)?;
+        Ok((path, None))
+    }
+
+    fn prepare(&self, directory: &Path, inputs: &[&[f64]], row: usize) -> io::Result<(File, File)> {
+        for file in &self.form.files {
+            let name = file.file_name().ok_or(io::ErrorKind::InvalidFilename)?;
+            let copy = directory.join(name);
+            std::fs::copy(file, &copy)?;
+            if self.is_read(name) {
+                // Where that is refused, a file that the run leaves as it was is taken for its own.
+                let _ = File::options().write(true).open(&copy).and_then(|file| file.set_modified(BEFORE));
+            }
+        }
+        let text = self.form.template.fill(|factor, out| self.values.write(factor, inputs[factor][row], out));
+        std::fs::write(directory.join(&self.form.input), text)?;
+        Ok((File::create(directory.join(STDOUT))?, File::create(directory.join(STDERR))?))
+    }
+
+    /// Whether some output stands in the file of that name.
+    fn is_read(&self, name: &std::ffi::OsStr) -> bool {
+        let picks = self.model.settings.outputs.iter().filter_map(|output| output.pick.as_ref());
+        picks.into_iter().any(|pick| matches!(&pick.source, Source::File(file) if name == file.as_str()))
+    }
+
+    fn run_in(&self, directory: &Path, inputs: &[&[f64]], row: usize) -> Result<(), Fault> {
+        let CommandModel { settings, .. } = self.model;
+        let prepared = self.prepare(directory, inputs, row);
+        let (stdout, stderr) = prepared.map_err(|error| Fault::Fatal(self.unwritable(&error)))?;
+        let mut command = settings.program.command(directory);
+        command.stdin(Stdio::null()).stdout(stdout).stderr(stderr);
+        let child =
+            command.spawn().map_err(|error| Fault::Fatal(RowFailure::new(&settings.program.refusal(&error))))?;
+        let mut running = Running::new(child);
+        let cut = self.wait(&mut running, directory);
+        let status = running.end();
+        let last_words = Mutex::new(String::new());
+        if let Ok(file) = File::open(directory.join(STDERR)) {
+            listen(self.context.messages(), file, &last_words);
+        }
+        cut?;
+        if status.is_some_and(|status| status.success()) {
+            return Ok(());
+        }
+        let last = masked(&last_words.into_inner().unwrap_or_default());
+        let last = if last.is_empty() { last } else { format!(": {last}") };
+        Err(Fault::Run(format!("the program ended with {}{last}", status_in_words(status))))
+    }
+
+    /// Waits until the program has ended, or is to be ended.
+    fn wait(&self, running: &mut Running, directory: &Path) -> Result<(), Fault> {
+        let (start, mut pause) = (Instant::now(), Duration::from_millis(1));
+        while !running.ends_within(pause) {
+            if self.context.is_stopped() {
+                return Err(Fault::Fatal(RowFailure::interrupted()));
+            }
+            if let Some(timeout) = self.model.settings.timeout.filter(|timeout| start.elapsed() >= *timeout) {
+                return Err(Fault::Run(format!("the program took longer than {}", seconds(timeout))));
+            }
+            let size = |name| std::fs::metadata(directory.join(name)).map_or(0, |data| data.len());
+            if size(STDOUT).max(size(STDERR)) > MAX_BYTES {
+                return Err(Fault::Run("the program printed more than 256 MiB".to_owned()));
+            }
+            pause = (pause * 2).min(Duration::from_millis(50));
+        }
+        Ok(())
+    }
+
+    /// Sets the outputs of a run that ended well.
+    fn pick(&self, directory: &Path, row: usize, batch: &mut Batch) -> Result<(), RowFailure> {
+        let settings = &self.model.settings;
+        let (mut missing, mut found) = (None, false);
+        let stdout = directory.join(STDOUT);
+        let mut texts = Texts::new(directory, &stdout);
+        for (column, place) in settings.asked.iter().enumerate() {
+            let output = &settings.outputs[*place];
+            let Some(pick) = &output.pick else { continue };
+            let number = match &pick.source {
+                Source::File(name) if is_from_before(&directory.join(name)) => {
+                    Err(format!("the run left `{name}` as it was before"))
+                }
+                _ => pick.number(&mut texts),
+            };
+            match number {
+                Ok(value) if value.is_finite() => {
+                    found = true;
+                    batch.set(row, column, output.unit.to_si(value));
+                }
+                Ok(value) => batch.fail(row, column, not_a_value(value)),
+                Err(reason) => {
+                    batch.fail(row, column, RowFailure::new(&reason));
+                    missing = Some(reason);
+                }
+            }
+        }
+        if found {
+            self.model.state.note_answer(Duration::ZERO);
+        }
+        missing.map_or(Ok(()), |reason| self.model.state.note_failure(&reason))
+    }
+}
+
+impl Worker for PerRunWorker<'_> {
+    fn run(&mut self, inputs: &[&[f64]], batch: &mut Batch) {
+        for row in 0..batch.rows() {
+            let outcome = match self.context.is_stopped() {
+                true => Err(RowFailure::interrupted()),
+                false => self.row(inputs, row, batch),
+            };
+            if let Err(reason) = outcome {
+                return batch.give_up(reason);
+            }
+        }
+    }
+}
+
+/// Whether a run has not written a file that was copied for it.
+fn is_from_before(path: &Path) -> bool {
+    std::fs::metadata(path).and_then(|data| data.modified()).is_ok_and(|time| time == BEFORE)
+}

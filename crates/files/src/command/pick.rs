@@ -1,0 +1,298 @@
+//! A number from what a run of a program leaves: by a regular expression, a column of CSV, or a JSON pointer.
+
+use std::path::Path;
+
+use apportion::files::read_whole;
+use apportion::text::masked;
+use regex::Regex;
+use serde_json::Value;
+
+/// Where the number stands, and how it is found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Pick {
+    /// What is read.
+    pub source: Source,
+    /// How the number is found in it.
+    pub way: Way,
+}
+
+/// What a run leaves.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Source {
+    /// Its standard output.
+    Stdout,
+    /// A file in its directory.
+    File(String),
+}
+
+/// Which of several matches or rows is taken.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Match {
+    /// The first.
+    First,
+    /// The last.
+    Last,
+    /// The one of that number, from 0: that of a value of a series.
+    Number(usize),
+}
+
+impl Match {
+    /// Those that a study can name, the default first.
+    pub const ALL: [Self; 2] = [Self::Last, Self::First];
+
+    /// The name in study files; empty for one of a series, which has none.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::First => "first",
+            Self::Last => "last",
+            Self::Number(_) => "",
+        }
+    }
+
+    /// The one that is meant.
+    fn select<T>(self, mut all: impl Iterator<Item = T>) -> Option<T> {
+        match self {
+            Self::First => all.next(),
+            Self::Last => all.last(),
+            Self::Number(number) => all.nth(number),
+        }
+    }
+
+    /// As in "its last row", "its row 12".
+    fn in_words(self, what: &str) -> String {
+        match self {
+            Self::Number(number) => format!("{what} {}", number + 1),
+            Self::First | Self::Last => format!("{} {what}", self.name()),
+        }
+    }
+}
+
+/// How a number is found in a text.
+#[derive(Debug, Clone)]
+pub enum Way {
+    /// The first group of a regular expression, or all that it matches if it has none.
+    Regex(Regex, Match),
+    /// A column of a CSV table with a header.
+    Column(String, Match),
+    /// A JSON pointer (RFC 6901).
+    Pointer(String),
+}
+
+impl PartialEq for Way {
+    fn eq(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Regex(a, m), Self::Regex(b, n)) => a.as_str() == b.as_str() && m == n,
+            (Self::Column(a, m), Self::Column(b, n)) => a == b && m == n,
+            (Self::Pointer(a), Self::Pointer(b)) => a == b,
+            _ => false,
+        }
+    }
+}
+
+/// Bytes of a file that are read.
+pub(super) const MAX_BYTES: u64 = 1 << 28;
+
+impl Source {
+    fn in_words(&self) -> String {
+        match self {
+            Self::Stdout => "the standard output".to_owned(),
+            Self::File(name) => format!("`{name}`"),
+        }
+    }
+
+    /// What a run left, whose standard output is in the file `stdout`.
+    fn text(&self, directory: &Path, stdout: &Path) -> Result<String, String> {
+        let (path, file) = match self {
+            Self::Stdout => (stdout.to_owned(), "standard output".to_owned()),
+            Self::File(name) => (directory.join(name), name.clone()),
+        };
+        let unreadable = |reason: String| format!("`{file}` cannot be read: {reason}");
+        match std::fs::metadata(&path) {
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
+                return Err(format!("the run left no file `{file}`"));
+            }
+            Err(error) => return Err(unreadable(error.to_string())),
+            Ok(data) if data.len() > MAX_BYTES => return Err(unreadable("it has more than 256 MiB".to_owned())),
+            Ok(data) if !data.is_file() => return Err(unreadable("it is not a file".to_owned())),
+            Ok(_) => (),
+        }
+        let bytes = read_whole(&path).map_err(|error| unreadable(error.to_string()))?;
+        Ok(String::from_utf8_lossy(&bytes).into_owned())
+    }
+}
+
+impl Pick {
+    /// The number in what a run left, of which `texts` holds what has been read; not finite where the program wrote so.
+    pub(super) fn number(&self, texts: &mut Texts<'_>) -> Result<f64, String> {
+        self.way.number(texts.text(&self.source)?, &self.source.in_words())
+    }
+
+    /// Where value number `number` of a series stands, from 0: the match or row of that number, or the item of a list.
+    #[must_use]
+    pub fn of_value(&self, number: usize) -> Self {
+        let way = match &self.way {
+            Way::Regex(regex, _) => Way::Regex(regex.clone(), Match::Number(number)),
+            Way::Column(column, _) => Way::Column(column.clone(), Match::Number(number)),
+            Way::Pointer(pointer) => Way::Pointer(format!("{pointer}/{number}")),
+        };
+        Self { source: self.source.clone(), way }
+    }
+}
+
+/// What a run left, each file read once.
+pub(super) struct Texts<'a> {
+    directory: &'a Path,
+    /// Where its standard output is.
+    stdout: &'a Path,
+    read: Vec<(Source, Result<String, String>)>,
+}
+
+impl<'a> Texts<'a> {
+    pub(super) fn new(directory: &'a Path, stdout: &'a Path) -> Self {
+        Self { directory, stdout, read: Vec::new() }
+    }
+
+    fn text(&mut self, source: &Source) -> Result<&str, String> {
+        let place = self.read.iter().position(|(known, _)| known == source).unwrap_or_else(|| {
+            self.read.push((source.clone(), source.text(self.directory, self.stdout)));
+            self.read.len() - 1
+        });
+        self.read[place].1.as_deref().map_err(Clone::clone)
+    }
+}
+
+impl Way {
+    /// The number in `text`, which is called `of` in errors.
+    ///
+    /// ```
+    /// use apportion_files::{Match, Way};
+    ///
+    /// let way = Way::Pointer("/result/force".to_owned());
+    /// assert_eq!(way.number("{\"result\": {\"force\": 1.5}}", "it"), Ok(1.5));
+    /// let way = Way::Column("y".to_owned(), Match::Last);
+    /// assert_eq!(way.number("t,y\n0,1\n1,2.5\n", "it"), Ok(2.5));
+    /// ```
+    ///
+    /// # Errors
+    /// Why there is none.
+    pub fn number(&self, text: &str, of: &str) -> Result<f64, String> {
+        let missing = |missing: String| format!("{of} has no {missing}");
+        let found = match self {
+            Self::Regex(regex, which) => {
+                let groups = which.select(regex.captures_iter(text));
+                let found = groups.and_then(|groups| groups.get(1).or_else(|| groups.get(0)));
+                let none = || match which {
+                    Match::Number(_) => missing(which.in_words("match of the regex")),
+                    Match::First | Match::Last => format!("nothing in {of} matches the regex"),
+                };
+                found.ok_or_else(none)?.as_str().to_owned()
+            }
+            Self::Column(column, which) => cell(text, column, *which, of)?,
+            Self::Pointer(pointer) => {
+                let value: Value = serde_json::from_str(text).map_err(|_| format!("{of} is not JSON"))?;
+                match value.pointer(pointer).ok_or_else(|| missing(format!("value at `{pointer}`")))? {
+                    Value::Null => return Ok(f64::NAN),
+                    Value::String(text) => text.clone(),
+                    other => other.to_string(),
+                }
+            }
+        };
+        number(&found).ok_or_else(|| format!("what was found in {of} is not a number: `{}`", masked(&found)))
+    }
+}
+
+/// A number as programs write it, by Fortran's `1.5D+03` too.
+fn number(text: &str) -> Option<f64> {
+    let text = text.trim();
+    text.parse().ok().or_else(|| text.replace(['D', 'd'], "e").parse().ok())
+}
+
+/// The cell of a column in one row of a CSV table.
+fn cell(text: &str, column: &str, which: Match, of: &str) -> Result<String, String> {
+    let missing = |missing: String| format!("{of} has no {missing}");
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).flexible(true).from_reader(text.as_bytes());
+    let place = reader.headers().ok().and_then(|names| names.iter().position(|name| name == column));
+    let place = place.ok_or_else(|| missing(format!("column `{column}`")))?;
+    let row = which.select(reader.records().map_while(Result::ok));
+    let row = row.ok_or_else(|| match which {
+        Match::Number(_) => missing(which.in_words("row")),
+        Match::First | Match::Last => missing("row".to_owned()),
+    })?;
+    let cell =
+        row.get(place).ok_or_else(|| missing(format!("cell of column `{column}` in its {}", which.in_words("row"))))?;
+    Ok(cell.to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn found(way: Way, text: &str) -> Result<f64, String> {
+        way.number(text, "it")
+    }
+
+    fn regex(text: &str, which: Match) -> Way {
+        Way::Regex(Regex::new(text).unwrap(), which)
+    }
+
+    #[test]
+    fn a_regex_takes_its_first_group_of_the_first_or_last_match() {
+        let text = "force = 1.5 nN\nforce = -2.5D-3 nN\n";
+        assert_eq!(found(regex(r"force = (\S+)", Match::First), text), Ok(1.5));
+        assert_eq!(found(regex(r"force = (\S+)", Match::Last), text), Ok(-2.5e-3));
+        assert_eq!(found(regex(r"\d+\.\d+", Match::First), text), Ok(1.5));
+        assert_eq!(found(regex("time", Match::Last), text).unwrap_err(), "nothing in it matches the regex");
+        let rubbish = found(regex("(force.*)", Match::Last), text).unwrap_err();
+        assert!(rubbish.starts_with("what was found in it is not a number: `force = #"), "{rubbish}");
+    }
+
+    #[test]
+    fn a_column_takes_the_last_row_or_the_first() {
+        let column = |name: &str, which| Way::Column(name.to_owned(), which);
+        let text = "\u{feff}t,\"y, nN\"\r\n0, 1.5\r\n1, 2.5\r\n\r\n";
+        assert_eq!(found(column("y, nN", Match::Last), text), Ok(2.5));
+        assert_eq!(found(column("y, nN", Match::First), text), Ok(1.5));
+        assert_eq!(found(column("z", Match::Last), text).unwrap_err(), "it has no column `z`");
+        assert_eq!(found(column("t", Match::Last), "t,y\n").unwrap_err(), "it has no row");
+        let short = "it has no cell of column `y` in its last row";
+        assert_eq!(found(column("y", Match::Last), "t,y\n1\n").unwrap_err(), short);
+        assert!(found(column("y", Match::Last), "t,y\n1,x\n").unwrap_err().contains("not a number: `x`"));
+    }
+
+    #[test]
+    fn a_pointer_leads_to_a_number() {
+        let pointer = |text: &str| Way::Pointer(text.to_owned());
+        let text = r#"{"a/b": [0, {"y": 2.5e-3, "s": "7", "n": null, "l": [1]}]}"#;
+        assert_eq!(found(pointer("/a~1b/1/y"), text), Ok(2.5e-3));
+        assert_eq!(found(pointer("/a~1b/1/s"), text), Ok(7.0));
+        assert!(found(pointer("/a~1b/1/n"), text).unwrap().is_nan());
+        assert_eq!(found(pointer("/a/b"), text).unwrap_err(), "it has no value at `/a/b`");
+        assert_eq!(found(pointer("/a~1b/1/l"), text).unwrap_err(), "what was found in it is not a number: `[#]`");
+        assert_eq!(found(pointer("/a"), "{").unwrap_err(), "it is not JSON");
+    }
+
+    #[test]
+    fn a_series_takes_row_after_row() {
+        let pick = |way| Pick { source: Source::Stdout, way };
+        let value = |pick: &Pick, number, text| found(pick.of_value(number).way, text);
+        let column = pick(Way::Column("y".to_owned(), Match::Last));
+        assert_eq!([0, 1].map(|number| value(&column, number, "t,y\n0,1\n1,2\n")), [Ok(1.0), Ok(2.0)]);
+        assert_eq!(value(&column, 2, "t,y\n0,1\n1,2\n").unwrap_err(), "it has no row 3");
+        assert_eq!(value(&column, 1, "t,y\n0,1\n1\n").unwrap_err(), "it has no cell of column `y` in its row 2");
+        let regex = pick(regex(r"y = (\S+)", Match::Last));
+        assert_eq!(value(&regex, 1, "y = 1\ny = 2\ny = 3\n"), Ok(2.0));
+        assert_eq!(value(&regex, 3, "y = 1\ny = 2\ny = 3\n").unwrap_err(), "it has no match of the regex 4");
+        let pointer = pick(Way::Pointer("/y".to_owned()));
+        assert_eq!(value(&pointer, 1, "{\"y\": [1, 2]}"), Ok(2.0));
+        assert_eq!(value(&pointer, 2, "{\"y\": [1, 2]}").unwrap_err(), "it has no value at `/y/2`");
+    }
+
+    #[test]
+    fn what_is_not_there_is_named() {
+        let folder = tempfile::tempdir().unwrap();
+        let pick = Pick { source: Source::File("out.txt".to_owned()), way: regex("1", Match::First) };
+        let error = pick.number(&mut Texts::new(folder.path(), Path::new("stdout"))).unwrap_err();
+        assert_eq!(error.to_string(), "the run left no file `out.txt`");
+    }
+}

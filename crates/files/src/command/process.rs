@@ -1,0 +1,184 @@
+//! A program kept alive: rows to its standard input, answers from its standard output, by threads of their own, so that
+//! neither side waits for the other with a full pipe.
+
+use std::io::{self, Read, Write};
+use std::process::{ChildStdout, ExitStatus, Stdio};
+use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender, SyncSender};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::thread;
+use std::time::Duration;
+
+use apportion::model::Messages;
+
+use super::program::{Program, Running};
+use super::standard_error::listen;
+
+/// What comes from a process.
+pub(super) enum Event {
+    /// Bytes of its standard output.
+    Output(Vec<u8>),
+    /// A text has been written to it.
+    Sent,
+    /// Its standard output is closed.
+    Closed,
+}
+
+/// How a process ended.
+#[derive(Clone)]
+pub(super) struct Ending {
+    /// Its exit status, where there is one.
+    pub status: Option<ExitStatus>,
+    /// Whether it ended by itself.
+    pub by_itself: bool,
+    /// The last line that it wrote to standard error.
+    pub last_words: String,
+}
+
+/// A process that is kept alive. Dropped, it gets the end of its input and a moment to end by itself.
+pub(super) struct Process {
+    running: Running,
+    input: Option<Sender<String>>,
+    events: Receiver<Event>,
+    last_words: Arc<Mutex<String>>,
+    silence: Receiver<()>,
+    /// The thread that started the process lives as long as this.
+    keeper: Option<Sender<()>>,
+}
+
+/// Texts that wait to be written, and blocks of output that wait to be read: memory is bounded by them.
+pub(super) const IN_TRANSIT: usize = 4;
+/// Bytes read at once.
+const BLOCK: usize = 1 << 16;
+/// How long a process may take to end when its input has ended.
+pub(super) const PATIENCE: Duration = Duration::from_secs(1);
+
+impl Process {
+    /// Starts `program`.
+    pub(super) fn start(program: &Program, messages: &Messages) -> io::Result<Self> {
+        let mut command = program.command(&program.directory);
+        command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+        let (input, texts) = mpsc::channel::<String>();
+        let (keeper, kept) = mpsc::channel::<()>();
+        let (tell, events) = mpsc::sync_channel(IN_TRANSIT * 2);
+        let (started, start) = mpsc::channel();
+        let of_writer = tell.clone();
+        // This thread starts the process, since on Linux the process ends with it.
+        thread::Builder::new().spawn(move || {
+            let mut child = match command.spawn() {
+                Ok(child) => child,
+                Err(error) => return drop(started.send(Err(error))),
+            };
+            let stdin = child.stdin.take();
+            if started.send(Ok(child)).is_ok() {
+                if let Some(stdin) = stdin {
+                    write_all(stdin, &texts, &of_writer);
+                }
+                // Nothing is ever sent: the other end goes away.
+                let _ = kept.recv();
+            }
+        })?;
+        let mut child = start.recv().map_err(|_| io::Error::other("the thread that starts it has ended"))??;
+        let (stdout, stderr) = (child.stdout.take(), child.stderr.take());
+        let (hush, silence) = mpsc::channel();
+        let last_words = Arc::new(Mutex::new(String::new()));
+        let process = Self {
+            running: Running::new(child),
+            input: Some(input),
+            events,
+            last_words,
+            silence,
+            keeper: Some(keeper),
+        };
+        if let Some(stdout) = stdout {
+            thread::Builder::new().spawn(move || read_all(stdout, &tell))?;
+        }
+        if let Some(stderr) = stderr {
+            let (messages, last) = (messages.clone(), Arc::clone(&process.last_words));
+            thread::Builder::new().spawn(move || {
+                listen(&messages, stderr, &last);
+                drop(hush);
+            })?;
+        }
+        Ok(process)
+    }
+
+    /// Ends its input behind what has been handed over.
+    pub(super) fn close_input(&mut self) {
+        self.input = None;
+    }
+
+    /// Ends what it has left behind if it has ended by itself: others may hold its output open.
+    pub(super) fn clear_away(&mut self) {
+        if self.running.has_ended() {
+            self.running.end();
+        }
+    }
+
+    /// Hands over a text to be written; [`Event::Sent`] follows.
+    pub(super) fn send(&self, text: String) {
+        // Its end shows as the end of the answers.
+        let _ = self.input.as_ref().map(|input| input.send(text));
+    }
+
+    /// What comes next, if it comes within `longest`.
+    pub(super) fn event(&self, longest: Duration) -> Option<Event> {
+        match self.events.recv_timeout(longest) {
+            Ok(event) => Some(event),
+            Err(RecvTimeoutError::Timeout) => None,
+            Err(RecvTimeoutError::Disconnected) => Some(Event::Closed),
+        }
+    }
+
+    /// Ends it, after a moment to end by itself if its output is `closed` already.
+    pub(super) fn end(&mut self, closed: bool) -> Ending {
+        let by_itself = closed && self.running.ends_within(PATIENCE);
+        let status = self.running.end();
+        self.keeper = None;
+        // Everything that it said comes before this, unless somebody outside its group still holds the pipe.
+        let _ = self.silence.recv_timeout(Duration::from_millis(300));
+        let last_words = self.last_words.lock().unwrap_or_else(PoisonError::into_inner).clone();
+        Ending { status, by_itself, last_words }
+    }
+}
+
+impl Drop for Process {
+    fn drop(&mut self) {
+        self.input = None;
+        // What still comes is dropped.
+        self.events = mpsc::sync_channel(0).1;
+        self.running.ends_within(PATIENCE);
+        self.running.end();
+        self.keeper = None;
+    }
+}
+
+fn write_all(mut stdin: impl Write, texts: &Receiver<String>, tell: &SyncSender<Event>) {
+    let mut open = true;
+    for text in texts {
+        // A process that reads no more may still answer what it has read.
+        open = open && stdin.write_all(text.as_bytes()).and_then(|()| stdin.flush()).is_ok();
+        if open && tell.send(Event::Sent).is_err() {
+            open = false;
+        }
+    }
+}
+
+fn read_all(mut stdout: ChildStdout, tell: &SyncSender<Event>) {
+    let mut listened_to = true;
+    loop {
+        let mut bytes = vec![0; BLOCK];
+        match stdout.read(&mut bytes) {
+            Ok(0) => break,
+            Ok(count) => {
+                bytes.truncate(count);
+                // What comes after the last row is dropped, but the process shall not wait for it to be read.
+                listened_to = listened_to && tell.send(Event::Output(bytes)).is_ok();
+            }
+            Err(error) if error.kind() == io::ErrorKind::Interrupted => (),
+            Err(_) => break,
+        }
+    }
+    if listened_to {
+        let _ = tell.send(Event::Closed);
+    }
+}

@@ -1,0 +1,62 @@
+//! What a program prints on standard error: passed on as messages, and the last line kept for reasons.
+
+use std::io::Read;
+use std::sync::{Mutex, PoisonError};
+
+use apportion::model::Messages;
+use apportion::text::cut;
+
+/// Characters of a line that are passed on.
+const MAX_LETTERS: usize = 400;
+
+/// Passes on what a process prints on standard error until it ends, and leaves its last line in `last`.
+pub(super) fn listen(messages: &Messages, mut from: impl Read, last: &Mutex<String>) {
+    const LONGEST: usize = 4096;
+    let (mut line, mut bytes) = (Vec::new(), [0; 4096]);
+    loop {
+        let count = match from.read(&mut bytes) {
+            Ok(count) => count,
+            Err(error) if error.kind() == std::io::ErrorKind::Interrupted => continue,
+            Err(_) => 0,
+        };
+        for &byte in &bytes[..count] {
+            match byte {
+                b'\n' => take(messages, &mut line, last),
+                _ if line.len() < LONGEST => line.push(byte),
+                // The rest of a long line is left out.
+                _ => (),
+            }
+        }
+        if count == 0 {
+            return take(messages, &mut line, last);
+        }
+    }
+}
+
+fn take(messages: &Messages, line: &mut Vec<u8>, last: &Mutex<String>) {
+    let text = String::from_utf8_lossy(line).into_owned();
+    line.clear();
+    if !text.trim().is_empty() {
+        messages.send_printed(&format!("the program: {}", cut(&text, MAX_LETTERS)));
+        text.trim().clone_into(&mut last.lock().unwrap_or_else(PoisonError::into_inner));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_last_line_with_words_is_kept() {
+        let (messages, last) = (Messages::default(), Mutex::new(String::new()));
+        listen(&messages, &b"Traceback:\n  x\nValueError: \xff no\n\n  "[..], &last);
+        assert_eq!(*last.lock().unwrap(), "ValueError: \u{fffd} no");
+    }
+
+    #[test]
+    fn a_flood_without_lines_takes_little_memory() {
+        let (messages, last) = (Messages::default(), Mutex::new(String::new()));
+        listen(&messages, std::io::repeat(b'x').take(10_000_000), &last);
+        assert_eq!(last.lock().unwrap().len(), 4096);
+    }
+}

@@ -1,0 +1,149 @@
+//! Input files made from a template: text in which `{{name}}` stands for the value of a factor.
+
+use std::ops::Range;
+
+use thiserror::Error;
+
+/// A template whose placeholders have been found.
+///
+/// ```
+/// use apportion_files::InputTemplate;
+///
+/// let factor = |name: &str| (name == "length").then_some(0);
+/// let template = InputTemplate::parse("L = {{ length }} um\nbraces: {{{{}}\n", &factor)?;
+/// assert_eq!(template.fill(|_, out| out.push_str("225.0")), "L = 225.0 um\nbraces: {{}}\n");
+/// let error = InputTemplate::parse("a\nL = {{lenght}}", &factor).unwrap_err();
+/// assert_eq!((error.line, error.column), (2, 7));
+/// # Ok::<(), apportion_files::TemplateError>(())
+/// ```
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct InputTemplate {
+    parts: Vec<Part>,
+}
+
+#[derive(Debug, Clone, PartialEq, Eq)]
+enum Part {
+    Text(String),
+    Factor(usize),
+}
+
+/// What is wrong with a template, and where.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("{problem}")]
+pub struct TemplateError {
+    /// Line, from 1.
+    pub line: usize,
+    /// Column in characters, from 1.
+    pub column: usize,
+    /// What is wrong.
+    pub problem: TemplateProblem,
+}
+
+/// What is wrong with a template.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum TemplateProblem {
+    /// A placeholder without an end.
+    #[error("`{{{{` without `}}}}` on the same line: write `{{{{{{{{` for two braces that are part of the text")]
+    Open,
+    /// A placeholder for nothing.
+    #[error("there is no factor `{0}`")]
+    Unknown(String),
+}
+
+impl InputTemplate {
+    /// Reads a template, whose placeholders `factor` knows by name. `{{{{` stands for two braces of the text itself.
+    ///
+    /// # Errors
+    /// [`TemplateError`] for a name that is no factor's, and for a placeholder without an end.
+    pub fn parse(text: &str, factor: &dyn Fn(&str) -> Option<usize>) -> Result<Self, TemplateError> {
+        let (mut parts, mut plain, mut place) = (Vec::new(), String::new(), 0);
+        while let Some(open) = text[place..].find("{{").map(|offset| place + offset) {
+            plain.push_str(&text[place..open]);
+            let rest = &text[open + 2..];
+            if rest.starts_with("{{") {
+                plain.push_str("{{");
+                place = open + 4;
+                continue;
+            }
+            let inside = rest.find("}}").map(|end| 0..end).filter(|inside| !rest[inside.clone()].contains('\n'));
+            let Some(Range { end, .. }) = inside else { return Err(error(text, open, TemplateProblem::Open)) };
+            let name = rest[..end].trim();
+            let Some(number) = factor(name) else {
+                let start = open + 2 + rest[..end].len() - rest[..end].trim_start().len();
+                return Err(error(text, start, TemplateProblem::Unknown(name.to_owned())));
+            };
+            parts.push(Part::Text(std::mem::take(&mut plain)));
+            parts.push(Part::Factor(number));
+            place = open + 2 + end + 2;
+        }
+        plain.push_str(&text[place..]);
+        parts.push(Part::Text(plain));
+        Ok(Self { parts })
+    }
+
+    /// Whether the factor of that number stands in the text.
+    pub fn uses(&self, factor: usize) -> bool {
+        self.parts.contains(&Part::Factor(factor))
+    }
+
+    /// The text with what `write` appends in the place of each factor.
+    pub fn fill(&self, write: impl Fn(usize, &mut String)) -> String {
+        let mut text = String::new();
+        for part in &self.parts {
+            match part {
+                Part::Text(plain) => text.push_str(plain),
+                Part::Factor(factor) => write(*factor, &mut text),
+            }
+        }
+        text
+    }
+}
+
+fn error(text: &str, place: usize, problem: TemplateProblem) -> TemplateError {
+    let start = text[..place].rfind('\n').map_or(0, |newline| newline + 1);
+    let line = text[..place].matches('\n').count() + 1;
+    TemplateError { line, column: text[start..place].chars().count() + 1, problem }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn filled(text: &str) -> Result<String, TemplateError> {
+        let number = |name: &str| ["a", "b c"].iter().position(|known| *known == name);
+        let template = InputTemplate::parse(text, &number)?;
+        Ok(template.fill(|factor, out| out.push_str(["1.5", "steel"][factor])))
+    }
+
+    #[test]
+    fn placeholders_are_filled_and_braces_stay() {
+        for (text, expected) in [
+            ("", ""),
+            ("{{a}}", "1.5"),
+            ("x={{ a }};{{b c}}{{a}}\r\n", "x=1.5;steel1.5\r\n"),
+            ("{ \"y\": {\"a\": {{a}}} }", "{ \"y\": {\"a\": 1.5} }"),
+            ("{{{{a}} and }}", "{{a}} and }}"),
+            ("µ{{a}}µ", "µ1.5µ"),
+        ] {
+            assert_eq!(filled(text).as_deref(), Ok(expected), "{text}");
+        }
+    }
+
+    #[test]
+    fn faults_have_their_place() {
+        let fault = |text| filled(text).unwrap_err();
+        let unknown = |name: &str| TemplateProblem::Unknown(name.to_owned());
+        assert_eq!(fault("a\nµ {{ d }}"), TemplateError { line: 2, column: 6, problem: unknown("d") });
+        assert_eq!(fault("{{a}} {{a\n}}"), TemplateError { line: 1, column: 7, problem: TemplateProblem::Open });
+        assert_eq!(fault("{{").problem, TemplateProblem::Open);
+        assert_eq!(fault("{{}}").problem, unknown(""));
+        assert!(fault("{{").to_string().contains("write `{{{{` for two braces"), "{}", fault("{{"));
+    }
+
+    proptest::proptest! {
+        #[test]
+        fn no_text_panics(text in "[{}a-c \\nµ]{0,30}") {
+            let _ = filled(&text);
+        }
+    }
+}

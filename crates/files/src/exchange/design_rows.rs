@@ -1,0 +1,143 @@
+//! The rows of a design as numbers in the units of its study, block by block.
+
+use apportion::design::Design;
+use apportion::quantity::Unit;
+use apportion::run::RowValues;
+use apportion::space::{Factor, Space};
+use sha2::{Digest, Sha256};
+
+use super::rows::ColumnKind;
+
+/// Rows of a block, about.
+const BLOCK: u64 = 1 << 13;
+
+/// Where a block of rows lies.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct RowBlock {
+    /// The replicate.
+    pub replicate: u64,
+    /// Number of its first row in the replicate.
+    pub first: u64,
+    /// Number of rows.
+    pub rows: usize,
+}
+
+/// The rows of a design in the order of [`Design::locate`], each factor in its own unit, without ever holding more than
+/// a block of them.
+pub struct DesignRows<'a> {
+    space: &'a Space,
+    design: &'a Design,
+    replicate: u64,
+    /// The next base point of the replicate.
+    point: u64,
+    values: RowValues,
+}
+
+impl<'a> DesignRows<'a> {
+    /// All rows of `design`, whose factors are those of `space`.
+    pub fn new(space: &'a Space, design: &'a Design) -> Self {
+        Self { space, design, replicate: 0, point: 0, values: RowValues::default() }
+    }
+
+    /// The next block, with one vector for each factor; `None` after the last row.
+    pub fn next_block(&mut self, into: &mut [Vec<f64>]) -> Option<RowBlock> {
+        let design = self.design;
+        if self.point == design.points_per_replicate() {
+            (self.replicate, self.point) = (self.replicate + 1, 0);
+        }
+        if self.replicate == design.settings().replicates {
+            return None;
+        }
+        let runs = design.rows_per_point();
+        let points = (BLOCK / runs).max(1).min(design.points_per_replicate() - self.point);
+        let (replicate, first, rows) = (self.replicate, self.point * runs, points * runs);
+        let values = self.values.values(self.space, design, replicate, first..first + rows);
+        for ((column, values), factor) in into.iter_mut().zip(values).zip(self.space.factors()) {
+            column.clear();
+            column.extend(values.iter().map(|value| at_the_edge(factor.unit(), *value)));
+        }
+        self.point += points;
+        Some(RowBlock { replicate, first, rows: rows as usize })
+    }
+}
+
+/// The SI value `si` in `unit`: of the numbers beside it the one that becomes `si` again, if there is one.
+fn at_the_edge(unit: &Unit, si: f64) -> f64 {
+    let value = unit.from_si(si);
+    let near = [value, value.next_up(), value.next_down()];
+    near.into_iter().find(|near| unit.to_si(*near) == si).unwrap_or(value)
+}
+
+/// The column of a factor in files of rows.
+pub fn factor_column(factor: &Factor) -> ColumnKind {
+    let law = factor.distribution();
+    let labels = law.labels().unwrap_or_default().iter();
+    let labels = labels.filter_map(|label| Some((label.clone(), law.value_of(label)?))).collect();
+    ColumnKind { labels, whole: law.is_whole(), ..ColumnKind::numbers(&factor.name) }
+}
+
+/// SHA-256 of the numbers of rows, row by row, each as the eight bytes of a little-endian double.
+#[derive(Default)]
+pub(super) struct RowsDigest(Sha256);
+
+impl RowsDigest {
+    /// Adds the rows of these columns.
+    pub fn add(&mut self, columns: &[Vec<f64>]) {
+        let rows = columns.first().map_or(0, Vec::len);
+        let mut bytes = Vec::with_capacity(rows * columns.len() * size_of::<f64>());
+        for row in 0..rows {
+            bytes.extend(columns.iter().flat_map(|column| column[row].to_le_bytes()));
+        }
+        self.0.update(&bytes);
+    }
+
+    /// The digest in hexadecimal.
+    pub fn finish(self) -> String {
+        hexadecimal(&self.0.finalize())
+    }
+}
+
+/// Bytes as people compare them.
+pub(super) fn hexadecimal(bytes: &[u8]) -> String {
+    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const STUDY: &str = r#"
+        model = "expression"
+        outputs.y = "a + b"
+        design = { base_samples = 2400, replicates = 3, seed = 5 }
+        analysis = { second_order = true }
+        factor = [
+            { name = "a", min = 1, max = 3, unit = "um", group = "both" },
+            { name = "b", distribution = "normal", mean = 0, sd = 1, group = "both" },
+            { name = "c", min = 0, max = 90, unit = "deg" },
+        ]
+    "#;
+
+    #[test]
+    fn rows_are_those_of_the_design_in_its_order() {
+        let study = crate::parse_study(STUDY, "s.toml".as_ref(), &[]).unwrap();
+        let (space, design) = (&study.space(), &study.design());
+        let mut rows = DesignRows::new(space, design);
+        let mut columns = vec![Vec::new(); 3];
+        let (mut number, mut u) = (0, [0.0; 3]);
+        while let Some(block) = rows.next_block(&mut columns) {
+            assert_eq!(block.replicate * design.rows() / 3 + block.first, number);
+            for row in 0..block.rows {
+                design.point(number + row as u64, &mut u);
+                for ((factor, column), u) in space.factors().iter().zip(&columns).zip(&u) {
+                    let (mut si, typed) = ([0.0], column[row]);
+                    factor.fill_si(std::slice::from_ref(u), &mut si);
+                    // One rounding where no number of the unit becomes this SI value.
+                    assert!((factor.unit().to_si(typed) - si[0]).abs() <= f64::EPSILON * si[0].abs());
+                }
+            }
+            number += block.rows as u64;
+        }
+        assert_eq!(number, design.rows());
+    }
+}

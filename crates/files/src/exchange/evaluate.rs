@@ -1,0 +1,136 @@
+//! A study's model at given points.
+
+use std::collections::BTreeMap;
+use std::io::Write;
+
+use apportion::model::{Batch, Output, RowFailure, RunContext};
+use apportion::run::{Halt, TableRun};
+use apportion::space::Factor;
+use apportion::study::Study;
+use thiserror::Error;
+
+use super::design_rows::factor_column;
+use super::error::TableError;
+use super::points::PointsReader;
+use super::rows::{ColumnKind, Format, RowReader, row_writer};
+
+/// Why points could not be evaluated.
+#[derive(Debug, Error)]
+pub enum EvaluateError {
+    /// The points are wrong.
+    #[error(transparent)]
+    Points(#[from] TableError),
+    /// The outputs cannot be written.
+    #[error("cannot write the outputs: {0}")]
+    Output(#[from] std::io::Error),
+    /// The model gave up, or the evaluation was asked to end.
+    #[error("{halt}; {points} points had been evaluated")]
+    Halted {
+        /// Points evaluated by then.
+        points: u64,
+        /// Why.
+        halt: Halt,
+    },
+}
+
+/// What became of the points.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Evaluated {
+    /// Number of points.
+    pub points: u64,
+    /// For each output that failed somewhere and each reason: how often, and the first point, counted from 1.
+    pub failures: BTreeMap<(String, RowFailure), (u64, u64)>,
+    /// Names of the columns of text that are no factors, and were not read.
+    pub skipped: Vec<String>,
+    /// The factors without a column, by number, which stand at their nominal values.
+    pub nominal: Vec<usize>,
+    /// Whether the points are a text whose last line has no end: it may have been cut short, within a number too.
+    pub unended: bool,
+}
+
+/// Evaluates the model of `study` at the points of a table, whose columns are named after factors, and writes its outputs
+/// as CSV: a header of output names, then one line per point, in the outputs' units. An output that failed is an empty cell.
+///
+/// Runs in constant memory, through as many workers as the model [asks for](apportion::model::Model::concurrency); the
+/// outputs stand in the order of the points. Numbers are written with as many digits as it takes to read the same bits back.
+///
+/// # Errors
+/// [`EvaluateError`] if the points are wrong, the outputs cannot be written, or the model gives up.
+pub fn evaluate(
+    study: &Study,
+    points: &mut dyn RowReader,
+    outputs: &mut dyn Write,
+) -> Result<Evaluated, EvaluateError> {
+    evaluate_in(study, points, outputs, false, &RunContext::default())
+}
+
+/// The same as the run of `context`, which may end it, and with the points before their outputs in every line if
+/// `with_points`: a column for each factor, in its unit.
+///
+/// # Errors
+/// As for [`evaluate`], and [`Halt::Interrupted`] if the run is to end.
+pub fn evaluate_in(
+    study: &Study,
+    points: &mut dyn RowReader,
+    outputs: &mut dyn Write,
+    with_points: bool,
+    context: &RunContext<'_>,
+) -> Result<Evaluated, EvaluateError> {
+    let mut reader = PointsReader::new(points, study.space())?;
+    let model = study.model();
+    let factors = study.space().factors();
+    let run = TableRun::new(model.as_ref(), context, 0);
+    let most = run.rows_at_once();
+    let mut batch = Batch::new(model.as_ref());
+    let mut columns = vec![Vec::with_capacity(most); factors.len()];
+    let mut evaluated = Evaluated {
+        skipped: reader.skipped().to_vec(),
+        nominal: reader.missing(factors.len()),
+        ..Evaluated::default()
+    };
+    let copied: &[Factor] = if with_points { factors } else { &[] };
+    let kinds = copied.iter().map(factor_column);
+    let kinds = kinds.chain(model.outputs().iter().map(|output| ColumnKind::numbers(&output.name))).collect();
+    let mut writer = row_writer(Format::Csv, outputs, kinds, 0)?;
+    loop {
+        let rows = reader.read(factors, most, &mut columns)?;
+        if rows == 0 {
+            break;
+        }
+        let typed = if with_points { columns.clone() } else { Vec::new() };
+        for (column, factor) in columns.iter_mut().zip(factors) {
+            for value in column {
+                *value = factor.unit().to_si(*value);
+            }
+        }
+        batch.reset(rows);
+        let inputs: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
+        let points = evaluated.points;
+        run.run(&inputs, &mut batch).map_err(|halt| EvaluateError::Halted { points, halt })?;
+        evaluated.count(model.outputs(), &batch);
+        let answers: Vec<Vec<f64>> =
+            model.outputs().iter().enumerate().map(|(k, output)| in_unit(output, batch.column(k))).collect();
+        let all: Vec<&[f64]> = typed.iter().chain(&answers).map(Vec::as_slice).collect();
+        writer.write(&all)?;
+    }
+    writer.finish()?;
+    context.messages().finish();
+    evaluated.unended = reader.is_unended();
+    Ok(evaluated)
+}
+
+/// Values of an output in its unit; NaN where there is none.
+fn in_unit(output: &Output, values: &[f64]) -> Vec<f64> {
+    values.iter().map(|value| if value.is_finite() { output.unit.from_si(*value) } else { f64::NAN }).collect()
+}
+
+impl Evaluated {
+    fn count(&mut self, outputs: &[Output], batch: &Batch) {
+        for (output, row, failure) in batch.failures() {
+            let point = self.points + *row as u64 + 1;
+            let key = (outputs[*output].name.to_string(), failure.clone());
+            self.failures.entry(key).and_modify(|(count, _)| *count += 1).or_insert((1, point));
+        }
+        self.points += batch.rows() as u64;
+    }
+}

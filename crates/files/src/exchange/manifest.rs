@@ -1,0 +1,232 @@
+//! What says whose points a design file holds: written beside it, and all that `analyze` needs beside the outputs.
+
+use std::path::{Path, PathBuf};
+
+use apportion::design::{Matrix, RowKind, Run};
+use apportion::study::{Study, Target};
+use serde::{Deserialize, Serialize};
+
+use super::error::{TableError, refused};
+
+/// The manifest of a design file, as described in `docs/exchange-formats.md`.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Manifest {
+    /// `"apportion-design"`.
+    pub format: String,
+    /// 1.
+    pub version: u32,
+    /// Version of the program that wrote it.
+    pub apportion_version: String,
+    /// The study.
+    pub study: ManifestStudy,
+    /// The rows of the design file.
+    pub design: ManifestDesign,
+    /// The columns of the design file.
+    pub factors: Vec<ManifestFactor>,
+}
+
+/// The study of a design file.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct ManifestStudy {
+    /// Its name.
+    pub name: String,
+    /// Its file, as named on the command line.
+    pub file: String,
+    /// SHA-256 of the file.
+    pub sha256: String,
+    /// Changes made on the command line.
+    pub overrides: Vec<String>,
+    /// The file, word for word.
+    pub text: String,
+}
+
+/// The rows of a design file.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct ManifestDesign {
+    /// Where the points come from.
+    pub sampler: String,
+    /// The seed.
+    pub seed: u64,
+    /// Independent randomisations.
+    pub replicates: u64,
+    /// Base points in all.
+    pub base_samples: u64,
+    /// Rows of each base point.
+    pub rows_per_point: u64,
+    /// Rows in all.
+    pub rows: u64,
+    /// The order of the rows, in words.
+    pub order: String,
+    /// The rows of a base point.
+    pub layout: Vec<ManifestRun>,
+    /// SHA-256 of the numbers, row by row, each as a little-endian double.
+    pub sha256: String,
+}
+
+/// A row of a base point: that of the matrix `base`, but `columns` of the matrix `from`.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct ManifestRun {
+    /// A, B or C.
+    pub base: String,
+    /// Names of factors.
+    pub columns: Vec<String>,
+    /// A, B or C.
+    pub from: String,
+    /// Names of dependent factors that come from neither, and follow the others.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub following: Vec<String>,
+    /// Of a row along a random order: how many players before the last one that comes from `from`; the order is that of the base
+    /// point, and no factor is in `columns`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub step: Option<usize>,
+}
+
+/// A column of a design file.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct ManifestFactor {
+    /// The factor, and the header of its column.
+    pub name: String,
+    /// The unit of its values.
+    pub unit: String,
+    /// The labels of a factor of categories.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub labels: Option<Vec<String>>,
+}
+
+const FORMAT: &str = "apportion-design";
+const VERSION: u32 = 1;
+
+impl Manifest {
+    /// The manifest of the design of `study`, read from `file`, whose numbers have this SHA-256.
+    pub fn new(study: &Study, file: &Path, sha256: String) -> Self {
+        let settings = study.design().settings();
+        let column = |column: &usize| study.space().factors()[*column].name.clone();
+        let run = |run: &Run| ManifestRun {
+            base: matrix(run.base),
+            columns: run.columns.iter().map(column).collect(),
+            from: matrix(run.from),
+            following: match run.kind {
+                RowKind::Step(_) => Vec::new(),
+                _ => run.mixed.iter().map(|(factor, _)| column(factor)).collect(),
+            },
+            step: if let RowKind::Step(step) = run.kind { Some(step) } else { None },
+        };
+        let factors = study.space().factors().iter().map(|factor| ManifestFactor {
+            name: factor.name.clone(),
+            unit: factor.unit().to_string(),
+            labels: factor.distribution().labels().map(<[String]>::to_vec),
+        });
+        Self {
+            format: FORMAT.to_owned(),
+            version: VERSION,
+            apportion_version: env!("CARGO_PKG_VERSION").to_owned(),
+            study: ManifestStudy {
+                name: study.name().to_owned(),
+                file: file.display().to_string(),
+                sha256: study.sha256().to_owned(),
+                overrides: study.overrides().to_vec(),
+                text: study.source().to_owned(),
+            },
+            design: ManifestDesign {
+                sampler: settings.sampler.name().to_owned(),
+                seed: settings.seed,
+                replicates: settings.replicates,
+                base_samples: settings.base_samples,
+                rows_per_point: study.design().rows_per_point(),
+                rows: study.design().rows(),
+                order: "replicate by replicate, base point by base point, the rows of `layout` of each: the row of \
+                        matrix `base` with `columns` of matrix `from`"
+                    .to_owned(),
+                layout: study.design().runs().iter().map(run).collect(),
+                sha256,
+            },
+            factors: factors.collect(),
+        }
+    }
+
+    /// Where the manifest of the design file `design` lies: beside it.
+    ///
+    /// ```
+    /// # use apportion_files::exchange::Manifest;
+    /// assert_eq!(Manifest::path_beside("a/x.csv".as_ref()), std::path::Path::new("a/x.csv.manifest.json"));
+    /// ```
+    pub fn path_beside(design: &Path) -> PathBuf {
+        let mut name = design.as_os_str().to_owned();
+        name.push(".manifest.json");
+        name.into()
+    }
+
+    /// Reads a manifest from its text.
+    ///
+    /// # Errors
+    /// [`TableError`] if it is none, or of a later version.
+    pub fn parse(text: &str) -> Result<Self, TableError> {
+        #[derive(Deserialize)]
+        struct Head {
+            format: String,
+            version: u32,
+        }
+        let not_one = |error| TableError::Refused(format!("not a manifest of a design: {error}"));
+        let Head { format, version } = serde_json::from_str(text).map_err(not_one)?;
+        if format != FORMAT {
+            return refused(format!("not a manifest of a design: its format is {format:?}, expected \"{FORMAT}\""));
+        }
+        if version > VERSION {
+            return refused(format!(
+                "version {version} of the manifest's format is not known here (up to {VERSION} is)"
+            ));
+        }
+        serde_json::from_str(text).map_err(not_one)
+    }
+
+    /// The manifest as JSON, ending in a line feed.
+    pub fn json(&self) -> String {
+        // Serialisation fails on maps without text keys only, of which there is none.
+        serde_json::to_string_pretty(self).expect("a manifest is plain data") + "\n"
+    }
+
+    /// The study whose design this is; it does not grow beyond the rows of the file.
+    ///
+    /// # Errors
+    /// [`TableError`] if the manifest contradicts itself.
+    pub fn study(&self) -> Result<Study, TableError> {
+        let ManifestStudy { file, text, overrides, sha256, .. } = &self.study;
+        let study = crate::parse_study(text, Path::new(file), overrides)
+            .map_err(|error| TableError::Refused(format!("the study in the manifest: {error}")))?;
+        if study.sha256() != *sha256 {
+            let found = study.sha256();
+            return refused(format!(
+                "the study in the manifest has been changed since `sample` wrote it: its SHA-256 is {found}, not {sha256}"
+            ));
+        }
+        if self.design != Self::new(&study, Path::new(file), self.design.sha256.clone()).design {
+            return refused(
+                "the design of the manifest is not that of its study: it was changed since `sample` wrote it",
+            );
+        }
+        Ok(study.with_target(Target::default()))
+    }
+
+    /// Whether the numbers of the design of `study` are those that the manifest was written for.
+    ///
+    /// # Errors
+    /// [`TableError`] if they are not.
+    pub fn check_points(&self, sha256: &str) -> Result<(), TableError> {
+        if self.design.sha256 == sha256 {
+            return Ok(());
+        }
+        let (here, written) = (env!("CARGO_PKG_VERSION"), &self.apportion_version);
+        refused(format!(
+            "the points of this manifest are not those that version {here} makes of its study (it was written by version \
+             {written}): analyse them with that version, or sample again"
+        ))
+    }
+}
+
+fn matrix(matrix: Matrix) -> String {
+    match matrix {
+        Matrix::A => "A".to_owned(),
+        Matrix::B => "B".to_owned(),
+        Matrix::Plain(number) => format!("plain {}", number + 1),
+    }
+}

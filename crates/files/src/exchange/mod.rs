@@ -1,0 +1,35 @@
+//! Tables of points and outputs as files: what joins the steps of a study when other programs take part.
+//!
+//! [`sample()`] writes the points, any program computes the outputs, [`read_answers`] reads them back into a
+//! [`Store`](apportion::run::Store) for a [`Runner`](apportion::Runner): `examples/three_steps.rs` goes this way.
+//! [`evaluate()`] is the other direction: the model of a study at points from anywhere.
+
+mod answers;
+mod design_rows;
+mod error;
+mod evaluate;
+mod manifest;
+mod points;
+mod rows;
+mod sample;
+mod save;
+mod table;
+
+pub use answers::{AnswersRequest, MissingOutputs, read_answers};
+pub use error::TableError;
+pub use evaluate::{EvaluateError, Evaluated, evaluate};
+pub use manifest::Manifest;
+pub use rows::{Format, ReadOptions, RowReader, open_table};
+pub use sample::{random_design, sample, write_rows};
+pub use save::save_outputs;
+pub use table::{Missing, Selection, Table, read_table};
+// What the program and the tests use beside it.
+pub use {
+    answers::{Answers, first_output, output_columns},
+    design_rows::{DesignRows, RowBlock, factor_column},
+    evaluate::evaluate_in,
+    manifest::{ManifestDesign, ManifestFactor, ManifestRun, ManifestStudy},
+    points::PointsReader,
+    rows::{ColumnKind, RowWriter, row_writer, table_of_bytes},
+    table::DroppedRows,
+};

@@ -1,0 +1,257 @@
+//! Rows as CSV: with commas, semicolons, tabs or blanks between the cells.
+
+use std::collections::VecDeque;
+use std::io::{BufWriter, Read, Write};
+
+use apportion::text::{csv_field, plain_field};
+
+use super::lines::Lines;
+use super::{
+    ColumnKind, ReadOptions, RowReader, RowWriter, check_names, expanded, is_error_word, names_of_columns, number,
+};
+use crate::exchange::error::{TableError, refused};
+
+/// Rows that are looked at to tell columns of text from those of numbers.
+const AHEAD: usize = 100;
+
+/// Reads CSV: spaces around cells are ignored, empty lines and comments (`#`) are skipped.
+pub(super) struct CsvRows {
+    csv: csv::Reader<Lines>,
+    names: Option<Vec<String>>,
+    width: usize,
+    /// Numbers that stand for a missing value.
+    missing: Vec<f64>,
+    record: csv::StringRecord,
+    /// Rows looked at before they are asked for, each with its line.
+    ahead: VecDeque<(csv::StringRecord, u64)>,
+    /// Lines of the rows of the last block.
+    lines: Vec<u64>,
+    /// Rows read.
+    rows: u64,
+}
+
+impl CsvRows {
+    pub(super) fn new(text: Box<dyn Read>, options: &ReadOptions) -> Result<Self, TableError> {
+        let lines = Lines::new(text)?;
+        let mut builder = csv::ReaderBuilder::new();
+        builder.trim(csv::Trim::All).delimiter(lines.separator).has_headers(false).flexible(true);
+        let mut rows = Self {
+            csv: builder.from_reader(lines),
+            names: None,
+            width: 0,
+            missing: options.missing.clone(),
+            record: csv::StringRecord::new(),
+            ahead: VecDeque::new(),
+            lines: Vec::new(),
+            rows: 0,
+        };
+        rows.read_header(options)?;
+        Ok(rows)
+    }
+
+    /// Reads the names of the columns, or looks at the first row of a table without.
+    fn read_header(&mut self, options: &ReadOptions) -> Result<(), TableError> {
+        let mut comment = Vec::new();
+        let first = loop {
+            match self.next_record()? {
+                Some((record, 1)) if record[0].to_lowercase().starts_with("sep=") => (),
+                Some((record, _)) if record[0].starts_with('#') && !is_error_word(&record[0]) => {
+                    let cells = record.iter().map(|cell| cell.trim_start_matches('#').trim());
+                    // A mark by itself is a cell where blanks separate them.
+                    comment = cells.skip(usize::from(&record[0] == "#")).map(str::to_owned).collect();
+                }
+                first => break first,
+            }
+        };
+        let Some((record, line)) = first else {
+            let (names, comment) = (expanded(&options.names), expanded(&comment));
+            let names = if names.is_empty() { comment } else { names };
+            check_names(&names)?;
+            (self.width, self.names) = (names.len(), Some(names));
+            return Ok(());
+        };
+        let numbers = record.iter().filter_map(number).collect::<Vec<f64>>();
+        let (has_numbers, of_numbers) = (!numbers.is_empty(), numbers.len() == record.len());
+        let is_row = options.no_header || has_numbers && (!options.names.is_empty() || comment.len() == record.len());
+        if !is_row {
+            // Whole numbers may be names among others, such as those of years.
+            if of_numbers || numbers.iter().any(|value| value.fract() != 0.0) {
+                return refused(format!(
+                    "line {line} holds numbers where the names of the columns are expected: if the file has no header, add \
+                     --no-header (and --names for the names of the columns in their order)"
+                ));
+            }
+            let cells: Vec<String> = record.iter().map(|cell| plain_field(cell).to_owned()).collect();
+            if !options.names.is_empty() {
+                let known = cells.join(", ");
+                return refused(format!(
+                    "it names its columns itself ({known}): leave --names out, or add --no-header if the first line is a row"
+                ));
+            }
+            let names = expanded(&cells);
+            check_names(&names)?;
+            (self.width, self.names) = (names.len(), Some(names));
+            return Ok(());
+        }
+        let names = if options.names.is_empty() && !options.no_header { comment } else { options.names.clone() };
+        self.width = record.len();
+        self.names = names_of_columns(expanded(&names), self.width)?;
+        self.ahead.push_back((record, line));
+        Ok(())
+    }
+
+    /// The next row with its line, from the text.
+    fn next_row(&mut self) -> Result<Option<(csv::StringRecord, u64)>, TableError> {
+        while let Some((record, line)) = self.next_record()? {
+            if record.len() == self.width && !(record[0].starts_with("# ") || &record[0] == "#") {
+                return Ok(Some((record, line)));
+            }
+            if !record[0].starts_with('#') || is_error_word(&record[0]) {
+                let (expected, found) = (self.width, record.len());
+                return refused(format!("line {line}: expected {expected} cells as in the header, not {found}"));
+            }
+        }
+        Ok(None)
+    }
+
+    fn next_record(&mut self) -> Result<Option<(csv::StringRecord, u64)>, TableError> {
+        let read = self.csv.read_record(&mut self.record);
+        // The reader stands at the start of the next line.
+        let line = self.csv.position().line().saturating_sub(1);
+        let is_one = read.map_err(|source| wrong_record(source, line))?;
+        Ok(is_one.then(|| (std::mem::take(&mut self.record), line)))
+    }
+
+    fn name(&self, place: usize) -> String {
+        self.names.as_ref().map_or_else(|| format!("number {}", place + 1), |names| names[place].clone())
+    }
+}
+
+impl RowReader for CsvRows {
+    fn names(&self) -> Option<&[String]> {
+        self.names.as_deref()
+    }
+
+    fn width(&self) -> usize {
+        self.width
+    }
+
+    fn text_columns(&mut self) -> Result<Vec<usize>, TableError> {
+        while self.ahead.len() < AHEAD
+            && let Some(next) = self.next_row()?
+        {
+            self.ahead.push_back(next);
+        }
+        let number = ColumnKind::default();
+        let is_text = |place: &usize| {
+            let cells = self.ahead.iter().filter_map(|(record, _)| record.get(*place));
+            let mut values = cells.map(|cell| number.value(cell)).filter(|value| !value.is_some_and(f64::is_nan));
+            values.next().is_some_and(|value| value.is_none())
+        };
+        Ok((0..self.width).filter(is_text).collect())
+    }
+
+    fn text_example(&self, place: usize) -> Option<String> {
+        let number = ColumnKind::default();
+        let mut cells = self.ahead.iter().filter_map(|(record, _)| record.get(place));
+        cells.find(|cell| number.value(cell).is_none()).map(str::to_owned)
+    }
+
+    fn line(&self, row: usize) -> Option<u64> {
+        self.lines.get(row).copied()
+    }
+
+    fn is_unended(&self) -> bool {
+        self.csv.get_ref().is_unended()
+    }
+
+    fn read(
+        &mut self,
+        wanted: &[(usize, ColumnKind)],
+        rows: usize,
+        into: &mut [Vec<f64>],
+    ) -> Result<usize, TableError> {
+        into.iter_mut().for_each(Vec::clear);
+        self.lines.clear();
+        for row in 0..rows {
+            let next = match self.ahead.pop_front() {
+                Some(next) => Some(next),
+                None => self.next_row()?,
+            };
+            let Some((record, line)) = next else { return Ok(row) };
+            self.rows += 1;
+            self.lines.push(line);
+            for ((place, kind), column) in wanted.iter().zip(&mut *into) {
+                let cell = &record[*place];
+                let value = kind.value(cell).or_else(|| kind.value(plain_field(cell))).ok_or_else(|| {
+                    let decimal_comma = kind.labels.is_empty() && number(&cell.replacen(',', ".", 1)).is_some();
+                    TableError::WrongCell {
+                        row: self.rows,
+                        line: Some(line),
+                        column: place + 1,
+                        name: self.name(*place),
+                        expected: kind.expected() + if decimal_comma { " with a decimal point" } else { "" },
+                        found: cell.to_owned(),
+                    }
+                })?;
+                column.push(if self.missing.contains(&value) { f64::NAN } else { value });
+            }
+            // Its memory serves the next row.
+            self.record = record;
+        }
+        Ok(rows)
+    }
+}
+
+fn wrong_record(source: csv::Error, line: u64) -> TableError {
+    // The reader counts records and bytes from its own beginning, which are of no use to the user.
+    match source.kind() {
+        csv::ErrorKind::Utf8 { .. } => {
+            TableError::Refused(format!("line {line}: it is not text in UTF-8: save the file as UTF-8"))
+        }
+        _ => TableError::Refused(format!("line {line}: {source}")),
+    }
+}
+
+/// Writes CSV, every number with as many digits as it takes to read the same bits back.
+pub(super) struct CsvWriter<'a> {
+    out: BufWriter<&'a mut dyn Write>,
+    columns: Vec<ColumnKind>,
+}
+
+impl<'a> CsvWriter<'a> {
+    pub(super) fn new(out: &'a mut dyn Write, columns: Vec<ColumnKind>) -> std::io::Result<Self> {
+        let mut out = BufWriter::new(out);
+        let names: Vec<String> = columns.iter().map(|column| csv_field(&column.name)).collect();
+        writeln!(out, "{}", names.join(","))?;
+        Ok(Self { out, columns })
+    }
+}
+
+impl RowWriter for CsvWriter<'_> {
+    fn write(&mut self, columns: &[&[f64]]) -> std::io::Result<()> {
+        let out = &mut self.out;
+        for row in 0..columns.first().map_or(0, |column| column.len()) {
+            for (number, (values, kind)) in columns.iter().zip(&self.columns).enumerate() {
+                if number > 0 {
+                    write!(out, ",")?;
+                }
+                let value = values[row];
+                match kind.label(value) {
+                    Some(label) => write!(out, "{}", csv_field(label))?,
+                    // An empty cell by itself would be an empty line, which readers skip.
+                    None if value.is_nan() && columns.len() == 1 => write!(out, "\"\"")?,
+                    None if value.is_nan() => (),
+                    None if kind.whole => write!(out, "{value}")?,
+                    None => write!(out, "{value:?}")?,
+                }
+            }
+            writeln!(out)?;
+        }
+        Ok(())
+    }
+
+    fn finish(mut self: Box<Self>) -> std::io::Result<()> {
+        self.out.flush()
+    }
+}

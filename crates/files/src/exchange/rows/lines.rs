@@ -1,0 +1,152 @@
+//! A text as the reader of CSV needs it: in UTF-8, with one kind of end of line, and one separator of cells.
+
+use std::io::{BufRead, BufReader, Cursor, Error, ErrorKind, Read, Result};
+
+use apportion::files::MAX_STREAM_BYTES;
+
+/// Most bytes of a line, so that a file without ends of lines takes no memory without end.
+const LONGEST_LINE: usize = 16 << 20;
+
+/// Most bytes at the beginning of a text that are looked at for what separates its cells.
+const LONGEST_BEGINNING: usize = 1 << 16;
+
+/// A text with `\n` at the end of every line, also after the last one.
+pub(super) struct Lines {
+    reader: BufReader<Box<dyn Read>>,
+    /// What separates the cells in the lines as they are handed on.
+    pub separator: u8,
+    /// Whether cells are separated by any number of blanks, which become one tab.
+    blanks: bool,
+    line: Vec<u8>,
+    /// Bytes of the line that have been handed on.
+    given: usize,
+    /// Whether the text ended without an end of line.
+    unended: bool,
+}
+
+impl Lines {
+    /// The lines of a text in UTF-8, or in UTF-16 with a byte-order mark.
+    pub(super) fn new(mut reader: Box<dyn Read>) -> Result<Self> {
+        let mut begin = beginning(&mut reader)?;
+        if begin.starts_with(b"\xff\xfe") || begin.starts_with(b"\xfe\xff") {
+            let text = utf16(begin, reader)?;
+            begin = Vec::new();
+            reader = Box::new(Cursor::new(text));
+            begin.extend(beginning(&mut reader)?);
+        }
+        if begin.starts_with(b"\xef\xbb\xbf") {
+            begin.drain(..3);
+        }
+        let separator = separator(&begin);
+        let reader: Box<dyn Read> = Box::new(Cursor::new(begin).chain(reader));
+        Ok(Self {
+            reader: BufReader::new(reader),
+            separator: if separator == b' ' { b'\t' } else { separator },
+            blanks: separator == b' ',
+            line: Vec::new(),
+            given: 0,
+            unended: false,
+        })
+    }
+
+    /// Whether the text, read to its end, lacks the end of its last line: it may have been cut short, within a number too.
+    pub(super) fn is_unended(&self) -> bool {
+        self.unended
+    }
+
+    fn next_line(&mut self) -> Result<()> {
+        self.line.clear();
+        self.given = 0;
+        let count = (&mut self.reader).take(LONGEST_LINE as u64 + 1).read_until(b'\n', &mut self.line)?;
+        if count > LONGEST_LINE {
+            let message = format!("a line of more than {} MiB", LONGEST_LINE >> 20);
+            return Err(Error::new(ErrorKind::InvalidData, message));
+        }
+        if self.line.ends_with(b"\r\n") {
+            self.line.truncate(count - 2);
+            self.line.push(b'\n');
+        } else if count > 0 && !self.line.ends_with(b"\n") {
+            self.unended = true;
+            self.line.push(b'\n');
+        }
+        if self.blanks {
+            let cells = self.line.split(|byte| matches!(byte, b' ' | b'\t' | b'\n'));
+            let mut line = cells.filter(|cell| !cell.is_empty()).collect::<Vec<_>>().join(&b'\t');
+            line.extend((count > 0).then_some(b'\n'));
+            self.line = line;
+        }
+        Ok(())
+    }
+}
+
+impl Read for Lines {
+    fn read(&mut self, buffer: &mut [u8]) -> Result<usize> {
+        if self.given == self.line.len() {
+            self.next_line()?;
+        }
+        let count = buffer.len().min(self.line.len() - self.given);
+        buffer[..count].copy_from_slice(&self.line[self.given..][..count]);
+        self.given += count;
+        Ok(count)
+    }
+}
+
+/// The beginning of a text up to the end of its second line that is no comment, and maybe beyond.
+fn beginning(reader: &mut dyn Read) -> Result<Vec<u8>> {
+    let (mut begin, mut part) = (Vec::new(), [0; 4096]);
+    while begin.len() < LONGEST_BEGINNING && plain_lines(&begin).count() < 3 {
+        match reader.read(&mut part) {
+            Ok(0) => break,
+            Ok(count) => begin.extend_from_slice(&part[..count]),
+            Err(error) if error.kind() == ErrorKind::Interrupted => (),
+            Err(error) => return Err(error),
+        }
+    }
+    Ok(begin)
+}
+
+/// Lines, but no empty ones and no comments.
+fn plain_lines(text: &[u8]) -> impl Iterator<Item = &[u8]> {
+    text.split(|byte| *byte == b'\n').map(<[u8]>::trim_ascii).filter(|line| !line.is_empty() && !line.starts_with(b"#"))
+}
+
+/// What separates the cells of a text that begins so: what `sep=` says in the first line, as spreadsheets do; else a comma if
+/// there is one outside of quotes, a semicolon or a tab; else blanks, if the first two lines have as many of them.
+fn separator(begin: &[u8]) -> u8 {
+    let mut lines = plain_lines(begin);
+    let first = lines.next().unwrap_or_default();
+    // Of `sep=` and a tab the tab is trimmed.
+    if let [b's' | b'S', b'e' | b'E', b'p' | b'P', b'=', rest @ ..] = first
+        && rest.len() < 2
+    {
+        return rest.first().copied().unwrap_or(b'\t');
+    }
+    let mut quoted = false;
+    let mut outside = first.iter().filter(|byte| {
+        quoted ^= **byte == b'"';
+        !quoted
+    });
+    let found: Vec<u8> = outside.by_ref().copied().filter(|byte| matches!(byte, b',' | b';' | b'\t')).collect();
+    if let Some(first) = found.iter().find(|byte| **byte == b',').or(found.first()) {
+        return *first;
+    }
+    let cells = |line: &[u8]| line.split(u8::is_ascii_whitespace).filter(|cell| !cell.is_empty()).count();
+    let second = lines.next().filter(|second| !second.contains(&b','));
+    let has_blanks = cells(first) > 1 && second.is_none_or(|second| cells(second) == cells(first));
+    let is_text = second.is_none() && first.iter().any(u8::is_ascii_alphabetic);
+    if has_blanks && !is_text { b' ' } else { b',' }
+}
+
+/// A text in UTF-16 that begins so, as bytes of UTF-8.
+fn utf16(begin: Vec<u8>, rest: Box<dyn Read>) -> Result<Vec<u8>> {
+    let (mut bytes, invalid) = (begin, |what: String| Error::new(ErrorKind::InvalidData, what));
+    rest.take(MAX_STREAM_BYTES).read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > MAX_STREAM_BYTES {
+        return Err(invalid(format!("a text in UTF-16 of more than {} MiB: save it as UTF-8", MAX_STREAM_BYTES >> 20)));
+    }
+    let of_pair = if bytes[0] == 0xff { u16::from_le_bytes } else { u16::from_be_bytes };
+    let units: Vec<u16> = bytes[2..].chunks_exact(2).map(|pair| of_pair([pair[0], pair[1]])).collect();
+    String::from_utf16(&units)
+        .map(String::into_bytes)
+        .map_err(|_| invalid("it is no text in UTF-16, as its first bytes say: save it as UTF-8".to_owned()))
+}

@@ -1,0 +1,321 @@
+//! Tables of numbers by rows, as CSV or NPY, behind one interface.
+//!
+//! Every cell is a number. A value that is missing is NaN; a label of a category is the number that stands for it, by
+//! the labels that the caller knows of the column. Readers and writers take blocks of rows, so that a file may be
+//! larger than memory.
+
+mod csv_rows;
+mod lines;
+mod npy;
+#[cfg(test)]
+mod tests;
+
+use std::collections::BTreeMap;
+use std::fs::File;
+use std::io::{Cursor, Read, Seek, Write};
+use std::path::Path;
+
+use apportion::files::read_opened;
+use apportion::model::items_of_header;
+use apportion::names::{named, refused_name};
+use flate2::read::MultiGzDecoder;
+
+use super::error::{TableError, refused};
+
+named! {
+    /// How a table is written down, known by the ending of a file's name.
+    pub enum Format {
+        /// Text: a header of names, then one line per row.
+        Csv = "csv",
+        /// NumPy's array file: numbers in rows and columns, without names.
+        Npy = "npy",
+    }
+}
+
+impl Format {
+    /// The format that the ending of `path` says, in capitals or not.
+    ///
+    /// ```
+    /// use apportion_files::exchange::Format;
+    ///
+    /// assert_eq!(Format::from_path("runs/design.CSV".as_ref())?, Format::Csv);
+    /// assert!(Format::from_path("design.xlsx".as_ref()).is_err());
+    /// # Ok::<(), apportion_files::exchange::TableError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`TableError`] for any other.
+    pub fn from_path(path: &Path) -> Result<Self, TableError> {
+        let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
+        let known = |format: &Self| ending.as_deref() == Some(format.name());
+        if let Some(format) = Self::ALL.into_iter().find(known) {
+            return Ok(format);
+        }
+        let found = match ending.as_deref() {
+            None => String::new(),
+            Some("parquet") => {
+                ", not .parquet: in Python `pandas.read_csv(\"FILE.csv\").to_parquet(\"FILE.parquet\")` makes one \
+                                of a CSV file"
+                    .to_owned()
+            }
+            Some(ending) => format!(", not .{ending}"),
+        };
+        refused(format!("the ending of the name tells the format: expected .csv or .npy{found}"))
+    }
+}
+
+/// What the file of a table does not say itself.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct ReadOptions {
+    /// Names of the columns of a table that has none.
+    pub names: Vec<String>,
+    /// Whether the first line of a text is a row, even if it does not look like one.
+    pub no_header: bool,
+    /// Numbers that stand for a missing value.
+    pub missing: Vec<f64>,
+}
+
+/// A column to be written or read.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct ColumnKind {
+    /// Its name.
+    pub name: String,
+    /// The labels of a column of categories, each with the number that stands for it; none for a column of numbers.
+    pub labels: Vec<(String, f64)>,
+    /// Whether all values are whole numbers, which text has without a decimal point.
+    pub whole: bool,
+}
+
+impl ColumnKind {
+    /// A column of numbers.
+    pub fn numbers(name: &str) -> Self {
+        Self { name: name.to_owned(), ..Self::default() }
+    }
+
+    fn label(&self, value: f64) -> Option<&str> {
+        self.labels.iter().find(|(_, number)| *number == value).map(|(label, _)| label.as_str())
+    }
+
+    fn value_of(&self, label: &str) -> Option<f64> {
+        // Python and spreadsheets write the labels of a boolean in capitals.
+        let is_it =
+            |known: &str| known == label || matches!(known, "true" | "false") && known.eq_ignore_ascii_case(label);
+        self.labels.iter().find(|(known, _)| is_it(known)).map(|(_, value)| *value)
+    }
+
+    /// The number in a cell of text: that of a label, or of a label's number; of a column of numbers any number,
+    /// infinities too, and 1 and 0 for `true` and `false`. `None` if it is neither; NaN if the value is missing.
+    fn value(&self, cell: &str) -> Option<f64> {
+        const MISSING: [&str; 9] = ["", "nan", "-nan", "na", "n/a", "null", "none", "-", "."];
+        if let Some(value) = self.value_of(cell) {
+            return Some(value);
+        }
+        if MISSING.iter().any(|word| cell.eq_ignore_ascii_case(word)) || is_error_word(cell) {
+            return Some(f64::NAN);
+        }
+        match cell {
+            "true" | "True" | "TRUE" if self.labels.is_empty() => Some(1.0),
+            "false" | "False" | "FALSE" if self.labels.is_empty() => Some(0.0),
+            cell => number(cell).filter(|value| self.labels.is_empty() || self.label(*value).is_some()),
+        }
+    }
+
+    fn expected(&self) -> String {
+        if self.labels.is_empty() {
+            return "a number".to_owned();
+        }
+        let labels: Vec<&str> = self.labels.iter().map(|(label, _)| label.as_str()).collect();
+        format!("one of {}", labels.join(", "))
+    }
+}
+
+/// A number as programs print it, that of Fortran with `D` before the exponent too.
+fn number(cell: &str) -> Option<f64> {
+    let of_fortran = || {
+        let is_plain = cell.bytes().all(|byte| byte.is_ascii_digit() || b"+-.dD".contains(&byte));
+        if is_plain { cell.replace(['d', 'D'], "e").parse().ok() } else { None }
+    };
+    cell.parse().ok().or_else(of_fortran)
+}
+
+/// Whether a spreadsheet has written that the cell has no value, as `#N/A` and `#DIV/0!` say.
+fn is_error_word(cell: &str) -> bool {
+    const WORDS: [&str; 7] = ["#N/A", "#DIV/0!", "#VALUE!", "#REF!", "#NUM!", "#NAME?", "#NULL!"];
+    WORDS.iter().any(|word| cell.eq_ignore_ascii_case(word))
+}
+
+/// Reads a table block by block.
+pub trait RowReader {
+    /// Names of all columns, in order; `None` for a format without names.
+    fn names(&self) -> Option<&[String]>;
+
+    /// Number of all columns.
+    fn width(&self) -> usize;
+
+    /// The columns that hold text, by their type, or by the first values in them.
+    ///
+    /// # Errors
+    /// [`TableError`] if the file cannot be read.
+    fn text_columns(&mut self) -> Result<Vec<usize>, TableError> {
+        Ok(Vec::new())
+    }
+
+    /// The first cell of a column of text that is no number, where the cells were looked at to tell.
+    fn text_example(&self, _place: usize) -> Option<String> {
+        None
+    }
+
+    /// The line of the file, from 1, on which row number `row` of the last block ends; `None` in a format without lines.
+    fn line(&self, _row: usize) -> Option<u64> {
+        None
+    }
+
+    /// Whether the file, read to its end, is a text whose last line has no end: it may have been cut short, within a number
+    /// too.
+    fn is_unended(&self) -> bool {
+        false
+    }
+
+    /// Reads the next rows, at most `rows`, of some columns into `into`, one vector for each of `wanted` (number of the
+    /// column below [`width`](Self::width), what it holds; the
+    /// same ones in every call), and returns how many there were; 0 at the end.
+    ///
+    /// # Errors
+    /// [`TableError`] with the place of the first fault.
+    fn read(&mut self, wanted: &[(usize, ColumnKind)], rows: usize, into: &mut [Vec<f64>])
+    -> Result<usize, TableError>;
+}
+
+/// Opens the table in `path`, in the format that its first bytes say, whatever its name: NPY, or text as CSV, which may be
+/// compressed by gzip. Text is read in constant memory, from a pipe too.
+///
+/// # Errors
+/// [`TableError`] if the file cannot be read or is of another format, or names do not fit.
+pub fn open_table(path: &Path, options: &ReadOptions) -> Result<Box<dyn RowReader>, TableError> {
+    let mut file = File::open(path)?;
+    let about = file.metadata()?;
+    if about.is_dir() {
+        return Err(std::io::Error::from(std::io::ErrorKind::IsADirectory).into());
+    }
+    let mut begin = Vec::new();
+    (&mut file).take(8).read_to_end(&mut begin)?;
+    if !begin.starts_with(npy::MAGIC) {
+        return text(&begin.clone(), Box::new(Cursor::new(begin).chain(file)), options);
+    }
+    if about.is_file() {
+        file.rewind()?;
+        return Ok(Box::new(npy::NpyRows::new(file, options)?));
+    }
+    begin.extend(read_opened(&mut file)?);
+    table_of_bytes(begin, options)
+}
+
+/// The table in `bytes`, as [`open_table`] reads it.
+///
+/// # Errors
+/// As for [`open_table`].
+pub fn table_of_bytes(bytes: Vec<u8>, options: &ReadOptions) -> Result<Box<dyn RowReader>, TableError> {
+    if bytes.starts_with(npy::MAGIC) {
+        return Ok(Box::new(npy::NpyRows::new(Cursor::new(bytes), options)?));
+    }
+    let begin: Vec<u8> = bytes.iter().take(8).copied().collect();
+    text(&begin, Box::new(Cursor::new(bytes)), options)
+}
+
+/// The table in a text that begins so.
+fn text(begin: &[u8], all: Box<dyn Read>, options: &ReadOptions) -> Result<Box<dyn RowReader>, TableError> {
+    let all: Box<dyn Read> = match begin {
+        [b'P', b'A', b'R', b'1', ..] => {
+            return refused(
+                "it is a Parquet file: write it as CSV, in Python with `pandas.read_parquet(\"FILE.parquet\").to_csv(\"FILE.csv\", \
+                 index=False)`",
+            );
+        }
+        [b'P', b'K', 3 | 5, 4 | 6, ..] | [0xd0, 0xcf, 0x11, 0xe0, ..] => {
+            return refused("it is a workbook or an archive (.xlsx, .xls, .ods, .zip, .npz): save the table as CSV");
+        }
+        [0x1f, 0x8b, ..] => Box::new(MultiGzDecoder::new(all)),
+        _ => all,
+    };
+    Ok(Box::new(csv_rows::CsvRows::new(all, options)?))
+}
+
+/// Writes a table block by block.
+pub trait RowWriter {
+    /// Writes rows: one slice for each column, all of one length.
+    ///
+    /// # Errors
+    /// Whatever the file's system says.
+    fn write(&mut self, columns: &[&[f64]]) -> std::io::Result<()>;
+
+    /// Writes what is left to be written.
+    ///
+    /// # Errors
+    /// Whatever the file's system says; or if the rows are not as many as were announced.
+    fn finish(self: Box<Self>) -> std::io::Result<()>;
+}
+
+/// A writer of `rows` rows of these columns to `out`. Numbers come back from reading as the same bits.
+///
+/// Labels are written as text in CSV, as their numbers in NPY; a missing value is an empty cell, or NaN.
+///
+/// # Errors
+/// Whatever the file's system says.
+pub fn row_writer<'a>(
+    format: Format,
+    out: &'a mut dyn Write,
+    columns: Vec<ColumnKind>,
+    rows: u64,
+) -> std::io::Result<Box<dyn RowWriter + 'a>> {
+    Ok(match format {
+        Format::Csv => Box::new(csv_rows::CsvWriter::new(out, columns)?),
+        Format::Npy => Box::new(npy::NpyWriter::new(out, (rows, columns.len()))?),
+    })
+}
+
+/// Names of all columns: `y[0..3]` stands for the columns `y[0]`, `y[1]` and `y[2]`.
+fn expanded(names: &[String]) -> Vec<String> {
+    let mut all = Vec::new();
+    for name in names {
+        match items_of_header(name) {
+            Some(items) => all.extend(items),
+            None => all.push(name.clone()),
+        }
+    }
+    all
+}
+
+/// The names of `width` columns, if there are any.
+fn names_of_columns(names: Vec<String>, width: usize) -> Result<Option<Vec<String>>, TableError> {
+    if names.is_empty() {
+        return Ok(None);
+    }
+    if names.len() != width {
+        return refused(format!("{} names are given, but it has {width} columns", names.len()));
+    }
+    check_names(&names)?;
+    Ok(Some(names))
+}
+
+/// Names that are all there and all different.
+fn check_names(names: &[String]) -> Result<(), TableError> {
+    if names.iter().all(String::is_empty) {
+        return refused("the file is empty: expected a header of column names, then one line per row");
+    }
+    let mut places = BTreeMap::new();
+    for (place, name) in names.iter().enumerate() {
+        let column = place + 1;
+        if name.is_empty() {
+            let index = "if it is the index that pandas writes, leave it out (index=False)";
+            let advice = if column == 1 { format!(": {index}") } else { String::new() };
+            return refused(format!("column {column} has no name{advice}"));
+        }
+        if let Some(expected) = refused_name(name) {
+            return refused(format!("the name of column {column}: expected {expected}"));
+        }
+        if let Some(first) = places.insert(name, place) {
+            return refused(format!("column {column}: `{name}` is also the name of column {}", first + 1));
+        }
+    }
+    Ok(())
+}

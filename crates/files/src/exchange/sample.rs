@@ -1,0 +1,69 @@
+//! A study's design as a file of rows.
+
+use std::io::Write;
+use std::path::Path;
+
+use apportion::design::{Design, DesignError, DesignSettings, Rows, Sampler};
+use apportion::study::Study;
+
+use super::design_rows::{DesignRows, RowsDigest, factor_column};
+use super::manifest::Manifest;
+use super::rows::{Format, row_writer};
+
+/// Writes the rows of the design of `study` (read from `study_file`) to `out`, a column for each factor in its unit, and
+/// returns the manifest that belongs beside it. Runs in constant memory.
+///
+/// # Errors
+/// Whatever the file's system says.
+pub fn sample(study: &Study, study_file: &Path, format: Format, out: &mut dyn Write) -> std::io::Result<Manifest> {
+    let digest = write_rows(study, study.design(), study.design().rows(), format, out)?;
+    Ok(Manifest::new(study, study_file, digest))
+}
+
+/// The design whose first `rows` rows are random points of the factors of `study`, independent of each other. They follow from
+/// the seed of the study.
+///
+/// # Errors
+/// [`DesignError`] if that is no row, or more than 2^33.
+pub fn random_design(study: &Study, rows: u64) -> Result<Design, DesignError> {
+    // The rows A and B of a design without any other.
+    let settings = DesignSettings {
+        sampler: Sampler::Random,
+        base_samples: rows.div_ceil(2).max(2),
+        replicates: 1,
+        seed: study.design().settings().seed,
+    };
+    let of_design = Rows { copula: study.design().asked().copula.clone(), ..Rows::default() };
+    Design::new(settings, study.design().factors(), of_design)
+}
+
+/// Writes the first `most` rows of `design`, a column for each factor of `study` in its unit, and returns the SHA-256 of their
+/// numbers. Those of a [`random_design`] are a table for [`apportion::given`], not a design of the study.
+///
+/// # Errors
+/// Whatever the file's system says.
+pub fn write_rows(
+    study: &Study,
+    design: &Design,
+    most: u64,
+    format: Format,
+    out: &mut dyn Write,
+) -> std::io::Result<String> {
+    let space = study.space();
+    let kinds = space.factors().iter().map(factor_column).collect();
+    let mut writer = row_writer(format, out, kinds, most)?;
+    let mut rows = DesignRows::new(space, design);
+    let mut columns = vec![Vec::new(); design.factors()];
+    let (mut digest, mut left) = (RowsDigest::default(), most);
+    while let Some(block) = rows.next_block(&mut columns) {
+        if left < block.rows as u64 {
+            columns.iter_mut().for_each(|column| column.truncate(left as usize));
+        }
+        left = left.saturating_sub(block.rows as u64);
+        digest.add(&columns);
+        let slices: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
+        writer.write(&slices)?;
+    }
+    writer.finish()?;
+    Ok(digest.finish())
+}

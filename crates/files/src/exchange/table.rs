@@ -1,0 +1,163 @@
+//! A table of inputs and outputs, from any source.
+
+use apportion::given::{Column, TextColumn};
+use apportion::study::{did_you_mean, nearest};
+
+use super::error::{TableError, place_in_words, refused};
+use super::rows::{ColumnKind, RowReader};
+
+/// What to do with rows that lack a value.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Missing {
+    /// Refuse the table at the first one.
+    #[default]
+    Refuse,
+    /// Leave them out, and count them.
+    Drop,
+}
+
+/// Which columns of a table are used, and how.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Selection<'a> {
+    /// Names of the outputs.
+    pub outputs: &'a [String],
+    /// Names of the inputs; none for all columns of numbers that are no outputs.
+    pub inputs: &'a [String],
+    /// What to do with rows that lack a value in one of these columns.
+    pub missing: Missing,
+    /// Columns that hold labels, or may: those of the factors of a study.
+    pub kinds: &'a [ColumnKind],
+}
+
+/// Rows that were left out.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct DroppedRows {
+    /// How many.
+    pub rows: u64,
+    /// Line of the first of them in the file, from 1; its row in the table, where the file has no lines.
+    pub first_line: u64,
+}
+
+/// A table as columns.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Table {
+    /// The inputs, in the order asked for, or of the file.
+    pub inputs: Vec<Column>,
+    /// The outputs, in the order asked for.
+    pub outputs: Vec<Column>,
+    /// Rows left out for missing values.
+    pub dropped: Option<DroppedRows>,
+    /// The columns of text, which are no inputs.
+    pub skipped: Vec<TextColumn>,
+}
+
+/// Rows read at a time.
+const BLOCK: usize = 1 << 12;
+
+/// Reads a table of numbers. Columns that are not selected may hold anything; where the inputs are not named, columns of
+/// text are none.
+///
+/// A value is missing if its cell is empty or says `nan`, `na`, `n/a`, `null`, `none`, `.` or `-`, in capitals or not, or is an
+/// error of a spreadsheet such as `#N/A`; or if it is one of the [numbers](super::ReadOptions::missing) that stand for it.
+///
+/// # Errors
+/// [`TableError`] with the place of the first fault.
+pub fn read_table(reader: &mut dyn RowReader, selection: &Selection<'_>) -> Result<Table, TableError> {
+    let Some(names) = reader.names().map(<[String]>::to_vec) else {
+        let width = reader.width();
+        return refused(format!("its {width} columns have no names: name them in their order (--names)"));
+    };
+    let (mut inputs, outputs) = places(&names, selection)?;
+    let (mut skipped, remedy) = (Vec::new(), TextColumn::REMEDY);
+    if selection.inputs.is_empty() {
+        let is_known = |place: &usize| selection.kinds.iter().any(|kind| kind.name == names[*place]);
+        let text: Vec<usize> = reader.text_columns()?.into_iter().filter(|place| !is_known(place)).collect();
+        let (of_text, of_numbers): (Vec<usize>, Vec<usize>) = inputs.iter().partition(|place| text.contains(place));
+        let column = |place: usize| TextColumn { name: names[place].clone(), example: reader.text_example(place) };
+        skipped = of_text.into_iter().map(column).collect();
+        inputs = of_numbers;
+    }
+    if inputs.is_empty() {
+        let why: String = skipped.iter().map(|column| format!("; {}", column.reason())).collect();
+        let known = names.join(", ");
+        return refused(format!("no column of numbers is left as an input{why}; the columns are {known}; {remedy}"));
+    }
+    let chosen: Vec<usize> = inputs.iter().chain(&outputs).copied().collect();
+    let kind = |name: &String| selection.kinds.iter().find(|kind| kind.name == *name).cloned();
+    let kind = |place: usize| kind(&names[place]).unwrap_or_else(|| ColumnKind::numbers(&names[place]));
+    let wanted: Vec<_> = chosen.iter().map(|&place| (place, kind(place))).collect();
+    let mut columns: Vec<Column> =
+        chosen.iter().map(|&place| Column { name: names[place].clone(), values: Vec::new() }).collect();
+    let not_a_number = |place: String, at: usize, found: String| {
+        let is_chosen = !selection.inputs.is_empty() || outputs.contains(&at);
+        let advice = if is_chosen { "" } else { "; if the column is no input, name the inputs (--inputs)" };
+        let (column, name) = (at + 1, &names[at]);
+        TableError::Refused(format!(
+            "{place}: column {column} (`{name}`): expected a finite number, not {found:?}{advice}; {remedy}"
+        ))
+    };
+    let (mut dropped, mut cells, mut before): (Option<DroppedRows>, _, u64) = (None, vec![Vec::new(); wanted.len()], 0);
+    loop {
+        let count = reader.read(&wanted, BLOCK, &mut cells).map_err(|error| match error {
+            TableError::WrongCell { row, line, column, found, .. } => {
+                not_a_number(place_in_words(line, row), column - 1, found)
+            }
+            error => error,
+        })?;
+        if count == 0 {
+            break;
+        }
+        for row in 0..count {
+            let (line, number) = (reader.line(row), before + row as u64 + 1);
+            let Some(first) = cells.iter().position(|column| !column[row].is_finite()) else {
+                columns.iter_mut().zip(&cells).for_each(|(column, cells)| column.values.push(cells[row]));
+                continue;
+            };
+            // An infinity anywhere in the row is no missing value.
+            if let Some(at) = cells.iter().position(|column| column[row].is_infinite()) {
+                return Err(not_a_number(place_in_words(line, number), chosen[at], cells[at][row].to_string()));
+            }
+            if selection.missing == Missing::Refuse {
+                let (place, column) = (place_in_words(line, number), chosen[first] + 1);
+                let name = &names[chosen[first]];
+                return refused(format!(
+                    "{place}: column {column} (`{name}`): the value is missing; --drop-missing leaves such rows out"
+                ));
+            }
+            let first_line = line.unwrap_or(number);
+            dropped.get_or_insert(DroppedRows { rows: 0, first_line }).rows += 1;
+        }
+        before += count as u64;
+    }
+    let outputs = columns.split_off(inputs.len());
+    Ok(Table { inputs: columns, outputs, dropped, skipped })
+}
+
+/// The place of the column of that name.
+pub(super) fn column_of(names: &[String], name: &str) -> Result<usize, TableError> {
+    names.iter().position(|other| other == name).map_or_else(
+        || {
+            let (nearest, known) = (nearest(name, names.iter().map(String::as_str)), names.join(", "));
+            refused(format!("no column is called `{name}`{}; the columns are {known}", did_you_mean(&nearest)))
+        },
+        Ok,
+    )
+}
+
+/// Places of the inputs and of the outputs in the header.
+fn places(names: &[String], selection: &Selection<'_>) -> Result<(Vec<usize>, Vec<usize>), TableError> {
+    let place = |name: &String| column_of(names, name);
+    let asked: Vec<&String> = selection.outputs.iter().chain(selection.inputs).collect();
+    if let Some(k) = (1..asked.len()).find(|&k| asked[..k].contains(&asked[k])) {
+        return refused(format!("`{}` is asked for twice: each column can be one input or one output", asked[k]));
+    }
+    let outputs = selection.outputs.iter().map(place).collect::<Result<Vec<_>, _>>()?;
+    let mut inputs = selection.inputs.iter().map(place).collect::<Result<Vec<_>, _>>()?;
+    if inputs.is_empty() {
+        inputs = (0..names.len()).filter(|place| !outputs.contains(place)).collect();
+    }
+    Ok((inputs, outputs))
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,83 @@
+use proptest::prelude::*;
+
+use super::*;
+use crate::exchange::{ReadOptions, table_of_bytes};
+
+fn read(text: &str, outputs: &[&str], inputs: &[&str], missing: Missing) -> Result<Table, TableError> {
+    let owned = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect::<Vec<_>>();
+    let (outputs, inputs) = (owned(outputs), owned(inputs));
+    let mut rows = table_of_bytes(text.as_bytes().to_vec(), &ReadOptions::default())?;
+    read_table(rows.as_mut(), &Selection { outputs: &outputs, inputs: &inputs, missing, kinds: &[] })
+}
+
+#[test]
+fn columns_come_in_the_order_asked_for() {
+    let text = "\u{feff}a, note ,y,b\r\n1,hello,2,3\r\n\r\n-4e-3,\"x, y\",5,6";
+    let table = read(text, &["y"], &["b", "a"], Missing::Refuse).unwrap();
+    assert_eq!(table.inputs[0], Column { name: "b".to_owned(), values: vec![3.0, 6.0] });
+    assert_eq!(table.inputs[1].values, [1.0, -4e-3]);
+    assert_eq!(table.outputs[0].values, [2.0, 5.0]);
+    let table = read("a,y,b\n1,2,3\n", &["y"], &[], Missing::Refuse).unwrap();
+    assert_eq!((table.inputs.len(), table.inputs[1].name.as_str(), table.dropped), (2, "b", None));
+}
+
+#[test]
+fn faults_are_named_with_their_place() {
+    let refused = |text: &str, inputs: &[&str]| read(text, &["y"], inputs, Missing::Refuse).unwrap_err();
+    for (text, inputs, reason) in [
+        ("\n\n", &[][..], "the file is empty"),
+        ("y\n1\n", &[], "no column of numbers is left as an input; the columns are y"),
+        ("a,y\n", &["y"], "`y` is asked for twice"),
+        ("a,force\n", &[], "no column is called `y`"),
+        ("a,y\n1,2\n3,nan\n", &[], "line 3: column 2 (`y`): the value is missing"),
+        ("a,y\n1,2\n,2\n", &[], "line 3: column 1 (`a`): the value is missing"),
+        ("# a\na,y\n1,#N/A\n", &[], "line 3: column 2 (`y`): the value is missing"),
+        ("a,y\n1,2\nred,2\n", &[], "line 3: column 1 (`a`): expected a finite number, not \"red\""),
+        ("a;y\n2;2\n1,5;2\n", &["a"], "line 3: column 1 (`a`): expected a finite number, not \"1,5\""),
+        ("a,y\n1,2\n1,inf\n", &["a"], "line 3: column 2 (`y`): expected a finite number, not \"inf\""),
+    ] {
+        let message = refused(text, inputs).to_string();
+        assert!(message.starts_with(reason), "{message}");
+    }
+    let message = refused("a;b;y\n1,5;red;2\n", &[]).to_string();
+    assert!(message.contains("`a` holds text (1,5)") && message.contains("`b` holds text (red)"), "{message}");
+}
+
+#[test]
+fn columns_of_text_are_skipped_and_named() {
+    let text = "id;a;when;y\nr1;;2026-01-01;2\nr2;0.5;2026-01-02;4\n";
+    let table = read(text, &["y"], &[], Missing::Drop).unwrap();
+    let skipped: Vec<_> = table.skipped.iter().map(|column| (&*column.name, column.example.as_deref())).collect();
+    assert_eq!((table.inputs.len(), &table.inputs[0].values), (1, &vec![0.5]));
+    assert_eq!(skipped, [("id", Some("r1")), ("when", Some("2026-01-01"))]);
+    // One that is asked for is not.
+    assert!(read(text, &["y"], &["id"], Missing::Drop).is_err());
+    let tabs = read("a\ty\n1\t2\n", &["y"], &[], Missing::Refuse).unwrap();
+    assert_eq!((tabs.inputs[0].values[0], tabs.outputs[0].values[0]), (1.0, 2.0));
+}
+
+#[test]
+fn rows_without_a_value_are_dropped_and_counted_if_asked() {
+    let text = "a,y,z\n1,2,\n,2,3\n3,NaN,3\n4,5,6\n";
+    let table = read(text, &["y"], &["a"], Missing::Drop).unwrap();
+    assert_eq!(table.inputs[0].values, [1.0, 4.0]);
+    assert_eq!(table.dropped, Some(DroppedRows { rows: 2, first_line: 3 }));
+    // Text and infinities are no missing values.
+    assert!(read("a,y\n1,1\nred,1\n", &["y"], &[], Missing::Drop).is_err());
+    assert!(read("a,y\n1,inf\n", &["y"], &[], Missing::Drop).is_err());
+}
+
+proptest! {
+    #[test]
+    fn no_file_panics(bytes in prop::collection::vec(any::<u8>(), 0..60), near in "[a,y\n\r\"0-9.e-]{0,40}") {
+        let outputs = ["y".to_owned()];
+        for missing in [Missing::Refuse, Missing::Drop] {
+            let selection = Selection { outputs: &outputs, inputs: &[], missing, kinds: &[] };
+            for bytes in [&bytes[..], near.as_bytes()] {
+                if let Ok(mut rows) = table_of_bytes(bytes.to_vec(), &ReadOptions::default()) {
+                    let _ = read_table(rows.as_mut(), &selection);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,22 @@
+//! Studies in TOML, programs as models, and tables of points and outputs, for [`apportion`].
+//!
+//! [`load_study`] reads a study file; everything wrong with it is reported with its line and column. [`CommandModel`] asks a
+//! program of the user's own, in any language. [`exchange`] writes the points of a study to a file, and reads outputs that
+//! were computed anywhere.
+
+#![cfg_attr(not(test), deny(clippy::disallowed_methods))]
+
+mod catalogue;
+mod command;
+pub mod exchange;
+mod study;
+
+pub use catalogue::ModelKind;
+pub use command::{
+    CommandModel, CommandOutput, CommandSettings, Form, InputTemplate, Match, PerRun, Pick, Program, Protocol, Source,
+    TemplateError, TemplateProblem, Way, parse_answer, program_files,
+};
+pub use study::{
+    CommandSubject, Diagnostic, ExpressionConstant, ExpressionSubject, Formula, KnownSubject, NEW_PROGRAM, Problem,
+    StudyError, TemplateRequest, edited, load_study, model_guide, new_program, parse_study, study_schema, template,
+};

@@ -1,0 +1,86 @@
+//! The tables `[design]` and `[analysis]`: choices by name, whose rules are those of every study.
+
+use apportion::StudyBuilder;
+use apportion::design::Sampler;
+use apportion::quantity::{Dimension, Quantity};
+use apportion::space::Space;
+use apportion::study::{AnalysisOptions, Target};
+
+use super::context::{Context, Fault, choice, choice_if_said, unknown_name};
+use super::sections::{At, NameList, StudyFile};
+
+/// `builder` with what the tables say.
+pub(super) fn settled(
+    context: &Context<'_>,
+    file: &StudyFile,
+    space: &Space,
+    mut builder: StudyBuilder,
+) -> Result<StudyBuilder, Fault> {
+    let section = &file.design;
+    let number = |value: &Option<At<u64>>| value.as_ref().map(|value| *value.get_ref());
+    builder.sampler = choice_if_said(context, &section.sampler, "sampler")?.unwrap_or(builder.sampler);
+    builder.length.base_samples = number(&section.base_samples);
+    builder.length.runs = number(&section.runs);
+    builder.length.target = Target {
+        accuracy: file.accuracy.as_ref().map(|accuracy| *accuracy.get_ref()),
+        max_time: section.max_time.as_ref().map(|text| seconds(context, "max_time", text)).transpose()?,
+        max_runs: number(&section.max_runs),
+    };
+    builder.replicates = number(&section.replicates);
+    builder.seed = number(&section.seed).unwrap_or(builder.seed);
+    builder.analysis = Some(options(context, file, builder.sampler, space)?);
+    Ok(builder)
+}
+
+fn options(context: &Context<'_>, file: &StudyFile, sampler: Sampler, space: &Space) -> Result<AnalysisOptions, Fault> {
+    let section = &file.analysis;
+    fn set<T: Copy>(to: &mut T, typed: &Option<At<T>>) {
+        *to = typed.as_ref().map_or(*to, |value| *value.get_ref());
+    }
+    let mut options = AnalysisOptions::for_sampler(sampler);
+    set(&mut options.second_order, &section.second_order);
+    set(&mut options.aggregate, &section.aggregate);
+    set(&mut options.dummy, &section.dummy);
+    set(&mut options.convergence, &section.convergence);
+    set(&mut options.threshold, &section.threshold);
+    set(&mut options.max_failed, &section.max_failed);
+    options.intervals = choice_if_said(context, &section.intervals, "kind of interval")?.unwrap_or(options.intervals);
+    options.surrogate =
+        choice_if_said(context, &section.surrogate, "choice of surrogate")?.unwrap_or(options.surrogate);
+    options.failures = choice_if_said(context, &section.failures, "failure policy")?.unwrap_or(options.failures);
+    if let Some(resamples) = &section.resamples {
+        options.resamples = usize::try_from(*resamples.get_ref()).unwrap_or(usize::MAX);
+    }
+    let names = |list: &Option<NameList>| list.iter().flat_map(|list| list.get_ref().clone()).collect::<Vec<_>>();
+    for name in names(&section.estimators) {
+        options.estimators.push(choice(context, &name, "estimator")?);
+    }
+    for name in names(&section.measures) {
+        options.measures.push(choice(context, &name, "measure")?);
+    }
+    for list in section.subsets.iter().flat_map(|lists| lists.get_ref()) {
+        options.subsets.push(list.get_ref().iter().map(|name| place(context, name, space)).collect::<Result<_, _>>()?);
+    }
+    options.subsets.extend(super::noise::subsets_of_mean(file, space));
+    options.shapley = section.shapley.as_ref().map(|asked| *asked.get_ref());
+    options.shapley_method = choice_if_said(context, &section.shapley_method, "method for Shapley effects")?;
+    options.shapley_players = choice_if_said(context, &section.shapley_players, "kind of players")?;
+    Ok(options)
+}
+
+/// The place of a factor that is named.
+pub(super) fn place(context: &Context<'_>, name: &At<String>, space: &Space) -> Result<usize, Fault> {
+    let known = || space.factors().iter().map(|factor| factor.name.as_str());
+    let place = known().position(|factor| factor == name.get_ref());
+    context.at(name, place.ok_or_else(|| unknown_name("factor", name.get_ref(), known())))
+}
+
+/// A time above 0, in seconds.
+pub(super) fn seconds(context: &Context<'_>, key: &str, typed: &At<String>) -> Result<f64, Fault> {
+    let quantity = context.at(typed, Quantity::parse(typed.get_ref()))?;
+    let seconds = quantity.to_si();
+    if quantity.unit.dimension() != Dimension::TIME || !(seconds > 0.0 && seconds.is_finite()) {
+        return context.refuse(typed, key, "a time above 0, as in \"30 s\"", format!("\"{}\"", typed.get_ref()));
+    }
+    Ok(seconds)
+}

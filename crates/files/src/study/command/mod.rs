@@ -1,0 +1,189 @@
+//! `model = "command"`: the user's own program, its outputs, and how it is asked.
+
+pub(super) mod file;
+mod runs;
+
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use apportion::space::Space;
+pub(super) use file::{CommandKey, CommandSection};
+use serde_json::{Value, json};
+
+use super::analysis::seconds;
+use super::at::ListOrTable;
+use super::context::{Context, Fault, choice_if_said, wrong};
+use super::error::Problem;
+use super::outputs::own_outputs;
+use super::paths::{Reach, folder, refuse_outside_of_run, resolve};
+use super::sections::{At, Outputs};
+use super::subjects::CommandSubject;
+use crate::{CommandOutput, CommandSettings, Form, Pick, Program, Protocol, Source};
+
+pub(super) fn no_program() -> Problem {
+    Problem::missing("program", "command = [\"python3\", \"my_model.py\"]")
+}
+
+/// The program with all that is said of it, and notes on what has no effect.
+pub(super) fn subject(
+    context: &Context<'_>,
+    key: Option<&At<CommandKey>>,
+    outputs: Option<&At<Outputs>>,
+    space: &Space,
+) -> Result<(CommandSubject, Vec<String>), Fault> {
+    let Some(key) = key else { return Err(context.fault(0..0, no_program())) };
+    let unsaid = CommandSection::default();
+    let (section, program) = match key.get_ref() {
+        ListOrTable::List(program) => (&unsaid, program.as_slice()),
+        ListOrTable::Table(section) => {
+            (section.as_ref(), section.program.as_ref().map_or(&[][..], |program| program.get_ref().as_slice()))
+        }
+    };
+    let arguments = arguments(context, key, program)?;
+    let directory = match &section.directory {
+        None => folder(context),
+        Some(typed) => existing(context, section, typed, ("directory", Path::is_dir))?,
+    };
+    let environment: Vec<(String, String)> = section.env.clone().into_iter().collect();
+    let all = own_outputs(context, outputs)?;
+    for Pick { source, .. } in all.outputs.iter().filter_map(|output| output.pick.as_ref()) {
+        if let Source::File(file) = source {
+            let place = outputs.map_or(0..0, At::span);
+            refuse_outside_of_run(context, place, file, reach(section))?;
+        }
+    }
+    let (form, notes) = match &section.template {
+        None => {
+            let protocol = protocol(context, section, all.first_pick.as_ref())?;
+            refuse_number(context, key, protocol, space, &all.outputs)?;
+            (Form::KeptAlive(protocol), Vec::new())
+        }
+        Some(template) => {
+            let (form, notes) = runs::form(context, section, template, space)?;
+            runs::refuse_without_pick(context, key, &all.outputs)?;
+            (Form::PerRun(form), notes)
+        }
+    };
+    let protocol = if let Form::KeptAlive(protocol) = &form { Some(protocol.name()) } else { None };
+    let input = if let Form::PerRun(form) = &form { Some(&form.input) } else { None };
+    let mut stated = vec![
+        ("program", json!(arguments)),
+        ("directory", json!(section.directory)),
+        ("env", json!(section.env)),
+        ("protocol", json!(protocol)),
+        ("template", json!(section.template)),
+        ("input", json!(input)),
+        ("files", json!(section.files)),
+        ("depends_on", json!(section.depends_on)),
+        ("outputs", Value::Object(all.stated)),
+    ];
+    stated.retain(|(_, value)| !matches!(value, Value::Null) && *value != json!([]) && *value != json!({}));
+    let depends_on =
+        section.depends_on.iter().map(|typed| existing_file(context, section, typed)).collect::<Result<_, _>>()?;
+    let settings = CommandSettings {
+        program: Program { arguments, directory, environment },
+        form,
+        asked: (0..all.outputs.len()).collect(),
+        outputs: all.outputs,
+        series: all.series,
+        workers: whole(context, "workers", section.workers.as_ref(), 1..=1024)?.map(|number| number as usize),
+        timeout: timeout(context, section)?,
+        retries: whole(context, "retries", section.retries.as_ref(), 0..=100)?.map_or(1, |number| number as u32),
+    };
+    Ok((CommandSubject { settings, stated, depends_on }, notes))
+}
+
+fn arguments(context: &Context<'_>, key: &At<CommandKey>, program: &[At<String>]) -> Result<Vec<String>, Fault> {
+    if program.first().is_none_or(|name| name.get_ref().trim().is_empty()) {
+        let span = program.first().map_or_else(|| key.span(), At::span);
+        return Err(context.fault(span, no_program()));
+    }
+    Ok(program.iter().map(|argument| argument.get_ref().clone()).collect())
+}
+
+/// How far the paths of the study may lead.
+fn reach(section: &CommandSection) -> Reach {
+    let is_free = section.files_outside.as_ref().is_some_and(|allowed| *allowed.get_ref());
+    if is_free { Reach::Anywhere } else { Reach::Inside }
+}
+
+fn existing_file(context: &Context<'_>, section: &CommandSection, typed: &At<String>) -> Result<PathBuf, Fault> {
+    existing(context, section, typed, ("file", Path::is_file))
+}
+
+/// The path that is typed, of something that is there.
+fn existing(
+    context: &Context<'_>,
+    section: &CommandSection,
+    typed: &At<String>,
+    (what, is_there): (&str, fn(&Path) -> bool),
+) -> Result<PathBuf, Fault> {
+    let path = resolve(context, typed, reach(section))?;
+    if is_there(&path) {
+        return Ok(path);
+    }
+    let problem = format!("{}: there is no such {what}", path.display());
+    let help = format!("the path is relative to the study, and that of a {what}");
+    Err(context.fault(typed.span(), Problem::with_help(problem, help)))
+}
+
+/// The protocol of a program that is kept alive; what belongs to the other form has no place here.
+fn protocol(
+    context: &Context<'_>,
+    section: &CommandSection,
+    first_pick: Option<&Range<usize>>,
+) -> Result<Protocol, Fault> {
+    const RUNS: &str = "only beside `template`, of a program that runs once for each row";
+    let spans = [
+        ("input", section.input.as_ref().map(At::span)),
+        ("files", section.files.first().map(At::span)),
+        ("keep", section.keep.as_ref().map(At::span)),
+        ("regex, column, pointer, file, match", first_pick.cloned()),
+    ];
+    if let Some((key, span)) = spans.into_iter().find_map(|(key, span)| Some((key, span?))) {
+        return Err(context.fault(span, wrong(key, RUNS, "without one".to_owned())));
+    }
+    Ok(choice_if_said(context, &section.protocol, "protocol")?.unwrap_or(Protocol::Csv))
+}
+
+/// A factor, or an output of JSON, called as the number of a row is.
+fn refuse_number(
+    context: &Context<'_>,
+    key: &At<CommandKey>,
+    protocol: Protocol,
+    space: &Space,
+    outputs: &[CommandOutput],
+) -> Result<(), Fault> {
+    let is_factor = space.factors().iter().any(|factor| factor.name == "id");
+    let is_output = protocol == Protocol::JsonLines && outputs.iter().any(|output| output.name == "id");
+    let what = if is_factor { "factor" } else { "output" };
+    if is_factor || is_output {
+        let expected = "another than `id`, which the program gets as the number of a row";
+        return context.refuse(key, &format!("name of the {what}"), expected, "`id`".to_owned());
+    }
+    Ok(())
+}
+
+fn whole(
+    context: &Context<'_>,
+    key: &str,
+    typed: Option<&At<u64>>,
+    range: std::ops::RangeInclusive<u64>,
+) -> Result<Option<u64>, Fault> {
+    let Some(typed) = typed else { return Ok(None) };
+    if range.contains(typed.get_ref()) {
+        return Ok(Some(*typed.get_ref()));
+    }
+    let expected = format!("a whole number from {} to {}", range.start(), range.end());
+    context.refuse(typed, key, &expected, typed.get_ref().to_string())
+}
+
+fn timeout(context: &Context<'_>, section: &CommandSection) -> Result<Option<Duration>, Fault> {
+    let Some(typed) = &section.timeout else { return Ok(None) };
+    let seconds = seconds(context, "timeout", typed)?;
+    match Duration::try_from_secs_f64(seconds).ok().filter(|time| *time > Duration::ZERO) {
+        Some(duration) => Ok(Some(duration)),
+        None => context.refuse(typed, "timeout", "a time above 0, as in \"30 s\"", format!("{:?}", typed.get_ref())),
+    }
+}

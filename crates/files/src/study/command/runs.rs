@@ -1,0 +1,101 @@
+//! A program that runs once for each row: its template, and the files of a run's directory.
+
+use std::path::{Component, Path, PathBuf};
+
+use apportion::files::read_text;
+use apportion::names::nearest;
+use apportion::space::Space;
+use apportion::study::did_you_mean;
+
+use super::file::{CommandKey, CommandSection};
+use super::{Context, Fault, existing_file, reach};
+use crate::study::at::At;
+use crate::study::context::wrong;
+use crate::study::error::Problem;
+use crate::study::paths::resolve;
+use crate::{CommandOutput, InputTemplate, PerRun, TemplateProblem};
+
+/// Names that the engine writes in the directory of a run.
+const TAKEN: [&str; 3] = ["stdout.txt", "stderr.txt", "factors.csv"];
+
+/// The form, and notes on factors that the template does not mention.
+pub(super) fn form(
+    context: &Context<'_>,
+    section: &CommandSection,
+    template: &At<String>,
+    space: &Space,
+) -> Result<(PerRun, Vec<String>), Fault> {
+    if let Some(protocol) = &section.protocol {
+        let expected = "only of a program that is kept alive, without `template`";
+        return Err(context.fault(protocol.span(), wrong("protocol", expected, "beside one".to_owned())));
+    }
+    let template_file = resolve(context, template, reach(section))?;
+    let file_name = template_file.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
+    let input = section.input.as_ref().map_or(file_name, |input| input.get_ref().clone());
+    let span = || section.input.as_ref().map_or_else(|| template.span(), At::span);
+    refuse_place("input", &input).map_err(|problem| context.fault(span(), problem))?;
+    let read = context.at(template, read_template(&template_file, space))?;
+    let unused = space.factors().iter().enumerate().filter(|(number, _)| !read.uses(*number));
+    let notes = unused.map(|(_, factor)| format!("factor `{}` does not stand in the template", factor.name)).collect();
+    let files = files(context, section, &input)?;
+    let keep = section.keep.as_ref().map(|keep| resolve(context, keep, reach(section))).transpose()?;
+    Ok((PerRun { template_file, template: read, input, files, keep }, notes))
+}
+
+/// Every output says where it stands after a run.
+pub(super) fn refuse_without_pick(
+    context: &Context<'_>,
+    key: &At<CommandKey>,
+    outputs: &[CommandOutput],
+) -> Result<(), Fault> {
+    let Some(output) = outputs.iter().find(|output| output.pick.is_none()) else { return Ok(()) };
+    let expected = "a table that says where the number stands, as in { file = \"out.txt\", regex = \"force = (\\\\S+)\" }, \
+                    { file = \"out.csv\", column = \"y\" } or { file = \"out.json\", pointer = \"/result/y\" }";
+    context.refuse(key, &format!("outputs.{}", output.name), expected, "without that beside `template`".to_owned())
+}
+
+fn read_template(path: &Path, space: &Space) -> Result<InputTemplate, Problem> {
+    let text = read_text(path).map_err(|error| {
+        let help = "it is a text in UTF-8; its path is relative to the study";
+        Problem::with_help(format!("{}: cannot read the template: {error}", path.display()), help)
+    })?;
+    let names = || space.factors().iter().map(|factor| factor.name.as_str());
+    InputTemplate::parse(&text, &|name| names().position(|known| known == name)).map_err(|error| {
+        let near = match &error.problem {
+            TemplateProblem::Unknown(name) => nearest(name, names()),
+            TemplateProblem::Open => None,
+        };
+        let place = format!("{}:{}:{}", path.display(), error.line, error.column);
+        let names = names().collect::<Vec<_>>().join(", ");
+        let help = format!("factors: {names}; write `{{{{{{{{` for two braces of the text");
+        Problem::with_help(format!("{place}: {error}{}", did_you_mean(&near)), help)
+    })
+}
+
+/// A file in the directory of a run is named without a way out of it.
+fn refuse_place(key: &str, name: &str) -> Result<(), Problem> {
+    let mut parts = Path::new(name).components();
+    let is_name = matches!((parts.next(), parts.next()), (Some(Component::Normal(_)), None));
+    if !is_name || name.contains('\0') {
+        return Err(wrong(key, "the name of a file, without a folder", format!("{name:?}")));
+    }
+    if TAKEN.contains(&name) {
+        return Err(wrong(key, "another name: the directory of a run has a file of that one", format!("{name:?}")));
+    }
+    Ok(())
+}
+
+fn files(context: &Context<'_>, section: &CommandSection, input: &str) -> Result<Vec<PathBuf>, Fault> {
+    let mut paths: Vec<PathBuf> = Vec::with_capacity(section.files.len());
+    for typed in &section.files {
+        let path = existing_file(context, section, typed)?;
+        let fault = |problem| context.fault(typed.span(), problem);
+        let name = path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
+        refuse_place("files", &name).map_err(fault)?;
+        if name == input || paths.iter().any(|other| other.file_name() == path.file_name()) {
+            return Err(fault(Problem::Repeated { what: "file of a run's directory", name }));
+        }
+        paths.push(path);
+    }
+    Ok(paths)
+}

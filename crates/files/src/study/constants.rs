@@ -1,0 +1,169 @@
+//! The `[afm]` table: choices by name, and constants of the scene with their units.
+
+use std::collections::BTreeMap;
+
+use apportion::model::MAX_SERIES_VALUES;
+use apportion::names::Named;
+use apportion::quantity::{Dimension, Quantity, Unit};
+use apportion_afm::{AfmMoments, Fidelity, FrictionLaw, Options, Parameter, Scene, edge_unit};
+use toml::Value;
+
+use super::context::{Context, Fault, named, number, unknown_key, wrong};
+use super::error::Problem;
+use super::key_schemas::afm_choices;
+use super::sections::At;
+use super::units::{in_words_of_units, with_unit, wrong_unit};
+
+/// Reads the table into a scene and options, starting from the defaults. `is_factor` tells the names that must not be
+/// fixed.
+pub(super) fn afm(
+    context: &Context<'_>,
+    table: &BTreeMap<At<String>, At<Value>>,
+    is_factor: &dyn Fn(&str) -> bool,
+) -> Result<(Scene, Options), Fault> {
+    let (mut scene, mut options) = (Scene::default(), Options::default());
+    for (key, value) in table {
+        let name = key.get_ref().as_str();
+        let fault = |problem| context.fault(value.span(), problem);
+        let found = || value.get_ref().type_str().to_owned();
+        match name {
+            "friction" => options.friction = choice(value, name, "friction law").map_err(fault)?,
+            "contact" => options.contact = choice(value, name, "contact theory").map_err(fault)?,
+            "fidelity" => options.fidelity = choice(value, name, "fidelity").map_err(fault)?,
+            "torsion" => options.torsion = choice(value, name, "torsion formula").map_err(fault)?,
+            "lugre_parameters" => {
+                options.lugre = choice(value, name, "source of LuGre parameters").map_err(fault)?;
+            }
+            "tolerance" => options.tolerance = positive(name, "1e-6", value.get_ref()).map_err(fault)?,
+            "step" => options.step = positive(name, "\"10 ms\"", value.get_ref()).map_err(fault)?,
+            "step_budget" => {
+                let budget = value.get_ref().as_integer().and_then(|steps| u64::try_from(steps).ok());
+                let budget = budget.filter(|&steps| steps > 0);
+                options.step_budget = budget.ok_or_else(|| fault(wrong(name, "a whole number from 1", found())))?;
+            }
+            "adhesion_in_load" => {
+                let typed = value.get_ref().as_bool();
+                options.adhesion_in_load = typed.ok_or_else(|| fault(wrong(name, "true or false", found())))?;
+            }
+            // See `moments`.
+            "history" => (),
+            _ => {
+                let Some(parameter) = Parameter::from_name(name) else {
+                    let choices: Vec<&str> = afm_choices().map(|(key, _)| key).collect();
+                    let known = choices.into_iter().chain(Parameter::ALL.iter().map(|parameter| parameter.name));
+                    return Err(context.fault(key.span(), unknown_key(name, known)));
+                };
+                if is_factor(name) {
+                    let problem = format!("`{name}` is a factor of this study, so it cannot be fixed in [afm]");
+                    let help = format!("remove `{name}` here, or from the factors");
+                    return Err(context.fault(key.span(), Problem::with_help(problem, help)));
+                }
+                (parameter.set)(&mut scene, constant(parameter, value).map_err(fault)?);
+            }
+        }
+    }
+    Ok((scene, options))
+}
+
+/// Seconds of a history, and moments in them, where nothing is said: those of the papers' scene in time.
+const DURATION: f64 = 0.4;
+const POINTS: usize = 40;
+
+/// The moments of the outputs that are histories, by the key `history`.
+pub(super) fn moments(context: &Context<'_>, table: &BTreeMap<At<String>, At<Value>>) -> Result<AfmMoments, Fault> {
+    let entry = table.iter().find(|(key, _)| key.get_ref() == "history").map(|(_, value)| value);
+    let (mut duration, mut points) = (DURATION, POINTS);
+    let fault = |problem| context.fault(entry.map_or(0..0, At::span), problem);
+    if let Some(value) = entry {
+        let expected = "a table such as { duration = \"0.4 s\", points = 40 }";
+        let table = value.get_ref().as_table();
+        let table = table.ok_or_else(|| fault(wrong("history", expected, value.get_ref().type_str().to_owned())))?;
+        for (key, typed) in table {
+            match key.as_str() {
+                "duration" => duration = positive("history.duration", "\"0.4 s\"", typed).map_err(fault)?,
+                "points" => {
+                    let number = typed.as_integer().and_then(|points| usize::try_from(points).ok());
+                    points = number.filter(|points| (2..=MAX_SERIES_VALUES).contains(points)).ok_or_else(|| {
+                        fault(wrong("history.points", "a whole number from 2 to 10000", typed.to_string()))
+                    })?;
+                }
+                other => return Err(fault(unknown_key(other, ["duration", "points"].into_iter()))),
+            }
+        }
+    }
+    AfmMoments::new(duration, points).map_err(|error| fault(Problem::new(format!("`history`: {error}"))))
+}
+
+/// Notes on keys of the table that are understood but cannot act under `options`.
+pub(super) fn idle(table: &BTreeMap<At<String>, At<Value>>, options: &Options, has_histories: bool) -> Vec<String> {
+    let marched = !matches!(options.fidelity, Fidelity::ClosedForm);
+    let acts = |name: &str| match name {
+        "step" => options.fidelity == Fidelity::FixedStep,
+        "tolerance" => marched && options.fidelity != Fidelity::FixedStep,
+        "step_budget" => marched,
+        "lugre_parameters" => marched && options.friction == FrictionLaw::LuGre,
+        _ => true,
+    };
+    let (friction, fidelity) = (options.friction.name(), options.fidelity.name());
+    let idle = table.keys().map(|key| key.get_ref().as_str()).filter(|name| !acts(name));
+    let notes =
+        idle.map(|name| format!("`{name}` has no effect with friction = \"{friction}\" and fidelity = \"{fidelity}\""));
+    let without = !has_histories && table.keys().any(|key| key.get_ref() == "history");
+    let of_history =
+        without.then(|| "`history` has no effect without an output that is one, such as force_history".to_owned());
+    notes.chain(of_history).collect()
+}
+
+fn choice<T: Named>(value: &At<Value>, key: &str, what: &'static str) -> Result<T, Problem> {
+    match value.get_ref() {
+        Value::String(text) => named(text, what),
+        other => {
+            let names: Vec<String> = T::CHOICES.iter().map(|(name, _)| format!("{name:?}")).collect();
+            Err(wrong(key, &format!("one of {}", names.join(", ")), other.type_str().to_owned()))
+        }
+    }
+}
+
+/// The SI value of a constant given as `"0.7 deg"`, or as a bare number where the parameter has no dimension.
+fn constant(parameter: &Parameter, value: &At<Value>) -> Result<f64, Problem> {
+    let unit = edge_unit(parameter);
+    let dimensionless = unit.compatible(&Unit::dimensionless());
+    let example = || match dimensionless {
+        true => format!("{} = {}", parameter.name, (parameter.get)(&Scene::default())),
+        false => format!("{} = \"{} {unit}\"", parameter.name, unit.from_si((parameter.get)(&Scene::default()))),
+    };
+    let quantity = match value.get_ref() {
+        Value::String(text) => Quantity::parse(text)?,
+        other => {
+            let expected = format!("a quantity, as in {}", example());
+            let refusal = || wrong(parameter.name, &expected, other.type_str().to_owned());
+            Quantity { value: number(other).ok_or_else(refusal)?, unit: Unit::dimensionless() }
+        }
+    };
+    if !quantity.unit.compatible(&unit) {
+        let stated = Some(&quantity.unit).filter(|unit| !unit.compatible(&Unit::dimensionless()));
+        return Err(wrong_unit(&format!("`{}`", parameter.name), &unit, stated, &example()));
+    }
+    let si = quantity.unit.to_si(quantity.value);
+    if !parameter.domain.contains(si) || !unit.from_si(si).is_finite() {
+        let (name, domain) = (parameter.name, in_words_of_units(parameter.domain));
+        let found = with_unit(quantity.value, quantity.unit.symbol());
+        return Err(Problem::new(format!("`{name}` must be {domain}, but it is {found}")));
+    }
+    Ok(si)
+}
+
+/// A number greater than 0: bare where it has no dimension, as `example` shows, or a time with its unit.
+fn positive(key: &str, example: &str, value: &Value) -> Result<f64, Problem> {
+    let is_time = example.starts_with('"');
+    let found = match value {
+        Value::String(text) if is_time => {
+            let quantity = Quantity::parse(text)?;
+            (quantity.unit.dimension() == Dimension::TIME).then(|| quantity.to_si())
+        }
+        other => number(other).filter(|_| !is_time),
+    };
+    found
+        .filter(|number| *number > 0.0 && number.is_finite())
+        .ok_or_else(|| wrong(key, &format!("greater than 0, as in {key} = {example}"), value.to_string()))
+}

@@ -1,0 +1,88 @@
+//! The distribution of a factor, from the keys of its `[[factor]]` table.
+
+use apportion::space::distribution::{Kind, Parameter};
+use apportion::space::{Distribution, DistributionError};
+
+use super::context::{Context, Fault, unknown_name, wrong};
+use super::error::Problem;
+use super::measured;
+use super::sections::{At, FactorSection, TypedKey, TypedValue};
+
+/// Whether a factor's table says nothing of its distribution.
+pub(super) fn is_unsaid(fields: &FactorSection) -> bool {
+    fields.distribution.is_none() && fields.keys.is_empty()
+}
+
+/// Whether a factor's distribution is given by something else than its own parameters.
+pub(super) fn is_determined(fields: &FactorSection, distribution: &Distribution) -> bool {
+    let parameters = distribution.parameters();
+    let is_own = |key: &str| key == "truncate" || parameters.iter().any(|(name, _)| *name == key);
+    !fields.keys.iter().all(|typed| is_own(typed.key.name))
+}
+
+/// The distribution of a factor.
+pub(super) fn of_factor(context: &Context<'_>, section: &At<FactorSection>) -> Result<Distribution, Fault> {
+    let fields = section.get_ref();
+    let factor = fields.name.get_ref();
+    let kind = kind(context, fields)?;
+    let values = fields.keys.iter().map(|typed| Ok((typed.key.name, parameter(context, fields, kind, typed)?)));
+    let values = values.collect::<Result<Vec<_>, Fault>>()?;
+    kind.make(&values).map_err(|source| {
+        let first = || fields.keys.first().map(|typed| typed.span.clone());
+        let of_key = match source {
+            DistributionError::Missing { .. } => None,
+            _ => source.key().and_then(|key| fields.place(key)).or_else(first),
+        };
+        context.fault(of_key.unwrap_or(fields.name.span()), refused(factor, &source))
+    })
+}
+
+/// The distribution of that factor cannot be.
+pub(super) fn refused(factor: &str, error: &DistributionError) -> Problem {
+    Problem::Refused { message: format!("factor `{factor}`: {error}"), help: error.help() }
+}
+
+/// The family, by default the first.
+fn kind(context: &Context<'_>, fields: &FactorSection) -> Result<Kind, Fault> {
+    match &fields.distribution {
+        None => Ok(Kind::default()),
+        Some(typed) => {
+            let unknown = || unknown_name("distribution", typed.get_ref(), Kind::all().map(Kind::name));
+            context.at(typed, Kind::from_name(typed.get_ref()).ok_or_else(unknown))
+        }
+    }
+}
+
+/// What a key says.
+fn parameter(context: &Context<'_>, fields: &FactorSection, kind: Kind, typed: &TypedKey) -> Result<Parameter, Fault> {
+    Ok(match &typed.value {
+        TypedValue::Parameter(parameter) => parameter.clone(),
+        TypedValue::Text(file) if typed.key.name == "file" && kind.name() == "empirical" => {
+            let column = fields.keys.iter().find_map(|other| match &other.value {
+                TypedValue::Text(column) if other.key.name == "column" => Some(column),
+                _ => None,
+            });
+            let (values, source) = measured::read(context, file, column)?;
+            Parameter::Measured(values, source)
+        }
+        TypedValue::Text(text) => Parameter::Text(text.get_ref().clone()),
+        TypedValue::Bounds(list) => match list[..] {
+            [min, max] => Parameter::Bounds(min, max),
+            _ => {
+                let expected = "two numbers, as in truncate = [1, 5]; inf or -inf cuts nothing off";
+                let found = format!("a list of {}", list.len());
+                return Err(context.fault(typed.span.clone(), wrong("truncate", expected, found)));
+            }
+        },
+        TypedValue::Quantiles(table) => {
+            let pair = |(key, value): (&At<String>, &At<f64>)| {
+                let expected = "values by probabilities from 0 to 1, as in { \"0\" = 1, \"0.5\" = 2, \"1\" = 5 }";
+                let refused =
+                    || context.fault(key.span(), wrong("quantiles", expected, format!("{:?}", key.get_ref())));
+                let probability: f64 = key.get_ref().trim().parse().map_err(|_| refused())?;
+                Ok((probability, *value.get_ref()))
+            };
+            Parameter::Quantiles(table.iter().map(pair).collect::<Result<_, Fault>>()?)
+        }
+    })
+}

@@ -1,0 +1,35 @@
+//! `model = "external"`: the outputs of a model that runs outside of this program.
+
+use apportion::model::{Input, Output};
+use apportion::study::ExternalSubject;
+
+use super::context::{Context, Fault, wrong};
+use super::outputs::own_outputs;
+use super::sections::{At, FactorSection, Outputs};
+use super::units::own_inputs;
+
+/// The inputs of the model: the factors of the study, each in its own unit.
+pub fn inputs(context: &Context<'_>, factors: &[At<FactorSection>]) -> Result<Vec<Input>, Fault> {
+    for section in factors {
+        let name = &section.get_ref().name;
+        if name.get_ref().trim() != name.get_ref() || name.get_ref().is_empty() {
+            let expected = "a text without spaces around it (it is the header of a column)";
+            return context.refuse(name, "name of a factor", expected, format!("{:?}", name.get_ref()));
+        }
+    }
+    own_inputs(context, factors)
+}
+
+/// The outputs that the study states.
+pub(super) fn subject(context: &Context<'_>, outputs: Option<&At<Outputs>>) -> Result<ExternalSubject, Fault> {
+    let own = own_outputs(context, outputs)?;
+    if let Some(place) = own.first_pick {
+        let expected = "only of a program that runs here";
+        return Err(
+            context.fault(place, wrong("regex, column, pointer, file, match", expected, "of one outside".to_owned()))
+        );
+    }
+    let output =
+        |output: crate::CommandOutput| Output::new(output.name, output.unit, "computed outside of this program");
+    Ok(ExternalSubject { outputs: own.outputs.into_iter().map(output).collect(), series: own.series })
+}

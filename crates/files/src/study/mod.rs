@@ -1,0 +1,112 @@
+//! Study files: TOML as typed ([`StudyFile`](sections::StudyFile)), and what it means. Everything wrong with a file is
+//! reported with its line and column.
+
+mod analysis;
+mod at;
+#[cfg_attr(target_family = "wasm", allow(dead_code, reason = "a page starts no programs"))]
+mod command;
+mod constants;
+mod context;
+mod dependence;
+mod distribution;
+mod error;
+mod expression;
+#[cfg_attr(target_family = "wasm", allow(dead_code, reason = "a page starts no programs"))]
+mod external;
+mod fidelity;
+mod forms;
+mod function;
+mod key_schemas;
+mod measured;
+mod models;
+mod noise;
+mod nominal;
+mod outputs;
+mod overrides;
+mod paths;
+mod read;
+mod resolve;
+mod schema;
+mod sections;
+mod series;
+mod subjects;
+mod template;
+mod units;
+
+use std::path::{Path, PathBuf};
+
+use apportion::files::read_text;
+use apportion::study::{Study, StudySource};
+pub use error::{Diagnostic, Problem, StudyError};
+pub use models::model_guide;
+pub use schema::study_schema;
+use sha2::{Digest, Sha256};
+pub use subjects::{CommandSubject, ExpressionConstant, ExpressionSubject, Formula, KnownSubject};
+pub use template::{NEW_PROGRAM, TemplateRequest, new_program, template};
+
+/// Reads a study file, after applying `overrides` of the form `KEY=VALUE`.
+///
+/// # Errors
+/// [`StudyError`] with the place in the file and what would be right.
+pub fn load_study(path: &Path, overrides: &[String]) -> Result<Study, StudyError> {
+    let unreadable = |source| StudyError::Unreadable { path: path.to_owned(), source };
+    let text = read_text(path).map_err(unreadable)?;
+    parse_study(&text, path, overrides)
+}
+
+/// Reads a study from its text; `path` is for messages, and names the study unless the text does.
+///
+/// ```
+/// use std::path::Path;
+/// use apportion::Study;
+///
+/// let text = r#"
+///     model = "ishigami"
+///     [[factor]]
+///     name = "x1"
+///     min = -3.14
+///     max = 3.14
+/// "#;
+/// let study = apportion_files::parse_study(text, Path::new("small.toml"), &["design.base_samples=256".to_owned()])?;
+/// assert_eq!(study.name(), "small");
+/// // A and B: with one factor, A with its column from B is B, and is not run again.
+/// assert_eq!(study.design().rows(), 2 * 256);
+/// # Ok::<(), apportion_files::StudyError>(())
+/// ```
+///
+/// # Errors
+/// [`StudyError`] with the place in the text and what would be right.
+pub fn parse_study(text: &str, path: &Path, overrides: &[String]) -> Result<Study, StudyError> {
+    let effective = if overrides.is_empty() { Some(text.to_owned()) } else { overridden(text, overrides)? };
+    let context = context::Context { path: PathBuf::from(path), text: effective.as_deref().unwrap_or(text) };
+    let (study, notes) = resolve::study(&context).map_err(|mut diagnostic| {
+        diagnostic.overrides = overrides.to_vec();
+        diagnostic
+    })?;
+    if effective.is_none() {
+        // The reader takes whole numbers up to 2^64, the editor up to 2^63, as TOML has it.
+        return Err(not_editable(overrides));
+    }
+    Ok(study.with_source(StudySource {
+        text: text.to_owned(),
+        sha256: Sha256::digest(text.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect(),
+        overrides: overrides.to_vec(),
+        notes,
+    }))
+}
+/// The text of a study after `overrides`, which [`parse_study`] reads like the text that it was made from with them.
+///
+/// # Errors
+/// [`StudyError`] if an override cannot be applied, or the text is not TOML.
+pub fn edited(text: &str, overrides: &[String]) -> Result<String, StudyError> {
+    overridden(text, overrides)?.ok_or_else(|| not_editable(overrides))
+}
+
+fn not_editable(overrides: &[String]) -> StudyError {
+    let problem = "the study cannot be changed, because it holds a whole number beyond 2^63 - 1, which is not TOML";
+    StudyError::Override { text: overrides.join(" "), problem: problem.to_owned() }
+}
+
+fn overridden(text: &str, overrides: &[String]) -> Result<Option<String>, StudyError> {
+    overrides::apply(text, overrides).map_err(|(text, problem)| StudyError::Override { text, problem })
+}

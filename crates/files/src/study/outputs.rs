@@ -1,0 +1,210 @@
+//! The key `outputs` of programs and of models outside: names, or a table of units, of series, and of where the numbers of a
+//! program stand after a run.
+
+use std::ops::Range;
+
+use apportion::model::{OutputSeries, SeriesAxis};
+use apportion::quantity::Unit;
+use regex::Regex;
+use schemars::JsonSchema;
+use serde::Deserialize;
+use serde_json::{Map, Value as Json, json};
+use toml::Value;
+
+use super::at::{At, ListOrTable, in_order};
+use super::context::{Context, Fault, wrong};
+use super::error::Problem;
+use super::key_schemas::names;
+use super::sections::Outputs;
+use super::units::output_unit;
+use super::{read, series};
+use crate::{CommandOutput, Match, Pick, Source, Way};
+
+/// What a table says of an output: its formula, where its number stands after a run, along which axis it is a series.
+#[derive(Debug, Clone, Default, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct OutputTable {
+    /// Formula of the factors.
+    pub formula: Option<String>,
+    /// Unit of the output's numbers.
+    pub unit: Option<String>,
+    /// File that a run leaves in its directory; its standard output if not said.
+    pub file: Option<String>,
+    /// Regular expression, whose first group is the number.
+    pub regex: Option<String>,
+    /// Column of a CSV table with a header.
+    pub column: Option<String>,
+    /// JSON pointer (RFC 6901), as in "/result/force".
+    pub pointer: Option<String>,
+    /// Which match of the regex, or row of the table, is taken; of a series every one.
+    #[serde(rename = "match")]
+    #[schemars(extend("enum" = names(&Match::ALL, Match::name), "default" = "last"))]
+    pub which: Option<String>,
+    /// The output is a series of so many values along an axis.
+    #[schemars(range(min = 2, max = 10000))]
+    pub length: Option<u64>,
+    /// What the axis is called.
+    #[schemars(extend("default" = "index"))]
+    pub axis: Option<String>,
+    /// Unit of the positions.
+    pub axis_unit: Option<String>,
+    /// The first position and the step, or the position of every value; 0, 1, 2, ... if not said.
+    pub positions: Option<Vec<f64>>,
+}
+
+impl OutputTable {
+    /// The table `typed`, which is the value of an output.
+    pub(super) fn read(context: &Context<'_>, value: &At<Value>, typed: &toml::Table) -> Result<Self, Fault> {
+        context.at(value, typed.clone().try_into().map_err(|error| read::problem(&error)))
+    }
+}
+
+/// What a model of the user's own gives.
+#[derive(Default)]
+pub(super) struct OwnOutputs {
+    /// In the order of the file.
+    pub outputs: Vec<CommandOutput>,
+    /// Those of them that are series.
+    pub series: Vec<OutputSeries>,
+    /// The place of the first one that says where its number stands.
+    pub first_pick: Option<Range<usize>>,
+    /// As settings in results: what the numbers depend on, so of a series its length and not its axis.
+    pub stated: Map<String, Json>,
+}
+
+impl OwnOutputs {
+    /// Adds the values of `output` along `axis`.
+    fn add_series(&mut self, output: CommandOutput, axis: SeriesAxis) {
+        let names = OutputSeries::value_names(&output.name, axis.positions().len()).enumerate();
+        let first = self.outputs.len();
+        self.outputs.extend(names.map(|(number, name)| {
+            let pick = output.pick.as_ref().map(|pick| pick.of_value(number));
+            CommandOutput { name, unit: output.unit.clone(), pick }
+        }));
+        self.series.push(OutputSeries { name: output.name, first, axis });
+    }
+
+    /// Refuses two outputs of one name, be it that of a value of a series, or a series and an output.
+    fn refuse_repeated(&self) -> Result<(), Problem> {
+        let mut seen = std::collections::BTreeSet::new();
+        let outputs = self.outputs.iter().map(|output| &output.name);
+        let mut all = outputs.chain(self.series.iter().map(|series| &series.name));
+        let repeated = all.find(|name| !seen.insert(*name));
+        repeated.map_or(Ok(()), |name| Err(Problem::Repeated { what: "output", name: name.clone() }))
+    }
+}
+
+/// The outputs that the study states.
+pub(super) fn own_outputs(context: &Context<'_>, key: Option<&At<Outputs>>) -> Result<OwnOutputs, Fault> {
+    let missing = Problem::missing("outputs", "outputs = [\"y\"]; or with its unit: outputs.y = \"nN\"");
+    let Some(key) = key else { return Err(context.fault(0..0, missing)) };
+    let mut all = OwnOutputs::default();
+    match key.get_ref() {
+        ListOrTable::List(names) => {
+            for name in names {
+                let (name, unit) = (name.get_ref().clone(), Unit::dimensionless());
+                all.stated.insert(name.clone(), json!({ "unit": unit.symbol() }));
+                all.outputs.push(CommandOutput { name, unit, pick: None });
+            }
+        }
+        ListOrTable::Table(table) => {
+            for (name, value) in in_order(table) {
+                let (output, axis, stated) = output(context, name, value)?;
+                if output.pick.is_some() && all.first_pick.is_none() {
+                    all.first_pick = Some(value.span());
+                }
+                all.stated.insert(output.name.clone(), stated);
+                match axis {
+                    None => all.outputs.push(output),
+                    Some(axis) => all.add_series(output, axis),
+                }
+            }
+        }
+    }
+    if all.outputs.is_empty() {
+        return Err(context.fault(key.span(), missing));
+    }
+    context.at(key, all.refuse_repeated())?;
+    Ok(all)
+}
+
+/// An output, the axis of one that is a series, and what is said of it in results.
+fn output(
+    context: &Context<'_>,
+    name: &At<String>,
+    value: &At<Value>,
+) -> Result<(CommandOutput, Option<SeriesAxis>, Json), Fault> {
+    let key = format!("outputs.{}", name.get_ref());
+    let table = match value.get_ref() {
+        Value::String(unit) => OutputTable { unit: Some(unit.clone()), ..OutputTable::default() },
+        Value::Table(typed) => OutputTable::read(context, value, typed)?,
+        other => {
+            let expected = "a unit, as in \"nN\" or \"1\", or a table such as { unit = \"nN\" }";
+            return context.refuse(value, &key, expected, other.type_str().to_owned());
+        }
+    };
+    if table.formula.is_some() {
+        let expected = "only of model = \"expression\"";
+        return context.refuse(value, &format!("{key}.formula"), expected, "of another model".to_owned());
+    }
+    let axis = context.at(value, series::axis(&key, &table))?;
+    let pick = context.at(value, pick(&key, &table))?;
+    if axis.is_some() && table.which.is_some() {
+        let expected = "only of a single number: a series takes every match or row, from the first on";
+        return context.refuse(value, &format!("{key}.match"), expected, "beside `length`".to_owned());
+    }
+    let unit = output_unit(context, value, table.unit.as_deref().unwrap_or_default())?;
+    let stated = stated(&table, &unit, axis.as_ref());
+    Ok((CommandOutput { name: name.get_ref().clone(), unit, pick }, axis, stated))
+}
+
+fn stated(table: &OutputTable, unit: &Unit, axis: Option<&SeriesAxis>) -> Json {
+    let OutputTable { file, regex, column, pointer, which, .. } = table;
+    let mut entry = Map::new();
+    entry.insert("unit".to_owned(), json!(unit.symbol()));
+    entry.extend(axis.map(|axis| ("length".to_owned(), json!(axis.positions().len()))));
+    let texts = [("file", file), ("regex", regex), ("column", column), ("pointer", pointer)];
+    entry.extend(texts.into_iter().filter_map(|(key, text)| Some((key.to_owned(), json!(text.as_ref()?)))));
+    if axis.is_none() && (regex.is_some() || column.is_some()) {
+        entry.insert("match".to_owned(), json!(which.as_deref().unwrap_or(Match::Last.name())));
+    }
+    Json::Object(entry)
+}
+
+fn pick(key: &str, table: &OutputTable) -> Result<Option<Pick>, Problem> {
+    let OutputTable { file, regex, column, pointer, which, .. } = table;
+    let refused = |name: &str, expected: &str, found: String| Err(wrong(&format!("{key}{name}"), expected, found));
+    let taken = match which.as_deref() {
+        None => Match::Last,
+        Some(name) => match Match::ALL.into_iter().find(|taken| taken.name() == name) {
+            Some(taken) => taken,
+            None => return refused(".match", "\"first\" or \"last\"", format!("{name:?}")),
+        },
+    };
+    let way = match (regex, column, pointer) {
+        (Some(regex), None, None) => match Regex::new(regex) {
+            Ok(regex) => Way::Regex(regex, taken),
+            Err(error) => {
+                let reason = error.to_string();
+                let reason = reason.lines().last().unwrap_or_default().trim_start_matches("error: ");
+                return refused(".regex", "a regular expression", format!("{regex:?}: {reason}"));
+            }
+        },
+        (None, Some(column), None) => Way::Column(column.clone(), taken),
+        (None, None, Some(_)) if which.is_some() => {
+            return refused(".match", "only beside `regex` or `column`", "beside `pointer`".to_owned());
+        }
+        (None, None, Some(pointer)) if pointer.is_empty() || pointer.starts_with('/') => Way::Pointer(pointer.clone()),
+        (None, None, Some(pointer)) => {
+            let expected = "a JSON pointer, which begins with a slash, as in \"/result/force\"";
+            return refused(".pointer", expected, format!("{pointer:?}"));
+        }
+        (None, None, None) => {
+            let alone = [(".file", file), (".match", which)].into_iter().find(|(_, text)| text.is_some());
+            let expected = "only beside `regex`, `column` or `pointer`";
+            return alone.map_or(Ok(None), |(left, _)| refused(left, expected, "without one of them".to_owned()));
+        }
+        _ => return refused("", "a table with one of `regex`, `column`, `pointer`", "one with several".to_owned()),
+    };
+    Ok(Some(Pick { source: file.clone().map_or(Source::Stdout, Source::File), way }))
+}

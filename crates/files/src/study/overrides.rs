@@ -1,0 +1,214 @@
+//! `--set KEY=VALUE`: changes to a study file from the command line, applied to its text before it is read.
+
+use apportion::names::nearest;
+use apportion::study::did_you_mean;
+use toml_edit::{DocumentMut, InlineTable, Item, Table, TableLike, Value};
+
+use crate::ModelKind;
+
+/// Applies `overrides` in order. A key is a path of names joined by dots; `factor.NAME.KEY` reaches the factor of that
+/// name, and `factor.NAME` is all of it: a table takes the place of what it was, a value fixes it. A value is TOML if it reads as
+/// TOML, else a string: `afm.friction=hk` needs no quotes.
+///
+/// `None` if the text is not TOML: the reader will say so, with the place.
+pub(super) fn apply(text: &str, overrides: &[String]) -> Result<Option<String>, (String, String)> {
+    let Ok(mut document) = text.parse::<DocumentMut>() else { return Ok(None) };
+    for text in overrides {
+        set(document.as_table_mut(), text).map_err(|problem| (text.clone(), problem))?;
+    }
+    Ok(Some(document.to_string()))
+}
+
+/// Most parts of a key. Those of a study have up to four; tables inside each other by the thousand take the reader's time
+/// and stack.
+const MAX_PARTS: usize = 16;
+
+const NAMES: &str = "names joined by dots, as in afm.friction";
+
+fn set(root: &mut Table, text: &str) -> Result<(), String> {
+    let (key, value) =
+        text.split_once('=').ok_or("expected KEY=VALUE, as in afm.friction=hk or factor.length.max=500")?;
+    let names: Vec<&str> = key.split('.').map(str::trim).collect();
+    if names.iter().any(|name| name.is_empty()) {
+        let key = key.trim();
+        return Err(format!("the key `{key}` has an empty part: expected {NAMES}"));
+    }
+    if names.len() > MAX_PARTS {
+        let count = names.len();
+        return Err(format!("the key has {count} parts, more than any key of a study: expected {NAMES}"));
+    }
+    let value = value.trim();
+    let value: Value = value.parse().unwrap_or_else(|_| Value::from(value));
+    remove_others(root, &names.join("."));
+    match names[..] {
+        ["factor" | "factors", factor, ref rest @ ..] if !rest.is_empty() => {
+            set_in(find_factor(root, factor)?, rest, value)
+        }
+        ["factor" | "factors", factor] => match value {
+            Value::InlineTable(table) => {
+                replace(find_factor(root, factor)?, &table);
+                Ok(())
+            }
+            value => fix(root, factor, value),
+        },
+        ["outputs"] if root.get("outputs").is_some_and(Item::is_table_like) => Err(
+            "`outputs` is a table in this study, whose formulas or units a list of names would replace: change one by \
+             outputs.NAME=..."
+                .to_owned(),
+        ),
+        _ => set_in(root, &names, value),
+    }
+}
+
+/// Keys that decide the length of a run, each with those that it takes the place of.
+const INSTEAD: [(&str, &[&str]); 5] = [
+    ("accuracy", &["design.base_samples", "design.runs", "fidelity.base_samples"]),
+    ("design.runs", &["accuracy", "design.base_samples", "design.max_runs", "design.max_time"]),
+    ("design.base_samples", &["accuracy", "design.runs", "design.max_runs", "design.max_time"]),
+    ("design.max_runs", &["design.base_samples", "design.runs"]),
+    ("design.max_time", &["design.base_samples", "design.runs"]),
+];
+
+/// Removes what `key` takes the place of.
+fn remove_others(root: &mut Table, key: &str) {
+    for other in INSTEAD.iter().filter(|(own, _)| key == *own).flat_map(|(_, others)| *others) {
+        match other.split_once('.') {
+            Some((table, key)) => {
+                root.get_mut(table).and_then(Item::as_table_like_mut).and_then(|table| table.remove(key));
+            }
+            None => drop(root.remove(other)),
+        }
+    }
+}
+
+fn name_of(table: &dyn TableLike) -> Option<&str> {
+    table.get("name").and_then(Item::as_str)
+}
+
+fn find_factor<'a>(root: &'a mut Table, name: &str) -> Result<&'a mut dyn TableLike, String> {
+    let mut factors: Vec<(String, &mut dyn TableLike)> = Vec::new();
+    for (key, item) in root.iter_mut() {
+        match (key.get(), item) {
+            ("factor", Item::ArrayOfTables(tables)) => factors.extend(
+                tables.iter_mut().filter_map(|table| Some((name_of(table)?.to_owned(), table as &mut dyn TableLike))),
+            ),
+            ("factors", item) => {
+                let entries = item.as_table_like_mut().map(TableLike::iter_mut).into_iter().flatten();
+                factors.extend(
+                    entries.filter_map(|(name, item)| Some((name.get().to_owned(), item.as_table_like_mut()?))),
+                );
+            }
+            _ => (),
+        }
+    }
+    let Some(place) = factors.iter().position(|(found, _)| found == name) else {
+        let hint = did_you_mean(&nearest(name, factors.iter().map(|(name, _)| name.as_str())));
+        return Err(format!("the study has no factor `{name}`{hint}"));
+    };
+    Ok(factors.swap_remove(place).1)
+}
+
+/// Gives a factor the keys of `table`. It keeps its name.
+fn replace(factor: &mut dyn TableLike, table: &InlineTable) {
+    let keys: Vec<String> = factor.iter().map(|(key, _)| key.to_owned()).filter(|key| key != "name").collect();
+    for key in keys {
+        factor.remove(&key);
+    }
+    for (key, value) in table.iter().filter(|(key, _)| *key != "name") {
+        let mut value = value.clone();
+        value.decor_mut().clear();
+        factor.insert(key, Item::Value(value));
+    }
+}
+
+/// Takes the factor called `name` out of the study, and gives the input of that name one `value`.
+fn fix(root: &mut Table, name: &str, value: Value) -> Result<(), String> {
+    find_factor(root, name)?;
+    let model = root.get("model").map_or(ModelKind::DEFAULT.name, |model| model.as_str().unwrap_or_default());
+    let path: &[&str] = match ModelKind::from_name(model) {
+        Some(kind) if kind == ModelKind::AFM => &[kind.table, name],
+        Some(kind) if kind == ModelKind::EXPRESSION => &[kind.table, "constants", name],
+        _ => {
+            let others = format!("all inputs of the model `{model}` are factors");
+            return Err(format!("factor.{name}=VALUE fixes an input of afm or of a formula; {others}"));
+        }
+    };
+    if let Some(Item::ArrayOfTables(tables)) = root.get_mut("factor") {
+        tables.retain(|table| name_of(table) != Some(name));
+    }
+    if let Some(factors) = root.get_mut("factors").and_then(Item::as_table_like_mut) {
+        factors.remove(name);
+    }
+    set_in(root, path, value)
+}
+
+fn set_in(table: &mut dyn TableLike, names: &[&str], value: Value) -> Result<(), String> {
+    let Some((last, path)) = names.split_last() else { return Ok(()) };
+    let mut table = table;
+    for name in path {
+        let next = table.entry(name).or_insert_with(|| Item::Table(Table::new()));
+        let refusal = || format!("`{name}` is not a table of the study, so nothing can be set inside it");
+        table = next.as_table_like_mut().ok_or_else(refusal)?;
+    }
+    table.insert(last, Item::Value(value));
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const STUDY: &str =
+        "outputs = ['y'] # kept\n[afm]\nfriction = \"coulomb\"\n[[factor]]\nname = \"length\"\nmin = 1\n";
+
+    fn applied(text: &str) -> Result<String, String> {
+        let applied = apply(STUDY, &[text.to_owned()]).map_err(|(_, problem)| problem);
+        applied.map(|text| text.expect("the study is TOML"))
+    }
+
+    #[test]
+    fn values_are_replaced_in_place_and_new_ones_added() {
+        assert_eq!(applied("afm.friction=hk"), Ok(STUDY.replace("\"coulomb\"", "\"hk\"")));
+        assert_eq!(applied("factor.length.min=2.5"), Ok(STUDY.replace("min = 1", "min = 2.5")));
+        assert!(applied("design.base_samples = 64").unwrap().contains("[design]\nbase_samples = 64"));
+        assert!(applied("outputs=[\"a\", \"b\"]").unwrap().contains("[\"a\", \"b\"]"));
+        assert!(applied("afm.preload_angle=0.5 deg").unwrap().contains("preload_angle = \"0.5 deg\""));
+    }
+
+    #[test]
+    fn a_factor_is_replaced_or_fixed() {
+        let replaced = applied("factor.length={ distribution = 'normal', mean = 3, name = 'no' }").unwrap();
+        assert!(replaced.ends_with("[[factor]]\nname = \"length\"\ndistribution = 'normal'\nmean = 3\n"), "{replaced}");
+        let fixed = applied("factor.length=450 um").unwrap();
+        assert_eq!(fixed, "outputs = ['y'] # kept\n[afm]\nfriction = \"coulomb\"\nlength = \"450 um\"\n");
+        let table = "model = \"expression\"\n[factors]\na = { min = 1 }\nb = { min = 2 }\n";
+        let fixed = apply(table, &["factor.a=0.5".to_owned()]).unwrap().unwrap();
+        assert!(fixed.contains("[expression.constants]\na = 0.5"), "{fixed}");
+        assert!(!fixed.contains("min = 1") && fixed.contains('b'), "{fixed}");
+        let of_function = apply("model = 'ishigami'\n[factors.x1]\nmin = 0\n", &["factor.x1=0.5".to_owned()]);
+        assert!(of_function.unwrap_err().1.contains("all inputs of the model `ishigami` are factors"));
+        assert_eq!(applied("factor.width=1").unwrap_err(), "the study has no factor `width`");
+    }
+
+    #[test]
+    fn the_length_of_a_run_is_said_in_one_way() {
+        let text = "accuracy = 0.1\n[design]\nmax_runs = 9\n";
+        let applied = |set: &str| apply(text, &[set.to_owned()]).unwrap().unwrap();
+        assert_eq!(applied("design.runs=300"), "[design]\nruns = 300\n");
+        assert_eq!(applied("accuracy=0.2"), text.replace("0.1", "0.2"));
+    }
+
+    #[test]
+    fn what_makes_no_sense_is_named() {
+        let refused = |text: &str, expected: &str| {
+            let problem = applied(text).unwrap_err();
+            assert!(problem.contains(expected), "{text}: {problem}");
+        };
+        refused("=3", "the key `` has an empty part");
+        refused("afm.friction.x=3", "`friction` is not a table");
+        // 30,000 parts once took more than a minute.
+        refused(&format!("{}=1", ["a"; 30_000].join(".")), "the key has 30000 parts");
+        let formulas = apply("outputs.y = 'x1'\n", &["outputs=['y']".to_owned()]);
+        assert!(formulas.unwrap_err().1.contains("`outputs` is a table in this study"));
+    }
+}

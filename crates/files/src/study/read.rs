@@ -1,0 +1,88 @@
+//! From the text of a study file to [`StudyFile`], and what the reader of TOML says in the words of studies.
+
+use apportion::design::{DesignError, MAX_FACTORS};
+use apportion::study::BuildError;
+use serde::Deserialize;
+use toml::de::{DeTable, Deserializer};
+
+use super::context::{self, Context, Fault};
+use super::error::{Problem, meant};
+use super::forms::{join_factors, normalise};
+use super::schema::study_schema;
+use super::sections::StudyFile;
+
+/// What stands in the text of `context`.
+pub(super) fn study_file(context: &Context<'_>) -> Result<StudyFile, Fault> {
+    let mut root = DeTable::parse(context.text).map_err(|error| syntax(context, &error))?;
+    normalise(context, root.get_mut())?;
+    let mut file = StudyFile::deserialize(Deserializer::from(root)).map_err(|error| syntax(context, &error))?;
+    join_factors(context, &mut file)?;
+    // Before any of them is worked on.
+    if let Some(first) = file.factor.get(MAX_FACTORS) {
+        let problem = BuildError::Design(DesignError::FarTooManyFactors { factors: file.factor.len() });
+        return Err(context.fault(first.span(), problem.into()));
+    }
+    Ok(file)
+}
+
+fn syntax(context: &Context<'_>, error: &toml::de::Error) -> Fault {
+    context.fault(error.span().unwrap_or(0..0), problem(error))
+}
+
+/// What the reader of TOML says in the words of studies.
+pub(super) fn problem(error: &toml::de::Error) -> Problem {
+    let message = error.message();
+    let quoted: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
+    match &quoted[..] {
+        [name, expected @ ..] if message.starts_with("unknown field") => unknown_key(name, expected),
+        _ if message.contains("unquoted key") => {
+            Problem::new(format!("{message}: a key of other letters stands in quotes, as in \"größe\" = 2"))
+        }
+        _ => Problem::new(in_words(message)),
+    }
+}
+
+/// A key that its table does not have: of another table perhaps, by our name or by another one.
+fn unknown_key(name: &str, expected: &[&str]) -> Problem {
+    if meant(name, expected.iter().copied()).is_none() {
+        let tables = keys_of_tables();
+        let all = tables.iter().flat_map(|(place, keys)| keys.iter().map(move |key| (place, key.as_str())));
+        let ours = meant(name, all.clone().map(|(_, key)| key));
+        if let Some((place, key)) = ours.and_then(|ours| all.clone().find(|(_, key)| *key == ours)) {
+            let right = match key == name {
+                true => format!("it stands {place}"),
+                false => format!("did you mean `{key}`, which stands {place}?"),
+            };
+            return Problem::misplaced(name, &right);
+        }
+    }
+    context::unknown_key(name, expected.iter().copied())
+}
+
+/// Where keys stand in a study file, in words, and the keys, by the schema.
+fn keys_of_tables() -> [(&'static str, Vec<String>); 5] {
+    let schema = study_schema();
+    let keys = |table: &serde_json::Value| {
+        table["properties"].as_object().map(|keys| keys.keys().cloned().collect()).unwrap_or_default()
+    };
+    let of = |table: &str| keys(&schema["definitions"][table]);
+    [
+        ("at the top of the file, above the first table", keys(&schema)),
+        ("in the table [design]", of("DesignSection")),
+        ("in the table [analysis]", of("AnalysisSection")),
+        ("in the table of a factor", of("FactorSection")),
+        ("in the table [command]", of("CommandSection")),
+    ]
+}
+
+/// The deserialiser's message with the names that people have for its types.
+fn in_words(message: &str) -> String {
+    const WORDS: [(&str, &str); 5] = [
+        ("expected f64", "expected a number"),
+        ("expected u64", "expected a whole number from 0 to 9223372036854775807"),
+        ("expected a map", "expected a table"),
+        ("expected a sequence", "expected a list in square brackets"),
+        ("expected a string", "expected a text in quotes"),
+    ];
+    WORDS.iter().fold(message.to_owned(), |text, (from, to)| text.replace(from, to))
+}

@@ -1,0 +1,370 @@
+//! What was typed: the study file as TOML sees it, every value with its place in the text, once [`forms`](super::forms) has
+//! brought what can be written in several ways to one. The comments on its fields are what editors show, by the schema.
+
+use std::collections::BTreeMap;
+use std::fmt;
+use std::ops::Range;
+use std::sync::LazyLock;
+
+use apportion::design::Sampler;
+use apportion::estimate::{Estimator, ShapleyMethod, ShapleyPlayers};
+use apportion::given::Measure;
+use apportion::run::FailurePolicy;
+use apportion::space::CorrelationMeasure;
+use apportion::space::distribution::{KEYS, Key, KeyKind, Kind, Parameter};
+use apportion::study::SurrogateChoice;
+use apportion::uncertainty::IntervalMethod;
+use schemars::JsonSchema;
+use serde::Deserialize;
+use serde::de::{Deserializer, Error, MapAccess, Visitor};
+use serde_json::json;
+
+use super::at::ListOrTable;
+pub(super) use super::at::{At, Choices};
+use super::command::file::CommandKey;
+use super::key_schemas::{self, names};
+
+/// A study of apportion: a model, the factors whose influence is asked for, and how many runs answer it.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(title = "apportion study")]
+pub(super) struct StudyFile {
+    /// Name after which result files are called; by default that of the file without its ending.
+    pub name: Option<At<String>>,
+    /// Title for people.
+    pub title: Option<At<String>>,
+    /// What is studied; `apportion models` lists what there is.
+    #[schemars(extend("enum" = key_schemas::models(), "default" = "afm"))]
+    pub model: Option<At<String>>,
+    /// Outputs: a list of names, by default the model's first. Of formulas a table of these, outputs.y = "x1 + x2"; of programs
+    /// and models outside also a table of their units, outputs.y = "nN".
+    #[serde(default)]
+    #[schemars(schema_with = "key_schemas::outputs")]
+    pub outputs: Option<At<Outputs>>,
+    /// The physics of the nanoparticle model: choices by name, and inputs that are fixed, with their units.
+    #[serde(default)]
+    #[schemars(schema_with = "key_schemas::afm")]
+    pub afm: Option<At<Choices>>,
+    /// Parameters of a function with known indices.
+    #[serde(default)]
+    #[schemars(schema_with = "key_schemas::function")]
+    pub function: Option<At<Choices>>,
+    /// What formulas may name beside the factors.
+    #[serde(default)]
+    pub expression: Option<At<ExpressionSection>>,
+    /// The program that is the model: itself with its arguments, or a table of these and more.
+    #[serde(default)]
+    pub command: Option<At<CommandKey>>,
+    /// The noise of a stochastic model: the name under which it gets a seed with every row, or a table.
+    #[serde(default)]
+    #[schemars(schema_with = "key_schemas::name_or_table::<NoiseSection>")]
+    pub noise: Option<At<NoiseSection>>,
+    /// How well the indices must be known: the half width that the 95 % interval of every first-order and total index must
+    /// reach. The run chooses its design, surrogates and cheaper models by itself.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub accuracy: Option<At<f64>>,
+    /// Factors that depend on each other, by a Gaussian copula: tables [[dependence]].
+    #[serde(default)]
+    pub dependence: Vec<At<DependenceSection>>,
+    /// Cheaper models of the same outputs, which stand in for the model where they help.
+    #[serde(default)]
+    pub fidelity: Option<At<FidelitySection>>,
+    /// The points at which the model runs.
+    #[serde(default)]
+    pub design: DesignSection,
+    /// What is asked of the runs beside first-order and total indices.
+    #[serde(default)]
+    pub analysis: AnalysisSection,
+    /// The inputs whose influence is asked for: tables [[factor]], whose order in the file assigns the dimensions of the sequence.
+    #[serde(default)]
+    pub factor: Vec<At<FactorSection>>,
+    /// The same, a line for each.
+    #[serde(default)]
+    #[schemars(skip)]
+    pub factors: BTreeMap<At<String>, At<LineSection>>,
+}
+
+/// Names of outputs, or a table of what each is.
+pub(super) type Outputs = ListOrTable<Choices>;
+
+/// What formulas may name beside the factors.
+#[derive(Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table [expression]")]
+pub(super) struct ExpressionSection {
+    /// Numbers, or quantities with their units, that formulas may name.
+    #[serde(default)]
+    #[schemars(schema_with = "key_schemas::expression_constants")]
+    pub constants: Choices,
+}
+
+/// Cheaper models of the same outputs.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table [fidelity]")]
+pub(super) struct FidelitySection {
+    /// The cheaper models: by name those that come with the model, as in "closed-form"; or tables with what they have in the
+    /// place of the model's own, as in { name = "coarse", command = ["./coarse"] }.
+    #[schemars(schema_with = "key_schemas::lows")]
+    pub low: At<Vec<At<toml::Value>>>,
+    /// Base samples of the points of their own; by default 16384, and with `accuracy` as many as pay.
+    #[schemars(range(min = 1))]
+    pub base_samples: Option<At<u64>>,
+}
+
+/// Factors that depend on each other, by a Gaussian copula.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table [[dependence]]")]
+pub(super) struct DependenceSection {
+    /// The factors: two or more.
+    pub factors: NameList,
+    /// Their correlation: one number for every pair of them, or the whole symmetric matrix with ones on its diagonal.
+    pub correlation: Option<At<Correlation>>,
+    /// What the numbers are correlations of: of the values ("pearson"), of the ranks ("spearman", "kendall"), or of the normal scores
+    /// ("normal"), which are the parameters of the copula.
+    #[schemars(extend("enum" = names(&CorrelationMeasure::ALL, CorrelationMeasure::name), "default" = "pearson"))]
+    pub measure: Option<At<String>>,
+    /// In the place of `correlation`: a CSV file of joint measurements, relative to the study, with a column of the name of each
+    /// factor. The correlations are those of the normal scores of its ranks.
+    pub file: Option<At<String>>,
+    /// In the place of `file`: the joint measurements themselves, each a list of one number for every factor.
+    pub measurements: Option<At<Vec<Vec<f64>>>>,
+}
+
+/// Correlations of factors.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(untagged, expecting = "expected a number, or a matrix as in [[1, 0.5], [0.5, 1]]")]
+pub(super) enum Correlation {
+    /// Of every pair.
+    Pairs(f64),
+    /// The whole matrix.
+    Matrix(Vec<Vec<f64>>),
+}
+
+/// The noise of a stochastic model.
+#[derive(Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "the name under which the model gets its seed, or a table [noise]")]
+pub(super) struct NoiseSection {
+    /// The name under which the model gets its seed, a whole number from 0 to 2^31 - 1; "seed" by default.
+    pub name: Option<At<String>>,
+    /// Runs of each row with seeds of their own: the outputs are then the mean and the variance over them.
+    #[schemars(range(min = 1, max = 1000), extend("default" = 1))]
+    pub repetitions: Option<At<u64>>,
+    /// Whether total indices of the mean over the noise are asked for: one more run for each factor.
+    #[schemars(extend("default" = false))]
+    pub mean_totals: Option<At<bool>>,
+}
+
+/// The points at which the model runs.
+#[derive(Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table [design]")]
+pub(super) struct DesignSection {
+    /// How points are chosen.
+    #[schemars(extend("enum" = names(&Sampler::ALL, Sampler::name), "default" = "sobol"))]
+    pub sampler: Option<At<String>>,
+    /// Base samples in all, best a power of two for each replicate; a run costs base_samples x (2 + factors).
+    pub base_samples: Option<At<u64>>,
+    /// Model runs in all, in the place of `base_samples`: the best design for at most so many.
+    #[schemars(range(min = 1))]
+    pub runs: Option<At<u64>>,
+    /// Independent randomisations that share the base samples.
+    pub replicates: Option<At<u64>>,
+    /// Seed of the design; 0 is one like any other.
+    pub seed: Option<At<u64>>,
+    /// Model runs that a run with `accuracy` does not exceed; alone, the run is doubled up to here.
+    pub max_runs: Option<At<u64>>,
+    /// Time that a run with `accuracy` does not exceed, as in "30 s"; alone, the run is doubled up to here.
+    pub max_time: Option<At<String>>,
+}
+
+/// Names, each with its place.
+pub(super) type NameList = At<Vec<At<String>>>;
+
+/// What is asked of the runs beside first-order and total indices.
+#[derive(Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table [analysis]")]
+pub(super) struct AnalysisSection {
+    /// Estimators whose indices stand beside those of the default ones.
+    #[schemars(extend("items" = json!({ "enum": names(&Estimator::ALL, Estimator::name) })))]
+    pub estimators: Option<At<Vec<At<String>>>>,
+    /// Second-order indices of all pairs; nearly twice the runs.
+    pub second_order: Option<At<bool>>,
+    /// Sets of factors whose joint indices are asked for.
+    pub subsets: Option<At<Vec<NameList>>>,
+    /// Shapley effects: shares of the variance that sum to 1 even where factors depend on each other. 2^d runs for each base sample
+    /// of up to 8 factors, d - 1 more of up to 100. By default those of up to 4 factors that depend on each other.
+    pub shapley: Option<At<bool>>,
+    /// How Shapley effects are found: from all subsets of up to 8 factors, or along random permutations, with fewer runs for each
+    /// base sample and larger errors.
+    #[schemars(extend("enum" = names(&ShapleyMethod::ALL, ShapleyMethod::name)))]
+    pub shapley_method: Option<At<String>>,
+    /// Who shares out the variance in Shapley effects: every factor, or the groups with the factors that have none. The counts of
+    /// factors and runs above are then those of the groups.
+    #[schemars(extend("enum" = names(&ShapleyPlayers::ALL, ShapleyPlayers::name), "default" = "factors"))]
+    pub shapley_players: Option<At<String>>,
+    /// Other measures of the influence of every factor beside Sobol' indices, from the first 4096 rows A and B; of at most 100 outputs.
+    #[schemars(extend("items" = json!({ "enum": names(&Measure::ALL, Measure::name) })))]
+    pub measures: Option<At<Vec<At<String>>>>,
+    /// Indices over all outputs together.
+    pub aggregate: Option<At<bool>>,
+    /// A factor that does nothing is run along: its indices are the noise of the model.
+    pub dummy: Option<At<bool>>,
+    /// The indices at each half of the runs after it, too. Where surrogates correct them, each stage takes fits of its own: without
+    /// them an analysis takes a third of the time.
+    #[schemars(extend("default" = true))]
+    pub convergence: Option<At<bool>>,
+    /// How intervals are found; by default as the sampler allows.
+    #[schemars(extend("enum" = names(&IntervalMethod::ALL, IntervalMethod::name)))]
+    pub intervals: Option<At<String>>,
+    /// Whether indices are corrected by surrogates: polynomials fitted to the runs. More accurate, by orders of magnitude for
+    /// smooth models; takes time, and memory for all outputs.
+    #[schemars(extend("enum" = names(&SurrogateChoice::ALL, SurrogateChoice::name), "default" = "off"))]
+    pub surrogate: Option<At<String>>,
+    /// Resamples of a bootstrap.
+    #[schemars(range(min = 100, max = 1_000_000))]
+    pub resamples: Option<At<u64>>,
+    /// Total index above which a factor counts as one that matters.
+    #[schemars(extend("minimum" = 0, "maximum" = 1))]
+    pub threshold: Option<At<f64>>,
+    /// What happens when a run fails.
+    #[schemars(extend("enum" = names(&FailurePolicy::ALL, FailurePolicy::name)))]
+    pub failures: Option<At<String>>,
+    /// Largest share of the runs that may fail before there are no indices.
+    #[schemars(extend("minimum" = 0, "maximum" = 1))]
+    pub max_failed: Option<At<f64>>,
+}
+
+/// An input whose influence is asked for, and how it varies.
+#[derive(Debug, Default, JsonSchema)]
+#[schemars(deny_unknown_fields)]
+pub(super) struct FactorSection {
+    /// The input of the model.
+    pub name: At<String>,
+    /// How it varies.
+    #[schemars(extend("enum" = key_schemas::distributions(), "default" = "uniform"))]
+    #[schemars(extend("enumDescriptions" = Kind::all().map(Kind::summary).collect::<Vec<_>>()))]
+    pub distribution: Option<At<String>>,
+    /// Unit of all numbers of this factor, as in "um".
+    pub unit: Option<At<String>>,
+    /// Factors of one group also get joint indices.
+    pub group: Option<At<String>>,
+    /// Value at which it stands in scenes and sweeps of other factors; of a category its label.
+    pub nominal: Option<At<Nominal>>,
+    /// The keys of its distribution.
+    #[schemars(skip)]
+    pub keys: Vec<TypedKey>,
+}
+
+/// A key of a distribution.
+#[derive(Debug)]
+pub(super) struct TypedKey {
+    pub key: &'static Key,
+    /// Where its value stands.
+    pub span: Range<usize>,
+    pub value: TypedValue,
+}
+
+/// The value of a distribution's key.
+#[derive(Debug)]
+pub(super) enum TypedValue {
+    Parameter(Parameter),
+    Text(At<String>),
+    Bounds(Vec<f64>),
+    Quantiles(BTreeMap<At<String>, At<f64>>),
+}
+
+impl FactorSection {
+    /// The place of a key of its distribution.
+    pub fn place(&self, key: &str) -> Option<Range<usize>> {
+        self.keys.iter().find(|typed| typed.key.name == key).map(|typed| typed.span.clone())
+    }
+}
+
+impl<'de> Deserialize<'de> for FactorSection {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let fields = deserializer.deserialize_map(FactorVisitor)?;
+        if fields.name.span().is_empty() { Err(D::Error::missing_field("name")) } else { Ok(fields) }
+    }
+}
+
+/// A factor whose name stands before its table.
+#[derive(Debug)]
+pub(super) struct LineSection(pub FactorSection);
+
+impl<'de> Deserialize<'de> for LineSection {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_map(FactorVisitor).map(Self)
+    }
+}
+
+/// A visitor, because the keys of distributions are those of a table.
+struct FactorVisitor;
+
+impl<'de> Visitor<'de> for FactorVisitor {
+    type Value = FactorSection;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a table, as in { min = 0, max = 1 }")
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<FactorSection, A::Error> {
+        let mut fields = FactorSection::default();
+        while let Some(FactorKey(name)) = map.next_key()? {
+            match name {
+                "name" => fields.name = map.next_value()?,
+                "distribution" => fields.distribution = Some(map.next_value()?),
+                "unit" => fields.unit = Some(map.next_value()?),
+                "group" => fields.group = Some(map.next_value()?),
+                "nominal" => fields.nominal = Some(map.next_value()?),
+                own => {
+                    let key = KEYS.iter().find(|key| key.name == own);
+                    let key = key.ok_or_else(|| A::Error::unknown_field(own, &FACTOR_KEYS))?;
+                    let (span, value) = typed_value(key.kind, &mut map)?;
+                    fields.keys.push(TypedKey { key, span, value });
+                }
+            }
+        }
+        fields.keys.sort_by_key(|typed| typed.span.start);
+        Ok(fields)
+    }
+}
+
+fn typed_value<'de, A: MapAccess<'de>>(kind: KeyKind, map: &mut A) -> Result<(Range<usize>, TypedValue), A::Error> {
+    fn parts<T>(value: At<T>, of: impl FnOnce(T) -> TypedValue) -> (Range<usize>, TypedValue) {
+        (value.span(), of(value.into_inner()))
+    }
+    let plain = TypedValue::Parameter;
+    Ok(match kind {
+        KeyKind::Number => parts(map.next_value()?, |number| plain(Parameter::Number(number))),
+        KeyKind::Numbers => parts(map.next_value()?, |list| plain(Parameter::List(list))),
+        KeyKind::Text => map.next_value().map(|text: At<String>| (text.span(), TypedValue::Text(text)))?,
+        KeyKind::Texts => parts(map.next_value()?, |texts| plain(Parameter::Texts(texts))),
+        KeyKind::Bounds => parts(map.next_value()?, TypedValue::Bounds),
+        KeyKind::Quantiles => parts(map.next_value()?, TypedValue::Quantiles),
+    })
+}
+
+/// Keys of a factor that are not about its distribution.
+const OF_FACTORS: [&str; 4] = ["name", "unit", "group", "nominal"];
+
+/// All keys of a factor.
+static FACTOR_KEYS: LazyLock<Vec<&str>> =
+    LazyLock::new(|| OF_FACTORS.into_iter().chain(["distribution"]).chain(KEYS.iter().map(|key| key.name)).collect());
+
+/// A key that a factor has.
+struct FactorKey(&'static str);
+
+impl<'de> Deserialize<'de> for FactorKey {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let typed = String::deserialize(deserializer)?;
+        let known = FACTOR_KEYS.iter().find(|key| **key == typed);
+        known.map(|key| Self(key)).ok_or_else(|| D::Error::unknown_field(&typed, &FACTOR_KEYS))
+    }
+}
+
+/// Where a factor stands when it does not vary: a number, a category, or true or false.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub(super) enum Nominal {
+    Truth(bool),
+    Number(f64),
+    Label(String),
+}

@@ -1,0 +1,85 @@
+//! Outputs that are series: how long they are, and where their values stand.
+
+use apportion::model::{SeriesAxis, SeriesError};
+use apportion::names::{SHORT_TEXT, is_short_text};
+
+use super::context::wrong;
+use super::error::Problem;
+use super::outputs::OutputTable;
+
+/// The axis of the output `key`, of which `table` tells; `None` if it is no series.
+pub(super) fn axis(key: &str, table: &OutputTable) -> Result<Option<SeriesAxis>, Problem> {
+    let OutputTable { length, axis, axis_unit, positions, .. } = table;
+    let texts = [("axis", axis), ("axis_unit", axis_unit)];
+    let said = texts.map(|(name, text)| (name, text.is_some()));
+    let said = [("length", length.is_some()), ("positions", positions.is_some())].into_iter().chain(said);
+    let Some((first, _)) = said.into_iter().find(|(_, said)| *said) else { return Ok(None) };
+    let is_wrong = |(_, text): &(&str, &Option<String>)| text.as_ref().is_some_and(|text| !is_short_text(text));
+    if let Some((name, Some(text))) = texts.into_iter().find(is_wrong) {
+        return Err(wrong(&format!("{key}.{name}"), SHORT_TEXT, format!("{text:?}")));
+    }
+    let (label, unit) = (axis.as_deref().unwrap_or("index"), axis_unit.as_deref().unwrap_or_default());
+    let length = length.map(|length| usize::try_from(length).unwrap_or(usize::MAX));
+    let refused = |error: SeriesError| {
+        let (name, expected, found) = match error {
+            SeriesError::Length { found } => ("length", "2 to 10000 values", found.to_string()),
+            SeriesError::Position { place, found } => {
+                ("positions", "finite numbers in rising order", format!("{found} at place {place}"))
+            }
+        };
+        wrong(&format!("{key}.{name}"), expected, found)
+    };
+    let axis = match (positions.clone(), length) {
+        (None, Some(length)) => SeriesAxis::even(label, unit, length, 0.0, 1.0),
+        (Some(pair), Some(length)) if pair.len() == 2 => SeriesAxis::even(label, unit, length, pair[0], pair[1]),
+        (Some(list), length) if list.len() != 2 && length.is_none_or(|length| length == list.len()) => {
+            SeriesAxis::new(label, unit, list)
+        }
+        (Some(list), Some(length)) => {
+            let expected = format!("a list of {length} numbers, or of two: the first position and the step");
+            return Err(wrong(&format!("{key}.positions"), &expected, format!("a list of {}", list.len())));
+        }
+        (_, None) => {
+            let found = format!("`{first}` without one");
+            return Err(wrong(&format!("{key}.length"), "how many values the series has, as in length = 365", found));
+        }
+    };
+    axis.map(Some).map_err(refused)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(text: &str) -> Result<Option<SeriesAxis>, String> {
+        axis("outputs.y", &toml::from_str(text).unwrap()).map_err(|problem| problem.to_string())
+    }
+
+    #[test]
+    fn positions_are_counted_stepped_or_listed() {
+        let positions = |text: &str| read(text).unwrap().unwrap().positions().to_vec();
+        assert_eq!(read("unit = \"nN\"").unwrap(), None);
+        assert_eq!(positions("length = 3"), [0.0, 1.0, 2.0]);
+        assert_eq!(positions("length = 3\npositions = [1, 0.5]"), [1.0, 1.5, 2.0]);
+        assert_eq!(positions("positions = [1, 2.5, 7]"), [1.0, 2.5, 7.0]);
+        assert_eq!(positions("length = 3\npositions = [1, 2.5, 7]"), [1.0, 2.5, 7.0]);
+        let axis = read("length = 2\naxis = \"time\"\naxis_unit = \"ms\"").unwrap().unwrap();
+        assert_eq!((axis.label(), axis.unit()), ("time", "ms"));
+    }
+
+    #[test]
+    fn what_is_no_series_is_refused_with_what_would_be() {
+        for (text, expected) in [
+            ("length = 1", "2 to 10000 values"),
+            ("length = 10000000", "2 to 10000 values"),
+            ("axis = \"day\"", "`axis` without one"),
+            ("positions = [0, 1]", "`positions` without one"),
+            ("length = 3\npositions = [0, 1, 1]", "finite numbers in rising order"),
+            ("length = 3\npositions = [0, -1]", "finite numbers in rising order"),
+            ("length = 4\npositions = [0, 1, 2]", "a list of 4 numbers, or of two"),
+        ] {
+            let message = read(text).unwrap_err();
+            assert!(message.contains(expected), "{text:?}: {message}");
+        }
+    }
+}

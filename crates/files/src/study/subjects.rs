@@ -1,0 +1,156 @@
+//! The models that a study file can name, with their choices made.
+
+use std::path::PathBuf;
+
+use apportion::model::{
+    Expression, ExpressionModel, Input, KnownFunction, Model, Output, ParameterValue, known_inputs, known_model,
+};
+use apportion::quantity::{Quantity, Unit};
+use apportion::space::{Factor, Space};
+use apportion::study::Subject;
+use serde_json::{Value, json};
+
+use crate::{CommandModel, CommandSettings, Form, ModelKind, program_files};
+
+/// A function with known indices and its parameters.
+#[derive(Debug, Clone, PartialEq)]
+pub struct KnownSubject {
+    /// The function.
+    pub function: KnownFunction,
+}
+
+/// Formulas of the factors.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ExpressionSubject {
+    /// The outputs asked for.
+    pub formulas: Vec<Formula>,
+    /// What formulas can name beside the factors.
+    pub constants: Vec<ExpressionConstant>,
+}
+
+/// An output by its formula.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Formula {
+    /// The output's name.
+    pub name: String,
+    /// The unit in which it is reported; the formula gives it in SI.
+    pub unit: Unit,
+    /// The formula of the factors' SI values, in the order of the space.
+    pub expression: Expression,
+}
+
+/// A program of the user's own.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CommandSubject {
+    /// The program and how it is asked.
+    pub settings: CommandSettings,
+    /// What decides its answers, in the terms of the study file.
+    pub(super) stated: Vec<(&'static str, Value)>,
+    /// Other files that decide its answers.
+    pub(super) depends_on: Vec<PathBuf>,
+}
+
+/// A constant of formulas.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ExpressionConstant {
+    /// Its name.
+    pub name: String,
+    /// Its value as typed; formulas have it in SI.
+    pub quantity: Quantity,
+}
+
+fn is_factor(space: &Space, name: &str) -> bool {
+    space.factors().iter().any(|factor| factor.name == name)
+}
+
+impl Subject for ExpressionSubject {
+    fn name(&self) -> &'static str {
+        ModelKind::EXPRESSION.name
+    }
+
+    fn model(&self, _space: &Space) -> Box<dyn Model> {
+        let output = |formula: &Formula| {
+            (Output::new(formula.name.clone(), formula.unit.clone(), "a formula"), formula.expression.clone())
+        };
+        Box::new(ExpressionModel::new(self.formulas.iter().map(output).collect()))
+    }
+
+    fn settings(&self) -> Vec<(&'static str, Value)> {
+        let texts = self.formulas.iter().map(|formula| (formula.name.clone(), json!(formula.expression.text())));
+        vec![("formulas", Value::Object(texts.collect()))]
+    }
+
+    fn constants(&self, _space: &Space) -> Vec<(String, f64, String)> {
+        let constant = |c: &ExpressionConstant| (c.name.clone(), c.quantity.value, c.quantity.unit.to_string());
+        self.constants.iter().map(constant).collect()
+    }
+}
+
+impl Subject for CommandSubject {
+    fn name(&self) -> &'static str {
+        ModelKind::COMMAND.name
+    }
+
+    fn model(&self, space: &Space) -> Box<dyn Model> {
+        Box::new(CommandModel::new(self.settings.clone(), space.factors().to_vec()))
+    }
+
+    fn settings(&self) -> Vec<(&'static str, Value)> {
+        self.stated.clone()
+    }
+
+    /// The existing files that it is made of: those of the program and of the study's `depends_on`, the template, and what each
+    /// run gets.
+    fn files(&self) -> Vec<PathBuf> {
+        let mut files = program_files(&self.settings.program);
+        files.extend(self.depends_on.iter().cloned());
+        if let Form::PerRun(form) = &self.settings.form {
+            files.push(form.template_file.clone());
+            files.extend(form.files.iter().cloned());
+        }
+        files
+    }
+}
+
+impl Subject for KnownSubject {
+    fn name(&self) -> &'static str {
+        self.function.answer().name()
+    }
+
+    fn model(&self, space: &Space) -> Box<dyn Model> {
+        let inputs = known_inputs(&self.function);
+        let place = |factor: &Factor| inputs.iter().position(|input| input.name == factor.name);
+        let base = inputs.iter().map(|input| input.nominal).collect();
+        let factors = space.factors().iter().filter_map(place).collect();
+        Box::new(known_model(self.function.clone(), base, factors))
+    }
+
+    fn exact_indices(&self, space: &Space) -> Option<(Vec<f64>, Vec<f64>)> {
+        let inputs = known_inputs(&self.function);
+        let is_own = |(factor, input): (&Factor, &Input)| {
+            factor.name == input.name && input.distribution.as_ref() == Some(factor.distribution())
+        };
+        let factors = space.factors();
+        let all = factors.len() == inputs.len() && factors.iter().zip(&inputs).all(is_own);
+        let indices = self.function.exact().indices.filter(|_| all)?;
+        Some((indices.first_order, indices.total))
+    }
+
+    fn settings(&self) -> Vec<(&'static str, Value)> {
+        self.function.parameters().iter().map(|(name, value)| (*name, in_json(value))).collect()
+    }
+
+    fn constants(&self, space: &Space) -> Vec<(String, f64, String)> {
+        let inputs = known_inputs(&self.function).into_iter().filter(|input| !is_factor(space, &input.name));
+        inputs.map(|input| (input.name, input.nominal, input.unit.to_string())).collect()
+    }
+}
+
+fn in_json(value: &ParameterValue) -> Value {
+    match *value {
+        // Whole numbers, such as dimensions, as people write them.
+        ParameterValue::Number(number) if number.fract() == 0.0 && number.abs() < 1e15 => json!(number as i64),
+        ParameterValue::Number(number) => json!(number),
+        ParameterValue::List(ref list) => json!(list),
+    }
+}

@@ -1,0 +1,205 @@
+//! The files of a document, and the writing of them.
+
+use std::borrow::Cow;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use rayon::prelude::*;
+use thiserror::Error;
+
+use super::atomic_write::{WriteError, prepare_folder, write_atomically};
+use super::chart::ChartWidth;
+#[cfg(feature = "pdf")]
+use super::chart::pdf;
+#[cfg(feature = "png")]
+use super::chart::png;
+use super::document::Document;
+use super::file_names::{CHARTS, ChartFormat};
+
+/// Why the files of a document were not written.
+#[derive(Debug, Error)]
+pub enum ArtefactError {
+    /// A file cannot be written.
+    #[error(transparent)]
+    Write(#[from] WriteError),
+    /// A chart cannot be drawn in a format.
+    #[error("cannot draw {file}: {source}")]
+    Chart {
+        /// The chart.
+        file: String,
+        /// Why.
+        source: Box<dyn std::error::Error + Send + Sync>,
+    },
+    /// A file would take the place of one that must stay.
+    #[error("{path}: this is the input itself; choose another folder", path = path.display())]
+    Input {
+        /// The file.
+        path: PathBuf,
+    },
+    /// The flag to stop was set.
+    #[error("interrupted while files were written: those that are there are whole, others are missing")]
+    Stopped,
+}
+
+/// Where the files of a document go: a folder with the page and the files for programs, and `charts` below it.
+///
+/// # Example
+/// ```
+/// use std::path::Path;
+/// use apportion_report::{Artefacts, run_document};
+/// use apportion::Study;
+///
+/// let study = apportion_files::parse_study(include_str!("../../../studies/ishigami.toml"), Path::new("ishigami.toml"), &[])?;
+/// let result = study.run()?;
+/// let folder = tempfile::tempdir()?;
+/// let written = Artefacts::new(folder.path()).write(&run_document(&result))?;
+/// assert_eq!(written.page, folder.path().join("ishigami.html"));
+/// assert!(folder.path().join("ishigami.json").exists());
+/// assert!(folder.path().join("charts/ishigami-indices.svg").exists());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Artefacts {
+    folder: PathBuf,
+    formats: Vec<ChartFormat>,
+    width: ChartWidth,
+    input: Option<PathBuf>,
+}
+
+/// The files that were written.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Written {
+    /// The page.
+    pub page: PathBuf,
+    /// The files for programs.
+    pub data: Vec<PathBuf>,
+    /// The folder of the charts and how many there are; `None` where none was written.
+    pub charts: Option<(PathBuf, usize)>,
+}
+
+impl Artefacts {
+    /// Files in `folder`, charts as SVG and PNG.
+    pub fn new(folder: impl Into<PathBuf>) -> Self {
+        Self { folder: folder.into(), formats: ChartFormat::USUAL.to_vec(), width: ChartWidth::Wide, input: None }
+    }
+
+    /// The same with charts in these formats; none for no charts.
+    pub fn with_charts(self, formats: &[ChartFormat]) -> Self {
+        Self { formats: formats.to_vec(), ..self }
+    }
+
+    /// The same with the files of charts for this width; the charts of the page stay as they are.
+    pub fn with_width(self, width: ChartWidth) -> Self {
+        Self { width, ..self }
+    }
+
+    /// The same, which never takes the place of the file `input`.
+    pub fn beside_input(self, input: impl Into<PathBuf>) -> Self {
+        Self { input: Some(input.into()), ..self }
+    }
+
+    /// Makes the folder and checks that it can be written to, so that a run fails in its first second and not in its last.
+    ///
+    /// # Errors
+    /// [`WriteError`] with the reason.
+    pub fn prepare(&self) -> Result<(), WriteError> {
+        prepare_folder(&self.folder)
+    }
+
+    /// Writes all files of `document`: the page last, since it links to the others.
+    ///
+    /// # Errors
+    /// [`ArtefactError`] if a chart cannot be drawn or a file cannot be written; files written before that stay.
+    pub fn write(&self, document: &Document) -> Result<Written, ArtefactError> {
+        self.write_until(document, &AtomicBool::new(false))
+    }
+
+    /// The same, until `stop` is set.
+    ///
+    /// # Errors
+    /// As for [`write`](Self::write), and [`ArtefactError::Stopped`].
+    pub fn write_until(&self, document: &Document, stop: &AtomicBool) -> Result<Written, ArtefactError> {
+        if stop.load(Ordering::SeqCst) {
+            return Err(ArtefactError::Stopped);
+        }
+        self.prepare()?;
+        let figures: Vec<_> = document.figures().into_iter().filter(|figure| !figure.stem.is_empty()).collect();
+        let has_charts = !figures.is_empty() && !self.formats.is_empty();
+        let charts = self.folder.join(CHARTS);
+        if has_charts || document.data_names().iter().any(|name| name.contains('/')) {
+            prepare_folder(&charts)?;
+        }
+        let data = document.data_files();
+        let data = data.into_iter().map(|file| self.put(&file.name, stop, || Ok(Cow::Borrowed(file.text.as_bytes()))));
+        let data = data.collect::<Result<_, _>>()?;
+        figures.par_iter().try_for_each(|figure| {
+            if self.formats.is_empty() || stop.load(Ordering::SeqCst) {
+                return Ok(());
+            }
+            let svg = figure.chart.svg_at(self.width);
+            self.formats.iter().try_for_each(|format| {
+                let file = format!("{CHARTS}/{}.{}", figure.stem, format.ending());
+                let failed = |source| ArtefactError::Chart { file: figure.stem.clone(), source };
+                self.put(&file, stop, || picture(&svg, *format).map_err(failed)).map(|_| ())
+            })
+        })?;
+        let page = self.put(&format!("{}.html", document.name), stop, || {
+            Ok(Cow::Owned(document.html_in_folder(&self.formats).into_bytes()))
+        })?;
+        Ok(Written { page, data, charts: has_charts.then_some((charts, figures.len())) })
+    }
+
+    /// Writes the file at `path` below the folder, and gives where it lies.
+    fn put<'b>(
+        &self,
+        path: &str,
+        stop: &AtomicBool,
+        bytes: impl FnOnce() -> Result<Cow<'b, [u8]>, ArtefactError>,
+    ) -> Result<PathBuf, ArtefactError> {
+        if stop.load(Ordering::SeqCst) {
+            return Err(ArtefactError::Stopped);
+        }
+        let path = self.folder.join(path);
+        let real = |path: &Path| std::fs::canonicalize(path).ok();
+        if self.input.as_ref().is_some_and(|input| real(input).is_some() && real(input) == real(&path)) {
+            return Err(ArtefactError::Input { path });
+        }
+        write_atomically(&path, &bytes()?)?;
+        Ok(path)
+    }
+}
+
+/// A chart in a format, or why there is none.
+fn picture(svg: &str, format: ChartFormat) -> Result<Cow<'_, [u8]>, Box<dyn std::error::Error + Send + Sync>> {
+    match format {
+        ChartFormat::Svg => Ok(Cow::Borrowed(svg.as_bytes())),
+        #[cfg(feature = "png")]
+        ChartFormat::Png => Ok(Cow::Owned(png(svg)?.bytes)),
+        #[cfg(feature = "pdf")]
+        ChartFormat::Pdf => Ok(Cow::Owned(pdf(svg)?)),
+        #[cfg(not(all(feature = "png", feature = "pdf")))]
+        other => Err(format!("this build lacks the feature `{}`", other.ending()).into()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::document::DataFile;
+
+    #[test]
+    fn nothing_is_written_once_it_shall_stop() {
+        let folder = tempfile::tempdir().unwrap();
+        let files = ["s.json", "charts/s.csv"].map(|name| DataFile::new(name, "{}".to_owned()));
+        let document = Document { name: "s".to_owned(), files: files.to_vec(), ..Document::default() };
+        let artefacts = Artefacts::new(folder.path());
+        let stopped = artefacts.write_until(&document, &AtomicBool::new(true)).unwrap_err();
+        assert!(matches!(stopped, ArtefactError::Stopped));
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+        let written = artefacts.write(&document).unwrap();
+        assert_eq!(written.data, ["s.json", "charts/s.csv"].map(|name| folder.path().join(name)));
+        assert!(written.charts.is_none() && written.data.iter().all(|path| path.is_file()));
+        let overwriting = artefacts.beside_input(folder.path().join("s.json")).write(&document);
+        assert!(matches!(overwriting, Err(ArtefactError::Input { .. })));
+    }
+}

@@ -1,0 +1,141 @@
+//! Labels of vertical rules above a plot: each stands at its line like a flag at its pole.
+
+use super::plot::Plot;
+use super::scale::Scale;
+use super::style::{ChartWidth, MUTED, TICK};
+use super::svg::{Canvas, Text};
+use super::text::shorten;
+
+/// Distance of rows, px.
+const ROW: f64 = 13.0;
+/// Gap between a pole and its flag, and between flags of one row, px.
+const GAP: f64 = 4.0;
+/// Longest label, px; longer ones are shortened.
+const LONGEST: f64 = 240.0;
+
+/// A label with its place.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Flag<'a> {
+    whole: &'a str,
+    text: String,
+    /// Of the marked line, px.
+    pole: f64,
+    /// Left and right end of the text, px.
+    from: f64,
+    to: f64,
+    /// Zero next to the plot.
+    row: usize,
+}
+
+impl Flag<'_> {
+    /// Whether one covers the other or is crossed by its pole.
+    fn collides(&self, other: &Flag) -> bool {
+        let crossed =
+            |flag: &Flag, by: &Flag| by.row >= flag.row && flag.from - GAP < by.pole && by.pole < flag.to + GAP;
+        let covered = self.row == other.row && self.from - GAP < other.to && other.from - GAP < self.to;
+        covered || crossed(self, other) || crossed(other, self)
+    }
+}
+
+/// Places the flags of the rules (place, label) of a panel, each in the lowest row in which it collides with none. Flags point right
+/// unless they would leave the plot or cross the pole of a flag that points left. Rules without a place
+/// on the axis have no flag.
+pub(super) fn place<'a>(
+    rules: impl Iterator<Item = (f64, &'a str)>,
+    x: &Scale,
+    plot: &Plot,
+    page: ChartWidth,
+) -> Vec<Flag<'a>> {
+    let longest = LONGEST.min(plot.width / page.choose(3.0, 2.0));
+    let mut shown: Vec<_> = rules.filter_map(|(at, label)| Some((plot.x(x, at)?, label))).collect();
+    shown.sort_by(|a, b| b.0.total_cmp(&a.0));
+    // From the right: where the next flag must end.
+    let mut end = plot.right();
+    let (mut right, mut left) = (Vec::new(), Vec::new());
+    for (pole, whole) in shown {
+        let text = shorten(whole, longest, TICK);
+        let width = TICK.width(&text);
+        if pole + GAP + width <= end {
+            right.push(Flag { whole, text, pole, from: pole + GAP, to: pole + GAP + width, row: 0 });
+        } else {
+            end = pole - GAP;
+            let text = shorten(whole, longest.min(end - plot.left), TICK);
+            let width = TICK.width(&text);
+            left.push(Flag { whole, text, pole, from: end - width, to: end, row: 0 });
+        }
+    }
+    // In this order the pole of each flag stands clear of the flags before it.
+    let mut flags: Vec<Flag> = Vec::new();
+    for mut flag in right.into_iter().chain(left.into_iter().rev()) {
+        // Only poles closer than a gap can leave no free row.
+        while flag.row <= flags.len() && flags.iter().any(|other| other.collides(&flag)) {
+            flag.row += 1;
+        }
+        flags.push(flag);
+    }
+    flags
+}
+
+/// Height the flags take above the plot, px.
+pub(super) fn room(flags: &[Flag]) -> f64 {
+    flags.iter().map(|flag| (flag.row + 1) as f64 * ROW + 3.0).fold(0.0, f64::max)
+}
+
+/// Draws poles and flags.
+pub(super) fn draw(canvas: &mut Canvas, plot: &Plot, flags: &[Flag]) {
+    if flags.is_empty() {
+        return;
+    }
+    canvas.open("g", &[("class", &"rules")]);
+    canvas.open("g", &[("stroke", &MUTED), ("stroke-width", &"1"), ("stroke-dasharray", &"4 3")]);
+    for flag in flags {
+        canvas.line((flag.pole, plot.bottom()), (flag.pole, plot.top - room(std::slice::from_ref(flag)) + 3.0));
+    }
+    canvas.close("g");
+    for flag in flags {
+        let at = (flag.from, plot.top - 4.0 - flag.row as f64 * ROW);
+        canvas.text(&Text::new(&flag.text, at, TICK).whole(flag.whole));
+    }
+    canvas.close("g");
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::super::scale::{ScaleOptions, Spacing};
+    use super::*;
+
+    fn flags<'a>(rules: &[(f64, &'a str)]) -> Vec<Flag<'a>> {
+        let x = Scale::over([0.0, 100.0], ScaleOptions { spacing: Spacing::Linear, air: 0.0, steps: 5 });
+        let plot = Plot { left: 0.0, top: 100.0, width: 600.0, height: 50.0 };
+        place(rules.iter().copied(), &x, &plot, ChartWidth::Wide)
+    }
+
+    #[test]
+    fn neighbours_take_rows_and_the_last_turns_left() {
+        let markers = [(10.0, "some event"), (12.0, "some event"), (99.0, "end of time")];
+        let placed = flags(&markers);
+        let rows: Vec<_> = placed.iter().map(|flag| (flag.pole, flag.row)).collect();
+        assert_eq!(rows, [(72.0, 0), (60.0, 1), (594.0, 0)]);
+        assert!(placed[0].from > placed[0].pole && placed[2].to < placed[2].pole);
+        assert!(flags(&[(f64::NAN, "never")]).is_empty());
+    }
+
+    proptest! {
+        #[test]
+        fn flags_whose_poles_stand_apart_never_collide(steps in prop::collection::vec(1.0..30.0, 1..8)) {
+            let mut at = -1.0;
+            let markers: Vec<_> = steps
+                .iter()
+                .map(|step| { at += step; (at, "some event") })
+                .filter(|(x, _)| (0.0..=100.0).contains(x))
+                .collect();
+            let placed = flags(&markers);
+            for (i, flag) in placed.iter().enumerate() {
+                prop_assert!(!placed[..i].iter().any(|other| other.collides(flag)), "{placed:?}");
+                prop_assert!(flag.from >= 0.0 && flag.to <= 600.0);
+            }
+        }
+    }
+}

@@ -1,0 +1,155 @@
+//! Places for the labels of points: beside them, else a little off, never over another label or point.
+
+/// Distances from a point to its label, px, in the order they are tried.
+const DISTANCES: [f64; 7] = [6.0, 11.0, 17.0, 25.0, 35.0, 48.0, 64.0];
+/// From this distance on a thin line joins point and label.
+const LEADER: f64 = 11.0;
+/// Half the room a point takes, px.
+const POINT: f64 = 4.5;
+/// Room kept free about a label, px.
+const AIR: f64 = 1.5;
+/// Directions in the order they are tried: the four sides and the four corners, to the right first, then between them.
+const DIRECTIONS: [(f64, f64); 16] = [
+    (1.0, 0.0),
+    (0.7, -0.7),
+    (0.7, 0.7),
+    (0.0, -1.0),
+    (0.0, 1.0),
+    (-1.0, 0.0),
+    (-0.7, -0.7),
+    (-0.7, 0.7),
+    (0.9, -0.4),
+    (0.4, -0.9),
+    (0.9, 0.4),
+    (0.4, 0.9),
+    (-0.9, -0.4),
+    (-0.4, -0.9),
+    (-0.9, 0.4),
+    (-0.4, 0.9),
+];
+
+/// A rectangle in px; `top < bottom`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Area {
+    pub left: f64,
+    pub right: f64,
+    pub top: f64,
+    pub bottom: f64,
+}
+
+impl Area {
+    /// From one x to another and from one y to another, in any order.
+    pub fn between(x: (f64, f64), y: (f64, f64)) -> Self {
+        Self { left: x.0.min(x.1), right: x.0.max(x.1), top: y.0.min(y.1), bottom: y.0.max(y.1) }
+    }
+
+    /// Whether the two have a point in common inside both.
+    pub fn overlaps(&self, other: &Area) -> bool {
+        self.left < other.right && other.left < self.right && self.top < other.bottom && other.top < self.bottom
+    }
+}
+
+/// A point that wants a label of this size.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Label {
+    pub at: (f64, f64),
+    pub width: f64,
+    pub height: f64,
+}
+
+/// Where a label stands, and where its thin line begins and ends, if it has one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Place {
+    pub area: Area,
+    pub leader: Option<[(f64, f64); 2]>,
+}
+
+/// A place inside `bounds` for each label in turn; `None` where there is no room.
+pub(super) fn place(wanted: &[Label], bounds: Area) -> Vec<Option<Place>> {
+    let about = |at: f64| (at - POINT, at + POINT);
+    let points: Vec<Area> = wanted.iter().map(|label| Area::between(about(label.at.0), about(label.at.1))).collect();
+    let mut places: Vec<Option<Place>> = Vec::with_capacity(wanted.len());
+    for (own, label) in wanted.iter().enumerate() {
+        let taken: Vec<Place> = places.iter().copied().flatten().collect();
+        let free = |place: &Place| {
+            // A point over which the own one lies cannot be kept clear of.
+            let others = points.iter().filter(|area| !area.overlaps(&points[own]));
+            let area = &place.area;
+            let inside = area.left >= bounds.left
+                && area.right <= bounds.right
+                && area.top >= bounds.top
+                && area.bottom <= bounds.bottom;
+            inside
+                && !points.iter().chain(taken.iter().map(|t| &t.area)).any(|other| other.overlaps(area))
+                && !taken.iter().filter_map(|t| t.leader).any(|leader| crosses(leader, area))
+                && place.leader.is_none_or(|leader| {
+                    !others.clone().chain(taken.iter().map(|t| &t.area)).any(|other| crosses(leader, other))
+                })
+        };
+        let mut all = DISTANCES.iter().flat_map(|d| DIRECTIONS.iter().map(move |direction| (*d, *direction)));
+        places.push(all.find_map(|(d, direction)| Some(beside(label, d, direction)).filter(free)));
+    }
+    places
+}
+
+/// The label at some distance in a direction: it touches the end of the way with its near edge or corner.
+fn beside(label: &Label, distance: f64, (dx, dy): (f64, f64)) -> Place {
+    let (x, y) = (label.at.0 + dx * distance, label.at.1 + dy * distance);
+    let shift = |part: f64, size: f64| match part {
+        p if p > 0.0 => 0.0,
+        p if p < 0.0 => -size,
+        _ => -size / 2.0,
+    };
+    let (left, top) = (x + shift(dx, label.width), y + shift(dy, label.height));
+    let area =
+        Area { left: left - AIR, right: left + label.width + AIR, top: top - AIR, bottom: top + label.height + AIR };
+    let start = (label.at.0 + dx * POINT, label.at.1 + dy * POINT);
+    Place { area, leader: (distance >= LEADER).then_some([start, (x - dx * AIR, y - dy * AIR)]) }
+}
+
+/// Whether a short line passes through an area, looked at in steps of a few px; it may touch the air about it.
+fn crosses([from, to]: [(f64, f64); 2], area: &Area) -> bool {
+    const STEPS: u32 = 16;
+    (0..=STEPS).any(|step| {
+        let part = f64::from(step) / f64::from(STEPS);
+        let (x, y) = (from.0 + part * (to.0 - from.0), from.1 + part * (to.1 - from.1));
+        area.left + AIR < x && x < area.right - AIR && area.top + AIR < y && y < area.bottom - AIR
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    const BOUNDS: Area = Area { left: 0.0, right: 300.0, top: 0.0, bottom: 200.0 };
+
+    fn wanted(x: f64, y: f64) -> Label {
+        Label { at: (x, y), width: 40.0, height: 8.0 }
+    }
+
+    #[test]
+    fn a_lone_label_stands_to_the_right_and_turns_at_the_edge() {
+        let places = place(&[wanted(100.0, 100.0)], BOUNDS);
+        let area = places[0].unwrap().area;
+        assert_eq!((area.left, area.top, area.bottom), (106.0 - AIR, 96.0 - AIR, 104.0 + AIR));
+        let edge = place(&[wanted(295.0, 100.0)], BOUNDS)[0].unwrap();
+        assert!(edge.area.right <= 300.0 && edge.leader.is_none());
+    }
+
+    proptest! {
+        #[test]
+        fn labels_touch_nothing(points in prop::collection::vec((5.0..295.0, 5.0..195.0), 1..40)) {
+            let labels: Vec<_> = points.iter().map(|&(x, y)| wanted(x, y)).collect();
+            let places: Vec<Place> = place(&labels, BOUNDS).into_iter().flatten().collect();
+            for (i, placed) in places.iter().enumerate() {
+                let area = placed.area;
+                prop_assert!(area.left >= 0.0 && area.right <= 300.0 && area.top >= 0.0 && area.bottom <= 200.0);
+                prop_assert!(!places[..i].iter().any(|other| other.area.overlaps(&area)));
+                let covers = |(x, y): (f64, f64)| area.left < x && x < area.right && area.top < y && y < area.bottom;
+                prop_assert!(!points.iter().any(|&point| covers(point)));
+            }
+        }
+    }
+}

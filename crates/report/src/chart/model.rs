@@ -1,0 +1,281 @@
+//! What a chart is: panels of marks on axes.
+
+use super::bar::Bar;
+use super::scale::Spacing;
+use super::series::Series;
+use super::text::power_of_ten;
+
+/// A chart: headline, caption, and panels of marks.
+///
+/// The legend names every series once, in the order in which the marks come.
+///
+/// ```
+/// use apportion_report::chart::{Axis, Chart, Colour, Mark, Panel, Series};
+///
+/// let series = Series::new("model A", Colour::Series(0));
+/// let panel = Panel::new(Axis::new("Time", "ms"), Axis::new("Pressure", "bar"))
+///     .with([series.line(vec![(0.0, 0.0), (10.0, 41.0)]), Mark::rule(10.0, "event")]);
+/// let chart = Chart::new("A start", "The pressure grows until the valve opens.").panels([panel]);
+/// assert!(chart.svg().contains("Pressure (bar)"));
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Chart {
+    pub(super) title: String,
+    pub(super) caption: String,
+    pub(super) panels: Vec<Panel>,
+    pub(super) arrangement: Arrangement,
+    pub(super) published_name: String,
+}
+
+/// How the panels of a chart stand.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Arrangement {
+    /// One above the other; they share the horizontal axis.
+    #[default]
+    Stacked,
+    /// Side by side in rows as far as there is room; they share the vertical axis.
+    SideBySide,
+}
+
+/// One plot of a chart.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Panel {
+    /// Headline of the panel; may be empty.
+    pub title: String,
+    /// The horizontal axis.
+    pub x: Axis,
+    /// The vertical axis.
+    pub y: Axis,
+    /// What is drawn.
+    pub marks: Vec<Mark>,
+}
+
+/// An axis: of numbers, or of names if there are any.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Axis {
+    /// The quantity, such as "Pressure".
+    pub label: String,
+    /// Its unit, such as "bar"; empty for none.
+    pub unit: String,
+    /// Linear or logarithmic.
+    pub spacing: Spacing,
+    /// Names of the places 0, 1, 2 and so on; on a vertical axis the rows from top to bottom.
+    pub names: Vec<String>,
+}
+
+/// A mark of a series. Numbers that cannot be drawn (not finite, beyond 1e300, not positive on a logarithmic axis) leave
+/// gaps in lines and bands; other marks are left out.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mark {
+    /// Its series.
+    pub series: Series,
+    /// What it is.
+    pub shape: Shape,
+}
+
+/// The kinds of marks.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Shape {
+    /// A line through points, or the points, see [`super::Stroke`].
+    Line(Vec<(f64, f64)>),
+    /// A shaded band as (x, low, high).
+    Band(Vec<(f64, f64, f64)>),
+    /// A cloud of small dots.
+    Dots(Vec<(f64, f64)>),
+    /// A point with its label.
+    Point(Point),
+    /// A level bar in a row of a vertical axis of names; the bars of a row share it in the order they come.
+    Bar(Bar),
+    /// A cell of a map, on two axes of names.
+    Tile(Tile),
+    /// A vertical line at x with a label above; bars stand about the first of them, else about 0.
+    Rule(f64, String),
+}
+
+/// A point with its label.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Point {
+    /// On the horizontal axis.
+    pub x: f64,
+    /// On the vertical axis.
+    pub y: f64,
+    /// Written beside it where there is room; may be empty.
+    pub label: String,
+}
+
+/// A cell of a map, marked by its colour and by a letter.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Tile {
+    /// Its row.
+    pub row: usize,
+    /// Its column.
+    pub column: usize,
+    /// A letter or two.
+    pub letter: String,
+    /// What is shown when it is pointed at.
+    pub tip: String,
+}
+
+impl Chart {
+    /// A chart without panels.
+    pub fn new(title: impl Into<String>, caption: impl Into<String>) -> Self {
+        Self {
+            title: title.into(),
+            caption: caption.into(),
+            panels: Vec::new(),
+            arrangement: Arrangement::Stacked,
+            published_name: "published".to_owned(),
+        }
+    }
+
+    /// The chart with more panels.
+    pub fn panels(mut self, panels: impl IntoIterator<Item = Panel>) -> Self {
+        self.panels.extend(panels);
+        self
+    }
+
+    /// The chart with its panels side by side.
+    pub fn side_by_side(self) -> Self {
+        Self { arrangement: Arrangement::SideBySide, ..self }
+    }
+
+    /// The chart with a name for published values in the legend.
+    pub fn published_name(self, name: impl Into<String>) -> Self {
+        Self { published_name: name.into(), ..self }
+    }
+
+    /// Headline of the chart.
+    pub fn title(&self) -> &str {
+        &self.title
+    }
+
+    /// The sentence under the chart.
+    pub fn caption(&self) -> &str {
+        &self.caption
+    }
+
+    /// Replaces the headline.
+    pub fn set_title(&mut self, title: impl Into<String>) {
+        self.title = title.into();
+    }
+
+    /// Replaces the caption.
+    pub fn set_caption(&mut self, caption: impl Into<String>) {
+        self.caption = caption.into();
+    }
+
+    /// The panels.
+    pub fn all_panels(&self) -> &[Panel] {
+        &self.panels
+    }
+
+    /// All marks of all panels.
+    pub(super) fn marks(&self) -> impl Iterator<Item = &Mark> {
+        self.all_panels().iter().flat_map(|panel| &panel.marks)
+    }
+}
+
+impl Panel {
+    /// A panel without marks.
+    pub fn new(x: Axis, y: Axis) -> Self {
+        Self { title: String::new(), x, y, marks: Vec::new() }
+    }
+
+    /// The panel with a headline.
+    pub fn titled(self, title: impl Into<String>) -> Self {
+        Self { title: title.into(), ..self }
+    }
+
+    /// The panel with its rows in falling order of their keys, and with the first `most` of them only.
+    pub fn ranked(mut self, keys: &[f64], most: usize) -> Self {
+        let key = |row: usize| keys.get(row).copied().filter(|key| !key.is_nan()).unwrap_or(f64::NEG_INFINITY);
+        let mut order: Vec<usize> = (0..self.y.names.len()).collect();
+        order.sort_by(|&a, &b| key(b).total_cmp(&key(a)));
+        order.truncate(most);
+        let place = |row: &mut usize| match order.iter().position(|other| other == row) {
+            Some(place) => {
+                *row = place;
+                true
+            }
+            None => false,
+        };
+        self.marks.retain_mut(|mark| match &mut mark.shape {
+            Shape::Bar(bar) => place(&mut bar.row),
+            Shape::Tile(tile) => place(&mut tile.row),
+            _ => true,
+        });
+        self.y.names = order.iter().map(|&row| self.y.names[row].clone()).collect();
+        self
+    }
+
+    /// The panel with more marks.
+    pub fn with(mut self, marks: impl IntoIterator<Item = Mark>) -> Self {
+        self.marks.extend(marks);
+        self
+    }
+}
+
+impl Axis {
+    /// A linear axis.
+    pub fn new(label: impl Into<String>, unit: impl Into<String>) -> Self {
+        Self { label: label.into(), unit: unit.into(), ..Self::default() }
+    }
+
+    /// An axis of names.
+    pub fn from_names(label: impl Into<String>, names: Vec<String>) -> Self {
+        Self { label: label.into(), names, ..Self::default() }
+    }
+
+    /// The axis with a spacing.
+    pub fn spaced(self, spacing: Spacing) -> Self {
+        Self { spacing, ..self }
+    }
+
+    /// `label (unit)`, with the power of ten that the ticks are in.
+    pub(super) fn title(&self, exponent: i32) -> String {
+        let label = &self.label;
+        match (self.unit.trim(), exponent) {
+            ("", 0) => label.clone(),
+            ("", _) => format!("{label} (×{})", power_of_ten(exponent)),
+            (unit, 0) => format!("{label} ({unit})"),
+            (unit, _) => format!("{label} ({} {unit})", power_of_ten(exponent)),
+        }
+    }
+}
+
+impl Series {
+    /// A mark of the series.
+    pub fn mark(&self, shape: Shape) -> Mark {
+        Mark { series: self.clone(), shape }
+    }
+
+    /// A line of the series.
+    pub fn line(&self, points: Vec<(f64, f64)>) -> Mark {
+        self.mark(Shape::Line(points))
+    }
+
+    /// A band of the series.
+    pub fn band(&self, edges: Vec<(f64, f64, f64)>) -> Mark {
+        self.mark(Shape::Band(edges))
+    }
+}
+
+impl Mark {
+    /// A vertical line with a label.
+    pub fn rule(x: f64, label: impl Into<String>) -> Self {
+        Series::default().mark(Shape::Rule(x, label.into()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn axis_titles_carry_unit_and_power() {
+        assert_eq!(Axis::new("Time", "ms").title(0), "Time (ms)");
+        assert_eq!(Axis::new("Force", "N").title(-9), "Force (10⁻⁹ N)");
+        assert_eq!(Axis::new("Rows", "").title(6), "Rows (×10⁶)");
+        assert_eq!(Axis::new("Rows", " ").title(0), "Rows");
+    }
+}

@@ -1,0 +1,138 @@
+//! The colours and symbols of series, by number.
+
+use super::style::INK;
+
+/// Hues of Okabe and Ito (2008), which people with the usual colour vision deficiencies tell apart, dark enough for marks on
+/// white (contrast 3 or more, WCAG 2.2, 1.4.11). Their lightness differs too, most of all that of the first four, for print in
+/// grey.
+const COLOURS: [&str; 11] = [
+    "#00527f", "#e8710a", "#00785a", "#571a48", "#5b85b0", "#a03f00", "#757575", "#3b2a00", "#c2588f", "#4c6a00",
+    "#929292",
+];
+
+/// The shades of maps from little to much, ever darker, so that they differ in grey too (ColorBrewer's YlGnBu).
+const SHADES: [&str; 9] =
+    ["#ffffd9", "#edf8b1", "#c7e9b4", "#7fcdbb", "#41b6c4", "#1d91c0", "#225ea8", "#253494", "#081d58"];
+
+/// How opaque the dots of a cloud are.
+pub(super) const DOTS_OPACITY: &str = "0.6";
+
+/// Outlines of points as path data about the origin, of about equal area.
+const SYMBOLS: [&str; 4] = [
+    "m-2.8 0a2.8 2.8 0 1 0 5.6 0a2.8 2.8 0 1 0 -5.6 0z",
+    "m-2.5 -2.5h5v5h-5z",
+    "m0 -3.6l3.4 6h-6.8z",
+    "m0 -3.6l3.6 3.6l-3.6 3.6l-3.6 -3.6z",
+];
+
+/// A colour of the palette, and the symbol of points that goes with it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Colour {
+    /// That of a series by its number: dark blue, orange, green, plum, blue, rust, grey, and four more; then again from the
+    /// first. The most distinct ones come first.
+    Series(usize),
+    /// References and exact values: nearly black.
+    Reference,
+    /// That of a cell of a map by how much there is, from 0, the lightest, to 8, the darkest.
+    Shade(usize),
+}
+
+impl Default for Colour {
+    fn default() -> Self {
+        Self::Series(0)
+    }
+}
+
+impl Colour {
+    /// The colour as `#rrggbb`.
+    ///
+    /// ```
+    /// use apportion_report::chart::Colour;
+    /// assert_eq!(Colour::Series(0).hex(), "#00527f");
+    /// assert_ne!(Colour::Series(0).hex(), Colour::Series(1).hex());
+    /// ```
+    pub fn hex(self) -> &'static str {
+        match self {
+            Self::Series(number) => COLOURS[number % COLOURS.len()],
+            Self::Reference => INK,
+            Self::Shade(number) => SHADES[number.min(SHADES.len() - 1)],
+        }
+    }
+
+    /// Whether letters on it must be light: where these have more contrast than dark ones.
+    pub(super) fn is_dark(self) -> bool {
+        let own = luminance(self.hex(), 1.0) + 0.05;
+        1.05 / own > own / (luminance(INK, 1.0) + 0.05)
+    }
+
+    /// The outline of a point as path data about its middle.
+    pub(super) fn symbol(self) -> &'static str {
+        match self {
+            Self::Series(number) => SYMBOLS[number % SYMBOLS.len()],
+            Self::Reference | Self::Shade(_) => SYMBOLS[0],
+        }
+    }
+}
+
+/// Relative luminance on white of a colour that is so opaque (WCAG 2.2).
+fn luminance(hex: &str, opacity: f64) -> f64 {
+    let channel = |at: usize| {
+        let part = f64::from(u8::from_str_radix(&hex[at..at + 2], 16).unwrap_or(0)) / 255.0;
+        let part = opacity * part + 1.0 - opacity;
+        if part <= 0.04045 { part / 12.92 } else { libm::pow((part + 0.055) / 1.055, 2.4) }
+    };
+    0.2126 * channel(1) + 0.7152 * channel(3) + 0.0722 * channel(5)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::chart::style::MUTED;
+
+    #[test]
+    fn series_have_distinct_colours() {
+        let mut colours: Vec<_> = (0..COLOURS.len()).map(|number| Colour::Series(number).hex()).collect();
+        colours.push(Colour::Reference.hex());
+        colours.sort_unstable();
+        colours.dedup();
+        assert_eq!(colours.len(), COLOURS.len() + 1);
+        assert!(colours.contains(&Colour::Series(usize::MAX).hex()));
+    }
+
+    /// Lightness (CIE 1976), 0 to 100.
+    fn lightness(hex: &str) -> f64 {
+        116.0 * libm::cbrt(luminance(hex, 1.0)) - 16.0
+    }
+
+    #[test]
+    fn marks_stand_out_from_the_paper() {
+        let contrast = |hex: &str, opacity| 1.05 / (luminance(hex, opacity) + 0.05);
+        let marks = COLOURS.iter().chain([&INK, &MUTED]);
+        for hex in marks {
+            assert!(contrast(hex, 1.0) >= 3.0, "{hex}: {}", contrast(hex, 1.0));
+        }
+        // Clouds of dots are of the first series.
+        let opacity: f64 = DOTS_OPACITY.parse().expect("a number");
+        assert!(contrast(COLOURS[0], opacity) >= 3.0, "{}", contrast(COLOURS[0], opacity));
+    }
+
+    #[test]
+    fn series_differ_in_grey() {
+        let of: Vec<f64> = COLOURS.iter().map(|hex| lightness(hex)).collect();
+        for (place, a) in of.iter().enumerate() {
+            for (other, b) in of.iter().enumerate().take(place) {
+                let least = if place < 4 { 10.0 } else { 0.1 };
+                assert!((a - b).abs() >= least, "{other} and {place}: {b} and {a}");
+            }
+        }
+        // Those that stand side by side in a bar.
+        assert!((of[4] - of[5]).abs() > 10.0);
+    }
+
+    #[test]
+    fn shades_grow_darker() {
+        let lightness = |shade: usize| lightness(Colour::Shade(shade).hex());
+        assert!((1..SHADES.len()).all(|shade| lightness(shade) < lightness(shade - 1)));
+        assert_eq!(Colour::Shade(usize::MAX).hex(), SHADES[8]);
+    }
+}

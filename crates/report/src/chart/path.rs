@@ -1,0 +1,133 @@
+//! Point sequences as SVG paths: broken at gaps, thinned where points crowd.
+
+use super::svg::Px;
+
+/// A point in px.
+pub(super) type Point = (f64, f64);
+
+/// Columns this many px wide hold at most four points of a run.
+const COLUMN: f64 = 0.5;
+/// Points closer than this to the line through their neighbours are left out, px.
+const VISIBLE: f64 = 0.05;
+
+/// The unbroken runs of a sequence with gaps.
+pub(super) fn runs<T: Copy>(points: impl IntoIterator<Item = Option<T>>) -> Vec<Vec<T>> {
+    let mut runs = vec![Vec::new()];
+    for point in points {
+        match (point, runs.last_mut()) {
+            (Some(point), Some(run)) => run.push(point),
+            _ => runs.push(Vec::new()),
+        }
+    }
+    runs.retain(|run| !run.is_empty());
+    runs
+}
+
+/// Leaves out points that make no visible difference to the line through a run.
+pub(super) fn thin(run: &[Point]) -> Vec<Point> {
+    straighten(&uncrowd(run))
+}
+
+/// Keeps, of neighbours in one column, the first, the lowest, the highest and the last: the line through
+/// them covers the same pixels. It bounds the work of [`straighten`].
+fn uncrowd(run: &[Point]) -> Vec<Point> {
+    let column = |p: &Point| (p.0 / COLUMN).floor();
+    let mut kept = Vec::new();
+    for crowd in run.chunk_by(|a, b| column(a) == column(b)) {
+        if crowd.len() <= 4 {
+            kept.extend_from_slice(crowd);
+            continue;
+        }
+        let by_y = |a: &usize, b: &usize| crowd[*a].1.total_cmp(&crowd[*b].1);
+        let lowest = (0..crowd.len()).min_by(by_y).unwrap_or(0);
+        let highest = (0..crowd.len()).max_by(by_y).unwrap_or(0);
+        let mut at = [0, lowest, highest, crowd.len() - 1];
+        at.sort_unstable();
+        kept.extend(at.iter().enumerate().filter(|&(i, k)| i == 0 || at[i - 1] != *k).map(|(_, &k)| crowd[k]));
+    }
+    kept
+}
+
+/// The points needed to stay within [`VISIBLE`] of the run (Douglas and Peucker, 1973).
+fn straighten(run: &[Point]) -> Vec<Point> {
+    if run.len() < 3 {
+        return run.to_vec();
+    }
+    let mut needed = vec![false; run.len()];
+    let mut open = vec![(0, run.len() - 1)];
+    while let Some((from, to)) = open.pop() {
+        (needed[from], needed[to]) = (true, true);
+        let off = |k: usize| distance(run[k], (run[from], run[to]));
+        let worst = (from + 1..to).max_by(|&a, &b| off(a).total_cmp(&off(b)));
+        if let Some(k) = worst.filter(|&k| off(k) > VISIBLE) {
+            open.extend([(from, k), (k, to)]);
+        }
+    }
+    run.iter().zip(needed).filter(|(_, needed)| *needed).map(|(&point, _)| point).collect()
+}
+
+/// Distance of a point from a segment.
+fn distance(p: Point, (a, b): (Point, Point)) -> f64 {
+    let (dx, dy) = (b.0 - a.0, b.1 - a.1);
+    let length = dx * dx + dy * dy;
+    let along = if length > 0.0 { ((p.0 - a.0) * dx + (p.1 - a.1) * dy) / length } else { 0.0 };
+    let along = along.clamp(0.0, 1.0);
+    libm::hypot(p.0 - a.0 - along * dx, p.1 - a.1 - along * dy)
+}
+
+/// A run as path data.
+pub(super) fn open(run: &[Point]) -> String {
+    let mut data = String::new();
+    for (i, &(x, y)) in run.iter().enumerate() {
+        data.push_str(&format!("{}{} {}", if i == 0 { "M" } else { "L" }, Px(x), Px(y)));
+    }
+    data
+}
+
+/// The area between two runs over the same abscissae as path data.
+pub(super) fn closed(lower: &[Point], upper: &[Point]) -> String {
+    let around: Vec<Point> = lower.iter().chain(upper.iter().rev()).copied().collect();
+    open(&around) + "Z"
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    #[test]
+    fn gaps_split_and_single_points_stay() {
+        let points = [None, Some(1), None, None, Some(2), Some(3)];
+        assert_eq!(runs(points), vec![vec![1], vec![2, 3]]);
+        assert!(runs::<i32>([]).is_empty());
+        assert_eq!(open(&[(1.0, 2.0), (3.0, 4.5)]), "M1 2L3 4.5");
+        assert_eq!(closed(&[(0.0, 1.0), (2.0, 1.0)], &[(0.0, 0.0), (2.0, 0.0)]), "M0 1L2 1L2 0L0 0Z");
+    }
+
+    #[test]
+    fn a_straight_run_keeps_its_ends_and_a_peak_stays() {
+        let mut run: Vec<Point> = (0..1000).map(|i| (f64::from(i) * 0.7, 3.0)).collect();
+        assert_eq!(thin(&run), [run[0], run[999]]);
+        run[500].1 = 4.0;
+        assert_eq!(thin(&run).len(), 5);
+        assert!(thin(&run).contains(&run[500]));
+        assert_eq!(thin(&run[..1]), run[..1]);
+    }
+
+    proptest! {
+        #[test]
+        fn every_point_stays_by_the_straightened_line(
+            run in prop::collection::vec((0.0..3.0, 0.0..0.3), 1..60),
+        ) {
+            let kept = straighten(&run);
+            for &point in &run {
+                let near = kept
+                    .windows(2)
+                    .map(|ends| distance(point, (ends[0], ends[1])))
+                    .fold(distance(point, (kept[0], kept[0])), f64::min);
+                prop_assert!(near <= VISIBLE);
+            }
+        }
+    }
+}

@@ -1,0 +1,53 @@
+//! SVG to PDF: the same picture as vectors and real text, in its size on paper.
+
+use resvg::usvg::{self, Tree};
+use svg2pdf::{ConversionOptions, PageOptions, to_pdf};
+use thiserror::Error;
+
+use super::png::{CSS_DPI, options};
+
+/// Why an SVG could not be made a PDF.
+#[derive(Debug, Error)]
+pub enum PdfError {
+    /// No SVG.
+    #[error("the chart is not a drawable SVG: {0}")]
+    Svg(#[from] usvg::Error),
+    /// An SVG that cannot be a page.
+    #[error("the chart cannot be written as PDF: {0}")]
+    Pdf(svg2pdf::ConversionError),
+}
+
+/// Writes an SVG chart of this crate as a PDF of one page, which is as large as the picture: 72 points are 96 px, or the
+/// millimetres that the SVG names. Marks are vectors; texts are text that can be searched and copied, in the embedded faces
+/// cut to the letters that occur.
+///
+/// # Errors
+/// [`PdfError`] if the text is no SVG, or has what cannot be drawn on a page.
+///
+/// # Example
+/// ```
+/// let svg = r#"<svg xmlns="http://www.w3.org/2000/svg" width="96" height="48"><path d="M0 0L96 48" stroke="black"/></svg>"#;
+/// let pdf = apportion_report::chart::pdf(svg)?;
+/// assert!(pdf.starts_with(b"%PDF-1."));
+/// # Ok::<(), apportion_report::chart::PdfError>(())
+/// ```
+pub fn pdf(svg: &str) -> Result<Vec<u8>, PdfError> {
+    let tree = Tree::from_str(svg, &options())?;
+    to_pdf(&tree, ConversionOptions::default(), PageOptions { dpi: CSS_DPI as f32 }).map_err(PdfError::Pdf)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_page_has_the_size_of_the_picture_and_its_faces_inside() {
+        let svg = r#"<svg xmlns="http://www.w3.org/2000/svg" width="88mm" height="44mm" viewBox="0 0 338 169">
+            <text x="5" y="25" font-family="Arial">Größe</text></svg>"#;
+        let file = pdf(svg).expect("a page");
+        let file = String::from_utf8_lossy(&file);
+        // 88 mm are 249.45 points.
+        assert!(file.contains("/MediaBox [0 0 249.4") && file.contains("/FontFile2 "), "{file}");
+        assert!(matches!(pdf("<svg"), Err(PdfError::Svg(_))));
+    }
+}

@@ -1,0 +1,343 @@
+//! Axes as numbers: from data to a fraction of the axis, and ticks at round values.
+
+use super::style::{TICK, drawable};
+use super::text::{minus, power_of_ten, shorten};
+
+/// Least gap between the labels of a horizontal axis, px.
+const LABEL_GAP: f64 = 6.0;
+
+/// How an axis is divided.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Spacing {
+    /// Equal steps for equal differences.
+    #[default]
+    Linear,
+    /// Equal steps for equal ratios; values of zero or below cannot be shown and leave gaps.
+    Logarithmic,
+}
+
+/// How a scale is made.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct ScaleOptions {
+    pub spacing: Spacing,
+    /// Part of the range added at each end of a linear axis that is not zero; a logarithmic axis has its own.
+    pub air: f64,
+    /// About how many steps between ticks.
+    pub steps: usize,
+}
+
+/// An axis: its range, its labelled ticks and finer grid lines.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Scale {
+    spacing: Spacing,
+    low: f64,
+    high: f64,
+    pub ticks: Vec<Tick>,
+    /// Values of grid lines without label.
+    pub minor: Vec<f64>,
+    /// The tick labels are in units of 10 to this power.
+    pub exponent: i32,
+}
+
+/// A value with its label.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Tick {
+    pub value: f64,
+    pub label: String,
+}
+
+impl Scale {
+    /// A scale that shows all of `values` that can be shown; 0 to 1 (1 to 10 if logarithmic) if none can.
+    pub fn over(values: impl IntoIterator<Item = f64>, options: ScaleOptions) -> Self {
+        let shown = values.into_iter().filter(|&v| options.spacing.shows(v));
+        let (low, high) = shown.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
+        match options.spacing {
+            Spacing::Linear if low > high => Self::linear((0.0, 1.0), options),
+            Spacing::Linear => Self::linear((low, high), options),
+            Spacing::Logarithmic if low > high => Self::logarithmic((1.0, 10.0)),
+            Spacing::Logarithmic => Self::logarithmic((low, high)),
+        }
+    }
+
+    /// A scale of the places 0, 1, 2 and so on, with their names and half a place of air at the ends.
+    pub fn from_names(names: &[String]) -> Self {
+        let ticks = names.iter().enumerate().map(|(place, name)| Tick { value: place as f64, label: name.clone() });
+        let (low, high) = (-0.5, names.len().max(1) as f64 - 0.5);
+        Self { spacing: Spacing::Linear, low, high, ticks: ticks.collect(), minor: Vec::new(), exponent: 0 }
+    }
+
+    /// The scale of an axis `length` px long whose names are shortened to the room between two places.
+    pub fn with_names_within(mut self, length: f64) -> Self {
+        let room = length / (self.high - self.low) - LABEL_GAP;
+        self.ticks.iter_mut().for_each(|tick| tick.label = shorten(&tick.label, room, TICK));
+        self
+    }
+
+    /// The place of a value: 0 at the low end, 1 at the high end; `None` if it cannot be shown.
+    pub fn place(&self, value: f64) -> Option<f64> {
+        if !self.spacing.shows(value) {
+            return None;
+        }
+        Some(match self.spacing {
+            Spacing::Linear => (value - self.low) / (self.high - self.low),
+            Spacing::Logarithmic => {
+                let from = libm::log10(self.low);
+                (libm::log10(value) - from) / (libm::log10(self.high) - from)
+            }
+        })
+    }
+
+    /// The scale of an axis `length` px long whose labels stand clear of each other: those that would not keep their grid
+    /// lines alone. Labels of powers of ten, and of zero, stay longest.
+    pub fn with_room(mut self, length: f64) -> Self {
+        let clear = |labelled: &Vec<Tick>| {
+            labelled.windows(2).all(|pair| {
+                let [from, to] = [0, 1].map(|end| self.place(pair[end].value).map_or(f64::NAN, |place| place * length));
+                let widths = (TICK.width(&pair[0].label) + TICK.width(&pair[1].label)) / 2.0;
+                to - from >= widths + LABEL_GAP
+            })
+        };
+        if clear(&self.ticks) {
+            return self;
+        }
+        let is_decade = |tick: &&Tick| (libm::log10(tick.value) - libm::log10(tick.value).round()).abs() < 1e-9;
+        let mut ground: Vec<&Tick> = match self.spacing {
+            Spacing::Linear => Vec::new(),
+            Spacing::Logarithmic => self.ticks.iter().filter(is_decade).collect(),
+        };
+        if ground.is_empty() {
+            ground = self.ticks.iter().collect();
+        }
+        let zero = ground.iter().position(|tick| tick.value == 0.0).unwrap_or(0);
+        let every = |step: usize| -> Vec<Tick> {
+            let kept = ground.iter().enumerate().filter(|(number, _)| number.abs_diff(zero) % step == 0);
+            kept.map(|(_, tick)| (*tick).clone()).collect()
+        };
+        let kept = (1..=ground.len()).map(every).find(clear).unwrap_or_default();
+        let bare =
+            self.ticks.iter().map(|tick| tick.value).filter(|value| kept.iter().all(|tick| tick.value != *value));
+        self.minor.extend(bare.collect::<Vec<_>>());
+        self.ticks = kept;
+        self
+    }
+
+    fn linear(range: (f64, f64), options: ScaleOptions) -> Self {
+        let (low, high) = widened(range);
+        let aired = |end: f64, air: f64| {
+            if end == 0.0 { end } else { end + air * (high - low) }
+        };
+        let (low, high) = (aired(low, -options.air), aired(high, options.air));
+        let step = Step::near((high - low) / options.steps.max(1) as f64);
+        let first = (low / step.size() - 1e-9).ceil() as i64;
+        let last = (high / step.size() + 1e-9).floor() as i64;
+        let exponent = common_exponent(low.abs().max(high.abs()));
+        let decimals = (exponent - step.exponent).max(0) as usize;
+        let ticks = (first..=last)
+            .map(|k| {
+                let value = step.times(k as f64);
+                let shown = k as f64 * step.mantissa * 10f64.powi(step.exponent - exponent);
+                Tick { value, label: minus(&format!("{shown:.decimals$}")) }
+            })
+            .collect();
+        Self { spacing: Spacing::Linear, low, high, ticks, minor: Vec::new(), exponent }
+    }
+
+    fn logarithmic((low, high): (f64, f64)) -> Self {
+        // A little air, and a third of a decade about a single value. The ratio itself could overflow.
+        let span = libm::log10(high) - libm::log10(low);
+        let air = if span < 1e-3 { 0.33 } else { (0.03 * span).clamp(0.01, 0.5) };
+        let (low, high) = (low / libm::pow(10f64, air), high * libm::pow(10f64, air));
+        let (from, to) = (libm::log10(low), libm::log10(high));
+        if to - from < 0.8 {
+            // Too short for powers of ten: the round steps of a linear axis, spaced by ratio.
+            let options = ScaleOptions { spacing: Spacing::Linear, air: 0.0, steps: 4 };
+            let linear = Self::linear((low, high), options);
+            return Self { spacing: Spacing::Logarithmic, ..linear };
+        }
+        let decades = from.floor() as i32..=to.floor() as i32;
+        let inside = |v: f64| v >= low && v <= high;
+        let at = |decade: i32, digit: i32| f64::from(digit) * 10f64.powi(decade);
+        let labelled: &[i32] = if to - from < 2.0 { &[1, 2, 5] } else { &[1] };
+        let every = ((to - from) / 8.0).ceil().max(1.0) as i32;
+        let plain = decades.clone().all(|decade| (-3..=4).contains(&decade));
+        let ticks = decades
+            .clone()
+            .filter(|decade| decade.rem_euclid(every) == 0)
+            .flat_map(|decade| labelled.iter().map(move |&digit| (decade, digit)))
+            .filter(|&(decade, digit)| inside(at(decade, digit)))
+            .map(|(decade, digit)| Tick { value: at(decade, digit), label: decade_label(decade, digit, plain) })
+            .collect();
+        // Finer lines only where they do not crowd.
+        let minor = match every {
+            1 if to - from < 3.3 => {
+                decades.flat_map(|d| (2..10).map(move |n| at(d, n))).filter(|&v| inside(v)).collect()
+            }
+            _ => Vec::new(),
+        };
+        Self { spacing: Spacing::Logarithmic, low, high, ticks, minor, exponent: 0 }
+    }
+}
+
+/// A round step: mantissa 1, 2 or 5 and a power of ten.
+struct Step {
+    mantissa: f64,
+    exponent: i32,
+}
+
+impl Step {
+    /// The round step next to `raw` by ratio; `raw` is positive and normal.
+    fn near(raw: f64) -> Self {
+        let exponent = libm::log10(raw).floor() as i32;
+        let lead = raw / 10f64.powi(exponent);
+        let (mantissa, exponent) = match lead {
+            _ if lead < 2f64.sqrt() => (1.0, exponent),
+            _ if lead < 10f64.sqrt() => (2.0, exponent),
+            _ if lead < 50f64.sqrt() => (5.0, exponent),
+            _ => (1.0, exponent + 1),
+        };
+        Self { mantissa, exponent }
+    }
+
+    fn size(&self) -> f64 {
+        self.times(1.0)
+    }
+
+    /// A multiple of the step, correctly rounded for the usual exponents: a power of ten above one is
+    /// exact in f64, below one it is not, hence the division.
+    fn times(&self, k: f64) -> f64 {
+        match self.exponent {
+            0.. => k * self.mantissa * 10f64.powi(self.exponent),
+            _ => k * self.mantissa / 10f64.powi(-self.exponent),
+        }
+    }
+}
+
+impl Spacing {
+    /// Whether a value has a place on an axis.
+    pub(super) fn shows(self, value: f64) -> bool {
+        // The lower bound keeps the axis, which begins a little lower, among the normal numbers.
+        drawable(value).is_some() && (self == Self::Linear || value >= 1e-290)
+    }
+}
+
+/// A range wide enough to divide in f64, at least 1e-9 of its values' magnitude.
+fn widened((low, high): (f64, f64)) -> (f64, f64) {
+    let magnitude = low.abs().max(high.abs());
+    if magnitude < 1e-290 {
+        (low, 1.0)
+    } else if high - low < 1e-9 * magnitude {
+        (low - 0.05 * magnitude, high + 0.05 * magnitude)
+    } else {
+        (low, high)
+    }
+}
+
+/// Zero for magnitudes that read well as they are, else the multiple of three that makes them so.
+fn common_exponent(magnitude: f64) -> i32 {
+    if (1e-2..1e5).contains(&magnitude) { 0 } else { 3 * ((libm::log10(magnitude) + 1e-9) / 3.0).floor() as i32 }
+}
+
+fn decade_label(decade: i32, digit: i32, plain: bool) -> String {
+    if plain {
+        let decimals = (-decade).max(0) as usize;
+        format!("{:.decimals$}", f64::from(digit) * 10f64.powi(decade))
+    } else if digit == 1 {
+        power_of_ten(decade)
+    } else {
+        format!("{digit}×{}", power_of_ten(decade))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::Spacing::{Linear, Logarithmic};
+    use super::*;
+
+    fn scale(values: &[f64], spacing: Spacing, air: f64) -> Scale {
+        Scale::over(values.iter().copied(), ScaleOptions { spacing, air, steps: 5 })
+    }
+
+    fn labels(scale: &Scale) -> Vec<&str> {
+        scale.ticks.iter().map(|tick| tick.label.as_str()).collect()
+    }
+
+    #[test]
+    fn linear_ticks_are_round() {
+        let s = scale(&[0.0, 57.4], Linear, 0.0);
+        assert_eq!(labels(&s), ["0", "10", "20", "30", "40", "50"]);
+        assert_eq!((s.low, s.high, s.exponent), (0.0, 57.4, 0));
+        assert_eq!(labels(&scale(&[-0.07, 0.31], Linear, 0.0)), ["0.0", "0.1", "0.2", "0.3"]);
+        let s = scale(&[3.0e-9, 21.0e-9], Linear, 0.0);
+        assert_eq!((labels(&s), s.exponent), (vec!["5", "10", "15", "20"], -9));
+        let s = scale(&[-2.5e6, 1.0e6], Linear, 0.2);
+        assert_eq!((labels(&s), s.exponent), (vec!["\u{2212}3", "\u{2212}2", "\u{2212}1", "0", "1"], 6));
+        let s = scale(&[0.1, 0.3], Linear, 0.0);
+        assert_eq!(s.ticks.iter().map(|t| t.value).collect::<Vec<_>>(), [0.1, 0.15, 0.2, 0.25, 0.3]);
+    }
+
+    #[test]
+    fn logarithmic_ticks_are_decades() {
+        let s = scale(&[1e-8, 1e-3], Logarithmic, 0.0);
+        assert_eq!(labels(&s), ["10⁻⁸", "10⁻⁷", "10⁻⁶", "10⁻⁵", "10⁻⁴", "10⁻³"]);
+        let s = scale(&[0.05, 3.0], Logarithmic, 0.0);
+        assert_eq!(labels(&s), ["0.05", "0.1", "0.2", "0.5", "1", "2"]);
+        let s = scale(&[1e-100, 1e100], Logarithmic, 0.0);
+        assert!((5..=9).contains(&s.ticks.len()));
+        assert_eq!(labels(&scale(&[40.0, 60.0], Logarithmic, 0.0)), ["40", "45", "50", "55", "60"]);
+        // Both ends of f64's usable range: the ratio overflows, the places do not.
+        let s = scale(&[1e-289, 1e300], Logarithmic, 0.0);
+        assert!(s.place(1e-289).is_some_and(|p| p < 1e-3) && s.place(1e300).is_some_and(|p| p > 0.999));
+    }
+
+    #[test]
+    fn labels_without_room_leave_their_grid_lines() {
+        let s = scale(&[0.0, 50.0], Linear, 0.0);
+        assert_eq!(s.clone().with_room(300.0), s);
+        let short = s.with_room(60.0);
+        assert_eq!((labels(&short), short.minor.clone()), (vec!["0", "20", "40"], vec![10.0, 30.0, 50.0]));
+        let s = scale(&[0.05, 3.0], Logarithmic, 0.0);
+        assert_eq!(labels(&s.with_room(80.0)), ["0.1", "1"]);
+        let s = scale(&[1e-8, 1e-3], Logarithmic, 0.0);
+        assert_eq!(labels(&s.with_room(80.0)), ["10⁻⁸", "10⁻⁶", "10⁻⁴"]);
+        assert_eq!(labels(&scale(&[-2.0, 2.0], Linear, 0.0).with_room(1.0)).len(), 1);
+    }
+
+    #[test]
+    fn values_that_cannot_be_shown_have_no_place() {
+        let s = scale(&[1.0, 2.0, f64::NAN], Linear, 0.0);
+        assert_eq!((s.place(1.0), s.place(2.0)), (Some(0.0), Some(1.0)));
+        assert_eq!((s.place(f64::NAN), s.place(f64::INFINITY)), (None, None));
+        let s = scale(&[-1.0, 0.0, 5.0], Logarithmic, 0.0);
+        assert_eq!((s.place(0.0), s.place(-1.0)), (None, None));
+        // The axis is symmetric about a single value, up to rounding of the logarithms.
+        assert!(s.place(5.0).is_some_and(|place| (place - 0.5).abs() < 1e-12));
+    }
+
+    proptest! {
+        #[test]
+        fn any_values_give_a_usable_scale(
+            values in prop::collection::vec(prop::num::f64::ANY, 0..6), near in any::<bool>(),
+            log in any::<bool>(), air in 0.0..0.1,
+        ) {
+            let values: Vec<f64> = match near {
+                // Also nearly equal values, which any two f64 hardly ever are.
+                true => values.iter().map(|v| 1.0 + v.fract() * 1e-8).collect(),
+                false => values,
+            };
+            let s = scale(&values, if log { Logarithmic } else { Linear }, air);
+            prop_assert!((1..=12).contains(&s.ticks.len()), "{:?}", s.ticks);
+            prop_assert!(s.minor.len() < 50);
+            // Every shown value lies on the axis; 1e-8 allows for ranges 1e-9 of their values wide.
+            for value in values.iter().copied().chain(s.ticks.iter().map(|t| t.value)) {
+                if let Some(place) = s.place(value) {
+                    prop_assert!((-1e-8..=1.0 + 1e-8).contains(&place), "{value} at {place}");
+                }
+            }
+            for pair in s.ticks.windows(2) {
+                prop_assert!(pair[0].value < pair[1].value && pair[0].label != pair[1].label, "{:?}", pair);
+            }
+        }
+    }
+}

@@ -1,0 +1,164 @@
+//! The one look of all charts: colours, faces and lengths.
+
+use super::font::Face;
+
+/// Room left free at every edge of a figure, px.
+pub(super) const MARGIN: f64 = 12.0;
+/// Numbers beyond this magnitude are drawn like missing ones: differences of two must not overflow.
+pub(super) const LARGEST: f64 = 1e300;
+
+pub(super) const TITLE: Face = Face::bold(14.0);
+pub(super) const PANEL_TITLE: Face = Face::bold(12.0);
+pub(super) const BODY: Face = Face::regular(11.0);
+pub(super) const TICK: Face = Face::regular(10.5);
+pub(super) const VALUE: Face = Face::regular(9.5);
+
+pub(super) const INK: &str = "#222222";
+pub(super) const MUTED: &str = "#6b6b6b";
+pub(super) const GRID: &str = "#e4e4e4";
+pub(super) const FINE_GRID: &str = "#f1f1f1";
+pub(super) const PAPER: &str = "#ffffff";
+
+/// For which room a chart is laid out; texts have the same size in both.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ChartWidth {
+    /// A page column, 720 px.
+    #[default]
+    Wide,
+    /// A phone, 360 px.
+    Narrow,
+    /// A column of a journal: texts have 7 to 9 pt there, and the picture neither title nor caption.
+    Paper(PaperWidth),
+}
+
+/// The width of a picture on paper: 60 to 300 mm.
+///
+/// ```
+/// use apportion_report::chart::PaperWidth;
+/// let column: PaperWidth = "88mm".parse()?;
+/// assert_eq!(column.millimetres(), 88.0);
+/// assert!("3 furlongs".parse::<PaperWidth>().is_err() && "20mm".parse::<PaperWidth>().is_err());
+/// # Ok::<(), String>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PaperWidth {
+    micrometres: u32,
+}
+
+/// So much of paper is 1 px of a layout, mm: the smallest text, of 9.5 px, has 7 pt, the largest, of 12 px, 8.8 pt.
+const MILLIMETRES: f64 = 0.26;
+/// From this width on, px, a picture on paper is laid out as for a page column, below as for a phone.
+const COLUMN: f64 = 520.0;
+
+impl PaperWidth {
+    /// The width in mm.
+    pub fn millimetres(self) -> f64 {
+        f64::from(self.micrometres) / 1e3
+    }
+}
+
+impl std::str::FromStr for PaperWidth {
+    type Err = String;
+
+    /// A length with its unit, such as `88mm`, `8.8 cm` or `3.5 in`.
+    fn from_str(text: &str) -> Result<Self, String> {
+        let refused =
+            || format!("{text:?} is no width of a chart: expected 60mm to 300mm, such as 88mm, 18cm or 3.5in");
+        let text = text.trim();
+        let end = text.find(|c: char| c.is_alphabetic()).ok_or_else(refused)?;
+        let number: f64 = text[..end].trim().parse().map_err(|_| refused())?;
+        let unit = match &text[end..] {
+            "mm" => 1.0,
+            "cm" => 10.0,
+            "in" | "inch" => 25.4,
+            _ => return Err(refused()),
+        };
+        let millimetres = number * unit;
+        match (60.0..=300.0).contains(&millimetres) {
+            true => Ok(Self { micrometres: (1e3 * millimetres).round() as u32 }),
+            false => Err(refused()),
+        }
+    }
+}
+
+impl ChartWidth {
+    /// Width of a figure, px. The wide one is, at 96 px per inch, a full page column of 190 mm.
+    pub(super) fn px(self) -> f64 {
+        match self {
+            Self::Wide => 720.0,
+            Self::Narrow => 360.0,
+            Self::Paper(width) => (width.millimetres() / MILLIMETRES).floor(),
+        }
+    }
+
+    /// Whether it is laid out as for a phone.
+    pub(super) fn is_narrow(self) -> bool {
+        match self {
+            Self::Wide => false,
+            Self::Narrow => true,
+            Self::Paper(_) => self.px() < COLUMN,
+        }
+    }
+
+    /// The first for a page column, the second for a phone.
+    pub(super) fn choose<T>(self, wide: T, narrow: T) -> T {
+        if self.is_narrow() { narrow } else { wide }
+    }
+
+    /// The width on paper, if it is for paper.
+    pub(super) fn paper(self) -> Option<PaperWidth> {
+        match self {
+            Self::Paper(width) => Some(width),
+            _ => None,
+        }
+    }
+}
+
+/// What a chart is drawn for.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Medium {
+    pub width: ChartWidth,
+    /// Whether it becomes part of a page, which sets title and caption as text and scales the picture.
+    pub inline: bool,
+}
+
+impl Medium {
+    /// Whether the picture has title and caption in itself.
+    pub fn has_words(self) -> bool {
+        !self.inline && self.width.paper().is_none()
+    }
+}
+
+/// The number if it can be drawn: finite and not beyond [`LARGEST`].
+pub(super) fn drawable(value: f64) -> Option<f64> {
+    (value.abs() <= LARGEST).then_some(value)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn texts_on_paper_have_seven_to_nine_points() {
+        let points = |px: f64| px * MILLIMETRES / 25.4 * 72.0;
+        for face in [TICK, VALUE, BODY, PANEL_TITLE] {
+            assert!((7.0..=9.0).contains(&points(face.size)), "{} pt", points(face.size));
+        }
+        let width = |text: &str| text.parse::<PaperWidth>().map(|width| width.millimetres());
+        assert_eq!(width(" 3.5 in"), Ok(88.9));
+        assert_eq!(width("18cm"), Ok(180.0));
+        for wrong in ["", "88", "mm", "301mm", "-88mm", "NaNmm", "88 mm mm", "1e400mm"] {
+            assert!(width(wrong).unwrap_err().contains("60mm to 300mm"), "{wrong}");
+        }
+        assert!(ChartWidth::Paper("88mm".parse().unwrap()).is_narrow());
+        assert!(!ChartWidth::Paper("180mm".parse().unwrap()).is_narrow());
+    }
+
+    #[test]
+    fn only_numbers_that_can_be_placed_are_drawable() {
+        for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, f64::MAX] {
+            assert_eq!(drawable(value), None);
+        }
+        assert_eq!(drawable(-LARGEST), Some(-LARGEST));
+    }
+}

@@ -1,0 +1,272 @@
+//! A writer of SVG elements: escapes text, writes coordinates with two decimals, the same bytes always.
+
+use std::fmt::{Display, Formatter, Result, Write};
+
+use apportion::text::symbol;
+
+use super::font::{Face, Weight};
+use super::style::{INK, PAPER};
+
+/// Size of a subscript, and how far it is lowered, in sizes of the text.
+const SUBSCRIPT: f64 = 0.75;
+const LOWERED: f64 = 0.22;
+
+/// A coordinate in px, written with at most two decimals.
+pub(super) struct Px(pub f64);
+
+impl Display for Px {
+    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
+        let text = format!("{:.2}", self.0);
+        let text = text.trim_end_matches('0').trim_end_matches('.');
+        f.write_str(if text == "-0" { "0" } else { text })
+    }
+}
+
+/// Attributes of an element, in the order they are written.
+pub(super) type Attributes<'a> = &'a [(&'a str, &'a dyn Display)];
+
+/// Where the given point lies in a line of text.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Anchor {
+    Start,
+    Middle,
+    End,
+}
+
+/// One line of text.
+pub(super) struct Text<'a> {
+    content: &'a str,
+    at: (f64, f64),
+    face: Face,
+    anchor: Anchor,
+    fill: &'static str,
+    turn: f64,
+    halo: bool,
+    whole: Option<&'a str>,
+}
+
+impl<'a> Text<'a> {
+    /// Dark text that starts at `at`, a point of its baseline.
+    pub fn new(content: &'a str, at: (f64, f64), face: Face) -> Self {
+        Self { content, at, face, anchor: Anchor::Start, fill: INK, turn: 0.0, halo: false, whole: None }
+    }
+
+    pub fn anchor(self, anchor: Anchor) -> Self {
+        Self { anchor, ..self }
+    }
+
+    pub fn fill(self, fill: &'static str) -> Self {
+        Self { fill, ..self }
+    }
+
+    /// Turned about its point, degrees clockwise.
+    pub fn turn(self, turn: f64) -> Self {
+        Self { turn, ..self }
+    }
+
+    /// With a white rim, for text above lines.
+    pub fn halo(self) -> Self {
+        Self { halo: true, ..self }
+    }
+
+    /// The unshortened text, shown when pointed at.
+    pub fn whole(self, whole: &'a str) -> Self {
+        Self { whole: (whole != self.content).then_some(whole), ..self }
+    }
+}
+
+/// A growing piece of SVG.
+#[derive(Debug, Default)]
+pub(super) struct Canvas {
+    out: String,
+}
+
+impl Canvas {
+    /// The elements written so far.
+    pub fn into_string(self) -> String {
+        self.out
+    }
+
+    /// Adds the elements of another piece.
+    pub fn append(&mut self, other: Canvas) {
+        self.out.push_str(&other.out);
+    }
+
+    /// Opens an element that `close` ends.
+    pub fn open(&mut self, name: &str, attributes: Attributes) {
+        self.start(name, attributes);
+        self.out.push_str(">\n");
+    }
+
+    pub fn close(&mut self, name: &str) {
+        self.push(format_args!("</{name}>\n"));
+    }
+
+    /// An element without content.
+    pub fn leaf(&mut self, name: &str, attributes: Attributes) {
+        self.start(name, attributes);
+        self.out.push_str("/>\n");
+    }
+
+    /// An element with text as content.
+    pub fn content(&mut self, name: &str, attributes: Attributes, text: &str) {
+        self.start(name, attributes);
+        self.push(format_args!(">{}</{name}>\n", Escaped(text)));
+    }
+
+    /// An element that shows `tip` when pointed at.
+    pub fn tipped(&mut self, name: &str, attributes: Attributes, tip: &str) {
+        self.start(name, attributes);
+        self.push(format_args!("><title>{}</title></{name}>\n", Escaped(tip)));
+    }
+
+    pub fn line(&mut self, from: (f64, f64), to: (f64, f64)) {
+        self.leaf("line", &[("x1", &Px(from.0)), ("y1", &Px(from.1)), ("x2", &Px(to.0)), ("y2", &Px(to.1))]);
+    }
+
+    pub fn text(&mut self, text: &Text) {
+        let (x, y) = (Px(text.at.0), Px(text.at.1));
+        let size = Px(text.face.size);
+        let turn = format!("rotate({} {x} {y})", Px(text.turn));
+        let mut attributes: Vec<(&str, &dyn Display)> = vec![("x", &x), ("y", &y), ("font-size", &size)];
+        if text.face.weight == Weight::Bold {
+            attributes.push(("font-weight", &"bold"));
+        }
+        match text.anchor {
+            Anchor::Start => {}
+            Anchor::Middle => attributes.push(("text-anchor", &"middle")),
+            Anchor::End => attributes.push(("text-anchor", &"end")),
+        }
+        if text.fill != INK {
+            attributes.push(("fill", &text.fill));
+        }
+        if text.turn != 0.0 {
+            attributes.push(("transform", &turn));
+        }
+        if text.halo {
+            let rim: Attributes = &[("paint-order", &"stroke"), ("stroke", &PAPER), ("stroke-width", &"2.4")];
+            attributes.extend_from_slice(rim);
+            attributes.push(("stroke-linejoin", &"round"));
+        }
+        self.start("text", &attributes);
+        self.out.push('>');
+        self.words(text);
+        if let Some(whole) = text.whole {
+            self.push(format_args!("<title>{}</title>", Escaped(whole)));
+        }
+        self.out.push_str("</text>\n");
+    }
+
+    /// The content of a text, where symbols such as `F_cr` have a lowered subscript.
+    fn words(&mut self, text: &Text) {
+        let is_word = |c: char| c.is_alphanumeric() || c == '_';
+        let (size, drop) = (SUBSCRIPT * text.face.size, LOWERED * text.face.size);
+        let (mut rest, mut is_lowered) = (text.content, false);
+        while !rest.is_empty() {
+            let end = match rest.find(is_word) {
+                Some(0) => rest.find(|c| !is_word(c)).unwrap_or(rest.len()),
+                Some(start) => start,
+                None => rest.len(),
+            };
+            let (word, after) = rest.split_at(end);
+            let (letter, below) = symbol(word).unwrap_or((word, ""));
+            if is_lowered {
+                self.push(format_args!("<tspan dy=\"-{}\">{}</tspan>", Px(drop), Escaped(letter)));
+            } else {
+                self.push(format_args!("{}", Escaped(letter)));
+            }
+            is_lowered = !below.is_empty();
+            if is_lowered {
+                let (drop, size) = (Px(drop), Px(size));
+                self.push(format_args!("<tspan dy=\"{drop}\" font-size=\"{size}\">{}</tspan>", Escaped(below)));
+            }
+            rest = after;
+        }
+    }
+
+    fn start(&mut self, name: &str, attributes: Attributes) {
+        self.push(format_args!("<{name}"));
+        for (key, value) in attributes {
+            let value = value.to_string();
+            self.push(format_args!(" {key}=\"{}\"", Escaped(&value)));
+        }
+    }
+
+    fn push(&mut self, text: std::fmt::Arguments) {
+        // Writing to a string fails only if a Display does, and those here do not.
+        let _ = self.out.write_fmt(text);
+    }
+}
+
+/// Text as XML content or attribute value; characters that XML forbids become U+FFFD.
+struct Escaped<'a>(&'a str);
+
+impl Display for Escaped<'_> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
+        for c in self.0.chars() {
+            match c {
+                '&' => f.write_str("&amp;")?,
+                '<' => f.write_str("&lt;")?,
+                '>' => f.write_str("&gt;")?,
+                '"' => f.write_str("&quot;")?,
+                '\'' => f.write_str("&apos;")?,
+                '\t' | '\n' => f.write_char(c)?,
+                '\0'..'\u{20}' | '\u{fffe}' | '\u{ffff}' => f.write_char('\u{fffd}')?,
+                _ => f.write_char(c)?,
+            }
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+    use resvg::usvg::roxmltree::Document;
+
+    use super::*;
+
+    #[test]
+    fn symbols_have_lowered_subscripts() {
+        let said = |text: &str| {
+            let mut canvas = Canvas::default();
+            canvas.text(&Text::new(text, (0.0, 0.0), Face::regular(10.0)));
+            canvas.into_string().split_once('>').map(|(_, rest)| rest.to_owned()).unwrap_or_default()
+        };
+        let lowered = |text: &str| format!("<tspan dy=\"2.2\" font-size=\"7.5\">{text}</tspan>");
+        let raised = |text: &str| format!("<tspan dy=\"-2.2\">{text}</tspan>");
+        assert_eq!(said("F_cr"), format!("F{}</text>\n", lowered("cr")));
+        assert_eq!(
+            said("(S_T, K_theta)"),
+            format!("(S{}{}K{}{}</text>\n", lowered("T"), raised(", "), lowered("θ"), raised(")"))
+        );
+        assert_eq!(said("my_file < 2"), "my_file &lt; 2</text>\n");
+    }
+
+    #[test]
+    fn coordinates_are_short() {
+        let written: Vec<_> = [1.0, -0.001, 2.50, 1.006, 100.0, -3.25].iter().map(|&v| Px(v).to_string()).collect();
+        assert_eq!(written, ["1", "0", "2.5", "1.01", "100", "-3.25"]);
+    }
+
+    proptest! {
+        #[test]
+        fn any_text_survives_as_text(text in any::<String>()) {
+            // Symbols are in parts.
+            let text = text.replace('_', " ");
+            let mut canvas = Canvas::default();
+            canvas.open("g", &[("class", &text)]);
+            canvas.text(&Text::new(&text, (0.0, 1.0), Face::bold(9.0)).turn(-90.0).halo().whole("all"));
+            canvas.close("g");
+            let xml = canvas.into_string();
+            let document = Document::parse(&xml).expect("well-formed");
+            let read = document.descendants().find(|n| n.has_tag_name("text")).unwrap().text().unwrap_or("");
+            let expected: String = text
+                .chars()
+                .map(|c| if c.is_control() && c < ' ' && c != '\t' && c != '\n'
+                    || c == '\u{fffe}' || c == '\u{ffff}' { '\u{fffd}' } else { c })
+                .collect();
+            prop_assert_eq!(read, expected);
+        }
+    }
+}

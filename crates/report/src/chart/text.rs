@@ -1,0 +1,125 @@
+//! Breaking and shortening of text to a width, and the numbers written into a chart.
+
+use super::font::Face;
+
+/// Breaks text into lines no wider than `width` px: at white space, and inside a word that alone is
+/// wider. White space is normalised, so empty text gives no line.
+pub(super) fn wrap(text: &str, width: f64, face: Face) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    let mut line = String::new();
+    for word in text.split_whitespace() {
+        let joined = if line.is_empty() { word.to_owned() } else { format!("{line} {word}") };
+        if face.width(&joined) <= width {
+            line = joined;
+            continue;
+        }
+        if !line.is_empty() {
+            lines.push(std::mem::take(&mut line));
+        }
+        for c in word.chars() {
+            line.push(c);
+            if line.len() > c.len_utf8() && face.width(&line) > width {
+                line.pop();
+                lines.push(std::mem::replace(&mut line, c.to_string()));
+            }
+        }
+    }
+    if !line.is_empty() {
+        lines.push(line);
+    }
+    lines
+}
+
+/// One line no wider than `width` px; what does not fit is replaced by an ellipsis.
+pub(super) fn shorten(text: &str, width: f64, face: Face) -> String {
+    let line = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    if face.width(&line) <= width {
+        return line;
+    }
+    let mut used = face.width("…");
+    let fits = |c: &char| {
+        used += face.width(c.encode_utf8(&mut [0; 4]));
+        used <= width
+    };
+    let kept: String = line.chars().take_while(fits).collect();
+    format!("{}…", kept.trim_end())
+}
+
+/// At most `most` lines no wider than `width` px, the last one shortened if there is more.
+pub(super) fn wrap_within(text: &str, width: f64, most: usize, face: Face) -> Vec<String> {
+    let mut lines = wrap(text, width, face);
+    if lines.len() > most {
+        let rest = lines.split_off(most.saturating_sub(1)).join(" ");
+        lines.push(shorten(&rest, width, face));
+    }
+    lines
+}
+
+/// A share in percent with one decimal and a true minus sign; magnitudes from 1e5 as a power of ten.
+pub(super) fn percent(value: f64) -> String {
+    let text = if value.abs() < 1e5 { format!("{value:.1}") } else { format!("{value:.1e}") };
+    minus(if text == "-0.0" { "0.0" } else { &text })
+}
+
+/// Replaces hyphens that serve as minus signs.
+pub(super) fn minus(number: &str) -> String {
+    number.replace('-', "\u{2212}")
+}
+
+/// `10ⁿ` in superscript characters.
+pub(super) fn power_of_ten(exponent: i32) -> String {
+    const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
+    let mut text = String::from("10");
+    for c in exponent.to_string().chars() {
+        text.push(c.to_digit(10).map_or('⁻', |digit| DIGITS[digit as usize]));
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    const FACE: Face = Face::regular(10.0);
+
+    #[test]
+    fn wraps_at_spaces_and_inside_long_words_only() {
+        let width = FACE.width("surface energy");
+        assert_eq!(wrap(" surface  energy\nof tip ", width, FACE), ["surface energy", "of tip"]);
+        assert_eq!(wrap("000000", FACE.width("0000"), FACE), ["0000", "00"]);
+        assert!(wrap(" \n", 10.0, FACE).is_empty());
+    }
+
+    #[test]
+    fn shortens_with_an_ellipsis() {
+        assert_eq!(shorten("tip radius", 500.0, FACE), "tip radius");
+        assert_eq!(shorten("tip radius", FACE.width("tip…") + 0.1, FACE), "tip…");
+        assert_eq!(shorten("tip", 0.0, FACE), "…");
+        assert_eq!(shorten("", 0.0, FACE), "");
+        assert_eq!(shorten(&"x".repeat(1_000_000), FACE.width("xx…"), FACE), "xx…");
+    }
+
+    #[test]
+    fn numbers_read_as_in_print() {
+        assert_eq!(percent(46.05), "46.0");
+        assert_eq!(percent(-0.5), "\u{2212}0.5");
+        assert_eq!(percent(-0.04), "0.0");
+        assert_eq!(percent(-1e300), "\u{2212}1.0e300");
+        assert_eq!(power_of_ten(-12), "10⁻¹²");
+        assert_eq!(power_of_ten(0), "10⁰");
+    }
+
+    proptest! {
+        #[test]
+        fn wrapping_keeps_every_character_and_the_width(text in "\\PC{0,60}", width in 0.0..200.0) {
+            let lines = wrap(&text, width, FACE);
+            let kept: String = lines.concat().split_whitespace().collect();
+            prop_assert_eq!(kept, text.split_whitespace().collect::<String>());
+            for line in &lines {
+                prop_assert!(FACE.width(line) <= width || line.chars().count() == 1);
+            }
+        }
+    }
+}

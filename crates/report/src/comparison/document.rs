@@ -1,0 +1,153 @@
+//! A comparison as a document.
+
+use apportion::result::json;
+use apportion::text::listed;
+use apportion::uncertainty::{Estimate, Interval};
+
+use super::charts::{differences, side_by_side};
+use super::record::{ComparedFactor, ComparedIndex, ComparedOutput, ComparedSide, ComparisonFile};
+use crate::document::{Document, OutputReport, Part, Report, Section, Table};
+use crate::format::{give_or_take, name, or_dash, significant};
+use crate::leading::{Contender, Verdict};
+
+/// The document of a comparison, whose files begin with `name`. A star marks the differences whose intervals leave out 0.
+pub fn comparison_document(file: &ComparisonFile, files: &str) -> Document {
+    let outputs = file.outputs.iter().map(|output| OutputReport {
+        name: &output.name,
+        unit: &output.unit,
+        answer: format!("For {}, {}.", name(&output.name), leaders(output)),
+        parts: output_parts(output),
+        charts: vec![("", side_by_side(file, output)), ("-differences", differences(file, output))],
+        ..OutputReport::default()
+    });
+    Report {
+        name: files.to_owned(),
+        kicker: "Comparison of two results",
+        title: format!("{} and {}", file.a.label, file.b.label),
+        lead: vec![legend(file)],
+        first: vec![Section::new("sides", "What is compared", sides(file))],
+        outputs: outputs.collect(),
+        json: json(file),
+        csv: Some(all_indices(file)),
+        ..Report::default()
+    }
+    .document()
+}
+
+/// The two results, in what their studies differ, and what only one of them has.
+fn sides(file: &ComparisonFile) -> Vec<Part> {
+    let side = |letter: &str, side: &ComparedSide| {
+        let title = side.title.as_ref().map_or_else(String::new, |title| format!(", {title}"));
+        Part::Text(format!("{letter}: {}{title} ({})", side.label, side.file))
+    };
+    let mut parts = vec![side("A", &file.a), side("B", &file.b)];
+    if !file.settings.is_empty() {
+        let settings = Table::from_rows("In what the studies differ.", &file.settings)
+            .text("what differs", |setting| &setting.what)
+            .text("A", |setting| setting.a.as_deref().unwrap_or("–"))
+            .text("B", |setting| setting.b.as_deref().unwrap_or("–"));
+        parts.push(settings.into());
+    }
+    for (what, sided) in [("outputs", &file.outputs_left_out), ("factors", &file.factors_left_out)] {
+        for (side, names) in [("A", &sided.a), ("B", &sided.b)].into_iter().filter(|(_, names)| !names.is_empty()) {
+            parts.push(Part::Text(format!("{what} of {side} alone: {}", names.join(", "))));
+        }
+    }
+    parts
+}
+
+fn output_parts(output: &ComparedOutput) -> Vec<Part> {
+    let mut parts = Vec::new();
+    for (letter, reason) in ["A", "B"].into_iter().zip(&output.reasons) {
+        parts.extend(reason.as_ref().map(|reason| Part::no_indices(format!("There are none in {letter}: {reason}."))));
+    }
+    let said = |(estimate, interval): (f64, Option<Interval>)| match interval {
+        Some(_) => give_or_take(Estimate { estimate, interval }),
+        None => significant(estimate),
+    };
+    let moments = [("Mean", output.mean, output.mean_interval), ("Standard deviation", output.sd, [None; 2])];
+    for (what, of, [of_a, of_b]) in moments {
+        if let [Some(a), Some(b)] = of {
+            parts.push(Part::Text(format!("{what}: A {}, B {}.", said((a, of_a)), said((b, of_b)))));
+        }
+    }
+    // Side by side they would be wider than a page.
+    parts.push(index_table(output, "First-order index S_1", "S_1", |factor| &factor.first_order));
+    parts.push(index_table(output, "Total index S_T", "S_T", |factor| &factor.total));
+    parts
+}
+
+fn index_table(output: &ComparedOutput, what: &str, symbol: &str, of: fn(&ComparedFactor) -> &ComparedIndex) -> Part {
+    let caption = format!(
+        "{what} in both, with the half width of its 95 % interval, and the difference; a star marks those whose interval \
+         leaves out 0."
+    );
+    let star = |index: &ComparedIndex| if index.differs == Some(true) { " *" } else { "" };
+    Table::from_rows(caption, &output.factors)
+        .text("factor", |factor| format!("{}{}", if factor.group { "group " } else { "" }, name(&factor.name)))
+        .number(format!("{symbol} of A"), |factor| of(factor).a)
+        .number(format!("{symbol} of B"), |factor| of(factor).b)
+        .number("B − A", |factor| or_dash(of(factor).difference, give_or_take) + star(of(factor)))
+        .into()
+}
+
+/// Which factor has the largest total index in each, as far as the intervals tell, without the output and a full stop.
+fn leaders(output: &ComparedOutput) -> String {
+    let leaders = |of: fn(&ComparedFactor) -> Option<Estimate>| -> Option<String> {
+        let contender = |factor: &ComparedFactor| Some(Contender::new(name(&factor.name), of(factor)?));
+        let known: Vec<Contender> = output.factors.iter().filter(|f| !f.group).filter_map(contender).collect();
+        let names: Vec<&str> =
+            Verdict::new(&known).leaders().iter().map(|&place| known[place].label.as_str()).collect();
+        match &names[..] {
+            [] => None,
+            [one] => Some(format!("{one} has the largest total index")),
+            several => Some(format!("{} cannot be told apart by their total indices", listed(several))),
+        }
+    };
+    match (leaders(|f| f.total.a), leaders(|f| f.total.b)) {
+        (Some(a), Some(b)) if a == b => format!("{a} in both"),
+        (Some(a), Some(b)) => format!("{a} in A; {b} in B"),
+        _ => "one of the results has no indices".to_owned(),
+    }
+}
+
+/// What the stars mean, and how far they can be trusted.
+fn legend(file: &ComparisonFile) -> String {
+    let indices = || file.outputs.iter().flat_map(|o| &o.factors).flat_map(|f| [&f.first_order, &f.total]);
+    let compared = indices().filter(|index| index.differs.is_some()).count();
+    if compared == 0 {
+        return "There are no intervals: nothing can be said about the errors of the differences.".to_owned();
+    }
+    let differing = indices().filter(|index| index.differs == Some(true)).count();
+    let mut text = format!(
+        "A star marks a difference whose 95 % interval leaves out 0: {differing} of {compared}, where chance alone makes \
+         about one in twenty."
+    );
+    if indices().all(|index| index.a == index.b) {
+        text.push_str(" All indices are the same, to the last bit.");
+    } else if file.shared_points {
+        text.push_str(
+            " Both use the same points, so their errors have much in common: the intervals of differences are rather too \
+             wide.",
+        );
+    }
+    text
+}
+
+/// A line per output, factor or group, and index.
+fn all_indices(file: &ComparisonFile) -> Table {
+    let factors = file.outputs.iter().flat_map(|output| output.factors.iter().map(move |factor| (output, factor)));
+    let rows = factors.flat_map(|(output, factor)| {
+        [("first_order", &factor.first_order), ("total", &factor.total)].map(|index| (output, factor, index))
+    });
+    Table::from_rows("", rows)
+        .file("output", |(output, ..)| &output.name)
+        .file("kind", |(_, factor, _)| if factor.group { "group" } else { "factor" })
+        .file("name", |(_, factor, _)| &factor.name)
+        .file("index", |(.., (name, _))| name)
+        .file_estimate("a", |(.., (_, index))| index.a)
+        .file_estimate("b", |(.., (_, index))| index.b)
+        .file_estimate("difference", |(.., (_, index))| index.difference)
+        .file("differs", |(.., (_, index))| index.differs)
+        .into()
+}

@@ -1,0 +1,296 @@
+//! The comparison as a record.
+
+use apportion::quantity::Unit;
+use apportion::result::{OutputResult, StudyResult};
+use apportion::uncertainty::{EffectEstimates, Estimate, Interval, difference};
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+use super::settings::{SettingDifference, differences};
+
+/// Two results compared, as described in `docs/comparison-format.md`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ComparisonFile {
+    /// `"apportion-comparison"`.
+    pub format: String,
+    /// 1.
+    pub version: u32,
+    /// The first result.
+    pub a: ComparedSide,
+    /// The second result.
+    pub b: ComparedSide,
+    /// What the studies say differently.
+    pub settings: Vec<SettingDifference>,
+    /// Whether both use the same points: errors then have much in common, and the intervals of differences are too wide.
+    pub shared_points: bool,
+    /// Outputs that only one of them has.
+    pub outputs_left_out: OneSided,
+    /// Factors that only one of them has.
+    pub factors_left_out: OneSided,
+    /// The outputs that both have, in the order of A.
+    pub outputs: Vec<ComparedOutput>,
+}
+
+/// One of the two results.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct ComparedSide {
+    /// What it is called in tables and charts.
+    pub label: String,
+    /// Its study.
+    pub study: String,
+    /// Title of the study, if it has one.
+    pub title: Option<String>,
+    /// Its file.
+    pub file: String,
+    /// SHA-256 of the study file in hexadecimal.
+    pub study_sha256: String,
+}
+
+/// What only one of the results has.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct OneSided {
+    /// Names that only A has.
+    pub a: Vec<String>,
+    /// Names that only B has.
+    pub b: Vec<String>,
+}
+
+/// An output in both results.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ComparedOutput {
+    /// The output.
+    pub name: String,
+    /// Unit of the moments: that of A.
+    pub unit: String,
+    /// Mean in A and in B, in `unit`; `null` where there is none.
+    pub mean: [Option<f64>; 2],
+    /// Its interval in A and in B; `null` where there is none.
+    #[serde(default)]
+    pub mean_interval: [Option<Interval>; 2],
+    /// Standard deviation in A and in B, in `unit`.
+    pub sd: [Option<f64>; 2],
+    /// Every factor, in the order of A and then of B, then the groups that both have.
+    pub factors: Vec<ComparedFactor>,
+    /// Why there are no indices in A, in B.
+    pub reasons: [Option<String>; 2],
+}
+
+/// The indices of a factor or group in both results.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ComparedFactor {
+    /// Its name.
+    pub name: String,
+    /// Whether it is a group of factors.
+    pub group: bool,
+    /// First-order index.
+    pub first_order: ComparedIndex,
+    /// Total index.
+    pub total: ComparedIndex,
+}
+
+/// Indices are shares of a variance: differences up to this are of the size of the rounding errors of its sums, which the
+/// intervals do not hold.
+const ROUNDING: f64 = 1e-12;
+
+/// One index in both results.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct ComparedIndex {
+    /// In A; `null` if it does not exist there.
+    pub a: Option<Estimate>,
+    /// In B; `null` if it does not exist there.
+    pub b: Option<Estimate>,
+    /// B minus A; `null` if one of them does not exist.
+    pub difference: Option<Estimate>,
+    /// Whether the interval of the difference leaves out 0, and the difference is more than rounding (1e-12); `null`
+    /// without an interval.
+    pub differs: Option<bool>,
+}
+
+impl ComparedIndex {
+    /// The index `a` in A beside the index `b` in B.
+    pub fn new(a: Option<Estimate>, b: Option<Estimate>) -> Self {
+        let difference = a.zip(b).map(|(a, b)| difference(a, b));
+        let beyond = |d: Estimate| {
+            d.interval.map(|Interval { low, high }| (low > 0.0 || high < 0.0) && d.estimate.abs() > ROUNDING)
+        };
+        let differs = difference.and_then(beyond);
+        Self { a, b, difference, differs }
+    }
+}
+
+/// Why two results cannot be compared.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum CompareError {
+    /// They have no output, or no factor, in common.
+    #[error("there is nothing to compare, the results have no {what} in common: A has {a}, B has {b}")]
+    NothingInCommon {
+        /// `output` or `factor`.
+        what: &'static str,
+        /// Those of A.
+        a: String,
+        /// Those of B.
+        b: String,
+    },
+    /// An output of one name is a quantity of two kinds.
+    #[error("the output `{output}` is not the same quantity: in {a} in A, in {b} in B")]
+    OtherQuantity {
+        /// The output.
+        output: String,
+        /// Its unit in A.
+        a: String,
+        /// Its unit in B.
+        b: String,
+    },
+}
+
+/// A result to compare, and what it is called.
+#[derive(Debug, Clone, Copy)]
+pub struct NamedResult<'a> {
+    /// The result.
+    pub result: &'a StudyResult,
+    /// Its label in tables and charts.
+    pub label: &'a str,
+    /// The name of its file, which the record of the comparison holds.
+    pub file: &'a str,
+}
+
+/// Compares two results, output by output and factor by factor.
+///
+/// ```
+/// use std::path::Path;
+/// use apportion_report::comparison::{NamedResult, compare_results};
+/// use apportion::result::StudyResult;
+/// use apportion::Study;
+///
+/// let result = |choice: &str| -> Result<_, Box<dyn std::error::Error>> {
+///     let text = format!("model = \"ishigami\"\n[function]\n{choice}\n[design]\nbase_samples = 4096");
+///     let study = apportion_files::parse_study(&text, Path::new("a.toml"), &[])?;
+///     Ok(study.run()?)
+/// };
+/// let (a, b) = (result("b = 0.1")?, result("b = 0.2")?);
+/// let named = |result, label, file| NamedResult { result, label, file };
+/// let file = compare_results(&named(&a, "A", "a.json"), &named(&b, "B", "b.json"))?;
+/// // x3 acts only together with x1, the more so the larger b is.
+/// let x3 = &file.outputs[0].factors[2];
+/// assert_eq!((x3.first_order.differs, x3.total.differs), (Some(false), Some(true)));
+/// assert_eq!(file.settings[0].what, "b");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// [`CompareError`] if they have no output or no factor in common, or an output of one name is a quantity of another kind.
+pub fn compare_results(a: &NamedResult<'_>, b: &NamedResult<'_>) -> Result<ComparisonFile, CompareError> {
+    let (first, second) = (a.result, b.result);
+    let outputs_left_out = one_sided("output", &output_names(first), &output_names(second))?;
+    let factors_left_out = one_sided("factor", &factor_names(first), &factor_names(second))?;
+    let names: Vec<String> = factor_names(first).into_iter().chain(factors_left_out.b.iter().cloned()).collect();
+    let mut outputs = Vec::new();
+    for output in &first.outputs {
+        if let Some(other) = second.outputs.iter().find(|other| other.name == output.name) {
+            outputs.push(compared(&names, output, other)?);
+        }
+    }
+    Ok(ComparisonFile {
+        format: "apportion-comparison".to_owned(),
+        version: 1,
+        a: side(a),
+        b: side(b),
+        settings: differences(first, second),
+        shared_points: shared_points(first, second),
+        outputs_left_out,
+        factors_left_out,
+        outputs,
+    })
+}
+
+/// Whether two results rest on the same points: the same sampler, seed and size, and as many factors.
+pub fn shared_points(a: &StudyResult, b: &StudyResult) -> bool {
+    let design = |result: &StudyResult| {
+        let p = &result.provenance;
+        (p.sampler.clone(), p.seed, p.base_samples, p.replicates, result.factors.len())
+    };
+    design(a) == design(b)
+}
+
+fn side(&NamedResult { result, label, file }: &NamedResult<'_>) -> ComparedSide {
+    ComparedSide {
+        label: label.to_owned(),
+        study: result.study.name.clone(),
+        title: result.study.title.clone(),
+        file: file.to_owned(),
+        study_sha256: result.provenance.study_sha256.clone(),
+    }
+}
+
+fn output_names(result: &StudyResult) -> Vec<String> {
+    result.outputs.iter().map(|output| output.name.clone()).collect()
+}
+
+fn factor_names(result: &StudyResult) -> Vec<String> {
+    result.factors.iter().map(|factor| factor.name.clone()).collect()
+}
+
+/// The names that only one of them has, of which there must be others.
+fn one_sided(what: &'static str, a: &[String], b: &[String]) -> Result<OneSided, CompareError> {
+    let without = |all: &[String], others: &[String]| -> Vec<String> {
+        all.iter().filter(|name| !others.contains(name)).cloned().collect()
+    };
+    let found = OneSided { a: without(a, b), b: without(b, a) };
+    match found.a.len() == a.len() {
+        true => {
+            let [a, b] = [a, b].map(|names| if names.is_empty() { "none".to_owned() } else { names.join(", ") });
+            Err(CompareError::NothingInCommon { what, a, b })
+        }
+        false => Ok(found),
+    }
+}
+
+fn compared(names: &[String], a: &OutputResult, b: &OutputResult) -> Result<ComparedOutput, CompareError> {
+    let other_quantity =
+        || CompareError::OtherQuantity { output: a.name.clone(), a: a.unit.clone(), b: b.unit.clone() };
+    // A unit that is not understood is at least the same text.
+    let (of_a, of_b) = (Unit::label(&a.unit), Unit::label(&b.unit));
+    if !of_a.compatible(&of_b) {
+        return Err(other_quantity());
+    }
+    let is_same = a.unit == b.unit;
+    let value = |mean: f64| if is_same { mean } else { of_a.from_si(of_b.to_si(mean)) };
+    let span = |sd: f64| if is_same { sd } else { of_a.span_from_si(of_b.span_to_si(sd)) };
+    let sd = |output: &OutputResult| output.variance.filter(|variance| *variance >= 0.0).map(f64::sqrt);
+    let of_factor = |output: &OutputResult, name: &String| {
+        output.indices.iter().flatten().find(|index| index.factor == *name).map(|index| index.effect)
+    };
+    let of_group = |output: &OutputResult, name: &String| {
+        output.groups.iter().flatten().find(|group| group.group == *name).map(|group| group.effect)
+    };
+    let factors = names.iter().map(|name| factor(name, false, of_factor(a, name), of_factor(b, name)));
+    let groups = a.groups.iter().flatten().filter_map(|record| {
+        let of_b = of_group(b, &record.group)?;
+        Some(factor(&record.group, true, Some(record.effect), Some(of_b)))
+    });
+    Ok(ComparedOutput {
+        name: a.name.clone(),
+        unit: a.unit.clone(),
+        mean: [a.mean, b.mean.map(value)],
+        mean_interval: [
+            a.mean_interval,
+            b.mean_interval.map(|of| Interval { low: value(of.low), high: value(of.high) }),
+        ],
+        sd: [sd(a), sd(b).map(span)],
+        factors: factors.chain(groups).collect(),
+        reasons: [a, b].map(|output| output.indices.is_none().then(|| reason(output))),
+    })
+}
+
+fn reason(output: &OutputResult) -> String {
+    output.reason.clone().unwrap_or_else(|| "the result holds none".to_owned())
+}
+
+fn factor(name: &str, group: bool, a: Option<EffectEstimates>, b: Option<EffectEstimates>) -> ComparedFactor {
+    ComparedFactor {
+        name: name.to_owned(),
+        group,
+        first_order: ComparedIndex::new(a.map(|e| e.first_order), b.map(|e| e.first_order)),
+        total: ComparedIndex::new(a.map(|e| e.total), b.map(|e| e.total)),
+    }
+}

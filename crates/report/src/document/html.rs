@@ -1,0 +1,188 @@
+//! A document as a page of HTML.
+
+use askama::Template;
+
+use super::anchors::href;
+use super::drawing::drawn;
+use super::symbols::{clean, escaped, symbols};
+use super::{Document, Figure, Link, Mark, OnPhone, Part, Section, Table};
+use crate::chart::ChartWidth;
+use crate::file_names::{CHARTS, ChartFormat};
+use crate::format::minus;
+
+/// What the templates take as it is (`safe`) was escaped by [`symbols`], or comes from this program: style, script and
+/// charts, which escape their own texts.
+#[derive(Template)]
+#[template(path = "page/page.html")]
+struct PageView<'a> {
+    document: &'a Document,
+    sections: Vec<&'a Section>,
+    around: Surroundings<'a>,
+    style: &'static str,
+    script: &'static str,
+    version: &'static str,
+}
+
+#[derive(Template)]
+#[template(path = "page/part.html")]
+struct PartView<'a> {
+    part: &'a Part,
+    around: Surroundings<'a>,
+}
+
+#[derive(Template)]
+#[template(path = "page/figure.html")]
+struct FigureView<'a> {
+    figure: &'a Figure,
+    /// The drawing for a column; none of a small figure.
+    wide: Option<String>,
+    /// The drawing for a phone, or half of a column.
+    narrow: String,
+    links: Vec<Link>,
+}
+
+impl Document {
+    /// The page: one HTML document that loads nothing from anywhere and links to nothing outside. Style, script and charts
+    /// are inside. The same document gives the same bytes. Texts are escaped, so that none can break out of its place;
+    /// charts are drawn twice, for a page column and for a phone.
+    ///
+    /// # Example
+    /// ```
+    /// use apportion_report::document::{Document, Part, Section};
+    ///
+    /// let document = Document {
+    ///     title: "The critical force".into(),
+    ///     lead: vec!["The thickness matters most: its S_T is 0.68.".into()],
+    ///     sections: vec![Section::new("shares", "Shares", vec![Part::Text("F_cr grows with the thickness.".into())])],
+    ///     ..Document::default()
+    /// };
+    /// let html = document.html();
+    /// assert!(html.starts_with("<!DOCTYPE html>"));
+    /// assert!(html.contains("<var>F</var><sub>cr</sub> grows"));
+    /// ```
+    pub fn html(&self) -> String {
+        self.page(Surroundings::default())
+    }
+
+    /// The page as it stands in its folder: with links to the other files, the charts in these `formats`.
+    pub(crate) fn html_in_folder(&self, formats: &[ChartFormat]) -> String {
+        self.page(Surroundings { formats, has_files: true })
+    }
+
+    /// The body of the section `id` as it stands on the page, without its heading; `None` if there is no such section.
+    pub fn section_html(&self, id: &str) -> Option<String> {
+        let section = self.sections.iter().find(|section| section.id == id);
+        section.map(|section| Surroundings::default().parts(&section.parts))
+    }
+
+    fn page(&self, around: Surroundings<'_>) -> String {
+        // Figures have links to their own files.
+        let data = if around.has_files { self.data_names() } else { Vec::new() };
+        let links = data.into_iter().filter(|name| !name.contains('/')).map(|name| Link::new(name.clone(), name));
+        let links: Vec<Link> = links.collect();
+        let files = (!links.is_empty()).then(|| Section::new("files", "Files", vec![Part::Links(links)]));
+        rendered(&PageView {
+            document: self,
+            sections: self.sections.iter().chain(&files).collect(),
+            around,
+            style: include_str!("../../templates/page/page.css"),
+            script: concat!(
+                include_str!("../../templates/page/page.js"),
+                include_str!("../../templates/page/charts.js")
+            ),
+            version: env!("CARGO_PKG_VERSION"),
+        })
+    }
+}
+
+/// What lies around a page.
+#[derive(Clone, Copy, Default)]
+struct Surroundings<'a> {
+    /// Formats of the charts.
+    formats: &'a [ChartFormat],
+    /// Whether there are files at all.
+    has_files: bool,
+}
+
+impl Surroundings<'_> {
+    fn parts(&self, parts: &[Part]) -> String {
+        parts.iter().map(|part| self.part(part)).collect()
+    }
+
+    fn part(&self, part: &Part) -> String {
+        match part {
+            Part::OnPage(parts) => self.parts(parts),
+            part => rendered(&PartView { part, around: *self }).trim_start().to_owned() + "\n",
+        }
+    }
+
+    /// A figure, drawn for a column and for a phone, or a small one.
+    fn figure(&self, figure: &Figure, is_small: bool) -> String {
+        let drawn = |width| drawn(&figure.id, &figure.chart, width);
+        let picture = |format: &ChartFormat| {
+            let ending = format.ending();
+            Link::new(ending.to_uppercase(), format!("{CHARTS}/{}.{ending}", figure.stem))
+        };
+        let mut links = Vec::new();
+        if !figure.stem.is_empty() {
+            links.extend(self.formats.iter().map(picture));
+        }
+        if self.has_files && !figure.data.is_empty() {
+            links.push(Link::new("CSV", &figure.data));
+        }
+        let wide = (!is_small).then(|| drawn(ChartWidth::Wide));
+        rendered(&FigureView { figure, wide, narrow: drawn(ChartWidth::Narrow), links })
+    }
+}
+
+impl FigureView<'_> {
+    fn title(&self) -> &str {
+        self.figure.title.as_deref().unwrap_or(self.figure.chart.title())
+    }
+}
+
+impl Table {
+    fn has_headings(&self) -> bool {
+        self.printed_columns().iter().any(|(_, heading, _)| !heading.is_empty())
+    }
+}
+
+impl OnPhone {
+    fn class(self) -> &'static str {
+        match self {
+            Self::Scroll => "",
+            Self::Stack => " stack",
+            Self::StackLabelled => " stack labelled",
+        }
+    }
+}
+
+impl Mark {
+    /// Name of the mark's style; empty without a mark.
+    fn class(self) -> &'static str {
+        match self {
+            Self::Plain => "",
+            Self::Strong => "strong",
+            Self::Good => "good",
+            Self::Mixed => "mixed",
+            Self::Bad => "bad",
+        }
+    }
+
+    /// The sign of a badge, for those who do not see its colour; empty where there is no badge.
+    fn symbol(self) -> &'static str {
+        match self {
+            Self::Plain | Self::Strong => "",
+            Self::Good => "✓",
+            Self::Mixed => "◐",
+            Self::Bad => "✗",
+        }
+    }
+}
+
+fn rendered(template: &impl Template) -> String {
+    template.render().expect("texts, into memory")
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,144 @@
+//! What a command has to say, and the one way in which it becomes a document.
+
+use apportion::model::MIN_OUTPUTS_TOGETHER;
+use apportion::result::{StudySetup, ValidityRecord};
+
+use super::{DataFile, Document, Figure, Part, Section, Table, figures_mut};
+use crate::chart::Chart;
+use crate::format::heading;
+use crate::leading::first_answers;
+use crate::study_sections::{study_section, validity_section};
+use crate::{file_stems, validity};
+
+/// What is said of one output.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct OutputReport<'a> {
+    /// Its name.
+    pub name: &'a str,
+    /// Its unit; may be empty.
+    pub unit: &'a str,
+    /// Warnings, sentences without capital and full stop.
+    pub warnings: &'a [String],
+    /// Its answer in a sentence, for the top of the document.
+    pub answer: String,
+    /// What is said of it.
+    pub parts: Vec<Part>,
+    /// Its charts, each with what the names of its files end in.
+    pub charts: Vec<(&'static str, Chart)>,
+}
+
+/// What a command has to say. What it leaves empty is left out.
+///
+/// The sections come in the order of the fields. The figures that [`Figure::unnumbered`] makes are numbered as they come, and their numbers are in the file of
+/// CSV, as are the rows of every table that has columns for a file and names none.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Report<'a> {
+    /// What the names of its files begin with.
+    pub name: String,
+    /// What kind of document it is, in a few words.
+    pub kicker: &'static str,
+    /// Headline.
+    pub title: String,
+    /// What decides besides the answers of the outputs, a paragraph each.
+    pub lead: Vec<String>,
+    /// What comes before the outputs.
+    pub first: Vec<Section>,
+    /// The outputs.
+    pub outputs: Vec<OutputReport<'a>>,
+    /// What comes after them.
+    pub then: Vec<Section>,
+    /// What a careful reader should know, sentences without capital and full stop.
+    pub notes: &'a [String],
+    /// On how many runs the model's assumptions do not hold.
+    pub validity: &'a [ValidityRecord],
+    /// Model runs that failed, and all.
+    pub failed_runs: (u64, u64),
+    /// The study that was run.
+    pub study: Option<&'a StudySetup>,
+    /// The version of this program that computed it; that of now if it is empty.
+    pub version: &'a str,
+    /// How it came about: a table of names and values.
+    pub provenance: Vec<(&'static str, String)>,
+    /// The file `NAME.json`.
+    pub json: String,
+    /// The file of CSV, where no table of the document holds all that there is.
+    pub csv: Option<Table>,
+    /// What the name of the file of CSV ends in, before `.csv`.
+    pub csv_ending: &'static str,
+}
+
+impl Report<'_> {
+    /// The document.
+    pub fn document(mut self) -> Document {
+        let version = if self.version.is_empty() { env!("CARGO_PKG_VERSION") } else { self.version };
+        let answers = self.outputs.iter_mut().map(|output| std::mem::take(&mut output.answer));
+        let mut lead = first_answers(answers.filter(|answer| !answer.is_empty()).collect());
+        lead.append(&mut self.lead);
+        lead.extend(validity::sentence(self.validity));
+        lead.extend(validity::of_failures(self.failed_runs.0, self.failed_runs.1));
+        let of_outputs = self.of_outputs();
+        let mut sections: Vec<Section> = self.first.into_iter().chain(of_outputs).chain(self.then).collect();
+        sections.extend(Part::notes(self.notes).map(|notes| Section::new("notes", "Notes", vec![notes])));
+        sections.extend(validity_section(self.validity));
+        sections.extend(self.study.map(|study| study_section(study, &study.factors)));
+        if !self.provenance.is_empty() {
+            let program = [("program", format!("apportion {version}"))].into_iter();
+            let digest = self.study.map(|study| ("study file, SHA-256", format!("`{}`", study.sha256)));
+            let table = Table::pairs("How the answer came about.", program.chain(self.provenance).chain(digest));
+            sections.push(Section::new("provenance", "Provenance", vec![Part::OnPage(vec![table.into()])]));
+        }
+        sections.retain(|section| !section.parts.is_empty());
+        let data = format!("{}{}.csv", self.name, self.csv_ending);
+        let json = (!self.json.is_empty()).then(|| DataFile::new(format!("{}.json", self.name), self.json));
+        let csv = self.csv.map(|table| DataFile::new(data.clone(), table.csv()));
+        let mut document = Document {
+            kicker: self.kicker.to_owned(),
+            lead,
+            sections,
+            footer: format!("Made by apportion {version}."),
+            files: json.into_iter().chain(csv).collect(),
+            name: self.name,
+            title: self.title,
+            charts: Vec::new(),
+        };
+        let (title, mut number) = (document.title.clone(), 0);
+        document.visit_mut(&mut |part| {
+            if let Part::Table(table) = part
+                && table.file.is_empty()
+                && table.has_fields()
+            {
+                table.file.clone_from(&data);
+            }
+            for figure in figures_mut(part).iter_mut().filter(|figure| figure.id == "figure-0") {
+                number += 1;
+                (figure.id, figure.label) = (format!("figure-{number}"), format!("Figure {number}"));
+                (figure.title, figure.data) = (figure.own_title(&title), data.clone());
+            }
+        });
+        document
+    }
+
+    /// A section for each output, with its warnings first and its charts last; of many outputs one section, in which each is
+    /// folded.
+    fn of_outputs(&mut self) -> Vec<Section> {
+        let names: Vec<&str> = self.outputs.iter().map(|output| output.name).collect();
+        let charts = self.outputs.iter().flat_map(|output| &output.charts);
+        let mut endings: Vec<&str> = charts.map(|(ending, _)| *ending).collect();
+        endings.sort_unstable();
+        endings.dedup();
+        let stems = file_stems(&self.name, &names, &endings);
+        let are_many = names.len() >= MIN_OUTPUTS_TOGETHER;
+        let section = |(number, (output, stem)): (usize, (OutputReport<'_>, String))| {
+            let figure = |(ending, chart)| Figure::unnumbered(chart, format!("{stem}{ending}")).into();
+            let parts = Part::warnings(output.warnings).into_iter().chain(output.parts);
+            let parts = parts.chain(output.charts.into_iter().map(figure)).collect();
+            Section::new(&format!("output-{number}"), &heading(output.name, output.unit), parts)
+        };
+        let sections = (1..).zip(std::mem::take(&mut self.outputs).into_iter().zip(stems)).map(section);
+        if !are_many {
+            return sections.collect();
+        }
+        let folded = sections.map(|Section { title, parts, .. }| Part::Details { summary: title, parts });
+        vec![Section::new("outputs", "Output by output", folded.collect())]
+    }
+}

@@ -1,0 +1,324 @@
+//! Tables: cells as they are printed, with the exact values behind them for CSV.
+
+use std::borrow::Borrow;
+
+use apportion::uncertainty::Estimate;
+
+use super::Link;
+use crate::csv::{Field, Value, lines};
+use crate::format::give_or_take;
+
+/// A table. Pages and terminals print its cells; a file of CSV has the values behind them.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Table {
+    /// What it shows, in one sentence.
+    pub caption: String,
+    /// The columns.
+    pub columns: Vec<Column>,
+    /// The rows.
+    pub rows: Vec<Vec<Cell>>,
+    /// Which rows are printed, in this order; all of them if this is `None`. A file has all rows.
+    pub printed: Option<Vec<usize>>,
+    /// A last row that is printed and stands in no file; may be empty.
+    pub sums: Vec<Cell>,
+    /// What becomes of it where a page is too narrow.
+    pub on_phone: OnPhone,
+    /// The file of CSV that its rows stand in; may be empty. Tables of the same columns may share one.
+    pub file: String,
+}
+
+/// A column of a [`Table`].
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Column {
+    /// What is printed above it; a column without is in the file alone.
+    heading: Option<String>,
+    /// Whether it holds numbers, which are set to the right.
+    numeric: bool,
+    /// Its names in the file; a column without is printed alone.
+    field: Option<Field>,
+}
+
+/// How a table is set on a phone.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum OnPhone {
+    /// As it is, to be scrolled sideways inside its frame: for numbers.
+    #[default]
+    Scroll,
+    /// Every row as a block of its cells, one below the other: for sentences that need no heading.
+    Stack,
+    /// The same, each cell under the heading of its column.
+    StackLabelled,
+}
+
+/// A cell of a table.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Cell {
+    /// Its text.
+    pub text: String,
+    /// The value behind the text, for files.
+    pub value: Value,
+    /// How it is set off.
+    pub mark: Mark,
+    /// Where its text leads, if anywhere.
+    pub to: Option<String>,
+    /// What is said below it in small letters; may be empty.
+    pub note: String,
+    /// Further links, below the note.
+    pub links: Vec<Link>,
+}
+
+/// How a cell is set off; never by colour alone.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Mark {
+    /// Not at all.
+    #[default]
+    Plain,
+    /// In strong letters.
+    Strong,
+    /// As a badge of good news.
+    Good,
+    /// As a badge of mixed news.
+    Mixed,
+    /// As a badge of bad news.
+    Bad,
+}
+
+impl Table {
+    /// A table of `rows`, whose columns are added one after the other.
+    ///
+    /// ```
+    /// use apportion_report::document::Table;
+    ///
+    /// let table: Table = Table::from_rows("Two factors.", &[("length", 0.25), ("width", 0.5)])
+    ///     .text("factor", |row| row.0)
+    ///     .named("factor")
+    ///     .number("S_T", |row| format!("{:.2}", row.1))
+    ///     .value("total", |row| row.1)
+    ///     .into();
+    /// assert_eq!(table.csv(), "factor,total\nlength,0.25\nwidth,0.5\n");
+    /// ```
+    pub fn from_rows<R: Copy>(caption: impl Into<String>, rows: impl IntoIterator<Item = R>) -> Rows<R> {
+        let rows: Vec<R> = rows.into_iter().collect();
+        let table = Self { caption: caption.into(), rows: vec![Vec::new(); rows.len()], ..Self::default() };
+        Rows { rows, table }
+    }
+
+    /// A table of labels and texts without headings.
+    pub fn pairs<L: Into<String>>(caption: &str, rows: impl IntoIterator<Item = (L, String)>) -> Self {
+        let rows: Vec<(String, String)> = rows.into_iter().map(|(label, text)| (label.into(), text)).collect();
+        Self::from_rows(caption, &rows).text("", |(label, _)| label).text("", |(_, text)| text).into()
+    }
+
+    /// The rows as CSV.
+    pub fn csv(&self) -> String {
+        csv([self])
+    }
+
+    /// Whether a file has some of its columns.
+    pub(super) fn has_fields(&self) -> bool {
+        self.columns.iter().any(|column| column.field.is_some())
+    }
+
+    /// The columns that are printed, with their headings and whether they hold numbers.
+    pub(super) fn printed_columns(&self) -> Vec<(usize, &str, bool)> {
+        let columns = self.columns.iter().enumerate();
+        columns.filter_map(|(place, column)| Some((place, column.heading.as_deref()?, column.numeric))).collect()
+    }
+
+    /// The rows that are printed, with the cells of the printed columns.
+    pub(super) fn printed_rows(&self) -> Vec<Vec<&Cell>> {
+        let columns = self.printed_columns();
+        let rows: Vec<&Vec<Cell>> = match &self.printed {
+            None => self.rows.iter().collect(),
+            Some(places) => places.iter().map(|&place| &self.rows[place]).collect(),
+        };
+        let sums = Some(&self.sums).filter(|sums| !sums.is_empty());
+        rows.into_iter().chain(sums).map(|row| columns.iter().map(|(place, ..)| &row[*place]).collect()).collect()
+    }
+}
+
+/// The rows of `tables`, which have the same columns, as CSV; nothing without any.
+pub(crate) fn csv<T: Borrow<Table>>(tables: impl IntoIterator<Item = T>) -> String {
+    let mut tables = tables.into_iter().peekable();
+    let Some(first) = tables.peek() else { return String::new() };
+    let fields = first.borrow().columns.iter().filter_map(|column| column.field.as_ref());
+    let header: Vec<String> = fields.flat_map(Field::names).collect();
+    let rows = tables.flat_map(|table| {
+        let table = table.borrow();
+        let row = |row: &Vec<Cell>| -> Vec<String> {
+            let in_file = table.columns.iter().zip(row).filter(|(column, _)| column.field.is_some());
+            in_file.flat_map(|(_, cell)| cell.value.cells(&cell.text)).collect()
+        };
+        table.rows.iter().map(row).collect::<Vec<_>>()
+    });
+    lines(std::iter::once(header).chain(rows))
+}
+
+/// `which` of how many are shown, if not all.
+pub(crate) fn largest(shown: usize, all: usize, what: &str) -> String {
+    if shown < all { format!(" The {shown} largest of {all} {what}.") } else { String::new() }
+}
+
+/// A table in the making: of every column it is said once what stands above it, what is printed in a row, and under which
+/// name and with which value the row stands in the file of CSV.
+#[derive(Clone, Debug)]
+pub struct Rows<R> {
+    rows: Vec<R>,
+    table: Table,
+}
+
+impl<R: Copy> Rows<R> {
+    /// Adds a column of texts.
+    pub fn text<C: Into<Cell>>(self, heading: impl Into<String>, cell: impl Fn(R) -> C) -> Self {
+        self.column(Column { heading: Some(heading.into()), ..Column::default() }, cell)
+    }
+
+    /// Adds a column of numbers.
+    pub fn number<C: Into<Cell>>(self, heading: impl Into<String>, cell: impl Fn(R) -> C) -> Self {
+        self.column(Column { heading: Some(heading.into()), numeric: true, field: None }, cell)
+    }
+
+    /// Adds a column of estimates, printed with their errors and with their bounds in the file.
+    pub fn index(
+        self,
+        heading: impl Into<String>,
+        name: impl Into<String>,
+        value: impl Fn(R) -> Option<Estimate>,
+    ) -> Self {
+        self.number(heading, &value).estimate(name, value)
+    }
+
+    /// Adds a column that is in the file alone.
+    pub fn file<V: Into<Value>>(self, name: impl Into<String>, value: impl Fn(R) -> V) -> Self {
+        self.column(Column::default(), |_| "").value(name, value)
+    }
+
+    /// Adds an estimate and its bounds, three columns that are in the file alone.
+    pub fn file_estimate(self, name: impl Into<String>, value: impl Fn(R) -> Option<Estimate>) -> Self {
+        self.column(Column::default(), |_| "").estimate(name, value)
+    }
+
+    /// The last column stands in the file under `name`, as it is printed.
+    pub fn named(self, name: impl Into<String>) -> Self {
+        self.value(name, |_| Value::Printed)
+    }
+
+    /// The last column stands in the file under `name`, with this value.
+    pub fn value<V: Into<Value>>(self, name: impl Into<String>, value: impl Fn(R) -> V) -> Self {
+        self.field(Field::new(name), value)
+    }
+
+    /// The last column stands in the file as an estimate with its bounds.
+    pub fn estimate(self, name: impl Into<String>, value: impl Fn(R) -> Option<Estimate>) -> Self {
+        self.field(Field::estimate(name), value)
+    }
+
+    /// The last column is printed only `if_shown`.
+    pub fn shown(mut self, if_shown: bool) -> Self {
+        self.table.columns.last_mut().filter(|_| !if_shown).into_iter().for_each(|column| column.heading = None);
+        self
+    }
+
+    /// Prints the first `most` of the rows in this order; the caption then says how many there are of `what`.
+    pub fn largest(mut self, order: impl IntoIterator<Item = usize>, most: usize, what: &str) -> Self {
+        let mut order: Vec<usize> = order.into_iter().collect();
+        self.table.caption.push_str(&largest(order.len().min(most), order.len(), what));
+        order.truncate(most);
+        self.table.printed = Some(order);
+        self
+    }
+
+    /// The same in the order in which they are.
+    pub fn first(self, most: usize, what: &str) -> Self {
+        let all = 0..self.rows.len();
+        self.largest(all, most, what)
+    }
+
+    /// What stands in the last column of the row of sums.
+    pub fn sum(mut self, cell: impl Into<Cell>) -> Self {
+        self.table.sums.resize_with(self.table.columns.len() - 1, Cell::default);
+        self.sums([cell.into()])
+    }
+
+    /// What stands in the next columns of the row of sums.
+    pub fn sums(mut self, cells: impl IntoIterator<Item = Cell>) -> Self {
+        self.table.sums.extend(cells);
+        self
+    }
+
+    /// The rows as CSV.
+    pub fn csv(&self) -> String {
+        self.table.csv()
+    }
+
+    fn column<C: Into<Cell>>(mut self, column: Column, cell: impl Fn(R) -> C) -> Self {
+        self.table.columns.push(column);
+        self.table.rows.iter_mut().zip(&self.rows).for_each(|(cells, row)| cells.push(cell(*row).into()));
+        self
+    }
+
+    fn field<V: Into<Value>>(mut self, field: Field, value: impl Fn(R) -> V) -> Self {
+        self.table.columns.last_mut().into_iter().for_each(|column| column.field = Some(field.clone()));
+        let cells = self.table.rows.iter_mut().filter_map(|cells| cells.last_mut());
+        cells.zip(&self.rows).for_each(|(cell, row)| cell.value = value(*row).into());
+        self
+    }
+}
+
+impl<R> From<Rows<R>> for Table {
+    fn from(mut rows: Rows<R>) -> Self {
+        if !rows.table.sums.is_empty() {
+            rows.table.sums.resize_with(rows.table.columns.len(), Cell::default);
+        }
+        rows.table
+    }
+}
+
+impl<R> From<Rows<R>> for super::Part {
+    fn from(rows: Rows<R>) -> Self {
+        Self::Table(rows.into())
+    }
+}
+
+impl Cell {
+    /// A cell set off by `mark`.
+    pub fn marked(text: impl Into<String>, mark: Mark) -> Self {
+        Self { text: text.into(), mark, ..Self::default() }
+    }
+
+    /// A cell that prints `text` where a file has `value`.
+    pub fn valued(text: impl Into<String>, value: Value) -> Self {
+        Self { text: text.into(), value, ..Self::default() }
+    }
+}
+
+impl From<String> for Cell {
+    fn from(text: String) -> Self {
+        Self { text, ..Self::default() }
+    }
+}
+
+impl From<&String> for Cell {
+    fn from(text: &String) -> Self {
+        text.clone().into()
+    }
+}
+
+impl From<&str> for Cell {
+    fn from(text: &str) -> Self {
+        text.to_owned().into()
+    }
+}
+
+/// An index with the half width of its interval, a dash without one.
+impl From<Option<Estimate>> for Cell {
+    fn from(estimate: Option<Estimate>) -> Self {
+        Self::valued(estimate.map_or_else(|| "–".to_owned(), give_or_take), Value::Estimate(estimate))
+    }
+}
+
+impl From<Estimate> for Cell {
+    fn from(estimate: Estimate) -> Self {
+        Some(estimate).into()
+    }
+}

@@ -1,0 +1,235 @@
+//! Charts of factors: sorted level bars of indices, and the chart of percentages.
+
+use apportion::result::{OutputResult, StudyResult};
+use apportion::uncertainty::{EffectEstimates, Estimate, Interval};
+
+use super::chart::{Axis, Bar, Chart, Colour, Mark, Panel, Series, Shape};
+use super::format::{fixed, index as of_error, minus, name, two_digits};
+use super::leading::leader_of;
+
+/// Most factors in a chart.
+pub(super) const MAX_BARS: usize = 20;
+/// The axis of indices.
+pub(super) const INDEX: &str = "Sobol' index: part of the variance";
+/// Estimates beyond these bounds say nothing of an index, which is between 0 and 1, or of a difference of two; nor do intervals
+/// longer than `LONGEST`.
+pub(super) const INDICES: (f64, f64) = (-0.1, 1.1);
+pub(super) const DIFFERENCES: (f64, f64) = (-1.1, 1.1);
+const LONGEST: f64 = 1.0;
+/// Intervals are drawn so far beyond.
+const BEYOND: f64 = 0.1;
+/// What stands in the place of such a bar.
+const UNKNOWN: &str = "unknown: too few samples";
+/// Most decimals of a label; what is smaller than `SMALL` has two digits.
+const DECIMALS: usize = 4;
+const SMALL: f64 = 0.01;
+
+/// A series with its value for each factor; `None` is marked as missing.
+pub(super) type IndexSeries = (Series, Vec<Option<Estimate>>);
+
+/// The series of first-order and of total indices.
+pub(super) fn both_orders(first_order: Vec<Option<Estimate>>, total: Vec<Option<Estimate>>) -> [IndexSeries; 2] {
+    [
+        (Series::new("S_1, first order: alone", Colour::Series(0)), first_order),
+        (Series::new("S_T, total: with all interactions", Colour::Series(4)), total),
+    ]
+}
+
+/// A panel with a row for each factor, those with the largest keys on top, and a pair of bars in each: the first-order index,
+/// and below it the total index, whose part beyond the first-order index is what the factor does together with others.
+pub(super) fn pair_panel(
+    factors: Vec<String>,
+    first_order: Vec<Option<Estimate>>,
+    total: Vec<Option<Estimate>>,
+    keys: &[f64],
+) -> Panel {
+    let with_others = Series::new("S_T − S_1: only together with others", Colour::Series(5));
+    let alone: Vec<f64> = first_order.iter().map(|index| index.map_or(0.0, |index| index.estimate.max(0.0))).collect();
+    let [(of_first, first_order), (of_total, total)] = both_orders(first_order, total);
+    let split = total.into_iter().zip(&alone).enumerate().map(|(row, (total, alone))| {
+        let bar = index_bar(row, total, INDICES);
+        let beyond = Some((alone.min(bar.to.max(0.0)), with_others.clone()));
+        of_total.mark(Shape::Bar(Bar { beyond, ..bar }))
+    });
+    panel(INDEX, factors, bars((of_first, first_order), INDICES).chain(split), keys)
+}
+
+/// A panel with a row for each factor, those with the largest keys on top, and bars of their indices.
+pub(super) fn index_panel(
+    label: &str,
+    factors: Vec<String>,
+    series: impl IntoIterator<Item = IndexSeries>,
+    possible: (f64, f64),
+    keys: &[f64],
+) -> Panel {
+    panel(label, factors, series.into_iter().flat_map(|series| bars(series, possible)), keys)
+}
+
+fn panel(label: &str, factors: Vec<String>, marks: impl Iterator<Item = Mark>, keys: &[f64]) -> Panel {
+    Panel::new(Axis::new(label, ""), Axis::from_names("", factors)).with(marks).ranked(keys, MAX_BARS)
+}
+
+fn bars((series, values): IndexSeries, possible: (f64, f64)) -> impl Iterator<Item = Mark> {
+    let bars = values.into_iter().enumerate();
+    bars.map(move |(row, value)| series.mark(Shape::Bar(index_bar(row, value, possible))))
+}
+
+/// The bar of an index. One of which nothing is known says so: its bar would be read all the same.
+fn index_bar(row: usize, value: Option<Estimate>, possible: (f64, f64)) -> Bar {
+    let Some(index) = value else { return Bar { row, to: f64::NAN, ..Bar::default() } };
+    let length = index.interval.map(Interval::width);
+    let is_possible = (possible.0..=possible.1).contains(&index.estimate);
+    if !is_possible || length.is_some_and(|length| length > LONGEST) {
+        return Bar { row, to: f64::NAN, label: UNKNOWN.to_owned(), ..Bar::default() };
+    }
+    let said = of_error(index);
+    let printed = said.split(' ').next().unwrap_or_default();
+    let decimals = printed.split_once('.').map_or(0, |(_, decimals)| decimals.len());
+    let label = match decimals > DECIMALS {
+        true if index.estimate.abs() < SMALL => minus(&two_digits(index.estimate)),
+        true => minus(&fixed(index.estimate, DECIMALS)),
+        false => printed.to_owned(),
+    };
+    let interval = index.interval.map(|i| (i.low.max(possible.0 - BEYOND), i.high.min(possible.1 + BEYOND)));
+    Bar { row, to: index.estimate, interval, label, said, ..Bar::default() }
+}
+
+/// What a caption says where only the `most` largest factors are drawn.
+pub(super) fn not_drawn(all: usize, most: usize) -> String {
+    if all > most { format!(" The {most} largest of {all} factors are drawn.") } else { String::new() }
+}
+
+/// One study in a chart of shares.
+#[derive(Debug, Clone)]
+pub struct SharesSeries<'a> {
+    /// Its name in the legend, and its colour.
+    pub series: Series,
+    /// The output whose shares are drawn.
+    pub output: &'a OutputResult,
+    /// Published percentages by factor; they stand in both panels, since their definition is not published.
+    pub published: Vec<(&'a str, f64)>,
+}
+
+/// The shares of `factors` in each of `series`: first order on the left, total on the right, the factor with the largest
+/// total share on top. Of more than 20 factors, the first 20.
+pub fn shares_chart(title: &str, caption: &str, factors: &[&str], series: &[SharesSeries<'_>]) -> Chart {
+    let largest = |factor: &&str| {
+        let shares = series.iter().filter_map(|series| share(series, factor, EffectEstimates::total_percent));
+        shares.map(|share| share.estimate).fold(f64::NEG_INFINITY, f64::max)
+    };
+    let keys: Vec<f64> = factors.iter().map(largest).collect();
+    let panel = |title: &str, of: ShareOf| {
+        let names = Axis::from_names("", factors.iter().map(|factor| name(factor)).collect());
+        let bars = series.iter().flat_map(|series| {
+            factors.iter().enumerate().map(move |(row, factor)| {
+                let share = share(series, factor, of);
+                let published = series.published.iter().find(|(name, _)| name == factor).map(|(_, share)| *share);
+                series.series.mark(Shape::Bar(Bar { published, ..share_bar(row, share) }))
+            })
+        });
+        let panel = Panel::new(Axis::new("share of the sum of indices (%)", ""), names).titled(title).with(bars);
+        panel.ranked(&keys, MAX_BARS)
+    };
+    let panels = [
+        panel("First-order indices", EffectEstimates::first_order_percent),
+        panel("Total indices", EffectEstimates::total_percent),
+    ];
+    Chart::new(title, format!("{caption}{}", not_drawn(factors.len(), MAX_BARS))).side_by_side().panels(panels)
+}
+
+/// Shares beyond these bounds, in percent, and intervals longer than this mean nothing.
+const POSSIBLE_SHARE: std::ops::RangeInclusive<f64> = -10.0..=110.0;
+const LONGEST_SHARE: f64 = 100.0;
+
+/// The bar of a share in percent; of one that means nothing, only that.
+fn share_bar(row: usize, share: Option<Estimate>) -> Bar {
+    let interval = share.and_then(|share| share.interval);
+    let is_short = interval.is_none_or(|interval| interval.width() <= LONGEST_SHARE);
+    match share.map(|share| share.estimate) {
+        Some(share) if !(is_short && POSSIBLE_SHARE.contains(&share)) => {
+            Bar { row, to: f64::NAN, label: UNKNOWN.to_owned(), ..Bar::default() }
+        }
+        share => Bar::percent(row, share, interval.map(|i| (i.low, i.high))),
+    }
+}
+
+type ShareOf = fn(&EffectEstimates) -> Option<Estimate>;
+
+fn share(series: &SharesSeries<'_>, factor: &str, of: ShareOf) -> Option<Estimate> {
+    let index = series.output.indices.iter().flatten().find(|index| index.factor == *factor);
+    index.and_then(|index| of(&index.effect))
+}
+
+/// The chart of one output of a single study.
+pub fn study_chart(result: &StudyResult, output: &OutputResult) -> Chart {
+    let factors: Vec<&str> = result.factors.iter().map(|factor| factor.name.as_str()).collect();
+    let title = result.study.headline();
+    let indices = || output.indices.iter().flatten();
+    let of_factors = indices().filter_map(|index| Some((name(&index.factor), index.effect.shapley?)));
+    let of_players = output.shapley_groups.iter().flatten().map(|player| (name(&player.player), player.shapley));
+    let shapley: Vec<(String, Estimate)> = of_factors.chain(of_players).collect();
+    if !shapley.is_empty() {
+        let (names, effects): (_, Vec<Estimate>) = shapley.into_iter().unzip();
+        let effects: Vec<Option<Estimate>> = effects.into_iter().map(Some).collect();
+        let keys: Vec<f64> = effects.iter().map(|effect| effect.map_or(f64::NAN, |effect| effect.estimate)).collect();
+        let series = (Series::new("Shapley effect", Colour::Series(0)), effects);
+        let panel = index_panel("Shapley effect: part of the variance", names, [series], INDICES, &keys);
+        let caption = format!("Shapley effects on {}: they sum to 100 % of the variance.", name(&output.name));
+        return Chart::new(title, caption).panels([panel]);
+    }
+    let caption = match indices().any(|index| index.effect.dependent.is_some()) {
+        true => {
+            "Indices of dependent factors share out nothing; Shapley effects would, and were not asked for.".to_owned()
+        }
+        false => leader_of(output),
+    };
+    let series = Series::new(name(&output.name), Colour::Series(0));
+    shares_chart(title, &caption, &factors, &[SharesSeries { series, output, published: Vec::new() }])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn about(estimate: f64, half: f64) -> Option<Estimate> {
+        Some(Estimate { estimate, interval: Some(Interval::about(estimate, half)) })
+    }
+
+    fn drawn(panel: &Panel) -> Vec<Bar> {
+        let bar = |mark: &'_ Mark| match &mark.shape {
+            Shape::Bar(bar) => Some(bar.clone()),
+            _ => None,
+        };
+        panel.marks.iter().filter_map(bar).collect()
+    }
+
+    #[test]
+    fn the_largest_of_many_factors_are_drawn() {
+        let names: Vec<String> = (0..30).map(|k| format!("x{k}")).collect();
+        let keys: Vec<f64> = (0..30).map(f64::from).collect();
+        let values = |scale: f64| (0..30).map(|k| about(scale * f64::from(k), 1e-4)).collect::<Vec<_>>();
+        let panel = pair_panel(names, values(0.01), values(0.02), &keys);
+        assert_eq!((panel.y.names.len(), panel.y.names[0].as_str(), panel.y.names[19].as_str()), (20, "x29", "x10"));
+        let bars = drawn(&panel);
+        let of_x29: Vec<&Bar> = bars.iter().filter(|bar| bar.row == 0).collect();
+        assert_eq!((bars.len(), of_x29[0].label.as_str(), of_x29[0].beyond.is_none()), (40, "0.2900", true));
+        let split = of_x29[1].beyond.as_ref().map(|(split, _)| *split).unwrap_or_default();
+        assert!((split - 0.29).abs() < 1e-12 && (of_x29[1].to - 0.58).abs() < 1e-12);
+    }
+
+    #[test]
+    fn an_index_of_which_nothing_is_known_has_no_bar() {
+        let keys = [1.0, 0.5, 0.4, 0.3];
+        let names: Vec<String> = ["a", "b", "c", "d"].map(str::to_owned).to_vec();
+        let alone = Some(Estimate::alone(2.73));
+        let values = vec![about(-1.73, 0.2), alone, about(0.4, 0.6), about(0.02, 0.04)];
+        let panel = index_panel(INDEX, names.clone(), [(Series::default(), values)], INDICES, &keys);
+        let labels: Vec<String> = drawn(&panel).into_iter().map(|bar| bar.label).collect();
+        assert_eq!(labels, [UNKNOWN, UNKNOWN, UNKNOWN, "0.02"]);
+        assert!(drawn(&panel)[0].to.is_nan() && drawn(&panel)[3].said == "0.02 ± 0.04");
+        let differences = vec![about(-0.73, 0.2), alone, about(0.4, 0.3), about(0.000_013, 0.000_002)];
+        let panel = index_panel(INDEX, names, [(Series::default(), differences)], DIFFERENCES, &keys);
+        let labels: Vec<String> = drawn(&panel).into_iter().map(|bar| bar.label).collect();
+        assert_eq!(labels, ["\u{2212}0.7", UNKNOWN, "0.4", "0.000013"]);
+    }
+}

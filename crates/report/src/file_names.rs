@@ -1,0 +1,82 @@
+//! The names of the files of a document: safe and unique, whatever the names of outputs and factors.
+
+use std::collections::HashSet;
+
+use apportion::names::file_part;
+
+/// The folder of the charts, below that of the page.
+pub(super) const CHARTS: &str = "charts";
+
+/// A format of charts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ChartFormat {
+    /// Vector graphics.
+    Svg,
+    /// Pixels.
+    Png,
+    /// A page of vectors and text, for papers.
+    Pdf,
+}
+
+impl ChartFormat {
+    /// All formats.
+    pub const ALL: [Self; 3] = [Self::Svg, Self::Png, Self::Pdf];
+    /// The formats that are written where none is asked for.
+    pub const USUAL: [Self; 2] = [Self::Svg, Self::Png];
+
+    /// The ending of its files.
+    pub fn ending(self) -> &'static str {
+        match self {
+            Self::Svg => "svg",
+            Self::Png => "png",
+            Self::Pdf => "pdf",
+        }
+    }
+}
+
+/// What the files of each of `names` begin with, so that with `suffixes` behind it no two files have one name, not even
+/// where capitals and small letters are the same: the name, with a number where it would stand for another's file.
+///
+/// ```
+/// let stems = apportion_report::file_stems("s", &["y", "y-indices", "Y"], &["", "-indices"]);
+/// assert_eq!(stems, ["s-y", "s-y-indices-2", "s-Y-3"]);
+/// assert_eq!(apportion_report::file_stems("s", &["y"], &[""]), ["s"]);
+/// ```
+pub fn file_stems(study: &str, names: &[&str], suffixes: &[&str]) -> Vec<String> {
+    if names.len() == 1 {
+        return vec![study.to_owned()];
+    }
+    let parts: Vec<String> = names.iter().map(|name| file_part(name)).collect();
+    let mut taken: HashSet<String> = HashSet::new();
+    let mut free = |number: usize, part: &str| {
+        let numbered = (number + 1..).map(|n| format!("{study}-{part}-{n}"));
+        let mut candidates = std::iter::once(format!("{study}-{part}")).chain(numbered);
+        let files =
+            |stem: &str| suffixes.iter().map(|suffix| format!("{stem}{suffix}").to_lowercase()).collect::<Vec<_>>();
+        let stem = candidates.find(|stem| files(stem).iter().all(|file| !taken.contains(file)));
+        let stem = stem.unwrap_or_default();
+        taken.extend(files(&stem));
+        stem
+    };
+    parts.iter().enumerate().map(|(number, part)| free(number, part)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn stems_of_files_are_unique_whatever_the_names() {
+        let suffixes = ["", "-indices", "-scatter"];
+        let long = "n".repeat(300);
+        let names =
+            ["y", "Y", "y-indices", "y-2", "a/b", "a\\b", "y-scatter-2", "../../x", &long, &long[1..], "É", "é"];
+        let stems = file_stems("s", &names, &suffixes);
+        let files = stems.iter().flat_map(|stem| suffixes.map(|suffix| format!("{stem}{suffix}").to_lowercase()));
+        let unique: HashSet<String> = files.clone().collect();
+        assert_eq!(unique.len(), files.count());
+        assert!(stems.iter().all(|stem| !stem.contains(['/', '\\']) && stem.len() < 120), "{stems:?}");
+        // Names that are no trouble keep theirs.
+        assert_eq!(file_stems("s", &["y", "z"], &suffixes), ["s-y", "s-z"]);
+    }
+}

@@ -1,0 +1,279 @@
+//! Numbers and names as people read them.
+
+mod estimates;
+mod units;
+
+use apportion::text::symbol;
+pub use estimates::{give_or_take, index, is_above_zero, percent, printed_half_width, share, two_digits};
+pub use units::unit;
+
+/// A value with its unit, if it has one.
+pub fn with_unit(value: f64, unit: &str) -> String {
+    let value = significant(value);
+    if matches!(unit, "" | "1") { value } else { format!("{value} {}", self::unit(unit)) }
+}
+
+/// A share of the runs that is not zero, in percent; what is not all is not printed as 100 %.
+pub fn share_of_runs(share: f64) -> String {
+    match share {
+        ..0.001 => "less than 0.1 %".to_owned(),
+        1.0 => "100 %".to_owned(),
+        0.9995.. => "more than 99.9 %".to_owned(),
+        share => format!("{:.1} %", 100.0 * share),
+    }
+}
+
+/// `value` with `digits` decimals, where a zero has no sign.
+pub fn fixed(value: f64, digits: usize) -> String {
+    let text = format!("{value:.digits$}");
+    let is_zero = text.chars().all(|c| matches!(c, '-' | '0' | '.'));
+    if is_zero { text.trim_start_matches('-').to_owned() } else { text }
+}
+
+/// `value` with six significant digits, in exponent form where it is small or huge, without zeros at the end.
+pub fn significant(value: f64) -> String {
+    significant_to(value, SIGNIFICANT)
+}
+
+/// The digits of [`significant`].
+const SIGNIFICANT: usize = 6;
+
+/// `value` with so many significant digits, of which those before the point are all written.
+fn significant_to(value: f64, most: usize) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return if value == 0.0 { "0".to_owned() } else { value.to_string() };
+    }
+    let scientific = format!("{value:.*e}", most.saturating_sub(1));
+    let (digits, exponent) = scientific.split_once('e').unwrap_or((&scientific, "0"));
+    let power: i32 = exponent.parse().unwrap_or(0);
+    let trimmed = |text: &str| match text.contains('.') {
+        true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
+        false => text.to_owned(),
+    };
+    let most = most as i32;
+    match value.abs() < estimates::SMALL || power > most + 2 {
+        true => format!("{}e{exponent}", trimmed(digits)),
+        false => trimmed(&format!("{value:.*}", (most - 1 - power).max(0) as usize)),
+    }
+}
+
+/// A probability; `-` if it is unknown. Only what is 0 or 1 is shown as such, not what rounds to it.
+pub fn chance(probability: Option<f64>) -> String {
+    match probability {
+        None => "-".to_owned(),
+        Some(0.0) => "0".to_owned(),
+        Some(1.0) => "1".to_owned(),
+        Some(p) if p < 0.001 => "<0.001".to_owned(),
+        Some(p) if p > 0.999 => ">0.999".to_owned(),
+        Some(p) => fixed(p, 3),
+    }
+}
+
+/// A value as `said` says it, a dash without one.
+pub fn or_dash<T>(value: Option<T>, said: impl FnOnce(T) -> String) -> String {
+    value.map_or_else(|| "–".to_owned(), said)
+}
+
+/// A value with four significant digits.
+pub fn short(value: f64) -> String {
+    estimates::rounded(value, 4)
+}
+
+/// A value with four significant digits, or as many more as tell values apart that are `spread` wide.
+pub fn short_among(value: f64, spread: f64) -> String {
+    /// Digits of the spread that are shown.
+    const TOLD: i32 = 3;
+    /// Those that a double has.
+    const MAX_DIGITS: i32 = 15;
+    let digits = match value != 0.0 && value.is_finite() && spread > 0.0 {
+        true => (estimates::exponent(value) - estimates::exponent(spread) + TOLD).clamp(4, MAX_DIGITS),
+        false => 4,
+    };
+    estimates::rounded(value, digits as usize)
+}
+
+/// The same with its unit, if it has one.
+pub fn among_with_unit(value: f64, spread: f64, unit: &str) -> String {
+    let value = short_among(value, spread);
+    if matches!(unit, "" | "1") { value } else { format!("{value} {}", self::unit(unit)) }
+}
+
+/// A value with four significant digits and its unit, if it has one.
+pub fn short_with_unit(value: f64, unit: &str) -> String {
+    among_with_unit(value, 0.0, unit)
+}
+
+/// The same with a true minus sign, for sentences and pages.
+pub fn value(value: f64, unit: &str) -> String {
+    minus(&short_with_unit(value, unit))
+}
+
+/// A value with three significant digits and a true minus sign, for charts.
+pub fn printed(value: f64) -> String {
+    minus(&estimates::rounded(value, 3))
+}
+
+/// A value with three significant digits, zeros at the end among them, and a true minus sign; a dash if it is not finite.
+pub fn three_digits(value: f64) -> String {
+    const DIGITS: i32 = 3;
+    if !value.is_finite() {
+        return "\u{2013}".to_owned();
+    }
+    // The exponent after rounding: 9.996 is 10.0, not 10.00.
+    let scientific = format!("{value:.*e}", DIGITS as usize - 1);
+    let exponent = scientific.split_once('e').and_then(|(_, e)| e.parse::<i32>().ok()).unwrap_or(0);
+    let text = match exponent {
+        _ if value == 0.0 => "0".to_owned(),
+        -3..=5 => format!("{value:.*}", (DIGITS - 1 - exponent).max(0) as usize),
+        _ => scientific,
+    };
+    minus(&text)
+}
+
+/// A time in s with three digits.
+pub fn time(seconds: f64) -> String {
+    format!("{} s", three_digits(seconds))
+}
+
+/// A force in N with three digits, said in nN.
+pub fn force(newtons: f64) -> String {
+    format!("{} nN", three_digits(newtons * 1e9))
+}
+
+/// A length in m with three digits, said in nm.
+pub fn length(metres: f64) -> String {
+    format!("{} nm", three_digits(metres * 1e9))
+}
+
+/// A change as a part, said in percent with its sign; its direction alone where it is too small to be read; `None` if it is
+/// not finite.
+pub fn change(part: f64) -> Option<String> {
+    const MIN_PROBABILITY: f64 = 1e-3;
+    let percent = 100.0 * part;
+    if percent != 0.0 && percent.abs() < MIN_PROBABILITY {
+        return Some(format!("less than {MIN_PROBABILITY} % ({})", if percent > 0.0 { "up" } else { "down" }));
+    }
+    let sign = if part > 0.0 { "+" } else { "" };
+    part.is_finite().then(|| format!("{sign}{} %", three_digits(percent)))
+}
+
+/// `one run`, `2 runs`, `655 360 runs`.
+pub fn count(number: u64, one: &str, many: &str) -> String {
+    if number == 1 { format!("one {one}") } else { format!("{} {many}", grouped(number)) }
+}
+
+/// A whole number with its digits in threes.
+pub fn grouped(number: u64) -> String {
+    const NARROW_SPACE: char = '\u{202f}';
+    let digits = number.to_string();
+    if digits.len() <= 4 {
+        return digits;
+    }
+    let mut text = String::new();
+    for (place, digit) in digits.chars().enumerate() {
+        if place > 0 && (digits.len() - place).is_multiple_of(3) {
+            text.push(NARROW_SPACE);
+        }
+        text.push(digit);
+    }
+    text
+}
+
+/// Hyphens before digits as minus signs, where no letter or digit stands before them.
+pub fn minus(text: &str) -> String {
+    let mut signed = String::with_capacity(text.len());
+    let (mut before, mut letters) = (' ', text.chars().peekable());
+    while let Some(c) = letters.next() {
+        let is_sign = c == '-' && !before.is_alphanumeric() && letters.peek().is_some_and(char::is_ascii_digit);
+        signed.push(if is_sign { '−' } else { c });
+        before = c;
+    }
+    signed
+}
+
+/// A name of the study as words; a symbol such as `F_cr` stays one.
+pub fn name(name: &str) -> String {
+    if is_symbol(name) { name.to_owned() } else { words(name) }
+}
+
+/// A name as words, whatever it is.
+pub fn words(name: &str) -> String {
+    name.replace('_', " ")
+}
+
+fn is_symbol(name: &str) -> bool {
+    name.chars().count() <= 3 || symbol(name).is_some()
+}
+
+/// A unit for an axis: none for pure numbers.
+pub fn axis_unit(unit: &str) -> String {
+    if unit == "1" { String::new() } else { self::unit(unit) }
+}
+
+/// A name and its unit, if it has one, as a heading.
+pub fn heading(name: &str, unit: &str) -> String {
+    if matches!(unit, "" | "1") { self::name(name) } else { format!("{} ({})", self::name(name), self::unit(unit)) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_read_as_people_write_them() {
+        assert_eq!(significant(489.404_123), "489.404");
+        assert_eq!(significant(0.0), "0");
+        assert_eq!(significant(1.5e-9), "1.5e-9");
+        assert_eq!(significant(-12_345_678.0), "-12345678");
+        assert_eq!(significant(100.0), "100");
+        assert_eq!(significant(0.001), "0.001");
+        assert_eq!(fixed(-0.00001, 4), "0.0000");
+        assert_eq!(fixed(-0.5, 1), "-0.5");
+        let chances = [None, Some(0.0), Some(1e-5), Some(0.25), Some(0.9999), Some(1.0)].map(chance);
+        assert_eq!(chances, ["-", "0", "<0.001", "0.250", ">0.999", "1"]);
+    }
+
+    #[test]
+    fn values_in_tables_and_sentences() {
+        assert_eq!(short(1234.567), "1235");
+        assert_eq!(short_with_unit(-0.012_346, "nN"), "-0.01235 nN");
+        assert_eq!(value(-0.012_346, "nN"), "−0.01235 nN");
+        assert_eq!(short(0.0), "0");
+        assert_eq!((short(3.072e-5), short(-1e-12)), ("0.00003072".to_owned(), "-1e-12".to_owned()));
+        assert_eq!(short_with_unit(2.5, "1"), "2.5");
+        assert_eq!([1_000.000_123, 1_000.000_987].map(|x| short_among(x, 8.64e-4)), ["1000.000123", "1000.000987"]);
+        assert_eq!((short_among(1234.567, 900.0), short_among(5.0, 0.0)), ("1235".to_owned(), "5".to_owned()));
+        assert_eq!(grouped(655_360), "655\u{202f}360");
+        assert_eq!((grouped(1024), grouped(1_048_576)), ("1024".to_owned(), "1\u{202f}048\u{202f}576".to_owned()));
+        assert_eq!((count(1, "run", "runs"), count(2, "run", "runs")), ("one run".to_owned(), "2 runs".to_owned()));
+    }
+
+    #[test]
+    fn names_read_as_words_and_symbols_stay() {
+        assert_eq!((name("critical_force"), name("F_cr")), ("critical force".to_owned(), "F_cr".to_owned()));
+    }
+
+    #[test]
+    fn three_digits_are_three() {
+        let cases = [
+            (0.0, "0"),
+            (-0.0, "0"),
+            (0.131_27, "0.131"),
+            (630.96, "631"),
+            (-26.9, "\u{2212}26.9"),
+            (9.996, "10.0"),
+            (123_456.0, "123456"),
+            (1.5e-7, "1.50e-7"),
+            (1e300, "1.00e300"),
+            (f64::NAN, "\u{2013}"),
+        ];
+        for (value, text) in cases {
+            assert_eq!(three_digits(value), text, "{value}");
+        }
+        assert_eq!(force(631.2e-9), "631 nN");
+        assert_eq!(change(0.0123).as_deref(), Some("+1.23 %"));
+        assert_eq!(change(-0.5).as_deref(), Some("\u{2212}50.0 %"));
+        assert_eq!(change(-5e-7).as_deref(), Some("less than 0.001 % (down)"));
+        assert_eq!(change(f64::NAN), None);
+    }
+}

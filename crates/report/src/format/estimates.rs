@@ -1,0 +1,261 @@
+//! Estimates with their errors, with as many digits as the error bears: the one way of sentences, tables and captions.
+
+use apportion::uncertainty::{Estimate, Interval};
+
+use super::{SIGNIFICANT, minus, significant, significant_to};
+
+/// Up to this ratio of its longer part to the shorter one an interval is printed by the longer one.
+const EVEN: f64 = 1.5;
+/// Below this part of the estimate both ends of an interval are not needed.
+const MIN_SHOWN: f64 = 0.01;
+/// Significant digits of an estimate of which no error is known.
+const WITHOUT_ERROR: usize = 3;
+/// Numbers below this magnitude are written with a power of ten.
+pub(super) const SMALL: f64 = 1e-5;
+
+/// An estimate and the half width of its interval, `0.02487 ± 0.00003`, or both bounds where they are not symmetric about
+/// it to within half and longer than 1 % of it, `0.68 [0.52, 1.03]`.
+///
+/// The half width (the longer one, where the two are not equal) has one digit, two if it begins with 1, and the estimate ends
+/// at the same place, after six digits at the latest; what is cut there counts as error. Bounds have the digits of the nearer one, two if it begins with 1 or 2. Without an interval there are three digits. Files have all.
+pub fn give_or_take(record: Estimate) -> String {
+    let Estimate { estimate, interval: Some(Interval { low, high }) } = record else {
+        return rounded(record.estimate, WITHOUT_ERROR);
+    };
+    let half = (high - low) / 2.0;
+    if !(half > 0.0 && half.is_finite() && estimate.is_finite()) {
+        return significant(estimate);
+    }
+    let most = most_decimals(estimate);
+    let (nearer, farther) = (f64::min(estimate - low, high - estimate), f64::max(estimate - low, high - estimate));
+    if nearer * EVEN >= farther || half < MIN_SHOWN * estimate.abs() {
+        return match decimals(farther) > most {
+            // Its digits stand beyond those of the estimate, which needs no zeros at its end then.
+            true => {
+                let shown = significant(estimate);
+                let cut = shown.parse().map_or(0.0, |shown: f64| (shown - estimate).abs());
+                format!(
+                    "{shown} ± {}",
+                    if cut > farther / 10.0 { rounded_up(farther + cut) } else { rounded(farther, 1) }
+                )
+            }
+            false => format!("{} ± {}", at(estimate, decimals(farther)), at(farther, decimals(farther))),
+        };
+    }
+    with_bounds(estimate, low, high, most)
+}
+
+/// An estimate and both its bounds, with so many decimals at most.
+fn with_bounds(estimate: f64, low: f64, high: f64, most: i32) -> String {
+    // A bound next to the estimate is no reason for many digits.
+    let nearer = f64::min(estimate - low, high - estimate).max((high - low) / 4.0);
+    let digits = if format!("{nearer:.1e}").starts_with(['1', '2']) { 2 } else { 1 };
+    let places = decimals_of(nearer, digits).min(most);
+    format!("{} [{}, {}]", at(estimate, places), at(low, places), at(high, places))
+}
+
+/// The half width that [`give_or_take`] prints; `None` where it prints none.
+pub fn printed_half_width(record: Estimate) -> Option<f64> {
+    give_or_take(record).split_once(" ± ")?.1.parse().ok()
+}
+
+/// Whether an interval leaves out 0 from below, as it is printed too.
+pub fn is_above_zero(record: Estimate) -> bool {
+    let printed = give_or_take(record);
+    let is_left_out = match printed.split_once(" ± ") {
+        Some((estimate, half)) => estimate.parse::<f64>().ok() > half.parse::<f64>().ok(),
+        None => !printed.contains("[0, "),
+    };
+    record.interval.is_some_and(|interval| interval.low > 0.0) && is_left_out
+}
+
+/// [`give_or_take`] for sentences, with true minus signs.
+pub fn index(record: Estimate) -> String {
+    minus(&give_or_take(record))
+}
+
+/// The decimals of an estimate that are its own.
+fn most_decimals(estimate: f64) -> i32 {
+    match estimate {
+        0.0 => i32::MAX,
+        estimate => SIGNIFICANT as i32 - 1 - exponent(estimate),
+    }
+}
+
+/// A part of 1 in percent with its error: `39.96 ± 0.03 %`. A part that cannot be below 0 or beyond 1 has bounds inside.
+pub fn percent(record: Estimate) -> String {
+    let percent = |part: f64| 100.0 * part;
+    let Estimate { estimate, interval } = record;
+    let is_inside = (0.0..=1.0).contains(&estimate);
+    let bound = |bound: f64| if is_inside { percent(bound).max(0.0) } else { percent(bound) };
+    let interval = interval.map(|Interval { low, high }| Interval { low: bound(low), high: bound(high) });
+    format!("{} %", minus(&up_to_all(Estimate { estimate: percent(estimate), interval })))
+}
+
+/// A share in percent with its error, `-` if it does not exist.
+pub fn share(share: Option<Estimate>) -> String {
+    share.map_or_else(|| "-".to_owned(), up_to_all)
+}
+
+/// What is up to 100 %: an interval that goes beyond ends there, and what is left of rounding is 0.
+fn up_to_all(record: Estimate) -> String {
+    const ALL: f64 = 100.0;
+    const ROUNDING: f64 = 1e-9;
+    let Estimate { estimate, interval: Some(Interval { low, high }) } = record else { return give_or_take(record) };
+    if [estimate, low, high].iter().all(|part| part.abs() < ROUNDING) {
+        return "0".to_owned();
+    }
+    if !(low < ALL && high > ALL) {
+        return give_or_take(record);
+    }
+    let words = with_bounds(estimate.min(ALL), low, ALL, most_decimals(estimate));
+    // All that six digits tell is that it is all.
+    match words.split_once(" [") {
+        Some((all, bounds)) if bounds == format!("{all}, {all}]") => significant(ALL),
+        _ => words,
+    }
+}
+
+/// An error or width by itself, with two significant digits: 0.000083, or 8.3e-7 where there would be more zeros.
+pub fn two_digits(value: f64) -> String {
+    rounded(value, 2)
+}
+
+/// `value` with so many significant digits, without zeros at the end.
+pub(super) fn rounded(value: f64, digits: usize) -> String {
+    let shown = format!("{value:.*e}", digits.saturating_sub(1)).parse().unwrap_or(value);
+    significant_to(shown, digits.max(SIGNIFICANT))
+}
+
+/// An error with one digit, not below what it is.
+fn rounded_up(error: f64) -> String {
+    let unit = libm::pow(10.0, f64::from(exponent(error)));
+    rounded((error / unit).ceil() * unit, 1)
+}
+
+/// The decimal places of a number with this error, which may be negative.
+fn decimals(error: f64) -> i32 {
+    decimals_of(error, if format!("{error:.1e}").starts_with('1') { 2 } else { 1 })
+}
+
+/// The decimal places of a number with so many digits of its error.
+fn decimals_of(error: f64, digits: i32) -> i32 {
+    digits - 1 - exponent(format!("{error:.1e}").parse().unwrap_or(error))
+}
+
+pub(super) fn exponent(value: f64) -> i32 {
+    let text = format!("{value:e}");
+    text.split_once('e').and_then(|(_, exponent)| exponent.parse().ok()).unwrap_or(0)
+}
+
+/// `value` with so many decimal places; a zero is `0`, and what is small has a power of ten.
+fn at(value: f64, decimals: i32) -> String {
+    let scale = 10_f64.powi(decimals.abs());
+    if decimals < 0 {
+        return significant((value / scale).round() * scale);
+    }
+    let text = format!("{value:.*}", decimals as usize);
+    if text.chars().all(|c| matches!(c, '-' | '0' | '.')) {
+        return "0".to_owned();
+    }
+    if value.abs() < SMALL {
+        return format!("{value:.*e}", (decimals + exponent(value)).max(0) as usize);
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn record(low: f64, estimate: f64, high: f64) -> Estimate {
+        Estimate { estimate, interval: Some(Interval { low, high }) }
+    }
+
+    fn about(estimate: f64, half: f64) -> String {
+        give_or_take(record(estimate - half, estimate, estimate + half))
+    }
+
+    #[test]
+    fn estimates_have_the_digits_that_their_errors_bear() {
+        let cases = [
+            (0.024_868, 0.000_03, "0.02487 ± 0.00003"),
+            (0.5, 0.02, "0.50 ± 0.02"),
+            (0.5, 0.123, "0.50 ± 0.12"),
+            (0.5, 0.097, "0.50 ± 0.10"),
+            (5e-5, 9e-5, "0.00005 ± 0.00009"),
+            (0.000_05, 0.3, "0 ± 0.3"),
+            (-0.041_2, 0.005, "-0.041 ± 0.005"),
+            (3.506e-7, 2e-9, "3.51e-7 ± 2e-9"),
+            (0.975_501_2, 4.1e-8, "0.975501 ± 3e-7"),
+            (1.000_500_166_9, 1e-12, "1.0005 ± 2e-7"),
+            (1344.08, 23.0, "1340 ± 20"),
+            (0.0, 3e-7, "0 ± 3e-7"),
+            (1.0, 1e-12, "1 ± 1e-12"),
+        ];
+        for (estimate, half, text) in cases {
+            assert_eq!(about(estimate, half), text);
+        }
+    }
+
+    #[test]
+    fn bounds_stand_where_they_are_not_symmetric() {
+        assert_eq!(give_or_take(record(0.5217, 0.6789, 1.0301)), "0.68 [0.52, 1.03]");
+        assert_eq!(give_or_take(record(0.4, 0.5, 0.52)), "0.50 [0.40, 0.52]");
+        assert_eq!(give_or_take(record(0.3282, 0.328_45, 0.3287)), "0.3285 ± 0.0003");
+        assert_eq!(give_or_take(record(0.0, 0.0, 1.0)), "0 [0, 1.00]");
+        assert_eq!(give_or_take(record(0.4886, 0.4889, 0.4893)), "0.4889 ± 0.0004");
+        assert_eq!(give_or_take(record(0.9755011, 0.97550118, 0.9755012)), "0.975501 ± 3e-7");
+        assert_eq!(index(record(-0.03, -0.01, 0.05)), "−0.010 [−0.030, 0.050]");
+        let cases = [record(1e-19, 0.998, 1.0), record(0.001, 0.5, 1.0), record(-0.1, 0.3, 0.7)];
+        assert_eq!(cases.map(is_above_zero), [false; 3]);
+        assert_eq!([record(0.2, 0.3, 0.4), record(0.3, 0.3, 0.3), record(0.2, 0.3, 0.7)].map(is_above_zero), [true; 3]);
+    }
+
+    #[test]
+    fn exact_numbers_and_those_without_an_error() {
+        assert_eq!(give_or_take(record(0.0, 0.0, 0.0)), "0");
+        assert_eq!(give_or_take(record(1.0, 1.0, 1.0)), "1");
+        assert_eq!(give_or_take(Estimate::alone(0.5)), "0.5");
+        assert_eq!(give_or_take(Estimate::alone(2.345_678e-7)), "2.35e-7");
+        assert_eq!(give_or_take(record(f64::NAN, f64::NAN, f64::NAN)), "NaN");
+    }
+
+    #[test]
+    fn parts_and_shares_in_percent() {
+        assert_eq!(percent(record(0.389, 0.392, 0.395)), "39.2 ± 0.3 %");
+        assert_eq!(percent(Estimate::alone(0.5)), "50 %");
+        assert_eq!(percent(record(0.25, 0.52, 1.18)), "52 [25, 100] %");
+        let of = |estimate, low, high| share(Some(record(low, estimate, high)));
+        assert_eq!((of(97.61, 97.6, 97.62), share(None)), ("97.610 ± 0.010".to_owned(), "-".to_owned()));
+        assert_eq!(of(100.0, 99.95, 100.05), "100.000 [99.950, 100.000]");
+        assert_eq!(
+            (of(100.0, 100.0 - 1e-10, 100.0 + 1e-10), of(99.0, 98.0, 101.0)),
+            ("100".to_owned(), "99.0 [98.0, 100.0]".to_owned())
+        );
+        assert_eq!(of(100.000_01, 99.95, 100.05), "100.000 [99.950, 100.000]");
+        assert_eq!(
+            (of(1.158_45e-12, 1.158_43e-12, 1.158_47e-12), of(1e-12, -0.1, 0.1)),
+            ("0".to_owned(), "0 ± 0.10".to_owned())
+        );
+        assert_eq!(
+            (percent(record(0.9995, 1.0, 1.0005)), percent(record(1e-15, 1e-14, 2e-14))),
+            ("100.000 [99.950, 100.000] %".to_owned(), "0 %".to_owned())
+        );
+        let widths = [0.0, 0.0351, 8.3e-5, 4.96e-5, 8.32e-7, 2e-8, 12.4].map(two_digits);
+        assert_eq!(widths, ["0", "0.035", "0.000083", "0.00005", "8.3e-7", "2e-8", "12"]);
+    }
+
+    proptest::proptest! {
+        /// What is written is within half of the last place of what is meant, and never shows a place beyond the error.
+        #[test]
+        fn what_is_written_is_what_is_meant(estimate in -10.0..10.0, power in -9.0..0.5_f64) {
+            let half = libm::pow(10.0, power);
+            let text = about(estimate, half);
+            let (value, error) = text.split_once(" ± ").expect("symmetric");
+            let (value, error): (f64, f64) = (value.parse().unwrap(), error.parse().unwrap());
+            proptest::prop_assert!((value - estimate).abs() <= 1.34 * error, "{}", text);
+            proptest::prop_assert!(error > 0.66 * half && error < 1.34 * half + 1.5e-5, "{} of {}", text, half);
+        }
+    }
+}

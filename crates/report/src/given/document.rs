@@ -1,0 +1,170 @@
+//! Indices from given data as a document.
+
+use std::path::Path;
+
+use apportion::result::{OutputDistribution, json};
+use apportion::text::listed;
+use apportion::uncertainty::Estimate;
+
+use super::{GivenFile, GivenOutputRecord, given_chart, measures, sentences};
+use crate::document::{Document, OutputReport, Part, Report, Section, Table, Value};
+use crate::format::{index, significant};
+
+/// The document of a result from given data, whose files begin with `name`.
+pub fn given_document(result: &GivenFile, name: &str) -> Document {
+    let outputs = result.outputs.iter().map(|output| {
+        let chart = given_chart(result, output);
+        OutputReport {
+            name: &output.name,
+            unit: "",
+            warnings: &output.warnings,
+            answer: chart.caption().to_owned(),
+            parts: output_parts(output, index_table(result, output)),
+            charts: vec![("", chart)],
+        }
+    });
+    let (table, provenance) = (&result.table, &result.provenance);
+    let mut rows = vec![
+        ("rows used", table.rows.to_string()),
+        ("rows left out", table.rows_dropped.to_string()),
+        ("points", table.points.clone()),
+    ];
+    rows.extend(provenance.estimators.iter().map(|estimator| ("estimator", estimator.clone())));
+    rows.extend(provenance.interval.iter().map(|interval| ("intervals", interval.clone())));
+    rows.extend([("seed", provenance.seed.to_string()), ("table, SHA-256", format!("`{}`", table.sha256))]);
+    // Without any index the file has a header still.
+    let has_none = result.outputs.iter().all(|output| output.indices.is_none());
+    Report {
+        name: name.to_owned(),
+        kicker: "Indices from given data",
+        title: file_name(&table.file),
+        lead: not_read(result).into_iter().collect(),
+        first: vec![Section::new("warnings", "Warnings", Part::warnings(&result.warnings).into_iter().collect())],
+        outputs: outputs.collect(),
+        then: [measures::section(result, name), Some(Section::new("table", "The table", table_parts(result)))]
+            .into_iter()
+            .flatten()
+            .collect(),
+        notes: &result.notes,
+        version: &provenance.apportion_version,
+        provenance: rows,
+        json: json(result),
+        csv: result.outputs.first().filter(|_| has_none).map(|output| index_table(result, output)),
+        csv_ending: "-indices",
+        ..Report::default()
+    }
+    .document()
+}
+
+/// Which columns are not among the inputs although they were not left out.
+fn not_read(result: &GivenFile) -> Option<String> {
+    let left_out = &result.table.columns_left_out;
+    let names: Vec<String> = left_out.iter().map(|column| format!("`{}`", column.name)).collect();
+    let (columns, hold, are) = if names.len() == 1 { ("column", "holds", "is") } else { ("columns", "hold", "are") };
+    (!names.is_empty()).then(|| {
+        format!(
+            "The {columns} {} {hold} no plain numbers and {are} not among the inputs: mind the warning.",
+            listed(&names)
+        )
+    })
+}
+
+/// What is said of an output besides its chart.
+fn output_parts(output: &GivenOutputRecord, table: Table) -> Vec<Part> {
+    let mut parts: Vec<Part> = output.distribution.iter().map(|of| Part::Text(moments(of))).collect();
+    if let Some(reason) = &output.reason {
+        parts.push(Part::no_indices(format!("There are no indices of {}: {reason}.", output.name)));
+    }
+    parts.extend((!table.rows.is_empty()).then(|| table.into()));
+    parts.extend(
+        output
+            .served()
+            .map(|of| Part::Text(sentences::of_surrogate(of.explained, of.unknown, of.terms, &of.polynomials_of))),
+    );
+    parts
+}
+
+/// The name of a file without its folder.
+fn file_name(file: &str) -> String {
+    Path::new(file).file_name().map_or_else(|| file.to_owned(), |name| name.to_string_lossy().into_owned())
+}
+
+/// Mean and standard deviation of an output in words.
+fn moments(distribution: &OutputDistribution) -> String {
+    match distribution.sd {
+        Some(sd) => format!("Mean {}, standard deviation {}.", significant(distribution.mean), significant(sd)),
+        None => format!("Mean {}.", significant(distribution.mean)),
+    }
+}
+
+/// Three digits of a number without an error.
+fn three(estimate: f64) -> String {
+    index(Estimate::alone(estimate))
+}
+
+fn index_table(result: &GivenFile, output: &GivenOutputRecord) -> Table {
+    let all = || result.outputs.iter().flat_map(|output| output.indices.iter().flatten());
+    let ranks = all().any(|index| index.rank.is_some());
+    let served = output.served();
+    let first_order =
+        "First-order index of each input, the part of the variance that knowing it removes, with its 95 % interval.";
+    let left = served.filter(|of| of.unknown >= sentences::VISIBLE).map(|of| sentences::percent(of.unknown));
+    let left = left.map(|left| format!(" Upper ends by the surrogate contain what it leaves, {left} of the variance."));
+    let caption = match served {
+        Some(_) => {
+            format!("{first_order} S_T, the total index, has the interactions as well.{}", left.unwrap_or_default())
+        }
+        None => first_order.to_owned(),
+    };
+    // The sum is that of the leading estimates, by ranks where there are any.
+    let sum = |is_leading: bool| output.sum_first_order.filter(|_| is_leading).map_or_else(String::new, three);
+    let said = |estimate: Option<Estimate>| estimate.map_or_else(String::new, index);
+    let indices = output.indices.iter().flatten().enumerate();
+    let rows = indices.map(|(number, index)| (index, served.map(|of| &of.indices[number])));
+    let rows = Table::from_rows(caption, rows)
+        .file("output", |_| &output.name)
+        .text("input", |(index, _)| &index.input)
+        .named("input")
+        .sum("sum")
+        .number("S_1, by ranks", |(index, _)| said(index.rank))
+        .estimate("rank", |(index, _)| index.rank)
+        .shown(ranks)
+        .sum(sum(ranks))
+        .number("S_1, by bins", |(index, _)| self::index(index.binned.estimate))
+        .estimate("binned", |(index, _)| Some(index.binned.estimate))
+        .sum(sum(!ranks))
+        .file("bins", |(index, _)| Value::Count(index.binned.bins as u64));
+    if result.surrogate.is_none() {
+        return rows.into();
+    }
+    let serves = result.outputs.iter().any(|output| output.served().is_some());
+    rows.number("S_1, by surrogate", |(_, of)| said(of.map(|index| index.first_order)))
+        .estimate("surrogate", |(_, of)| of.map(|index| index.first_order))
+        .shown(serves)
+        .sum(served.map_or_else(String::new, |of| three(of.sum_first_order)))
+        .number("S_T, by surrogate", |(_, of)| said(of.map(|index| index.total)))
+        .estimate("surrogate_total", |(_, of)| of.map(|index| index.total))
+        .shown(serves)
+        .sum("")
+        .file("surrogate_unknown", |_| served.map(|of| of.unknown))
+        .into()
+}
+
+/// What was read.
+fn table_parts(result: &GivenFile) -> Vec<Part> {
+    let table = &result.table;
+    let mut text = format!("{}: {} rows, {} inputs.", table.file, table.rows, result.inputs.len());
+    if let Some(dependence) = &result.dependence {
+        let (a, b) = &dependence.strongest.inputs;
+        text.push_str(&format!(
+            " Largest rank correlation between inputs: {} (`{a}`, `{b}`); chance reaches {}.",
+            three(dependence.strongest.spearman),
+            three(dependence.noise)
+        ));
+    }
+    let inputs = Table::from_rows("The inputs: the indices hold between these values.", &result.inputs)
+        .text("input", |input| &input.name)
+        .number("smallest", |input| significant(input.min))
+        .number("largest", |input| significant(input.max));
+    vec![Part::Text(text), Part::OnPage(vec![inputs.into()])]
+}

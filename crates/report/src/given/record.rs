@@ -1,0 +1,242 @@
+//! The result file of given data.
+
+use apportion::given::{
+    Column, Dependence, GivenIndices, InputIndices, InputMeasures, MIN_EXPLAINED, NoVariance, OutputIndices, PointSet,
+    SurrogateOutput, SurrogateRefusal, Surrogates, TextColumn,
+};
+use apportion::quantity::{Unit, Unlikely};
+use apportion::result::OutputDistribution;
+use serde::{Deserialize, Serialize};
+
+use super::sentences;
+
+/// A result from given data, as described in `docs/given-data-format.md`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct GivenFile {
+    /// `"apportion-given-data"`.
+    pub format: String,
+    /// 1.
+    pub version: u32,
+    /// How the numbers came about.
+    pub provenance: GivenProvenance,
+    /// The table.
+    pub table: TableRecord,
+    /// The inputs, in the order of the analysis.
+    pub inputs: Vec<GivenInputRecord>,
+    /// Dependence between the inputs; `null` with fewer than two that vary.
+    pub dependence: Option<Dependence>,
+    /// How surrogates were fitted; `null` if they were not asked for.
+    #[serde(default)]
+    pub surrogate: Option<GivenSurrogateRecord>,
+    /// The outputs.
+    pub outputs: Vec<GivenOutputRecord>,
+    /// What a careful reader should know of this table, in sentences.
+    pub warnings: Vec<String>,
+    /// What indices from given data cannot say, in sentences.
+    pub notes: Vec<String>,
+}
+
+/// How the numbers came about.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct GivenProvenance {
+    /// Version of this program.
+    pub apportion_version: String,
+    /// Seed of the order of ties in the intervals of the rank estimator.
+    pub seed: u64,
+    /// What the estimates are.
+    pub estimators: Vec<String>,
+    /// What the intervals are; `null` if there are none.
+    pub interval: Option<String>,
+}
+
+/// The table that was read.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct TableRecord {
+    /// Its file, as named by the user.
+    pub file: String,
+    /// SHA-256 of the file.
+    pub sha256: String,
+    /// Rows used.
+    pub rows: u64,
+    /// Rows left out for missing values.
+    pub rows_dropped: u64,
+    /// Line of the first of them.
+    pub first_dropped_line: Option<u64>,
+    /// `"independent"`, `"too-even"` or `"grid"`.
+    pub points: String,
+    /// Why the rows are not taken for independent draws, if they are not.
+    pub points_reason: Option<String>,
+    /// Columns that are no inputs because they hold text.
+    #[serde(default)]
+    pub columns_left_out: Vec<TextColumn>,
+}
+
+impl GivenFile {
+    /// The result of a table in which these columns hold text: it says so first.
+    #[must_use]
+    pub fn without(mut self, columns: &[TextColumn]) -> Self {
+        self.table.columns_left_out = columns.to_vec();
+        self.warnings.splice(0..0, columns.iter().map(ToString::to_string));
+        self
+    }
+}
+
+/// An input: indices hold for its values in the table, between these bounds.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct GivenInputRecord {
+    /// Its name.
+    pub name: String,
+    /// Smallest value.
+    pub min: f64,
+    /// Largest value.
+    pub max: f64,
+}
+
+/// An output.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct GivenOutputRecord {
+    /// Its name.
+    pub name: String,
+    /// Its distribution over the rows.
+    pub distribution: Option<OutputDistribution>,
+    /// One entry per input; `null` if there are no indices.
+    pub indices: Option<Vec<InputIndices>>,
+    /// Sum of the leading estimates (by ranks if there are any, else by bins) over the inputs.
+    pub sum_first_order: Option<f64>,
+    /// Indices by surrogates; `null` if they were not asked for, or there are none.
+    #[serde(default)]
+    pub surrogate: Option<SurrogateOutput>,
+    /// Other measures, one entry per input; `null` if they were not asked for, or there are none.
+    #[serde(default)]
+    pub measures: Option<Vec<InputMeasures>>,
+    /// Why there are no indices.
+    pub reason: Option<String>,
+    /// What a careful reader should know, in sentences.
+    pub warnings: Vec<String>,
+}
+
+impl GivenOutputRecord {
+    /// The indices by surrogates that are to be read.
+    pub(super) fn served(&self) -> Option<&SurrogateOutput> {
+        self.surrogate.as_ref().filter(|surrogate| surrogate.serves)
+    }
+}
+
+/// Surrogates, or why there are none.
+pub type SurrogateResult = Result<Surrogates, SurrogateRefusal>;
+
+/// How surrogates were fitted to a table.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct GivenSurrogateRecord {
+    /// Why there are none, if so.
+    pub refused: Option<String>,
+    /// Rows used; `null` without surrogates.
+    pub rows: Option<u64>,
+    /// Parts of the table, each corrected by a surrogate of the others; `null` without surrogates.
+    pub folds: Option<u64>,
+    /// `"columns"`: those of the columns; `"given"`: those of a study. `null` without surrogates.
+    pub distributions: Option<String>,
+    /// Share of the variance that a surrogate must explain to serve.
+    pub least_explained: f64,
+}
+
+fn surrogate_record(result: &SurrogateResult) -> GivenSurrogateRecord {
+    let fitted = result.as_ref().ok();
+    GivenSurrogateRecord {
+        refused: result.as_ref().err().map(ToString::to_string),
+        rows: fitted.map(|all| all.rows as u64),
+        folds: fitted.map(|all| all.folds as u64),
+        distributions: fitted.map(|all| if all.given_distributions { "given" } else { "columns" }.to_owned()),
+        least_explained: MIN_EXPLAINED,
+    }
+}
+
+/// What the result says besides the indices.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct GivenFacts {
+    /// The table's file, as named by the user.
+    pub file: String,
+    /// Its SHA-256.
+    pub sha256: String,
+    /// Rows left out, and the line of the first.
+    pub dropped: Option<(u64, u64)>,
+    /// The seed.
+    pub seed: u64,
+}
+
+/// The result file for `indices` of the columns they were estimated from, and what `surrogates` say of them if asked for.
+pub fn build_given(
+    indices: &GivenIndices,
+    surrogates: Option<&SurrogateResult>,
+    inputs: &[Column],
+    outputs: &[Column],
+    facts: &GivenFacts,
+) -> GivenFile {
+    let of_output = |(number, (indices, column)): (usize, (&OutputIndices, &Column))| {
+        let by_surrogate = surrogates.and_then(|result| result.as_ref().ok()).map(|all| &all.outputs[number]);
+        output_record(indices, by_surrogate.and_then(|result: &Result<_, NoVariance>| result.as_ref().ok()), column)
+    };
+    let outputs: Vec<GivenOutputRecord> = indices.outputs.iter().zip(outputs).enumerate().map(of_output).collect();
+    let serves = outputs.iter().any(|output| output.served().is_some());
+    let warnings = sentences::warnings(indices, surrogates, facts.dropped);
+    GivenFile {
+        format: "apportion-given-data".to_owned(),
+        version: 1,
+        provenance: GivenProvenance {
+            apportion_version: env!("CARGO_PKG_VERSION").to_owned(),
+            seed: facts.seed,
+            estimators: sentences::estimators(indices, surrogates),
+            interval: sentences::interval(indices, serves),
+        },
+        table: TableRecord {
+            file: facts.file.clone(),
+            sha256: facts.sha256.clone(),
+            rows: indices.rows as u64,
+            rows_dropped: facts.dropped.map_or(0, |(rows, _)| rows),
+            first_dropped_line: facts.dropped.map(|(_, line)| line),
+            points: points_name(&indices.points).to_owned(),
+            points_reason: indices.points.reason(),
+            columns_left_out: Vec::new(),
+        },
+        inputs: inputs.iter().map(input_record).collect(),
+        dependence: indices.dependence.clone(),
+        surrogate: surrogates.map(surrogate_record),
+        outputs,
+        warnings: inputs.iter().filter_map(unlikely).chain(warnings).collect(),
+        notes: sentences::notes(serves),
+    }
+}
+
+/// A sentence on the unlikely value of a column, if it has one.
+fn unlikely(column: &Column) -> Option<String> {
+    Unlikely::find(&column.values).map(|found| format!("{}: {}", column.name, found.in_table(found.first + 1)))
+}
+
+fn points_name(points: &PointSet) -> &'static str {
+    match points {
+        PointSet::Independent => "independent",
+        PointSet::TooEven(_) => "too-even",
+        PointSet::Grid => "grid",
+    }
+}
+
+fn input_record(column: &Column) -> GivenInputRecord {
+    let bounds = |(low, high): (f64, f64), &v: &f64| (low.min(v), high.max(v));
+    let (min, max) = column.values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), bounds);
+    GivenInputRecord { name: column.name.clone(), min, max }
+}
+
+fn output_record(output: &OutputIndices, surrogate: Option<&SurrogateOutput>, column: &Column) -> GivenOutputRecord {
+    let indices = output.indices.as_ref();
+    let leading = |index: &InputIndices| index.leading().estimate;
+    GivenOutputRecord {
+        name: output.name.clone(),
+        distribution: OutputDistribution::from_values(&column.values, &Unit::dimensionless()),
+        indices: indices.ok().cloned(),
+        sum_first_order: indices.ok().map(|indices| indices.iter().map(leading).sum()),
+        surrogate: surrogate.filter(|_| indices.is_ok()).cloned(),
+        measures: None,
+        reason: indices.err().map(ToString::to_string),
+        warnings: unlikely(column).into_iter().chain(sentences::output_warnings(output, surrogate)).collect(),
+    }
+}

@@ -1,0 +1,172 @@
+//! What a result from given data says in sentences.
+
+use apportion::given::{GivenIndices, MIN_EXPLAINED, OutputIndices, PointSet, SurrogateOutput, bins_for};
+
+use super::SurrogateResult;
+use crate::format::fixed;
+
+pub(super) fn estimators(indices: &GivenIndices, surrogates: Option<&SurrogateResult>) -> Vec<String> {
+    let rank = "rank: Gamboa, Gremaud, Klein and Lagnoux 2022, averaged over the orders of ties".to_owned();
+    let bins = bins_for(indices.rows);
+    let binned = match indices.points {
+        PointSet::Independent => {
+            format!("binned: variance of lines in {bins} bins of equal probability, less that of noise")
+        }
+        _ => format!("binned: variance of lines in {bins} bins of equal probability"),
+    };
+    let ranked = indices.points == PointSet::Independent;
+    let surrogate = surrogates.and_then(|result| result.as_ref().ok()).map(|all| {
+        let polynomials = if all.given_distributions { "the given distributions" } else { "the columns\' distributions" };
+        format!(
+            "surrogate: sparse polynomial chaos expansions (Sudret 2008), orthonormal in {polynomials}, each fitted to {} of \
+             {} parts of the rows and corrected by the other part in what is linear in its errors",
+            all.folds - 1,
+            all.folds
+        )
+    });
+    let list = [ranked.then_some(rank), Some(binned), surrogate];
+    list.into_iter().flatten().collect()
+}
+
+pub(super) fn interval(indices: &GivenIndices, by_surrogate: bool) -> Option<String> {
+    let mut parts = Vec::new();
+    if indices.points == PointSet::Independent {
+        parts.push("95 %, asymptotic, for independent rows");
+    }
+    if by_surrogate {
+        parts.push(
+            "by the surrogate: 95 %, from the influence of every row, the upper end raised by the share of the variance that \
+             the surrogate leaves",
+        );
+    }
+    (!parts.is_empty()).then(|| parts.join("; "))
+}
+
+/// What holds of all indices from given data.
+pub(super) fn notes(by_surrogate: bool) -> Vec<String> {
+    let orders = if by_surrogate {
+        "by ranks and bins, given data yield first-order indices only; those by the surrogate, with the total indices, lack a \
+         part of the variance that no rows of a table assign to inputs (noise, inputs that are not in the table, fine \
+         structure): up to all of it may belong to any of them, and the upper ends of the intervals contain it"
+    } else {
+        "given data yield first-order indices only: no total index, and nothing on interactions; what the sum of the \
+         indices lacks of 1 may be interactions, noise, or inputs that are not in the table"
+    };
+    [
+        orders,
+        "if inputs depend on each other, S_j is the share of the variance that knowing input j alone removes: it contains \
+         effects of the inputs that go with it, and the sum may exceed 1",
+        "the indices describe the distribution of the inputs in the table; they say nothing of values outside it",
+    ]
+    .map(str::to_owned)
+    .to_vec()
+}
+
+/// Fewer rows than this make bins too wide for a function of a few periods: at 100 rows the 95 % intervals by bins held in
+/// 89 % of the cases for the Ishigami function, at 300 in 94 %.
+const MIN_ROWS_FOR_BINS: usize = 300;
+
+/// What a careful reader should know of the table.
+pub(super) fn warnings(
+    indices: &GivenIndices,
+    surrogates: Option<&SurrogateResult>,
+    dropped: Option<(u64, u64)>,
+) -> Vec<String> {
+    let mut warnings = Vec::new();
+    match surrogates {
+        Some(Err(refusal)) => warnings.push(format!("no indices by a surrogate: {refusal}")),
+        Some(Ok(all)) if all.rows < indices.rows => warnings.push(format!(
+            "the table is large: the surrogate is fitted to {} of its {} rows, drawn at random",
+            all.rows, indices.rows
+        )),
+        _ => {}
+    }
+    if surrogates.is_some_and(Result::is_ok) && indices.points != PointSet::Independent {
+        warnings.push(
+            "the intervals by the surrogate are those of random rows, and too wide for these, which are more even"
+                .to_owned(),
+        );
+    }
+    if let Some((rows, line)) = dropped {
+        let were = if rows == 1 { "row was" } else { "rows were" };
+        warnings.push(format!(
+            "{rows} {were} left out for missing values (the first on line {line}); if runs fail in a part of the space, the \
+             indices hold for the rest of it only"
+        ));
+    }
+    if let Some(reason) = indices.points.reason() {
+        warnings.push(format!(
+            "no estimate by ranks, which does not converge here, and no intervals: {reason}. The estimates by bins stand"
+        ));
+    }
+    if indices.points == PointSet::Independent && indices.rows < MIN_ROWS_FOR_BINS {
+        warnings.push(format!(
+            "fewer than {MIN_ROWS_FOR_BINS} rows: the intervals by bins do not know of dependence finer than a bin, and may be too \
+             narrow; those by ranks are safer"
+        ));
+    }
+    if let Some(dependence) = &indices.dependence {
+        let (a, b) = &dependence.strongest.inputs;
+        let meaning = "first-order indices then contain effects of the inputs that go with each other";
+        if dependence.correlated() {
+            let spearman = dependence.strongest.spearman;
+            warnings
+                .push(format!("the inputs `{a}` and `{b}` are correlated (rank correlation {spearman:.2}); {meaning}"));
+        }
+        if let Some((a, b)) = &dependence.uneven {
+            warnings.push(format!("the inputs `{a}` and `{b}` depend on each other, though not by rank; {meaning}"));
+        }
+    }
+    warnings
+}
+
+pub(super) fn output_warnings(output: &OutputIndices, surrogate: Option<&SurrogateOutput>) -> Vec<String> {
+    let mut warnings = Vec::new();
+    if let Some(surrogate) = surrogate.filter(|surrogate| !surrogate.serves) {
+        warnings.push(format!(
+            "the surrogate does not serve: of rows that it was not fitted to it explains {} of the variance, and {} are \
+             needed. Read the first-order indices by ranks and bins; there are no total indices",
+            percent(surrogate.explained.max(0.0)),
+            percent(MIN_EXPLAINED)
+        ));
+    }
+    for index in output.indices.iter().flatten() {
+        if index.constant {
+            warnings.push(format!("the input `{}` has one value only: its index is 0 by definition", index.input));
+        }
+        if index.disagree() {
+            warnings.push(format!(
+                "for `{}` ranks and bins disagree beyond their intervals: the dependence may be too fine for the bins, or the \
+                 rows not independent",
+                index.input
+            ));
+        }
+    }
+    warnings
+}
+
+/// A share in percent.
+pub(super) fn percent(share: f64) -> String {
+    if share > 0.0 && share < 0.01 { "less than 1 %".to_owned() } else { format!("{} %", fixed(100.0 * share, 0)) }
+}
+
+/// Shares of the variance below this are not reported.
+pub(super) const VISIBLE: f64 = 5e-4;
+
+/// What the surrogate of an output that serves did.
+pub(super) fn of_surrogate(explained: f64, unknown: f64, terms: f64, polynomials_of: &str) -> String {
+    let left = match unknown >= VISIBLE {
+        true => format!(
+            " The rest, {} %, is not assigned to inputs: an index may be larger than its estimate by so much, and the upper ends \
+             of the intervals contain it.",
+            fixed(100.0 * unknown, 1)
+        ),
+        false => String::new(),
+    };
+    format!(
+        "The surrogate, of {} terms in polynomials of {polynomials_of}, explains {} % of the variance of rows that it was not \
+         fitted to.{left}",
+        fixed(terms, 0),
+        if explained > 0.999 { "more than 99.9".to_owned() } else { fixed(100.0 * explained, 1) },
+    )
+}

@@ -1,0 +1,132 @@
+//! The histogram of an output.
+
+use apportion::result::OutputDistribution;
+
+use crate::chart::{Axis, Chart, Colour, Mark, Panel, Series, Stroke};
+use crate::format::{axis_unit, minus, name, short_among};
+use crate::significant;
+
+/// The distribution of an output: the histogram as an area of steps, and marks at the
+/// mean and at the 2.5, 50 and 97.5 % quantiles. A constant output has its mark alone.
+pub fn histogram_chart(distribution: &OutputDistribution, title: &str, output: &str) -> Chart {
+    let symbol = &axis_unit(distribution.unit.symbol());
+    let per_unit = match symbol.as_str() {
+        "" => String::new(),
+        simple if simple.chars().all(char::is_alphabetic) => format!("1/{simple}"),
+        product => format!("1/({product})"),
+    };
+    let panel = Panel::new(Axis::new(output, symbol.as_str()), Axis::new("probability density", per_unit));
+    let panel = panel.with(curves(distribution)).with(rules(distribution));
+    Chart::new(title, caption(distribution, output, symbol)).panels([panel])
+}
+
+fn curves(distribution: &OutputDistribution) -> Vec<Mark> {
+    if distribution.histogram.is_none() {
+        let series = Series::new("all values", Colour::Series(0)).stroke(Stroke::Points);
+        return vec![series.line(vec![(distribution.mean, 0.0)])];
+    }
+    vec![Series::new("histogram", Colour::Series(0)).band(histogram_steps(distribution))]
+}
+
+/// Both upper corners of every bin over its lower ones.
+fn histogram_steps(distribution: &OutputDistribution) -> Vec<(f64, f64, f64)> {
+    let Some(histogram) = &distribution.histogram else { return Vec::new() };
+    let bins = histogram.edges.windows(2).zip(&histogram.counts);
+    bins.flat_map(|(ends, &count)| {
+        let height = count as f64 / distribution.count as f64 / (ends[1] - ends[0]);
+        [(ends[0], 0.0, height), (ends[1], 0.0, height)]
+    })
+    .collect()
+}
+
+fn rules(distribution: &OutputDistribution) -> Vec<Mark> {
+    if distribution.histogram.is_none() {
+        return vec![Mark::rule(distribution.mean, format!("all values {}", significant(distribution.mean)))];
+    }
+    let edges = distribution.histogram.as_ref().map_or(&[][..], |histogram| &histogram.edges);
+    let ends = distribution.central().unzip();
+    let places = [
+        (ends.0, "2.5 %"),
+        (distribution.quantile(50.0), "median"),
+        (Some(distribution.mean), "mean"),
+        (ends.1, "97.5 %"),
+    ];
+    let rule = |(x, name): (Option<f64>, &str)| {
+        let x = x.filter(|x| inside(*x, edges))?;
+        Some(Mark::rule(x, format!("{name} {}", short(x, distribution))))
+    };
+    places.into_iter().filter_map(rule).collect()
+}
+
+/// Marks beyond the reach of the histogram would squeeze it.
+fn inside(x: f64, edges: &[f64]) -> bool {
+    edges.first().is_some_and(|low| *low <= x) && edges.last().is_some_and(|high| x <= *high)
+}
+
+/// The digits that tell the values apart, with a true minus sign.
+fn short(x: f64, distribution: &OutputDistribution) -> String {
+    minus(&short_among(x, distribution.spread()))
+}
+
+/// What is seen, in one sentence.
+fn caption(distribution: &OutputDistribution, output: &str, symbol: &str) -> String {
+    let unit = if symbol.is_empty() { String::new() } else { format!(" {symbol}") };
+    let n = distribution.count;
+    let output = name(output);
+    let Some(histogram) = &distribution.histogram else {
+        return format!("All {n} values of {output} are {}{unit}.", significant(distribution.mean));
+    };
+    let (whose, (low, high)) = match distribution.central() {
+        Some(ends) => (format!("95 % of the {n} values"), ends),
+        None => (format!("The {n} values"), (distribution.min, distribution.max)),
+    };
+    let mut caption = format!(
+        "{whose} of {output} lie between {} and {}{unit}, their mean is {}{unit}",
+        short(low, distribution),
+        short(high, distribution),
+        short(distribution.mean, distribution)
+    );
+    let beyond = histogram.below + histogram.above;
+    if beyond > 0 {
+        let extremes = (short(distribution.min, distribution), short(distribution.max, distribution));
+        let values = if beyond == 1 { "value lies" } else { "values lie" };
+        caption.push_str(&format!(
+            "; {beyond} {values} outside the picture (smallest {}, largest {}{unit})",
+            extremes.0, extremes.1
+        ));
+    }
+    caption + "."
+}
+
+#[cfg(test)]
+mod tests {
+    use apportion::Unit;
+
+    use super::*;
+    use crate::chart::png;
+
+    fn distribution(values: &[f64]) -> OutputDistribution {
+        OutputDistribution::from_values(values, &Unit::dimensionless()).unwrap()
+    }
+
+    /// The middles of slices of equal probability of a normal distribution.
+    fn normal() -> Vec<f64> {
+        let law = apportion::Distribution::normal(0.0, 1.0).unwrap();
+        (0..500).map(|k| law.quantile((f64::from(k) + 0.5) / 500.0)).collect()
+    }
+
+    #[test]
+    fn charts_draw_every_kind_of_sample() {
+        let cases = [normal(), vec![1e300, -1e300, 3e299], vec![2e-300, 1e-300], vec![0.0; 9], vec![7.0]];
+        for values in cases {
+            let svg = histogram_chart(&distribution(&values), "Distribution", "force").svg();
+            assert!(!svg.contains("NaN") && !svg.contains("inf"), "{svg}");
+            assert!(png(&svg).is_ok());
+        }
+        let svg = histogram_chart(&distribution(&normal()), "Distribution", "force").svg();
+        for text in ["2.5 % \u{2212}1.9", "median", "mean", "97.5 % 1.9", "95 % of the 500 values of force lie between"]
+        {
+            assert!(svg.contains(text), "{text}");
+        }
+    }
+}

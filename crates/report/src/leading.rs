@@ -1,0 +1,240 @@
+//! Which factor leads, as far as the intervals tell.
+
+use apportion::result::{IndexRecord, OutputResult, PairRecord, PlainIndexRecord};
+use apportion::special::normal_quantile;
+use apportion::text::listed;
+use apportion::uncertainty::{Estimate, Interval, LEVEL};
+
+use super::format::{chance, count, index, name};
+
+/// From this probability on a lead is taken for one.
+const SURE: f64 = 0.95;
+/// Most names in a sentence.
+const NAMES: usize = 6;
+
+/// One that may lead.
+#[derive(Debug, Clone)]
+pub(super) struct Contender {
+    /// Its name as it stands in a sentence.
+    pub label: String,
+    /// What decides: the total index, or another measure.
+    pub total: Estimate,
+    /// Probability that it is the largest, where it is known.
+    pub probability: Option<f64>,
+}
+
+impl Contender {
+    /// One of whose probability to be the largest nothing is known.
+    pub fn new(label: impl Into<String>, total: Estimate) -> Self {
+        Self { label: label.into(), total, probability: None }
+    }
+
+    /// A factor by what it is ranked by.
+    pub fn from_index(index: &IndexRecord) -> Self {
+        let probability = index.effect.probability_first;
+        Self { probability, ..Self::new(name(&index.factor), index.effect.weight()) }
+    }
+}
+
+/// The indices of an output with their places in the study, the largest total index first; `None` without any.
+pub(super) fn by_total(output: &OutputResult) -> Option<Vec<(usize, &IndexRecord)>> {
+    let mut order: Vec<(usize, &IndexRecord)> = output.indices.as_ref()?.iter().enumerate().collect();
+    order.sort_by(|a, b| b.1.effect.weight().estimate.total_cmp(&a.1.effect.weight().estimate));
+    (!order.is_empty()).then_some(order)
+}
+
+/// What estimates and intervals say of which contender is the largest, by numbers.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) enum Verdict {
+    /// There is no contender.
+    None,
+    /// It is the largest with a probability of 0.95 or more, or nothing is known of the errors.
+    Leads(usize),
+    /// These are indistinguishable within their errors, the largest estimate first.
+    Tied(Vec<usize>),
+}
+
+impl Verdict {
+    /// Contenders are tied with the largest estimate, where probabilities are known, if their own is 0.05 or more; otherwise
+    /// if their interval reaches its interval. So is every contender with a larger estimate than one of them.
+    pub fn new(contenders: &[Contender]) -> Self {
+        let mut order: Vec<usize> = (0..contenders.len()).collect();
+        order.sort_by(|&a, &b| contenders[b].total.estimate.total_cmp(&contenders[a].total.estimate));
+        let Some((&lead, rest)) = order.split_first() else { return Self::None };
+        let rivals = match (contenders[lead].probability, contenders[lead].total.interval) {
+            (Some(probability), _) if probability >= SURE => 0,
+            (Some(_), _) => {
+                let is_likely = |&k: &usize| contenders[k].probability.is_some_and(|chance| chance >= 1.0 - SURE);
+                // Unsure, and no other likely: the next one.
+                rest.iter().rposition(is_likely).map_or(1, |last| last + 1)
+            }
+            (None, Some(Interval { low, .. })) => {
+                let reaches = |&k: &usize| contenders[k].total.interval.is_some_and(|interval| interval.high >= low);
+                rest.iter().rposition(reaches).map_or(0, |last| last + 1)
+            }
+            (None, None) => 0,
+        };
+        order.truncate(1 + rivals);
+        if order.len() == 1 { Self::Leads(lead) } else { Self::Tied(order) }
+    }
+
+    /// Those that may be the largest, the largest estimate first.
+    pub fn leaders(&self) -> &[usize] {
+        match self {
+            Self::None => &[],
+            Self::Leads(lead) => std::slice::from_ref(lead),
+            Self::Tied(tied) => tied,
+        }
+    }
+}
+
+/// Which of these interactions are sure to exist, all of them together: of many intervals that each hold in 95 % one in forty would
+/// exclude 0 from below by chance, so each is widened by Bonferroni's rule (Dunn 1961), with the quantiles of the normal distribution.
+pub(super) fn surely_interact(pairs: &[PairRecord]) -> Vec<bool> {
+    let quantile = |number: f64| normal_quantile(1.0 - (1.0 - LEVEL) / (2.0 * number));
+    let ratio = quantile(pairs.len().max(1) as f64) / quantile(1.0);
+    let is_sure = |Estimate { estimate, interval }: Estimate| {
+        interval.is_some_and(|Interval { low, .. }| low > 0.0 && estimate - ratio * (estimate - low) > 0.0)
+    };
+    pairs.iter().map(|pair| is_sure(pair.index)).collect()
+}
+
+/// The measure that factors of an output are ranked by.
+pub(super) fn measure(output: &OutputResult) -> &'static str {
+    let is_shapley = |index: &IndexRecord| index.effect.dependent.is_some() && index.effect.shapley.is_some();
+    if output.indices.iter().flatten().any(is_shapley) { "Shapley effect" } else { "total index S_T" }
+}
+
+/// Which of several leads by a `measure`, in a sentence that begins with `of`, such as `For y`; `None` without any.
+pub(super) fn leader(contenders: &[Contender], of: &str, measure: &str, unit: &str) -> Option<String> {
+    let size = |contender: &Contender| format!("{} {unit}", index(contender.total)).trim_end().to_owned();
+    let verdict = Verdict::new(contenders);
+    let largest = &contenders[*verdict.leaders().first()?];
+    if largest.total.estimate <= 0.0 {
+        return Some(format!("{of}, no {measure} is above 0."));
+    }
+    Some(match verdict {
+        Verdict::None | Verdict::Leads(_) => {
+            // An estimated probability is never certain.
+            let chance = |p: f64| chance(Some(p.min(1.0 - f64::EPSILON))).replace('>', "more than ");
+            let sure = largest.probability.map(|p| format!(", the largest with a probability of {}", chance(p)));
+            let sure = sure.unwrap_or_default();
+            format!("{of}, {} matters most: its {measure} is {}{sure}.", largest.label, size(largest))
+        }
+        Verdict::Tied(tied) => {
+            let shown = tied.iter().take(NAMES).map(|&k| &contenders[k]);
+            let mut all: Vec<String> = shown.map(|one| format!("{} ({})", one.label, size(one))).collect();
+            all.extend((tied.len() > NAMES).then(|| format!("{} more", tied.len() - NAMES)));
+            format!("{of}, what matters most cannot be told apart, by the {measure}: {}.", listed(&all))
+        }
+    })
+}
+
+/// The same of the indices of an output, or why it has none.
+pub(super) fn leader_of(output: &OutputResult) -> String {
+    let contenders: Vec<Contender> = output.indices.iter().flatten().map(Contender::from_index).collect();
+    let sentence = leader(&contenders, &format!("For {}", name(&output.name)), measure(output), "");
+    sentence.unwrap_or_else(|| no_indices(output))
+}
+
+/// The same of several outputs together.
+pub(super) fn leader_of_all(indices: &[PlainIndexRecord], of: &str) -> Option<String> {
+    let contenders: Vec<Contender> =
+        indices.iter().map(|index| Contender::new(name(&index.factor), index.total)).collect();
+    leader(&contenders, of, "total index S_T", "")
+}
+
+/// Why an output has no indices.
+pub(super) fn no_indices(output: &OutputResult) -> String {
+    let reason = output.reason.as_deref().unwrap_or("the result holds none");
+    format!("There are no indices of {}: {reason}.", name(&output.name))
+}
+
+/// The first of these sentences, one for each output, and how many more there are.
+pub(super) fn first_answers(mut answers: Vec<String>) -> Vec<String> {
+    let more = answers.len().saturating_sub(NAMES);
+    answers.truncate(NAMES);
+    answers.extend((more > 0).then(|| format!("{} below.", count(more as u64, "more output", "more outputs"))));
+    answers
+}
+
+/// The outputs at these places by name, the first ones of many.
+pub(super) fn of_which(outputs: &[&str], places: &[usize]) -> String {
+    let mut names: Vec<String> = places.iter().take(NAMES).map(|&place| name(outputs[place])).collect();
+    names.extend((places.len() > NAMES).then(|| format!("{} more", places.len() - NAMES)));
+    match places.len() {
+        1 => names.concat(),
+        all if all == outputs.len() => format!("all {all} outputs"),
+        several => format!("{several} outputs: {}", listed(&names)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn record(low: f64, high: f64) -> Estimate {
+        Estimate { estimate: (low + high) / 2.0, interval: Some(Interval { low, high }) }
+    }
+
+    fn contender(label: &str, total: (f64, f64), probability: Option<f64>) -> Contender {
+        Contender { probability, ..Contender::new(label, record(total.0, total.1)) }
+    }
+
+    #[test]
+    fn a_tie_has_no_winner() {
+        let tie = [
+            contender("a", (0.4, 0.6), Some(0.45)),
+            contender("b", (0.42, 0.6), Some(0.53)),
+            contender("c", (0.0, 0.1), Some(0.02)),
+        ];
+        assert_eq!(Verdict::new(&tie), Verdict::Tied(vec![1, 0]));
+        let mut unknown = tie.to_vec();
+        unknown.iter_mut().for_each(|contender| contender.probability = None);
+        assert_eq!(Verdict::new(&unknown), Verdict::Tied(vec![1, 0]));
+        unknown.iter_mut().for_each(|contender| contender.total.interval = None);
+        assert_eq!(Verdict::new(&unknown), Verdict::Leads(1));
+        assert_eq!(Verdict::new(&[]), Verdict::None);
+        // Unsure, and no other likely: the next one.
+        let unsure = [contender("a", (0.5, 0.6), Some(0.93)), contender("b", (0.4, 0.5), Some(0.04))];
+        assert_eq!(Verdict::new(&unsure), Verdict::Tied(vec![0, 1]));
+    }
+
+    #[test]
+    fn none_outside_a_tie_has_a_larger_estimate_than_one_inside() {
+        let probabilities = [Some(0.9), Some(0.01), Some(0.07), Some(0.0)];
+        let contenders: Vec<Contender> = [(1.0, 2.0), (0.5, 1.5), (0.2, 0.8), (0.0, 0.1)]
+            .into_iter()
+            .zip(probabilities)
+            .map(|(total, probability)| contender("x", total, probability))
+            .collect();
+        assert_eq!(Verdict::new(&contenders), Verdict::Tied(vec![0, 1, 2]));
+        // By intervals: that of the second stays below, that of the third does not.
+        let mut by_interval = contenders.clone();
+        by_interval.iter_mut().for_each(|contender| contender.probability = None);
+        for (contender, high) in by_interval[1..].iter_mut().zip([0.99, 1.2]) {
+            contender.total.interval = contender.total.interval.map(|interval| Interval { high, ..interval });
+        }
+        assert_eq!(Verdict::new(&by_interval), Verdict::Tied(vec![0, 1, 2]));
+    }
+
+    #[test]
+    fn one_of_many_interactions_is_chance() {
+        let pairs = |number: usize| -> Vec<PairRecord> {
+            let pair = |k: usize| PairRecord {
+                factors: [format!("x{k}"), "z".to_owned()],
+                // Twice its half width from 0, and at 1.2 half widths.
+                index: if k == 0 { record(0.01, 0.03) } else { record(0.002, 0.022) },
+            };
+            (0..number).map(pair).collect()
+        };
+        assert_eq!(surely_interact(&pairs(2)), [true, true]);
+        // At 45 pairs 3.26 standard errors are wanted, at 435 there are 3.86.
+        assert_eq!(surely_interact(&pairs(45))[..2], [true, false]);
+        assert!(surely_interact(&pairs(435))[0]);
+        let unknown = Estimate::alone(0.5);
+        assert_eq!(surely_interact(&[PairRecord { factors: Default::default(), index: unknown }]), [false]);
+        let exact = PairRecord { factors: Default::default(), index: record(0.2, 0.2) };
+        assert_eq!(surely_interact(&[exact]), [true]);
+    }
+}

@@ -1,0 +1,38 @@
+//! Results as documents: [`run_document`] and its relatives make them, [`Artefacts`] writes their files.
+
+mod artefacts;
+mod atomic_write;
+pub mod chart;
+pub mod comparison;
+pub mod csv;
+pub mod document;
+mod factor_bars;
+mod file_names;
+pub mod format;
+pub mod given;
+mod histogram_chart;
+mod interval_widths;
+mod leading;
+mod run_charts;
+mod run_document;
+pub mod screening;
+mod study_sections;
+pub mod sweep;
+mod text_table;
+mod validity;
+
+pub use apportion::names::{file_part, refused_name};
+pub use apportion::text::{capitalised, listed};
+pub use artefacts::{ArtefactError, Artefacts, Written};
+pub use atomic_write::{WriteError, prepare_file, prepare_folder, stream_atomically, write_atomically};
+pub use chart::Chart;
+pub use document::Document;
+pub use factor_bars::{SharesSeries, shares_chart, study_chart};
+pub use file_names::{ChartFormat, file_stems};
+pub use format::{fixed, give_or_take, grouped, share, share_of_runs, significant, two_digits, with_unit};
+pub use histogram_chart::histogram_chart;
+pub use interval_widths::{indices_measured, widest_interval};
+pub use run_charts::{convergence_chart, distribution_chart, indices_chart, pairs_chart, scatter_chart};
+pub use run_document::{TRY, one_output, run_document};
+pub use study_sections::inputs;
+pub use text_table::{TextTable, table};

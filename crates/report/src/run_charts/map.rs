@@ -1,0 +1,129 @@
+//! Many outputs at a glance: a map of factors and outputs, and the bars of all outputs together.
+
+use apportion::result::{IndexRecord, PlainIndexRecord, StudyResult};
+use apportion::uncertainty::Estimate;
+
+use super::super::chart::{Axis, Chart, Colour, Panel, Series, Shape, Tile};
+use super::super::factor_bars::{MAX_BARS, not_drawn, pair_panel};
+use super::super::format::{fixed, index, name};
+
+/// Outputs of a map: of more, some are left out evenly.
+const ROWS: usize = 40;
+/// Factors of a map.
+const COLUMNS: usize = 12;
+/// Where the classes of shades begin; what is below the first is next to nothing.
+const CLASSES: [f64; 8] = [0.01, 0.05, 0.1, 0.2, 0.3, 0.5, 0.7, 0.9];
+
+/// Total and first-order indices of factors for every output, as shades: a row for each output (of more than 40, for as many
+/// of them evenly), a column for each factor in the order of the total indices over all outputs (of more than 12, the first).
+pub(crate) fn map_chart(result: &StudyResult) -> Chart {
+    let mut factors = overall_order(result);
+    factors.truncate(COLUMNS);
+    let all = result.outputs.len();
+    let step = all.div_ceil(ROWS).max(1);
+    let outputs: Vec<_> = result.outputs.iter().step_by(step).collect();
+    let panel = |title: &str, of: fn(&IndexRecord) -> Estimate| {
+        let mut tiles: Vec<(Option<usize>, Tile)> = Vec::new();
+        for (row, output) in outputs.iter().enumerate() {
+            for (column, &factor) in factors.iter().enumerate() {
+                let found = output.indices.as_ref().and_then(|all| all.get(factor)).map(of);
+                let found = found.filter(|index| index.estimate.is_finite());
+                let letter = found.map_or_else(|| "–".to_owned(), |found| short(found.estimate));
+                let tile = Tile { row, column, letter, tip: found.map_or_else(String::new, index) };
+                tiles.push((found.map(|found| class(found.estimate)), tile));
+            }
+        }
+        // The legend is in the order of the marks.
+        tiles.sort_by_key(|(class, tile)| (class.unwrap_or(usize::MAX), tile.row, tile.column));
+        let x = Axis::from_names("", factors.iter().map(|&factor| name(&result.factors[factor].name)).collect());
+        let y = Axis::from_names("", outputs.iter().map(|output| name(&output.name)).collect());
+        let marks = tiles.into_iter().map(|(class, tile)| series(class).mark(Shape::Tile(tile)));
+        Panel::new(x, y).titled(title).with(marks)
+    };
+    // The total indices stand above: they say whether a factor matters at all.
+    let panels = [
+        panel("Total indices S_T: with all interactions", |index| index.effect.total),
+        panel("First-order indices S_1: alone", |index| index.effect.first_order),
+    ];
+    let shown = if step > 1 { format!(" One of {step} outputs is drawn.") } else { String::new() };
+    let caption = format!("Indices of {all} outputs.{shown}{}", not_drawn(result.factors.len(), COLUMNS));
+    Chart::new(format!("{}: all outputs at a glance", result.study.headline()), caption).panels(panels)
+}
+
+/// The places of the factors by falling total index over all outputs together, or by their sum where there is none: the
+/// order of everything that is shown of many outputs.
+pub(crate) fn overall_order(result: &StudyResult) -> Vec<usize> {
+    let together = result.aggregate.as_ref().and_then(|aggregate| aggregate.indices.as_deref()).unwrap_or_default();
+    let known = result.outputs.iter().filter_map(|output| output.indices.as_ref());
+    let sum = |factor: usize| known.clone().filter_map(|all| Some(all.get(factor)?.effect.total.estimate)).sum::<f64>();
+    let key = |factor: usize| {
+        let own = together.iter().find(|index| index.factor == result.factors[factor].name);
+        own.map_or_else(|| sum(factor), |index| index.total.estimate)
+    };
+    let keys: Vec<f64> = (0..result.factors.len()).map(key).collect();
+    let mut order: Vec<usize> = (0..keys.len()).collect();
+    order.sort_by(|&a, &b| keys[b].total_cmp(&keys[a]));
+    order
+}
+
+pub(super) fn class(index: f64) -> usize {
+    CLASSES.iter().filter(|least| index >= **least).count()
+}
+
+/// The series of a class; `None` where there is no index.
+pub(super) fn series(class: Option<usize>) -> Series {
+    let Some(class) = class else { return Series::new("no indices", Colour::Series(10)) };
+    let name = match class {
+        0 => format!("below {}", CLASSES[0]),
+        _ if class == CLASSES.len() => format!("{} or more", CLASSES[class - 1]),
+        _ => format!("{} to {}", CLASSES[class - 1], CLASSES[class]),
+    };
+    Series::new(name, Colour::Shade(class))
+}
+
+/// An index in a cell: `.34`.
+pub(super) fn short(index: f64) -> String {
+    let text = fixed(index, 2);
+    match text.strip_prefix("0.") {
+        Some("00") => "0".to_owned(),
+        Some(digits) => format!(".{digits}"),
+        None => text.replace('-', "\u{2212}"),
+    }
+}
+
+/// First-order and total indices of all outputs together, the largest total index on top; of more than 20 factors, the
+/// first 20.
+pub(crate) fn together_chart(result: &StudyResult) -> Chart {
+    let indices = result.aggregate.as_ref().and_then(|aggregate| aggregate.indices.as_deref()).unwrap_or_default();
+    let factors: Vec<String> = result.factors.iter().map(|factor| name(&factor.name)).collect();
+    let of = |which: fn(&PlainIndexRecord) -> Estimate| -> Vec<Option<Estimate>> {
+        let find = |name: &str| indices.iter().find(|index| index.factor == name).map(which);
+        result.factors.iter().map(|factor| find(&factor.name)).collect()
+    };
+    let (first_order, total) = (of(|index| index.first_order), of(|index| index.total));
+    let keys: Vec<f64> = total.iter().map(|total| total.map_or(f64::NEG_INFINITY, |total| total.estimate)).collect();
+    let panel = pair_panel(factors, first_order, total, &keys);
+    let caption = match &result.aggregate {
+        Some(aggregate) if aggregate.indices.is_some() => {
+            let count = aggregate.outputs.len();
+            format!("Over {count} outputs: {}.{}", aggregate.weighting, not_drawn(result.factors.len(), MAX_BARS))
+        }
+        aggregate => {
+            let reason = aggregate.as_ref().and_then(|aggregate| aggregate.reason.as_deref());
+            format!("No indices of all outputs together: {}.", reason.unwrap_or("the result holds none"))
+        }
+    };
+    Chart::new(format!("{}: all outputs together", result.study.headline()), caption).panels([panel])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn classes_cover_every_index() {
+        assert_eq!([-0.2, 0.0, 0.01, 0.15, 0.9, 1.3].map(class), [0, 0, 1, 3, 8, 8]);
+        assert_eq!(series(Some(8)).name, "0.9 or more");
+        assert_eq!([0.001, 0.344, 0.999, -0.02, 1.2].map(short), ["0", ".34", "1.00", "\u{2212}0.02", "1.20"]);
+    }
+}

@@ -1,0 +1,94 @@
+//! The output over its most influential factors.
+
+use apportion::result::{FactorRecord, OutputResult, ScatterRecord, StudyResult};
+
+use super::super::chart::{Axis, Chart, Colour, Panel, Series, Shape, Spacing, Stroke};
+use super::super::factor_bars::not_drawn;
+use super::super::format::{axis_unit, name, words};
+use super::super::leading::no_indices;
+use super::categories::Categories;
+
+/// Where the median lies below this part of the largest value, a linear axis would press most points into its foot.
+const PRESSED: f64 = 0.02;
+
+/// The output against each of the factors with the largest total indices (at most six): some of the model runs as dots,
+/// and the mean of the output over slices of the factor, with its standard error, as a line with a band.
+pub fn scatter_chart(result: &StudyResult, output: &OutputResult) -> Chart {
+    let scatter = output.scatter.as_ref();
+    let y = Axis::new(words(&output.name), axis_unit(&output.unit)).spaced(scatter.map_or(Spacing::Linear, spacing));
+    let mut panels = scatter.map_or_else(Vec::new, |scatter| panels(result, output, scatter, &y));
+    if panels.is_empty() {
+        panels.push(Panel::new(Axis::default(), y));
+    }
+    let title = format!("{}: values of {} over its factors", result.study.headline(), name(&output.name));
+    let caption = scatter.map_or_else(|| no_indices(output), |scatter| caption(result, scatter));
+    Chart::new(title, caption).side_by_side().panels(panels)
+}
+
+fn panels(result: &StudyResult, output: &OutputResult, scatter: &ScatterRecord, y: &Axis) -> Vec<Panel> {
+    let runs = Series::new("model run", Colour::Series(0));
+    let panel = |(place, name): (usize, &String)| {
+        let record = result.factors.iter().find(|factor| factor.name == *name);
+        let index = output.indices.iter().flatten().find(|index| index.factor == *name);
+        let title = index.map_or_else(String::new, |index| {
+            let [first_order, total] = [index.effect.first_order, index.effect.total].map(|i| two(i.estimate));
+            format!("S_1 {first_order}, S_T {total}")
+        });
+        let dots = scatter.points.iter().filter_map(|point| Some((*point.get(place)?, *point.last()?)));
+        let means = scatter.conditional_means.iter().find(|means| means.factor == *name);
+        let categories = record.and_then(Categories::new);
+        let at = |x: f64| categories.as_ref().map_or(x, |categories| categories.place(x));
+        let (x, stroke) = match &categories {
+            // Names have no unit, and there is nothing between two of them.
+            Some(categories) => (Axis::from_names(words(name), categories.labels.clone()), Stroke::Points),
+            None => {
+                let unit = record.map_or_else(String::new, |factor| axis_unit(&factor.unit));
+                (Axis::new(words(name), unit).spaced(record.map_or(Spacing::Linear, factor_spacing)), Stroke::Solid)
+            }
+        };
+        let series = Series::new("mean over a slice of the factor", Colour::Reference).stroke(stroke);
+        let means = means.into_iter().flat_map(|means| {
+            let number = |list: &[Option<f64>], place: usize| list.get(place).copied().flatten().unwrap_or(f64::NAN);
+            let places = means.x.iter().map(|x| at(*x)).enumerate();
+            let band = places.clone().map(|(k, x)| (x, number(&means.low, k), number(&means.high, k))).collect();
+            [series.band(band), series.line(places.map(|(k, x)| (x, number(&means.mean, k))).collect())]
+        });
+        let dots = dots.map(|(x, y)| (at(x), y)).collect();
+        Panel::new(x, y.clone()).titled(title).with([runs.mark(Shape::Dots(dots))]).with(means.collect::<Vec<_>>())
+    };
+    scatter.factors.iter().enumerate().map(panel).collect()
+}
+
+/// An index with two decimals and a true minus sign.
+fn two(index: f64) -> String {
+    let text = format!("{index:.2}");
+    if text == "-0.00" { "0.00".to_owned() } else { text.replace('-', "\u{2212}") }
+}
+
+fn factor_spacing(factor: &FactorRecord) -> Spacing {
+    match factor.distribution.get("name").and_then(serde_json::Value::as_str) {
+        Some("log-uniform") => Spacing::Logarithmic,
+        _ => Spacing::Linear,
+    }
+}
+
+/// Logarithmic for positive values of which most would lie at the foot of a linear axis.
+fn spacing(scatter: &ScatterRecord) -> Spacing {
+    let mut values: Vec<f64> = scatter.points.iter().filter_map(|point| point.last().copied()).collect();
+    values.sort_by(f64::total_cmp);
+    let pressed = match (values.first(), values.get(values.len() / 2), values.last()) {
+        (Some(least), Some(median), Some(largest)) => *least > 0.0 && *median < PRESSED * largest,
+        _ => false,
+    };
+    if pressed { Spacing::Logarithmic } else { Spacing::Linear }
+}
+
+/// What the marks are, and which factors are left out.
+fn caption(result: &StudyResult, scatter: &ScatterRecord) -> String {
+    format!(
+        "Dots: {} of the model runs; line: mean over a slice of the factor, with 1.96 standard errors to both sides. The more \
+         of the dots' spread the line follows, the larger is the first-order index S_1.{}",
+        scatter.points.len(),
+        not_drawn(result.factors.len(), scatter.factors.len())
+    )
+}

@@ -1,0 +1,130 @@
+//! The charts of a run as figures, numbered through.
+
+use apportion::model::MIN_OUTPUTS_TOGETHER;
+use apportion::result::{OutputResult, StudyResult};
+
+use crate::chart::Chart;
+use crate::document::{Figure, Part};
+use crate::format::name as words;
+use crate::{
+    convergence_chart, distribution_chart, file_stems, indices_chart, pairs_chart, scatter_chart, study_chart,
+};
+
+/// A chart of an output.
+#[derive(Clone, Copy)]
+pub(super) struct Kind {
+    /// What the names of its files end in.
+    suffix: &'static str,
+    /// Its anchor.
+    name: &'static str,
+    draw: fn(&StudyResult, &OutputResult) -> Chart,
+    /// What the file with its numbers ends in.
+    data: &'static str,
+}
+
+pub(super) const SHARES: Kind = Kind { suffix: "", name: "shares", draw: study_chart, data: ".csv" };
+pub(super) const INDICES: Kind = Kind { suffix: "-indices", name: "indices", draw: indices_chart, data: ".csv" };
+pub(super) const SCATTER: Kind = Kind { suffix: "-scatter", name: "scatter", draw: scatter_chart, data: "" };
+pub(super) const DISTRIBUTION: Kind =
+    Kind { suffix: "-distribution", name: "distribution", draw: distribution_chart, data: "" };
+pub(super) const CONVERGENCE: Kind =
+    Kind { suffix: "-convergence", name: "convergence", draw: convergence_chart, data: "-convergence.csv" };
+pub(super) const PAIRS: Kind = Kind { suffix: "-pairs", name: "pairs", draw: pairs_chart, data: "-second-order.csv" };
+
+/// What the names of the charts of a series end in: its indices along the axis, and those of the whole.
+pub(super) const SERIES_SUFFIXES: [&str; 2] = ["-along", "-together"];
+
+/// What the files of the charts begin with.
+pub(super) struct Stems {
+    /// Of each output that belongs to no series, if they are few.
+    single: Vec<String>,
+    /// Of each series, with its endings.
+    pub series: Vec<[String; SERIES_SUFFIXES.len()]>,
+}
+
+impl Stems {
+    pub fn new(result: &StudyResult) -> Self {
+        let is_single = |place: usize| !result.series.iter().any(|series| series.places().contains(&place));
+        let single = result.outputs.iter().enumerate().filter(|(place, _)| is_single(*place));
+        let mut names: Vec<&str> = single.map(|(_, output)| output.name.as_str()).collect();
+        // Charts of all of many outputs together have names like those of an only series.
+        let is_many = names.len() >= MIN_OUTPUTS_TOGETHER;
+        if is_many {
+            names = vec!["outputs"];
+        }
+        let count = names.len();
+        names.extend(result.series.iter().map(|series| series.name.as_str()));
+        let kinds = [SHARES, INDICES, SCATTER, DISTRIBUTION, CONVERGENCE, PAIRS].map(|kind| kind.suffix);
+        let mut single = file_stems(&result.study.name, &names, &[&kinds[..], &SERIES_SUFFIXES[..]].concat());
+        let series = single.split_off(count);
+        let series = series.iter().map(|stem| SERIES_SUFFIXES.map(|suffix| format!("{stem}{suffix}")));
+        Self { single: if is_many { Vec::new() } else { single }, series: series.collect() }
+    }
+}
+
+/// Draws the figures of one output after the other.
+pub(super) struct Figures<'a> {
+    pub result: &'a StudyResult,
+    /// Of the files of each output.
+    stems: Vec<String>,
+    /// What the anchors of its figures begin with.
+    prefix: String,
+    /// Figures so far, with those before.
+    count: usize,
+}
+
+/// An output, and its number from 1.
+#[derive(Clone, Copy)]
+pub(super) struct Numbered<'a> {
+    pub output: &'a OutputResult,
+    pub number: usize,
+}
+
+impl Numbered<'_> {
+    /// Whether it is the first output: what holds for all is said there.
+    pub fn is_first(self) -> bool {
+        self.number == 1
+    }
+}
+
+impl<'a> Figures<'a> {
+    /// Of the outputs of `result`, behind so many figures.
+    pub fn new(result: &'a StudyResult, stems: Stems, before: usize) -> Self {
+        Self { result, stems: stems.single, prefix: String::new(), count: before }
+    }
+
+    /// Of the values of series number `number`, from 1.
+    pub fn of_series(result: &'a StudyResult, number: usize, before: usize) -> Self {
+        Self { result, stems: Vec::new(), prefix: format!("series-{number}-"), count: before }
+    }
+
+    /// Figures so far, with those before.
+    pub fn count(&self) -> usize {
+        self.count
+    }
+
+    /// A figure of several outputs, with the anchor `name` and its files called `stem`.
+    pub fn add(&mut self, chart: Chart, name: &str, stem: &str) -> Part {
+        let data = format!("{}.csv", self.result.study.name);
+        self.numbered(chart, name, (stem, data)).into()
+    }
+
+    /// The figure of that kind of an output.
+    pub fn draw(&mut self, of: Numbered<'_>, Kind { suffix, name, draw, data }: Kind) -> Part {
+        let stem = self.stems.get(of.number - 1).map_or_else(String::new, |stem| format!("{stem}{suffix}"));
+        let data = if data.is_empty() { String::new() } else { format!("{}{data}", self.result.study.name) };
+        let chart = draw(self.result, of.output);
+        let figure = self.numbered(chart, &format!("{}-{name}", of.number), (&stem, data));
+        match name {
+            "shares" => Figure { title: Some(format!("Shares of {}", words(&of.output.name))), ..figure }.into(),
+            _ => figure.into(),
+        }
+    }
+
+    fn numbered(&mut self, chart: Chart, name: &str, (stem, data): (&str, String)) -> Figure {
+        self.count += 1;
+        let figure = Figure::new(self.count, chart, stem, data);
+        let figure = Figure { id: format!("figure-{}{name}", self.prefix), ..figure };
+        figure.below(self.result.study.headline())
+    }
+}

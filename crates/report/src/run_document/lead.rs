@@ -1,0 +1,80 @@
+//! What a hurried reader should take along: which factor matters most, how sure that is, and what is warned of.
+
+use apportion::model::MIN_OUTPUTS_TOGETHER;
+use apportion::result::{OutputResult, StudyResult};
+use apportion::text::listed;
+
+use super::overview;
+use super::shared::complement;
+use super::warnings::grouped_warnings;
+use crate::format::{grouped, index, is_above_zero, name, percent, two_digits};
+use crate::interval_widths::{WIDE, indices_measured, widest_interval};
+use crate::leading::{Contender, Verdict, by_total, first_answers, leader_of};
+use crate::validity;
+
+/// The paragraphs at the top of the page: on every series, then on the `single` outputs, which belong to none.
+pub(super) fn lead(result: &StudyResult, single: &StudyResult) -> Vec<String> {
+    let series = result.series.iter().map(|series| super::series::answer(result, series));
+    let mut lead = first_answers(series.collect());
+    lead.extend(match single.outputs.len() {
+        ..MIN_OUTPUTS_TOGETHER => first_answers(single.outputs.iter().map(answer).collect()),
+        _ => overview::answers(single),
+    });
+    let failed = result.outputs.iter().map(|output| output.runs_failed).max().unwrap_or(0);
+    let warnings = grouped_warnings(&result.outputs).len();
+    let rest = [
+        Some(settled(result)),
+        validity::sentence(&result.validity),
+        validity::of_failures(failed, result.provenance.model_runs),
+        (warnings > 0)
+            .then(|| if warnings == 1 { "See the warning.".into() } else { format!("See {warnings} warnings.") }),
+    ];
+    lead.push(rest.into_iter().flatten().collect::<Vec<_>>().join(" "));
+    lead
+}
+
+/// Which factor matters most for an output, which come next, and how much is due to interactions.
+pub(super) fn answer(output: &OutputResult) -> String {
+    let order = by_total(output).unwrap_or_default();
+    let contenders: Vec<Contender> = order.iter().map(|(_, index)| Contender::from_index(index)).collect();
+    let leaders = Verdict::new(&contenders).leaders().len();
+    let next = order.iter().skip(leaders).take(2);
+    let next: Vec<String> =
+        next.map(|(_, next)| format!("{} ({})", name(&next.factor), index(next.effect.weight()))).collect();
+    let next = match next.len() {
+        0 => None,
+        1 => Some(format!("Next comes {}.", listed(&next))),
+        _ => Some(format!("Next come {}.", listed(&next))),
+    };
+    let sentences = [Some(leader_of(output)), next, super::noise::sentence(output), interactions(output)];
+    sentences.into_iter().flatten().collect::<Vec<_>>().join(" ")
+}
+
+/// What the first-order indices sum to, and how much of the variance is surely interaction.
+pub(super) fn interactions(output: &OutputResult) -> Option<String> {
+    let sum = output.sum_first_order?;
+    let rest = complement(sum);
+    let interaction = match is_above_zero(rest) {
+        true => format!(", so {} of the variance is interaction", percent(rest)),
+        false => String::new(),
+    };
+    Some(format!("The first-order indices sum to {}{interaction}.", index(sum)))
+}
+
+/// How well the indices are known, after how many runs.
+fn settled(result: &StudyResult) -> String {
+    let runs = grouped(result.provenance.model_runs);
+    let target = match result.stopping.as_ref().and_then(|stopping| stopping.target_met) {
+        Some(true) => "; the target is met",
+        Some(false) => "; the target is not met",
+        None => "",
+    };
+    match widest_interval(result) {
+        None => format!("The study took {runs} model runs; the error of the indices is unknown{target}."),
+        Some(widest) if widest < WIDE => {
+            let which = indices_measured(&result.outputs);
+            format!("After {runs} model runs {which} is known to ± {} or better{target}.", two_digits(widest))
+        }
+        Some(_) => format!("After {runs} model runs the intervals are too wide to tell the indices{target}."),
+    }
+}

@@ -1,0 +1,196 @@
+//! What the document says about one output, topic by topic.
+
+use apportion::result::{IndexRecord, OutputResult, SurrogateTrial};
+
+use super::figures::{CONVERGENCE, DISTRIBUTION, Figures, INDICES, Numbered, PAIRS, SCATTER, SHARES};
+use super::measures::measures;
+use super::noise::noise;
+use super::shared::{definitions, failed_runs};
+use super::warnings::grouped_warnings;
+use super::{lead, tables, values};
+use crate::document::Part;
+use crate::format::{among_with_unit, count, grouped, minus, name, share_of_runs, significant, two_digits};
+use crate::interval_widths::{WIDE, indices_measured, widest_of};
+use crate::leading::no_indices;
+
+/// A topic: a section of its own where there is one output, a part of the output's section where there are several.
+pub(super) struct Topic {
+    pub id: &'static str,
+    pub title: &'static str,
+    pub parts: Vec<Part>,
+}
+
+/// All topics of an output; those of which there is nothing to say are left out.
+pub(super) fn topics(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Topic> {
+    let (result, output) = (figures.result, of.output);
+    let topic = |id, title, parts| Topic { id, title, parts };
+    let is_only = result.outputs.len() == 1 && figures.count() == 0;
+    let mut topics = vec![topic("warnings", "Warnings", mind(output, is_only))];
+    if output.indices.is_some() {
+        topics.push(topic("indices", "Indices", indices(figures, of)));
+        topics.push(topic("shares", "Shares", shares(figures, of)));
+        topics.push(topic("noise", "The noise", noise(output)));
+        topics.push(topic("interactions", "Interactions", interactions(figures, of)));
+        topics.push(topic("measures", "Other measures", measures(output)));
+        topics.push(topic("convergence", "Convergence", convergence(figures, of)));
+    }
+    topics.push(topic("distribution", "Distribution of the output", distribution(figures, of)));
+    if output.scatter.is_some() {
+        topics.push(topic("scatter", "Scatter plots", vec![figures.draw(of, SCATTER)]));
+    }
+    topics.push(topic("surrogate", "Surrogate", surrogate(output)));
+    topics.push(topic("estimators", "Other estimators", estimators(output)));
+    topics.retain(|topic| !topic.parts.is_empty());
+    topics
+}
+
+/// Why there are no indices, what the run warns of (of one of several outputs it is said before), and which runs failed.
+fn mind(output: &OutputResult, is_only: bool) -> Vec<Part> {
+    let mut parts = Vec::new();
+    if output.indices.is_none() {
+        parts.push(Part::no_indices(no_indices(output)));
+    }
+    parts.extend(Part::warnings(&grouped_warnings(std::slice::from_ref(output))).filter(|_| is_only));
+    if output.runs_failed > 0 {
+        let all = output.runs_ok + output.runs_failed;
+        let share = share_of_runs(output.runs_failed as f64 / all as f64);
+        let (failed, all) = (grouped(output.runs_failed), count(all, "run", "runs"));
+        let points = count(output.base_points_used, "base point", "base points");
+        parts.push(Part::Text(format!("{failed} of {all} ({share}) had no value; {points} are left.")));
+    }
+    parts.extend(failed_runs(output));
+    parts
+}
+
+/// How well polynomials stand in for the model, what they gained, and what they consist of.
+fn surrogate(output: &OutputResult) -> Vec<Part> {
+    let Some(record) = &output.surrogate else {
+        let declined = |trial: SurrogateTrial| {
+            format!(
+                "The indices are plain ones: in a trial on {} runs, surrogates made errors {} times smaller, and all runs are \
+                 corrected from {} times on (`surrogate = \"on\"` corrects them all the same).",
+                grouped(trial.runs),
+                significant((trial.gain * 10.0).floor() / 10.0),
+                trial.needed
+            )
+        };
+        return output.surrogate_trial.map(declined).map(Part::Text).into_iter().collect();
+    };
+    let percent = |share: f64| significant((share * 1e4).floor() / 1e2);
+    let gain = |what: &str, corrected: bool, gain: Option<f64>| match gain.filter(|_| corrected) {
+        Some(gain) => format!("the {what} indices are as accurate as by {} times the runs", two_digits(gain)),
+        None if corrected => format!("the {what} indices are corrected by them"),
+        None => format!("the {what} indices are the plain ones, which are no less accurate"),
+    };
+    let mut text = format!(
+        "Polynomials with {:.0} terms, fitted to all replicates but one in turn, explain {} % of the variance of the other; {}; {}.",
+        record.terms,
+        percent(record.explained),
+        gain("first-order", record.corrects_first_order, record.gain_first_order),
+        gain("total", record.corrects_total, record.gain_total)
+    );
+    if let Some(low) = &record.low {
+        let explained = percent(low.explained.clamp(0.0, 1.0));
+        text.push_str(&format!(
+            " The low-fidelity model `{}` by itself explains {explained} %; the polynomials are those of the rest.",
+            low.name
+        ));
+    }
+    [vec![Part::Text(text)], values::surrogate(output, record)].concat()
+}
+
+fn shares(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
+    let any = |asked: fn(&IndexRecord) -> bool| of.output.indices.iter().flatten().any(asked);
+    let has_shapley = of.output.shapley_groups.is_some() || any(|index| index.effect.shapley.is_some());
+    let text = match has_shapley {
+        true => {
+            "Shapley effects share out the variance of the output whether or not factors depend on each other: each is the mean, \
+             over the orders of all, of what one adds to what those before it explain. They sum to 100 %."
+        }
+        false if any(|index| index.effect.dependent.is_some()) => {
+            let text = "The indices of factors that depend on each other share out nothing. Shapley effects do: shapley = true \
+                        in [analysis].";
+            return vec![Part::Text(text.to_owned())];
+        }
+        false => {
+            "A factor's share is its index in percent of the sum of the indices of all factors: of the first-order indices \
+             S_1, or of the total indices S_T."
+        }
+    };
+    let text = of.is_first().then(|| Part::OnPage(vec![Part::Text(text.to_owned())]));
+    let table = match has_shapley {
+        true => tables::players(of.output),
+        false => tables::shares(of.output)
+            .map(|table| Part::Details { summary: "The shares as numbers".to_owned(), parts: vec![table] }),
+    };
+    text.into_iter().chain([figures.draw(of, SHARES)]).chain(table).collect()
+}
+
+fn indices(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
+    let result = figures.result;
+    let mut parts = Vec::new();
+    if of.is_first() {
+        parts.extend(definitions(result));
+    }
+    parts.push(figures.draw(of, INDICES));
+    let tables =
+        [tables::indices(result, of.output), tables::groups(result, of.output), tables::subsets(result, of.output)];
+    parts.extend(tables.into_iter().flatten().map(Part::Table));
+    parts
+}
+
+fn interactions(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
+    let output = of.output;
+    let Some(text) = lead::interactions(output).filter(|_| output.indices.iter().flatten().count() > 1) else {
+        return Vec::new();
+    };
+    let mut parts = vec![Part::Text(text)];
+    if let Some(table) = tables::pairs(output) {
+        parts.extend([figures.draw(of, PAIRS), table.into()]);
+    }
+    parts
+}
+
+fn convergence(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
+    if of.output.convergence.is_empty() {
+        return Vec::new();
+    }
+    let width = widest_of(of.output).filter(|width| *width < WIDE).map(|width| {
+        let which = indices_measured(std::slice::from_ref(of.output));
+        Part::Text(format!("At the end {which} is known to ± {} or better.", two_digits(width)))
+    });
+    width.into_iter().chain([figures.draw(of, CONVERGENCE)]).collect()
+}
+
+fn distribution(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
+    let Some(table) = values::moments(of.output) else {
+        return vec![Part::Text(format!("There are no values of {} to show.", name(&of.output.name)))];
+    };
+    vec![Part::Text(range(of.output)), figures.draw(of, DISTRIBUTION), Part::OnPage(vec![table])]
+}
+
+/// Mean, standard deviation, and the range of most values.
+fn range(output: &OutputResult) -> String {
+    let sample = output.distribution.as_ref().map(|distribution| &distribution.sample);
+    let spread = sample.map_or(0.0, |sample| sample.spread());
+    let value = |x: f64| among_with_unit(x, spread, &output.unit);
+    let mut said = vec![format!("Mean {}", values::mean(output).unwrap_or_else(|| "unknown".to_owned()))];
+    said.extend(values::sd(output).map(|sd| format!("standard deviation {sd}")));
+    if let Some((sample, median)) = sample.and_then(|sample| Some((sample, sample.quantile(50.0)?))) {
+        let (whose, (low, high)) = match sample.central() {
+            Some(ends) => ("95 % of the values".to_owned(), ends),
+            None => (count(sample.count, "value", "values"), (sample.min, sample.max)),
+        };
+        said.push(format!("median {}", value(median)));
+        said.push(format!("{whose} from {} to {}", value(low), value(high)));
+    }
+    minus(&said.join(", ")) + "."
+}
+
+fn estimators(output: &OutputResult) -> Vec<Part> {
+    let parts = tables::estimators(output);
+    match parts.is_empty() {
+        true => parts,
+        false => vec![Part::Details { summary: "Indices by estimator".to_owned(), parts }],
+    }
+}

@@ -1,0 +1,129 @@
+//! What the document says of a series: its indices along the axis and as a whole.
+
+use apportion::result::{AggregateRecord, OutputResult, SeriesRecord, StudyResult};
+
+use super::figures::{Figures, SERIES_SUFFIXES};
+use super::overview;
+use super::shared::definitions;
+use crate::document::{Part, Section, Table};
+use crate::format::{heading, name};
+use crate::leading::leader_of_all;
+use crate::run_charts::{SeriesOf, along_chart, together_chart};
+
+/// Series with all their charts and a table of their values.
+const IN_FULL: usize = 4;
+
+/// How values are weighed against each other.
+const WEIGHTING: &str = "each value counts by its variance (Gamboa et al. 2014)";
+
+/// The values of `series` alone, as a result of its own.
+fn values_alone(of: SeriesOf<'_>) -> StudyResult {
+    let SeriesOf { result, series } = of;
+    let outputs = of.values().to_vec();
+    let aggregate = AggregateRecord {
+        outputs: outputs.iter().map(|output| output.name.clone()).collect(),
+        weighting: WEIGHTING.to_owned(),
+        indices: series.indices.clone(),
+        noise: None,
+        reason: series.reason.clone(),
+    };
+    with_outputs(result, outputs, Some(aggregate))
+}
+
+/// The outputs of `result` that belong to no series, as a result of its own.
+pub(super) fn single_outputs(result: &StudyResult) -> StudyResult {
+    let single = |place: usize| !result.series.iter().any(|series| series.places().contains(&place));
+    let outputs = result.outputs.iter().enumerate().filter(|(place, _)| single(*place));
+    with_outputs(result, outputs.map(|(_, output)| output.clone()).collect(), result.aggregate.clone())
+}
+
+/// `result` as if the study had the output or the series of that name alone; without a name, or where there is none of it, the
+/// first one.
+pub fn one_output(result: &StudyResult, name: Option<&str>) -> StudyResult {
+    let series = |found: &dyn Fn(&SeriesRecord) -> bool| result.series.iter().find(|series| found(series));
+    let place = name.and_then(|name| result.outputs.iter().position(|output| output.name == name));
+    let named = name.and_then(|name| series(&|series| series.name == name));
+    let first = || series(&|series| series.first_output == 0);
+    match named.or_else(|| if place.is_none() { first() } else { None }) {
+        Some(series) => StudyResult {
+            series: vec![SeriesRecord { first_output: 0, ..series.clone() }],
+            ..with_outputs(result, result.outputs[series.places()].to_vec(), None)
+        },
+        None => {
+            let place = place.unwrap_or(0);
+            with_outputs(result, result.outputs.get(place).cloned().into_iter().collect(), None)
+        }
+    }
+}
+
+/// The same with other outputs, none of which is a series.
+fn with_outputs(result: &StudyResult, outputs: Vec<OutputResult>, aggregate: Option<AggregateRecord>) -> StudyResult {
+    StudyResult {
+        format: result.format.clone(),
+        version: result.version,
+        study: result.study.clone(),
+        provenance: result.provenance.clone(),
+        factors: result.factors.clone(),
+        outputs,
+        validity: result.validity.clone(),
+        effort: result.effort.clone(),
+        aggregate,
+        series: Vec::new(),
+        stopping: result.stopping.clone(),
+        spending: result.spending.clone(),
+        lows: result.lows.clone(),
+    }
+}
+
+/// The sections of all series of `result`, and how many figures they have.
+pub(super) fn sections(result: &StudyResult, stems: &[[String; SERIES_SUFFIXES.len()]]) -> (Vec<Section>, usize) {
+    let (mut sections, mut figures) = (Vec::new(), 0);
+    for (number, series) in result.series.iter().enumerate() {
+        let of = SeriesOf { result, series };
+        let alone = values_alone(of);
+        let mut drawn = Figures::of_series(&alone, number + 1, figures);
+        let parts = match number {
+            ..IN_FULL => in_full(of, &mut drawn, &stems[number], number == 0),
+            _ => vec![overview::factors(&alone).into()],
+        };
+        figures = drawn.count();
+        let title = format!("{} along {}", heading(&series.name, &series.unit), name(&series.axis));
+        sections.push(Section::new(&format!("series-{}", number + 1), &title, parts));
+    }
+    (sections, figures)
+}
+
+fn in_full(
+    of: SeriesOf<'_>,
+    figures: &mut Figures<'_>,
+    [along, together]: &[String; SERIES_SUFFIXES.len()],
+    is_first: bool,
+) -> Vec<Part> {
+    let (alone, study) = (figures.result, &of.result.study.name);
+    let mut parts = overview::mind(alone);
+    if is_first {
+        parts.extend(definitions(of.result));
+        parts.push(Part::Text(format!("The indices of every value are in `{study}.csv`, all else in `{study}.json`.")));
+    }
+    parts.push(figures.add(along_chart(of), "along", along));
+    parts.push(Part::Heading("As a whole".to_owned()));
+    let reason = of.series.reason.as_ref();
+    parts.extend(reason.map(|reason| Part::no_indices(format!("There are no indices of the whole series: {reason}."))));
+    let mut chart = together_chart(alone);
+    chart.set_title(chart.title().replace("all outputs together", &format!("{} as a whole", name(&of.series.name))));
+    parts.push(figures.add(chart, "together", together));
+    let caption = "Indices of the whole series, for how many of its values a factor surely matters most, and the median and \
+                   largest of its total indices.";
+    parts.push(Table { caption: caption.to_owned(), ..overview::factors(alone) }.into());
+    parts.push(overview::every_output(alone));
+    parts
+}
+
+/// The paragraph at the top on a series: who leads over all of it.
+pub(super) fn answer(result: &StudyResult, series: &SeriesRecord) -> String {
+    let label = name(&series.name);
+    let whole = format!("For {label} as a whole ({} values)", SeriesOf { result, series }.values().len());
+    let sentence = series.indices.as_ref().and_then(|indices| leader_of_all(indices, &whole));
+    let reason = || series.reason.as_deref().unwrap_or("the result holds none");
+    sentence.unwrap_or_else(|| format!("There are no indices of {label} as a whole: {}.", reason()))
+}

@@ -1,0 +1,43 @@
+//! Parts that sections of one output and of many share.
+
+use apportion::result::{OutputResult, StudyResult};
+use apportion::uncertainty::{Estimate, Interval};
+
+use crate::document::Part;
+use crate::study_sections::{failures, inputs};
+
+/// Why runs of an output failed.
+pub(super) fn failed_runs(output: &OutputResult) -> Option<Part> {
+    let failed = output.failures.iter();
+    failures(failed.map(|f| (&*f.reason, format!("row {}: {}", f.first_row, inputs(&f.first_inputs)), f.runs)))
+}
+
+/// What the columns of the tables of indices mean, and what the intervals are.
+pub(super) fn definitions(result: &StudyResult) -> [Part; 2] {
+    let threshold = result.provenance.threshold;
+    let indices = match result.study.dependences.is_empty() {
+        true => format!(
+            "S_1: share of the variance explained by the factor alone. S_T: share explained by the factor and all its \
+             interactions. P(largest): probability that the total index of the factor is the largest. P(S_T > {threshold}): \
+             probability that it exceeds {threshold}."
+        ),
+        false => {
+            "Factors depend on each other. S_1: share of the variance explained by the factor, including what it shares with \
+             others. S_T: share that remains if all other factors are known (Kucherenko, Tarantola and Annoni 2012). The other \
+             two are S_1 of the part that is independent of the others, and S_T including what it shares with them (Mara, \
+             Tarantola and Annoni 2015)."
+                .to_owned()
+        }
+    };
+    let intervals = match &result.provenance.interval {
+        Some(words) => format!("Intervals (±): {words}."),
+        None => "There are no intervals: a single replicate says nothing about its error.".to_owned(),
+    };
+    [Part::OnPage(vec![Part::Text(indices)]), Part::Text(intervals)]
+}
+
+/// What a part leaves of 1, with the interval that follows from its own.
+pub(super) fn complement(part: Estimate) -> Estimate {
+    let interval = part.interval.map(|Interval { low, high }| Interval { low: 1.0 - high, high: 1.0 - low });
+    Estimate { estimate: 1.0 - part.estimate, interval }
+}

@@ -1,0 +1,313 @@
+//! The tables of one output, and the files of CSV that hold more than they show.
+
+use apportion::model::MIN_OUTPUTS_TOGETHER;
+use apportion::result::{
+    AggregateRecord, OtherIndexRecord, OutputResult, PairRecord, PlainIndexRecord, PlayerRecord, StudyResult,
+};
+use apportion::uncertainty::{EffectEstimates, Estimate};
+
+use crate::document::{Cell, Part, Rows, Table, csv};
+use crate::format::{chance, name, share};
+use crate::leading::{by_total, surely_interact};
+
+/// Factors in a table; the files have all of them.
+pub(super) const FACTORS: usize = 50;
+/// What the caption says of the others.
+pub(super) const IN_CSV: &str = "factors, all in the CSV file";
+/// Pairs of factors in a table.
+const PAIRS: usize = 20;
+/// Factors in a table of estimators.
+pub(super) const FACTORS_OF_ESTIMATORS: usize = 20;
+
+/// A line of a table of indices.
+struct Line<'a> {
+    kind: &'static str,
+    label: String,
+    name: String,
+    first_order: Estimate,
+    total: Estimate,
+    /// All indices; over several outputs together there are these two alone.
+    effect: Option<&'a EffectEstimates>,
+    shapley: Option<Estimate>,
+}
+
+impl<'a> Line<'a> {
+    fn new(kind: &'static str, label: String, name: impl Into<String>, effect: &'a EffectEstimates) -> Self {
+        let EffectEstimates { first_order, total, shapley, .. } = *effect;
+        Self { kind, label, name: name.into(), first_order, total, effect: Some(effect), shapley }
+    }
+
+    /// With the Shapley effect of a group, or of a factor without one, where these are the players.
+    fn with_player(self, output: &OutputResult, factors: &[String]) -> Self {
+        let mut players = output.shapley_groups.iter().flatten();
+        let found = players.find(|record| record.player == self.name && record.factors == factors);
+        Self { shapley: found.map(|record| record.shapley).or(self.shapley), ..self }
+    }
+
+    /// A line of indices over several outputs together.
+    fn plain(label: String, index: &PlainIndexRecord) -> Self {
+        let PlainIndexRecord { ref factor, first_order, total } = *index;
+        Self { kind: "aggregate", label, name: factor.clone(), first_order, total, effect: None, shapley: None }
+    }
+
+    fn estimate(&self, of: fn(&EffectEstimates) -> Option<Estimate>) -> Option<Estimate> {
+        self.effect.and_then(of)
+    }
+
+    fn probability(&self, of: fn(&EffectEstimates) -> Option<f64>) -> Option<f64> {
+        self.effect.and_then(of)
+    }
+}
+
+/// A table of indices, of which those over several outputs together show the first two only.
+fn effects<'a>(
+    result: &StudyResult,
+    output: &str,
+    caption: &str,
+    what: &str,
+    lines: &'a [Line<'a>],
+) -> Rows<&'a Line<'a>> {
+    // All outputs are alike.
+    let index = result.outputs.iter().find_map(|output| output.indices.as_ref()?.first());
+    let is_dependent = index.is_some_and(|index| index.effect.dependent.is_some());
+    let is_of_one = lines.iter().all(|line| line.effect.is_some());
+    // The difference of indices of dependent factors shows no interactions, and what exceeds a threshold is not what is ranked.
+    let is_independent = is_of_one && !is_dependent;
+    let chance = |probability| chance(probability).replace('-', "–");
+    let mut rows = Table::from_rows(caption, lines)
+        .file("output", |_| output)
+        .file("kind", |line| line.kind)
+        .text(what, |line| &line.label)
+        .value("name", |line| &line.name)
+        .index("S_1", "first_order", |line| Some(line.first_order))
+        .index("S_T", "total", |line| Some(line.total))
+        .file_estimate("share_first_order", |line| line.estimate(EffectEstimates::first_order_percent))
+        .file_estimate("share_total", |line| line.estimate(EffectEstimates::total_percent))
+        .index("S_T − S_1", "interaction", |line| line.estimate(|effect| effect.interaction))
+        .shown(is_independent)
+        .number("P(largest)", |line| chance(line.probability(|effect| effect.probability_first)))
+        .value("probability_first", |line| line.probability(|effect| effect.probability_first))
+        .shown(is_independent)
+        .number(format!("P(S_T > {})", result.provenance.threshold), |line| {
+            chance(line.probability(|effect| effect.probability_above_threshold))
+        })
+        .value("probability_above_threshold", |line| line.probability(|effect| effect.probability_above_threshold))
+        .shown(is_independent);
+    if is_dependent {
+        rows = rows
+            .index("S_1 given the others", "independent_first_order", |line| {
+                line.estimate(|effect| Some(effect.dependent?.independent_first_order))
+            })
+            .shown(is_of_one)
+            .index("S_T with the others", "full_total", |line| {
+                line.estimate(|effect| Some(effect.dependent?.full_total))
+            })
+            .shown(is_of_one);
+    }
+    let has_players = result.outputs.iter().any(|output| output.shapley_groups.is_some());
+    if has_players || index.is_some_and(|index| index.effect.shapley.is_some()) {
+        rows = rows.index("Shapley effect", "shapley", |line| line.shapley).shown(is_of_one);
+    }
+    rows
+}
+
+/// What the noise of that name is called.
+fn of_noise(noise: &str) -> String {
+    format!("noise ({})", name(noise))
+}
+
+/// First-order and total indices of the factors, the largest total index first.
+pub(super) fn indices(result: &StudyResult, output: &OutputResult) -> Option<Table> {
+    let order = by_total(output)?;
+    let factors = output.indices.iter().flatten().map(|index| {
+        let line = Line::new("factor", name(&index.factor), &index.factor, &index.effect);
+        line.with_player(output, std::slice::from_ref(&index.factor))
+    });
+    let noise = output.noise.iter();
+    let noise = noise.map(|noise| Line::new("noise", of_noise(&noise.name), &noise.name, &noise.effect));
+    let lines: Vec<Line<'_>> = factors.chain(noise).collect();
+    let caption = "First-order index S_1 and total index S_T, each with the half width of its 95 % interval, the largest S_T first.";
+    let mut rows = effects(result, &output.name, caption, "factor", &lines);
+    // Indices of dependent factors sum to nothing.
+    if let Some((first_order, total)) = output.sum_first_order.zip(output.sum_total) {
+        let sums = [Cell::default(), Cell::default(), "sum of all factors".into(), first_order.into(), total.into()];
+        rows = rows.sums(sums);
+    }
+    let mut table: Table = rows.largest(order.iter().map(|(place, _)| *place), FACTORS, IN_CSV).into();
+    table.printed.iter_mut().for_each(|printed| printed.extend(order.len()..lines.len()));
+    Some(table)
+}
+
+/// The indices of all outputs: of factors and groups, then of subsets and the dummy factor, then those of several together.
+pub(super) fn indices_csv(result: &StudyResult) -> String {
+    // Each table is made when it is written: there may be thousands.
+    let outputs = || result.outputs.iter();
+    let first = outputs().flat_map(|output| indices(result, output).into_iter().chain(groups(result, output)));
+    let then = outputs().filter_map(|output| subsets(result, output));
+    let aggregate = result.aggregate.iter().filter_map(|record| Some((record, record.indices.as_ref()?)));
+    let aggregate = aggregate.map(|(record, indices)| aggregate_of(result, record, indices));
+    let series = result.series.iter().filter_map(|series| {
+        let indices = series.indices.as_ref()?;
+        let (outputs, weighting) = (vec![series.name.clone()], String::new());
+        let record = AggregateRecord { outputs, weighting, indices: None, noise: None, reason: None };
+        Some(aggregate_of(result, &record, indices))
+    });
+    let header = std::iter::once(effects(result, "", "", "", &[]).into());
+    csv(header.chain(first).chain(then).chain(aggregate).chain(series))
+}
+
+/// The second-order indices of all outputs.
+pub(super) fn pairs_csv(result: &StudyResult) -> String {
+    let header = std::iter::once(pairs_table("", Vec::new()).into());
+    csv(header.chain(result.outputs.iter().filter_map(pairs)))
+}
+
+/// Shares in percent, the largest share of the total indices first.
+pub(super) fn shares(output: &OutputResult) -> Option<Part> {
+    let caption = "Shares in percent of the sums of the indices of all factors, with their 95 % intervals.";
+    let table = Table::from_rows(caption, by_total(output)?)
+        .text("factor", |(_, index)| name(&index.factor))
+        .number("of the sum of S_1", |(_, index)| share(index.effect.first_order_percent()))
+        .number("of the sum of S_T", |(_, index)| share(index.effect.total_percent()));
+    Some(table.first(FACTORS, IN_CSV).into())
+}
+
+/// Joint indices of groups of factors.
+pub(super) fn groups(result: &StudyResult, output: &OutputResult) -> Option<Table> {
+    let lines = output.groups.iter().flatten().map(|group| {
+        let label = format!("{}: {}", name(&group.group), joined(&group.factors));
+        Line::new("group", label, &group.group, &group.effect).with_player(output, &group.factors)
+    });
+    let caption = "Joint indices of groups of the factors: S_1 includes the interactions inside them.";
+    joint(result, output, caption, lines.collect())
+}
+
+/// Joint indices of subsets of factors, and those of the dummy factor.
+pub(super) fn subsets(result: &StudyResult, output: &OutputResult) -> Option<Table> {
+    let subsets = output.subsets.iter().flatten();
+    let lines =
+        subsets.map(|subset| Line::new("subset", joined(&subset.factors), subset.factors.join(" + "), &subset.effect));
+    let label = || "dummy, which does nothing".to_owned();
+    let dummy = output.dummy.iter().map(|effect| Line::new("dummy", label(), "dummy", effect));
+    let caption = match output.dummy {
+        Some(_) => "Joint indices of subsets, and of a factor that does nothing: what is not 0 there is error.",
+        None => "Joint indices of subsets of the factors: S_1 includes the interactions inside them.",
+    };
+    joint(result, output, caption, lines.chain(dummy).collect())
+}
+
+fn joined(factors: &[String]) -> String {
+    factors.iter().map(|factor| name(factor)).collect::<Vec<_>>().join(" + ")
+}
+
+fn joint(result: &StudyResult, output: &OutputResult, caption: &str, lines: Vec<Line<'_>>) -> Option<Table> {
+    let table: Table = effects(result, &output.name, caption, "factors", &lines).into();
+    (!lines.is_empty()).then_some(Table { printed: Some((0..lines.len().min(FACTORS)).collect()), ..table })
+}
+
+/// The Shapley effects of groups, the largest first.
+pub(super) fn players(output: &OutputResult) -> Option<Part> {
+    let players = output.shapley_groups.as_ref().filter(|players| !players.is_empty())?;
+    let mut order: Vec<&PlayerRecord> = players.iter().collect();
+    order.sort_by(|a, b| b.shapley.estimate.total_cmp(&a.shapley.estimate));
+    let table = Table::from_rows("Shapley effects of groups of factors.", order)
+        .text("group", |player| name(&player.player))
+        .text("factors", |player| joined(&player.factors))
+        .number("Shapley effect", |player| player.shapley);
+    Some(table.first(FACTORS, "groups, all in the CSV file").into())
+}
+
+/// The largest second-order indices.
+pub(super) fn pairs(output: &OutputResult) -> Option<Table> {
+    let pairs = output.second_order.as_ref().filter(|pairs| !pairs.is_empty())?;
+    let mut order: Vec<usize> = (0..pairs.len()).collect();
+    order.sort_by(|&a, &b| pairs[b].index.estimate.total_cmp(&pairs[a].index.estimate));
+    let rows = pairs_table(&output.name, pairs.iter().zip(surely_interact(pairs)).collect());
+    Some(rows.largest(order, PAIRS, "pairs, all in the CSV file").into())
+}
+
+/// Pairs, and whether their interaction is sure.
+fn pairs_table<'a>(output: &str, pairs: Vec<(&'a PairRecord, bool)>) -> Rows<(&'a PairRecord, bool)> {
+    let caption = "Second-order indices: what two factors do together beyond what each does alone.";
+    Table::from_rows(caption, pairs)
+        .text("pair", |(pair, _)| pair.factors.each_ref().map(|factor| name(factor)).join(" × "))
+        .text("interaction seen", |(pair, is_sure)| match pair.index.interval {
+            _ if is_sure => "yes",
+            Some(interval) if interval.low > 0.0 => "may be chance: one of many pairs",
+            Some(_) => "no",
+            None => "unknown",
+        })
+        .file("output", |_| output)
+        .file("factor_1", |(pair, _)| &pair.factors[0])
+        .file("factor_2", |(pair, _)| &pair.factors[1])
+        .index("S_2", "second_order", |(pair, _)| Some(pair.index))
+}
+
+/// First-order, then total indices by the other estimators, with the default ones.
+pub(super) fn estimators(output: &OutputResult) -> Vec<Part> {
+    let Some(order) = by_total(output) else { return Vec::new() };
+    type Of = fn(&OtherIndexRecord) -> Option<Estimate>;
+    type Default = fn(&EffectEstimates) -> Estimate;
+    let kinds: [(&str, Of, Default); 2] = [
+        ("First-order indices S_1 by estimator.", |other| other.first_order, |effect| effect.first_order),
+        ("Total indices S_T by estimator.", |other| other.total, |effect| effect.total),
+    ];
+    let table = |(caption, of, default): (&str, Of, Default)| {
+        let has = |index: &OtherIndexRecord| of(index).is_some();
+        let mut records = output.estimators.iter().filter(|record| record.indices.iter().any(has)).peekable();
+        records.peek()?;
+        let rows = Table::from_rows(caption, order.iter().copied())
+            .text("factor", |(_, index)| name(&index.factor))
+            .number("default", |(_, index)| default(&index.effect));
+        let rows = records.fold(rows, |rows, record| {
+            rows.number(&record.estimator, |(number, _)| record.indices.get(number).and_then(of))
+        });
+        Some(rows.first(FACTORS_OF_ESTIMATORS, IN_CSV).into())
+    };
+    kinds.into_iter().filter_map(table).collect()
+}
+
+/// Indices over all outputs together.
+pub(super) fn aggregate_of(result: &StudyResult, record: &AggregateRecord, indices: &[PlainIndexRecord]) -> Table {
+    // The noise is one more line.
+    let noise = record.noise.iter().map(|noise| Line::plain(of_noise(&noise.factor), noise));
+    let lines: Vec<Line<'_>> =
+        indices.iter().map(|index| Line::plain(name(&index.factor), index)).chain(noise).collect();
+    let mut order: Vec<usize> = (0..lines.len()).collect();
+    order.sort_by(|&a, &b| lines[b].total.estimate.total_cmp(&lines[a].total.estimate));
+    // The names of hundreds, in every line, would be most of the file.
+    let outputs = match record.outputs.len() {
+        ..MIN_OUTPUTS_TOGETHER => record.outputs.join(" + "),
+        all if all == result.outputs.len() => "all outputs".to_owned(),
+        _ => "all outputs that are no series".to_owned(),
+    };
+    let rows = effects(result, &outputs, "Aggregated indices of all outputs.", "factor", &lines);
+    rows.largest(order, FACTORS, IN_CSV).into()
+}
+
+/// The indices by the other estimators: a line per output, estimator and factor, group, subset or dummy.
+pub(super) fn estimators_csv(result: &StudyResult) -> String {
+    let records = result.outputs.iter().flat_map(|output| output.estimators.iter().map(move |record| (output, record)));
+    let rows = records.flat_map(|(output, record)| record.indices.iter().map(move |index| (output, record, index)));
+    Table::from_rows("", rows)
+        .file("output", |(output, ..)| &output.name)
+        .file("estimator", |(_, record, _)| &record.estimator)
+        .file("name", |(.., index)| &index.name)
+        .file_estimate("first_order", |(.., index)| index.first_order)
+        .file_estimate("total", |(.., index)| index.total)
+        .csv()
+}
+
+/// The indices at every stage of the run: a line per output, number of base samples and factor.
+pub(super) fn convergence_csv(result: &StudyResult) -> String {
+    let stages = result.outputs.iter().flat_map(|output| output.convergence.iter().map(move |stage| (output, stage)));
+    let rows = stages.flat_map(|(output, stage)| stage.indices.iter().map(move |index| (output, stage, index)));
+    Table::from_rows("", rows)
+        .file("output", |(output, ..)| &output.name)
+        .file("base_samples", |(_, stage, _)| stage.base_samples)
+        .file("model_runs", |(_, stage, _)| stage.model_runs)
+        .file("factor", |(.., index)| &index.factor)
+        .file_estimate("first_order", |(.., index)| Some(index.first_order))
+        .file_estimate("total", |(.., index)| Some(index.total))
+        .csv()
+}

@@ -1,0 +1,34 @@
+//! Warnings of several outputs, each kind once.
+
+use apportion::result::{OutputResult, Warning};
+
+use crate::leading::of_which;
+
+/// What is warned of, a sentence for each kind in the order of the first time: the first warning of a kind, its outputs if
+/// there are several in all, and how many more of the kind the file has.
+pub(super) fn grouped_warnings(outputs: &[OutputResult]) -> Vec<String> {
+    type Group<'a> = (&'a str, Vec<(usize, &'a Warning)>);
+    let mut groups: Vec<Group<'_>> = Vec::new();
+    for (place, output) in outputs.iter().enumerate() {
+        for warning in output.warnings.iter() {
+            match groups.iter_mut().find(|(known, _)| *known == warning.code()) {
+                Some((_, all)) => all.push((place, warning)),
+                None => groups.push((warning.code(), vec![(place, warning)])),
+            }
+        }
+    }
+    let names: Vec<&str> = outputs.iter().map(|output| output.name.as_str()).collect();
+    let sentence = |(_, all): &Group<'_>| {
+        let mut text = all[0].1.to_string();
+        let mut places: Vec<usize> = all.iter().map(|(place, _)| *place).collect();
+        places.dedup();
+        if outputs.len() > 1 {
+            text.push_str(&format!(" ({})", of_which(&names, &places)));
+        }
+        if all.len() > places.len() {
+            text.push_str(&format!("; {} more like it in the JSON file", all.len() - places.len()));
+        }
+        text
+    };
+    groups.iter().map(sentence).collect()
+}

@@ -1,0 +1,146 @@
+//! The screening file: JSON that other programs can rely on.
+//!
+//! Format `apportion-screening`, version 1, described key by key in `docs/screening-format.md`. Later versions of the
+//! program only add keys. A number that does not exist is `null`.
+
+use apportion::analysis::{study_setup, validity};
+use apportion::design::Sampler;
+use apportion::model::Model;
+use apportion::result::{RunFacts, StudySetup, ValidityRecord};
+use apportion::screening::{
+    DERIVATIVE_STEP, FIXABLE, MIN_STEP, ScreenedOutput, Screening, ScreeningDesign, poincare_constant,
+};
+use apportion::space::{Distribution, Factor};
+use apportion::study::Study;
+use serde::{Deserialize, Serialize};
+
+use super::super::with_unit;
+
+/// A whole screening.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ScreeningFile {
+    /// Always `apportion-screening`.
+    pub format: String,
+    /// Version of the format.
+    pub version: u32,
+    /// What was asked.
+    pub study: StudySetup,
+    /// How it was answered.
+    pub provenance: ScreeningProvenance,
+    /// The outputs in the order of the study.
+    pub outputs: Vec<ScreenedOutput>,
+    /// Rows on which the model's assumptions do not hold; the rows count all the same.
+    pub validity: Vec<ValidityRecord>,
+    /// What a careful reader should know, in sentences.
+    pub notes: Vec<String>,
+}
+
+/// How a screening was made.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ScreeningProvenance {
+    /// Version of the program.
+    pub apportion_version: String,
+    /// `radial`, `trajectory` or `derivative`.
+    pub design: String,
+    /// Where the points of a radial or derivative design come from; `null` for trajectories.
+    pub sampler: Option<String>,
+    /// Levels of the grid of a trajectory design; `null` for others.
+    pub levels: Option<u32>,
+    /// Shortest step of a radial design, as a part of the range; `null` for others.
+    pub shortest_step: Option<f64>,
+    /// Longest step of a derivative design, as a part of the range; absent for others.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub derivative_step: Option<f64>,
+    /// Trajectories r.
+    pub trajectories: u64,
+    /// Independent parts that the intervals rest on.
+    pub parts: u64,
+    /// Seed of the design.
+    pub seed: u64,
+    /// Runs of the model, r (d + 1).
+    pub model_runs: u64,
+    /// Runs that failed in at least one output.
+    pub failed_runs: u64,
+    /// Threads used.
+    pub threads: usize,
+    /// Seconds from the first run to the last.
+    pub wall_seconds: f64,
+    /// What the intervals are, in words.
+    pub interval: String,
+    /// When a factor is said to be one that could be fixed: the upper bound of mu* below this part of the largest mu*.
+    pub fixable_below: f64,
+}
+
+/// The file of a screening of `study`, whose model is `model`.
+pub fn build_screening(study: &Study, model: &dyn Model, screening: &Screening, facts: RunFacts) -> ScreeningFile {
+    ScreeningFile {
+        format: "apportion-screening".to_owned(),
+        version: 1,
+        study: study_setup(study),
+        provenance: provenance(screening, facts),
+        outputs: screening.outputs.clone(),
+        validity: validity(model.flags().iter().zip(screening.flags.iter().copied()), screening.runs),
+        notes: notes(study, screening.settings.design),
+    }
+}
+
+fn provenance(screening: &Screening, facts: RunFacts) -> ScreeningProvenance {
+    let Screening { settings, parts, .. } = *screening;
+    let (sampler, is_radial) = (settings.design.sampler(), matches!(settings.design, ScreeningDesign::Radial { .. }));
+    let levels = if let ScreeningDesign::Trajectory { levels } = settings.design { Some(levels) } else { None };
+    let what = match sampler {
+        Some(Sampler::Sobol | Sampler::LatinHypercube) => "randomisations of the design",
+        _ if parts == settings.trajectories => "trajectories",
+        _ => "equal parts of the trajectories",
+    };
+    ScreeningProvenance {
+        apportion_version: env!("CARGO_PKG_VERSION").to_owned(),
+        design: settings.design.name().to_owned(),
+        sampler: sampler.map(|sampler| sampler.name().to_owned()),
+        levels,
+        shortest_step: is_radial.then_some(MIN_STEP),
+        derivative_step: (sampler.is_some() && !is_radial).then_some(DERIVATIVE_STEP),
+        trajectories: settings.trajectories,
+        parts,
+        seed: settings.seed,
+        model_runs: screening.runs,
+        failed_runs: screening.failed,
+        threads: facts.threads,
+        wall_seconds: facts.wall_seconds,
+        interval: format!("95 % t-interval (delete-one jackknife) from {parts} independent {what}"),
+        fixable_below: FIXABLE,
+    }
+}
+
+fn notes(study: &Study, design: ScreeningDesign) -> Vec<String> {
+    let with_law = |factor: &Factor| format!("{} ({})", factor.name, factor.distribution().name());
+    let with_value =
+        |factor: &Factor| format!("{} = {}", factor.name, with_unit(factor.nominal, factor.unit().symbol()));
+    // A note about the factors of which something holds, if there are any.
+    let about = |text: &str, holds: &dyn Fn(&Distribution) -> bool, said: &dyn Fn(&Factor) -> String| {
+        let factors = study.space().factors().iter().filter(|factor| holds(factor.distribution()));
+        let factors: Vec<String> = factors.map(said).collect();
+        (!factors.is_empty()).then(|| format!("{text} {}", factors.join(", ")))
+    };
+    let mut notes = Vec::new();
+    if matches!(design, ScreeningDesign::Derivative { .. }) {
+        notes.push(
+            "derivatives see the base points and nothing between them: a model with jumps has no bounds, and a steep place that is \
+             narrower than the points are apart is missed"
+                .to_owned(),
+        );
+        let text = "no bound on the total index by derivatives is known for the distribution of";
+        notes.extend(about(text, &|law| poincare_constant(law).is_none(), &with_law));
+    } else {
+        let text = "effects are per step in probability, so that sigma of factors that are not uniform holds the bend of their \
+                    distribution too:";
+        let is_bent = |law: &Distribution| {
+            let is_continuous = law.levels().is_none() && !law.is_whole();
+            is_continuous && !matches!(law, Distribution::Uniform(_) | Distribution::Constant(_))
+        };
+        notes.extend(about(text, &is_bent, &with_law));
+    }
+    let is_constant = |law: &Distribution| matches!(law, Distribution::Constant(_));
+    notes.extend(about("constant, hence without effect:", &is_constant, &with_value));
+    notes
+}

@@ -1,0 +1,147 @@
+//! The sections that the documents of runs, screenings and sweeps share: where the model holds, and the study.
+
+use apportion::result::{ConstantRecord, CorrelationRecord, FactorRecord, StudyRecord, ValidityRecord};
+use serde_json::{Map, Value};
+
+use super::document::{Cell, Mark, Part, Section, Table};
+use super::format::{grouped, name, share_of_runs, significant, unit, value};
+
+/// Most factors in the table of the study.
+const MAX_FACTORS: usize = 50;
+/// Most values of a list in a table.
+const MAX_VALUES: usize = 8;
+
+/// Where the model's assumptions do not hold; on a terminal only where one was raised.
+pub(super) fn validity_section(validity: &[ValidityRecord]) -> Option<Section> {
+    let share = |flag: &ValidityRecord| match (flag.runs, share_of_runs(flag.share)) {
+        (0, _) => Cell::marked("no run", Mark::Good),
+        (_, share) if flag.share < 0.5 => Cell::marked(share, Mark::Mixed),
+        (_, share) => Cell::marked(share, Mark::Bad),
+    };
+    let text = "Runs on which an assumption of the model does not hold count all the same; their share says how much of the \
+                result rests on them.";
+    let table = Table::from_rows("Flags that the model raises, with the share of the runs on which it does.", validity)
+        .text("flag", |flag| flag.flag.replace('-', " "))
+        .text("raised on", share)
+        .text("what it means", |flag| &flag.description);
+    let parts = vec![Part::Text(text.to_owned()), table.into()];
+    let is_raised = validity.iter().any(|flag| flag.runs > 0);
+    let parts = if is_raised { parts } else { vec![Part::OnPage(parts)] };
+    (!validity.is_empty()).then(|| Section::new("validity", "Model validity", parts))
+}
+
+/// Why runs failed: for each reason the inputs of the first run and how many there are.
+pub(super) fn failures<'a>(failures: impl IntoIterator<Item = (&'a str, String, u64)>) -> Option<Part> {
+    const MAX_REASONS: usize = 50;
+    let failures: Vec<_> = failures.into_iter().take(MAX_REASONS).collect();
+    let table = Table::from_rows("Runs without a value, by reason, with the inputs of the first of each.", &failures)
+        .text("reason", |(reason, ..)| *reason)
+        .text("first", |(_, first, _)| first)
+        .number("runs", |(.., runs)| grouped(*runs));
+    (!failures.is_empty()).then(|| table.into())
+}
+
+/// The inputs of a run in words, the first dozen of many.
+pub fn inputs(inputs: &Map<String, Value>) -> String {
+    const MAX_INPUTS: usize = 12;
+    let more = if inputs.len() > MAX_INPUTS { ", …" } else { "" };
+    inputs.iter().take(MAX_INPUTS).map(|(name, value)| format!("{name} = {value}")).collect::<Vec<_>>().join(", ")
+        + more
+}
+
+/// What was asked: the factors, the choices, the file.
+pub(crate) fn study_section(study: &StudyRecord, factors: &[FactorRecord]) -> Section {
+    let mut parts = Vec::new();
+    let shown = &factors[..factors.len().min(MAX_FACTORS)];
+    let mut caption = "The factors with their distributions.".to_owned();
+    if shown.len() < factors.len() {
+        caption.push_str(&format!(" The first {} of {}, all in the JSON file.", shown.len(), factors.len()));
+    }
+    let mut rows = Table::from_rows(caption, shown)
+        .text("factor", |factor| name(&factor.name))
+        .text("distribution", |factor| distribution(&factor.distribution, &factor.unit));
+    if shown.iter().any(|factor| factor.group.is_some()) {
+        rows = rows.text("group", |factor| factor.group.as_deref().unwrap_or("–"));
+    }
+    parts.push(rows.number("nominal value", |factor| value(factor.nominal, &factor.unit)).into());
+    if !study.dependences.is_empty() {
+        let measure = |record: &CorrelationRecord| match &*record.measure {
+            "pearson" => "of the values (Pearson)",
+            "spearman" => "of the ranks (Spearman)",
+            "kendall" => "of the ranks (Kendall)",
+            _ => "of the normal scores",
+        };
+        let pairs = study.dependences.iter().flat_map(|record| {
+            let places = (0..record.factors.len()).flat_map(|i| (0..i).map(move |j| (j, i)));
+            places.map(move |(j, i)| (record, j, i))
+        });
+        let table = Table::from_rows("Factors that depend on each other, by a Gaussian copula.", pairs)
+            .text("factors", |(record, j, i)| [j, i].map(|k| name(&record.factors[k])).join(", "))
+            .text("correlation", |(record, j, i)| {
+                format!("{} {}", significant(record.correlation[j][i]), measure(record))
+            });
+        parts.push(table.into());
+    }
+    let mut choices = vec![("model".to_owned(), format!("`{}`", study.model))];
+    choices.extend(study.settings.iter().map(|(key, json)| (name(key), plain(json))));
+    choices.extend(study.overrides.iter().map(|text| ("changed on the command line".to_owned(), format!("`{text}`"))));
+    parts.push(Table::pairs("Model settings.", choices).into());
+    if !study.constants.is_empty() {
+        let constant = |constant: &ConstantRecord| (name(&constant.name), value(constant.value, &constant.unit));
+        let table = Table::pairs("Inputs that are fixed in the study.", study.constants.iter().map(constant));
+        parts.push(Part::Details { summary: "Fixed inputs".to_owned(), parts: vec![table.into()] });
+    }
+    let source = vec![Part::Code(study.source.clone())];
+    parts.push(Part::Details { summary: "The study file".to_owned(), parts: source });
+    Section::new("study", "The study", vec![Part::OnPage(parts)])
+}
+
+/// A distribution in words: its name, then its parameters with the unit.
+fn distribution(distribution: &Value, symbol: &str) -> String {
+    let Value::Object(keys) = distribution else { return "unknown".to_owned() };
+    let family = keys.get("name").and_then(Value::as_str).unwrap_or("unknown");
+    let parameters = keys.iter().filter(|(key, _)| *key != "name");
+    let parameter = |(key, json): (&String, &Value)| format!("{} {}", key.replace('_', " "), plain(json));
+    let parameters: Vec<String> = parameters.map(parameter).collect();
+    let unit = match symbol {
+        "" | "1" => String::new(),
+        symbol => format!(" ({})", unit(symbol)),
+    };
+    if parameters.is_empty() { family.to_owned() } else { format!("{family}, {}{unit}", parameters.join(", ")) }
+}
+
+/// A value of JSON as people write it.
+fn plain(json: &Value) -> String {
+    let more = |all: usize| if all > MAX_VALUES { format!("; … ({all} in all)") } else { String::new() };
+    match json {
+        Value::Null => "none".to_owned(),
+        Value::Bool(true) => "yes".to_owned(),
+        Value::Bool(false) => "no".to_owned(),
+        Value::Number(number) => number.as_f64().map_or_else(|| number.to_string(), |number| value(number, "")),
+        Value::String(text) => text.clone(),
+        Value::Array(values) => {
+            values.iter().take(MAX_VALUES).map(plain).collect::<Vec<_>>().join("; ") + &more(values.len())
+        }
+        Value::Object(keys) => {
+            let pairs = keys.iter().take(MAX_VALUES).map(|(key, json)| format!("{key} {}", plain(json)));
+            pairs.collect::<Vec<_>>().join("; ") + &more(keys.len())
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn distributions_are_said_with_their_units() {
+        let uniform = serde_json::json!({"name": "uniform", "min": 0.25, "max": 2.5});
+        assert_eq!(distribution(&uniform, "um"), "uniform, min 0.25, max 2.5 (µm)");
+        assert_eq!(distribution(&uniform, "1"), "uniform, min 0.25, max 2.5");
+        let many = serde_json::json!({"name": "discrete", "values": [1, 2, 3, 4, 5, 6, 7, 8, 9]});
+        assert_eq!(distribution(&many, "1"), "discrete, values 1; 2; 3; 4; 5; 6; 7; 8; … (9 in all)");
+        assert_eq!(distribution(&Value::Null, "1"), "unknown");
+        let formulas: Map<String, Value> = (0..12).map(|k| (format!("y{k:02}"), Value::from("a"))).collect();
+        assert!(plain(&Value::Object(formulas)).ends_with("; y07 a; … (12 in all)"));
+    }
+}

@@ -1,0 +1,88 @@
+//! The sweep file: JSON that other programs can rely on.
+//!
+//! Format `apportion-sweep`, version 2, described key by key in `docs/sweep-format.md`. Later versions of the program
+//! only add keys. A number that does not exist is `null`.
+
+use apportion::analysis::{study_setup, validity};
+use apportion::model::Model;
+use apportion::quantity::Unlikely;
+use apportion::result::{StudySetup, ValidityRecord};
+use apportion::study::Study;
+use apportion::sweep::{NominalOutput, Sweep, Sweeps, SweptOutput};
+use serde::{Deserialize, Serialize};
+
+use super::super::format::short_with_unit;
+
+/// All sweeps of a study.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct SweepFile {
+    /// Always `apportion-sweep`.
+    pub format: String,
+    /// Version of the format.
+    pub version: u32,
+    /// What was asked.
+    pub study: StudySetup,
+    /// How it was answered.
+    pub provenance: SweepProvenance,
+    /// Every output where all factors are nominal.
+    pub nominal: Vec<NominalOutput>,
+    /// One entry per factor swept.
+    pub sweeps: Vec<Sweep>,
+    /// Rows on which the model's assumptions do not hold; the rows count all the same.
+    pub validity: Vec<ValidityRecord>,
+    /// What a careful reader should know, in sentences.
+    #[serde(default)]
+    pub warnings: Vec<String>,
+}
+
+/// How the sweeps were made.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct SweepProvenance {
+    /// Version of the program.
+    pub apportion_version: String,
+    /// Runs of the model.
+    pub model_runs: u64,
+}
+
+/// The value at `place` of a sweep, or what it stands for, with its unit.
+pub(super) fn value_in_words(sweep: &Sweep, place: usize) -> String {
+    match (&sweep.labels, sweep.values.get(place)) {
+        (Some(labels), Some(_)) => labels[place].clone(),
+        (None, Some(value)) => short_with_unit(*value, &sweep.unit),
+        (_, None) => String::new(),
+    }
+}
+
+/// How far an output goes; below every width where it has no value.
+pub(super) fn width(output: &SweptOutput) -> f64 {
+    output.low.zip(output.high).map_or(f64::NEG_INFINITY, |(low, high)| high - low)
+}
+
+/// A sentence on the unlikely value of output number `place`, if it has one; runs are counted sweep by sweep.
+fn unlikely(sweeps: &Sweeps, place: usize, output: &str) -> Option<String> {
+    let values = sweeps.sweeps.iter().flat_map(|sweep| &sweep.outputs[place].values);
+    let values: Vec<f64> = values.map(|y| y.unwrap_or(f64::NAN)).collect();
+    Unlikely::find(&values).map(|found| format!("{output}: {}", found.in_runs(found.first + 1)))
+}
+
+/// The file of the sweeps of `study`, whose model is `model`.
+pub fn build_sweep(study: &Study, model: &dyn Model, sweeps: Sweeps) -> SweepFile {
+    SweepFile {
+        format: "apportion-sweep".to_owned(),
+        version: 2,
+        study: study_setup(study),
+        provenance: SweepProvenance {
+            apportion_version: env!("CARGO_PKG_VERSION").to_owned(),
+            model_runs: sweeps.runs,
+        },
+        warnings: sweeps
+            .nominal
+            .iter()
+            .enumerate()
+            .filter_map(|(place, of)| unlikely(&sweeps, place, &of.output))
+            .collect(),
+        nominal: sweeps.nominal,
+        sweeps: sweeps.sweeps,
+        validity: validity(model.flags().iter().zip(sweeps.flags), sweeps.runs),
+    }
+}

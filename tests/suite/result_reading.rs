@@ -1,0 +1,119 @@
+//! What is read back from a result file, and what is refused.
+
+use std::path::Path;
+
+use apportion::result::{ReadProblem, StudyResult, parse_result};
+use apportion_files::parse_study;
+use apportion_report::run_document;
+use serde_json::{Value, json};
+
+const STUDY: &str = "
+model = \"ishigami\"
+[design]
+base_samples = 128
+[analysis]
+second_order = true
+estimators = [\"janon-monod\"]
+subsets = [[\"x1\", \"x2\"]]
+dummy = true
+";
+
+fn result() -> StudyResult {
+    let study = parse_study(STUDY, Path::new("small.toml"), &[]).unwrap_or_else(|error| panic!("{error}"));
+    study.runner().threads(1).run().unwrap()
+}
+
+fn parsed(value: &Value) -> Result<StudyResult, ReadProblem> {
+    parse_result(value.to_string().as_bytes())
+}
+
+#[test]
+fn what_was_written_is_read() {
+    let result = result();
+    let text = result.json();
+    assert_eq!(parse_result(text.as_bytes()).unwrap(), result);
+}
+
+#[test]
+fn what_is_no_result_is_refused_with_the_reason() {
+    let reason = |text: &str| parse_result(text.as_bytes()).unwrap_err().to_string();
+    assert!(reason("{\n  \"format\": ,").contains("line 2 column 13"), "{}", reason("{\n  \"format\": ,"));
+    assert!(reason("").contains("EOF"));
+    assert!(reason("{}").contains("missing field `format`"));
+    let sweep = reason("{\"format\": \"apportion-sweep\", \"version\": 1}");
+    assert!(sweep.contains("\"apportion-sweep\", expected \"apportion-result\""), "{sweep}");
+    assert!(reason("{\"format\": \"apportion-result\", \"version\": 2}").contains("version 2"));
+    assert!(reason("{\"format\": \"apportion-result\", \"version\": 1}").contains("missing field `study`"));
+}
+
+#[test]
+fn parts_that_do_not_fit_together_are_named() {
+    let whole = serde_json::to_value(result()).unwrap();
+    let fault = |pointer: &str, value: Value| {
+        let mut changed = whole.clone();
+        *changed.pointer_mut(pointer).unwrap() = value;
+        parsed(&changed).unwrap_err().to_string()
+    };
+    for (pointer, value, expected) in [
+        ("/study/name", json!("../../etc/x"), "`study.name`: files are named after it"),
+        ("/outputs/0/runs_ok", json!(u64::MAX), "`outputs[0].runs_ok`: expected a count up to 2^53"),
+        ("/outputs/0/name", json!(""), "`outputs[0].name`: files"),
+        ("/outputs/0/indices/1/factor", json!("x9"), "`outputs[0].indices`: expected one entry for each"),
+        ("/outputs/0/indices", json!([]), "`outputs[0].indices`"),
+    ] {
+        let message = fault(pointer, value);
+        assert!(message.contains(expected), "{pointer}: {message}");
+    }
+    let mut twice = whole;
+    let output = twice["outputs"][0].clone();
+    twice["outputs"].as_array_mut().unwrap().push(output);
+    assert!(parsed(&twice).unwrap_err().to_string().contains("`outputs[1].name`: the output \"y\" is there twice"));
+}
+
+/// Every leaf of a result replaced by rubbish of its kind: it is refused, or all of it is drawn without a panic.
+#[test]
+fn rubbish_is_refused_or_drawn() {
+    let whole = serde_json::to_value(result()).unwrap();
+    let mut pointers = Vec::new();
+    leaves(&whole, String::new(), &mut pointers);
+    let (mut refused, mut accepted) = (0, 0);
+    for pointer in pointers {
+        for rubbish in [json!(null), json!(-1), json!(1e308), json!(0), json!(u64::MAX), json!("\u{0}<&\""), json!([])]
+        {
+            let mut changed = whole.clone();
+            *changed.pointer_mut(&pointer).unwrap() = rubbish;
+            match parsed(&changed) {
+                Err(_) => refused += 1,
+                Ok(result) => {
+                    accepted += 1;
+                    draw(&result);
+                }
+            }
+        }
+    }
+    assert!(refused > 100 && accepted > 100, "{refused} refused, {accepted} accepted");
+}
+
+/// Where the leaves are; of a long list the first and the last entry stand for all.
+fn leaves(value: &Value, at: String, pointers: &mut Vec<String>) {
+    match value {
+        Value::Object(map) => {
+            pointers.push(at.clone());
+            map.iter().for_each(|(key, value)| leaves(value, format!("{at}/{key}"), pointers));
+        }
+        Value::Array(list) => {
+            pointers.push(at.clone());
+            let last = list.len().saturating_sub(1);
+            let ends = list.iter().enumerate().filter(|(place, _)| *place == 0 || *place == last);
+            ends.for_each(|(place, value)| leaves(value, format!("{at}/{place}"), pointers));
+        }
+        _ => pointers.push(at),
+    }
+}
+
+fn draw(result: &StudyResult) {
+    let document = run_document(result);
+    let _ = document.html();
+    document.text();
+    document.data_files();
+}
