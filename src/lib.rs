@@ -1,53 +1,38 @@
 //! Sobol' global sensitivity analysis: which input of a model decides its output, and by how many percent.
 //!
-//! The flagship model answers a question of nanotechnology: of the cantilever's dimensions and the environment, which
-//! factor decides the force that the tip of an atomic force microscope needs to push a nanoparticle, under each
-//! friction model? The engine knows nothing of that model and serves any other.
-//!
 //! A [`Study`] says what is asked: a [`Model`], the [`Factor`]s that vary, the points, the [`Target`].
 //! [`Study::run`] answers it with a [`StudyResult`]; [`Runner`] is the same with threads, progress and a journal. The steps
 //! in between, for those who take them one by one: a [`Design`] gives its points by row number, a [`Worker`] of the model
 //! evaluates them, an [`Estimator`] turns sums into indices, and an [`IntervalMethod`] says how well they are known.
 //!
-//! Beside Sobol' indices of a model there are [`given`] data, [`screening`], [`sweep`]s, and the points and formulas of
-//! `salib`; [`mod@afm`] is the physics of the flagship model, plain functions that know nothing of the engine.
+//! Besides Sobol' indices of a model there are [`given`] data, [`screening`], [`sweep`]s, and the points and formulas of
+//! [`salib`].
 //!
-//! # Features
+//! # The crates around it
 //!
-//! Without default features the crate is the engine, the physics of the nanoparticle and the known functions. `study` adds
-//! study files, programs as models and `exchange`; `charts` adds `report`: results as text, CSV and SVG; `png` its charts as pictures, `pdf` as figures of papers; `page` its pages and folders of files.
-//! `cli`, the default, is the program with all of them, and `mpi` the same on the ranks of an MPI job.
+//! | crate | what it adds |
+//! |---|---|
+//! | `apportion-afm` | the force with which an AFM tip pushes a nanoparticle: contact, friction, a ladder of fidelities |
+//! | `apportion-files` | studies in TOML, programs in any language as models, points and outputs as tables |
+//! | `apportion-report` | results as text, tables, charts and pages |
+//! | `apportion-cli` | the program `apportion` |
 //!
 //! # An example
 //!
-//! The force on cantilevers of uncertain thickness and length:
+//! The volume of a box of uncertain sides:
 //!
 //! ```
-//! use apportion::Study;
+//! use apportion::{Distribution, Study, function_model};
 //!
-//! let text = r#"
-//!     outputs = ["critical_force"]
-//!
-//!     [afm]
-//!     friction = "hk"
-//!
-//!     [[factor]]
-//!     name = "thickness"
-//!     min = 0.8
-//!     max = 1.2
-//!     unit = "um"
-//!
-//!     [[factor]]
-//!     name = "length"
-//!     distribution = "normal"
-//!     mean = 225
-//!     sd = 5
-//!     unit = "um"
-//! "#;
-//! let study = apportion_files::parse_study(text, "example.toml".as_ref(), &[])?;
+//! let study = Study::builder("box", function_model("volume", |x| x[0] * x[1] * x[2]))
+//!     .factor("length", Distribution::normal(2.0, 0.02)?)
+//!     .factor("width", Distribution::uniform(0.9, 1.1)?)
+//!     .factor("height", Distribution::uniform(0.45, 0.55)?)
+//!     .build()?;
 //! let result = study.run()?;
-//! let thickness = result.output("critical_force")?.factor("thickness")?;
-//! assert!(thickness.share_total.is_some_and(|percent| percent > 90.0));
+//! let width = result.output("volume")?.factor("width")?;
+//! // Both sides vary by a tenth: half of the variance each, but for the little that the length explains.
+//! assert!((width.first_order.estimate - 0.49).abs() < 0.01);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
@@ -72,6 +57,7 @@ pub mod analysis;
 mod binary;
 pub mod clock;
 pub mod design;
+pub mod digest;
 pub mod estimate;
 pub mod files;
 pub mod given;

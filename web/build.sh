@@ -15,9 +15,9 @@ rustup target list --installed 2>/dev/null | grep -q wasm32-unknown-unknown || r
 target=${CARGO_TARGET_DIR:-$PWD/target}/web
 # No paths of this machine in what is published.
 export RUSTFLAGS="--remap-path-prefix=$PWD=. --remap-path-prefix=${CARGO_HOME:-$HOME/.cargo}=cargo"
-CARGO_TARGET_DIR=$target cargo build --quiet --release --locked --target wasm32-unknown-unknown --manifest-path web/Cargo.toml
+CARGO_TARGET_DIR=$target cargo build --quiet --profile web --locked --target wasm32-unknown-unknown -p apportion-web
 # zopfli writes gzip that is a twentieth smaller.
 pack=(gzip -9nc)
 command -v zopfli >/dev/null && pack=(zopfli -c)
-"${pack[@]}" "$target/wasm32-unknown-unknown/release/apportion_web.wasm" | base64 -w 0 >"$folder/engine.b64"
+"${pack[@]}" "$target/wasm32-unknown-unknown/web/apportion_web.wasm" | base64 -w 0 >"$folder/engine.b64"
 echo "wrote $folder/engine.b64, $(wc -c <"$folder/engine.b64") bytes"

@@ -232,7 +232,7 @@ pub struct FailureCount {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(rename = "MeasuresRecord"))]
 #[non_exhaustive]
 pub struct RunMeasures {
-    /// Rows A and B with a value that they were taken from: at most [`MAX_ROWS_OF_MEASURES`](crate::MAX_ROWS_OF_MEASURES).
+    /// Rows A and B with a value that they were taken from: at most [`MAX_ROWS_OF_MEASURES`](crate::analysis::MAX_ROWS_OF_MEASURES).
     pub rows: usize,
     /// The measures of every factor but a noise.
     pub factors: Vec<InputMeasures>,

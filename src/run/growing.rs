@@ -87,7 +87,7 @@ impl<'a> GrowingRun<'a> {
         Self { failures, ..self }
     }
 
-    /// The same run with the outputs of every run kept in [`OutputTotals::kept`](super::OutputTotals::kept), if `keeps_outputs`.
+    /// The same run with the outputs of every run kept in `OutputTotals::kept`, if `keeps_outputs`.
     #[must_use]
     pub fn with_outputs_kept(self, keeps_outputs: bool) -> Self {
         Self { keeps_outputs, ..self }

@@ -31,11 +31,18 @@ impl Study {
     /// Runs the study on all cores and estimates its indices.
     ///
     /// ```
-    /// use std::path::Path;
-    /// use apportion::Study;
+    /// use std::f64::consts::PI;
     ///
-    /// let text = include_str!("../../studies/ishigami.toml");
-    /// let study = apportion_files::parse_study(text, Path::new("ishigami.toml"), &[])?;
+    /// use apportion::{Distribution, Study, function_model};
+    ///
+    /// // Ishigami's function.
+    /// let y = |x: &[f64]| x[0].sin() + 7.0 * x[1].sin().powi(2) + 0.1 * x[2].powi(4) * x[0].sin();
+    /// let angle = || Distribution::uniform(-PI, PI);
+    /// let study = Study::builder("ishigami", function_model("y", y))
+    ///     .factor("x1", angle()?)
+    ///     .factor("x2", angle()?)
+    ///     .factor("x3", angle()?)
+    ///     .build()?;
     /// let result = study.run()?;
     /// assert!((result.output("y")?.factor("x1")?.first_order.estimate - 0.3139).abs() < 0.003);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -87,13 +94,16 @@ impl Resume {
 /// A run of a study, as it is set up.
 ///
 /// ```
-/// use std::path::Path;
-/// use apportion::Study;
+/// use apportion::{Distribution, Study, function_model};
 ///
-/// let text = include_str!("../../studies/ishigami.toml");
-/// let study = apportion_files::parse_study(text, Path::new("ishigami.toml"), &["design.base_samples=1024".to_owned()])?;
+/// let study = Study::builder("product", function_model("y", |x| x[0] * x[1]))
+///     .factor("a", Distribution::uniform(1.0, 2.0)?)
+///     .factor("b", Distribution::uniform(1.0, 5.0)?)
+///     .version("1")
+///     .base_samples(1024)
+///     .build()?;
 /// let folder = tempfile::tempdir()?;
-/// let journal = folder.path().join("ishigami.journal");
+/// let journal = folder.path().join("product.journal");
 /// let first = study.runner().threads(2).on_progress(|progress| eprintln!("{}", progress.done)).journal(&journal).run()?;
 /// // The second time nothing is evaluated; twice the points would evaluate the second half of them alone.
 /// let second = study.runner().journal(&journal).run()?;

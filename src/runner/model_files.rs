@@ -6,26 +6,23 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
-use sha2::{Digest, Sha256};
 
+use crate::digest::Sha256;
 use crate::study::Study;
 
 /// The digests of the files of `study` (path: SHA-256); files that cannot be read are left out.
 pub(super) fn digests(study: &Study) -> Value {
-    let digest = |path: &PathBuf| {
-        let hex: String = sha256(path).ok()?.iter().map(|byte| format!("{byte:02x}")).collect();
-        Some((path.display().to_string(), json!(hex)))
-    };
+    let digest = |path: &PathBuf| Some((path.display().to_string(), json!(sha256(path).ok()?)));
     Value::Object(study.subject.files().iter().filter_map(digest).collect())
 }
 
 /// Piece by piece: data may be larger than the memory.
-fn sha256(path: &Path) -> std::io::Result<[u8; 32]> {
-    let (mut file, mut hash) = (File::open(path)?, Sha256::new());
+fn sha256(path: &Path) -> std::io::Result<String> {
+    let (mut file, mut hash) = (File::open(path)?, Sha256::default());
     let mut piece = vec![0; 1 << 16];
     loop {
         match file.read(&mut piece)? {
-            0 => return Ok(hash.finalize().into()),
+            0 => return Ok(hash.finish()),
             length => hash.update(&piece[..length]),
         }
     }

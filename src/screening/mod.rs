@@ -141,11 +141,19 @@ pub struct ScreeningFailure {
 /// any thread. The result is the same on any number of threads, in every bit.
 ///
 /// ```
-/// use std::path::Path;
-/// use apportion::screening::{Reading, ScreeningJob, ScreeningSettings, screen};
-/// use apportion::Study;
+/// use std::f64::consts::PI;
 ///
-/// let study = apportion_files::parse_study(include_str!("../../studies/ishigami.toml"), Path::new("ishigami.toml"), &[])?;
+/// use apportion::screening::{Reading, ScreeningJob, ScreeningSettings, screen};
+/// use apportion::{Distribution, Study, function_model};
+///
+/// // Ishigami's function.
+/// let y = |x: &[f64]| x[0].sin() + 7.0 * x[1].sin().powi(2) + 0.1 * x[2].powi(4) * x[0].sin();
+/// let angle = || Distribution::uniform(-PI, PI);
+/// let study = Study::builder("ishigami", function_model("y", y))
+///     .factor("x1", angle()?)
+///     .factor("x2", angle()?)
+///     .factor("x3", angle()?)
+///     .build()?;
 /// let model = study.model();
 /// let settings = ScreeningSettings::default();
 /// let job = ScreeningJob { space: study.space(), model: model.as_ref(), settings };

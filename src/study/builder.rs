@@ -2,13 +2,12 @@
 
 use std::sync::Arc;
 
-use sha2::{Digest, Sha256};
-
 use super::options::{DEFAULT_RESAMPLES, rows};
 use super::rules::{self, Length, wrong};
 use super::subject::{CustomSubject, LowFidelity, Subject};
 use super::{AnalysisOptions, BuildError, Study, SurrogateChoice, Target};
 use crate::design::{Design, DesignSettings, Sampler};
+use crate::digest::sha256;
 use crate::model::Model;
 use crate::quantity::Unit;
 use crate::space::{Dependence, Distribution, Factor, Space};
@@ -186,7 +185,7 @@ impl StudyBuilder {
     pub fn build(self) -> Result<Study, BuildError> {
         let mut study = self.checked()?;
         study.source = in_words(&study);
-        study.sha256 = Sha256::digest(study.source.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect();
+        study.sha256 = sha256(study.source.as_bytes());
         Ok(study)
     }
 

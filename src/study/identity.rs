@@ -1,10 +1,10 @@
 //! What makes two studies the same, as far as the outputs of their runs go.
 
 use serde_json::{Map, Value, json};
-use sha2::{Digest, Sha256};
 
 use super::Study;
 use crate::design::{Sampler, Swap};
+use crate::digest::sha256;
 
 impl Study {
     /// All that the outputs of the runs depend on, as JSON: the model with its choices and constants, the factors, the
@@ -68,5 +68,5 @@ impl Study {
 }
 
 fn digest(text: &str) -> String {
-    Sha256::digest(text.as_bytes()).iter().take(8).map(|byte| format!("{byte:02x}")).collect()
+    sha256(text.as_bytes())[..16].to_owned()
 }

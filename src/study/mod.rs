@@ -1,6 +1,6 @@
 //! Studies: what is asked, checked once.
 //!
-//! A [`Study`] comes from a file (`Study::load`) or is built in code ([`Study::builder`]); after that nothing
+//! A [`Study`] is built in code ([`Study::builder`]) or comes from a file (`apportion_files::load_study`); after that nothing
 //! re-validates.
 
 mod build_error;

@@ -32,7 +32,7 @@ pub struct AnalysisOptions {
     /// Who the players are. `None` for the factors.
     pub shapley_players: Option<ShapleyPlayers>,
     /// Other measures than Sobol' indices that stand beside them, from the first
-    /// [`MAX_ROWS_OF_MEASURES`](crate::MAX_ROWS_OF_MEASURES) rows A and B; of at most [`MAX_OUTPUTS_OF_MEASURES`](crate::study::MAX_OUTPUTS_OF_MEASURES) outputs.
+    /// [`MAX_ROWS_OF_MEASURES`](crate::analysis::MAX_ROWS_OF_MEASURES) rows A and B; of at most [`MAX_OUTPUTS_OF_MEASURES`](crate::study::MAX_OUTPUTS_OF_MEASURES) outputs.
     pub measures: Vec<Measure>,
     /// Whether indices over all outputs together are asked for.
     pub aggregate: bool,

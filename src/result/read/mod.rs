@@ -78,11 +78,13 @@ pub fn read_result(path: &Path) -> Result<StudyResult, ReadError> {
 /// later version of the program, are left out.
 ///
 /// ```
-/// use std::path::Path;
 /// use apportion::result::parse_result;
-/// use apportion::Study;
+/// use apportion::{Distribution, Study, function_model};
 ///
-/// let study = apportion_files::parse_study("model = \"ishigami\"", Path::new("a.toml"), &["design.base_samples=256".to_owned()])?;
+/// let study = Study::builder("square", function_model("y", |x| x[0] * x[0]))
+///     .factor("x", Distribution::normal(0.0, 1.0)?)
+///     .base_samples(256)
+///     .build()?;
 /// let result = study.run()?;
 /// assert_eq!(parse_result(result.json().as_bytes())?, result);
 /// # Ok::<(), Box<dyn std::error::Error>>(())

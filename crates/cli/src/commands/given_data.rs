@@ -3,12 +3,12 @@
 use std::path::PathBuf;
 
 use anyhow::anyhow;
+use apportion::digest::sha256;
 use apportion::files::read_whole;
 use apportion::given::{Column, analyse, measures, surrogate_indices};
 use apportion::{Distribution, Study};
 use apportion_files::exchange::{ColumnKind, Missing, Selection, Table, factor_column, read_table, table_of_bytes};
 use apportion_report::given::{GivenFacts, build_given, given_document};
-use sha2::{Digest, Sha256};
 
 use super::Failure;
 use super::output::{OutputArguments, deliver, stem};
@@ -65,7 +65,7 @@ pub fn given_data(arguments: &Arguments) -> Result<(), Failure> {
     let kinds: Vec<ColumnKind> =
         study.iter().flat_map(|study| study.space().factors().iter().map(factor_column)).collect();
     let selection = Selection { outputs: &arguments.outputs, inputs: &arguments.inputs, missing, kinds: &kinds };
-    let sha256 = Sha256::digest(&bytes).iter().map(|byte| format!("{byte:02x}")).collect();
+    let sha256 = sha256(&bytes);
     let mut rows =
         table_of_bytes(bytes, &arguments.reading.options(&arguments.names)).map_err(|error| wrong(&error))?;
     let table = read_table(rows.as_mut(), &selection).map_err(|error| wrong(&error))?;

@@ -29,16 +29,6 @@ pub struct ModeLine {
 const DEGREES: f64 = 180.0 / std::f64::consts::PI;
 
 /// The diagram, forces on a logarithmic axis.
-///
-/// # Example
-/// ```
-/// use apportion_report::chart::Colour;
-/// use apportion_report::scene::{ModeDiagram, ModeLine, mode_diagram_chart};
-///
-/// let sliding = ModeLine { mode: "sliding".into(), colour: Colour::Series(0), force: vec![None, Some(80e-9), Some(9e-9)] };
-/// let diagram = ModeDiagram { angle: vec![0.5, 1.0, 1.5], forces: vec![sliding], current: (1.0, 50e-9) };
-/// assert!(mode_diagram_chart(&diagram).caption().contains("80.0 nN"));
-/// ```
 pub fn mode_diagram_chart(diagram: &ModeDiagram) -> Chart {
     let scene = Series::new("this scene at its slip", Colour::Reference).stroke(Stroke::Points);
     let (angle, force) = diagram.current;

@@ -56,17 +56,6 @@ pub fn simulate(study: &Study, duration: Option<f64>) -> Result<SceneStory, Simu
 ///
 /// # Errors
 /// Those of [`history`].
-///
-/// # Example
-/// ```
-/// use apportion_afm::{Options, Scene};
-/// use apportion::simulation::scene_story;
-///
-/// let story = scene_story("Nominal".to_owned(), &Scene::default(), &Options::default(), 0.4)?;
-/// assert!(story.critical_time < 0.4);
-/// assert!(story.samples.last().is_some_and(|end| !end.sticking));
-/// # Ok::<(), apportion_afm::Failure>(())
-/// ```
 pub fn scene_story(title: String, scene: &Scene, options: &Options, duration: f64) -> Result<SceneStory, Failure> {
     let outcome = history(scene, options, duration)?;
     let pushing = pushing(*scene, options);

@@ -7,9 +7,9 @@ use std::process::Stdio;
 use std::sync::Mutex;
 use std::time::{Duration, Instant, SystemTime};
 
+use apportion::digest::sha256;
 use apportion::model::{Batch, RowFailure, RunContext, Worker};
 use apportion::text::{masked, seconds};
-use sha2::{Digest, Sha256};
 use tempfile::TempDir;
 
 use super::pick::{MAX_BYTES, Source, Texts};
@@ -91,9 +91,7 @@ impl<'a> PerRunWorker<'a> {
         };
         let text = self.values.table(inputs, row);
         // The same point has the same directory, whatever the order of runs.
-        let digest = Sha256::digest(text.as_bytes());
-        let name: String = digest.iter().take(8).map(|byte| format!("{byte:02x}")).collect();
-        let path = keep.join(format!("run-{name}"));
+        let path = keep.join(format!("run-{}", &sha256(text.as_bytes())[..16]));
         match std::fs::remove_dir_all(&path) {
             Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
             _ => std::fs::create_dir_all(&path)?,

@@ -1,10 +1,10 @@
 //! The rows of a design as numbers in the units of its study, block by block.
 
 use apportion::design::Design;
+use apportion::digest::Sha256;
 use apportion::quantity::Unit;
 use apportion::run::RowValues;
 use apportion::space::{Factor, Space};
-use sha2::{Digest, Sha256};
 
 use super::rows::ColumnKind;
 
@@ -93,13 +93,8 @@ impl RowsDigest {
 
     /// The digest in hexadecimal.
     pub fn finish(self) -> String {
-        hexadecimal(&self.0.finalize())
+        self.0.finish()
     }
-}
-
-/// Bytes as people compare them.
-pub(super) fn hexadecimal(bytes: &[u8]) -> String {
-    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
 #[cfg(test)]

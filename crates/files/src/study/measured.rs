@@ -1,8 +1,8 @@
 //! `file = "measured.csv"`: the measured values of a factor.
 
+use apportion::digest::sha256;
 use apportion::files::read_whole;
 use apportion::space::distribution::MeasuredFile;
-use sha2::{Digest, Sha256};
 
 use super::at::At;
 use super::context::{Context, Fault, unknown_name};
@@ -56,7 +56,7 @@ pub(super) fn read(
     if values.is_empty() {
         return Err(wrong(Some(first), "there are no values after the header".to_owned()));
     }
-    let sha256 = Sha256::digest(&bytes).iter().map(|byte| format!("{byte:02x}")).collect();
+    let sha256 = sha256(&bytes);
     let source = MeasuredFile { file: file.get_ref().clone(), column: column.map(|c| c.get_ref().clone()), sha256 };
     Ok((values, source))
 }

@@ -35,12 +35,12 @@ mod units;
 
 use std::path::{Path, PathBuf};
 
+use apportion::digest::sha256;
 use apportion::files::read_text;
 use apportion::study::{Study, StudySource};
 pub use error::{Diagnostic, Problem, StudyError};
 pub use models::model_guide;
 pub use schema::study_schema;
-use sha2::{Digest, Sha256};
 pub use subjects::{CommandSubject, ExpressionConstant, ExpressionSubject, Formula, KnownSubject};
 pub use template::{NEW_PROGRAM, TemplateRequest, new_program, template};
 
@@ -89,7 +89,7 @@ pub fn parse_study(text: &str, path: &Path, overrides: &[String]) -> Result<Stud
     }
     Ok(study.with_source(StudySource {
         text: text.to_owned(),
-        sha256: Sha256::digest(text.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect(),
+        sha256: sha256(text.as_bytes()),
         overrides: overrides.to_vec(),
         notes,
     }))

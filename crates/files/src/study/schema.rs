@@ -10,7 +10,7 @@ use super::key_schemas;
 use super::sections::StudyFile;
 
 /// The JSON Schema (draft 7, which editors understand) of study files. It knows every key and every name, not what the
-/// parts of a study mean together: that is what [`Study::parse`](super::Study::parse) checks.
+/// parts of a study mean together: that is what [`parse_study`](super::parse_study) checks.
 ///
 /// ```
 /// let schema = apportion_files::study_schema();

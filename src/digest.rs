@@ -1,0 +1,30 @@
+//! SHA-256 in hexadecimal: how a file, a study or a design is known again.
+
+use hmac_sha256::Hash;
+
+/// The digest of bytes that come piece by piece.
+#[derive(Clone, Default)]
+pub struct Sha256(Hash);
+
+impl Sha256 {
+    /// Adds bytes.
+    pub fn update(&mut self, bytes: &[u8]) {
+        self.0.update(bytes);
+    }
+
+    /// The digest in hexadecimal.
+    pub fn finish(self) -> String {
+        self.0.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
+    }
+}
+
+/// The digest of `bytes` in hexadecimal.
+///
+/// ```
+/// assert!(apportion::digest::sha256(b"abc").starts_with("ba7816bf8f01cfea"));
+/// ```
+pub fn sha256(bytes: &[u8]) -> String {
+    let mut digest = Sha256::default();
+    digest.update(bytes);
+    digest.finish()
+}
