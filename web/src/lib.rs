@@ -2,7 +2,7 @@
 //! result of a run, the sections of its document, the text of the study as it was changed.
 //!
 //! There is one export for calls and one for memory, both of whole numbers: no tool has to write the other side of the
-//! border, which is some thirty lines of script (`templates/live/worker.js`). Strings travel in a buffer that belongs to this
+//! border, which is some thirty lines of script (`crates/cli/templates/live/worker.js`). Strings travel in a buffer that belongs to this
 //! side. The module asks nothing of its surroundings: it has no imports.
 
 mod answer;
