@@ -14,7 +14,8 @@ mkdir -p "$folder"
 rustup target list --installed 2>/dev/null | grep -q wasm32-unknown-unknown || rustup target add wasm32-unknown-unknown
 target=${CARGO_TARGET_DIR:-$PWD/target}/web
 # No paths of this machine in what is published.
-export RUSTFLAGS="--remap-path-prefix=$PWD=. --remap-path-prefix=${CARGO_HOME:-$HOME/.cargo}=cargo"
+# Random numbers come from seeds alone: there is no source of them in the page.
+export RUSTFLAGS="--cfg getrandom_backend=\"unsupported\" --remap-path-prefix=$PWD=. --remap-path-prefix=${CARGO_HOME:-$HOME/.cargo}=cargo"
 CARGO_TARGET_DIR=$target cargo build --quiet --profile web --locked --target wasm32-unknown-unknown -p apportion-web
 # zopfli writes gzip that is a twentieth smaller.
 pack=(gzip -9nc)

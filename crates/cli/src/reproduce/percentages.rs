@@ -249,23 +249,22 @@ mod tests {
     /// Exact shares of a product of powers of uniform factors, of the force and of its logarithm.
     #[test]
     fn the_shares_are_those_of_the_product_form() {
-        let rows = percentages(Effort::Full, 0).unwrap();
+        let rows = percentages(Effort::Quick, 0).unwrap();
         assert_eq!(rows.len(), 4 * OUTPUTS.len() * MEASURES.len());
         let share = |output: &str, factor: &str| {
             let row = |row: &&Percentages| (row.friction, row.measure, row.output) == ("LuGre", "S_1", output);
             rows.iter().find(row).unwrap().studies[0].share(factor).unwrap()
         };
-        // V(t^3), V(L^-2), V(w) over squared means; Var(ln) of the same powers. 0.3: the error at 65,536 base
-        // samples.
+        // V(t^3), V(L^-2), V(w) over squared means; Var(ln) of the same powers. 0.5: the error at few base samples.
         let [t, l, w] = [1.05755, 0.595_238, 0.259_516];
-        assert!((share("F_cr", "thickness") - 100.0 * t / (t + l + w)).abs() < 0.3);
+        assert!((share("F_cr", "thickness") - 100.0 * t / (t + l + w)).abs() < 0.5);
         let variance_of_log = |a: f64, b: f64| {
             let product = a * b / (b - a).powi(2) * (b / a).ln().powi(2);
             1.0 - product
         };
         let [t, l, w] =
             [9.0 * variance_of_log(0.25, 2.5), 4.0 * variance_of_log(200.0, 700.0), variance_of_log(5.0, 80.0)];
-        assert!((share("ln F_cr", "thickness") - 100.0 * t / (t + l + w)).abs() < 0.3);
+        assert!((share("ln F_cr", "thickness") - 100.0 * t / (t + l + w)).abs() < 0.5);
         assert_eq!(summary(&rows).len(), 3);
         // The viscous variant brings the velocity to what is printed, and the force of the others does not know it.
         let distance = |friction: &str| {

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use apportion::files::read_whole;
 use apportion::text::masked;
-use regex::Regex;
+use regex_lite::Regex;
 use serde_json::Value;
 
 /// Where the number stands, and how it is found.

@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use apportion::model::{OutputSeries, SeriesAxis};
 use apportion::quantity::Unit;
-use regex::Regex;
+use regex_lite::Regex;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::{Map, Value as Json, json};

@@ -1,5 +1,7 @@
 //! The verdicts as they stand, and that they change with the physics.
 
+use std::sync::LazyLock;
+
 use apportion_afm::history::{History, history};
 use apportion_afm::modes::{ModeConstants, Pushing};
 use apportion_afm::{Critical, Failure, FrictionLaw, Options, Scene, critical_force};
@@ -9,7 +11,7 @@ use super::*;
 use crate::reproduce::studies;
 
 /// The nine studies at 4096 base points: enough to decide every order, and soon done.
-fn nine_studies() -> Vec<Reproduced> {
+static NINE_STUDIES: LazyLock<Vec<Reproduced>> = LazyLock::new(|| {
     let studies = studies(&["design.base_samples=4096".to_owned()]).unwrap();
     let run = |(group, friction, study): (_, _, apportion::Study)| Reproduced {
         group,
@@ -17,7 +19,7 @@ fn nine_studies() -> Vec<Reproduced> {
         result: study.run().unwrap(),
     };
     studies.into_iter().map(run).collect()
-}
+});
 
 fn in_words(claims: &[Claim]) -> String {
     let line = |claim: &Claim| format!("{} {}: {}", claim.number, claim.source, claim.verdict.word());
@@ -27,9 +29,8 @@ fn in_words(claims: &[Claim]) -> String {
 /// Every claim with its verdict. A change of the physics that changes what is true of the papers changes this.
 #[test]
 fn the_verdicts_are_those_reviewed() {
-    let studies = nine_studies();
-    let claims = super::claims(&studies, Effort::Quick).unwrap();
-    assert_eq!(claims, super::claims(&studies, Effort::Quick).unwrap());
+    let claims = super::claims(&NINE_STUDIES, Effort::Quick).unwrap();
+    assert_eq!(claims, super::claims(&NINE_STUDIES, Effort::Quick).unwrap());
     insta::assert_snapshot!(in_words(&claims));
     for claim in &claims {
         let Claim { statement, finding, setting, .. } = claim;
@@ -52,9 +53,8 @@ fn the_verdicts_are_those_reviewed() {
 /// More points sharpen the shares of the box; no verdict hangs on them.
 #[test]
 fn a_quick_look_gives_the_verdicts_of_the_full_answer() {
-    let studies = nine_studies();
-    let full = claims(&studies, Effort::Full).unwrap();
-    assert_eq!(in_words(&full), in_words(&claims(&studies, Effort::Quick).unwrap()));
+    let full = claims(&NINE_STUDIES, Effort::Full).unwrap();
+    assert_eq!(in_words(&full), in_words(&claims(&NINE_STUDIES, Effort::Quick).unwrap()));
 }
 
 /// The verdicts on claims by this physics.
@@ -158,9 +158,8 @@ fn a_history_that_runs_the_other_way_changes_verdicts() {
 /// LG's percentages contradict each other only where the force is a product; and a physics without one says so.
 #[test]
 fn percentages_contradict_each_other_only_under_a_product() {
-    let studies = nine_studies();
     let last_half = |physics: Physics<'_>| {
-        let bench = Bench::new(physics, Effort::Quick, &studies).unwrap();
+        let bench = Bench::new(physics, Effort::Quick, &NINE_STUDIES).unwrap();
         let claims = answered(&bench, &(19..=19)).unwrap();
         claims.iter().rfind(|claim| claim.number == 19).unwrap().verdict.clone()
     };
@@ -178,9 +177,8 @@ fn other_shares_give_other_verdicts() {
     let words = |studies: &[Reproduced]| -> Vec<(usize, &str)> {
         answers(studies).unwrap().iter().map(|claim| (claim.number, claim.verdict.word())).collect()
     };
-    let studies = nine_studies();
-    let mut swapped = studies.clone();
-    let mut unsure = studies.clone();
+    let mut swapped = NINE_STUDIES.clone();
+    let mut unsure = NINE_STUDIES.clone();
     for (swapped, unsure) in swapped.iter_mut().zip(&mut unsure) {
         for index in swapped.result.outputs[0].indices.as_mut().unwrap() {
             index.factor = match index.factor.as_str() {
@@ -204,6 +202,6 @@ fn other_shares_give_other_verdicts() {
     let found = words(&unsure);
     let expected = "not reproduced";
     assert_eq!((found[0], found[3], found[5]), ((17, expected), (18, expected), (19, expected)));
-    let missing = answers(&studies[1..]);
+    let missing = answers(&NINE_STUDIES[1..]);
     assert!(matches!(missing, Err(ReproduceError::NoIndices { group: "dimensional", friction: "Coulomb" })));
 }
