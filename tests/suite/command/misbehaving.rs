@@ -195,7 +195,8 @@ fn no_program_makes_a_wrong_number() {
 
 #[test]
 fn a_row_without_an_answer_fails_alone() {
-    let case = Case::each_row("", "    if x[0] > 0.97: continue\n    answer(y)\n").replace("workers = 2", "workers = 8");
+    let case =
+        Case::each_row("", "    if x[0] > 0.97: continue\n    answer(y)\n").replace("workers = 2", "workers = 8");
     let (result, _) = case.result();
     let bad = super::rows_where(|x| x > 0.97);
     assert_eq!(failures(&result.outputs[0]), [("the program gave no answer to the row", bad)]);
