@@ -70,8 +70,6 @@ pub struct StudyGroup {
     pub figures: &'static str,
     /// What varies.
     pub title: &'static str,
-    /// The same at the beginning of a sentence.
-    pub among: &'static str,
 }
 
 /// The groups, in the order of the papers.
@@ -80,19 +78,16 @@ pub const GROUPS: [StudyGroup; 3] = [
         key: "dimensional",
         figures: "CHK fig. 10, LG fig. 4a",
         title: "the cantilever's dimensions",
-        among: "Among the dimensions alone",
     },
     StudyGroup {
         key: "environmental",
         figures: "CHK fig. 15, LG fig. 4b",
         title: "the environment",
-        among: "Among the factors of the environment alone",
     },
     StudyGroup {
         key: "general",
         figures: "CHK fig. 16, LG fig. 4c",
         title: "all eight factors",
-        among: "Of all eight factors together",
     },
 ];
 
