@@ -74,21 +74,9 @@ pub struct StudyGroup {
 
 /// The groups, in the order of the papers.
 pub const GROUPS: [StudyGroup; 3] = [
-    StudyGroup {
-        key: "dimensional",
-        figures: "CHK fig. 10, LG fig. 4a",
-        title: "the cantilever's dimensions",
-    },
-    StudyGroup {
-        key: "environmental",
-        figures: "CHK fig. 15, LG fig. 4b",
-        title: "the environment",
-    },
-    StudyGroup {
-        key: "general",
-        figures: "CHK fig. 16, LG fig. 4c",
-        title: "all eight factors",
-    },
+    StudyGroup { key: "dimensional", figures: "CHK fig. 10, LG fig. 4a", title: "the cantilever's dimensions" },
+    StudyGroup { key: "environmental", figures: "CHK fig. 15, LG fig. 4b", title: "the environment" },
+    StudyGroup { key: "general", figures: "CHK fig. 16, LG fig. 4c", title: "all eight factors" },
 ];
 
 /// The study files, by name: part of the program, so that it reproduces the papers wherever it is installed.
