@@ -8,18 +8,23 @@ mod points;
 mod precise;
 mod second;
 
+use std::any::Any;
 use std::sync::OnceLock;
 use std::sync::atomic::AtomicBool;
 
+use afm_second::AfmSecond;
 use apportion::model::{Batch, GiveUp, LARGEST_ERROR, Model, RowFailure, RunContext, Worker};
 use apportion::run::{Progress, RunError, run_each};
 use apportion::space::Space;
-use apportion::study::Study;
+use apportion::study::{Study, Subject};
+use apportion_afm::{AfmSubject, Parameter};
+use apportion_files::ExpressionSubject;
 pub use document::{ExtremesFile, build_extremes, extremes_document};
 use map::Reasons;
 pub use map::{Extremes, Grid, Kind, Outcome, Reason, Tally};
 use points::{Point, grids, points};
-use second::{Answered, Reference, SecondCalculation, Unchecked, second_calculation};
+use precise::PreciseFormulas;
+use second::{Answered, Reference, SecondCalculation, Unchecked};
 
 /// How much is tried.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -209,6 +214,24 @@ fn judge(value: Result<f64, RowFailure>, flags: &[&str], second: &Result<Referen
         },
     };
     Finding { value: Some(value), reference: second.as_ref().ok().map(|reference| reference.value), ..finding }
+}
+
+/// The outputs of a study's model on the factors of `space` by another way.
+///
+/// # Errors
+/// Why there is none, in a few words.
+fn second_calculation(subject: &dyn Subject, space: &Space) -> Result<Box<dyn SecondCalculation>, &'static str> {
+    let subject: &dyn Any = subject;
+    if let Some(formulas) = subject.downcast_ref::<ExpressionSubject>() {
+        let formulas = formulas.formulas.iter().map(|formula| formula.expression.clone());
+        return Ok(Box::new(PreciseFormulas(formulas.collect())));
+    }
+    let afm = subject.downcast_ref::<AfmSubject>().ok_or("nothing else computes what the model does")?;
+    if !afm.histories.is_empty() {
+        return Err("there is no second calculation of a history");
+    }
+    let factors = space.factors().iter().filter_map(|factor| Parameter::from_name(&factor.name)).collect();
+    Ok(Box::new(AfmSecond::new(afm.scene, afm.options, factors, afm.outputs.clone())))
 }
 
 #[cfg(test)]

@@ -1,15 +1,5 @@
 //! A second calculation of a model's outputs, by another way or in more digits, to check the first by.
 
-use std::any::Any;
-
-use apportion::space::Space;
-use apportion::study::Subject;
-use apportion_afm::{AfmSubject, Parameter};
-use apportion_files::ExpressionSubject;
-
-use super::afm_second::AfmSecond;
-use super::precise::PreciseFormulas;
-
 /// Another way to a model's outputs.
 pub trait SecondCalculation: Send + Sync {
     /// What it is, in a few words.
@@ -64,25 +54,4 @@ pub enum Unchecked {
     NotAvailable(String),
     /// The second calculation says that there is no value; why not.
     NoValue(String),
-}
-
-/// The outputs of a study's model on the factors of `space` by another way.
-///
-/// # Errors
-/// Why there is none, in a few words.
-pub(super) fn second_calculation(
-    subject: &dyn Subject,
-    space: &Space,
-) -> Result<Box<dyn SecondCalculation>, &'static str> {
-    let subject: &dyn Any = subject;
-    if let Some(formulas) = subject.downcast_ref::<ExpressionSubject>() {
-        let formulas = formulas.formulas.iter().map(|formula| formula.expression.clone());
-        return Ok(Box::new(PreciseFormulas(formulas.collect())));
-    }
-    let afm = subject.downcast_ref::<AfmSubject>().ok_or("nothing else computes what the model does")?;
-    if !afm.histories.is_empty() {
-        return Err("there is no second calculation of a history");
-    }
-    let factors = space.factors().iter().filter_map(|factor| Parameter::from_name(&factor.name)).collect();
-    Ok(Box::new(AfmSecond::new(afm.scene, afm.options, factors, afm.outputs.clone())))
 }
