@@ -1,4 +1,4 @@
-//! The answer in short: which factor leads in each study, how sure that is, and in what order the rest follow.
+//! The answer in short: which factor leads in each study, with which certainty, and the order of the rest.
 
 use apportion::EffectEstimates;
 use apportion::result::IndexRecord;
@@ -11,17 +11,17 @@ use crate::reproduce::order::VISIBLE;
 use crate::reproduce::shares::{indices, ranked};
 use crate::reproduce::{FRICTIONS, GROUPS, Reproduced, StudyGroup, named_together};
 
-/// An index in percent of the variance, to a whole percent; one decimal below 10 %.
+/// Formats an index in percent of the variance, to a whole percent; one decimal below 10 %.
 fn percent(index: f64) -> String {
     format!("{} %", fixed(100.0 * index, if index < 0.0995 { 1 } else { 0 }))
 }
 
-/// What a factor explains alone and with its interactions.
+/// Returns what a factor explains alone and with its interactions.
 fn explained(effect: &EffectEstimates) -> (String, String) {
     (percent(effect.first_order.estimate), percent(effect.total.estimate))
 }
 
-/// How sure it is that the leader leads.
+/// Says with which certainty the leading factor leads.
 fn certainty(effect: &EffectEstimates) -> String {
     match effect.probability_first {
         Some(p) if p > 0.999 => "largest with probability > 0.999".to_owned(),
@@ -30,8 +30,8 @@ fn certainty(effect: &EffectEstimates) -> String {
     }
 }
 
-/// A row for each group of studies, a column for each friction model: the leader, its shares, how sure it is, and who
-/// follows.
+/// Builds a row for each group of studies, a column for each friction model: the leading factor, its shares, the
+/// certainty, and the next factors.
 pub(super) fn table(studies: &[Reproduced]) -> Part {
     let caption = "The leading factor of each study: the part of the variance of the critical force that it explains alone \
                    (first-order index S_1) and with all its interactions (total index S_T), and the factors that follow \
@@ -59,13 +59,13 @@ fn leader(study: &Reproduced) -> Cell {
     }
 }
 
-/// A paragraph for the top of the page: what decides the force, and where the model does not hold.
+/// Writes a paragraph for the top of the page: the leading factors, and where the model does not hold.
 pub(super) fn paragraph(studies: &[Reproduced]) -> Option<String> {
     let sentences: Vec<String> = [2, 0, 1].iter().filter_map(|&place| sentence(studies, GROUPS[place])).collect();
     (!sentences.is_empty()).then(|| format!("{}{}", sentences.join(" "), where_it_holds(studies)))
 }
 
-/// On how many of the runs the model leaves its range, by the flag that is raised most.
+/// Says on what share of the runs the model is outside its range, by the flag that is raised most.
 fn where_it_holds(studies: &[Reproduced]) -> String {
     let flags = studies.iter().flat_map(|study| &study.result.validity).filter(|flag| flag.runs > 0);
     let Some(worst) = flags.max_by(|a, b| a.share.total_cmp(&b.share)) else { return String::new() };
@@ -81,6 +81,7 @@ fn where_it_holds(studies: &[Reproduced]) -> String {
     )
 }
 
+/// Formats
 /// `Thickness explains 33 % of the variance of the critical force alone and 67 % with its interactions (Coulomb); ...`.
 fn sentence(studies: &[Reproduced], group: StudyGroup) -> Option<String> {
     let of_group = studies.iter().filter(|study| study.group == group);
@@ -102,7 +103,7 @@ fn sentence(studies: &[Reproduced], group: StudyGroup) -> Option<String> {
     (!said.is_empty()).then(|| format!("{}, {}.", group.among, said.join("; ")))
 }
 
-/// What a careful reader should know of each study, a sentence each.
+/// Lists the warnings of each study, a sentence each.
 pub(super) fn cautions(studies: &[Reproduced]) -> Vec<String> {
     let said = |study: &Reproduced| -> Vec<String> {
         let warnings = study.result.outputs.iter().flat_map(|output| output.warnings.iter());
@@ -111,8 +112,8 @@ pub(super) fn cautions(studies: &[Reproduced]) -> Vec<String> {
     studies.iter().flat_map(said).collect()
 }
 
-/// On which share of the runs each assumption of the model does not hold: a column for each flag that was raised
-/// anywhere, a row for each study.
+/// Tabulates the share of the runs on which each assumption of the model does not hold: a column for each flag that was
+/// raised in some study, a row for each study.
 pub fn validity(studies: &[Reproduced]) -> Option<Part> {
     let flags = &studies.first()?.result.validity;
     let raised =
