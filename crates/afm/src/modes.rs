@@ -60,7 +60,7 @@ pub struct TipForce {
 }
 
 impl TipForce {
-    /// The force of size `size` (N) at the angle `angle` (rad) from the vertical, psi.
+    /// Creates the force of size `size` (N) at the angle `angle` (rad) from the vertical, psi.
     pub fn polar(size: f64, angle: f64) -> Self {
         Self { normal: size * libm::cos(angle), lateral: size * libm::sin(angle) }
     }

@@ -40,7 +40,7 @@ impl Scene {
         if self.looks_physical() { Ok(()) } else { self.look_closely() }
     }
 
-    /// Does the same as [`look_closely`](Self::look_closely) for the hot path.
+    /// Returns the same as [`look_closely`](Self::look_closely), for the hot path.
     #[inline]
     fn looks_physical(&self) -> bool {
         let (mut positive, mut not_negative, mut others) =

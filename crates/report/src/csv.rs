@@ -31,12 +31,12 @@ pub struct Field {
 }
 
 impl Field {
-    /// A column.
+    /// Creates a column.
     pub fn new(name: impl Into<String>) -> Self {
         Self { name: name.into(), is_estimate: false }
     }
 
-    /// The columns `name`, `name_low` and `name_high`.
+    /// Creates the columns `name`, `name_low` and `name_high`.
     pub fn estimate(name: impl Into<String>) -> Self {
         Self { name: name.into(), is_estimate: true }
     }

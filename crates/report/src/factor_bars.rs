@@ -27,7 +27,7 @@ const SMALL: f64 = 0.01;
 /// A series with its value for each factor; `None` is marked as missing.
 pub(super) type IndexSeries = (Series, Vec<Option<Estimate>>);
 
-/// The series of first-order and of total indices.
+/// Returns the series of first-order and of total indices.
 pub(super) fn both_orders(first_order: Vec<Option<Estimate>>, total: Vec<Option<Estimate>>) -> [IndexSeries; 2] {
     [
         (Series::new("S_1, first order: alone", Colour::Series(0)), first_order),

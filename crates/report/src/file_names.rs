@@ -1,4 +1,4 @@
-//! The names of the files of a document: safe and unique, whatever the names of outputs and factors.
+//! The names of the files of a document: safe and unique for any names of outputs and factors.
 
 use std::collections::HashSet;
 

@@ -24,12 +24,12 @@ pub(super) struct Contender {
 }
 
 impl Contender {
-    /// A contender whose probability to be the largest is unknown.
+    /// Creates a contender whose probability to be the largest is unknown.
     pub fn new(label: impl Into<String>, total: Estimate) -> Self {
         Self { label: label.into(), total, probability: None }
     }
 
-    /// A factor with the quantity it is ranked by.
+    /// Creates the contender of a factor with its index.
     pub fn from_index(index: &IndexRecord) -> Self {
         let probability = index.effect.probability_first;
         Self { probability, ..Self::new(name(&index.factor), index.effect.weight()) }
@@ -99,7 +99,7 @@ pub(super) fn surely_interact(pairs: &[PairRecord]) -> Vec<bool> {
     pairs.iter().map(|pair| is_sure(pair.index)).collect()
 }
 
-/// The measure that factors of an output are ranked by.
+/// Returns the measure by which factors of an output are ranked.
 pub(super) fn measure(output: &OutputResult) -> &'static str {
     let is_shapley = |index: &IndexRecord| index.effect.dependent.is_some() && index.effect.shapley.is_some();
     if output.indices.iter().flatten().any(is_shapley) { "Shapley effect" } else { "total index S_T" }

@@ -149,7 +149,7 @@ impl Problem<5> for Bristles<'_> {
         [rise, turn, u, self.agility * (q - friction), self.stiffness * sprung]
     }
 
-    /// Without the change of the load by the twist, which is of second order; the error estimate covers it.
+    /// Neglects the change of the load by the twist, which is of second order; the error estimate covers it.
     fn jacobian(&self, t: f64, &[q, w, x, u, p]: &[f64; 5]) -> [[f64; 5]; 5] {
         let [[rise_q, rise_w, rise_s], [turn_q, turn_w, turn_s]] = self.motion.slopes(t - x, &[q, w]);
         let load = self.load(t - x, q);

@@ -40,8 +40,8 @@ named! {
         /// The equations of motion, integrated in steps of [`Options::step`], the forces read at the first step past
         /// the slip. It overshoots by up to k_lat V step, and exists to show the effect of such steps.
         FixedStep = "fixed-step",
-        /// The lowest of the first three whose error estimate meets [`Options::tolerance`], or that no higher one
-        /// betters.
+        /// The lowest of the first three with an error estimate within [`Options::tolerance`], or with none better
+        /// above.
         Auto = "auto",
     }
 }

@@ -7,7 +7,7 @@ pub(super) struct Factors<const N: usize> {
 }
 
 impl<const N: usize> Factors<N> {
-    /// Gaussian elimination with partial pivoting, rows weighted by their largest entry, since rows carry different
+    /// Eliminates by Gauss with partial pivoting, rows weighted by their largest entry, since rows carry different
     /// units. A singular matrix gives non-finite solutions.
     pub fn new(mut matrix: [[f64; N]; N]) -> Self {
         let mut weights: [f64; N] =

@@ -100,8 +100,8 @@ pub struct CommandSettings {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
-/// `examples/own_program.rs` writes such a program, studies it by [`Study::builder`](apportion::study::Study::builder) and
-/// compares the result with that of a function.
+/// `examples/own_program.rs` writes such a program, studies it by [`Study::builder`](apportion::study::Study::builder)
+/// and compares the result with that of a function.
 pub struct CommandModel {
     settings: CommandSettings,
     factors: Vec<Factor>,

@@ -48,8 +48,9 @@ pub struct Evaluated {
     pub unended: bool,
 }
 
-/// Evaluates the model of `study` at the points of a table, whose columns are named after factors, and writes its outputs
-/// as CSV: a header of output names, then one line per point, in the outputs' units. An output that failed is an empty cell.
+/// Evaluates the model of `study` at the points of a table, whose columns are named after factors, and writes its
+/// outputs as CSV: a header of output names, one line per point, in the outputs' units. A failed output is an empty
+/// cell.
 ///
 /// Uses constant memory, and as many workers as the model [asks for](apportion::model::Model::concurrency); the outputs
 /// are in the order of the points. Numbers are written with as many digits as it takes to read the same bits back.

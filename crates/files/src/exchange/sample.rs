@@ -37,8 +37,8 @@ pub fn random_design(study: &Study, rows: u64) -> Result<Design, DesignError> {
     Design::new(settings, study.design().factors(), of_design)
 }
 
-/// Writes the first `most` rows of `design`, a column for each factor of `study` in its unit, and returns the SHA-256 of their
-/// numbers. Those of a [`random_design`] are a table for [`apportion::given`], not a design of the study.
+/// Writes the first `most` rows of `design`, a column for each factor of `study` in its unit, and returns the SHA-256
+/// of their numbers. Those of a [`random_design`] are a table for [`apportion::given`], not a design of the study.
 ///
 /// # Errors
 /// Any error of the file system.

@@ -43,7 +43,7 @@ pub const NEW_PROGRAM: &str = "my_model.py";
 /// ```
 ///
 /// # Errors
-/// [`Problem::UnknownName`] for a factor or output that the model does not have, [`Problem::Repeated`] for one named twice.
+/// [`Problem::UnknownName`] for an unknown factor or output, [`Problem::Repeated`] for one named twice.
 pub fn template(request: &TemplateRequest) -> Result<String, Problem> {
     refuse_repeated("factor", &request.factors)?;
     refuse_repeated("output", &request.outputs)?;

@@ -166,7 +166,7 @@ impl<'a> Sheet<'a> {
         Some((self.plot.x(&self.cell.x, x)?, self.plot.y(&self.cell.y, y)?))
     }
 
-    /// Both edges of a band at a place.
+    /// Returns both edges of a band at a position.
     fn edges(&self, &(x, low, high): &(f64, f64, f64)) -> Option<[(f64, f64); 2]> {
         Some([self.at((x, low))?, self.at((x, high))?])
     }

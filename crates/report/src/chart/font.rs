@@ -36,12 +36,12 @@ pub(super) struct Face {
 }
 
 impl Face {
-    /// The regular face.
+    /// Returns the regular face.
     pub const fn regular(size: f64) -> Self {
         Self { size, weight: Weight::Regular }
     }
 
-    /// The bold face.
+    /// Returns the bold face.
     pub const fn bold(size: f64) -> Self {
         Self { size, weight: Weight::Bold }
     }
@@ -56,18 +56,18 @@ impl Face {
         em * self.size
     }
 
-    /// Distance from one baseline to the next, px.
+    /// Returns the distance from one baseline to the next, px.
     pub fn leading(self) -> f64 {
         1.25 * self.size
     }
 
-    /// Height of a capital letter, px (Liberation Sans: 1409 of 2048 units).
+    /// Returns the height of a capital letter, px (Liberation Sans: 1409 of 2048 units).
     pub fn cap_height(self) -> f64 {
         0.688 * self.size
     }
 }
 
-/// Whether both embedded faces have a glyph for the character.
+/// Returns whether both embedded faces have a glyph for the character.
 #[cfg(feature = "png")]
 pub(super) fn covers(c: char) -> bool {
     REGULAR_ADVANCES.contains_key(&c) && BOLD_ADVANCES.contains_key(&c)

@@ -43,7 +43,7 @@ impl Area {
         Self { left: x.0.min(x.1), right: x.0.max(x.1), top: y.0.min(y.1), bottom: y.0.max(y.1) }
     }
 
-    /// Whether the two have a point in common inside both.
+    /// Returns whether the two have a common interior point.
     pub fn overlaps(&self, other: &Area) -> bool {
         self.left < other.right && other.left < self.right && self.top < other.bottom && other.top < self.bottom
     }

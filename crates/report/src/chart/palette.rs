@@ -65,7 +65,7 @@ impl Colour {
         1.05 / own > own / (luminance(INK, 1.0) + 0.05)
     }
 
-    /// The outline of a point as path data about its middle.
+    /// Returns the outline of a point as path data about its middle.
     pub(super) fn symbol(self) -> &'static str {
         match self {
             Self::Series(number) => SYMBOLS[number % SYMBOLS.len()],

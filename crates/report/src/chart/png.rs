@@ -23,8 +23,8 @@ pub struct Png {
     pub width: u32,
     /// Height in pixels.
     pub height: u32,
-    /// Characters of the chart's texts that the embedded faces lack, each once, in order of appearance: they
-    /// show as empty boxes here, while the SVG shows them wherever a font has them.
+    /// Characters of the chart's texts that the embedded faces lack, each once, in order of appearance: they show as
+    /// empty boxes here, while the SVG shows them if a font has them.
     pub missing: Vec<char>,
 }
 

@@ -55,7 +55,7 @@ impl<'a> Sheet<'a> {
         self.plot.x(&self.cell.x, value)
     }
 
-    /// The middle of the bars of a row.
+    /// Returns the middle of the bars of a row.
     fn middle(&self, row: usize) -> f64 {
         let rows = self.layout.rows;
         self.plot.top + (row + 1) as f64 * rows.pitch - (rows.bars + ROW_GAP) / 2.0

@@ -329,7 +329,7 @@ mod tests {
             let s = scale(&values, if log { Logarithmic } else { Linear }, air);
             prop_assert!((1..=12).contains(&s.ticks.len()), "{:?}", s.ticks);
             prop_assert!(s.minor.len() < 50);
-            // Every shown value lies on the axis; 1e-8 allows for ranges 1e-9 of their values wide.
+            // Every shown value is on the axis; 1e-8 allows for ranges 1e-9 of their values wide.
             for value in values.iter().copied().chain(s.ticks.iter().map(|t| t.value)) {
                 if let Some(place) = s.place(value) {
                     prop_assert!((-1e-8..=1.0 + 1e-8).contains(&place), "{value} at {place}");

@@ -51,7 +51,7 @@ const MILLIMETRES: f64 = 0.26;
 const COLUMN: f64 = 520.0;
 
 impl PaperWidth {
-    /// The width in mm.
+    /// Returns the width in mm.
     pub fn millimetres(self) -> f64 {
         f64::from(self.micrometres) / 1e3
     }
@@ -91,7 +91,7 @@ impl ChartWidth {
         }
     }
 
-    /// Whether it is laid out as for a phone.
+    /// Returns whether it is laid out as for a phone.
     pub(super) fn is_narrow(self) -> bool {
         match self {
             Self::Wide => false,
@@ -105,7 +105,7 @@ impl ChartWidth {
         if self.is_narrow() { narrow } else { wide }
     }
 
-    /// The width on paper, if it is for paper.
+    /// Returns the width on paper, if it is for paper.
     pub(super) fn paper(self) -> Option<PaperWidth> {
         match self {
             Self::Paper(width) => Some(width),

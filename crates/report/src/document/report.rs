@@ -47,7 +47,7 @@ pub struct Report<'a> {
     pub outputs: Vec<OutputReport<'a>>,
     /// The sections after the outputs.
     pub then: Vec<Section>,
-    /// What a careful reader should know, sentences without capital and full stop.
+    /// Notes, sentences without capital and full stop.
     pub notes: &'a [String],
     /// The number of runs on which the model's assumptions do not hold.
     pub validity: &'a [ValidityRecord],

@@ -70,7 +70,7 @@ pub fn is_above_zero(record: Estimate) -> bool {
     record.interval.is_some_and(|interval| interval.low > 0.0) && is_left_out
 }
 
-/// [`give_or_take`] for sentences, with true minus signs.
+/// Formats like [`give_or_take`], for sentences, with true minus signs.
 pub fn index(record: Estimate) -> String {
     minus(&give_or_take(record))
 }

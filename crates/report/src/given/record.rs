@@ -25,7 +25,7 @@ pub struct GivenFile {
     pub inputs: Vec<GivenInputRecord>,
     /// Dependence between the inputs; `null` with fewer than two that vary.
     pub dependence: Option<Dependence>,
-    /// How surrogates were fitted; `null` if they were not asked for.
+    /// How surrogates were fitted; `null` if they were not requested.
     #[serde(default)]
     pub surrogate: Option<GivenSurrogateRecord>,
     /// The outputs.

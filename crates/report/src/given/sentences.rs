@@ -145,7 +145,7 @@ pub(super) fn output_warnings(output: &OutputIndices, surrogate: Option<&Surroga
     warnings
 }
 
-/// A share in percent.
+/// Formats a share in percent.
 pub(super) fn percent(share: f64) -> String {
     if share > 0.0 && share < 0.01 { "less than 1 %".to_owned() } else { format!("{} %", fixed(100.0 * share, 0)) }
 }

@@ -47,7 +47,7 @@ pub(super) struct Holding {
     pub share: Share,
 }
 
-/// Our answer to a claim; see [`Claim`](super::Claim).
+/// The verdict on a claim with its details; see [`Claim`](super::Claim).
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Answer {
     pub verdict: Verdict,
@@ -56,7 +56,7 @@ pub(super) struct Answer {
 }
 
 impl Answer {
-    /// Creates the answer to a claim decided at the scene of the paper, with the part of the box where it holds.
+    /// Creates the verdict on a claim decided at the scene of the paper, with the part of the box where it holds.
     pub fn judged(holdings: &[Holding], words: impl Into<Words>) -> Self {
         Self { verdict: judge(holdings), range: over_ranges(holdings), words: words.into() }
     }

@@ -27,7 +27,7 @@ use serde::Serialize;
 use super::papers::{PaperClaim, filled, papers};
 use super::{Effort, ReproduceError, Reproduced};
 
-/// A claim of the papers with our answer.
+/// A claim of the papers with our verdict.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Claim {
     /// Its number, from 1; two claims may share a number.
@@ -36,7 +36,7 @@ pub struct Claim {
     pub source: &'static str,
     /// The claim in one sentence.
     pub statement: &'static str,
-    /// Our answer in the setting of the paper: at its figure's scene, with its constants.
+    /// Our verdict in the setting of the paper: at its figure's scene, with its constants.
     #[serde(flatten)]
     pub verdict: Verdict,
     /// Where it holds over the whole ranges of the general study; for orders and percentages, under which friction model.
@@ -49,7 +49,7 @@ pub struct Claim {
     pub figures: &'static [&'static str],
 }
 
-/// The answer to a claim.
+/// The verdict on a claim.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[serde(tag = "verdict", rename_all = "kebab-case")]
 pub enum Verdict {
@@ -88,7 +88,7 @@ impl Verdict {
     }
 }
 
-/// A function that answers a claim.
+/// A function that checks a claim.
 type Check = fn(&Bench<'_>) -> Result<Answer, ReproduceError>;
 
 /// The checks by their names in `papers.toml`.
@@ -120,7 +120,7 @@ const CHECKS: [(&str, Check); 25] = [
     ("outweigh", shares::outweigh),
 ];
 
-/// Answers every claim of the papers, in the order of their numbers. `studies` are all nine studies with intervals;
+/// Checks every claim of the papers, in the order of their numbers. `studies` are all nine studies with intervals;
 /// claims 17 to 20 depend on them. The same studies and effort give the same claims, to the last letter.
 ///
 /// # Errors
@@ -129,7 +129,7 @@ pub fn claims(studies: &[Reproduced], effort: Effort) -> Result<Vec<Claim>, Repr
     answered(&Bench::new(Physics::ours(), effort, studies)?, &(1..=20))
 }
 
-/// Answers the claims whose numbers are in `numbers`.
+/// Checks the claims whose numbers are in `numbers`.
 fn answered(bench: &Bench<'_>, numbers: &std::ops::RangeInclusive<usize>) -> Result<Vec<Claim>, ReproduceError> {
     let asked = papers().claims.iter().filter(|claim| numbers.contains(&claim.number));
     let claim = |claim: &'static PaperClaim| {

@@ -1,4 +1,4 @@
-//! The answer in short: which factor leads in each study, with which certainty, and the order of the rest.
+//! The summary: which factor leads in each study, with which certainty, and the order of the rest.
 
 use apportion::EffectEstimates;
 use apportion::result::IndexRecord;
