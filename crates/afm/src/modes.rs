@@ -115,8 +115,8 @@ impl Pushing {
     /// Returns the balance of `mode` under the tip force `force`.
     ///
     /// # Errors
-    /// [`Failure::OutOfDomain`] if a constant is not physical; [`Failure::BeyondPullOff`] if the force pulls the contact
-    /// with substrate or tip apart; [`Failure::NotFinite`] on overflow.
+    /// [`Failure::OutOfDomain`] if a constant is not physical; [`Failure::BeyondPullOff`] if the force pulls the
+    /// contact with substrate or tip apart; [`Failure::NotFinite`] on overflow.
     ///
     /// # Example
     /// ```
@@ -195,8 +195,8 @@ impl Pushing {
     /// Returns the least tip force F_T (N) at the angle psi = `angle` (rad) that starts `mode`, as in the mode diagram;
     /// `None` if the resistance grows with the force as fast as the drive.
     ///
-    /// For [`Mode::Slide`] this is F* = (tau A_s + mu_s q F_ad)/(sin psi - mu_s cos psi), in which A_s is the area under
-    /// F* cos psi itself.
+    /// For [`Mode::Slide`] this is F* = (tau A_s + mu_s q F_ad)/(sin psi - mu_s cos psi), in which A_s is the area
+    /// under F* cos psi itself.
     ///
     /// # Errors
     /// [`Failure::OutOfDomain`] if `angle` is not from 0 to a right angle; those of [`balance`](Self::balance).

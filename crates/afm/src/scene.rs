@@ -129,8 +129,8 @@ pub struct Scene {
     dahl_exponent: f64 = 1.0, "alpha_D", "1", Positive, "exponent of Dahl's law";
     /// Exponent d_s of the classical Stribeck curve. 2, as in LuGre friction.
     stribeck_exponent: f64 = 2.0, "d_s", "1", Positive, "exponent of the classical Stribeck curve";
-    /// Coefficient of static friction of a contact that has just come to rest, of Armstrong's law: F_C + F_S,a = mu_a N.
-    /// No paper prints one for this contact: midway between mu_d and mu_s.
+    /// Coefficient of static friction of a contact that has just come to rest, of Armstrong's law: F_C + F_S,a = mu_a
+    /// N. No paper prints one for this contact: midway between mu_d and mu_s.
     fresh_friction: f64 = 0.75, "mu_a", "1", NonNegative, "coefficient of static friction just after coming to rest";
     /// Time gamma (s) in which Armstrong's static friction rises halfway from fresh to old. Chosen: the order of
     /// magnitude of Armstrong-Helouvry, Dupont & Canudas de Wit 1994.
@@ -143,8 +143,8 @@ pub struct Scene {
     layer_half_thickness: f64 = 1e-9, "h", "m", Positive, "half the layer thickness (Lemaitre-Carlson)";
     /// Shear modulus of that layer, mu (Pa). Chosen: a glassy molecular film.
     layer_modulus: f64 = 1e9, "mu", "Pa", Positive, "shear modulus of the layer (Lemaitre-Carlson)";
-    /// Stress scale of its rearrangements, mubar (Pa). Chosen with the four rates below so that the layer slides steadily
-    /// near the shear strength of 28 MPa at 100 nm/s, weakens with velocity and ages.
+    /// Stress scale of its rearrangements, mubar (Pa). Chosen with the four rates below so that the layer slides
+    /// steadily near the shear strength of 28 MPa at 100 nm/s, weakens with velocity and ages.
     layer_stress: f64 = 10e6, "mubar", "Pa", Positive, "stress scale of rearrangements (Lemaitre-Carlson)";
     /// Rate E0 of its rearrangements (1/s).
     rearrangement_rate: f64 = 1e5, "E0", "1/s", Positive, "rate of rearrangements (Lemaitre-Carlson)";

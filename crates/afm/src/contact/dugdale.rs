@@ -100,8 +100,8 @@ impl Zone {
 
     /// Returns the zone with the least load, for `lambda` from 1e-36 to 1e9.
     pub fn at_pull_off(lambda: f64) -> Self {
-        // s -> (3/2)^(1/3)/lambda for large lambda, 3/pi^(3/2) lambda^(-3/2) for small; the sum of the two is above s by
-        // at most a factor 1.8, and never below.
+        // s -> (3/2)^(1/3)/lambda for large lambda, 3/pi^(3/2) lambda^(-3/2) for small; the sum of the two is above s
+        // by at most a factor 1.8, and never below.
         let scale = 1.144_714_242_553_331_9 / lambda + 0.538_761_366_375_499_7 / (lambda * lambda.sqrt());
         let slope = |inverse: f64| Self::new(lambda, 1.0 / inverse).slope();
         // Regula falsi with the weights of Anderson & Bjorck 1973, in 1/s, which varies like abar.
@@ -223,9 +223,9 @@ mod tests {
         }
     }
 
-    /// Limits of the least load and of the radius there, for small and for large lambda, by expansion about s = infinity
-    /// and s = 0: lift (16/3) (pi/2 - 1) pi^(-1/2) lambda^(3/2), abar 2 pi lambda/3; and 1/2, (3/2)^(1/3).
-    /// The next terms are of relative order lambda^(3/2) and 1/lambda^2.
+    /// Limits of the least load and of the radius there, for small and for large lambda, by expansion about s =
+    /// infinity and s = 0: lift (16/3) (pi/2 - 1) pi^(-1/2) lambda^(3/2), abar 2 pi lambda/3; and 1/2, (3/2)^(1/3). The
+    /// next terms are of relative order lambda^(3/2) and 1/lambda^2.
     #[test]
     fn pull_off_tends_to_dmt_and_jkr() {
         for lambda in [1e-30, 1e-12, 1e-8] {
@@ -252,7 +252,7 @@ mod tests {
     }
 
     proptest! {
-        /// The slope is the derivative of the lift: central differences of step 1e-4, good to 1e-8, and the rounding of the lift.
+        /// The slope is the derivative of the lift: central differences of step 1e-4, to 1e-8 plus its rounding.
         #[test]
         fn slope_is_the_derivative(log_lambda in -3.0..3.0_f64, log_s in -4.0..4.0_f64) {
             let (lambda, s) = (libm::pow(10.0, log_lambda), libm::pow(10.0, log_s));

@@ -133,7 +133,7 @@ fn damped(motion: &Motion, substrate: &Substrate, limit: &Slip) -> Result<(End<2
 fn swinging(motion: &Motion, substrate: &Substrate, limit: &Slip, swing: f64) -> Result<(End<2>, u64), Failure> {
     let tolerance = substrate.options.tolerance;
     let frequency = motion.frequency();
-    // The force rises by more than 1 in a unit of time. The first crossing comes before the mean by the amplitude at most.
+    // The force rises by more than 1 in a unit of time, so the crossing precedes the mean by at most the amplitude.
     let lead = 2.0 * swing + 2.0 * TAU / frequency;
     let kept = 10.0 * swing * motion.drift(limit.twist) / frequency < 0.05 * tolerance;
     let start =

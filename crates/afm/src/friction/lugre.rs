@@ -12,8 +12,8 @@ named! {
         /// The constants of the scene. As in the Sobol' study of this law, where neither the contact modulus nor the
         /// adhesion therefore has an effect.
         Frozen = "frozen",
-        /// The contact: sigma0 = 8 G_eff a with 1/G_eff = (2 - nu1)/G1 + (2 - nu2)/G2 (Mindlin 1949), and critical damping
-        /// of the particle, sigma1 = 2 sqrt(sigma0 m_p).
+        /// The contact: sigma0 = 8 G_eff a with 1/G_eff = (2 - nu1)/G1 + (2 - nu2)/G2 (Mindlin 1949), and critical
+        /// damping of the particle, sigma1 = 2 sqrt(sigma0 m_p).
         Contact = "contact",
     }
 }
@@ -139,15 +139,15 @@ mod tests {
         assert_eq!(LAW.steady_force(5e-7, 0.1), 0.7 * 5e-7 + 0.3 * 0.1);
     }
 
-    /// At v = v_s the curve is down to 1/e of the way; 1e-15 is a few roundings.
+    /// At v = v_s the curve is down to 1/e; 1e-15 is a few roundings.
     #[test]
     fn at_the_stribeck_velocity() {
         let expected = 0.7 + 0.1 * libm::exp(-1.0_f64);
         assert!((LAW.stribeck(1.0, 1e-3) - expected).abs() < 1e-15);
     }
 
-    /// By hand: G_eff = 1/(1.58/27 + 1.83/31.2) GPa = 8.5354 GPa, sigma0 = 8 G_eff 9.09 nm = 620.7 N/m; m_p = 1.01054e-17
-    /// kg; sigma1 = 2 sqrt(620.7 * 1.01054e-17). The study's constants 625 and 1.6e-7 are these, rounded.
+    /// By hand: G_eff = 1/(1.58/27 + 1.83/31.2) GPa = 8.5354 GPa, sigma0 = 8 G_eff 9.09 nm = 620.7 N/m; m_p =
+    /// 1.01054e-17 kg; sigma1 = 2 sqrt(620.7 * 1.01054e-17). The study's constants 625 and 1.6e-7 are these, rounded.
     #[test]
     fn the_parameters_of_the_contact_explain_the_frozen_ones() {
         let law = LuGre::with(&Scene::default(), LuGreParameters::Contact, 9.09e-9);

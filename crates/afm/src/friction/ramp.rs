@@ -251,8 +251,8 @@ mod tests {
         }
     }
 
-    /// Near v_s friction weakens so fast that the particle breaks loose above the steady force, and below static friction
-    /// plus dashpots.
+    /// Near v_s friction weakens so fast that the particle breaks loose above the steady force, and below static
+    /// friction plus dashpots.
     #[test]
     fn fast_ramps_overshoot() {
         let velocity = 1e-3;

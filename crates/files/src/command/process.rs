@@ -53,7 +53,6 @@ const BLOCK: usize = 1 << 16;
 pub(super) const PATIENCE: Duration = Duration::from_secs(1);
 
 impl Process {
-    /// Starts `program`.
     pub(super) fn start(program: &Program, messages: &Messages) -> io::Result<Self> {
         let mut command = program.command(&program.directory);
         command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());

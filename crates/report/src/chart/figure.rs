@@ -55,7 +55,6 @@ pub(super) struct Figure<'a> {
 }
 
 impl<'a> Figure<'a> {
-    /// Draws title and legend.
     pub fn begin(medium: Medium, chart: &'a Chart) -> Self {
         let top = if medium.has_words() { MARGIN } else { 0.0 };
         let mut figure = Self { canvas: Canvas::default(), top, width: medium.width.px(), medium, chart };

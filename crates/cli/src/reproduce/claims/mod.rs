@@ -39,7 +39,7 @@ pub struct Claim {
     /// Our verdict in the setting of the paper: at its figure's scene, with its constants.
     #[serde(flatten)]
     pub verdict: Verdict,
-    /// Where it holds over the whole ranges of the general study; for orders and percentages, under which friction model.
+    /// Where it holds over the whole ranges of the general study; for orders and percentages, under which friction.
     pub range: String,
     /// Our result, in a sentence or two.
     pub finding: String,

@@ -194,7 +194,7 @@ mod tests {
                 }
             }
         }
-        // Three laws by three theories, with and without adhesion in the load, seven outputs; LuGre friction has no time.
+        // Three laws, three theories, with and without adhesion in the load, seven outputs; LuGre friction has no time.
         assert_eq!(read, 3 * 3 * 2 * 7 - 3 * 2);
     }
 }

@@ -80,7 +80,7 @@ impl<'a> ExtremesJob<'a> {
 /// ```
 ///
 /// # Errors
-/// [`RunError`] if threads cannot be started, the model gives up or the search is stopped. Failed rows are part of the map.
+/// [`RunError`] if threads cannot start, the model gives up or the search is stopped. Failed rows are in the map.
 pub fn extremes(job: &ExtremesJob<'_>) -> Result<Extremes, RunError> {
     let study = job.study;
     let context = RunContext::new(job.stop, job.on_message);

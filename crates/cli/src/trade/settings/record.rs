@@ -1,7 +1,7 @@
 //! The file of a comparison: JSON that other programs can rely on.
 //!
-//! Format `apportion-trade`, version 1, described key by key in `docs/trade.md`. Later versions of the program only add keys.
-//! A number that does not exist is `null`.
+//! Format `apportion-trade`, version 1, described in `docs/trade.md`. Later versions of the program only add keys. A
+//! number that does not exist is `null`.
 
 use std::ops::Deref;
 

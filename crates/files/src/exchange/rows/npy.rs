@@ -56,7 +56,6 @@ impl Element {
     }
 }
 
-/// Reads NPY.
 pub(super) struct NpyRows<R> {
     reader: R,
     names: Option<Vec<String>>,
@@ -192,7 +191,6 @@ impl<R: Read + Seek> RowReader for NpyRows<R> {
     }
 }
 
-/// Writes NPY.
 pub(super) struct NpyWriter<'a> {
     out: BufWriter<&'a mut dyn Write>,
     /// Number of rows still to come.
