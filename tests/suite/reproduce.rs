@@ -133,9 +133,17 @@ fn the_whole_is_the_same_on_any_number_of_threads_and_its_page_leads_nowhere_els
     ] {
         assert!(page.contains(expected), "{expected}");
     }
-    // Papers are named in full before their initials are used, and what all captions would say is said once.
-    let first = |words: &str| page.find(words).unwrap_or_else(|| panic!("{words}"));
-    assert!(first("A. Tafazzoli and M. Sitti (2004)") < first("CHK fig.") && first("M. H. Korayem") < first("LG fig."));
+    // The answer, its chart and its table come first, the papers in full last; what all captions would say is said once.
+    let places = [
+        "of the variance of the critical force alone",
+        "id=\"overview\"",
+        "id=\"answers\"",
+        "id=\"constants\"",
+        "id=\"claims\"",
+        "id=\"papers\"",
+    ];
+    let places = places.map(|words| page.find(words).unwrap_or_else(|| panic!("{words}")));
+    assert!(places.is_sorted(), "{places:?}");
     assert_eq!(
         page.matches("quasi-static rung").count(),
         1 + page.matches("differs from the closed forms by at most").count()

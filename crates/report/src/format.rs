@@ -57,14 +57,12 @@ fn significant_to(value: f64, most: usize) -> String {
     }
 }
 
-/// Formats a probability; `-` if it is unknown. Only an exact 0 or 1 is shown as such, not a value that rounds to it.
+/// A probability; `-` if it is unknown. An estimate is never certain: beyond 0.001 and 0.999 only the bound is shown.
 pub fn chance(probability: Option<f64>) -> String {
     match probability {
         None => "-".to_owned(),
-        Some(0.0) => "0".to_owned(),
-        Some(1.0) => "1".to_owned(),
-        Some(p) if p < 0.001 => "<0.001".to_owned(),
-        Some(p) if p > 0.999 => ">0.999".to_owned(),
+        Some(p) if p < 0.001 => "< 0.001".to_owned(),
+        Some(p) if p > 0.999 => "> 0.999".to_owned(),
         Some(p) => fixed(p, 3),
     }
 }
@@ -230,7 +228,7 @@ mod tests {
         assert_eq!(fixed(-0.00001, 4), "0.0000");
         assert_eq!(fixed(-0.5, 1), "-0.5");
         let chances = [None, Some(0.0), Some(1e-5), Some(0.25), Some(0.9999), Some(1.0)].map(chance);
-        assert_eq!(chances, ["-", "0", "<0.001", "0.250", ">0.999", "1"]);
+        assert_eq!(chances, ["-", "< 0.001", "< 0.001", "0.250", "> 0.999", "> 0.999"]);
     }
 
     #[test]

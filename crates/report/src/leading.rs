@@ -116,7 +116,7 @@ pub(super) fn leader(contenders: &[Contender], of: &str, measure: &str, unit: &s
     Some(match verdict {
         Verdict::None | Verdict::Leads(_) => {
             // An estimated probability is never certain.
-            let chance = |p: f64| chance(Some(p.min(1.0 - f64::EPSILON))).replace('>', "more than ");
+            let chance = |p: f64| chance(Some(p)).replace("> ", "more than ");
             let sure = largest.probability.map(|p| format!(", the largest with a probability of {}", chance(p)));
             let sure = sure.unwrap_or_default();
             format!("{of}, {} matters most: its {measure} is {}{sure}.", largest.label, size(largest))

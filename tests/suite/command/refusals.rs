@@ -39,7 +39,10 @@ fn keys_are_checked_with_their_places() {
     refused("template = \"model.py\"\ninput = \"../x\"", &["study.toml:7:9:", "the name of a file, without a folder"]);
     refused("template = \"model.py\"\nfiles = [\"no.dat\"]", &["study.toml:7:10:", "there is no such file"]);
     let pick = "template = \"model.py\"\noutputs.y = ";
-    refused(&format!("{pick}{{ regex = \"(\" }}"), &["study.toml:2:13:", "a regular expression", "unclosed group"]);
+    refused(
+        &format!("{pick}{{ regex = \"(\" }}"),
+        &["study.toml:2:13:", "a regular expression", "must be a regular expression"],
+    );
     refused(&format!("{pick}{{ pointer = \"a\" }}"), &["which begins with a slash"]);
     refused(&format!("{pick}{{ pointer = \"/a\", column = \"b\" }}"), &["one of `regex`, `column`, `pointer`"]);
     refused(&format!("{pick}{{ column = \"b\", match = \"all\" }}"), &["\"first\" or \"last\""]);

@@ -70,30 +70,13 @@ pub struct StudyGroup {
     pub figures: &'static str,
     /// The varied factors.
     pub title: &'static str,
-    /// The same as the start of a sentence.
-    pub among: &'static str,
 }
 
 /// The groups, in the order of the papers.
 pub const GROUPS: [StudyGroup; 3] = [
-    StudyGroup {
-        key: "dimensional",
-        figures: "CHK fig. 10, LG fig. 4a",
-        title: "the cantilever's dimensions",
-        among: "Among the dimensions alone",
-    },
-    StudyGroup {
-        key: "environmental",
-        figures: "CHK fig. 15, LG fig. 4b",
-        title: "the environment",
-        among: "Among the factors of the environment alone",
-    },
-    StudyGroup {
-        key: "general",
-        figures: "CHK fig. 16, LG fig. 4c",
-        title: "all eight factors",
-        among: "Of all eight factors together",
-    },
+    StudyGroup { key: "dimensional", figures: "CHK fig. 10, LG fig. 4a", title: "the cantilever's dimensions" },
+    StudyGroup { key: "environmental", figures: "CHK fig. 15, LG fig. 4b", title: "the environment" },
+    StudyGroup { key: "general", figures: "CHK fig. 16, LG fig. 4c", title: "all eight factors" },
 ];
 
 /// The study files, by name: embedded in the program, so that it can reproduce the papers anywhere.

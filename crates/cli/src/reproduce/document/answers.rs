@@ -2,18 +2,19 @@
 
 use apportion::EffectEstimates;
 use apportion::result::IndexRecord;
-use apportion::text::listed;
+use apportion::text::{capitalised, listed};
 use apportion_report::document::{Cell, Mark, OnPhone, Part, Table};
 use apportion_report::format::words;
 use apportion_report::{fixed, share_of_runs};
 
 use crate::reproduce::order::VISIBLE;
 use crate::reproduce::shares::{indices, ranked};
-use crate::reproduce::{FRICTIONS, GROUPS, Reproduced, StudyGroup, named_together};
+use crate::reproduce::{FRICTIONS, GROUPS, Reproduced, named_together};
 
-/// Formats an index in percent of the variance, to a whole percent; one decimal below 10 %.
+/// An index in percent of the variance, to a whole percent; one decimal below 10 % and near 100 %.
 fn percent(index: f64) -> String {
-    format!("{} %", fixed(100.0 * index, if index < 0.0995 { 1 } else { 0 }))
+    let is_near_an_end = index < 0.0995 || index > 0.985;
+    format!("{} %", fixed(100.0 * index, usize::from(is_near_an_end)))
 }
 
 /// Returns what a factor explains alone and with its interactions.
@@ -30,9 +31,16 @@ fn certainty(effect: &EffectEstimates) -> String {
     }
 }
 
-/// Builds a row for each group of studies, a column for each friction model: the leading factor, its shares, the
-/// certainty, and the next factors.
-pub(super) fn table(studies: &[Reproduced]) -> Part {
+/// The table of the leading factors, and where the model does not hold.
+pub(super) fn parts(studies: &[Reproduced]) -> Vec<Part> {
+    let texts: Vec<String> = where_it_holds(studies).into_iter().collect();
+    let validity = Part::Notice { mark: Mark::Mixed, kind: "Model validity".to_owned(), texts };
+    vec![table(studies), validity]
+}
+
+/// A row for each group of studies, a column for each friction model: the leader, its shares, how sure it is, and who
+/// follows.
+fn table(studies: &[Reproduced]) -> Part {
     let caption = "The leading factor of each study: the part of the variance of the critical force that it explains alone \
                    (first-order index S_1) and with all its interactions (total index S_T), and the factors that follow \
                    with theirs.";
@@ -59,32 +67,24 @@ fn leader(study: &Reproduced) -> Cell {
     }
 }
 
-/// Writes a paragraph for the top of the page: the leading factors, and where the model does not hold.
-pub(super) fn paragraph(studies: &[Reproduced]) -> Option<String> {
-    let sentences: Vec<String> = [2, 0, 1].iter().filter_map(|&place| sentence(studies, GROUPS[place])).collect();
-    (!sentences.is_empty()).then(|| format!("{}{}", sentences.join(" "), where_it_holds(studies)))
-}
-
-/// Says on what share of the runs the model is outside its range, by the flag that is raised most.
-fn where_it_holds(studies: &[Reproduced]) -> String {
+/// On how many of the runs the model leaves its range, by the flag that is raised most.
+fn where_it_holds(studies: &[Reproduced]) -> Option<String> {
     let flags = studies.iter().flat_map(|study| &study.result.validity).filter(|flag| flag.runs > 0);
-    let Some(worst) = flags.max_by(|a, b| a.share.total_cmp(&b.share)) else { return String::new() };
+    let worst = flags.max_by(|a, b| a.share.total_cmp(&b.share))?;
     let shares = studies.iter().filter_map(|study| study.result.validity.iter().find(|flag| flag.flag == worst.flag));
     let least = shares.map(|flag| flag.share).fold(1.0, f64::min);
     let runs = match (fixed(100.0 * least, 0), fixed(100.0 * worst.share, 0)) {
         (least, most) if least == most => format!("{most} %"),
         (least, most) => format!("{least} to {most} %"),
     };
-    format!(
-        " The model does not hold everywhere: on {runs} of the runs of a study, {}",
-        worst.description.replacen("The ", "the ", 1)
-    )
+    let what = worst.description.replacen("The ", "the ", 1);
+    Some(format!("On {runs} of the runs of a study, {what}"))
 }
 
-/// Formats
-/// `Thickness explains 33 % of the variance of the critical force alone and 67 % with its interactions (Coulomb); ...`.
-fn sentence(studies: &[Reproduced], group: StudyGroup) -> Option<String> {
-    let of_group = studies.iter().filter(|study| study.group == group);
+/// The answer of the general study in one sentence: `Thickness explains 33 % of the variance of the critical force alone and
+/// 67 % with its interactions under Coulomb friction; ...`.
+pub(super) fn lead(studies: &[Reproduced]) -> Option<String> {
+    let of_group = studies.iter().filter(|study| study.group == GROUPS[2]);
     let leaders = of_group.filter_map(|study| {
         let IndexRecord { factor, effect } = &indices(study)[*ranked(study).first()?];
         Some(((factor, explained(effect)), study.friction.name))
@@ -100,7 +100,7 @@ fn sentence(studies: &[Reproduced], group: StudyGroup) -> Option<String> {
             false => format!("{factor} {alone} and {together} under {under} friction"),
         });
     }
-    (!said.is_empty()).then(|| format!("{}, {}.", group.among, said.join("; ")))
+    (!said.is_empty()).then(|| format!("{}.", capitalised(&said.join("; "))))
 }
 
 /// Lists the warnings of each study, a sentence each.

@@ -22,7 +22,14 @@ pub(super) fn label<'a>(figures: &'a [PaperFigure], stem: &str) -> Option<&'a st
     figures.iter().find(|figure| figure.stem == stem).map(|figure| figure.label.as_str())
 }
 
-/// Builds the sections of figures: the shares, then each paper.
+/// The shares under every friction model: of all factors together, then of each group.
+pub(super) fn overview(figures: &[PaperFigure]) -> Section {
+    let groups = [GROUPS[2], GROUPS[0], GROUPS[1]];
+    let together = groups.iter().filter_map(|group| shown_together(figures, group.key));
+    Section::new("overview", "Shares under every friction model", together.map(Part::from).collect())
+}
+
+/// A section of figures for each paper.
 pub(super) fn sections(reproduction: &Reproduction) -> Vec<Section> {
     let figures = &reproduction.figures;
     if figures.is_empty() {
@@ -32,11 +39,9 @@ pub(super) fn sections(reproduction: &Reproduction) -> Vec<Section> {
         let is_shown = |figure: &&PaperFigure| figure.label.starts_with(paper) && anchor(figure.stem) == figure.stem;
         Part::Gallery(figures.iter().filter(is_shown).map(alone).collect())
     };
-    let together = GROUPS.iter().filter_map(|group| shown_together(figures, group.key));
     let rungs = Part::OnPage(vec![Part::Text(RUNGS.to_owned())]);
     let in_time = [of("TS04")].into_iter().chain(reproduction.animation.as_ref().map(moving)).collect();
     vec![
-        Section::new("overview", "Shares under every friction model", together.map(Part::from).collect()),
         Section::new("chk", "Figures of CHK: Coulomb and Hurtado-Kim friction", vec![rungs, of("CHK")]),
         Section::new("lg", "Figures of LG: LuGre friction", vec![of("LG")]),
         Section::new("ts04", "Figures of TS04: a push in time", in_time),

@@ -19,8 +19,9 @@ use super::{Effort, Reproduced, Reproduction};
 /// are the same for every run of the same version.
 pub fn document(reproduction: &Reproduction) -> Document {
     let (studies, claims) = (&reproduction.studies, &reproduction.claims);
-    let mut then =
-        vec![Section::new("answers", "Which factor matters most", when(studies, || vec![answers::table(studies)]))];
+    let mut then = vec![figures::overview(&reproduction.figures)];
+    then.push(Section::new("answers", "Which factor matters most", when(studies, || answers::parts(studies))));
+    then.push(constants::section());
     let of_claims = || vec![verdicts::table(claims), verdicts::details(claims, &reproduction.figures)];
     then.push(Section::new("claims", "Are the papers right?", when(claims, of_claims)));
     then.extend(figures::sections(reproduction));
@@ -28,7 +29,7 @@ pub fn document(reproduction: &Reproduction) -> Document {
     let of_percentages = || vec![Part::List(percentages::summary(rows)), percentages::table(rows)];
     then.push(Section::new("percentages", "The percentages that LG prints", when(rows, of_percentages)));
     then.push(Section::new("shares", "All indices and shares", when(studies, || shares(studies))));
-    then.push(constants::section());
+    then.push(Section::new("papers", "The papers", vec![Part::Text(papers().cited.to_owned())]));
     let report = Report {
         name: "index".to_owned(),
         kicker: "Reproduction of three papers",
@@ -75,8 +76,7 @@ fn beside_charts(stem: &str, ending: &str) -> String {
 }
 
 fn lead(reproduction: &Reproduction) -> Vec<String> {
-    let mut lead: Vec<String> = answers::paragraph(&reproduction.studies).into_iter().collect();
-    lead.push(papers().cited.to_owned());
+    let mut lead: Vec<String> = answers::lead(&reproduction.studies).into_iter().collect();
     if !reproduction.claims.is_empty() {
         lead.push(verdicts::sentence(&reproduction.claims));
     }
