@@ -57,7 +57,7 @@ fn significant_to(value: f64, most: usize) -> String {
     }
 }
 
-/// A probability; `-` if it is unknown. An estimate is never certain: beyond 0.001 and 0.999 only the bound is shown.
+/// Formats a probability; `-` if it is unknown. An estimate is never certain: beyond 0.001 and 0.999 it is a bound.
 pub fn chance(probability: Option<f64>) -> String {
     match probability {
         None => "-".to_owned(),

@@ -22,14 +22,14 @@ pub(super) fn label<'a>(figures: &'a [PaperFigure], stem: &str) -> Option<&'a st
     figures.iter().find(|figure| figure.stem == stem).map(|figure| figure.label.as_str())
 }
 
-/// The shares under every friction model: of all factors together, then of each group.
+/// Builds the section of the shares under every friction model: of all factors together, then of each group.
 pub(super) fn overview(figures: &[PaperFigure]) -> Section {
     let groups = [GROUPS[2], GROUPS[0], GROUPS[1]];
     let together = groups.iter().filter_map(|group| shown_together(figures, group.key));
     Section::new("overview", "Shares under every friction model", together.map(Part::from).collect())
 }
 
-/// A section of figures for each paper.
+/// Builds a section of figures for each paper.
 pub(super) fn sections(reproduction: &Reproduction) -> Vec<Section> {
     let figures = &reproduction.figures;
     if figures.is_empty() {
