@@ -1,9 +1,9 @@
-//! The cube root by arithmetic alone, so that the compiler can take several at once, and every machine has the same bits.
+//! The cube root by arithmetic alone, so that the compiler can vectorise it, and every machine computes the same bits.
 
-/// The cube root of `x` >= 0, within one unit in the last place; NaN of NaN.
+/// Returns the cube root of `x` >= 0, within one unit in the last place; NaN of NaN.
 ///
-/// As in FreeBSD's `s_cbrt.c` (Kahan 1991; Evans): a third of the exponent, a polynomial to 23 bits, one step of Newton's
-/// method. Nothing branches.
+/// As in FreeBSD's `s_cbrt.c` (Kahan 1991; Evans): a third of the exponent, a polynomial to 23 bits, one step of
+/// Newton's method. There are no branches.
 #[inline(always)]
 pub(super) fn cube_root(x: f64) -> f64 {
     const TWO_54: f64 = (1u64 << 54) as f64;

@@ -1,9 +1,9 @@
-//! Validity flags: a result exists, but an assumption behind it is strained.
+//! Validity flags: a result exists, but an assumption behind it is violated.
 
 use apportion::names::named;
 
 named! {
-    /// One strained assumption.
+    /// A violated assumption.
     pub enum Flag {
         /// The contact radius exceeds 0.3 particle radii: half-space contact mechanics no longer holds.
         LargeContact = "large-contact",
@@ -11,8 +11,8 @@ named! {
         AboveHardness = "above-hardness",
         /// The cantilever twists by more than 0.1 rad: the small-angle geometry no longer holds.
         LargeTwist = "large-twist",
-        /// The Tabor parameter lies outside the range of the chosen contact theory. Never raised without adhesion,
-        /// where all theories agree.
+        /// The Tabor parameter is outside the range of the chosen contact theory. Never raised without adhesion, where
+        /// all theories agree.
         TaborOutOfRange = "tabor-out-of-range",
         /// The LuGre fast form was used although the velocity is above 1 % of the Stribeck velocity.
         FastLuGreForm = "fast-lugre-form",
@@ -20,7 +20,7 @@ named! {
 }
 
 impl Flag {
-    /// A sentence for reports.
+    /// Returns a sentence for reports.
     pub const fn description(self) -> &'static str {
         match self {
             Self::LargeContact => {
@@ -48,34 +48,34 @@ impl Flag {
 pub struct Flags(u8);
 
 impl Flags {
-    /// The set without any flag.
+    /// The empty set.
     pub const NONE: Self = Self(0);
 
-    /// This set, and `flag` too if `raised`.
+    /// Returns this set with `flag` added if `raised`.
     #[inline(always)]
     #[must_use]
     pub const fn with(self, flag: Flag, raised: bool) -> Self {
         Self(self.0 | if raised { flag.bit() } else { 0 })
     }
 
-    /// Whether `flag` is in the set.
+    /// Returns whether `flag` is in the set.
     #[inline]
     pub const fn contains(self, flag: Flag) -> bool {
         self.0 & flag.bit() != 0
     }
 
-    /// Whether no flag is in the set.
+    /// Returns whether the set is empty.
     #[inline]
     pub const fn is_empty(self) -> bool {
         self.0 == 0
     }
 
-    /// The set as bits: bit `i` stands for `Flag::ALL[i]`.
+    /// Returns the set as bits: bit `i` is `Flag::ALL[i]`.
     pub const fn bits(self) -> u8 {
         self.0
     }
 
-    /// The flags in the set, in the order of [`Flag::ALL`].
+    /// Iterates over the flags in the set, in the order of [`Flag::ALL`].
     pub fn iter(self) -> impl Iterator<Item = Flag> {
         Flag::ALL.iter().copied().filter(move |&flag| self.contains(flag))
     }

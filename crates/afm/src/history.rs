@@ -1,10 +1,10 @@
 //! One scene in time: sticking until the critical force, slipping after.
 //!
-//! While it sticks the particle rides on the substrate, less what it creeps on its bristles, and drags the tip through its
-//! equilibria, exact geometry, no inertia: the swing of the tip, 1e-7 of the force, would not be seen. When it slips the tip
-//! holds it still and the substrate slides on under it, all forces as they were at the slip (Tafazzoli & Sitti 2004); on
-//! bristles they rise by the last 0.1 % from then on. So the drop from static to
-//! sliding friction is not followed: at V it is (V/v_s)^2 of the force by the Stribeck curves, but not small by
+//! Before the slip the particle moves with the substrate, except for the creep on its bristles, and moves the tip
+//! through its equilibria: exact geometry, no inertia. The swing of the tip, 1e-7 of the force, would be invisible.
+//! After the slip the tip holds the particle at rest and the substrate slides under it, with all forces constant
+//! (Tafazzoli & Sitti 2004); on bristles they rise by the last 0.1 % after the slip. So the drop from static to sliding
+//! friction is not followed: at V it is (V/v_s)^2 of the force for the Stribeck curves, but not small for
 //! Lemaitre-Carlson, whose layer sticks and slips.
 
 use apportion::quantity::Domain;
@@ -43,7 +43,7 @@ pub struct Sample {
     pub relative: f64,
     /// Contact of particle and substrate.
     pub substrate_contact: Contact,
-    /// Contact of particle and tip; none where the tip force pulls it apart.
+    /// Contact of particle and tip; `None` if the tip force pulls it apart.
     pub tip_contact: Option<Contact>,
     /// Whether the particle sticks to the substrate.
     pub sticking: bool,
@@ -52,23 +52,23 @@ pub struct Sample {
 /// A scene in time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct History {
-    /// Samples in the order of time, from 0 to the duration. Between two of them every quantity is straight to
-    /// [`STRAIGHT`] of its range. At the slip there are two: the last that sticks and the first that slips.
+    /// Samples in the order of time, from 0 to the duration. Between two of them every quantity is linear to
+    /// [`STRAIGHT`] of its range. At the slip there are two: the last one that sticks and the first one that slips.
     pub samples: Vec<Sample>,
-    /// The slip, by the quasi-static rung, whether or not it falls within the duration.
+    /// The slip, by the quasi-static rung, which may be after the duration.
     pub critical: Critical,
 }
 
-/// How far a quantity may bend away from the line between two samples, as a share of its size.
+/// Maximum deviation of a quantity from the line between two samples, as a share of its size.
 pub const STRAIGHT: f64 = 1e-3;
 
-/// Halvings of an interval at most.
+/// Maximum number of halvings of an interval.
 const DEEPEST: u32 = 12;
 
-/// The scene from the start of the substrate for `duration` (s).
+/// Computes the scene from the start of the substrate for `duration` (s).
 ///
 /// # Errors
-/// Those of [`critical_force`] at the quasi-static rung; [`Failure::VelocityZero`] if the substrate stands still;
+/// Those of [`critical_force`] at the quasi-static rung; [`Failure::VelocityZero`] if the substrate is at rest;
 /// [`Failure::OutOfDomain`] if the duration is not a positive number; [`Failure::BeyondPullOff`] if the contact breaks.
 ///
 /// # Example
@@ -90,7 +90,7 @@ pub fn history(scene: &Scene, options: &Options, duration: f64) -> Result<Histor
     let at_peak = duration >= slip_time && stage.presliding.is_none();
     let last_twist = if at_peak { critical.twist } else { stage.twist_at(scene.velocity * duration.min(slip_time))? };
     let mut samples = vec![stage.sticking(0.0)?];
-    // Quarters at first, so that no symmetric bend hides in the middle of the whole.
+    // Start with quarters, so that a symmetric bend cannot be missed in the middle of the whole.
     for quarter in 1..=4 {
         let start = samples[samples.len() - 1];
         let end = stage.sticking(last_twist * f64::from(quarter) / 4.0)?;
@@ -99,7 +99,7 @@ pub fn history(scene: &Scene, options: &Options, duration: f64) -> Result<Histor
     }
     if duration >= slip_time {
         let last = samples.len() - 1;
-        // To the bit, which the way back from the twist is not.
+        // Exact to the bit; a value computed back from the twist would not be.
         samples[last].time = slip_time;
         samples.push(Sample { sticking: false, ..samples[last] });
         if duration > slip_time {
@@ -109,11 +109,11 @@ pub fn history(scene: &Scene, options: &Options, duration: f64) -> Result<Histor
     Ok(History { samples, critical })
 }
 
-/// The scene at `times` (s, from 0 on, in any order), by the same rules, exactly; `take` is handed each with its place. A
-/// substrate that stands still keeps the scene as it was at the start.
+/// Computes the scene at `times` (s, from 0 on, in any order), by the same rules, exactly; `take` receives each with
+/// its index. If the substrate is at rest the scene stays as it was at the start.
 ///
 /// # Errors
-/// Those of [`history`], but for [`Failure::VelocityZero`]; some of the samples may have been taken by then.
+/// Those of [`history`], except [`Failure::VelocityZero`]; some samples may have been passed to `take` before.
 pub fn at_times(
     scene: &Scene,
     options: &Options,
@@ -142,13 +142,13 @@ struct Stage<'a> {
     presliding: Option<Presliding>,
     /// F_Y at its peak (N).
     peak: f64,
-    /// The twist from which on the tip holds the particle still: at the peak, or as near to it as makes no difference.
+    /// The twist from which on the tip holds the particle at rest: at the peak, or negligibly close to it.
     last_twist: f64,
     /// Travel of the substrate at that twist (m).
     last_travel: f64,
 }
 
-/// Share of the peak force that is never seen to be missing.
+/// Share of the peak force that is negligible.
 const UNSEEN: f64 = 1e-12;
 
 impl<'a> Stage<'a> {
@@ -165,19 +165,19 @@ impl<'a> Stage<'a> {
         Ok(Self { last_travel: stage.travel(last_twist), ..stage })
     }
 
-    /// What the particle has crept on its bristles (m) at a lateral force (N).
+    /// Returns the creep of the particle on its bristles (m) at a lateral force (N).
     fn creep(&self, lateral_force: f64) -> f64 {
         let missing = (1.0 - lateral_force / self.peak).max(0.1 * UNSEEN);
         self.presliding.map_or(0.0, |presliding| presliding.creep(missing))
     }
 
-    /// Travel of the substrate (m) in equilibrium at a twist.
+    /// Returns the travel of the substrate (m) in equilibrium at a twist.
     fn travel(&self, twist: f64) -> f64 {
         let lateral_force = self.statics.lateral_moment(twist) / libm::cos(twist);
         self.statics.travel(twist, lateral_force) + self.creep(lateral_force)
     }
 
-    /// The twist at the travel `travel` of the substrate, the last one at the most.
+    /// Returns the twist at the travel `travel` of the substrate, at most the last one.
     fn twist_at(&self, travel: f64) -> Result<f64, Failure> {
         if travel <= 0.0 || travel >= self.last_travel {
             return Ok(if travel <= 0.0 { 0.0 } else { self.last_twist });
@@ -187,7 +187,7 @@ impl<'a> Stage<'a> {
         root::between(rest, slip, |twist| Ok(self.travel(twist) - travel))
     }
 
-    /// The scene at a time, all but whether the particle sticks.
+    /// Computes the scene at a time, except whether the particle sticks.
     fn at(&self, time: f64) -> Result<Sample, Failure> {
         let travel = self.scene.velocity * time;
         let sample = self.sticking(self.twist_at(travel)?)?;
@@ -233,7 +233,7 @@ impl<'a> Stage<'a> {
         })
     }
 
-    /// Puts what lies strictly between two sticking samples, until all is straight.
+    /// Adds samples strictly between two sticking samples, until all quantities are linear.
     fn refine(&self, (start, end): (&Sample, &Sample), depth: u32, into: &mut Vec<Sample>) -> Result<(), Failure> {
         let middle = self.sticking(0.5 * (start.twist + end.twist))?;
         if depth == 0 || straight(start, &middle, end) {
@@ -245,7 +245,7 @@ impl<'a> Stage<'a> {
     }
 }
 
-/// Whether the middle lies on the line between the ends, in every quantity that may bend.
+/// Returns whether the middle is on the line between the ends, in every quantity that may bend.
 fn straight(start: &Sample, middle: &Sample, end: &Sample) -> bool {
     let span = end.time - start.time;
     if span <= 0.0 {
@@ -306,7 +306,7 @@ mod tests {
         assert!(samples.iter().filter(|s| s.sticking).all(|s| s.relative == 0.0 && s.particle == s.substrate));
     }
 
-    /// The tip presses ever harder while the particle is hardly held down less (their figure 13).
+    /// The tip presses harder and harder while the normal force on the particle hardly decreases (their figure 13).
     #[test]
     fn the_tip_contact_grows_and_the_substrate_contact_shrinks() {
         let History { samples, .. } = nominal();
@@ -317,7 +317,7 @@ mod tests {
         }
     }
 
-    /// Straight between samples by the definition, looked at a third of the way; and no more of them than that takes.
+    /// Linear between samples by the definition, tested at a third of the way, with no more samples than needed.
     #[test]
     fn samples_are_where_things_bend() {
         let scene = Scene { static_friction: 100.0, ..Scene::default() };
@@ -353,7 +353,7 @@ mod tests {
         assert!((history.samples[history.samples.len() - 1].relative + 40e-9).abs() < 1e-20);
     }
 
-    /// The same as the samples of a history, where these are.
+    /// The same as the samples of a history, if it has samples at these times.
     #[test]
     fn times_are_those_of_the_history() {
         for friction in FrictionLaw::ALL {

@@ -1,30 +1,29 @@
 //! Physics of pushing a nanoparticle with an atomic force microscope (AFM).
 //!
-//! A tip on a cantilever is lowered onto a particle lying on a substrate. The substrate moves
-//! sideways, the particle drags the tip along, and when the friction under the particle can hold no
-//! more, it slips. The tip force at that instant is the *critical force*.
+//! A tip on a cantilever is lowered onto a particle lying on a substrate. The substrate moves sideways, the particle
+//! drags the tip along, and when the friction under the particle cannot hold it any more, it slips. The tip force at
+//! that instant is the *critical force*.
 //!
-//! The map, in the order of the computation:
+//! The modules, in the order of the computation:
 //!
 //! - [`scene`]: [`Scene`], every constant of the problem in SI; [`parameter`]: the same constants
 //!   as a table with symbols, units and physical domains;
 //! - [`probe`]: stiffnesses and preload of the cantilever;
 //! - [`contact`]: contact radius, indentation and pull-off force of a sphere under a load, one
-//!   theory a file;
-//! - [`friction`]: the largest lateral force the substrate contact can hold, one law a file;
-//! - [`modes`]: what else the particle may do: slip at the tip, roll, spin;
-//! - [`force`]: the critical force, one fidelity a file; [`critical_force`] is the entrance;
+//!   theory per file;
+//! - [`friction`]: the largest lateral force the substrate contact can hold, one law per file;
+//! - [`modes`]: other motions of the particle: slip at the tip, roll, spin;
+//! - [`force`]: the critical force, one fidelity per file; start with [`critical_force`];
 //! - [`history`]: one scene in time, through sticking and slipping;
 //! - [`ode`]: initial value problems with events, for the laws and rungs that march in time;
 //! - [`flags`]: what makes a result doubtful; [`failure`]: why there is no result.
 //!
-//! These are plain functions on plain structs, all quantities in SI, and know nothing of sampling or
-//! sensitivity analysis. [`model`] makes of them a model for [`apportion`], and [`AfmSubject`] the subject of a study.
+//! These are plain functions on plain structs, all quantities in SI, and independent of sampling and sensitivity
+//! analysis. [`model`] adapts them to a model for [`apportion`], and [`AfmSubject`] to the subject of a study.
 //!
-//! The papers behind the formulas, cited by author and year where a formula stands: Tafazzoli &
-//! Sitti 2004 (dynamics of particle sliding) and the two Sobol' studies of the critical force, of
-//! the Coulomb and Hurtado-Kim models and of the LuGre model. Where their printed equations
-//! disagree, the docstring says which reading was taken.
+//! The papers behind the formulas, cited by author and year at each formula: Tafazzoli & Sitti 2004 (dynamics of
+//! particle sliding) and the two Sobol' studies of the critical force, of the Coulomb and Hurtado-Kim models and of the
+//! LuGre model. Where their printed equations disagree, the docstring says which version is used.
 
 #![cfg_attr(not(test), deny(clippy::disallowed_methods))]
 

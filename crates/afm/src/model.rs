@@ -21,7 +21,7 @@ use crate::{
     critical_force,
 };
 
-/// The unit in which people give a parameter of the scene.
+/// Returns the unit for a parameter of the scene in study files and reports.
 pub fn edge_unit(parameter: &Parameter) -> Unit {
     edge(match parameter.name {
         "length" | "width" | "thickness" | "height" | "tip_base_radius" => "um",
@@ -35,7 +35,7 @@ pub fn edge_unit(parameter: &Parameter) -> Unit {
     })
 }
 
-/// The parameters of the scene as inputs of the model.
+/// Returns the parameters of the scene as inputs of the model.
 pub fn afm_inputs() -> Vec<Input> {
     Parameter::ALL.iter().map(afm_input).collect()
 }
@@ -53,7 +53,7 @@ fn afm_input(parameter: &Parameter) -> Input {
     }
 }
 
-/// Every output, then every history.
+/// Returns every output, then every history.
 pub fn afm_outputs() -> Vec<Output> {
     AfmOutput::ALL
         .iter()
@@ -62,7 +62,7 @@ pub fn afm_outputs() -> Vec<Output> {
         .collect()
 }
 
-/// The choices of `[afm]`.
+/// Returns the choices of `[afm]`.
 pub fn afm_choices() -> Vec<Choice> {
     fn names<T: Copy>(all: &[T], name: fn(T) -> &'static str) -> Vec<&'static str> {
         all.iter().map(|&choice| name(choice)).collect()
@@ -81,10 +81,10 @@ pub fn afm_choices() -> Vec<Choice> {
     ]
 }
 
-/// Rows between two looks at whether the run is to end: rows of the finest fidelity take milliseconds.
+/// Number of rows between two checks whether the run must stop: rows of the finest fidelity take milliseconds.
 const ROWS_BETWEEN_LOOKS: usize = 16;
 
-/// A study's version of the nanoparticle model.
+/// The nanoparticle model of a study.
 #[derive(Debug, Clone)]
 pub struct AfmModel {
     scene: Scene,
@@ -92,16 +92,16 @@ pub struct AfmModel {
     factors: Vec<&'static Parameter>,
     outputs: Vec<Output>,
     which: Vec<AfmOutput>,
-    /// Series, whose values stand after the outputs in `which`.
+    /// Series, whose values come after the outputs in `which`.
     histories: Histories,
     flags: Vec<Flag>,
-    /// Rows by rung, in the order of [`Fidelity::ALL`]; then [`EVALUATIONS`] and [`LARGEST_ERROR`].
+    /// Numbers of rows by rung, in the order of [`Fidelity::ALL`]; then [`EVALUATIONS`] and [`LARGEST_ERROR`].
     counters: Vec<Counter>,
 }
 
 impl AfmModel {
-    /// The model of `scene` under `options` whose factors are `factors`, in the order of the space. Its errors are those of the
-    /// critical time too if that is one of the outputs.
+    /// Creates the model of `scene` under `options` with the factors `factors`, in the order of the space. Its error
+    /// estimates include the critical time if that is one of the outputs.
     pub fn new(scene: Scene, options: Options, factors: Vec<&'static Parameter>, which: Vec<AfmOutput>) -> Self {
         let accurate_time = options.accurate_time || which.contains(&AfmOutput::CriticalTime);
         let options = Options { accurate_time, ..options };
@@ -117,7 +117,7 @@ impl AfmModel {
         Self { scene, options, factors, outputs, which, histories: Histories::none(), flags, counters }
     }
 
-    /// The model with these histories after its outputs, each a series of values at `moments`.
+    /// Adds these histories after the outputs, each a series of values at `moments`.
     #[must_use]
     pub fn with_histories(self, which: &[AfmHistory], moments: &AfmMoments) -> Self {
         let first = self.outputs.len();
@@ -144,7 +144,7 @@ impl Model for AfmModel {
         &self.counters
     }
 
-    /// Where the equations of motion are marched.
+    /// Returns whether the equations of motion are integrated.
     fn is_slow(&self) -> bool {
         matches!(self.options.fidelity, Fidelity::Dynamic | Fidelity::FixedStep)
     }
@@ -160,14 +160,14 @@ struct AfmWorker<'a> {
     model: &'a AfmModel,
     context: &'a RunContext<'a>,
     scene: Scene,
-    /// Rows in closed form are computed many at once.
+    /// Computes many rows in closed form at once.
     forms: Option<Box<ClosedForms>>,
-    /// The failures met so far, in words: there are few, and each is put into words once.
+    /// The failures so far, in words: there are few, and each is formatted once.
     reasons: Vec<(Failure, RowFailure)>,
     spent: Spent,
 }
 
-/// What was spent on the rows of a batch.
+/// The cost of the rows of a batch.
 #[derive(Default)]
 struct Spent {
     rungs: [u64; Fidelity::ALL.len()],
@@ -302,7 +302,7 @@ mod tests {
         }
     }
 
-    /// One bad row among many: it fails with its reason, and costs the others not a bit.
+    /// One bad row among many fails with its reason, and does not change the others in any bit.
     #[test]
     fn rows_are_the_same_in_any_company() {
         let outputs = AfmOutput::ALL.to_vec();

@@ -1,7 +1,7 @@
-//! What else the particle may do under the tip than slide on the substrate: slip at the tip, roll, spin.
+//! Other motions of the particle under the tip than sliding on the substrate: slip at the tip, roll, spin.
 //!
-//! Diagnostics beside the critical force, never inside it. Every mode is a [`Balance`] of what drives it and what
-//! resists it (Tafazzoli & Sitti 2004); a mode moves where the drive is the larger. Sliding here is by Coulomb's law.
+//! These are diagnostics that do not affect the critical force. Every mode is a [`Balance`] of a drive and a resistance
+//! (Tafazzoli & Sitti 2004); a mode moves if the drive is larger. Sliding here is by Coulomb's law.
 //!
 //! At the nominal scene these criteria let the particle roll long before it slides: its contacts resist a moment of
 //! 3e-16 N m, the tip drives 9e-15 N m when it slides. Only a force along the line through both contacts, psi = phi/2,
@@ -16,7 +16,7 @@ use super::contact::{Contact, Pair};
 use super::{ContactTheory, Failure, Scene};
 
 named! {
-    /// A way for the particle to give way to the tip.
+    /// A mode of motion of the particle.
     pub enum Mode {
         /// It slides on the substrate: F_Y > mu_s (F_Z + q F_ad) + tau A_s.
         Slide = "slide",
@@ -25,7 +25,7 @@ named! {
         /// It rolls between tip and substrate: F_T |(R_p - d_s) sin psi + (R_p - d_t) sin(psi - phi)| > M_s + M_t, with
         /// M = 4 F_ad (a/a0)^(3/2) xi at either contact, a0 its radius without load (Dominik & Tielens 1997).
         Roll = "roll",
-        /// It spins about the vertical, pushed beside its centre: F_T sin psi x0 > (2 pi/3) tau a^3.
+        /// It spins about the vertical, pushed off its centre: F_T sin psi x0 > (2 pi/3) tau a^3.
         Spin = "spin",
     }
 }
@@ -60,13 +60,13 @@ pub struct TipForce {
 }
 
 impl TipForce {
-    /// The force of size `size` (N) at the angle `angle` (rad) from the vertical, psi.
+    /// Creates the force of size `size` (N) at the angle `angle` (rad) from the vertical, psi.
     pub fn polar(size: f64, angle: f64) -> Self {
         Self { normal: size * libm::cos(angle), lateral: size * libm::sin(angle) }
     }
 }
 
-/// What drives a mode against what resists it: forces (N) for sliding and slipping, moments (N m) for the others.
+/// The drive and the resistance of a mode: forces (N) for sliding and slipping, moments (N m) for the others.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Balance {
     /// The size of the driving force or moment, >= 0.
@@ -76,13 +76,13 @@ pub struct Balance {
 }
 
 impl Balance {
-    /// Whether the drive exceeds the resistance.
+    /// Returns whether the drive exceeds the resistance.
     pub fn moves(&self) -> bool {
         self.drive > self.resistance
     }
 }
 
-/// When a mode sets in, as F_Y rises from zero under a constant F_Z. Ordered: the earlier the less.
+/// When a mode begins, as F_Y rises from zero under a constant F_Z. Ordered from the earliest to the latest.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
 pub enum Onset {
     /// It moves under the preload alone.
@@ -100,23 +100,23 @@ pub struct Pushing {
     pub scene: Scene,
     /// Theory of both contacts.
     pub theory: ContactTheory,
-    /// Whether friction feels the pull-off force too: q = 1, else 0.
+    /// Whether friction includes the pull-off force: q = 1, else 0.
     pub adhesion_in_load: bool,
     /// The constants of the modes.
     pub constants: ModeConstants,
 }
 
 impl Pushing {
-    /// The particle of `scene`, with JKR contacts, q = 0 and the default constants.
+    /// Creates the particle of `scene`, with JKR contacts, q = 0 and the default constants.
     pub fn new(scene: Scene) -> Self {
         Self { scene, theory: ContactTheory::Jkr, adhesion_in_load: false, constants: ModeConstants::default() }
     }
 
-    /// The balance of `mode` under the tip force `force`.
+    /// Returns the balance of `mode` under the tip force `force`.
     ///
     /// # Errors
-    /// [`Failure::OutOfDomain`] if a constant is not physical; [`Failure::BeyondPullOff`] if the force pulls the contact
-    /// with substrate or tip apart; [`Failure::NotFinite`] on overflow.
+    /// [`Failure::OutOfDomain`] if a constant is not physical; [`Failure::BeyondPullOff`] if the force pulls the
+    /// contact with substrate or tip apart; [`Failure::NotFinite`] on overflow.
     ///
     /// # Example
     /// ```
@@ -169,7 +169,7 @@ impl Pushing {
         }
     }
 
-    /// When `mode` sets in, as F_Y rises from zero under the normal force `normal` (N).
+    /// Returns when `mode` begins, as F_Y rises from zero under the normal force `normal` (N).
     ///
     /// # Errors
     /// Those of [`balance`](Self::balance).
@@ -181,7 +181,7 @@ impl Pushing {
         Ok(first_true(moves)?.map_or(Onset::Never, Onset::At))
     }
 
-    /// Every mode with its onset, the earliest first. Modes that set in together keep the order of [`Mode::ALL`].
+    /// Returns every mode with its onset, the earliest first. Simultaneous modes keep the order of [`Mode::ALL`].
     ///
     /// # Errors
     /// Those of [`balance`](Self::balance).
@@ -192,11 +192,11 @@ impl Pushing {
         Ok(onsets)
     }
 
-    /// The mode diagram: the least tip force F_T (N) at the angle psi = `angle` (rad) that sets `mode` in motion; `None`
-    /// where the resistance grows with the force as fast as the drive.
+    /// Returns the least tip force F_T (N) at the angle psi = `angle` (rad) that starts `mode`, as in the mode diagram;
+    /// `None` if the resistance grows with the force as fast as the drive.
     ///
-    /// For [`Mode::Slide`] this is F* = (tau A_s + mu_s q F_ad)/(sin psi - mu_s cos psi), in which A_s is the area under
-    /// F* cos psi itself.
+    /// For [`Mode::Slide`] this is F* = (tau A_s + mu_s q F_ad)/(sin psi - mu_s cos psi), in which A_s is the area
+    /// under F* cos psi itself.
     ///
     /// # Errors
     /// [`Failure::OutOfDomain`] if `angle` is not from 0 to a right angle; those of [`balance`](Self::balance).
@@ -205,7 +205,7 @@ impl Pushing {
         first_true(|size| Ok(self.balance(mode, TipForce::polar(size, angle))?.moves()))
     }
 
-    /// mu (N + q F_ad) + tau A.
+    /// Returns mu (N + q F_ad) + tau A.
     fn friction(&self, coefficient: f64, at: &Loaded) -> f64 {
         let adhesive = if self.adhesion_in_load { self.theory.pull_off(&at.pair) } else { 0.0 };
         coefficient * (at.load + adhesive) + self.scene.shear_strength * at.contact.area()
@@ -232,7 +232,7 @@ impl Loaded {
         Ok(Self { pair, load, contact: theory.contact(&pair, load)? })
     }
 
-    /// M = 4 F_ad (a/a0)^(3/2) xi (Dominik & Tielens 1997); zero without adhesion, its limit.
+    /// Returns M = 4 F_ad (a/a0)^(3/2) xi (Dominik & Tielens 1997); its limit zero without adhesion.
     fn rolling(&self, theory: ContactTheory, shift: f64) -> Result<f64, Failure> {
         let pull_off = theory.pull_off(&self.pair);
         let at_rest = theory.contact(&self.pair, 0.0)?.radius;
@@ -243,7 +243,7 @@ impl Loaded {
     }
 }
 
-/// Where a statement about a force (N) becomes true: 0 if it is true at 1e-18 N, none if it is false up to 1e6 N.
+/// Returns the force (N) at which a statement becomes true: 0 if it is at 1e-18 N, `None` if it is not up to 1e6 N.
 ///
 /// Drives grow in proportion to the force, resistances like smaller powers of it, hence each statement turns true once.
 fn first_true(statement: impl Fn(f64) -> Result<bool, Failure>) -> Result<Option<f64>, Failure> {

@@ -1,4 +1,4 @@
-//! The fields of a [`Scene`] by name, and the check that each lies in its domain.
+//! The fields of a [`Scene`] by name, and the check that each is in its domain.
 
 use apportion::quantity::Domain;
 
@@ -7,31 +7,31 @@ use super::{Failure, Scene};
 /// One parameter of a [`Scene`].
 #[derive(Clone, Copy, Debug)]
 pub struct Parameter {
-    /// Name of the field, as a study file writes it.
+    /// Name of the field, as in a study file.
     pub name: &'static str,
     /// Symbol in the papers, in plain letters.
     pub symbol: &'static str,
     /// Symbol of the SI unit; `1` for a pure number.
     pub unit: &'static str,
-    /// What it is, in a few words.
+    /// Description in a few words.
     pub description: &'static str,
-    /// Where it is physical.
+    /// Its physical domain.
     pub domain: Domain,
-    /// Reads it (SI). For those with a derived value the one in force, given or derived.
+    /// Reads it (SI): the effective value, given or derived.
     pub get: fn(&Scene) -> f64,
-    /// Sets it (SI), without looking at the domain. Setting one with a derived value cuts its tie to the others.
+    /// Sets it (SI), without checking the domain. A derived value is then independent of the other parameters.
     pub set: fn(&mut Scene, f64),
 }
 
 impl Parameter {
-    /// The parameter of that name, if there is one.
+    /// Returns the parameter of that name, if there is one.
     pub fn from_name(name: &str) -> Option<&'static Self> {
         Self::ALL.iter().find(|parameter| parameter.name == name)
     }
 }
 
 impl Scene {
-    /// Whether every parameter lies in its physical domain.
+    /// Checks that every parameter is in its physical domain.
     ///
     /// # Errors
     /// [`Failure::OutOfDomain`] names the first parameter of [`Parameter::ALL`] that does not.
@@ -40,15 +40,15 @@ impl Scene {
         if self.looks_physical() { Ok(()) } else { self.look_closely() }
     }
 
-    /// The same as [`look_closely`](Self::look_closely) for the hot path.
+    /// Returns the same as [`look_closely`](Self::look_closely), for the hot path.
     #[inline]
     fn looks_physical(&self) -> bool {
         let (mut positive, mut not_negative, mut others) =
             (0, 0, Domain::Positive.contains(self.effective_shear_modulus()));
         self.for_each_given(|domain, value| match domain {
-            // As integers the positive finite numbers are one range, so that one comparison of the largest does for all.
+            // As integers the positive finite numbers are one range, so one comparison of the largest is enough.
             Domain::Positive => positive = value.to_bits().wrapping_sub(1).max(positive),
-            // Adding zero makes minus zero zero.
+            // Adding zero changes minus zero to zero.
             Domain::NonNegative => not_negative = (value + 0.0).to_bits().max(not_negative),
             Domain::AcuteAngle | Domain::PoissonRatio => others &= domain.contains(value),
         });
@@ -82,7 +82,7 @@ mod tests {
 
     #[test]
     fn set_then_get_gives_the_value_back_and_moves_nothing_else() {
-        // Those with a derived value are fixed first, since unset they follow others.
+        // Those with a derived value are fixed first, since they follow others unless set.
         let before =
             Scene { shear_modulus: Some(1.0), tip_mass: Some(1.0), tip_inertia: Some(1.0), ..Scene::default() };
         for parameter in Parameter::ALL {

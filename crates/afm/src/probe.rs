@@ -9,8 +9,8 @@ named! {
     pub enum Torsion {
         /// K_theta = G w t^3/(3 L), as in the papers; exact for t << w.
         ThinStrip = "thin-strip",
-        /// 1/3 becomes 1/3 - 0.21 (t/w) (1 - t^4/(12 w^4)) (Young & Budynas, *Roark's Formulas*), with w and t in
-        /// each other's place where t > w. Within 0.5 % of the exact series at every ratio.
+        /// 1/3 becomes 1/3 - 0.21 (t/w) (1 - t^4/(12 w^4)) (Young & Budynas, *Roark's Formulas*), with w and t
+        /// exchanged if t > w. Within 0.5 % of the exact series at every ratio.
         Rectangle = "rectangle",
     }
 }
@@ -34,13 +34,13 @@ pub struct Probe {
 }
 
 impl Probe {
-    /// The probe of a scene that has been [checked](Scene::check).
+    /// Creates the probe of a scene that has been [checked](Scene::check).
     #[inline]
     pub fn new(scene: &Scene, torsion: Torsion) -> Self {
         Self::with_sine(scene, torsion, libm::sin(scene.preload_angle))
     }
 
-    /// The same, `sine` being that of the preload angle.
+    /// Creates the same from the sine of the preload angle.
     #[inline(always)]
     pub(super) fn with_sine(scene: &Scene, torsion: Torsion, sine: f64) -> Self {
         let &Scene { length, width, thickness, height, elastic_modulus, .. } = scene;
@@ -48,7 +48,7 @@ impl Probe {
         let normal = bending * thickness * thickness;
         let lateral = bending * width * width;
         let torsional = scene.effective_shear_modulus() * torsion_constant(width, thickness, torsion) / length;
-        // The angle may be minus zero, whose sign would turn the force angle of a scene without any force around.
+        // The angle may be minus zero, whose sign would reverse the force angle of a scene without any force.
         let preload_deflection = length * sine.abs();
         Self {
             normal,
@@ -61,7 +61,7 @@ impl Probe {
     }
 }
 
-/// J of K_theta = G J/L, for a section of `width` by `thickness` (m^4).
+/// Returns J of K_theta = G J/L, for a section of `width` by `thickness` (m^4).
 #[inline(always)]
 fn torsion_constant(width: f64, thickness: f64, torsion: Torsion) -> f64 {
     match torsion {
@@ -128,7 +128,7 @@ mod tests {
     }
 
     proptest! {
-        /// The closed formula against the series: 0.5 % is its published accuracy.
+        /// The closed formula compared with the series: 0.5 % is its published accuracy.
         #[test]
         fn rectangle_agrees_with_the_series(width in 1e-6..1e-4_f64, log_ratio in -2.0..2.0_f64) {
             let thickness = width * libm::pow(10.0, log_ratio);

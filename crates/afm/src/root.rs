@@ -9,16 +9,16 @@ pub(super) struct Point {
     pub y: f64,
 }
 
-/// Iterations after which interpolation is given up for plain halving.
+/// Number of iterations after which interpolation is replaced by plain halving.
 const PATIENCE: usize = 64;
 
-/// The root of `f` between `a` and `b`, whose values have opposite signs, to two units roundoff of the root itself.
+/// Returns the root of `f` between `a` and `b`, whose values have opposite signs, to two units roundoff of the root.
 ///
 /// Chandrupatla 1997: inverse quadratic interpolation where it is safe, halving elsewhere, so that it always ends.
 /// Adv. Eng. Softw. 28, 145.
 ///
 /// # Errors
-/// Whatever `f` fails with.
+/// Those of `f`.
 pub(super) fn between(a: Point, b: Point, mut f: impl FnMut(f64) -> Result<f64, Failure>) -> Result<f64, Failure> {
     let (mut newest, mut opposite) = (a, b);
     let mut fraction = 0.5_f64;
@@ -27,7 +27,7 @@ pub(super) fn between(a: Point, b: Point, mut f: impl FnMut(f64) -> Result<f64, 
         let best = if newest.y.abs() < opposite.y.abs() { newest } else { opposite };
         let width = (opposite.x - newest.x).abs();
         let limit = (2.0 * f64::EPSILON * best.x.abs() + f64::MIN_POSITIVE) / width;
-        // Also ends where a value is not a number, or the width zero.
+        // Also ends if a value is not a number, or the width is zero.
         if best.y == 0.0 || limit > 0.5 || limit.is_nan() {
             return Ok(best.x);
         }
@@ -46,8 +46,8 @@ pub(super) fn between(a: Point, b: Point, mut f: impl FnMut(f64) -> Result<f64, 
     }
 }
 
-/// Where the inverse parabola through three points vanishes, as a fraction of the way from the first to the second;
-/// one half where the parabola is not to be trusted.
+/// Returns where the inverse parabola through three points vanishes, as a fraction of the way from the first to the
+/// second; one half if the parabola is unreliable.
 fn interpolate(newest: Point, opposite: Point, third: Point) -> f64 {
     let xi = (newest.x - opposite.x) / (third.x - opposite.x);
     let phi = (newest.y - opposite.y) / (third.y - opposite.y);

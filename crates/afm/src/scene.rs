@@ -4,7 +4,7 @@ use apportion::quantity::Domain;
 
 use super::Parameter;
 
-/// Declares [`Scene`] with its defaults together with [`Parameter::ALL`], so that the two cannot drift apart. A field is
+/// Declares [`Scene`] with its defaults and [`Parameter::ALL`] together, so that they always agree. A field is
 /// `name: type = default => value in force, symbol, unit, domain, description`.
 macro_rules! scene {
     ($(#[$about:meta])* pub struct Scene { $($(#[$meta:meta])*
@@ -22,7 +22,7 @@ macro_rules! scene {
         }
 
         impl Scene {
-            /// Hands `look` the domain and the value of every field that is given, without the indirect calls of
+            /// Calls `look` with the domain and the value of every given field, without the indirect calls of
             /// [`Parameter::ALL`].
             #[inline(always)]
             pub(super) fn for_each_given(&self, mut look: impl FnMut(Domain, f64)) {
@@ -80,8 +80,7 @@ pub struct Scene {
     adhesion: f64 = 0.2, "omega", "J/m2", NonNegative, "work of adhesion";
     /// Poisson ratio of the cantilever, nu.
     poisson_ratio: f64 = 0.27, "nu", "1", PoissonRatio, "Poisson ratio of the cantilever";
-    /// Shear modulus of the cantilever, G (Pa); `None` stands for E/(2 (1 + nu)). The papers print
-    /// 40.5 GPa.
+    /// Shear modulus of the cantilever, G (Pa); `None` means E/(2 (1 + nu)). The papers print 40.5 GPa.
     shear_modulus: Option<f64> = None => Scene::effective_shear_modulus,
         "G", "Pa", Positive, "shear modulus of the cantilever, E/(2 (1 + nu)) unless set";
     /// Density of cantilever and tip (kg/m3).
@@ -130,22 +129,22 @@ pub struct Scene {
     dahl_exponent: f64 = 1.0, "alpha_D", "1", Positive, "exponent of Dahl's law";
     /// Exponent d_s of the classical Stribeck curve. 2, as in LuGre friction.
     stribeck_exponent: f64 = 2.0, "d_s", "1", Positive, "exponent of the classical Stribeck curve";
-    /// Coefficient of static friction of a contact that has just come to rest, of Armstrong's law: F_C + F_S,a = mu_a N.
-    /// No paper prints one for this contact: midway between mu_d and mu_s.
+    /// Coefficient of static friction of a contact that has just come to rest, of Armstrong's law: F_C + F_S,a = mu_a
+    /// N. No paper prints one for this contact: midway between mu_d and mu_s.
     fresh_friction: f64 = 0.75, "mu_a", "1", NonNegative, "coefficient of static friction just after coming to rest";
     /// Time gamma (s) in which Armstrong's static friction rises halfway from fresh to old. Chosen: the order of
     /// magnitude of Armstrong-Helouvry, Dupont & Canudas de Wit 1994.
     dwell_constant: f64 = 1.0, "gamma", "s", Positive, "time in which static friction rises halfway (Armstrong)";
     /// Time at rest before the substrate moves (s), which Armstrong's static friction remembers.
     rest_time: f64 = 0.0, "t_r", "s", NonNegative, "time at rest before the substrate moves (Armstrong)";
-    /// Frictional lag tau_l of Armstrong's law (s): sliding friction answers the velocity so much earlier.
+    /// Frictional lag tau_l of Armstrong's law (s): sliding friction depends on the velocity one lag before.
     frictional_lag: f64 = 1e-3, "tau_l", "s", NonNegative, "frictional lag (Armstrong)";
     /// Half the thickness of the Lemaitre-Carlson layer, h (m). Chosen: two nanometres of lubricant in all.
     layer_half_thickness: f64 = 1e-9, "h", "m", Positive, "half the layer thickness (Lemaitre-Carlson)";
     /// Shear modulus of that layer, mu (Pa). Chosen: a glassy molecular film.
     layer_modulus: f64 = 1e9, "mu", "Pa", Positive, "shear modulus of the layer (Lemaitre-Carlson)";
-    /// Stress scale of its rearrangements, mubar (Pa). Chosen with the four rates below so that the layer slides steadily
-    /// near the shear strength of 28 MPa at 100 nm/s, weakens with velocity and ages.
+    /// Stress scale of its rearrangements, mubar (Pa). Chosen with the four rates below so that the layer slides
+    /// steadily near the shear strength of 28 MPa at 100 nm/s, weakens with velocity and ages.
     layer_stress: f64 = 10e6, "mubar", "Pa", Positive, "stress scale of rearrangements (Lemaitre-Carlson)";
     /// Rate E0 of its rearrangements (1/s).
     rearrangement_rate: f64 = 1e5, "E0", "1/s", Positive, "rate of rearrangements (Lemaitre-Carlson)";
@@ -157,18 +156,18 @@ pub struct Scene {
     disorder_gain: f64 = 1e-8, "alpha", "1/Pa", Positive, "disorder made by plastic work (Lemaitre-Carlson)";
     /// Disorder chi at the start; smaller is older.
     initial_disorder: f64 = 0.06, "chi0", "1", Positive, "disorder at the start (Lemaitre-Carlson)";
-    /// Mass of the tip, m (kg); `None` stands for a cone, rho pi r^2 H/3.
+    /// Mass of the tip, m (kg); `None` means a cone, rho pi r^2 H/3.
     tip_mass: Option<f64> = None => Scene::effective_tip_mass,
         "m", "kg", Positive, "mass of the tip, that of a cone unless set";
-    /// Moment of inertia of the tip about an axis across it through its centre of mass, I_c (kg m2); `None` stands for
-    /// a cone of the mass in force, m (3/80) (4 r^2 + H^2).
+    /// Moment of inertia of the tip about an axis across it through its centre of mass, I_c (kg m2); `None` means a
+    /// cone of the effective mass, m (3/80) (4 r^2 + H^2).
     tip_inertia: Option<f64> = None => Scene::effective_tip_inertia,
         "I_c", "kg m2", Positive, "moment of inertia of the tip about its centre of mass, that of a cone unless set";
 }
 }
 
 impl Scene {
-    /// The shear modulus of the cantilever in force (Pa): the one given, else E/(2 (1 + nu)).
+    /// Returns the effective shear modulus of the cantilever (Pa): the given one, else E/(2 (1 + nu)).
     #[inline(always)]
     pub fn effective_shear_modulus(&self) -> f64 {
         match self.shear_modulus {
@@ -177,14 +176,14 @@ impl Scene {
         }
     }
 
-    /// The mass of the tip in force (kg): the one given, else that of a cone.
+    /// Returns the effective mass of the tip (kg): the given one, else that of a cone.
     #[inline(always)]
     pub fn effective_tip_mass(&self) -> f64 {
         let &Self { probe_density, tip_base_radius: r, height, .. } = self;
         self.tip_mass.unwrap_or(probe_density * std::f64::consts::PI * r * r * height / 3.0)
     }
 
-    /// The moment of inertia of the tip about its centre of mass in force (kg m2): the one given, else that of a cone.
+    /// Returns the effective moment of inertia of the tip about its centre of mass (kg m2): the given one, or a cone's.
     #[inline(always)]
     pub fn effective_tip_inertia(&self) -> f64 {
         let &Self { tip_base_radius: r, height, .. } = self;

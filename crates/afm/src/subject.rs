@@ -10,21 +10,21 @@ use serde_json::{Value, json};
 use crate::model::{AfmHistory, AfmModel, AfmMoments, AfmOutput, edge_unit};
 use crate::{Fidelity, Options, Parameter, Scene};
 
-/// The nanoparticle model with its choices made.
+/// The configured nanoparticle model.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AfmSubject {
     /// The constants; those of the factors are overwritten in every run.
     pub scene: Scene,
     /// Friction law, contact theory, fidelity and the like.
     pub options: Options,
-    /// The outputs asked for.
+    /// The requested outputs.
     pub outputs: Vec<AfmOutput>,
-    /// The histories asked for, and the moments at which they are given.
+    /// The requested histories, and their moments.
     pub histories: Vec<AfmHistory>,
     pub moments: AfmMoments,
 }
 
-/// The shorter step of the march (s): what its force is off by, speed times step, is then below a hundredth of a nanometre.
+/// The shorter fixed step (s): the error of its force, speed times step, is then below a hundredth of a nanometre.
 const SHORT_STEP: f64 = 1e-5;
 
 /// The tolerance of the finest rung.
@@ -76,8 +76,8 @@ impl Subject for AfmSubject {
         }
     }
 
-    /// The closed form, the quasi-static rung, the equations of motion in fixed steps of two lengths, and adaptively at three
-    /// tolerances.
+    /// Returns the closed form, the quasi-static rung, the equations of motion in fixed steps of two lengths, and
+    /// adaptively at three tolerances.
     fn rungs(&self) -> Vec<Rung> {
         let Options { tolerance, step, .. } = Options::default();
         let of = |fidelity| Options { fidelity, tolerance, step, ..self.options };
@@ -123,7 +123,7 @@ impl Subject for AfmSubject {
     }
 
     fn constants(&self, space: &Space) -> Vec<(String, f64, String)> {
-        // A shear modulus that is not set follows E and nu: it is no constant.
+        // An unset shear modulus follows E and nu: it is not a constant.
         let is_set = |p: &Parameter| p.name != "shear_modulus" || self.scene.shear_modulus.is_some();
         let constants = Parameter::ALL.iter().filter(|p| !is_factor(space, p.name) && is_set(p));
         let constant = |p: &Parameter| {
@@ -133,7 +133,7 @@ impl Subject for AfmSubject {
         constants.map(constant).collect()
     }
 
-    /// Velocity and adhesion, which may be zero.
+    /// Adds velocity and adhesion, which may be zero.
     fn further_inputs(&self, space: &Space) -> Vec<Factor> {
         let further = ["velocity", "adhesion"].into_iter().filter(|name| !is_factor(space, name));
         let constant = |name: &'static str| {

@@ -1,5 +1,5 @@
-//! The command-line program `apportion`: its commands, the reproduction of the papers, scenes in time, the trade of accuracy
-//! against time, and pages that compute.
+//! The command-line program `apportion`: its commands, the reproduction of the papers, scenes in time, the trade-off of
+//! accuracy and time, and live pages.
 
 #![cfg_attr(not(test), deny(clippy::disallowed_methods))]
 

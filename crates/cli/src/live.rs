@@ -1,4 +1,4 @@
-//! Pages that compute: a study with the engine inside, compiled to WebAssembly (`web/`).
+//! Live pages: a study with the engine inside, compiled to WebAssembly (`web/`).
 
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
@@ -14,35 +14,35 @@ use serde_json::json;
 use thiserror::Error;
 use toml_edit::DocumentMut;
 
-/// Why there is no page.
+/// Why a page cannot be made.
 #[derive(Debug, Error)]
 pub enum LiveError {
-    /// The model is a program, or outside.
+    /// The model is a program, or external.
     #[error("a page cannot run the study {study}: its model is neither afm nor a formula nor a known function")]
     Model {
         /// The name of the study.
         study: String,
     },
-    /// A page has the points of so many factors.
+    /// The study has more factors than a page has points for.
     #[error("a page cannot run the study {study}: it has {factors} factors, more than {MAX_FACTORS}")]
     Factors {
         /// The name of the study.
         study: String,
-        /// How many factors it has.
+        /// The number of its factors.
         factors: usize,
     },
-    /// The study is not whole without files beside it.
+    /// The study needs other files.
     #[error("a page cannot run the study {study}: it needs files beside it ({source})")]
     Files {
         /// The name of the study.
         study: String,
-        /// What is missing without them.
+        /// The error without them.
         source: Box<StudyError>,
     },
     /// The study cannot be changed.
     #[error(transparent)]
     Study(#[from] StudyError),
-    /// The run of its first result has ended.
+    /// The first run failed or was stopped.
     #[error(transparent)]
     Run(#[from] RunError),
     /// The template cannot be rendered.
@@ -53,7 +53,7 @@ pub enum LiveError {
 /// The engine, compiled to WebAssembly by `web/build.sh`: gzip in base64.
 const ENGINE: &str = include_str!("../../../assets/web/engine.b64");
 
-/// The studies that a page of the nanoparticle offers beside its own.
+/// The studies that a page of the nanoparticle offers in addition to its own.
 const PRESETS: [(&str, &str); 4] = [
     ("coulomb-dimensional", include_str!("../../../studies/coulomb-dimensional.toml")),
     ("coulomb-environmental", include_str!("../../../studies/coulomb-environmental.toml")),
@@ -61,10 +61,10 @@ const PRESETS: [(&str, &str); 4] = [
     ("soft-cantilever", include_str!("../../../studies/soft-cantilever.toml")),
 ];
 
-/// Two columns of Sobol' points for each, of the 1024 that the engine has in a page.
+/// Maximum number of factors: each takes two columns of Sobol' points of the 1024 that the engine has in a page.
 const MAX_FACTORS: usize = 512;
 
-/// What the page shows of a result, in this order, where the result has it.
+/// The sections of a result that the page shows, in this order, if the result has them.
 const SECTIONS: [&str; 7] = ["warnings", "indices", "shares", "series-1", "interactions", "distribution", "validity"];
 
 #[derive(Template)]
@@ -77,7 +77,7 @@ struct Page<'a> {
     ranges: String,
     sections: Vec<SectionView<'a>>,
     footer: String,
-    /// The studies as JSON, in an element of script: without `<`.
+    /// The studies as JSON, in a script element: without `<`.
     study: String,
     style: String,
     script: String,
@@ -93,7 +93,7 @@ struct SectionView<'a> {
     body: String,
 }
 
-/// The page of `study`, with its result by this program on `threads` threads to begin with, unless `stop` is set.
+/// Builds the page of `study`, with its initial result computed on `threads` threads, unless `stop` is set.
 ///
 /// # Errors
 /// [`LiveError`] if a page cannot run the study, or its first run fails.
@@ -104,11 +104,11 @@ pub fn live_page(study: &Study, threads: usize, stop: &AtomicBool) -> Result<Str
     page(&study, &text, &result)
 }
 
-/// The page of the study in `result`, with this result to begin with; `None` if a page cannot run the study. No file that the study
-/// names is read: `document`, that of the result, tells how to try other ranges only if it names none.
+/// Builds the page of the study in `result`, with this initial result; `None` if a page cannot run the study. No file
+/// that the study names is read: `document`, that of the result, has a section on ranges only if the study names none.
 ///
 /// # Errors
-/// [`LiveError`] if a part of the page cannot be drawn.
+/// [`LiveError`] if the page cannot be built.
 pub fn page_of_result(document: &Document, result: &StudyResult) -> Result<Option<String>, LiveError> {
     if document.sections.iter().all(|section| section.id != TRY) {
         return Ok(None);
@@ -119,30 +119,30 @@ pub fn page_of_result(document: &Document, result: &StudyResult) -> Result<Optio
     page(&apportion_files::parse_study(&text, &path, &[])?, &text, result).map(Some)
 }
 
-/// The name of the live page of the study called `name`.
+/// Returns the file name of the live page of the study `name`.
 pub fn file_name(name: &str) -> String {
     format!("{name}-live.html")
 }
 
-/// Puts the live `page` beside a document, as the file `name` that a section links to: in the place of the section that tells
-/// how to make one, if there is one.
+/// Adds the live `page` to a document, as the file `name` with a section that links to it; that section replaces the
+/// one on how to make a live page.
 pub fn put_beside(document: &mut Document, name: &str, page: String) {
     const TITLE: &str = "Try your own ranges";
     let text = "What if your own factors vary less, or more? A page beside this one computes it while a \
                 range is dragged, with the engine of this program inside; it needs no network.";
     let parts = vec![Part::Text(text.to_owned()), Part::Links(vec![Link::new(TITLE, name)])];
     document.sections.retain(|section| section.id != TRY);
-    // Before how it was made.
+    // Before the section on how it was made.
     let place = document.sections.iter().position(|section| matches!(&*section.id, "cost" | "provenance"));
     let place = place.unwrap_or(document.sections.len());
     document.sections.insert(place, Section::new(TRY, TITLE, vec![Part::OnPage(parts)]));
     document.files.push(DataFile::new(name, page));
 }
 
-/// The text of a study with all changes made, as a page can run it: for as many base samples as it likes, without files.
+/// Returns the text of a study with all changes made, for a page: with any number of base samples, without files.
 ///
 /// # Errors
-/// [`LiveError`] if there is no such text.
+/// [`LiveError`] if the study cannot be used in a page.
 pub fn own_text(study: &Study) -> Result<String, LiveError> {
     let kind = ModelKind::from_name(study.subject().name());
     let computes = |kind: ModelKind| kind == ModelKind::AFM || kind == ModelKind::EXPRESSION || kind.known.is_some();
@@ -155,14 +155,14 @@ pub fn own_text(study: &Study) -> Result<String, LiveError> {
     }
     let text = edited(study.source(), study.overrides())?;
     let text = without_target(&text).unwrap_or(text);
-    // Where there is no file beside it.
+    // Without any files next to it.
     let alone = Path::new("no-such-folder-of-a-page").join(format!("{}.toml", study.name()));
     apportion_files::parse_study(&text, &alone, &[])
         .map_err(|source| LiveError::Files { study: study.name().to_owned(), source: Box::new(source) })?;
     Ok(text)
 }
 
-/// The text without what decides by itself how long a run is.
+/// Removes the keys that determine the length of a run.
 fn without_target(text: &str) -> Option<String> {
     let mut document: DocumentMut = text.parse().ok()?;
     document.remove("accuracy");
@@ -206,7 +206,7 @@ fn page(study: &Study, text: &str, result: &StudyResult) -> Result<String, LiveE
         ranges,
         sections,
         footer: symbols(&document.footer),
-        // A title may hold what would end the element.
+        // A title may contain the end of the element.
         study: json!({ "presets": presets }).to_string().replace('<', "\\u003c"),
         style: compact(concat!(
             include_str!("../../report/templates/page/page.css"),
@@ -225,13 +225,13 @@ fn page(study: &Study, text: &str, result: &StudyResult) -> Result<String, LiveE
     Ok(page.render()?)
 }
 
-/// A script or a style without indentation and lines of comment, so that a page stays below 2 MB.
+/// Removes indentation and comment lines from a script or a style, so that a page is below 2 MB.
 fn compact(text: &str) -> String {
     let lines = text.lines().map(str::trim_start).filter(|line| !line.is_empty() && !line.starts_with("//"));
     lines.fold(String::new(), |all, line| all + line + "\n")
 }
 
-/// The tables of what was asked, for those who see no controls: on paper, and without scripts.
+/// Builds the tables of the study, for readers without controls: on paper, and without scripts.
 fn ranges(document: &Document) -> String {
     let mut document = document.clone().excerpt(&["study"]);
     for part in document.sections.iter_mut().flat_map(|section| &mut section.parts) {

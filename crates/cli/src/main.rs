@@ -1,4 +1,4 @@
-//! The command-line program; all of it is in the library.
+//! The command-line program, a call of the library.
 
 fn main() -> std::process::ExitCode {
     apportion_cli::main()

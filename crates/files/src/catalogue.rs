@@ -1,23 +1,23 @@
-//! What can be studied: every model with its inputs and outputs, for study files and for people. One entry for each kind;
-//! how a study file's tables become a model is in the registry of the study files.
+//! The catalogue of models with their inputs and outputs, for study files and for readers. One entry for each kind; the
+//! registry of the study files says how their tables become a model.
 
 use std::fmt;
 
 use apportion::model::{Choice, Input, KnownAnswer, Output, known_inputs, known_output};
 use apportion_afm::model::{afm_choices, afm_inputs, afm_outputs};
 
-/// A model that a study can name, and what is known of it before there is a study.
+/// A model that a study can name, and its description without a study.
 #[derive(Clone, Copy)]
 pub struct ModelKind {
     /// The name in study files.
     pub name: &'static str,
-    /// One line for people.
+    /// A description in one line.
     pub description: &'static str,
     /// The table of a study file that belongs to it.
     pub table: &'static str,
-    /// The inputs that become factors in a new study; all of them if there are none here.
+    /// The inputs that become factors in a new study; empty for all of them.
     pub main_inputs: &'static [&'static str],
-    /// The function, of a function with known indices.
+    /// The function, if it is one with known indices.
     pub known: Option<KnownAnswer>,
     inputs: fn(Option<KnownAnswer>) -> Vec<Input>,
     outputs: fn() -> Vec<Output>,
@@ -40,7 +40,7 @@ impl ModelKind {
     pub const EXPRESSION: Self = Self::users_own("expression", "formulas in the study file, of factors of its own");
     /// A program of the user's own.
     pub const COMMAND: Self = Self::users_own("command", "a program of your own, in any language");
-    /// A model that runs outside of this program.
+    /// A model that is run outside this program.
     pub const EXTERNAL: Self = Self::users_own(
         "external",
         "any model outside of this program: `sample` writes the points, `analyze` reads its outputs",
@@ -61,7 +61,7 @@ impl ModelKind {
         }
     }
 
-    /// A function with known indices.
+    /// Returns a function with known indices.
     pub fn from_known(answer: KnownAnswer) -> Self {
         Self {
             name: answer.name(),
@@ -75,7 +75,7 @@ impl ModelKind {
         }
     }
 
-    /// Every model, the default first.
+    /// Returns every model, the default first.
     pub fn all() -> Vec<Self> {
         [Self::AFM, Self::EXPRESSION, Self::COMMAND, Self::EXTERNAL]
             .into_iter()
@@ -83,34 +83,34 @@ impl ModelKind {
             .collect()
     }
 
-    /// The model of that name.
+    /// Returns the model of that name.
     pub fn from_name(name: &str) -> Option<Self> {
         Self::all().into_iter().find(|kind| kind.name == name)
     }
 
-    /// Whether inputs and outputs are those that a study names.
+    /// Returns whether the study names the inputs and outputs.
     pub fn is_users_own(self) -> bool {
         self.outputs().is_empty()
     }
 
-    /// The inputs, the main ones first; of a function, those it has with its default parameters; none of a model whose
-    /// inputs are the factors of a study.
+    /// Returns the inputs, the main ones first; of a function, those it has with its default parameters; none of a
+    /// model whose inputs are the factors of a study.
     pub fn inputs(self) -> Vec<Input> {
         (self.inputs)(self.known)
     }
 
-    /// The outputs, the default one first; none of a model whose outputs a study names.
+    /// Returns the outputs, the default one first; none of a model whose outputs a study names.
     pub fn outputs(self) -> Vec<Output> {
         (self.outputs)()
     }
 
-    /// The choices of its table.
+    /// Returns the choices of its table.
     pub fn choices(self) -> Vec<Choice> {
         (self.choices)()
     }
 }
 
-/// Models are known by their names.
+/// Models are equal if their names are.
 impl PartialEq for ModelKind {
     fn eq(&self, other: &Self) -> bool {
         self.name == other.name

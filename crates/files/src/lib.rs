@@ -1,7 +1,7 @@
 //! Studies in TOML, programs as models, and tables of points and outputs, for [`apportion`].
 //!
-//! [`load_study`] reads a study file; everything wrong with it is reported with its line and column. [`CommandModel`] asks a
-//! program of the user's own, in any language. [`exchange`] writes the points of a study to a file, and reads outputs that
+//! [`load_study`] reads a study file; every error in it is reported with its line and column. [`CommandModel`] runs the
+//! user's own program, in any language. [`exchange`] writes the points of a study to a file, and reads outputs that
 //! were computed anywhere.
 
 #![cfg_attr(not(test), deny(clippy::disallowed_methods))]

@@ -1,4 +1,4 @@
-//! The files of a document, and the writing of them.
+//! The files of a document and how they are written.
 
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
@@ -30,7 +30,7 @@ pub enum ArtefactError {
         /// Why.
         source: Box<dyn std::error::Error + Send + Sync>,
     },
-    /// A file would take the place of one that must stay.
+    /// A file would replace one that must be kept.
     #[error("{path}: this is the input itself; choose another folder", path = path.display())]
     Input {
         /// The file.
@@ -41,7 +41,7 @@ pub enum ArtefactError {
     Stopped,
 }
 
-/// Where the files of a document go: a folder with the page and the files for programs, and `charts` below it.
+/// The destination of a document's files: a folder with the page and the data files, and `charts` below it.
 ///
 /// # Example
 /// ```
@@ -71,34 +71,34 @@ pub struct Artefacts {
 pub struct Written {
     /// The page.
     pub page: PathBuf,
-    /// The files for programs.
+    /// The data files.
     pub data: Vec<PathBuf>,
-    /// The folder of the charts and how many there are; `None` where none was written.
+    /// The folder of the charts and the number of charts; `None` if no chart was written.
     pub charts: Option<(PathBuf, usize)>,
 }
 
 impl Artefacts {
-    /// Files in `folder`, charts as SVG and PNG.
+    /// Creates the destination `folder`, with charts as SVG and PNG.
     pub fn new(folder: impl Into<PathBuf>) -> Self {
         Self { folder: folder.into(), formats: ChartFormat::USUAL.to_vec(), width: ChartWidth::Wide, input: None }
     }
 
-    /// The same with charts in these formats; none for no charts.
+    /// Sets the formats of the chart files; an empty list means no charts.
     pub fn with_charts(self, formats: &[ChartFormat]) -> Self {
         Self { formats: formats.to_vec(), ..self }
     }
 
-    /// The same with the files of charts for this width; the charts of the page stay as they are.
+    /// Sets the width of the chart files; the charts on the page do not change.
     pub fn with_width(self, width: ChartWidth) -> Self {
         Self { width, ..self }
     }
 
-    /// The same, which never takes the place of the file `input`.
+    /// Sets the input file, which is never overwritten.
     pub fn beside_input(self, input: impl Into<PathBuf>) -> Self {
         Self { input: Some(input.into()), ..self }
     }
 
-    /// Makes the folder and checks that it can be written to, so that a run fails in its first second and not in its last.
+    /// Creates the folder and checks that it can be written to, so that a run fails at its start and not at its end.
     ///
     /// # Errors
     /// [`WriteError`] with the reason.
@@ -109,12 +109,12 @@ impl Artefacts {
     /// Writes all files of `document`: the page last, since it links to the others.
     ///
     /// # Errors
-    /// [`ArtefactError`] if a chart cannot be drawn or a file cannot be written; files written before that stay.
+    /// [`ArtefactError`] if a chart cannot be drawn or a file cannot be written; files already written are kept.
     pub fn write(&self, document: &Document) -> Result<Written, ArtefactError> {
         self.write_until(document, &AtomicBool::new(false))
     }
 
-    /// The same, until `stop` is set.
+    /// Writes all files of `document` until `stop` is set.
     ///
     /// # Errors
     /// As for [`write`](Self::write), and [`ArtefactError::Stopped`].
@@ -149,7 +149,7 @@ impl Artefacts {
         Ok(Written { page, data, charts: has_charts.then_some((charts, figures.len())) })
     }
 
-    /// Writes the file at `path` below the folder, and gives where it lies.
+    /// Writes the file at `path` below the folder and returns its location.
     fn put<'b>(
         &self,
         path: &str,
@@ -169,7 +169,7 @@ impl Artefacts {
     }
 }
 
-/// A chart in a format, or why there is none.
+/// Converts a chart to a format; the error says why it cannot.
 fn picture(svg: &str, format: ChartFormat) -> Result<Cow<'_, [u8]>, Box<dyn std::error::Error + Send + Sync>> {
     match format {
         ChartFormat::Svg => Ok(Cow::Borrowed(svg.as_bytes())),

@@ -1,4 +1,4 @@
-//! Files that are either the old one or the new one, never half of one.
+//! Atomic file writes: a reader sees the old file or the new one, never a part of one.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -13,17 +13,17 @@ use thiserror::Error;
 pub struct WriteError {
     /// The file or folder.
     pub path: PathBuf,
-    /// What the operating system said.
+    /// The error of the operating system.
     pub source: std::io::Error,
 }
 
 /// Writes `bytes` to `path`: into a temporary file in the same folder, synced, then renamed over the target.
 ///
-/// A link is followed, so that it stays one; a file that exists keeps its permissions; and what is no file but a device
-/// or a pipe is written to as it is, since nothing must take its place.
+/// Symbolic links are followed, so they stay links; an existing file keeps its permissions. A device or a pipe is
+/// written directly, since it must not be replaced.
 ///
 /// # Errors
-/// [`WriteError`]; the target is then what it was before.
+/// [`WriteError`]; the target is unchanged.
 pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
     stream_atomically(path, |file| file.write_all(bytes))
 }
@@ -31,7 +31,7 @@ pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
 /// Like [`write_atomically`], for content that `write` produces piece by piece.
 ///
 /// # Errors
-/// [`WriteError`]; the target is then what it was before.
+/// [`WriteError`]; the target is unchanged.
 pub fn stream_atomically(
     path: &Path,
     write: impl FnOnce(&mut (dyn Write + Send)) -> std::io::Result<()>,
@@ -54,8 +54,8 @@ pub fn stream_atomically(
     attempt().map_err(|source| WriteError { path: path.to_owned(), source })
 }
 
-/// Makes the folder and checks that files can be created in it, so that a run fails in its first second and not in its
-/// last. What killed runs have left half written is removed.
+/// Creates the folder and checks that files can be created in it, so that a run fails in its first second and not in
+/// its last. Removes the partial files of killed runs.
 ///
 /// # Errors
 /// [`WriteError`] if the folder cannot be made or written to.
@@ -71,8 +71,8 @@ pub fn prepare_folder(folder: &Path) -> Result<(), WriteError> {
     attempt().map_err(|source| WriteError { path: folder.to_owned(), source })
 }
 
-/// Checks that `path` can be written: a file can be created in its folder, and it is no folder itself. What killed runs have
-/// left half written there is removed.
+/// Checks that `path` can be written: a file can be created in its folder, and it is not a folder. Removes the partial
+/// files of killed runs there.
 ///
 /// # Errors
 /// [`WriteError`] with the reason.
@@ -92,7 +92,7 @@ pub fn prepare_file(path: &Path) -> Result<(), WriteError> {
     attempt().map_err(|source| WriteError { path: path.to_owned(), source })
 }
 
-/// What the user has named as a folder, or as one of a file, is none.
+/// Returns the error for a path that is not a folder although the user named it as one.
 fn no_folder(why: String) -> std::io::Error {
     std::io::Error::new(std::io::ErrorKind::NotADirectory, why)
 }
@@ -101,11 +101,11 @@ fn folder_of(path: &Path) -> &Path {
     path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
-/// What the names of temporary files begin with.
+/// Prefix of the names of temporary files.
 const TEMPORARY: &str = ".apportion-";
 
-/// A temporary file older than this that is not locked is one of a killed run: some microseconds lie between its creation
-/// and its lock.
+/// Age from which an unlocked temporary file belongs to a killed run: a file is locked some microseconds after its
+/// creation.
 const ABANDONED: Duration = Duration::from_secs(1);
 
 /// Removes the temporary files in `folder` that no run is writing.
@@ -122,8 +122,8 @@ fn remove_left_overs(folder: &Path) {
     }
 }
 
-/// A temporary file that becomes a result: readable by others as far as the user's mask allows, which the private
-/// files of `tempfile` are not by default.
+/// Creates a temporary file that becomes a result: readable by others as far as the user's mask allows, which the
+/// private files of `tempfile` are not by default.
 fn temporary_in(folder: &Path) -> std::io::Result<NamedTempFile> {
     let mut builder = tempfile::Builder::new();
     builder.prefix(TEMPORARY);
@@ -133,12 +133,12 @@ fn temporary_in(folder: &Path) -> std::io::Result<NamedTempFile> {
         builder.permissions(std::fs::Permissions::from_mode(0o666));
     }
     let made = builder.tempfile_in(folder).map_err(|error| {
-        // `tempfile` adds the name of the temporary file, which the user has never heard of.
+        // `tempfile` adds the name of the temporary file, which means nothing to the user.
         let text = error.to_string();
         let reason = text.split_once(" at path ").map_or(text.as_str(), |(reason, _)| reason);
         std::io::Error::new(error.kind(), reason)
     })?;
-    // Says to other runs that it is being written; a file system without locks has none to say it with.
+    // The lock tells other runs that the file is being written; some file systems have no locks.
     let _ = made.as_file().try_lock();
     Ok(made)
 }

@@ -1,4 +1,4 @@
-//! CSV: numbers with as many digits as it takes to read the same bits back, an empty cell where there is none.
+//! CSV: numbers with as many digits as it takes to read the same bits back, an empty cell for a missing value.
 
 use apportion::text::inert;
 use apportion::uncertainty::Estimate;
@@ -6,7 +6,7 @@ use apportion::uncertainty::Estimate;
 /// A value of a file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum Value {
-    /// What is printed.
+    /// The text that is printed.
     #[default]
     Printed,
     /// Nothing.
@@ -31,19 +31,19 @@ pub struct Field {
 }
 
 impl Field {
-    /// A column.
+    /// Creates a column.
     pub fn new(name: impl Into<String>) -> Self {
         Self { name: name.into(), is_estimate: false }
     }
 
-    /// The columns `name`, `name_low` and `name_high`.
+    /// Creates the columns `name`, `name_low` and `name_high`.
     pub fn estimate(name: impl Into<String>) -> Self {
         Self { name: name.into(), is_estimate: true }
     }
 }
 
 impl Field {
-    /// What stands above its columns.
+    /// Returns the headers of its columns.
     pub(super) fn names(&self) -> Vec<String> {
         let suffixes = if self.is_estimate { &["", "_low", "_high"][..] } else { &[""] };
         suffixes.iter().map(|suffix| inert(format!("{}{suffix}", self.name))).collect()
@@ -51,7 +51,7 @@ impl Field {
 }
 
 impl Value {
-    /// What stands in its columns, where `printed` is what is printed.
+    /// Returns the cells of its columns, where `printed` is the printed text.
     pub(super) fn cells(&self, printed: &str) -> Vec<String> {
         vec![match self {
             Self::Printed => inert(printed.to_owned()),
@@ -69,19 +69,19 @@ impl Value {
     }
 }
 
-/// Lines of CSV.
+/// Formats lines of CSV.
 pub(super) fn lines(lines: impl IntoIterator<Item = Vec<String>>) -> String {
     let mut writer = ::csv::WriterBuilder::new().flexible(true).from_writer(Vec::new());
     lines.into_iter().for_each(|line| writer.write_record(line).expect("into memory"));
     String::from_utf8(writer.into_inner().expect("into memory")).expect("text in, text out")
 }
 
-/// A number that reads back to the same bits; empty without one.
+/// Formats a number that reads back to the same bits; empty for `None`.
 fn exact(value: Option<f64>) -> String {
     value.filter(|value| value.is_finite()).map_or_else(String::new, |value| value.to_string())
 }
 
-/// Declares what a value of each type is in a table.
+/// Declares how a value of each type is written in a table.
 macro_rules! values {
     ($($type:ty => $value:expr;)+) => {
         $(impl From<$type> for Value {

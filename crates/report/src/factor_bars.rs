@@ -7,27 +7,27 @@ use super::chart::{Axis, Bar, Chart, Colour, Mark, Panel, Series, Shape};
 use super::format::{fixed, index as of_error, minus, name, two_digits};
 use super::leading::leader_of;
 
-/// Most factors in a chart.
+/// Maximum number of factors in a chart.
 pub(super) const MAX_BARS: usize = 20;
 /// The axis of indices.
 pub(super) const INDEX: &str = "Sobol' index: part of the variance";
-/// Estimates beyond these bounds say nothing of an index, which is between 0 and 1, or of a difference of two; nor do intervals
-/// longer than `LONGEST`.
+/// Bounds of estimates that are drawn: an index is between 0 and 1, and so is the size of a difference of two.
+/// Intervals longer than `LONGEST` are not drawn either.
 pub(super) const INDICES: (f64, f64) = (-0.1, 1.1);
 pub(super) const DIFFERENCES: (f64, f64) = (-1.1, 1.1);
 const LONGEST: f64 = 1.0;
-/// Intervals are drawn so far beyond.
+/// How far beyond the bounds intervals are drawn.
 const BEYOND: f64 = 0.1;
-/// What stands in the place of such a bar.
+/// Text in place of such a bar.
 const UNKNOWN: &str = "unknown: too few samples";
-/// Most decimals of a label; what is smaller than `SMALL` has two digits.
+/// Maximum number of decimals of a label; numbers below `SMALL` have two digits.
 const DECIMALS: usize = 4;
 const SMALL: f64 = 0.01;
 
 /// A series with its value for each factor; `None` is marked as missing.
 pub(super) type IndexSeries = (Series, Vec<Option<Estimate>>);
 
-/// The series of first-order and of total indices.
+/// Returns the series of first-order and of total indices.
 pub(super) fn both_orders(first_order: Vec<Option<Estimate>>, total: Vec<Option<Estimate>>) -> [IndexSeries; 2] {
     [
         (Series::new("S_1, first order: alone", Colour::Series(0)), first_order),
@@ -35,8 +35,8 @@ pub(super) fn both_orders(first_order: Vec<Option<Estimate>>, total: Vec<Option<
     ]
 }
 
-/// A panel with a row for each factor, those with the largest keys on top, and a pair of bars in each: the first-order index,
-/// and below it the total index, whose part beyond the first-order index is what the factor does together with others.
+/// Builds a panel with a row for each factor, those with the largest keys on top, and a pair of bars in each: the
+/// first-order index, and below it the total index, whose part beyond the first-order index is due to interactions.
 pub(super) fn pair_panel(
     factors: Vec<String>,
     first_order: Vec<Option<Estimate>>,
@@ -54,7 +54,7 @@ pub(super) fn pair_panel(
     panel(INDEX, factors, bars((of_first, first_order), INDICES).chain(split), keys)
 }
 
-/// A panel with a row for each factor, those with the largest keys on top, and bars of their indices.
+/// Builds a panel with a row for each factor, those with the largest keys on top, and bars of their indices.
 pub(super) fn index_panel(
     label: &str,
     factors: Vec<String>,
@@ -74,7 +74,7 @@ fn bars((series, values): IndexSeries, possible: (f64, f64)) -> impl Iterator<It
     bars.map(move |(row, value)| series.mark(Shape::Bar(index_bar(row, value, possible))))
 }
 
-/// The bar of an index. One of which nothing is known says so: its bar would be read all the same.
+/// Builds the bar of an index. An unknown index gets a text instead, since a bar would be read as a value.
 fn index_bar(row: usize, value: Option<Estimate>, possible: (f64, f64)) -> Bar {
     let Some(index) = value else { return Bar { row, to: f64::NAN, ..Bar::default() } };
     let length = index.interval.map(Interval::width);
@@ -94,7 +94,7 @@ fn index_bar(row: usize, value: Option<Estimate>, possible: (f64, f64)) -> Bar {
     Bar { row, to: index.estimate, interval, label, said, ..Bar::default() }
 }
 
-/// What a caption says where only the `most` largest factors are drawn.
+/// Returns the sentence of a caption that says that only the `most` largest factors are drawn.
 pub(super) fn not_drawn(all: usize, most: usize) -> String {
     if all > most { format!(" The {most} largest of {all} factors are drawn.") } else { String::new() }
 }
@@ -106,12 +106,12 @@ pub struct SharesSeries<'a> {
     pub series: Series,
     /// The output whose shares are drawn.
     pub output: &'a OutputResult,
-    /// Published percentages by factor; they stand in both panels, since their definition is not published.
+    /// Published percentages by factor; they are drawn in both panels, since their definition is not published.
     pub published: Vec<(&'a str, f64)>,
 }
 
-/// The shares of `factors` in each of `series`: first order on the left, total on the right, the factor with the largest
-/// total share on top. Of more than 20 factors, the first 20.
+/// Draws the shares of `factors` in each of `series`: first order on the left, total on the right, the factor with the
+/// largest total share on top. Of more than 20 factors, the first 20.
 pub fn shares_chart(title: &str, caption: &str, factors: &[&str], series: &[SharesSeries<'_>]) -> Chart {
     let largest = |factor: &&str| {
         let shares = series.iter().filter_map(|series| share(series, factor, EffectEstimates::total_percent));
@@ -137,11 +137,11 @@ pub fn shares_chart(title: &str, caption: &str, factors: &[&str], series: &[Shar
     Chart::new(title, format!("{caption}{}", not_drawn(factors.len(), MAX_BARS))).side_by_side().panels(panels)
 }
 
-/// Shares beyond these bounds, in percent, and intervals longer than this mean nothing.
+/// Possible shares, in percent; shares beyond these bounds, and longer intervals, mean nothing.
 const POSSIBLE_SHARE: std::ops::RangeInclusive<f64> = -10.0..=110.0;
 const LONGEST_SHARE: f64 = 100.0;
 
-/// The bar of a share in percent; of one that means nothing, only that.
+/// Builds the bar of a share in percent; a meaningless share gets only a text.
 fn share_bar(row: usize, share: Option<Estimate>) -> Bar {
     let interval = share.and_then(|share| share.interval);
     let is_short = interval.is_none_or(|interval| interval.width() <= LONGEST_SHARE);
@@ -160,7 +160,7 @@ fn share(series: &SharesSeries<'_>, factor: &str, of: ShareOf) -> Option<Estimat
     index.and_then(|index| of(&index.effect))
 }
 
-/// The chart of one output of a single study.
+/// Draws the chart of one output of a single study.
 pub fn study_chart(result: &StudyResult, output: &OutputResult) -> Chart {
     let factors: Vec<&str> = result.factors.iter().map(|factor| factor.name.as_str()).collect();
     let title = result.study.headline();

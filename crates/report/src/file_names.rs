@@ -1,4 +1,4 @@
-//! The names of the files of a document: safe and unique, whatever the names of outputs and factors.
+//! The names of the files of a document: safe and unique for any names of outputs and factors.
 
 use std::collections::HashSet;
 
@@ -21,10 +21,10 @@ pub enum ChartFormat {
 impl ChartFormat {
     /// All formats.
     pub const ALL: [Self; 3] = [Self::Svg, Self::Png, Self::Pdf];
-    /// The formats that are written where none is asked for.
+    /// The default formats.
     pub const USUAL: [Self; 2] = [Self::Svg, Self::Png];
 
-    /// The ending of its files.
+    /// Returns the file extension.
     pub fn ending(self) -> &'static str {
         match self {
             Self::Svg => "svg",
@@ -34,8 +34,8 @@ impl ChartFormat {
     }
 }
 
-/// What the files of each of `names` begin with, so that with `suffixes` behind it no two files have one name, not even
-/// where capitals and small letters are the same: the name, with a number where it would stand for another's file.
+/// Returns the prefixes of the files of each of `names`, so that with `suffixes` appended no two files have one name,
+/// even where case is ignored: the name, with a number where it would equal another file's.
 ///
 /// ```
 /// let stems = apportion_report::file_stems("s", &["y", "y-indices", "Y"], &["", "-indices"]);
@@ -76,7 +76,7 @@ mod tests {
         let unique: HashSet<String> = files.clone().collect();
         assert_eq!(unique.len(), files.count());
         assert!(stems.iter().all(|stem| !stem.contains(['/', '\\']) && stem.len() < 120), "{stems:?}");
-        // Names that are no trouble keep theirs.
+        // Names without a conflict are kept.
         assert_eq!(file_stems("s", &["y", "z"], &suffixes), ["s-y", "s-z"]);
     }
 }

@@ -7,13 +7,13 @@ use apportion::text::symbol;
 pub use estimates::{give_or_take, index, is_above_zero, percent, printed_half_width, share, two_digits};
 pub use units::unit;
 
-/// A value with its unit, if it has one.
+/// Formats a value with its unit, if it has one.
 pub fn with_unit(value: f64, unit: &str) -> String {
     let value = significant(value);
     if matches!(unit, "" | "1") { value } else { format!("{value} {}", self::unit(unit)) }
 }
 
-/// A share of the runs that is not zero, in percent; what is not all is not printed as 100 %.
+/// Formats a non-zero share of the runs in percent; a share below 1 is never printed as 100 %.
 pub fn share_of_runs(share: f64) -> String {
     match share {
         ..0.001 => "less than 0.1 %".to_owned(),
@@ -23,22 +23,22 @@ pub fn share_of_runs(share: f64) -> String {
     }
 }
 
-/// `value` with `digits` decimals, where a zero has no sign.
+/// Formats `value` with `digits` decimals; a zero has no sign.
 pub fn fixed(value: f64, digits: usize) -> String {
     let text = format!("{value:.digits$}");
     let is_zero = text.chars().all(|c| matches!(c, '-' | '0' | '.'));
     if is_zero { text.trim_start_matches('-').to_owned() } else { text }
 }
 
-/// `value` with six significant digits, in exponent form where it is small or huge, without zeros at the end.
+/// Formats `value` with six significant digits, in exponent form if it is small or huge, without trailing zeros.
 pub fn significant(value: f64) -> String {
     significant_to(value, SIGNIFICANT)
 }
 
-/// The digits of [`significant`].
+/// Number of digits of [`significant`].
 const SIGNIFICANT: usize = 6;
 
-/// `value` with so many significant digits, of which those before the point are all written.
+/// Formats `value` with so many significant digits; the digits before the decimal point are all written.
 fn significant_to(value: f64, most: usize) -> String {
     if value == 0.0 || !value.is_finite() {
         return if value == 0.0 { "0".to_owned() } else { value.to_string() };
@@ -57,7 +57,7 @@ fn significant_to(value: f64, most: usize) -> String {
     }
 }
 
-/// A probability; `-` if it is unknown. An estimate is never certain: beyond 0.001 and 0.999 only the bound is shown.
+/// Formats a probability; `-` if it is unknown. An estimate is never certain: beyond 0.001 and 0.999 it is a bound.
 pub fn chance(probability: Option<f64>) -> String {
     match probability {
         None => "-".to_owned(),
@@ -67,21 +67,21 @@ pub fn chance(probability: Option<f64>) -> String {
     }
 }
 
-/// A value as `said` says it, a dash without one.
+/// Formats a value by `said`; a dash for `None`.
 pub fn or_dash<T>(value: Option<T>, said: impl FnOnce(T) -> String) -> String {
     value.map_or_else(|| "–".to_owned(), said)
 }
 
-/// A value with four significant digits.
+/// Formats a value with four significant digits.
 pub fn short(value: f64) -> String {
     estimates::rounded(value, 4)
 }
 
-/// A value with four significant digits, or as many more as tell values apart that are `spread` wide.
+/// Formats a value with four significant digits, or with as many more as distinguish values over a range of `spread`.
 pub fn short_among(value: f64, spread: f64) -> String {
-    /// Digits of the spread that are shown.
+    /// Number of digits of the spread that are shown.
     const TOLD: i32 = 3;
-    /// Those that a double has.
+    /// Number of digits of a double.
     const MAX_DIGITS: i32 = 15;
     let digits = match value != 0.0 && value.is_finite() && spread > 0.0 {
         true => (estimates::exponent(value) - estimates::exponent(spread) + TOLD).clamp(4, MAX_DIGITS),
@@ -90,28 +90,28 @@ pub fn short_among(value: f64, spread: f64) -> String {
     estimates::rounded(value, digits as usize)
 }
 
-/// The same with its unit, if it has one.
+/// Does the same as [`short_among`], with the unit if there is one.
 pub fn among_with_unit(value: f64, spread: f64, unit: &str) -> String {
     let value = short_among(value, spread);
     if matches!(unit, "" | "1") { value } else { format!("{value} {}", self::unit(unit)) }
 }
 
-/// A value with four significant digits and its unit, if it has one.
+/// Formats a value with four significant digits and its unit, if it has one.
 pub fn short_with_unit(value: f64, unit: &str) -> String {
     among_with_unit(value, 0.0, unit)
 }
 
-/// The same with a true minus sign, for sentences and pages.
+/// Formats the same with a true minus sign, for sentences and pages.
 pub fn value(value: f64, unit: &str) -> String {
     minus(&short_with_unit(value, unit))
 }
 
-/// A value with three significant digits and a true minus sign, for charts.
+/// Formats a value with three significant digits and a true minus sign, for charts.
 pub fn printed(value: f64) -> String {
     minus(&estimates::rounded(value, 3))
 }
 
-/// A value with three significant digits, zeros at the end among them, and a true minus sign; a dash if it is not finite.
+/// Formats a value with three significant digits, trailing zeros included, and a true minus sign; a dash if not finite.
 pub fn three_digits(value: f64) -> String {
     const DIGITS: i32 = 3;
     if !value.is_finite() {
@@ -128,23 +128,23 @@ pub fn three_digits(value: f64) -> String {
     minus(&text)
 }
 
-/// A time in s with three digits.
+/// Formats a time in s with three digits.
 pub fn time(seconds: f64) -> String {
     format!("{} s", three_digits(seconds))
 }
 
-/// A force in N with three digits, said in nN.
+/// Formats a force in N with three digits, in nN.
 pub fn force(newtons: f64) -> String {
     format!("{} nN", three_digits(newtons * 1e9))
 }
 
-/// A length in m with three digits, said in nm.
+/// Formats a length in m with three digits, in nm.
 pub fn length(metres: f64) -> String {
     format!("{} nm", three_digits(metres * 1e9))
 }
 
-/// A change as a part, said in percent with its sign; its direction alone where it is too small to be read; `None` if it is
-/// not finite.
+/// Formats a relative change in percent with its sign; only its direction if it is too small to be read; `None` if it
+/// is not finite.
 pub fn change(part: f64) -> Option<String> {
     const MIN_PROBABILITY: f64 = 1e-3;
     let percent = 100.0 * part;
@@ -155,12 +155,12 @@ pub fn change(part: f64) -> Option<String> {
     part.is_finite().then(|| format!("{sign}{} %", three_digits(percent)))
 }
 
-/// `one run`, `2 runs`, `655 360 runs`.
+/// Formats a count with its noun: `one run`, `2 runs`, `655 360 runs`.
 pub fn count(number: u64, one: &str, many: &str) -> String {
     if number == 1 { format!("one {one}") } else { format!("{} {many}", grouped(number)) }
 }
 
-/// A whole number with its digits in threes.
+/// Formats a whole number with its digits in groups of three.
 pub fn grouped(number: u64) -> String {
     const NARROW_SPACE: char = '\u{202f}';
     let digits = number.to_string();
@@ -177,7 +177,7 @@ pub fn grouped(number: u64) -> String {
     text
 }
 
-/// Hyphens before digits as minus signs, where no letter or digit stands before them.
+/// Replaces hyphens before digits by minus signs, unless a letter or digit precedes them.
 pub fn minus(text: &str) -> String {
     let mut signed = String::with_capacity(text.len());
     let (mut before, mut letters) = (' ', text.chars().peekable());
@@ -189,12 +189,12 @@ pub fn minus(text: &str) -> String {
     signed
 }
 
-/// A name of the study as words; a symbol such as `F_cr` stays one.
+/// Converts a name of the study to words; a symbol such as `F_cr` is kept.
 pub fn name(name: &str) -> String {
     if is_symbol(name) { name.to_owned() } else { words(name) }
 }
 
-/// A name as words, whatever it is.
+/// Converts any name to words.
 pub fn words(name: &str) -> String {
     name.replace('_', " ")
 }
@@ -203,12 +203,12 @@ fn is_symbol(name: &str) -> bool {
     name.chars().count() <= 3 || symbol(name).is_some()
 }
 
-/// A unit for an axis: none for pure numbers.
+/// Formats a unit for an axis: none for pure numbers.
 pub fn axis_unit(unit: &str) -> String {
     if unit == "1" { String::new() } else { self::unit(unit) }
 }
 
-/// A name and its unit, if it has one, as a heading.
+/// Formats a name and its unit, if it has one, as a heading.
 pub fn heading(name: &str, unit: &str) -> String {
     if matches!(unit, "" | "1") { self::name(name) } else { format!("{} ({})", self::name(name), self::unit(unit)) }
 }

@@ -6,8 +6,8 @@ use crate::chart::{Axis, Chart, Colour, Mark, Panel, Series, Stroke};
 use crate::format::{axis_unit, minus, name, short_among};
 use crate::significant;
 
-/// The distribution of an output: the histogram as an area of steps, and marks at the
-/// mean and at the 2.5, 50 and 97.5 % quantiles. A constant output has its mark alone.
+/// Draws the distribution of an output: the histogram as an area of steps, and marks at the mean and at the 2.5, 50 and
+/// 97.5 % quantiles. A constant output has only its mark.
 pub fn histogram_chart(distribution: &OutputDistribution, title: &str, output: &str) -> Chart {
     let symbol = &axis_unit(distribution.unit.symbol());
     let per_unit = match symbol.as_str() {
@@ -28,7 +28,7 @@ fn curves(distribution: &OutputDistribution) -> Vec<Mark> {
     vec![Series::new("histogram", Colour::Series(0)).band(histogram_steps(distribution))]
 }
 
-/// Both upper corners of every bin over its lower ones.
+/// Returns both upper corners of every bin over its lower ones.
 fn histogram_steps(distribution: &OutputDistribution) -> Vec<(f64, f64, f64)> {
     let Some(histogram) = &distribution.histogram else { return Vec::new() };
     let bins = histogram.edges.windows(2).zip(&histogram.counts);
@@ -58,17 +58,17 @@ fn rules(distribution: &OutputDistribution) -> Vec<Mark> {
     places.into_iter().filter_map(rule).collect()
 }
 
-/// Marks beyond the reach of the histogram would squeeze it.
+/// Returns whether a mark is inside the histogram: marks outside would compress it.
 fn inside(x: f64, edges: &[f64]) -> bool {
     edges.first().is_some_and(|low| *low <= x) && edges.last().is_some_and(|high| x <= *high)
 }
 
-/// The digits that tell the values apart, with a true minus sign.
+/// Formats with the digits that distinguish the values, and a true minus sign.
 fn short(x: f64, distribution: &OutputDistribution) -> String {
     minus(&short_among(x, distribution.spread()))
 }
 
-/// What is seen, in one sentence.
+/// Describes the chart in one sentence.
 fn caption(distribution: &OutputDistribution, output: &str, symbol: &str) -> String {
     let unit = if symbol.is_empty() { String::new() } else { format!(" {symbol}") };
     let n = distribution.count;

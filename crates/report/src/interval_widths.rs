@@ -1,14 +1,14 @@
-//! How well the indices of a result are known.
+//! The precision of the indices of a result.
 
 use apportion::result::{OutputResult, StudyResult};
 
 use super::format::printed_half_width;
 
-/// Half width from which an interval says nothing of a share of the variance: it may be as long as all of it.
+/// Half width from which an interval says nothing of a share of the variance: it may be as long as the whole range.
 pub const WIDE: f64 = 0.5;
 
-/// The largest half width of any first-order or total index of a result, at its end, those of several outputs together among
-/// them; `None` without intervals.
+/// Returns the largest half width of any first-order or total index of a result at its end, those of several outputs
+/// together included; `None` without intervals.
 pub fn widest_interval(result: &StudyResult) -> Option<f64> {
     let together = result.aggregate.iter().filter_map(|aggregate| aggregate.indices.as_ref());
     let together = together.chain(result.series.iter().filter_map(|series| series.indices.as_ref())).flatten();
@@ -17,7 +17,7 @@ pub fn widest_interval(result: &StudyResult) -> Option<f64> {
     Some(together.fold(widest, f64::max))
 }
 
-/// The same of an output. Not less than any half width that its table prints, which is that of the longer side, rounded.
+/// Returns the same for an output, not less than any half width in its table: that of the longer side, rounded.
 pub fn widest_of(output: &OutputResult) -> Option<f64> {
     let widest = output.convergence.last()?.largest_half_width?;
     let indices = output.indices.iter().flatten();
@@ -25,7 +25,7 @@ pub fn widest_of(output: &OutputResult) -> Option<f64> {
     Some(all.filter_map(printed_half_width).fold(widest, f64::max))
 }
 
-/// Which indices these half widths are of: not those of second order, nor those of the mean over the noise.
+/// Names the indices that these half widths include: not second order, and not the mean over the noise.
 pub fn indices_measured(outputs: &[OutputResult]) -> &'static str {
     let pairs = outputs.iter().any(|output| output.second_order.is_some());
     let noise = outputs.iter().any(|output| output.noise.is_some());

@@ -1,4 +1,4 @@
-//! Which factor leads, as far as the intervals tell.
+//! Which factor leads, as far as the intervals show.
 
 use apportion::result::{IndexRecord, OutputResult, PairRecord, PlainIndexRecord};
 use apportion::special::normal_quantile;
@@ -7,56 +7,56 @@ use apportion::uncertainty::{Estimate, Interval, LEVEL};
 
 use super::format::{chance, count, index, name};
 
-/// From this probability on a lead is taken for one.
+/// Probability from which on a lead counts as certain.
 const SURE: f64 = 0.95;
-/// Most names in a sentence.
+/// Maximum number of names in a sentence.
 const NAMES: usize = 6;
 
-/// One that may lead.
+/// A factor or input that may lead.
 #[derive(Debug, Clone)]
 pub(super) struct Contender {
-    /// Its name as it stands in a sentence.
+    /// Its name in a sentence.
     pub label: String,
-    /// What decides: the total index, or another measure.
+    /// The quantity it is ranked by: the total index, or another measure.
     pub total: Estimate,
     /// Probability that it is the largest, where it is known.
     pub probability: Option<f64>,
 }
 
 impl Contender {
-    /// One of whose probability to be the largest nothing is known.
+    /// Creates a contender whose probability to be the largest is unknown.
     pub fn new(label: impl Into<String>, total: Estimate) -> Self {
         Self { label: label.into(), total, probability: None }
     }
 
-    /// A factor by what it is ranked by.
+    /// Creates the contender of a factor with its index.
     pub fn from_index(index: &IndexRecord) -> Self {
         let probability = index.effect.probability_first;
         Self { probability, ..Self::new(name(&index.factor), index.effect.weight()) }
     }
 }
 
-/// The indices of an output with their places in the study, the largest total index first; `None` without any.
+/// Returns the indices of an output with their positions in the study, the largest total index first, if any.
 pub(super) fn by_total(output: &OutputResult) -> Option<Vec<(usize, &IndexRecord)>> {
     let mut order: Vec<(usize, &IndexRecord)> = output.indices.as_ref()?.iter().enumerate().collect();
     order.sort_by(|a, b| b.1.effect.weight().estimate.total_cmp(&a.1.effect.weight().estimate));
     (!order.is_empty()).then_some(order)
 }
 
-/// What estimates and intervals say of which contender is the largest, by numbers.
+/// Which contender is the largest according to estimates and intervals, by number.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) enum Verdict {
     /// There is no contender.
     None,
-    /// It is the largest with a probability of 0.95 or more, or nothing is known of the errors.
+    /// It is the largest with a probability of 0.95 or more, or the errors are unknown.
     Leads(usize),
     /// These are indistinguishable within their errors, the largest estimate first.
     Tied(Vec<usize>),
 }
 
 impl Verdict {
-    /// Contenders are tied with the largest estimate, where probabilities are known, if their own is 0.05 or more; otherwise
-    /// if their interval reaches its interval. So is every contender with a larger estimate than one of them.
+    /// Ranks the contenders. A contender is tied with the largest estimate if its own probability is 0.05 or more, or,
+    /// where probabilities are unknown, if the intervals overlap. Every contender with a larger estimate is tied too.
     pub fn new(contenders: &[Contender]) -> Self {
         let mut order: Vec<usize> = (0..contenders.len()).collect();
         order.sort_by(|&a, &b| contenders[b].total.estimate.total_cmp(&contenders[a].total.estimate));
@@ -65,7 +65,7 @@ impl Verdict {
             (Some(probability), _) if probability >= SURE => 0,
             (Some(_), _) => {
                 let is_likely = |&k: &usize| contenders[k].probability.is_some_and(|chance| chance >= 1.0 - SURE);
-                // Unsure, and no other likely: the next one.
+                // Not certain, and no other one is likely: the next one.
                 rest.iter().rposition(is_likely).map_or(1, |last| last + 1)
             }
             (None, Some(Interval { low, .. })) => {
@@ -78,7 +78,7 @@ impl Verdict {
         if order.len() == 1 { Self::Leads(lead) } else { Self::Tied(order) }
     }
 
-    /// Those that may be the largest, the largest estimate first.
+    /// Returns those that may be the largest, the largest estimate first.
     pub fn leaders(&self) -> &[usize] {
         match self {
             Self::None => &[],
@@ -88,8 +88,8 @@ impl Verdict {
     }
 }
 
-/// Which of these interactions are sure to exist, all of them together: of many intervals that each hold in 95 % one in forty would
-/// exclude 0 from below by chance, so each is widened by Bonferroni's rule (Dunn 1961), with the quantiles of the normal distribution.
+/// Returns which of these interactions exist, tested together: one in forty 95 % intervals excludes 0 from below by
+/// chance, so each is widened by Bonferroni's rule (Dunn 1961), with the quantiles of the normal distribution.
 pub(super) fn surely_interact(pairs: &[PairRecord]) -> Vec<bool> {
     let quantile = |number: f64| normal_quantile(1.0 - (1.0 - LEVEL) / (2.0 * number));
     let ratio = quantile(pairs.len().max(1) as f64) / quantile(1.0);
@@ -99,13 +99,13 @@ pub(super) fn surely_interact(pairs: &[PairRecord]) -> Vec<bool> {
     pairs.iter().map(|pair| is_sure(pair.index)).collect()
 }
 
-/// The measure that factors of an output are ranked by.
+/// Returns the measure by which factors of an output are ranked.
 pub(super) fn measure(output: &OutputResult) -> &'static str {
     let is_shapley = |index: &IndexRecord| index.effect.dependent.is_some() && index.effect.shapley.is_some();
     if output.indices.iter().flatten().any(is_shapley) { "Shapley effect" } else { "total index S_T" }
 }
 
-/// Which of several leads by a `measure`, in a sentence that begins with `of`, such as `For y`; `None` without any.
+/// Says which contender leads by a `measure`, in a sentence that begins with `of`, such as `For y`; `None` for none.
 pub(super) fn leader(contenders: &[Contender], of: &str, measure: &str, unit: &str) -> Option<String> {
     let size = |contender: &Contender| format!("{} {unit}", index(contender.total)).trim_end().to_owned();
     let verdict = Verdict::new(contenders);
@@ -130,27 +130,27 @@ pub(super) fn leader(contenders: &[Contender], of: &str, measure: &str, unit: &s
     })
 }
 
-/// The same of the indices of an output, or why it has none.
+/// Says the same for the indices of an output, or why it has none.
 pub(super) fn leader_of(output: &OutputResult) -> String {
     let contenders: Vec<Contender> = output.indices.iter().flatten().map(Contender::from_index).collect();
     let sentence = leader(&contenders, &format!("For {}", name(&output.name)), measure(output), "");
     sentence.unwrap_or_else(|| no_indices(output))
 }
 
-/// The same of several outputs together.
+/// Says the same for several outputs together.
 pub(super) fn leader_of_all(indices: &[PlainIndexRecord], of: &str) -> Option<String> {
     let contenders: Vec<Contender> =
         indices.iter().map(|index| Contender::new(name(&index.factor), index.total)).collect();
     leader(&contenders, of, "total index S_T", "")
 }
 
-/// Why an output has no indices.
+/// Says why an output has no indices.
 pub(super) fn no_indices(output: &OutputResult) -> String {
     let reason = output.reason.as_deref().unwrap_or("the result holds none");
     format!("There are no indices of {}: {reason}.", name(&output.name))
 }
 
-/// The first of these sentences, one for each output, and how many more there are.
+/// Returns the first of these sentences, one for each output, and the number of the others.
 pub(super) fn first_answers(mut answers: Vec<String>) -> Vec<String> {
     let more = answers.len().saturating_sub(NAMES);
     answers.truncate(NAMES);
@@ -158,7 +158,7 @@ pub(super) fn first_answers(mut answers: Vec<String>) -> Vec<String> {
     answers
 }
 
-/// The outputs at these places by name, the first ones of many.
+/// Lists the outputs at these positions by name, the first ones of many.
 pub(super) fn of_which(outputs: &[&str], places: &[usize]) -> String {
     let mut names: Vec<String> = places.iter().take(NAMES).map(|&place| name(outputs[place])).collect();
     names.extend((places.len() > NAMES).then(|| format!("{} more", places.len() - NAMES)));
@@ -195,7 +195,7 @@ mod tests {
         unknown.iter_mut().for_each(|contender| contender.total.interval = None);
         assert_eq!(Verdict::new(&unknown), Verdict::Leads(1));
         assert_eq!(Verdict::new(&[]), Verdict::None);
-        // Unsure, and no other likely: the next one.
+        // Not certain, and no other one is likely: the next one.
         let unsure = [contender("a", (0.5, 0.6), Some(0.93)), contender("b", (0.4, 0.5), Some(0.04))];
         assert_eq!(Verdict::new(&unsure), Verdict::Tied(vec![0, 1]));
     }
@@ -209,7 +209,7 @@ mod tests {
             .map(|(total, probability)| contender("x", total, probability))
             .collect();
         assert_eq!(Verdict::new(&contenders), Verdict::Tied(vec![0, 1, 2]));
-        // By intervals: that of the second stays below, that of the third does not.
+        // By intervals: that of the second is below, that of the third is not.
         let mut by_interval = contenders.clone();
         by_interval.iter_mut().for_each(|contender| contender.probability = None);
         for (contender, high) in by_interval[1..].iter_mut().zip([0.99, 1.2]) {
@@ -229,7 +229,7 @@ mod tests {
             (0..number).map(pair).collect()
         };
         assert_eq!(surely_interact(&pairs(2)), [true, true]);
-        // At 45 pairs 3.26 standard errors are wanted, at 435 there are 3.86.
+        // 45 pairs require 3.26 standard errors; at 435 pairs there are 3.86.
         assert_eq!(surely_interact(&pairs(45))[..2], [true, false]);
         assert!(surely_interact(&pairs(435))[0]);
         let unknown = Estimate::alone(0.5);

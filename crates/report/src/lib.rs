@@ -1,4 +1,4 @@
-//! Results as documents: [`run_document`] and its relatives make them, [`Artefacts`] writes their files.
+//! Results as documents: [`run_document`] and similar functions build them, [`Artefacts`] writes their files.
 
 mod artefacts;
 mod atomic_write;

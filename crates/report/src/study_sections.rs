@@ -1,4 +1,4 @@
-//! The sections that the documents of runs, screenings and sweeps share: where the model holds, and the study.
+//! The sections that the documents of runs, screenings and sweeps share: validity of the model, and the study.
 
 use apportion::result::{ConstantRecord, CorrelationRecord, FactorRecord, StudyRecord, ValidityRecord};
 use serde_json::{Map, Value};
@@ -6,12 +6,12 @@ use serde_json::{Map, Value};
 use super::document::{Cell, Mark, Part, Section, Table};
 use super::format::{grouped, name, share_of_runs, significant, unit, value};
 
-/// Most factors in the table of the study.
+/// Maximum number of factors in the table of the study.
 const MAX_FACTORS: usize = 50;
-/// Most values of a list in a table.
+/// Maximum number of values of a list in a table.
 const MAX_VALUES: usize = 8;
 
-/// Where the model's assumptions do not hold; on a terminal only where one was raised.
+/// Builds the section on where the model's assumptions do not hold; shown on a terminal only if a flag was raised.
 pub(super) fn validity_section(validity: &[ValidityRecord]) -> Option<Section> {
     let share = |flag: &ValidityRecord| match (flag.runs, share_of_runs(flag.share)) {
         (0, _) => Cell::marked("no run", Mark::Good),
@@ -30,7 +30,7 @@ pub(super) fn validity_section(validity: &[ValidityRecord]) -> Option<Section> {
     (!validity.is_empty()).then(|| Section::new("validity", "Model validity", parts))
 }
 
-/// Why runs failed: for each reason the inputs of the first run and how many there are.
+/// Explains why runs failed: for each reason the inputs of the first run and the number of runs.
 pub(super) fn failures<'a>(failures: impl IntoIterator<Item = (&'a str, String, u64)>) -> Option<Part> {
     const MAX_REASONS: usize = 50;
     let failures: Vec<_> = failures.into_iter().take(MAX_REASONS).collect();
@@ -41,7 +41,7 @@ pub(super) fn failures<'a>(failures: impl IntoIterator<Item = (&'a str, String, 
     (!failures.is_empty()).then(|| table.into())
 }
 
-/// The inputs of a run in words, the first dozen of many.
+/// Formats the inputs of a run, the first dozen of many.
 pub fn inputs(inputs: &Map<String, Value>) -> String {
     const MAX_INPUTS: usize = 12;
     let more = if inputs.len() > MAX_INPUTS { ", …" } else { "" };
@@ -49,7 +49,7 @@ pub fn inputs(inputs: &Map<String, Value>) -> String {
         + more
 }
 
-/// What was asked: the factors, the choices, the file.
+/// Builds the section on the study: the factors, the choices, the file.
 pub(crate) fn study_section(study: &StudyRecord, factors: &[FactorRecord]) -> Section {
     let mut parts = Vec::new();
     let shown = &factors[..factors.len().min(MAX_FACTORS)];
@@ -96,7 +96,7 @@ pub(crate) fn study_section(study: &StudyRecord, factors: &[FactorRecord]) -> Se
     Section::new("study", "The study", vec![Part::OnPage(parts)])
 }
 
-/// A distribution in words: its name, then its parameters with the unit.
+/// Describes a distribution: its name, then its parameters with the unit.
 fn distribution(distribution: &Value, symbol: &str) -> String {
     let Value::Object(keys) = distribution else { return "unknown".to_owned() };
     let family = keys.get("name").and_then(Value::as_str).unwrap_or("unknown");
@@ -110,7 +110,7 @@ fn distribution(distribution: &Value, symbol: &str) -> String {
     if parameters.is_empty() { family.to_owned() } else { format!("{family}, {}{unit}", parameters.join(", ")) }
 }
 
-/// A value of JSON as people write it.
+/// Formats a value of JSON for a reader.
 fn plain(json: &Value) -> String {
     let more = |all: usize| if all > MAX_VALUES { format!("; … ({all} in all)") } else { String::new() };
     match json {

@@ -14,23 +14,23 @@ const STYLE: TableStyle = TableStyle::new()
     .content_lines(ContentLineStyle::new(' ', ' ', ' '))
     .bottom_border(LineStyle::new('─', '─', '─', '─'));
 
-/// A table of text, no wider than the terminal where it is printed to one, as far as words allow.
+/// A table of text, no wider than the terminal it is printed to, as far as the words allow.
 pub struct TextTable {
     rows: Vec<Vec<String>>,
     text: Vec<usize>,
 }
 
-/// An empty table in the program's one style. Columns stand to the right, as numbers do, but for those whose places are in
-/// `text`.
+/// Creates an empty table in the program's style. Columns are aligned right, as numbers are, except for those whose
+/// positions are in `text`.
 pub fn table(header: &[&str], text: &[usize]) -> TextTable {
     let header = header.iter().map(|name| (*name).to_owned()).collect();
     TextTable { rows: vec![header], text: text.to_vec() }
 }
 
 impl TextTable {
-    /// Adds a row; cells that are left out are empty.
+    /// Adds a row; omitted cells are empty.
     pub fn add_row<T: ToString>(&mut self, cells: impl IntoIterator<Item = T>) {
-        // An error stays on the line of its number.
+        // An error is kept on the line of its number.
         self.rows.push(cells.into_iter().map(|cell| cell.to_string().replace(" ± ", "\u{a0}±\u{a0}")).collect());
     }
 
@@ -62,7 +62,7 @@ impl TextTable {
 
 impl fmt::Display for TextTable {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        // Terminals without a screen, such as those of mpirun, have no columns.
+        // Terminals without a screen, such as those of mpirun, have no width.
         f.write_str(&self.drawn(Table::new().width().filter(|width| *width > 0)))
     }
 }

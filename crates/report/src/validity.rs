@@ -1,11 +1,11 @@
-//! Whether the model holds where it was run, in sentences.
+//! Sentences on whether the model is valid where it was run.
 
 use apportion::result::ValidityRecord;
 use apportion::text::listed;
 
 use super::format::{count, grouped, share_of_runs};
 
-/// On how many of the runs which validity flags are raised; nothing if none is.
+/// Says on how many runs which validity flags are raised; `None` if none is.
 pub(super) fn sentence(validity: &[ValidityRecord]) -> Option<String> {
     let mut raised: Vec<&ValidityRecord> = validity.iter().filter(|flag| flag.runs > 0).collect();
     raised.sort_by(|a, b| b.share.total_cmp(&a.share));
@@ -14,7 +14,7 @@ pub(super) fn sentence(validity: &[ValidityRecord]) -> Option<String> {
     (!flags.is_empty()).then(|| format!("The model leaves its range of validity: {} of the runs.", listed(&flags)))
 }
 
-/// How many runs failed, and what that means; nothing if none did, or all.
+/// Says how many runs failed and what that means; `None` if none or all failed.
 pub(super) fn of_failures(failed: u64, all: u64) -> Option<String> {
     (failed > 0 && failed < all).then(|| {
         let (failed, share) = (grouped(failed), share_of_runs(failed as f64 / all as f64));

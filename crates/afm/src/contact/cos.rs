@@ -28,15 +28,15 @@ impl Transition {
     }
 }
 
-/// a = a0 [(alpha + sqrt(1 + F/F_ad))/(1 + alpha)]^(2/3), F_ad the [pull-off force](pull_off),
-/// a0 = (pi w R^2/K)^(1/3) [1.54 + 0.279 (2.28 lambda^1.3 - 1)/(2.28 lambda^1.3 + 1)],
-/// lambda = [1.157 mu_T](Pair::transition): a closed form close to Maugis-Dugdale.
+/// Returns a = a0 [(alpha + sqrt(1 + F/F_ad))/(1 + alpha)]^(2/3), F_ad the [pull-off force](pull_off), a0 = (pi w
+/// R^2/K)^(1/3) [1.54 + 0.279 (2.28 lambda^1.3 - 1)/(2.28 lambda^1.3 + 1)], lambda = [1.157 mu_T](Pair::transition): a
+/// closed form close to Maugis-Dugdale.
 ///
 /// The authors give no indentation; it is that of a Maugis-Dugdale contact of the same radius.
 ///
-/// Valid for every Tabor parameter, within 2.5 % of the Maugis-Dugdale radius. The fit's three digits show at its ends:
-/// as lambda falls, a stays 0.09 % above DMT, and as it grows, within 0.8 % of JKR, for which alpha would have to be 1.
-/// Without adhesion this is Hertz, to the last bit.
+/// Valid for every Tabor parameter, within 2.5 % of the Maugis-Dugdale radius. The fit has three digits, which matter
+/// at its ends: as lambda falls, a stays 0.09 % above DMT, and as it grows, within 0.8 % of JKR, for which alpha would
+/// have to be 1. Without adhesion this is Hertz, to the last bit.
 pub(super) fn contact(pair: &Pair, load: f64) -> Result<Contact, Failure> {
     if pair.adhesion == 0.0 {
         return hertz::contact(pair, load);
@@ -48,13 +48,13 @@ pub(super) fn contact(pair: &Pair, load: f64) -> Result<Contact, Failure> {
     }
     let compliance = pair.radius / pair.modulus;
     let root = alpha * (compliance * pair.unit_load()).sqrt() + (compliance * margin / pull_off).sqrt();
-    // a^3, in a form that does not divide by the adhesion.
+    // a^3, in a form without division by the adhesion.
     let cube = rest * rest * rest * (root * root) / ((1.0 + alpha) * (1.0 + alpha));
     let radius = cube_root(cube);
     Ok(Contact { radius, indentation: maugis_dugdale::indentation(pair, radius) })
 }
 
-/// pi w R [7/4 - (1/4) (4.04 lambda^1.4 - 1)/(4.04 lambda^1.4 + 1)].
+/// Returns pi w R [7/4 - (1/4) (4.04 lambda^1.4 - 1)/(4.04 lambda^1.4 + 1)].
 pub(super) fn pull_off(pair: &Pair) -> f64 {
     pair.unit_load() * Transition::new(pair.transition()).pull_off
 }

@@ -5,8 +5,8 @@ use std::f64::consts::PI;
 use super::{Contact, Pair, hertz};
 use crate::Failure;
 
-/// a^3 = (R/K) (F + 2 pi w R), d = a^2/R: a Hertz contact whose load the surface forces add to, without changing its
-/// shape. Valid for stiff, small, weakly adhesive bodies: Tabor parameter below 0.1.
+/// Returns a^3 = (R/K) (F + 2 pi w R), d = a^2/R: a Hertz contact with the surface forces added to the load, without a
+/// change of shape. Valid for stiff, small, weakly adhesive bodies: Tabor parameter below 0.1.
 ///
 /// Without adhesion this is Hertz, to the last bit.
 #[inline]
@@ -19,7 +19,7 @@ pub(super) fn contact(pair: &Pair, load: f64) -> Result<Contact, Failure> {
     Ok(Contact { radius, indentation: radius * radius / pair.radius })
 }
 
-/// 2 pi w R, at which the contact has shrunk to a point.
+/// Returns 2 pi w R, at which the contact has shrunk to a point.
 #[inline]
 pub(super) fn pull_off(pair: &Pair) -> f64 {
     2.0 * PI * pair.adhesion * pair.radius
@@ -42,7 +42,7 @@ mod tests {
         assert_eq!(contact(&PAIR, (-pull_off(&PAIR)).next_down()), Err(Failure::BeyondPullOff));
     }
 
-    /// DMT is Hertz under the load and the pull-off force together.
+    /// DMT is Hertz under the sum of the load and the pull-off force.
     #[test]
     fn it_is_hertz_under_a_heavier_load() {
         for load in [-50e-9, 0.0, 489e-9, 1.0] {

@@ -5,10 +5,9 @@
 
 use std::f64::consts::PI;
 
-/// The state of a cohesive zone of the transition parameter `lambda`, at the extent s = sqrt(m^2 - 1).
+/// A cohesive zone of the transition parameter `lambda`, at the extent s = sqrt(m^2 - 1).
 ///
-/// With s as the parameter of the load-radius curve nothing is left to solve for: the equation that ties a and m
-/// (Maugis 1992),
+/// With s as the parameter of the load-radius curve no equation must be solved: the relation of a and m (Maugis 1992),
 ///
 /// (lambda abar^2/2) f + (4 lambda^2 abar/3) g = 1, f = s + (s^2 - 1) atan s, g = s atan s - m + 1,
 ///
@@ -26,7 +25,7 @@ pub(super) struct Zone {
     b: f64,
 }
 
-/// f = s + (s^2 - 1) atan s; below 0.1 by its series sum (-1)^(k+1) 4k/(4k^2 - 1) s^(2k+1), since the terms cancel.
+/// Returns f = s + (s^2 - 1) atan s; below 0.1 its series sum (-1)^(k+1) 4k/(4k^2 - 1) s^(2k+1), as terms cancel.
 #[inline]
 fn bulk(s: f64, angle: f64) -> f64 {
     let x = s * s;
@@ -39,14 +38,14 @@ fn bulk(s: f64, angle: f64) -> f64 {
     }
 }
 
-/// g = s atan s - m + 1, written with m - 1 = s^2/(m + 1).
+/// Returns g = s atan s - m + 1, written with m - 1 = s^2/(m + 1).
 #[inline]
 fn rim(s: f64, angle: f64) -> f64 {
     s * (angle - s / (1.0 + (1.0 + s * s).sqrt()))
 }
 
 impl Zone {
-    /// The zone of extent `extent` > 0.
+    /// Creates the zone of extent `extent` > 0.
     #[inline]
     pub fn new(lambda: f64, extent: f64) -> Self {
         let angle = libm::atan(extent);
@@ -55,7 +54,7 @@ impl Zone {
         Self { lambda, extent, radius: 2.0 / (b + (b * b + 2.0 * lambda * f).sqrt()), angle, f, b }
     }
 
-    /// Pbar + 2, the load above the pull-off of DMT, which is positive.
+    /// Returns Pbar + 2, the load above the pull-off of DMT, which is positive.
     ///
     /// Pbar = abar^3 - lambda abar^2 (s + m^2 atan s); the equation of the radius turns this into
     /// abar^3 + 2 abar (4 lambda^2 g/3 - lambda abar atan s) - 2, which keeps its digits where Pbar is near -2.
@@ -65,13 +64,13 @@ impl Zone {
         a * (a * a + 2.0 * (self.b - self.lambda * a * self.angle))
     }
 
-    /// (4/3) lambda abar s, by which the zone reduces the indentation: dbar = abar^2 - this.
+    /// Returns (4/3) lambda abar s, by which the zone reduces the indentation: dbar = abar^2 - this.
     #[inline]
     pub fn stretch(&self) -> f64 {
         4.0 / 3.0 * self.lambda * self.radius * self.extent
     }
 
-    /// e = -1 - d ln abar/d ln s, from 0 to 1.
+    /// Returns e = -1 - d ln abar/d ln s, from 0 to 1.
     #[inline]
     fn excess(&self) -> f64 {
         let Self { lambda, extent: s, radius: a, angle, f, b } = *self;
@@ -89,7 +88,7 @@ impl Zone {
         (lambda * a * h + 4.0 / 3.0 * lambda * lambda * k) / (lambda * f * a + b)
     }
 
-    /// d Pbar/d ln s, divided by abar^2: negative on the stable branch, zero at pull-off.
+    /// Returns d Pbar/d ln s, divided by abar^2: negative on the stable branch, zero at pull-off.
     ///
     /// This is 2 lambda (atan s + e q) - 3 abar (1 + e), q = s + m^2 atan s, with e = -1 - d ln abar/d ln s: only the
     /// two terms that balance at pull-off are subtracted.
@@ -99,13 +98,13 @@ impl Zone {
         2.0 * self.lambda * (self.angle + e * (self.f + 2.0 * self.angle)) - 3.0 * self.radius * (1.0 + e)
     }
 
-    /// The zone at which the load is least, for `lambda` from 1e-36 to 1e9.
+    /// Returns the zone with the least load, for `lambda` from 1e-36 to 1e9.
     pub fn at_pull_off(lambda: f64) -> Self {
-        // s -> (3/2)^(1/3)/lambda for large lambda, 3/pi^(3/2) lambda^(-3/2) for small; the sum of the two is above s by
-        // at most a factor 1.8, and never below.
+        // s -> (3/2)^(1/3)/lambda for large lambda, 3/pi^(3/2) lambda^(-3/2) for small; the sum of the two is above s
+        // by at most a factor 1.8, and never below.
         let scale = 1.144_714_242_553_331_9 / lambda + 0.538_761_366_375_499_7 / (lambda * lambda.sqrt());
         let slope = |inverse: f64| Self::new(lambda, 1.0 / inverse).slope();
-        // Regula falsi with the weights of Anderson & Bjorck 1973, in 1/s, which runs like abar.
+        // Regula falsi with the weights of Anderson & Bjorck 1973, in 1/s, which varies like abar.
         let (mut old, mut new) = (0.9 / scale, 2.0 / scale);
         let (mut slope_old, mut slope_new) = (slope(old), slope(new));
         for _ in 0..100 {
@@ -126,8 +125,8 @@ impl Zone {
         Self::new(lambda, 1.0 / new)
     }
 
-    /// The zone on the stable branch with this [lift](Self::lift), inside `bound`, a zone known to be at or past pull-off
-    /// (at a lift above 1/2, that of JKR at pull-off, none is needed).
+    /// Returns the zone on the stable branch with this [lift](Self::lift), inside `bound`, a zone at or past pull-off
+    /// (not needed at a lift above 1/2, that of JKR at pull-off).
     pub fn at_lift(lambda: f64, lift: f64, bound: Option<Self>) -> Self {
         let limit = match bound {
             Some(zone) if lift <= zone.lift() => return zone,
@@ -146,7 +145,7 @@ impl Zone {
         Self::new(lambda, extent)
     }
 
-    /// The zone around a contact of this abar.
+    /// Returns the zone around a contact of this abar.
     pub fn at_radius(lambda: f64, radius: f64) -> Self {
         let extent = descend(approximate_extent(lambda, radius), f64::INFINITY, |s| {
             let zone = Self::new(lambda, s);
@@ -156,7 +155,7 @@ impl Zone {
     }
 }
 
-/// Roughly the extent of the zone around a contact of this abar, from the leading terms of f and g.
+/// Returns approximately the extent of the zone around a contact of this abar, from the leading terms of f and g.
 #[inline]
 fn approximate_extent(lambda: f64, radius: f64) -> f64 {
     let bulk = lambda * radius * radius;
@@ -166,11 +165,11 @@ fn approximate_extent(lambda: f64, radius: f64) -> f64 {
     narrow.max(wide)
 }
 
-/// The root, in 0 < s < limit, of a function that falls through it and may rise again after a minimum below zero.
-/// `function` gives its value and its derivative by ln s.
+/// Returns the root, in 0 < s < limit, of a function that falls through it and may rise again after a minimum below
+/// zero. `function` gives its value and its derivative by ln s.
 ///
-/// Newton's method in ln s, which the power laws at either end make all but exact, inside a bracket that halves
-/// whenever a step would leave it: it ends whatever the start.
+/// Newton's method in ln s, nearly exact because of the power laws at either end, inside a bracket that is halved if a
+/// step would leave it: it ends for any start.
 fn descend(start: f64, limit: f64, function: impl Fn(f64) -> (f64, f64)) -> f64 {
     const FACTOR: f64 = 16.0;
     let (mut low, mut high, mut s) = (0.0, limit, start);
@@ -189,7 +188,7 @@ fn descend(start: f64, limit: f64, function: impl Fn(f64) -> (f64, f64)) -> f64 
         let newton = s * libm::exp(step);
         if newton > low && newton < high {
             s = newton;
-            // What is left of the error if it goes on shrinking quadratically, with a reserve.
+            // The remaining error if it continues to shrink quadratically, with a margin.
             let rate = step / last;
             if step.abs() * rate * rate < 1e-19 {
                 break;
@@ -213,8 +212,8 @@ mod tests {
 
     use super::*;
 
-    /// The two functions that switch to a series have no step where they do: 1e-13, a few hundred roundings of terms
-    /// that cancel to a hundredth.
+    /// The two functions that switch to a series are continuous there: 1e-13, a few hundred roundings of terms that
+    /// cancel to a hundredth.
     #[test]
     fn the_series_meet_the_closed_forms() {
         for lambda in [1e-3, 1.0, 1e3] {
@@ -224,9 +223,9 @@ mod tests {
         }
     }
 
-    /// Limits of the least load and of the radius there, for small and for large lambda, by expansion about s = infinity
-    /// and s = 0: lift (16/3) (pi/2 - 1) pi^(-1/2) lambda^(3/2), abar 2 pi lambda/3; and 1/2, (3/2)^(1/3).
-    /// The next terms are of relative order lambda^(3/2) and 1/lambda^2.
+    /// Limits of the least load and of the radius there, for small and for large lambda, by expansion about s =
+    /// infinity and s = 0: lift (16/3) (pi/2 - 1) pi^(-1/2) lambda^(3/2), abar 2 pi lambda/3; and 1/2, (3/2)^(1/3). The
+    /// next terms are of relative order lambda^(3/2) and 1/lambda^2.
     #[test]
     fn pull_off_tends_to_dmt_and_jkr() {
         for lambda in [1e-30, 1e-12, 1e-8] {
@@ -253,7 +252,7 @@ mod tests {
     }
 
     proptest! {
-        /// The slope is the derivative of the lift: central differences of step 1e-4, good to 1e-8, and the rounding of the lift.
+        /// The slope is the derivative of the lift: central differences of step 1e-4, to 1e-8 plus its rounding.
         #[test]
         fn slope_is_the_derivative(log_lambda in -3.0..3.0_f64, log_s in -4.0..4.0_f64) {
             let (lambda, s) = (libm::pow(10.0, log_lambda), libm::pow(10.0, log_s));
@@ -267,8 +266,8 @@ mod tests {
             prop_assert!((0.0..=1.0).contains(&here.excess()));
         }
 
-        /// Roots give back what they were asked for, to a few roundings; the lift is asked for above pull-off by a
-        /// share that may be tiny.
+        /// Roots reproduce the given values, to a few roundings; the lift is above pull-off by a share that may be
+        /// tiny.
         #[test]
         fn roots_are_roots(log_lambda in -36.0..9.0_f64, log_share in -14.0..34.0_f64) {
             let lambda = libm::pow(10.0, log_lambda);

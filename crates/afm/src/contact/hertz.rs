@@ -4,9 +4,9 @@ use super::{Contact, Pair};
 use crate::Failure;
 use crate::cube_root::cube_root;
 
-/// a^3 = R F/K, d = a^2/R. Adhesion is not looked at.
+/// Returns a^3 = R F/K, d = a^2/R. Adhesion is ignored.
 ///
-/// Valid for a well below R, and wherever the load is far above every adhesive force.
+/// Valid for a well below R, and if the load is far above every adhesive force.
 #[inline]
 pub(super) fn contact(pair: &Pair, load: f64) -> Result<Contact, Failure> {
     if load < 0.0 {
@@ -16,7 +16,7 @@ pub(super) fn contact(pair: &Pair, load: f64) -> Result<Contact, Failure> {
     Ok(Contact { radius, indentation: radius * radius / pair.radius })
 }
 
-/// The radius alone (m), of a load >= 0.
+/// Returns the radius alone (m), of a load >= 0.
 #[inline]
 pub(super) fn radius(pair: &Pair, load: f64) -> f64 {
     cube_root(pair.radius / pair.modulus * load)

@@ -6,8 +6,8 @@ use super::{Contact, Pair};
 use crate::Failure;
 use crate::cube_root::cube_root;
 
-/// a^3 = (R/K) [F + 3 pi w R + sqrt(6 pi w R F + (3 pi w R)^2)], d = a^2/R - (2/3) sqrt(6 pi w a/K): the surface forces
-/// act inside the contact only. Valid for soft, large, sticky bodies: Tabor parameter above 5.
+/// Returns a^3 = (R/K) [F + 3 pi w R + sqrt(6 pi w R F + (3 pi w R)^2)], d = a^2/R - (2/3) sqrt(6 pi w a/K): the
+/// surface forces act only inside the contact. Valid for soft, large, sticky bodies: Tabor parameter above 5.
 ///
 /// Without adhesion this is Hertz, to the last bit.
 #[inline]
@@ -22,20 +22,20 @@ pub(super) fn contact(pair: &Pair, load: f64) -> Result<Contact, Failure> {
     Ok(Contact { radius, indentation: radius * radius / pair.radius - stretch(pair, radius) })
 }
 
-/// The radius alone (m); NaN beyond pull-off.
+/// Returns the radius alone (m); NaN beyond pull-off.
 #[inline(always)]
 pub(super) fn radius(pair: &Pair, load: f64) -> f64 {
     let pull = 3.0 * PI * pair.adhesion * pair.radius;
     cube_root(pair.radius / pair.modulus * (load + pull + (pull * (2.0 * load + pull)).sqrt()))
 }
 
-/// (2/3) sqrt(6 pi w a/K), by which adhesion reduces the indentation.
+/// Returns (2/3) sqrt(6 pi w a/K), by which adhesion reduces the indentation.
 #[inline]
 pub(super) fn stretch(pair: &Pair, radius: f64) -> f64 {
     2.0 / 3.0 * (6.0 * PI * pair.adhesion * radius / pair.modulus).sqrt()
 }
 
-/// 1.5 pi w R.
+/// Returns 1.5 pi w R.
 #[inline(always)]
 pub(super) fn pull_off(pair: &Pair) -> f64 {
     0.5 * (3.0 * PI * pair.adhesion * pair.radius)
@@ -56,7 +56,7 @@ mod tests {
         })
     }
 
-    /// The load that holds a contact of radius a: F = K a^3/R - sqrt(6 pi w K a^3).
+    /// Returns the load that holds a contact of radius a: F = K a^3/R - sqrt(6 pi w K a^3).
     fn load_at(pair: &Pair, a: f64) -> f64 {
         pair.modulus * a.powi(3) / pair.radius - (6.0 * PI * pair.adhesion * pair.modulus * a.powi(3)).sqrt()
     }

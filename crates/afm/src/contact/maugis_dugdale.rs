@@ -4,13 +4,13 @@ use super::dugdale::Zone;
 use super::{Contact, Pair, dmt, hertz, jkr};
 use crate::Failure;
 
-/// At and below this lambda DMT is right to a rounding error: the indentation differs by a share of sqrt(lambda).
+/// Lambda up to which DMT is exact to a rounding error: the indentation differs by a share of sqrt(lambda).
 const STIFF: f64 = 1e-36;
-/// At and above this lambda JKR is right to a rounding error: loads and radii differ by a share of 1/lambda^2.
+/// Lambda from which JKR is exact to a rounding error: loads and radii differ by a share of 1/lambda^2.
 const STICKY: f64 = 1e9;
-/// At and above this Pbar adhesion, which counts as 1/sqrt(Pbar), is less than a rounding error.
+/// Pbar from which adhesion, with a share of 1/sqrt(Pbar), is less than a rounding error.
 const HEAVY: f64 = 1e34;
-/// Pbar + 2 below which pull-off may be near: it lies between 0 (DMT) and 1/2 (JKR).
+/// Pbar + 2 below which pull-off may be near: it is between 0 (DMT) and 1/2 (JKR).
 const NEAR_PULL_OFF: f64 = 0.6;
 
 /// With abar = a/(pi w R^2/K)^(1/3), Pbar = F/(pi w R), m the outer radius of the cohesive zone in units of a, and
@@ -46,7 +46,7 @@ pub(super) fn contact(pair: &Pair, load: f64) -> Result<Contact, Failure> {
     })
 }
 
-/// The least load over all contact radii, from 2 pi w R (stiff) to 1.5 pi w R (soft).
+/// Returns the least load over all contact radii, from 2 pi w R (stiff) to 1.5 pi w R (soft).
 pub(super) fn pull_off(pair: &Pair) -> f64 {
     let lambda = pair.transition();
     if lambda <= STIFF {
@@ -58,7 +58,7 @@ pub(super) fn pull_off(pair: &Pair) -> f64 {
     }
 }
 
-/// The indentation of a contact of this radius (m): a^2/R less the stretch of the cohesive zone around it.
+/// Returns the indentation of a contact of this radius (m): a^2/R minus the stretch of the cohesive zone around it.
 pub(super) fn indentation(pair: &Pair, radius: f64) -> f64 {
     let lambda = pair.transition();
     let scale = pair.unit_radius();

@@ -1,8 +1,8 @@
 //! Contact of a sphere with a flat, or of two spheres, under a normal load.
 //!
-//! [`ContactTheory`] chooses the theory, one a file; [`Pair`] is what touches, [`Contact`] what comes of it. The units of
-//! adhesion are the load pi w R and the radius (pi w R^2/K)^(1/3); where a theory needs to know whether surface forces
-//! act inside or outside the contact, the Tabor parameter says so.
+//! [`ContactTheory`] chooses the theory, one per file; [`Pair`] is the two bodies, [`Contact`] the result. The units of
+//! adhesion are the load pi w R and the radius (pi w R^2/K)^(1/3). The Tabor parameter says whether surface forces act
+//! inside or outside the contact, where a theory depends on it.
 
 mod cos;
 mod dmt;
@@ -22,7 +22,7 @@ use super::{Failure, Scene};
 named! {
     /// Theory of adhesive elastic contact. Without adhesion all are Hertz, to the last bit.
     pub enum ContactTheory {
-        /// Hertz 1881: no adhesion, whatever the work of adhesion.
+        /// Hertz 1881: no adhesion, for any work of adhesion.
         Hertz = "hertz",
         /// Johnson, Kendall & Roberts 1971: soft, sticky, large; Tabor parameter above 5.
         Jkr = "jkr",
@@ -51,7 +51,7 @@ pub struct Pair {
 }
 
 impl Pair {
-    /// The particle on the substrate: R = R_p.
+    /// Creates the pair of the particle and the substrate: R = R_p.
     #[inline(always)]
     pub fn substrate(scene: &Scene) -> Self {
         Self {
@@ -62,40 +62,40 @@ impl Pair {
         }
     }
 
-    /// The tip on the particle: R = R_p R_t/(R_p + R_t).
+    /// Creates the pair of the tip and the particle: R = R_p R_t/(R_p + R_t).
     #[inline]
     pub fn tip(scene: &Scene) -> Self {
         let (particle, tip) = (scene.particle_radius, scene.tip_radius);
         Self { radius: particle * (tip / (particle + tip)), ..Self::substrate(scene) }
     }
 
-    /// Tabor parameter mu_T = [16 R omega^2/(9 K^2 z0^3)]^(1/3): the elastic deformation at
-    /// pull-off in units of the reach of the surface forces (Tabor 1977).
+    /// Returns the Tabor parameter mu_T = [16 R omega^2/(9 K^2 z0^3)]^(1/3): the elastic deformation at pull-off in
+    /// units of the reach of the surface forces (Tabor 1977).
     #[inline]
     pub fn tabor(&self) -> f64 {
         libm::cbrt(self.tabor_cubed())
     }
 
-    /// The cube of [`tabor`](Self::tabor), which is enough to compare with.
+    /// Returns the cube of [`tabor`](Self::tabor), which is enough for comparisons.
     #[inline(always)]
     fn tabor_cubed(&self) -> f64 {
         let strain = self.adhesion / (self.modulus * self.separation);
         16.0 / 9.0 * (self.radius / self.separation) * strain * strain
     }
 
-    /// Maugis' parameter lambda = 1.157 mu_T: small for DMT, large for JKR (Maugis 1992).
+    /// Returns Maugis' parameter lambda = 1.157 mu_T: small for DMT, large for JKR (Maugis 1992).
     #[inline]
     pub fn transition(&self) -> f64 {
         1.157 * self.tabor()
     }
 
-    /// pi w R (N).
+    /// Returns pi w R (N).
     #[inline]
     fn unit_load(&self) -> f64 {
         PI * self.adhesion * self.radius
     }
 
-    /// (pi w R^2/K)^(1/3) (m).
+    /// Returns (pi w R^2/K)^(1/3) (m).
     #[inline]
     fn unit_radius(&self) -> f64 {
         self.radius * libm::cbrt(PI * self.adhesion / (self.modulus * self.radius))
@@ -112,7 +112,7 @@ pub struct Contact {
 }
 
 impl Contact {
-    /// Area of contact, pi a^2 (m2).
+    /// Returns the area of contact, pi a^2 (m2).
     #[inline]
     pub fn area(&self) -> f64 {
         PI * self.radius * self.radius
@@ -120,7 +120,7 @@ impl Contact {
 }
 
 impl ContactTheory {
-    /// The contact of `pair` under the normal load `load` (N), positive when pressing.
+    /// Computes the contact of `pair` under the normal load `load` (N), positive when pressing.
     ///
     /// # Errors
     /// [`Failure::BeyondPullOff`] if `load` is below minus the [pull-off force](Self::pull_off).
@@ -151,7 +151,7 @@ impl ContactTheory {
         }
     }
 
-    /// Size of the force that pulls `pair` apart (N).
+    /// Returns the magnitude of the force that pulls `pair` apart (N).
     #[inline(always)]
     pub fn pull_off(self, pair: &Pair) -> f64 {
         match self {
@@ -164,7 +164,7 @@ impl ContactTheory {
         }
     }
 
-    /// The theory in force at this Tabor parameter: for `Auto` the one it chooses, else `self`.
+    /// Returns the theory used at this Tabor parameter: for `Auto` the one it chooses, else `self`.
     #[inline]
     pub fn for_tabor(self, tabor: f64) -> Self {
         match self {
@@ -175,14 +175,14 @@ impl ContactTheory {
         }
     }
 
-    /// Whether the theory is meant for this Tabor parameter. Hertz suits no adhesion at all, where the parameter is 0.
+    /// Returns whether the theory is valid for this Tabor parameter. Hertz requires no adhesion, where it is 0.
     #[inline]
     pub fn suits(self, tabor: f64) -> bool {
         let (least, largest) = self.tabor_range();
         least <= tabor && tabor <= largest
     }
 
-    /// Whether the theory is meant for the Tabor parameter of `pair`. Without adhesion all are.
+    /// Returns whether the theory is valid for the Tabor parameter of `pair`. Without adhesion all are.
     #[inline(always)]
     pub(crate) fn suits_pair(self, pair: &Pair) -> bool {
         let (least, largest) = self.tabor_range();
@@ -190,7 +190,7 @@ impl ContactTheory {
         pair.adhesion == 0.0 || least * least * least <= cubed && cubed <= largest * largest * largest
     }
 
-    /// The least and the largest Tabor parameter that the theory is meant for.
+    /// Returns the smallest and the largest Tabor parameter for which the theory is valid.
     #[inline(always)]
     fn tabor_range(self) -> (f64, f64) {
         match self {
@@ -201,7 +201,7 @@ impl ContactTheory {
         }
     }
 
-    /// The contact radius alone (m), as [`contact`](Self::contact) has it; NaN beyond pull-off.
+    /// Returns only the contact radius (m) of [`contact`](Self::contact); NaN beyond pull-off.
     #[inline(always)]
     pub(crate) fn radius(self, pair: &Pair, load: f64) -> f64 {
         match self {

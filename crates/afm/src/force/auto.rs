@@ -3,8 +3,8 @@
 use super::{Cost, Critical, Options, closed_form, dynamic, quasi_static};
 use crate::{Failure, Scene};
 
-/// Climbs from the closed form until an error estimate meets the tolerance, or no higher rung does better; what the lower
-/// rungs cost is counted too. A failure of a rung is the answer: a lower one is not more able.
+/// Tries the rungs from the closed form up until an error estimate meets the tolerance, or no higher rung is better;
+/// the cost includes all of them. A failure of a rung is returned: a lower one could not compute more.
 pub(super) fn critical_force(scene: &Scene, options: &Options) -> Result<Critical, Failure> {
     let closed = closed_form::critical_force(scene, options)?;
     if closed.error_estimate <= options.tolerance {
@@ -12,7 +12,7 @@ pub(super) fn critical_force(scene: &Scene, options: &Options) -> Result<Critica
     }
     let spent = closed.cost.evaluations;
     let (exact, shared) = quasi_static::with_swing(scene, options)?;
-    // At rest nothing is dynamic.
+    // At rest there are no dynamics.
     let best = exact.error_estimate <= options.tolerance + shared || scene.velocity == 0.0;
     let (found, spent) =
         if best { (exact, spent) } else { (dynamic::critical_force(scene, options)?, spent + exact.cost.evaluations) };

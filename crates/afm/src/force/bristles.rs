@@ -1,4 +1,4 @@
-//! The tip pushing a particle with mass on LuGre bristles.
+//! Motion of the tip with a particle with mass on LuGre bristles.
 
 use super::motion::{Motion, local_tolerance};
 use super::presliding::REACHED;
@@ -8,9 +8,9 @@ use crate::Failure;
 use crate::friction::{LuGre, particle_mass};
 use crate::ode::{Control, End, March, Outcome, Problem, Rodas};
 
-/// The tip of [`Motion`] whose apex follows the particle, m_p x'' = F_Y - F, F = sigma0 z + sigma1 z' + sigma2 x', where
-/// x is what the particle crept back on the moving substrate. Unknowns, in the units of `Motion`: K_y y_P, theta', x, x'
-/// and sigma0 z.
+/// The tip of [`Motion`] whose apex follows the particle, m_p x'' = F_Y - F, F = sigma0 z + sigma1 z' + sigma2 x',
+/// where x is the creep of the particle relative to the moving substrate. Unknowns, in the units of `Motion`: K_y y_P,
+/// theta', x, x' and sigma0 z.
 ///
 /// The reaction of the tip's mass to x'' is left out, as in the tip's own equations, which let the apex move steadily.
 pub(super) struct Bristles<'a> {
@@ -28,7 +28,7 @@ pub(super) struct Bristles<'a> {
 }
 
 impl<'a> Bristles<'a> {
-    /// Bristles of the contact whose quasi-static slip is `limit`.
+    /// Creates the bristles of the contact whose quasi-static slip is `limit`.
     pub fn new(motion: &'a Motion<'a>, substrate: &'a Substrate<'a>, limit: &'a Slip) -> Self {
         let scene = substrate.scene;
         let law = LuGre::with(scene, substrate.options.lugre, limit.contact.radius);
@@ -46,18 +46,18 @@ impl<'a> Bristles<'a> {
         }
     }
 
-    /// Marches to the largest force, or so near that what is left to rise is below the tolerance; then again from a step
-    /// before the force reaches the slip.
+    /// Integrates to the largest force, or so close that the remaining rise is below the tolerance; then again from a
+    /// step before the force reaches the slip.
     ///
-    /// dF/dt vanishes with 1 - x'. That is no sign of it by itself: the swing of the tip takes x' past V for moments from
-    /// the start. But at the maximum F is the force of steady sliding at V, or has passed it: before, either the
-    /// bristles still stretch or the dashpots are still to come up to V. With viscous friction that comes long after the
-    /// bristles have given way, a few sigma2/k_lat.
+    /// dF/dt vanishes with 1 - x'. This alone does not show the maximum: the swing of the tip lets x' exceed V for
+    /// moments from the start. But at the maximum F is the force of steady sliding at V, or has passed it: before,
+    /// either the bristles still stretch or the dashpots have not yet reached V. With viscous friction this is long
+    /// after the bristles have given way, a few sigma2/k_lat.
     pub fn slip(&self) -> Result<(Slip, u64), Failure> {
         let followed = self.motion.swing().is_followed(self.motion.length, self.velocity);
         let swing = if followed { 0.0 } else { self.motion.swing().spring / self.motion.force };
-        // In vain finer than a tenth of the swing that is not followed. And not coarse: where the bristles give way at once, a
-        // long step does not see it.
+        // No finer than a tenth of the swing that is not followed, since that would not help. And not coarse: if the
+        // bristles give way at once, a long step misses it.
         let tolerance = local_tolerance(self.substrate.options).max(0.1 * swing).min(1e-7);
         // Of the particle on its bristles and the spring of the probe.
         let shaking = (self.agility * (1.0 + self.stiffness)).sqrt();
@@ -68,7 +68,7 @@ impl<'a> Bristles<'a> {
             longest_step: 0.1,
             step_budget: self.substrate.options.step_budget,
         };
-        // Where the bristles limit the approach, 1 - x'/V is sigma0/k_lat times what is left to rise.
+        // Where the bristles limit the approach, 1 - x'/V is sigma0/k_lat times the remaining rise.
         let near = (10.0 * tolerance * self.stiffness).clamp(1e-3, 0.5);
         let start = [0.0, if followed { 1.0 } else { self.slow_turning() }, 0.0, 0.0, 0.0];
         let mut largest = End { t: 0.0, y: start };
@@ -87,8 +87,8 @@ impl<'a> Bristles<'a> {
         };
         // Bristles and dashpots each approach their end exponentially, by 1e-12 in 28 of their times.
         let horizon = 10.0 + 30.0 * (1.0 + 3.0 / self.stiffness);
-        // While the bristles stretch, the velocity of the particle counts by what it moves them. Where they give way, it
-        // decides by itself when the force is largest.
+        // While the bristles stretch, the velocity of the particle is weighted by its effect on them. Where they give
+        // way, it determines by itself when the force is largest.
         let mut stretching = March::<Rodas, _, 5>::new(self, (0.0, start), control);
         let halfway = |t: f64, y: &[f64; 5]| Ok(y[0] / self.strength(self.load(t - y[2], y[0]), 1.0) - 0.5);
         let (Outcome::Event(half) | Outcome::Horizon(half)) = stretching.until(horizon, halfway)?;
@@ -98,7 +98,7 @@ impl<'a> Bristles<'a> {
         let outcome = march.until(horizon, event)?;
         let end = match outcome {
             Outcome::Event(end) => end,
-            // It passed below the force of steady sliding: the largest it had.
+            // It passed below the force of steady sliding: use the largest force so far.
             Outcome::Horizon(_) => largest,
         };
         let level = REACHED * end.y[0];
@@ -114,7 +114,7 @@ impl<'a> Bristles<'a> {
         let tip = self.motion.tip(end.t - creep, &[q, w]);
         let slip = Slip {
             normal_force: tip.normal_force,
-            // What the particle feels: the reaction of the tip's mass is left out here too.
+            // The force on the particle: the reaction of the tip's mass is left out here too.
             lateral_force: q * self.motion.force,
             travel: (end.t - creep) * self.motion.length,
             twist: tip.twist,
@@ -125,13 +125,13 @@ impl<'a> Bristles<'a> {
         Ok((slip, stretching.evaluations() + march.evaluations() + again.evaluations()))
     }
 
-    /// theta' of the tip in equilibrium at the start, the apex moving at V less what the bristles yield: a start without
-    /// a swing.
+    /// Returns theta' of the tip in equilibrium at the start, the apex moving at V minus the yield of the bristles: a
+    /// start without a swing.
     fn slow_turning(&self) -> f64 {
         self.motion.turning(0.0) * self.stiffness / (1.0 + self.stiffness)
     }
 
-    /// The load that friction feels (N).
+    /// Returns the load of the friction law (N).
     fn load(&self, s: f64, q: f64) -> f64 {
         self.motion.normal_spring(self.motion.twist(s, q)) + self.substrate.adhesive_load
     }
@@ -149,7 +149,7 @@ impl Problem<5> for Bristles<'_> {
         [rise, turn, u, self.agility * (q - friction), self.stiffness * sprung]
     }
 
-    /// Without the change of the load by the twist, which is of second order; the error estimate watches over it.
+    /// Neglects the change of the load by the twist, which is of second order; the error estimate covers it.
     fn jacobian(&self, t: f64, &[q, w, x, u, p]: &[f64; 5]) -> [[f64; 5]; 5] {
         let [[rise_q, rise_w, rise_s], [turn_q, turn_w, turn_s]] = self.motion.slopes(t - x, &[q, w]);
         let load = self.load(t - x, q);

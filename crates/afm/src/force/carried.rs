@@ -1,9 +1,9 @@
-//! The swing of a stuck tip, carried over its many turns to the eve of the slip.
+//! The swing of a stuck tip, extrapolated over its many turns to just before the slip.
 //!
 //! Between start and slip the tip swings 1e3 to 1e7 times, all alike: about the equilibrium theta_e of the substrate's
-//! position, theta = theta_e + a sin(phi) with phi' = omega(theta_e), and a^2 omega stays what it was (the adiabatic
-//! invariant of an oscillator). What this leaves out is of the order of a times the change of omega in one turn. So the
-//! equations of motion need be integrated over the last few turns only.
+//! position, theta = theta_e + a sin(phi) with phi' = omega(theta_e), and a^2 omega is constant (the adiabatic
+//! invariant of an oscillator). The error is of the order of a times the change of omega in one turn. So the equations
+//! of motion must be integrated only over the last few turns.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -21,13 +21,13 @@ pub(super) struct Eve {
 }
 
 impl Motion<'_> {
-    /// Relative change of the frequency of the swing from start to the twist `theta`, and the other terms of theta^2 that
-    /// make the swing differ from a sine.
+    /// Returns the relative change of the frequency of the swing from start to the twist `theta`, and the other terms
+    /// of theta^2 make the swing differ from a sine.
     pub fn drift(&self, theta: f64) -> f64 {
         (self.local_frequency(theta) / self.local_frequency(0.0) - 1.0).abs() + theta * theta
     }
 
-    /// Motion at the time `t`, before the slip at the twist `last`.
+    /// Returns the motion at the time `t`, before the slip at the twist `last`.
     ///
     /// # Errors
     /// None of its own; the search for the equilibrium cannot fail.
@@ -39,13 +39,13 @@ impl Motion<'_> {
         Ok(Eve { t, y: self.swung(theta, self.phase(theta)) })
     }
 
-    /// Turns of the swing since the start, up to the equilibrium at the twist `theta` (rad).
+    /// Returns the turns of the swing since the start, up to the equilibrium at the twist `theta` (rad).
     fn phase(&self, theta: f64) -> f64 {
         let &Self { statics, scene, .. } = self;
         integral(theta, |theta| self.local_frequency(theta) * travel_slope(statics, theta) / scene.velocity)
     }
 
-    /// The unknowns about the equilibrium at the twist `theta` at a phase of the swing.
+    /// Returns the unknowns about the equilibrium at the twist `theta` at a phase of the swing.
     fn swung(&self, theta: f64, phase: f64) -> [f64; 2] {
         let &Self { statics, scene, .. } = self;
         let (first, here) = (self.local_frequency(0.0), self.local_frequency(theta));
@@ -60,8 +60,9 @@ impl Motion<'_> {
         [lateral / self.force, rate / mean]
     }
 
-    /// The first time at which the swing takes F_Y to F_Y*(F_Z), by its linear response: about the quasi-static slip
-    /// F_Y - F_Y* grows steadily and swings as a sine, whose phase and amplitude are those of [`swung`](Self::swung).
+    /// Returns the first time at which the swing takes F_Y to F_Y*(F_Z), by its linear response: about the quasi-static
+    /// slip F_Y - F_Y* grows steadily and swings as a sine, whose phase and amplitude are those of
+    /// [`swung`](Self::swung).
     ///
     /// # Errors
     /// Those of the law of friction.
@@ -87,23 +88,23 @@ impl Motion<'_> {
         let phase = turns + libm::atan2(cosine, sine);
         let crossing = |offset: f64| first_crossing(slope / frequency / amplitude, offset, phase);
         let offset = mean / amplitude;
-        // What the adiabatic swing leaves out is of the order of its change in one turn.
+        // The error of the adiabatic swing is of the order of its change in one turn.
         let doubt = overtone / amplitude + self.drift(theta) / turns + 1e-14 * turns + 1e-6;
         let (here, early, late) = (crossing(offset)?, crossing(offset + doubt)?, crossing(offset - doubt)?);
         let share = 1.0 / (frequency * self.time());
         let away = (here * share).abs();
         let error = ((early - here).abs().max((late - here).abs()) * share + away * away).min(1.0);
-        // Before the start, or without a swing, there is nothing to tell.
+        // Before the start, or without a swing, there is no effect.
         let error = if away < 0.5 { error } else { 1.0 };
         Ok(FirstSlip { advance: here * share * self.length, error, evaluations })
     }
 
-    /// theta' in equilibrium at the twist `theta`, in units of V/H.
+    /// Returns theta' in equilibrium at the twist `theta`, in units of V/H.
     pub fn turning(&self, theta: f64) -> f64 {
         self.scene.height / travel_slope(self.statics, theta)
     }
 
-    /// omega (rad/s) about the equilibrium at the twist `theta`, the apex held.
+    /// Returns omega (rad/s) about the equilibrium at the twist `theta`, with the apex fixed.
     fn local_frequency(&self, theta: f64) -> f64 {
         let &Self { statics, scene, .. } = self;
         let (sin, cos) = libm::sincos(theta);
@@ -116,14 +117,14 @@ impl Motion<'_> {
 
 /// The slip of a tip that swings.
 pub(super) struct FirstSlip {
-    /// How much further than at the quasi-static slip the substrate has travelled (m).
+    /// Travel of the substrate in addition to that at the quasi-static slip (m).
     pub advance: f64,
     /// Relative error of the time; at most 1.
     pub error: f64,
     pub evaluations: u64,
 }
 
-/// The least root x of `slope` x + `offset` + sin(`phase` + x), which is negative far on the left; `slope` > 0.
+/// Returns the least root x of `slope` x + `offset` + sin(`phase` + x), which is negative far on the left; `slope` > 0.
 fn first_crossing(slope: f64, offset: f64, phase: f64) -> Result<f64, Failure> {
     let value = |x: f64| slope * x + offset + libm::sin(phase + x);
     let (low, high) = if slope >= 1.0 {
@@ -138,7 +139,7 @@ fn first_crossing(slope: f64, offset: f64, phase: f64) -> Result<f64, Failure> {
     root::between(Point { x: low, y: value(low) }, Point { x: high, y: value(high) }, |x| Ok(value(x)))
 }
 
-/// d(travel)/d(theta) in equilibrium (m).
+/// Returns d(travel)/d(theta) in equilibrium (m).
 fn travel_slope(statics: &Statics, theta: f64) -> f64 {
     statics.scene.height * libm::cos(theta) + statics.lateral_force_slope(theta) / statics.probe.lateral
 }
@@ -152,7 +153,7 @@ const GAUSS: [(f64, f64); 5] = [
     (0.906_179_845_938_664, 0.236_926_885_056_189_08),
 ];
 
-/// The integral of a smooth `f` from 0 to `end`, to rounding: panels are halved until that changes nothing.
+/// Returns the integral of a smooth `f` from 0 to `end`, to rounding: panels are halved until the result is constant.
 fn integral(end: f64, f: impl Fn(f64) -> f64) -> f64 {
     let by = |panels: u32| {
         let half = 0.5 * end / f64::from(panels);
@@ -178,7 +179,7 @@ fn integral(end: f64, f: impl Fn(f64) -> f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// Against the antiderivative; 1e-14 for the sum.
+    /// Compared with the antiderivative; 1e-14 for the sum.
     #[test]
     fn integrals_are_exact_to_rounding() {
         for end in [1e-6_f64, 0.3, 1.5] {

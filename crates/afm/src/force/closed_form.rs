@@ -1,5 +1,4 @@
-//! Small twist, no inertia: the normal force stays that of the preload, and the tip is a linear
-//! spring.
+//! Small twist, no inertia: the normal force is that of the preload, and the tip is a linear spring.
 
 use super::presliding::Presliding;
 use super::slip::{Error, Slip};
@@ -11,7 +10,7 @@ use crate::friction::{LuGre, LuGreForm};
 use crate::probe::Probe;
 use crate::{Failure, Fidelity, Flag, Flags, FrictionLaw, Scene};
 
-/// F_Z = F_Z0, F_Y* by the law of friction, s = F_Y*/k_lat, theta = F_Y* H/K_theta.
+/// Computes F_Z = F_Z0, F_Y* by the law of friction, s = F_Y*/k_lat, theta = F_Y* H/K_theta.
 #[inline]
 pub(super) fn critical_force(scene: &Scene, options: &Options) -> Result<Critical, Failure> {
     let probe = Probe::new(scene, options.torsion);
@@ -29,7 +28,7 @@ pub(super) fn critical_force(scene: &Scene, options: &Options) -> Result<Critica
     })
 }
 
-/// The slip of a contact that holds `lateral_force` (N).
+/// Returns the slip of a contact that holds `lateral_force` (N).
 #[inline(always)]
 pub(super) fn slip(probe: &Probe, height: f64, lateral_force: f64, contact: Contact) -> Slip {
     Slip {
@@ -43,8 +42,8 @@ pub(super) fn slip(probe: &Probe, height: f64, lateral_force: f64, contact: Cont
     }
 }
 
-/// How far `capacity` may be off by the law itself (N): a LuGre ramp peaks between Fss(V), the fast form, and the strength
-/// at rest; other laws are as accurate as their integration.
+/// Returns the possible error of `capacity` by the law itself (N): a LuGre ramp peaks between Fss(V), the fast form,
+/// and the strength at rest; other laws are as accurate as their integration.
 #[inline]
 pub(super) fn of_law(substrate: &Substrate, normal_force: f64, capacity: f64) -> f64 {
     if substrate.options.friction != FrictionLaw::LuGre {
@@ -55,7 +54,7 @@ pub(super) fn of_law(substrate: &Substrate, normal_force: f64, capacity: f64) ->
     (law.stribeck(load, 0.0) - law.stribeck(load, substrate.scene.velocity)).abs()
 }
 
-/// The flags of the slip, and that of the fast form.
+/// Returns the flags of the slip, and that of the fast form.
 #[inline(always)]
 pub(super) fn flags(slip: &Slip, scene: &Scene, options: &Options) -> Flags {
     let is_fast = !LuGre::from_scene(scene).is_slow(scene.velocity);
@@ -63,7 +62,7 @@ pub(super) fn flags(slip: &Slip, scene: &Scene, options: &Options) -> Flags {
     slip.flags(scene, options).with(Flag::FastLuGreForm, is_lugre & is_fast)
 }
 
-/// The relative error of F_cr by what is left out, the twist and the swing of the tip, and by the [law](of_law).
+/// Returns the relative error of F_cr by the neglected twist and swing of the tip, and by the [law](of_law).
 #[inline(always)]
 pub(super) fn error(
     substrate: &Substrate,
@@ -81,8 +80,8 @@ pub(super) fn error(
     }
 }
 
-/// The relative error of the critical time by the same: the moment of the normal force turns the tip further, so that the substrate
-/// travels further until the slip.
+/// Returns the relative error of the critical time for the same reasons: the moment of the normal force turns the tip
+/// further, so the substrate travels further until the slip.
 #[cold]
 fn time_error(
     substrate: &Substrate,
@@ -93,15 +92,15 @@ fn time_error(
     let height = substrate.scene.height;
     let twist = slip.lateral_force * height / (probe.torsional - slip.normal_force * height);
     let further = height * (twist - slip.twist + twist.powi(3)) / slip.travel;
-    // Three times: bristles whose load falls on the way creep less, by up to twice that.
+    // Three times: bristles whose load falls meanwhile creep less, by up to twice that.
     let of_forces = 3.0 * (twisting(substrate, probe, slip).lateral + of_law) / slip.lateral_force;
     let of_creep = presliding.map_or(0.0, |presliding| presliding.error(slip)) + substrate.viscous_rise(slip);
     let all = further.abs() + of_forces + of_creep + Swing::new(substrate.scene, probe).of_time(slip, substrate);
     if twist > 0.0 && all < 1.0 { all } else { 1.0 }
 }
 
-/// What the twist takes from the normal force, K_z H (1 - cos theta), which the closed form leaves out, and from the
-/// friction with it; the twist itself is larger by the moment of the normal force.
+/// Returns the loss of normal force by the twist, K_z H (1 - cos theta), which the closed form neglects, and that of
+/// friction; the twist itself is larger by the moment of the normal force.
 #[inline(always)]
 fn twisting(substrate: &Substrate, probe: &Probe, slip: &Slip) -> Error {
     let height = substrate.scene.height;
@@ -109,7 +108,7 @@ fn twisting(substrate: &Substrate, probe: &Probe, slip: &Slip) -> Error {
     let twist = slip.lateral_force * height / softened;
     // A twentieth more, for the terms of higher order.
     let normal = 1.05 * 0.5 * probe.normal * height * twist * twist;
-    // Else it tips the probe over, or lifts the tip until nothing holds the particle down.
+    // Otherwise it tips the probe over, or lifts the tip until nothing holds the particle down.
     let holds = (softened > 0.0) & (normal < slip.normal_force - substrate.least_normal_force());
     let lateral = normal * substrate.slope(slip.lateral_force, slip.normal_force);
     Error { normal: if holds { normal } else { f64::INFINITY }, lateral: if holds { lateral } else { 0.0 } }

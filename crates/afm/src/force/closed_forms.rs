@@ -1,6 +1,6 @@
-//! The closed form of many scenes at once, column by column: the same operations on each scene as
-//! [`critical_force`](super::critical_force), so that the compiler takes several scenes in one wide register, and
-//! nothing that is not asked for.
+//! The closed form of many scenes at once, column by column: the same operations for each scene as in
+//! [`critical_force`](super::critical_force), so that the compiler can use vector registers, and only the requested
+//! results.
 
 use std::f64::consts::FRAC_PI_2;
 use std::ops::RangeInclusive;
@@ -17,13 +17,13 @@ use crate::friction::{Coulomb, Drive, LuGreForm, Pressed};
 use crate::probe::Probe;
 use crate::{ContactTheory, Failure, Flag, Flags, FrictionLaw, Parameter, Scene, Torsion};
 
-/// Most scenes at once: their columns stay in the nearest cache.
+/// Maximum number of scenes at once: their columns fit into the nearest cache.
 pub const AT_ONCE: usize = 64;
 
-/// A number of each scene.
+/// A number for each scene.
 pub type Column = [f64; AT_ONCE];
 
-/// Scenes whose parameters lie far from where numbers overflow, at once.
+/// Scenes with parameters far from overflow, computed at once.
 pub struct ClosedForms {
     scene: Scene,
     options: Options,
@@ -34,7 +34,7 @@ pub struct ClosedForms {
     flags: [Flags; AT_ONCE],
 }
 
-/// What is found of each scene.
+/// The results of each scene.
 pub struct Slips {
     /// Normal force on the tip (N).
     pub normal_force: Column,
@@ -52,7 +52,7 @@ pub struct Slips {
     pub error_estimate: Column,
 }
 
-/// Stiffnesses and forces on the way, of each scene.
+/// Intermediate stiffnesses and forces of each scene.
 struct Probes {
     normal: Column,
     lateral: Column,
@@ -75,7 +75,7 @@ macro_rules! columns {
                 Self { $($field: [scene.$field; AT_ONCE]),+ }
             }
 
-            /// The column of a parameter, if it has one.
+            /// Returns the column of a parameter, if it has one.
             fn get(&mut self, name: &str) -> Option<&mut Column> {
                 match name { $(stringify!($field) => Some(&mut self.$field),)+ _ => None }
             }
@@ -95,8 +95,8 @@ columns! {
 }
 
 impl ClosedForms {
-    /// Scenes that differ from `scene` in `parameters`. `None` if they are to be computed one by one: by another rung, by a
-    /// law that is integrated, with other parameters than there are columns, or with numbers that may overflow.
+    /// Creates scenes that differ from `scene` in `parameters`. `None` if they must be computed one by one: by another
+    /// rung, with an integrated law, with parameters without columns, or with numbers that may overflow.
     pub fn new(scene: &Scene, options: &Options, parameters: &[&'static Parameter]) -> Option<Self> {
         let mut columns = Columns::from_scene(scene);
         let is_closed = options.fidelity == Fidelity::ClosedForm && options.friction != FrictionLaw::LemaitreCarlson;
@@ -112,22 +112,22 @@ impl ClosedForms {
         Some(Self { scene: *scene, options: *options, drive, columns, probes, slips, flags })
     }
 
-    /// Gives the first scenes these values of `parameter`, at most [`AT_ONCE`]. False if there is one with which they are
-    /// to be computed one by one.
+    /// Sets `parameter` of the first scenes, at most [`AT_ONCE`], to these values. Returns false if one of them
+    /// requires the scenes to be computed one by one.
     pub fn set(&mut self, parameter: &Parameter, values: &[f64]) -> bool {
         let Some(column) = self.columns.get(parameter.name) else { return false };
         column[..values.len()].copy_from_slice(values);
         let ordinary = ordinary(parameter.domain);
-        // One pass without an early end, many values at a time.
+        // One pass without early exit, many values at a time.
         values.iter().fold(true, |all, value| all & ordinary.contains(value))
     }
 
-    /// What was found last.
+    /// Returns the last results.
     pub fn slips(&self) -> &Slips {
         &self.slips
     }
 
-    /// The slips of all scenes.
+    /// Computes the slips of all scenes.
     pub fn solve(&mut self) {
         let Self { scene, options, drive, columns, probes, slips, .. } = self;
         press(scene, options, columns, probes, &mut slips.contact_radius);
@@ -148,7 +148,7 @@ impl ClosedForms {
                 probes.of_law[i] = closed_form::of_law(&substrate, probes.preload_force[i], *capacity);
                 let (probe, contact) = (probes.probe(i), Contact { radius: slips.contact_radius[i], indentation: 0.0 });
                 let slip = closed_form::slip(&probe, scene.height, *capacity, contact);
-                // Only a march fails, and laws that are marched are not computed here.
+                // Only integrations can fail, and integrated laws are not computed here.
                 probes.presliding[i] = Presliding::new(&substrate, &slip, &probe, probe.apex).unwrap_or_default();
             }
         }
@@ -156,8 +156,8 @@ impl ClosedForms {
         doubt(scene, options, columns, slips, &mut self.flags);
     }
 
-    /// Whether what was found of the first `scenes` stands. Otherwise [`critical_force`](super::critical_force) has the
-    /// answers.
+    /// Returns whether the results of the first `scenes` are valid. Otherwise use
+    /// [`critical_force`](super::critical_force).
     pub fn are_ordinary(&self, scenes: usize) -> bool {
         let Slips { critical_force, travel, contact_radius, twist, error_estimate, .. } = &self.slips;
         let forces = ORDINARY_SQUARES.start().sqrt()..=ORDINARY_SQUARES.end().sqrt();
@@ -173,13 +173,13 @@ impl ClosedForms {
     /// Adds how often each flag is raised by the first `scenes`, in the order of [`Flag::ALL`].
     pub fn count_flags(&self, scenes: usize, mut add: impl FnMut(usize, u64)) {
         for (number, &flag) in Flag::ALL.iter().enumerate() {
-            // At most `AT_ONCE`, which is little enough for eight bits.
+            // At most `AT_ONCE`, which fits into eight bits.
             let raised = self.flags[..scenes].iter().fold(0, |raised, flags| raised + u8::from(flags.contains(flag)));
             add(number, raised.into());
         }
     }
 
-    /// Time until scene number `i` slips (s).
+    /// Returns the time until scene number `i` slips (s).
     ///
     /// # Errors
     /// As in [`Critical::critical_time`](super::Critical::critical_time).
@@ -187,7 +187,7 @@ impl ClosedForms {
         critical_time(self.slips.travel[i], self.columns.velocity[i])
     }
 
-    /// Indentation of the contact between particle and substrate of scene number `i` (m).
+    /// Returns the indentation of the contact between particle and substrate of scene number `i` (m).
     ///
     /// # Errors
     /// Those of [`ContactTheory::contact`].
@@ -247,7 +247,7 @@ impl Slips {
     }
 }
 
-/// The part of a domain from which no intermediate result overflows unseen.
+/// Returns the part of a domain from which no intermediate result overflows unnoticed.
 fn ordinary(domain: Domain) -> RangeInclusive<f64> {
     match domain {
         Domain::Positive => 1e-60..=1e60,
@@ -257,7 +257,7 @@ fn ordinary(domain: Domain) -> RangeInclusive<f64> {
     }
 }
 
-/// Each theory and formula with loops of its own, in which it is a constant.
+/// Each theory and formula has its own loops, in which it is a constant.
 #[multiversion(targets("x86_64+avx512f", "x86_64+avx2"))]
 fn press(scene: &Scene, options: &Options, columns: &Columns, probes: &mut Probes, radius: &mut Column) {
     match options.torsion {

@@ -1,12 +1,12 @@
 //! The equations of motion, adaptively, with the slip as an event.
 //!
-//! The tip swings at some 1e6 to 1e8 rad/s, undamped, while the ramp takes 0.1 s and more. To follow every swing would take
-//! some 1e7 steps. Where the swing that the start excites lies below the tolerance (at the nominal scene it is 1e-7 of
-//! F_Y) the stiff method ([`Rodas`], L-stable) steps over it. The error of theta' is then weighed by the swing it
-//! would cause, theta'/omega, else the start alone, where theta' is off by k_lat/K_y of itself, would force steps of
-//! 1/omega for ever; and the event is located by steps, not by dense output. Where the swing counts, a stuck tip is
-//! [carried](super::carried) to the eve of the slip and followed from there. On LuGre bristles, which change it as they
-//! give way, the swing is left to the damping of the method, and counted as an error.
+//! The tip swings at some 1e6 to 1e8 rad/s, undamped, while the ramp takes 0.1 s and more. Following every swing would
+//! take some 1e7 steps. If the swing excited by the start is below the tolerance (at the nominal scene it is 1e-7 of
+//! F_Y) the stiff method ([`Rodas`], L-stable) steps over it. The error of theta' is then weighted by the swing it
+//! would cause, theta'/omega, otherwise the start alone, with a relative error of theta' of k_lat/K_y, would require
+//! steps of 1/omega throughout; and the event is located by steps, not by dense output. If the swing matters, a stuck
+//! tip is [extrapolated](super::carried) to just before the slip and followed from there. On LuGre bristles, which
+//! change it as they give way, the swing is left to the damping of the method, and counted as an error.
 
 use std::f64::consts::TAU;
 
@@ -23,7 +23,7 @@ use crate::ode::{Control, DormandPrince, End, March, Outcome, Rodas};
 use crate::probe::Probe;
 use crate::{Failure, Fidelity, FrictionLaw, Scene};
 
-/// The critical force. At rest, and where nothing holds the particle, there is no motion: the quasi-static limit.
+/// Computes the critical force. At rest, and if nothing holds the particle, there is no motion: the quasi-static limit.
 pub(super) fn critical_force(scene: &Scene, options: &Options) -> Result<Critical, Failure> {
     let probe = Probe::new(scene, options.torsion);
     let substrate = Substrate::new(scene, options, &probe, LuGreForm::Ramp);
@@ -32,7 +32,7 @@ pub(super) fn critical_force(scene: &Scene, options: &Options) -> Result<Critica
     let (limit, mut of_time, spent) = statics.timed(&limit, &substrate)?;
     evaluations += spent;
     let mut slip = limit;
-    // A subnormal velocity has too few digits for a march.
+    // A subnormal velocity has too few digits for an integration.
     if scene.velocity >= f64::MIN_POSITIVE && limit.travel > 0.0 && limit.lateral_force > 0.0 {
         let motion = Motion::new(scene, &statics, &limit);
         let (found, spent) = if options.friction == FrictionLaw::LuGre {
@@ -43,10 +43,10 @@ pub(super) fn critical_force(scene: &Scene, options: &Options) -> Result<Critica
         slip = found.held_back()?;
         evaluations += spent;
     }
-    // What inertia does not explain, the march has missed: far outside any laboratory it steps over the slip, or F_Z falls
-    // by more than F_Y rises.
+    // A difference that inertia does not explain is an error of the integration: far outside any laboratory it steps
+    // over the slip, or F_Z falls by more than F_Y rises.
     let missed = slip.beyond(&limit, quasi_static::left_out(&limit, scene, &substrate, &probe));
-    // The march aims at a tenth of the tolerance a step, in F_Y.
+    // The integration aims at a tenth of the tolerance per step, in F_Y.
     let mut error = Error { normal: missed.normal, lateral: options.tolerance * slip.lateral_force };
     if missed.normal.max(missed.lateral)
         > 10.0 * options.tolerance * libm::hypot(limit.normal_force, limit.lateral_force)
@@ -59,7 +59,7 @@ pub(super) fn critical_force(scene: &Scene, options: &Options) -> Result<Critica
         (slip.travel, slip.advance) = (limit.travel, limit.advance);
         of_time += swing.of_time(&slip, &substrate);
     } else if options.friction == FrictionLaw::LuGre {
-        // On these bristles its own time, in the place of the quasi-static one.
+        // On these bristles its own time, in place of the quasi-static one.
         of_time = swing.of_time(&slip, &substrate) + options.tolerance * slip.sensitivity();
         error = error + swing.left_out(&slip, &substrate);
         if !swing.is_followed(limit.travel, scene.velocity) {
@@ -70,17 +70,17 @@ pub(super) fn critical_force(scene: &Scene, options: &Options) -> Result<Critica
     }
     let critical = slip.critical(&substrate, Fidelity::Dynamic);
     let of_time = if options.accurate_time { of_time.min(1.0) } else { 0.0 };
-    // NaN where nothing holds the particle, which `max` passes over.
+    // NaN if nothing holds the particle, which `max` ignores.
     Ok(Critical { error_estimate: error.value(&slip).max(of_time), cost: Cost { evaluations }, ..critical })
 }
 
-/// Whether friction holds the tip without a look at the law: its force is below that of the quasi-static slip, and F_Z,
-/// which falls with the twist, still above. 1e-3 leaves room for what the swing does to F_Z.
+/// Returns whether friction certainly holds the tip, without evaluating the law: its force is below that of the
+/// quasi-static slip, and F_Z, which falls with the twist, still above. 1e-3 is a margin for the swing of F_Z.
 pub(super) fn surely_holds(tip: &Tip, limit: &Slip) -> bool {
     tip.lateral_force < (1.0 - 1e-3) * limit.lateral_force
 }
 
-/// Marches the stuck tip until F_Y passes F_Y*(F_Z).
+/// Integrates the motion of the stuck tip until F_Y passes F_Y*(F_Z).
 fn stuck(motion: &Motion, substrate: &Substrate, limit: &Slip) -> Result<(Slip, u64), Failure> {
     let lateral = motion.swing().lateral + motion.swing().normal(limit.twist) * limit.slope(substrate);
     let swing = lateral / motion.force;
@@ -105,7 +105,7 @@ fn stuck(motion: &Motion, substrate: &Substrate, limit: &Slip) -> Result<(Slip, 
 /// Share of the tolerance below which the swing need not be followed.
 const SMALL: f64 = 0.2;
 
-/// By the stiff method over a swing too small to matter.
+/// Uses the stiff method over a swing too small to matter.
 fn damped(motion: &Motion, substrate: &Substrate, limit: &Slip) -> Result<(End<2>, u64), Failure> {
     let control = Control {
         tolerance: local_tolerance(substrate.options),
@@ -128,12 +128,12 @@ fn damped(motion: &Motion, substrate: &Substrate, limit: &Slip) -> Result<(End<2
     Ok((end, spent + march.evaluations()))
 }
 
-/// By the explicit method, which keeps the swing, over its last turns before the slip; over all of them where they
-/// change on the way. `swing` is its amplitude in F_Y - F_Y*, in units of the slip.
+/// Uses the explicit method, which keeps the swing, over its last turns before the slip; over all of them if they
+/// change meanwhile. `swing` is its amplitude in F_Y - F_Y*, in units of the slip.
 fn swinging(motion: &Motion, substrate: &Substrate, limit: &Slip, swing: f64) -> Result<(End<2>, u64), Failure> {
     let tolerance = substrate.options.tolerance;
     let frequency = motion.frequency();
-    // The force rises by more than 1 in a unit of time. The first crossing comes before the mean by the amplitude at most.
+    // The force rises by more than 1 in a unit of time, so the crossing precedes the mean by at most the amplitude.
     let lead = 2.0 * swing + 2.0 * TAU / frequency;
     let kept = 10.0 * swing * motion.drift(limit.twist) / frequency < 0.05 * tolerance;
     let start =
@@ -143,7 +143,7 @@ fn swinging(motion: &Motion, substrate: &Substrate, limit: &Slip, swing: f64) ->
         return Err(Failure::StepBudget);
     }
     let control = Control {
-        // The force stands still once a turn, where an error of it shows by its cube root in the time.
+        // The force is stationary once per turn, where an error of it appears in the time as its cube root.
         tolerance: (1e-3 * tolerance * (tolerance / swing).powi(2).min(1.0)).max(0.1 * FINEST),
         scale: [1.0, frequency.max(1.0)],
         first_step: 0.1 * RESOLVED / frequency,
@@ -166,10 +166,10 @@ fn swinging(motion: &Motion, substrate: &Substrate, limit: &Slip, swing: f64) ->
     Ok((end, spent + march.evaluations()))
 }
 
-/// Longest step that follows a swing (rad): no crossing hides inside.
+/// Longest step that follows a swing (rad): it cannot miss a crossing.
 const RESOLVED: f64 = 0.2;
 
-/// F_Y - F_Y*(F_Z) (N).
+/// Returns F_Y - F_Y*(F_Z) (N).
 fn excess(tip: &Tip, substrate: &Substrate, spent: &mut u64) -> Result<f64, Failure> {
     match substrate.hold(tip.normal_force) {
         Ok(hold) => {

@@ -1,4 +1,4 @@
-//! The equations of motion as a simple script marches them: fixed steps, no event.
+//! The equations of motion as a simple script integrates them: fixed steps, no event.
 
 use super::dynamic::surely_holds;
 use super::motion::Motion;
@@ -11,8 +11,8 @@ use crate::ode::{Method, Problem, Rodas, State};
 use crate::probe::Probe;
 use crate::{Failure, Fidelity, Scene};
 
-/// The forces at the first step past the slip: F_Y is the tip's, beyond F_Y* by up to k_lat V step. The steps are those
-/// of the stiff method, since no explicit one survives them. At rest the slip is never passed: the quasi-static limit.
+/// Returns the forces at the first step past the slip: F_Y is the tip's, beyond F_Y* by up to k_lat V step. It uses
+/// steps of the stiff method, as explicit ones are unstable here. At rest there is no slip: the quasi-static limit.
 pub(super) fn critical_force(scene: &Scene, options: &Options) -> Result<Critical, Failure> {
     let probe = Probe::new(scene, options.torsion);
     let substrate = Substrate::new(scene, options, &probe, LuGreForm::Ramp);
@@ -27,13 +27,13 @@ pub(super) fn critical_force(scene: &Scene, options: &Options) -> Result<Critica
         evaluations += spent;
     }
     let mut error = Error { normal: 0.0, lateral: probe.apex * scene.velocity * options.step };
-    // A step far longer than the way to the slip meets the inertia of the tip, and its geometry.
+    // A step far longer than the time to the slip is affected by the inertia of the tip, and by its geometry.
     let missed = slip.beyond(&limit, error);
     if missed.lateral > 0.5 * error.lateral || missed.normal > 0.1 * limit.normal_force.abs() {
         error = error + missed;
     }
     let critical = slip.critical(&substrate, Fidelity::FixedStep);
-    // The particle creeps as on the quasi-static rung, and the slip is met at the end of a step.
+    // The particle creeps as on the quasi-static rung, and the slip is detected at the end of a step.
     let of_step = options.step * scene.velocity / (slip.travel + slip.advance);
     let of_time = if options.accurate_time { (of_creep + of_step).min(1.0) } else { 0.0 };
     Ok(Critical { error_estimate: error.value(&slip).max(of_time), cost: Cost { evaluations }, ..critical })
@@ -42,7 +42,7 @@ pub(super) fn critical_force(scene: &Scene, options: &Options) -> Result<Critica
 fn march(motion: &Motion, substrate: &Substrate, limit: &Slip) -> Result<(Slip, u64), Failure> {
     let options = substrate.options;
     let h = options.step / motion.time();
-    // The slip comes at 1, so this many steps are known to be needed.
+    // The slip comes at 1, so at least this many steps are needed.
     if 1.0 > h * options.step_budget as f64 {
         return Err(Failure::StepBudget);
     }
@@ -59,7 +59,7 @@ fn march(motion: &Motion, substrate: &Substrate, limit: &Slip) -> Result<(Slip, 
             continue;
         }
         if !tip.lateral_force.is_finite() {
-            // Past the slip by so much that the tip cannot reach.
+            // Too far past the slip for the tip to reach.
             return Err(Failure::StepTooSmall);
         }
         let hold = substrate.hold(tip.normal_force)?;

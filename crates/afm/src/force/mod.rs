@@ -34,18 +34,19 @@ named! {
         ClosedForm = "closed-form",
         /// Exact geometry, no inertia; the massless ramp of LuGre friction.
         QuasiStatic = "quasi-static",
-        /// The equations of motion, marched by an adaptive stiff method, the slip located as an event; LuGre friction by
-        /// its bristles under a particle with mass.
+        /// The equations of motion, integrated by an adaptive stiff method, the slip located as an event; LuGre
+        /// friction by its bristles under a particle with mass.
         Dynamic = "dynamic",
-        /// The equations of motion, marched in steps of [`Options::step`], the forces read at the first step past the
-        /// slip. It overshoots by up to k_lat V step, and exists to show what that distorts.
+        /// The equations of motion, integrated in steps of [`Options::step`], the forces read at the first step past
+        /// the slip. It overshoots by up to k_lat V step, and exists to show the effect of such steps.
         FixedStep = "fixed-step",
-        /// The lowest of the first three whose error estimate meets [`Options::tolerance`], or above which none does better.
+        /// The lowest of the first three with an error estimate within [`Options::tolerance`], or with none better
+        /// above.
         Auto = "auto",
     }
 }
 
-/// Which of the competing formulas are used, and how accurately.
+/// The choice of the competing formulas, and the accuracy.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {
     /// Law of friction under the particle.
@@ -56,19 +57,19 @@ pub struct Options {
     pub fidelity: Fidelity,
     /// Formula for the torsional stiffness.
     pub torsion: Torsion,
-    /// Whether friction also feels the pull-off force of the contact, so that N = F_Z + F_ad.
-    /// Hurtado-Kim and Lemaitre-Carlson friction feel no load, and are not moved.
+    /// Whether friction includes the pull-off force of the contact, so that N = F_Z + F_ad. Hurtado-Kim and
+    /// Lemaitre-Carlson friction do not depend on the load, and do not change.
     pub adhesion_in_load: bool,
-    /// Where stiffness and damping of LuGre bristles come from.
+    /// The source of stiffness and damping of LuGre bristles.
     pub lugre: LuGreParameters,
-    /// Relative error asked of the critical force, > 0: what the integrated rungs aim at, and what
-    /// `auto` compares the estimates with.
+    /// Relative error of the critical force, > 0: the target of the integrated rungs, and the limit with which `auto`
+    /// compares the estimates.
     pub tolerance: f64,
-    /// Whether estimates of errors tell of the critical time as well as of the force, and `auto` with them.
+    /// Whether error estimates, and `auto`, include the critical time in addition to the force.
     pub accurate_time: bool,
     /// Step of the `fixed-step` rung (s), > 0.
     pub step: f64,
-    /// Most steps of any one integration.
+    /// Maximum number of steps of any one integration.
     pub step_budget: u64,
 }
 
@@ -92,10 +93,10 @@ impl Default for Options {
 }
 
 impl Options {
-    /// Whether the numbers among the options are usable.
+    /// Checks that the numbers among the options are valid.
     ///
     /// # Errors
-    /// [`Failure::OutOfDomain`] names the first that is not.
+    /// [`Failure::OutOfDomain`] names the first invalid one.
     #[inline]
     fn check(&self) -> Result<(), Failure> {
         Failure::unless_in(Domain::Positive, "tolerance", self.tolerance)?;
@@ -106,11 +107,11 @@ impl Options {
 /// Cost of a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Cost {
-    /// Evaluations of the contact's friction and of rates of change.
+    /// Number of evaluations of the contact's friction and of rates of change.
     pub evaluations: u64,
 }
 
-/// The scene at the instant when the particle slips.
+/// The scene at the instant of slip.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Critical {
     /// Normal force on the tip, F_Z (N).
@@ -121,11 +122,11 @@ pub struct Critical {
     pub critical_force: f64,
     /// Travel of the substrate until the critical time, V t_cr (m).
     pub travel: f64,
-    /// Critical time t_cr (s), at which the particle slips; or why there is none, [`Failure::VelocityZero`] where V = 0. On
-    /// bristles (LuGre, Dahl, Armstrong, Lemaitre-Carlson) the force only approaches its peak, and t_cr is when it first
-    /// reaches 99.9 % of it. Rungs without inertia leave out by how much the swing of the tip brings the slip forward: some
-    /// 1/(omega t_cr) of t_cr, more for a tip on a cantilever that is stiff in torsion; `auto` finds it by the linear
-    /// response of the tip where it matters to the tolerance.
+    /// Critical time t_cr (s), at which the particle slips; or why there is none, [`Failure::VelocityZero`] if V = 0.
+    /// On bristles (LuGre, Dahl, Armstrong, Lemaitre-Carlson) the force only approaches its peak, and t_cr is when it
+    /// first reaches 99.9 % of it. Rungs without inertia neglect that the swing of the tip makes the slip earlier: by
+    /// about 1/(omega t_cr) of t_cr, more for a tip on a cantilever that is stiff in torsion; `auto` computes it by the
+    /// linear response of the tip if it matters for the tolerance.
     pub critical_time: Result<f64, Failure>,
     /// Radius a of the contact between particle and substrate (m).
     pub contact_radius: f64,
@@ -133,29 +134,27 @@ pub struct Critical {
     pub indentation: f64,
     /// Twist of the cantilever, theta (rad).
     pub twist: f64,
-    /// What makes the result doubtful.
+    /// Violated assumptions.
     pub flags: Flags,
-    /// Estimated relative error of the critical force, from what the rung leaves out and from its
-    /// numerics; not of the laws themselves. At most 1, which claims nothing. On LuGre bristles it includes the swing
-    /// of the tip at every rung. With [`Options::accurate_time`] it holds for the critical time too.
+    /// Estimated relative error of the critical force, from the simplifications and the numerics of the rung; not from
+    /// the laws themselves. At most 1, which claims nothing. On LuGre bristles it includes the swing of the tip at
+    /// every rung. With [`Options::accurate_time`] it holds for the critical time too.
     pub error_estimate: f64,
-    /// What it cost to find.
+    /// The cost of the computation.
     pub cost: Cost,
-    /// The rung that found it; never `auto`.
+    /// The rung of the result; never `auto`.
     pub rung: Fidelity,
 }
 
-/// The critical force of pushing the particle, and the state of the scene at that instant.
+/// Computes the critical force of pushing the particle, and the state of the scene at that instant.
 ///
-/// A substrate at rest, V = 0, leaves everything but the critical time well defined: the limit of
-/// ever slower pushing.
+/// With a substrate at rest, V = 0, everything except the critical time is defined: the limit of ever slower pushing.
 ///
 /// # Errors
-/// [`Failure::OutOfDomain`] if a parameter is not physical; [`Failure::NotFinite`] if a result
-/// overflows; [`Failure::BeyondPullOff`] if the load pulls the particle off the substrate;
-/// [`Failure::ProbeTips`] if the preload twists the cantilever over; [`Failure::StepBudget`] or
-/// [`Failure::StepTooSmall`] if an integration does not come through; [`Failure::VelocityZero`] for
-/// Lemaitre-Carlson friction at rest, which has no limit there.
+/// [`Failure::OutOfDomain`] if a parameter is not physical; [`Failure::NotFinite`] if a result overflows;
+/// [`Failure::BeyondPullOff`] if the load pulls the particle off the substrate; [`Failure::ProbeTips`] if the preload
+/// twists the cantilever over; [`Failure::StepBudget`] or [`Failure::StepTooSmall`] if an integration fails;
+/// [`Failure::VelocityZero`] for Lemaitre-Carlson friction at rest, which has no limit there.
 ///
 /// # Example
 /// ```
@@ -186,13 +185,13 @@ pub fn critical_force(scene: &Scene, options: &Options) -> Result<Critical, Fail
 }
 
 impl Critical {
-    /// Angle of the tip force from the vertical, psi = atan2(F_Y, F_Z) (rad).
+    /// Returns the angle of the tip force from the vertical, psi = atan2(F_Y, F_Z) (rad).
     pub fn force_angle(&self) -> f64 {
         libm::atan2(self.lateral_force, self.normal_force)
     }
 
-    /// This result, if every quantity is finite. Infinite or undefined ones arise only from
-    /// overflow or underflow, since the scene has been checked.
+    /// Returns this result, if every quantity is finite. Infinite or undefined ones arise only from overflow or
+    /// underflow, since the scene has been checked.
     #[inline]
     fn finite(self) -> Result<Self, Failure> {
         let quantities = [

@@ -4,9 +4,9 @@
 //!
 //!   y_P + H sin theta = s,  I_T theta'' = H (K_y y_P cos theta + K_z z_P sin theta) - K_theta theta,
 //!
-//! with I_T = I_p + m H^2/2 the moment of inertia about the apex. Marched as y_P' = V - H theta' cos theta beside theta',
-//! the twist from the constraint: y_P and not theta, since F_Y = K_y y_P and the cantilever is far stiffer sideways than
-//! in torsion. In units of the quasi-static slip: its F_Y for forces, its time for time, V/H for theta'.
+//! with I_T = I_p + m H^2/2 the moment of inertia about the apex. Integrated as y_P' = V - H theta' cos theta with
+//! theta', the twist from the constraint: y_P and not theta, since F_Y = K_y y_P and the cantilever is far stiffer
+//! laterally than in torsion. In units of the quasi-static slip: its F_Y for forces, its time for time, V/H for theta'.
 
 use super::quasi_static::Statics;
 use super::slip::Slip;
@@ -34,7 +34,7 @@ pub(super) struct Tip {
 }
 
 impl<'a> Motion<'a> {
-    /// The motion of a scene whose quasi-static slip is `slip`, at a velocity above zero.
+    /// Creates the motion of a scene whose quasi-static slip is `slip`, at a velocity above zero.
     pub fn new(scene: &'a Scene, statics: &'a Statics<'a>, slip: &Slip) -> Self {
         Self {
             scene,
@@ -46,12 +46,12 @@ impl<'a> Motion<'a> {
         }
     }
 
-    /// Time unit (s): travel to the slip over V.
+    /// Returns the time unit (s): travel to the slip over V.
     pub fn time(&self) -> f64 {
         self.length / self.scene.velocity
     }
 
-    /// The fastest motion: the swing of the tip about the apex, in radians per unit of time.
+    /// Returns the frequency of the fastest motion: the swing of the tip about the apex, in radians per unit of time.
     pub fn frequency(&self) -> f64 {
         self.swing().frequency * self.time()
     }
@@ -60,41 +60,41 @@ impl<'a> Motion<'a> {
         Swing::new(self.scene, &self.statics.probe)
     }
 
-    /// Twist at the apex position `s` (units of length), with the lateral force `q` (units of force). Not a number where
-    /// the tip would have to be longer.
+    /// Returns the twist at the apex position `s` (units of length), with the lateral force `q` (units of force). NaN
+    /// if the tip would have to be longer.
     pub fn twist(&self, s: f64, q: f64) -> f64 {
         let deflection = q * self.force / self.statics.probe.lateral;
         libm::asin((s * self.length - deflection) / self.scene.height)
     }
 
-    /// Moment about the apex over H (N): F_Y cos theta + F_Z sin theta - K_theta theta/H.
+    /// Returns the moment about the apex over H (N): F_Y cos theta + F_Z sin theta - K_theta theta/H.
     fn moment(&self, theta: f64, q: f64) -> f64 {
         q * self.force * libm::cos(theta) - self.statics.lateral_moment(theta)
     }
 
-    /// theta'' in units of V/H per unit of time, per newton of moment over H.
+    /// Returns theta'' in units of V/H per unit of time, per newton of moment over H.
     fn agility(&self) -> f64 {
         let height = self.scene.height;
         height * self.time() * (height / self.scene.velocity) / self.inertia
     }
 
-    /// y' of `Motion` at the apex position `s`, which moves at `u` (units of V).
+    /// Returns y' of `Motion` at the apex position `s`, which moves at `u` (units of V).
     pub fn rates(&self, [s, u]: [f64; 2], &[q, w]: &[f64; 2]) -> [f64; 2] {
         let theta = self.twist(s, q);
         [self.stiffness() * (u - w * libm::cos(theta)), self.agility() * self.moment(theta, q)]
     }
 
-    /// F_Z (N) of the probe alone at a twist.
+    /// Returns F_Z (N) of the probe alone at a twist.
     pub fn normal_spring(&self, theta: f64) -> f64 {
         self.statics.normal_force(theta)
     }
 
-    /// K_y over the unit of stiffness.
+    /// Returns K_y over the unit of stiffness.
     pub fn stiffness(&self) -> f64 {
         self.statics.probe.lateral * self.length / self.force
     }
 
-    /// Derivatives of [`rates`](Self::rates) by q, w, and s.
+    /// Returns the derivatives of [`rates`](Self::rates) by q, w, and s.
     pub fn slopes(&self, s: f64, &[q, w]: &[f64; 2]) -> [[f64; 3]; 2] {
         let theta = self.twist(s, q);
         let (sin, cos) = libm::sincos(theta);
@@ -109,8 +109,8 @@ impl<'a> Motion<'a> {
         ]
     }
 
-    /// Forces of the tip on the particle, by the printed equations, at the apex position `s`; the accelerations of the
-    /// indentations, which follow the forces, left out.
+    /// Returns the forces of the tip on the particle, by the printed equations, at the apex position `s`, without the
+    /// accelerations of the indentations, which follow the forces.
     pub fn tip(&self, s: f64, &[q, w]: &[f64; 2]) -> Tip {
         let twist = self.twist(s, q);
         let (sin, cos) = libm::sincos(twist);
@@ -123,7 +123,7 @@ impl<'a> Motion<'a> {
         // I_p = I_T - m H^2/2.
         let turning = (self.inertia - half * height) / height * angular;
         let normal_spring = self.statics.normal_force(twist);
-        // [K_theta th/H] sin th + K_z z_P cos^2 th - K_y y_P sin th cos th, less the moment it contains.
+        // [K_theta th/H] sin th + K_z z_P cos^2 th - K_y y_P sin th cos th, minus the moment it contains.
         let normal_force = normal_spring - moment * sin + turning * sin - half * cos * spin * spin;
         let lateral_force = lateral_spring + half * (spin * spin * sin - angular * cos);
         Tip { twist, lateral_force, normal_force }
@@ -144,10 +144,10 @@ impl Problem<2> for Motion<'_> {
     }
 }
 
-/// Least local tolerance: below, rounding shows.
+/// Minimum local tolerance: below it rounding is visible.
 pub(super) const FINEST: f64 = 1e-12;
 
-/// Tolerance of a step.
+/// Returns the tolerance of a step.
 pub(super) fn local_tolerance(options: &Options) -> f64 {
     (0.1 * options.tolerance).max(FINEST)
 }

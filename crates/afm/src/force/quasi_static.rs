@@ -1,14 +1,15 @@
 //! Exact geometry, no inertia.
 //!
-//! The tip stands in equilibrium at every twist theta: F_Z = K_z z_P with z_P = z_P0 - H (1 - cos theta), and
-//! F_Y cos theta = K_theta theta/H - F_Z sin theta. The particle slips at the first theta with F_Y = F_Y*(F_Z).
+//! The tip is in equilibrium at every twist theta: F_Z = K_z z_P with z_P = z_P0 - H (1 - cos theta), and F_Y cos theta
+//! = K_theta theta/H - F_Z sin theta. The particle slips at the first theta with F_Y = F_Y*(F_Z).
 //!
-//! There is one such theta at most. With c = K_theta/H,
+//! There is at most one such theta. With c = K_theta/H,
 //!
 //!   cos^2(theta) dF_Y/dtheta = c (cos theta + theta sin theta) - K_z (z_P0 - H) - K_z H cos^3 theta
 //!
-//! never falls on [0, pi/2], and starts at c - F_Z0. So where c > F_Z0, F_Y is convex and rises without bound towards pi/2, while F_Y* falls with F_Z. And F_Y >= (c - F_Z0) theta makes
-//! F_Y*(F_Z0)/(c - F_Z0) an upper bound of the root, too large by order theta^2 only.
+//! never falls on [0, pi/2], and starts at c - F_Z0. So if c > F_Z0, F_Y is convex and rises without bound towards
+//! pi/2, while F_Y* falls with F_Z. And F_Y >= (c - F_Z0) theta makes F_Y*(F_Z0)/(c - F_Z0) an upper bound of the root,
+//! too large by order theta^2 only.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -23,14 +24,14 @@ use crate::probe::Probe;
 use crate::root::{self, Point};
 use crate::{Failure, Fidelity, FrictionLaw, Scene};
 
-/// The critical force, LuGre friction by the peak of its ramp.
+/// Computes the critical force, LuGre friction by the peak of its ramp.
 pub(super) fn critical_force(scene: &Scene, options: &Options) -> Result<Critical, Failure> {
     Ok(solve(scene, options, false)?.0)
 }
 
-/// The same, with the time at which the swing of a stuck tip slips where that matters; and the error that the dynamic rung
-/// has in common: on bristles neither follows the swing, unless it is slow, nor what it shakes loose, and the bristles of
-/// other laws than LuGre's are the same on both.
+/// Computes the same, with the time at which the swing of a stuck tip slips if that matters; and the error in common
+/// with the dynamic rung: on bristles neither follows the swing, unless it is slow, or the slip that it triggers, and
+/// the bristles of laws other than LuGre's are the same on both.
 pub(super) fn with_swing(scene: &Scene, options: &Options) -> Result<(Critical, f64), Failure> {
     solve(scene, options, options.accurate_time)
 }
@@ -66,23 +67,23 @@ fn solve(scene: &Scene, options: &Options, swings: bool) -> Result<(Critical, f6
         _ => 0.0,
     };
     let critical = slip.critical(&substrate, Fidelity::QuasiStatic);
-    // NaN where nothing holds the particle, which `max` passes over.
+    // NaN if nothing holds the particle, which `max` ignores.
     Ok((Critical { error_estimate: of_forces.max(of_time), cost: Cost { evaluations }, ..critical }, shared))
 }
 
-/// What inertia may do to the forces of the quasi-static `slip`.
+/// Returns the possible effect of inertia on the forces of the quasi-static `slip`.
 pub(super) fn left_out(slip: &Slip, scene: &Scene, substrate: &Substrate, probe: &Probe) -> Error {
     let mut error = Swing::new(scene, probe).left_out(slip, substrate);
     error.lateral += slip.lateral_force * substrate.error();
     if substrate.options.friction == FrictionLaw::LuGre {
-        // How far a particle that breaks loose overshoots depends on how fast the tip can follow.
+        // The overshoot of a particle that breaks loose depends on how fast the tip can follow.
         error.lateral += overshoot(slip, substrate);
     }
     error
 }
 
-/// How far the peak on LuGre bristles exceeds the force of steady sliding (N). Where friction weakens as the particle speeds up, the
-/// swing of the tip, however small, may shake it loose anywhere between the two.
+/// Returns the difference of the peak on LuGre bristles and the force of steady sliding (N). If friction weakens as the
+/// particle speeds up, the swing of the tip, however small, may break it loose anywhere between the two.
 pub(super) fn overshoot(slip: &Slip, substrate: &Substrate) -> f64 {
     let law = LuGre::with(substrate.scene, substrate.options.lugre, slip.contact.radius);
     let steady = law.steady_force(slip.normal_force + substrate.adhesive_load, substrate.scene.velocity);
@@ -111,45 +112,45 @@ impl<'a> Statics<'a> {
         Ok(Self { scene, probe: *probe, height: scene.height, restoring })
     }
 
-    /// F_Z (N) at the twist `theta`. 1 - cos theta as 2 sin^2(theta/2), which does not cancel.
+    /// Returns F_Z (N) at the twist `theta`. 1 - cos theta as 2 sin^2(theta/2), which does not cancel.
     pub fn normal_force(&self, theta: f64) -> f64 {
         let half = libm::sin(0.5 * theta);
         self.probe.normal * (self.probe.preload_deflection - 2.0 * self.height * half * half)
     }
 
-    /// F_Y cos theta (N) at the twist `theta`.
+    /// Returns F_Y cos theta (N) at the twist `theta`.
     pub fn lateral_moment(&self, theta: f64) -> f64 {
         self.restoring * theta - self.normal_force(theta) * libm::sin(theta)
     }
 
-    /// Its derivative by the twist (N).
+    /// Returns its derivative by the twist (N).
     pub fn lateral_moment_slope(&self, theta: f64) -> f64 {
         let (sin, cos) = libm::sincos(theta);
         self.restoring - self.normal_force(theta) * cos + self.probe.normal * self.height * sin * sin
     }
 
-    /// F_Y (N) at the twist `theta`, below a right angle.
+    /// Returns F_Y (N) at the twist `theta`, below a right angle.
     pub fn lateral_force(&self, theta: f64) -> f64 {
         self.lateral_moment(theta) / libm::cos(theta)
     }
 
-    /// Its derivative by the twist (N).
+    /// Returns its derivative by the twist (N).
     pub fn lateral_force_slope(&self, theta: f64) -> f64 {
         (self.lateral_moment_slope(theta) + self.lateral_force(theta) * libm::sin(theta)) / libm::cos(theta)
     }
 
-    /// Travel of the apex (m): s = H sin theta + F_Y/K_y.
+    /// Returns the travel of the apex (m): s = H sin theta + F_Y/K_y.
     pub fn travel(&self, theta: f64, lateral_force: f64) -> f64 {
         self.height * libm::sin(theta) + lateral_force / self.probe.lateral
     }
 
-    /// Stiffness of the apex dF_Y/ds (N/m) at the twist `theta`.
+    /// Returns the stiffness of the apex dF_Y/ds (N/m) at the twist `theta`.
     pub(crate) fn spring(&self, theta: f64) -> f64 {
         let rise = self.lateral_force_slope(theta);
         rise / (self.height * libm::cos(theta) + rise / self.probe.lateral)
     }
 
-    /// `slip` with its time; the relative error of that but for the swing, and the evaluations it took.
+    /// Returns `slip` with its time; the relative error of the time without the swing, and the number of evaluations.
     ///
     /// # Errors
     /// Those of [`Presliding::new`].
@@ -163,7 +164,7 @@ impl<'a> Statics<'a> {
         let options = substrate.options;
         let matters = options.accurate_time && error > 0.1 * options.tolerance && self.scene.velocity > 0.0;
         if matters && options.friction == FrictionLaw::LuGre {
-            // A march that does not come through leaves the estimate as it is.
+            // If the integration fails, the estimate is kept.
             if let Ok((late, left, evaluations)) = presliding.followed(substrate, &timed, spring) {
                 return Ok((Slip { advance: timed.advance + late, ..timed }, left, evaluations));
             }
@@ -171,13 +172,13 @@ impl<'a> Statics<'a> {
         Ok((timed, error, 0))
     }
 
-    /// The twist at which F_Z has fallen to `least`, or pi/2.
+    /// Returns the twist at which F_Z has fallen to `least`, or pi/2.
     fn last_twist(&self, least: f64) -> f64 {
         let drop = (self.probe.preload_force - least) / self.probe.normal / self.height;
         if drop < 1.0 { 2.0 * libm::asin((0.5 * drop).sqrt()) } else { FRAC_PI_2 }
     }
 
-    /// The slip, and the evaluations of friction it took.
+    /// Returns the slip, and the number of evaluations of friction.
     ///
     /// # Errors
     /// [`Failure::BeyondPullOff`] if the twist lifts the tip until nothing holds the particle down, before friction
@@ -188,13 +189,13 @@ impl<'a> Statics<'a> {
         let rounding = 16.0 * f64::EPSILON * self.probe.preload_force;
         let mut hold = |theta: f64| -> Result<(Hold, f64), Failure> {
             let force = self.normal_force(theta);
-            // At the last twist itself rounding may go beyond the least force.
+            // At the last twist itself rounding may exceed the least force.
             let force = if force < least && force > least - rounding { least } else { force };
             let hold = substrate.hold(force)?;
             evaluations += hold.evaluations;
             Ok((hold, force))
         };
-        // F_Y cos theta - F_Y* cos theta: of the sign of F_Y - F_Y*, and finite up to pi/2.
+        // F_Y cos theta - F_Y* cos theta: with the sign of F_Y - F_Y*, and finite up to pi/2.
         let mut residual = |theta: f64| -> Result<f64, Failure> {
             Ok(self.lateral_moment(theta) - hold(theta)?.0.capacity * libm::cos(theta))
         };
@@ -204,7 +205,7 @@ impl<'a> Statics<'a> {
         let mut high = Point { x: (-at_rest / slope).min(last), y: 0.0 };
         high.y = residual(high.x)?;
         let theta = if at_rest >= 0.0 {
-            // Nothing to overcome.
+            // No force to overcome.
             0.0
         } else if high.y == 0.0 {
             high.x
@@ -215,7 +216,7 @@ impl<'a> Statics<'a> {
             }
             high.x
         } else {
-            // The bound is too large by little: twice the step of Newton's method mostly passes the root.
+            // The bound is slightly too large: twice the step of Newton's method usually passes the root.
             let guess = high.x - 2.0 * high.y / slope;
             let mut low = Point { x: 0.0, y: at_rest };
             if guess > 0.0 {
@@ -225,8 +226,8 @@ impl<'a> Statics<'a> {
             root::between(low, high, residual)?
         };
         let (hold, normal_force) = hold(theta)?;
-        // The two agree at the root, each to its own conditioning: the geometry's is poor near a right angle, the
-        // friction's where its coefficient is so large that one rounding of the twist moves it by itself.
+        // The two agree at the root, each within its own conditioning: that of the geometry is poor near a right angle,
+        // that of friction if its coefficient is so large that one rounding of the twist changes it.
         let of_geometry = self.lateral_force(theta);
         let agree = (hold.capacity - of_geometry).abs() < 1e-6 * of_geometry;
         let lateral_force = if agree || libm::cos(theta) < 1e-6 { hold.capacity } else { of_geometry };

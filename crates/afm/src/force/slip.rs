@@ -1,4 +1,4 @@
-//! The instant of slip, as every rung finds it, made into the common result.
+//! The instant of slip on every rung, converted to the common result.
 
 use std::f64::consts::PI;
 use std::ops::{Add, RangeInclusive};
@@ -15,10 +15,10 @@ pub(crate) struct Slip {
     pub lateral_force: f64,
     /// Travel of the apex (m).
     pub travel: f64,
-    /// How much further the substrate has travelled when the slip counts (m): by what the particle crept on its bristles, less
-    /// what the apex still travels from then on.
+    /// Additional travel of the substrate at the time of the slip (m): by the creep of the particle on its bristles,
+    /// minus the remaining travel of the apex.
     pub advance: f64,
-    /// How many times longer than the force of a particle at rest its force takes to rise then; 1 without bristles.
+    /// Factor by which its force rises more slowly there than that of a particle at rest; 1 without bristles.
     pub slowdown: f64,
     pub twist: f64,
     pub contact: Contact,
@@ -44,7 +44,7 @@ impl Add for Error {
 }
 
 impl Error {
-    /// The relative error of F_cr: |dF_cr| <= (F_Z |dF_Z| + F_Y |dF_Y|)/F_cr. At most 1, which claims nothing.
+    /// Returns the relative error of F_cr: |dF_cr| <= (F_Z |dF_Z| + F_Y |dF_Y|)/F_cr. At most 1, which claims nothing.
     #[inline(always)]
     pub fn value(self, slip: &Slip) -> f64 {
         let shift = slip.normal_force.abs() * self.normal + slip.lateral_force * self.lateral;
@@ -58,7 +58,7 @@ impl Error {
         if shift > 0.0 { (ROUNDING + shift / squared).min(1.0) } else { ROUNDING }
     }
 
-    /// The same where squares over- or underflow. An error that is not a number claims nothing.
+    /// Returns the same if squares over- or underflow. An error of NaN claims nothing.
     #[cold]
     fn of_extreme(self, slip: &Slip) -> f64 {
         let size = libm::hypot(slip.normal_force, slip.lateral_force);
@@ -72,11 +72,11 @@ impl Error {
 }
 
 impl Slip {
-    /// How far this slip lies from `other`, beyond what is `allowed`.
+    /// Returns the distance of this slip from `other`, beyond what is `allowed`.
     pub(super) fn beyond(&self, other: &Self, allowed: Error) -> Error {
         let excess = |here: f64, there: f64, allowed: f64| {
             let apart = (here - there).abs();
-            // An allowance that is not a number allows nothing.
+            // An allowance of NaN allows nothing.
             if apart <= allowed { 0.0 } else { apart - allowed.max(0.0) }
         };
         Error {
@@ -85,33 +85,33 @@ impl Slip {
         }
     }
 
-    /// This slip, if friction held the tip back.
+    /// Returns this slip, if friction held the tip back.
     ///
     /// # Errors
-    /// [`Failure::StepTooSmall`] for a march that ended in rounding: far outside any laboratory one force may drown
-    /// another.
+    /// [`Failure::StepTooSmall`] for an integration that ended in rounding: far outside any laboratory one force may be
+    /// negligible compared with another.
     pub fn held_back(self) -> Result<Self, Failure> {
         if self.lateral_force < 0.0 || self.twist < 0.0 { Err(Failure::StepTooSmall) } else { Ok(self) }
     }
 
-    /// Relative change of the critical time for a relative change of the force alone.
+    /// Returns the relative change of the critical time for a relative change of the force alone.
     pub fn sensitivity(&self) -> f64 {
         self.slowdown * self.travel / (self.travel + self.advance)
     }
 
-    /// F_cr^2 (N^2).
+    /// Returns F_cr^2 (N^2).
     #[inline(always)]
     pub fn squared(&self) -> f64 {
         self.normal_force * self.normal_force + self.lateral_force * self.lateral_force
     }
 
-    /// A bound of |dF_Y*/dF_Z| here, see [`Substrate::slope`].
+    /// Returns a bound of |dF_Y*/dF_Z| here, see [`Substrate::slope`].
     #[inline(always)]
     pub fn slope(&self, substrate: &Substrate) -> f64 {
         substrate.slope(self.lateral_force, self.normal_force).abs()
     }
 
-    /// The result of a rung, with error and cost left to fill in.
+    /// Creates the result of a rung, without error and cost.
     #[inline]
     pub fn critical(&self, substrate: &Substrate, rung: Fidelity) -> Critical {
         let &Slip { normal_force, lateral_force, twist, contact, .. } = self;
@@ -145,7 +145,7 @@ impl Slip {
 }
 
 impl Critical {
-    /// The state at the slip, without its time.
+    /// Returns the state at the slip, without its time.
     pub(crate) fn slip(&self) -> Slip {
         let contact = Contact { radius: self.contact_radius, indentation: self.indentation };
         let &Self { normal_force, lateral_force, travel, twist, .. } = self;
@@ -153,16 +153,16 @@ impl Critical {
     }
 }
 
-/// Squares whose roots lose nothing to overflow or underflow.
+/// Squares whose roots are not affected by overflow or underflow.
 pub(super) const ORDINARY_SQUARES: RangeInclusive<f64> = 1e-200..=1e200;
 
-/// F_cr from its square, or from its parts (F_Z, F_Y) where the square left the numbers.
+/// Returns F_cr from its square, or from its parts (F_Z, F_Y) if the square overflowed or underflowed.
 #[inline]
 fn magnitude(squared: f64, normal_force: f64, lateral_force: f64) -> f64 {
     if ORDINARY_SQUARES.contains(&squared) { squared.sqrt() } else { libm::hypot(normal_force, lateral_force) }
 }
 
-/// s/V.
+/// Returns s/V.
 #[inline]
 pub(super) fn critical_time(travel: f64, velocity: f64) -> Result<f64, Failure> {
     if velocity == 0.0 {

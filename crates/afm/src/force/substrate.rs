@@ -1,4 +1,4 @@
-//! What holds the particle down: contact and friction on the substrate under a normal force.
+//! The hold on the particle: contact and friction on the substrate under a normal force.
 
 use super::presliding::REACHED;
 use super::slip::Slip;
@@ -13,10 +13,10 @@ pub(crate) struct Substrate<'a> {
     pub scene: &'a Scene,
     pub options: &'a Options,
     pub pair: Pair,
-    /// What adhesion adds to the load that friction feels (N).
+    /// Contribution of adhesion to the load of friction (N).
     pub adhesive_load: f64,
-    /// What adhesion adds to the load that holds the particle down (N): as much, or the pull-off force for laws that
-    /// live on the area of contact.
+    /// Contribution of adhesion to the load that holds the particle down (N): the same, or the pull-off force for laws
+    /// that depend on the area of contact.
     pub support: f64,
     pub drive: Drive,
 }
@@ -35,7 +35,7 @@ impl<'a> Substrate<'a> {
     pub fn new(scene: &'a Scene, options: &'a Options, probe: &Probe, form: LuGreForm) -> Self {
         let pair = Pair::substrate(scene);
         let (adhesive_load, support) = adhesion(options, &pair);
-        // With longer steps a Lemaitre-Carlson layer that is sheared slowly has lost its first peak by a tenth.
+        // With longer steps a Lemaitre-Carlson layer that is sheared slowly loses a tenth of its first peak.
         let coarsest = if options.friction == FrictionLaw::LemaitreCarlson { 1e-6 } else { f64::INFINITY };
         let drive = Drive {
             velocity: scene.velocity,
@@ -43,20 +43,20 @@ impl<'a> Substrate<'a> {
             mass: particle_mass(scene),
             lugre: options.lugre,
             form,
-            // What the laws add to the error of a run is small beside its tolerance.
+            // The errors of the laws are small compared with the tolerance of a run.
             tolerance: (0.01 * options.tolerance).max(1e-10).min(coarsest),
             step_budget: options.step_budget,
         };
         Self { scene, options, pair, adhesive_load, support, drive }
     }
 
-    /// The contact alone under `normal_force` (N).
+    /// Returns only the contact under `normal_force` (N).
     #[inline]
     pub fn contact(&self, normal_force: f64) -> Result<Contact, Failure> {
         self.options.contact.contact(&self.pair, normal_force)
     }
 
-    /// Contact and friction under `normal_force` (N).
+    /// Returns contact and friction under `normal_force` (N).
     #[inline]
     pub(super) fn hold(&self, normal_force: f64) -> Result<Hold, Failure> {
         let contact = self.contact(normal_force)?;
@@ -65,31 +65,31 @@ impl<'a> Substrate<'a> {
         Ok(Hold { contact, capacity: held.force, evaluations: 1 + held.evaluations })
     }
 
-    /// Relative error that the law of friction may add to a capacity.
+    /// Returns the relative error that the law of friction may add to a capacity.
     pub fn error(&self) -> f64 {
         match self.options.friction {
             FrictionLaw::LuGre => self.drive.near_steady(),
-            // Searched for: up to 1.1 times the tolerance of a step.
+            // Found by a search: up to 1.1 times the tolerance of a step.
             FrictionLaw::LemaitreCarlson => 2.0 * self.drive.tolerance,
             _ => 0.0,
         }
     }
 
-    /// The stiffness (N/m) of a spring that is stretched as far as a Lemaitre-Carlson layer is sheared when its force has
-    /// [`REACHED`] that of `slip`.
+    /// Returns the stiffness (N/m) of a spring that is stretched as far as a Lemaitre-Carlson layer is sheared when its
+    /// force is the share [`REACHED`] of that of `slip`.
     ///
     /// # Errors
-    /// Those of the march.
+    /// Those of the integration.
     pub fn layer_stiffness(&self, slip: &Slip) -> Result<f64, Failure> {
         let force = REACHED * slip.lateral_force;
         let travel = LemaitreCarlson(self.scene).travel(slip.contact.radius, force, &self.drive)?;
-        // At least what rounding leaves of a layer far stiffer than the spring.
+        // At least the value that rounding leaves of a layer far stiffer than the spring.
         let sheared = (travel - force / self.drive.stiffness).max(f64::EPSILON * travel);
         Ok(force / sheared)
     }
 
-    /// Bound of the relative error of the time of slip under Stribeck friction where viscosity lifts it above its value at
-    /// rest: from there on the particle moves, and the force only approaches its peak.
+    /// Returns a bound of the relative error of the time of slip under Stribeck friction if viscosity raises it above
+    /// its value at rest: from there on the particle moves, and the force only approaches its peak.
     pub fn viscous_rise(&self, slip: &Slip) -> f64 {
         if self.options.friction != FrictionLaw::Stribeck {
             return 0.0;
@@ -98,14 +98,14 @@ impl<'a> Substrate<'a> {
         10.0 * (1.0 - at_rest / slip.lateral_force).max(0.0)
     }
 
-    /// A bound of dF_Y*/dF_Z at a `normal_force` (N) where friction holds `capacity` (N), for estimates: in proportion
-    /// to the load that friction feels, or to that of the contact for what lives on its area (a^2 grows at most as
-    /// (F_Z + F_ad)^(2/3) by every theory of contact).
+    /// Returns a bound of dF_Y*/dF_Z at a `normal_force` (N) where friction holds `capacity` (N), for estimates: in
+    /// proportion to the load of friction, or to that of the contact for laws that depend on its area (a^2 grows at
+    /// most as (F_Z + F_ad)^(2/3) by every theory of contact).
     #[inline(always)]
     pub fn slope(&self, capacity: f64, normal_force: f64) -> f64 {
         let law = self.options.friction;
         let of_load = if law == FrictionLaw::Coulomb { self.scene.static_friction } else { 0.0 };
-        // Viscous friction feels no load.
+        // Viscous friction does not depend on the load.
         let viscous = if law == FrictionLaw::LuGre { self.scene.viscous_friction * self.scene.velocity } else { 0.0 };
         // A contact that is loaded longer ages longer.
         let ageing = if law == FrictionLaw::Armstrong { 1.05 } else { 1.0 };
@@ -113,15 +113,15 @@ impl<'a> Substrate<'a> {
         of_load + if of_area > 0.0 { ageing * of_area / (normal_force + self.support) } else { 0.0 }
     }
 
-    /// The least normal force (N) under which there is a contact that friction can hold: minus the pull-off force, or
-    /// where the load that friction feels vanishes for laws that live on it. At most zero.
+    /// Returns the least normal force (N) with a contact that friction can hold: minus the pull-off force, or the force
+    /// at which the load of friction vanishes for laws that depend on it. At most zero.
     #[inline(always)]
     pub fn least_normal_force(&self) -> f64 {
         -self.support
     }
 }
 
-/// What adhesion adds to the load that friction feels, and to that which holds the particle down (N).
+/// Returns the contributions of adhesion to the load of friction, and to that which holds the particle down (N).
 #[inline(always)]
 pub(super) fn adhesion(options: &Options, pair: &Pair) -> (f64, f64) {
     let on_area = options.friction.lives_on_area();

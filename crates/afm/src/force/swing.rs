@@ -1,8 +1,8 @@
-//! How the tip swings when the substrate starts: at once at V, while the probe stands still.
+//! The swing of the tip when the substrate starts: at once at V, while the probe is at rest.
 //!
-//! About its apex, which the particle holds, the tip is an undamped oscillator, I_T omega^2 = K_theta + K_y H^2. The start
-//! gives it theta' = V/H where the equilibrium turns at V k_lat H/K_theta only, so it swings by (V - V k_lat H^2/K_theta)/(H omega)
-//! for ever. Rungs without inertia leave this out, and say by these amplitudes what that may cost.
+//! About its apex, which is fixed to the particle, the tip is an undamped oscillator, I_T omega^2 = K_theta + K_y H^2.
+//! The start gives it theta' = V/H while the equilibrium turns only at V k_lat H/K_theta, so it swings by (V - V k_lat
+//! H^2/K_theta)/(H omega) permanently. Rungs without inertia neglect this, and take their error from these amplitudes.
 
 use super::slip::{Error, Slip};
 use super::substrate::Substrate;
@@ -14,23 +14,23 @@ use crate::{FrictionLaw, Scene};
 pub(super) struct Swing {
     /// omega (rad/s).
     pub frequency: f64,
-    /// Of the spring of the cantilever, K_y y_P: V k_lat/omega (N). What a particle on bristles feels.
+    /// Of the spring of the cantilever, K_y y_P: V k_lat/omega (N). It acts on a particle on bristles.
     pub spring: f64,
-    /// Of F_Y, in which the mass of the tip acts too (N).
+    /// Of F_Y, to which the mass of the tip contributes (N).
     pub lateral: f64,
     /// Of F_Z, for each radian of twist (N).
     normal_per_twist: f64,
-    /// Centrifugal force at twice the mean rate of turning, the largest there is (N).
+    /// Centrifugal force at twice the mean rate of turning, the maximum (N).
     centrifugal: f64,
 }
 
-/// I_T = I_c + m H^2/4 (kg m2).
+/// Returns I_T = I_c + m H^2/4 (kg m2).
 #[inline(always)]
 pub(super) fn inertia_about_apex(scene: &Scene) -> f64 {
     scene.effective_tip_inertia() + 0.25 * scene.effective_tip_mass() * scene.height * scene.height
 }
 
-/// Most of the swing that is followed on bristles, from start to slip (rad): steps by the thousand, not by the million.
+/// Maximum swing that is followed on bristles, from start to slip (rad): thousands of steps, not millions.
 const MAX_TURNS: f64 = 1e3;
 
 impl Swing {
@@ -55,29 +55,29 @@ impl Swing {
         }
     }
 
-    /// Of F_Z at a twist (N).
+    /// Returns the amplitude of F_Z at a twist (N).
     #[inline(always)]
     pub fn normal(&self, twist: f64) -> f64 {
         self.centrifugal + twist * self.normal_per_twist
     }
 
-    /// Whether the dynamic rung follows it on bristles, up to a slip after the travel (m) at the velocity (m/s).
+    /// Returns whether the dynamic rung follows it on bristles, for a slip after the travel (m) at the velocity (m/s).
     pub fn is_followed(&self, travel: f64, velocity: f64) -> bool {
         self.frequency * (travel / velocity) < MAX_TURNS
     }
 
-    /// The relative error of the critical time where the swing is left out, which brings the slip forward; at most 1.
+    /// Returns the relative error of the critical time without the swing, which makes the slip earlier; at most 1.
     pub fn of_time(&self, slip: &Slip, substrate: &Substrate) -> f64 {
-        // Bristles feel the spring alone.
+        // Bristles are affected only by the spring.
         let lateral = if slip.slowdown > 1.0 { self.spring } else { self.lateral };
         let amplitude = lateral + self.normal(slip.twist) * slip.slope(substrate);
         let earliest = slip.lateral_force - amplitude * slip.slowdown;
         if earliest > 0.0 { (amplitude / earliest * slip.sensitivity()).min(1.0) } else { 1.0 }
     }
 
-    /// What is left out where the swing is: F_Z swings, and friction with it. The lateral force at the slip is the
-    /// friction's for a particle that sticks until then; on bristles it is the largest of a force that swings with the
-    /// spring.
+    /// Returns the error of neglecting the swing: F_Z swings, and friction with it. The lateral force at the slip is
+    /// that of friction for a particle that sticks until then; on bristles it is the maximum of a force that swings
+    /// with the spring.
     #[inline(always)]
     pub fn left_out(&self, slip: &Slip, substrate: &Substrate) -> Error {
         let normal = self.normal(slip.twist);

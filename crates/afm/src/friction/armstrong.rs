@@ -6,29 +6,29 @@ use crate::Scene;
 /// models, analysis tools and compensation methods for the control of machines with friction", section 4.3).
 ///
 /// Sticking: F = sigma0 x. Sliding: F = {F_C + F_S(gamma, t_d)/[1 + (v(t - tau_l)/v_s)^2]} sgn v + F_v v, with
-/// F_S(gamma, t_d) = F_S,a + (F_S,inf - F_S,a) t_d/(t_d + gamma) after a rest of t_d. Its F_S is what static friction
-/// has above F_C; here F_C = mu_d N, F_S,a = (mu_a - mu_d) N and F_S,inf = (mu_s - mu_d) N.
+/// F_S(gamma, t_d) = F_S,a + (F_S,inf - F_S,a) t_d/(t_d + gamma) after a rest of t_d. Its F_S is the part of static
+/// friction above F_C; here F_C = mu_d N, F_S,a = (mu_a - mu_d) N and F_S,inf = (mu_s - mu_d) N.
 #[derive(Clone, Copy, Debug)]
 pub struct Armstrong<'a>(pub &'a Scene);
 
-/// How a sticking contact comes to slide.
+/// How a sticking contact is loaded until it slides.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Loading {
     /// Rate at which the force grows (N/s), >= 0.
     pub rate: f64,
-    /// Time at rest before it does (s), >= 0.
+    /// Time at rest before it grows (s), >= 0.
     pub rest: f64,
 }
 
 impl Armstrong<'_> {
-    /// Static friction F_C + F_S(gamma, t_d) (N) under `load` (N) after a rest of `dwell` (s), which may be infinite.
+    /// Returns the static friction F_C + F_S(gamma, t_d) (N) under `load` (N) after a rest of `dwell` (s <= infinity).
     pub fn static_force(&self, load: f64, dwell: f64) -> f64 {
         let aged = 1.0 / (1.0 + self.0.dwell_constant / dwell);
         load * (self.0.fresh_friction * (1.0 - aged) + self.0.static_friction * aged)
     }
 
-    /// Friction of sliding at `velocity` (m/s), >= 0, under `load` (N), where `lagged` is the velocity one lag ago and
-    /// `dwell` (s) the rest before it slid.
+    /// Returns the friction of sliding at `velocity` (m/s), >= 0, under `load` (N), where `lagged` is the velocity one
+    /// lag ago and `dwell` (s) the rest before it slid.
     pub fn sliding_force(&self, load: f64, velocity: f64, lagged: f64, dwell: f64) -> f64 {
         let coulomb = self.0.dynamic_friction * load;
         let ratio = lagged / self.0.stribeck_velocity;
@@ -36,8 +36,8 @@ impl Armstrong<'_> {
         coulomb + excess / (1.0 + ratio * ratio) + self.0.viscous_friction * velocity
     }
 
-    /// The force (N) at which a sticking contact breaks away when loaded steadily: static friction after the rest and the
-    /// loading itself, F = static_force(rest + F/rate), the positive root of a quadratic.
+    /// Returns the force (N) at which a sticking contact breaks away when loaded steadily: static friction after the
+    /// rest and the loading itself, F = static_force(rest + F/rate), the positive root of a quadratic.
     pub fn break_away(&self, load: f64, loading: Loading) -> f64 {
         let Loading { rate, rest } = loading;
         let fresh = self.0.fresh_friction * load;
@@ -46,7 +46,7 @@ impl Armstrong<'_> {
         let p = rate * (rest + self.0.dwell_constant) - fresh - gain;
         let q = rate * (fresh * self.0.dwell_constant + (fresh + gain) * rest);
         if !(p.is_finite() && q.is_finite()) {
-            // Loaded at once.
+            // Instantaneous loading.
             return self.static_force(load, rest);
         }
         let half = 0.5 * p;
@@ -61,7 +61,7 @@ mod tests {
 
     use super::*;
 
-    /// Fresh at once, halfway after gamma, old for ever.
+    /// Fresh at the start, halfway after gamma, old in the limit.
     #[test]
     fn static_friction_rises_with_the_dwell_time() {
         for (dwell, coefficient) in [(0.0, 0.75), (1.0, 0.775), (f64::INFINITY, 0.8)] {
@@ -77,7 +77,7 @@ mod tests {
         assert!((at(1e3) - (0.7 + 1e-4)).abs() < 1e-12);
     }
 
-    /// Friction answers the velocity of one lag ago: the same velocity, slower before, holds more.
+    /// Friction depends on the velocity one lag ago: the same velocity, slower before, holds more.
     #[test]
     fn friction_lags() {
         let at = |lagged| Armstrong(&Scene::default()).sliding_force(1.0, 1e-3, lagged, 1.0);
@@ -85,7 +85,7 @@ mod tests {
     }
 
     proptest! {
-        /// The quadratic's root solves the equation it came from; 1e-12 through cancelling terms of p.
+        /// The root of the quadratic solves the original equation; 1e-12 because terms of p cancel.
         #[test]
         fn break_away_is_consistent(rate in -12.0..3.0_f64, rest in 0.0..10.0_f64, fresh in 0.0..1.0_f64) {
             let scene = Scene { fresh_friction: fresh, ..Scene::default() };

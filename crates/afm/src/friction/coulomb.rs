@@ -15,13 +15,13 @@ pub struct Coulomb {
 }
 
 impl Coulomb {
-    /// The law with the constants of `scene`.
+    /// Creates the law with the constants of `scene`.
     #[inline(always)]
     pub fn from_scene(scene: &Scene) -> Self {
         Self { coefficient: scene.static_friction, shear_strength: scene.shear_strength }
     }
 
-    /// The largest lateral force (N).
+    /// Returns the largest lateral force (N).
     #[inline(always)]
     pub fn capacity(&self, pressed: Pressed) -> f64 {
         self.coefficient * pressed.load + self.shear_strength * (PI * pressed.radius * pressed.radius)

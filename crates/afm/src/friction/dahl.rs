@@ -10,13 +10,13 @@ use crate::Scene;
 pub struct Dahl<'a>(pub &'a Scene);
 
 impl Dahl<'_> {
-    /// The force that it approaches and never exceeds from below, F_C (N), at the load (N).
+    /// Returns the force that it approaches and never exceeds from below, F_C (N), at the load (N).
     #[inline]
     pub fn capacity(&self, load: f64) -> f64 {
         self.0.dynamic_friction * load
     }
 
-    /// dF/dx (N/m) at the force `force` (N) under `load` (N) when moving in the `direction` (1 or -1).
+    /// Returns dF/dx (N/m) at the force `force` (N) under `load` (N) when moving in the `direction` (1 or -1).
     pub fn slope(&self, load: f64, force: f64, direction: f64) -> f64 {
         let reserve = 1.0 - force / self.capacity(load) * direction;
         self.0.bristle_stiffness * libm::pow(reserve.abs(), self.0.dahl_exponent).copysign(reserve)

@@ -28,21 +28,21 @@ pub struct HurtadoKim {
 }
 
 impl HurtadoKim {
-    /// The law with the constants of `scene`.
+    /// Creates the law with the constants of `scene`.
     #[inline]
     pub fn from_scene(scene: &Scene) -> Self {
         let &Scene { particle_shear_modulus: g1, substrate_shear_modulus: g2, burgers_vector, .. } = scene;
         Self { shear_modulus: 2.0 * g1 * g2 / (g1 + g2), burgers_vector }
     }
 
-    /// The largest lateral force (N) of a contact of radius `radius` (m).
+    /// Returns the largest lateral force (N) of a contact of radius `radius` (m).
     #[inline]
     pub fn capacity(&self, radius: f64) -> f64 {
         PI * radius * radius * self.shear_modulus * strength(radius / self.burgers_vector)
     }
 }
 
-/// tbar: shear strength over G*, at the contact radius in Burgers vectors.
+/// Returns tbar: shear strength over G*, at the contact radius in Burgers vectors.
 #[inline]
 fn strength(radius: f64) -> f64 {
     if radius <= SMALL_RADIUS {
@@ -58,7 +58,7 @@ fn strength(radius: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// The published form, M log10(abar) + B, written out; 1e-14 for its cancelling logarithms.
+    /// The published form, M log10(abar) + B, in full; 1e-14 because its logarithms cancel.
     #[test]
     fn agrees_with_the_published_line() {
         let (t1, t2, a1, a2) = (SMALL_STRENGTH, LARGE_STRENGTH, SMALL_RADIUS, LARGE_RADIUS);
@@ -82,8 +82,7 @@ mod tests {
         }
     }
 
-    /// Across a breakpoint the strength may move by rounding only: 1e-15 through a power of about
-    /// one unit roundoff.
+    /// Across a breakpoint the strength may change only by rounding: 1e-15 through a power of about one unit roundoff.
     #[test]
     fn is_continuous_at_both_breakpoints() {
         for edge in [SMALL_RADIUS, LARGE_RADIUS] {

@@ -23,18 +23,18 @@ pub(super) struct Sheared<'a> {
 }
 
 impl<'a> LemaitreCarlson<'a> {
-    /// The layer over the area (m2) pulled at `velocity` (m/s), > 0, through a spring of `stiffness` (N/m), which may be
-    /// infinite.
+    /// Creates the layer over the area (m2) pulled at `velocity` (m/s), > 0, through a spring of `stiffness` (N/m),
+    /// which may be infinite.
     pub(super) fn sheared(&self, area: f64, velocity: f64, stiffness: f64) -> Sheared<'a> {
         let thickness = 2.0 * self.0.layer_half_thickness;
         let modulus = 1.0 / (1.0 / self.0.layer_modulus + area / (thickness * stiffness));
         Sheared { scene: self.0, rate: velocity / thickness, modulus: modulus / self.0.layer_stress }
     }
 
-    /// The first peak of the force (N) when pulled steadily.
+    /// Returns the first peak of the force (N) when pulled steadily.
     ///
     /// # Errors
-    /// [`Failure::VelocityZero`], since the layer grows stronger for ever while it is not sheared; those of [`March`].
+    /// [`Failure::VelocityZero`], since the layer grows stronger without limit at rest; those of [`March`].
     pub fn capacity(&self, pressed: Pressed, drive: &Drive) -> Result<Held, Failure> {
         if drive.velocity == 0.0 {
             return Err(Failure::VelocityZero);
@@ -45,15 +45,15 @@ impl<'a> LemaitreCarlson<'a> {
         }
         let layer = self.sheared(area, drive.velocity, drive.stiffness);
         let mut march = March::<Rodas, _, 2>::new(&layer, (0.0, [0.0, self.0.initial_disorder]), layer.control(drive));
-        // Near enough to gam' = V/(2h) that the rise left is below the tolerance, reached or only approached.
+        // So close to gam' = V/(2h) that the remaining rise is below the tolerance, reached or only approached.
         let near = drive.tolerance * (1.0 / layer.modulus).min(1.0);
         let (Outcome::Event(end) | Outcome::Horizon(end)) =
             march.until(f64::MAX, |_, y| Ok(layer.plastic_rate(y) - 1.0 + near))?;
         Ok(Held { force: area * self.0.layer_stress * end.y[0], evaluations: march.evaluations() })
     }
 
-    /// Travel (m) of the far end of the spring when the force on a contact of `radius` (m) first reaches `force` (N), which
-    /// lies below the first peak.
+    /// Returns the travel (m) of the far end of the spring when the force on a contact of `radius` (m) first reaches
+    /// `force` (N), which is below the first peak.
     ///
     /// # Errors
     /// As [`capacity`](Self::capacity).
@@ -69,9 +69,9 @@ impl<'a> LemaitreCarlson<'a> {
         Ok(2.0 * self.0.layer_half_thickness * end.t)
     }
 
-    /// The stress of steady sliding at `velocity` (m/s), > 0 (Pa): the disorder at which ageing balances plastic work,
-    /// chi = kappa/ln(E1/(alpha sig gam')), put into gam' = V/(2h). Where work outruns ageing, chi grows without bound and
-    /// exp(-1/chi) is one.
+    /// Returns the stress of steady sliding at `velocity` (m/s), > 0 (Pa): the disorder at which ageing balances
+    /// plastic work, chi = kappa/ln(E1/(alpha sig gam')), inserted in gam' = V/(2h). If work exceeds ageing, chi grows
+    /// without bound and exp(-1/chi) is one.
     ///
     /// # Errors
     /// [`Failure::VelocityZero`] at rest.
@@ -93,7 +93,7 @@ impl<'a> LemaitreCarlson<'a> {
     }
 }
 
-/// exp(-barrier/chi); nothing is left to age or rearrange at chi = 0.
+/// Returns exp(-barrier/chi); at chi = 0 there is no ageing and no rearrangement.
 pub(super) fn activation(barrier: f64, disorder: f64) -> f64 {
     if disorder > 0.0 { libm::exp(-barrier / disorder) } else { 0.0 }
 }
@@ -101,7 +101,7 @@ pub(super) fn activation(barrier: f64, disorder: f64) -> f64 {
 impl Sheared<'_> {
     pub(super) fn control(&self, drive: &Drive) -> Control<2> {
         let disorder = self.scene.initial_disorder;
-        // Where it is sheared slowly it ages long before it strains, of which a first step by the strain alone sees nothing.
+        // If it is sheared slowly it ages long before it strains, which a first step by the strain alone would miss.
         let ageing = self.scene.ageing_rate / self.rate * activation(self.scene.ageing_barrier, disorder);
         Control {
             tolerance: drive.tolerance,
@@ -112,7 +112,7 @@ impl Sheared<'_> {
         }
     }
 
-    /// gam' in units of V/(2h).
+    /// Returns gam' in units of V/(2h).
     pub(super) fn plastic_rate(&self, &[s, disorder]: &[f64; 2]) -> f64 {
         self.scene.rearrangement_rate / self.rate * activation(1.0, disorder) * libm::sinh(s)
     }
@@ -149,8 +149,8 @@ mod tests {
 
     const PRESSED: Pressed = Pressed { load: 4.9e-7, radius: 9.09e-9 };
 
-    /// Stress over mubar over the last half of a strain of `strain`, at `velocity` through a spring of `stiffness`:
-    /// least and largest.
+    /// Returns the stress over mubar over the last half of a strain of `strain`, at `velocity` through a spring of
+    /// `stiffness`: minimum and maximum.
     fn swing(velocity: f64, stiffness: f64, strain: f64) -> (f64, f64) {
         let drive = Drive { tolerance: 1e-6, ..Drive::from_scene(&Scene::default(), stiffness) };
         let scene = Scene::default();
@@ -167,7 +167,7 @@ mod tests {
         (least, largest)
     }
 
-    /// On a stiff spring the stress peaks and settles; on a soft one it sticks and slips. 1e-4 is what is left of the
+    /// On a stiff spring the stress peaks and settles; on a soft one it sticks and slips. 1e-4 is the rest of the
     /// settling.
     #[test]
     fn stick_slip_gives_way_to_steady_sliding() {
@@ -179,7 +179,7 @@ mod tests {
         assert!(largest > 1.5 * least, "{least} {largest}");
     }
 
-    /// About the shear strength of 28 MPa at 100 nm/s, which the defaults were chosen for; weaker when faster.
+    /// About the shear strength of 28 MPa at 100 nm/s, for which the defaults were chosen; weaker when faster.
     #[test]
     fn steady_sliding_weakens_with_velocity() {
         let stress = |velocity| LemaitreCarlson(&Scene::default()).steady_stress(velocity).unwrap();
@@ -188,7 +188,7 @@ mod tests {
         assert_eq!(LemaitreCarlson(&Scene::default()).steady_stress(0.0), Err(Failure::VelocityZero));
     }
 
-    /// Break-away lies above steady sliding, and higher for an older (less disordered) layer.
+    /// Break-away is above steady sliding, and higher for an older (less disordered) layer.
     #[test]
     fn break_away_rises_with_age() {
         let drive = Drive::from_scene(&Scene::default(), 30.0);

@@ -7,13 +7,13 @@ use apportion::names::named;
 use crate::Scene;
 
 named! {
-    /// Where stiffness and damping of the LuGre bristles come from.
+    /// The source of stiffness and damping of the LuGre bristles.
     pub enum LuGreParameters {
-        /// The constants of the scene. As in the Sobol' study of this law, where therefore neither the contact modulus
-        /// nor the adhesion can act.
+        /// The constants of the scene. As in the Sobol' study of this law, where neither the contact modulus nor the
+        /// adhesion therefore has an effect.
         Frozen = "frozen",
-        /// The contact: sigma0 = 8 G_eff a with 1/G_eff = (2 - nu1)/G1 + (2 - nu2)/G2 (Mindlin 1949), and critical damping
-        /// of the particle, sigma1 = 2 sqrt(sigma0 m_p).
+        /// The contact: sigma0 = 8 G_eff a with 1/G_eff = (2 - nu1)/G1 + (2 - nu2)/G2 (Mindlin 1949), and critical
+        /// damping of the particle, sigma1 = 2 sqrt(sigma0 m_p).
         Contact = "contact",
     }
 }
@@ -38,14 +38,14 @@ pub struct LuGre {
     pub stribeck_velocity: f64,
 }
 
-/// The mass of the particle, a sphere (kg).
+/// Returns the mass of the particle, a sphere (kg).
 pub(crate) fn particle_mass(scene: &Scene) -> f64 {
     let r = scene.particle_radius;
     scene.particle_density * (4.0 / 3.0) * PI * (r * r * r)
 }
 
 impl LuGre {
-    /// The law with the constants of `scene`.
+    /// Creates the law with the constants of `scene`.
     #[inline(always)]
     pub fn from_scene(scene: &Scene) -> Self {
         Self {
@@ -58,7 +58,7 @@ impl LuGre {
         }
     }
 
-    /// The law with `parameters` for a contact of radius `radius` (m).
+    /// Creates the law with `parameters` for a contact of radius `radius` (m).
     pub fn with(scene: &Scene, parameters: LuGreParameters, radius: f64) -> Self {
         let law = Self::from_scene(scene);
         match parameters {
@@ -72,25 +72,25 @@ impl LuGre {
         }
     }
 
-    /// dz/dt (m/s) at the deflection `z` (m) and the velocity `v` (m/s) under `load` (N), > 0.
+    /// Returns dz/dt (m/s) at the deflection `z` (m) and the velocity `v` (m/s) under `load` (N), > 0.
     pub fn deflection_rate(&self, load: f64, z: f64, v: f64) -> f64 {
         v - self.stiffness * v.abs() * z / self.stribeck(load, v)
     }
 
-    /// The friction force (N) at the deflection `z` (m) and the velocity `v` (m/s) under `load` (N), > 0.
+    /// Returns the friction force (N) at the deflection `z` (m) and the velocity `v` (m/s) under `load` (N), > 0.
     pub fn force(&self, load: f64, z: f64, v: f64) -> f64 {
         self.stiffness * z + self.damping * self.deflection_rate(load, z, v) + self.viscous_friction * v
     }
 
-    /// dFss/dv (N s/m).
+    /// Returns dFss/dv (N s/m).
     pub fn stribeck_slope(&self, load: f64, velocity: f64) -> f64 {
         let ratio = velocity / self.stribeck_velocity;
         let drop = load * (self.static_friction - self.dynamic_friction);
         -2.0 * drop * ratio / self.stribeck_velocity * libm::exp(-ratio * ratio)
     }
 
-    /// The Stribeck curve Fss(v) = F_C + (F_S - F_C) exp(-(v/v_s)^2) at the load N (N), with F_S =
-    /// mu_s N and F_C = mu_d N (N).
+    /// Returns the Stribeck curve Fss(v) = F_C + (F_S - F_C) exp(-(v/v_s)^2) at the load N (N), with F_S = mu_s N and
+    /// F_C = mu_d N (N).
     #[inline]
     pub fn stribeck(&self, load: f64, velocity: f64) -> f64 {
         let ratio = velocity / self.stribeck_velocity;
@@ -99,15 +99,15 @@ impl LuGre {
         load * (self.static_friction * (1.0 - slid) + self.dynamic_friction * slid)
     }
 
-    /// The force of steady sliding, Fss(v) + sigma2 v (N), at the load (N) and the velocity (m/s),
+    /// Returns the force of steady sliding, Fss(v) + sigma2 v (N), at the load (N) and the velocity (m/s),
     /// >= 0.
     #[inline]
     pub fn steady_force(&self, load: f64, velocity: f64) -> f64 {
         self.stribeck(load, velocity) + self.viscous_friction * velocity
     }
 
-    /// Whether `velocity` (m/s) is so far below the Stribeck velocity (1 %) that the steady force
-    /// stands for the peak of the ramp.
+    /// Returns whether `velocity` (m/s) is so far below the Stribeck velocity (1 %) that the steady force can replace
+    /// the peak of the ramp.
     #[inline(always)]
     pub fn is_slow(&self, velocity: f64) -> bool {
         velocity <= 0.01 * self.stribeck_velocity
@@ -139,15 +139,15 @@ mod tests {
         assert_eq!(LAW.steady_force(5e-7, 0.1), 0.7 * 5e-7 + 0.3 * 0.1);
     }
 
-    /// At v = v_s the curve is down to 1/e of the way; 1e-15 is a few roundings.
+    /// At v = v_s the curve is down to 1/e; 1e-15 is a few roundings.
     #[test]
     fn at_the_stribeck_velocity() {
         let expected = 0.7 + 0.1 * libm::exp(-1.0_f64);
         assert!((LAW.stribeck(1.0, 1e-3) - expected).abs() < 1e-15);
     }
 
-    /// By hand: G_eff = 1/(1.58/27 + 1.83/31.2) GPa = 8.5354 GPa, sigma0 = 8 G_eff 9.09 nm = 620.7 N/m; m_p = 1.01054e-17
-    /// kg; sigma1 = 2 sqrt(620.7 * 1.01054e-17). The study's constants 625 and 1.6e-7 are these, rounded.
+    /// By hand: G_eff = 1/(1.58/27 + 1.83/31.2) GPa = 8.5354 GPa, sigma0 = 8 G_eff 9.09 nm = 620.7 N/m; m_p =
+    /// 1.01054e-17 kg; sigma1 = 2 sqrt(620.7 * 1.01054e-17). The study's constants 625 and 1.6e-7 are these, rounded.
     #[test]
     fn the_parameters_of_the_contact_explain_the_frozen_ones() {
         let law = LuGre::with(&Scene::default(), LuGreParameters::Contact, 9.09e-9);
@@ -177,7 +177,7 @@ mod tests {
     }
 
     proptest! {
-        /// Between the two coefficients whichever is larger, and as published: 4e-16 a few roundings of numbers <= 2.
+        /// Between the two coefficients, whichever is larger, and as published: 4e-16 for roundings of numbers <= 2.
         #[test]
         fn lies_between_the_coefficients(mu_s in 0.0..2.0_f64, mu_d in 0.0..2.0_f64, velocity in 0.0..5e-3_f64) {
             let law = LuGre { static_friction: mu_s, dynamic_friction: mu_d, ..LAW };

@@ -1,7 +1,7 @@
 //! The largest lateral force the substrate contact can hold before the particle slips, F_Y*.
 //!
-//! One law a file. Laws with a state (LuGre, Dahl, Armstrong, Lemaitre-Carlson) answer with the peak of the force when
-//! a spring pulls ever harder, the break-away force.
+//! One law per file. Laws with a state (LuGre, Dahl, Armstrong, Lemaitre-Carlson) return the peak of the force when a
+//! spring pulls harder and harder, the break-away force.
 
 mod armstrong;
 mod coulomb;
@@ -47,17 +47,17 @@ named! {
     }
 }
 
-/// The substrate contact as friction feels it.
+/// The load and size of the substrate contact for friction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pressed {
-    /// Normal load N, with the adhesive part where the options ask for it (N), >= 0; below 0 for laws that live on
-    /// the contact area too.
+    /// Normal load N, with the adhesive part if the options say so (N), >= 0; below 0 for laws that depend on the
+    /// contact area too.
     pub load: f64,
     /// Contact radius a (m), >= 0.
     pub radius: f64,
 }
 
-/// How the break-away force of LuGre friction is found.
+/// How the break-away force of LuGre friction is computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum LuGreForm {
     /// As the force of steady sliding, Fss(V) + sigma2 V: good for V far below v_s.
@@ -66,7 +66,7 @@ pub enum LuGreForm {
     Ramp,
 }
 
-/// How the particle is pulled.
+/// The pull on the particle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Drive {
     /// Velocity V of the far end of the spring (m/s), >= 0.
@@ -81,32 +81,32 @@ pub struct Drive {
     pub form: LuGreForm,
     /// Relative tolerance of the laws that are integrated, > 0.
     pub tolerance: f64,
-    /// Most steps of an integration.
+    /// Maximum number of steps of an integration.
     pub step_budget: u64,
 }
 
-/// The largest force that friction holds, and what it cost to find.
+/// The largest force that friction holds, and the cost of its computation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Held {
     /// F_Y* (N).
     pub force: f64,
-    /// Evaluations of rates of change.
+    /// Number of evaluations of rates of change.
     pub evaluations: u64,
 }
 
 impl Held {
-    /// This force, if it lies in `range`.
+    /// Returns this force, if it is in `range`.
     ///
     /// # Errors
-    /// [`Failure::StepTooSmall`] for a march that has missed what would have limited it.
+    /// [`Failure::StepTooSmall`] for an integration that has missed its limit.
     fn within(self, range: std::ops::RangeInclusive<f64>) -> Result<Self, Failure> {
         if range.contains(&self.force) { Ok(self) } else { Err(Failure::StepTooSmall) }
     }
 }
 
 impl Drive {
-    /// Pulled at the velocity of `scene` through a spring of `stiffness` (N/m): frozen LuGre parameters, fast form, a
-    /// tolerance of 1e-8 and a million steps.
+    /// Creates a drive at the velocity of `scene` through a spring of `stiffness` (N/m): frozen LuGre parameters, fast
+    /// form, a tolerance of 1e-8 and a million steps.
     pub fn from_scene(scene: &Scene, stiffness: f64) -> Self {
         Self {
             velocity: scene.velocity,
@@ -119,19 +119,19 @@ impl Drive {
         }
     }
 
-    /// How near to the peak of a LuGre ramp the force of steady sliding may stand for it, relatively. What an integration
-    /// gains over a bound this near is lost in the tolerance of a run, of which `tolerance` is the hundredth part.
+    /// Returns the relative distance up to which the force of steady sliding can replace the peak of a LuGre ramp. A
+    /// more accurate integration is lost in the tolerance of a run, of which `tolerance` is the hundredth part.
     pub(crate) fn near_steady(&self) -> f64 {
         10.0 * self.tolerance
     }
 }
 
 impl FrictionLaw {
-    /// F_Y*: the largest lateral force (N) that the contact holds, with the constants of `scene`.
+    /// Returns F_Y*: the largest lateral force (N) that the contact holds, with the constants of `scene`.
     ///
     /// # Errors
-    /// [`Failure::StepBudget`] and [`Failure::StepTooSmall`] of the laws that are integrated;
-    /// [`Failure::VelocityZero`] for Lemaitre-Carlson at rest, whose layer grows stronger for ever.
+    /// [`Failure::StepBudget`] and [`Failure::StepTooSmall`] of the laws that are integrated; [`Failure::VelocityZero`]
+    /// for Lemaitre-Carlson at rest, whose layer grows stronger without limit.
     #[inline]
     pub fn capacity(self, scene: &Scene, pressed: Pressed, drive: &Drive) -> Result<Held, Failure> {
         let load = pressed.load;
@@ -155,7 +155,7 @@ impl FrictionLaw {
         Ok(Held { force, evaluations: 0 })
     }
 
-    /// Whether friction still holds under a load below zero, by the area that adhesion keeps together.
+    /// Returns whether friction still holds under a load below zero, by the area that adhesion keeps together.
     #[inline]
     pub fn lives_on_area(self) -> bool {
         matches!(self, Self::Coulomb | Self::HurtadoKim | Self::LemaitreCarlson)

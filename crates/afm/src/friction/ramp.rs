@@ -7,9 +7,9 @@ use crate::ode::{Control, End, March, Outcome, Problem, Rodas};
 /// dF/dt = k_lat (V - v), with v from the balance F = sigma0 z + sigma1 z' + sigma2 v of a massless particle, or from
 /// m v' = F - friction of one with mass.
 ///
-/// In units of F0, the largest friction at hand, for forces, V for velocities and F0/(k_lat V) for time: p = sigma0 z,
-/// u = v, and w = (F - p)/s, the force on the dashpots in units of s, their size at V. So F is not subtracted from p,
-/// which it equals to many digits.
+/// In units of F0, the largest friction of the problem, for forces, V for velocities and F0/(k_lat V) for time: p =
+/// sigma0 z, u = v, and w = (F - p)/s, the force on the dashpots in units of s, their size at V. So F is not subtracted
+/// from p, with which it agrees to many digits.
 #[derive(Clone, Copy)]
 pub(super) struct Ramp {
     law: LuGre,
@@ -22,13 +22,13 @@ pub(super) struct Ramp {
     damping: f64,
     viscosity: f64,
     dashpots: f64,
-    /// m k_lat V^2/F0^2 over `dashpots`; 0 for a particle whose mass does not matter.
+    /// m k_lat V^2/F0^2 over `dashpots`; 0 for a particle with negligible mass.
     mass: f64,
     inertia: f64,
 }
 
-/// The largest force of the ramp (N). Its peak, where v reaches V; the force of steady sliding where v tends to V from
-/// below.
+/// Returns the largest force of the ramp (N): its peak, where v reaches V; the force of steady sliding if v tends to V
+/// from below.
 ///
 /// # Errors
 /// Those of [`March`].
@@ -40,12 +40,12 @@ pub(super) fn peak(law: &LuGre, load: f64, drive: &Drive) -> Result<Held, Failur
         return Ok(Held { force: steady, evaluations: 0 });
     }
     let ramp = Ramp::new(law, load, drive);
-    // Bristles hold no more than the largest friction, the dashpots up to V no more than at V, and a mass that is brought to
-    // V takes V sqrt(k_lat m): more comes of steps too long to see the bristles give way, far outside any laboratory.
+    // Bristles hold no more than the largest friction, the dashpots up to V no more than at V, and a mass accelerated
+    // to V takes V sqrt(k_lat m): more is due to steps that are too long for the bristles, far outside any laboratory.
     let inertial = velocity * (drive.stiffness * drive.mass).sqrt();
     let most = largest + (law.damping + law.viscous_friction) * velocity + inertial;
-    // The rise left when v is this near V is below the tolerance, whether v passes V or only tends to it. The start, where
-    // inertia may let v swing past V, is left out.
+    // The remaining rise when v is this close to V is below the tolerance, whether v passes V or only tends to it. The
+    // start, where inertia may let v swing past V, is excluded.
     let near = drive.tolerance * ramp.stiffness.min(1.0);
     let (end, evaluations) =
         ramp.climb(drive, |ramp, y| if ramp.force(y) > 0.1 * ramp.unit { y[2] - 1.0 + near } else { -1.0 })?;
@@ -53,7 +53,7 @@ pub(super) fn peak(law: &LuGre, load: f64, drive: &Drive) -> Result<Held, Failur
     climbed.within(UNDERSHOOT * steady..=OVERSHOOT * most)
 }
 
-/// Travel V t (m) of the far end of the spring when the force first reaches `force` (N), below its peak; and the evaluations.
+/// Returns the travel V t (m) of the spring's far end when the force first reaches `force` (N), and the evaluations.
 ///
 /// # Errors
 /// Those of [`March`].
@@ -63,17 +63,17 @@ pub(crate) fn travel(law: &LuGre, load: f64, drive: &Drive, force: f64) -> Resul
     Ok((end.t * ramp.unit / drive.stiffness, evaluations))
 }
 
-/// What a peak may exceed its bound by.
+/// Factor by which a peak may exceed its bound.
 const OVERSHOOT: f64 = 1.01;
-/// Share of the force of steady sliding that a peak reaches in any case.
+/// Share of the force of steady sliding that a peak always reaches.
 const UNDERSHOOT: f64 = 0.5;
 
-/// Whether the peak lies [near enough](Drive::near_steady) to the force of steady sliding, by bounds.
+/// Returns whether the peak is [near enough](Drive::near_steady) to the force of steady sliding, by bounds.
 ///
-/// The force rises while v is below V. Where v only tends to V, it is the steady force that is approached. Where v passes
-/// V, p = sigma0 z must be above Fss(V) then: by Fss(0) - Fss(V) at most. And p passes Fss(V) while v is still below V;
-/// from then on p' <= W F' with W = sigma0 V |Fss'|/(k_lat Fss), the rest, (1 - W) F' at least, moves the dashpots on to V,
-/// and so p gains W/(1 - W) of their force at most.
+/// The force rises while v is below V. If v only tends to V, the steady force is approached. If v passes V, p = sigma0
+/// z must be above Fss(V) then: by Fss(0) - Fss(V) at most. And p passes Fss(V) while v is still below V; from then on
+/// p' <= W F' with W = sigma0 V |Fss'|/(k_lat Fss), the rest, (1 - W) F' at least, moves the dashpots on to V, and so p
+/// gains W/(1 - W) of their force at most.
 fn stays_near_steady(law: &LuGre, load: f64, drive: &Drive) -> bool {
     let velocity = drive.velocity;
     let strength = law.stribeck(load, velocity);
@@ -111,14 +111,14 @@ impl Ramp {
         }
     }
 
-    /// The transmitted force (N).
+    /// Returns the transmitted force (N).
     fn force(&self, y: &[f64; 3]) -> f64 {
         self.unit * (y[0] + self.dashpots * y[1])
     }
 
-    /// Marches until `event` rises through zero.
+    /// Integrates until `event` rises through zero.
     fn climb(&self, drive: &Drive, event: impl Fn(&Self, &[f64; 3]) -> f64) -> Result<(End<3>, u64), Failure> {
-        // The velocity of a particle that swings on its bristles counts by what it moves them: u over the frequency.
+        // The velocity of a particle swinging on its bristles is weighted by its effect on them: u over the frequency.
         let inertia = self.mass * self.dashpots;
         let swing = if inertia > 0.0 { ((1.0 + self.stiffness) / inertia).sqrt().max(1.0) } else { 1.0 };
         let control = Control {
@@ -131,7 +131,7 @@ impl Ramp {
         let mut march = March::<Rodas, _, 3>::new(self, (0.0, [0.0; 3]), control);
         match march.until(f64::MAX, |_, y| Ok(event(self, y))) {
             Ok(Outcome::Event(end) | Outcome::Horizon(end)) => Ok((end, march.evaluations())),
-            // Where friction weakens faster than the dashpots hold, a massless particle has no velocity to go on with.
+            // If friction weakens faster than the dashpots hold, the velocity of a massless particle is undefined.
             Err(Failure::StepTooSmall) if self.mass == 0.0 && self.inertia > 0.0 => {
                 Self { mass: self.inertia, ..*self }.climb(drive, event)
             }
@@ -143,7 +143,7 @@ impl Ramp {
         self.law.stribeck(self.load, u * self.velocity) / self.unit
     }
 
-    /// z'/V.
+    /// Returns z'/V.
     fn sprung(&self, p: f64, u: f64) -> f64 {
         u - u.abs() * p / self.strength(u)
     }
@@ -240,7 +240,7 @@ mod tests {
         }
     }
 
-    /// Far below v_s the peak is the steady force; at 100 nm/s it takes 1e-9 of the Stribeck curve to tell them apart.
+    /// Far below v_s the peak is the steady force; at 100 nm/s they differ by 1e-9 of the Stribeck curve.
     #[test]
     fn slow_ramps_peak_at_the_fast_form() {
         for velocity in [0.0, 1e-9, 1e-7, 8e-7] {
@@ -251,8 +251,8 @@ mod tests {
         }
     }
 
-    /// Near v_s friction weakens so fast that the particle breaks loose above the steady force, and below static friction
-    /// plus dashpots.
+    /// Near v_s friction weakens so fast that the particle breaks loose above the steady force, and below static
+    /// friction plus dashpots.
     #[test]
     fn fast_ramps_overshoot() {
         let velocity = 1e-3;

@@ -9,15 +9,15 @@ use crate::{Failure, Scene};
 pub struct Stribeck<'a>(pub &'a Scene);
 
 impl Stribeck<'_> {
-    /// Friction of sliding at `velocity` (m/s), >= 0, under `load` (N); at rest the break-away force F_S (N).
+    /// Returns the friction of sliding at `velocity` (m/s), >= 0, under `load` (N); at rest the break-away force F_S.
     pub fn force(&self, load: f64, velocity: f64) -> f64 {
         let slid = -libm::expm1(-libm::pow(velocity / self.0.stribeck_velocity, self.0.stribeck_exponent));
         load * (self.0.static_friction * (1.0 - slid) + self.0.dynamic_friction * slid)
             + self.0.viscous_friction * velocity
     }
 
-    /// The first peak of F(v) for v from 0 to `velocity` (m/s) (N): where a particle pulled ever harder breaks away, or
-    /// the force at `velocity` if friction holds it all the way.
+    /// Returns the first peak of F(v) for v from 0 to `velocity` (m/s) (N): where a particle pulled harder and harder
+    /// breaks away, or the force at `velocity` if friction holds it all the way.
     ///
     /// # Errors
     /// None of its own; the search for the peak cannot fail.
@@ -33,7 +33,7 @@ impl Stribeck<'_> {
         let steepest = if d > 1.0 { libm::pow((d - 1.0) / d, 1.0 / d) } else { 0.0 };
         let end = (velocity / self.0.stribeck_velocity).min(steepest);
         if d <= 1.0 {
-            // Steepest at once, and flatter ever after.
+            // Steepest at the start, and flatter afterwards.
             let at_rest = if d < 1.0 { f64::INFINITY } else { 1.0 };
             let falls = at_rest > threshold;
             return Ok(if falls { self.force(load, 0.0) } else { self.force(load, velocity) });

@@ -10,8 +10,8 @@ use crate::history::{Sample, at_times};
 use crate::{Failure, Options, Scene};
 
 named! {
-/// A quantity of the push against time: the tip drags the particle along until it slips, and holds it still from then on
-/// (Tafazzoli and Sitti 2004), see [`crate::history`]. The slip is that of the quasi-static rung whatever the fidelity.
+/// A quantity of the push against time: the tip moves with the particle until it slips, and holds it at rest afterwards
+/// (Tafazzoli and Sitti 2004), see [`crate::history`]. The slip is that of the quasi-static rung for any fidelity.
 pub enum AfmHistory {
     /// F_T, the tip force.
     Force = "force_history",
@@ -19,19 +19,19 @@ pub enum AfmHistory {
     Position = "position_history",
     /// Radius of the contact between particle and substrate.
     SubstrateContact = "substrate_contact_history",
-    /// Radius of the contact between tip and particle; 0 where the tip force pulls it apart.
+    /// Radius of the contact between tip and particle; 0 if the tip force pulls it apart.
     TipContact = "tip_contact_history",
 }
 }
 
 impl AfmHistory {
-    /// What it is, as an output.
+    /// Returns its description as an output.
     pub fn info(self) -> Output {
         let (unit, description) = self.row();
         Output::new(self.name(), edge(unit), description)
     }
 
-    /// Unit and description.
+    /// Returns unit and description.
     fn row(self) -> (&'static str, &'static str) {
         match self {
             Self::Force => ("nN", "tip force F_T against time"),
@@ -41,7 +41,7 @@ impl AfmHistory {
         }
     }
 
-    /// The value in SI units.
+    /// Returns the value in SI units.
     fn value(self, sample: &Sample) -> f64 {
         match self {
             Self::Force => sample.tip_force,
@@ -52,7 +52,7 @@ impl AfmHistory {
     }
 }
 
-/// The moments at which histories are given: evenly spaced, the last one at the end of the duration, none at time 0.
+/// The moments of histories: evenly spaced, the last one at the end of the duration, none at time 0.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AfmMoments {
     duration: f64,
@@ -60,7 +60,7 @@ pub struct AfmMoments {
 }
 
 impl AfmMoments {
-    /// So many `points` over `duration` (s).
+    /// Creates `points` moments over `duration` (s).
     ///
     /// # Errors
     /// [`SeriesError`] unless there are 2 to 10,000 points and the duration is a positive number.
@@ -70,12 +70,12 @@ impl AfmMoments {
         if step > 0.0 { Ok(Self { duration, axis }) } else { Err(SeriesError::Position { place: 0, found: step }) }
     }
 
-    /// How long the push is followed (s).
+    /// Returns the duration of the push (s).
     pub fn duration(&self) -> f64 {
         self.duration
     }
 
-    /// The times (s), in rising order.
+    /// Returns the times (s), in rising order.
     pub fn times(&self) -> &[f64] {
         self.axis.positions()
     }
@@ -94,7 +94,7 @@ impl Histories {
         Self { which: Vec::new(), times: Vec::new(), series: Vec::new() }
     }
 
-    /// Those of a model with `first` other outputs.
+    /// Creates the histories of a model with `first` other outputs.
     pub fn new(which: &[AfmHistory], moments: &AfmMoments, first: usize) -> Self {
         let times = moments.times().to_vec();
         let series = |(number, history): (usize, &AfmHistory)| OutputSeries {
@@ -114,7 +114,7 @@ impl Histories {
         &self.series
     }
 
-    /// Their values as outputs.
+    /// Returns their values as outputs.
     pub fn outputs(&self) -> Vec<Output> {
         let all = self.which.iter().zip(&self.series);
         all.flat_map(|(history, series)| {
@@ -124,7 +124,7 @@ impl Histories {
         .collect()
     }
 
-    /// The columns of their values.
+    /// Returns the columns of their values.
     pub fn columns(&self) -> Range<usize> {
         let first = self.series.first().map_or(0, |series| series.first);
         first..first + self.which.len() * self.times.len()
@@ -160,7 +160,7 @@ mod tests {
         AfmHistory::ALL.iter().for_each(|history| assert!(Unit::parse(history.row().0).is_ok()));
     }
 
-    /// Values stand after the outputs; a bad row fails in all of them, once each, and costs the others nothing.
+    /// Values come after the outputs; a bad row fails in all of them, once each, and does not affect the others.
     #[test]
     fn histories_stand_beside_the_outputs() {
         let factors = ["velocity", "length"].map(|name| Parameter::from_name(name).unwrap());

@@ -30,22 +30,22 @@ pub enum AfmOutput {
 }
 
 impl AfmOutput {
-    /// The unit in which it is reported.
+    /// Returns the unit in which it is reported.
     pub fn unit(self) -> Unit {
         edge(self.row().0)
     }
 
-    /// One line for people.
+    /// Returns a description in one line.
     pub fn description(self) -> &'static str {
         self.row().1
     }
 
-    /// The same for a [`Model`](apportion::Model).
+    /// Returns the same for a [`Model`](apportion::Model).
     pub fn info(self) -> Output {
         Output::new(self.name(), self.unit(), self.description())
     }
 
-    /// Unit and description.
+    /// Returns unit and description.
     fn row(self) -> (&'static str, &'static str) {
         match self {
             Self::CriticalForce => ("nN", "tip force F_cr at which the particle slips"),
@@ -59,7 +59,7 @@ impl AfmOutput {
         }
     }
 
-    /// The values of scenes solved at once in SI units, where they are at hand.
+    /// Returns the values of scenes solved at once in SI units, if available.
     pub(super) fn column(self, slips: &Slips) -> Option<&Column> {
         match self {
             Self::CriticalForce => Some(&slips.critical_force),
@@ -70,7 +70,7 @@ impl AfmOutput {
         }
     }
 
-    /// The value of scene number `i` of those solved at once.
+    /// Returns the value of scene number `i` of those solved at once.
     pub(super) fn of_many(self, i: usize, forms: &ClosedForms) -> Result<f64, Failure> {
         let slips = forms.slips();
         match self {
@@ -82,7 +82,7 @@ impl AfmOutput {
         }
     }
 
-    /// The value in SI units.
+    /// Returns the value in SI units.
     pub fn value(self, critical: &Critical) -> Result<f64, Failure> {
         Ok(match self {
             Self::CriticalForce => critical.critical_force,
@@ -97,7 +97,7 @@ impl AfmOutput {
     }
 }
 
-/// A unit written in this program, all of which are known: tests go through them.
+/// Parses a unit of this program, all of which are known: tests cover them.
 pub(super) fn edge(symbol: &str) -> Unit {
     Unit::parse(symbol).unwrap_or_else(|_| Unit::dimensionless())
 }

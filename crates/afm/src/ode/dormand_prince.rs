@@ -3,7 +3,7 @@
 use super::{Attempt, Method, Problem, State, Step};
 
 /// Dormand-Prince 5(4) with the dense output of order 4 of Hairer, Norsett & Wanner 1993 (Solving Ordinary Differential
-/// Equations I, section II.6). Six evaluations a step; the last is the first of the next step.
+/// Equations I, section II.6). Six evaluations per step; the last is the first of the next step.
 #[derive(Clone, Copy, Debug)]
 pub struct DormandPrince;
 

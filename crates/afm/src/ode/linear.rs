@@ -1,14 +1,14 @@
 //! Small dense linear systems.
 
-/// A matrix split into triangular factors, with its row exchanges.
+/// An LU factorisation with its row exchanges.
 pub(super) struct Factors<const N: usize> {
     matrix: [[f64; N]; N],
     rows: [usize; N],
 }
 
 impl<const N: usize> Factors<N> {
-    /// Gaussian elimination with partial pivoting, rows weighed by their largest entry, since rows carry different
-    /// units. A singular matrix gives solutions that are not finite.
+    /// Eliminates by Gauss with partial pivoting, rows weighted by their largest entry, since rows carry different
+    /// units. A singular matrix gives non-finite solutions.
     pub fn new(mut matrix: [[f64; N]; N]) -> Self {
         let mut weights: [f64; N] =
             std::array::from_fn(|i| matrix[i].iter().fold(0.0_f64, |largest, value| largest.max(value.abs())));
@@ -36,7 +36,7 @@ impl<const N: usize> Factors<N> {
         Self { matrix, rows }
     }
 
-    /// The solution for the right-hand side `b`.
+    /// Returns the solution for the right-hand side `b`.
     pub fn solve(&self, b: &[f64; N]) -> [f64; N] {
         let mut x: [f64; N] = std::array::from_fn(|i| b[self.rows[i]]);
         for i in 0..N {

@@ -5,22 +5,22 @@ use std::marker::PhantomData;
 use super::{Failure, Method, Problem, State, Step};
 use crate::root::{self, Point};
 
-/// How accurately and how long.
+/// Accuracy and limits of an integration.
 #[derive(Clone, Copy, Debug)]
 pub struct Control<const N: usize> {
     /// Relative tolerance of the local error, > 0.
     pub tolerance: f64,
-    /// Size from which an unknown counts by its own size; below, its error is weighed by this. > 0.
+    /// Size from which on an unknown counts by its own size; below it, its error is weighted by this. > 0.
     pub scale: [f64; N],
     /// Length of the first step tried, > 0.
     pub first_step: f64,
-    /// No step is longer, > 0.
+    /// Maximum step, > 0.
     pub longest_step: f64,
-    /// Most steps tried, good or not.
+    /// Maximum number of steps tried, accepted or not.
     pub step_budget: u64,
 }
 
-/// Where a march stands.
+/// The state at the end of an integration.
 #[derive(Clone, Copy, Debug)]
 pub struct End<const N: usize> {
     /// Time.
@@ -29,7 +29,7 @@ pub struct End<const N: usize> {
     pub y: [f64; N],
 }
 
-/// How a march ended.
+/// How an integration ended.
 #[derive(Clone, Copy, Debug)]
 pub enum Outcome<const N: usize> {
     /// The event function rose through zero here.
@@ -50,28 +50,28 @@ pub struct March<'a, M, P, const N: usize> {
 }
 
 impl<'a, M: Method, P: Problem<N>, const N: usize> March<'a, M, P, N> {
-    /// A march of `problem` from the unknowns `y` at the time `t`.
+    /// Creates an integration of `problem` from the unknowns `y` at the time `t`.
     pub fn new(problem: &'a P, (t, y): (f64, [f64; N]), control: Control<N>) -> Self {
         let state = State { t, y, rate: problem.rate(t, &y) };
         Self { problem, control, state, h: control.first_step, steps: 0, evaluations: 1, method: PhantomData }
     }
 
-    /// Where the march stands.
+    /// Returns the current state.
     pub fn state(&self) -> &State<N> {
         &self.state
     }
 
-    /// Evaluations of f so far.
+    /// Returns the number of evaluations of f so far.
     pub fn evaluations(&self) -> u64 {
         self.evaluations
     }
 
-    /// Steps tried so far, good or not.
+    /// Returns the number of steps tried so far, accepted or not.
     pub fn steps(&self) -> u64 {
         self.steps
     }
 
-    /// One good step, no further than to `horizon`.
+    /// Takes one accepted step, at most to `horizon`.
     ///
     /// # Errors
     /// [`Failure::StepBudget`] once the budget is spent, [`Failure::StepTooSmall`] if no step that moves the time is
@@ -96,7 +96,7 @@ impl<'a, M: Method, P: Problem<N>, const N: usize> March<'a, M, P, N> {
             let usable = error.is_finite() && attempt.rate.iter().all(|value| value.is_finite());
             let factor = if usable { 0.9 * libm::pow(error, -1.0 / f64::from(M::ERROR_ORDER)) } else { 0.1 };
             if usable && error <= 1.0 {
-                // A step cut short by the horizon says little about the length of the next.
+                // A step cut short by the horizon says little about the length of the next one.
                 let next = h * factor.clamp(0.2, 6.0);
                 self.h = if last { next.max(self.h) } else { next };
                 let t = if last { horizon } else { attempt.step.end() };
@@ -107,13 +107,13 @@ impl<'a, M: Method, P: Problem<N>, const N: usize> March<'a, M, P, N> {
         }
     }
 
-    /// Marches until `event` rises through zero, or to `horizon`.
+    /// Integrates until `event` rises through zero, or to `horizon`.
     ///
-    /// The event is located by steps of other lengths from the same start, not on the dense output: on a slow motion
+    /// The event is located by steps of other lengths from the same start, not by the dense output: on a slow motion
     /// between fast modes the ends of the steps are far more accurate than anything between them.
     ///
     /// # Errors
-    /// As [`advance`](Self::advance), and whatever `event` fails with.
+    /// As [`advance`](Self::advance), and those of `event`.
     pub fn until(
         &mut self,
         horizon: f64,
@@ -145,7 +145,7 @@ impl<'a, M: Method, P: Problem<N>, const N: usize> March<'a, M, P, N> {
             attempt.step.at(1.0)
         };
         let t = root::between(low, high, |t| event(t, &to(t)))?;
-        // The ends of the bracket are known, and a step of no length has no end.
+        // The ends of the bracket are known, and a step of zero length has no end.
         let y = if t == start.t { start.y } else { to(t) };
         Ok(End { t, y })
     }

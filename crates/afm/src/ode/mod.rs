@@ -1,8 +1,8 @@
 //! Initial value problems of a few unknowns: one explicit method, one for stiff problems, both with dense output and
 //! the location of events.
 //!
-//! [`March`] takes adaptive steps; [`March::until`] stops where an event function rises through zero. Every way to
-//! stop short has its own [`Failure`], and a budget bounds the work.
+//! [`March`] takes adaptive steps; [`March::until`] stops where an event function rises through zero. Every cause of an
+//! early stop has its own [`Failure`], and a budget limits the work.
 
 mod dormand_prince;
 mod linear;
@@ -19,18 +19,18 @@ use super::Failure;
 
 /// M y' = f(t, y), with a diagonal mass matrix M.
 pub trait Problem<const N: usize> {
-    /// f(t, y).
+    /// Returns f(t, y).
     fn rate(&self, t: f64, y: &[f64; N]) -> [f64; N];
 
-    /// The Jacobian df_i/dy_j, row by row. Needed by [`Rodas`] alone.
+    /// Returns the Jacobian df_i/dy_j, row by row. Used only by [`Rodas`].
     fn jacobian(&self, t: f64, y: &[f64; N]) -> [[f64; N]; N];
 
-    /// df/dt at fixed y; zero unless the problem says otherwise.
+    /// Returns df/dt at fixed y; zero by default.
     fn time_rate(&self, _t: f64, _y: &[f64; N]) -> [f64; N] {
         [0.0; N]
     }
 
-    /// The diagonal of M. A zero makes its row an algebraic equation, f_i = 0; [`Rodas`] alone heeds it.
+    /// Returns the diagonal of M. A zero makes its row an algebraic equation, f_i = 0; used only by [`Rodas`].
     fn mass(&self) -> [f64; N] {
         [1.0; N]
     }
@@ -45,7 +45,7 @@ pub trait Method {
     fn step<const N: usize, P: Problem<N>>(problem: &P, start: &State<N>, h: f64) -> Attempt<N>;
 }
 
-/// Unknowns at a time, and f there where a method has use for it.
+/// Unknowns at a time, and f there if the method uses it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct State<const N: usize> {
     /// Time.
@@ -56,16 +56,16 @@ pub struct State<const N: usize> {
     pub rate: [f64; N],
 }
 
-/// A step, good or not.
+/// A step, accepted or not.
 #[derive(Clone, Copy, Debug)]
 pub struct Attempt<const N: usize> {
-    /// Where it leads.
+    /// The step.
     pub step: Step<N>,
     /// f at the end.
     pub rate: [f64; N],
     /// Estimated local error.
     pub error: [f64; N],
-    /// How often f was evaluated.
+    /// Number of evaluations of f.
     pub evaluations: u64,
 }
 
@@ -81,12 +81,12 @@ pub struct Step<const N: usize> {
 }
 
 impl<const N: usize> Step<N> {
-    /// Time at the end.
+    /// Returns the time at the end.
     pub fn end(&self) -> f64 {
         self.t + self.h
     }
 
-    /// The unknowns at the fraction `s` of the step, 0 to 1.
+    /// Returns the unknowns at the fraction `s` of the step, 0 to 1.
     pub fn at(&self, s: f64) -> [f64; N] {
         let [c0, c1, c2, c3, c4] = &self.coefficients;
         let r = 1.0 - s;

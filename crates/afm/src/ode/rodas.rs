@@ -4,8 +4,8 @@ use super::linear::Factors;
 use super::{Attempt, Method, Problem, State, Step};
 
 /// RODAS4 of Hairer & Wanner 1996 (Solving Ordinary Differential Equations II, section IV.7 and VI.4): order 4(3), six
-/// stages, stiffly accurate, L-stable, for ordinary and index-1 differential-algebraic problems; dense output of order 3.
-/// One Jacobian, one factorisation and six evaluations a step, no iteration, so that a step cannot stall.
+/// stages, stiffly accurate, L-stable, for ordinary and index-1 differential-algebraic problems; third-order dense
+/// output. One Jacobian, one factorisation and six evaluations per step, no iteration, so that a step cannot stall.
 #[derive(Clone, Copy, Debug)]
 pub struct Rodas;
 
@@ -86,7 +86,7 @@ impl Method for Rodas {
     }
 }
 
-/// `y` + sum of weights times increments.
+/// Returns `y` + sum of weights times increments.
 fn shifted<const N: usize, const S: usize>(y: &[f64; N], weights: &[f64; S], k: &[[f64; N]; 6]) -> [f64; N] {
     let mut sum = *y;
     for (weight, increment) in weights.iter().zip(k) {

@@ -1,4 +1,4 @@
-//! `apportion check`: what a study means and what it will cost, without running it.
+//! `apportion check`: the meaning of a study and its cost, without running it.
 
 use std::path::{Path, PathBuf};
 
@@ -83,7 +83,7 @@ fn subject(study: &Study) -> String {
         }
     }
     let model = study.model();
-    // A series stands where its first value does.
+    // A series is listed at its first value.
     let output = |(place, output): (usize, &Output)| {
         let series = model.series().iter().find(|series| series.places().contains(&place));
         match series {
@@ -130,7 +130,7 @@ fn factors(study: &Study) -> String {
     for factor in study.space().factors() {
         let law = factor.distribution();
         let quantile = |u| if law.is_noise() { "-".to_owned() } else { factor.in_words(law.quantile(u), significant) };
-        // The places of categories in their list have no mean.
+        // The positions of categories in their list have no mean.
         let is_place = matches!(law, Distribution::Categorical(c) if law.name() == "categorical" && c.are_places());
         let moment = |value| if is_place || law.is_noise() { "-".to_owned() } else { significant(value) };
         if let Distribution::Categorical(categories) = law {

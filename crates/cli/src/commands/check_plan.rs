@@ -1,4 +1,4 @@
-//! What `apportion check` says of a run before it: its rows, their cost, and when it ends.
+//! The plan of a run in `apportion check`: its rows, their cost, and its duration.
 
 use std::path::Path;
 

@@ -1,4 +1,4 @@
-//! `apportion completions`: what a shell needs to complete commands and options.
+//! `apportion completions`: shell completions of commands and options.
 
 use clap_complete::{Shell, generate};
 

@@ -54,7 +54,7 @@ pub fn evaluate(arguments: &Arguments) -> Result<(), Failure> {
         let result = evaluate_in(&study, rows.as_mut(), &mut Stoppable::new(out), arguments.with_points, &context);
         let complete = result.is_ok();
         outcome = Some(result);
-        // Whatever went wrong, half a file must not take the target's place.
+        // After any error, an incomplete file must not replace the target.
         if complete { Ok(()) } else { Err(std::io::Error::other("incomplete")) }
     });
     match outcome {

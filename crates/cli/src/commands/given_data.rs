@@ -1,4 +1,4 @@
-//! `apportion given-data`: indices from a table that exists already.
+//! `apportion given-data`: indices from an existing table.
 
 use std::path::PathBuf;
 

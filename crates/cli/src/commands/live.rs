@@ -1,4 +1,4 @@
-//! `apportion live`: a study as a page that computes.
+//! `apportion live`: a study as a live page.
 
 use std::path::PathBuf;
 

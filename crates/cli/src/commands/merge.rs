@@ -1,4 +1,4 @@
-//! `apportion merge`: the parts of a run, evaluated anywhere, as one result.
+//! `apportion merge`: joins the parts of a run to one result.
 
 use std::path::{Path, PathBuf};
 

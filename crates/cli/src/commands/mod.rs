@@ -1,4 +1,4 @@
-//! The command line: arguments, progress, messages and exit codes. Everything else is the library's.
+//! The command line: arguments, progress, messages and exit codes. All computation is in the library.
 
 mod analyze;
 mod check;
@@ -234,7 +234,7 @@ impl From<RunError> for Failure {
 
 impl From<WriteError> for Failure {
     fn from(error: WriteError) -> Self {
-        // The path that was given, and not what became of it.
+        // The path as given, not as resolved.
         match error.source.kind() {
             ErrorKind::NotADirectory => Self::Input(error.into()),
             _ => Self::Run(error.into()),
@@ -263,7 +263,7 @@ fn command_line(others: Option<&dyn Ranks>) -> ExitCode {
     let cli = match Cli::try_parse() {
         Ok(cli) => cli,
         Err(error) => {
-            // There is nowhere to complain if that cannot be printed.
+            // If printing fails, there is no other place to report it.
             let _ = error.print();
             return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2));
         }
@@ -295,7 +295,7 @@ fn command_line(others: Option<&dyn Ranks>) -> ExitCode {
 fn exit_code(outcome: Result<(), Failure>) -> ExitCode {
     match outcome {
         Ok(()) => ExitCode::SUCCESS,
-        // A reader that closes the pipe early has seen what it wanted.
+        // A reader that closes the pipe early has read what it needs.
         Err(Failure::Run(error)) if is_broken_pipe(&error) => ExitCode::SUCCESS,
         Err(Failure::Run(error)) => fail(&error, 1),
         Err(Failure::Input(error)) => fail(&error, 2),

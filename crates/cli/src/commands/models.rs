@@ -1,4 +1,4 @@
-//! `apportion models`: what can be studied.
+//! `apportion models`: lists the models.
 
 use apportion::estimate::{Estimator, FirstOrder, Total};
 use apportion::model::{Basis, Exact, Input, KnownAnswer, KnownFunction, known_inputs};

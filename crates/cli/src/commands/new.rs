@@ -1,4 +1,4 @@
-//! `apportion new`: a study file to begin with.
+//! `apportion new`: writes a new study file.
 
 use std::path::{Path, PathBuf};
 

@@ -1,4 +1,4 @@
-//! The files of a command: their formats, writing and listing.
+//! The files of a command: formats, writing and listing.
 
 use std::path::{Path, PathBuf};
 

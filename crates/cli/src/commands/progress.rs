@@ -29,7 +29,7 @@ impl Meter {
     /// A meter for a run of `total` model runs, named `label`.
     pub fn new(label: &str, total: u64) -> Self {
         let display = if std::io::stderr().is_terminal() {
-            // Drawn from the first progress on: lines that are written before would leave it behind.
+            // Drawn from the first progress on: earlier messages would leave a copy of it behind.
             let bar = ProgressBar::with_draw_target(Some(total), ProgressDrawTarget::hidden());
             let template = "{prefix} {wide_bar} {percent:>3} %  {human_pos} of {human_len} runs  {eta} left{msg}";
             bar.set_style(ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar()));
@@ -49,7 +49,7 @@ impl Meter {
                 if bar.is_hidden() {
                     bar.set_draw_target(ProgressDrawTarget::stderr());
                 }
-                // A run that grows learns its length as it goes.
+                // The length of a growing run changes during it.
                 bar.set_length(progress.total);
                 if progress.failed > 0 {
                     bar.set_message(format!("  {} failed", progress.failed));
@@ -57,7 +57,7 @@ impl Meter {
                 bar.set_position(progress.done);
             }
             Display::Lines(last) => {
-                // Another thread at the lock is about to write the line: this one need not wait.
+                // Another thread with the lock is about to write the line: this one need not wait.
                 let Ok(mut last) = last.try_lock() else { return };
                 if last.elapsed() >= LINE_INTERVAL {
                     *last = Instant::now();
@@ -91,7 +91,7 @@ impl Meter {
         let Progress { done, recalled, total, failed, elapsed } = progress;
         let seconds = elapsed.as_secs_f64();
         let per_second = (done - recalled) as f64 / seconds;
-        // The first few runs include what it takes to start, and say nothing of the others.
+        // The first few runs include the start-up time, so they say nothing of the others.
         let left = match done - recalled {
             runs if runs >= 20 || runs * 100 >= total => {
                 format!(", {:.0} s left", total.saturating_sub(done) as f64 / per_second)

@@ -33,7 +33,7 @@ pub fn report(arguments: &Arguments) -> Result<(), Failure> {
     let folder = arguments.out.as_deref().unwrap_or(beside);
     let mut document = run_document(&result);
     let name = format!("{}.json", result.study.name);
-    // The page links to the result, so it must lie beside it: this one, word for word.
+    // The page links to the result, so an exact copy of it must be next to the page.
     let json = folder.join(&name);
     if !same_file(&json, path) {
         refuse_another(&json, &bytes)?;

@@ -1,4 +1,4 @@
-//! `apportion run`: a study from file to files.
+//! `apportion run`: runs a study file and writes its results.
 
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -71,7 +71,7 @@ impl RecordArguments {
             Self { retry_failed: true, .. } => Resume::RetryFailed,
             Self { resume: true, .. } => Resume::Require,
             Self { restart: true, .. } => Resume::Restart,
-            // A journal of another design has nothing that could be doubled.
+            // A journal of another design cannot be doubled.
             Self { double: true, .. } if has_journal => Resume::Require,
             _ => Resume::IfThere,
         }
@@ -110,7 +110,7 @@ pub fn run(arguments: &Arguments, others: Option<&dyn Ranks>) -> Result<(), Fail
     let runner = match others {
         None => runner,
         Some(others) => {
-            // A job has a rank for every core, unless it says otherwise.
+            // A job has a rank for every core by default.
             let threads = arguments.threads.number().max(1);
             others.begin(&study, &arguments.study.study, threads);
             let workers = if threads == 1 { "a worker".to_owned() } else { format!("{threads} workers") };
@@ -118,7 +118,7 @@ pub fn run(arguments: &Arguments, others: Option<&dyn Ranks>) -> Result<(), Fail
             runner.threads(threads).remote_workers(others)
         }
     };
-    // From here on: a wait for an input that never comes can be ended at once.
+    // Installed only here, so that an earlier wait for input that never arrives can be interrupted at once.
     let stop = stop::on_signal();
     let mut runner =
         runner.on_message(say).stop(stop).resume(asked.resume(journal.as_ref().is_some_and(|path| path.exists())));
@@ -236,7 +236,7 @@ fn with_journal(study: &Study, error: RunError, journal: Option<&Path>) -> Failu
     let kept = match (&error, journal.filter(|journal| journal.exists())) {
         (RunError::Interrupted { .. } | RunError::GaveUp(_), Some(journal)) if nothing(journal) => String::new(),
         (RunError::Interrupted { .. } | RunError::GaveUp(_) | RunError::NotKept { .. }, Some(journal)) => {
-            // What failed before the model gave up is no answer of a model that has been mended.
+            // Rows that failed before the model gave up must be retried once the model is repaired.
             let (option, again) = match error {
                 RunError::GaveUp(_) => ("--retry-failed", ", and evaluates those that failed again"),
                 _ => ("--resume", ""),

@@ -1,4 +1,4 @@
-//! `apportion sample`: the points of a study as a file, for a model outside.
+//! `apportion sample`: the points of a study as a file, for an external model.
 
 use std::path::{Path, PathBuf};
 
@@ -53,7 +53,7 @@ pub fn sample(arguments: &Arguments) -> Result<(), Failure> {
     if arguments.random.is_none() && study.target().grows() {
         say("note: the study grows until it knows enough, but a file does not: these are the points it begins with");
     }
-    // A manifest of other points must not outlive them.
+    // A manifest of other points must not stay after they are replaced.
     match std::fs::remove_file(&beside) {
         Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
             return Err(Failure::Run(anyhow!("cannot replace {}: {error}", beside.display())));

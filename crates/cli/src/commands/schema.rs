@@ -1,4 +1,4 @@
-//! `apportion schema`: JSON Schemas of the files that people and programs touch.
+//! `apportion schema`: JSON Schemas of the files that users and programs read and write.
 
 use apportion::result::result_schema;
 use apportion_files::study_schema;

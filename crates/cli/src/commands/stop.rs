@@ -1,4 +1,4 @@
-//! Ctrl-C and its relatives: a run ends in order, with what it has.
+//! Ctrl-C and similar signals: a run stops in order and keeps its results.
 
 use std::io::Write;
 use std::sync::OnceLock;
@@ -34,7 +34,7 @@ pub fn leave_to_another() {
 /// Lets a write beyond the limit of file sizes (`ulimit -f`) fail with its reason, as any other that fails: by default the
 /// system ends the program without a word.
 pub fn hear_of_size_limits() {
-    // SAFETY: no handler is installed; the call only changes what the system does with a signal.
+    // SAFETY: no handler is installed; the call only changes the system's action on a signal.
     #[cfg(unix)]
     #[allow(unsafe_code)]
     unsafe {

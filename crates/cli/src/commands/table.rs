@@ -1,4 +1,4 @@
-//! Tables that users hand over.
+//! Tables from the user.
 
 use std::path::Path;
 

@@ -1,4 +1,4 @@
-//! `apportion trade`: accuracy against time, and what becomes of a study at its extremes.
+//! `apportion trade`: accuracy against time, and the behaviour of a study at its extremes.
 
 use std::time::Instant;
 

@@ -1,6 +1,6 @@
 //! The papers reproduced: their studies, figures, claims and percentages.
 //!
-//! [`reproduce()`] computes, [`document()`] makes the page, its files and the text for a terminal of it.
+//! [`reproduce()`] computes; [`document()`] builds the page, its files and the text for a terminal.
 
 pub mod claims;
 mod document;
@@ -28,10 +28,10 @@ use crate::scene::law_colour;
 /// How much is computed.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Effort {
-    /// What the conclusions rest on.
+    /// The sizes that the conclusions are based on.
     #[default]
     Full,
-    /// A look: the same with fewer points.
+    /// The same with fewer points, for a quick look.
     Quick,
 }
 
@@ -68,7 +68,7 @@ pub struct StudyGroup {
     pub key: &'static str,
     /// The figures of the papers that it reproduces.
     pub figures: &'static str,
-    /// What varies.
+    /// The varied factors.
     pub title: &'static str,
 }
 
@@ -79,7 +79,7 @@ pub const GROUPS: [StudyGroup; 3] = [
     StudyGroup { key: "general", figures: "CHK fig. 16, LG fig. 4c", title: "all eight factors" },
 ];
 
-/// The study files, by name: part of the program, so that it reproduces the papers wherever it is installed.
+/// The study files, by name: embedded in the program, so that it can reproduce the papers anywhere.
 const STUDIES: [(&str, &str); 9] = [
     ("coulomb-dimensional", include_str!("../../../../studies/coulomb-dimensional.toml")),
     ("hk-dimensional", include_str!("../../../../studies/hk-dimensional.toml")),
@@ -104,7 +104,7 @@ pub enum ReproduceError {
     /// A study cannot be run.
     #[error(transparent)]
     Run(#[from] RunError),
-    /// A scene has no answer. At the defaults of the papers that does not happen.
+    /// A scene has no solution. At the defaults of the papers this does not happen.
     #[error("a scene of the papers has no answer: {0}")]
     Scene(#[from] Failure),
     /// A factor cannot be swept.
@@ -116,7 +116,7 @@ pub enum ReproduceError {
         /// Its name.
         name: &'static str,
     },
-    /// The general study lacks a factor that a claim is about.
+    /// The general study does not have a factor that a claim is about.
     #[error("the general study does not give the range of every factor that the claims are about")]
     NoRanges,
     /// A study that a claim is about has not been run, or has no indices.
@@ -127,7 +127,7 @@ pub enum ReproduceError {
         /// The name of its friction model.
         friction: &'static str,
     },
-    /// A study has no shares to set beside the printed percentages.
+    /// A study has no shares to compare with the printed percentages.
     #[error("the study {study} has no shares of {measure}: its indices have no positive sum")]
     NoPercentages {
         /// The study.
@@ -137,40 +137,40 @@ pub enum ReproduceError {
     },
 }
 
-/// One study that has been run.
+/// A study with its result.
 #[derive(Debug, Clone)]
 pub struct Reproduced {
     /// Its friction model.
     pub friction: Friction,
     /// Its group.
     pub group: StudyGroup,
-    /// What came out.
+    /// Its result.
     pub result: StudyResult,
 }
 
-/// The nine studies, read and checked, after applying `overrides` to each; group by group. Meant for overrides of the
-/// design: under others they are no longer the papers' studies.
+/// Returns the nine studies, read and checked, after applying `overrides` to each; group by group. The overrides should
+/// only change the design: with others they are no longer the papers' studies.
 ///
 /// # Errors
-/// [`StudyError`] if an override makes no sense.
+/// [`StudyError`] if an override is invalid.
 pub fn studies(overrides: &[String]) -> Result<Vec<(StudyGroup, Friction, Study)>, StudyError> {
     let all = GROUPS.into_iter().flat_map(|group| FRICTIONS.map(|friction| (group, friction)));
     all.map(|(group, friction)| Ok((group, friction, study(friction.key, group.key, overrides)?))).collect()
 }
 
-/// The study of a group under a friction model, by their keys.
+/// Returns the study of a group under a friction model, by their keys.
 fn study(friction: &str, group: &str, overrides: &[String]) -> Result<Study, StudyError> {
     let name = format!("{friction}-{group}");
     let text = STUDIES.iter().find(|(study, _)| *study == name).map_or("", |(_, text)| text);
     apportion_files::parse_study(text, format!("studies/{name}.toml").as_ref(), overrides)
 }
 
-/// The study that has all factors with their ranges.
+/// Returns the study that has all factors with their ranges.
 fn general_study() -> Result<Study, StudyError> {
     study("coulomb", "general", &[])
 }
 
-/// The names that share what is said of them, in the order of the first of each.
+/// Groups the names by equal statements, in the order of the first of each.
 fn named_together<'a, T: PartialEq>(said: impl IntoIterator<Item = (T, &'a str)>) -> Vec<(T, Vec<&'a str>)> {
     let mut groups: Vec<(T, Vec<&str>)> = Vec::new();
     for (said, name) in said {

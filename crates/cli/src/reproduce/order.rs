@@ -1,4 +1,4 @@
-//! Whether our order of the factors is the published one, as far as our intervals decide it.
+//! Comparison of our order of the factors with the published one, as far as our intervals decide it.
 
 use apportion::Estimate;
 use apportion::result::IndexRecord;
@@ -7,8 +7,8 @@ use apportion::uncertainty::Interval;
 use super::shares::indices;
 use super::{Reproduced, published};
 
-/// A factor counts as having a share from this many percent on: less would be printed as 0 in whole percents, which is
-/// how LG prints, and is hardly to be seen as a bar.
+/// Share in percent from which on a factor counts: less would be printed as 0 in whole percents, as in LG, and is
+/// hardly visible as a bar.
 pub(super) const VISIBLE: f64 = 0.5;
 
 /// A factor with its share in percent.
@@ -18,30 +18,30 @@ pub(super) struct FactorShare<'a> {
     pub share: Estimate,
 }
 
-/// The interval of a share; everything where nothing is known of its error.
+/// Returns the interval of a share; the whole range if its error is unknown.
 fn bounds(share: Estimate) -> Interval {
     share.interval.unwrap_or(Interval { low: f64::NEG_INFINITY, high: f64::INFINITY })
 }
 
-/// No share that could be seen, whatever the true one in its interval.
+/// Returns whether no share in the interval would be visible.
 fn unseen(share: Estimate) -> bool {
     bounds(share).high < VISIBLE
 }
 
-/// What our shares say of "this before that".
+/// What our shares say of an order of two factors.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Standing {
-    /// It is so: the intervals do not overlap.
+    /// Confirmed: the intervals do not overlap.
     Kept,
-    /// It is the other way round: they do not overlap either.
+    /// Reversed: the intervals do not overlap either.
     Broken,
-    /// The intervals overlap, or do not say whether there is anything to be seen.
+    /// The intervals overlap, or do not decide whether a share is visible.
     Undecided,
-    /// Neither share could be seen.
+    /// Neither share is visible.
     Unseen,
 }
 
-/// What our shares say of `first` before `second`.
+/// Compares our shares with the order of `first` before `second`.
 pub(super) fn standing(first: Estimate, second: Estimate) -> Standing {
     if unseen(first) && unseen(second) {
         return Standing::Unseen;
@@ -56,20 +56,20 @@ pub(super) fn standing(first: Estimate, second: Estimate) -> Standing {
     }
 }
 
-/// How our order stands to the published one.
+/// The agreement of our order with the published one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Agreement {
     /// Every factor is before the next.
     Same,
     /// Every factor is before the next, up to a rest without visible shares.
     Beginning,
-    /// Not decided by this sample: no pair is the other way round, but the intervals of some overlap.
+    /// Not decided by this sample: no pair is reversed, but some intervals overlap.
     Undecided,
-    /// Some pair is the other way round, or a factor that is not in the published order has a visible share.
+    /// Some pair is reversed, or a factor that is not in the published order has a visible share.
     Other,
 }
 
-/// Our order against a published one.
+/// The comparison of our order with a published one.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct OrderVerdict<'a> {
     /// Our factors that may have a visible share, the largest share first.
@@ -112,13 +112,13 @@ impl<'a> OrderVerdict<'a> {
         }
     }
 
-    /// The pairs that stand so, as in `length and width`.
+    /// Returns the pairs with this standing, as in `length and width`.
     pub fn pairs_that_are(&self, wanted: Standing) -> Vec<(&'a str, &'a str)> {
         self.pairs.iter().filter(|(.., standing)| *standing == wanted).map(|&(one, other, _)| (one, other)).collect()
     }
 }
 
-/// The order of a study's factors by total shares against the published one.
+/// Compares the order of a study's factors by total shares with the published one.
 pub(super) fn order_of<'a>(member: &'a Reproduced) -> OrderVerdict<'a> {
     let share =
         |index: &'a IndexRecord| Some(FactorShare { factor: &index.factor, share: index.effect.total_percent()? });
@@ -126,8 +126,8 @@ pub(super) fn order_of<'a>(member: &'a Reproduced) -> OrderVerdict<'a> {
     order_verdict(&shares, published(member.group.key, member.friction.key).ranking)
 }
 
-/// The total indices of the dimensional and the environmental factors of a general study, and whether the first is the
-/// larger; `None` where there are no groups.
+/// Returns the total indices of the dimensional and the environmental factors of a general study, and whether the first
+/// one is larger; `None` without groups.
 pub(super) fn outweighing(member: &Reproduced) -> Option<(Estimate, Estimate, Standing)> {
     let groups = member.result.outputs.first()?.groups.as_ref()?;
     let total = |name: &str| groups.iter().find(|group| group.group == name).map(|group| group.effect.total);
@@ -165,7 +165,7 @@ mod tests {
         assert_eq!((verdict.ours, verdict.unseen), (vec!["thickness", "length", "width"], vec!["height"]));
     }
 
-    /// At few points the intervals of length and thickness overlap: that decides nothing, least of all against.
+    /// With few points the intervals of length and thickness overlap: that decides nothing.
     #[test]
     fn overlapping_neighbours_decide_nothing() {
         let shares = [
@@ -190,7 +190,7 @@ mod tests {
         assert_eq!(order_verdict(&stranger, &PUBLISHED[..2]).agreement(), Agreement::Other);
         let faint = [share("thickness", 60.0, 1.0), share("length", 39.0, 1.0), share("velocity", 1.0, 0.8)];
         assert_eq!(order_verdict(&faint, &PUBLISHED[..2]).agreement(), Agreement::Same);
-        // Whether there is anything to be seen is not known.
+        // It is unknown whether a share is visible.
         assert_eq!(standing(share("a", 0.0, 0.0).share, share("b", 0.5, 0.2).share), Standing::Undecided);
     }
 }

@@ -1,8 +1,8 @@
-//! The percentages that LG prints, next to ours under each meaning that they most plausibly have.
+//! The percentages that LG prints, compared with ours under each plausible meaning.
 //!
-//! LG does not say of what its percentages are. [`percentages()`] gives our shares by first-order and by total index, of
-//! the critical force and of its logarithm, under each friction model and under LuGre friction with the viscous
-//! coefficient that brings the velocity to its printed share. Nothing is tuned beyond that one coefficient.
+//! LG does not define its percentages. [`percentages()`] computes our shares by first-order and by total index, of the
+//! critical force and of its logarithm, under each friction model and under LuGre friction with the viscous coefficient
+//! that brings the velocity to its printed share. Nothing is tuned beyond that one coefficient.
 
 use apportion::EffectEstimates;
 use apportion::result::{OutputResult, StudyResult};
@@ -13,16 +13,16 @@ use apportion_report::format::words;
 use super::papers::{PRINTED, Words, filled, papers};
 use super::{Effort, FRICTIONS, GROUPS, QUICK, ReproduceError, StudyGroup, published, study};
 
-/// Within so many percentage points a distance counts as met: three times the rounding of the printed numbers.
+/// Distance in percentage points up to which a percentage agrees: three times the rounding of the printed numbers.
 const MET: f64 = 1.5;
 
 /// The viscous coefficient at which the velocity has its printed share, in place of the printed 1e-7 N s/m.
 const VISCOUS: &str = "afm.viscous_friction=0.3 N s/m";
 
-/// What the shares are of: an output and its symbol.
+/// The outputs and their symbols.
 const OUTPUTS: [(&str, &str); 2] = [("critical_force", "F_cr"), ("log_critical_force", "ln F_cr")];
 
-/// A kind of share: its symbol, and where an effect has it.
+/// A kind of share: its symbol, and its value for an effect.
 type Measure = (&'static str, fn(&EffectEstimates) -> Option<f64>);
 
 const MEASURES: [Measure; 2] = [("S_1", |effect| effect.share_first_order), ("S_T", |effect| effect.share_total)];
@@ -52,7 +52,7 @@ pub struct StudyShares {
 }
 
 impl StudyShares {
-    /// The shares of an output; `None` without any.
+    /// Returns the shares of an output; `None` without any.
     fn new(group: &'static str, output: &OutputResult, share: fn(&EffectEstimates) -> Option<f64>) -> Option<Self> {
         let indices = output.indices.as_ref().filter(|indices| !indices.is_empty())?;
         let shares = indices.iter().map(|index| Some((index.factor.clone(), share(&index.effect)?)));
@@ -71,25 +71,25 @@ impl Percentages {
         self.studies.iter().map(|study| study.distance).sum::<f64>() / self.studies.len() as f64
     }
 
-    /// The part of the thickness among thickness, length and width in one study, in percent.
+    /// Returns the part of the thickness among thickness, length and width in one study, in percent.
     fn thickness_part(&self, group: &str) -> Option<f64> {
         let study = self.studies.iter().find(|study| study.group == group)?;
         thickness_part(|factor| study.share(factor))
     }
 }
 
-/// The part of the thickness among thickness, length and width, in percent.
+/// Returns the part of the thickness among thickness, length and width, in percent.
 fn thickness_part(share: impl Fn(&str) -> Option<f64>) -> Option<f64> {
     let [t, l, w] = ["thickness", "length", "width"].map(share);
     Some(100.0 * t? / (t? + l? + w?))
 }
 
-/// The printed percentage of a factor in the study of `group`, where there is one.
+/// Returns the printed percentage of a factor in the study of `group`, if there is one.
 fn printed(group: &str, factor: &str) -> Option<f64> {
     published(group, PRINTED).share(factor)
 }
 
-/// The distance of `shares`, percentages of all factors of the study `group`, to those that LG prints, in percentage
+/// Returns the distance of `shares`, percentages of all factors of the study `group`, to those of LG, in percentage
 /// points: the root mean square of the differences over the printed factors and, as one more, the sum of all other
 /// factors, which is printed implicitly as what remains to 100. A printed factor without a share counts as one of 0.
 pub fn distance<'a>(group: &str, shares: impl IntoIterator<Item = (&'a str, f64)>) -> f64 {
@@ -102,8 +102,8 @@ pub fn distance<'a>(group: &str, shares: impl IntoIterator<Item = (&'a str, f64)
     (differences.iter().map(|x| x * x).sum::<f64>() / differences.len() as f64).sqrt()
 }
 
-/// Runs the studies of the three groups under each friction model and the viscous variant, and shares out both outputs by
-/// both measures.
+/// Runs the studies of the three groups under each friction model and the viscous variant, and computes the shares of
+/// both outputs by both measures.
 ///
 /// # Errors
 /// [`ReproduceError`] if a study cannot be run or its indices have no positive sum.
@@ -128,7 +128,7 @@ pub fn percentages(effort: Effort, threads: usize) -> Result<Vec<Percentages>, R
     Ok(rows)
 }
 
-/// The result of one study with both outputs.
+/// Returns the result of one study with both outputs.
 fn run(
     friction: &str,
     group: &str,
@@ -144,8 +144,8 @@ fn run(
     Ok(study.runner().threads(threads).run()?)
 }
 
-/// What the percentages say: that LG does not define its own and that they contradict each other; which of ours are
-/// nearest; and what the share of the velocity takes.
+/// Summarises the percentages: LG does not define its own and they contradict each other; which of ours are nearest;
+/// and what the share of the velocity requires.
 pub fn summary(rows: &[Percentages]) -> Vec<String> {
     let words = in_words(rows).unwrap_or_default();
     papers().readings.iter().filter(|_| !words.is_empty()).map(|text| filled(text, &words)).collect()
@@ -178,7 +178,7 @@ fn in_words(rows: &[Percentages]) -> Option<Words> {
     ])
 }
 
-/// The table of the page: what is printed, then a row for each friction model, output and measure.
+/// Builds the table of the page: the printed percentages, then a row for each friction model, output and measure.
 pub fn table(rows: &[Percentages]) -> Part {
     let caption = "Our shares in percent under each reading, and their distance to the printed percentages of each study: \
                    the root mean square, in percentage points, over the factors with a printed percentage and all others \
@@ -205,7 +205,7 @@ pub fn table(rows: &[Percentages]) -> Part {
     table.into()
 }
 
-/// One line per friction model, output, measure, study and factor; percentages and distances as in [`table`].
+/// Formats one line per friction model, output, measure, study and factor; percentages and distances as in [`table`].
 pub fn percentages_csv(rows: &[Percentages]) -> String {
     let studies = rows.iter().flat_map(|row| row.studies.iter().map(move |study| (row, study)));
     let all = studies.flat_map(|(row, study)| study.shares.iter().map(move |share| (row, study, share)));
@@ -246,7 +246,7 @@ mod tests {
         assert!((distance("dimensional", none) - ((76.0_f64.powi(2) + 24.0_f64.powi(2)) / 2.0).sqrt()).abs() < 1e-12);
     }
 
-    /// Exact shares of a product of powers of uniform factors, of the force and of its logarithm.
+    /// Exact shares of a product of powers of uniform factors, for the force and for its logarithm.
     #[test]
     fn the_shares_are_those_of_the_product_form() {
         let rows = percentages(Effort::Quick, 0).unwrap();
@@ -266,7 +266,7 @@ mod tests {
             [9.0 * variance_of_log(0.25, 2.5), 4.0 * variance_of_log(200.0, 700.0), variance_of_log(5.0, 80.0)];
         assert!((share("ln F_cr", "thickness") - 100.0 * t / (t + l + w)).abs() < 0.5);
         assert_eq!(summary(&rows).len(), 3);
-        // The viscous variant brings the velocity to what is printed, and the force of the others does not know it.
+        // The viscous variant gives the velocity its printed share; the force of the others does not depend on it.
         let distance = |friction: &str| {
             let row = |row: &&Percentages| (row.friction, row.measure, row.output) == (friction, "S_1", "F_cr");
             rows.iter().find(row).unwrap().studies[1].distance

@@ -1,4 +1,4 @@
-//! Our shares beside the published ones, as one table: for the page, for a terminal, and as CSV.
+//! Our shares with the published ones, as one table: for the page, for a terminal, and as CSV.
 
 use apportion::Estimate;
 use apportion::result::IndexRecord;
@@ -8,12 +8,12 @@ use apportion_report::format::{or_dash, words};
 
 use super::{Reproduced, published};
 
-/// The indices of a study's factors.
+/// Returns the indices of a study's factors.
 pub(super) fn indices(study: &Reproduced) -> &[IndexRecord] {
     study.result.outputs.first().and_then(|output| output.indices.as_deref()).unwrap_or_default()
 }
 
-/// The places of a study's factors among its [`indices`], the largest total share first.
+/// Returns the positions of a study's factors in its [`indices`], the largest total share first.
 pub(super) fn ranked(study: &Reproduced) -> Vec<usize> {
     let shares = indices(study).iter().enumerate();
     let mut ranked: Vec<(usize, f64)> =
@@ -22,8 +22,8 @@ pub(super) fn ranked(study: &Reproduced) -> Vec<usize> {
     ranked.into_iter().map(|(place, _)| place).collect()
 }
 
-/// Every index and share of every study with the printed percentage, printed with the largest total share of each study
-/// first; in the file in the order of its factors.
+/// Builds the table of every index and share of every study with the printed percentage, by falling total share in
+/// print, and in the order of the study's factors in the file.
 pub(super) fn shares_table<'a>(studies: &[&'a Reproduced]) -> Table {
     let (mut rows, mut printed) = (Vec::new(), Vec::new());
     for study in studies {

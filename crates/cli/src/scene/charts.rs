@@ -6,7 +6,7 @@ use apportion_report::format::{change, force, length, three_digits as short, tim
 
 use super::{SceneSample, SceneStory};
 
-/// The colours of the quantities, the same in the animation: the pushing force has that of the friction law.
+/// The colours of the quantities, also in the animation: the pushing force has that of the friction law.
 pub(super) const LATERAL: Colour = Colour::Series(4);
 pub(super) const NORMAL: Colour = Colour::Series(6);
 pub(super) const SUBSTRATE: Colour = Colour::Series(6);
@@ -14,11 +14,11 @@ const PARTICLE: Colour = Colour::Series(1);
 const RELATIVE: Colour = Colour::Series(4);
 const TIP: Colour = Colour::Series(5);
 
-/// From SI to nN and nm.
+/// Factor from SI to nN and nm.
 const NANO: f64 = 1e9;
 
-/// The story's charts: forces, pushing against critical force, positions, contacts, each against time
-/// with the slip marked, each with the name of its files. The caption of each says in one sentence what came out.
+/// Draws the charts of a story: forces, pushing against critical force, positions, contacts, each against time with the
+/// slip marked, each with the name of its files. Each caption states the result in one sentence.
 pub fn scene_charts(story: &SceneStory) -> [(&'static str, Chart); 4] {
     [
         ("scene-forces", forces(story)),
@@ -28,7 +28,7 @@ pub fn scene_charts(story: &SceneStory) -> [(&'static str, Chart); 4] {
     ]
 }
 
-/// A quantity in a chart: its name, colour, and how to read it in the chart's unit.
+/// A quantity in a chart: its name, colour, and a function for its value in the chart's unit.
 struct Curve<'a> {
     name: &'a str,
     look: (Colour, Stroke),
@@ -44,12 +44,12 @@ fn panel(story: &SceneStory, y: Axis, curves: &[Curve<'_>]) -> Panel {
     Panel::new(Axis::new("Time", "s"), y).with(curves.iter().map(line)).with(rule)
 }
 
-/// The chart of quantities of one unit.
+/// Draws quantities of one unit.
 fn chart(story: &SceneStory, [title, caption]: [&str; 2], [label, unit]: [&str; 2], curves: &[Curve<'_>]) -> Chart {
     Chart::new(title, caption).panels([panel(story, Axis::new(label, unit), curves)])
 }
 
-/// One label of the slip is enough for a chart.
+/// Clears the labels of the slip in these panels: one label is enough for a chart.
 fn clear_rule_labels(panels: &mut [Panel]) {
     for mark in panels.iter_mut().flat_map(|panel| &mut panel.marks) {
         if let Shape::Rule(_, label) = &mut mark.shape {
@@ -58,7 +58,7 @@ fn clear_rule_labels(panels: &mut [Panel]) {
     }
 }
 
-/// The colour of a friction law, the same in all charts of scenes.
+/// Returns the colour of a friction law, the same in all charts of scenes.
 pub const fn law_colour(law: FrictionLaw) -> Colour {
     match law {
         FrictionLaw::Coulomb => Colour::Series(0),
@@ -68,7 +68,7 @@ pub const fn law_colour(law: FrictionLaw) -> Colour {
     }
 }
 
-/// TS04 figure 8, CHK figure 5.
+/// Draws tS04 figure 8, CHK figure 5.
 pub(crate) fn forces(story: &SceneStory) -> Chart {
     let curves = [
         Curve { name: "tip force F_T", look: (story.colour, Stroke::Solid), read: &|s| NANO * s.tip_force },
@@ -98,7 +98,7 @@ fn forces_caption(story: &SceneStory) -> String {
     format!("{begins} {critical}, at which the particle slips after {slip}{after}{normal}.")
 }
 
-/// TS04 figure 9.
+/// Draws tS04 figure 9.
 pub(crate) fn pushing(story: &SceneStory) -> Chart {
     let critical = NANO * story.critical.critical_force;
     let curves = [
@@ -114,7 +114,7 @@ pub(crate) fn pushing(story: &SceneStory) -> Chart {
     chart(story, ["Pushing force against critical force", &caption], ["Force", "nN"], &curves)
 }
 
-/// TS04 figure 10.
+/// Draws tS04 figure 10.
 pub(crate) fn positions(story: &SceneStory) -> Chart {
     let curves = [
         Curve { name: "substrate", look: (SUBSTRATE, Stroke::Dashed), read: &|s| NANO * s.substrate },
@@ -145,7 +145,7 @@ fn positions_caption(story: &SceneStory) -> String {
     }
 }
 
-/// TS04 figure 13.
+/// Draws tS04 figure 13.
 pub(crate) fn contacts(story: &SceneStory) -> Chart {
     let absolute: &dyn Fn(&SceneSample, Read) -> f64 = &|sample, read| NANO * read(sample);
     let relative: &dyn Fn(&SceneSample, Read) -> f64 = &|sample, read| 100.0 * change_since_start(story, sample, read);
@@ -170,7 +170,7 @@ pub(crate) fn contacts(story: &SceneStory) -> Chart {
 
 type Read = fn(&SceneSample) -> f64;
 
-/// The change of a quantity since the first sample, as a part of it; NaN where it does not exist.
+/// Returns the relative change of a quantity since the first sample; NaN if it does not exist.
 fn change_since_start(story: &SceneStory, sample: &SceneSample, read: Read) -> f64 {
     story.samples.first().map_or(f64::NAN, |first| read(sample) / read(first) - 1.0)
 }
@@ -192,12 +192,12 @@ fn contacts_caption(story: &SceneStory) -> String {
 
 const NO_SAMPLES: &str = "The story holds no sample.";
 
-/// A relative size in words.
+/// Formats a relative size.
 fn bound(spread: f64) -> String {
     if spread < 1e-4 { "less than 0.01 %".to_owned() } else { format!("at most {} %", short(100.0 * spread)) }
 }
 
-/// The largest size of the finite values, if there are any.
+/// Returns the largest magnitude of the finite values, if there are any.
 fn spread(values: impl Iterator<Item = f64>) -> Option<f64> {
     values.map(f64::abs).filter(|size| size.is_finite()).reduce(f64::max)
 }

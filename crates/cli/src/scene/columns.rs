@@ -1,4 +1,4 @@
-//! The story as a table: CSV for a spreadsheet, JSON for a program.
+//! The story as a table: CSV for spreadsheets, JSON for programs.
 
 use apportion_report::document::Table;
 use serde_json::{Map, Value, json};
@@ -9,12 +9,12 @@ use super::{SceneSample, SceneStory};
 struct Column {
     /// Name with unit.
     name: &'static str,
-    /// From SI to that unit.
+    /// Factor from SI to that unit.
     factor: f64,
     read: fn(&SceneSample) -> f64,
 }
 
-/// From N to nN and from m to nm.
+/// Factor from N to nN and from m to nm.
 const NANO: f64 = 1e9;
 
 const fn column(name: &'static str, factor: f64, read: fn(&SceneSample) -> f64) -> Column {
@@ -40,21 +40,21 @@ const COLUMNS: [Column; 15] = [
     column("tip_indentation_nm", NANO, |s| s.tip_indentation()),
 ];
 
-/// A flag's name and how to read it.
+/// The name of a flag and a function for its value.
 type Flag = (&'static str, fn(&SceneSample) -> bool);
 
 /// The flags of a sample, after its numbers.
 const FLAGS: [Flag; 4] =
     [("slipping", |s| !s.sticking), ("tip_slip", |s| s.tip_slip), ("rolling", |s| s.rolling), ("spin", |s| s.spin)];
 
-/// The number in the column called `name`, in its unit.
+/// Returns the number in the column `name`, in its unit.
 pub fn scene_number(name: &str, sample: &SceneSample) -> f64 {
     let column = COLUMNS.iter().find(|column| column.name == name).expect("a column of scenes");
     column.factor * (column.read)(sample)
 }
 
-/// The samples as a table for CSV: names with units, then a row per sample, flags as `true` and `false`. The columns are
-/// described in `docs/scene-format.md`.
+/// Returns the samples as a table for CSV: names with units, then a row per sample, flags as `true` and `false`. The
+/// columns described in `docs/scene-format.md`.
 pub fn scene_table(story: &SceneStory) -> Table {
     let numbers = COLUMNS.iter().fold(Table::from_rows("", &story.samples), |rows, column| {
         rows.file(column.name, |sample| column.factor * (column.read)(sample))
@@ -62,13 +62,13 @@ pub fn scene_table(story: &SceneStory) -> Table {
     FLAGS.iter().fold(numbers, |rows, (name, read)| rows.file(*name, read)).into()
 }
 
-/// The story as JSON, format `apportion-scene`, version 1: see `docs/scene-format.md`. The samples are columns of the
-/// same names, units and digits as in [`scene_table`].
+/// Formats the story as JSON, format `apportion-scene`, version 1: see `docs/scene-format.md`. The samples are columns
+/// of the same names, units and digits as in [`scene_table`].
 pub fn scene_json(story: &SceneStory) -> String {
     format!("{:#}\n", scene_value(story))
 }
 
-/// The story as a JSON value. A number that is not finite is `null`.
+/// Returns the story as a JSON value. A number that is not finite is `null`.
 pub(super) fn scene_value(story: &SceneStory) -> Value {
     let setting: Vec<Value> =
         story.setting.iter().map(|(label, value)| json!({ "label": label, "value": value })).collect();

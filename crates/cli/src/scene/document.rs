@@ -5,7 +5,7 @@ use apportion_report::format::{minus, with_unit};
 
 use super::{ModeDiagram, SceneStory, mode_diagram_chart, player_page, scene_charts, scene_json, scene_table};
 
-/// The document of a scene of the study called `study`.
+/// Builds the document of a scene of the study `study`.
 pub fn scene_document(story: &SceneStory, study: &str) -> Document {
     let frame = || Part::Frame { title: "The scene as an animation".to_owned(), html: player_page(story) };
     let animation = (!story.samples.is_empty()).then(frame);
@@ -31,7 +31,7 @@ pub fn scene_document(story: &SceneStory, study: &str) -> Document {
     .document()
 }
 
-/// Forces at the slip, and how far the particle has come in the end.
+/// States the forces at the slip, and the final position of the particle.
 fn numbers(story: &SceneStory) -> Option<String> {
     let critical = &story.critical;
     let value = |x: f64, unit: &str| minus(&with_unit(x, unit));
@@ -48,7 +48,7 @@ fn numbers(story: &SceneStory) -> Option<String> {
     Some(format!("{text}; after {} the particle has moved {moved} relative to the substrate.", value(end.time, "s")))
 }
 
-/// The document of the modes of motion in the study called `study`, whose title is `title`.
+/// Builds the document of the modes of motion in the study `study`, whose title is `title`.
 pub fn mode_document(diagram: &ModeDiagram, study: &str, title: &str) -> Document {
     let (name, chart) = (format!("{study}-modes"), mode_diagram_chart(diagram));
     let mut csv = Table::from_rows("", 0..diagram.angle.len()).file("angle_rad", |row| diagram.angle[row]);

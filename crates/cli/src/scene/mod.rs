@@ -1,8 +1,8 @@
 //! A scene in time: its document with an animation, its charts, CSV and JSON.
 //!
-//! A [`SceneStory`] is plain data in SI; who computed it does not matter here. The exporters draw the figures of
-//! Tafazzoli & Sitti 2004 (8, 9, 10, 12, 13 and, moving, 14). A number that is not finite is an empty cell in CSV,
-//! `null` in JSON and a gap in a chart.
+//! A [`SceneStory`] is plain data in SI, from any source. The exporters draw the figures of Tafazzoli & Sitti 2004 (8,
+//! 9, 10, 12, 13 and, moving, 14). A number that is not finite is an empty cell in CSV, `null` in JSON and a gap in a
+//! chart.
 
 pub(crate) mod charts;
 mod columns;
@@ -29,24 +29,24 @@ pub use player::player_page;
 pub struct SceneStory {
     /// Headline.
     pub title: String,
-    /// What was chosen, as label and value with unit, such as ("friction", "coulomb"): the page's table of settings.
+    /// The choices, as label and value with unit, such as ("friction", "coulomb"): the page's table of settings.
     pub setting: Vec<(String, String)>,
     /// The scene, whose lengths are drawn to scale.
     pub scene: Scene,
-    /// At which forces the particle slips.
+    /// The forces at which the particle slips.
     pub critical: Critical,
-    /// When it slips (s).
+    /// The time of the slip (s).
     pub critical_time: f64,
     /// The colour of the pushing force: that of the friction law, see [`law_colour`].
     pub colour: Colour,
-    /// The states in the order of time; unevenly spaced, and as few as one or none.
+    /// The states in the order of time, possibly unevenly spaced, possibly one or none.
     pub samples: Vec<SceneSample>,
 }
 
-/// The state at one time, and what else the particle might do then.
+/// The state at one time, with the other possible motions of the particle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SceneSample {
-    /// The state. Positions are along the motion of the substrate, from where each thing stood at the start.
+    /// The state. Positions are along the motion of the substrate, relative to the start.
     pub state: Sample,
     /// Whether the tip would slip on the particle (a diagnostic).
     pub tip_slip: bool,
@@ -65,31 +65,31 @@ impl Deref for SceneSample {
 }
 
 impl SceneSample {
-    /// Contact radius at the tip (m); NaN where the contact is pulled apart.
+    /// Returns the contact radius at the tip (m); NaN if the contact is pulled apart.
     pub fn tip_contact_radius(&self) -> f64 {
         self.tip_contact.map_or(f64::NAN, |contact| contact.radius)
     }
 
-    /// Indentation at the tip (m); NaN where the contact is pulled apart.
+    /// Returns the indentation at the tip (m); NaN if the contact is pulled apart.
     pub fn tip_indentation(&self) -> f64 {
         self.tip_contact.map_or(f64::NAN, |contact| contact.indentation)
     }
 }
 
 impl SceneStory {
-    /// The critical time if the samples reach it: only then can it be drawn.
+    /// Returns the critical time if the samples reach it: otherwise it cannot be drawn.
     fn slip(&self) -> Option<f64> {
         let time = self.critical_time;
         let (first, last) = (self.samples.first()?.time, self.samples.last()?.time);
         (first <= time && time <= last).then_some(time)
     }
 
-    /// The sample nearest to a time.
+    /// Returns the sample nearest to a time.
     fn nearest(&self, time: f64) -> Option<&SceneSample> {
         self.samples.iter().min_by(|a, b| (a.time - time).abs().total_cmp(&(b.time - time).abs()))
     }
 
-    /// The outcome in one sentence.
+    /// States the outcome in one sentence.
     fn outcome(&self) -> String {
         let at = format::force(self.critical.critical_force);
         let time = format::time(self.critical_time);

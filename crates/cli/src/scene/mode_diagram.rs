@@ -1,13 +1,13 @@
-//! The mode diagram: which force moves the particle in which way, against the angle of the force.
+//! The mode diagram: the force of each mode of motion of the particle, against the angle of the force.
 
 use apportion_report::chart::{Axis, Chart, Colour, Mark, Panel, Series, Spacing, Stroke};
 use apportion_report::format::{force, three_digits as short};
 
-/// The forces at which the modes set in, against the angle of the tip force (TS04 figure 12).
+/// The forces at which the modes begin, against the angle of the tip force (TS04 figure 12).
 #[derive(Clone, Debug, PartialEq)]
 pub struct ModeDiagram {
     /// Angles psi of the tip force from the vertical, rising (rad). The caption names the modes at the angle nearest to
-    /// that of `current`, which had better be among them.
+    /// that of `current`, which should be among them.
     pub angle: Vec<f64>,
     /// The modes.
     pub forces: Vec<ModeLine>,
@@ -15,20 +15,20 @@ pub struct ModeDiagram {
     pub current: (f64, f64),
 }
 
-/// The force at which a mode sets in.
+/// The force at which a mode begins.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ModeLine {
     /// Name of the mode, such as "sliding".
     pub mode: String,
     /// Its colour.
     pub colour: Colour,
-    /// One force (N) for each angle; `None` where no force sets it in.
+    /// One force (N) for each angle; `None` if no force starts it.
     pub force: Vec<Option<f64>>,
 }
 
 const DEGREES: f64 = 180.0 / std::f64::consts::PI;
 
-/// The diagram, forces on a logarithmic axis.
+/// Draws the diagram, forces on a logarithmic axis.
 pub fn mode_diagram_chart(diagram: &ModeDiagram) -> Chart {
     let scene = Series::new("this scene at its slip", Colour::Reference).stroke(Stroke::Points);
     let (angle, force) = diagram.current;
@@ -44,7 +44,7 @@ fn mode_line(diagram: &ModeDiagram, line: &ModeLine) -> Mark {
     Series::new(&line.mode, line.colour).line(diagram.angle.iter().map(|angle| DEGREES * angle).zip(forces).collect())
 }
 
-/// Which modes set in at the scene's own angle, the one of the least force first.
+/// Says which modes begin at the scene's own angle, the one of the smallest force first.
 fn caption(diagram: &ModeDiagram) -> String {
     let (angle, scene_force) = diagram.current;
     let Some(place) = nearest(&diagram.angle, angle) else { return "The diagram holds no angle.".to_owned() };
@@ -56,13 +56,13 @@ fn caption(diagram: &ModeDiagram) -> String {
     format!("At {here}° set in: {modes}; the scene slips at {}° and {}.", short(DEGREES * angle), force(scene_force))
 }
 
-/// A mode with its force at a place, where it has one.
+/// Returns a mode with its force at a position, if it has one.
 fn at(line: &ModeLine, place: usize) -> Option<(&str, f64)> {
     let force = line.force.get(place).copied().flatten().filter(|force| force.is_finite())?;
     Some((&line.mode, force))
 }
 
-/// The place of the number nearest to `value`.
+/// Returns the position of the number nearest to `value`.
 fn nearest(numbers: &[f64], value: f64) -> Option<usize> {
     (0..numbers.len()).min_by(|&a, &b| (numbers[a] - value).abs().total_cmp(&(numbers[b] - value).abs()))
 }

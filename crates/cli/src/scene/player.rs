@@ -1,4 +1,4 @@
-//! The animation of a scene as a page that needs nothing else.
+//! The animation of a scene as a self-contained page.
 
 use apportion_report::chart::Colour;
 use askama::Template;
@@ -9,7 +9,7 @@ use super::charts::{LATERAL, NORMAL, SUBSTRATE};
 use super::columns::scene_value;
 use super::view::View;
 
-/// The parts of the page's script, each using those before it.
+/// The parts of the page's script; each uses the ones before it.
 const SCRIPT: [&str; 4] = [
     include_str!("../../templates/scene/story.js"),
     include_str!("../../templates/scene/draw.js"),
@@ -17,7 +17,7 @@ const SCRIPT: [&str; 4] = [
     include_str!("../../templates/scene/player.js"),
 ];
 
-/// The template escapes every text; what it takes as it is (`safe`) comes from this program: style, script, data made
+/// The template escapes every text; values inserted unescaped (`safe`) come from this program: style, script, data made
 /// by [`script_json`].
 #[derive(Template)]
 #[template(path = "scene/player.html")]
@@ -33,9 +33,9 @@ struct Player<'a> {
     version: &'static str,
 }
 
-/// The animation as a page of HTML: probe, particle and contacts beside the growing force curve, moved by a slider, the
-/// keyboard or on its own. It loads nothing from anywhere and works without a network; inside the frame of another page it
-/// leaves out its title.
+/// Builds the animation as a page of HTML: probe, particle and contacts next to the growing force curve, moved by a
+/// slider, the keyboard or automatically. It loads nothing and works without a network; inside the frame of another
+/// page it omits its title.
 pub fn player_page(story: &SceneStory) -> String {
     let view = View::new(story);
     let page = Player {
@@ -58,12 +58,12 @@ pub fn player_page(story: &SceneStory) -> String {
     page.render().expect("texts and numbers, into memory")
 }
 
-/// A sentence in which numbers stay on one line with their units.
+/// Joins numbers to their units in a sentence by no-break spaces.
 fn unbroken(sentence: &str) -> String {
     sentence.replace(" nN", "\u{a0}nN").replace(" s,", "\u{a0}s,")
 }
 
-/// JSON that may stand in a script element: no text in it can end the element or open a comment.
+/// Formats JSON for a script element: no text in it can end the element or open a comment.
 fn script_json(value: &Value) -> String {
     let text = value.to_string();
     text.replace('<', "\\u003c").replace('>', "\\u003e").replace('&', "\\u0026")
@@ -78,7 +78,7 @@ mod tests {
         player_page(story)
     }
 
-    /// The JSON of a script element.
+    /// Returns the JSON of a script element.
     fn embedded(page: &str, id: &str) -> Value {
         let (_, rest) = page.split_once(&format!("id=\"{id}\">")).unwrap();
         serde_json::from_str(rest.split_once("</script>").unwrap().0).unwrap()

@@ -1,4 +1,4 @@
-//! One scene of a study in time, and the diagram of what else the particle may do.
+//! Simulation of one scene of a study in time, and of the diagram of other motions of the particle.
 
 use apportion::study::Study;
 use apportion_afm::history::{Sample, history};
@@ -13,18 +13,18 @@ use crate::scene::{ModeDiagram, ModeLine, SceneSample, SceneStory, law_colour};
 /// Why a scene cannot be simulated.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum SimulationError {
-    /// The study is about something else.
+    /// The study has another model.
     #[error("only the nanoparticle model (model = \"afm\") has a scene in time, and this study is about `{0}`")]
     NoScene(&'static str),
-    /// The scene has no answer.
+    /// The scene has no solution.
     #[error("the scene cannot be simulated: {0}")]
     Failed(#[from] Failure),
 }
 
-/// The scene of a study: its constants, with every factor at its nominal value.
+/// Returns the scene of a study: its constants, with every factor at its nominal value.
 ///
 /// # Errors
-/// [`SimulationError::NoScene`] if the study is not about the nanoparticle model.
+/// [`SimulationError::NoScene`] if the study does not use the nanoparticle model.
 fn scene_of(study: &Study) -> Result<(Scene, Options), SimulationError> {
     let Some(afm) = study.subject().downcast_ref::<AfmSubject>() else {
         return Err(SimulationError::NoScene(study.subject().name()));
@@ -38,10 +38,10 @@ fn scene_of(study: &Study) -> Result<(Scene, Options), SimulationError> {
     Ok((scene, afm.options))
 }
 
-/// The scene of `study` in time, for `duration` seconds; by default for twice the critical time.
+/// Simulates the scene of `study`, for `duration` seconds; by default for twice the critical time.
 ///
 /// # Errors
-/// [`SimulationError`] if the study has no scene, or the scene no answer, as at velocity 0.
+/// [`SimulationError`] if the study has no scene, or the scene no solution, as at velocity 0.
 pub fn simulate(study: &Study, duration: Option<f64>) -> Result<SceneStory, SimulationError> {
     let (scene, options) = scene_of(study)?;
     let duration = match duration {
@@ -52,7 +52,7 @@ pub fn simulate(study: &Study, duration: Option<f64>) -> Result<SceneStory, Simu
     Ok(scene_story(title, &scene, &options, duration)?)
 }
 
-/// A scene in time, for `duration` seconds, by the quasi-static rung whatever the fidelity of the options.
+/// Simulates a scene, for `duration` seconds, by the quasi-static rung for any fidelity of the options.
 ///
 /// # Errors
 /// Those of [`history`].
@@ -71,14 +71,14 @@ pub fn scene_story(title: String, scene: &Scene, options: &Options, duration: f6
     })
 }
 
-/// What may move the particle of a scene under its options, with the default constants of the modes.
+/// Returns the possible motions of the particle of a scene under its options, with the default constants of the modes.
 pub(crate) fn pushing(scene: Scene, options: &Options) -> Pushing {
     Pushing { theory: options.contact, adhesion_in_load: options.adhesion_in_load, ..Pushing::new(scene) }
 }
 
 fn scene_sample(sample: &Sample, pushing: &Pushing) -> Result<SceneSample, Failure> {
     let force = TipForce { normal: sample.normal_force, lateral: sample.lateral_force };
-    // A force that pulls a contact apart leaves nothing to slip, roll or spin there.
+    // A contact that is pulled apart cannot slip, roll or spin.
     let moves = |mode| match pushing.balance(mode, force) {
         Ok(balance) => Ok(balance.moves()),
         Err(Failure::BeyondPullOff) => Ok(false),
@@ -98,7 +98,7 @@ fn setting(scene: &Scene, options: &Options) -> Vec<(String, String)> {
         ("contact", options.contact.name()),
         ("torsion", options.torsion.name()),
         ("adhesion in load", if options.adhesion_in_load { "yes" } else { "no" }),
-        // The history is quasi-static whatever the study's critical forces are computed by.
+        // The history is quasi-static for any fidelity of the study's critical forces.
         ("motion", Fidelity::QuasiStatic.name()),
     ];
     let value = |parameter: &Parameter| {
@@ -110,27 +110,27 @@ fn setting(scene: &Scene, options: &Options) -> Vec<(String, String)> {
     choices.chain(Parameter::ALL.iter().map(value)).collect()
 }
 
-/// Angles in the mode diagram.
+/// Number of angles in the mode diagram.
 const ANGLES: usize = 180;
 
-/// For every way to give way, the tip force at which the particle of `study` begins to, against the force's angle from
-/// the vertical (Tafazzoli and Sitti 2004, fig. 12).
+/// Returns for every mode of motion the tip force at which the particle of `study` begins it, against the force's angle
+/// from the vertical (Tafazzoli and Sitti 2004, fig. 12).
 ///
 /// # Errors
-/// [`SimulationError`] if the study has no scene, or the scene no answer.
+/// [`SimulationError`] if the study has no scene, or the scene no solution.
 pub fn mode_diagram(study: &Study) -> Result<ModeDiagram, SimulationError> {
     let (scene, options) = scene_of(study)?;
     Ok(scene_modes(&scene, &options)?)
 }
 
-/// The mode diagram of a scene, as [`mode_diagram`] draws it for a study.
+/// Returns the mode diagram of a scene, like [`mode_diagram`] for a study.
 ///
 /// # Errors
 /// Those of [`critical_force`] and of [`Pushing::balance`].
 pub fn scene_modes(scene: &Scene, options: &Options) -> Result<ModeDiagram, Failure> {
     let pushing = pushing(*scene, options);
     let critical = critical_force(scene, options)?;
-    // The scene's own angle among them, so that its slip can be read off the steep curves.
+    // The scene's own angle is included, so that its slip can be read from the steep curves.
     let grid = (1..ANGLES).map(|i| std::f64::consts::FRAC_PI_2 * i as f64 / ANGLES as f64);
     let mut angle: Vec<f64> = grid.chain([critical.force_angle()]).collect();
     angle.sort_by(f64::total_cmp);

@@ -1,10 +1,10 @@
-//! How much the animation exaggerates: motions of nanometres against bodies of micrometres would not be seen.
+//! The magnification in the animation: motions of nanometres next to bodies of micrometres would be invisible.
 
 use serde_json::{Value, json};
 
 use super::{SceneSample, SceneStory};
 
-/// The factors by which displacements are drawn larger (above 1) or smaller (below 1) than the bodies beside them.
+/// The factors by which displacements are drawn larger (above 1) or smaller (below 1) than the bodies.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct View {
     /// Twist and lateral displacement in the picture of the probe.
@@ -14,8 +14,8 @@ pub(super) struct View {
 }
 
 impl View {
-    /// Factors with which the probe leans by at most 0.25 rad (or a quarter of its height) and the particle travels at
-    /// most 0.8 of its radius.
+    /// Chooses factors with which the probe leans by at most 0.25 rad (or a quarter of its height) and the particle
+    /// moves at most 0.8 of its radius.
     pub fn new(story: &SceneStory) -> Self {
         let largest = |read: fn(&SceneSample) -> f64| {
             let sizes = story.samples.iter().map(|sample| read(sample).abs()).filter(|size| size.is_finite());
@@ -27,12 +27,12 @@ impl View {
         Self { probe: round_below(0.25 / lean), travel: round_below(0.8 * story.scene.particle_radius / travel) }
     }
 
-    /// The factors for the page's script.
+    /// Returns the factors for the page's script.
     pub fn value(self) -> Value {
         json!({ "probe_factor": self.probe, "travel_factor": self.travel })
     }
 
-    /// The factors as a sentence.
+    /// States the factors in a sentence.
     pub fn sentence(self) -> String {
         format!(
             "Bodies are drawn to scale in each picture; twist and displacements of the probe are {}, the travel of particle \
@@ -54,9 +54,9 @@ fn factor(factor: f64) -> String {
     }
 }
 
-/// The largest of 1, 2, 5, 10, 20, ... (or their inverses) not above `limit`; 1 if the limit is no positive number.
+/// Returns the largest of 1, 2, 5, 10, 20, ... (or their inverses) not above `limit`; 1 if the limit is not positive.
 fn round_below(limit: f64) -> f64 {
-    // Beyond these powers there is nothing to see, and products with coordinates could overflow.
+    // Beyond these powers nothing is visible, and products with coordinates could overflow.
     let decade = libm::log10(limit).floor();
     if !(-100.0..=100.0).contains(&decade) {
         return 1.0;

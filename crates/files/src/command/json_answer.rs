@@ -1,4 +1,4 @@
-//! Answers that are JSON: an object with the outputs by their names, where a list holds those of a series.
+//! JSON replies: an object with the outputs by name, where a list holds those of a series.
 
 use apportion::model::item_of_list;
 use apportion::text::masked;
@@ -6,14 +6,14 @@ use serde_json::Value;
 
 use super::protocol::{Answer, failed};
 
-/// What an object holds under one key: a single output, or a list of several.
+/// The content of an object under one key: a single output, or a list of several.
 struct Key<'a> {
-    /// The name of the list, of several outputs.
+    /// The name of the list, if there are several outputs.
     list: Option<&'a str>,
     names: &'a [String],
 }
 
-/// The keys of an object with `outputs`, in order: `y[0]`, `y[1]` and so on are the items of a list `y`.
+/// Iterates over the keys of an object with `outputs`, in order: `y[0]`, `y[1]` and so on are the items of a list `y`.
 fn keys(outputs: &[String]) -> impl Iterator<Item = Key<'_>> {
     let follows = |one: &String, next: &String| match (item_of_list(one), item_of_list(next)) {
         (Some((list, place)), Some((same, following))) => list == same && following == place + 1,
@@ -21,13 +21,13 @@ fn keys(outputs: &[String]) -> impl Iterator<Item = Key<'_>> {
     };
     outputs.chunk_by(follows).flat_map(|names| {
         let list = item_of_list(&names[0]).filter(|(_, first)| *first == 0 && names.len() > 1);
-        // What is no list from its beginning is named one by one.
+        // An item that does not start a list is named by itself.
         let length = if list.is_some() { names.len() } else { 1 };
         names.chunks(length).map(move |names| Key { list: list.map(|(list, _)| list), names })
     })
 }
 
-/// The keys of an object with `outputs`, as in `peak, infected (a list of 365)`.
+/// Lists the keys of an object with `outputs`, as in `peak, infected (a list of 365)`.
 pub(super) fn keys_in_words(outputs: &[String]) -> String {
     let words = |key: Key<'_>| match key.list {
         Some(list) => format!("{list} (a list of {})", key.names.len()),
@@ -41,7 +41,7 @@ pub(super) fn json(text: &str) -> Result<Value, String> {
     parsed.map_err(|_| format!("`{}`", masked(text)))
 }
 
-/// The answer that `parsed` is: one value for each of `outputs`, or why the row failed; or what it is instead.
+/// Converts `parsed` to a reply: one value for each of `outputs`, or why the row failed. The error describes it.
 pub(super) fn json_answer(outputs: &[String], parsed: &Value) -> Result<Answer, String> {
     let mut values = Vec::with_capacity(outputs.len());
     let number = |value: &Value, of: &str| match value {
@@ -85,7 +85,7 @@ fn kind(value: &Value) -> &'static str {
     }
 }
 
-/// The text with `NaN` and `Infinity`, which Python writes though JSON has no such thing, as null.
+/// Replaces `NaN` and `Infinity`, which Python writes although JSON does not have them, by null.
 fn without_nan(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     let (mut rest, mut in_string) = (text, false);
@@ -96,7 +96,7 @@ fn without_nan(text: &str) -> String {
                 out.push_str("null");
                 word.len()
             }
-            // An escape and what it escapes.
+            // An escape and the escaped character.
             None if in_string && c == '\\' => 1 + rest.chars().nth(1).map_or(0, char::len_utf8),
             None => c.len_utf8(),
         };

@@ -1,8 +1,8 @@
-//! A worker that keeps one process alive and asks it row by row, several rows ahead of the answers.
+//! A worker that keeps one process alive and sends it rows, several ahead of the replies.
 //!
-//! A row is asked or answered: its answer brings back its number, so that answers may come in any order. Where a process ends
-//! over rows that it was asked, one of them may be why. They are asked again one at a time ([`Rows::suspects`]), and a row has
-//! failed once a process ended that had been started for it alone.
+//! A row is pending or answered: its reply contains its number, so replies may come in any order. If a process ends
+//! while rows are pending, one of them may be the cause. They are retried one at a time ([`Rows::suspects`]), and a row
+//! has failed once a process that was started for it alone has ended.
 
 mod rows;
 mod session;
@@ -22,15 +22,15 @@ use super::protocol::{is_answer_without_number, parse_answer};
 use super::row::RowWriter;
 use super::{CommandModel, Protocol, State};
 
-/// Bytes of rows that are written at once.
+/// Number of bytes of rows that are written at once.
 const TEXT: usize = 1 << 15;
-/// How long it may take until an interruption is seen.
+/// Interval at which an interruption is checked.
 const ATTENTION: Duration = Duration::from_millis(100);
-/// A process that is silent for so long, and for so many times the longest time that an answer has taken, may have skipped a
-/// row: its input is closed, upon which it answers what it has read and ends.
+/// Silence, and at least `TIMES` times the longest reply time so far, after which a process may have skipped a row: its
+/// input is then closed, so it replies to what it has read and ends.
 const QUIET: Duration = Duration::from_secs(2);
 const TIMES: u32 = 5;
-/// The same until the first answer of all.
+/// The same before the first reply of all.
 const FIRST_START: Duration = Duration::from_secs(60);
 
 pub(super) struct KeptAliveWorker<'a> {
@@ -41,7 +41,7 @@ pub(super) struct KeptAliveWorker<'a> {
     session: Option<Session>,
 }
 
-/// Why a process gives no more answers, or no process does.
+/// Why a process, or every process, gives no more replies.
 enum Fault {
     Closed(Ending),
     Silent,
@@ -55,7 +55,7 @@ impl<'a> KeptAliveWorker<'a> {
         Self { model, context, protocol, writer, session: None }
     }
 
-    /// Asks until every row has an answer or has failed.
+    /// Sends rows until each has a reply or has failed.
     fn answer(&mut self, rows: &mut Rows<'_>) -> Result<(), GiveUp> {
         while rows.open > 0 {
             if self.context.is_stopped() {
@@ -78,7 +78,7 @@ impl<'a> KeptAliveWorker<'a> {
         Ok(())
     }
 
-    /// Sends the rows that may be sent: before the first answer of the program, and while rows are under suspicion, one.
+    /// Sends as many rows as allowed: one before the first reply of the program and while rows are suspected.
     fn send(&mut self, rows: &mut Rows<'_>) {
         let Some(session) = self.session.as_mut().filter(|session| !session.is_closed) else { return };
         let is_ahead = self.model.state.has_answered() && rows.suspects.is_empty();
@@ -101,7 +101,7 @@ impl<'a> KeptAliveWorker<'a> {
         }
     }
 
-    /// Takes what comes next.
+    /// Handles the next event.
     fn step(&mut self, rows: &mut Rows<'_>) -> Result<(), Fault> {
         let Some(session) = &mut self.session else { return Ok(()) };
         let left = self.model.settings.timeout.map(|timeout| timeout.saturating_sub(session.silent_for()));
@@ -128,7 +128,7 @@ impl<'a> KeptAliveWorker<'a> {
         }
     }
 
-    /// Takes a line that the process has printed.
+    /// Handles a line that the process has printed.
     fn hear(&mut self, line: &[u8], rows: &mut Rows<'_>) -> Result<(), Fault> {
         let (model, protocol) = (self.model, self.protocol);
         let Some(session) = &mut self.session else { return Ok(()) };
@@ -176,11 +176,11 @@ impl<'a> KeptAliveWorker<'a> {
         if session.strayed > LONGEST { Err(Fault::LongLine) } else { Ok(()) }
     }
 
-    /// Nothing has come for a while.
+    /// Handles a timeout without events.
     fn wait(&mut self) {
         let state = &self.model.state;
         let Some(session) = &mut self.session else { return };
-        // Others that it has started may hold its output open.
+        // Other processes that it has started may hold its output open.
         session.process.clear_away();
         let silent_for = session.silent_for();
         let quiet = match state.has_answered() {
@@ -200,7 +200,7 @@ impl<'a> KeptAliveWorker<'a> {
         }
     }
 
-    /// Ends the process, and finds out what becomes of the rows that it was asked.
+    /// Ends the process, and decides what happens to its pending rows.
     fn end(&mut self, fault: Fault, rows: &mut Rows<'_>) -> Result<(), GiveUp> {
         let Some(mut session) = self.session.take() else { return Ok(()) };
         let reason = self.reason(fault, &mut session);

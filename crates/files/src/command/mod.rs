@@ -1,8 +1,8 @@
-//! The user's own program as a model: kept alive and asked row by row over its standard input and output, or started
-//! anew for each row in a directory of its own, with an input file made from a template.
+//! The user's own program as a model: kept alive and sent rows over its standard input and output, or started again for
+//! each row in a directory of its own, with an input file made from a template.
 //!
-//! No shell is involved. A program is the leader of a process group, which is ended with it; what it does wrong has a
-//! reason in the result, and never costs a row that it answered.
+//! No shell is involved. A program is the leader of a process group, which is ended with it; its errors are reported
+//! with a reason in the result, and never lose a row that it has answered.
 
 mod json_answer;
 mod kept_alive;
@@ -29,44 +29,44 @@ pub use program::{Program, program_files};
 pub use protocol::{Protocol, parse_answer};
 pub use template::{InputTemplate, TemplateError, TemplateProblem};
 
-/// How a program is asked.
+/// How a program receives rows.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Form {
-    /// It is kept alive, reads rows and writes answers, each with the number of its row.
+    /// It is kept alive, reads rows and writes replies, each with the number of its row.
     KeptAlive(Protocol),
     /// It runs once for each row.
     PerRun(PerRun),
 }
 
-/// An output that a program gives.
+/// An output of a program.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CommandOutput {
     /// Its name.
     pub name: String,
-    /// The unit of the program's numbers, in which it is reported too.
+    /// The unit of the program's numbers, also used in reports.
     pub unit: Unit,
-    /// Where it stands after a run, of a program that runs once for each row.
+    /// Where its number is after a run, for a program that runs once for each row.
     pub pick: Option<Pick>,
 }
 
-/// A program as a model, with all that is said of it.
+/// The settings of a program as a model.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CommandSettings {
-    /// What is started.
+    /// The program.
     pub program: Program,
-    /// How it is asked.
+    /// How it receives rows.
     pub form: Form,
-    /// All outputs that it gives, in its order.
+    /// All outputs of the program, in its order.
     pub outputs: Vec<CommandOutput>,
-    /// Those of them that are series.
+    /// The outputs that are series.
     pub series: Vec<OutputSeries>,
-    /// Places of those that are asked for.
+    /// Positions of the requested outputs.
     pub asked: Vec<usize>,
-    /// Processes at once; as many as there are cores if not said.
+    /// Number of processes at once; the number of cores by default.
     pub workers: Option<usize>,
-    /// How long the answer to a row may take; as long as it takes if not said.
+    /// Time limit for the reply to a row; none by default.
     pub timeout: Option<Duration>,
-    /// How often a row is tried again on which the program died, hung, or answered what is no answer.
+    /// Number of retries of a row on which the program ended, hung, or printed an invalid reply.
     pub retries: u32,
 }
 
@@ -100,8 +100,8 @@ pub struct CommandSettings {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
-/// `examples/own_program.rs` writes such a program, studies it by [`Study::builder`](apportion::study::Study::builder) and
-/// compares the result with that of a function.
+/// `examples/own_program.rs` writes such a program, studies it by [`Study::builder`](apportion::study::Study::builder)
+/// and compares the result with that of a function.
 pub struct CommandModel {
     settings: CommandSettings,
     factors: Vec<Factor>,
@@ -109,29 +109,29 @@ pub struct CommandModel {
     series: Vec<OutputSeries>,
     /// The names of all outputs of the program.
     names: Vec<String>,
-    /// How long it may be silent at its first row without a hint.
+    /// How long it may be silent at its first row before a hint is given.
     silence: Duration,
     state: State,
 }
 
-/// What the workers of a model share.
+/// The state that the workers of a model share.
 #[derive(Debug, Default)]
 struct State {
     /// Whether the program has ever answered.
     has_answered: AtomicBool,
-    /// Rows that failed before it ever did.
+    /// Number of rows that failed before the first reply.
     failed_first: AtomicU32,
-    /// The longest that an answer took, the start of its process included, in microseconds.
+    /// The longest time to a reply, the start of its process included, in microseconds.
     slowest: AtomicU64,
-    /// Whether its silence, and lines that are no answers, have been spoken of.
+    /// Whether hints on its silence, and on lines that are not replies, have been given.
     hinted: AtomicBool,
     strayed: AtomicBool,
 }
 
-/// How long a program that has never answered may be silent without a hint.
+/// How long a program without any reply may be silent before a hint is given.
 const SILENCE: Duration = Duration::from_secs(10);
 
-/// Rows that may fail before there has been any answer.
+/// Maximum number of rows that may fail before the first reply.
 const MAX_FAILED_FIRST: u32 = 5;
 
 impl State {
@@ -139,13 +139,13 @@ impl State {
         self.has_answered.load(Ordering::Relaxed)
     }
 
-    /// The program has answered, after so long.
+    /// Records a reply of the program after the time `took`.
     fn note_answer(&self, took: Duration) {
         self.has_answered.store(true, Ordering::Relaxed);
         self.slowest.fetch_max(took.as_micros() as u64, Ordering::Relaxed);
     }
 
-    /// Counts a row that failed without an answer. It is an error that ends the run if the first rows all do.
+    /// Counts a row that failed without a reply. If all of the first rows fail, the error ends the run.
     fn note_failure(&self, reason: &str) -> Result<(), RowFailure> {
         if self.has_answered() || self.failed_first.fetch_add(1, Ordering::Relaxed) + 1 < MAX_FAILED_FIRST {
             return Ok(());
@@ -153,7 +153,7 @@ impl State {
         Err(RowFailure::new(&format!("the program has answered none of its first {MAX_FAILED_FIRST} rows: {reason}")))
     }
 
-    /// Sends `line`, unless `sent` says that it was sent before.
+    /// Sends `line`, unless `sent` is set already.
     fn send_once(sent: &AtomicBool, messages: &Messages, line: &str) {
         if !sent.swap(true, Ordering::Relaxed) {
             messages.send(line);
@@ -162,10 +162,10 @@ impl State {
 }
 
 impl CommandModel {
-    /// The model whose inputs are `factors`, in their order, each in its unit.
+    /// Creates the model whose inputs are `factors`, in their order, each in its unit.
     ///
     /// # Panics
-    /// If `asked` names an output that is not there.
+    /// If `asked` names a missing output.
     pub fn new(settings: CommandSettings, factors: Vec<Factor>) -> Self {
         let output = |place: &usize| {
             let CommandOutput { name, unit, .. } = &settings.outputs[*place];
@@ -204,7 +204,7 @@ impl Model for CommandModel {
     }
 }
 
-/// A value that is none.
+/// Returns the failure for an invalid value.
 fn not_a_value(value: f64) -> RowFailure {
     RowFailure::new(if value.is_nan() {
         "the program gave no value (an empty cell, nan or null)"

@@ -24,22 +24,22 @@ use super::{CommandModel, not_a_value};
 pub struct PerRun {
     /// The template of the input file.
     pub template_file: PathBuf,
-    /// The same, read.
+    /// The parsed template.
     pub template: InputTemplate,
     /// The name of the input file in the directory of a run.
     pub input: String,
     /// Files that are copied there too.
     pub files: Vec<PathBuf>,
-    /// Where the directories of runs stay; they are removed if nothing is said.
+    /// The folder in which the directories of runs are kept; `None` removes them.
     pub keep: Option<PathBuf>,
 }
 
-/// Names of the files in a run's directory that hold what the program wrote.
+/// Names of the files in a run's directory with the output of the program.
 const STDOUT: &str = "stdout.txt";
 const STDERR: &str = "stderr.txt";
 
-/// The time at which files that are copied for a run were written, if outputs are read from them: a run that has written
-/// nothing has no output.
+/// Modification time set for files that are copied for a run, if outputs are read from them: a run that has not written
+/// them has no output.
 const BEFORE: SystemTime = SystemTime::UNIX_EPOCH;
 
 pub(super) struct PerRunWorker<'a> {
@@ -51,9 +51,9 @@ pub(super) struct PerRunWorker<'a> {
 
 /// Why a run has no outputs.
 enum Fault {
-    /// No run will ever have some.
+    /// Every run fails.
     Fatal(RowFailure),
-    /// This one has none; another try may.
+    /// This run failed; a retry may succeed.
     Run(String),
 }
 
@@ -62,7 +62,7 @@ impl<'a> PerRunWorker<'a> {
         Self { model, context, form, values: ValueWriter::new(&model.factors) }
     }
 
-    /// Runs the program on one row, again if it fails, and sets what it gives.
+    /// Runs the program on one row, retries if it fails, and sets its outputs.
     fn row(&self, inputs: &[&[f64]], row: usize, batch: &mut Batch) -> Result<(), RowFailure> {
         let mut tries = 0;
         let reason = loop {
@@ -83,14 +83,14 @@ impl<'a> PerRunWorker<'a> {
         RowFailure::new(&format!("cannot prepare the directory of a run in {}: {error}", place.display()))
     }
 
-    /// A directory for a run, which is removed with what comes beside it unless it is kept.
+    /// Creates a directory for a run, which is removed with its contents unless it is kept.
     fn directory(&self, inputs: &[&[f64]], row: usize) -> io::Result<(PathBuf, Option<TempDir>)> {
         let Some(keep) = &self.form.keep else {
             let temporary = tempfile::Builder::new().prefix("apportion-run-").tempdir()?;
             return Ok((temporary.path().to_owned(), Some(temporary)));
         };
         let text = self.values.table(inputs, row);
-        // The same point has the same directory, whatever the order of runs.
+        // The same point has the same directory in any order of runs.
         let path = keep.join(format!("run-{}", &sha256(text.as_bytes())[..16]));
         match std::fs::remove_dir_all(&path) {
             Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
@@ -106,7 +106,7 @@ impl<'a> PerRunWorker<'a> {
             let copy = directory.join(name);
             std::fs::copy(file, &copy)?;
             if self.is_read(name) {
-                // Where that is refused, a file that the run leaves as it was is taken for its own.
+                // If that is refused, an unchanged file counts as written by the run.
                 let _ = File::options().write(true).open(&copy).and_then(|file| file.set_modified(BEFORE));
             }
         }
@@ -115,7 +115,7 @@ impl<'a> PerRunWorker<'a> {
         Ok((File::create(directory.join(STDOUT))?, File::create(directory.join(STDERR))?))
     }
 
-    /// Whether some output stands in the file of that name.
+    /// Returns whether some output is read from the file of that name.
     fn is_read(&self, name: &std::ffi::OsStr) -> bool {
         let picks = self.model.settings.outputs.iter().filter_map(|output| output.pick.as_ref());
         picks.into_iter().any(|pick| matches!(&pick.source, Source::File(file) if name == file.as_str()))
@@ -145,7 +145,7 @@ impl<'a> PerRunWorker<'a> {
         Err(Fault::Run(format!("the program ended with {}{last}", status_in_words(status))))
     }
 
-    /// Waits until the program has ended, or is to be ended.
+    /// Waits until the program has ended, or must be stopped.
     fn wait(&self, running: &mut Running, directory: &Path) -> Result<(), Fault> {
         let (start, mut pause) = (Instant::now(), Duration::from_millis(1));
         while !running.ends_within(pause) {
@@ -164,7 +164,7 @@ impl<'a> PerRunWorker<'a> {
         Ok(())
     }
 
-    /// Sets the outputs of a run that ended well.
+    /// Sets the outputs of a successful run.
     fn pick(&self, directory: &Path, row: usize, batch: &mut Batch) -> Result<(), RowFailure> {
         let settings = &self.model.settings;
         let (mut missing, mut found) = (None, false);
@@ -212,7 +212,7 @@ impl Worker for PerRunWorker<'_> {
     }
 }
 
-/// Whether a run has not written a file that was copied for it.
+/// Returns whether a run has not written a file that was copied for it.
 fn is_from_before(path: &Path) -> bool {
     std::fs::metadata(path).and_then(|data| data.modified()).is_ok_and(|time| time == BEFORE)
 }

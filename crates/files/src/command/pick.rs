@@ -1,4 +1,4 @@
-//! A number from what a run of a program leaves: by a regular expression, a column of CSV, or a JSON pointer.
+//! Extraction of a number from the files of a run: by a regular expression, a column of CSV, or a JSON pointer.
 
 use std::path::Path;
 
@@ -7,16 +7,16 @@ use apportion::text::masked;
 use regex_lite::Regex;
 use serde_json::Value;
 
-/// Where the number stands, and how it is found.
+/// The source of a number, and how it is extracted.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Pick {
-    /// What is read.
+    /// The text that is read.
     pub source: Source,
-    /// How the number is found in it.
+    /// How the number is extracted.
     pub way: Way,
 }
 
-/// What a run leaves.
+/// The source of a number.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Source {
     /// Its standard output.
@@ -25,22 +25,22 @@ pub enum Source {
     File(String),
 }
 
-/// Which of several matches or rows is taken.
+/// Which of several matches or rows is used.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Match {
     /// The first.
     First,
     /// The last.
     Last,
-    /// The one of that number, from 0: that of a value of a series.
+    /// The one of that number, from 0: for a value of a series.
     Number(usize),
 }
 
 impl Match {
-    /// Those that a study can name, the default first.
+    /// The values that a study can name, the default first.
     pub const ALL: [Self; 2] = [Self::Last, Self::First];
 
-    /// The name in study files; empty for one of a series, which has none.
+    /// Returns the name in study files; empty for one of a series, which has none.
     pub fn name(self) -> &'static str {
         match self {
             Self::First => "first",
@@ -49,7 +49,7 @@ impl Match {
         }
     }
 
-    /// The one that is meant.
+    /// Selects the match.
     fn select<T>(self, mut all: impl Iterator<Item = T>) -> Option<T> {
         match self {
             Self::First => all.next(),
@@ -58,7 +58,7 @@ impl Match {
         }
     }
 
-    /// As in "its last row", "its row 12".
+    /// Formats it as in "its last row", "its row 12".
     fn in_words(self, what: &str) -> String {
         match self {
             Self::Number(number) => format!("{what} {}", number + 1),
@@ -67,10 +67,10 @@ impl Match {
     }
 }
 
-/// How a number is found in a text.
+/// How a number is extracted from a text.
 #[derive(Debug, Clone)]
 pub enum Way {
-    /// The first group of a regular expression, or all that it matches if it has none.
+    /// The first group of a regular expression, or the whole match if it has none.
     Regex(Regex, Match),
     /// A column of a CSV table with a header.
     Column(String, Match),
@@ -89,7 +89,7 @@ impl PartialEq for Way {
     }
 }
 
-/// Bytes of a file that are read.
+/// Maximum number of bytes read from a file.
 pub(super) const MAX_BYTES: u64 = 1 << 28;
 
 impl Source {
@@ -100,7 +100,7 @@ impl Source {
         }
     }
 
-    /// What a run left, whose standard output is in the file `stdout`.
+    /// Returns the text of the source, where the standard output is in the file `stdout`.
     fn text(&self, directory: &Path, stdout: &Path) -> Result<String, String> {
         let (path, file) = match self {
             Self::Stdout => (stdout.to_owned(), "standard output".to_owned()),
@@ -122,12 +122,12 @@ impl Source {
 }
 
 impl Pick {
-    /// The number in what a run left, of which `texts` holds what has been read; not finite where the program wrote so.
+    /// Returns the number of a run; `texts` caches the texts that have been read. It may be non-finite, as written.
     pub(super) fn number(&self, texts: &mut Texts<'_>) -> Result<f64, String> {
         self.way.number(texts.text(&self.source)?, &self.source.in_words())
     }
 
-    /// Where value number `number` of a series stands, from 0: the match or row of that number, or the item of a list.
+    /// Returns the pick of value number `number` of a series, from 0: the match, row or list item of that number.
     #[must_use]
     pub fn of_value(&self, number: usize) -> Self {
         let way = match &self.way {
@@ -139,10 +139,10 @@ impl Pick {
     }
 }
 
-/// What a run left, each file read once.
+/// The texts of a run, each file read once.
 pub(super) struct Texts<'a> {
     directory: &'a Path,
-    /// Where its standard output is.
+    /// The file with its standard output.
     stdout: &'a Path,
     read: Vec<(Source, Result<String, String>)>,
 }
@@ -162,7 +162,7 @@ impl<'a> Texts<'a> {
 }
 
 impl Way {
-    /// The number in `text`, which is called `of` in errors.
+    /// Extracts the number from `text`, which is named `of` in errors.
     ///
     /// ```
     /// use apportion_files::{Match, Way};
@@ -174,7 +174,7 @@ impl Way {
     /// ```
     ///
     /// # Errors
-    /// Why there is none.
+    /// A message if there is no number.
     pub fn number(&self, text: &str, of: &str) -> Result<f64, String> {
         let missing = |missing: String| format!("{of} has no {missing}");
         let found = match self {
@@ -201,13 +201,13 @@ impl Way {
     }
 }
 
-/// A number as programs write it, by Fortran's `1.5D+03` too.
+/// Parses a number as programs write it, including Fortran's `1.5D+03`.
 fn number(text: &str) -> Option<f64> {
     let text = text.trim();
     text.parse().ok().or_else(|| text.replace(['D', 'd'], "e").parse().ok())
 }
 
-/// The cell of a column in one row of a CSV table.
+/// Returns the cell of a column in one row of a CSV table.
 fn cell(text: &str, column: &str, which: Match, of: &str) -> Result<String, String> {
     let missing = |missing: String| format!("{of} has no {missing}");
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);

@@ -1,5 +1,5 @@
-//! A program kept alive: rows to its standard input, answers from its standard output, by threads of their own, so that
-//! neither side waits for the other with a full pipe.
+//! A program kept alive: rows to its standard input, replies from its standard output, each on a thread of its own, so
+//! that neither side blocks the other with a full pipe.
 
 use std::io::{self, Read, Write};
 use std::process::{ChildStdout, ExitStatus, Stdio};
@@ -13,7 +13,7 @@ use apportion::model::Messages;
 use super::program::{Program, Running};
 use super::standard_error::listen;
 
-/// What comes from a process.
+/// An event of a process.
 pub(super) enum Event {
     /// Bytes of its standard output.
     Output(Vec<u8>),
@@ -26,7 +26,7 @@ pub(super) enum Event {
 /// How a process ended.
 #[derive(Clone)]
 pub(super) struct Ending {
-    /// Its exit status, where there is one.
+    /// Its exit status, if there is one.
     pub status: Option<ExitStatus>,
     /// Whether it ended by itself.
     pub by_itself: bool,
@@ -34,26 +34,25 @@ pub(super) struct Ending {
     pub last_words: String,
 }
 
-/// A process that is kept alive. Dropped, it gets the end of its input and a moment to end by itself.
+/// A process that is kept alive. When dropped, its input is closed and it has a moment to end by itself.
 pub(super) struct Process {
     running: Running,
     input: Option<Sender<String>>,
     events: Receiver<Event>,
     last_words: Arc<Mutex<String>>,
     silence: Receiver<()>,
-    /// The thread that started the process lives as long as this.
+    /// Keeps the thread that started the process alive.
     keeper: Option<Sender<()>>,
 }
 
-/// Texts that wait to be written, and blocks of output that wait to be read: memory is bounded by them.
+/// Maximum number of texts waiting to be written and of output blocks waiting to be read; it bounds the memory.
 pub(super) const IN_TRANSIT: usize = 4;
-/// Bytes read at once.
+/// Number of bytes read at once.
 const BLOCK: usize = 1 << 16;
-/// How long a process may take to end when its input has ended.
+/// Time for a process to end after the end of its input.
 pub(super) const PATIENCE: Duration = Duration::from_secs(1);
 
 impl Process {
-    /// Starts `program`.
     pub(super) fn start(program: &Program, messages: &Messages) -> io::Result<Self> {
         let mut command = program.command(&program.directory);
         command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
@@ -62,7 +61,7 @@ impl Process {
         let (tell, events) = mpsc::sync_channel(IN_TRANSIT * 2);
         let (started, start) = mpsc::channel();
         let of_writer = tell.clone();
-        // This thread starts the process, since on Linux the process ends with it.
+        // This thread starts the process, since on Linux the process ends with the thread.
         thread::Builder::new().spawn(move || {
             let mut child = match command.spawn() {
                 Ok(child) => child,
@@ -73,7 +72,7 @@ impl Process {
                 if let Some(stdin) = stdin {
                     write_all(stdin, &texts, &of_writer);
                 }
-                // Nothing is ever sent: the other end goes away.
+                // Nothing is ever sent: the receiver notices that the sender is dropped.
                 let _ = kept.recv();
             }
         })?;
@@ -102,25 +101,25 @@ impl Process {
         Ok(process)
     }
 
-    /// Ends its input behind what has been handed over.
+    /// Closes its input after the texts that have been queued.
     pub(super) fn close_input(&mut self) {
         self.input = None;
     }
 
-    /// Ends what it has left behind if it has ended by itself: others may hold its output open.
+    /// Ends the processes it has left behind if it has ended by itself: these may hold its output open.
     pub(super) fn clear_away(&mut self) {
         if self.running.has_ended() {
             self.running.end();
         }
     }
 
-    /// Hands over a text to be written; [`Event::Sent`] follows.
+    /// Queues a text to be written; [`Event::Sent`] follows.
     pub(super) fn send(&self, text: String) {
-        // Its end shows as the end of the answers.
+        // An error shows as the end of the replies.
         let _ = self.input.as_ref().map(|input| input.send(text));
     }
 
-    /// What comes next, if it comes within `longest`.
+    /// Returns the next event, if it comes within `longest`.
     pub(super) fn event(&self, longest: Duration) -> Option<Event> {
         match self.events.recv_timeout(longest) {
             Ok(event) => Some(event),
@@ -129,12 +128,12 @@ impl Process {
         }
     }
 
-    /// Ends it, after a moment to end by itself if its output is `closed` already.
+    /// Ends the process, after a moment to end by itself if its output is `closed` already.
     pub(super) fn end(&mut self, closed: bool) -> Ending {
         let by_itself = closed && self.running.ends_within(PATIENCE);
         let status = self.running.end();
         self.keeper = None;
-        // Everything that it said comes before this, unless somebody outside its group still holds the pipe.
+        // Everything that it printed comes before this, unless a process outside its group still holds the pipe.
         let _ = self.silence.recv_timeout(Duration::from_millis(300));
         let last_words = self.last_words.lock().unwrap_or_else(PoisonError::into_inner).clone();
         Ending { status, by_itself, last_words }
@@ -144,7 +143,7 @@ impl Process {
 impl Drop for Process {
     fn drop(&mut self) {
         self.input = None;
-        // What still comes is dropped.
+        // Later events are dropped.
         self.events = mpsc::sync_channel(0).1;
         self.running.ends_within(PATIENCE);
         self.running.end();
@@ -155,7 +154,7 @@ impl Drop for Process {
 fn write_all(mut stdin: impl Write, texts: &Receiver<String>, tell: &SyncSender<Event>) {
     let mut open = true;
     for text in texts {
-        // A process that reads no more may still answer what it has read.
+        // A process that reads no more may still reply to what it has read.
         open = open && stdin.write_all(text.as_bytes()).and_then(|()| stdin.flush()).is_ok();
         if open && tell.send(Event::Sent).is_err() {
             open = false;
@@ -171,7 +170,7 @@ fn read_all(mut stdout: ChildStdout, tell: &SyncSender<Event>) {
             Ok(0) => break,
             Ok(count) => {
                 bytes.truncate(count);
-                // What comes after the last row is dropped, but the process shall not wait for it to be read.
+                // Output after the last row is dropped, but the process must not wait for it to be read.
                 listened_to = listened_to && tell.send(Event::Output(bytes)).is_ok();
             }
             Err(error) if error.kind() == io::ErrorKind::Interrupted => (),

@@ -1,4 +1,4 @@
-//! A program of the user's own as a child process: started without a shell, ended with all that it started.
+//! The user's own program as a child process: started without a shell, ended with all processes it started.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -8,10 +8,10 @@ use std::time::{Duration, Instant};
 /// A program with its arguments.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Program {
-    /// The program and its arguments, none of them read by a shell. A relative path with a slash is relative to `directory`;
-    /// a name without one is looked for in PATH.
+    /// The program and its arguments, not interpreted by a shell. A relative path with a slash is relative to
+    /// `directory`; a name without one is searched for in PATH.
     pub arguments: Vec<String>,
-    /// Where it runs: an absolute path.
+    /// The working directory, an absolute path.
     pub directory: PathBuf,
     /// Environment variables that are set for it.
     pub environment: Vec<(String, String)>,
@@ -22,13 +22,13 @@ impl Program {
         self.arguments.first().map_or("", String::as_str)
     }
 
-    /// The program's file, unless it is to be looked for in PATH.
+    /// Returns the program's file, unless it is searched for in PATH.
     pub(super) fn file(&self) -> Option<PathBuf> {
         let is_path = Path::new(self.name()).components().count() > 1 || self.name().starts_with('.');
         is_path.then(|| self.directory.join(self.name()))
     }
 
-    /// A command in a process group of its own, in `directory`.
+    /// Builds a command in a process group of its own, in `directory`.
     pub(super) fn command(&self, directory: &Path) -> Command {
         let mut command = Command::new(self.file().unwrap_or_else(|| self.name().into()));
         command.args(self.arguments.iter().skip(1)).current_dir(directory);
@@ -37,7 +37,7 @@ impl Program {
         command
     }
 
-    /// Why it cannot be started, and what to do.
+    /// Explains why it cannot be started, and what to do.
     pub(super) fn refusal(&self, error: &io::Error) -> String {
         let name = self.name();
         let help = match error.kind() {
@@ -63,10 +63,10 @@ impl Program {
     }
 }
 
-/// The existing files among the program and its arguments. What a program reads or imports besides is not among them.
+/// Returns the existing files among the program and its arguments, without the files that the program reads or imports.
 pub fn program_files(program: &Program) -> Vec<PathBuf> {
     let arguments = program.arguments.iter().enumerate();
-    // A program without a slash is looked for in PATH.
+    // A program without a slash is searched for in PATH.
     let arguments = arguments.filter(|(place, _)| *place > 0 || program.file().is_some());
     let paths = arguments.map(|(_, argument)| program.directory.join(argument).components().collect::<PathBuf>());
     let mut files: Vec<PathBuf> = paths.filter(|path| path.is_file()).collect();
@@ -74,14 +74,14 @@ pub fn program_files(program: &Program) -> Vec<PathBuf> {
     files
 }
 
-/// Gives the child a process group, so that it can be ended with all that it starts; on Linux it is also ended by the
-/// system when the thread that started it ends, as when the engine is killed.
+/// Gives the child a process group, so that it can be ended with all its children; on Linux the system also ends it
+/// when the thread that started it ends, for example because the engine is killed.
 #[cfg(unix)]
 fn isolate(command: &mut Command) {
     use std::os::unix::process::CommandExt;
     command.process_group(0);
     let as_usual = || {
-        // An ignored signal stays one in a child; a program beyond its limits ends as it would by itself.
+        // An ignored signal stays ignored in a child; the default action lets a program beyond its limits end as usual.
         // SAFETY: no handler is installed.
         #[allow(unsafe_code)]
         unsafe {
@@ -113,10 +113,10 @@ fn isolate(command: &mut Command) {
 #[cfg(not(unix))]
 fn isolate(_: &mut Command) {}
 
-/// A child that is waited for once.
+/// A child process that is waited for once.
 pub(super) struct Running {
     child: Child,
-    /// How it ended, once it has been waited for: its number may be another's then.
+    /// How it ended, once it has been waited for: its process number may then be reused.
     ended: Option<Option<ExitStatus>>,
 }
 
@@ -125,12 +125,13 @@ impl Running {
         Self { child, ended: None }
     }
 
-    /// Whether the program itself has ended. It is not waited for: its number, which is that of its group, stays taken.
+    /// Returns whether the program itself has ended, without waiting for it, so that its number and group are not
+    /// reused.
     #[cfg(unix)]
     pub(super) fn has_ended(&mut self) -> bool {
         use rustix::process::{Pid, WaitId, WaitIdOptions, waitid};
         let options = WaitIdOptions::EXITED | WaitIdOptions::NOHANG | WaitIdOptions::NOWAIT;
-        // An error: there is no such child any more.
+        // An error: the child does not exist any more.
         let ended = || waitid(WaitId::Pid(Pid::from_child(&self.child)), options).map_or(true, |s| s.is_some());
         self.ended.is_some() || ended()
     }
@@ -140,7 +141,7 @@ impl Running {
         self.ended.is_some() || !matches!(self.child.try_wait(), Ok(None))
     }
 
-    /// Waits until it has ended by itself, at most `longest`; whether it has.
+    /// Waits at most `longest` until it has ended by itself, and returns whether it has.
     pub(super) fn ends_within(&mut self, longest: Duration) -> bool {
         let (start, mut pause) = (Instant::now(), Duration::from_micros(200));
         while !self.has_ended() {
@@ -153,7 +154,7 @@ impl Running {
         true
     }
 
-    /// Ends it and its whole group, if they have not ended, and says how the program itself ended.
+    /// Ends it and its whole group, if they have not ended, and returns how the program itself ended.
     pub(super) fn end(&mut self) -> Option<ExitStatus> {
         if let Some(status) = self.ended {
             return status;
@@ -161,7 +162,7 @@ impl Running {
         #[cfg(unix)]
         {
             use rustix::process::{Pid, Signal, kill_process_group};
-            // Fails where no process of the group is left.
+            // Fails if no process of the group is left.
             let _ = kill_process_group(Pid::from_child(&self.child), Signal::KILL);
         }
         #[cfg(not(unix))]
@@ -172,7 +173,7 @@ impl Running {
     }
 }
 
-/// How a program ended, in words.
+/// Describes how a program ended.
 pub(super) fn status_in_words(status: Option<ExitStatus>) -> String {
     let Some(status) = status else { return "an unknown exit status".to_owned() };
     #[cfg(unix)]

@@ -1,4 +1,4 @@
-//! What is said between the engine and a program that is kept alive: lines of text, described in
+//! The protocol between the engine and a program that is kept alive: lines of text, described in
 //! `docs/worker-protocol.md`.
 
 use apportion::names::named;
@@ -8,21 +8,21 @@ use serde_json::Value;
 use super::json_answer::{json, json_answer, keys_in_words};
 
 named! {
-    /// How rows and answers are written; the default first.
+    /// How rows and replies are written; the default first.
     pub enum Protocol {
-        /// A header with the names of the factors, then a line of cells for each row; a line of numbers as its answer.
+        /// A header with the names of the factors, then a line of cells for each row; the reply is a line of numbers.
         Csv = "csv",
-        /// A JSON object for each row, and one as its answer.
+        /// A JSON object for each row, and one as the reply.
         JsonLines = "json-lines",
     }
 }
 
-/// What a program answered to a row: a value for every output, NaN where it gave none; or why there are none.
+/// The reply of a program to a row: a value for every output, NaN for a missing one; or why there are none.
 pub(super) type Answer = Result<Vec<f64>, String>;
 
-/// Reads the line with which a program answers a row: the number of the row, the first cell in CSV and the key `id` of a JSON
-/// object; and one value for each of `outputs` (the number, NaN for an empty cell, `nan` or null, or an infinity), or why the
-/// row has none.
+/// Reads the line with which a program replies to a row: the number of the row, the first cell in CSV and the key `id`
+/// of a JSON object; and one value for each of `outputs` (the number, NaN for an empty cell, `nan` or null, or an
+/// infinity), or why the row has none.
 ///
 /// ```
 /// use apportion_files::parse_answer;
@@ -38,7 +38,7 @@ pub(super) type Answer = Result<Vec<f64>, String>;
 /// ```
 ///
 /// # Errors
-/// What was expected and what was found, if the line has no row number.
+/// The expected and the found text, if the line has no row number.
 pub fn parse_answer(
     protocol: Protocol,
     outputs: &[String],
@@ -69,7 +69,7 @@ pub fn parse_answer(
     Ok((number, answer.unwrap_or_else(|words| Err(format!("not an answer: {}", found(words))))))
 }
 
-/// Whether a line would be the answer to a row, had it the number of one.
+/// Returns whether a line would be the reply to a row if it had a row number.
 pub(super) fn is_answer_without_number(protocol: Protocol, outputs: &[String], line: &[u8]) -> bool {
     let text = String::from_utf8_lossy(line);
     let text = text.trim();
@@ -81,10 +81,10 @@ pub(super) fn is_answer_without_number(protocol: Protocol, outputs: &[String], l
     answer.is_ok()
 }
 
-/// Letters of a line that are shown.
+/// Maximum number of characters of a line that are shown.
 const MAX_LETTERS: usize = 100;
 
-/// A row number as languages write it: `711953`, and also `711953.0` and `7.11953e5`.
+/// Parses a row number as languages write it: `711953`, and also `711953.0` and `7.11953e5`.
 fn whole(text: &str) -> Option<u64> {
     let value: f64 = text.parse().ok()?;
     ((0.0..1e15).contains(&value) && value.fract() == 0.0).then_some(value as u64)
@@ -98,13 +98,13 @@ fn expected(protocol: Protocol, outputs: &[String]) -> String {
     }
 }
 
-/// The answer of a program that says why a row has none.
+/// Returns the reply of a program that says why a row has no values.
 pub(super) fn failed(reason: &str) -> Answer {
     let reason = shortened(reason);
     Err(if reason.is_empty() { "the program reported an error without a reason".to_owned() } else { reason })
 }
 
-/// The answer that `text` is, or what it is instead.
+/// Parses `text` as a reply; the error describes it if it is not one.
 fn csv_answer(outputs: &[String], text: &str) -> Result<Answer, String> {
     if let Some(reason) = text.strip_prefix("error:") {
         return Ok(failed(reason));
@@ -129,7 +129,7 @@ mod tests {
         (1..=count).map(|number| format!("y{number}")).collect()
     }
 
-    /// The number of the row, and its values or why there are none; `None` if the line has no number.
+    /// Reads the number of the row, and its values or why there are none; `None` if the line has no number.
     fn read(protocol: Protocol, outputs: usize, line: &str) -> Option<(u64, Result<Vec<f64>, String>)> {
         parse_answer(protocol, &names(outputs), line.as_bytes()).ok()
     }
@@ -212,7 +212,7 @@ mod tests {
     }
 
     proptest::proptest! {
-        /// Whatever a program prints, there is an answer with all its values, or none.
+        /// Every line of a program gives a reply with all its values, or none.
         #[test]
         fn no_line_panics(
             line in proptest::collection::vec(proptest::prelude::any::<u8>(), 0..60),

@@ -7,7 +7,7 @@ use apportion::space::{Distribution, Factor};
 
 use super::protocol::Protocol;
 
-/// Writes rows as a program reads them. Numbers are the shortest that are read as the same `f64`.
+/// Writes rows as a program reads them. Numbers have the fewest digits that are read as the same `f64`.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct RowWriter {
     protocol: Protocol,
@@ -25,11 +25,11 @@ struct Column {
 enum Cells {
     Numbers,
     WholeNumbers,
-    /// Each value with the label that is written in its place.
+    /// Each value with the label that is written instead.
     Labels(Vec<(f64, String)>),
 }
 
-/// What the number of a row is called.
+/// The name of the row number.
 pub(super) const ROW_NUMBER: &str = "id";
 
 impl RowWriter {
@@ -42,7 +42,7 @@ impl RowWriter {
         Self { protocol, columns }
     }
 
-    /// What is written before the first row.
+    /// Returns the text before the first row.
     pub(super) fn header(&self) -> String {
         match self.protocol {
             Protocol::Csv => {
@@ -54,11 +54,11 @@ impl RowWriter {
         }
     }
 
-    /// One row of SI values as a line that begins with its number.
+    /// Writes one row of SI values as a line that begins with its number.
     pub(super) fn write(&self, inputs: &[&[f64]], row: usize, number: u64, out: &mut String) {
         let (open, close) = if self.protocol == Protocol::JsonLines { ("{", "}\n") } else { ("", "\n") };
         out.push_str(open);
-        // Into a string, which takes everything.
+        // Writing to a string cannot fail.
         let _ = match self.protocol {
             Protocol::Csv => write!(out, "{number}"),
             Protocol::JsonLines => write!(out, "\"{ROW_NUMBER}\":{number}"),
@@ -84,7 +84,7 @@ impl ValueWriter {
         Self(factors.iter().map(|factor| Column::new(factor, &str::to_owned)).collect())
     }
 
-    /// A row of SI values as a table of CSV with a header.
+    /// Writes a row of SI values as a table of CSV with a header.
     pub(super) fn table(&self, inputs: &[&[f64]], row: usize) -> String {
         let values = self.0.iter().zip(inputs).map(|(column, values)| {
             let mut cell = String::new();
@@ -95,7 +95,7 @@ impl ValueWriter {
         format!("{}\n{}\n", names.collect::<Vec<_>>().join(","), values.collect::<Vec<_>>().join(","))
     }
 
-    /// The SI value of the factor of that number.
+    /// Writes the SI value of the factor of that number.
     pub(super) fn write(&self, factor: usize, value: f64, out: &mut String) {
         self.0[factor].write(value, out);
     }
@@ -120,7 +120,7 @@ impl Column {
 
     fn write(&self, si: f64, out: &mut String) {
         let value = self.unit.from_si(si);
-        // Into a string, which takes everything. `{:?}` has an exponent where the number is long without one.
+        // Writing to a string cannot fail. `{:?}` uses an exponent if the number would be long without one.
         let _ = match &self.cells {
             Cells::WholeNumbers if value.fract() == 0.0 => write!(out, "{value:.0}"),
             Cells::Labels(labels) => match labels.iter().find(|(number, _)| *number == value) {
@@ -132,7 +132,7 @@ impl Column {
     }
 }
 
-/// A cell of CSV, in quotes where it needs them.
+/// Formats a cell of CSV, in quotes if it needs them.
 fn in_csv(text: &str) -> String {
     let bare = !text.contains([',', '"', '\n', '\r']) && text.trim() == text && !text.is_empty();
     if bare { text.to_owned() } else { format!("\"{}\"", text.replace('"', "\"\"")) }

@@ -1,4 +1,4 @@
-//! What a program prints on standard error: passed on as messages, and the last line kept for reasons.
+//! The standard error of a program: passed on as messages, with the last line kept for reasons of failure.
 
 use std::io::Read;
 use std::sync::{Mutex, PoisonError};
@@ -6,10 +6,10 @@ use std::sync::{Mutex, PoisonError};
 use apportion::model::Messages;
 use apportion::text::cut;
 
-/// Characters of a line that are passed on.
+/// Maximum number of characters of a line that are passed on.
 const MAX_LETTERS: usize = 400;
 
-/// Passes on what a process prints on standard error until it ends, and leaves its last line in `last`.
+/// Passes on the standard error of a process until it ends, and stores its last line in `last`.
 pub(super) fn listen(messages: &Messages, mut from: impl Read, last: &Mutex<String>) {
     const LONGEST: usize = 4096;
     let (mut line, mut bytes) = (Vec::new(), [0; 4096]);
@@ -23,7 +23,7 @@ pub(super) fn listen(messages: &Messages, mut from: impl Read, last: &Mutex<Stri
             match byte {
                 b'\n' => take(messages, &mut line, last),
                 _ if line.len() < LONGEST => line.push(byte),
-                // The rest of a long line is left out.
+                // The rest of a long line is dropped.
                 _ => (),
             }
         }

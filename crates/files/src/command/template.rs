@@ -1,10 +1,10 @@
-//! Input files made from a template: text in which `{{name}}` stands for the value of a factor.
+//! Input files made from a template: text in which `{{name}}` is replaced by the value of a factor.
 
 use std::ops::Range;
 
 use thiserror::Error;
 
-/// A template whose placeholders have been found.
+/// A parsed template.
 ///
 /// ```
 /// use apportion_files::InputTemplate;
@@ -27,7 +27,7 @@ enum Part {
     Factor(usize),
 }
 
-/// What is wrong with a template, and where.
+/// An error in a template, with its place.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("{problem}")]
 pub struct TemplateError {
@@ -35,26 +35,26 @@ pub struct TemplateError {
     pub line: usize,
     /// Column in characters, from 1.
     pub column: usize,
-    /// What is wrong.
+    /// The problem.
     pub problem: TemplateProblem,
 }
 
-/// What is wrong with a template.
+/// A problem of a template.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum TemplateProblem {
     /// A placeholder without an end.
     #[error("`{{{{` without `}}}}` on the same line: write `{{{{{{{{` for two braces that are part of the text")]
     Open,
-    /// A placeholder for nothing.
+    /// A placeholder with an unknown name.
     #[error("there is no factor `{0}`")]
     Unknown(String),
 }
 
 impl InputTemplate {
-    /// Reads a template, whose placeholders `factor` knows by name. `{{{{` stands for two braces of the text itself.
+    /// Parses a template; `factor` finds factors by name. `{{{{` is two braces of the text itself.
     ///
     /// # Errors
-    /// [`TemplateError`] for a name that is no factor's, and for a placeholder without an end.
+    /// [`TemplateError`] for a name that is not a factor's, and for a placeholder without an end.
     pub fn parse(text: &str, factor: &dyn Fn(&str) -> Option<usize>) -> Result<Self, TemplateError> {
         let (mut parts, mut plain, mut place) = (Vec::new(), String::new(), 0);
         while let Some(open) = text[place..].find("{{").map(|offset| place + offset) {
@@ -81,12 +81,12 @@ impl InputTemplate {
         Ok(Self { parts })
     }
 
-    /// Whether the factor of that number stands in the text.
+    /// Returns whether the factor of that number is used in the text.
     pub fn uses(&self, factor: usize) -> bool {
         self.parts.contains(&Part::Factor(factor))
     }
 
-    /// The text with what `write` appends in the place of each factor.
+    /// Returns the text with each placeholder replaced by what `write` appends.
     pub fn fill(&self, write: impl Fn(usize, &mut String)) -> String {
         let mut text = String::new();
         for part in &self.parts {

@@ -8,10 +8,10 @@ use apportion::space::{Factor, Space};
 
 use super::rows::ColumnKind;
 
-/// Rows of a block, about.
+/// Approximate number of rows of a block.
 const BLOCK: u64 = 1 << 13;
 
-/// Where a block of rows lies.
+/// The position of a block of rows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct RowBlock {
     /// The replicate.
@@ -22,24 +22,24 @@ pub struct RowBlock {
     pub rows: usize,
 }
 
-/// The rows of a design in the order of [`Design::locate`], each factor in its own unit, without ever holding more than
-/// a block of them.
+/// The rows of a design in the order of [`Design::locate`], each factor in its own unit, with only one block of them in
+/// memory.
 pub struct DesignRows<'a> {
     space: &'a Space,
     design: &'a Design,
     replicate: u64,
-    /// The next base point of the replicate.
+    /// The next base sample of the replicate.
     point: u64,
     values: RowValues,
 }
 
 impl<'a> DesignRows<'a> {
-    /// All rows of `design`, whose factors are those of `space`.
+    /// Iterates over all rows of `design`, whose factors are those of `space`.
     pub fn new(space: &'a Space, design: &'a Design) -> Self {
         Self { space, design, replicate: 0, point: 0, values: RowValues::default() }
     }
 
-    /// The next block, with one vector for each factor; `None` after the last row.
+    /// Computes the next block, with one vector for each factor; returns `None` after the last row.
     pub fn next_block(&mut self, into: &mut [Vec<f64>]) -> Option<RowBlock> {
         let design = self.design;
         if self.point == design.points_per_replicate() {
@@ -61,14 +61,14 @@ impl<'a> DesignRows<'a> {
     }
 }
 
-/// The SI value `si` in `unit`: of the numbers beside it the one that becomes `si` again, if there is one.
+/// Returns the SI value `si` in `unit`: of the neighbouring numbers the one that converts back to `si`, if any.
 fn at_the_edge(unit: &Unit, si: f64) -> f64 {
     let value = unit.from_si(si);
     let near = [value, value.next_up(), value.next_down()];
     near.into_iter().find(|near| unit.to_si(*near) == si).unwrap_or(value)
 }
 
-/// The column of a factor in files of rows.
+/// Returns the column of a factor in files of rows.
 pub fn factor_column(factor: &Factor) -> ColumnKind {
     let law = factor.distribution();
     let labels = law.labels().unwrap_or_default().iter();
@@ -91,7 +91,7 @@ impl RowsDigest {
         self.0.update(&bytes);
     }
 
-    /// The digest in hexadecimal.
+    /// Returns the digest in hexadecimal.
     pub fn finish(self) -> String {
         self.0.finish()
     }
@@ -127,7 +127,7 @@ mod tests {
                 for ((factor, column), u) in space.factors().iter().zip(&columns).zip(&u) {
                     let (mut si, typed) = ([0.0], column[row]);
                     factor.fill_si(std::slice::from_ref(u), &mut si);
-                    // One rounding where no number of the unit becomes this SI value.
+                    // One rounding if no number of the unit converts to this SI value.
                     assert!((factor.unit().to_si(typed) - si[0]).abs() <= f64::EPSILON * si[0].abs());
                 }
             }

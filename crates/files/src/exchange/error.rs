@@ -1,14 +1,14 @@
-//! What is wrong with a table.
+//! Errors of tables.
 
 use thiserror::Error;
 
-/// What is wrong with a table, or with the manifest beside it: its place, and what would be right.
+/// An error of a table, or of its manifest: its place, and what is expected.
 #[derive(Debug, Error)]
 pub enum TableError {
     /// The operating system cannot read it.
     #[error("cannot read the file: {0}")]
     Unreadable(#[from] std::io::Error),
-    /// A cell that is neither a number nor a label known of its column.
+    /// A cell that is neither a number nor a known label of its column.
     #[error("row {row}: column `{name}`: expected {expected}, not {found:?}")]
     WrongCell {
         /// Row of the table, from 1, the header not counted.
@@ -19,12 +19,12 @@ pub enum TableError {
         column: usize,
         /// The column.
         name: String,
-        /// What would be right.
+        /// The expected content.
         expected: String,
         /// The cell.
         found: String,
     },
-    /// Anything else, in words.
+    /// Any other error, as a message.
     #[error("{0}")]
     Refused(String),
 }
@@ -34,7 +34,7 @@ pub(super) fn refused<T>(reason: impl Into<String>) -> Result<T, TableError> {
     Err(TableError::Refused(reason.into()))
 }
 
-/// Where a cell stands: a line of the file where it has lines, else a row of the table.
+/// Describes the place of a cell: a line of the file if it has lines, else a row of the table.
 pub(super) fn place_in_words(line: Option<u64>, row: u64) -> String {
     line.map_or_else(|| format!("row {row}"), |line| format!("line {line}"))
 }

@@ -1,4 +1,4 @@
-//! A study's model at given points.
+//! Evaluation of a study's model at given points.
 
 use std::collections::BTreeMap;
 use std::io::Write;
@@ -23,36 +23,37 @@ pub enum EvaluateError {
     /// The outputs cannot be written.
     #[error("cannot write the outputs: {0}")]
     Output(#[from] std::io::Error),
-    /// The model gave up, or the evaluation was asked to end.
+    /// The model gave up, or the evaluation was stopped.
     #[error("{halt}; {points} points had been evaluated")]
     Halted {
-        /// Points evaluated by then.
+        /// Number of points evaluated before.
         points: u64,
         /// Why.
         halt: Halt,
     },
 }
 
-/// What became of the points.
+/// The result of an evaluation.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Evaluated {
     /// Number of points.
     pub points: u64,
-    /// For each output that failed somewhere and each reason: how often, and the first point, counted from 1.
+    /// For each output that failed and each reason: how often, and the first point, counted from 1.
     pub failures: BTreeMap<(String, RowFailure), (u64, u64)>,
-    /// Names of the columns of text that are no factors, and were not read.
+    /// Names of the text columns that are not factors, and were not read.
     pub skipped: Vec<String>,
-    /// The factors without a column, by number, which stand at their nominal values.
+    /// The factors without a column, by number, which are at their nominal values.
     pub nominal: Vec<usize>,
-    /// Whether the points are a text whose last line has no end: it may have been cut short, within a number too.
+    /// Whether the last line of the text has no end: it may have been cut short, even within a number.
     pub unended: bool,
 }
 
-/// Evaluates the model of `study` at the points of a table, whose columns are named after factors, and writes its outputs
-/// as CSV: a header of output names, then one line per point, in the outputs' units. An output that failed is an empty cell.
+/// Evaluates the model of `study` at the points of a table, whose columns are named after factors, and writes its
+/// outputs as CSV: a header of output names, one line per point, in the outputs' units. A failed output is an empty
+/// cell.
 ///
-/// Runs in constant memory, through as many workers as the model [asks for](apportion::model::Model::concurrency); the
-/// outputs stand in the order of the points. Numbers are written with as many digits as it takes to read the same bits back.
+/// Uses constant memory, and as many workers as the model [asks for](apportion::model::Model::concurrency); the outputs
+/// are in the order of the points. Numbers are written with as many digits as it takes to read the same bits back.
 ///
 /// # Errors
 /// [`EvaluateError`] if the points are wrong, the outputs cannot be written, or the model gives up.
@@ -64,11 +65,11 @@ pub fn evaluate(
     evaluate_in(study, points, outputs, false, &RunContext::default())
 }
 
-/// The same as the run of `context`, which may end it, and with the points before their outputs in every line if
+/// Does the same as the run of `context`, which may stop it, and with the points before their outputs in every line if
 /// `with_points`: a column for each factor, in its unit.
 ///
 /// # Errors
-/// As for [`evaluate`], and [`Halt::Interrupted`] if the run is to end.
+/// As for [`evaluate`], and [`Halt::Interrupted`] if the run is stopped.
 pub fn evaluate_in(
     study: &Study,
     points: &mut dyn RowReader,
@@ -119,7 +120,7 @@ pub fn evaluate_in(
     Ok(evaluated)
 }
 
-/// Values of an output in its unit; NaN where there is none.
+/// Returns values of an output in its unit; NaN for a missing one.
 fn in_unit(output: &Output, values: &[f64]) -> Vec<f64> {
     values.iter().map(|value| if value.is_finite() { output.unit.from_si(*value) } else { f64::NAN }).collect()
 }

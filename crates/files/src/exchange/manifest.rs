@@ -1,4 +1,4 @@
-//! What says whose points a design file holds: written beside it, and all that `analyze` needs beside the outputs.
+//! The manifest of a design file: written next to it, it holds all that `analyze` needs in addition to the outputs.
 
 use std::path::{Path, PathBuf};
 
@@ -36,34 +36,34 @@ pub struct ManifestStudy {
     pub sha256: String,
     /// Changes made on the command line.
     pub overrides: Vec<String>,
-    /// The file, word for word.
+    /// The text of the file, unchanged.
     pub text: String,
 }
 
 /// The rows of a design file.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ManifestDesign {
-    /// Where the points come from.
+    /// The sampler.
     pub sampler: String,
     /// The seed.
     pub seed: u64,
-    /// Independent randomisations.
+    /// Number of independent randomisations.
     pub replicates: u64,
-    /// Base points in all.
+    /// Total number of base samples.
     pub base_samples: u64,
-    /// Rows of each base point.
+    /// Number of rows of each base sample.
     pub rows_per_point: u64,
-    /// Rows in all.
+    /// Total number of rows.
     pub rows: u64,
     /// The order of the rows, in words.
     pub order: String,
-    /// The rows of a base point.
+    /// The rows of a base sample.
     pub layout: Vec<ManifestRun>,
     /// SHA-256 of the numbers, row by row, each as a little-endian double.
     pub sha256: String,
 }
 
-/// A row of a base point: that of the matrix `base`, but `columns` of the matrix `from`.
+/// A row of a base sample: that of the matrix `base`, with `columns` from the matrix `from`.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ManifestRun {
     /// A, B or C.
@@ -72,11 +72,11 @@ pub struct ManifestRun {
     pub columns: Vec<String>,
     /// A, B or C.
     pub from: String,
-    /// Names of dependent factors that come from neither, and follow the others.
+    /// Names of dependent factors that come from neither matrix, and follow the others.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub following: Vec<String>,
-    /// Of a row along a random order: how many players before the last one that comes from `from`; the order is that of the base
-    /// point, and no factor is in `columns`.
+    /// For a row along a random order: the number of players before the last one that comes from `from`; the order is
+    /// that of the base sample, and `columns` is empty.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub step: Option<usize>,
 }
@@ -84,7 +84,7 @@ pub struct ManifestRun {
 /// A column of a design file.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ManifestFactor {
-    /// The factor, and the header of its column.
+    /// The factor, which is the header of its column.
     pub name: String,
     /// The unit of its values.
     pub unit: String,
@@ -97,7 +97,7 @@ const FORMAT: &str = "apportion-design";
 const VERSION: u32 = 1;
 
 impl Manifest {
-    /// The manifest of the design of `study`, read from `file`, whose numbers have this SHA-256.
+    /// Creates the manifest of the design of `study`, read from `file`, whose numbers have this SHA-256.
     pub fn new(study: &Study, file: &Path, sha256: String) -> Self {
         let settings = study.design().settings();
         let column = |column: &usize| study.space().factors()[*column].name.clone();
@@ -144,7 +144,7 @@ impl Manifest {
         }
     }
 
-    /// Where the manifest of the design file `design` lies: beside it.
+    /// Returns the path of the manifest of the design file `design`: next to it.
     ///
     /// ```
     /// # use apportion_files::exchange::Manifest;
@@ -159,7 +159,7 @@ impl Manifest {
     /// Reads a manifest from its text.
     ///
     /// # Errors
-    /// [`TableError`] if it is none, or of a later version.
+    /// [`TableError`] if it is not a manifest, or of a later version.
     pub fn parse(text: &str) -> Result<Self, TableError> {
         #[derive(Deserialize)]
         struct Head {
@@ -179,13 +179,13 @@ impl Manifest {
         serde_json::from_str(text).map_err(not_one)
     }
 
-    /// The manifest as JSON, ending in a line feed.
+    /// Formats the manifest as JSON, ending in a line feed.
     pub fn json(&self) -> String {
-        // Serialisation fails on maps without text keys only, of which there is none.
+        // Serialisation fails only on maps without text keys, of which there is none.
         serde_json::to_string_pretty(self).expect("a manifest is plain data") + "\n"
     }
 
-    /// The study whose design this is; it does not grow beyond the rows of the file.
+    /// Returns the study of this design; it does not grow beyond the rows of the file.
     ///
     /// # Errors
     /// [`TableError`] if the manifest contradicts itself.
@@ -207,7 +207,7 @@ impl Manifest {
         Ok(study.with_target(Target::default()))
     }
 
-    /// Whether the numbers of the design of `study` are those that the manifest was written for.
+    /// Checks that the numbers of the design of `study` are those of the manifest.
     ///
     /// # Errors
     /// [`TableError`] if they are not.

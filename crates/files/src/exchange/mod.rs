@@ -1,8 +1,8 @@
-//! Tables of points and outputs as files: what joins the steps of a study when other programs take part.
+//! Tables of points and outputs as files: they join the steps of a study when other programs take part.
 //!
 //! [`sample()`] writes the points, any program computes the outputs, [`read_answers`] reads them back into a
-//! [`Store`](apportion::run::Store) for a [`Runner`](apportion::Runner): `examples/three_steps.rs` goes this way.
-//! [`evaluate()`] is the other direction: the model of a study at points from anywhere.
+//! [`Store`](apportion::run::Store) for a [`Runner`](apportion::Runner): see `examples/three_steps.rs`. [`evaluate()`]
+//! is the other direction: it evaluates the model of a study at given points.
 
 mod answers;
 mod design_rows;
@@ -23,7 +23,7 @@ pub use rows::{Format, ReadOptions, RowReader, open_table};
 pub use sample::{random_design, sample, write_rows};
 pub use save::save_outputs;
 pub use table::{Missing, Selection, Table, read_table};
-// What the program and the tests use beside it.
+// Other items that the program and the tests use.
 pub use {
     answers::{Answers, first_output, output_columns},
     design_rows::{DesignRows, RowBlock, factor_column},

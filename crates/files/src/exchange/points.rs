@@ -10,17 +10,17 @@ use super::rows::{ColumnKind, RowReader};
 /// Reads points block by block.
 pub struct PointsReader<'a> {
     rows: &'a mut dyn RowReader,
-    /// For each column that is read: its place in the file with what it holds, and the number of its factor.
+    /// For each column that is read: its position in the file with its content, and the number of its factor.
     wanted: Vec<(usize, ColumnKind)>,
     factors: Vec<usize>,
     skipped: Vec<String>,
     cells: Vec<Vec<f64>>,
-    /// Rows read.
+    /// Number of rows read.
     read: u64,
 }
 
 impl<'a> PointsReader<'a> {
-    /// Checks the columns of `rows` against `space`. Columns of text that are no factors are skipped.
+    /// Checks the columns of `rows` against `space`. Text columns that are not factors are skipped.
     ///
     /// # Errors
     /// [`TableError`] if there are no names, or one of them is unknown.
@@ -53,23 +53,23 @@ impl<'a> PointsReader<'a> {
         Ok(Self { rows, wanted, factors, skipped, cells, read: 0 })
     }
 
-    /// The names of the columns of text that are not read.
+    /// Returns the names of the text columns that are not read.
     pub fn skipped(&self) -> &[String] {
         &self.skipped
     }
 
-    /// Those of the first `factors` factors that have no column.
+    /// Returns which of the first `factors` factors have no column.
     pub fn missing(&self, factors: usize) -> Vec<usize> {
         (0..factors).filter(|factor| !self.factors.contains(factor)).collect()
     }
 
-    /// Whether the file, read to its end, lacks the end of its last line.
+    /// Returns whether the last line of the file, read to its end, has no line end.
     pub fn is_unended(&self) -> bool {
         self.rows.is_unended()
     }
 
     /// Reads up to `rows` points into `columns` (one per factor of the space, in its unit) and returns how many there
-    /// were; 0 at the end of the file. A factor without a column stands at its nominal value.
+    /// were; 0 at the end of the file. A factor without a column is at its nominal value.
     ///
     /// # Errors
     /// [`TableError`] with the place of the first cell that is not a finite number.

@@ -10,23 +10,23 @@ use super::design_rows::{DesignRows, RowsDigest, factor_column};
 use super::manifest::Manifest;
 use super::rows::{Format, row_writer};
 
-/// Writes the rows of the design of `study` (read from `study_file`) to `out`, a column for each factor in its unit, and
-/// returns the manifest that belongs beside it. Runs in constant memory.
+/// Writes the rows of the design of `study` (read from `study_file`) to `out`, a column for each factor in its unit,
+/// and returns the manifest to be written next to it. Uses constant memory.
 ///
 /// # Errors
-/// Whatever the file's system says.
+/// Any error of the file system.
 pub fn sample(study: &Study, study_file: &Path, format: Format, out: &mut dyn Write) -> std::io::Result<Manifest> {
     let digest = write_rows(study, study.design(), study.design().rows(), format, out)?;
     Ok(Manifest::new(study, study_file, digest))
 }
 
-/// The design whose first `rows` rows are random points of the factors of `study`, independent of each other. They follow from
-/// the seed of the study.
+/// Returns the design whose first `rows` rows are random points of the factors of `study`, independent of each other.
+/// They are determined by the seed of the study.
 ///
 /// # Errors
-/// [`DesignError`] if that is no row, or more than 2^33.
+/// [`DesignError`] if `rows` is 0 or more than 2^33.
 pub fn random_design(study: &Study, rows: u64) -> Result<Design, DesignError> {
-    // The rows A and B of a design without any other.
+    // Only the rows A and B of a design.
     let settings = DesignSettings {
         sampler: Sampler::Random,
         base_samples: rows.div_ceil(2).max(2),
@@ -37,11 +37,11 @@ pub fn random_design(study: &Study, rows: u64) -> Result<Design, DesignError> {
     Design::new(settings, study.design().factors(), of_design)
 }
 
-/// Writes the first `most` rows of `design`, a column for each factor of `study` in its unit, and returns the SHA-256 of their
-/// numbers. Those of a [`random_design`] are a table for [`apportion::given`], not a design of the study.
+/// Writes the first `most` rows of `design`, a column for each factor of `study` in its unit, and returns the SHA-256
+/// of their numbers. Those of a [`random_design`] are a table for [`apportion::given`], not a design of the study.
 ///
 /// # Errors
-/// Whatever the file's system says.
+/// Any error of the file system.
 pub fn write_rows(
     study: &Study,
     design: &Design,

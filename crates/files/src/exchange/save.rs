@@ -9,11 +9,11 @@ use apportion::study::Study;
 use super::design_rows::{DesignRows, factor_column};
 use super::rows::{ColumnKind, Format, row_writer};
 
-/// Writes the rows of `design` with the outputs that `store` has of them: the factors of `study`, then its outputs, each
-/// in its unit, in the order of [`Design::locate`]. An output that failed is an empty cell (CSV) or NaN (NPY). Runs in constant memory beside the store.
+/// Writes the rows of `design` with their outputs in `store`: the factors of `study`, then its outputs, each in its
+/// unit, in the order of [`Design::locate`]. A failed output is an empty cell (CSV) or NaN (NPY). Uses constant
 ///
 /// # Errors
-/// What the operating system says, or that rows are missing in the store.
+/// An error of the operating system, or rows that are missing in the store.
 pub fn save_outputs(
     study: &Study,
     design: &Design,

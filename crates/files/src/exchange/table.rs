@@ -6,13 +6,13 @@ use apportion::study::{did_you_mean, nearest};
 use super::error::{TableError, place_in_words, refused};
 use super::rows::{ColumnKind, RowReader};
 
-/// What to do with rows that lack a value.
+/// What to do with rows without a value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Missing {
-    /// Refuse the table at the first one.
+    /// Refuse the table at the first such row.
     #[default]
     Refuse,
-    /// Leave them out, and count them.
+    /// Drop the rows and count them.
     Drop,
 }
 
@@ -21,47 +21,47 @@ pub enum Missing {
 pub struct Selection<'a> {
     /// Names of the outputs.
     pub outputs: &'a [String],
-    /// Names of the inputs; none for all columns of numbers that are no outputs.
+    /// Names of the inputs; empty for all columns of numbers that are not outputs.
     pub inputs: &'a [String],
-    /// What to do with rows that lack a value in one of these columns.
+    /// What to do with rows without a value in one of these columns.
     pub missing: Missing,
-    /// Columns that hold labels, or may: those of the factors of a study.
+    /// Columns that hold labels, or may hold them: those of the factors of a study.
     pub kinds: &'a [ColumnKind],
 }
 
-/// Rows that were left out.
+/// Rows that were dropped.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct DroppedRows {
-    /// How many.
+    /// Their number.
     pub rows: u64,
-    /// Line of the first of them in the file, from 1; its row in the table, where the file has no lines.
+    /// Line of the first of them in the file, from 1; its row in the table if the file has no lines.
     pub first_line: u64,
 }
 
 /// A table as columns.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Table {
-    /// The inputs, in the order asked for, or of the file.
+    /// The inputs, in the requested order, or in that of the file.
     pub inputs: Vec<Column>,
-    /// The outputs, in the order asked for.
+    /// The outputs, in the requested order.
     pub outputs: Vec<Column>,
-    /// Rows left out for missing values.
+    /// Rows dropped for missing values.
     pub dropped: Option<DroppedRows>,
-    /// The columns of text, which are no inputs.
+    /// The text columns, which are not inputs.
     pub skipped: Vec<TextColumn>,
 }
 
 /// Rows read at a time.
 const BLOCK: usize = 1 << 12;
 
-/// Reads a table of numbers. Columns that are not selected may hold anything; where the inputs are not named, columns of
-/// text are none.
+/// Reads a table of numbers. Columns that are not selected may hold anything; if the inputs are not named, text columns
+/// are not inputs.
 ///
-/// A value is missing if its cell is empty or says `nan`, `na`, `n/a`, `null`, `none`, `.` or `-`, in capitals or not, or is an
-/// error of a spreadsheet such as `#N/A`; or if it is one of the [numbers](super::ReadOptions::missing) that stand for it.
+/// A value is missing if its cell is empty or is `nan`, `na`, `n/a`, `null`, `none`, `.` or `-` in any case, or is an
+/// error of a spreadsheet such as `#N/A`, or if it is one of the [numbers](super::ReadOptions::missing) that mean so.
 ///
 /// # Errors
-/// [`TableError`] with the place of the first fault.
+/// [`TableError`] with the place of the first error.
 pub fn read_table(reader: &mut dyn RowReader, selection: &Selection<'_>) -> Result<Table, TableError> {
     let Some(names) = reader.names().map(<[String]>::to_vec) else {
         let width = reader.width();
@@ -113,7 +113,7 @@ pub fn read_table(reader: &mut dyn RowReader, selection: &Selection<'_>) -> Resu
                 columns.iter_mut().zip(&cells).for_each(|(column, cells)| column.values.push(cells[row]));
                 continue;
             };
-            // An infinity anywhere in the row is no missing value.
+            // An infinity anywhere in the row is not a missing value.
             if let Some(at) = cells.iter().position(|column| column[row].is_infinite()) {
                 return Err(not_a_number(place_in_words(line, number), chosen[at], cells[at][row].to_string()));
             }
@@ -133,7 +133,7 @@ pub fn read_table(reader: &mut dyn RowReader, selection: &Selection<'_>) -> Resu
     Ok(Table { inputs: columns, outputs, dropped, skipped })
 }
 
-/// The place of the column of that name.
+/// Returns the position of the column of that name.
 pub(super) fn column_of(names: &[String], name: &str) -> Result<usize, TableError> {
     names.iter().position(|other| other == name).map_or_else(
         || {
@@ -144,7 +144,7 @@ pub(super) fn column_of(names: &[String], name: &str) -> Result<usize, TableErro
     )
 }
 
-/// Places of the inputs and of the outputs in the header.
+/// Returns the positions of the inputs and of the outputs in the header.
 fn places(names: &[String], selection: &Selection<'_>) -> Result<(Vec<usize>, Vec<usize>), TableError> {
     let place = |name: &String| column_of(names, name);
     let asked: Vec<&String> = selection.outputs.iter().chain(selection.inputs).collect();

@@ -1,4 +1,4 @@
-//! The tables `[design]` and `[analysis]`: choices by name, whose rules are those of every study.
+//! The tables `[design]` and `[analysis]`: choices by name, with the rules of every study.
 
 use apportion::StudyBuilder;
 use apportion::design::Sampler;
@@ -9,7 +9,7 @@ use apportion::study::{AnalysisOptions, Target};
 use super::context::{Context, Fault, choice, choice_if_said, unknown_name};
 use super::sections::{At, NameList, StudyFile};
 
-/// `builder` with what the tables say.
+/// Applies the tables to `builder`.
 pub(super) fn settled(
     context: &Context<'_>,
     file: &StudyFile,
@@ -68,14 +68,14 @@ fn options(context: &Context<'_>, file: &StudyFile, sampler: Sampler, space: &Sp
     Ok(options)
 }
 
-/// The place of a factor that is named.
+/// Returns the position of a factor by name.
 pub(super) fn place(context: &Context<'_>, name: &At<String>, space: &Space) -> Result<usize, Fault> {
     let known = || space.factors().iter().map(|factor| factor.name.as_str());
     let place = known().position(|factor| factor == name.get_ref());
     context.at(name, place.ok_or_else(|| unknown_name("factor", name.get_ref(), known())))
 }
 
-/// A time above 0, in seconds.
+/// Parses a time above 0, in seconds.
 pub(super) fn seconds(context: &Context<'_>, key: &str, typed: &At<String>) -> Result<f64, Fault> {
     let quantity = context.at(typed, Quantity::parse(typed.get_ref()))?;
     let seconds = quantity.to_si();

@@ -1,4 +1,4 @@
-//! A value with its place in the file.
+//! A value with its position in the file.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -18,22 +18,22 @@ use toml::Spanned;
 pub(super) struct At<T>(Spanned<T>);
 
 impl<T> At<T> {
-    /// A value that stands at `span`.
+    /// Creates a value at `span`.
     pub fn new(span: Range<usize>, value: T) -> Self {
         Self(Spanned::new(span, value))
     }
 
-    /// The value.
+    /// Returns the value.
     pub fn get_ref(&self) -> &T {
         self.0.get_ref()
     }
 
-    /// The value, without its place.
+    /// Returns the value without its position.
     pub fn into_inner(self) -> T {
         self.0.into_inner()
     }
 
-    /// Its byte range in the file.
+    /// Returns its byte range in the file.
     pub fn span(&self) -> Range<usize> {
         self.0.span()
     }
@@ -57,7 +57,7 @@ impl<T: JsonSchema> JsonSchema for At<T> {
     }
 }
 
-/// A value that is not written, without a place.
+/// A value that is not in the file, without a position.
 impl<T: Default> Default for At<T> {
     fn default() -> Self {
         Self::new(0..0, T::default())
@@ -67,7 +67,7 @@ impl<T: Default> Default for At<T> {
 /// A table of choices by name.
 pub(super) type Choices = BTreeMap<At<String>, At<toml::Value>>;
 
-/// The entries of a table in the order of the file.
+/// Returns the entries of a table in the order of the file.
 pub(super) fn in_order(table: &Choices) -> Vec<(&At<String>, &At<toml::Value>)> {
     let mut entries: Vec<_> = table.iter().collect();
     entries.sort_by_key(|(name, _)| name.span().start);
@@ -87,7 +87,7 @@ impl<'de, T: Deserialize<'de>> Deserialize<'de> for ListOrTable<T> {
     }
 }
 
-/// A visitor, because an untagged enum would lose the places of the values.
+/// A visitor, because an untagged enum would lose the positions of the values.
 struct ListOrTableVisitor<T>(PhantomData<T>);
 
 impl<'de, T: Deserialize<'de>> Visitor<'de> for ListOrTableVisitor<T> {

@@ -14,7 +14,7 @@ use super::key_schemas::afm_choices;
 use super::sections::At;
 use super::units::{in_words_of_units, with_unit, wrong_unit};
 
-/// Reads the table into a scene and options, starting from the defaults. `is_factor` tells the names that must not be
+/// Reads the table into a scene and options, starting from the defaults. `is_factor` says which names must not be
 /// fixed.
 pub(super) fn afm(
     context: &Context<'_>,
@@ -65,11 +65,11 @@ pub(super) fn afm(
     Ok((scene, options))
 }
 
-/// Seconds of a history, and moments in them, where nothing is said: those of the papers' scene in time.
+/// Default duration in seconds and number of moments of a history: those of the papers' scene in time.
 const DURATION: f64 = 0.4;
 const POINTS: usize = 40;
 
-/// The moments of the outputs that are histories, by the key `history`.
+/// Returns the moments of the outputs that are histories, from the key `history`.
 pub(super) fn moments(context: &Context<'_>, table: &BTreeMap<At<String>, At<Value>>) -> Result<AfmMoments, Fault> {
     let entry = table.iter().find(|(key, _)| key.get_ref() == "history").map(|(_, value)| value);
     let (mut duration, mut points) = (DURATION, POINTS);
@@ -94,7 +94,7 @@ pub(super) fn moments(context: &Context<'_>, table: &BTreeMap<At<String>, At<Val
     AfmMoments::new(duration, points).map_err(|error| fault(Problem::new(format!("`history`: {error}"))))
 }
 
-/// Notes on keys of the table that are understood but cannot act under `options`.
+/// Returns notes on keys of the table that are valid but have no effect under `options`.
 pub(super) fn idle(table: &BTreeMap<At<String>, At<Value>>, options: &Options, has_histories: bool) -> Vec<String> {
     let marched = !matches!(options.fidelity, Fidelity::ClosedForm);
     let acts = |name: &str| match name {
@@ -124,7 +124,7 @@ fn choice<T: Named>(value: &At<Value>, key: &str, what: &'static str) -> Result<
     }
 }
 
-/// The SI value of a constant given as `"0.7 deg"`, or as a bare number where the parameter has no dimension.
+/// Parses the SI value of a constant given as `"0.7 deg"`, or as a bare number if the parameter has no dimension.
 fn constant(parameter: &Parameter, value: &At<Value>) -> Result<f64, Problem> {
     let unit = edge_unit(parameter);
     let dimensionless = unit.compatible(&Unit::dimensionless());
@@ -153,7 +153,7 @@ fn constant(parameter: &Parameter, value: &At<Value>) -> Result<f64, Problem> {
     Ok(si)
 }
 
-/// A number greater than 0: bare where it has no dimension, as `example` shows, or a time with its unit.
+/// Parses a number greater than 0: bare if it has no dimension, as `example` shows, or a time with its unit.
 fn positive(key: &str, example: &str, value: &Value) -> Result<f64, Problem> {
     let is_time = example.starts_with('"');
     let found = match value {

@@ -7,7 +7,7 @@ use super::context::{Context, Fault, choice, wrong};
 use super::measured;
 use super::sections::{At, Correlation, DependenceSection, NameList, StudyFile};
 
-/// The dependences of `file`.
+/// Returns the dependences of `file`.
 pub(super) fn dependences(context: &Context<'_>, file: &StudyFile, space: &Space) -> Result<Vec<Dependence>, Fault> {
     file.dependence.iter().map(|section| dependence(context, section, space)).collect()
 }
@@ -46,7 +46,7 @@ fn dependence(context: &Context<'_>, section: &At<DependenceSection>, space: &Sp
     }
 }
 
-/// The joint measurements of a dependence, a column for each of its factors; `None` if it has none.
+/// Returns the joint measurements of a dependence, a column for each of its factors; `None` if it has none.
 fn measured_columns(context: &Context<'_>, section: &DependenceSection) -> Result<Option<Vec<Vec<f64>>>, Fault> {
     let names = section.factors.get_ref();
     let (columns, span) = match (&section.file, &section.measurements) {
@@ -76,7 +76,7 @@ fn measured_columns(context: &Context<'_>, section: &DependenceSection) -> Resul
     Ok(Some(columns))
 }
 
-/// Fewer joint measurements say nothing of a correlation.
+/// Minimum number of joint measurements: fewer say nothing of a correlation.
 const MIN_MEASUREMENTS: usize = 4;
 
 fn factor_names<'a>(context: &Context<'_>, names: &'a NameList, space: &Space) -> Result<Vec<&'a str>, Fault> {

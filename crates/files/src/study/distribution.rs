@@ -8,19 +8,19 @@ use super::error::Problem;
 use super::measured;
 use super::sections::{At, FactorSection, TypedKey, TypedValue};
 
-/// Whether a factor's table says nothing of its distribution.
+/// Returns whether a factor's table has no key of a distribution.
 pub(super) fn is_unsaid(fields: &FactorSection) -> bool {
     fields.distribution.is_none() && fields.keys.is_empty()
 }
 
-/// Whether a factor's distribution is given by something else than its own parameters.
+/// Returns whether a factor's distribution is given by something else than its own parameters.
 pub(super) fn is_determined(fields: &FactorSection, distribution: &Distribution) -> bool {
     let parameters = distribution.parameters();
     let is_own = |key: &str| key == "truncate" || parameters.iter().any(|(name, _)| *name == key);
     !fields.keys.iter().all(|typed| is_own(typed.key.name))
 }
 
-/// The distribution of a factor.
+/// Returns the distribution of a factor.
 pub(super) fn of_factor(context: &Context<'_>, section: &At<FactorSection>) -> Result<Distribution, Fault> {
     let fields = section.get_ref();
     let factor = fields.name.get_ref();
@@ -37,12 +37,12 @@ pub(super) fn of_factor(context: &Context<'_>, section: &At<FactorSection>) -> R
     })
 }
 
-/// The distribution of that factor cannot be.
+/// Returns the problem of a factor with an invalid distribution.
 pub(super) fn refused(factor: &str, error: &DistributionError) -> Problem {
     Problem::Refused { message: format!("factor `{factor}`: {error}"), help: error.help() }
 }
 
-/// The family, by default the first.
+/// Returns the family, by default the first.
 fn kind(context: &Context<'_>, fields: &FactorSection) -> Result<Kind, Fault> {
     match &fields.distribution {
         None => Ok(Kind::default()),
@@ -53,7 +53,7 @@ fn kind(context: &Context<'_>, fields: &FactorSection) -> Result<Kind, Fault> {
     }
 }
 
-/// What a key says.
+/// Returns the value of a key.
 fn parameter(context: &Context<'_>, fields: &FactorSection, kind: Kind, typed: &TypedKey) -> Result<Parameter, Fault> {
     Ok(match &typed.value {
         TypedValue::Parameter(parameter) => parameter.clone(),

@@ -17,7 +17,7 @@ use super::sections::{ExpressionSection, FactorSection, Outputs};
 use super::subjects::{ExpressionConstant, ExpressionSubject, Formula};
 use super::units::own_inputs;
 
-/// The inputs of formulas: the factors of the study, each in its own unit.
+/// Returns the inputs of formulas: the factors of the study, each in its own unit.
 pub fn inputs(context: &Context<'_>, factors: &[At<FactorSection>]) -> Result<Vec<Input>, Fault> {
     factors.iter().try_for_each(|section| refuse_name(context, "factor", &section.get_ref().name))?;
     own_inputs(context, factors)
@@ -35,7 +35,7 @@ fn refuse_name(context: &Context<'_>, what: &'static str, name: &At<String>) -> 
     context.refuse(name, &key, reason, found)
 }
 
-/// The formulas with their constants, and notes on what stands in none of them.
+/// Returns the formulas with their constants, and notes on unused names.
 pub(super) fn subject(
     context: &Context<'_>,
     outputs: Option<&At<Outputs>>,
@@ -127,7 +127,7 @@ fn formula(
     Ok(Formula { name: name.get_ref().clone(), unit, expression })
 }
 
-/// Where a part of a formula stands in the file: exactly, unless the text is written with escapes.
+/// Returns the position of a part of a formula in the file: exactly, unless the text is written with escapes.
 fn place(context: &Context<'_>, value: &At<Value>, formula: &str, part: Range<usize>) -> Range<usize> {
     let whole = value.span();
     match context.text.get(whole.clone()).and_then(|written| written.find(formula)) {
@@ -139,7 +139,7 @@ fn place(context: &Context<'_>, value: &At<Value>, formula: &str, part: Range<us
     }
 }
 
-/// Factors and constants that stand in no formula.
+/// Returns notes on factors and constants that no formula uses.
 fn notes(formulas: &[Formula], constants: &Choices, space: &Space) -> Vec<String> {
     let unused = |number: &usize| formulas.iter().all(|formula| !formula.expression.uses(*number));
     let factors = (0..space.factors().len()).filter(unused).map(|number| &space.factors()[number].name);

@@ -1,4 +1,4 @@
-//! `model = "external"`: the outputs of a model that runs outside of this program.
+//! `model = "external"`: the outputs of a model that is run outside this program.
 
 use apportion::model::{Input, Output};
 use apportion::study::ExternalSubject;
@@ -8,7 +8,7 @@ use super::outputs::own_outputs;
 use super::sections::{At, FactorSection, Outputs};
 use super::units::own_inputs;
 
-/// The inputs of the model: the factors of the study, each in its own unit.
+/// Returns the inputs of the model: the factors of the study, each in its own unit.
 pub fn inputs(context: &Context<'_>, factors: &[At<FactorSection>]) -> Result<Vec<Input>, Fault> {
     for section in factors {
         let name = &section.get_ref().name;
@@ -20,7 +20,7 @@ pub fn inputs(context: &Context<'_>, factors: &[At<FactorSection>]) -> Result<Ve
     own_inputs(context, factors)
 }
 
-/// The outputs that the study states.
+/// Returns the outputs that the study states.
 pub(super) fn subject(context: &Context<'_>, outputs: Option<&At<Outputs>>) -> Result<ExternalSubject, Fault> {
     let own = own_outputs(context, outputs)?;
     if let Some(place) = own.first_pick {

@@ -1,4 +1,4 @@
-//! The table `[fidelity]`: cheaper models that help.
+//! The table `[fidelity]`: low-fidelity models.
 
 use std::str::FromStr;
 use std::sync::Arc;
@@ -12,10 +12,10 @@ use super::error::Problem;
 use super::models::TABLES;
 use super::sections::{At, StudyFile};
 
-/// Makes the study of a text.
+/// A function that makes the study of a text.
 type Resolve = fn(&Context<'_>) -> Result<(Study, Vec<String>), Fault>;
 
-/// The cheaper models of `file`, for its model `subject`. `resolve` makes a study of each that stands in the file.
+/// Returns the low-fidelity models of `file` for its model `subject`. `resolve` makes a study of each one in the file.
 pub(super) fn lows(
     context: &Context<'_>,
     file: &StudyFile,
@@ -40,7 +40,7 @@ pub(super) fn lows(
     section.low.get_ref().iter().map(low).collect()
 }
 
-/// The cheaper model that comes with the model, by its name.
+/// Returns the low-fidelity model that comes with the model, by its name.
 fn named(subject: &dyn Subject, name: &str) -> Result<LowFidelity, Problem> {
     let own = subject.cheaper();
     own.iter().find(|low| low.name == name).cloned().ok_or_else(|| match own.is_empty() {
@@ -53,7 +53,7 @@ fn named(subject: &dyn Subject, name: &str) -> Result<LowFidelity, Problem> {
     })
 }
 
-/// The cheaper model that the study describes with the keys of `table` in the place of its own.
+/// Returns the low-fidelity model that the study describes, with the keys of `table` in place of its own.
 fn described(context: &Context<'_>, table: &toml::Table, resolve: Resolve) -> Result<LowFidelity, Problem> {
     let Some(name) = table.get("name").and_then(toml::Value::as_str).map(str::to_owned) else {
         return Err(wrong("low", "a table with a name, as in { name = \"coarse\", .. }", "one without".to_owned()));
@@ -79,7 +79,7 @@ fn described(context: &Context<'_>, table: &toml::Table, resolve: Resolve) -> Re
     Ok(LowFidelity { name, subject: Arc::clone(study.subject()), base_samples: None })
 }
 
-/// Puts `value` at `key`; a table changes those keys alone that it has.
+/// Sets `key` to `value`; a table replaces only its own keys.
 fn put(table: &mut dyn TableLike, key: &str, value: toml_edit::Value) {
     match (table.get_mut(key).and_then(Item::as_table_like_mut), value) {
         (Some(there), toml_edit::Value::InlineTable(more)) => {

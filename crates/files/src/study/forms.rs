@@ -1,5 +1,5 @@
-//! What a study file may say in two ways, brought to one before it is read: `[factors]` becomes a list of `[[factor]]`, and
-//! `noise` one more factor. Every value keeps its place in the file. Forms of former versions are refused with those of today.
+//! The alternative forms of a study file, converted to one before it is read: `[factors]` becomes a list of
+//! `[[factor]]`, and `noise` one more factor. Every value keeps its position in the file. Obsolete forms are refused.
 
 use std::borrow::Cow;
 
@@ -10,7 +10,7 @@ use super::context::{Context, Fault};
 use super::error::Problem;
 use super::sections::{At, FactorSection, LineSection, StudyFile};
 
-/// Brings `root`, a study file, to the form that `StudyFile` has: `noise = "seed"` is `noise.name = "seed"`.
+/// Converts `root`, a study file, to the form of `StudyFile`: `noise = "seed"` is `noise.name = "seed"`.
 pub(super) fn normalise(context: &Context<'_>, root: &mut DeTable<'_>) -> Result<(), Fault> {
     refuse_old_forms(context, root)?;
     if let Some(noise) = root.get_mut("noise").filter(|noise| noise.get_ref().is_str()) {
@@ -21,7 +21,7 @@ pub(super) fn normalise(context: &Context<'_>, root: &mut DeTable<'_>) -> Result
     Ok(())
 }
 
-/// Factors and outputs as they were written in former versions.
+/// Refuses obsolete forms of factors and outputs.
 fn refuse_old_forms(context: &Context<'_>, root: &DeTable<'_>) -> Result<(), Fault> {
     let factors = "[factors]\nx1 = { min = 0, max = 1 }\nx2 = { min = 0, max = 1 }";
     let mut old = Vec::new();
@@ -48,8 +48,8 @@ pub(super) fn is_bare(key: &str) -> bool {
     !key.is_empty() && key.chars().all(|c| c.is_ascii_alphanumeric() || "_-".contains(c))
 }
 
-/// The factors in one list, each with its name: those of `[[factor]]`, or of the lines of `[factors]` in the order of the file; and the
-/// seed of a stochastic model as one more, the last.
+/// Joins the factors in one list, each with its name: those of `[[factor]]`, or of the lines of `[factors]` in the
+/// order of the file; the seed of a stochastic model is the last one.
 pub(super) fn join_factors(context: &Context<'_>, file: &mut StudyFile) -> Result<(), Fault> {
     let mut lines: Vec<_> = std::mem::take(&mut file.factors).into_iter().collect();
     lines.sort_by_key(|(name, _)| name.span().start);

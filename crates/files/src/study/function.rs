@@ -7,7 +7,7 @@ use super::context::{Context, Fault, number, wrong};
 use super::error::Problem;
 use super::sections::{At, Choices};
 
-/// The function with the parameters of the table.
+/// Returns the function with the parameters of the table.
 pub(super) fn known(
     context: &Context<'_>,
     answer: KnownAnswer,

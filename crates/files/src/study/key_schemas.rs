@@ -1,4 +1,4 @@
-//! The schemas of single keys of study files, which their types alone do not tell.
+//! The schemas of single keys of study files, which do not follow from their types.
 
 use apportion::model::KnownAnswer;
 use apportion::space::distribution::{Key, KeyKind, Kind};
@@ -9,9 +9,9 @@ use serde_json::{Map, Value, json};
 use super::outputs::OutputTable;
 use crate::ModelKind;
 
-/// The choices of `[afm]`, each with the names that it takes.
+/// Returns the choices of `[afm]`, each with its possible names.
 pub(super) fn afm_choices() -> impl Iterator<Item = (&'static str, Vec<&'static str>)> {
-    // Behind the key stands where it acts.
+    // The key is followed by its scope.
     ModelKind::AFM.choices().into_iter().map(|(key, names)| (key.split(' ').next().unwrap_or(key), names))
 }
 
@@ -19,7 +19,7 @@ pub(super) fn models() -> Vec<&'static str> {
     ModelKind::all().into_iter().map(|kind| kind.name).collect()
 }
 
-/// The schema of the cheaper models.
+/// Returns the schema of the low-fidelity models.
 pub(super) fn lows(_: &mut SchemaGenerator) -> Schema {
     let table = json!({ "type": "object", "required": ["name"], "properties": { "name": { "type": "string" } } });
     schemars::json_schema!({ "type": "array", "items": { "anyOf": [{ "type": "string" }, table] } })
@@ -29,12 +29,12 @@ pub(super) fn distributions() -> Vec<&'static str> {
     Kind::all().map(Kind::name).collect()
 }
 
-/// The names of all values of a kind.
+/// Returns the names of all values of a kind.
 pub(super) fn names<T: Copy>(all: &[T], name: fn(T) -> &'static str) -> Vec<&'static str> {
     all.iter().map(|&choice| name(choice)).collect()
 }
 
-/// `[afm]`: the choices, and every parameter as a quantity.
+/// Returns the schema of `[afm]`: the choices, and every parameter as a quantity.
 pub(super) fn afm(_: &mut SchemaGenerator) -> Schema {
     let choice = |(key, names): (&'static str, Vec<&'static str>)| match key {
         "tolerance" => json!({ "type": "number", "exclusiveMinimum": 0 }),
@@ -63,13 +63,13 @@ pub(super) fn afm(_: &mut SchemaGenerator) -> Schema {
     object(properties)
 }
 
-/// A name, or a table of that type.
+/// Returns the schema of a name, or a table of that type.
 pub(super) fn name_or_table<T: JsonSchema>(generator: &mut SchemaGenerator) -> Schema {
     let table = generator.subschema_for::<T>();
     schemars::json_schema!({ "anyOf": [{ "type": "string" }, table] })
 }
 
-/// `[function]`: the parameters of all functions.
+/// Returns the schema of `[function]`: the parameters of all functions.
 pub(super) fn function(_: &mut SchemaGenerator) -> Schema {
     let number_or_list = || json!([{ "type": "number" }, { "type": "array", "items": { "type": "number" } }]);
     let mut properties = Map::new();
@@ -81,12 +81,12 @@ pub(super) fn function(_: &mut SchemaGenerator) -> Schema {
     object(properties)
 }
 
-/// `[expression] constants`: numbers, or quantities with their units.
+/// Returns the schema of `[expression] constants`: numbers, or quantities with their units.
 pub(super) fn expression_constants(_: &mut SchemaGenerator) -> Schema {
     schemars::json_schema!({ "type": "object", "additionalProperties": { "type": ["number", "string"] } })
 }
 
-/// A key of distributions.
+/// Returns the schema of a key of distributions.
 pub(super) fn distribution_key(key: &Key) -> Value {
     let (number, text) = (json!({ "type": "number" }), json!({ "type": "string" }));
     let mut schema = match key.kind {
@@ -101,7 +101,7 @@ pub(super) fn distribution_key(key: &Key) -> Value {
     schema
 }
 
-/// `outputs`: names, or for each a formula or its unit, or a table of more.
+/// Returns the schema of `outputs`: names, or for each a formula or its unit, or a table of more.
 pub(super) fn outputs(generator: &mut SchemaGenerator) -> Schema {
     let table = generator.subschema_for::<OutputTable>();
     let list = json!({ "type": "array", "items": { "type": "string" }, "minItems": 1 });

@@ -61,7 +61,7 @@ pub(super) fn read(
     Ok((values, source))
 }
 
-/// The cells of one line of CSV.
+/// Splits one line of CSV into cells.
 fn cells(line: &str) -> Vec<String> {
     let mut reader = csv::ReaderBuilder::new()
         .has_headers(false)

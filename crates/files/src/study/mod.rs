@@ -1,5 +1,5 @@
-//! Study files: TOML as typed ([`StudyFile`](sections::StudyFile)), and what it means. Everything wrong with a file is
-//! reported with its line and column.
+//! Study files: TOML as typed ([`StudyFile`](sections::StudyFile)), and its meaning. Every error in a file is reported
+//! with its line and column.
 
 mod analysis;
 mod at;
@@ -47,14 +47,14 @@ pub use template::{NEW_PROGRAM, TemplateRequest, new_program, template};
 /// Reads a study file, after applying `overrides` of the form `KEY=VALUE`.
 ///
 /// # Errors
-/// [`StudyError`] with the place in the file and what would be right.
+/// [`StudyError`] with the place in the file and what is expected.
 pub fn load_study(path: &Path, overrides: &[String]) -> Result<Study, StudyError> {
     let unreadable = |source| StudyError::Unreadable { path: path.to_owned(), source };
     let text = read_text(path).map_err(unreadable)?;
     parse_study(&text, path, overrides)
 }
 
-/// Reads a study from its text; `path` is for messages, and names the study unless the text does.
+/// Reads a study from its text; `path` is used in messages, and names the study unless the text does.
 ///
 /// ```
 /// use std::path::Path;
@@ -75,7 +75,7 @@ pub fn load_study(path: &Path, overrides: &[String]) -> Result<Study, StudyError
 /// ```
 ///
 /// # Errors
-/// [`StudyError`] with the place in the text and what would be right.
+/// [`StudyError`] with the place in the text and what is expected.
 pub fn parse_study(text: &str, path: &Path, overrides: &[String]) -> Result<Study, StudyError> {
     let effective = if overrides.is_empty() { Some(text.to_owned()) } else { overridden(text, overrides)? };
     let context = context::Context { path: PathBuf::from(path), text: effective.as_deref().unwrap_or(text) };
@@ -84,7 +84,7 @@ pub fn parse_study(text: &str, path: &Path, overrides: &[String]) -> Result<Stud
         diagnostic
     })?;
     if effective.is_none() {
-        // The reader takes whole numbers up to 2^64, the editor up to 2^63, as TOML has it.
+        // The reader accepts whole numbers up to 2^64, the editor up to 2^63, as TOML requires.
         return Err(not_editable(overrides));
     }
     Ok(study.with_source(StudySource {
@@ -94,7 +94,7 @@ pub fn parse_study(text: &str, path: &Path, overrides: &[String]) -> Result<Stud
         notes,
     }))
 }
-/// The text of a study after `overrides`, which [`parse_study`] reads like the text that it was made from with them.
+/// Returns the text of a study after `overrides`, which [`parse_study`] reads like the original text with them.
 ///
 /// # Errors
 /// [`StudyError`] if an override cannot be applied, or the text is not TOML.

@@ -1,5 +1,5 @@
-//! The registry of the models that a study file can name: for each table that belongs to a kind of model, how it is read,
-//! what a new study says of it, and what its users read.
+//! The registry of the models that a study file can name: for each table of a kind of model, how it is read, its text
+//! in a new study, and its description for users.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -18,7 +18,7 @@ use super::units::own_inputs;
 use super::{command, constants, expression, external, function};
 use crate::ModelKind;
 
-/// A study file whose model is known.
+/// A study file with a known model.
 pub(super) struct Reading<'a> {
     pub context: &'a Context<'a>,
     pub file: &'a StudyFile,
@@ -28,15 +28,15 @@ pub(super) struct Reading<'a> {
 /// A subject, and notes on what has no effect.
 type Subjects = Result<(Arc<dyn Subject>, Vec<String>), Fault>;
 
-/// A table of study files that belongs to a kind of model.
+/// A table of study files for a kind of model.
 pub(super) struct ModelTable {
     /// The key.
     pub name: &'static str,
-    /// Where it stands, if it is there.
+    /// Its position, if it is present.
     pub span: fn(&StudyFile) -> Option<Range<usize>>,
-    /// What the factors can be.
+    /// The possible factors.
     pub inputs: fn(&Reading<'_>) -> Result<Vec<Input>, Fault>,
-    /// The model with its choices made.
+    /// The configured model.
     pub subject: fn(&Reading<'_>, &Space) -> Subjects,
     guide: Option<&'static str>,
 }
@@ -56,7 +56,7 @@ pub(super) const TABLES: [ModelTable; 5] = [
         inputs: |reading| Ok(known(reading)?.as_ref().map_or_else(Vec::new, known_inputs)),
         subject: |reading, _| {
             outputs(reading)?;
-            // A test goes through all kinds of this table.
+            // A test covers all kinds of this table.
             let function = known(reading)?.ok_or_else(|| reading.context.fault(0..0, Problem::no_factors()))?;
             Ok((Arc::new(KnownSubject { function }), Vec::new()))
         },
@@ -100,7 +100,7 @@ fn outside(Reading { context, file, .. }: &Reading<'_>, _: &Space) -> Subjects {
     Ok((Arc::new(external::subject(context, file.outputs.as_ref())?), Vec::new()))
 }
 
-/// A page starts no programs, and does not carry what would read their answers.
+/// A page starts no programs, and does not contain the code for them.
 #[cfg(target_family = "wasm")]
 use program as outside;
 
@@ -109,19 +109,19 @@ fn program(Reading { context, .. }: &Reading<'_>, _: &Space) -> Subjects {
     Err(context.fault(0..0, command::no_program()))
 }
 
-/// The table of a kind of model.
+/// Returns the table of a kind of model.
 pub(super) fn table_of(kind: ModelKind) -> &'static ModelTable {
-    // A test goes through all kinds.
+    // A test covers all kinds.
     TABLES.iter().find(|table| table.name == kind.table).unwrap_or(&TABLES[0])
 }
 
-/// What stands in a study of this kind of model, for people; `None` of one whose inputs and outputs tell it.
+/// Describes the keys of a study of this kind of model; `None` if its inputs and outputs are enough.
 pub fn model_guide(kind: ModelKind) -> Option<String> {
     let text = table_of(kind).guide?.replace("FUNCTIONS", &Expression::vocabulary().join(", "));
     Some(format!("{}: {}\n\n{text}", kind.name, kind.description))
 }
 
-/// The function with the parameters of its table.
+/// Returns the function with the parameters of its table.
 fn known(reading: &Reading<'_>) -> Result<Option<KnownFunction>, Fault> {
     let with_table = |answer| function::known(reading.context, answer, reading.file.function.as_ref());
     reading.kind.known.map(with_table).transpose()
@@ -129,7 +129,7 @@ fn known(reading: &Reading<'_>) -> Result<Option<KnownFunction>, Fault> {
 
 fn afm(reading: &Reading<'_>, space: &Space) -> Subjects {
     let is_factor = |name: &str| space.factors().iter().any(|factor| factor.name == name);
-    // Histories stand after the others in the catalogue.
+    // Histories come after the others in the catalogue.
     let (places, histories): (Vec<usize>, Vec<usize>) =
         outputs(reading)?.into_iter().partition(|place| *place < AfmOutput::ALL.len());
     let outputs = places.into_iter().map(|place| AfmOutput::ALL[place]).collect();
@@ -143,7 +143,7 @@ fn afm(reading: &Reading<'_>, space: &Space) -> Subjects {
     Ok((Arc::new(AfmSubject { scene, options, outputs, histories, moments }), notes))
 }
 
-/// Numbers of the outputs in the catalogue, in the order asked for; the first one if nothing is asked.
+/// Returns the numbers of the outputs in the catalogue, in the requested order; by default the first one.
 fn outputs(reading: &Reading<'_>) -> Result<Vec<usize>, Fault> {
     let Some(key) = &reading.file.outputs else { return Ok(vec![0]) };
     let Reading { context, kind, .. } = reading;

@@ -1,6 +1,6 @@
 //! The noise of a stochastic model: `noise = "seed"`, or the table `[noise]`.
 //!
-//! The seed itself is a factor by now, that of the distribution `seed` ([`forms`](super::forms)).
+//! The seed itself is already a factor, that of the distribution `seed` ([`forms`](super::forms)).
 
 use std::sync::Arc;
 
@@ -10,10 +10,10 @@ use apportion::study::{RepeatedSubject, Subject};
 use super::context::{Context, Fault};
 use super::sections::StudyFile;
 
-/// Most repetitions of a row.
+/// Maximum number of repetitions of a row.
 const MAX_REPETITIONS: u64 = 1000;
 
-/// The subject with as many repetitions of each row as the study asks for.
+/// Returns the subject with the study's number of repetitions of each row.
 pub(super) fn repeated(
     context: &Context<'_>,
     file: &StudyFile,
@@ -40,8 +40,8 @@ pub(super) fn repeated(
     Ok(Arc::new(RepeatedSubject { subject, seed, repetitions: repetitions as usize }))
 }
 
-/// The sets of each factor and the noise, which total indices of the mean over the noise follow from, if the study asks for
-/// these.
+/// Returns the sets of each factor and the noise, from which total indices of the mean over the noise follow, if the
+/// study requests these.
 pub(super) fn subsets_of_mean(file: &StudyFile, space: &Space) -> Vec<Vec<usize>> {
     let asked = file.noise.as_ref().and_then(|section| section.get_ref().mean_totals.as_ref());
     let (Some(true), Some(noise)) = (asked.map(|asked| *asked.get_ref()), space.noise()) else { return Vec::new() };

@@ -1,11 +1,11 @@
-//! `nominal`: where a factor stands when it does not vary.
+//! `nominal`: the value of a factor when it does not vary.
 
 use apportion::space::Distribution;
 
 use super::error::Problem;
 use super::sections::Nominal;
 
-/// The value that is meant by what was typed, in the factor's unit.
+/// Returns the value of the typed one, in the factor's unit.
 pub(super) fn value(factor: &str, distribution: &Distribution, typed: &Nominal) -> Result<f64, Problem> {
     let (value, found) = match typed {
         Nominal::Number(number) => (Some(*number), number.to_string()),
@@ -21,7 +21,7 @@ pub(super) fn value(factor: &str, distribution: &Distribution, typed: &Nominal) 
     }
 }
 
-/// Whether whole numbers and categories have this value. Any other distribution has a value wherever a factor may stand.
+/// Returns whether whole numbers and categories have this value; true for other distributions.
 pub(super) fn is_value(distribution: &Distribution, value: f64) -> bool {
     match distribution {
         Distribution::Categorical(categories) => categories.label(value).is_some(),

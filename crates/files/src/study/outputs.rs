@@ -1,5 +1,5 @@
-//! The key `outputs` of programs and of models outside: names, or a table of units, of series, and of where the numbers of a
-//! program stand after a run.
+//! The key `outputs` of programs and of external models: names, or a table of units, of series, and of the positions of
+//! a program's numbers after a run.
 
 use std::ops::Range;
 
@@ -53,22 +53,22 @@ pub(super) struct OutputTable {
 }
 
 impl OutputTable {
-    /// The table `typed`, which is the value of an output.
+    /// Reads the table `typed`, which is the value of an output.
     pub(super) fn read(context: &Context<'_>, value: &At<Value>, typed: &toml::Table) -> Result<Self, Fault> {
         context.at(value, typed.clone().try_into().map_err(|error| read::problem(&error)))
     }
 }
 
-/// What a model of the user's own gives.
+/// The outputs of the user's own model.
 #[derive(Default)]
 pub(super) struct OwnOutputs {
     /// In the order of the file.
     pub outputs: Vec<CommandOutput>,
-    /// Those of them that are series.
+    /// The outputs that are series.
     pub series: Vec<OutputSeries>,
-    /// The place of the first one that says where its number stands.
+    /// The position of the first output with a pick.
     pub first_pick: Option<Range<usize>>,
-    /// As settings in results: what the numbers depend on, so of a series its length and not its axis.
+    /// The settings for results: what the numbers depend on, so the length of a series and not its axis.
     pub stated: Map<String, Json>,
 }
 
@@ -84,7 +84,7 @@ impl OwnOutputs {
         self.series.push(OutputSeries { name: output.name, first, axis });
     }
 
-    /// Refuses two outputs of one name, be it that of a value of a series, or a series and an output.
+    /// Refuses two outputs of the same name, including values of series, and a series and an output.
     fn refuse_repeated(&self) -> Result<(), Problem> {
         let mut seen = std::collections::BTreeSet::new();
         let outputs = self.outputs.iter().map(|output| &output.name);
@@ -94,7 +94,7 @@ impl OwnOutputs {
     }
 }
 
-/// The outputs that the study states.
+/// Returns the outputs that the study states.
 pub(super) fn own_outputs(context: &Context<'_>, key: Option<&At<Outputs>>) -> Result<OwnOutputs, Fault> {
     let missing = Problem::missing("outputs", "outputs = [\"y\"]; or with its unit: outputs.y = \"nN\"");
     let Some(key) = key else { return Err(context.fault(0..0, missing)) };
@@ -128,7 +128,7 @@ pub(super) fn own_outputs(context: &Context<'_>, key: Option<&At<Outputs>>) -> R
     Ok(all)
 }
 
-/// An output, the axis of one that is a series, and what is said of it in results.
+/// Reads an output, its axis if it is a series, and its settings for results.
 fn output(
     context: &Context<'_>,
     name: &At<String>,

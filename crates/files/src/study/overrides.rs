@@ -6,11 +6,11 @@ use toml_edit::{DocumentMut, InlineTable, Item, Table, TableLike, Value};
 
 use crate::ModelKind;
 
-/// Applies `overrides` in order. A key is a path of names joined by dots; `factor.NAME.KEY` reaches the factor of that
-/// name, and `factor.NAME` is all of it: a table takes the place of what it was, a value fixes it. A value is TOML if it reads as
-/// TOML, else a string: `afm.friction=hk` needs no quotes.
+/// Applies `overrides` in order. A key is a path of names joined by dots; `factor.NAME.KEY` is a key of the factor of
+/// that name, and `factor.NAME` is all of it: a table replaces it, a value fixes it. A value is TOML if it can be
+/// parsed as TOML, else a string: `afm.friction=hk` needs no quotes.
 ///
-/// `None` if the text is not TOML: the reader will say so, with the place.
+/// `None` if the text is not TOML: the reader then reports it, with the position.
 pub(super) fn apply(text: &str, overrides: &[String]) -> Result<Option<String>, (String, String)> {
     let Ok(mut document) = text.parse::<DocumentMut>() else { return Ok(None) };
     for text in overrides {
@@ -19,8 +19,8 @@ pub(super) fn apply(text: &str, overrides: &[String]) -> Result<Option<String>, 
     Ok(Some(document.to_string()))
 }
 
-/// Most parts of a key. Those of a study have up to four; tables inside each other by the thousand take the reader's time
-/// and stack.
+/// Maximum number of parts of a key. Those of a study have up to four; thousands of nested tables take the reader's
+/// time and stack.
 const MAX_PARTS: usize = 16;
 
 const NAMES: &str = "names joined by dots, as in afm.friction";
@@ -60,7 +60,7 @@ fn set(root: &mut Table, text: &str) -> Result<(), String> {
     }
 }
 
-/// Keys that decide the length of a run, each with those that it takes the place of.
+/// Keys that set the length of a run, each with those that it replaces.
 const INSTEAD: [(&str, &[&str]); 5] = [
     ("accuracy", &["design.base_samples", "design.runs", "fidelity.base_samples"]),
     ("design.runs", &["accuracy", "design.base_samples", "design.max_runs", "design.max_time"]),
@@ -69,7 +69,7 @@ const INSTEAD: [(&str, &[&str]); 5] = [
     ("design.max_time", &["design.base_samples", "design.runs"]),
 ];
 
-/// Removes what `key` takes the place of.
+/// Removes the keys that `key` replaces.
 fn remove_others(root: &mut Table, key: &str) {
     for other in INSTEAD.iter().filter(|(own, _)| key == *own).flat_map(|(_, others)| *others) {
         match other.split_once('.') {
@@ -108,7 +108,7 @@ fn find_factor<'a>(root: &'a mut Table, name: &str) -> Result<&'a mut dyn TableL
     Ok(factors.swap_remove(place).1)
 }
 
-/// Gives a factor the keys of `table`. It keeps its name.
+/// Replaces the keys of a factor by those of `table`. It keeps its name.
 fn replace(factor: &mut dyn TableLike, table: &InlineTable) {
     let keys: Vec<String> = factor.iter().map(|(key, _)| key.to_owned()).filter(|key| key != "name").collect();
     for key in keys {
@@ -121,7 +121,7 @@ fn replace(factor: &mut dyn TableLike, table: &InlineTable) {
     }
 }
 
-/// Takes the factor called `name` out of the study, and gives the input of that name one `value`.
+/// Removes the factor `name` from the study, and sets the input of that name to `value`.
 fn fix(root: &mut Table, name: &str, value: Value) -> Result<(), String> {
     find_factor(root, name)?;
     let model = root.get("model").map_or(ModelKind::DEFAULT.name, |model| model.as_str().unwrap_or_default());
@@ -206,7 +206,7 @@ mod tests {
         };
         refused("=3", "the key `` has an empty part");
         refused("afm.friction.x=3", "`friction` is not a table");
-        // 30,000 parts once took more than a minute.
+        // 30,000 parts used to take more than a minute.
         refused(&format!("{}=1", ["a"; 30_000].join(".")), "the key has 30000 parts");
         let formulas = apply("outputs.y = 'x1'\n", &["outputs=['y']".to_owned()]);
         assert!(formulas.unwrap_err().1.contains("`outputs` is a table in this study"));

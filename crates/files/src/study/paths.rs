@@ -1,8 +1,8 @@
-//! The paths that a study names: every key of one is resolved here.
+//! The paths that a study names: all of them are resolved here.
 //!
-//! A study that is handed on reads and writes nothing outside of its folder, by whatever path or link, unless it says so
-//! (`files_outside = true`). Tables of measured values are the exception: they hold nothing but numbers of a column, and often lie
-//! beside several studies.
+//! A study reads and writes nothing outside its folder, by any path or link, unless it says so
+//! (`files_outside = true`). Tables of measured values are the exception: they hold only numbers of a column, and are
+//! often next to several studies.
 
 use std::ops::Range;
 use std::path::{Component, Path, PathBuf};
@@ -11,7 +11,7 @@ use super::at::At;
 use super::context::{Context, Fault};
 use super::error::Problem;
 
-/// Where a path may lead.
+/// How far a path may lead.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Reach {
     /// Not out of the study's folder.
@@ -19,18 +19,18 @@ pub(super) enum Reach {
     Anywhere,
 }
 
-/// The folder of the study, absolute: programs run elsewhere.
+/// Returns the folder of the study, absolute: programs run elsewhere.
 pub(super) fn folder(context: &Context<'_>) -> PathBuf {
     let folder = context.path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let absolute = std::path::absolute(folder).unwrap_or_else(|_| folder.to_owned());
-    // Without the "." that stood for here.
+    // Without the "." for the current folder.
     absolute.components().collect()
 }
 
-/// The path that stands at a key, relative to the study. It need not exist.
+/// Resolves the path of a key, relative to the study. It need not exist.
 ///
 /// # Errors
-/// [`Problem`] if it leads further than `reach`.
+/// [`Problem`] if it is outside `reach`.
 pub(super) fn resolve(context: &Context<'_>, typed: &At<String>, reach: Reach) -> Result<PathBuf, Fault> {
     let folder = folder(context);
     let path = folder.join(typed.get_ref());
@@ -41,7 +41,7 @@ pub(super) fn resolve(context: &Context<'_>, typed: &At<String>, reach: Reach) -
     Err(outside(context, typed.span(), &path, "out of the study's folder"))
 }
 
-/// Refuses the name of a file that a run writes where it leads out of the directory of the run.
+/// Refuses the name of a file that a run writes if it is outside the directory of the run.
 ///
 /// # Errors
 /// As for [`resolve`].
@@ -63,12 +63,12 @@ fn outside(context: &Context<'_>, span: Range<usize>, path: &Path, place: &str) 
     context.fault(span, Problem::with_help(format!("{}: the path leads {place}", path.display()), help))
 }
 
-/// The path without links; of what does not exist yet, that of the folder it will be made in. `None` where this is unknown.
+/// Returns the path without links; for a missing file, that of its future folder. `None` if this is unknown.
 fn real_path(path: &Path) -> Option<PathBuf> {
     if let Ok(real) = path.canonicalize() {
         return Some(real);
     }
-    // A link to what does not exist.
+    // A link to a missing file.
     if path.symlink_metadata().is_ok() {
         return None;
     }

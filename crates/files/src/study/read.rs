@@ -1,4 +1,4 @@
-//! From the text of a study file to [`StudyFile`], and what the reader of TOML says in the words of studies.
+//! Conversion of the text of a study file to [`StudyFile`], with the TOML reader's errors in the words of studies.
 
 use apportion::design::{DesignError, MAX_FACTORS};
 use apportion::study::BuildError;
@@ -11,13 +11,13 @@ use super::forms::{join_factors, normalise};
 use super::schema::study_schema;
 use super::sections::StudyFile;
 
-/// What stands in the text of `context`.
+/// Parses the text of `context`.
 pub(super) fn study_file(context: &Context<'_>) -> Result<StudyFile, Fault> {
     let mut root = DeTable::parse(context.text).map_err(|error| syntax(context, &error))?;
     normalise(context, root.get_mut())?;
     let mut file = StudyFile::deserialize(Deserializer::from(root)).map_err(|error| syntax(context, &error))?;
     join_factors(context, &mut file)?;
-    // Before any of them is worked on.
+    // Before any of them is processed.
     if let Some(first) = file.factor.get(MAX_FACTORS) {
         let problem = BuildError::Design(DesignError::FarTooManyFactors { factors: file.factor.len() });
         return Err(context.fault(first.span(), problem.into()));
@@ -29,7 +29,7 @@ fn syntax(context: &Context<'_>, error: &toml::de::Error) -> Fault {
     context.fault(error.span().unwrap_or(0..0), problem(error))
 }
 
-/// What the reader of TOML says in the words of studies.
+/// Converts an error of the TOML reader to the words of studies.
 pub(super) fn problem(error: &toml::de::Error) -> Problem {
     let message = error.message();
     let quoted: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
@@ -42,7 +42,7 @@ pub(super) fn problem(error: &toml::de::Error) -> Problem {
     }
 }
 
-/// A key that its table does not have: of another table perhaps, by our name or by another one.
+/// Returns the problem of a key that its table does not have: it may be in another table, or have another name.
 fn unknown_key(name: &str, expected: &[&str]) -> Problem {
     if meant(name, expected.iter().copied()).is_none() {
         let tables = keys_of_tables();
@@ -59,7 +59,7 @@ fn unknown_key(name: &str, expected: &[&str]) -> Problem {
     context::unknown_key(name, expected.iter().copied())
 }
 
-/// Where keys stand in a study file, in words, and the keys, by the schema.
+/// Lists the tables of a study file, in words, with their keys, from the schema.
 fn keys_of_tables() -> [(&'static str, Vec<String>); 5] {
     let schema = study_schema();
     let keys = |table: &serde_json::Value| {
@@ -75,7 +75,7 @@ fn keys_of_tables() -> [(&'static str, Vec<String>); 5] {
     ]
 }
 
-/// The deserialiser's message with the names that people have for its types.
+/// Replaces the type names in the deserialiser's message by common ones.
 fn in_words(message: &str) -> String {
     const WORDS: [(&str, &str); 5] = [
         ("expected f64", "expected a number"),

@@ -1,4 +1,4 @@
-//! From what was typed to what is meant: every check a study file needs, once.
+//! Conversion of a typed study file to a study: every check of a study file, once.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -20,7 +20,7 @@ use super::units::{in_words_of_units, refuse_unit_of_own, unit_of_factor, with_u
 use super::{analysis, distribution, noise, nominal, read};
 use crate::ModelKind;
 
-/// The study that the text of `context` means, and notes on what has no effect.
+/// Returns the study of the text of `context`, and notes on keys without effect.
 pub(super) fn study(context: &Context<'_>) -> Result<(Study, Vec<String>), Fault> {
     let file = read::study_file(context)?;
     let kind = model_kind(context, file.model.as_ref())?;
@@ -44,7 +44,7 @@ fn file_stem(context: &Context<'_>) -> String {
     context.path.file_stem().map_or_else(|| "study".to_owned(), |stem| file_part(&stem.to_string_lossy()))
 }
 
-/// Where the file says what `error` is about.
+/// Returns the position in the file that `error` is about.
 fn place(context: &Context<'_>, file: &StudyFile, error: &BuildError) -> Range<usize> {
     let keys: &[&str] = match error {
         BuildError::Wrong { key, .. } => &[key],
@@ -65,14 +65,14 @@ fn place(context: &Context<'_>, file: &StudyFile, error: &BuildError) -> Range<u
     found.map_or(0..0, toml::Spanned::span)
 }
 
-/// Where a name stands that is refused: the last one of a factor, or else where it stands first.
+/// Returns the position of a refused name: the last one of a factor, or else the first occurrence.
 fn place_of_name(context: &Context<'_>, file: &StudyFile, name: &str) -> Range<usize> {
     let names = |section: &At<FactorSection>| {
         let FactorSection { name, group, .. } = section.get_ref();
         [Some(name.clone()), group.clone()].into_iter().flatten().collect::<Vec<_>>()
     };
     let of_factor = file.factor.iter().flat_map(names).rfind(|found| found.get_ref() == name);
-    // Escaped ones are not found.
+    // Escaped names are not found.
     let first = || context.text.find(name).map(|start| start..start + name.len());
     of_factor.map(|found| found.span()).or_else(first).unwrap_or(0..0)
 }
@@ -92,7 +92,7 @@ fn model_kind(context: &Context<'_>, model: Option<&At<String>>) -> Result<Model
     })
 }
 
-/// A program file as the list that starts it.
+/// Suggests the list that starts a program file.
 fn words_of_program(file: &str) -> String {
     let ending = file.rsplit_once('.').map_or("", |(_, ending)| ending).to_lowercase();
     let interpreter = match ending.as_str() {
@@ -102,13 +102,13 @@ fn words_of_program(file: &str) -> String {
         "sh" => "\"bash\", ",
         _ => "",
     };
-    // What was typed as a line of a shell is a list of words here.
+    // A shell command line is a list of words here.
     let words: Vec<String> = file.split_whitespace().map(|word| format!("{word:?}")).collect();
     let interpreter = if words.len() > 1 { "" } else { interpreter };
     format!("{interpreter}{}", words.join(", "))
 }
 
-/// `[afm]`, `[function]`, `[expression]` and `command` belong to one kind of model each.
+/// Refuses tables of other models: `[afm]`, `[function]`, `[expression]` and `command` belong to one kind each.
 fn refuse_tables_of_others(context: &Context<'_>, kind: ModelKind, file: &StudyFile) -> Result<(), Fault> {
     let foreign = |table: &&ModelTable| table.name != kind.table && (table.span)(file).is_some();
     let Some(ModelTable { name, span, .. }) = TABLES.iter().find(foreign) else { return Ok(()) };
@@ -124,7 +124,7 @@ fn refuse_tables_of_others(context: &Context<'_>, kind: ModelKind, file: &StudyF
 
 fn space(context: &Context<'_>, inputs: &[Input], sections: &[At<FactorSection>]) -> Result<Space, Fault> {
     if sections.is_empty() {
-        // All inputs by their own distributions, if they have one.
+        // All inputs with their own distributions, if they have one.
         let own = |input: &Input| Some(own_factor(input, input.distribution.clone()?));
         let Some(factors) = inputs.iter().map(own).collect::<Option<Result<Vec<Factor>, Problem>>>() else {
             return Err(context.fault(0..0, Problem::no_factors()));
@@ -141,7 +141,7 @@ fn space(context: &Context<'_>, inputs: &[Input], sections: &[At<FactorSection>]
     Ok(Space::new(factors))
 }
 
-/// A factor that varies as the model's input does by itself.
+/// Creates a factor that varies as the model's input does by default.
 fn own_factor(input: &Input, distribution: Distribution) -> Result<Factor, Problem> {
     let nominal = default_nominal(input, &input.unit, &distribution);
     let mut factor = made(input, input.unit.clone(), distribution)?;
@@ -172,7 +172,7 @@ fn factor(context: &Context<'_>, section: &At<FactorSection>, input: &Input) -> 
     let (low, high) = distribution.support();
     let least = if distribution.is_open_below() { low.next_up() } else { low };
     for (bound, reached, key) in [(low, least, "min"), (high, high, "max")] {
-        // Unbounded distributions reach everywhere: their rare rows outside the domain fail by name and are counted.
+        // Unbounded distributions cover all values: their rare rows outside the domain fail by name and are counted.
         if bound.is_finite() && !in_domain(reached) {
             let span = fields.place(key).unwrap_or_else(|| place.clone());
             return Err(outside(span, format!("its values reach {}", with_unit(bound, unit.symbol()))));
@@ -195,7 +195,7 @@ fn factor(context: &Context<'_>, section: &At<FactorSection>, input: &Input) -> 
     Ok(factor)
 }
 
-/// The model's own nominal value, or the middle of the distribution where that is none of its values.
+/// Returns the model's own nominal value, or the middle of the distribution if that is not one of its values.
 fn default_nominal(input: &Input, unit: &Unit, distribution: &Distribution) -> f64 {
     let (low, high) = distribution.support();
     let nominal = unit.from_si(input.unit.to_si(input.nominal));

@@ -9,8 +9,8 @@ use serde_json::{Value, json};
 use super::key_schemas;
 use super::sections::StudyFile;
 
-/// The JSON Schema (draft 7, which editors understand) of study files. It knows every key and every name, not what the
-/// parts of a study mean together: that is what [`parse_study`](super::parse_study) checks.
+/// Returns the JSON Schema (draft 7, which editors support) of study files. It contains every key and every name, but
+/// not the rules across the parts of a study, which [`parse_study`](super::parse_study) checks.
 ///
 /// ```
 /// let schema = apportion_files::study_schema();
@@ -34,7 +34,7 @@ pub fn study_schema() -> Value {
     schema
 }
 
-/// TOML has no null: what is not said is left out.
+/// Removes null from the schema: TOML has none; optional keys are omitted.
 fn without_null(schema: &mut Schema) {
     let Some(object) = schema.as_object_mut() else { return };
     if let Some(Value::Array(types)) = object.get_mut("type") {
@@ -44,7 +44,7 @@ fn without_null(schema: &mut Schema) {
             object.insert("type".to_owned(), only);
         }
     }
-    // A reference that may be null is the reference.
+    // A reference that may be null becomes the reference.
     if let Some(Value::Array(any)) = object.get_mut("anyOf") {
         any.retain(|one| one.get("type") != Some(&json!("null")));
         if let [Value::Object(only)] = &any[..] {

@@ -1,4 +1,4 @@
-//! Outputs that are series: how long they are, and where their values stand.
+//! Outputs that are series: their length and the positions of their values.
 
 use apportion::model::{SeriesAxis, SeriesError};
 use apportion::names::{SHORT_TEXT, is_short_text};
@@ -7,7 +7,7 @@ use super::context::wrong;
 use super::error::Problem;
 use super::outputs::OutputTable;
 
-/// The axis of the output `key`, of which `table` tells; `None` if it is no series.
+/// Returns the axis of the output `key` from its `table`; `None` if it is not a series.
 pub(super) fn axis(key: &str, table: &OutputTable) -> Result<Option<SeriesAxis>, Problem> {
     let OutputTable { length, axis, axis_unit, positions, .. } = table;
     let texts = [("axis", axis), ("axis_unit", axis_unit)];

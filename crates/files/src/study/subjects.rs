@@ -1,4 +1,4 @@
-//! The models that a study file can name, with their choices made.
+//! The configured models that a study file can name.
 
 use std::path::PathBuf;
 
@@ -22,9 +22,9 @@ pub struct KnownSubject {
 /// Formulas of the factors.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ExpressionSubject {
-    /// The outputs asked for.
+    /// The requested outputs.
     pub formulas: Vec<Formula>,
-    /// What formulas can name beside the factors.
+    /// The names in formulas in addition to the factors.
     pub constants: Vec<ExpressionConstant>,
 }
 
@@ -33,7 +33,7 @@ pub struct ExpressionSubject {
 pub struct Formula {
     /// The output's name.
     pub name: String,
-    /// The unit in which it is reported; the formula gives it in SI.
+    /// The unit in which it is reported; the formula is in SI.
     pub unit: Unit,
     /// The formula of the factors' SI values, in the order of the space.
     pub expression: Expression,
@@ -42,11 +42,11 @@ pub struct Formula {
 /// A program of the user's own.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CommandSubject {
-    /// The program and how it is asked.
+    /// The program and how it receives rows.
     pub settings: CommandSettings,
-    /// What decides its answers, in the terms of the study file.
+    /// The settings that determine its replies, in the terms of the study file.
     pub(super) stated: Vec<(&'static str, Value)>,
-    /// Other files that decide its answers.
+    /// Other files that determine its replies.
     pub(super) depends_on: Vec<PathBuf>,
 }
 
@@ -55,7 +55,7 @@ pub struct CommandSubject {
 pub struct ExpressionConstant {
     /// Its name.
     pub name: String,
-    /// Its value as typed; formulas have it in SI.
+    /// Its value as typed; formulas use it in SI.
     pub quantity: Quantity,
 }
 
@@ -99,8 +99,8 @@ impl Subject for CommandSubject {
         self.stated.clone()
     }
 
-    /// The existing files that it is made of: those of the program and of the study's `depends_on`, the template, and what each
-    /// run gets.
+    /// Returns the existing files of the model: those of the program and of the study's `depends_on`, the template, and
+    /// the files copied to each run.
     fn files(&self) -> Vec<PathBuf> {
         let mut files = program_files(&self.settings.program);
         files.extend(self.depends_on.iter().cloned());
@@ -148,7 +148,7 @@ impl Subject for KnownSubject {
 
 fn in_json(value: &ParameterValue) -> Value {
     match *value {
-        // Whole numbers, such as dimensions, as people write them.
+        // Whole numbers, such as dimensions, without a decimal point.
         ParameterValue::Number(number) if number.fract() == 0.0 && number.abs() < 1e15 => json!(number as i64),
         ParameterValue::Number(number) => json!(number),
         ParameterValue::List(ref list) => json!(list),

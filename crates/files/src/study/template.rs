@@ -1,4 +1,4 @@
-//! A study to begin with: a file that runs as it is, with comments that teach.
+//! A new study file, which runs unchanged and has explanatory comments.
 
 use apportion::design::DesignSettings;
 use apportion::model::{Input, Output};
@@ -10,24 +10,24 @@ use super::error::Problem;
 use super::units::with_unit;
 use crate::ModelKind;
 
-/// What a study to begin with is about.
+/// The request for a new study.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct TemplateRequest {
     /// The model.
     pub model: ModelKind,
-    /// Title for people; the model's description if there is none.
+    /// Title; the model's description by default.
     pub title: Option<String>,
-    /// Names of the inputs that become factors; a choice of the model's if there are none.
+    /// Names of the inputs that become factors; by default a choice of the model's.
     pub factors: Vec<String>,
-    /// Names of the outputs; the model's first if there are none.
+    /// Names of the outputs; by default the model's first.
     pub outputs: Vec<String>,
 }
 
 /// File name of the program in a new study of a program.
 pub const NEW_PROGRAM: &str = "my_model.py";
 
-/// The text of a study file on `request`: it can be run as it is. A factor of a model that does not say how its inputs vary
-/// is uniform within 10 % of its nominal value (from 0 to 1 in its unit where that is 0).
+/// Returns the text of a study file for `request`, which runs unchanged. A factor is uniform within 10 % of its nominal
+/// value (from 0 to 1 in its unit if that is 0) if the model does not say how its inputs vary.
 ///
 /// ```
 /// use std::path::Path;
@@ -43,7 +43,7 @@ pub const NEW_PROGRAM: &str = "my_model.py";
 /// ```
 ///
 /// # Errors
-/// [`Problem::UnknownName`] for a factor or output that the model does not have, [`Problem::Repeated`] for one named twice.
+/// [`Problem::UnknownName`] for an unknown factor or output, [`Problem::Repeated`] for one named twice.
 pub fn template(request: &TemplateRequest) -> Result<String, Problem> {
     refuse_repeated("factor", &request.factors)?;
     refuse_repeated("output", &request.outputs)?;
@@ -76,14 +76,14 @@ pub fn template(request: &TemplateRequest) -> Result<String, Problem> {
     ))
 }
 
-/// The program of a new study of a program: in Python, of its factors and outputs, each of which is the sum of the factors
-/// until somebody writes another; `None` of other models.
+/// Returns the program of a new study of a program: in Python, with its factors and outputs, each of which is the sum
+/// of the factors until the user replaces it; `None` for other models.
 pub fn new_program(request: &TemplateRequest) -> Option<String> {
     if request.model != ModelKind::COMMAND {
         return None;
     }
     let (factors, outputs) = own_names(request);
-    // JSON's texts are Python's too.
+    // Strings of JSON are also strings of Python.
     let value = |name: &String| format!("x[{}]", serde_json::Value::from(name.as_str()));
     let sum = factors.iter().map(value).collect::<Vec<_>>().join(" + ");
     let values = vec!["y"; outputs.len()].join(", ");
@@ -98,7 +98,7 @@ pub fn new_program(request: &TemplateRequest) -> Option<String> {
     ))
 }
 
-/// Names of factors and outputs of a model that has none of its own.
+/// Returns names of factors and outputs for a model without its own.
 fn own_names(request: &TemplateRequest) -> (Vec<String>, Vec<String>) {
     let named = |names: &[String], default: &[&str]| -> Vec<String> {
         if names.is_empty() { default.iter().map(|&name| name.to_owned()).collect() } else { names.to_vec() }
@@ -106,7 +106,7 @@ fn own_names(request: &TemplateRequest) -> (Vec<String>, Vec<String>) {
     (named(&request.factors, &["x1", "x2"]), named(&request.outputs, &["y"]))
 }
 
-/// The lines on outputs and model, and those of the factors, of a model of the user's own.
+/// Returns the lines on outputs and model, and those of the factors, of the user's own model.
 fn of_user(request: &TemplateRequest) -> (String, Vec<String>) {
     let (factors, outputs) = own_names(request);
     let sum = toml::Value::String(factors.join(" + "));
@@ -135,7 +135,7 @@ fn of_user(request: &TemplateRequest) -> (String, Vec<String>) {
     (model, factors.iter().map(|name| format!("{} = {{ min = 0, max = 1 }}\n", bare_or_quoted(name))).collect())
 }
 
-/// The same of a model whose inputs and outputs are its own.
+/// Returns the same for a model with its own inputs and outputs.
 fn of_model(request: &TemplateRequest) -> Result<(String, Vec<String>), Problem> {
     let model = request.model;
     let (inputs, outputs) = (model.inputs(), model.outputs());
@@ -166,7 +166,7 @@ fn of_model(request: &TemplateRequest) -> Result<(String, Vec<String>), Problem>
     Ok((text, factors.into_iter().map(factor_line).collect()))
 }
 
-/// The choices in force, and how to fix a constant.
+/// Lists the current choices, and explains how to fix a constant.
 fn afm_table() -> String {
     let options = Options::default();
     let mut text = "\n# The physics. Each choice stands as it would be if it were left out.\n[afm]\n".to_owned();
@@ -182,7 +182,7 @@ fn afm_table() -> String {
     text + "# An input that is no factor can be fixed, with its unit:\n# width = \"40 um\"\n"
 }
 
-/// The parameters of a function, as comments: they are those in force.
+/// Lists the current parameters of a function, as comments.
 fn function_table(model: ModelKind) -> String {
     let Some(answer) = model.known else { return String::new() };
     let about = |name: &str| answer.parameters().iter().find(|p| p.name == name).map_or("", |p| p.description);
@@ -196,7 +196,7 @@ fn function_table(model: ModelKind) -> String {
     format!("\n# {}\n{table}{lines}", answer.formula())
 }
 
-/// A factor with its description.
+/// Formats a factor with its description.
 fn factor_line(input: &Input) -> String {
     let name = bare_or_quoted(&input.name);
     match &input.distribution {
@@ -213,7 +213,7 @@ fn factor_line(input: &Input) -> String {
     }
 }
 
-/// The nominal value and a tenth of it to both sides, as far as that is physical.
+/// Returns the range of the nominal value plus or minus a tenth of it, as far as that is physical.
 fn range(input: &Input) -> (f64, f64) {
     let nominal = input.nominal;
     if nominal == 0.0 {
@@ -221,7 +221,7 @@ fn range(input: &Input) -> (f64, f64) {
     }
     let inside = |value: f64| input.domain.is_none_or(|domain| domain.contains(input.unit.to_si(value)));
     let bound = |factor: f64| {
-        // Four significant digits: people will change it.
+        // Four significant digits: users will change it.
         let value: f64 = format!("{:.3e}", nominal * factor).parse().unwrap_or(nominal);
         if inside(value) { value } else { nominal }
     };
@@ -234,7 +234,7 @@ fn refuse_repeated(what: &'static str, names: &[String]) -> Result<(), Problem> 
     repeated.map_or(Ok(()), |(_, name)| Err(Problem::Repeated { what, name: name.clone() }))
 }
 
-/// A key of TOML, in quotes where it needs them.
+/// Formats a key of TOML, in quotes if it needs them.
 fn bare_or_quoted(key: &str) -> String {
     if super::forms::is_bare(key) { key.to_owned() } else { toml::Value::String(key.to_owned()).to_string() }
 }

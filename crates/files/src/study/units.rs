@@ -9,7 +9,7 @@ use super::context::{Context, Fault};
 use super::error::Problem;
 use super::sections::{At, FactorSection};
 
-/// The inputs of a model that has no others than the factors of the study, each in its own unit.
+/// Returns the inputs of a model whose only inputs are the factors of the study, each in its own unit.
 pub(super) fn own_inputs(context: &Context<'_>, factors: &[At<FactorSection>]) -> Result<Vec<Input>, Fault> {
     let input = |section: &At<FactorSection>| {
         let fields = section.get_ref();
@@ -18,14 +18,14 @@ pub(super) fn own_inputs(context: &Context<'_>, factors: &[At<FactorSection>]) -
             Some(typed) => context.at(typed, Unit::parse(typed.get_ref()))?,
         };
         let (name, symbol) = (fields.name.get_ref().clone(), fields.name.get_ref().clone());
-        // Not a number: the study alone has a nominal value.
+        // Not a number: only the study has a nominal value.
         let (nominal, description) = (f64::NAN, "a factor of the study".to_owned());
         Ok(Input { name, symbol, unit, nominal, domain: None, distribution: None, description })
     };
     factors.iter().map(input).collect()
 }
 
-/// `name` is in a unit of another kind than `expected`, or in none.
+/// Returns the problem of `name` with a unit of another kind than `expected`, or with none.
 pub(super) fn wrong_unit(name: &str, expected: &Unit, unit: Option<&Unit>, example: &str) -> Problem {
     let dimension = expected.dimension();
     let message = match unit {
@@ -35,7 +35,7 @@ pub(super) fn wrong_unit(name: &str, expected: &Unit, unit: Option<&Unit>, examp
     Problem::with_help(message, format!("write {example}"))
 }
 
-/// The unit of a factor, which is of the kind that the model asks for.
+/// Returns the unit of a factor, which must be of the kind that the model requires.
 pub(super) fn unit_of_factor(context: &Context<'_>, fields: &FactorSection, input: &Input) -> Result<Unit, Fault> {
     let (name, example) = (format!("factor `{}`", input.name), format!("unit = \"{}\"", input.unit));
     let Some(typed) = &fields.unit else {
@@ -51,7 +51,7 @@ pub(super) fn unit_of_factor(context: &Context<'_>, fields: &FactorSection, inpu
     Ok(unit)
 }
 
-/// The input's own distribution is in the input's own unit.
+/// Refuses a unit for the input's own distribution, which is in the input's own unit.
 pub(super) fn refuse_unit_of_own(
     context: &Context<'_>,
     fields: &FactorSection,
@@ -70,7 +70,7 @@ pub(super) fn refuse_unit_of_own(
     }
 }
 
-/// The unit of an output of a program, which stands as `text` in `value`: one that is known, or any other short text.
+/// Parses the unit of a program's output, written as `text` in `value`: a known one, or any other short text.
 pub(super) fn output_unit(context: &Context<'_>, value: &At<Value>, text: &str) -> Result<Unit, Fault> {
     match is_short_text(text) {
         true => Ok(Unit::label(text)),
@@ -78,12 +78,12 @@ pub(super) fn output_unit(context: &Context<'_>, value: &At<Value>, text: &str) 
     }
 }
 
-/// A domain for people who may be thinking in degrees.
+/// Describes a domain of angles, also in degrees.
 pub(super) fn in_words_of_units(domain: Domain) -> String {
     if domain == Domain::AcuteAngle { "in [0, 90 deg]".to_owned() } else { domain.to_string() }
 }
 
-/// `value` as typed, with its unit if it has one.
+/// Formats `value` as typed, with its unit if it has one.
 pub(super) fn with_unit(value: f64, unit: &str) -> String {
     if matches!(unit, "" | "1") { value.to_string() } else { format!("{value} {unit}") }
 }

@@ -1,4 +1,4 @@
-//! What a chart says of itself besides title and caption: its legend, its axes, and its bars in words.
+//! The text of a chart besides title and caption: its legend, its axes, and its bars in words.
 
 use super::bar::Bar;
 use super::figure::{Entry, Key};
@@ -7,7 +7,7 @@ use super::series::Stroke;
 use super::text::percent;
 
 impl Chart {
-    /// Every series with a name once, in the order of the marks; then intervals and published values, if there are any.
+    /// Returns every series with a name once, in the order of the marks; then intervals and published values, if any.
     pub(super) fn legend(&self) -> Vec<Entry> {
         let mut entries: Vec<Entry> = Vec::new();
         for Mark { series, shape } in self.marks() {
@@ -42,7 +42,7 @@ impl Chart {
         entries
     }
 
-    /// The axes of its panels in words; numbers stand in tables.
+    /// Describes the axes of its panels; the numbers are in tables.
     pub(super) fn axes(&self) -> String {
         let panel = |panel: &Panel| {
             let title = if panel.title.trim().is_empty() { String::new() } else { format!("{}: ", panel.title.trim()) };
@@ -55,7 +55,7 @@ impl Chart {
         self.panels.iter().map(panel).collect::<Vec<_>>().join(" ")
     }
 
-    /// A bar that is drawn in words: names, value, interval, published value.
+    /// Describes a drawn bar: names, value, interval, published value.
     pub(super) fn bar_in_words(&self, panel: &Panel, series: &str, bar: &Bar) -> String {
         let number = |value: f64| if bar.label.is_empty() { value.to_string() } else { percent(value) };
         let mut value = bar.said.clone();

@@ -15,25 +15,25 @@ use super::text::shorten;
 
 /// Room above a plot, px.
 const HEAD: f64 = 8.0;
-/// Longest label of a point on a phone, px.
+/// Length of the longest label of a point on a phone, px.
 const LONGEST_LABEL: f64 = 110.0;
-/// Most points that are labelled: more would be a thicket.
+/// Maximum number of labelled points: more would be unreadable.
 const MAX_LABELS: usize = 60;
 
 impl Chart {
-    /// The chart as an SVG document for a page column, the same bytes for the same chart.
+    /// Draws the chart as an SVG document for a page column; the same chart gives the same bytes.
     pub fn svg(&self) -> String {
         self.svg_at(ChartWidth::Wide)
     }
 
-    /// The chart as an SVG document for `width`.
+    /// Draws the chart as an SVG document for `width`.
     pub fn svg_at(&self, width: ChartWidth) -> String {
         self.drawn(Medium { width, inline: false })
     }
 
-    /// The chart as an SVG element for a page that sets [`title`](Self::title) and [`caption`](Self::caption) as text: it
-    /// has a `viewBox` but no size, so that the style of the page scales it; an `aria-label`, and title and description
-    /// for screen readers; and no `id`, so that any number of them may stand on a page.
+    /// Draws the chart as an SVG element for a page that sets [`title`](Self::title) and [`caption`](Self::caption) as
+    /// text: it has a `viewBox` but no size, so that the style of the page scales it; an `aria-label`, and title and
+    /// description for screen readers; and no `id`, so that a page may hold any number of them.
     ///
     /// ```
     /// use apportion_report::chart::{Axis, Bar, Chart, ChartWidth, Colour, Panel, Series, Shape};
@@ -55,7 +55,7 @@ impl Chart {
         figure.finish(bottom)
     }
 
-    /// Draws all panels from the figure's free room on; gives the lower edge.
+    /// Draws all panels in the free room of the figure and returns the lower edge.
     fn draw_panels(&self, figure: &mut Figure, page: ChartWidth) -> f64 {
         let layout = Layout::new(self, page);
         let last = layout.cells.len().saturating_sub(1);
@@ -88,7 +88,7 @@ pub(super) struct Sheet<'a> {
 }
 
 impl<'a> Sheet<'a> {
-    /// The panel with its plot at its place from left to right.
+    /// Creates the panel with its plot at its position from left to right.
     fn new(chart: &'a Chart, layout: &'a Layout<'a>, cell: &'a Cell<'a>, column: usize) -> Self {
         let left = layout.left + column as f64 * (layout.width + layout.gap);
         let plot = Plot { left, top: 0.0, width: layout.width, height: cell.height };
@@ -100,7 +100,7 @@ impl<'a> Sheet<'a> {
         !self.cell.panel.title.trim().is_empty()
     }
 
-    /// Room between the plot and the title of the panel.
+    /// Returns the room between the plot and the title of the panel.
     fn rise(&self) -> f64 {
         flags::room(&self.flags).max(HEAD)
     }
@@ -109,7 +109,7 @@ impl<'a> Sheet<'a> {
         self.rise() + if self.is_titled() { PANEL_TITLE.leading() } else { 0.0 }
     }
 
-    /// Draws the panel; gives its lower edge.
+    /// Draws the panel and returns its lower edge.
     fn draw(&self, canvas: &mut Canvas, with_x_axis: bool) -> f64 {
         let Cell { panel, x, y, .. } = self.cell;
         let plot = &self.plot;
@@ -137,7 +137,7 @@ impl<'a> Sheet<'a> {
         if with_x_axis { plot.x_labels(canvas, x, &panel.x.title(x.exponent)) } else { plot.bottom() }
     }
 
-    /// The marks on axes of numbers: what covers much first.
+    /// Draws the marks on axes of numbers: those that cover much first.
     fn marks(&self, canvas: &mut Canvas) {
         let marks = &self.cell.panel.marks;
         for layer in 0..3 {
@@ -161,12 +161,12 @@ impl<'a> Sheet<'a> {
         }
     }
 
-    /// The place of a point, if it has one.
+    /// Returns the place of a point, if it has one.
     fn at(&self, (x, y): (f64, f64)) -> Option<(f64, f64)> {
         Some((self.plot.x(&self.cell.x, x)?, self.plot.y(&self.cell.y, y)?))
     }
 
-    /// Both edges of a band at a place.
+    /// Returns both edges of a band at a position.
     fn edges(&self, &(x, low, high): &(f64, f64, f64)) -> Option<[(f64, f64); 2]> {
         Some([self.at((x, low))?, self.at((x, high))?])
     }
@@ -180,7 +180,7 @@ impl<'a> Sheet<'a> {
         }
     }
 
-    /// A band of a series. Its rim has the contrast that its light filling lacks.
+    /// Draws a band of a series. Its rim has the contrast that its light filling does not have.
     fn band(&self, canvas: &mut Canvas, series: &Series, edges: &[(f64, f64, f64)]) {
         for run in runs(edges.iter().map(|edges| self.edges(edges))) {
             let lower: Vec<_> = run.iter().map(|edges| edges[0]).collect();
@@ -218,7 +218,7 @@ impl<'a> Sheet<'a> {
         canvas.close("g");
     }
 
-    /// The labels of points, those of larger x first.
+    /// Draws the labels of points, those of larger x first.
     fn labels(&self, canvas: &mut Canvas, points: &[(&Series, &Point)]) {
         let mut shown: Vec<(&Point, (f64, f64))> =
             points.iter().filter_map(|(_, point)| Some((*point, self.at((point.x, point.y))?))).collect();
@@ -230,7 +230,7 @@ impl<'a> Sheet<'a> {
         let wanted: Vec<Label> = (0..)
             .zip(&shown)
             .map(|(number, (point, at))| {
-                // Without a label, or beyond the most labels, there is no room of any width.
+                // Without a label, or beyond the maximum number of labels, the width is infinite, which fits nowhere.
                 let labelled = number < MAX_LABELS && !point.label.trim().is_empty();
                 let width = if labelled { TICK.width(&text(&point.label)) } else { f64::INFINITY };
                 Label { at: *at, width, height: TICK.cap_height() }
@@ -254,7 +254,7 @@ impl<'a> Sheet<'a> {
         canvas.close("g");
     }
 
-    /// The points, series by series.
+    /// Draws the points, series by series.
     fn points(&self, canvas: &mut Canvas, points: &[(&Series, &Point)]) {
         for of_series in points.chunk_by(|a, b| a.0 == b.0) {
             canvas.open("g", &[("class", &"series")]);

@@ -17,7 +17,7 @@ const ENTRY_GAP: f64 = 18.0;
 /// Distance of legend rows, px.
 const ROW: f64 = 17.0;
 
-/// The mark that stands before a name in the legend.
+/// The symbol before a name in the legend.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Key {
     Swatch(Colour),
@@ -44,10 +44,10 @@ pub(super) struct Entry {
     pub key: Key,
 }
 
-/// A figure whose head is drawn; `finish` adds the foot.
+/// A figure with its head drawn; `finish` adds the foot.
 pub(super) struct Figure<'a> {
     pub canvas: Canvas,
-    /// The upper edge of the room still free, px.
+    /// The upper edge of the free room, px.
     pub top: f64,
     width: f64,
     medium: Medium,
@@ -55,7 +55,6 @@ pub(super) struct Figure<'a> {
 }
 
 impl<'a> Figure<'a> {
-    /// Draws title and legend.
     pub fn begin(medium: Medium, chart: &'a Chart) -> Self {
         let top = if medium.has_words() { MARGIN } else { 0.0 };
         let mut figure = Self { canvas: Canvas::default(), top, width: medium.width.px(), medium, chart };
@@ -79,7 +78,7 @@ impl<'a> Figure<'a> {
         self.canvas.close("g");
     }
 
-    /// The caption under `bottom`, then the whole as an SVG document. Screen readers read out the axes after the caption.
+    /// Draws the caption under `bottom` and returns the SVG document. Screen readers read the axes after the caption.
     pub fn finish(mut self, bottom: f64) -> String {
         let bottom = if self.medium.has_words() { self.caption(bottom) + MARGIN } else { bottom };
         let (width, height) = (self.width, bottom.ceil());
@@ -106,7 +105,7 @@ impl<'a> Figure<'a> {
         page.into_string()
     }
 
-    /// Draws the caption; gives its last baseline.
+    /// Draws the caption and returns its last baseline.
     fn caption(&mut self, bottom: f64) -> f64 {
         let mut y = bottom;
         let caption = wrap(&self.chart.caption, self.width - 2.0 * MARGIN, BODY);
@@ -144,7 +143,7 @@ impl<'a> Figure<'a> {
         self.top = y + ROW / 2.0;
     }
 
-    /// Draws a key whose left end is at `x`, its middle at height `y`.
+    /// Draws a key with its left end at `x` and its middle at height `y`.
     fn key(&mut self, key: Key, (x, y): (f64, f64)) {
         let right = x + key.width();
         let middle = ((x + right) / 2.0, y);
@@ -154,7 +153,7 @@ impl<'a> Figure<'a> {
                 let (left, top, fill) = (Px(x), Px(y - 5.0), colour.hex());
                 let area: Attributes =
                     &[("x", &left), ("y", &top), ("width", &"12"), ("height", &"10"), ("fill", &fill)];
-                // The lightest shades are set off from the paper by it, as in the map.
+                // The outline separates the lightest shades from the paper, as in the map.
                 let rim: Attributes = match colour {
                     Colour::Shade(_) => &[("stroke", &MUTED), ("stroke-width", &"0.6")],
                     _ => &[],

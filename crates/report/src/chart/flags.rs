@@ -1,4 +1,4 @@
-//! Labels of vertical rules above a plot: each stands at its line like a flag at its pole.
+//! Labels of vertical rules above a plot, each attached to its rule like a flag to its pole.
 
 use super::plot::Plot;
 use super::scale::Scale;
@@ -10,10 +10,10 @@ use super::text::shorten;
 const ROW: f64 = 13.0;
 /// Gap between a pole and its flag, and between flags of one row, px.
 const GAP: f64 = 4.0;
-/// Longest label, px; longer ones are shortened.
+/// Length of the longest label, px; longer ones are shortened.
 const LONGEST: f64 = 240.0;
 
-/// A label with its place.
+/// A label with its position.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Flag<'a> {
     whole: &'a str,
@@ -28,7 +28,7 @@ pub(super) struct Flag<'a> {
 }
 
 impl Flag<'_> {
-    /// Whether one covers the other or is crossed by its pole.
+    /// Returns whether one covers the other or is crossed by its pole.
     fn collides(&self, other: &Flag) -> bool {
         let crossed =
             |flag: &Flag, by: &Flag| by.row >= flag.row && flag.from - GAP < by.pole && by.pole < flag.to + GAP;
@@ -37,8 +37,8 @@ impl Flag<'_> {
     }
 }
 
-/// Places the flags of the rules (place, label) of a panel, each in the lowest row in which it collides with none. Flags point right
-/// unless they would leave the plot or cross the pole of a flag that points left. Rules without a place
+/// Places the flags of the rules (place, label) of a panel, each in the lowest row where it collides with none. Flags
+/// point right unless they would leave the plot or cross the pole of a flag that points left. Rules without a position
 /// on the axis have no flag.
 pub(super) fn place<'a>(
     rules: impl Iterator<Item = (f64, &'a str)>,
@@ -49,7 +49,7 @@ pub(super) fn place<'a>(
     let longest = LONGEST.min(plot.width / page.choose(3.0, 2.0));
     let mut shown: Vec<_> = rules.filter_map(|(at, label)| Some((plot.x(x, at)?, label))).collect();
     shown.sort_by(|a, b| b.0.total_cmp(&a.0));
-    // From the right: where the next flag must end.
+    // From the right: the position where the next flag must end.
     let mut end = plot.right();
     let (mut right, mut left) = (Vec::new(), Vec::new());
     for (pole, whole) in shown {
@@ -64,7 +64,7 @@ pub(super) fn place<'a>(
             left.push(Flag { whole, text, pole, from: end - width, to: end, row: 0 });
         }
     }
-    // In this order the pole of each flag stands clear of the flags before it.
+    // In this order the pole of each flag does not touch the flags before it.
     let mut flags: Vec<Flag> = Vec::new();
     for mut flag in right.into_iter().chain(left.into_iter().rev()) {
         // Only poles closer than a gap can leave no free row.
@@ -76,7 +76,7 @@ pub(super) fn place<'a>(
     flags
 }
 
-/// Height the flags take above the plot, px.
+/// Returns the height of the flags above the plot, px.
 pub(super) fn room(flags: &[Flag]) -> f64 {
     flags.iter().map(|flag| (flag.row + 1) as f64 * ROW + 3.0).fold(0.0, f64::max)
 }

@@ -11,14 +11,14 @@ use ttf_parser::Face as FontFace;
 /// Family name of the embedded faces.
 #[cfg(feature = "png")]
 pub(super) const FAMILY: &str = "Apportion Sans";
-/// Families named in the SVG, all but the generic one of equal metrics.
+/// Families named in the SVG, except the generic one of equal metrics.
 pub(super) const FAMILIES: &str = "Arial, 'Liberation Sans', Helvetica, sans-serif";
 /// Bytes of the regular face (TrueType).
 pub(super) static REGULAR: &[u8] = include_bytes!("../../fonts/ApportionSans-Regular.ttf");
 /// Bytes of the bold face (TrueType).
 pub(super) static BOLD: &[u8] = include_bytes!("../../fonts/ApportionSans-Bold.ttf");
 
-/// Advance in em taken for a character the faces lack: that of an ideograph, the widest usual case.
+/// Advance in em assumed for a character that the faces lack: that of an ideograph, the widest usual case.
 const UNKNOWN_ADVANCE: f64 = 1.0;
 
 /// Regular or bold.
@@ -36,17 +36,17 @@ pub(super) struct Face {
 }
 
 impl Face {
-    /// The regular face.
+    /// Returns the regular face.
     pub const fn regular(size: f64) -> Self {
         Self { size, weight: Weight::Regular }
     }
 
-    /// The bold face.
+    /// Returns the bold face.
     pub const fn bold(size: f64) -> Self {
         Self { size, weight: Weight::Bold }
     }
 
-    /// Width of one line of text, px. Kerning, which only narrows it, is left out.
+    /// Returns the width of one line of text, px. Kerning, which only reduces it, is ignored.
     pub fn width(self, text: &str) -> f64 {
         let advances = match self.weight {
             Weight::Regular => &*REGULAR_ADVANCES,
@@ -56,18 +56,18 @@ impl Face {
         em * self.size
     }
 
-    /// Distance from one baseline to the next, px.
+    /// Returns the distance from one baseline to the next, px.
     pub fn leading(self) -> f64 {
         1.25 * self.size
     }
 
-    /// Height of a capital letter, px (Liberation Sans: 1409 of 2048 units).
+    /// Returns the height of a capital letter, px (Liberation Sans: 1409 of 2048 units).
     pub fn cap_height(self) -> f64 {
         0.688 * self.size
     }
 }
 
-/// Whether both embedded faces have a glyph for the character.
+/// Returns whether both embedded faces have a glyph for the character.
 #[cfg(feature = "png")]
 pub(super) fn covers(c: char) -> bool {
     REGULAR_ADVANCES.contains_key(&c) && BOLD_ADVANCES.contains_key(&c)
@@ -76,7 +76,7 @@ pub(super) fn covers(c: char) -> bool {
 static REGULAR_ADVANCES: LazyLock<HashMap<char, f64>> = LazyLock::new(|| advances(REGULAR));
 static BOLD_ADVANCES: LazyLock<HashMap<char, f64>> = LazyLock::new(|| advances(BOLD));
 
-/// Advances in em by character; empty if the bytes are no font, which a test rules out.
+/// Returns the advances in em by character; empty if the bytes are not a font, which a test excludes.
 fn advances(font: &[u8]) -> HashMap<char, f64> {
     let Ok(font) = FontFace::parse(font, 0) else { return HashMap::new() };
     let em = f64::from(font.units_per_em());

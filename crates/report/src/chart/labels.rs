@@ -1,14 +1,14 @@
-//! Places for the labels of points: beside them, else a little off, never over another label or point.
+//! Positions for the labels of points: next to them, else a little off, never over another label or point.
 
 /// Distances from a point to its label, px, in the order they are tried.
 const DISTANCES: [f64; 7] = [6.0, 11.0, 17.0, 25.0, 35.0, 48.0, 64.0];
-/// From this distance on a thin line joins point and label.
+/// Distance from which on a thin line joins point and label.
 const LEADER: f64 = 11.0;
-/// Half the room a point takes, px.
+/// Half the size of a point, px.
 const POINT: f64 = 4.5;
-/// Room kept free about a label, px.
+/// Free margin around a label, px.
 const AIR: f64 = 1.5;
-/// Directions in the order they are tried: the four sides and the four corners, to the right first, then between them.
+/// Directions in the order of trial: the four sides and the four corners, right first, then those between.
 const DIRECTIONS: [(f64, f64); 16] = [
     (1.0, 0.0),
     (0.7, -0.7),
@@ -38,18 +38,18 @@ pub(super) struct Area {
 }
 
 impl Area {
-    /// From one x to another and from one y to another, in any order.
+    /// Creates the area from one x to another and from one y to another, in any order.
     pub fn between(x: (f64, f64), y: (f64, f64)) -> Self {
         Self { left: x.0.min(x.1), right: x.0.max(x.1), top: y.0.min(y.1), bottom: y.0.max(y.1) }
     }
 
-    /// Whether the two have a point in common inside both.
+    /// Returns whether the two have a common interior point.
     pub fn overlaps(&self, other: &Area) -> bool {
         self.left < other.right && other.left < self.right && self.top < other.bottom && other.top < self.bottom
     }
 }
 
-/// A point that wants a label of this size.
+/// A point with the size of its label.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Label {
     pub at: (f64, f64),
@@ -57,14 +57,14 @@ pub(super) struct Label {
     pub height: f64,
 }
 
-/// Where a label stands, and where its thin line begins and ends, if it has one.
+/// The position of a label and the ends of its thin line, if it has one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Place {
     pub area: Area,
     pub leader: Option<[(f64, f64); 2]>,
 }
 
-/// A place inside `bounds` for each label in turn; `None` where there is no room.
+/// Finds a position inside `bounds` for each label in turn; `None` if there is no room.
 pub(super) fn place(wanted: &[Label], bounds: Area) -> Vec<Option<Place>> {
     let about = |at: f64| (at - POINT, at + POINT);
     let points: Vec<Area> = wanted.iter().map(|label| Area::between(about(label.at.0), about(label.at.1))).collect();
@@ -72,7 +72,7 @@ pub(super) fn place(wanted: &[Label], bounds: Area) -> Vec<Option<Place>> {
     for (own, label) in wanted.iter().enumerate() {
         let taken: Vec<Place> = places.iter().copied().flatten().collect();
         let free = |place: &Place| {
-            // A point over which the own one lies cannot be kept clear of.
+            // A point that covers the label's own point cannot be avoided.
             let others = points.iter().filter(|area| !area.overlaps(&points[own]));
             let area = &place.area;
             let inside = area.left >= bounds.left
@@ -92,7 +92,7 @@ pub(super) fn place(wanted: &[Label], bounds: Area) -> Vec<Option<Place>> {
     places
 }
 
-/// The label at some distance in a direction: it touches the end of the way with its near edge or corner.
+/// Places the label at a distance in a direction; its near edge or corner touches the end of the line.
 fn beside(label: &Label, distance: f64, (dx, dy): (f64, f64)) -> Place {
     let (x, y) = (label.at.0 + dx * distance, label.at.1 + dy * distance);
     let shift = |part: f64, size: f64| match part {
@@ -107,7 +107,7 @@ fn beside(label: &Label, distance: f64, (dx, dy): (f64, f64)) -> Place {
     Place { area, leader: (distance >= LEADER).then_some([start, (x - dx * AIR, y - dy * AIR)]) }
 }
 
-/// Whether a short line passes through an area, looked at in steps of a few px; it may touch the air about it.
+/// Returns whether a short line crosses an area, tested in steps of a few px; it may touch the margin.
 fn crosses([from, to]: [(f64, f64); 2], area: &Area) -> bool {
     const STEPS: u32 = 16;
     (0..=STEPS).any(|step| {

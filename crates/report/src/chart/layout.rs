@@ -1,4 +1,4 @@
-//! Where the panels of a chart stand, and which scales they have.
+//! The positions and scales of the panels of a chart.
 
 use super::bar::Bar;
 use super::model::{Arrangement, Chart, Mark, Panel, Shape, Tile};
@@ -7,30 +7,30 @@ use super::scale::{Scale, ScaleOptions};
 use super::style::{ChartWidth, MARGIN, TICK, VALUE, drawable};
 use super::text::shorten;
 
-/// Heights of the plot of a lone panel and of each among several, px.
+/// Heights of the plot of a single panel and of each of several, px.
 const HEIGHTS: (f64, f64) = (320.0, 170.0);
 /// The same on a phone.
 const NARROW_HEIGHTS: (f64, f64) = (230.0, 140.0);
 /// Heights of a plot with labelled points, px, and the same on a phone.
 const LABELLED_HEIGHTS: (f64, f64) = (400.0, 290.0);
-/// Least gap between neighbours, px.
+/// Minimum gap between neighbours, px.
 const GAP: f64 = 16.0;
-/// Gap between a plot and the text beside it, px.
+/// Gap between a plot and the text next to it, px.
 pub(super) const TEXT_GAP: f64 = 6.0;
-/// Positive values whose ratio is below this are shown from zero on.
+/// Ratio below which positive values are shown on an axis from zero.
 const NEAR_ZERO: f64 = 0.4;
-/// Longest name of a row, px; longer ones are shortened.
+/// Length of the longest name of a row, px; longer ones are shortened.
 const LONGEST_NAME: f64 = 220.0;
-/// Height of a bar among several in a row, of one with a label or a published value, and least height of the bars of a row,
-/// px.
+/// Height of one of several bars in a row, of a bar with a label or a published value, and minimum height of the bars
+/// of a row, px.
 const LANE: f64 = 6.0;
 const LABELLED_LANE: f64 = 10.0;
 const MIN_BARS: f64 = 16.0;
-/// Between the bars of two rows, px.
+/// Gap between the bars of two rows, px.
 pub(super) const ROW_GAP: f64 = 8.0;
 /// Height of the line of text above a row on a phone, px.
 const HEADING: f64 = 15.0;
-/// Room for the label after a bar beside its width, px.
+/// Room for the label after a bar in addition to its width, px.
 const LABEL_ROOM: f64 = 10.0;
 
 /// A panel with its scales.
@@ -41,7 +41,7 @@ pub(super) struct Cell<'a> {
     pub height: f64,
 }
 
-/// All panels of a chart, and the lengths that they have in common, px.
+/// All panels of a chart and their common lengths, px.
 pub(super) struct Layout<'a> {
     pub page: ChartWidth,
     pub columns: usize,
@@ -49,7 +49,7 @@ pub(super) struct Layout<'a> {
     pub left: f64,
     pub width: f64,
     pub gap: f64,
-    /// Where the titles of the vertical axes have their baseline.
+    /// The baseline of the titles of the vertical axes.
     pub y_title: f64,
     pub rows: Rows,
 }
@@ -79,7 +79,7 @@ impl<'a> Layout<'a> {
         let width = |(left, right, gap): (f64, f64, f64)| {
             ((page.px() - left - right - (columns - 1) as f64 * gap) / columns as f64).max(10.0)
         };
-        // Half of the outer tick labels may reach beyond the plot.
+        // Half of an outer tick label may extend beyond the plot.
         let x = x_scales(chart, width((left, MARGIN, GAP)));
         let labels = || panels.iter().zip(&x).filter(|(panel, _)| panel.x.names.is_empty()).map(|(_, x)| &x.ticks);
         let half = |label: &str| TICK.width(label) / 2.0;
@@ -109,12 +109,12 @@ impl Rows {
 }
 
 impl Panel {
-    /// Whether the vertical axis has names.
+    /// Returns whether the vertical axis has names.
     pub(super) fn has_rows(&self) -> bool {
         !self.y.names.is_empty()
     }
 
-    /// The bars with their marks.
+    /// Iterates over the bars with their marks.
     pub(super) fn bars(&self) -> impl Iterator<Item = (&Mark, &Bar)> {
         self.marks.iter().filter_map(|mark| match &mark.shape {
             Shape::Bar(bar) => Some((mark, bar)),
@@ -122,7 +122,7 @@ impl Panel {
         })
     }
 
-    /// The cells of a map with their marks.
+    /// Iterates over the cells of a map with their marks.
     pub(super) fn tiles(&self) -> impl Iterator<Item = (&Mark, &Tile)> {
         self.marks.iter().filter_map(|mark| match &mark.shape {
             Shape::Tile(tile) => Some((mark, tile)),
@@ -130,12 +130,12 @@ impl Panel {
         })
     }
 
-    /// Whether it is a map, whose rows stand for themselves and not about a value.
+    /// Returns whether it is a map, whose rows hold cells and not bars about a value.
     pub(super) fn is_map(&self) -> bool {
         self.tiles().next().is_some()
     }
 
-    /// The rules as (place, label).
+    /// Iterates over the rules as (place, label).
     pub(super) fn rules(&self) -> impl Iterator<Item = (f64, &str)> {
         self.marks.iter().filter_map(|mark| match &mark.shape {
             Shape::Rule(x, label) => Some((*x, label.as_str())),
@@ -143,17 +143,17 @@ impl Panel {
         })
     }
 
-    /// The value that bars are about.
+    /// Returns the value at which bars start.
     pub(super) fn base(&self) -> f64 {
         self.rules().find_map(|(x, _)| drawable(x)).unwrap_or(0.0)
     }
 
-    /// Whether it has labelled points, which need more room than lines.
+    /// Returns whether it has labelled points, which need more room than lines.
     fn has_points(&self) -> bool {
         self.marks.iter().any(|mark| matches!(mark.shape, Shape::Point(_)))
     }
 
-    /// The coordinates of all marks; of those that have one only, the other is 0.
+    /// Returns the coordinates of all marks; a missing coordinate is 0.
     fn places(&self) -> Vec<(f64, f64)> {
         let level = |x: f64| (x, 0.0);
         let of_mark = |mark: &Mark| match &mark.shape {
@@ -174,26 +174,26 @@ impl Panel {
         self.places().into_iter().map(|place| place.0).chain(self.rules().map(|rule| rule.0)).chain(base).collect()
     }
 
-    /// The ordinates of what has a place on the horizontal axis.
+    /// Returns the ordinates of everything that has a position on the horizontal axis.
     fn y_values(&self) -> Vec<f64> {
         self.places().into_iter().filter(|place| self.x.spacing.shows(place.0)).map(|place| place.1).collect()
     }
 }
 
 impl Bar {
-    /// Every value that it marks.
+    /// Returns every value that it marks.
     fn ends(&self) -> Vec<f64> {
         let (low, high) = self.interval.unzip();
         [Some(self.from), Some(self.to), low, high, self.diamond()].into_iter().flatten().collect()
     }
 
-    /// The right end of bar and interval, after which the label stands.
+    /// Returns the right end of bar and interval, after which the label is written.
     pub(super) fn right(&self) -> f64 {
         self.from.max(self.to).max(self.interval.map_or(self.to, |(low, high)| low.max(high)))
     }
 }
 
-/// How many panels stand side by side.
+/// Returns the number of panels side by side.
 fn columns(chart: &Chart, page: ChartWidth) -> usize {
     let panels = chart.all_panels();
     let count = panels.len().max(1);
@@ -201,7 +201,7 @@ fn columns(chart: &Chart, page: ChartWidth) -> usize {
         return 1;
     }
     if panels.iter().any(Panel::has_rows) {
-        // They share the names at the left.
+        // They share the names on the left.
         let alike = panels.windows(2).all(|pair| pair[0].y.names == pair[1].y.names);
         return if alike { count.min(page.choose(2, 1)) } else { 1 };
     }
@@ -219,7 +219,7 @@ fn height(panel: &Panel, alone: bool, rows: Rows, page: ChartWidth) -> f64 {
     }
 }
 
-/// The scale of each panel's horizontal axis: one for all where they stand one above the other, or have equal axes.
+/// Returns the scale of each panel's horizontal axis: one for all if they are stacked or have equal axes.
 fn x_scales(chart: &Chart, width: f64) -> Vec<Scale> {
     let panels = chart.all_panels();
     let shared = chart.arrangement == Arrangement::Stacked || panels.windows(2).all(|pair| pair[0].x == pair[1].x);
@@ -239,7 +239,7 @@ fn x_scale(first: &Panel, panels: &[Panel], width: f64) -> Scale {
     let air = match () {
         () if panels.iter().any(Panel::has_rows) => 0.03,
         () if panels.iter().any(Panel::has_points) => 0.06,
-        // Points need air at the ends; lines run from edge to edge.
+        // Points need free room at the ends; lines run from edge to edge.
         () if marks().any(|mark| matches!(mark.shape, Shape::Dots(_))) => 0.02,
         () if marks().any(|mark| mark.series.stroke.has_points()) => 0.02,
         () => 0.0,
@@ -248,14 +248,14 @@ fn x_scale(first: &Panel, panels: &[Panel], width: f64) -> Scale {
     Scale::over(values, options).with_room(width)
 }
 
-/// The value up to which an axis must go for the labels after its bars.
+/// Returns the value up to which an axis must extend for the labels after its bars.
 fn room_for_labels(panels: &[Panel], values: &[f64], width: f64) -> Option<f64> {
     let low = values.iter().copied().filter_map(drawable).reduce(f64::min)?;
     let beyond = |right: f64, room: f64| low + (right - low) * width / (width - room);
     let needed = panels.iter().flat_map(Panel::bars).filter_map(|(_, bar)| {
         let room = (VALUE.width(&bar.label) + LABEL_ROOM).min(0.5 * width);
         let bar = bar.drawn().filter(|bar| !bar.label.is_empty())?;
-        // The label may have to stand behind the published value.
+        // The label may be behind the published value.
         let (right, diamond) = (bar.right(), bar.diamond().unwrap_or(f64::NEG_INFINITY));
         let behind = beyond(right, room);
         let right = if diamond < behind { right.max(diamond) } else { right };
@@ -264,7 +264,7 @@ fn room_for_labels(panels: &[Panel], values: &[f64], width: f64) -> Option<f64> 
     needed.reduce(f64::max)
 }
 
-/// The scale of each panel's vertical axis: one for all where they stand side by side.
+/// Returns the scale of each panel's vertical axis: one for all if they are side by side.
 fn y_scales(chart: &Chart, heights: &[f64]) -> Vec<Scale> {
     let panels = chart.all_panels();
     match (chart.arrangement, panels.first(), heights.first()) {
@@ -282,17 +282,17 @@ fn y_scale(first: &Panel, panels: &[Panel], height: f64) -> Scale {
     let mut values: Vec<f64> = panels.iter().flat_map(Panel::y_values).collect();
     let shown = values.iter().filter(|y| y.is_finite());
     let (low, high) = shown.fold((f64::INFINITY, 0.0_f64), |(l, h), y| (l.min(*y), h.max(*y)));
-    // Zero belongs to the picture unless it would take much of it. A logarithmic scale passes over it.
+    // Zero is included unless it would take much of the axis. A logarithmic scale ignores it.
     values.extend((low > 0.0 && low < NEAR_ZERO * high).then_some(0.0));
     Scale::over(values, ScaleOptions { spacing: first.y.spacing, air: 0.05, steps: steps(height, 45.0, 6) })
 }
 
-/// About how many steps between ticks an axis of a length has: one for so many px, but at most so many.
+/// Returns the approximate number of steps between ticks of an axis: one for so many px, but at most `most`.
 fn steps(length: f64, px: f64, most: usize) -> usize {
     ((length / px).round() as usize).clamp(3, most)
 }
 
-/// The name of a row as it stands beside the plot.
+/// Returns the name of a row as written next to the plot.
 pub(super) fn row_name(name: &str) -> String {
     shorten(name, LONGEST_NAME, TICK)
 }

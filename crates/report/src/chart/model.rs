@@ -1,4 +1,4 @@
-//! What a chart is: panels of marks on axes.
+//! The data of a chart: panels of marks on axes.
 
 use super::bar::Bar;
 use super::scale::Spacing;
@@ -7,7 +7,7 @@ use super::text::power_of_ten;
 
 /// A chart: headline, caption, and panels of marks.
 ///
-/// The legend names every series once, in the order in which the marks come.
+/// The legend names every series once, in the order of the marks.
 ///
 /// ```
 /// use apportion_report::chart::{Axis, Chart, Colour, Mark, Panel, Series};
@@ -27,7 +27,7 @@ pub struct Chart {
     pub(super) published_name: String,
 }
 
-/// How the panels of a chart stand.
+/// How the panels of a chart are arranged.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Arrangement {
     /// One above the other; they share the horizontal axis.
@@ -63,20 +63,20 @@ pub struct Axis {
     pub names: Vec<String>,
 }
 
-/// A mark of a series. Numbers that cannot be drawn (not finite, beyond 1e300, not positive on a logarithmic axis) leave
-/// gaps in lines and bands; other marks are left out.
+/// A mark of a series. Numbers that cannot be drawn (not finite, beyond 1e300, not positive on a logarithmic axis)
+/// leave gaps in lines and bands; other marks are omitted.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mark {
     /// Its series.
     pub series: Series,
-    /// What it is.
+    /// Its shape.
     pub shape: Shape,
 }
 
 /// The kinds of marks.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Shape {
-    /// A line through points, or the points, see [`super::Stroke`].
+    /// A line through points, or only the points, see [`super::Stroke`].
     Line(Vec<(f64, f64)>),
     /// A shaded band as (x, low, high).
     Band(Vec<(f64, f64, f64)>),
@@ -84,22 +84,22 @@ pub enum Shape {
     Dots(Vec<(f64, f64)>),
     /// A point with its label.
     Point(Point),
-    /// A level bar in a row of a vertical axis of names; the bars of a row share it in the order they come.
+    /// A horizontal bar in a row of a vertical axis of names; the bars of a row share it in their order.
     Bar(Bar),
     /// A cell of a map, on two axes of names.
     Tile(Tile),
-    /// A vertical line at x with a label above; bars stand about the first of them, else about 0.
+    /// A vertical line at x with a label above; bars start at the first of them, else at 0.
     Rule(f64, String),
 }
 
 /// A point with its label.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Point {
-    /// On the horizontal axis.
+    /// Position on the horizontal axis.
     pub x: f64,
-    /// On the vertical axis.
+    /// Position on the vertical axis.
     pub y: f64,
-    /// Written beside it where there is room; may be empty.
+    /// Written next to it where there is room; may be empty.
     pub label: String,
 }
 
@@ -112,12 +112,12 @@ pub struct Tile {
     pub column: usize,
     /// A letter or two.
     pub letter: String,
-    /// What is shown when it is pointed at.
+    /// The tooltip.
     pub tip: String,
 }
 
 impl Chart {
-    /// A chart without panels.
+    /// Creates a chart without panels.
     pub fn new(title: impl Into<String>, caption: impl Into<String>) -> Self {
         Self {
             title: title.into(),
@@ -128,28 +128,28 @@ impl Chart {
         }
     }
 
-    /// The chart with more panels.
+    /// Adds panels.
     pub fn panels(mut self, panels: impl IntoIterator<Item = Panel>) -> Self {
         self.panels.extend(panels);
         self
     }
 
-    /// The chart with its panels side by side.
+    /// Arranges the panels side by side.
     pub fn side_by_side(self) -> Self {
         Self { arrangement: Arrangement::SideBySide, ..self }
     }
 
-    /// The chart with a name for published values in the legend.
+    /// Sets a name for published values in the legend.
     pub fn published_name(self, name: impl Into<String>) -> Self {
         Self { published_name: name.into(), ..self }
     }
 
-    /// Headline of the chart.
+    /// Returns the headline of the chart.
     pub fn title(&self) -> &str {
         &self.title
     }
 
-    /// The sentence under the chart.
+    /// Returns the sentence under the chart.
     pub fn caption(&self) -> &str {
         &self.caption
     }
@@ -164,29 +164,29 @@ impl Chart {
         self.caption = caption.into();
     }
 
-    /// The panels.
+    /// Returns the panels.
     pub fn all_panels(&self) -> &[Panel] {
         &self.panels
     }
 
-    /// All marks of all panels.
+    /// Iterates over all marks of all panels.
     pub(super) fn marks(&self) -> impl Iterator<Item = &Mark> {
         self.all_panels().iter().flat_map(|panel| &panel.marks)
     }
 }
 
 impl Panel {
-    /// A panel without marks.
+    /// Creates a panel without marks.
     pub fn new(x: Axis, y: Axis) -> Self {
         Self { title: String::new(), x, y, marks: Vec::new() }
     }
 
-    /// The panel with a headline.
+    /// Sets the headline of the panel.
     pub fn titled(self, title: impl Into<String>) -> Self {
         Self { title: title.into(), ..self }
     }
 
-    /// The panel with its rows in falling order of their keys, and with the first `most` of them only.
+    /// Sorts the rows by falling keys and keeps only the first `most` of them.
     pub fn ranked(mut self, keys: &[f64], most: usize) -> Self {
         let key = |row: usize| keys.get(row).copied().filter(|key| !key.is_nan()).unwrap_or(f64::NEG_INFINITY);
         let mut order: Vec<usize> = (0..self.y.names.len()).collect();
@@ -208,7 +208,7 @@ impl Panel {
         self
     }
 
-    /// The panel with more marks.
+    /// Adds marks.
     pub fn with(mut self, marks: impl IntoIterator<Item = Mark>) -> Self {
         self.marks.extend(marks);
         self
@@ -216,22 +216,22 @@ impl Panel {
 }
 
 impl Axis {
-    /// A linear axis.
+    /// Creates a linear axis.
     pub fn new(label: impl Into<String>, unit: impl Into<String>) -> Self {
         Self { label: label.into(), unit: unit.into(), ..Self::default() }
     }
 
-    /// An axis of names.
+    /// Creates an axis of names.
     pub fn from_names(label: impl Into<String>, names: Vec<String>) -> Self {
         Self { label: label.into(), names, ..Self::default() }
     }
 
-    /// The axis with a spacing.
+    /// Sets the spacing.
     pub fn spaced(self, spacing: Spacing) -> Self {
         Self { spacing, ..self }
     }
 
-    /// `label (unit)`, with the power of ten that the ticks are in.
+    /// Returns `label (unit)`, with the power of ten of the ticks.
     pub(super) fn title(&self, exponent: i32) -> String {
         let label = &self.label;
         match (self.unit.trim(), exponent) {
@@ -244,24 +244,24 @@ impl Axis {
 }
 
 impl Series {
-    /// A mark of the series.
+    /// Creates a mark of the series.
     pub fn mark(&self, shape: Shape) -> Mark {
         Mark { series: self.clone(), shape }
     }
 
-    /// A line of the series.
+    /// Creates a line of the series.
     pub fn line(&self, points: Vec<(f64, f64)>) -> Mark {
         self.mark(Shape::Line(points))
     }
 
-    /// A band of the series.
+    /// Creates a band of the series.
     pub fn band(&self, edges: Vec<(f64, f64, f64)>) -> Mark {
         self.mark(Shape::Band(edges))
     }
 }
 
 impl Mark {
-    /// A vertical line with a label.
+    /// Creates a vertical line with a label.
     pub fn rule(x: f64, label: impl Into<String>) -> Self {
         Series::default().mark(Shape::Rule(x, label.into()))
     }

@@ -2,19 +2,19 @@
 
 use super::style::INK;
 
-/// Hues of Okabe and Ito (2008), which people with the usual colour vision deficiencies tell apart, dark enough for marks on
-/// white (contrast 3 or more, WCAG 2.2, 1.4.11). Their lightness differs too, most of all that of the first four, for print in
-/// grey.
+/// Hues of Okabe and Ito (2008), which people with the usual colour vision deficiencies can distinguish, dark enough
+/// for marks on white (contrast 3 or more, WCAG 2.2, 1.4.11). Their lightness differs too, mostly among the first four,
+/// for print in grey.
 const COLOURS: [&str; 11] = [
     "#00527f", "#e8710a", "#00785a", "#571a48", "#5b85b0", "#a03f00", "#757575", "#3b2a00", "#c2588f", "#4c6a00",
     "#929292",
 ];
 
-/// The shades of maps from little to much, ever darker, so that they differ in grey too (ColorBrewer's YlGnBu).
+/// The shades of maps from low to high, increasingly dark, so that they differ in grey too (ColorBrewer's YlGnBu).
 const SHADES: [&str; 9] =
     ["#ffffd9", "#edf8b1", "#c7e9b4", "#7fcdbb", "#41b6c4", "#1d91c0", "#225ea8", "#253494", "#081d58"];
 
-/// How opaque the dots of a cloud are.
+/// Opacity of the dots of a cloud.
 pub(super) const DOTS_OPACITY: &str = "0.6";
 
 /// Outlines of points as path data about the origin, of about equal area.
@@ -25,15 +25,15 @@ const SYMBOLS: [&str; 4] = [
     "m0 -3.6l3.6 3.6l-3.6 3.6l-3.6 -3.6z",
 ];
 
-/// A colour of the palette, and the symbol of points that goes with it.
+/// A colour of the palette with its point symbol.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Colour {
-    /// That of a series by its number: dark blue, orange, green, plum, blue, rust, grey, and four more; then again from the
-    /// first. The most distinct ones come first.
+    /// Colour of a series by its number: dark blue, orange, green, plum, blue, rust, grey, and four more; then again
+    /// from the first. The most distinct ones come first.
     Series(usize),
     /// References and exact values: nearly black.
     Reference,
-    /// That of a cell of a map by how much there is, from 0, the lightest, to 8, the darkest.
+    /// Colour of a cell of a map by its level, from 0, the lightest, to 8, the darkest.
     Shade(usize),
 }
 
@@ -44,7 +44,7 @@ impl Default for Colour {
 }
 
 impl Colour {
-    /// The colour as `#rrggbb`.
+    /// Returns the colour as `#rrggbb`.
     ///
     /// ```
     /// use apportion_report::chart::Colour;
@@ -59,13 +59,13 @@ impl Colour {
         }
     }
 
-    /// Whether letters on it must be light: where these have more contrast than dark ones.
+    /// Returns whether letters on it must be light: where these have more contrast than dark ones.
     pub(super) fn is_dark(self) -> bool {
         let own = luminance(self.hex(), 1.0) + 0.05;
         1.05 / own > own / (luminance(INK, 1.0) + 0.05)
     }
 
-    /// The outline of a point as path data about its middle.
+    /// Returns the outline of a point as path data about its middle.
     pub(super) fn symbol(self) -> &'static str {
         match self {
             Self::Series(number) => SYMBOLS[number % SYMBOLS.len()],
@@ -74,7 +74,7 @@ impl Colour {
     }
 }
 
-/// Relative luminance on white of a colour that is so opaque (WCAG 2.2).
+/// Returns the relative luminance on white of a colour with this opacity (WCAG 2.2).
 fn luminance(hex: &str, opacity: f64) -> f64 {
     let channel = |at: usize| {
         let part = f64::from(u8::from_str_radix(&hex[at..at + 2], 16).unwrap_or(0)) / 255.0;
@@ -99,7 +99,7 @@ mod tests {
         assert!(colours.contains(&Colour::Series(usize::MAX).hex()));
     }
 
-    /// Lightness (CIE 1976), 0 to 100.
+    /// Returns the lightness (CIE 1976), 0 to 100.
     fn lightness(hex: &str) -> f64 {
         116.0 * libm::cbrt(luminance(hex, 1.0)) - 16.0
     }
@@ -111,7 +111,7 @@ mod tests {
         for hex in marks {
             assert!(contrast(hex, 1.0) >= 3.0, "{hex}: {}", contrast(hex, 1.0));
         }
-        // Clouds of dots are of the first series.
+        // Clouds of dots use the first series.
         let opacity: f64 = DOTS_OPACITY.parse().expect("a number");
         assert!(contrast(COLOURS[0], opacity) >= 3.0, "{}", contrast(COLOURS[0], opacity));
     }
@@ -125,7 +125,7 @@ mod tests {
                 assert!((a - b).abs() >= least, "{other} and {place}: {b} and {a}");
             }
         }
-        // Those that stand side by side in a bar.
+        // The series that are next to each other in a bar.
         assert!((of[4] - of[5]).abs() > 10.0);
     }
 

@@ -1,4 +1,4 @@
-//! Point sequences as SVG paths: broken at gaps, thinned where points crowd.
+//! Point sequences as SVG paths: broken at gaps, thinned where points are dense.
 
 use super::svg::Px;
 
@@ -7,10 +7,10 @@ pub(super) type Point = (f64, f64);
 
 /// Columns this many px wide hold at most four points of a run.
 const COLUMN: f64 = 0.5;
-/// Points closer than this to the line through their neighbours are left out, px.
+/// Points closer than this to the line through their neighbours are omitted, px.
 const VISIBLE: f64 = 0.05;
 
-/// The unbroken runs of a sequence with gaps.
+/// Returns the unbroken runs of a sequence with gaps.
 pub(super) fn runs<T: Copy>(points: impl IntoIterator<Item = Option<T>>) -> Vec<Vec<T>> {
     let mut runs = vec![Vec::new()];
     for point in points {
@@ -23,13 +23,13 @@ pub(super) fn runs<T: Copy>(points: impl IntoIterator<Item = Option<T>>) -> Vec<
     runs
 }
 
-/// Leaves out points that make no visible difference to the line through a run.
+/// Removes points that make no visible difference to the line through a run.
 pub(super) fn thin(run: &[Point]) -> Vec<Point> {
     straighten(&uncrowd(run))
 }
 
-/// Keeps, of neighbours in one column, the first, the lowest, the highest and the last: the line through
-/// them covers the same pixels. It bounds the work of [`straighten`].
+/// Keeps, of neighbours in one column, the first, the lowest, the highest and the last: the line through them covers
+/// the same pixels. It bounds the work of [`straighten`].
 fn uncrowd(run: &[Point]) -> Vec<Point> {
     let column = |p: &Point| (p.0 / COLUMN).floor();
     let mut kept = Vec::new();
@@ -48,7 +48,7 @@ fn uncrowd(run: &[Point]) -> Vec<Point> {
     kept
 }
 
-/// The points needed to stay within [`VISIBLE`] of the run (Douglas and Peucker, 1973).
+/// Returns the points needed to stay within [`VISIBLE`] of the run (Douglas and Peucker, 1973).
 fn straighten(run: &[Point]) -> Vec<Point> {
     if run.len() < 3 {
         return run.to_vec();
@@ -66,7 +66,7 @@ fn straighten(run: &[Point]) -> Vec<Point> {
     run.iter().zip(needed).filter(|(_, needed)| *needed).map(|(&point, _)| point).collect()
 }
 
-/// Distance of a point from a segment.
+/// Returns the distance of a point from a segment.
 fn distance(p: Point, (a, b): (Point, Point)) -> f64 {
     let (dx, dy) = (b.0 - a.0, b.1 - a.1);
     let length = dx * dx + dy * dy;
@@ -75,7 +75,7 @@ fn distance(p: Point, (a, b): (Point, Point)) -> f64 {
     libm::hypot(p.0 - a.0 - along * dx, p.1 - a.1 - along * dy)
 }
 
-/// A run as path data.
+/// Formats a run as path data.
 pub(super) fn open(run: &[Point]) -> String {
     let mut data = String::new();
     for (i, &(x, y)) in run.iter().enumerate() {
@@ -84,7 +84,7 @@ pub(super) fn open(run: &[Point]) -> String {
     data
 }
 
-/// The area between two runs over the same abscissae as path data.
+/// Formats the area between two runs over the same abscissae as path data.
 pub(super) fn closed(lower: &[Point], upper: &[Point]) -> String {
     let around: Vec<Point> = lower.iter().chain(upper.iter().rev()).copied().collect();
     open(&around) + "Z"

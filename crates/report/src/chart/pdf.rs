@@ -1,4 +1,4 @@
-//! SVG to PDF: the same picture as vectors and real text, in its size on paper.
+//! SVG to PDF: the same picture as vectors and text, in its size on paper.
 
 use resvg::usvg::{self, Tree};
 use svg2pdf::{ConversionOptions, PageOptions, to_pdf};
@@ -6,23 +6,23 @@ use thiserror::Error;
 
 use super::png::{CSS_DPI, options};
 
-/// Why an SVG could not be made a PDF.
+/// Why an SVG could not be converted to PDF.
 #[derive(Debug, Error)]
 pub enum PdfError {
-    /// No SVG.
+    /// The text is not an SVG.
     #[error("the chart is not a drawable SVG: {0}")]
     Svg(#[from] usvg::Error),
-    /// An SVG that cannot be a page.
+    /// The SVG cannot be converted to a page.
     #[error("the chart cannot be written as PDF: {0}")]
     Pdf(svg2pdf::ConversionError),
 }
 
-/// Writes an SVG chart of this crate as a PDF of one page, which is as large as the picture: 72 points are 96 px, or the
-/// millimetres that the SVG names. Marks are vectors; texts are text that can be searched and copied, in the embedded faces
-/// cut to the letters that occur.
+/// Converts an SVG chart of this crate to a PDF of one page of the size of the picture: 72 points are 96 px, or the
+/// millimetres that the SVG gives. Marks are vectors; texts can be searched and copied, in subsets of the embedded
+/// faces.
 ///
 /// # Errors
-/// [`PdfError`] if the text is no SVG, or has what cannot be drawn on a page.
+/// [`PdfError`] if the text is not an SVG, or holds something that cannot be drawn on a page.
 ///
 /// # Example
 /// ```

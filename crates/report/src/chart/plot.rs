@@ -7,7 +7,7 @@ use super::text::{shorten, wrap, wrap_within};
 
 /// Room between an axis and its tick labels, px.
 pub(super) const TICK_GAP: f64 = 6.0;
-/// Most lines of a turned axis title.
+/// Maximum number of lines of a turned axis title.
 const TITLE_LINES: usize = 3;
 
 /// A rectangle with a scale on each side, in px.
@@ -28,24 +28,24 @@ impl Plot {
         self.top + self.height
     }
 
-    /// Horizontal place of a value.
+    /// Returns the horizontal position of a value.
     pub fn x(&self, scale: &Scale, value: f64) -> Option<f64> {
         scale.place(value).map(|place| self.left + place * self.width)
     }
 
-    /// Vertical place of a value.
+    /// Returns the vertical position of a value.
     pub fn y(&self, scale: &Scale, value: f64) -> Option<f64> {
         scale.place(value).map(|place| self.bottom() - place * self.height)
     }
 
-    /// The panel's title over the upper left corner, `rise` px above the rectangle; on a phone from edge to edge.
+    /// Draws the panel's title over the upper left corner, `rise` px above the rectangle; on a phone from edge to edge.
     pub fn title(&self, canvas: &mut Canvas, title: &str, rise: f64, width: ChartWidth) {
         let (left, room) = width.choose((self.left, self.width), (MARGIN, width.px() - 2.0 * MARGIN));
         let line = shorten(title, room, PANEL_TITLE);
         canvas.text(&Text::new(&line, (left, self.top - rise), PANEL_TITLE).whole(title));
     }
 
-    /// Horizontal grid lines, and the labels of the vertical axis where no neighbour has them.
+    /// Draws horizontal grid lines, and the labels of the vertical axis where no neighbour has them.
     pub fn y_axis(&self, canvas: &mut Canvas, scale: &Scale, is_labelled: bool) {
         let class = if is_labelled { "y-axis" } else { "y-grid" };
         canvas.open("g", &[("class", &class), ("stroke-width", &"1")]);
@@ -63,7 +63,7 @@ impl Plot {
         canvas.close("g");
     }
 
-    /// Vertical grid lines of the horizontal axis.
+    /// Draws the vertical grid lines of the horizontal axis.
     pub fn x_grid(&self, canvas: &mut Canvas, scale: &Scale) {
         canvas.open("g", &[("class", &"x-grid"), ("stroke-width", &"1")]);
         grid(canvas, scale, |canvas, value| {
@@ -74,7 +74,7 @@ impl Plot {
         canvas.close("g");
     }
 
-    /// Labels of the horizontal axis and its title below; gives the lower edge.
+    /// Draws the labels of the horizontal axis and its title below; returns the lower edge.
     pub fn x_labels(&self, canvas: &mut Canvas, scale: &Scale, title: &str) -> f64 {
         canvas.open("g", &[("class", &"x-axis")]);
         let baseline = self.bottom() + TICK_GAP + TICK.cap_height() + 1.0;
@@ -93,7 +93,7 @@ impl Plot {
         bottom + 4.0
     }
 
-    /// The title of the vertical axis, turned, its last line's baseline at `x`.
+    /// Draws the turned title of the vertical axis, its last baseline at `x`.
     pub fn y_title(&self, canvas: &mut Canvas, title: &str, x: f64) {
         let lines = wrap_within(title, self.height, TITLE_LINES, BODY);
         let middle = self.top + self.height / 2.0;
@@ -103,13 +103,13 @@ impl Plot {
         }
     }
 
-    /// A note in the middle, for a plot that shows nothing.
+    /// Draws a note in the middle, for an empty plot.
     pub fn note(&self, canvas: &mut Canvas, note: &str) {
         let at = (self.left + self.width / 2.0, self.top + self.height / 2.0);
         canvas.text(&Text::new(note, at, BODY).anchor(Anchor::Middle).fill(MUTED));
     }
 
-    /// The two axis lines, left and below.
+    /// Draws the two axis lines, left and below.
     pub fn axis_lines(&self, canvas: &mut Canvas) {
         canvas.open("g", &[("class", &"axis-lines"), ("stroke", &INK), ("stroke-width", &"1")]);
         canvas.line((self.left, self.top), (self.left, self.bottom()));
@@ -118,19 +118,19 @@ impl Plot {
     }
 }
 
-/// Width that tick labels and the gap to their axis take, px.
+/// Returns the width of tick labels and the gap to their axis, px.
 pub(super) fn tick_room(scale: &Scale) -> f64 {
     let widest = scale.ticks.iter().map(|tick| TICK.width(&tick.label)).fold(0.0, f64::max);
     widest + TICK_GAP
 }
 
-/// Width that a turned axis title takes beside a plot of this height, px.
+/// Returns the width of a turned axis title next to a plot of this height, px.
 pub(super) fn title_room(title: &str, height: f64) -> f64 {
     let lines = wrap_within(title, height, TITLE_LINES, BODY).len() as f64;
     if lines == 0.0 { 0.0 } else { lines * BODY.leading() + 4.0 }
 }
 
-/// Fine lines first, then those of the ticks.
+/// Draws fine lines first, then those of the ticks.
 fn grid(canvas: &mut Canvas, scale: &Scale, line: impl Fn(&mut Canvas, f64)) {
     let ticks: Vec<f64> = scale.ticks.iter().map(|tick| tick.value).collect();
     for (values, colour) in [(&scale.minor, FINE_GRID), (&ticks, GRID)] {

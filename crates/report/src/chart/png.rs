@@ -11,7 +11,7 @@ use super::font::{BOLD, FAMILY, REGULAR, covers};
 
 /// Pixels per px of the SVG: sharp on dense screens and in print.
 pub const PNG_SCALE: u32 = 2;
-/// Most pixels of a picture: 256 MB while it is drawn.
+/// Maximum number of pixels of a picture: 256 MB while it is drawn.
 const MAX_PIXELS: f64 = 64.0e6;
 
 /// A PNG picture.
@@ -23,18 +23,18 @@ pub struct Png {
     pub width: u32,
     /// Height in pixels.
     pub height: u32,
-    /// Characters of the chart's texts that the embedded faces lack, each once, in order of appearance: they
-    /// show as empty boxes here, while the SVG shows them wherever a font has them.
+    /// Characters of the chart's texts that the embedded faces lack, each once, in order of appearance: they show as
+    /// empty boxes here, while the SVG shows them if a font has them.
     pub missing: Vec<char>,
 }
 
-/// Why an SVG could not be made a PNG.
+/// Why an SVG could not be converted to PNG.
 #[derive(Debug, Error)]
 pub enum PngError {
     /// Not well-formed XML.
     #[error("the chart is not well-formed XML: {0}")]
     Xml(String),
-    /// Well-formed, but no SVG picture.
+    /// Well-formed, but not an SVG picture.
     #[error("the chart is not a drawable SVG: {0}")]
     Svg(String),
     /// More pixels than are allowed.
@@ -54,7 +54,7 @@ static FONTS: LazyLock<Arc<fontdb::Database>> = LazyLock::new(|| {
     let mut fonts = fontdb::Database::new();
     fonts.load_font_data(REGULAR.to_vec());
     fonts.load_font_data(BOLD.to_vec());
-    // Text whose family is unknown is dropped without a word, so every generic family has a face.
+    // Text in an unknown family is dropped silently, so every generic family has a face.
     fonts.set_serif_family(FAMILY);
     fonts.set_sans_serif_family(FAMILY);
     fonts.set_cursive_family(FAMILY);
@@ -63,21 +63,21 @@ static FONTS: LazyLock<Arc<fontdb::Database>> = LazyLock::new(|| {
     Arc::new(fonts)
 });
 
-/// How SVG is read: with the embedded faces alone.
+/// Returns the options for reading SVG: only the embedded faces.
 pub(super) fn options() -> Options<'static> {
     Options { font_family: FAMILY.to_owned(), fontdb: FONTS.clone(), ..Options::default() }
 }
 
-/// Pixels per inch of a picture for paper, as journals want them of lines and letters.
+/// Pixels per inch of a picture for paper, as journals require for lines and letters.
 const PAPER_DPI: f64 = 600.0;
 /// Pixels per inch of 1 px of an SVG (CSS).
 pub(super) const CSS_DPI: f64 = 96.0;
 
-/// Draws an SVG chart of this crate as a PNG picture on white: [`PNG_SCALE`] pixels per px, or 600 per inch where the width of
-/// the chart is that on paper. The file says which, so that it is set in its size.
+/// Draws an SVG chart of this crate as a PNG picture on white: [`PNG_SCALE`] pixels per px, or 600 per inch where the
+/// chart has its width on paper. The file holds the resolution, so that it is set in its size.
 ///
 /// # Errors
-/// [`PngError`] if the text is no SVG or the picture would be too large.
+/// [`PngError`] if the text is not an SVG or the picture would be too large.
 ///
 /// # Example
 /// ```
@@ -105,8 +105,8 @@ pub fn png(svg: &str) -> Result<Png, PngError> {
     Ok(Png { bytes, width: pixels.width(), height: pixels.height(), missing })
 }
 
-/// The file of an opaque picture with its pixels per inch. Lines on plain ground repeat themselves: filters, which guess a pixel from
-/// its neighbours, make the files of charts larger; higher levels take longer and save little.
+/// Encodes an opaque picture with its pixels per inch. Charts are mostly repeated lines: PNG filters, which predict a
+/// pixel from its neighbours, make their files larger; higher compression levels take longer and save little.
 fn encoded(pixels: &Pixmap, dpi: f64) -> Result<Vec<u8>, EncodingError> {
     const METRE: f64 = 39.370_078_740_157_48;
     let per_metre = (dpi * METRE).round() as u32;
@@ -122,7 +122,7 @@ fn encoded(pixels: &Pixmap, dpi: f64) -> Result<Vec<u8>, EncodingError> {
     Ok(file)
 }
 
-/// Characters of drawn text without a glyph.
+/// Returns the characters of drawn text without a glyph.
 fn missing(document: &roxmltree::Document) -> Vec<char> {
     let mut missing = Vec::new();
     // Subscripts are parts of a text.

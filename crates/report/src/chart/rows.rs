@@ -1,4 +1,4 @@
-//! Draws level bars in rows, with their names and intervals.
+//! Draws horizontal bars in rows, with their names and intervals.
 
 use super::bar::Bar;
 use super::draw::Sheet;
@@ -10,7 +10,7 @@ use super::svg::{Anchor, Canvas, Px, Text};
 use super::symbols::HALF_DIAMOND;
 use super::text::shorten;
 
-/// Between two cells of a map, px.
+/// Gap between two cells of a map, px.
 const TILE_GAP: f64 = 2.0;
 
 /// A bar with its place, px.
@@ -22,14 +22,14 @@ struct Lane<'a> {
 }
 
 impl Lane<'_> {
-    /// The height of interval, published value and label.
+    /// Returns the height of interval, published value and label.
     fn middle(&self) -> f64 {
         self.top + 0.5 * self.height
     }
 }
 
 impl<'a> Sheet<'a> {
-    /// All rows. On a page names stand left of the bars, on a phone above them.
+    /// Draws all rows. Names are left of the bars on a page, above them on a phone.
     pub(super) fn rows(&self, canvas: &mut Canvas) {
         let panel = self.cell.panel;
         let rows = 0..panel.y.names.len();
@@ -55,7 +55,7 @@ impl<'a> Sheet<'a> {
         self.plot.x(&self.cell.x, value)
     }
 
-    /// The middle of the bars of a row.
+    /// Returns the middle of the bars of a row.
     fn middle(&self, row: usize) -> f64 {
         let rows = self.layout.rows;
         self.plot.top + (row + 1) as f64 * rows.pitch - (rows.bars + ROW_GAP) / 2.0
@@ -101,7 +101,7 @@ impl<'a> Sheet<'a> {
         canvas.close("g");
     }
 
-    /// The cells of a map, each with its letter.
+    /// Draws the cells of a map, each with its letter.
     fn tiles(&self, canvas: &mut Canvas) {
         let panel = self.cell.panel;
         if !panel.is_map() {
@@ -123,7 +123,7 @@ impl<'a> Sheet<'a> {
                     ("width", &Px((right - left - TILE_GAP).max(1.0))),
                     ("height", &Px(self.layout.rows.bars)),
                     ("fill", &colour.hex()),
-                    // The lightest shades are set off from the paper by it.
+                    // The outline separates the lightest shades from the paper.
                     ("stroke", &MUTED),
                     ("stroke-width", &"0.6"),
                 ],
@@ -160,7 +160,7 @@ impl<'a> Sheet<'a> {
         canvas.close("g");
     }
 
-    /// The label after each bar and what marks it, or that it has no value.
+    /// Draws the label after each bar and its marks, or a note that there is no value.
     fn values(&self, canvas: &mut Canvas, lanes: &[Lane<'_>]) {
         canvas.open("g", &[("class", &"values")]);
         for lane in lanes {
@@ -171,7 +171,7 @@ impl<'a> Sheet<'a> {
                 None => (self.cell.panel.base(), lane.bar.label.as_str(), MUTED),
             };
             if let Some(x) = self.x(end).filter(|_| !label.is_empty()) {
-                // A published value that would stand in it goes before it.
+                // The label is placed after a published value that would overlap it.
                 let diamond = lane.bar.diamond().and_then(|value| self.x(value)).map(|at| at + HALF_DIAMOND);
                 let covered = x..x + 2.0 * (TEXT_GAP + HALF_DIAMOND) + VALUE.width(label);
                 let x = diamond.filter(|right| covered.contains(right)).unwrap_or(x);
@@ -181,7 +181,7 @@ impl<'a> Sheet<'a> {
         canvas.close("g");
     }
 
-    /// Name of a row, and that there is no value where nothing else is.
+    /// Draws the name of a row, and a note if it has no value.
     fn texts(&self, canvas: &mut Canvas, row: usize) {
         let panel = self.cell.panel;
         let name = panel.y.names[row].as_str();

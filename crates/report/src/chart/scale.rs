@@ -3,10 +3,10 @@
 use super::style::{TICK, drawable};
 use super::text::{minus, power_of_ten, shorten};
 
-/// Least gap between the labels of a horizontal axis, px.
+/// Minimum gap between the labels of a horizontal axis, px.
 const LABEL_GAP: f64 = 6.0;
 
-/// How an axis is divided.
+/// The spacing of an axis.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Spacing {
     /// Equal steps for equal differences.
@@ -16,13 +16,13 @@ pub enum Spacing {
     Logarithmic,
 }
 
-/// How a scale is made.
+/// Options of a scale.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ScaleOptions {
     pub spacing: Spacing,
     /// Part of the range added at each end of a linear axis that is not zero; a logarithmic axis has its own.
     pub air: f64,
-    /// About how many steps between ticks.
+    /// Approximate number of steps between ticks.
     pub steps: usize,
 }
 
@@ -47,7 +47,7 @@ pub(super) struct Tick {
 }
 
 impl Scale {
-    /// A scale that shows all of `values` that can be shown; 0 to 1 (1 to 10 if logarithmic) if none can.
+    /// Creates a scale for all of `values` that can be shown; 0 to 1 (1 to 10 if logarithmic) if none can.
     pub fn over(values: impl IntoIterator<Item = f64>, options: ScaleOptions) -> Self {
         let shown = values.into_iter().filter(|&v| options.spacing.shows(v));
         let (low, high) = shown.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
@@ -59,21 +59,21 @@ impl Scale {
         }
     }
 
-    /// A scale of the places 0, 1, 2 and so on, with their names and half a place of air at the ends.
+    /// Creates a scale of the positions 0, 1, 2 and so on, with their names and half a step of free room at the ends.
     pub fn from_names(names: &[String]) -> Self {
         let ticks = names.iter().enumerate().map(|(place, name)| Tick { value: place as f64, label: name.clone() });
         let (low, high) = (-0.5, names.len().max(1) as f64 - 0.5);
         Self { spacing: Spacing::Linear, low, high, ticks: ticks.collect(), minor: Vec::new(), exponent: 0 }
     }
 
-    /// The scale of an axis `length` px long whose names are shortened to the room between two places.
+    /// Shortens the names of an axis `length` px long to the room between two positions.
     pub fn with_names_within(mut self, length: f64) -> Self {
         let room = length / (self.high - self.low) - LABEL_GAP;
         self.ticks.iter_mut().for_each(|tick| tick.label = shorten(&tick.label, room, TICK));
         self
     }
 
-    /// The place of a value: 0 at the low end, 1 at the high end; `None` if it cannot be shown.
+    /// Returns the position of a value: 0 at the low end, 1 at the high end; `None` if it cannot be shown.
     pub fn place(&self, value: f64) -> Option<f64> {
         if !self.spacing.shows(value) {
             return None;
@@ -87,8 +87,8 @@ impl Scale {
         })
     }
 
-    /// The scale of an axis `length` px long whose labels stand clear of each other: those that would not keep their grid
-    /// lines alone. Labels of powers of ten, and of zero, stay longest.
+    /// Removes labels that overlap on an axis `length` px long; their grid lines stay. Labels of powers of ten, and of
+    /// zero, are removed last.
     pub fn with_room(mut self, length: f64) -> Self {
         let clear = |labelled: &Vec<Tick>| {
             labelled.windows(2).all(|pair| {
@@ -143,7 +143,7 @@ impl Scale {
     }
 
     fn logarithmic((low, high): (f64, f64)) -> Self {
-        // A little air, and a third of a decade about a single value. The ratio itself could overflow.
+        // A little free room, and a third of a decade about a single value. The ratio itself could overflow.
         let span = libm::log10(high) - libm::log10(low);
         let air = if span < 1e-3 { 0.33 } else { (0.03 * span).clamp(0.01, 0.5) };
         let (low, high) = (low / libm::pow(10f64, air), high * libm::pow(10f64, air));
@@ -167,7 +167,7 @@ impl Scale {
             .filter(|&(decade, digit)| inside(at(decade, digit)))
             .map(|(decade, digit)| Tick { value: at(decade, digit), label: decade_label(decade, digit, plain) })
             .collect();
-        // Finer lines only where they do not crowd.
+        // Finer lines only where they are not dense.
         let minor = match every {
             1 if to - from < 3.3 => {
                 decades.flat_map(|d| (2..10).map(move |n| at(d, n))).filter(|&v| inside(v)).collect()
@@ -185,7 +185,7 @@ struct Step {
 }
 
 impl Step {
-    /// The round step next to `raw` by ratio; `raw` is positive and normal.
+    /// Returns the round step closest to `raw` by ratio; `raw` is positive and normal.
     fn near(raw: f64) -> Self {
         let exponent = libm::log10(raw).floor() as i32;
         let lead = raw / 10f64.powi(exponent);
@@ -202,8 +202,8 @@ impl Step {
         self.times(1.0)
     }
 
-    /// A multiple of the step, correctly rounded for the usual exponents: a power of ten above one is
-    /// exact in f64, below one it is not, hence the division.
+    /// Returns a multiple of the step, correctly rounded for the usual exponents: a power of ten above one is exact in
+    /// f64, below one it is not, hence the division.
     fn times(&self, k: f64) -> f64 {
         match self.exponent {
             0.. => k * self.mantissa * 10f64.powi(self.exponent),
@@ -213,14 +213,14 @@ impl Step {
 }
 
 impl Spacing {
-    /// Whether a value has a place on an axis.
+    /// Returns whether a value has a position on an axis.
     pub(super) fn shows(self, value: f64) -> bool {
-        // The lower bound keeps the axis, which begins a little lower, among the normal numbers.
+        // The lower bound keeps the start of the axis, which is a little lower, among the normal numbers.
         drawable(value).is_some() && (self == Self::Linear || value >= 1e-290)
     }
 }
 
-/// A range wide enough to divide in f64, at least 1e-9 of its values' magnitude.
+/// Widens a range until it can be divided in f64, to at least 1e-9 of its values' magnitude.
 fn widened((low, high): (f64, f64)) -> (f64, f64) {
     let magnitude = low.abs().max(high.abs());
     if magnitude < 1e-290 {
@@ -232,7 +232,7 @@ fn widened((low, high): (f64, f64)) -> (f64, f64) {
     }
 }
 
-/// Zero for magnitudes that read well as they are, else the multiple of three that makes them so.
+/// Returns zero for magnitudes that are readable, else the multiple of three that makes them so.
 fn common_exponent(magnitude: f64) -> i32 {
     if (1e-2..1e5).contains(&magnitude) { 0 } else { 3 * ((libm::log10(magnitude) + 1e-9) / 3.0).floor() as i32 }
 }
@@ -286,7 +286,7 @@ mod tests {
         let s = scale(&[1e-100, 1e100], Logarithmic, 0.0);
         assert!((5..=9).contains(&s.ticks.len()));
         assert_eq!(labels(&scale(&[40.0, 60.0], Logarithmic, 0.0)), ["40", "45", "50", "55", "60"]);
-        // Both ends of f64's usable range: the ratio overflows, the places do not.
+        // Both ends of f64's usable range: the ratio overflows, the positions do not.
         let s = scale(&[1e-289, 1e300], Logarithmic, 0.0);
         assert!(s.place(1e-289).is_some_and(|p| p < 1e-3) && s.place(1e300).is_some_and(|p| p > 0.999));
     }
@@ -322,14 +322,14 @@ mod tests {
             log in any::<bool>(), air in 0.0..0.1,
         ) {
             let values: Vec<f64> = match near {
-                // Also nearly equal values, which any two f64 hardly ever are.
+                // Also nearly equal values, which random f64 hardly ever are.
                 true => values.iter().map(|v| 1.0 + v.fract() * 1e-8).collect(),
                 false => values,
             };
             let s = scale(&values, if log { Logarithmic } else { Linear }, air);
             prop_assert!((1..=12).contains(&s.ticks.len()), "{:?}", s.ticks);
             prop_assert!(s.minor.len() < 50);
-            // Every shown value lies on the axis; 1e-8 allows for ranges 1e-9 of their values wide.
+            // Every shown value is on the axis; 1e-8 allows for ranges 1e-9 of their values wide.
             for value in values.iter().copied().chain(s.ticks.iter().map(|t| t.value)) {
                 if let Some(place) = s.place(value) {
                     prop_assert!((-1e-8..=1.0 + 1e-8).contains(&place), "{value} at {place}");

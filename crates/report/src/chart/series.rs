@@ -1,8 +1,8 @@
-//! What tells the marks of one name from those of another.
+//! The appearance of a series.
 
 use super::palette::Colour;
 
-/// What the marks of one name look like.
+/// The appearance of the marks of one series.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Series {
     /// Name in the legend; empty for none.
@@ -30,12 +30,12 @@ pub enum Stroke {
 }
 
 impl Series {
-    /// A series whose lines are solid.
+    /// Creates a series whose lines are solid.
     pub fn new(name: impl Into<String>, colour: Colour) -> Self {
         Self { name: name.into(), colour, stroke: Stroke::Solid }
     }
 
-    /// The series with another stroke.
+    /// Sets the stroke.
     pub fn stroke(self, stroke: Stroke) -> Self {
         Self { stroke, ..self }
     }

@@ -1,10 +1,10 @@
-//! The one look of all charts: colours, faces and lengths.
+//! The style of all charts: colours, faces and lengths.
 
 use super::font::Face;
 
-/// Room left free at every edge of a figure, px.
+/// Margin at every edge of a figure, px.
 pub(super) const MARGIN: f64 = 12.0;
-/// Numbers beyond this magnitude are drawn like missing ones: differences of two must not overflow.
+/// Numbers beyond this magnitude are drawn as missing: differences of two must not overflow.
 pub(super) const LARGEST: f64 = 1e300;
 
 pub(super) const TITLE: Face = Face::bold(14.0);
@@ -19,7 +19,7 @@ pub(super) const GRID: &str = "#e4e4e4";
 pub(super) const FINE_GRID: &str = "#f1f1f1";
 pub(super) const PAPER: &str = "#ffffff";
 
-/// For which room a chart is laid out; texts have the same size in both.
+/// The width for which a chart is laid out; texts have the same size in all.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ChartWidth {
     /// A page column, 720 px.
@@ -27,7 +27,7 @@ pub enum ChartWidth {
     Wide,
     /// A phone, 360 px.
     Narrow,
-    /// A column of a journal: texts have 7 to 9 pt there, and the picture neither title nor caption.
+    /// A column of a journal: texts have 7 to 9 pt there, and the picture has neither title nor caption.
     Paper(PaperWidth),
 }
 
@@ -45,13 +45,13 @@ pub struct PaperWidth {
     micrometres: u32,
 }
 
-/// So much of paper is 1 px of a layout, mm: the smallest text, of 9.5 px, has 7 pt, the largest, of 12 px, 8.8 pt.
+/// Size on paper of 1 px of a layout, mm: the smallest text, of 9.5 px, has 7 pt, the largest, of 12 px, 8.8 pt.
 const MILLIMETRES: f64 = 0.26;
-/// From this width on, px, a picture on paper is laid out as for a page column, below as for a phone.
+/// Width, px, from which on a picture on paper is laid out as for a page column, below as for a phone.
 const COLUMN: f64 = 520.0;
 
 impl PaperWidth {
-    /// The width in mm.
+    /// Returns the width in mm.
     pub fn millimetres(self) -> f64 {
         f64::from(self.micrometres) / 1e3
     }
@@ -60,7 +60,7 @@ impl PaperWidth {
 impl std::str::FromStr for PaperWidth {
     type Err = String;
 
-    /// A length with its unit, such as `88mm`, `8.8 cm` or `3.5 in`.
+    /// Parses a length with its unit, such as `88mm`, `8.8 cm` or `3.5 in`.
     fn from_str(text: &str) -> Result<Self, String> {
         let refused =
             || format!("{text:?} is no width of a chart: expected 60mm to 300mm, such as 88mm, 18cm or 3.5in");
@@ -82,7 +82,7 @@ impl std::str::FromStr for PaperWidth {
 }
 
 impl ChartWidth {
-    /// Width of a figure, px. The wide one is, at 96 px per inch, a full page column of 190 mm.
+    /// Returns the width of a figure, px. The wide one is, at 96 px per inch, a full page column of 190 mm.
     pub(super) fn px(self) -> f64 {
         match self {
             Self::Wide => 720.0,
@@ -91,7 +91,7 @@ impl ChartWidth {
         }
     }
 
-    /// Whether it is laid out as for a phone.
+    /// Returns whether it is laid out as for a phone.
     pub(super) fn is_narrow(self) -> bool {
         match self {
             Self::Wide => false,
@@ -100,12 +100,12 @@ impl ChartWidth {
         }
     }
 
-    /// The first for a page column, the second for a phone.
+    /// Returns the first for a page column, the second for a phone.
     pub(super) fn choose<T>(self, wide: T, narrow: T) -> T {
         if self.is_narrow() { narrow } else { wide }
     }
 
-    /// The width on paper, if it is for paper.
+    /// Returns the width on paper, if it is for paper.
     pub(super) fn paper(self) -> Option<PaperWidth> {
         match self {
             Self::Paper(width) => Some(width),
@@ -114,22 +114,22 @@ impl ChartWidth {
     }
 }
 
-/// What a chart is drawn for.
+/// The medium of a chart.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Medium {
     pub width: ChartWidth,
-    /// Whether it becomes part of a page, which sets title and caption as text and scales the picture.
+    /// Whether it is part of a page, which sets title and caption as text and scales the picture.
     pub inline: bool,
 }
 
 impl Medium {
-    /// Whether the picture has title and caption in itself.
+    /// Returns whether the picture contains title and caption.
     pub fn has_words(self) -> bool {
         !self.inline && self.width.paper().is_none()
     }
 }
 
-/// The number if it can be drawn: finite and not beyond [`LARGEST`].
+/// Returns the number if it can be drawn: finite and not beyond [`LARGEST`].
 pub(super) fn drawable(value: f64) -> Option<f64> {
     (value.abs() <= LARGEST).then_some(value)
 }

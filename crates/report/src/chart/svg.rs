@@ -1,4 +1,4 @@
-//! A writer of SVG elements: escapes text, writes coordinates with two decimals, the same bytes always.
+//! A writer of SVG elements: escapes text and writes coordinates with two decimals, always the same bytes.
 
 use std::fmt::{Display, Formatter, Result, Write};
 
@@ -7,7 +7,7 @@ use apportion::text::symbol;
 use super::font::{Face, Weight};
 use super::style::{INK, PAPER};
 
-/// Size of a subscript, and how far it is lowered, in sizes of the text.
+/// Size of a subscript, and its offset downwards, relative to the size of the text.
 const SUBSCRIPT: f64 = 0.75;
 const LOWERED: f64 = 0.22;
 
@@ -25,7 +25,7 @@ impl Display for Px {
 /// Attributes of an element, in the order they are written.
 pub(super) type Attributes<'a> = &'a [(&'a str, &'a dyn Display)];
 
-/// Where the given point lies in a line of text.
+/// Alignment of a line of text to its point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Anchor {
     Start,
@@ -46,7 +46,7 @@ pub(super) struct Text<'a> {
 }
 
 impl<'a> Text<'a> {
-    /// Dark text that starts at `at`, a point of its baseline.
+    /// Creates dark text that starts at `at`, a point of its baseline.
     pub fn new(content: &'a str, at: (f64, f64), face: Face) -> Self {
         Self { content, at, face, anchor: Anchor::Start, fill: INK, turn: 0.0, halo: false, whole: None }
     }
@@ -59,30 +59,30 @@ impl<'a> Text<'a> {
         Self { fill, ..self }
     }
 
-    /// Turned about its point, degrees clockwise.
+    /// Turns the text about its point, degrees clockwise.
     pub fn turn(self, turn: f64) -> Self {
         Self { turn, ..self }
     }
 
-    /// With a white rim, for text above lines.
+    /// Adds a white rim, for text above lines.
     pub fn halo(self) -> Self {
         Self { halo: true, ..self }
     }
 
-    /// The unshortened text, shown when pointed at.
+    /// Sets the unshortened text as the tooltip.
     pub fn whole(self, whole: &'a str) -> Self {
         Self { whole: (whole != self.content).then_some(whole), ..self }
     }
 }
 
-/// A growing piece of SVG.
+/// A buffer of SVG.
 #[derive(Debug, Default)]
 pub(super) struct Canvas {
     out: String,
 }
 
 impl Canvas {
-    /// The elements written so far.
+    /// Returns the elements written so far.
     pub fn into_string(self) -> String {
         self.out
     }
@@ -92,7 +92,7 @@ impl Canvas {
         self.out.push_str(&other.out);
     }
 
-    /// Opens an element that `close` ends.
+    /// Opens an element; `close` ends it.
     pub fn open(&mut self, name: &str, attributes: Attributes) {
         self.start(name, attributes);
         self.out.push_str(">\n");
@@ -102,19 +102,19 @@ impl Canvas {
         self.push(format_args!("</{name}>\n"));
     }
 
-    /// An element without content.
+    /// Writes an element without content.
     pub fn leaf(&mut self, name: &str, attributes: Attributes) {
         self.start(name, attributes);
         self.out.push_str("/>\n");
     }
 
-    /// An element with text as content.
+    /// Writes an element with text as content.
     pub fn content(&mut self, name: &str, attributes: Attributes, text: &str) {
         self.start(name, attributes);
         self.push(format_args!(">{}</{name}>\n", Escaped(text)));
     }
 
-    /// An element that shows `tip` when pointed at.
+    /// Writes an element with the tooltip `tip`.
     pub fn tipped(&mut self, name: &str, attributes: Attributes, tip: &str) {
         self.start(name, attributes);
         self.push(format_args!("><title>{}</title></{name}>\n", Escaped(tip)));
@@ -157,7 +157,7 @@ impl Canvas {
         self.out.push_str("</text>\n");
     }
 
-    /// The content of a text, where symbols such as `F_cr` have a lowered subscript.
+    /// Writes the content of a text; symbols such as `F_cr` have a lowered subscript.
     fn words(&mut self, text: &Text) {
         let is_word = |c: char| c.is_alphanumeric() || c == '_';
         let (size, drop) = (SUBSCRIPT * text.face.size, LOWERED * text.face.size);

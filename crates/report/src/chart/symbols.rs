@@ -1,4 +1,4 @@
-//! The small symbols of data, the same in a plot and in its legend.
+//! The small symbols of data, equal in a plot and in its legend.
 
 use super::palette::{Colour, DOTS_OPACITY};
 use super::style::{INK, PAPER};
@@ -8,7 +8,7 @@ use super::svg::{Canvas, Px};
 pub(super) const HALF_DIAMOND: f64 = 4.2;
 
 impl Canvas {
-    /// A hollow diamond: a value from elsewhere.
+    /// Draws a hollow diamond: a published value.
     pub fn diamond(&mut self, (x, y): (f64, f64)) {
         let (left, right, top, bottom) =
             (Px(x - HALF_DIAMOND), Px(x + HALF_DIAMOND), Px(y - HALF_DIAMOND), Px(y + HALF_DIAMOND));
@@ -16,7 +16,7 @@ impl Canvas {
         self.leaf("path", &[("d", &d), ("fill", &PAPER), ("stroke", &INK), ("stroke-width", &"1.2")]);
     }
 
-    /// An interval along a horizontal axis, with caps `cap` px high.
+    /// Draws an interval along a horizontal axis, with caps `cap` px high.
     pub fn whisker(&mut self, (from, to): (f64, f64), y: f64, cap: f64) {
         let (top, bottom) = (Px(y - cap / 2.0), Px(y + cap / 2.0));
         let (from, to, y) = (Px(from), Px(to), Px(y));
@@ -24,13 +24,13 @@ impl Canvas {
         self.leaf("path", &[("d", &d), ("fill", &"none"), ("stroke", &INK), ("stroke-width", &"1.2")]);
     }
 
-    /// The white rim that parts an interval from the bar below it.
+    /// Draws the white rim that separates an interval from the bar below it.
     pub fn rim(&mut self, (from, to): (f64, f64), y: f64) {
         let d = format!("M{} {}H{}", Px(from - 0.6), Px(y), Px(to + 0.6));
         self.leaf("path", &[("d", &d), ("fill", &"none"), ("stroke", &PAPER), ("stroke-width", &"3.2")]);
     }
 
-    /// A cloud of small dots as one path: each is a line of no length with round ends. Coordinates have one decimal.
+    /// Draws a cloud of small dots as one path of zero-length lines with round ends. Coordinates have one decimal.
     pub fn dots(&mut self, dots: &[(f64, f64)], colour: Colour) {
         let mut d = String::with_capacity(14 * dots.len());
         for (x, y) in dots {
@@ -51,7 +51,7 @@ impl Canvas {
         );
     }
 
-    /// A filled point with colour and, for print in grey, symbol of its series.
+    /// Draws a filled point with the colour and, for print in grey, the symbol of its series.
     pub fn point(&mut self, (x, y): (f64, f64), colour: Colour) {
         let d = format!("M{} {}{}", Px(x), Px(y), colour.symbol());
         self.leaf("path", &[("class", &"point"), ("d", &d), ("fill", &colour.hex())]);

@@ -1,9 +1,9 @@
-//! Breaking and shortening of text to a width, and the numbers written into a chart.
+//! Line breaks and shortening of text to a width, and the numbers in a chart.
 
 use super::font::Face;
 
-/// Breaks text into lines no wider than `width` px: at white space, and inside a word that alone is
-/// wider. White space is normalised, so empty text gives no line.
+/// Breaks text into lines no wider than `width` px: at white space, and inside a word that is wider by itself. White
+/// space is normalised, so empty text gives no line.
 pub(super) fn wrap(text: &str, width: f64, face: Face) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     let mut line = String::new();
@@ -30,7 +30,7 @@ pub(super) fn wrap(text: &str, width: f64, face: Face) -> Vec<String> {
     lines
 }
 
-/// One line no wider than `width` px; what does not fit is replaced by an ellipsis.
+/// Shortens a text to one line no wider than `width` px; an ellipsis replaces the rest.
 pub(super) fn shorten(text: &str, width: f64, face: Face) -> String {
     let line = text.split_whitespace().collect::<Vec<_>>().join(" ");
     if face.width(&line) <= width {
@@ -45,7 +45,7 @@ pub(super) fn shorten(text: &str, width: f64, face: Face) -> String {
     format!("{}…", kept.trim_end())
 }
 
-/// At most `most` lines no wider than `width` px, the last one shortened if there is more.
+/// Breaks text into at most `most` lines no wider than `width` px; the last one is shortened if there is more.
 pub(super) fn wrap_within(text: &str, width: f64, most: usize, face: Face) -> Vec<String> {
     let mut lines = wrap(text, width, face);
     if lines.len() > most {
@@ -55,7 +55,7 @@ pub(super) fn wrap_within(text: &str, width: f64, most: usize, face: Face) -> Ve
     lines
 }
 
-/// A share in percent with one decimal and a true minus sign; magnitudes from 1e5 as a power of ten.
+/// Formats a share in percent with one decimal and a true minus sign; magnitudes from 1e5 as a power of ten.
 pub(super) fn percent(value: f64) -> String {
     let text = if value.abs() < 1e5 { format!("{value:.1}") } else { format!("{value:.1e}") };
     minus(if text == "-0.0" { "0.0" } else { &text })
@@ -66,7 +66,7 @@ pub(super) fn minus(number: &str) -> String {
     number.replace('-', "\u{2212}")
 }
 
-/// `10ⁿ` in superscript characters.
+/// Formats `10ⁿ` in superscript characters.
 pub(super) fn power_of_ten(exponent: i32) -> String {
     const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
     let mut text = String::from("10");

@@ -5,7 +5,7 @@ use crate::chart::{Chart, Colour, Series};
 use crate::factor_bars::{DIFFERENCES, INDEX, INDICES, MAX_BARS, both_orders, index_panel, not_drawn};
 use crate::format::name;
 
-/// The indices side by side. Of more than 20 factors, those with the largest total indices in either result.
+/// Draws the indices side by side. Of more than 20 factors, those with the largest total indices in either result.
 pub(super) fn side_by_side(file: &ComparisonFile, output: &ComparedOutput) -> Chart {
     let factors = single_factors(output);
     let panel = |title: &str, of: fn(&ComparedFactor) -> &ComparedIndex| {
@@ -21,7 +21,7 @@ pub(super) fn side_by_side(file: &ComparisonFile, output: &ComparedOutput) -> Ch
     Chart::new(title, caption(output)).side_by_side().panels(panels)
 }
 
-/// The differences.
+/// Draws the differences.
 pub(super) fn differences(file: &ComparisonFile, output: &ComparedOutput) -> Chart {
     let factors = single_factors(output);
     let shared = if file.shared_points { " Both use the same points: the intervals are rather too wide." } else { "" };
@@ -34,7 +34,7 @@ pub(super) fn differences(file: &ComparisonFile, output: &ComparedOutput) -> Cha
     Chart::new(title, caption(output) + shared).panels([panel])
 }
 
-/// The factors that are drawn; groups are not.
+/// Returns the factors that are drawn; groups are not.
 fn single_factors(output: &ComparedOutput) -> Vec<&ComparedFactor> {
     output.factors.iter().filter(|factor| !factor.group).collect()
 }
@@ -43,7 +43,7 @@ fn names(factors: &[&ComparedFactor]) -> Vec<String> {
     factors.iter().map(|factor| name(&factor.name)).collect()
 }
 
-/// What both charts are ordered by: the larger total index.
+/// Returns the sort keys of both charts: the larger total index.
 fn keys(factors: &[&ComparedFactor]) -> Vec<f64> {
     let larger_total = |factor: &&ComparedFactor| {
         [factor.total.a, factor.total.b].into_iter().flatten().map(|index| index.estimate).fold(0.0, f64::max)
@@ -51,7 +51,7 @@ fn keys(factors: &[&ComparedFactor]) -> Vec<f64> {
     factors.iter().map(larger_total).collect()
 }
 
-/// How many differences are more than the errors, then what is left out.
+/// Says how many differences exceed the errors, and what is not drawn.
 fn caption(output: &ComparedOutput) -> String {
     if let Some(reason) = output.reasons.iter().flatten().next() {
         return format!("No differences of {}: {reason}.", name(&output.name));

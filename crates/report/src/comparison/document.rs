@@ -10,7 +10,7 @@ use crate::document::{Document, OutputReport, Part, Report, Section, Table};
 use crate::format::{give_or_take, name, or_dash, significant};
 use crate::leading::{Contender, Verdict};
 
-/// The document of a comparison, whose files begin with `name`. A star marks the differences whose intervals leave out 0.
+/// Builds the document of a comparison, whose files begin with `files`. A star marks intervals that exclude 0.
 pub fn comparison_document(file: &ComparisonFile, files: &str) -> Document {
     let outputs = file.outputs.iter().map(|output| OutputReport {
         name: &output.name,
@@ -34,7 +34,7 @@ pub fn comparison_document(file: &ComparisonFile, files: &str) -> Document {
     .document()
 }
 
-/// The two results, in what their studies differ, and what only one of them has.
+/// Describes the two results, the differences of their studies, and what only one of them has.
 fn sides(file: &ComparisonFile) -> Vec<Part> {
     let side = |letter: &str, side: &ComparedSide| {
         let title = side.title.as_ref().map_or_else(String::new, |title| format!(", {title}"));
@@ -91,7 +91,7 @@ fn index_table(output: &ComparedOutput, what: &str, symbol: &str, of: fn(&Compar
         .into()
 }
 
-/// Which factor has the largest total index in each, as far as the intervals tell, without the output and a full stop.
+/// Says which factor has the largest total index in each, as far as intervals show, without output and full stop.
 fn leaders(output: &ComparedOutput) -> String {
     let leaders = |of: fn(&ComparedFactor) -> Option<Estimate>| -> Option<String> {
         let contender = |factor: &ComparedFactor| Some(Contender::new(name(&factor.name), of(factor)?));
@@ -111,7 +111,7 @@ fn leaders(output: &ComparedOutput) -> String {
     }
 }
 
-/// What the stars mean, and how far they can be trusted.
+/// Explains the stars and how reliable they are.
 fn legend(file: &ComparisonFile) -> String {
     let indices = || file.outputs.iter().flat_map(|o| &o.factors).flat_map(|f| [&f.first_order, &f.total]);
     let compared = indices().filter(|index| index.differs.is_some()).count();
@@ -134,7 +134,7 @@ fn legend(file: &ComparisonFile) -> String {
     text
 }
 
-/// A line per output, factor or group, and index.
+/// Returns a line per output, factor or group, and index.
 fn all_indices(file: &ComparisonFile) -> Table {
     let factors = file.outputs.iter().flat_map(|output| output.factors.iter().map(move |factor| (output, factor)));
     let rows = factors.flat_map(|(output, factor)| {

@@ -1,4 +1,4 @@
-//! Two results side by side: by how much their indices differ, and whether that is more than the errors of both.
+//! Comparison of two results: the differences of their indices, and whether these exceed the errors of both.
 
 mod charts;
 mod document;

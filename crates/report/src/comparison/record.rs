@@ -19,9 +19,9 @@ pub struct ComparisonFile {
     pub a: ComparedSide,
     /// The second result.
     pub b: ComparedSide,
-    /// What the studies say differently.
+    /// The settings in which the studies differ.
     pub settings: Vec<SettingDifference>,
-    /// Whether both use the same points: errors then have much in common, and the intervals of differences are too wide.
+    /// Whether both use the same points: errors are then correlated, and the intervals of differences are too wide.
     pub shared_points: bool,
     /// Outputs that only one of them has.
     pub outputs_left_out: OneSided,
@@ -34,7 +34,7 @@ pub struct ComparisonFile {
 /// One of the two results.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ComparedSide {
-    /// What it is called in tables and charts.
+    /// Its label in tables and charts.
     pub label: String,
     /// Its study.
     pub study: String,
@@ -88,8 +88,8 @@ pub struct ComparedFactor {
     pub total: ComparedIndex,
 }
 
-/// Indices are shares of a variance: differences up to this are of the size of the rounding errors of its sums, which the
-/// intervals do not hold.
+/// Differences of indices up to this are of the size of the rounding errors of the sums of the variance, which the
+/// intervals do not include.
 const ROUNDING: f64 = 1e-12;
 
 /// One index in both results.
@@ -101,13 +101,13 @@ pub struct ComparedIndex {
     pub b: Option<Estimate>,
     /// B minus A; `null` if one of them does not exist.
     pub difference: Option<Estimate>,
-    /// Whether the interval of the difference leaves out 0, and the difference is more than rounding (1e-12); `null`
+    /// Whether the interval of the difference excludes 0, and the difference is more than rounding (1e-12); `null`
     /// without an interval.
     pub differs: Option<bool>,
 }
 
 impl ComparedIndex {
-    /// The index `a` in A beside the index `b` in B.
+    /// Compares the index `a` in A with the index `b` in B.
     pub fn new(a: Option<Estimate>, b: Option<Estimate>) -> Self {
         let difference = a.zip(b).map(|(a, b)| difference(a, b));
         let beyond = |d: Estimate| {
@@ -121,7 +121,7 @@ impl ComparedIndex {
 /// Why two results cannot be compared.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum CompareError {
-    /// They have no output, or no factor, in common.
+    /// They have no common output or no common factor.
     #[error("there is nothing to compare, the results have no {what} in common: A has {a}, B has {b}")]
     NothingInCommon {
         /// `output` or `factor`.
@@ -131,7 +131,7 @@ pub enum CompareError {
         /// Those of B.
         b: String,
     },
-    /// An output of one name is a quantity of two kinds.
+    /// Outputs of the same name are different quantities.
     #[error("the output `{output}` is not the same quantity: in {a} in A, in {b} in B")]
     OtherQuantity {
         /// The output.
@@ -143,14 +143,14 @@ pub enum CompareError {
     },
 }
 
-/// A result to compare, and what it is called.
+/// A result to compare, with its label.
 #[derive(Debug, Clone, Copy)]
 pub struct NamedResult<'a> {
     /// The result.
     pub result: &'a StudyResult,
     /// Its label in tables and charts.
     pub label: &'a str,
-    /// The name of its file, which the record of the comparison holds.
+    /// The name of its file for the record of the comparison.
     pub file: &'a str,
 }
 
@@ -178,7 +178,7 @@ pub struct NamedResult<'a> {
 /// ```
 ///
 /// # Errors
-/// [`CompareError`] if they have no output or no factor in common, or an output of one name is a quantity of another kind.
+/// [`CompareError`] if they have no common output or factor, or outputs of the same name are different quantities.
 pub fn compare_results(a: &NamedResult<'_>, b: &NamedResult<'_>) -> Result<ComparisonFile, CompareError> {
     let (first, second) = (a.result, b.result);
     let outputs_left_out = one_sided("output", &output_names(first), &output_names(second))?;
@@ -203,7 +203,7 @@ pub fn compare_results(a: &NamedResult<'_>, b: &NamedResult<'_>) -> Result<Compa
     })
 }
 
-/// Whether two results rest on the same points: the same sampler, seed and size, and as many factors.
+/// Returns whether two results use the same points: the same sampler, seed, size and number of factors.
 pub fn shared_points(a: &StudyResult, b: &StudyResult) -> bool {
     let design = |result: &StudyResult| {
         let p = &result.provenance;
@@ -230,7 +230,7 @@ fn factor_names(result: &StudyResult) -> Vec<String> {
     result.factors.iter().map(|factor| factor.name.clone()).collect()
 }
 
-/// The names that only one of them has, of which there must be others.
+/// Returns the names that only one of them has; there must be common ones.
 fn one_sided(what: &'static str, a: &[String], b: &[String]) -> Result<OneSided, CompareError> {
     let without = |all: &[String], others: &[String]| -> Vec<String> {
         all.iter().filter(|name| !others.contains(name)).cloned().collect()
@@ -248,7 +248,7 @@ fn one_sided(what: &'static str, a: &[String], b: &[String]) -> Result<OneSided,
 fn compared(names: &[String], a: &OutputResult, b: &OutputResult) -> Result<ComparedOutput, CompareError> {
     let other_quantity =
         || CompareError::OtherQuantity { output: a.name.clone(), a: a.unit.clone(), b: b.unit.clone() };
-    // A unit that is not understood is at least the same text.
+    // If a unit is not understood, its text must be the same.
     let (of_a, of_b) = (Unit::label(&a.unit), Unit::label(&b.unit));
     if !of_a.compatible(&of_b) {
         return Err(other_quantity());

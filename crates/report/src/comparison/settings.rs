@@ -1,4 +1,4 @@
-//! In what two studies differ.
+//! The differences between two studies.
 
 use std::collections::BTreeSet;
 
@@ -8,10 +8,10 @@ use serde_json::Value;
 
 use crate::with_unit;
 
-/// Something that the two studies say differently.
+/// A setting in which the two studies differ.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct SettingDifference {
-    /// What, as in `friction` or `factor length`.
+    /// The setting, such as `friction` or `factor length`.
     pub what: String,
     /// In A; `null` if A does not have it.
     pub a: Option<String>,
@@ -19,8 +19,8 @@ pub struct SettingDifference {
     pub b: Option<String>,
 }
 
-/// What the studies of two results say differently: model, its choices and constants, factors, design. Of two different
-/// models, choices and constants are not compared.
+/// Returns the settings in which the studies differ: model, its choices and constants, factors, design. If the models
+/// differ, choices and constants are not compared.
 pub(super) fn differences<'a>(a: &'a StudyResult, b: &'a StudyResult) -> Vec<SettingDifference> {
     let mut found = Vec::new();
     let mut note = |what: &str, said: &dyn Fn(&StudyResult) -> Option<String>| {
@@ -32,7 +32,7 @@ pub(super) fn differences<'a>(a: &'a StudyResult, b: &'a StudyResult) -> Vec<Set
         for key in union(a.study.settings.keys(), b.study.settings.keys()) {
             note(key, &|result| result.study.settings.get(key).map(in_words));
         }
-        // What is a factor in one of them stands there.
+        // A name that is a factor in either study is compared among the factors.
         let is_factor = |name: &String| [a, b].iter().any(|result| result.factors.iter().any(|f| f.name == *name));
         let names = |result: &'a StudyResult| result.study.constants.iter().map(|constant| &constant.name);
         for name in union(names(a), names(b)).into_iter().filter(|name| !is_factor(name)) {
@@ -55,7 +55,7 @@ pub(super) fn differences<'a>(a: &'a StudyResult, b: &'a StudyResult) -> Vec<Set
     found
 }
 
-/// The names of both, each once, in the order of A and then of B.
+/// Returns the names of both, each once, in the order of A and then of B.
 fn union<'a>(a: impl Iterator<Item = &'a String>, b: impl Iterator<Item = &'a String>) -> Vec<&'a String> {
     let mut seen = BTreeSet::new();
     a.chain(b).filter(|name| seen.insert(*name)).collect()
@@ -65,7 +65,7 @@ fn in_words(value: &Value) -> String {
     value.as_str().map_or_else(|| value.to_string(), str::to_owned)
 }
 
-/// A factor's distribution with its parameters and its unit.
+/// Describes a factor's distribution with its parameters and its unit.
 fn of_factor(factor: &FactorRecord) -> String {
     let Value::Object(map) = &factor.distribution else { return factor.distribution.to_string() };
     let said = map.iter().map(|(key, value)| match key.as_str() {

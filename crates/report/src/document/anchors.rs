@@ -1,8 +1,8 @@
-//! Where links lead: anchors of the page, and files in its folder.
+//! Targets of links: anchors of the page, and files in its folder.
 
 use std::fmt::Write as _;
 
-/// `to` as a reference that can only be an anchor of this page, or a file beside or below it.
+/// Returns `to` as a reference that can only be an anchor of this page, or a file next to it or below it.
 pub(super) fn href(to: &str) -> String {
     if let Some(anchor) = to.strip_prefix('#') {
         return format!("#{}", encoded(anchor, ""));
@@ -10,7 +10,7 @@ pub(super) fn href(to: &str) -> String {
     encoded(to.trim_start_matches('/'), "/")
 }
 
-/// Everything but letters, digits, `-`, `_`, `.`, `~` and what is `kept`, percent-encoded (RFC 3986).
+/// Percent-encodes everything but letters, digits, `-`, `_`, `.`, `~` and the characters in `kept` (RFC 3986).
 fn encoded(text: &str, kept: &str) -> String {
     let mut encoded = String::with_capacity(text.len());
     for byte in text.bytes() {

@@ -1,21 +1,21 @@
-//! Charts inside a page: the drawings of each, named for screen readers.
+//! Charts inside a page: the drawings of each, with names for screen readers.
 
 use crate::chart::{Chart, ChartWidth};
 
-/// The drawing of `chart` as an element whose identifiers begin with `id`.
+/// Draws `chart` as an element whose identifiers begin with `id`.
 pub(super) fn drawn(id: &str, chart: &Chart, width: ChartWidth) -> String {
     let kind = if width == ChartWidth::Wide { "wide" } else { "narrow" };
     named(&chart.inline(width), &format!("{id}-{kind}"))
 }
 
-/// The picture with its title and description tied to it by identifiers, which not every browser does by itself.
+/// Links the picture to its title and description by identifiers, which not every browser does by itself.
 fn named(svg: &str, id: &str) -> String {
     let Some(body) = svg.strip_prefix("<svg") else { return svg.to_owned() };
     let mut labels = String::new();
     let mut body = body.to_owned();
     for (element, attribute) in [("title", "aria-labelledby"), ("desc", "aria-describedby")] {
         let tag = format!("<{element}>");
-        // The first is that of the whole picture: parts have theirs inside.
+        // The first one belongs to the whole picture: parts have theirs inside.
         if body.contains(&tag) {
             body = body.replacen(&tag, &format!("<{element} id=\"{id}-{element}\">"), 1);
             labels.push_str(&format!(" {attribute}=\"{id}-{element}\""));

@@ -10,8 +10,8 @@ use crate::chart::ChartWidth;
 use crate::file_names::{CHARTS, ChartFormat};
 use crate::format::minus;
 
-/// What the templates take as it is (`safe`) was escaped by [`symbols`], or comes from this program: style, script and
-/// charts, which escape their own texts.
+/// Values that the templates insert unescaped (`safe`) were escaped by [`symbols`], or come from this program: style,
+/// script and charts, which escape their own texts.
 #[derive(Template)]
 #[template(path = "page/page.html")]
 struct PageView<'a> {
@@ -34,7 +34,7 @@ struct PartView<'a> {
 #[template(path = "page/figure.html")]
 struct FigureView<'a> {
     figure: &'a Figure,
-    /// The drawing for a column; none of a small figure.
+    /// The drawing for a column; `None` for a small figure.
     wide: Option<String>,
     /// The drawing for a phone, or half of a column.
     narrow: String,
@@ -42,9 +42,9 @@ struct FigureView<'a> {
 }
 
 impl Document {
-    /// The page: one HTML document that loads nothing from anywhere and links to nothing outside. Style, script and charts
-    /// are inside. The same document gives the same bytes. Texts are escaped, so that none can break out of its place;
-    /// charts are drawn twice, for a page column and for a phone.
+    /// Renders the page: one HTML document that loads nothing and has no external links. Style, script and charts are
+    /// inside. The same document gives the same bytes. Texts are escaped, so that none can become markup; charts are
+    /// drawn twice, for a page column and for a phone.
     ///
     /// # Example
     /// ```
@@ -64,19 +64,19 @@ impl Document {
         self.page(Surroundings::default())
     }
 
-    /// The page as it stands in its folder: with links to the other files, the charts in these `formats`.
+    /// Renders the page in its folder: with links to the other files, the charts in these `formats`.
     pub(crate) fn html_in_folder(&self, formats: &[ChartFormat]) -> String {
         self.page(Surroundings { formats, has_files: true })
     }
 
-    /// The body of the section `id` as it stands on the page, without its heading; `None` if there is no such section.
+    /// Renders the body of the section `id` without its heading; `None` if there is no such section.
     pub fn section_html(&self, id: &str) -> Option<String> {
         let section = self.sections.iter().find(|section| section.id == id);
         section.map(|section| Surroundings::default().parts(&section.parts))
     }
 
     fn page(&self, around: Surroundings<'_>) -> String {
-        // Figures have links to their own files.
+        // Figures link to their own files.
         let data = if around.has_files { self.data_names() } else { Vec::new() };
         let links = data.into_iter().filter(|name| !name.contains('/')).map(|name| Link::new(name.clone(), name));
         let links: Vec<Link> = links.collect();
@@ -95,7 +95,7 @@ impl Document {
     }
 }
 
-/// What lies around a page.
+/// The context of a page.
 #[derive(Clone, Copy, Default)]
 struct Surroundings<'a> {
     /// Formats of the charts.
@@ -116,7 +116,7 @@ impl Surroundings<'_> {
         }
     }
 
-    /// A figure, drawn for a column and for a phone, or a small one.
+    /// Renders a figure, drawn for a column and for a phone, or a small one.
     fn figure(&self, figure: &Figure, is_small: bool) -> String {
         let drawn = |width| drawn(&figure.id, &figure.chart, width);
         let picture = |format: &ChartFormat| {
@@ -158,7 +158,7 @@ impl OnPhone {
 }
 
 impl Mark {
-    /// Name of the mark's style; empty without a mark.
+    /// Returns the class of the mark; empty without a mark.
     fn class(self) -> &'static str {
         match self {
             Self::Plain => "",
@@ -169,7 +169,7 @@ impl Mark {
         }
     }
 
-    /// The sign of a badge, for those who do not see its colour; empty where there is no badge.
+    /// Returns the sign of a badge, for readers who do not see its colour; empty without a badge.
     fn symbol(self) -> &'static str {
         match self {
             Self::Plain | Self::Strong => "",

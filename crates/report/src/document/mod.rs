@@ -1,13 +1,13 @@
-//! Documents: what a command has to say, made once and then written as a page, a text for the terminal and tables of CSV.
+//! Documents: the result of a command as data, written as a page, a text for the terminal and tables of CSV.
 //!
-//! A [`Document`] is plain data. [`Document::html`] is its page, [`Document::text`] what a terminal shows, and its files
-//! for programs are made by [`Document::data_files`]; [`Artefacts`](crate::Artefacts) writes all of them.
+//! A [`Document`] is plain data. [`Document::html`] renders its page, [`Document::text`] the text for a terminal, and
+//! [`Document::data_files`] its data files; [`Artefacts`](crate::Artefacts) writes all of them.
 //!
-//! A command does not put its document together by hand: it fills in a [`Report`] with what it alone can say, sentences,
-//! tables and charts, output by output. [`Report::document`] adds what all commands have in common, in one order and one
-//! wording: the first answers, the range of validity, notes, the study, provenance, numbers and file names of figures, JSON and
-//! CSV. The columns of a table are said once each, see [`Table::from_rows`]: heading, what is printed, and its name and value in
-//! the file.
+//! A command does not build its document itself: it fills in a [`Report`] with its own sentences, tables and charts,
+//! output by output. [`Report::document`] adds what all commands have in common, in one order and one wording: the
+//! first answers, the range of validity, notes, the study, provenance, numbers and file names of figures, JSON and CSV.
+//! The columns of a table are defined once, see [`Table::from_rows`]: heading, printed text, name and value in the
+//! file.
 
 mod anchors;
 mod drawing;
@@ -27,33 +27,33 @@ pub(crate) use table::{csv, largest};
 pub use super::csv::Value;
 use crate::chart::Chart;
 
-/// A result to be read.
+/// A document of a result.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Document {
-    /// What the names of its files begin with.
+    /// Prefix of the names of its files.
     pub name: String,
-    /// A few words above the title: what kind of document it is.
+    /// The kind of document, in a few words above the title.
     pub kicker: String,
     /// Headline.
     pub title: String,
-    /// What decides, a paragraph each.
+    /// The main results, a paragraph each.
     pub lead: Vec<String>,
     /// The sections, in order; each is listed in the contents of the page.
     pub sections: Vec<Section>,
     /// The last line.
     pub footer: String,
-    /// Charts that are files alone.
+    /// Charts that are written to files only.
     pub charts: Vec<Figure>,
-    /// Files for programs, beside those that its tables make.
+    /// Data files in addition to those of its tables.
     pub files: Vec<DataFile>,
 }
 
-/// A file for programs.
+/// A data file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DataFile {
     /// Its name in the folder of the document, or the path below it.
     pub name: String,
-    /// What it holds.
+    /// Its content.
     pub text: String,
 }
 
@@ -64,13 +64,13 @@ pub struct Section {
     pub id: String,
     /// Heading, also in the contents.
     pub title: String,
-    /// What it holds.
+    /// Its content.
     pub parts: Vec<Part>,
 }
 
 /// A part of a section.
 ///
-/// Texts are plain; on a page, symbols such as `F_cr`, `F_Y*` or `S_T` in them are set as italic letters with subscripts.
+/// Texts are plain; on a page, symbols in them such as `F_cr`, `F_Y*` or `S_T` are set in italics with subscripts.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Part {
     /// A paragraph.
@@ -85,45 +85,45 @@ pub enum Part {
     Gallery(Vec<Figure>),
     /// A table.
     Table(Table),
-    /// Links to files beside the page; terminals do not show them.
+    /// Links to files next to the page; terminals do not show them.
     Links(Vec<Link>),
-    /// Sentences that must not be overlooked, set off by a mark.
+    /// Important sentences, set off by a mark.
     Notice {
         /// Good, mixed or bad news; a badge with its symbol.
         mark: Mark,
-        /// What kind of news in a word or two, such as `warning`.
+        /// The kind of news in a word or two, such as `warning`.
         kind: String,
         /// The sentences, a paragraph each.
         texts: Vec<String>,
     },
-    /// Lines to be read as they were typed, such as a study file.
+    /// Lines shown verbatim, such as a study file.
     Code(String),
-    /// Another page set into this one, such as an animation, in a frame as high as its content; not printed.
+    /// Another page embedded in this one, such as an animation, in a frame as high as its content; not printed.
     Frame {
-        /// What it shows, for screen readers.
+        /// Its description for screen readers.
         title: String,
         /// The whole HTML document.
         html: String,
     },
-    /// Parts that are folded on a page until asked for; printed unfolded.
+    /// Parts that are folded on a page until opened; printed unfolded.
     Details {
-        /// What is folded.
+        /// The summary of the folded parts.
         summary: String,
         /// The parts.
         parts: Vec<Part>,
     },
-    /// Parts that are for the page alone: what would only fill a terminal.
+    /// Parts for the page only, which are too long for a terminal.
     OnPage(Vec<Part>),
 }
 
-/// A figure with what belongs to it.
+/// A figure with its label, files and texts.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Figure {
     /// Anchor, unique in the document.
     pub id: String,
-    /// What it is called, such as `CHK fig. 6`; may be empty.
+    /// Its label, such as `CHK fig. 6`; may be empty.
     pub label: String,
-    /// Its title on the page, where the chart's own one repeats that of the document.
+    /// Its title on the page, if the chart's own title repeats that of the document.
     pub title: Option<String>,
     /// What to compare it with, such as what the paper's figure shows; may be empty.
     pub beside: String,
@@ -135,17 +135,17 @@ pub struct Figure {
     pub data: String,
 }
 
-/// A link to a file beside the page, or to an anchor on it.
+/// A link to a file next to the page, or to an anchor on it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Link {
     /// The words.
     pub text: String,
-    /// Where it leads, such as `shares.csv` or `#claims`.
+    /// The target, such as `shares.csv` or `#claims`.
     pub to: String,
 }
 
 impl Document {
-    /// Its charts: the figures in order, then the files alone.
+    /// Returns its charts: the figures in order, then those that are files only.
     pub fn figures(&self) -> Vec<&Figure> {
         let mut figures = Vec::new();
         self.visit(&mut |part| match part {
@@ -157,14 +157,14 @@ impl Document {
         figures
     }
 
-    /// The files for programs: those that are given, then one for all tables that name it, in the order of the document.
+    /// Returns the data files: the given ones, then one for all tables that name it, in the order of the document.
     pub fn data_files(&self) -> Vec<Cow<'_, DataFile>> {
         let of_tables = self.tables_by_file().into_iter();
         let of_tables = of_tables.map(|(name, tables)| Cow::Owned(DataFile::new(name, csv(tables))));
         self.files.iter().map(Cow::Borrowed).chain(of_tables).collect()
     }
 
-    /// The files that its tables make, each with its tables in their order.
+    /// Returns the files of its tables, each with its tables in order.
     fn tables_by_file(&self) -> Vec<(&str, Vec<&Table>)> {
         let mut tables: Vec<&Table> = Vec::new();
         self.visit(&mut |part| {
@@ -184,13 +184,13 @@ impl Document {
         files
     }
 
-    /// The names of the files for programs.
+    /// Returns the names of the data files.
     pub fn data_names(&self) -> Vec<String> {
         let of_tables = self.tables_by_file().into_iter().map(|(name, _)| name.to_owned());
         self.files.iter().map(|file| file.name.clone()).chain(of_tables).collect()
     }
 
-    /// These sections of it alone, with their figures numbered through.
+    /// Keeps only these sections and renumbers their figures.
     #[must_use]
     pub fn excerpt(mut self, ids: &[&str]) -> Self {
         self.sections.retain(|section| ids.contains(&&*section.id));
@@ -213,7 +213,7 @@ impl Document {
     }
 }
 
-/// Shows `see` every part, those inside of others too.
+/// Calls `see` for every part, nested ones included.
 fn visit<'a>(parts: &'a [Part], see: &mut dyn FnMut(&'a Part)) {
     for part in parts {
         see(part);
@@ -223,7 +223,7 @@ fn visit<'a>(parts: &'a [Part], see: &mut dyn FnMut(&'a Part)) {
     }
 }
 
-/// Lets `change` change every part, those inside of others too.
+/// Calls `change` for every part, nested ones included.
 fn visit_mut(parts: &mut [Part], change: &mut dyn FnMut(&mut Part)) {
     for part in parts {
         change(part);
@@ -233,7 +233,7 @@ fn visit_mut(parts: &mut [Part], change: &mut dyn FnMut(&mut Part)) {
     }
 }
 
-/// The figures of a part itself.
+/// Returns the figures of a part itself.
 fn figures_mut(part: &mut Part) -> &mut [Figure] {
     match part {
         Part::Figure(figure) => std::slice::from_mut(figure),
@@ -243,7 +243,7 @@ fn figures_mut(part: &mut Part) -> &mut [Figure] {
 }
 
 impl Figure {
-    /// Figure `number` of a document: `chart`, whose files are called `stem` and whose numbers are in the file `data`.
+    /// Creates figure `number` of a document: `chart`, with files named `stem` and numbers in the file `data`.
     pub fn new(number: usize, chart: Chart, stem: impl Into<String>, data: impl Into<String>) -> Self {
         Self {
             id: format!("figure-{number}"),
@@ -256,17 +256,17 @@ impl Figure {
         }
     }
 
-    /// A figure of a [`Report`], which numbers it: `chart`, whose files are called `stem`.
+    /// Creates a figure of a [`Report`], which numbers it: `chart`, with files named `stem`.
     pub fn unnumbered(chart: Chart, stem: impl Into<String>) -> Self {
         Self::new(0, chart, stem, "")
     }
 
-    /// The same without the title of the document before that of the chart.
+    /// Removes the title of the document from the start of the title of the chart.
     pub(crate) fn below(self, title: &str) -> Self {
         Self { title: self.own_title(title), ..self }
     }
 
-    /// What the title of the chart says beyond that of the document.
+    /// Returns the part of the chart's title after that of the document.
     fn own_title(&self, title: &str) -> Option<String> {
         let own = self.chart.title().strip_prefix(title).and_then(|rest| rest.strip_prefix(": "));
         own.map(apportion::text::capitalised)
@@ -286,40 +286,40 @@ impl From<Table> for Part {
 }
 
 impl DataFile {
-    /// A file.
+    /// Creates a file.
     pub fn new(name: impl Into<String>, text: String) -> Self {
         Self { name: name.into(), text }
     }
 }
 
 impl Section {
-    /// A section.
+    /// Creates a section.
     pub fn new(id: &str, title: &str, parts: Vec<Part>) -> Self {
         Self { id: id.to_owned(), title: title.to_owned(), parts }
     }
 }
 
 impl Part {
-    /// Warnings, each a sentence that begins with a small letter and has no full stop.
+    /// Lists warnings, each a sentence that begins with a lower-case letter and has no full stop.
     pub(crate) fn warnings(warnings: &[String]) -> Option<Self> {
         let texts = warnings.iter().map(|warning| format!("{}.", of_sentence(warning))).collect();
         let kind = "Warning".to_owned();
         (!warnings.is_empty()).then_some(Self::Notice { mark: Mark::Mixed, kind, texts })
     }
 
-    /// Notes, in the same way.
+    /// Lists notes in the same way.
     pub(crate) fn notes(notes: &[String]) -> Option<Self> {
         let texts = notes.iter().map(|note| format!("{}.", apportion::text::capitalised(note))).collect();
         (!notes.is_empty()).then_some(Self::Notice { mark: Mark::Plain, kind: "Note".to_owned(), texts })
     }
 
-    /// A sentence that says why there are no indices.
+    /// Creates a sentence that says why there are no indices.
     pub(crate) fn no_indices(text: String) -> Self {
         Self::Notice { mark: Mark::Bad, kind: "No indices".to_owned(), texts: vec![text] }
     }
 }
 
-/// A text as a sentence: names before a colon, as of a factor or a flag, have no capital.
+/// Formats a text as a sentence: a name before a colon, such as a factor or a flag, is not capitalised.
 fn of_sentence(text: &str) -> String {
     match text.split_once(": ") {
         Some((name, _)) if !name.contains(' ') || name.ends_with(" runs)") || name.ends_with("(1 run)") => {
@@ -330,7 +330,7 @@ fn of_sentence(text: &str) -> String {
 }
 
 impl Link {
-    /// A link.
+    /// Creates a link.
     pub fn new(text: impl Into<String>, to: impl Into<String>) -> Self {
         Self { text: text.into(), to: to.into() }
     }

@@ -1,4 +1,4 @@
-//! What a command has to say, and the one way in which it becomes a document.
+//! The content of a command's document, and its conversion to a document.
 
 use apportion::model::MIN_OUTPUTS_TOGETHER;
 use apportion::result::{StudySetup, ValidityRecord};
@@ -10,7 +10,7 @@ use crate::leading::first_answers;
 use crate::study_sections::{study_section, validity_section};
 use crate::{file_stems, validity};
 
-/// What is said of one output.
+/// The report on one output.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct OutputReport<'a> {
     /// Its name.
@@ -19,56 +19,56 @@ pub struct OutputReport<'a> {
     pub unit: &'a str,
     /// Warnings, sentences without capital and full stop.
     pub warnings: &'a [String],
-    /// Its answer in a sentence, for the top of the document.
+    /// Its result in a sentence, for the top of the document.
     pub answer: String,
-    /// What is said of it.
+    /// Its parts.
     pub parts: Vec<Part>,
-    /// Its charts, each with what the names of its files end in.
+    /// Its charts, each with the suffix of its file names.
     pub charts: Vec<(&'static str, Chart)>,
 }
 
-/// What a command has to say. What it leaves empty is left out.
+/// The report of a command. Empty fields are omitted.
 ///
-/// The sections come in the order of the fields. The figures that [`Figure::unnumbered`] makes are numbered as they come, and their numbers are in the file of
-/// CSV, as are the rows of every table that has columns for a file and names none.
+/// The sections come in the order of the fields. Figures made by [`Figure::unnumbered`] are numbered in order, and
+/// their numbers are in the CSV file, as are the rows of every table that has columns for a file and names none.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Report<'a> {
-    /// What the names of its files begin with.
+    /// Prefix of the names of its files.
     pub name: String,
-    /// What kind of document it is, in a few words.
+    /// The kind of document, in a few words.
     pub kicker: &'static str,
     /// Headline.
     pub title: String,
-    /// What decides besides the answers of the outputs, a paragraph each.
+    /// The main results in addition to those of the outputs, a paragraph each.
     pub lead: Vec<String>,
-    /// What comes before the outputs.
+    /// The sections before the outputs.
     pub first: Vec<Section>,
     /// The outputs.
     pub outputs: Vec<OutputReport<'a>>,
-    /// What comes after them.
+    /// The sections after the outputs.
     pub then: Vec<Section>,
-    /// What a careful reader should know, sentences without capital and full stop.
+    /// Notes, sentences without capital and full stop.
     pub notes: &'a [String],
-    /// On how many runs the model's assumptions do not hold.
+    /// The number of runs on which the model's assumptions do not hold.
     pub validity: &'a [ValidityRecord],
-    /// Model runs that failed, and all.
+    /// The numbers of failed model runs and of all model runs.
     pub failed_runs: (u64, u64),
     /// The study that was run.
     pub study: Option<&'a StudySetup>,
-    /// The version of this program that computed it; that of now if it is empty.
+    /// The version of the program that computed it; the current one if it is empty.
     pub version: &'a str,
-    /// How it came about: a table of names and values.
+    /// Provenance: a table of names and values.
     pub provenance: Vec<(&'static str, String)>,
     /// The file `NAME.json`.
     pub json: String,
-    /// The file of CSV, where no table of the document holds all that there is.
+    /// The CSV file, if no table of the document holds all rows.
     pub csv: Option<Table>,
-    /// What the name of the file of CSV ends in, before `.csv`.
+    /// Suffix of the name of the CSV file, before `.csv`.
     pub csv_ending: &'static str,
 }
 
 impl Report<'_> {
-    /// The document.
+    /// Builds the document.
     pub fn document(mut self) -> Document {
         let version = if self.version.is_empty() { env!("CARGO_PKG_VERSION") } else { self.version };
         let answers = self.outputs.iter_mut().map(|output| std::mem::take(&mut output.answer));
@@ -118,8 +118,8 @@ impl Report<'_> {
         document
     }
 
-    /// A section for each output, with its warnings first and its charts last; of many outputs one section, in which each is
-    /// folded.
+    /// Builds a section for each output, with its warnings first and its charts last; many outputs share one section,
+    /// in which each is folded.
     fn of_outputs(&mut self) -> Vec<Section> {
         let names: Vec<&str> = self.outputs.iter().map(|output| output.name).collect();
         let charts = self.outputs.iter().flat_map(|output| &output.charts);

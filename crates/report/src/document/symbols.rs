@@ -1,14 +1,14 @@
-//! Plain text as HTML: symbols with subscripts, numbers that stay with their units, and nothing that could break out.
+//! Plain text as HTML: symbols with subscripts, numbers joined to their units, and everything escaped.
 
 use apportion::quantity::Unit;
 use apportion::text::{is_letter as letter, subscript};
 
-/// `text` as HTML that may stand in an element or in a quoted attribute's place of text.
+/// Converts `text` to HTML that may be used in an element or in a quoted attribute.
 ///
 /// Everything is escaped and control characters are dropped. `X_abc`, a single Latin or Greek letter with a subscript
 /// of at most four letters or digits (or the name of a Greek letter), is set as `<var>X</var><sub>abc</sub>`; a star
-/// may follow. Longer names and file names stay as they are. What stands between backticks is set as code. A number and
-/// its unit, and the two sides of `±`, are joined by no-break spaces.
+/// may follow. Longer names and file names stay as they are. Text between backticks is set as code. A number and its
+/// unit, and the two sides of `±`, are joined by no-break spaces.
 ///
 /// ```
 /// use apportion_report::document::symbols;
@@ -27,7 +27,7 @@ pub fn symbols(text: &str) -> String {
     html + &prose(rest)
 }
 
-/// What stands before, in and after the first pair of backticks.
+/// Splits at the first pair of backticks into the text before, between and after them.
 fn code_span(text: &str) -> Option<(&str, &str, &str)> {
     let (before, rest) = text.split_once('`')?;
     let (code, after) = rest.split_once('`')?;
@@ -55,7 +55,7 @@ fn prose(text: &str) -> String {
     html
 }
 
-/// Where the symbol that begins at `at` ends, if one does.
+/// Returns the end of the symbol that begins at `at`, if there is one.
 fn symbol(letters: &[char], at: usize) -> Option<usize> {
     let base = letters[at];
     let in_name = |c: &char| c.is_alphanumeric() || matches!(c, '_' | '.' | '\\' | '~' | '@' | '#' | '$');
@@ -78,12 +78,12 @@ fn symbol(letters: &[char], at: usize) -> Option<usize> {
     (short && !continued).then_some(end)
 }
 
-/// Whether a slash at `at` divides by another symbol, as in `S_1/S_T`.
+/// Returns whether a slash at `at` divides by another symbol, as in `S_1/S_T`.
 fn slash_symbol(letters: &[char], at: usize) -> bool {
     letters[at] == '/' && letters.get(at + 2) == Some(&'_')
 }
 
-/// Numbers joined to their units by no-break spaces, and what stands about `±` to it.
+/// Joins numbers to their units, and `±` to both its sides, by no-break spaces.
 fn joined(text: &str) -> String {
     const NO_BREAK: char = '\u{a0}';
     let mut joined = String::with_capacity(text.len());
@@ -105,12 +105,12 @@ fn ends_in_number(text: &str) -> bool {
 fn starts_with_unit(text: &str) -> bool {
     let word = text.split([' ', ',', ';', ':', ')', ']']).next().unwrap_or_default().trim_end_matches('.');
     let word = word.trim_end_matches(['?', '!']);
-    // A unit that begins with a digit is none in a sentence.
+    // A unit that begins with a digit is not one in a sentence.
     word.starts_with(|c: char| !c.is_ascii_digit())
         && Unit::known(&typed(word)).is_some_and(|unit| !unit.symbol().is_empty())
 }
 
-/// A unit with raised digits as it is typed.
+/// Returns a unit with raised digits as it is typed.
 fn typed(unit: &str) -> String {
     let digit = |c: char| match c {
         '⁻' => '-',
@@ -124,7 +124,7 @@ fn typed(unit: &str) -> String {
     unit.chars().map(digit).collect()
 }
 
-/// Text without control characters (line ends and tabs stay) and without those that turn the direction of writing.
+/// Removes control characters (line ends and tabs stay) and those that change the direction of writing.
 pub(super) fn clean(text: &str) -> String {
     let allowed = |c: &char| {
         matches!(c, '\n' | '\t')
@@ -134,7 +134,7 @@ pub(super) fn clean(text: &str) -> String {
     text.chars().filter(allowed).collect()
 }
 
-/// Clean text with the characters escaped that mean something in HTML.
+/// Cleans the text and escapes the characters that have a meaning in HTML.
 pub(super) fn escaped(text: &str) -> String {
     let mut html = String::with_capacity(text.len());
     clean(text).chars().for_each(|c| escape_into(&mut html, c));
@@ -228,7 +228,7 @@ mod tests {
     }
 
     proptest::proptest! {
-        /// Without the elements that are put in, no character is left that could begin markup.
+        /// Apart from the inserted elements, no character is left that could begin markup.
         #[test]
         fn any_text_is_escaped(text in "\\PC*|[a-zA-Z_<>&\"'` ±0-9*./-]{0,40}") {
             let mut html = symbols(&text);

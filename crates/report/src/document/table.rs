@@ -1,4 +1,4 @@
-//! Tables: cells as they are printed, with the exact values behind them for CSV.
+//! Tables: cells as printed, with the exact values behind them for CSV.
 
 use std::borrow::Borrow;
 
@@ -8,7 +8,7 @@ use super::Link;
 use crate::csv::{Field, Value, lines};
 use crate::format::give_or_take;
 
-/// A table. Pages and terminals print its cells; a file of CSV has the values behind them.
+/// A table. Pages and terminals print its cells; a CSV file holds the values behind them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Table {
     /// What it shows, in one sentence.
@@ -19,34 +19,34 @@ pub struct Table {
     pub rows: Vec<Vec<Cell>>,
     /// Which rows are printed, in this order; all of them if this is `None`. A file has all rows.
     pub printed: Option<Vec<usize>>,
-    /// A last row that is printed and stands in no file; may be empty.
+    /// A last row that is printed and is in no file; may be empty.
     pub sums: Vec<Cell>,
-    /// What becomes of it where a page is too narrow.
+    /// Its layout on a narrow page.
     pub on_phone: OnPhone,
-    /// The file of CSV that its rows stand in; may be empty. Tables of the same columns may share one.
+    /// The CSV file of its rows; may be empty. Tables of the same columns may share one.
     pub file: String,
 }
 
 /// A column of a [`Table`].
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Column {
-    /// What is printed above it; a column without is in the file alone.
+    /// The printed header; a column without one is only in the file.
     heading: Option<String>,
-    /// Whether it holds numbers, which are set to the right.
+    /// Whether it holds numbers, which are aligned right.
     numeric: bool,
-    /// Its names in the file; a column without is printed alone.
+    /// Its names in the file; a column without them is only printed.
     field: Option<Field>,
 }
 
-/// How a table is set on a phone.
+/// The layout of a table on a phone.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum OnPhone {
-    /// As it is, to be scrolled sideways inside its frame: for numbers.
+    /// Unchanged, scrolled sideways inside its frame: for numbers.
     #[default]
     Scroll,
     /// Every row as a block of its cells, one below the other: for sentences that need no heading.
     Stack,
-    /// The same, each cell under the heading of its column.
+    /// Like `Stack`, with each cell under the heading of its column.
     StackLabelled,
 }
 
@@ -57,17 +57,17 @@ pub struct Cell {
     pub text: String,
     /// The value behind the text, for files.
     pub value: Value,
-    /// How it is set off.
+    /// How it is emphasised.
     pub mark: Mark,
-    /// Where its text leads, if anywhere.
+    /// The target of its link, if any.
     pub to: Option<String>,
-    /// What is said below it in small letters; may be empty.
+    /// A note below it in small letters; may be empty.
     pub note: String,
     /// Further links, below the note.
     pub links: Vec<Link>,
 }
 
-/// How a cell is set off; never by colour alone.
+/// How a cell is emphasised; never by colour alone.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Mark {
     /// Not at all.
@@ -84,7 +84,7 @@ pub enum Mark {
 }
 
 impl Table {
-    /// A table of `rows`, whose columns are added one after the other.
+    /// Starts a table of `rows`, whose columns are added one by one.
     ///
     /// ```
     /// use apportion_report::document::Table;
@@ -103,29 +103,29 @@ impl Table {
         Rows { rows, table }
     }
 
-    /// A table of labels and texts without headings.
+    /// Creates a table of labels and texts without headings.
     pub fn pairs<L: Into<String>>(caption: &str, rows: impl IntoIterator<Item = (L, String)>) -> Self {
         let rows: Vec<(String, String)> = rows.into_iter().map(|(label, text)| (label.into(), text)).collect();
         Self::from_rows(caption, &rows).text("", |(label, _)| label).text("", |(_, text)| text).into()
     }
 
-    /// The rows as CSV.
+    /// Formats the rows as CSV.
     pub fn csv(&self) -> String {
         csv([self])
     }
 
-    /// Whether a file has some of its columns.
+    /// Returns whether any of its columns is in a file.
     pub(super) fn has_fields(&self) -> bool {
         self.columns.iter().any(|column| column.field.is_some())
     }
 
-    /// The columns that are printed, with their headings and whether they hold numbers.
+    /// Returns the printed columns, with their headings and whether they hold numbers.
     pub(super) fn printed_columns(&self) -> Vec<(usize, &str, bool)> {
         let columns = self.columns.iter().enumerate();
         columns.filter_map(|(place, column)| Some((place, column.heading.as_deref()?, column.numeric))).collect()
     }
 
-    /// The rows that are printed, with the cells of the printed columns.
+    /// Returns the printed rows, with the cells of the printed columns.
     pub(super) fn printed_rows(&self) -> Vec<Vec<&Cell>> {
         let columns = self.printed_columns();
         let rows: Vec<&Vec<Cell>> = match &self.printed {
@@ -137,7 +137,7 @@ impl Table {
     }
 }
 
-/// The rows of `tables`, which have the same columns, as CSV; nothing without any.
+/// Formats the rows of `tables`, which have the same columns, as CSV; empty without any.
 pub(crate) fn csv<T: Borrow<Table>>(tables: impl IntoIterator<Item = T>) -> String {
     let mut tables = tables.into_iter().peekable();
     let Some(first) = tables.peek() else { return String::new() };
@@ -154,13 +154,13 @@ pub(crate) fn csv<T: Borrow<Table>>(tables: impl IntoIterator<Item = T>) -> Stri
     lines(std::iter::once(header).chain(rows))
 }
 
-/// `which` of how many are shown, if not all.
+/// Says how many of how many are shown; empty if all are.
 pub(crate) fn largest(shown: usize, all: usize, what: &str) -> String {
     if shown < all { format!(" The {shown} largest of {all} {what}.") } else { String::new() }
 }
 
-/// A table in the making: of every column it is said once what stands above it, what is printed in a row, and under which
-/// name and with which value the row stands in the file of CSV.
+/// A builder of a table. Each column is defined once: its header, the printed text of a row, and the name and value of
+/// the row in the CSV file.
 #[derive(Clone, Debug)]
 pub struct Rows<R> {
     rows: Vec<R>,
@@ -178,7 +178,7 @@ impl<R: Copy> Rows<R> {
         self.column(Column { heading: Some(heading.into()), numeric: true, field: None }, cell)
     }
 
-    /// Adds a column of estimates, printed with their errors and with their bounds in the file.
+    /// Adds a column of estimates, printed with their errors, and with their bounds in the file.
     pub fn index(
         self,
         heading: impl Into<String>,
@@ -188,38 +188,38 @@ impl<R: Copy> Rows<R> {
         self.number(heading, &value).estimate(name, value)
     }
 
-    /// Adds a column that is in the file alone.
+    /// Adds a column that is only in the file.
     pub fn file<V: Into<Value>>(self, name: impl Into<String>, value: impl Fn(R) -> V) -> Self {
         self.column(Column::default(), |_| "").value(name, value)
     }
 
-    /// Adds an estimate and its bounds, three columns that are in the file alone.
+    /// Adds an estimate and its bounds, three columns that are only in the file.
     pub fn file_estimate(self, name: impl Into<String>, value: impl Fn(R) -> Option<Estimate>) -> Self {
         self.column(Column::default(), |_| "").estimate(name, value)
     }
 
-    /// The last column stands in the file under `name`, as it is printed.
+    /// Writes the last column to the file under `name`, as printed.
     pub fn named(self, name: impl Into<String>) -> Self {
         self.value(name, |_| Value::Printed)
     }
 
-    /// The last column stands in the file under `name`, with this value.
+    /// Writes the last column to the file under `name`, with this value.
     pub fn value<V: Into<Value>>(self, name: impl Into<String>, value: impl Fn(R) -> V) -> Self {
         self.field(Field::new(name), value)
     }
 
-    /// The last column stands in the file as an estimate with its bounds.
+    /// Writes the last column to the file as an estimate with its bounds.
     pub fn estimate(self, name: impl Into<String>, value: impl Fn(R) -> Option<Estimate>) -> Self {
         self.field(Field::estimate(name), value)
     }
 
-    /// The last column is printed only `if_shown`.
+    /// Prints the last column only `if_shown`.
     pub fn shown(mut self, if_shown: bool) -> Self {
         self.table.columns.last_mut().filter(|_| !if_shown).into_iter().for_each(|column| column.heading = None);
         self
     }
 
-    /// Prints the first `most` of the rows in this order; the caption then says how many there are of `what`.
+    /// Prints the first `most` of the rows in this order; the caption then says how many of `what` there are.
     pub fn largest(mut self, order: impl IntoIterator<Item = usize>, most: usize, what: &str) -> Self {
         let mut order: Vec<usize> = order.into_iter().collect();
         self.table.caption.push_str(&largest(order.len().min(most), order.len(), what));
@@ -228,25 +228,25 @@ impl<R: Copy> Rows<R> {
         self
     }
 
-    /// The same in the order in which they are.
+    /// Prints the first `most` of the rows in their own order.
     pub fn first(self, most: usize, what: &str) -> Self {
         let all = 0..self.rows.len();
         self.largest(all, most, what)
     }
 
-    /// What stands in the last column of the row of sums.
+    /// Sets the cell of the last column in the row of sums.
     pub fn sum(mut self, cell: impl Into<Cell>) -> Self {
         self.table.sums.resize_with(self.table.columns.len() - 1, Cell::default);
         self.sums([cell.into()])
     }
 
-    /// What stands in the next columns of the row of sums.
+    /// Sets the cells of the next columns in the row of sums.
     pub fn sums(mut self, cells: impl IntoIterator<Item = Cell>) -> Self {
         self.table.sums.extend(cells);
         self
     }
 
-    /// The rows as CSV.
+    /// Formats the rows as CSV.
     pub fn csv(&self) -> String {
         self.table.csv()
     }
@@ -281,12 +281,12 @@ impl<R> From<Rows<R>> for super::Part {
 }
 
 impl Cell {
-    /// A cell set off by `mark`.
+    /// Creates a cell emphasised by `mark`.
     pub fn marked(text: impl Into<String>, mark: Mark) -> Self {
         Self { text: text.into(), mark, ..Self::default() }
     }
 
-    /// A cell that prints `text` where a file has `value`.
+    /// Creates a cell that prints `text` where a file has `value`.
     pub fn valued(text: impl Into<String>, value: Value) -> Self {
         Self { text: text.into(), value, ..Self::default() }
     }
@@ -310,7 +310,7 @@ impl From<&str> for Cell {
     }
 }
 
-/// An index with the half width of its interval, a dash without one.
+/// Formats an index with the half width of its interval, a dash for `None`.
 impl From<Option<Estimate>> for Cell {
     fn from(estimate: Option<Estimate>) -> Self {
         Self::valued(estimate.map_or_else(|| "–".to_owned(), give_or_take), Value::Estimate(estimate))

@@ -4,7 +4,7 @@ use super::{Document, Part, Table};
 use crate::text_table::table;
 
 impl Document {
-    /// The document as text: what decides, then its sections without figures and without what is for the page alone.
+    /// Formats the document as text: the main results, then its sections without figures and parts for the page only.
     pub fn text(&self) -> String {
         let mut terminal = Terminal { text: String::new(), headings: [None, None] };
         self.lead.iter().for_each(|paragraph| terminal.line(paragraph));
@@ -19,7 +19,7 @@ impl Document {
 /// The text so far.
 struct Terminal<'a> {
     text: String,
-    /// The headings of section and part, which wait for something to stand below them.
+    /// The headings of section and part, printed only when something follows them.
     headings: [Option<&'a str>; 2],
 }
 

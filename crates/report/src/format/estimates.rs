@@ -1,23 +1,24 @@
-//! Estimates with their errors, with as many digits as the error bears: the one way of sentences, tables and captions.
+//! Estimates with their errors, with as many digits as the error justifies: for all sentences, tables and captions.
 
 use apportion::uncertainty::{Estimate, Interval};
 
 use super::{SIGNIFICANT, minus, significant, significant_to};
 
-/// Up to this ratio of its longer part to the shorter one an interval is printed by the longer one.
+/// Ratio of the longer to the shorter side up to which an interval is printed by the longer one.
 const EVEN: f64 = 1.5;
-/// Below this part of the estimate both ends of an interval are not needed.
+/// Part of the estimate below which both ends of an interval are not needed.
 const MIN_SHOWN: f64 = 0.01;
-/// Significant digits of an estimate of which no error is known.
+/// Significant digits of an estimate whose error is unknown.
 const WITHOUT_ERROR: usize = 3;
-/// Numbers below this magnitude are written with a power of ten.
+/// Magnitude below which numbers are written with a power of ten.
 pub(super) const SMALL: f64 = 1e-5;
 
-/// An estimate and the half width of its interval, `0.02487 ± 0.00003`, or both bounds where they are not symmetric about
-/// it to within half and longer than 1 % of it, `0.68 [0.52, 1.03]`.
+/// Formats an estimate and the half width of its interval, `0.02487 ± 0.00003`, or both bounds if they are not
+/// symmetric about it to within half and longer than 1 % of it, `0.68 [0.52, 1.03]`.
 ///
-/// The half width (the longer one, where the two are not equal) has one digit, two if it begins with 1, and the estimate ends
-/// at the same place, after six digits at the latest; what is cut there counts as error. Bounds have the digits of the nearer one, two if it begins with 1 or 2. Without an interval there are three digits. Files have all.
+/// The half width (the longer one if the two differ) has one digit, two if it begins with 1, and the estimate ends at
+/// the same place, after six digits at the latest; the rounding is included in the error. Bounds have the digits of the
+/// nearer
 pub fn give_or_take(record: Estimate) -> String {
     let Estimate { estimate, interval: Some(Interval { low, high }) } = record else {
         return rounded(record.estimate, WITHOUT_ERROR);
@@ -30,7 +31,7 @@ pub fn give_or_take(record: Estimate) -> String {
     let (nearer, farther) = (f64::min(estimate - low, high - estimate), f64::max(estimate - low, high - estimate));
     if nearer * EVEN >= farther || half < MIN_SHOWN * estimate.abs() {
         return match decimals(farther) > most {
-            // Its digits stand beyond those of the estimate, which needs no zeros at its end then.
+            // Its digits are beyond those of the estimate, which then needs no trailing zeros.
             true => {
                 let shown = significant(estimate);
                 let cut = shown.parse().map_or(0.0, |shown: f64| (shown - estimate).abs());
@@ -45,21 +46,21 @@ pub fn give_or_take(record: Estimate) -> String {
     with_bounds(estimate, low, high, most)
 }
 
-/// An estimate and both its bounds, with so many decimals at most.
+/// Formats an estimate and both its bounds, with so many decimals at most.
 fn with_bounds(estimate: f64, low: f64, high: f64, most: i32) -> String {
-    // A bound next to the estimate is no reason for many digits.
+    // A bound next to the estimate does not justify many digits.
     let nearer = f64::min(estimate - low, high - estimate).max((high - low) / 4.0);
     let digits = if format!("{nearer:.1e}").starts_with(['1', '2']) { 2 } else { 1 };
     let places = decimals_of(nearer, digits).min(most);
     format!("{} [{}, {}]", at(estimate, places), at(low, places), at(high, places))
 }
 
-/// The half width that [`give_or_take`] prints; `None` where it prints none.
+/// Returns the half width that [`give_or_take`] prints; `None` if it prints none.
 pub fn printed_half_width(record: Estimate) -> Option<f64> {
     give_or_take(record).split_once(" ± ")?.1.parse().ok()
 }
 
-/// Whether an interval leaves out 0 from below, as it is printed too.
+/// Returns whether an interval excludes 0 from below, also as printed.
 pub fn is_above_zero(record: Estimate) -> bool {
     let printed = give_or_take(record);
     let is_left_out = match printed.split_once(" ± ") {
@@ -69,12 +70,12 @@ pub fn is_above_zero(record: Estimate) -> bool {
     record.interval.is_some_and(|interval| interval.low > 0.0) && is_left_out
 }
 
-/// [`give_or_take`] for sentences, with true minus signs.
+/// Formats like [`give_or_take`], for sentences, with true minus signs.
 pub fn index(record: Estimate) -> String {
     minus(&give_or_take(record))
 }
 
-/// The decimals of an estimate that are its own.
+/// Returns the number of meaningful decimals of an estimate.
 fn most_decimals(estimate: f64) -> i32 {
     match estimate {
         0.0 => i32::MAX,
@@ -82,7 +83,7 @@ fn most_decimals(estimate: f64) -> i32 {
     }
 }
 
-/// A part of 1 in percent with its error: `39.96 ± 0.03 %`. A part that cannot be below 0 or beyond 1 has bounds inside.
+/// Formats a part of 1 in percent with its error: `39.96 ± 0.03 %`. The bounds of a part within 0 and 1 are cut there.
 pub fn percent(record: Estimate) -> String {
     let percent = |part: f64| 100.0 * part;
     let Estimate { estimate, interval } = record;
@@ -92,12 +93,12 @@ pub fn percent(record: Estimate) -> String {
     format!("{} %", minus(&up_to_all(Estimate { estimate: percent(estimate), interval })))
 }
 
-/// A share in percent with its error, `-` if it does not exist.
+/// Formats a share in percent with its error, `-` for `None`.
 pub fn share(share: Option<Estimate>) -> String {
     share.map_or_else(|| "-".to_owned(), up_to_all)
 }
 
-/// What is up to 100 %: an interval that goes beyond ends there, and what is left of rounding is 0.
+/// Limits a record to 100 %: an interval beyond it ends there, and a rounding remainder is 0.
 fn up_to_all(record: Estimate) -> String {
     const ALL: f64 = 100.0;
     const ROUNDING: f64 = 1e-9;
@@ -109,36 +110,36 @@ fn up_to_all(record: Estimate) -> String {
         return give_or_take(record);
     }
     let words = with_bounds(estimate.min(ALL), low, ALL, most_decimals(estimate));
-    // All that six digits tell is that it is all.
+    // To six digits it is all.
     match words.split_once(" [") {
         Some((all, bounds)) if bounds == format!("{all}, {all}]") => significant(ALL),
         _ => words,
     }
 }
 
-/// An error or width by itself, with two significant digits: 0.000083, or 8.3e-7 where there would be more zeros.
+/// Formats an error or width by itself, with two significant digits: 0.000083, or 8.3e-7 if it is smaller.
 pub fn two_digits(value: f64) -> String {
     rounded(value, 2)
 }
 
-/// `value` with so many significant digits, without zeros at the end.
+/// Formats `value` with so many significant digits, without trailing zeros.
 pub(super) fn rounded(value: f64, digits: usize) -> String {
     let shown = format!("{value:.*e}", digits.saturating_sub(1)).parse().unwrap_or(value);
     significant_to(shown, digits.max(SIGNIFICANT))
 }
 
-/// An error with one digit, not below what it is.
+/// Formats an error with one digit, rounded up.
 fn rounded_up(error: f64) -> String {
     let unit = libm::pow(10.0, f64::from(exponent(error)));
     rounded((error / unit).ceil() * unit, 1)
 }
 
-/// The decimal places of a number with this error, which may be negative.
+/// Returns the number of decimal places of a number with this error, which may be negative.
 fn decimals(error: f64) -> i32 {
     decimals_of(error, if format!("{error:.1e}").starts_with('1') { 2 } else { 1 })
 }
 
-/// The decimal places of a number with so many digits of its error.
+/// Returns the number of decimal places of a number with so many digits of its error.
 fn decimals_of(error: f64, digits: i32) -> i32 {
     digits - 1 - exponent(format!("{error:.1e}").parse().unwrap_or(error))
 }
@@ -148,7 +149,7 @@ pub(super) fn exponent(value: f64) -> i32 {
     text.split_once('e').and_then(|(_, exponent)| exponent.parse().ok()).unwrap_or(0)
 }
 
-/// `value` with so many decimal places; a zero is `0`, and what is small has a power of ten.
+/// Formats `value` with so many decimal places; a zero is `0`, and a small number has a power of ten.
 fn at(value: f64, decimals: i32) -> String {
     let scale = 10_f64.powi(decimals.abs());
     if decimals < 0 {
@@ -247,7 +248,7 @@ mod tests {
     }
 
     proptest::proptest! {
-        /// What is written is within half of the last place of what is meant, and never shows a place beyond the error.
+        /// The text is within half of the last place of the value, and never shows a place beyond the error.
         #[test]
         fn what_is_written_is_what_is_meant(estimate in -10.0..10.0, power in -9.0..0.5_f64) {
             let half = libm::pow(10.0, power);

@@ -1,8 +1,8 @@
-//! Units as they are printed: `µm` and `J/m²` for what is typed as `um` and `J/m2`.
+//! Units as printed: `µm` and `J/m²` for the typed `um` and `J/m2`.
 
 use apportion::quantity::Unit;
 
-/// A unit with its letters and powers as in print: `um` is `µm`, `J/m2` and `J/m^2` are `J/m²`. What is no unit stays.
+/// Formats a unit with its printed letters and powers: `um` is `µm`, `J/m2` and `J/m^2` are `J/m²`. Other text is kept.
 ///
 /// ```
 /// use apportion_report::format::unit;
@@ -29,7 +29,7 @@ pub fn unit(text: &str) -> String {
     printed
 }
 
-/// A symbol with a true micro sign, if `u` is its prefix.
+/// Returns a symbol with a true micro sign, if `u` is its prefix.
 fn symbol(text: &str) -> String {
     match text.strip_prefix('u').filter(|bare| !bare.is_empty() && Unit::known(bare).is_some()) {
         Some(bare) => format!("µ{bare}"),
@@ -43,7 +43,7 @@ fn symbol(text: &str) -> String {
     }
 }
 
-/// The power that `text` begins with, raised, and what follows.
+/// Splits off the power that `text` begins with, raised, and returns the rest with it.
 fn power(text: &str) -> (String, &str) {
     const RAISED: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
     let typed = text.strip_prefix("**").or(text.strip_prefix('^')).unwrap_or(text);

@@ -7,8 +7,8 @@ use crate::chart::{Chart, Colour, Series};
 use crate::factor_bars::{INDEX, INDICES, MAX_BARS, index_panel, not_drawn};
 use crate::leading::{Contender, leader};
 
-/// The indices of one output as parts of its variance, one bar per input and method, with their intervals; the input of
-/// the largest index on top, of the largest total index where there are any.
+/// Draws the indices of one output as parts of its variance, one bar per input and method, with their intervals; the
+/// input of the largest index on top, of the largest total index if there are any.
 pub fn given_chart(result: &GivenFile, output: &GivenOutputRecord) -> Chart {
     let indices = output.indices.as_deref().unwrap_or_default();
     let ranks: Vec<_> = indices.iter().map(|index| index.rank).collect();
@@ -35,7 +35,7 @@ pub fn given_chart(result: &GivenFile, output: &GivenOutputRecord) -> Chart {
     Chart::new(format!("{title} of {}", output.name), caption(result, output) + &beyond).panels([panel])
 }
 
-/// Which input alone explains most.
+/// Says which input explains most by itself.
 fn caption(result: &GivenFile, output: &GivenOutputRecord) -> String {
     let contender = |(number, index): (usize, &InputIndices)| {
         let by_surrogate = output.served().map(|of| of.indices[number].first_order);

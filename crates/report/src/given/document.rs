@@ -10,7 +10,7 @@ use super::{GivenFile, GivenOutputRecord, given_chart, measures, sentences};
 use crate::document::{Document, OutputReport, Part, Report, Section, Table, Value};
 use crate::format::{index, significant};
 
-/// The document of a result from given data, whose files begin with `name`.
+/// Builds the document of a result from given data, whose files begin with `name`.
 pub fn given_document(result: &GivenFile, name: &str) -> Document {
     let outputs = result.outputs.iter().map(|output| {
         let chart = given_chart(result, output);
@@ -32,7 +32,7 @@ pub fn given_document(result: &GivenFile, name: &str) -> Document {
     rows.extend(provenance.estimators.iter().map(|estimator| ("estimator", estimator.clone())));
     rows.extend(provenance.interval.iter().map(|interval| ("intervals", interval.clone())));
     rows.extend([("seed", provenance.seed.to_string()), ("table, SHA-256", format!("`{}`", table.sha256))]);
-    // Without any index the file has a header still.
+    // Without any index the file still has a header.
     let has_none = result.outputs.iter().all(|output| output.indices.is_none());
     Report {
         name: name.to_owned(),
@@ -56,7 +56,7 @@ pub fn given_document(result: &GivenFile, name: &str) -> Document {
     .document()
 }
 
-/// Which columns are not among the inputs although they were not left out.
+/// Lists the columns that are not inputs although they were not excluded.
 fn not_read(result: &GivenFile) -> Option<String> {
     let left_out = &result.table.columns_left_out;
     let names: Vec<String> = left_out.iter().map(|column| format!("`{}`", column.name)).collect();
@@ -69,7 +69,7 @@ fn not_read(result: &GivenFile) -> Option<String> {
     })
 }
 
-/// What is said of an output besides its chart.
+/// Describes an output in addition to its chart.
 fn output_parts(output: &GivenOutputRecord, table: Table) -> Vec<Part> {
     let mut parts: Vec<Part> = output.distribution.iter().map(|of| Part::Text(moments(of))).collect();
     if let Some(reason) = &output.reason {
@@ -84,12 +84,12 @@ fn output_parts(output: &GivenOutputRecord, table: Table) -> Vec<Part> {
     parts
 }
 
-/// The name of a file without its folder.
+/// Returns the name of a file without its folder.
 fn file_name(file: &str) -> String {
     Path::new(file).file_name().map_or_else(|| file.to_owned(), |name| name.to_string_lossy().into_owned())
 }
 
-/// Mean and standard deviation of an output in words.
+/// Describes mean and standard deviation of an output.
 fn moments(distribution: &OutputDistribution) -> String {
     match distribution.sd {
         Some(sd) => format!("Mean {}, standard deviation {}.", significant(distribution.mean), significant(sd)),
@@ -97,7 +97,7 @@ fn moments(distribution: &OutputDistribution) -> String {
     }
 }
 
-/// Three digits of a number without an error.
+/// Formats three digits of a number without an error.
 fn three(estimate: f64) -> String {
     index(Estimate::alone(estimate))
 }
@@ -116,7 +116,7 @@ fn index_table(result: &GivenFile, output: &GivenOutputRecord) -> Table {
         }
         None => first_order.to_owned(),
     };
-    // The sum is that of the leading estimates, by ranks where there are any.
+    // The sum is that of the leading estimates, by ranks if there are any.
     let sum = |is_leading: bool| output.sum_first_order.filter(|_| is_leading).map_or_else(String::new, three);
     let said = |estimate: Option<Estimate>| estimate.map_or_else(String::new, index);
     let indices = output.indices.iter().flatten().enumerate();
@@ -150,7 +150,7 @@ fn index_table(result: &GivenFile, output: &GivenOutputRecord) -> Table {
         .into()
 }
 
-/// What was read.
+/// Describes the table that was read.
 fn table_parts(result: &GivenFile) -> Vec<Part> {
     let table = &result.table;
     let mut text = format!("{}: {} rows, {} inputs.", table.file, table.rows, result.inputs.len());

@@ -1,4 +1,4 @@
-//! Other measures of influence in the document of given data, and their tables for other documents.
+//! Other sensitivity measures in the document of given data, and their tables for other documents.
 
 use std::collections::BTreeMap;
 
@@ -9,7 +9,7 @@ use crate::document::{Part, Section, Table};
 use crate::format::{fixed, index as of_error};
 
 impl GivenFile {
-    /// The result with what `measures` found of each of its outputs.
+    /// Adds `measures` to each output of the result.
     #[must_use]
     pub fn with_measures(mut self, measures: &[Result<Vec<InputMeasures>, NoVariance>]) -> Self {
         for (output, measures) in self.outputs.iter_mut().zip(measures) {
@@ -19,7 +19,7 @@ impl GivenFile {
     }
 }
 
-/// The section of the measures of all outputs; `None` if there are none.
+/// Builds the section of the measures of all outputs; `None` if there are none.
 pub(super) fn section(result: &GivenFile, name: &str) -> Option<Section> {
     let mut parts = Vec::new();
     for output in &result.outputs {
@@ -32,13 +32,13 @@ pub(super) fn section(result: &GivenFile, name: &str) -> Option<Section> {
     (!parts.is_empty()).then(|| Section::new("measures", "Other measures", parts))
 }
 
-/// The input with the largest measure.
+/// Returns the input with the largest measure.
 fn first(inputs: &[InputMeasures], measure: Measure) -> Option<usize> {
     let value = |k: usize| inputs[k].get(measure).map_or(f64::NEG_INFINITY, |found| found.estimate.estimate);
     (0..inputs.len()).rev().max_by(|&a, &b| value(a).total_cmp(&value(b)))
 }
 
-/// Whether the measures agree on the input that matters most, and which inputs none of them tells from chance.
+/// Says whether the measures agree on the most important input, and which inputs no measure distinguishes from chance.
 pub(crate) fn agreement(output: &str, inputs: &[InputMeasures], measures: &[Measure]) -> String {
     let mut leading: BTreeMap<usize, Vec<&str>> = BTreeMap::new();
     let is_known = |measure: &&Measure| inputs.iter().any(|of| of.get(**measure).is_some());
@@ -68,7 +68,7 @@ pub(crate) fn agreement(output: &str, inputs: &[InputMeasures], measures: &[Meas
     text
 }
 
-/// The `measures` of an output, a row for each input or factor, as `what` says.
+/// Tabulates the `measures` of an output, a row for each input or factor, named by `what`.
 pub(crate) fn table(output: &str, (what, inputs): (&'static str, &[InputMeasures]), measures: &[Measure]) -> Table {
     let has = |measure| measures.contains(&measure);
     let chance = match (measures == [Measure::Hsic], has(Measure::Hsic)) {

@@ -25,14 +25,14 @@ pub struct GivenFile {
     pub inputs: Vec<GivenInputRecord>,
     /// Dependence between the inputs; `null` with fewer than two that vary.
     pub dependence: Option<Dependence>,
-    /// How surrogates were fitted; `null` if they were not asked for.
+    /// How surrogates were fitted; `null` if they were not requested.
     #[serde(default)]
     pub surrogate: Option<GivenSurrogateRecord>,
     /// The outputs.
     pub outputs: Vec<GivenOutputRecord>,
-    /// What a careful reader should know of this table, in sentences.
+    /// Warnings on this table, in sentences.
     pub warnings: Vec<String>,
-    /// What indices from given data cannot say, in sentences.
+    /// What indices from given data cannot show, in sentences.
     pub notes: Vec<String>,
 }
 
@@ -43,9 +43,9 @@ pub struct GivenProvenance {
     pub apportion_version: String,
     /// Seed of the order of ties in the intervals of the rank estimator.
     pub seed: u64,
-    /// What the estimates are.
+    /// The estimators.
     pub estimators: Vec<String>,
-    /// What the intervals are; `null` if there are none.
+    /// The method of the intervals; `null` if there are none.
     pub interval: Option<String>,
 }
 
@@ -64,15 +64,15 @@ pub struct TableRecord {
     pub first_dropped_line: Option<u64>,
     /// `"independent"`, `"too-even"` or `"grid"`.
     pub points: String,
-    /// Why the rows are not taken for independent draws, if they are not.
+    /// Why the rows are not considered independent draws, if so.
     pub points_reason: Option<String>,
-    /// Columns that are no inputs because they hold text.
+    /// Columns that are not inputs because they hold text.
     #[serde(default)]
     pub columns_left_out: Vec<TextColumn>,
 }
 
 impl GivenFile {
-    /// The result of a table in which these columns hold text: it says so first.
+    /// Adds a note that these columns of the table hold text, as the first one.
     #[must_use]
     pub fn without(mut self, columns: &[TextColumn]) -> Self {
         self.table.columns_left_out = columns.to_vec();
@@ -81,7 +81,7 @@ impl GivenFile {
     }
 }
 
-/// An input: indices hold for its values in the table, between these bounds.
+/// An input: indices are valid for its values in the table, between these bounds.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct GivenInputRecord {
     /// Its name.
@@ -103,20 +103,20 @@ pub struct GivenOutputRecord {
     pub indices: Option<Vec<InputIndices>>,
     /// Sum of the leading estimates (by ranks if there are any, else by bins) over the inputs.
     pub sum_first_order: Option<f64>,
-    /// Indices by surrogates; `null` if they were not asked for, or there are none.
+    /// Indices by surrogates; `null` if they were not requested, or there are none.
     #[serde(default)]
     pub surrogate: Option<SurrogateOutput>,
-    /// Other measures, one entry per input; `null` if they were not asked for, or there are none.
+    /// Other measures, one entry per input; `null` if they were not requested, or there are none.
     #[serde(default)]
     pub measures: Option<Vec<InputMeasures>>,
     /// Why there are no indices.
     pub reason: Option<String>,
-    /// What a careful reader should know, in sentences.
+    /// Warnings, in sentences.
     pub warnings: Vec<String>,
 }
 
 impl GivenOutputRecord {
-    /// The indices by surrogates that are to be read.
+    /// Returns the indices by surrogates that are valid.
     pub(super) fn served(&self) -> Option<&SurrogateOutput> {
         self.surrogate.as_ref().filter(|surrogate| surrogate.serves)
     }
@@ -136,7 +136,7 @@ pub struct GivenSurrogateRecord {
     pub folds: Option<u64>,
     /// `"columns"`: those of the columns; `"given"`: those of a study. `null` without surrogates.
     pub distributions: Option<String>,
-    /// Share of the variance that a surrogate must explain to serve.
+    /// Share of the variance that a surrogate must explain to be used.
     pub least_explained: f64,
 }
 
@@ -151,7 +151,7 @@ fn surrogate_record(result: &SurrogateResult) -> GivenSurrogateRecord {
     }
 }
 
-/// What the result says besides the indices.
+/// Facts for the result besides the indices.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct GivenFacts {
     /// The table's file, as named by the user.
@@ -164,7 +164,7 @@ pub struct GivenFacts {
     pub seed: u64,
 }
 
-/// The result file for `indices` of the columns they were estimated from, and what `surrogates` say of them if asked for.
+/// Builds the result file for `indices` of the columns they were estimated from, and the `surrogates` if requested.
 pub fn build_given(
     indices: &GivenIndices,
     surrogates: Option<&SurrogateResult>,
@@ -207,7 +207,7 @@ pub fn build_given(
     }
 }
 
-/// A sentence on the unlikely value of a column, if it has one.
+/// Returns a sentence on the unlikely value of a column, if it has one.
 fn unlikely(column: &Column) -> Option<String> {
     Unlikely::find(&column.values).map(|found| format!("{}: {}", column.name, found.in_table(found.first + 1)))
 }

@@ -1,4 +1,4 @@
-//! What a result from given data says in sentences.
+//! The sentences of a result from given data.
 
 use apportion::given::{GivenIndices, MIN_EXPLAINED, OutputIndices, PointSet, SurrogateOutput, bins_for};
 
@@ -42,7 +42,7 @@ pub(super) fn interval(indices: &GivenIndices, by_surrogate: bool) -> Option<Str
     (!parts.is_empty()).then(|| parts.join("; "))
 }
 
-/// What holds of all indices from given data.
+/// Returns the notes that hold for all indices from given data.
 pub(super) fn notes(by_surrogate: bool) -> Vec<String> {
     let orders = if by_surrogate {
         "by ranks and bins, given data yield first-order indices only; those by the surrogate, with the total indices, lack a \
@@ -62,11 +62,11 @@ pub(super) fn notes(by_surrogate: bool) -> Vec<String> {
     .to_vec()
 }
 
-/// Fewer rows than this make bins too wide for a function of a few periods: at 100 rows the 95 % intervals by bins held in
-/// 89 % of the cases for the Ishigami function, at 300 in 94 %.
+/// Minimum number of rows for bins: fewer make them too wide for a function of a few periods. At 100 rows the 95 %
+/// intervals by bins covered the exact value in 89 % of the cases for the Ishigami function, at 300 in 94 %.
 const MIN_ROWS_FOR_BINS: usize = 300;
 
-/// What a careful reader should know of the table.
+/// Returns the warnings on the table.
 pub(super) fn warnings(
     indices: &GivenIndices,
     surrogates: Option<&SurrogateResult>,
@@ -145,15 +145,15 @@ pub(super) fn output_warnings(output: &OutputIndices, surrogate: Option<&Surroga
     warnings
 }
 
-/// A share in percent.
+/// Formats a share in percent.
 pub(super) fn percent(share: f64) -> String {
     if share > 0.0 && share < 0.01 { "less than 1 %".to_owned() } else { format!("{} %", fixed(100.0 * share, 0)) }
 }
 
-/// Shares of the variance below this are not reported.
+/// Share of the variance below which a share is not reported.
 pub(super) const VISIBLE: f64 = 5e-4;
 
-/// What the surrogate of an output that serves did.
+/// Describes the surrogate of an output that is used.
 pub(super) fn of_surrogate(explained: f64, unknown: f64, terms: f64, polynomials_of: &str) -> String {
     let left = match unknown >= VISIBLE {
         true => format!(

@@ -1,12 +1,12 @@
-//! A factor of categories on an axis: its labels, and the places of its values.
+//! A factor of categories on an axis: its labels, and the positions of its values.
 
 use apportion::result::FactorRecord;
 use serde_json::Value;
 
-/// More categories than this are drawn by their numbers: their labels would be no longer than a letter.
+/// Maximum number of categories with labels; more are drawn by number, since their labels would be only a letter long.
 const MAX_CATEGORIES: usize = 12;
 
-/// The labels of a factor, and the numbers that stand for them in the result.
+/// The labels of a factor, and the numbers that represent them in the result.
 pub(super) struct Categories {
     /// In the order of the study.
     pub labels: Vec<String>,
@@ -14,7 +14,7 @@ pub(super) struct Categories {
 }
 
 impl Categories {
-    /// The categories of a factor that has a few.
+    /// Returns the categories of a factor that has few.
     pub fn new(factor: &FactorRecord) -> Option<Self> {
         let parameter = |key: &str| factor.distribution.get(key);
         let list = |key: &str| parameter(key).and_then(Value::as_array);
@@ -30,7 +30,7 @@ impl Categories {
         few.then_some(Self { labels, values })
     }
 
-    /// The place of a value; one that is none has no place.
+    /// Returns the position of a value; NaN for one that is not a category.
     pub fn place(&self, value: f64) -> f64 {
         self.values.iter().position(|other| *other == value).map_or(f64::NAN, |place| place as f64)
     }

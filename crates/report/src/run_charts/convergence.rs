@@ -1,4 +1,4 @@
-//! How the indices changed as the run grew.
+//! The convergence of the indices during the run.
 
 use apportion::result::{OutputResult, PlainIndexRecord, StageRecord, StudyResult};
 
@@ -11,8 +11,8 @@ use super::super::leading::by_total;
 /// Factors with a line of their own.
 const LINES: usize = 8;
 
-/// How the total indices and the half widths of their intervals changed with the number of model runs, for the factors with
-/// the largest total indices (at most eight). With a target, its line stands among the half widths.
+/// Draws the total indices and the half widths of their intervals against the number of model runs, for the factors
+/// with the largest total indices (at most eight). A target is drawn as a line among the half widths.
 pub fn convergence_chart(result: &StudyResult, output: &OutputResult) -> Chart {
     let factors: Vec<usize> =
         by_total(output).unwrap_or_default().into_iter().map(|(factor, _)| factor).take(LINES).collect();
@@ -30,14 +30,14 @@ pub fn convergence_chart(result: &StudyResult, output: &OutputResult) -> Chart {
     Chart::new(title, caption(result, output)).panels([totals, widths.with(references.into_iter().flatten())])
 }
 
-/// The series of the factor that stands at `place` among the drawn ones.
+/// Returns the series of the factor at `place` among the drawn ones.
 fn series(stages: &[StageRecord], place: usize, factor: usize) -> Series {
     let index = stages.first().and_then(|stage| stage.indices.get(factor));
     let name = index.map_or_else(String::new, |index| self::name(&index.factor));
     Series::new(name, Colour::Series(place)).stroke(Stroke::SolidWithPoints)
 }
 
-/// Runs and index of `factor` at every stage.
+/// Iterates over the number of runs and the index of `factor` at every stage.
 fn steps(stages: &[StageRecord], factor: usize) -> impl Iterator<Item = (f64, &PlainIndexRecord)> {
     stages.iter().filter_map(move |stage| Some((stage.model_runs as f64, stage.indices.get(factor)?)))
 }
@@ -65,7 +65,7 @@ fn target_line(stages: &[StageRecord], target: f64) -> Mark {
     Series::new("target", Colour::Reference).line(points.collect())
 }
 
-/// How well the indices are known at the end.
+/// States the precision of the indices at the end.
 fn caption(result: &StudyResult, output: &OutputResult) -> String {
     let known = match (output.convergence.last(), widest_of(output)) {
         (Some(last), Some(width)) => format!("After {} model runs: ± {}.", grouped(last.model_runs), two_digits(width)),

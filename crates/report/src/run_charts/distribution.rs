@@ -1,4 +1,4 @@
-//! How an output is distributed.
+//! The distribution of an output.
 
 use apportion::result::{OutputResult, StudyResult};
 
@@ -6,7 +6,7 @@ use super::super::chart::{Axis, Chart, Panel};
 use super::super::format::{grouped, name, words};
 use super::super::histogram_chart;
 
-/// The distribution of an output; without values, the reason.
+/// Draws the distribution of an output; without values, the reason.
 pub fn distribution_chart(result: &StudyResult, output: &OutputResult) -> Chart {
     let title = format!("{}: distribution of {}", result.study.headline(), name(&output.name));
     let output_words = words(&output.name);

@@ -1,4 +1,4 @@
-//! The indices themselves: first order with total.
+//! The indices: first order with total.
 
 use apportion::result::{IndexRecord, OutputResult, StudyResult};
 
@@ -7,8 +7,8 @@ use super::super::factor_bars::{INDEX, INDICES, MAX_BARS, both_orders, index_pan
 use super::super::format::name;
 use super::super::leading::leader_of;
 
-/// First-order and total index of every factor, as parts of the output's variance, with their intervals; the largest total
-/// index on top. Of more than 20 factors, the first 20.
+/// Draws the first-order and total index of every factor, as parts of the output's variance, with their intervals; the
+/// largest total index on top. Of more than 20 factors, the first 20.
 pub fn indices_chart(result: &StudyResult, output: &OutputResult) -> Chart {
     let indices: Vec<&IndexRecord> = output.indices.iter().flatten().collect();
     let names = indices.iter().map(|index| name(&index.factor));

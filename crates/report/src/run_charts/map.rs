@@ -1,4 +1,4 @@
-//! Many outputs at a glance: a map of factors and outputs, and the bars of all outputs together.
+//! Overview of many outputs: a map of factors and outputs, and the bars of all outputs together.
 
 use apportion::result::{IndexRecord, PlainIndexRecord, StudyResult};
 use apportion::uncertainty::Estimate;
@@ -7,15 +7,15 @@ use super::super::chart::{Axis, Chart, Colour, Panel, Series, Shape, Tile};
 use super::super::factor_bars::{MAX_BARS, not_drawn, pair_panel};
 use super::super::format::{fixed, index, name};
 
-/// Outputs of a map: of more, some are left out evenly.
+/// Maximum number of outputs of a map; of more, an even selection is drawn.
 const ROWS: usize = 40;
-/// Factors of a map.
+/// Maximum number of factors of a map.
 const COLUMNS: usize = 12;
-/// Where the classes of shades begin; what is below the first is next to nothing.
+/// Lower limits of the classes of shades; an index below the first is negligible.
 const CLASSES: [f64; 8] = [0.01, 0.05, 0.1, 0.2, 0.3, 0.5, 0.7, 0.9];
 
-/// Total and first-order indices of factors for every output, as shades: a row for each output (of more than 40, for as many
-/// of them evenly), a column for each factor in the order of the total indices over all outputs (of more than 12, the first).
+/// Draws total and first-order indices of factors for every output, as shades: a row for each output (of more than 40,
+/// an even selection), a column for each factor in the order of the overall total indices (of more than 12, the first).
 pub(crate) fn map_chart(result: &StudyResult) -> Chart {
     let mut factors = overall_order(result);
     factors.truncate(COLUMNS);
@@ -40,7 +40,7 @@ pub(crate) fn map_chart(result: &StudyResult) -> Chart {
         let marks = tiles.into_iter().map(|(class, tile)| series(class).mark(Shape::Tile(tile)));
         Panel::new(x, y).titled(title).with(marks)
     };
-    // The total indices stand above: they say whether a factor matters at all.
+    // The total indices are above: they show whether a factor matters at all.
     let panels = [
         panel("Total indices S_T: with all interactions", |index| index.effect.total),
         panel("First-order indices S_1: alone", |index| index.effect.first_order),
@@ -50,8 +50,8 @@ pub(crate) fn map_chart(result: &StudyResult) -> Chart {
     Chart::new(format!("{}: all outputs at a glance", result.study.headline()), caption).panels(panels)
 }
 
-/// The places of the factors by falling total index over all outputs together, or by their sum where there is none: the
-/// order of everything that is shown of many outputs.
+/// Returns the positions of the factors by falling total index over all outputs together, or by their sum if there is
+/// none: the order of all tables and charts of many outputs.
 pub(crate) fn overall_order(result: &StudyResult) -> Vec<usize> {
     let together = result.aggregate.as_ref().and_then(|aggregate| aggregate.indices.as_deref()).unwrap_or_default();
     let known = result.outputs.iter().filter_map(|output| output.indices.as_ref());
@@ -70,7 +70,7 @@ pub(super) fn class(index: f64) -> usize {
     CLASSES.iter().filter(|least| index >= **least).count()
 }
 
-/// The series of a class; `None` where there is no index.
+/// Returns the series of a class; `None` means that there is no index.
 pub(super) fn series(class: Option<usize>) -> Series {
     let Some(class) = class else { return Series::new("no indices", Colour::Series(10)) };
     let name = match class {
@@ -81,7 +81,7 @@ pub(super) fn series(class: Option<usize>) -> Series {
     Series::new(name, Colour::Shade(class))
 }
 
-/// An index in a cell: `.34`.
+/// Formats an index in a cell: `.34`.
 pub(super) fn short(index: f64) -> String {
     let text = fixed(index, 2);
     match text.strip_prefix("0.") {
@@ -91,8 +91,8 @@ pub(super) fn short(index: f64) -> String {
     }
 }
 
-/// First-order and total indices of all outputs together, the largest total index on top; of more than 20 factors, the
-/// first 20.
+/// Draws first-order and total indices of all outputs together, the largest total index on top; of more than 20
+/// factors, the first 20.
 pub(crate) fn together_chart(result: &StudyResult) -> Chart {
     let indices = result.aggregate.as_ref().and_then(|aggregate| aggregate.indices.as_deref()).unwrap_or_default();
     let factors: Vec<String> = result.factors.iter().map(|factor| name(&factor.name)).collect();

@@ -1,5 +1,5 @@
-//! Charts of a run besides that of the shares, all from the result alone: the indices, also two by two, the output
-//! over its factors, how it is distributed, how the indices converged, and many outputs or a series at a glance.
+//! Charts of a run in addition to that of the shares, all from the result alone: the indices, also of pairs, the output
+//! against its factors, its distribution, the convergence of the indices, and an overview of many outputs or a series.
 
 mod categories;
 mod convergence;

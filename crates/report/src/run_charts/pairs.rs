@@ -1,4 +1,4 @@
-//! What factors do two by two: second-order indices as a map.
+//! Interactions of pairs of factors: second-order indices as a map.
 
 use apportion::result::{OutputResult, StudyResult};
 use apportion::uncertainty::Estimate;
@@ -9,13 +9,13 @@ use super::super::format::{index, name};
 use super::super::leading::{by_total, surely_interact};
 use super::map::{class, series, short};
 
-/// Most factors: of more, the figures would not fit into the cells of a phone.
+/// Maximum number of factors: with more, the figures would not fit into the cells on a phone.
 const MAX_PAIRS: usize = 15;
 /// The lightest shade.
 const NOTHING: &str = "below 0.01, or may be 0";
 
-/// Second-order indices of every two factors as shades and figures, with the first-order indices on the diagonal; the factor with
-/// the largest total index is the first. Of more than 15 factors, the first 15.
+/// Draws second-order indices of all pairs of factors as shades and figures, with the first-order indices on the
+/// diagonal; the factor with the largest total index is the first. Of more than 15 factors, the first 15.
 pub fn pairs_chart(result: &StudyResult, output: &OutputResult) -> Chart {
     let title = format!("{}: what acts on {} two by two", result.study.headline(), name(&output.name));
     let order = by_total(output).unwrap_or_default();
@@ -53,7 +53,7 @@ pub fn pairs_chart(result: &StudyResult, output: &OutputResult) -> Chart {
     Chart::new(title, caption).panels([Panel::new(columns, rows).with(marks)])
 }
 
-/// The second-order index of two factors in any order, and its place.
+/// Returns the second-order index of two factors in any order, and its position.
 fn pair(output: &OutputResult, [one, other]: [&str; 2]) -> Option<(usize, Estimate)> {
     let is_theirs = |[a, b]: &[String; 2]| (a == one && b == other) || (a == other && b == one);
     let (place, pair) = output.second_order.iter().flatten().enumerate().find(|(_, pair)| is_theirs(&pair.factors))?;

@@ -1,4 +1,4 @@
-//! The output over its most influential factors.
+//! The output against its most influential factors.
 
 use apportion::result::{FactorRecord, OutputResult, ScatterRecord, StudyResult};
 
@@ -8,10 +8,10 @@ use super::super::format::{axis_unit, name, words};
 use super::super::leading::no_indices;
 use super::categories::Categories;
 
-/// Where the median lies below this part of the largest value, a linear axis would press most points into its foot.
+/// Part of the largest value below which the median makes a linear axis unreadable: most points would be at its foot.
 const PRESSED: f64 = 0.02;
 
-/// The output against each of the factors with the largest total indices (at most six): some of the model runs as dots,
+/// Draws the output against each of the factors with the largest total indices (at most six): some model runs as dots,
 /// and the mean of the output over slices of the factor, with its standard error, as a line with a band.
 pub fn scatter_chart(result: &StudyResult, output: &OutputResult) -> Chart {
     let scatter = output.scatter.as_ref();
@@ -39,7 +39,7 @@ fn panels(result: &StudyResult, output: &OutputResult, scatter: &ScatterRecord, 
         let categories = record.and_then(Categories::new);
         let at = |x: f64| categories.as_ref().map_or(x, |categories| categories.place(x));
         let (x, stroke) = match &categories {
-            // Names have no unit, and there is nothing between two of them.
+            // Names have no unit, and nothing is drawn between two of them.
             Some(categories) => (Axis::from_names(words(name), categories.labels.clone()), Stroke::Points),
             None => {
                 let unit = record.map_or_else(String::new, |factor| axis_unit(&factor.unit));
@@ -59,7 +59,7 @@ fn panels(result: &StudyResult, output: &OutputResult, scatter: &ScatterRecord, 
     scatter.factors.iter().enumerate().map(panel).collect()
 }
 
-/// An index with two decimals and a true minus sign.
+/// Formats an index with two decimals and a true minus sign.
 fn two(index: f64) -> String {
     let text = format!("{index:.2}");
     if text == "-0.00" { "0.00".to_owned() } else { text.replace('-', "\u{2212}") }
@@ -72,7 +72,7 @@ fn factor_spacing(factor: &FactorRecord) -> Spacing {
     }
 }
 
-/// Logarithmic for positive values of which most would lie at the foot of a linear axis.
+/// Returns a logarithmic spacing for positive values of which most would be at the foot of a linear axis.
 fn spacing(scatter: &ScatterRecord) -> Spacing {
     let mut values: Vec<f64> = scatter.points.iter().filter_map(|point| point.last().copied()).collect();
     values.sort_by(f64::total_cmp);
@@ -83,7 +83,7 @@ fn spacing(scatter: &ScatterRecord) -> Spacing {
     if pressed { Spacing::Logarithmic } else { Spacing::Linear }
 }
 
-/// What the marks are, and which factors are left out.
+/// Describes the marks, and names the factors that are not drawn.
 fn caption(result: &StudyResult, scatter: &ScatterRecord) -> String {
     format!(
         "Dots: {} of the model runs; line: mean over a slice of the factor, with 1.96 standard errors to both sides. The more \

@@ -7,9 +7,9 @@ use super::super::chart::{Axis, Chart, Colour, Mark, Panel, Series};
 use super::super::factor_bars::{INDEX, not_drawn};
 use super::super::format::{axis_unit, name};
 
-/// Factors that have lines: those with the largest mean total index.
+/// Maximum number of factors with lines: those with the largest mean total index.
 const LINES: usize = 8;
-/// What is drawn of an index: intervals of values that hardly vary reach far.
+/// Range of an index that is drawn: intervals of values that hardly vary are long.
 const DRAWN: (f64, f64) = (-0.1, 1.1);
 
 /// A series with the results of its values.
@@ -22,12 +22,12 @@ pub(crate) struct SeriesOf<'a> {
 }
 
 impl<'a> SeriesOf<'a> {
-    /// Its values, in order.
+    /// Returns its values, in order.
     pub fn values(self) -> &'a [OutputResult] {
         &self.result.outputs[self.series.places()]
     }
 
-    /// The places of the factors by falling total index over the whole series, or summed over its values where there is none.
+    /// Returns the positions of the factors by falling total index over the series, or by the sum over its values.
     fn order(self) -> Vec<usize> {
         let total = |value: &OutputResult, factor: usize| {
             value.indices.as_ref().and_then(|all| all.get(factor)).map_or(0.0, |index| index.effect.total.estimate)
@@ -43,7 +43,7 @@ impl<'a> SeriesOf<'a> {
     }
 }
 
-/// Total and first-order index of every factor against the axis, with their intervals as bands.
+/// Draws total and first-order index of every factor against the axis, with their intervals as bands.
 pub(crate) fn along_chart(of: SeriesOf<'_>) -> Chart {
     let order = of.order();
     let positions = &of.series.positions;

@@ -1,4 +1,4 @@
-//! The charts of a run as figures, numbered through.
+//! The charts of a run as numbered figures.
 
 use apportion::model::MIN_OUTPUTS_TOGETHER;
 use apportion::result::{OutputResult, StudyResult};
@@ -13,12 +13,12 @@ use crate::{
 /// A chart of an output.
 #[derive(Clone, Copy)]
 pub(super) struct Kind {
-    /// What the names of its files end in.
+    /// Suffix of the names of its files.
     suffix: &'static str,
     /// Its anchor.
     name: &'static str,
     draw: fn(&StudyResult, &OutputResult) -> Chart,
-    /// What the file with its numbers ends in.
+    /// Suffix of the file with its numbers.
     data: &'static str,
 }
 
@@ -31,14 +31,14 @@ pub(super) const CONVERGENCE: Kind =
     Kind { suffix: "-convergence", name: "convergence", draw: convergence_chart, data: "-convergence.csv" };
 pub(super) const PAIRS: Kind = Kind { suffix: "-pairs", name: "pairs", draw: pairs_chart, data: "-second-order.csv" };
 
-/// What the names of the charts of a series end in: its indices along the axis, and those of the whole.
+/// Suffixes of the charts of a series: its indices along the axis, and those of the whole.
 pub(super) const SERIES_SUFFIXES: [&str; 2] = ["-along", "-together"];
 
-/// What the files of the charts begin with.
+/// Prefixes of the files of the charts.
 pub(super) struct Stems {
-    /// Of each output that belongs to no series, if they are few.
+    /// Of each output that is in no series, if they are few.
     single: Vec<String>,
-    /// Of each series, with its endings.
+    /// Of each series, with its suffixes.
     pub series: Vec<[String; SERIES_SUFFIXES.len()]>,
 }
 
@@ -47,7 +47,7 @@ impl Stems {
         let is_single = |place: usize| !result.series.iter().any(|series| series.places().contains(&place));
         let single = result.outputs.iter().enumerate().filter(|(place, _)| is_single(*place));
         let mut names: Vec<&str> = single.map(|(_, output)| output.name.as_str()).collect();
-        // Charts of all of many outputs together have names like those of an only series.
+        // Charts of many outputs together have the names of a single series.
         let is_many = names.len() >= MIN_OUTPUTS_TOGETHER;
         if is_many {
             names = vec!["outputs"];
@@ -62,14 +62,14 @@ impl Stems {
     }
 }
 
-/// Draws the figures of one output after the other.
+/// Draws the figures of the outputs in turn.
 pub(super) struct Figures<'a> {
     pub result: &'a StudyResult,
-    /// Of the files of each output.
+    /// File names of each output.
     stems: Vec<String>,
-    /// What the anchors of its figures begin with.
+    /// Prefix of the anchors of its figures.
     prefix: String,
-    /// Figures so far, with those before.
+    /// Number of figures so far, including the earlier ones.
     count: usize,
 }
 
@@ -81,35 +81,35 @@ pub(super) struct Numbered<'a> {
 }
 
 impl Numbered<'_> {
-    /// Whether it is the first output: what holds for all is said there.
+    /// Returns whether it is the first output, where statements on all outputs are made.
     pub fn is_first(self) -> bool {
         self.number == 1
     }
 }
 
 impl<'a> Figures<'a> {
-    /// Of the outputs of `result`, behind so many figures.
+    /// Creates the figures of the outputs of `result`, after so many figures.
     pub fn new(result: &'a StudyResult, stems: Stems, before: usize) -> Self {
         Self { result, stems: stems.single, prefix: String::new(), count: before }
     }
 
-    /// Of the values of series number `number`, from 1.
+    /// Creates the figures of the values of series number `number`, from 1.
     pub fn of_series(result: &'a StudyResult, number: usize, before: usize) -> Self {
         Self { result, stems: Vec::new(), prefix: format!("series-{number}-"), count: before }
     }
 
-    /// Figures so far, with those before.
+    /// Returns the number of figures so far, including the earlier ones.
     pub fn count(&self) -> usize {
         self.count
     }
 
-    /// A figure of several outputs, with the anchor `name` and its files called `stem`.
+    /// Adds a figure of several outputs, with the anchor `name` and its files named `stem`.
     pub fn add(&mut self, chart: Chart, name: &str, stem: &str) -> Part {
         let data = format!("{}.csv", self.result.study.name);
         self.numbered(chart, name, (stem, data)).into()
     }
 
-    /// The figure of that kind of an output.
+    /// Draws the figure of that kind of an output.
     pub fn draw(&mut self, of: Numbered<'_>, Kind { suffix, name, draw, data }: Kind) -> Part {
         let stem = self.stems.get(of.number - 1).map_or_else(String::new, |stem| format!("{stem}{suffix}"));
         let data = if data.is_empty() { String::new() } else { format!("{}{data}", self.result.study.name) };

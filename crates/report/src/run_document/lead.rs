@@ -1,4 +1,4 @@
-//! What a hurried reader should take along: which factor matters most, how sure that is, and what is warned of.
+//! The summary: which factor matters most, with which certainty, and the warnings.
 
 use apportion::model::MIN_OUTPUTS_TOGETHER;
 use apportion::result::{OutputResult, StudyResult};
@@ -12,7 +12,7 @@ use crate::interval_widths::{WIDE, indices_measured, widest_interval};
 use crate::leading::{Contender, Verdict, by_total, first_answers, leader_of};
 use crate::validity;
 
-/// The paragraphs at the top of the page: on every series, then on the `single` outputs, which belong to none.
+/// Returns the paragraphs at the top of the page: on every series, then on the `single` outputs outside series.
 pub(super) fn lead(result: &StudyResult, single: &StudyResult) -> Vec<String> {
     let series = result.series.iter().map(|series| super::series::answer(result, series));
     let mut lead = first_answers(series.collect());
@@ -33,7 +33,7 @@ pub(super) fn lead(result: &StudyResult, single: &StudyResult) -> Vec<String> {
     lead
 }
 
-/// Which factor matters most for an output, which come next, and how much is due to interactions.
+/// Says which factor matters most for an output, which ones follow, and how much is due to interactions.
 pub(super) fn answer(output: &OutputResult) -> String {
     let order = by_total(output).unwrap_or_default();
     let contenders: Vec<Contender> = order.iter().map(|(_, index)| Contender::from_index(index)).collect();
@@ -50,7 +50,7 @@ pub(super) fn answer(output: &OutputResult) -> String {
     sentences.into_iter().flatten().collect::<Vec<_>>().join(" ")
 }
 
-/// What the first-order indices sum to, and how much of the variance is surely interaction.
+/// States the sum of the first-order indices, and the least share of the variance that is interaction.
 pub(super) fn interactions(output: &OutputResult) -> Option<String> {
     let sum = output.sum_first_order?;
     let rest = complement(sum);
@@ -61,7 +61,7 @@ pub(super) fn interactions(output: &OutputResult) -> Option<String> {
     Some(format!("The first-order indices sum to {}{interaction}.", index(sum)))
 }
 
-/// How well the indices are known, after how many runs.
+/// States the precision of the indices, and the number of runs.
 fn settled(result: &StudyResult) -> String {
     let runs = grouped(result.provenance.model_runs);
     let target = match result.stopping.as_ref().and_then(|stopping| stopping.target_met) {

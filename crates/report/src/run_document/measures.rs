@@ -1,4 +1,4 @@
-//! Other measures than Sobol' indices, of the first rows A and B.
+//! Other measures than Sobol' indices, from the rows of A and B.
 
 use apportion::given::Measure;
 use apportion::result::{OutputResult, RunMeasures, StudyResult};
@@ -8,7 +8,7 @@ use crate::document::{Part, Table, csv};
 use crate::format::grouped;
 use crate::given::{agreement, measures_table};
 
-/// What they say, and a row for each factor.
+/// Describes the measures, with a row for each factor.
 pub(super) fn measures(output: &OutputResult) -> Vec<Part> {
     let Some(record) = &output.measures else { return Vec::new() };
     let wanted = wanted([record]);
@@ -20,7 +20,7 @@ pub(super) fn measures(output: &OutputResult) -> Vec<Part> {
     vec![Part::Text(text), table(output, record, &wanted).into()]
 }
 
-/// The measures that any of the records has.
+/// Returns the measures that any of the records has.
 fn wanted<'a>(records: impl IntoIterator<Item = &'a RunMeasures>) -> Vec<Measure> {
     let factors: Vec<_> = records.into_iter().flat_map(|record| &record.factors).collect();
     let is_there = |measure: &Measure| factors.iter().any(|of| of.measures.contains_key(measure));
@@ -33,7 +33,7 @@ fn table(output: &OutputResult, record: &RunMeasures, wanted: &[Measure]) -> Tab
     Table { printed, ..table }
 }
 
-/// Those of all outputs.
+/// Formats the measures of all outputs as CSV.
 pub(super) fn measures_csv(result: &StudyResult) -> String {
     let wanted = wanted(result.outputs.iter().filter_map(|output| output.measures.as_ref()));
     let tables = result.outputs.iter().filter_map(|output| Some(table(output, output.measures.as_ref()?, &wanted)));

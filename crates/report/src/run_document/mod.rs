@@ -1,4 +1,4 @@
-//! The document of one run: what came out, how sure that is, and how it was found.
+//! The document of one run: the result, its precision, and its method.
 
 mod figures;
 mod lead;
@@ -24,9 +24,9 @@ use super::document::{DataFile, Document, Mark, Part, Section, Table};
 use super::format::{grouped, name, significant};
 use super::study_sections::{study_section, validity_section};
 
-/// The document of a result. Everything in it comes from the result, so that it can be made again from the JSON file.
-/// With one output every topic is a section; with several every output is; with 12 or more there is an overview, and what
-/// is said of single outputs is folded. Series stand before all other outputs, with a section each.
+/// Builds the document of a result. All of it comes from the result, so that it can be rebuilt from the JSON file. With
+/// one output every topic is a section; with several every output is; with 12 or more there is an overview, and the
+/// parts on single outputs are folded. Series come before all other outputs, with a section each.
 ///
 /// # Example
 /// ```
@@ -84,7 +84,7 @@ pub fn run_document(result: &StudyResult) -> Document {
     document
 }
 
-/// The sections of a few outputs: of each one, then of all together.
+/// Builds the sections of a few outputs: one for each, then those of all together.
 fn of_outputs(figures: &mut Figures<'_>) -> Vec<Section> {
     let result = figures.result;
     let mut sections = Vec::new();
@@ -110,13 +110,13 @@ fn of_outputs(figures: &mut Figures<'_>) -> Vec<Section> {
     sections
 }
 
-/// The parts of all topics, each under its title.
+/// Joins the parts of all topics, each under its title.
 fn under_headings(topics: Vec<Topic>) -> Vec<Part> {
     let under = |Topic { title, parts, .. }: Topic| std::iter::once(Part::Heading(title.to_owned())).chain(parts);
     topics.into_iter().flat_map(under).collect()
 }
 
-/// The indices over all outputs together, or why there are none.
+/// Describes the indices over all outputs together, or why there are none.
 fn together(result: &StudyResult, aggregate: &AggregateRecord) -> Vec<Part> {
     let names: Vec<String> = aggregate.outputs.iter().map(|output| name(output)).collect();
     let mut parts = vec![Part::Text(format!("Of {}: {}.", listed(&names), aggregate.weighting))];
@@ -128,7 +128,7 @@ fn together(result: &StudyResult, aggregate: &AggregateRecord) -> Vec<Part> {
     parts
 }
 
-/// What the run took.
+/// Describes the cost of the run.
 fn cost(result: &StudyResult) -> Vec<Part> {
     let provenance = &result.provenance;
     let seconds = provenance.wall_seconds;
@@ -186,7 +186,7 @@ fn cost(result: &StudyResult) -> Vec<Part> {
     parts
 }
 
-/// What a run that was asked for an accuracy chose, why, and what it saved.
+/// Describes what a run with a target accuracy chose, why, and what it saved.
 fn chosen(result: &StudyResult, spending: &SpendingRecord) -> Vec<String> {
     let mut texts: Vec<String> = spending.reasons.iter().map(|reason| format!("{}.", capitalised(reason))).collect();
     let spent = grouped(spending.runs);
@@ -204,10 +204,10 @@ fn chosen(result: &StudyResult, spending: &SpendingRecord) -> Vec<String> {
     texts
 }
 
-/// The section of the document of a run that tells how to try other ranges.
+/// The anchor of the section on how to try other ranges.
 pub const TRY: &str = "try";
 
-/// How to try other ranges: of a study in a file, without others beside it, whose model computes in a page.
+/// Explains how to try other ranges: for a study in a single file, with a model that can be computed in a page.
 fn own_ranges(study: &StudyRecord) -> Option<Section> {
     let runs_elsewhere = ["command", "external", "custom"].contains(&&*study.model);
     let texts = || std::iter::once(&study.source).chain(&study.overrides);
@@ -224,7 +224,7 @@ fn own_ranges(study: &StudyRecord) -> Option<Section> {
     Some(Section::new(TRY, "Try your own ranges", vec![Part::OnPage(vec![Part::Text(text)])]))
 }
 
-/// How the answer came about.
+/// Describes how the result was computed.
 fn provenance(result: &StudyResult) -> Vec<Part> {
     let provenance = &result.provenance;
     let interval = provenance.interval.clone().unwrap_or_else(|| "none: a single replicate".to_owned());

@@ -1,4 +1,4 @@
-//! The noise of a stochastic model: what it is of a single run, and the indices of the mean over it.
+//! The noise of a stochastic model: its share in a single run, and the indices of the mean over it.
 
 use apportion::result::{IndexRecord, NoiseRecord, OutputResult};
 
@@ -8,13 +8,13 @@ use crate::document::{Part, Table};
 use crate::format::{name, percent};
 use crate::leading::by_total;
 
-/// How much of the variance of the output no factor explains, of a stochastic model.
+/// States the share of the variance of a stochastic model's output that no factor explains.
 pub(super) fn sentence(output: &OutputResult) -> Option<String> {
     let total = output.noise.as_ref()?.effect.total;
     Some(format!("Of the variance, {} is noise that no factor explains.", percent(total)))
 }
 
-/// What the noise of a stochastic model is, and which indices the mean over it has.
+/// Describes the noise of a stochastic model, and the indices of the mean over it.
 pub(super) fn noise(output: &OutputResult) -> Vec<Part> {
     let Some(noise) = &output.noise else { return Vec::new() };
     let mut text = sentence(output).unwrap_or_default();
@@ -29,7 +29,7 @@ pub(super) fn noise(output: &OutputResult) -> Vec<Part> {
     [Part::Text(text)].into_iter().chain(table).collect()
 }
 
-/// First-order indices of the values beside the indices of the mean over the noise.
+/// Tabulates the first-order indices of the values next to the indices of the mean over the noise.
 fn table(output: &OutputResult, noise: &NoiseRecord) -> Table {
     let order = by_total(output).unwrap_or_default();
     let of_mean = |index: &IndexRecord| noise.of_mean.iter().find(|of_mean| of_mean.name == index.factor);

@@ -1,4 +1,4 @@
-//! What the document says about one output, topic by topic.
+//! The topics of the document on one output.
 
 use apportion::result::{IndexRecord, OutputResult, SurrogateTrial};
 
@@ -13,14 +13,14 @@ use crate::format::{among_with_unit, count, grouped, minus, name, share_of_runs,
 use crate::interval_widths::{WIDE, indices_measured, widest_of};
 use crate::leading::no_indices;
 
-/// A topic: a section of its own where there is one output, a part of the output's section where there are several.
+/// A topic: a section if there is one output, a part of the output's section if there are several.
 pub(super) struct Topic {
     pub id: &'static str,
     pub title: &'static str,
     pub parts: Vec<Part>,
 }
 
-/// All topics of an output; those of which there is nothing to say are left out.
+/// Returns all topics of an output; empty ones are omitted.
 pub(super) fn topics(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Topic> {
     let (result, output) = (figures.result, of.output);
     let topic = |id, title, parts| Topic { id, title, parts };
@@ -44,7 +44,7 @@ pub(super) fn topics(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Topic> 
     topics
 }
 
-/// Why there are no indices, what the run warns of (of one of several outputs it is said before), and which runs failed.
+/// Says why there are no indices, lists the warnings (of a single output; else they come before) and the failed runs.
 fn mind(output: &OutputResult, is_only: bool) -> Vec<Part> {
     let mut parts = Vec::new();
     if output.indices.is_none() {
@@ -62,7 +62,7 @@ fn mind(output: &OutputResult, is_only: bool) -> Vec<Part> {
     parts
 }
 
-/// How well polynomials stand in for the model, what they gained, and what they consist of.
+/// Describes the accuracy of the surrogates, their benefit, and their terms.
 fn surrogate(output: &OutputResult) -> Vec<Part> {
     let Some(record) = &output.surrogate else {
         let declined = |trial: SurrogateTrial| {
@@ -169,7 +169,7 @@ fn distribution(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
     vec![Part::Text(range(of.output)), figures.draw(of, DISTRIBUTION), Part::OnPage(vec![table])]
 }
 
-/// Mean, standard deviation, and the range of most values.
+/// Describes mean, standard deviation, and the range of most values.
 fn range(output: &OutputResult) -> String {
     let sample = output.distribution.as_ref().map(|distribution| &distribution.sample);
     let spread = sample.map_or(0.0, |sample| sample.spread());

@@ -1,4 +1,4 @@
-//! What the document says of many outputs: an overview, and a table of every output.
+//! The document on many outputs: an overview, and a table of every output.
 
 use apportion::result::{OutputResult, StudyResult};
 use apportion::text::listed;
@@ -12,13 +12,13 @@ use crate::format::{name, or_dash, short, value};
 use crate::leading::{Contender, Verdict, by_total, leader_of_all, of_which};
 use crate::run_charts::{map_chart, overall_order, together_chart};
 
-/// Factors beside each output in the table of outputs, and outputs in it.
+/// Maximum numbers of factors and of outputs in the table of outputs.
 const COLUMNS: usize = 8;
 const OUTPUTS: usize = 200;
-/// Warnings that are shown.
+/// Maximum number of warnings that are shown.
 const WARNINGS: usize = 10;
 
-/// The sections of all outputs.
+/// Builds the sections of all outputs.
 pub(super) fn sections(figures: &mut Figures<'_>) -> Vec<Section> {
     let result = figures.result;
     let mut sections = vec![
@@ -45,23 +45,23 @@ fn overview(figures: &mut Figures<'_>) -> Vec<Part> {
     parts
 }
 
-/// The factor that surely matters most for an output; `None` where the errors leave it open.
+/// Returns the factor that matters most for an output with certainty; `None` if the errors leave it open.
 fn sure_leader(output: &OutputResult) -> Option<usize> {
     let order = by_total(output)?;
     let contenders: Vec<Contender> = order.iter().map(|(_, index)| Contender::from_index(index)).collect();
-    // Without intervals nothing is sure.
+    // Without intervals nothing is certain.
     let is_known = contenders.len() == 1 || contenders[0].total.interval.is_some();
     (is_known && matches!(Verdict::new(&contenders), Verdict::Leads(_))).then_some(order[0].0)
 }
 
-/// For how many outputs each factor surely matters most.
+/// Counts for how many outputs each factor matters most with certainty.
 fn leads(result: &StudyResult) -> Vec<usize> {
     let mut leads = vec![0; result.factors.len()];
     result.outputs.iter().filter_map(sure_leader).for_each(|factor| leads[factor] += 1);
     leads
 }
 
-/// What each factor does to all outputs.
+/// Tabulates the effect of each factor on all outputs.
 pub(super) fn factors(result: &StudyResult) -> Table {
     let leads = leads(result);
     let together = result.aggregate.as_ref().and_then(|aggregate| aggregate.indices.as_deref()).unwrap_or_default();
@@ -87,7 +87,7 @@ pub(super) fn factors(result: &StudyResult) -> Table {
         .into()
 }
 
-/// Which outputs have no indices, what the run warns of, and why runs failed.
+/// Lists the outputs without indices, the warnings, and why runs failed.
 pub(super) fn mind(result: &StudyResult) -> Vec<Part> {
     let mut parts: Vec<Part> = Vec::new();
     let without = |output: &OutputResult| output.indices.is_none();
@@ -107,7 +107,7 @@ pub(super) fn mind(result: &StudyResult) -> Vec<Part> {
     parts
 }
 
-/// Mean, standard deviation and total indices of every output, as far as a page has room.
+/// Tabulates mean, standard deviation and total indices of every output, as far as a page has room.
 pub(super) fn every_output(result: &StudyResult) -> Part {
     let mut factors = overall_order(result);
     factors.truncate(COLUMNS);
@@ -130,7 +130,7 @@ pub(super) fn every_output(result: &StudyResult) -> Part {
     Part::OnPage(vec![Part::Details { summary: "Every output".to_owned(), parts: vec![table.into()] }])
 }
 
-/// The paragraphs at the top: who leads, output by output and over all together.
+/// Returns the paragraphs at the top: the leading factors of each output and over all together.
 pub(super) fn answers(result: &StudyResult) -> Vec<String> {
     let leads = leads(result);
     let mut order: Vec<usize> = (0..leads.len()).filter(|&factor| leads[factor] > 0).collect();

@@ -1,4 +1,4 @@
-//! What the document says of a series: its indices along the axis and as a whole.
+//! The document on a series: its indices along the axis and as a whole.
 
 use apportion::result::{AggregateRecord, OutputResult, SeriesRecord, StudyResult};
 
@@ -10,13 +10,13 @@ use crate::format::{heading, name};
 use crate::leading::leader_of_all;
 use crate::run_charts::{SeriesOf, along_chart, together_chart};
 
-/// Series with all their charts and a table of their values.
+/// Number of series with all their charts and a table of their values.
 const IN_FULL: usize = 4;
 
-/// How values are weighed against each other.
+/// How values are weighted.
 const WEIGHTING: &str = "each value counts by its variance (Gamboa et al. 2014)";
 
-/// The values of `series` alone, as a result of its own.
+/// Returns the values of `series` alone, as a result of its own.
 fn values_alone(of: SeriesOf<'_>) -> StudyResult {
     let SeriesOf { result, series } = of;
     let outputs = of.values().to_vec();
@@ -30,15 +30,15 @@ fn values_alone(of: SeriesOf<'_>) -> StudyResult {
     with_outputs(result, outputs, Some(aggregate))
 }
 
-/// The outputs of `result` that belong to no series, as a result of its own.
+/// Returns the outputs of `result` that are in no series, as a result of its own.
 pub(super) fn single_outputs(result: &StudyResult) -> StudyResult {
     let single = |place: usize| !result.series.iter().any(|series| series.places().contains(&place));
     let outputs = result.outputs.iter().enumerate().filter(|(place, _)| single(*place));
     with_outputs(result, outputs.map(|(_, output)| output.clone()).collect(), result.aggregate.clone())
 }
 
-/// `result` as if the study had the output or the series of that name alone; without a name, or where there is none of it, the
-/// first one.
+/// Returns `result` as if the study had only the output or series of that name; without a name, or if it is missing,
+/// the first one.
 pub fn one_output(result: &StudyResult, name: Option<&str>) -> StudyResult {
     let series = |found: &dyn Fn(&SeriesRecord) -> bool| result.series.iter().find(|series| found(series));
     let place = name.and_then(|name| result.outputs.iter().position(|output| output.name == name));
@@ -56,7 +56,7 @@ pub fn one_output(result: &StudyResult, name: Option<&str>) -> StudyResult {
     }
 }
 
-/// The same with other outputs, none of which is a series.
+/// Returns the same with other outputs, none of which is a series.
 fn with_outputs(result: &StudyResult, outputs: Vec<OutputResult>, aggregate: Option<AggregateRecord>) -> StudyResult {
     StudyResult {
         format: result.format.clone(),
@@ -75,7 +75,7 @@ fn with_outputs(result: &StudyResult, outputs: Vec<OutputResult>, aggregate: Opt
     }
 }
 
-/// The sections of all series of `result`, and how many figures they have.
+/// Builds the sections of all series of `result`, and returns the number of their figures.
 pub(super) fn sections(result: &StudyResult, stems: &[[String; SERIES_SUFFIXES.len()]]) -> (Vec<Section>, usize) {
     let (mut sections, mut figures) = (Vec::new(), 0);
     for (number, series) in result.series.iter().enumerate() {
@@ -119,7 +119,7 @@ fn in_full(
     parts
 }
 
-/// The paragraph at the top on a series: who leads over all of it.
+/// Returns the paragraph at the top on a series: the leading factor over all of it.
 pub(super) fn answer(result: &StudyResult, series: &SeriesRecord) -> String {
     let label = name(&series.name);
     let whole = format!("For {label} as a whole ({} values)", SeriesOf { result, series }.values().len());

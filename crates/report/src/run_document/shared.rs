@@ -1,4 +1,4 @@
-//! Parts that sections of one output and of many share.
+//! Parts shared by sections of one output and of many.
 
 use apportion::result::{OutputResult, StudyResult};
 use apportion::uncertainty::{Estimate, Interval};
@@ -6,13 +6,13 @@ use apportion::uncertainty::{Estimate, Interval};
 use crate::document::Part;
 use crate::study_sections::{failures, inputs};
 
-/// Why runs of an output failed.
+/// Says why runs of an output failed.
 pub(super) fn failed_runs(output: &OutputResult) -> Option<Part> {
     let failed = output.failures.iter();
     failures(failed.map(|f| (&*f.reason, format!("row {}: {}", f.first_row, inputs(&f.first_inputs)), f.runs)))
 }
 
-/// What the columns of the tables of indices mean, and what the intervals are.
+/// Defines the columns of the tables of indices, and the intervals.
 pub(super) fn definitions(result: &StudyResult) -> [Part; 2] {
     let threshold = result.provenance.threshold;
     let indices = match result.study.dependences.is_empty() {
@@ -36,7 +36,7 @@ pub(super) fn definitions(result: &StudyResult) -> [Part; 2] {
     [Part::OnPage(vec![Part::Text(indices)]), Part::Text(intervals)]
 }
 
-/// What a part leaves of 1, with the interval that follows from its own.
+/// Returns 1 minus a part, with the interval that follows from its own.
 pub(super) fn complement(part: Estimate) -> Estimate {
     let interval = part.interval.map(|Interval { low, high }| Interval { low: 1.0 - high, high: 1.0 - low });
     Estimate { estimate: 1.0 - part.estimate, interval }

@@ -1,4 +1,4 @@
-//! The tables of one output, and the files of CSV that hold more than they show.
+//! The tables of one output, and the CSV files, which hold more.
 
 use apportion::model::MIN_OUTPUTS_TOGETHER;
 use apportion::result::{
@@ -10,13 +10,13 @@ use crate::document::{Cell, Part, Rows, Table, csv};
 use crate::format::{chance, name, share};
 use crate::leading::{by_total, surely_interact};
 
-/// Factors in a table; the files have all of them.
+/// Maximum number of factors in a table; the files have all of them.
 pub(super) const FACTORS: usize = 50;
-/// What the caption says of the others.
+/// The caption's note on the others.
 pub(super) const IN_CSV: &str = "factors, all in the CSV file";
-/// Pairs of factors in a table.
+/// Maximum number of pairs of factors in a table.
 const PAIRS: usize = 20;
-/// Factors in a table of estimators.
+/// Maximum number of factors in a table of estimators.
 pub(super) const FACTORS_OF_ESTIMATORS: usize = 20;
 
 /// A line of a table of indices.
@@ -26,7 +26,7 @@ struct Line<'a> {
     name: String,
     first_order: Estimate,
     total: Estimate,
-    /// All indices; over several outputs together there are these two alone.
+    /// All indices; over several outputs together there are only these two.
     effect: Option<&'a EffectEstimates>,
     shapley: Option<Estimate>,
 }
@@ -37,14 +37,14 @@ impl<'a> Line<'a> {
         Self { kind, label, name: name.into(), first_order, total, effect: Some(effect), shapley }
     }
 
-    /// With the Shapley effect of a group, or of a factor without one, where these are the players.
+    /// Adds the Shapley effect of a group, or of a factor in no group, if these are the players.
     fn with_player(self, output: &OutputResult, factors: &[String]) -> Self {
         let mut players = output.shapley_groups.iter().flatten();
         let found = players.find(|record| record.player == self.name && record.factors == factors);
         Self { shapley: found.map(|record| record.shapley).or(self.shapley), ..self }
     }
 
-    /// A line of indices over several outputs together.
+    /// Creates a line of indices over several outputs together.
     fn plain(label: String, index: &PlainIndexRecord) -> Self {
         let PlainIndexRecord { ref factor, first_order, total } = *index;
         Self { kind: "aggregate", label, name: factor.clone(), first_order, total, effect: None, shapley: None }
@@ -59,7 +59,7 @@ impl<'a> Line<'a> {
     }
 }
 
-/// A table of indices, of which those over several outputs together show the first two only.
+/// Tabulates indices; those over several outputs together have only the first two.
 fn effects<'a>(
     result: &StudyResult,
     output: &str,
@@ -71,7 +71,7 @@ fn effects<'a>(
     let index = result.outputs.iter().find_map(|output| output.indices.as_ref()?.first());
     let is_dependent = index.is_some_and(|index| index.effect.dependent.is_some());
     let is_of_one = lines.iter().all(|line| line.effect.is_some());
-    // The difference of indices of dependent factors shows no interactions, and what exceeds a threshold is not what is ranked.
+    // Differences of indices of dependent factors are not interactions, and exceedances of a threshold are not ranked.
     let is_independent = is_of_one && !is_dependent;
     let chance = |probability| chance(probability).replace('-', "–");
     let mut rows = Table::from_rows(caption, lines)
@@ -111,12 +111,12 @@ fn effects<'a>(
     rows
 }
 
-/// What the noise of that name is called.
+/// Names the noise.
 fn of_noise(noise: &str) -> String {
     format!("noise ({})", name(noise))
 }
 
-/// First-order and total indices of the factors, the largest total index first.
+/// Tabulates first-order and total indices of the factors, the largest total index first.
 pub(super) fn indices(result: &StudyResult, output: &OutputResult) -> Option<Table> {
     let order = by_total(output)?;
     let factors = output.indices.iter().flatten().map(|index| {
@@ -128,7 +128,7 @@ pub(super) fn indices(result: &StudyResult, output: &OutputResult) -> Option<Tab
     let lines: Vec<Line<'_>> = factors.chain(noise).collect();
     let caption = "First-order index S_1 and total index S_T, each with the half width of its 95 % interval, the largest S_T first.";
     let mut rows = effects(result, &output.name, caption, "factor", &lines);
-    // Indices of dependent factors sum to nothing.
+    // The sum of indices of dependent factors has no meaning.
     if let Some((first_order, total)) = output.sum_first_order.zip(output.sum_total) {
         let sums = [Cell::default(), Cell::default(), "sum of all factors".into(), first_order.into(), total.into()];
         rows = rows.sums(sums);
@@ -138,9 +138,9 @@ pub(super) fn indices(result: &StudyResult, output: &OutputResult) -> Option<Tab
     Some(table)
 }
 
-/// The indices of all outputs: of factors and groups, then of subsets and the dummy factor, then those of several together.
+/// Formats the indices of all outputs: factors and groups, subsets and the dummy factor, then several together.
 pub(super) fn indices_csv(result: &StudyResult) -> String {
-    // Each table is made when it is written: there may be thousands.
+    // Each table is built when it is written: there may be thousands.
     let outputs = || result.outputs.iter();
     let first = outputs().flat_map(|output| indices(result, output).into_iter().chain(groups(result, output)));
     let then = outputs().filter_map(|output| subsets(result, output));
@@ -156,13 +156,13 @@ pub(super) fn indices_csv(result: &StudyResult) -> String {
     csv(header.chain(first).chain(then).chain(aggregate).chain(series))
 }
 
-/// The second-order indices of all outputs.
+/// Formats the second-order indices of all outputs.
 pub(super) fn pairs_csv(result: &StudyResult) -> String {
     let header = std::iter::once(pairs_table("", Vec::new()).into());
     csv(header.chain(result.outputs.iter().filter_map(pairs)))
 }
 
-/// Shares in percent, the largest share of the total indices first.
+/// Tabulates shares in percent, the largest share of the total indices first.
 pub(super) fn shares(output: &OutputResult) -> Option<Part> {
     let caption = "Shares in percent of the sums of the indices of all factors, with their 95 % intervals.";
     let table = Table::from_rows(caption, by_total(output)?)
@@ -172,7 +172,7 @@ pub(super) fn shares(output: &OutputResult) -> Option<Part> {
     Some(table.first(FACTORS, IN_CSV).into())
 }
 
-/// Joint indices of groups of factors.
+/// Tabulates joint indices of groups of factors.
 pub(super) fn groups(result: &StudyResult, output: &OutputResult) -> Option<Table> {
     let lines = output.groups.iter().flatten().map(|group| {
         let label = format!("{}: {}", name(&group.group), joined(&group.factors));
@@ -182,7 +182,7 @@ pub(super) fn groups(result: &StudyResult, output: &OutputResult) -> Option<Tabl
     joint(result, output, caption, lines.collect())
 }
 
-/// Joint indices of subsets of factors, and those of the dummy factor.
+/// Tabulates joint indices of subsets of factors, and those of the dummy factor.
 pub(super) fn subsets(result: &StudyResult, output: &OutputResult) -> Option<Table> {
     let subsets = output.subsets.iter().flatten();
     let lines =
@@ -205,7 +205,7 @@ fn joint(result: &StudyResult, output: &OutputResult, caption: &str, lines: Vec<
     (!lines.is_empty()).then_some(Table { printed: Some((0..lines.len().min(FACTORS)).collect()), ..table })
 }
 
-/// The Shapley effects of groups, the largest first.
+/// Tabulates the Shapley effects of groups, the largest first.
 pub(super) fn players(output: &OutputResult) -> Option<Part> {
     let players = output.shapley_groups.as_ref().filter(|players| !players.is_empty())?;
     let mut order: Vec<&PlayerRecord> = players.iter().collect();
@@ -217,7 +217,7 @@ pub(super) fn players(output: &OutputResult) -> Option<Part> {
     Some(table.first(FACTORS, "groups, all in the CSV file").into())
 }
 
-/// The largest second-order indices.
+/// Tabulates the largest second-order indices.
 pub(super) fn pairs(output: &OutputResult) -> Option<Table> {
     let pairs = output.second_order.as_ref().filter(|pairs| !pairs.is_empty())?;
     let mut order: Vec<usize> = (0..pairs.len()).collect();
@@ -226,7 +226,7 @@ pub(super) fn pairs(output: &OutputResult) -> Option<Table> {
     Some(rows.largest(order, PAIRS, "pairs, all in the CSV file").into())
 }
 
-/// Pairs, and whether their interaction is sure.
+/// Tabulates pairs, and whether their interaction is certain.
 fn pairs_table<'a>(output: &str, pairs: Vec<(&'a PairRecord, bool)>) -> Rows<(&'a PairRecord, bool)> {
     let caption = "Second-order indices: what two factors do together beyond what each does alone.";
     Table::from_rows(caption, pairs)
@@ -243,7 +243,7 @@ fn pairs_table<'a>(output: &str, pairs: Vec<(&'a PairRecord, bool)>) -> Rows<(&'
         .index("S_2", "second_order", |(pair, _)| Some(pair.index))
 }
 
-/// First-order, then total indices by the other estimators, with the default ones.
+/// Tabulates first-order, then total indices by the other estimators, with the default ones.
 pub(super) fn estimators(output: &OutputResult) -> Vec<Part> {
     let Some(order) = by_total(output) else { return Vec::new() };
     type Of = fn(&OtherIndexRecord) -> Option<Estimate>;
@@ -267,7 +267,7 @@ pub(super) fn estimators(output: &OutputResult) -> Vec<Part> {
     kinds.into_iter().filter_map(table).collect()
 }
 
-/// Indices over all outputs together.
+/// Tabulates indices over all outputs together.
 pub(super) fn aggregate_of(result: &StudyResult, record: &AggregateRecord, indices: &[PlainIndexRecord]) -> Table {
     // The noise is one more line.
     let noise = record.noise.iter().map(|noise| Line::plain(of_noise(&noise.factor), noise));
@@ -275,7 +275,7 @@ pub(super) fn aggregate_of(result: &StudyResult, record: &AggregateRecord, indic
         indices.iter().map(|index| Line::plain(name(&index.factor), index)).chain(noise).collect();
     let mut order: Vec<usize> = (0..lines.len()).collect();
     order.sort_by(|&a, &b| lines[b].total.estimate.total_cmp(&lines[a].total.estimate));
-    // The names of hundreds, in every line, would be most of the file.
+    // The names of hundreds of outputs, in every line, would be most of the file.
     let outputs = match record.outputs.len() {
         ..MIN_OUTPUTS_TOGETHER => record.outputs.join(" + "),
         all if all == result.outputs.len() => "all outputs".to_owned(),
@@ -285,7 +285,7 @@ pub(super) fn aggregate_of(result: &StudyResult, record: &AggregateRecord, indic
     rows.largest(order, FACTORS, IN_CSV).into()
 }
 
-/// The indices by the other estimators: a line per output, estimator and factor, group, subset or dummy.
+/// Formats the indices by the other estimators: a line per output, estimator and factor, group, subset or dummy.
 pub(super) fn estimators_csv(result: &StudyResult) -> String {
     let records = result.outputs.iter().flat_map(|output| output.estimators.iter().map(move |record| (output, record)));
     let rows = records.flat_map(|(output, record)| record.indices.iter().map(move |index| (output, record, index)));
@@ -298,7 +298,7 @@ pub(super) fn estimators_csv(result: &StudyResult) -> String {
         .csv()
 }
 
-/// The indices at every stage of the run: a line per output, number of base samples and factor.
+/// Formats the indices at every stage of the run: a line per output, number of base samples and factor.
 pub(super) fn convergence_csv(result: &StudyResult) -> String {
     let stages = result.outputs.iter().flat_map(|output| output.convergence.iter().map(move |stage| (output, stage)));
     let rows = stages.flat_map(|(output, stage)| stage.indices.iter().map(move |index| (output, stage, index)));

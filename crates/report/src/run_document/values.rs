@@ -1,4 +1,4 @@
-//! The values of one output, and the surrogate that was fitted to them.
+//! The values of one output, and the surrogate fitted to them.
 
 use apportion::result::{OutputResult, SurrogateRecord};
 use apportion::uncertainty::{Estimate, Interval, NamedTerm};
@@ -13,7 +13,7 @@ const QUANTILES: [f64; 7] = [2.5, 5.0, 25.0, 50.0, 75.0, 95.0, 97.5];
 /// Share of the variance, in percent, below which a term of a surrogate is not shown.
 const MIN_TERM_SHARE: f64 = 0.01;
 
-/// Moments and quantiles of an output's values.
+/// Tabulates moments and quantiles of an output's values.
 pub(super) fn moments(output: &OutputResult) -> Option<Part> {
     let record = output.distribution.as_ref()?;
     let number = |x: f64| minus(&among_with_unit(x, record.sample.spread(), &output.unit));
@@ -43,13 +43,13 @@ pub(super) fn moments(output: &OutputResult) -> Option<Part> {
     Some(rows.into())
 }
 
-/// The mean of an output with its error and unit.
+/// Formats the mean of an output with its error and unit.
 pub(super) fn mean(output: &OutputResult) -> Option<String> {
     Some(of_unit(output.mean?, output.mean_interval, &output.unit))
 }
 
-/// The standard deviation, by the divisor n - 1, as in the file; its interval is that of the variance. Where a surrogate knows the
-/// variance so much better that the values are outside of its interval, the root of the variance.
+/// Formats the standard deviation, by the divisor n - 1, as in the file; its interval is that of the variance. If a
+/// surrogate's interval of the variance is so short that it excludes the value, the root of its variance is used.
 pub(super) fn sd(output: &OutputResult) -> Option<String> {
     let sample = output.distribution.as_ref().and_then(|distribution| distribution.sample.sd);
     let interval = output.variance_interval.and_then(|variance| variance.map(|bound| bound.max(0.0).sqrt()));
@@ -66,7 +66,7 @@ fn of_unit(estimate: f64, interval: Option<Interval>, unit: &str) -> String {
     format!("{number} {}", axis_unit(unit)).trim_end().to_owned()
 }
 
-/// The leading terms of the surrogates, and the plain indices beside the corrected ones.
+/// Describes the leading terms of the surrogates, and compares the plain indices with the corrected ones.
 pub(super) fn surrogate(output: &OutputResult, record: &SurrogateRecord) -> Vec<Part> {
     let label = |term: &NamedTerm| {
         let factor = |(factor, degree): (&String, &usize)| match degree {
@@ -94,7 +94,7 @@ pub(super) fn surrogate(output: &OutputResult, record: &SurrogateRecord) -> Vec<
     parts
 }
 
-/// To three significant digits.
+/// Rounds to three significant digits.
 fn rounded(value: f64) -> f64 {
     format!("{value:.2e}").parse().unwrap_or(value)
 }

@@ -4,8 +4,8 @@ use apportion::result::{OutputResult, Warning};
 
 use crate::leading::of_which;
 
-/// What is warned of, a sentence for each kind in the order of the first time: the first warning of a kind, its outputs if
-/// there are several in all, and how many more of the kind the file has.
+/// Returns the warnings, a sentence for each kind in the order of first occurrence: the first warning of a kind, its
+/// outputs if there are several in all, and the number of further ones of the kind in the file.
 pub(super) fn grouped_warnings(outputs: &[OutputResult]) -> Vec<String> {
     type Group<'a> = (&'a str, Vec<(usize, &'a Warning)>);
     let mut groups: Vec<Group<'_>> = Vec::new();

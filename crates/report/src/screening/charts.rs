@@ -9,7 +9,7 @@ use super::super::format::{axis_unit, index, name, words};
 use super::super::leading::{self, Contender};
 use super::ScreeningFile;
 
-/// The series of a reading: the calmest for the plainest.
+/// Returns the series of a reading: the calmest colour for the simplest reading.
 fn series(reading: Option<Reading>) -> Series {
     let colour = match reading {
         Some(Reading::NonLinearOrInteracting) => Colour::Series(1),
@@ -29,7 +29,7 @@ fn axis(symbol: &str, output: &ScreenedOutput) -> Axis {
     Axis::new(symbol, axis_unit(&output.unit))
 }
 
-/// mu* against sigma.
+/// Draws mu* against sigma.
 pub(super) fn scatter(file: &ScreeningFile, output: &ScreenedOutput) -> Chart {
     let known: Vec<(&ScreenedFactor, f64, f64)> = output
         .factors
@@ -63,12 +63,12 @@ pub(super) fn scatter(file: &ScreeningFile, output: &ScreenedOutput) -> Chart {
     Chart::new(title(file, output), caption).panels([Panel::new(x, y).with(points).with(slopes)])
 }
 
-/// The readings, that of factors without effect last.
+/// Iterates over the readings, that of factors without effect last.
 fn readings() -> impl Iterator<Item = Option<Reading>> {
     Reading::ALL.into_iter().rev().map(Some).chain([None])
 }
 
-/// mu* with its intervals.
+/// Draws mu* with its intervals.
 pub(super) fn bars(file: &ScreeningFile, output: &ScreenedOutput) -> Chart {
     let bars = readings().flat_map(|reading| {
         let own = output.factors.iter().enumerate().filter(move |(_, factor)| factor.reading == reading);
@@ -78,7 +78,7 @@ pub(super) fn bars(file: &ScreeningFile, output: &ScreenedOutput) -> Chart {
             let label = of_unit(mu_star, &output.unit) + fixed;
             let (to, interval, said) = (mu_star.estimate, mu_star.interval.map(|i| (i.low, i.high)), label.clone());
             let bar = Bar { row, to, interval, label, said, ..Bar::default() };
-            // A bar of no length would still be a colour in the legend.
+            // A bar of zero length would still add a colour to the legend.
             let series = if reading.is_some() { series(reading) } else { Series::default() };
             Some(series.mark(Shape::Bar(bar)))
         })
@@ -104,12 +104,12 @@ pub(super) fn bars(file: &ScreeningFile, output: &ScreenedOutput) -> Chart {
     Chart::new(title(file, output), caption).panels([Panel::new(x, rows).with(bars).ranked(&keys, MAX_BARS)])
 }
 
-/// An effect with its error and unit.
+/// Formats an effect with its error and unit.
 fn of_unit(effect: Estimate, unit: &str) -> String {
     format!("{} {}", index(effect), axis_unit(unit)).trim_end().to_owned()
 }
 
-/// What a screening takes the mean size of.
+/// Names the quantity whose mean size is taken.
 fn effects_of(file: &ScreeningFile) -> &'static str {
     match is_derivative(file) {
         true => "derivatives by each factor times its range",
@@ -121,7 +121,7 @@ fn is_derivative(file: &ScreeningFile) -> bool {
     file.provenance.derivative_step.is_some()
 }
 
-/// Which factor matters most.
+/// Says which factor matters most.
 pub(super) fn leader(output: &ScreenedOutput) -> String {
     let contender = |factor: &ScreenedFactor| {
         let total = factor.mu_star.filter(|mu_star| mu_star.estimate > 0.0)?;

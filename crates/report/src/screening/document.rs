@@ -11,7 +11,7 @@ use crate::document::{Document, OutputReport, Report, Table};
 use crate::format::{grouped, index, name, or_dash, short, words};
 use crate::study_sections::{failures, inputs};
 
-/// The document of a screening.
+/// Builds the document of a screening.
 pub fn screening_document(file: &ScreeningFile) -> Document {
     let outputs = file.outputs.iter().map(|output| {
         let failed = output.failures.iter().map(|f| (&*f.reason, inputs(&f.first_inputs), f.runs));
@@ -57,7 +57,7 @@ pub fn screening_document(file: &ScreeningFile) -> Document {
     .document()
 }
 
-/// The factors of an output by rank.
+/// Tabulates the factors of an output by rank.
 fn effects(file: &ScreeningFile, output: &ScreenedOutput) -> Table {
     let plain = |estimate: Option<Estimate>| or_dash(estimate, |estimate| short(estimate.estimate));
     let with_error = |estimate: Option<Estimate>| or_dash(estimate, index);
@@ -103,7 +103,7 @@ fn effects(file: &ScreeningFile, output: &ScreenedOutput) -> Table {
     Table { printed: Some(ranked), ..rows.into() }
 }
 
-/// Which factors could be fixed, and by which rule.
+/// Says which factors could be fixed, and by which rule.
 fn fixable(output: &ScreenedOutput) -> String {
     let fixable = output.factors.iter().filter(|f| f.could_be_fixed == Some(true)).map(|f| words(&f.factor));
     let fixable: Vec<String> = fixable.collect();

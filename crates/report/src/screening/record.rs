@@ -23,15 +23,15 @@ pub struct ScreeningFile {
     pub format: String,
     /// Version of the format.
     pub version: u32,
-    /// What was asked.
+    /// The study.
     pub study: StudySetup,
-    /// How it was answered.
+    /// The method.
     pub provenance: ScreeningProvenance,
     /// The outputs in the order of the study.
     pub outputs: Vec<ScreenedOutput>,
-    /// Rows on which the model's assumptions do not hold; the rows count all the same.
+    /// Rows on which the model's assumptions do not hold; these rows are used too.
     pub validity: Vec<ValidityRecord>,
-    /// What a careful reader should know, in sentences.
+    /// Notes, in sentences.
     pub notes: Vec<String>,
 }
 
@@ -53,7 +53,7 @@ pub struct ScreeningProvenance {
     pub derivative_step: Option<f64>,
     /// Trajectories r.
     pub trajectories: u64,
-    /// Independent parts that the intervals rest on.
+    /// Number of independent parts on which the intervals are based.
     pub parts: u64,
     /// Seed of the design.
     pub seed: u64,
@@ -65,13 +65,13 @@ pub struct ScreeningProvenance {
     pub threads: usize,
     /// Seconds from the first run to the last.
     pub wall_seconds: f64,
-    /// What the intervals are, in words.
+    /// The method of the intervals, in words.
     pub interval: String,
-    /// When a factor is said to be one that could be fixed: the upper bound of mu* below this part of the largest mu*.
+    /// Rule for factors that could be fixed: the upper bound of mu* is below this part of the largest mu*.
     pub fixable_below: f64,
 }
 
-/// The file of a screening of `study`, whose model is `model`.
+/// Builds the file of a screening of `study`, whose model is `model`.
 pub fn build_screening(study: &Study, model: &dyn Model, screening: &Screening, facts: RunFacts) -> ScreeningFile {
     ScreeningFile {
         format: "apportion-screening".to_owned(),
@@ -116,7 +116,7 @@ fn notes(study: &Study, design: ScreeningDesign) -> Vec<String> {
     let with_law = |factor: &Factor| format!("{} ({})", factor.name, factor.distribution().name());
     let with_value =
         |factor: &Factor| format!("{} = {}", factor.name, with_unit(factor.nominal, factor.unit().symbol()));
-    // A note about the factors of which something holds, if there are any.
+    // A note about the factors that satisfy `holds`, if there are any.
     let about = |text: &str, holds: &dyn Fn(&Distribution) -> bool, said: &dyn Fn(&Factor) -> String| {
         let factors = study.space().factors().iter().filter(|factor| holds(factor.distribution()));
         let factors: Vec<String> = factors.map(said).collect();

@@ -1,4 +1,4 @@
-//! The charts of sweeps: every output against each factor, and how far each factor moves each output.
+//! The charts of sweeps: every output against each factor, and the effect of each factor on each output.
 
 use apportion::sweep::{NominalOutput, Sweep, SweptOutput};
 use apportion::text::listed;
@@ -11,17 +11,17 @@ use super::{SweepFile, gap_lines};
 use crate::document::Figure;
 use crate::file_stems;
 
-/// Up to so many values, each is marked by a point.
+/// Maximum number of values for which each is marked by a point.
 const MAX_MARKED_VALUES: usize = 12;
-/// A logarithmic axis from this ratio of the largest to the least value on.
+/// Ratio of the largest to the smallest value from which on an axis is logarithmic.
 const WIDE: f64 = 50.0;
-/// Colours at the low and the high end of a factor, and of whole ranges.
+/// Colours of the low and the high end of a factor, and of whole ranges.
 const LOW_END: Colour = Colour::Series(5);
 const HIGH_END: Colour = Colour::Series(1);
 const WHOLE_RANGE: Colour = Colour::Series(6);
 
-/// Per output the ranges of all factors, `STUDY-sweep-ranges`, with the output's name at the end where there are several; and
-/// one line chart per factor, `STUDY-sweep-FACTOR`, with a panel per output.
+/// Draws per output the ranges of all factors, `STUDY-sweep-ranges`, with the output's name at the end if there are
+/// several; and one line chart per factor, `STUDY-sweep-FACTOR`, with a panel per output.
 pub(super) fn figures(file: &SweepFile) -> (Vec<Figure>, Vec<Figure>) {
     let of_outputs = file.nominal.iter().enumerate().map(|(number, nominal)| ranges(file, number, nominal));
     let charts = of_outputs.chain(file.sweeps.iter().map(|sweep| lines(file, sweep)));
@@ -73,7 +73,7 @@ fn lines(file: &SweepFile, sweep: &Sweep) -> Chart {
         .panels(file.nominal.iter().enumerate().map(panel))
 }
 
-/// Where a value stands on the horizontal axis: categories side by side, numbers where they are.
+/// Returns the position of a value on the horizontal axis: categories are evenly spaced, numbers are at their value.
 fn place_of(sweep: &Sweep, value: f64) -> Option<f64> {
     match &sweep.labels {
         Some(_) => sweep.values.iter().position(|other| *other == value).map(|place| place as f64),
@@ -81,17 +81,17 @@ fn place_of(sweep: &Sweep, value: f64) -> Option<f64> {
     }
 }
 
-/// Whether an output spans so much that a linear axis would hide the lower part.
+/// Returns whether an output spans so much that a linear axis would hide the lower part.
 fn is_wide(output: &SweptOutput) -> bool {
     output.low.zip(output.high).is_some_and(|(low, high)| low > 0.0 && high / low > WIDE)
 }
 
-/// The curve of an output.
+/// Draws the curve of an output.
 fn line(sweep: &Sweep, output: &SweptOutput) -> Mark {
     let points = sweep.values.iter().zip(&output.values);
     let points = points.filter_map(|(x, y)| Some((place_of(sweep, *x)?, y.unwrap_or(f64::NAN))));
     let stroke = match &sweep.labels {
-        // There is nothing between two categories.
+        // Nothing is drawn between two categories.
         Some(_) => Stroke::Points,
         None if sweep.values.len() <= MAX_MARKED_VALUES => Stroke::SolidWithPoints,
         None => Stroke::Solid,
@@ -99,7 +99,7 @@ fn line(sweep: &Sweep, output: &SweptOutput) -> Mark {
     Series::new("", Colour::Series(0)).stroke(stroke).line(points.collect())
 }
 
-/// What is seen: how far each output goes, and what is missing.
+/// Describes the chart: the range of each output, and missing values.
 fn caption(sweep: &Sweep) -> String {
     let mut text = format!("Over {}, {}; every other factor is nominal.", words(&sweep.factor), from_to(sweep));
     for output in &sweep.outputs {
@@ -114,7 +114,7 @@ fn caption(sweep: &Sweep) -> String {
     text
 }
 
-/// The ends of a sweep with their unit.
+/// Formats the ends of a sweep with their unit.
 fn from_to(sweep: &Sweep) -> String {
     if let Some(labels) = &sweep.labels {
         return labels.join(", ");
@@ -151,7 +151,7 @@ fn ranges(file: &SweepFile, number: usize, nominal: &NominalOutput) -> Chart {
     Chart::new(title, caption).panels([panel.ranked(&keys, MAX_BARS)])
 }
 
-/// The bars of a factor: its ends, or its whole range where these are not the extremes.
+/// Draws the bars of a factor: its ends, or its whole range if these are not the extremes.
 fn row_marks(row: usize, sweep: &Sweep, effect: &SweptOutput, nominal: Option<f64>) -> Vec<Mark> {
     let bar = |name: &str, colour, from, to| {
         Series::new(name, colour).mark(Shape::Bar(Bar { row, from, to, ..Bar::default() }))

@@ -10,7 +10,7 @@ use super::{SweepFile, gap_lines};
 use crate::document::{Document, Mark, OutputReport, Part, Report, Section, Table, Value};
 use crate::format::{axis_unit, grouped, name, or_dash, short, short_with_unit, value};
 
-/// The document of sweeps.
+/// Builds the document of sweeps.
 pub fn sweep_document(file: &SweepFile) -> Document {
     let (ranges, curves) = figures(file);
     let outputs = file.nominal.iter().zip(ranges).enumerate().map(|(place, (nominal, ranges))| OutputReport {
@@ -45,7 +45,7 @@ pub fn sweep_document(file: &SweepFile) -> Document {
     .document()
 }
 
-/// Which factor moves an output most.
+/// Says which factor changes an output most.
 fn widest(file: &SweepFile, nominal: &NominalOutput, number: usize) -> String {
     let output = name(&nominal.output);
     match by_width(file, number).first() {
@@ -60,7 +60,7 @@ fn widest(file: &SweepFile, nominal: &NominalOutput, number: usize) -> String {
     }
 }
 
-/// The sweeps with what they do to an output, the widest first.
+/// Returns the sweeps with their effect on an output, the widest first.
 fn by_width(file: &SweepFile, number: usize) -> Vec<(&Sweep, &SweptOutput)> {
     let mut sweeps: Vec<(&Sweep, &SweptOutput)> =
         file.sweeps.iter().filter_map(|sweep| Some((sweep, sweep.outputs.get(number)?))).collect();
@@ -85,7 +85,7 @@ fn at_nominal(nominal: &NominalOutput) -> String {
     }
 }
 
-/// How far each factor moves an output, the widest first.
+/// Tabulates how far each factor changes an output, the widest first.
 fn effects(file: &SweepFile, nominal: &NominalOutput, number: usize) -> Part {
     let in_unit = |what: &str| match axis_unit(&nominal.unit).as_str() {
         "" => what.to_owned(),
@@ -108,7 +108,7 @@ fn effects(file: &SweepFile, nominal: &NominalOutput, number: usize) -> Part {
         .into()
 }
 
-/// A line per factor, curve, output and value; an empty cell where there is no number, with the reason in the last column.
+/// Returns a line per factor, curve, output and value; a missing number is empty, with the reason in the last column.
 fn all_values(file: &SweepFile) -> Table {
     let outputs = file.sweeps.iter().flat_map(|sweep| sweep.outputs.iter().map(move |output| (sweep, output)));
     let rows = outputs.flat_map(|row| (0..row.0.values.len()).map(move |place| (row, place)));

@@ -8,7 +8,7 @@ use apportion::sweep::Sweep;
 pub use document::sweep_document;
 pub use record::{SweepFile, SweepProvenance, build_sweep};
 
-/// For each output and reason: at how many points of the sweep it has no value, over all curves.
+/// Returns for each output and reason the number of points of the sweep without a value, over all curves.
 fn gap_lines(sweep: &Sweep) -> Vec<String> {
     let mut counts: Vec<(&str, &str, usize)> = Vec::new();
     for output in &sweep.outputs {

@@ -20,17 +20,17 @@ pub struct SweepFile {
     pub format: String,
     /// Version of the format.
     pub version: u32,
-    /// What was asked.
+    /// The study.
     pub study: StudySetup,
-    /// How it was answered.
+    /// The method.
     pub provenance: SweepProvenance,
-    /// Every output where all factors are nominal.
+    /// Every output with all factors at their nominal values.
     pub nominal: Vec<NominalOutput>,
     /// One entry per factor swept.
     pub sweeps: Vec<Sweep>,
-    /// Rows on which the model's assumptions do not hold; the rows count all the same.
+    /// Rows on which the model's assumptions do not hold; these rows are used too.
     pub validity: Vec<ValidityRecord>,
-    /// What a careful reader should know, in sentences.
+    /// Warnings, in sentences.
     #[serde(default)]
     pub warnings: Vec<String>,
 }
@@ -44,7 +44,7 @@ pub struct SweepProvenance {
     pub model_runs: u64,
 }
 
-/// The value at `place` of a sweep, or what it stands for, with its unit.
+/// Formats the value at `place` of a sweep, or its label, with its unit.
 pub(super) fn value_in_words(sweep: &Sweep, place: usize) -> String {
     match (&sweep.labels, sweep.values.get(place)) {
         (Some(labels), Some(_)) => labels[place].clone(),
@@ -53,19 +53,19 @@ pub(super) fn value_in_words(sweep: &Sweep, place: usize) -> String {
     }
 }
 
-/// How far an output goes; below every width where it has no value.
+/// Returns the range of an output; below every width if it has no value.
 pub(super) fn width(output: &SweptOutput) -> f64 {
     output.low.zip(output.high).map_or(f64::NEG_INFINITY, |(low, high)| high - low)
 }
 
-/// A sentence on the unlikely value of output number `place`, if it has one; runs are counted sweep by sweep.
+/// Returns a sentence on the unlikely value of output number `place`, if it has one; runs are counted sweep by sweep.
 fn unlikely(sweeps: &Sweeps, place: usize, output: &str) -> Option<String> {
     let values = sweeps.sweeps.iter().flat_map(|sweep| &sweep.outputs[place].values);
     let values: Vec<f64> = values.map(|y| y.unwrap_or(f64::NAN)).collect();
     Unlikely::find(&values).map(|found| format!("{output}: {}", found.in_runs(found.first + 1)))
 }
 
-/// The file of the sweeps of `study`, whose model is `model`.
+/// Builds the file of the sweeps of `study`, whose model is `model`.
 pub fn build_sweep(study: &Study, model: &dyn Model, sweeps: Sweeps) -> SweepFile {
     SweepFile {
         format: "apportion-sweep".to_owned(),

@@ -1,4 +1,4 @@
-//! `apportion analyze`: indices from the outputs of a model outside.
+//! `apportion analyze`: indices from the outputs of an external model.
 
 mod salib;
 

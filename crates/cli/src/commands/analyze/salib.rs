@@ -1,4 +1,4 @@
-//! `apportion analyze --layout salib`: outputs at points that SALib made.
+//! `apportion analyze --layout salib`: outputs at points from SALib.
 
 use std::path::{Path, PathBuf};
 

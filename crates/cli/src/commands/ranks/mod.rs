@@ -1,4 +1,4 @@
-//! A run on the ranks of an MPI job: rank 0 is the program as it is anywhere, the others evaluate rows for it.
+//! A run on the ranks of an MPI job: rank 0 is the usual program, the others evaluate rows for it.
 
 #[cfg(feature = "mpi")]
 pub mod mpi;

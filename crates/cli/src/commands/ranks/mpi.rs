@@ -1,9 +1,9 @@
 //! The messages between ranks.
 //!
-//! All calls of MPI are made by the thread that initialised it (`MPI_THREAD_FUNNELED`, which every MPI grants); other threads
-//! give it letters. It looks for messages and sleeps in between instead of waiting inside MPI, which would take a core:
-//! every worker has its next piece already while it is at one, so that a millisecond more or less costs nothing.
-//! Requests are short, so that sending them never waits for the other side.
+//! All MPI calls are made by the thread that initialised it (`MPI_THREAD_FUNNELED`, which every MPI provides); other
+//! threads send it messages over a channel. It polls for messages and sleeps in between instead of waiting inside MPI,
+//! which would occupy a core: every worker has its next batch already while it evaluates one, so a delay of a
+//! millisecond costs nothing. Requests are short, so that sending them never blocks.
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -113,7 +113,7 @@ impl RemoteWorkers for Others {
 
     fn stop(&self) {
         if !self.is_stopped.swap(true, Ordering::Relaxed) {
-            // Where no rank sends letters any more, none is left to be stopped.
+            // If no rank receives messages any more, none is left to be stopped.
             let _ = self.letters.send(Letter::Stop);
         }
     }
@@ -147,7 +147,7 @@ fn lead(world: &SimpleCommunicator, command: impl FnOnce(&dyn Ranks) -> ExitCode
     let size = world.size() as usize;
     let others = Others { size, letters, answers: OnceLock::new(), is_stopped: AtomicBool::new(false) };
     thread::scope(|scope| {
-        // The letters end when the command does.
+        // The channel closes when the command ends.
         let run = thread::Builder::new().stack_size(STACK).spawn_scoped(scope, move || command(&others));
         carry(world, &outbox);
         match run.map(thread::ScopedJoinHandle::join) {
@@ -187,7 +187,7 @@ fn carry(world: &SimpleCommunicator, outbox: &Receiver<Letter>) {
             let (bytes, status) = found.matched_receive_vec::<u8>();
             counted.add(&bytes);
             let worker = (status.source_rank() as usize - 1) * per_rank + status.tag() as usize;
-            // A run that has ended does not listen any more.
+            // A run that has ended receives no more messages.
             let _ = inboxes.get(worker).map(|inbox: &Sender<Vec<u8>>| inbox.send(bytes));
             pause = SHORT;
         }
@@ -240,7 +240,7 @@ fn wait<'a, D: ?Sized, S: Scope<'a>>(mut request: Request<'a, D, S>) {
 
 /// Any other rank: works for rank 0 until it says that there is no more to do.
 fn work(world: &SimpleCommunicator) -> ExitCode {
-    // Rank 0 hears of signals too, and tells the others.
+    // Rank 0 receives signals too, and passes them on.
     stop::leave_to_another();
     let mut length = [0];
     broadcast(world, &mut length[..]);
@@ -307,7 +307,7 @@ fn serve(world: &SimpleCommunicator, study: &WorkerStudy, threads: usize) {
             while let Some(found) = first.immediate_matched_probe() {
                 let (bytes, status) = found.matched_receive_vec::<u8>();
                 match status.tag() {
-                    // The workers end with their queues.
+                    // The workers end when their queues are closed.
                     END => return drop(queues),
                     STOP => stop.store(true, Ordering::Relaxed),
                     worker => drop(queues.get(worker as usize).map(|queue| queue.send(bytes))),

@@ -1,4 +1,4 @@
-//! What the claims are put to: the physics, the nominal scene, and the box of the papers' general study.
+//! The basis of the checks: the physics, the nominal scene, and the box of the papers' general study.
 
 use apportion::design::SobolSequence;
 use apportion::space::Space;
@@ -14,18 +14,18 @@ use super::numbers::number;
 use crate::reproduce::papers::Words;
 use crate::reproduce::{Effort, Friction, ReproduceError, Reproduced, general_study};
 
-/// The seed of every sample of the box.
+/// Seed of every sample of the box.
 const SEED: u64 = 5;
 
-/// Independent scrambles behind the interval of a share: enough degrees of freedom for a t-quantile near 2.
+/// Number of independent scrambles for the interval of a share: enough degrees of freedom for a t-quantile near 2.
 const REPLICATES: u64 = 8;
 
-/// The critical force of a scene, as [`critical_force`].
+/// A function for the critical force of a scene, such as [`critical_force`].
 pub(super) type ForceOf<'a> = &'a dyn Fn(&Scene, &Options) -> Result<Critical, Failure>;
-/// A scene in time, as [`history`].
+/// A function for a scene in time, such as [`history`].
 pub(super) type HistoryOf<'a> = &'a dyn Fn(&Scene, &Options, f64) -> Result<History, Failure>;
 
-/// The physics that is asked: ours, or a bent one that a test puts in its place.
+/// The physics of the checks: ours, or a modified one in a test.
 #[derive(Clone, Copy)]
 pub(super) struct Physics<'a> {
     pub force: ForceOf<'a>,
@@ -39,14 +39,14 @@ impl Physics<'static> {
     }
 }
 
-/// How many points are asked.
+/// The numbers of points.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Sizes {
-    /// Points of the box where a question takes closed formulas.
+    /// Points of the box for checks with closed formulas.
     pub points: u64,
-    /// Points of the box where it takes a history or a search for equilibria.
+    /// Points of the box for checks with a history or a search for equilibria.
     pub slow_points: u64,
-    /// Points of the box where it takes an integration of LuGre friction, a third of a millisecond each.
+    /// Points of the box for checks with an integration of LuGre friction, a third of a millisecond each.
     pub ramp_points: u64,
     /// Points of a curve.
     pub curve: usize,
@@ -60,14 +60,14 @@ impl Sizes {
         }
     }
 
-    /// Those that the texts of claims name.
+    /// Returns the values that the texts of claims name.
     pub fn words(&self) -> Words {
         let curve = ("curve", self.curve.to_string());
         vec![("points", self.points.to_string()), ("slow_points", self.slow_points.to_string()), curve]
     }
 }
 
-/// One constant of the scene, moved over evenly spaced values.
+/// Evenly spaced values of one constant of the scene.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Sweep {
     pub parameter: &'static Parameter,
@@ -78,7 +78,7 @@ pub(super) struct Sweep {
 }
 
 impl Sweep {
-    /// As in `200 to 700 um`.
+    /// Describes it as in `200 to 700 um`.
     pub fn words(&self) -> String {
         let unit = edge_unit(self.parameter);
         let (low, high) = (unit.from_si(self.range.0), unit.from_si(self.range.1));
@@ -86,7 +86,7 @@ impl Sweep {
     }
 }
 
-/// Which factors vary over their ranges; the others stand at their nominal values.
+/// The factors that vary over their ranges; the others are at their nominal values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Region {
     /// All eight.
@@ -95,18 +95,18 @@ pub(super) enum Region {
     Group(&'static str),
 }
 
-/// The bench at which every claim is tried.
+/// The data for the checks of all claims.
 pub(super) struct Bench<'a> {
     pub physics: Physics<'a>,
     pub sizes: Sizes,
-    /// The studies that have been run.
+    /// The studies with their results.
     pub studies: &'a [Reproduced],
     space: Space,
     parameters: Vec<&'static Parameter>,
 }
 
 impl<'a> Bench<'a> {
-    /// With the ranges of the general study.
+    /// Creates a bench with the ranges of the general study.
     pub fn new(physics: Physics<'a>, effort: Effort, studies: &'a [Reproduced]) -> Result<Self, ReproduceError> {
         let study = general_study()?;
         let parameters = study.space().factors().iter().map(|factor| Parameter::from_name(&factor.name)).collect();
@@ -115,12 +115,12 @@ impl<'a> Bench<'a> {
         Ok(Self { physics, sizes: Sizes::new(effort), studies, space: study.space().clone(), parameters })
     }
 
-    /// F_cr (N).
+    /// Returns F_cr (N).
     pub fn force(&self, scene: &Scene, options: &Options) -> Result<f64, Failure> {
         Ok((self.physics.force)(scene, options)?.critical_force)
     }
 
-    /// A sweep of a factor over its range in the general study.
+    /// Returns a sweep of a factor over its range in the general study.
     pub fn over(&self, name: &str) -> Result<Sweep, ReproduceError> {
         let mut factors = self.space.factors().iter().zip(&self.parameters);
         let (factor, parameter) = factors.find(|(factor, _)| factor.name == name).ok_or(ReproduceError::NoRanges)?;
@@ -129,12 +129,12 @@ impl<'a> Bench<'a> {
         Ok(Sweep { parameter, range, count: self.sizes.curve })
     }
 
-    /// F_cr along a sweep of one constant of `scene`.
+    /// Returns F_cr along a sweep of one constant of `scene`.
     pub fn curve(&self, sweep: &Sweep, scene: &Scene, options: &Options) -> Result<Curve, Failure> {
         self.curve_of(sweep, scene, &|scene| self.force(scene, options))
     }
 
-    /// Any quantity along a sweep of one constant of `scene`.
+    /// Returns any quantity along a sweep of one constant of `scene`.
     pub fn curve_of(
         &self,
         sweep: &Sweep,
@@ -151,7 +151,7 @@ impl<'a> Bench<'a> {
         Ok(Curve { x, y })
     }
 
-    /// The share of `count` points of a box where `rule` holds: Sobol' points, in independent scrambles that give the
+    /// Returns the share of `count` points of a box where `rule` holds: Sobol' points, in independent scrambles for the
     /// interval.
     pub fn share(
         &self,
@@ -177,7 +177,7 @@ impl<'a> Bench<'a> {
         Ok(Share { value, interval, points: each * REPLICATES })
     }
 
-    /// Whether `rule` holds at the nominal scene, and on how much of the general box.
+    /// Returns whether `rule` holds at the nominal scene, and on what share of the general box.
     pub fn holding(
         &self,
         what: impl Into<String>,
@@ -188,7 +188,7 @@ impl<'a> Bench<'a> {
         Ok(Holding { what: what.into(), nominal, share: self.share(Region::General, count, rule)? })
     }
 
-    /// The same under each of these friction laws, called by its name after `label`.
+    /// Returns the same under each of these friction laws, with its name after `label`.
     pub fn holding_under(
         &self,
         frictions: &[Friction],
@@ -220,17 +220,17 @@ impl<'a> Bench<'a> {
     }
 }
 
-/// The closed formulas under `friction`, everything else as in the papers: what the nine studies compute.
+/// Options of the closed formulas under `friction`, otherwise as in the papers and in the nine studies.
 pub(super) fn closed(friction: FrictionLaw) -> Options {
     Options { friction, ..Options::default() }
 }
 
-/// Exact geometry and the ramps of LuGre friction, to 1e-5 of the force: a thousandth of what any claim here asks.
+/// Options of exact geometry and the ramps of LuGre friction, to 1e-5 of the force: a thousandth of any criterion here.
 pub(super) fn exact(friction: FrictionLaw) -> Options {
     Options { friction, fidelity: Fidelity::QuasiStatic, tolerance: 1e-3, ..Options::default() }
 }
 
-/// The equations of motion, to 1e-6 of the force.
+/// Options of the equations of motion, to 1e-6 of the force.
 pub(super) fn in_motion(friction: FrictionLaw) -> Options {
     Options { friction, fidelity: Fidelity::Dynamic, ..Options::default() }
 }

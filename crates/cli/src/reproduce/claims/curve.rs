@@ -1,4 +1,4 @@
-//! The shape of a curve, as a statement about it says.
+//! The shape of a curve, for statements about it.
 
 use apportion::sum;
 
@@ -9,7 +9,7 @@ pub(super) struct Curve {
     pub y: Vec<f64>,
 }
 
-/// `count` evenly spaced values from `low` to `high`, both included.
+/// Returns `count` evenly spaced values from `low` to `high`, both included.
 pub(super) fn grid((low, high): (f64, f64), count: usize) -> Vec<f64> {
     let last = (count - 1) as f64;
     (0..count).map(|i| low + (high - low) * (i as f64 / last)).collect()
@@ -24,17 +24,17 @@ impl Curve {
         self.y[self.y.len() - 1]
     }
 
-    /// Higher at every step.
+    /// Returns whether every value is higher than the one before.
     pub fn rises(&self) -> bool {
         self.y.windows(2).all(|pair| pair[1] > pair[0])
     }
 
-    /// Lower at every step.
+    /// Returns whether every value is lower than the one before.
     pub fn falls(&self) -> bool {
         self.y.windows(2).all(|pair| pair[1] < pair[0])
     }
 
-    /// The largest value less the smallest, in units of the mean.
+    /// Returns the largest value minus the smallest, in units of the mean.
     pub fn spread(&self) -> f64 {
         let mean = sum::mean(&self.y);
         self.extent() / mean.abs()
@@ -45,8 +45,8 @@ impl Curve {
         high - low
     }
 
-    /// The largest increase of steepness from one step to the next, in units of the mean steepness; 0 where the curve
-    /// flattens all the way.
+    /// Returns the largest increase of steepness from one step to the next, in units of the mean steepness; 0 if the
+    /// curve flattens everywhere.
     pub fn steepens(&self) -> f64 {
         let steps: Vec<f64> =
             self.x.windows(2).zip(self.y.windows(2)).map(|(x, y)| ((y[1] - y[0]) / (x[1] - x[0])).abs()).collect();
@@ -54,7 +54,7 @@ impl Curve {
         steps.windows(2).fold(0.0, |most: f64, pair| most.max((pair[1] - pair[0]) / mean))
     }
 
-    /// The largest distance from the straight line of least squares, in units of the whole change; and R^2 of that line.
+    /// Returns the largest distance from the least-squares line, in units of the whole change, and R^2 of that line.
     pub fn bend(&self) -> (f64, f64) {
         let x = (&self.x[..], sum::mean(&self.x));
         let y = (&self.y[..], sum::mean(&self.y));
@@ -65,7 +65,7 @@ impl Curve {
         (farthest / self.extent(), 1.0 - rest / sum::centred_product(y, y))
     }
 
-    /// The mean elasticity, ln(y_n/y_0)/ln(x_n/x_0): the power of x that joins the ends.
+    /// Returns the mean elasticity, ln(y_n/y_0)/ln(x_n/x_0): the power of x that joins the ends.
     pub fn elasticity(&self) -> f64 {
         libm::log(self.last() / self.first()) / libm::log(self.x[self.x.len() - 1] / self.x[0])
     }

@@ -8,23 +8,23 @@ use super::judge::Answer;
 use super::numbers::{change, nano, number};
 use crate::reproduce::{FRICTIONS, ReproduceError};
 
-/// A curve flattens if no step is steeper than the one before by more than this share of the mean steepness: what would
-/// not be seen in a chart.
+/// Maximum increase of steepness of a flattening curve from one step to the next, as a share of the mean steepness: it
+/// would not be visible in a chart.
 const STEEPENING: f64 = 0.01;
 
-/// A rise is linear if no point is farther from the straight line of least squares than this share of the rise: about
-/// the width of a chart's line.
+/// Maximum distance of a linear rise from the least-squares line, as a share of the rise: about the width of a chart's
+/// line.
 pub(super) const STRAIGHT: f64 = 0.01;
 
-/// A factor has no effect if it changes F_cr by less than this share.
+/// Maximum relative change of F_cr by a factor without effect.
 pub(super) const NO_EFFECT: f64 = 0.01;
 
-/// The options under a friction law: those of a rung.
+/// The options for a friction law, by a rung.
 type OptionsOf = fn(FrictionLaw) -> Options;
-/// A curve in words.
+/// A description of a curve.
 type CurveWords<'a> = &'a dyn Fn(&Curve) -> String;
 
-/// A claim about the shape of the curves of the closed formulas along a factor, whose nominal curves are put into `words`.
+/// Checks a claim about the shape of the curves of the closed formulas along a factor, and describes the curves.
 fn shaped(
     bench: &Bench<'_>,
     factor: &str,
@@ -44,7 +44,7 @@ fn shaped(
     Ok(Answer::judged(&holdings, words))
 }
 
-/// The nominal curve under each friction model, put into words and joined.
+/// Describes the nominal curve under each friction model.
 pub(super) fn nominal_curves(
     bench: &Bench<'_>,
     sweep: &Sweep,
@@ -61,7 +61,7 @@ pub(super) fn nominal_curves(
     Ok(each?.join(", "))
 }
 
-/// The setting of a claim about closed formulas along a sweep, in words that end in a semicolon.
+/// Describes the setting of a claim about closed formulas along a sweep, ending in a semicolon.
 pub(super) fn closed_setting(bench: &Bench<'_>, sweep: &Sweep) -> Result<String, Failure> {
     let mut farthest = 0.0_f64;
     for law in FRICTIONS.map(|friction| friction.law) {
@@ -87,43 +87,43 @@ pub(super) fn from_to(curve: &Curve) -> String {
     format!("from {} to {}", nano(curve.first(), "N"), nano(curve.last(), "N"))
 }
 
-/// Claim 8.
+/// Checks claim 8.
 pub(super) fn length(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
     shaped(bench, "length", |curve| curve.falls() && curve.steepens() <= STEEPENING, &from_to)
 }
 
-/// A rise in a straight line.
+/// Returns whether a curve rises in a straight line.
 pub(super) fn is_linear_rise(curve: &Curve) -> bool {
     curve.rises() && curve.bend().0 <= STRAIGHT
 }
 
-/// Claim 9.
+/// Checks claim 9.
 pub(super) fn width(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
     shaped(bench, "width", is_linear_rise, &straightness)
 }
 
-/// The ends of a rise, and how far it is from straight.
+/// Describes the ends of a rise, and its distance from a straight line.
 pub(super) fn straightness(curve: &Curve) -> String {
     let (bend, r_squared) = curve.bend();
     let r_squared = if r_squared > 0.999_95 { "above 0.9999".to_owned() } else { format!("{r_squared:.4}") };
     format!("{}, off a straight line by {} of the rise, R² {r_squared}", from_to(curve), change(bend))
 }
 
-/// Claim 10.
+/// Checks claim 10.
 pub(super) fn thickness(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
     let words = |curve: &Curve| format!("{}, as t^{}", from_to(curve), number(curve.elasticity(), ""));
     shaped(bench, "thickness", |curve| curve.rises() && curve.elasticity() > 1.0, &words)
 }
 
-/// Claim 11. The closed form has no height in it, so that only exact geometry can say anything.
+/// Checks claim 11. The closed form does not contain the height, so only exact geometry can decide.
 pub(super) fn height(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
     without_effect(bench, &Sweep { count: 4, ..bench.over("height")? }, exact)
 }
 
-/// A claim that a sweep leaves F_cr as it is.
+/// Checks the claim that a sweep does not change F_cr.
 pub(super) fn without_effect(bench: &Bench<'_>, sweep: &Sweep, options: OptionsOf) -> Result<Answer, ReproduceError> {
     let rule = |law, scene: &Scene| Ok(bench.curve(sweep, scene, &options(law))?.spread() < NO_EFFECT);
-    // What is no closed formula takes its time, the ramps of LuGre friction most of all.
+    // Computations without a closed formula are slow, the ramps of LuGre friction most of all.
     let Sizes { slow_points, ramp_points, .. } = bench.sizes;
     let points = |law| if law == FrictionLaw::LuGre { ramp_points } else { slow_points };
     let holdings = bench.holding_under(&FRICTIONS, "", points, rule)?;

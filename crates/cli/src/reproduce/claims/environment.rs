@@ -10,17 +10,18 @@ use super::judge::Answer;
 use super::numbers::{change, nano};
 use crate::reproduce::{FRICTIONS, ReproduceError};
 
-/// Up to where CHK and LG see no effect of the velocity (m/s).
+/// Velocity up to which CHK and LG see no effect (m/s).
 const SLOW: f64 = 600e-9;
 
-/// "Unmoved" by the contact modulus: less than this share. Coulomb's law has a small term in the contact's area, tau pi
-/// a^2, so that the claim can only mean that nothing is seen beside the fall of the other model.
+/// Maximum relative change that counts as "unmoved" by the contact modulus. Coulomb's law has a small term in the
+/// contact area, tau pi a^2, so the claim can only mean that the change is invisible next to the fall of the other
+/// model.
 const UNMOVED: f64 = 0.05;
 
 /// The viscous friction that brings LuGre friction to the percentages of LG fig. 4b (N s/m).
 const VISCOUS: f64 = 0.3;
 
-/// Claim 12. Only the equations of motion have the velocity in them under every friction model.
+/// Checks claim 12. Only the equations of motion depend on the velocity under every friction model.
 pub(super) fn velocity(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
     let whole = Sweep { count: 5, ..bench.over("velocity")? };
     let slow = Sweep { range: (0.0, SLOW), count: 4, ..whole };
@@ -42,7 +43,7 @@ pub(super) fn velocity(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
     Ok(answer)
 }
 
-/// Claim 13.
+/// Checks claim 13.
 pub(super) fn elastic_modulus(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
     let sweep = bench.over("elastic_modulus")?;
     let points = bench.sizes.points;
@@ -61,12 +62,12 @@ pub(super) fn elastic_modulus(bench: &Bench<'_>) -> Result<Answer, ReproduceErro
     Ok(Answer::judged(&holdings, words))
 }
 
-/// F_cr under Coulomb friction with these options, less that under Hurtado-Kim friction (N).
+/// Returns F_cr under Coulomb friction with these options, minus that under Hurtado-Kim friction (N).
 fn gap(bench: &Bench<'_>, scene: &Scene, coulomb: &Options) -> Result<f64, Failure> {
     Ok(bench.force(scene, coulomb)? - bench.force(scene, &closed(FrictionLaw::HurtadoKim))?)
 }
 
-/// Claim 14.
+/// Checks claim 14.
 pub(super) fn contact_modulus(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
     let sweep = bench.over("equivalent_modulus")?;
     let points = bench.sizes.points;
@@ -89,7 +90,7 @@ pub(super) fn contact_modulus(bench: &Bench<'_>) -> Result<Answer, ReproduceErro
     Ok(Answer::judged(&holdings, words))
 }
 
-/// Claim 15.
+/// Checks claim 15.
 pub(super) fn adhesion(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
     let sweep = bench.over("adhesion")?;
     let points = bench.sizes.points;
@@ -113,7 +114,7 @@ pub(super) fn adhesion(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
     Ok(Answer::judged(&holdings, words))
 }
 
-/// Claim 16.
+/// Checks claim 16.
 pub(super) fn constant_parameters(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
     let options = closed(FrictionLaw::LuGre);
     let nominal = Scene::default();

@@ -13,29 +13,29 @@ use crate::reproduce::{FRICTIONS, ReproduceError};
 /// The duration of TS04's run (s).
 const DURATION: f64 = 0.4;
 
-/// Longer than any scene of the box takes to slip (s).
+/// Time after which every scene of the box has slipped (s).
 const FOREVER: f64 = 1e9;
 
 /// The shear modulus that CHK and LG print (Pa).
 const PRINTED_SHEAR_MODULUS: f64 = 40.5e9;
 
-/// "Near 0.2 s": read off a chart, to a tenth.
+/// "Near 0.2 s": read from a chart, to a tenth.
 const SLIP_TIME: (f64, f64) = (0.18, 0.22);
 
-/// "-21 nm", printed in whole nanometres: to one of them.
+/// "-21 nm", printed in whole nanometres: to one nanometre.
 const DISPLACEMENT: (f64, f64) = (-22e-9, -20e-9);
 
 /// "Nearly constant": to one percent.
 const NEARLY: f64 = 0.01;
 
-/// A change of a contact that no chart shows.
+/// Relative change of a contact that no chart shows.
 const AS_GOOD_AS_NONE: f64 = 1e-4;
 
-/// Equal up to rounding, of the forces by geometry and by friction.
+/// Tolerance for rounding between the forces by geometry and by friction.
 const ROUNDING: f64 = 1e-9;
 
-/// A half of claim 1: whether a quantity of the scene in time lies in a range, with the shear modulus of TS04, and for
-/// comparison with that of CHK and LG.
+/// Checks a half of claim 1: whether a quantity of the scene in time is in a range, with the shear modulus of TS04, and
+/// for comparison with that of CHK and LG.
 fn half(
     bench: &Bench<'_>,
     (low, high): (f64, f64),
@@ -56,14 +56,14 @@ fn half(
     })
 }
 
-/// Claim 1, first half.
+/// Checks the first half of claim 1.
 pub(super) fn slip_time(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
     let mut answer = half(bench, SLIP_TIME, |history| history.critical.critical_time, |time| number(time, "s"))?;
     answer.words.extend([("from", SLIP_TIME.0.to_string()), ("to", SLIP_TIME.1.to_string())]);
     Ok(answer)
 }
 
-/// Claim 1, second half.
+/// Checks the second half of claim 1.
 pub(super) fn displacement(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
     let moved = |history: &History| Ok(history.samples.last().map_or(0.0, |end| end.relative));
     let mut answer = half(bench, DISPLACEMENT, moved, |moved| nano(moved, "m"))?;
@@ -72,7 +72,7 @@ pub(super) fn displacement(bench: &Bench<'_>) -> Result<Answer, ReproduceError> 
     Ok(answer)
 }
 
-/// Claim 2.
+/// Checks claim 2.
 pub(super) fn forces(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
     let rule = |law, scene: &Scene| Ok(rises_and_stays(&(bench.physics.history)(scene, &closed(law), FOREVER)?));
     let holdings = bench.holding_under(&FRICTIONS[..2], "", |_| bench.sizes.slow_points, rule)?;
@@ -89,7 +89,7 @@ pub(super) fn forces(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
     Ok(Answer::judged(&holdings, words))
 }
 
-/// F_Y and F_T never fall while the particle sticks, F_Z is nearly constant, and F_T is F_cr at the slip and after.
+/// Returns whether F_Y and F_T never fall while the particle sticks, F_Z is nearly constant, and F_T stays at F_cr.
 fn rises_and_stays(history: &History) -> bool {
     let History { samples, critical } = history;
     let (start, held) = ends(samples);
@@ -101,13 +101,13 @@ fn rises_and_stays(history: &History) -> bool {
         && samples.iter().filter(|sample| !sample.sticking).all(|s| near(s.tip_force, held.tip_force, ROUNDING))
 }
 
-/// The first sample, and the last that sticks.
+/// Returns the first sample, and the last one that sticks.
 fn ends(samples: &[Sample]) -> (&Sample, &Sample) {
     let start = &samples[0];
     (start, samples.iter().rev().find(|sample| sample.sticking).unwrap_or(start))
 }
 
-/// Claim 3.
+/// Checks claim 3.
 pub(super) fn delay(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
     let parameter = Parameter::from_name("static_friction").ok_or(ReproduceError::NoRanges)?;
     let sweep = Sweep { parameter, range: (0.1, 1.2), count: bench.sizes.curve };
@@ -120,11 +120,11 @@ pub(super) fn delay(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
     Ok(Answer::judged(&holdings, words))
 }
 
-/// Claim 5.
+/// Checks claim 5.
 pub(super) fn contacts(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
     let options = closed(FrictionLaw::Coulomb);
     let history = |scene: &Scene| (bench.physics.history)(scene, &options, FOREVER);
-    // At every step, and from the start to the slip by more than nothing.
+    // At every step, and by more than nothing from the start to the slip.
     let always = |grows: fn(&Sample, &Sample, f64) -> Option<bool>| {
         move |scene: &Scene| -> Result<bool, Failure> {
             let samples = history(scene)?.samples;
@@ -167,7 +167,7 @@ pub(super) fn contacts(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
     Ok(Answer::judged(&holdings, words))
 }
 
-/// Whether one contact is larger than another by more than that part, in area and in indentation.
+/// Returns whether one contact exceeds another by more than `least`, in area and in indentation.
 fn is_larger(one: Contact, other: Contact, least: f64) -> bool {
     let is_larger = |one: f64, other: f64| one - other > least * other.abs();
     is_larger(one.area(), other.area()) && is_larger(one.indentation, other.indentation)

@@ -1,4 +1,4 @@
-//! From what holds where to a verdict, and to words.
+//! Verdicts from where the parts of a claim hold.
 
 use apportion::uncertainty::Interval;
 
@@ -7,16 +7,16 @@ use super::numbers::percent_of;
 use crate::reproduce::named_together;
 use crate::reproduce::papers::Words;
 
-/// From this share of the box on a rule holds everywhere: what is left is a corner that no chart of the papers shows.
+/// Share of the box from which on a rule holds everywhere: the rest is a corner that no chart of the papers shows.
 const EVERYWHERE: f64 = 0.999;
 
 /// The share of a box where a rule holds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Share {
     pub value: f64,
-    /// At the level of every interval; `None` where nothing is known of the error.
+    /// Its interval at the common level; `None` if the error is unknown.
     pub interval: Option<Interval>,
-    /// Points asked.
+    /// Number of points.
     pub points: u64,
 }
 
@@ -25,7 +25,7 @@ impl Share {
         self.value >= EVERYWHERE
     }
 
-    /// As in `83.2 % [82.9, 83.5] of the box`; `all of the box` only where no point failed.
+    /// Formats it as in `83.2 % [82.9, 83.5] of the box`; `all of the box` only if no point failed.
     pub fn words_of(&self, whole: &str) -> String {
         match (self.value, self.interval) {
             (1.0, _) => format!("all of {whole}"),
@@ -38,16 +38,16 @@ impl Share {
     }
 }
 
-/// One part of a claim: whether it holds at the nominal scene, and on how much of the box.
+/// One part of a claim: whether it holds at the nominal scene, and on what share of the box.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Holding {
-    /// What part, such as a friction model.
+    /// The part, such as a friction model.
     pub what: String,
     pub nominal: bool,
     pub share: Share,
 }
 
-/// Our answer to a claim; see [`Claim`](super::Claim).
+/// The verdict on a claim with its details; see [`Claim`](super::Claim).
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Answer {
     pub verdict: Verdict,
@@ -56,19 +56,19 @@ pub(super) struct Answer {
 }
 
 impl Answer {
-    /// The answer to a claim that the scene of the paper decides, with the part of the box where it holds.
+    /// Creates the verdict on a claim decided at the scene of the paper, with the part of the box where it holds.
     pub fn judged(holdings: &[Holding], words: impl Into<Words>) -> Self {
         Self { verdict: judge(holdings), range: over_ranges(holdings), words: words.into() }
     }
 }
 
-/// The verdict on a claim as its paper shows it: reproduced if every part holds at the nominal scene, which is that of the
-/// papers' figures.
+/// Returns the verdict on a claim as in its paper: reproduced if every part holds at the nominal scene, which is that
+/// of the papers' figures.
 pub(super) fn judge(holdings: &[Holding]) -> Verdict {
     Verdict::reproduced_if(holdings.iter().all(|holding| holding.nominal))
 }
 
-/// Where each part holds over the whole ranges, in one line; parts with the same share are named together.
+/// Says on what share of the whole ranges each part holds, in one line; parts with the same share are named together.
 pub(super) fn over_ranges(holdings: &[Holding]) -> String {
     let shares =
         named_together(holdings.iter().map(|Holding { what, share, .. }| (share.words_of("the box"), what.as_str())));
@@ -95,7 +95,7 @@ mod tests {
         assert_eq!(judge(&[all.clone(), half.clone()]), Verdict::Reproduced);
         assert_eq!(over_ranges(&[all.clone(), all.clone()]), "all of the box");
         assert_eq!(over_ranges(&[all, half]), "Coulomb: all of the box; LuGre: 50 % [49.9, 50.1] of the box");
-        // Everywhere in the box but not at the nominal scene is no reproduction of a chart drawn there.
+        // Everywhere in the box but not at the nominal scene does not reproduce a chart drawn there.
         assert_eq!(judge(&[holding("Coulomb", false, 1.0)]), Verdict::NotReproduced);
     }
 }

@@ -1,9 +1,9 @@
-//! What the papers claim, each answered by a check that computes.
+//! The claims of the papers, each with a check that computes the answer.
 //!
-//! A check asks the physics (or the studies that have been run) a question with explicit criteria. One rule serves all
-//! claims: the answer at the scene and with the constants of the paper's figure makes the [`Verdict`]; on what share of
-//! the general study's box it holds stands next to it. Nothing is typed in by hand: the tests replace the physics, and
-//! the verdicts change.
+//! A check evaluates the physics (or uses the studies' results) with explicit criteria. One rule applies to all claims:
+//! the answer at the scene and with the constants of the paper's figure is the [`Verdict`]; the share of the general
+//! study's box where it holds is stated with it. Nothing is entered by hand: if the tests replace the physics, the
+//! verdicts change.
 
 mod bench;
 mod curve;
@@ -27,29 +27,29 @@ use serde::Serialize;
 use super::papers::{PaperClaim, filled, papers};
 use super::{Effort, ReproduceError, Reproduced};
 
-/// A claim of the papers with our answer.
+/// A claim of the papers with our verdict.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Claim {
-    /// Its number, from 1; a number that holds two claims comes twice.
+    /// Its number, from 1; two claims may share a number.
     pub number: usize,
-    /// Where it stands, such as `CHK fig. 6, LG fig. 2a`.
+    /// Its source, such as `CHK fig. 6, LG fig. 2a`.
     pub source: &'static str,
-    /// What is claimed, in one sentence.
+    /// The claim in one sentence.
     pub statement: &'static str,
-    /// Our answer, as the paper shows it: at its figure's scene, with its constants.
+    /// Our verdict in the setting of the paper: at its figure's scene, with its constants.
     #[serde(flatten)]
     pub verdict: Verdict,
-    /// Where it holds over the whole ranges of the general study; for orders and percentages, under which friction model.
+    /// Where it holds over the whole ranges of the general study; for orders and percentages, under which friction.
     pub range: String,
-    /// Our figures, in a sentence or two.
+    /// Our result, in a sentence or two.
     pub finding: String,
-    /// The setting in which the finding holds: models, ranges, fidelity, what was varied and how finely.
+    /// The setting of the result: models, ranges, fidelity, varied factors and resolution.
     pub setting: String,
-    /// Stems of the figures that show it.
+    /// Stems of its figures.
     pub figures: &'static [&'static str],
 }
 
-/// The answer to a claim.
+/// The verdict on a claim.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[serde(tag = "verdict", rename_all = "kebab-case")]
 pub enum Verdict {
@@ -57,20 +57,20 @@ pub enum Verdict {
     Reproduced,
     /// Some part of it does not hold.
     NotReproduced,
-    /// A number or figure of the same paper says otherwise.
+    /// A number or figure of the same paper contradicts it.
     Contradicted {
-        /// Which, and where.
+        /// The number or figure.
         own: String,
     },
 }
 
 impl Verdict {
-    /// Reproduced if it holds.
+    /// Returns `Reproduced` if the claim holds.
     fn reproduced_if(holds: bool) -> Self {
         if holds { Self::Reproduced } else { Self::NotReproduced }
     }
 
-    /// The verdict in a word: `reproduced`, `not reproduced`, `contradicted`.
+    /// Returns the verdict in words: `reproduced`, `not reproduced`, `contradicted`.
     pub fn word(&self) -> &'static str {
         match self {
             Self::Reproduced => "reproduced",
@@ -79,7 +79,7 @@ impl Verdict {
         }
     }
 
-    /// What of the paper's own contradicts it; empty for the others.
+    /// Returns what in the same paper contradicts it; empty for other verdicts.
     pub fn own(&self) -> &str {
         match self {
             Self::Contradicted { own } => own,
@@ -88,10 +88,10 @@ impl Verdict {
     }
 }
 
-/// Answers a claim.
+/// A function that checks a claim.
 type Check = fn(&Bench<'_>) -> Result<Answer, ReproduceError>;
 
-/// The checks by the names that `papers.toml` gives them.
+/// The checks by their names in `papers.toml`.
 const CHECKS: [(&str, Check); 25] = [
     ("slip_time", in_time::slip_time),
     ("displacement", in_time::displacement),
@@ -120,8 +120,8 @@ const CHECKS: [(&str, Check); 25] = [
     ("outweigh", shares::outweigh),
 ];
 
-/// Every claim of the papers with our answer, in the order of their numbers. `studies` are all nine studies, run with
-/// intervals; claims 17 to 20 rest on them. The same studies and effort give the same claims, to the last letter.
+/// Checks every claim of the papers, in the order of their numbers. `studies` are all nine studies with intervals;
+/// claims 17 to 20 depend on them. The same studies and effort give the same claims, to the last letter.
 ///
 /// # Errors
 /// [`ReproduceError`] if a study is missing or has no indices, or a scene has no critical force.
@@ -129,7 +129,7 @@ pub fn claims(studies: &[Reproduced], effort: Effort) -> Result<Vec<Claim>, Repr
     answered(&Bench::new(Physics::ours(), effort, studies)?, &(1..=20))
 }
 
-/// The claims whose numbers are among `numbers`.
+/// Checks the claims whose numbers are in `numbers`.
 fn answered(bench: &Bench<'_>, numbers: &std::ops::RangeInclusive<usize>) -> Result<Vec<Claim>, ReproduceError> {
     let asked = papers().claims.iter().filter(|claim| numbers.contains(&claim.number));
     let claim = |claim: &'static PaperClaim| {
@@ -150,8 +150,8 @@ fn answered(bench: &Bench<'_>, numbers: &std::ops::RangeInclusive<usize>) -> Res
     asked.map(claim).collect()
 }
 
-/// The claims as JSON: `format` (`apportion-claims`), `version`, `claims`, each with the fields of [`Claim`], its verdict
-/// as `verdict` (`reproduced`, `not-reproduced`, `contradicted`, with `own`).
+/// Formats the claims as JSON: `format` (`apportion-claims`), `version`, `claims`, each with the fields of [`Claim`],
+/// its verdict as `verdict` (`reproduced`, `not-reproduced`, `contradicted`, with `own`).
 pub fn claims_json(claims: &[Claim]) -> String {
     #[derive(Serialize)]
     struct ClaimsFile<'a> {

@@ -10,7 +10,7 @@ use crate::reproduce::ReproduceError;
 pub(super) fn weaker_law(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
     let (coulomb, hurtado_kim) = (closed(FrictionLaw::Coulomb), closed(FrictionLaw::HurtadoKim));
     let below = |scene: &Scene| Ok(bench.force(scene, &hurtado_kim)? < bench.force(scene, &coulomb)?);
-    // One sample of each box shares the scrambles of the others, so that they differ by their factors alone.
+    // All samples of a box share the scrambles, so that they differ only by their factors.
     let points = bench.sizes.points;
     let general = bench.share(Region::General, points, &below)?;
     let dimensional = bench.share(Region::Group("dimensional"), points, &below)?;

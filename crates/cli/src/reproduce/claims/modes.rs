@@ -1,4 +1,4 @@
-//! Claims about what else the particle may do than slide, and under which force: 4, 6.
+//! Claims about other motions of the particle than sliding, and their forces: 4, 6.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -11,10 +11,10 @@ use super::judge::{Answer, judge, over_ranges};
 use super::numbers::{change, nano, number};
 use crate::reproduce::ReproduceError;
 
-/// How far above the angle of friction the mode diagram begins (rad): at the angle itself F* has no bound.
+/// Distance of the start of the mode diagram above the angle of friction (rad): at that angle F* is unbounded.
 const ABOVE_FRICTION: f64 = 0.05;
 
-/// F*_ss (N) at each of the angles of the mode diagram; `None` where no force starts to slide the particle.
+/// Returns F*_ss (N) at each of the angles of the mode diagram; `None` if no force makes the particle slide.
 fn diagram(bench: &Bench<'_>, scene: &Scene, adhesion_in_load: bool) -> Result<Vec<(f64, Option<f64>)>, Failure> {
     let mut pushing = (bench.physics.pushing)(*scene);
     pushing.adhesion_in_load = adhesion_in_load;
@@ -23,7 +23,7 @@ fn diagram(bench: &Bench<'_>, scene: &Scene, adhesion_in_load: bool) -> Result<V
     angles.into_iter().map(|angle| Ok((angle, pushing.critical_tip_force(Mode::Slide, angle)?))).collect()
 }
 
-/// Claim 4.
+/// Checks claim 4.
 pub(super) fn angle(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
     let parameter = Parameter::from_name("contact_angle").ok_or(ReproduceError::NoRanges)?;
     let sweep = Sweep { parameter, range: (0.0, FRAC_PI_2), count: 5 };
@@ -62,8 +62,8 @@ pub(super) fn angle(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
     Ok(Answer::judged(&holdings, words))
 }
 
-/// Claim 6. TS04 prints no criterion for rolling: the moment criterion is ours. Between a tip that stands still and a moving
-/// substrate the particle can only roll if it slips or rolls at the tip too, so that rolling starts where the moment
+/// Checks claim 6. TS04 prints no criterion for rolling: the moment criterion is ours. Between a resting tip and a
+/// moving substrate the particle can only roll if it slips or rolls at the tip too, so rolling starts where the moment
 /// criterion holds and the tip slips.
 pub(super) fn rolling(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
     let options = closed(FrictionLaw::Coulomb);

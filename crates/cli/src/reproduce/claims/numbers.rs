@@ -1,19 +1,19 @@
-//! Numbers of findings.
+//! The numbers in results of claims.
 
 use apportion_report::format::minus;
 use apportion_report::{fixed, significant, with_unit};
 
-/// To three significant digits: the scene's constants bear no more.
+/// Rounds to three significant digits: the scene's constants justify no more.
 fn rounded(value: f64) -> f64 {
     format!("{value:.2e}").parse().unwrap_or(value)
 }
 
-/// An SI value in nano-units, with the unit: `631 nN`.
+/// Formats an SI value in nano-units, with the unit: `631 nN`.
 pub(super) fn nano(value: f64, unit: &str) -> String {
     number(value * 1e9, &format!("n{unit}"))
 }
 
-/// A plain number to three significant digits, with its unit if it has one; to two as a power of ten where it is tiny.
+/// Formats a plain number to three significant digits, with its unit if any; a tiny one to two as a power of ten.
 pub(super) fn number(value: f64, unit: &str) -> String {
     const TINY: f64 = 1e-4;
     if value != 0.0 && value.abs() < TINY {
@@ -22,13 +22,13 @@ pub(super) fn number(value: f64, unit: &str) -> String {
     minus(&with_unit(rounded(value), unit))
 }
 
-/// A share in percent without the sign, to one decimal; two where it is close to 0 or 100 and neither.
+/// Formats a share in percent without the sign, to one decimal; two if it is close to 0 or 100 but neither.
 pub(super) fn percent_of(share: f64) -> String {
     let close = share > 0.0 && share < 1.0 && !(0.01..=0.99).contains(&share);
     significant(fixed(100.0 * share, if close { 2 } else { 1 }).parse().unwrap_or(f64::NAN))
 }
 
-/// A relative change in percent, `1.9 %`; as a power of ten where it is too small to be read so.
+/// Formats a relative change in percent, `1.9 %`; as a power of ten if it is too small.
 pub(super) fn change(relative: f64) -> String {
     let percent = 100.0 * relative;
     if percent != 0.0 && percent.abs() < 1e-3 {

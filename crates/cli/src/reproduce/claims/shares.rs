@@ -1,4 +1,4 @@
-//! Claims about the shares of the variance: 17 to 20. They rest on the nine studies.
+//! Claims about the shares of the variance: 17 to 20. They depend on the nine studies.
 
 use apportion::result::IndexRecord;
 use apportion_afm::{Failure, FrictionLaw, Scene};
@@ -13,14 +13,14 @@ use crate::reproduce::order::{Agreement, OrderVerdict, Standing, VISIBLE, order_
 use crate::reproduce::papers::{CLOSE, PRINTED};
 use crate::reproduce::{FRICTIONS, Friction, GROUPS, Published, ReproduceError, Reproduced, named_together, published};
 
-/// F_cr counts as a product of a function of the dimensions and one of the environment if it is one to this: a
-/// thousandth moves no percentage by more than a tenth.
+/// Maximum relative deviation of F_cr from a product of a function of the dimensions and one of the environment: a
+/// thousandth changes no percentage by more than a tenth.
 const PRODUCT: f64 = 1e-3;
 
-/// What a percentage in whole numbers may have been before rounding.
+/// Rounding error of a percentage in whole numbers.
 const ROUNDED: f64 = 0.5;
 
-/// The study of a group under a friction model, with its indices.
+/// Returns the study of a group under a friction model, with its indices.
 fn study<'a>(
     bench: &Bench<'a>,
     group: &'static str,
@@ -31,13 +31,13 @@ fn study<'a>(
     study.and_then(indices).ok_or(ReproduceError::NoIndices { group, friction: friction.name })
 }
 
-/// The study of a group whose percentages are printed, with its indices.
+/// Returns the study of a group whose percentages are printed, with its indices.
 fn printed<'a>(bench: &Bench<'a>, group: &'static str) -> Result<(&'a Reproduced, &'a [IndexRecord]), ReproduceError> {
     let friction = FRICTIONS.into_iter().find(|friction| friction.key == PRINTED);
     study(bench, group, friction.ok_or(ReproduceError::NoIndices { group, friction: PRINTED })?)
 }
 
-/// The studies of a group and their design.
+/// Returns the studies of a group and their design.
 fn studies(bench: &Bench<'_>, group: &'static str) -> Result<(&'static str, String), ReproduceError> {
     let (study, _) = study(bench, group, FRICTIONS[0])?;
     let provenance = &study.result.provenance;
@@ -49,7 +49,7 @@ fn studies(bench: &Bench<'_>, group: &'static str) -> Result<(&'static str, Stri
     Ok(("studies", words))
 }
 
-/// The first halves of claims 17 to 19: an order of factors.
+/// Checks the first halves of claims 17 to 19: an order of factors.
 pub(super) fn order(bench: &Bench<'_>, group: &'static str) -> Result<Answer, ReproduceError> {
     let (mut phrases, mut shares, mut is_same) = (Vec::new(), Vec::new(), true);
     for friction in FRICTIONS {
@@ -68,7 +68,7 @@ pub(super) fn order(bench: &Bench<'_>, group: &'static str) -> Result<Answer, Re
     })
 }
 
-/// How an order stands to the published one, in a phrase.
+/// Says in a phrase how an order agrees with the published one.
 fn stands(order: &OrderVerdict<'_>) -> String {
     let pairs = |wanted| {
         let words = order.pairs_that_are(wanted).into_iter().map(|(one, other)| format!("{one} before {other}"));
@@ -91,7 +91,7 @@ fn stands(order: &OrderVerdict<'_>) -> String {
     phrase.replace('_', " ")
 }
 
-/// The visible total shares with their intervals, the largest first, those by first order in parentheses.
+/// Lists the visible total shares with their intervals, the largest first, those by first order in parentheses.
 fn shares_in_words(indices: &[IndexRecord], order: &OrderVerdict<'_>) -> String {
     let of = |name: &str| indices.iter().find(|index| index.factor == name);
     let one = |index: &IndexRecord| {
@@ -106,8 +106,8 @@ fn shares_in_words(indices: &[IndexRecord], order: &OrderVerdict<'_>) -> String 
     format!("{}{rest}", visible.join(", "))
 }
 
-/// A claim about printed percentages: all have to be ours under one reading. Something of the paper's own may contradict those
-/// that are not.
+/// Checks a claim about printed percentages: all must agree with ours under one meaning. A statement of the same paper
+/// may contradict the others.
 fn printed_percentages(
     bench: &Bench<'_>,
     group: &'static str,
@@ -141,12 +141,12 @@ fn printed_percentages(
     Ok(Answer { verdict, range: range.to_owned(), words })
 }
 
-/// Claim 17, second half.
+/// Checks the second half of claim 17.
 pub(super) fn dimensional_percentage(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
     printed_percentages(bench, "dimensional", None)
 }
 
-/// Claim 17, what LG's text says of the width. A printed percentage above half is that of the most effective factor.
+/// Checks LG's statement on the width in claim 17. A printed percentage above half is that of the main factor.
 pub(super) fn most_effective(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
     let (study, indices) = printed(bench, "dimensional")?;
     let order = order_of(study);
@@ -164,7 +164,7 @@ pub(super) fn most_effective(bench: &Bench<'_>) -> Result<Answer, ReproduceError
     })
 }
 
-/// Claim 18, second half.
+/// Checks the second half of claim 18.
 pub(super) fn environmental_percentages(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
     let published = published("environmental", PRINTED);
     let percent = |name: &str| published.share(name).unwrap_or(f64::NAN);
@@ -174,7 +174,7 @@ pub(super) fn environmental_percentages(bench: &Bench<'_>) -> Result<Answer, Rep
         Ok((curve.last() - curve.first()).abs())
     };
     let (by_modulus, by_velocity) = (over("elastic_modulus")?, over("velocity")?);
-    // Variances of straight lines are to each other as the squares of their rises.
+    // The variances of straight lines have the ratios of the squares of their rises.
     let needed = by_modulus * (percent("velocity") / percent("elastic_modulus")).sqrt();
     let is_visible = needed / bench.force(&nominal, &options)? > NO_EFFECT;
     let own = is_visible.then(|| "figure 3a, in which the velocity has no effect".to_owned());
@@ -184,8 +184,8 @@ pub(super) fn environmental_percentages(bench: &Bench<'_>) -> Result<Answer, Rep
     Ok(answer)
 }
 
-/// Whether F_cr under LuGre friction is a product of a function of the dimensions and one of the other factors: with the
-/// others at the nominal scene, or the dimensions, or both, the product of two forces is that of the other two.
+/// Returns whether F_cr under LuGre friction is a product of a function of the dimensions and one of the others: with
+/// the others at the nominal scene, or the dimensions, or both, the product of two forces equals that of the other two.
 fn is_product(bench: &Bench<'_>) -> Result<bool, Failure> {
     let options = closed(FrictionLaw::LuGre);
     let nominal = Scene::default();
@@ -201,8 +201,8 @@ fn is_product(bench: &Bench<'_>) -> Result<bool, Failure> {
     Ok(bench.share(Region::General, bench.sizes.points, &rule)?.everywhere())
 }
 
-/// Share in percent of the thickness among thickness, length and width, as printed for the general study, and between
-/// which values rounding leaves it.
+/// Returns the share in percent of the thickness among thickness, length and width, as printed for the general study,
+/// and its bounds by rounding.
 fn thickness_among(printed: &Published) -> (f64, (f64, f64)) {
     let percent = |name: &str| printed.share(name).unwrap_or(0.0);
     let (thickness, others) = (percent("thickness"), percent("length") + percent("width"));
@@ -210,7 +210,7 @@ fn thickness_among(printed: &Published) -> (f64, (f64, f64)) {
     (share(0.0), (share(-ROUNDED), share(ROUNDED)))
 }
 
-/// Claim 19, second half.
+/// Checks the second half of claim 19.
 pub(super) fn general_percentages(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
     let alone = published("dimensional", PRINTED).share("thickness").unwrap_or(f64::NAN);
     let (among, (low, high)) = thickness_among(&published("general", PRINTED));
@@ -235,7 +235,7 @@ pub(super) fn general_percentages(bench: &Bench<'_>) -> Result<Answer, Reproduce
     Ok(answer)
 }
 
-/// Claim 20.
+/// Checks claim 20.
 pub(super) fn outweigh(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
     let (mut holds, mut each, mut totals) = (true, Vec::new(), Vec::new());
     for friction in FRICTIONS {

@@ -1,4 +1,4 @@
-//! The answer in short: which factor leads in each study, how sure that is, and in what order the rest follow.
+//! The summary: which factor leads in each study, with which certainty, and the order of the rest.
 
 use apportion::EffectEstimates;
 use apportion::result::IndexRecord;
@@ -11,18 +11,18 @@ use crate::reproduce::order::VISIBLE;
 use crate::reproduce::shares::{indices, ranked};
 use crate::reproduce::{FRICTIONS, GROUPS, Reproduced, named_together};
 
-/// An index in percent of the variance, to a whole percent; one decimal below 10 % and near 100 %.
+/// Formats an index in percent of the variance, to a whole percent; one decimal below 10 % and near 100 %.
 fn percent(index: f64) -> String {
     let is_near_an_end = !(0.0995..=0.985).contains(&index);
     format!("{} %", fixed(100.0 * index, usize::from(is_near_an_end)))
 }
 
-/// What a factor explains alone and with its interactions.
+/// Returns what a factor explains alone and with its interactions.
 fn explained(effect: &EffectEstimates) -> (String, String) {
     (percent(effect.first_order.estimate), percent(effect.total.estimate))
 }
 
-/// How sure it is that the leader leads.
+/// Says with which certainty the leading factor leads.
 fn certainty(effect: &EffectEstimates) -> String {
     match effect.probability_first {
         Some(p) if p > 0.999 => "largest with probability > 0.999".to_owned(),
@@ -31,15 +31,15 @@ fn certainty(effect: &EffectEstimates) -> String {
     }
 }
 
-/// The table of the leading factors, and where the model does not hold.
+/// Builds the table of the leading factors, and a notice where the model does not hold.
 pub(super) fn parts(studies: &[Reproduced]) -> Vec<Part> {
     let texts: Vec<String> = where_it_holds(studies).into_iter().collect();
     let validity = Part::Notice { mark: Mark::Mixed, kind: "Model validity".to_owned(), texts };
     vec![table(studies), validity]
 }
 
-/// A row for each group of studies, a column for each friction model: the leader, its shares, how sure it is, and who
-/// follows.
+/// Builds a row for each group of studies, a column for each friction model: the leading factor, its shares, the
+/// certainty, and the next factors.
 fn table(studies: &[Reproduced]) -> Part {
     let caption = "The leading factor of each study: the part of the variance of the critical force that it explains alone \
                    (first-order index S_1) and with all its interactions (total index S_T), and the factors that follow \
@@ -67,7 +67,7 @@ fn leader(study: &Reproduced) -> Cell {
     }
 }
 
-/// On how many of the runs the model leaves its range, by the flag that is raised most.
+/// Says on what share of the runs the model is outside its range, by the flag that is raised most.
 fn where_it_holds(studies: &[Reproduced]) -> Option<String> {
     let flags = studies.iter().flat_map(|study| &study.result.validity).filter(|flag| flag.runs > 0);
     let worst = flags.max_by(|a, b| a.share.total_cmp(&b.share))?;
@@ -81,8 +81,8 @@ fn where_it_holds(studies: &[Reproduced]) -> Option<String> {
     Some(format!("On {runs} of the runs of a study, {what}"))
 }
 
-/// The answer of the general study in one sentence: `Thickness explains 33 % of the variance of the critical force alone and
-/// 67 % with its interactions under Coulomb friction; ...`.
+/// Formats the result of the general study in one sentence: `Thickness explains 33 % of the variance of the critical
+/// force alone and 67 % with its interactions under Coulomb friction; ...`.
 pub(super) fn lead(studies: &[Reproduced]) -> Option<String> {
     let of_group = studies.iter().filter(|study| study.group == GROUPS[2]);
     let leaders = of_group.filter_map(|study| {
@@ -103,7 +103,7 @@ pub(super) fn lead(studies: &[Reproduced]) -> Option<String> {
     (!said.is_empty()).then(|| format!("{}.", capitalised(&said.join("; "))))
 }
 
-/// What a careful reader should know of each study, a sentence each.
+/// Lists the warnings of each study, a sentence each.
 pub(super) fn cautions(studies: &[Reproduced]) -> Vec<String> {
     let said = |study: &Reproduced| -> Vec<String> {
         let warnings = study.result.outputs.iter().flat_map(|output| output.warnings.iter());
@@ -112,8 +112,8 @@ pub(super) fn cautions(studies: &[Reproduced]) -> Vec<String> {
     studies.iter().flat_map(said).collect()
 }
 
-/// On which share of the runs each assumption of the model does not hold: a column for each flag that was raised
-/// anywhere, a row for each study.
+/// Tabulates the share of the runs on which each assumption of the model does not hold: a column for each flag that was
+/// raised in some study, a row for each study.
 pub fn validity(studies: &[Reproduced]) -> Option<Part> {
     let flags = &studies.first()?.result.validity;
     let raised =

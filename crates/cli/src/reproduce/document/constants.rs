@@ -1,4 +1,4 @@
-//! The constants that the papers print, those that are used, and why; and the ranges of the factors.
+//! The constants that the papers print, those that are used, and the reasons; and the ranges of the factors.
 
 use apportion::space::Factor;
 use apportion_afm::Scene;
@@ -9,7 +9,7 @@ use apportion_report::with_unit;
 use crate::reproduce::general_study;
 use crate::reproduce::papers::{Words, filled, papers};
 
-/// The values of the scene that the studies use.
+/// Returns the values of the scene that the studies use.
 fn used() -> Words {
     let (scene, modes) = (Scene::default(), ModeConstants::default());
     let giga = |pascals: f64| with_unit((pascals / 1e7).round() / 100.0, "GPa");
@@ -26,7 +26,7 @@ fn used() -> Words {
     ]
 }
 
-/// The section: constants, then the ranges of the general study.
+/// Builds the section: constants, then the ranges of the general study.
 pub(super) fn section() -> Section {
     let caption = "Constants that a paper prints in another way than it is used, or that no paper prints. All others are \
                    used as printed.";

@@ -1,4 +1,4 @@
-//! The figures of the papers as they stand on the page: small, what is alike together.
+//! The figures of the papers on the page: small, similar ones together.
 
 use apportion_report::document::{Figure, Link, Part, Section};
 
@@ -7,29 +7,29 @@ use crate::reproduce::figures::{ANIMATION_STEM, Animation, PaperFigure};
 use crate::reproduce::papers::papers;
 use crate::reproduce::{GROUPS, Reproduction};
 
-/// What the captions of all sweeps have in common.
+/// The common sentences of the captions of all sweeps.
 const RUNGS: &str = "The curves of CHK and LG are those of the closed formulas. Where a caption says nothing of it, the quasi-static \
                      rung, which solves the equilibrium with exact geometry, differs by less than 0.01 %.";
 
-/// The anchor on the page of the figure with a stem: those of shares stand together in the chart of all friction models.
+/// Returns the anchor of the figure with a stem: those of shares are in the chart of all friction models.
 pub(super) fn anchor(stem: &str) -> &str {
     let figure = papers().figures.iter().find(|figure| figure.stem == stem);
     figure.and_then(|figure| figure.shares).unwrap_or(stem)
 }
 
-/// The figure that shows the one with a stem.
+/// Returns the label of the figure that shows the one with a stem.
 pub(super) fn label<'a>(figures: &'a [PaperFigure], stem: &str) -> Option<&'a str> {
     figures.iter().find(|figure| figure.stem == stem).map(|figure| figure.label.as_str())
 }
 
-/// The shares under every friction model: of all factors together, then of each group.
+/// Builds the section of the shares under every friction model: of all factors together, then of each group.
 pub(super) fn overview(figures: &[PaperFigure]) -> Section {
     let groups = [GROUPS[2], GROUPS[0], GROUPS[1]];
     let together = groups.iter().filter_map(|group| shown_together(figures, group.key));
     Section::new("overview", "Shares under every friction model", together.map(Part::from).collect())
 }
 
-/// A section of figures for each paper.
+/// Builds a section of figures for each paper.
 pub(super) fn sections(reproduction: &Reproduction) -> Vec<Section> {
     let figures = &reproduction.figures;
     if figures.is_empty() {
@@ -48,12 +48,12 @@ pub(super) fn sections(reproduction: &Reproduction) -> Vec<Section> {
     ]
 }
 
-/// The figures that are files alone, since another stands for them on the page.
+/// Returns the figures that are only files, since another one shows them on the page.
 pub(super) fn files(figures: &[PaperFigure]) -> Vec<Figure> {
     figures.iter().filter(|figure| anchor(figure.stem) != figure.stem).map(alone).collect()
 }
 
-/// A figure of a paper by itself.
+/// Creates a figure of a paper by itself.
 fn alone(figure: &PaperFigure) -> Figure {
     Figure {
         id: figure.stem.to_owned(),
@@ -69,13 +69,13 @@ fn alone(figure: &PaperFigure) -> Figure {
     }
 }
 
-/// What a paper shows, with its name.
+/// Says what a paper shows, with its name.
 fn theirs(figure: &PaperFigure) -> String {
     let paper = figure.label.split(' ').next().unwrap_or_default();
     format!("{paper} shows: {}", figure.theirs)
 }
 
-/// The chart of all friction models in a group of studies, with the labels of the figures that it stands for.
+/// Draws all friction models in a group of studies, with the labels of the figures that the chart includes.
 fn shown_together(figures: &[PaperFigure], group: &str) -> Option<Figure> {
     let figure = figures.iter().find(|figure| figure.stem == group)?;
     let members = || figures.iter().filter(|other| other.stem != group && anchor(other.stem) == group);
@@ -84,7 +84,7 @@ fn shown_together(figures: &[PaperFigure], group: &str) -> Option<Figure> {
     Some(Figure { label: labels.join(", "), beside: beside.join(" "), ..alone(figure) })
 }
 
-/// The push in time as an animation.
+/// Embeds the animation of the push.
 fn moving(animation: &Animation) -> Part {
     let html = animation.html.clone();
     let frame = Part::Frame { title: "TS04 fig. 14 as an animation".to_owned(), html };

@@ -15,8 +15,8 @@ use super::percentages::{self, percentages_csv};
 use super::shares::shares_table;
 use super::{Effort, Reproduced, Reproduction};
 
-/// The document about `reproduction`; what was not asked for is left out. But for the times in the results, its files are
-/// the same for every run of the same version.
+/// Builds the document about `reproduction`; missing parts are omitted. Except for the times in the results, its files
+/// are the same for every run of the same version.
 pub fn document(reproduction: &Reproduction) -> Document {
     let (studies, claims) = (&reproduction.studies, &reproduction.claims);
     let mut then = vec![figures::overview(&reproduction.figures)];
@@ -42,12 +42,12 @@ pub fn document(reproduction: &Reproduction) -> Document {
     Document { charts: figures::files(&reproduction.figures), files: files(reproduction), ..report.document() }
 }
 
-/// The parts of a section about `all`; none where there are none.
+/// Returns the parts of a section about `all`; empty if `all` is.
 fn when<T>(all: &[T], parts: impl FnOnce() -> Vec<Part>) -> Vec<Part> {
     if all.is_empty() { Vec::new() } else { parts() }
 }
 
-/// The files for programs: results, claims and percentages, and the numbers of every figure. Two tables of the page are
+/// Builds the data files: results, claims and percentages, and the numbers of every figure. Two tables of the page are
 /// files too: the claims and the shares.
 fn files(reproduction: &Reproduction) -> Vec<DataFile> {
     let mut files = Vec::new();
@@ -70,7 +70,7 @@ fn files(reproduction: &Reproduction) -> Vec<DataFile> {
     files
 }
 
-/// A file beside those of the chart called `stem`.
+/// Returns the path of a file next to those of the chart `stem`.
 fn beside_charts(stem: &str, ending: &str) -> String {
     format!("charts/{stem}.{ending}")
 }
@@ -83,7 +83,7 @@ fn lead(reproduction: &Reproduction) -> Vec<String> {
     lead
 }
 
-/// The tables of all indices, then what a careful reader should know.
+/// Builds the tables of all indices, then the warnings.
 fn shares(studies: &[Reproduced]) -> Vec<Part> {
     let table = shares_table(&studies.iter().collect::<Vec<&Reproduced>>());
     let table = Table { file: "shares.csv".to_owned(), ..table };
@@ -96,7 +96,7 @@ fn shares(studies: &[Reproduced]) -> Vec<Part> {
     parts
 }
 
-/// Designs, estimators, intervals and cost.
+/// Describes designs, estimators, intervals and cost.
 fn provenance(reproduction: &Reproduction) -> Vec<(&'static str, String)> {
     let effort = match reproduction.effort {
         Effort::Full => "full",

@@ -1,4 +1,4 @@
-//! The verdicts on the claims: a table, and a sentence that counts them.
+//! The verdicts on the claims: a table, and a sentence with their counts.
 
 use apportion_report::document::{Cell, Link, Mark, OnPhone, Part, Table};
 
@@ -6,7 +6,7 @@ use super::figures::{anchor, label};
 use crate::reproduce::claims::{Claim, Verdict};
 use crate::reproduce::figures::PaperFigure;
 
-/// The word and the look of a verdict.
+/// Formats a verdict as a badge.
 fn badge(verdict: &Verdict) -> Cell {
     let mark = match verdict {
         Verdict::Reproduced => Mark::Good,
@@ -16,7 +16,7 @@ fn badge(verdict: &Verdict) -> Cell {
     Cell::marked(verdict.word(), mark)
 }
 
-/// The table of verdicts, a line or two each; all of every claim as CSV.
+/// Builds the table of verdicts, a line or two each; the CSV file has all of every claim.
 pub(super) fn table(claims: &[Claim]) -> Part {
     let verdict = |claim: &Claim| {
         let own = claim.verdict.own();
@@ -42,7 +42,7 @@ pub(super) fn table(claims: &[Claim]) -> Part {
     Table { on_phone: OnPhone::Stack, file: "claims.csv".to_owned(), ..rows.into() }.into()
 }
 
-/// Our figures for every claim, the setting they hold in, and the figures of the page that show it.
+/// Lists our results for every claim, their setting, and their figures on the page.
 pub(super) fn details(claims: &[Claim], figures: &[PaperFigure]) -> Part {
     let links = |claim: &Claim| {
         let shown = claim.figures.iter().filter_map(|stem| Some((label(figures, stem)?, anchor(stem))));
@@ -59,6 +59,7 @@ pub(super) fn details(claims: &[Claim], figures: &[PaperFigure]) -> Part {
     Part::OnPage(vec![Part::Details { summary, parts: vec![table.into()] }])
 }
 
+/// Counts the verdicts:
 /// `Of 25 answers to the papers' 20 claims, 14 are reproduced, 8 are not, and 3 are contradicted ...`.
 pub(super) fn sentence(claims: &[Claim]) -> String {
     let count = |word: &str| claims.iter().filter(|claim| claim.verdict.word() == word).count();

@@ -1,29 +1,29 @@
-//! What a curve does, in words.
+//! Descriptions of curves.
 
 use apportion_report::format::three_digits as short;
 
-/// Below this part of its size a change is rounding.
+/// Relative change below which it is rounding.
 const ROUNDING: f64 = 1e-6;
-/// Below this part of its size a change is small: it is reported as such.
+/// Relative change below which it is reported as small.
 const SMALL: f64 = 1e-2;
-/// A curve this close to its chord, as a part of the change, is called straight.
+/// Distance from the chord, as a part of the change, up to which a curve is called straight.
 const STRAIGHT: f64 = 0.02;
 
-/// A curve y(x) in the units of its chart, x rising; y is not finite where there is none.
+/// A curve y(x) in the units of its chart, x rising; a missing y is not finite.
 pub(super) struct Curve<'a> {
     /// The abscissae.
     pub x: &'a [f64],
     /// One ordinate for each.
     pub y: &'a [f64],
-    /// Unit of the abscissae, with the space before it.
+    /// Unit of the abscissae, with a leading space.
     pub x_unit: &'a str,
     /// Unit of the ordinates, likewise.
     pub y_unit: &'a str,
 }
 
 impl Curve<'_> {
-    /// What the curve does from its first to its last point, such as "falls from 9 to 1 nN (half of the way by 3 um)"; it
-    /// reads after the name of what is drawn. `whom`, such as " under Coulomb friction", follows the values.
+    /// Describes the curve from its first to its last point, such as "falls from 9 to 1 nN (half of the way by 3 um)",
+    /// for use after the name of the quantity. `whom`, such as " under Coulomb friction", follows the values.
     pub fn course(&self, whom: &str) -> String {
         let points: Vec<(f64, f64)> =
             self.x.iter().copied().zip(self.y.iter().copied()).filter(|(_, y)| y.is_finite()).collect();
@@ -49,7 +49,7 @@ impl Curve<'_> {
         format!("{verb} from {} to {}{unit}{whom}{}", short(first), short(last), self.shape(&points))
     }
 
-    /// How the change of a curve that only rises or only falls is spread over the points.
+    /// Describes how the change of a monotonic curve is distributed over the points.
     fn shape(&self, points: &[(f64, f64)]) -> String {
         let ((x0, y0), (x1, y1)) = (points[0], points[points.len() - 1]);
         let chord = |x: f64| y0 + (y1 - y0) * (x - x0) / (x1 - x0);
@@ -67,7 +67,7 @@ impl Curve<'_> {
     }
 }
 
-/// The first place at which a line through the points has the value `level`.
+/// Returns the first position at which a line through the points has the value `level`.
 pub(super) fn crossing(points: &[(f64, f64)], level: f64) -> Option<f64> {
     points.windows(2).find_map(|pair| {
         let ((xa, a), (xb, b)) = ((pair[0].0, pair[0].1 - level), (pair[1].0, pair[1].1 - level));
@@ -91,7 +91,7 @@ mod tests {
     #[test]
     fn exact_laws_are_told() {
         assert_eq!(course(|x| 100.0 * x), "rises from 100 to 200 nN (in a straight line)");
-        // Half of the change of x^3 from 1 to 8 lies at 4.5^(1/3) = 1.651; of x^-2 from 1 to 1/4 at 1/sqrt(0.625) = 1.265.
+        // Half of the change: x^3 from 1 to 8 at 4.5^(1/3) = 1.651; x^-2 from 1 to 1/4 at 1/sqrt(0.625) = 1.265.
         assert_eq!(course(|x| x.powi(3)), "rises from 1.00 to 8.00 nN (half of the way by 1.65 um)");
         assert_eq!(course(|x| x.powi(-2)), "falls from 1.00 to 0.250 nN (half of the way by 1.26 um)");
         assert_eq!(course(|_| 631.0), "stays at 631 nN");

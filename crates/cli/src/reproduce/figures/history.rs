@@ -12,15 +12,15 @@ use crate::scene::charts::{contacts, forces, positions, pushing};
 use crate::scene::simulation::scene_story;
 use crate::scene::{SceneSample, SceneStory, player_page, scene_json, scene_number, scene_table};
 
-/// How long the papers follow the scene (s).
+/// Duration of the scene in the papers (s).
 pub(super) const DURATION: f64 = 0.4;
 /// The shear modulus of the cantilever that the papers print (Pa); ours is that of an isotropic solid, E/(2 (1 + nu)).
 const PRINTED_SHEAR_MODULUS: f64 = 40.5e9;
-/// Coefficients of static friction in TS04 figure 11: about the nominal one.
+/// Coefficients of static friction in TS04 figure 11: around the nominal one.
 const COEFFICIENTS: [f64; 4] = [1.0, 0.8, 0.6, 0.4];
 const NANO: f64 = 1e9;
 
-/// The nominal scene under `law` for [`DURATION`], changed by `change`.
+/// Returns the nominal scene under `law` for [`DURATION`], changed by `change`.
 pub(super) fn story(law: FrictionLaw, change: impl FnOnce(&mut Scene)) -> Result<SceneStory, Failure> {
     let mut scene = Scene::default();
     change(&mut scene);
@@ -32,30 +32,30 @@ fn coulomb() -> Result<SceneStory, Failure> {
     story(FrictionLaw::Coulomb, |_| ())
 }
 
-/// The same with the shear modulus that the papers print.
+/// Returns the same with the shear modulus that the papers print.
 fn printed(law: FrictionLaw) -> Result<SceneStory, Failure> {
     story(law, |scene| scene.shear_modulus = Some(PRINTED_SHEAR_MODULUS))
 }
 
-/// The forces on the tip, as columns of scenes.
+/// The forces on the tip, as column names of scenes.
 const FORCES: [&str; 3] = ["tip_force_nN", "lateral_force_nN", "normal_force_nN"];
-/// The relative position.
+/// The column of the relative position.
 const RELATIVE: &str = "relative_position_nm";
 
-/// TS04 figure 8.
+/// Draws tS04 figure 8.
 pub(super) fn forces_in_time() -> Result<Drawn, ReproduceError> {
     let story = coulomb()?;
     Ok((forces(&story), table("", &[("", &story)], &FORCES).csv()))
 }
 
-/// TS04 figure 9.
+/// Draws tS04 figure 9.
 pub(super) fn tip_force() -> Result<Drawn, ReproduceError> {
     let story = coulomb()?;
     let critical = NANO * story.critical.critical_force;
     Ok((pushing(&story), table("", &[("", &story)], &FORCES[..1]).file("critical_force_nN", |_| critical).csv()))
 }
 
-/// TS04 figure 13.
+/// Draws tS04 figure 13.
 pub(super) fn contact_areas() -> Result<Drawn, ReproduceError> {
     let story = coulomb()?;
     let columns =
@@ -63,7 +63,7 @@ pub(super) fn contact_areas() -> Result<Drawn, ReproduceError> {
     Ok((contacts(&story), table("", &[("", &story)], &columns).csv()))
 }
 
-/// These columns of stories one below the other; with several stories, which the column `first` tells apart.
+/// Stacks these columns of stories; the column `first` names the story if there are several.
 fn table<'a>(first: &str, stories: &[(&'a str, &'a SceneStory)], columns: &[&str]) -> Rows<(&'a str, &'a SceneSample)> {
     let rows = stories.iter().flat_map(|&(name, story)| story.samples.iter().map(move |sample| (name, sample)));
     let rows = Table::from_rows("", rows);
@@ -80,12 +80,12 @@ fn curve(story: &SceneStory, column: &str) -> Vec<(f64, f64)> {
     story.samples.iter().map(|sample| (sample.time, scene_number(column, sample))).collect()
 }
 
-/// When the particle slips, said in s.
+/// Formats the time of the slip in s.
 fn slip(story: &SceneStory) -> String {
     format!("after {}", time(story.critical_time))
 }
 
-/// CHK figure 5.
+/// Draws CHK figure 5.
 pub(super) fn two_laws() -> Result<Drawn, ReproduceError> {
     let (coulomb, hk) = (coulomb()?, story(FrictionLaw::HurtadoKim, |_| ())?);
     let printed = [printed(FrictionLaw::HurtadoKim)?, printed(FrictionLaw::Coulomb)?];
@@ -119,7 +119,7 @@ pub(super) fn two_laws() -> Result<Drawn, ReproduceError> {
     Ok((chart, table("friction", &both, &FORCES).csv()))
 }
 
-/// TS04 figure 10, with the relative position at the printed shear modulus beside ours.
+/// Draws TS04 figure 10, with the relative position at the printed shear modulus in addition to ours.
 pub(super) fn displacement() -> Result<Drawn, ReproduceError> {
     let (story, printed) = (coulomb()?, printed(FrictionLaw::Coulomb)?);
     let ours = positions(&story);
@@ -145,9 +145,9 @@ pub(super) fn displacement() -> Result<Drawn, ReproduceError> {
     Ok((Chart::new(ours.title(), caption).panels(panels), rows.csv()))
 }
 
-/// TS04 figure 11.
+/// Draws tS04 figure 11.
 pub(super) fn coefficients() -> Result<Drawn, ReproduceError> {
-    // All follow one line until they slip: in this order each is seen.
+    // All follow one line until they slip: in this order each is visible.
     let runs = COEFFICIENTS.map(|coefficient| story(FrictionLaw::Coulomb, |scene| scene.static_friction = coefficient));
     let runs = runs.into_iter().collect::<Result<Vec<_>, _>>()?;
     let nominal = Scene::default().static_friction;
@@ -180,10 +180,10 @@ pub(super) fn coefficients() -> Result<Drawn, ReproduceError> {
 /// Name of the animation's files without extension.
 pub const ANIMATION_STEM: &str = "ts04-14-animation";
 
-/// The moving version of TS04 figure 14, with its data.
+/// The animation of TS04 figure 14, with its data.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Animation {
-    /// A whole page that needs nothing else.
+    /// A self-contained page.
     pub html: String,
     /// Every state.
     pub csv: String,
@@ -191,11 +191,11 @@ pub struct Animation {
     pub json: String,
 }
 
-/// The nominal scene under Coulomb friction as a page with an animation. Its charts are among the
+/// Builds the animation of the nominal scene under Coulomb friction as a page. Its charts are among the
 /// [`figures`](super::figures).
 ///
 /// # Errors
-/// [`ReproduceError`] if the scene has no answer, or the page cannot be rendered.
+/// [`ReproduceError`] if the scene has no solution, or the page cannot be rendered.
 pub fn animation() -> Result<Animation, ReproduceError> {
     let story = story(FrictionLaw::Coulomb, |_| ())?;
     Ok(Animation { html: player_page(&story), csv: scene_table(&story).csv(), json: scene_json(&story) })

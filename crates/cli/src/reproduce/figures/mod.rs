@@ -1,8 +1,8 @@
-//! Every figure that the papers draw from computation, drawn from ours.
+//! Every computed figure of the papers, drawn from our results.
 //!
-//! [`figures`] makes them all, each with the data behind it; [`animation`] makes the page of the moving one. The sweeps
-//! take the ranges of the papers' studies and leave everything else at the defaults; the histories are those of the
-//! nominal scene. Nothing here is typed in but what the papers say: captions are computed from what is drawn.
+//! [`figures`] draws all of them, each with its data; [`animation`] builds the page of the animated one. The sweeps use
+//! the ranges of the papers' studies and the defaults for everything else; the histories are those of the nominal
+//! scene. Only the papers' statements are entered by hand: captions are computed from the drawn data.
 
 mod curve;
 mod history;
@@ -19,27 +19,27 @@ use rayon::prelude::*;
 use super::papers::{PrintedFigure, papers};
 use super::{Effort, ReproduceError, Reproduced, general_study};
 
-/// One figure of the papers, from our computation.
+/// One figure of the papers, from our results.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PaperFigure {
     /// Name of its files without extension, and its anchor on the page, such as `chk-6`.
     pub stem: &'static str,
-    /// What it is called, such as `CHK fig. 6`.
+    /// Its label, such as `CHK fig. 6`.
     pub label: String,
-    /// What the paper's figure shows, in a short statement.
+    /// The content of the paper's figure, in a short statement.
     pub theirs: &'static str,
-    /// Ours.
+    /// Our chart.
     pub chart: Chart,
     /// Our data.
     pub csv: String,
 }
 
-/// Every figure, in the order of the papers: CHK, LG, TS04, then each group of studies with all friction models side by
-/// side. The charts of shares are made of `studies`; those of a group of which none was run are left out. The same on
-/// every run and any number of threads.
+/// Draws every figure, in the order of the papers: CHK, LG, TS04, then each group of studies with all friction models
+/// side by side. The charts of shares use `studies`; a group of which no study was run is omitted. The result is the
+/// same on every run and any number of threads.
 ///
 /// # Errors
-/// [`ReproduceError`] if a scene has no answer.
+/// [`ReproduceError`] if a scene has no solution.
 pub fn figures(studies: &[Reproduced], effort: Effort) -> Result<Vec<PaperFigure>, ReproduceError> {
     let general = general_study()?;
     let draw = |figure: &'static PrintedFigure| {
@@ -57,7 +57,7 @@ pub fn figures(studies: &[Reproduced], effort: Effort) -> Result<Vec<PaperFigure
 
 /// A chart with its data as CSV.
 type Drawn = (Chart, String);
-/// Draws a figure of the nominal scene.
+/// A function that draws a figure of the nominal scene.
 type Draw = fn() -> Result<Drawn, ReproduceError>;
 
 /// The figures of the nominal scene by their stems.
@@ -72,7 +72,7 @@ const SCENES: [(&str, Draw); 8] = [
     ("ts04-13", history::contact_areas),
 ];
 
-/// What the papers call the figure with a stem: `CHK fig. 6`, `TS04 fig. 12, contact angle`.
+/// Returns the papers' label of the figure with a stem: `CHK fig. 6`, `TS04 fig. 12, contact angle`.
 fn label(stem: &str) -> String {
     let Some((paper, figure)) = stem.split_once('-') else { return "All friction models".to_owned() };
     let figure = figure.replacen('-', ", ", 1).replace('-', " ");

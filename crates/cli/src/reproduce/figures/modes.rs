@@ -1,4 +1,4 @@
-//! TS04 figure 12: what moves the particle in which way, against the angle of the force and of the contact.
+//! TS04 figure 12: the modes of motion of the particle, against the angle of the force and of the contact.
 
 use apportion_afm::modes::Mode;
 use apportion_afm::{Failure, FrictionLaw, Options, Scene, critical_force};
@@ -12,12 +12,12 @@ use crate::scene::simulation::{pushing, scene_modes};
 use crate::scene::{ModeDiagram, law_colour, mode_diagram_chart};
 
 const NANO: f64 = 1e9;
-/// Contact angles: about the nominal 60 degrees.
+/// Contact angles: around the nominal 60 degrees.
 const CONTACT_ANGLES: (f64, f64) = (40.0, 70.0);
 /// Steps between them.
 const STEPS: u32 = 120;
 
-/// TS04 figure 12.
+/// Draws tS04 figure 12.
 pub(super) fn against_force_angle() -> Result<Drawn, ReproduceError> {
     let diagram = scene_modes(&Scene::default(), &Options::default())?;
     let mut chart = mode_diagram_chart(&diagram);
@@ -33,7 +33,7 @@ pub(super) fn against_force_angle() -> Result<Drawn, ReproduceError> {
     Ok((chart, rows.csv()))
 }
 
-/// How the force of sliding goes with the angle.
+/// Describes how the force of sliding changes with the angle.
 fn sliding(diagram: &ModeDiagram) -> Option<String> {
     let line = diagram.forces.iter().find(|line| line.mode == Mode::Slide.name())?;
     let points: Vec<(f64, f64)> = diagram
@@ -54,7 +54,7 @@ fn sliding(diagram: &ModeDiagram) -> Option<String> {
     ))
 }
 
-/// Forces (N) over the contact angles; `None` where no force will do.
+/// Forces (N) over the contact angles; `None` if no force suffices.
 struct Against {
     key: String,
     name: String,
@@ -62,7 +62,7 @@ struct Against {
     force: Vec<Option<f64>>,
 }
 
-/// The same against the angle of the contact.
+/// Draws the same against the angle of the contact.
 pub(super) fn against_contact_angle() -> Result<Drawn, ReproduceError> {
     let (from, to) = CONTACT_ANGLES;
     let degrees: Vec<f64> = (0..=STEPS).map(|i| from + (to - from) * f64::from(i) / f64::from(STEPS)).collect();
@@ -106,14 +106,14 @@ fn chart(degrees: &[f64], lines: &[Against]) -> Chart {
     Chart::new("Modes of motion against the contact angle", caption(lines)).panels([panel])
 }
 
-/// What the first two lines do, and which modes never set in.
+/// Describes the first two lines, and names the modes that never occur.
 fn caption(lines: &[Against]) -> String {
     let ends = |line: &Against| Some((line.force.first().copied()??, line.force.last().copied()??));
     let (Some((first, last)), Some((along_first, along_last))) = (ends(&lines[0]), ends(&lines[1])) else {
         return "The scene has no critical force.".to_owned();
     };
     let (from, to) = CONTACT_ANGLES;
-    // 1e-9: rounding; the contact angle does not enter the critical force.
+    // 1e-9: rounding; the critical force does not depend on the contact angle.
     let own = if (last / first - 1.0).abs() < 1e-9 {
         format!("stays at {}", force(first))
     } else {

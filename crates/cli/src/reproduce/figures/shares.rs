@@ -11,8 +11,8 @@ use crate::reproduce::papers::PRINTED;
 use crate::reproduce::shares::{indices, ranked, shares_table};
 use crate::reproduce::{Reproduced, StudyGroup, published};
 
-/// The shares in the studies of a group under the friction models of the paper that the figure `stem` is of, or under all;
-/// nothing if none of them was run.
+/// Draws the shares in the studies of a group under the friction models of the paper of the figure `stem`, or under
+/// all; `None` if none of them was run.
 pub(super) fn drawn(group: &str, stem: &str, studies: &[Reproduced]) -> Option<Drawn> {
     let is_shown = |friction: &str| match stem.split_once('-') {
         Some((paper, _)) => (paper == "lg") == (friction == PRINTED),
@@ -24,7 +24,7 @@ pub(super) fn drawn(group: &str, stem: &str, studies: &[Reproduced]) -> Option<D
     Some((group_chart(group, &members), shares_table(&members).csv()))
 }
 
-/// The shares of all factors in the studies `members` of one group, side by side.
+/// Draws the shares of all factors in the studies `members` of one group, side by side.
 fn group_chart(group: StudyGroup, members: &[&Reproduced]) -> Chart {
     let factors: Vec<&str> =
         members.first().map_or_else(Vec::new, |m| m.result.factors.iter().map(|f| f.name.as_str()).collect());
@@ -40,7 +40,7 @@ fn group_chart(group: StudyGroup, members: &[&Reproduced]) -> Chart {
     shares_chart(&title, &caption(group, members), &factors, &series).published_name("published (LuGre)")
 }
 
-/// Which factor leads under each friction model, and what is printed, in one sentence.
+/// Says in one sentence which factor leads under each friction model, and the printed values.
 fn caption(group: StudyGroup, members: &[&Reproduced]) -> String {
     let leader = |member: &&Reproduced| {
         let IndexRecord { factor, effect } = &indices(member)[*ranked(member).first()?];

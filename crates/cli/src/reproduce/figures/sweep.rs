@@ -14,33 +14,33 @@ use crate::reproduce::papers::PrintedFigure;
 use crate::reproduce::{Effort, FRICTIONS, Friction, ReproduceError};
 
 const NANO: f64 = 1e9;
-/// The quasi-static rung is drawn beside the closed form where they differ by more than this part of the force's range.
+/// Difference from the closed form, as a part of the force's range, from which the quasi-static rung is drawn too.
 const VISIBLE: f64 = 5e-3;
-/// A force that changes by less than this part of its size counts as having no range but its size.
+/// Relative change of a force below which its size is used as its range.
 const FLAT: f64 = 1e-3;
 
 /// A line of a sweep.
 struct Line {
-    /// Its column's name without the unit, and its name in `papers.toml`.
+    /// The name of its column without the unit, which is its name in `papers.toml`.
     key: &'static str,
     /// Its name in the legend.
     name: String,
-    /// How a sentence calls it.
+    /// Its name in sentences.
     said: String,
-    /// Its look.
+    /// Its style.
     look: (Colour, Stroke),
     scene: Scene,
     options: Options,
 }
 
 impl Line {
-    /// Whether the equations of motion are marched, and the force is read at the first step past the slip.
+    /// Returns whether the equations of motion are integrated, and the force is read at the first step past the slip.
     fn is_marched(&self) -> bool {
         self.options.fidelity == Fidelity::FixedStep
     }
 }
 
-/// The line called `key` in `papers.toml`.
+/// Returns the line `key` of `papers.toml`.
 fn line(key: &'static str) -> Line {
     let [coulomb, hk, lugre] = FRICTIONS.map(|Friction { law, name, colour, .. }| Line {
         key,
@@ -81,7 +81,7 @@ fn line(key: &'static str) -> Line {
     }
 }
 
-/// The critical force against `factor` over its range in `space`.
+/// Draws the critical force against `factor` over its range in `space`.
 pub(super) fn drawn(
     figure: &PrintedFigure,
     factor: &'static str,
@@ -93,7 +93,7 @@ pub(super) fn drawn(
         Effort::Quick => 41,
     };
     let lines: Vec<Line> = figure.lines.iter().map(|key| line(key)).collect();
-    // The march's saw needs finer teeth.
+    // The sawtooth of the fixed-step integration needs a finer grid.
     let is_marched = lines.iter().any(Line::is_marched);
     let points = if is_marched { 4 * points - 3 } else { points };
     let number = find(space, &[factor])?[0];
@@ -106,19 +106,19 @@ pub(super) fn drawn(
 
 /// A factor with its values.
 struct Swept<'a> {
-    /// Whether the caption says how far apart the first two lines are at either end.
+    /// Whether the caption states the distance of the first two lines at either end.
     gap: bool,
     factor: &'a Factor,
     parameter: &'static Parameter,
-    /// In the factor's unit.
+    /// Values in the factor's unit.
     values: Vec<f64>,
 }
 
-/// A computed line, forces in nN; NaN where there is none.
+/// A computed line, forces in nN; NaN for a missing one.
 struct Drawn<'a> {
     line: &'a Line,
     force: Vec<f64>,
-    /// The same by the quasi-static rung, unless the line is of a rung of its own.
+    /// The same by the quasi-static rung, unless the line has a rung of its own.
     quasi_static: Option<Vec<f64>>,
 }
 
@@ -159,7 +159,7 @@ impl Swept<'_> {
         let points = |force: &[f64]| self.values.iter().copied().zip(force.iter().copied()).collect();
         let range = range(lines);
         let mut all = Vec::new();
-        // What is marched scatters over the rest, so it lies below them.
+        // Integrated lines scatter around the others, so they are drawn below them.
         let (marched, rest): (Vec<_>, Vec<_>) = lines.iter().partition(|drawn| drawn.line.is_marched());
         for drawn in marched.into_iter().chain(rest) {
             let (colour, stroke) = drawn.line.look;
@@ -201,7 +201,7 @@ impl Swept<'_> {
         text
     }
 
-    /// Where two lines meet, and how far apart they are at the ends.
+    /// Says where two lines meet, and their distance at the ends.
     fn between(&self, one: &Drawn, other: &Drawn, unit: &str) -> String {
         let gap: Vec<(f64, f64)> =
             self.values.iter().zip(one.force.iter().zip(&other.force)).map(|(x, (a, b))| (*x, a - b)).collect();
@@ -219,7 +219,7 @@ impl Swept<'_> {
 }
 
 impl Drawn<'_> {
-    /// The largest distance of the two rungs as `of` their forces: in nN, or as a part of the force.
+    /// Returns the largest distance of the two rungs as `of` their forces: in nN, or as a part of the force.
     fn largest(&self, of: fn(f64, f64) -> f64) -> f64 {
         let both = self.quasi_static.iter().flat_map(|other| self.force.iter().zip(other));
         largest(both.map(|(formula, geometry)| of(*formula, *geometry)))
@@ -234,25 +234,25 @@ impl Drawn<'_> {
     }
 }
 
-/// The largest of the finite values, at least 0.
+/// Returns the largest of the finite values, at least 0.
 fn largest(values: impl Iterator<Item = f64>) -> f64 {
     values.filter(|value| value.is_finite()).fold(0.0, f64::max)
 }
 
-/// Over which range of force the lines go (nN); their size if they are level.
+/// Returns the range of force of the lines (nN); their size if they are level.
 fn range(lines: &[Drawn]) -> f64 {
     let values = || lines.iter().flat_map(|drawn| &drawn.force).copied().filter(|force| force.is_finite());
     let (low, high) = (values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max));
     if high - low > FLAT * high.abs() { high - low } else { high.abs() }
 }
 
-/// How much the naive march reads too much.
+/// Says by how much the fixed-step integration is too high.
 fn overshoot(naive: &Drawn, right: &Drawn) -> String {
     let most = largest(naive.force.iter().zip(&right.force).map(|(a, b)| a - b));
     format!("is read up to {} nN too high{}", short(most), naive.line.said)
 }
 
-/// What the quasi-static rung says to the closed form, where it differs by 0.01 % or more: the page says once that all
+/// Compares the quasi-static rung with the closed form if they differ by 0.01 % or more: the page says once that all
 /// others agree.
 fn agreement(lines: &[Drawn], range: f64) -> String {
     let most = largest(lines.iter().map(Drawn::relative_difference));

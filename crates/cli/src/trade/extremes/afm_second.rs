@@ -1,5 +1,5 @@
-//! The critical force once more: by another rung of the ladder of fidelities, and the closed form by its formula in 320
-//! bits.
+//! Second calculation of the critical force: by another rung of the ladder of fidelities, and of the closed form by its
+//! formula in 320 bits.
 
 use apportion::model::{Expression, Symbol};
 use apportion_afm::model::AfmOutput;
@@ -12,22 +12,22 @@ use super::second::{Answered, Reference, SecondCalculation, Unchecked};
 
 /// Relative deviation below which two rungs agree.
 const FLOOR: f64 = 1e-6;
-/// Largest relative deviation of a force that is called right: the figures that results print.
+/// Maximum relative deviation of a correct force: the digits that results print.
 const TOLERANCE: f64 = 1e-3;
-/// Most steps of an integration: some milliseconds.
+/// Maximum number of steps of an integration: some milliseconds.
 const STEPS: u64 = 2000;
-/// The error estimates are of first order; what is of higher order may add so much of them.
+/// The error estimates are of first order; higher orders may add this factor.
 const HIGHER_ORDER: f64 = 1.5;
 /// Why two rungs may differ.
 const COVERED: &str = "the error estimate exceeds 0.1 %, and holds: another rung differs by less than it";
 
-/// Other ways to the outputs of an [`AfmModel`](apportion_afm::model::AfmModel).
+/// Other calculations of the outputs of an [`AfmModel`](apportion_afm::model::AfmModel).
 pub(crate) struct AfmSecond {
     scene: Scene,
     options: Options,
     factors: Vec<&'static Parameter>,
     which: Vec<AfmOutput>,
-    /// For each output: its formula by the closed form, where that is a formula.
+    /// For each output: its formula in closed form, if there is one.
     formulas: Vec<Option<Expression>>,
 }
 
@@ -37,7 +37,7 @@ impl AfmSecond {
         Self { scene, options, factors, which, formulas }
     }
 
-    /// The rungs that can stand against the one in force, the one that leaves out least first.
+    /// Returns the rungs that can check the current one, the most complete one first.
     fn rungs(&self) -> &'static [Fidelity] {
         match self.options.fidelity {
             Fidelity::Dynamic => &[Fidelity::QuasiStatic],
@@ -57,7 +57,7 @@ impl SecondCalculation for AfmSecond {
     fn calculate(&self, x: &[f64], answer: &Answered) -> Vec<Result<Reference, Unchecked>> {
         let mut scene = self.scene;
         self.factors.iter().zip(x).for_each(|(parameter, &value)| (parameter.set)(&mut scene, value));
-        // The outputs of a rung share one error estimate: that of the time counts too.
+        // The outputs of a rung share one error estimate, which includes that of the time.
         let shared = Options { step_budget: self.options.step_budget.min(STEPS), accurate_time: true, ..self.options };
         let rungs = self.rungs().iter().map(|&fidelity| critical_force(&scene, &Options { fidelity, ..shared }));
         let smaller = |one: Result<Critical, Failure>, other: Result<Critical, Failure>| match (&one, &other) {
@@ -80,7 +80,7 @@ impl SecondCalculation for AfmSecond {
     }
 }
 
-/// An output by another rung, for a model with the value `own` that states the relative error `own_error`.
+/// Computes an output by another rung, for a model with the value `own` and the stated relative error `own_error`.
 fn by_rung(
     output: AfmOutput,
     (own, own_error): (f64, f64),
@@ -88,7 +88,7 @@ fn by_rung(
 ) -> Result<Reference, Unchecked> {
     let other = match other {
         Ok(other) => other,
-        // Nothing slips: whatever another rung says of it is no force, unless it claims nothing.
+        // Nothing slips, so the value `own` is not a force, unless its error estimate claims nothing.
         Err(failure @ (Failure::ProbeTips | Failure::BeyondPullOff)) if own_error < 1.0 => {
             return Err(Unchecked::NoValue(failure.to_string()));
         }
@@ -108,12 +108,12 @@ fn by_rung(
     Ok(Reference { value, stated, tolerance: TOLERANCE, floor: FLOOR, covered })
 }
 
-/// The formula of an output by the closed form, of the parameters by their names; `None` where there is none.
+/// Returns the closed formula of an output, in the parameters by their names; `None` if there is none.
 fn formula(output: AfmOutput, options: &Options) -> Option<Expression> {
     if options.fidelity != Fidelity::ClosedForm {
         return None;
     }
-    // In the order of the model, so that the bound of rounding is that of the model too.
+    // In the order of the model, so that the bound of rounding applies to the model too.
     let normal =
         "(elastic_modulus*width*thickness/(4*length*length*length)*thickness*thickness*(length*sin(preload_angle)))";
     let pull = "(3*pi*adhesion*particle_radius)";
@@ -155,7 +155,7 @@ fn formula(output: AfmOutput, options: &Options) -> Option<Expression> {
         AfmOutput::LateralForce => lateral,
         AfmOutput::ForceAngle => format!("atan2({lateral}, {normal})"),
         AfmOutput::ContactRadius => radius,
-        // Bristles creep: their time is no formula of the force alone.
+        // Bristles creep: their time is not a formula of the force alone.
         AfmOutput::CriticalTime
             if options.torsion == apportion_afm::Torsion::ThinStrip && options.friction != FrictionLaw::LuGre =>
         {
@@ -194,7 +194,7 @@ mod tests {
                 }
             }
         }
-        // Three laws by three theories, with and without adhesion in the load, seven outputs; LuGre friction has no time.
+        // Three laws, three theories, with and without adhesion in the load, seven outputs; LuGre friction has no time.
         assert_eq!(read, 3 * 3 * 2 * 7 - 3 * 2);
     }
 }

@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 
 use super::map::{Extremes, Grid, Kind, Outcome, Reason, Tally};
 
-/// Largest number of rows of a chart; the worst ones are shown.
+/// Maximum number of rows of a chart; the worst ones are shown.
 const MAX_ROWS: usize = 30;
 
 /// The file of a map.
@@ -23,18 +23,18 @@ pub struct ExtremesFile {
     pub format: String,
     /// Version of the format.
     pub version: u32,
-    /// What was asked.
+    /// The study.
     pub study: StudySetup,
     /// Version of the program.
     pub apportion_version: String,
-    /// Seed of the points chosen at random.
+    /// Seed of the random points.
     pub seed: u64,
     /// The map.
     #[serde(flatten)]
     pub map: Extremes,
 }
 
-/// The file of the map of `study` with points chosen by `seed`.
+/// Builds the file of the map of `study` with random points by `seed`.
 pub fn build_extremes(study: &Study, seed: u64, map: &Extremes) -> ExtremesFile {
     ExtremesFile {
         format: "apportion-extremes".to_owned(),
@@ -46,7 +46,7 @@ pub fn build_extremes(study: &Study, seed: u64, map: &Extremes) -> ExtremesFile 
     }
 }
 
-/// The document of a map.
+/// Builds the document of a map.
 pub fn extremes_document(file: &ExtremesFile) -> Document {
     let (map, headline, name) = (&file.map, file.study.headline(), format!("{}-extremes", file.study.name));
     let by = match (&map.second_calculation, &map.unchecked) {
@@ -81,7 +81,7 @@ pub fn extremes_document(file: &ExtremesFile) -> Document {
     .document()
 }
 
-/// Numbers by outcome: `3 right, 0 silently wrong`.
+/// Formats numbers by outcome: `3 right, 0 silently wrong`.
 fn counted(tally: &Tally) -> String {
     let shown = Outcome::ALL.into_iter().filter(|&outcome| outcome == Outcome::Wrong || tally.count(outcome) > 0);
     let parts: Vec<String> =
@@ -101,7 +101,7 @@ fn place(kind: Kind) -> &'static str {
     }
 }
 
-/// The numbers by kind and outcome.
+/// Tabulates the numbers by kind and outcome.
 fn counts(map: &Extremes) -> Table {
     let mut rows = Table::from_rows("Numbers at the extremes by outcome.", &map.kinds)
         .text("where", |(kind, _)| place(*kind))
@@ -113,7 +113,7 @@ fn counts(map: &Extremes) -> Table {
     rows.into()
 }
 
-/// Why numbers are not right, each reason with its first number.
+/// Tabulates why numbers are not right, each reason with its first number.
 fn reasons(file: &ExtremesFile) -> Table {
     let note = |reason: &Reason| {
         let numbers = [("", reason.value), (", second calculation ", reason.reference)];
@@ -138,7 +138,7 @@ fn reasons(file: &ExtremesFile) -> Table {
     Table { on_phone: OnPhone::StackLabelled, ..rows.into() }
 }
 
-/// The worst outcome of every cell.
+/// Draws the worst outcome of every cell.
 fn chart(headline: &str, grid: &Grid) -> Chart {
     let cells = grid.cells.iter().enumerate();
     let cells =

@@ -1,4 +1,4 @@
-//! The map: outcomes, counts, and the reasons behind them. Serialised as it is, see `docs/extremes.md`.
+//! The map: outcomes, counts, and their reasons. Serialised unchanged, see `docs/extremes.md`.
 
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
-/// What became of a number at an extreme, from good to bad.
+/// The outcome of a number at an extreme, from good to bad.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Outcome {
@@ -14,7 +14,7 @@ pub enum Outcome {
     Right,
     /// Finite and flagged, but a second calculation agrees.
     FlaggedConfirmed,
-    /// Finite and flagged: look at the reason before you rely on it.
+    /// Finite and flagged: check the reason before using it.
     Flagged,
     /// There is no number, and a reason is given.
     Refused,
@@ -23,10 +23,10 @@ pub enum Outcome {
 }
 
 impl Outcome {
-    /// All, in the order of their declaration.
+    /// All outcomes, in the order of their declaration.
     pub const ALL: [Self; 5] = [Self::Right, Self::FlaggedConfirmed, Self::Flagged, Self::Refused, Self::Wrong];
 
-    /// The letter in charts, a column heading, and what it means.
+    /// Returns the letter in charts, a column heading, and the meaning.
     pub(super) fn words(self) -> (&'static str, &'static str, &'static str) {
         match self {
             Self::Right => ("R", "right", "a second calculation agrees"),
@@ -44,7 +44,7 @@ impl Outcome {
     }
 }
 
-/// Numbers by outcome.
+/// Counts by outcome.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct Tally {
     /// [`Outcome::Right`].
@@ -65,23 +65,23 @@ impl Tally {
         *self.numbers()[outcome as usize] += 1;
     }
 
-    /// How many there are of `outcome`.
+    /// Returns the number of `outcome`.
     pub fn count(mut self, outcome: Outcome) -> u64 {
         *self.numbers()[outcome as usize]
     }
 
-    /// In the order of [`Outcome::ALL`].
+    /// Returns the counts in the order of [`Outcome::ALL`].
     fn numbers(&mut self) -> [&mut u64; Outcome::ALL.len()] {
         let Self { right, flagged_confirmed, flagged, refused, wrong } = self;
         [right, flagged_confirmed, flagged, refused, wrong]
     }
 
-    /// All numbers.
+    /// Returns the total.
     pub fn total(&self) -> u64 {
         Outcome::ALL.iter().map(|outcome| self.count(*outcome)).sum()
     }
 
-    /// The worst outcome that occurred; none without numbers.
+    /// Returns the worst outcome that occurred; `None` without numbers.
     pub fn worst(&self) -> Option<Outcome> {
         Outcome::ALL.into_iter().rev().find(|outcome| self.count(*outcome) > 0)
     }
@@ -100,41 +100,41 @@ pub enum Kind {
 }
 
 impl Kind {
-    /// All of them.
+    /// All kinds.
     pub const ALL: [Self; 3] = [Self::Corners, Self::Beyond, Self::Together];
 }
 
-/// Numbers with one factor at or past its bound: what a chart shows.
+/// Numbers with one factor at or past its bound: the content of a chart.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Grid {
     /// Which bounds: `below` or `above`.
     pub side: String,
     /// The factors.
     pub rows: Vec<String>,
-    /// How far past the bound: powers of ten, or a special number.
+    /// Distances past the bound: powers of ten, or a special number.
     pub columns: Vec<String>,
-    /// `rows` by `columns` cells; all zero where the model was not evaluated.
+    /// `rows` by `columns` cells; all zero if the model was not evaluated.
     pub cells: Vec<Vec<Tally>>,
 }
 
-/// Why numbers are not right, and the first of them.
+/// A reason why numbers are not right, and the first of them.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Reason {
-    /// Where.
+    /// The kind of points.
     pub kind: Kind,
-    /// What became of them.
+    /// Their outcome.
     pub outcome: Outcome,
-    /// Why, a sentence without a full stop.
+    /// The reason, a sentence without a full stop.
     pub reason: String,
-    /// Numbers with this reason.
+    /// Number of values with this reason.
     pub count: u64,
-    /// Where the first of them is, in words.
+    /// The place of the first of them, in words.
     pub place: String,
     /// Its inputs, in the units of the factors.
     pub inputs: Map<String, Value>,
     /// Its output.
     pub output: String,
-    /// The number in the unit of the output; none if refused.
+    /// The number in the unit of the output; `None` if refused.
     pub value: Option<f64>,
     /// The same by the second calculation, if there is one.
     pub reference: Option<f64>,
@@ -143,15 +143,15 @@ pub struct Reason {
 /// The map of the extremes of a study.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Extremes {
-    /// What the model was checked by; none if by nothing.
+    /// The method of the second calculation; `None` if there is none.
     pub second_calculation: Option<String>,
-    /// Why by nothing.
+    /// Why there is none.
     pub unchecked: Option<String>,
-    /// Points at which the model was evaluated.
+    /// Number of points at which the model was evaluated.
     pub points: u64,
     /// All numbers.
     pub counts: Tally,
-    /// The same by where the model was evaluated.
+    /// The same by kind of points.
     pub kinds: Vec<(Kind, Tally)>,
     /// The parts of the map that are drawn.
     pub grids: Vec<Grid>,
@@ -159,11 +159,11 @@ pub struct Extremes {
     pub reasons: Vec<Reason>,
 }
 
-/// Reasons in the making.
+/// The reasons collected so far.
 pub(super) type Reasons = BTreeMap<(Kind, Outcome, String), Reason>;
 
 impl Extremes {
-    /// The map without numbers.
+    /// Creates the map without numbers.
     pub(super) fn new(second: Result<String, String>, points: u64, grids: Vec<Grid>) -> Self {
         let kinds = Kind::ALL.map(|kind| (kind, Tally::default())).to_vec();
         let (second_calculation, unchecked) = (second.as_ref().ok().cloned(), second.err());
@@ -184,7 +184,7 @@ impl Extremes {
         }
     }
 
-    /// The map with these reasons.
+    /// Sets the reasons.
     pub(super) fn with_reasons(mut self, reasons: Reasons) -> Self {
         self.reasons = reasons.into_values().collect();
         self.reasons.sort_by_key(|reason| (reason.outcome != Outcome::Wrong, reason.kind, Reverse(reason.count)));

@@ -1,5 +1,5 @@
-//! What becomes of a study's model at the extremes of its inputs: a map of where its numbers are right, where they are
-//! flagged, where there are none, and where they are silently wrong, see [`Outcome`].
+//! The behaviour of a study's model at the extremes of its inputs: a map of where its numbers are right, where they are
+//! flagged, where they are missing, and where they are silently wrong, see [`Outcome`].
 
 mod afm_second;
 mod document;
@@ -26,50 +26,50 @@ use points::{Point, grids, points};
 use precise::PreciseFormulas;
 use second::{Answered, Reference, SecondCalculation, Unchecked};
 
-/// How much is tried.
+/// The size of the search.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ExtremesSettings {
-    /// About how many points the model is evaluated at. All steps of every factor past its bounds are among them,
-    /// however many those are.
+    /// Approximate number of points at which the model is evaluated. All steps of every factor past its bounds are
+    /// included, even if there are more.
     pub points: u64,
-    /// Seed of the points that are chosen at random.
+    /// Seed of the random points.
     pub seed: u64,
 }
 
 impl ExtremesSettings {
-    /// What takes some seconds: fewer points of a program.
+    /// Returns settings that take some seconds: fewer points for a program.
     pub fn for_study(study: &Study) -> Self {
         let points = if study.model().concurrency().is_some() { 160 } else { 600 };
         Self { points, seed: study.design().settings().seed }
     }
 }
 
-/// A study whose extremes are looked for.
+/// A search for the extremes of a study.
 #[derive(Clone, Copy)]
 pub struct ExtremesJob<'a> {
     /// The study.
     pub study: &'a Study,
-    /// How much is tried.
+    /// The size of the search.
     pub settings: ExtremesSettings,
-    /// Threads; 0 for one per core. The result is the same in every bit on any number.
+    /// Threads; 0 for one per core. The result is bitwise the same for any number.
     pub threads: usize,
-    /// Ends the search soon after it is set.
+    /// Stops the search soon after it is set.
     pub stop: Option<&'a AtomicBool>,
     /// Receives messages of programs.
     pub on_message: fn(&str),
-    /// Receives the number of points that are done.
+    /// Receives the number of completed points.
     pub on_progress: &'a (dyn Fn(Progress) + Sync),
 }
 
 impl<'a> ExtremesJob<'a> {
-    /// With the settings of [`ExtremesSettings::for_study`], on one thread per core, without messages.
+    /// Uses the settings of [`ExtremesSettings::for_study`], one thread per core, and no messages.
     pub fn new(study: &'a Study) -> Self {
         let settings = ExtremesSettings::for_study(study);
         Self { study, settings, threads: 0, stop: None, on_message: |_| (), on_progress: &|_| () }
     }
 }
 
-/// The map of the extremes of a study.
+/// Computes the map of the extremes of a study.
 ///
 /// ```
 /// use std::path::Path;
@@ -85,7 +85,7 @@ impl<'a> ExtremesJob<'a> {
 /// ```
 ///
 /// # Errors
-/// [`RunError`] if threads cannot be started, the model gives up or the search is stopped. Failed rows are part of the map.
+/// [`RunError`] if threads cannot start, the model gives up or the search is stopped. Failed rows are in the map.
 pub fn extremes(job: &ExtremesJob<'_>) -> Result<Extremes, RunError> {
     let study = job.study;
     let context = RunContext::new(job.stop, job.on_message);
@@ -103,7 +103,7 @@ pub fn extremes(job: &ExtremesJob<'_>) -> Result<Extremes, RunError> {
         |worker, number| {
             let (findings, given_up) = evaluate(model.as_ref(), worker, &points[number as usize].x, &second);
             if let Some(reason) = given_up {
-                // It would at every other point.
+                // It would give up at every other point.
                 let _ = gave_up.set(reason);
                 context.end();
             }
@@ -145,7 +145,7 @@ fn inputs(space: &Space, point: &Point) -> serde_json::Map<String, serde_json::V
     inputs.map(|(factor, &x)| (factor.name.clone(), factor.unit().from_si(x).into())).collect()
 }
 
-/// What became of an output at a point; its numbers in SI units.
+/// The outcome of an output at a point; its numbers in SI units.
 struct Finding {
     outcome: Outcome,
     /// Empty for a number that is right.
@@ -160,7 +160,7 @@ impl Finding {
     }
 }
 
-/// What became of every output at the point `x`, and why the model gave up if it did.
+/// Returns the outcome of every output at the point `x`, and why the model gave up if it did.
 fn evaluate(
     model: &dyn Model,
     worker: &mut dyn Worker,
@@ -191,7 +191,7 @@ fn evaluate(
     (judged.collect(), batch.given_up().cloned())
 }
 
-/// What became of an output with a `value` or a reason why it has none, the `flags` that the model raised, and a second
+/// Judges an output with a `value` or a reason why it has none, the `flags` that the model raised, and a second
 /// calculation.
 fn judge(value: Result<f64, RowFailure>, flags: &[&str], second: &Result<Reference, Unchecked>) -> Finding {
     let value = match value {
@@ -246,7 +246,7 @@ mod tests {
         assert_eq!(outcome(2.001, &["odd"], reference), Outcome::FlaggedConfirmed);
         assert_eq!(outcome(2.05, &["odd"], reference), Outcome::Flagged);
         assert_eq!(outcome(2.05, &[], reference), Outcome::Flagged);
-        // More than is stated is wrong, flags or not.
+        // A deviation above the stated one is wrong, with or without flags.
         assert_eq!(outcome(2.2, &["odd"], reference), Outcome::Wrong);
         assert_eq!(outcome(2.2, &[], reference), Outcome::Wrong);
         let certain = Reference { stated: Some(0.0), ..reference };

@@ -8,12 +8,12 @@ use super::map::{Grid, Kind, Tally};
 
 /// Powers of ten past a bound.
 const POWERS: [i32; 9] = [0, 1, 2, 3, 6, 12, 30, 100, 300];
-/// Below a lower bound there are also these: the least positive number, zero, and, if the bound is not negative, minus the
-/// upper bound.
+/// Additional values below a lower bound: the smallest positive number, zero, and, if the bound is not negative, minus
+/// the upper bound.
 const SPECIAL: [&str; 3] = ["least", "0", "< 0"];
 /// Powers of ten for several factors at once.
 const TOGETHER: [i32; 6] = [1, 2, 3, 6, 12, 30];
-/// Corners at which the other factors stand while one goes past its bounds, besides the nominal point.
+/// Number of corners for the other factors while one goes past its bounds, in addition to the nominal point.
 const COMPANIONS: usize = 2;
 
 /// A point of the map.
@@ -23,22 +23,22 @@ pub(super) struct Point {
     pub cell: Option<(usize, usize, usize)>,
     /// The SI values of the factors.
     pub x: Vec<f64>,
-    /// Where it is, in words.
+    /// Its place, in words.
     pub place: String,
 }
 
-/// Where a factor can go, in SI units.
+/// The possible values of a factor, in SI units.
 struct Reach {
     name: String,
     low: f64,
     high: f64,
     nominal: f64,
-    /// Whether it can go past its bounds: a category cannot.
+    /// Whether it can exceed its bounds: a category cannot.
     leaves: bool,
 }
 
 impl Reach {
-    /// Bounds are those of the distribution, or the outermost values that a design can have.
+    /// Takes the bounds of the distribution, or the outermost values of a design.
     fn new(factor: &Factor) -> Self {
         let mut outermost = [0.0; 2];
         factor.fill_si(&[SMALLEST_U, LARGEST_U], &mut outermost);
@@ -53,7 +53,7 @@ impl Reach {
         }
     }
 
-    /// 10^power past the upper bound.
+    /// Returns the value 10^power past the upper bound.
     fn above(&self, power: i32) -> f64 {
         let factor = 10_f64.powi(power);
         match power {
@@ -63,7 +63,7 @@ impl Reach {
         }
     }
 
-    /// 10^power past the lower bound: towards zero from above it, and away from it below.
+    /// Returns the value 10^power past the lower bound: towards zero if it is positive, away from zero if it is not.
     fn below(&self, power: i32) -> f64 {
         let factor = 10_f64.powi(power);
         match power {
@@ -74,7 +74,7 @@ impl Reach {
         }
     }
 
-    /// The values of the columns of grid 0 (below) or 1 (above); not a number where there is none.
+    /// Returns the values of the columns of grid 0 (below) or 1 (above); NaN for a missing one.
     fn steps(&self, grid: usize) -> Vec<f64> {
         if grid == 1 {
             return POWERS.map(|power| self.above(power)).to_vec();
@@ -84,7 +84,7 @@ impl Reach {
     }
 }
 
-/// The grids of the points below and above the bounds, empty.
+/// Creates empty grids of the points below and above the bounds.
 pub(super) fn grids(space: &Space) -> Vec<Grid> {
     let rows: Vec<String> = space.factors().iter().map(|factor| factor.name.replace('_', " ")).collect();
     let above: Vec<String> = POWERS.iter().map(ToString::to_string).collect();
@@ -96,8 +96,8 @@ pub(super) fn grids(space: &Space) -> Vec<Grid> {
     [("below", below), ("above", above)].map(grid).to_vec()
 }
 
-/// All steps of every factor past its bounds, however many those are, and about `count` points in all; those chosen at
-/// random by `seed`.
+/// Returns all steps of every factor past its bounds, even if these are many, and about `count` points in all; random
+/// ones by `seed`.
 pub(super) fn points(space: &Space, count: u64, seed: u64) -> Vec<Point> {
     let reaches: Vec<Reach> = space.factors().iter().map(Reach::new).collect();
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
@@ -109,13 +109,13 @@ pub(super) fn points(space: &Space, count: u64, seed: u64) -> Vec<Point> {
     points
 }
 
-/// The corner at which the factors that `is_high` names are at their upper bounds.
+/// Returns the corner at which the factors selected by `is_high` are at their upper bounds.
 fn corner(reaches: &[Reach], mut is_high: impl FnMut(usize) -> bool) -> Vec<f64> {
     let bound = |(number, reach): (usize, &Reach)| if is_high(number) { reach.high } else { reach.low };
     reaches.iter().enumerate().map(bound).collect()
 }
 
-/// All corners, or `max` of them, the lowest and the highest included.
+/// Adds all corners, or `max` of them, the lowest and the highest included.
 fn corners(reaches: &[Reach], max: usize, rng: &mut ChaCha8Rng, points: &mut Vec<Point>) {
     let all = 1_usize.checked_shl(reaches.len() as u32).filter(|all| *all <= max);
     for number in 0..all.unwrap_or(max) {
@@ -128,7 +128,7 @@ fn corners(reaches: &[Reach], max: usize, rng: &mut ChaCha8Rng, points: &mut Vec
     }
 }
 
-/// Every factor from its bounds on, the others at the nominal point and, as far as `max` points allow, at some corners.
+/// Adds every factor from its bounds on, the others at the nominal point and, as far as `max` allows, at corners.
 fn beyond(reaches: &[Reach], max: usize, rng: &mut ChaCha8Rng, points: &mut Vec<Point>) {
     let steps = reaches.len() * (2 * POWERS.len() + SPECIAL.len());
     let companions = (max / steps.max(1)).clamp(1, 1 + COMPANIONS);
@@ -154,7 +154,7 @@ fn beyond(reaches: &[Reach], max: usize, rng: &mut ChaCha8Rng, points: &mut Vec<
     }
 }
 
-/// Every factor at random past one of its bounds, or at one of them.
+/// Adds points with every factor at random past one of its bounds, or at one of them.
 fn together(reaches: &[Reach], max: usize, rng: &mut ChaCha8Rng, points: &mut Vec<Point>) {
     for _ in 0..max {
         let mut x = corner(reaches, |_| rng.random());

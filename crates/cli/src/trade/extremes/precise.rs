@@ -1,4 +1,4 @@
-//! A formula in 320 bits, and how much rounding moves it in doubles: to find where doubles are wrong.
+//! Evaluation of a formula in 320 bits, and its rounding error in doubles: to find where doubles are wrong.
 
 use apportion::Expression;
 use apportion::model::expression::program::{Stack, Step};
@@ -8,19 +8,19 @@ use astro_float_num::{BigFloat, Consts, Sign, WORD_BIT_SIZE};
 
 use super::second::{Answered, Reference, SecondCalculation, Unchecked};
 
-/// Precision; large against the 53 bits of doubles, so that cancellation of all of these leaves a right number.
+/// Precision in bits; large compared with the 53 bits of doubles, so that cancellation of all 53 is harmless.
 const BITS: usize = 320;
 /// Precision of sums that cancel by design, such as exp(x) - 1.
 const WIDE: usize = 2 * BITS;
-/// Below 2^-BITS exp(x) - 1 and ln(1 + x) are x to all bits.
+/// Exponent of x below which exp(x) - 1 and ln(1 + x) equal x to all bits.
 const TINY: i32 = -(BITS as i32);
-/// Evaluations in doubles, each rounded otherwise.
+/// Number of evaluations in doubles, each rounded differently.
 const SAMPLES: usize = 32;
 /// Margin on the largest deviation of so many samples.
 const MARGIN: f64 = 8.0;
 
-/// The value at one point in 320 bits and exponents of any size, as the nearest double; `None` if the formula has a
-/// function that is not available there (`erf`, `gamma`).
+/// Returns the value at one point in 320 bits and exponents of any size, as the nearest double; `None` if the formula
+/// has a function that is not available there (`erf`, `gamma`).
 ///
 /// # Panics
 /// If an input of the formula is missing.
@@ -34,8 +34,9 @@ pub(super) fn precise(formula: &Expression, x: &[f64]) -> Option<f64> {
     stack.pop().map(|value| to_f64(&value))
 }
 
-/// How far rounding may move the [`value`](Expression::value) at one point: the largest deviation of evaluations whose steps
-/// are moved to a neighbouring double at random (Vignes 1993), times a margin. Infinite if one of them has no value.
+/// Returns how far rounding may move the [`value`](Expression::value) at one point: the largest deviation of
+/// evaluations with steps moved to a neighbouring double at random (Vignes 1993), times a margin. Infinite if one has
+/// no value.
 ///
 /// # Panics
 /// If an input of the formula is missing.
@@ -76,7 +77,7 @@ impl SecondCalculation for PreciseFormulas {
     }
 }
 
-/// A formula at `x`, and how much rounding may move it in doubles.
+/// Returns a formula at `x`, and how much rounding may move it in doubles.
 pub(crate) fn reference(formula: &Expression, x: &[f64]) -> Result<Reference, Unchecked> {
     let not_available = |why: &str| Unchecked::NotAvailable(why.to_owned());
     let value = precise(formula, x)
@@ -97,7 +98,7 @@ fn is_rounded(step: &Step) -> bool {
     }
 }
 
-/// `value` to all its bits. Subnormal numbers are scaled first: `from_f64` halves them.
+/// Converts `value` exactly. Subnormal numbers are scaled first: `from_f64` halves them.
 fn number(value: f64) -> BigFloat {
     if value.is_subnormal() {
         let mut number = BigFloat::from_f64(libm::scalbn(value, 64), BITS);
@@ -182,7 +183,7 @@ fn of_two(name: &str, a: &BigFloat, b: &BigFloat, c: &mut Consts) -> Option<BigF
     })
 }
 
-/// The nearest double, to a few units in the last place of subnormal ones.
+/// Returns the nearest double, to a few units in the last place for subnormal ones.
 fn to_f64(x: &BigFloat) -> f64 {
     let Some((words, _, sign, exponent, _)) = x.as_raw_parts() else {
         return if x.is_inf_pos() {

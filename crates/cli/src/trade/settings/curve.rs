@@ -1,4 +1,4 @@
-//! What is compared: a study's settings, each at a growing number of base samples.
+//! The compared curves: a study's settings, each at a growing number of base samples.
 
 use apportion::design::{DesignError, DesignSettings, Sampler};
 use apportion::estimate::Estimator;
@@ -12,9 +12,9 @@ named! {
 #[derive(Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Axis {
-    /// How faithful the model is, with and without surrogates.
+    /// The fidelity of the model, with and without surrogates.
     Fidelity = "fidelity",
-    /// Where points come from.
+    /// The sampler.
     Sampler = "sampler",
     /// The formulas of the indices.
     Estimator = "estimator",
@@ -24,7 +24,7 @@ pub enum Axis {
 /// Settings that stay the same while base samples grow.
 #[derive(Debug, Clone)]
 pub(super) struct Curve {
-    /// What it stands for in the comparison.
+    /// Its axis in the comparison.
     pub axis: Axis,
     /// The model.
     pub rung: Rung,
@@ -34,8 +34,8 @@ pub(super) struct Curve {
 }
 
 impl Curve {
-    /// All curves of `study`: every rung with and without surrogates, and at its own rung, without surrogates, the other
-    /// samplers and estimators.
+    /// Returns all curves of `study`: every rung with and without surrogates, and at its own rung, without surrogates,
+    /// the other samplers and estimators.
     pub fn all(study: &Study) -> Vec<Self> {
         let settings = study.design().settings();
         let rungs = rungs(study);
@@ -59,7 +59,7 @@ impl Curve {
         curves
     }
 
-    /// Its name beside the others.
+    /// Returns its name among the others.
     pub fn name(&self) -> String {
         let rung = &self.rung.name;
         match self.axis {
@@ -70,7 +70,7 @@ impl Curve {
         }
     }
 
-    /// `study` with these settings.
+    /// Returns `study` with these settings.
     pub fn study(&self, study: &Study, base_samples: u64, seed: u64) -> Result<Study, DesignError> {
         let usual = IntervalMethod::default_for(self.sampler);
         let own = study.analysis().intervals;
@@ -94,7 +94,7 @@ impl Curve {
         variant.without_low_fidelities().with_design(settings, analysis)
     }
 
-    /// The lines of a study that ask for them.
+    /// Returns the lines of a study with these settings.
     pub fn lines(&self, base_samples: u64) -> String {
         let mut lines = self.rung.lines.clone();
         lines.push_str(&format!("[design]\nsampler = \"{}\"\nbase_samples = {base_samples}\n", self.sampler.name()));
@@ -107,7 +107,7 @@ impl Curve {
     }
 }
 
-/// The rungs of the model, or the model and its cheaper ones, the cheapest first.
+/// Returns the rungs of the model, or the model and its low-fidelity ones, the cheapest first.
 pub(super) fn rungs(study: &Study) -> Vec<Rung> {
     let ladder = study.subject().rungs();
     if !ladder.is_empty() {

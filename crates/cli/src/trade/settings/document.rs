@@ -9,13 +9,13 @@ use super::Measured;
 use super::curve::Axis as Varied;
 use super::record::{AdviceRecord, SettingsFile};
 
-/// Errors below this are drawn there.
+/// Errors below this are drawn at this value.
 const MIN_ERROR: f64 = 1e-6;
 
-/// What the names of curves with surrogates end in.
+/// Suffix of the names of curves with surrogates.
 const SURROGATES: &str = ", surrogates";
 
-/// The document of a comparison.
+/// Builds the document of a comparison.
 pub fn settings_document(file: &SettingsFile) -> Document {
     let (headline, name) = (file.study.headline(), format!("{}-trade", file.study.name));
     let figure = |chart, ending: &str| Figure::unnumbered(chart, format!("{name}{ending}")).into();
@@ -50,7 +50,7 @@ fn setting<'a>(file: &'a SettingsFile, advice: &AdviceRecord) -> Option<&'a Meas
     file.settings.get(advice.setting?)
 }
 
-/// A setting in words.
+/// Describes a setting.
 fn describe_setting(of: &Measured) -> String {
     format!("{} with {} base samples", of.curve, grouped(of.base_samples))
 }
@@ -130,18 +130,18 @@ fn lines(file: &SettingsFile) -> Vec<Part> {
     parts
 }
 
-/// The settings of one curve after the other.
+/// Returns the settings curve by curve.
 fn curves(file: &SettingsFile, axis: Varied) -> Vec<Vec<&Measured>> {
     let of_axis: Vec<&Measured> = file.settings.iter().filter(|of| of.axis == axis).collect();
     of_axis.chunk_by(|a, b| a.curve == b.curve).map(<[_]>::to_vec).collect()
 }
 
-/// The shortest and the longest time of a setting.
+/// Returns the shortest and the longest time of a setting.
 fn times(file: &SettingsFile) -> (f64, f64) {
     file.settings.iter().fold((f64::INFINITY, 0.0), |(low, high), of| (low.min(of.seconds), high.max(of.seconds)))
 }
 
-/// Below what is known of the truth there is nothing to see.
+/// Returns the smallest error that is drawn: that of the reference, below which errors cannot be distinguished.
 fn least_drawn(file: &SettingsFile) -> f64 {
     file.truth.error.unwrap_or(0.0).max(MIN_ERROR)
 }
@@ -151,8 +151,8 @@ fn points(file: &SettingsFile, curve: &[&Measured]) -> Vec<(f64, f64)> {
     curve.iter().filter_map(|of| Some((of.seconds, of.error?.max(least)))).collect()
 }
 
-/// Seconds of a run on a curve: what more runs take more, so that the estimates do not count; of a rung so slow that it was
-/// measured once, all of it.
+/// Returns the seconds of a run on a curve: the time per additional run, without the estimates; the whole time if the
+/// rung is so slow that it was measured only once.
 fn seconds_of_run(curve: &[&Measured]) -> Option<f64> {
     let (first, last) = (curve.first()?, curve.last()?);
     let (seconds, runs) = match curve.len() {
@@ -162,7 +162,7 @@ fn seconds_of_run(curve: &[&Measured]) -> Option<f64> {
     (seconds > 0.0 && runs > 0).then(|| seconds / runs as f64)
 }
 
-/// The rungs without surrogates; `None` where there is a single one.
+/// Tabulates the rungs without surrogates; `None` if there is only one.
 fn rung_table(file: &SettingsFile) -> Option<Part> {
     let curves = curves(file, Varied::Fidelity).into_iter().filter(|curve| !curve[0].has_surrogate);
     let rungs: Vec<_> = curves.filter_map(|curve| Some((seconds_of_run(&curve)?, curve))).collect();
@@ -183,7 +183,7 @@ fn panel() -> Panel {
     Panel::new(x, y)
 }
 
-/// The error of the truth, over the times that are seen.
+/// Draws the error of the reference over the range of times.
 fn floor(file: &SettingsFile) -> Option<apportion_report::chart::Mark> {
     let error = file.truth.error.filter(|error| *error > MIN_ERROR)?;
     let (least, most) = times(file);

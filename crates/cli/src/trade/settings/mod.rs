@@ -1,8 +1,8 @@
-//! The settings of a study against each other: how long each takes, and how far its indices are from the truth.
+//! Comparison of the settings of a study: the time of each, and the distance of its indices from the reference.
 //!
-//! The truth is the exact answer of a function that has one, else the indices by the finest model, as accurate as a part of
-//! the time allows; what is not known of these is part of every error that is reported. Times are measured, so that a comparison
-//! is not the same twice; the indices are.
+//! The reference is the exact result of a function that has one, else the indices by the finest model, as accurate as a
+//! part of the time allows; its own error is part of every reported error. Times are measured, so they differ between
+//! comparisons; the indices do not.
 
 mod curve;
 mod document;
@@ -23,33 +23,33 @@ pub use record::{SettingsFile, build_settings};
 use serde::{Deserialize, Serialize};
 use truth::Truth;
 
-/// Base samples that a curve begins with, and by how much it grows.
+/// Base samples at the start of a curve, and their growth factor.
 const FIRST_BASE_SAMPLES: u64 = 16;
 const STEP: u64 = 4;
 
-/// Base samples that no curve goes beyond.
+/// Maximum number of base samples of a curve.
 const MAX_BASE_SAMPLES: u64 = 1 << 22;
 
-/// Part of the time that the truth may take.
+/// Part of the time for the reference.
 const SHARE_OF_TRUTH: f64 = 0.25;
 
-/// Half widths for which the cheapest setting is named.
+/// Half widths for which the cheapest setting is reported.
 pub const ACCURACIES: [f64; 5] = [0.1, 0.03, 0.01, 0.003, 0.001];
 
-/// A comparison that is asked for.
+/// A request for a comparison.
 #[derive(Clone, Copy)]
 pub struct SettingsJob<'a> {
     /// The study.
     pub study: &'a Study,
-    /// Seconds that it may take, about.
+    /// Approximate time limit in seconds.
     pub seconds: f64,
-    /// Seeds of every setting; the largest of their errors counts.
+    /// Number of seeds of every setting; the largest of their errors is used.
     pub seeds: u64,
     /// Threads; 0 for one per core.
     pub threads: usize,
-    /// Ends it soon after it is set.
+    /// Stops it soon after it is set.
     pub stop: Option<&'a AtomicBool>,
-    /// Receives what is measured next, and which part of the whole has been.
+    /// Receives the next measurement, and the completed part of the whole.
     pub on_progress: &'a dyn Fn(&str, f64),
 }
 
@@ -61,34 +61,34 @@ impl SettingsJob<'_> {
     }
 }
 
-/// What came out.
+/// The result of a comparison.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Comparison {
-    /// What the errors are distances from.
+    /// The reference for the errors.
     pub truth: TruthFound,
-    /// Every setting that was measured.
+    /// All measured settings.
     pub settings: Vec<Measured>,
 }
 
-/// What the errors are distances from.
+/// The reference for the errors.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct TruthFound {
-    /// What it is, in words.
+    /// Its description.
     pub words: String,
     /// Its own error: the largest half width of its intervals, 0 if it is exact; `None` if it has no intervals.
     pub error: Option<f64>,
-    /// Model runs that it took.
+    /// Number of model runs for it.
     pub runs: u64,
-    /// Seconds that it took.
+    /// Seconds for it.
     pub seconds: f64,
 }
 
-/// A setting with what it costs and how far it errs.
+/// A setting with its cost and error.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Measured {
     /// The name of its curve.
     pub curve: String,
-    /// What the curve stands for.
+    /// The axis of the curve.
     pub axis: Axis,
     /// Whether surrogates are fitted.
     #[serde(rename = "surrogate")]
@@ -97,13 +97,13 @@ pub struct Measured {
     pub base_samples: u64,
     /// Model runs.
     pub runs: u64,
-    /// Seconds, fits and estimates included: the least of all seeds.
+    /// Seconds, fits and estimates included: the minimum over all seeds.
     pub seconds: f64,
     /// Largest error of a first-order or total index of any output, over all seeds; `None` without indices.
     pub error: Option<f64>,
     /// Whether no other setting is both quicker and more accurate.
     pub is_on_front: bool,
-    /// The lines of a study that ask for it.
+    /// The lines of a study with this setting.
     pub lines: String,
 }
 
@@ -116,8 +116,8 @@ impl Comparison {
         comparison
     }
 
-    /// The settings that nothing beats in both time and error, by number, the quickest first. Errors below that of the truth
-    /// are all the same.
+    /// Returns the Pareto-optimal settings in time and error, by number, the quickest first. Errors below that of the
+    /// reference are equal.
     pub fn front(&self) -> Vec<usize> {
         let mut order: Vec<usize> = (0..self.settings.len()).filter(|&k| self.settings[k].error.is_some()).collect();
         order.sort_by(|&a, &b| self.settings[a].seconds.total_cmp(&self.settings[b].seconds));
@@ -135,7 +135,7 @@ impl Comparison {
         self.truth.error.unwrap_or(f64::INFINITY)
     }
 
-    /// The cheapest setting that errs by no more than `accuracy`, what is not known of the truth included.
+    /// Returns the cheapest setting with an error of at most `accuracy`, including the error of the reference.
     pub fn cheapest(&self, accuracy: f64) -> Option<usize> {
         self.front().into_iter().find(|&k| self.settings[k].error.is_some_and(|e| e + self.truth_error() <= accuracy))
     }
@@ -144,7 +144,7 @@ impl Comparison {
 /// Measures the settings of a study.
 ///
 /// # Errors
-/// [`RunError`] if the finest model cannot be run, or the comparison is asked to end. Settings that cannot be run are left out.
+/// [`RunError`] if the finest model fails, or the comparison is stopped. Settings that cannot be run are omitted.
 pub fn compare_settings(job: &SettingsJob<'_>) -> Result<Comparison, RunError> {
     let start = Instant::now();
     (job.on_progress)("the truth", 0.0);
@@ -160,7 +160,7 @@ pub fn compare_settings(job: &SettingsJob<'_>) -> Result<Comparison, RunError> {
     Ok(Comparison::new(truth.found, settings))
 }
 
-/// The points of `curve` that fit into so many seconds, at least the first.
+/// Measures the points of `curve` that fit into so many seconds, at least the first.
 fn measured(job: &SettingsJob<'_>, curve: &Curve, truth: &Truth, seconds: f64) -> Result<Vec<Measured>, RunError> {
     let start = Instant::now();
     let mut all = Vec::new();
@@ -204,7 +204,7 @@ fn measured(job: &SettingsJob<'_>, curve: &Curve, truth: &Truth, seconds: f64) -
     Ok(all)
 }
 
-/// The largest error of an index; `None` if one is missing, or all are.
+/// Returns the largest error of an index; `None` if one is missing, or all are.
 fn error(result: &StudyResult, estimator: Estimator, truth: &Truth) -> Option<f64> {
     let mut largest = 0.0_f64;
     for (output, truth) in result.outputs.iter().zip(&truth.outputs) {
@@ -256,7 +256,7 @@ mod tests {
     fn on_the_front_is_what_nothing_beats_in_both() {
         let all = [(3.0, 0.01), (1.0, 0.5), (2.0, 0.6), (2.5, 0.2), (4.0, f64::INFINITY), (5.0, 1e-9), (6.0, 1e-12)];
         assert_eq!(comparison(0.0, &all).front(), [1, 3, 0, 5, 6]);
-        // What the truth cannot distinguish is level.
+        // Differences below the error of the reference count as equal.
         assert_eq!(comparison(1e-6, &all).front(), [1, 3, 0, 5]);
     }
 

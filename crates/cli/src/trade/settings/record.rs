@@ -1,7 +1,7 @@
 //! The file of a comparison: JSON that other programs can rely on.
 //!
-//! Format `apportion-trade`, version 1, described key by key in `docs/trade.md`. Later versions of the program only add keys.
-//! A number that does not exist is `null`.
+//! Format `apportion-trade`, version 1, described in `docs/trade.md`. Later versions of the program only add keys. A
+//! number that does not exist is `null`.
 
 use std::ops::Deref;
 
@@ -19,16 +19,16 @@ pub struct SettingsFile {
     pub format: String,
     /// Version of the format.
     pub version: u32,
-    /// What was asked.
+    /// The study.
     pub study: StudySetup,
     /// Version of the program.
     pub apportion_version: String,
-    /// Threads that the runs had.
+    /// Number of threads of the runs.
     pub threads: usize,
-    /// What was found.
+    /// The comparison.
     #[serde(flatten)]
     pub comparison: Comparison,
-    /// For each accuracy the cheapest setting.
+    /// The cheapest setting for each accuracy.
     pub advice: Vec<AdviceRecord>,
 }
 
@@ -45,11 +45,11 @@ impl Deref for SettingsFile {
 pub struct AdviceRecord {
     /// The accuracy.
     pub accuracy: f64,
-    /// Which setting, by number from 0; `null` if none reaches it.
+    /// Number of the setting, from 0; `null` if none reaches it.
     pub setting: Option<usize>,
 }
 
-/// The file of `comparison`, made on so many threads.
+/// Builds the file of `comparison`, made on so many threads.
 pub fn build_settings(study: &Study, threads: usize, comparison: Comparison) -> SettingsFile {
     let cheapest = |accuracy| AdviceRecord { accuracy, setting: comparison.cheapest(accuracy) };
     let advice = ACCURACIES.map(cheapest).to_vec();

@@ -1,4 +1,4 @@
-//! What errors are measured from.
+//! The reference from which errors are measured.
 
 use apportion::clock::Instant;
 use apportion::result::OutputResult;
@@ -8,10 +8,10 @@ use apportion::study::Target;
 use super::curve::rungs;
 use super::{SettingsJob, TruthFound};
 
-/// The half width that a reference strives for.
+/// Target half width of a reference.
 const FINEST: f64 = 1e-6;
 
-/// First-order and total index of every factor, of every output that has some.
+/// First-order and total index of every factor, of every output that has them.
 type Indices = Vec<[f64; 2]>;
 
 pub(super) struct Truth {
@@ -20,7 +20,7 @@ pub(super) struct Truth {
 }
 
 impl Truth {
-    /// The exact indices if the study's function has some, else those of a run of the finest model of so many seconds.
+    /// Returns the exact indices if the function has them, else those of a run of the finest model of so many seconds.
     pub fn new(job: &SettingsJob<'_>, seconds: f64) -> Result<Self, RunError> {
         let study = job.study;
         if let Some((first, total)) = study.subject().exact_indices(study.space()) {
@@ -42,7 +42,7 @@ impl Truth {
         let analysis =
             apportion::AnalysisOptions { pictures: false, second_order: false, estimators: Vec::new(), ..analysis };
         let finest = study.clone().with_subject(subject).with_target(target);
-        // There is always a design with fewer swaps.
+        // A design with fewer swaps always exists.
         let finest = finest.clone().with_design(study.design().settings().clone(), analysis).unwrap_or(finest);
         let start = Instant::now();
         let result = job.run(&finest)?;

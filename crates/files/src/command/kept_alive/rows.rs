@@ -1,4 +1,4 @@
-//! The rows of a batch on their way to a program and back.
+//! The rows of a batch and their replies.
 
 use std::collections::BTreeMap;
 
@@ -11,15 +11,15 @@ pub(super) struct Rows<'a> {
     pub inputs: &'a [&'a [f64]],
     /// A value for each output of the program and each row; NaN where it failed.
     values: Vec<f64>,
-    /// The number of those outputs.
+    /// The number of the outputs.
     outputs: usize,
     failures: Vec<(usize, RowFailure)>,
-    /// Rows that have their answer, and how many have none.
+    /// Which rows have a reply; the number of those without one follows.
     answered: Vec<bool>,
     pub open: usize,
-    /// The first row that was never asked.
+    /// The first row that was never sent.
     next: usize,
-    /// Rows over which processes ended, and how many: they are asked one at a time.
+    /// Rows that were pending when processes ended, with the number of these: they are sent one at a time.
     pub suspects: BTreeMap<usize, u32>,
 }
 
@@ -37,7 +37,7 @@ impl<'a> Rows<'a> {
         }
     }
 
-    /// The row that is asked next, if any is left.
+    /// Returns the row to send next, if any is left.
     pub(super) fn next(&mut self) -> Option<usize> {
         if let Some((row, _)) = self.suspects.first_key_value() {
             return Some(*row);
@@ -47,8 +47,8 @@ impl<'a> Rows<'a> {
         (row < self.answered.len()).then_some(row)
     }
 
-    /// A process ended over the row; how many have so far. One that had answered other rows counts once only: it may have
-    /// ended over something else.
+    /// Records that a process ended while the row was pending, and returns how many have so far. A process that had
+    /// answered other rows counts only once: it may have ended for another reason.
     pub(super) fn suspect(&mut self, row: usize, is_own: bool) -> u32 {
         let is_new = !self.suspects.contains_key(&row);
         let count = self.suspects.entry(row).or_default();
@@ -72,7 +72,7 @@ impl<'a> Rows<'a> {
         self.open -= 1;
     }
 
-    /// Puts the outputs that are asked for into `batch`.
+    /// Copies the requested outputs to `batch`.
     pub(super) fn hand_over(mut self, model: &CommandModel, batch: &mut Batch) {
         self.failures.sort_unstable_by_key(|(row, _)| *row);
         for (column, place) in model.settings.asked.iter().enumerate() {

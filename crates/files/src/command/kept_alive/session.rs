@@ -1,41 +1,41 @@
-//! A process that is kept alive: the rows that it was asked, the lines that it prints, and how long it takes.
+//! A process that is kept alive: its pending rows, the lines that it prints, and its reply times.
 
 use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 
 use super::super::process::{IN_TRANSIT, Process};
 
-/// Bytes that a line may have, and that a process may print without an answer among them.
+/// Maximum number of bytes of a line, and of output without a reply in it.
 pub(super) const LONGEST: usize = 1 << 20;
 
-/// Row numbers have six digits, which all languages print in full, and come round: so many rows may be under way. They do not
-/// begin at 1, so that what a program prints about its own steps (`1,0.5`) is taken for no answer.
+/// Row numbers have six digits, which all languages print in full, and wrap around: this limits the pending rows. They
+/// do not begin at 1, so that a line about the program's own steps (`1,0.5`) is not taken for a reply.
 const FIRST_NUMBER: u64 = 100_000;
 const NUMBERS: u64 = 900_000;
 const MAX_ASKED: usize = 100_000;
 
 pub(super) struct Session {
     pub process: Process,
-    /// Texts that may be handed over before one is written.
+    /// Number of texts that may be queued before one is written.
     pub credit: usize,
-    /// Rows that it was asked so far.
+    /// Number of rows sent so far.
     pub sent: u64,
-    /// Those without an answer, by their numbers.
+    /// The pending rows by their numbers.
     pub asked: BTreeMap<u64, usize>,
     /// Whether its input is closed.
     pub is_closed: bool,
-    /// When it answered last, or was asked something after a pause.
+    /// The time of the last reply, or of the first row sent after a pause.
     heard: Instant,
-    /// Bytes of lines that were no answers, since the last that was one; and what the last of them was.
+    /// Bytes of lines that were not replies since the last reply, and a description of the last such line.
     pub strayed: usize,
     pub stray: Option<String>,
-    /// What has come of the line that is not complete.
+    /// The received part of the incomplete line.
     line: Vec<u8>,
 }
 
-/// What a row number that a program has printed stands for.
+/// The meaning of a row number that a program has printed.
 pub(super) enum Lookup {
-    /// The row of the batch that has no answer yet.
+    /// A row of the batch that has no reply yet.
     Asked(usize),
     Answered,
     Unknown,
@@ -56,16 +56,16 @@ impl Session {
         }
     }
 
-    /// Whether it can be asked more rows before it answers.
+    /// Returns whether more rows can be sent before it replies.
     pub(super) fn has_room(&self) -> bool {
         self.asked.len() < MAX_ASKED
     }
 
-    /// A row is asked; its number.
+    /// Records that a row is sent, and returns its number.
     pub(super) fn ask(&mut self, row: usize) -> u64 {
         let number = FIRST_NUMBER + self.sent % NUMBERS;
         if self.asked.is_empty() {
-            // The time in which it was not asked anything is not its own.
+            // Time without pending rows does not count.
             self.heard = Instant::now();
         }
         self.asked.insert(number, row);
@@ -73,7 +73,7 @@ impl Session {
         number
     }
 
-    /// Finds the row of that number, which is answered from now on.
+    /// Finds the row of that number and marks it as answered.
     pub(super) fn find(&mut self, number: u64) -> Lookup {
         match self.asked.remove(&number) {
             Some(row) => Lookup::Asked(row),
@@ -82,7 +82,7 @@ impl Session {
         }
     }
 
-    /// The process gets no more rows, and ends when it has answered those that it has.
+    /// Closes the input: the process replies to its pending rows and ends.
     pub(super) fn close(&mut self) {
         self.is_closed = true;
         self.process.close_input();
@@ -92,7 +92,7 @@ impl Session {
         self.heard.elapsed()
     }
 
-    /// An answer has come; how long it took, the start of the process included.
+    /// Records a reply and returns its time, the start of the process included.
     pub(super) fn note_answer(&mut self) -> Duration {
         let took = self.silent_for();
         self.heard = Instant::now();
@@ -100,13 +100,13 @@ impl Session {
         took
     }
 
-    /// A line of `length` bytes is no answer.
+    /// Records a line of `length` bytes that is not a reply.
     pub(super) fn note_stray(&mut self, words: String, length: usize) {
         self.strayed += length.max(1);
         self.stray = Some(words);
     }
 
-    /// The lines that `bytes` complete.
+    /// Returns the lines that `bytes` complete.
     pub(super) fn lines(&mut self, bytes: &[u8]) -> Vec<Vec<u8>> {
         let mut lines = Vec::new();
         for part in bytes.split_inclusive(|byte| *byte == b'\n') {
@@ -118,7 +118,7 @@ impl Session {
         lines
     }
 
-    /// Bytes of the line that is not complete.
+    /// Returns the number of bytes of the incomplete line.
     pub(super) fn unfinished(&self) -> usize {
         self.line.len()
     }

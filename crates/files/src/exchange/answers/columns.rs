@@ -1,4 +1,4 @@
-//! Which columns of a file of outputs are what, and which model they are the outputs of.
+//! The columns of a file of outputs, and the model they are the outputs of.
 
 use std::sync::Arc;
 
@@ -14,7 +14,7 @@ use crate::exchange::error::{TableError, refused};
 use crate::exchange::table::column_of;
 use crate::exchange::{ColumnKind, RowReader};
 
-/// Which columns of the file are what.
+/// The roles of the columns of the file.
 pub(super) struct Columns {
     /// Outputs: the column and its name.
     pub outputs: Vec<(usize, String)>,
@@ -44,7 +44,7 @@ impl Columns {
         Ok(Self { outputs, factors })
     }
 
-    /// What to read of the file.
+    /// Returns the columns to read.
     pub fn wanted(&self, space: &Space) -> Vec<(usize, ColumnKind)> {
         let outputs = self.outputs.iter().map(|(place, name)| (*place, ColumnKind::numbers(name)));
         let factors = self.factors.iter().map(|(place, factor)| (*place, factor_column(&space.factors()[*factor])));
@@ -52,7 +52,7 @@ impl Columns {
     }
 }
 
-/// The columns of the outputs `asked`, none of which is an input or asked for twice.
+/// Returns the columns of the outputs `asked`, none of which may be an input or repeated.
 ///
 /// # Errors
 /// [`TableError`] if there is none, or one is not among `names`.
@@ -75,10 +75,10 @@ pub fn output_columns(
     asked.iter().enumerate().map(column).collect()
 }
 
-/// The first column that is an output, of a file without names of columns.
+/// Returns the first column that is an output in a file without column names.
 ///
 /// # Errors
-/// [`TableError`] if it holds neither the outputs alone nor the factors before them.
+/// [`TableError`] if it holds neither only the outputs nor the factors before them.
 pub fn first_output(width: usize, factors: usize, outputs: usize) -> Result<usize, TableError> {
     match width.checked_sub(outputs) {
         Some(before) if outputs > 0 && (before == 0 || before == factors) => Ok(before),
@@ -90,7 +90,7 @@ pub fn first_output(width: usize, factors: usize, outputs: usize) -> Result<usiz
     }
 }
 
-/// The study's own model if the outputs are its own, else a model outside with these outputs.
+/// Returns the study's own model if the outputs are its own, else an external model with these outputs.
 pub(super) fn subject(
     study: &Study,
     columns: &[(usize, String)],
@@ -128,7 +128,7 @@ pub(super) fn subject(
         let unit = unit.or_else(|| stated.map(|output| output.unit.clone())).unwrap_or_else(Unit::dimensionless);
         Output::new(name.clone(), unit, "read from a file")
     };
-    // Those of the study's series that are there as a whole are series still, in other units too.
+    // The study's series that are complete in the file stay series, even in other units.
     let place = |name: &String| own.iter().position(|output| output.name == *name).unwrap_or(usize::MAX);
     let places: Vec<usize> = names.clone().map(place).collect();
     let series = OutputSeries::chosen(model.series(), &places);

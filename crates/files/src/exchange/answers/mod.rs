@@ -1,4 +1,4 @@
-//! The outputs of a design from a file, checked against the points that they belong to.
+//! The outputs of a design from a file, checked against their points.
 
 mod columns;
 
@@ -14,10 +14,10 @@ use super::error::{TableError, refused};
 use super::manifest::Manifest;
 use super::rows::{ColumnKind, RowReader};
 
-/// Rows counted at a time.
+/// Number of rows counted at a time.
 const COUNTED: usize = 1 << 13;
 
-/// What becomes of a row without a finite output.
+/// How a row without a finite output is treated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum MissingOutputs {
     /// The file is refused.
@@ -27,23 +27,23 @@ pub enum MissingOutputs {
     Failed,
 }
 
-/// What is read from a file of outputs.
+/// The request for a file of outputs.
 #[derive(Debug, Clone, Copy)]
 pub struct AnswersRequest<'a> {
-    /// Whose outputs they are.
+    /// The manifest of the design.
     pub manifest: &'a Manifest,
-    /// Columns that are outputs; none for the study's own if they are there, or else for all that are no factors.
+    /// Output columns; empty for the study's own if present, or else for all that are not factors.
     pub outputs: &'a [String],
-    /// Units of outputs, by column; others are in the unit that the study says, or in none.
+    /// Units of outputs, by column; others have the study's unit, or none.
     pub units: &'a [(String, Unit)],
-    /// What becomes of rows without an output.
+    /// How rows without an output are treated.
     pub missing: MissingOutputs,
 }
 
 /// The outputs of all rows of a design.
 #[derive(Debug)]
 pub struct Answers {
-    /// The study: that of the manifest, of a model outside unless the outputs are the ones of its own model.
+    /// The study: that of the manifest, with an external model unless the outputs are those of its own model.
     pub study: Study,
     /// The outputs.
     pub store: Store,
@@ -51,12 +51,12 @@ pub struct Answers {
     pub compared: Vec<String>,
 }
 
-/// Reads the outputs of the design that the manifest of `request` describes. Where the file holds columns of factors too,
+/// Reads the outputs of the design that the manifest of `request` describes. If the file also has columns of factors,
 /// their values are compared with the design ([`is_same`]: they may have been printed by another program).
 ///
 /// # Errors
-/// [`TableError`] if manifest and file do not belong together, with the first place where that shows; if an output is
-/// missing and such rows are refused.
+/// [`TableError`] if manifest and file do not match, with the first mismatch; if an output is missing and such rows are
+/// refused.
 pub fn read_answers(reader: &mut dyn RowReader, request: &AnswersRequest<'_>) -> Result<Answers, TableError> {
     let mut study = request.manifest.study()?;
     let columns = Columns::find(reader, &study, request)?;
@@ -67,7 +67,7 @@ pub fn read_answers(reader: &mut dyn RowReader, request: &AnswersRequest<'_>) ->
     let wanted = columns.wanted(study.space());
     let mut reading = Reading { reader, study: &study, model: model.as_ref(), columns: &columns, wanted, row: 0 };
     let sha256 = reading.all(&store, request.missing)?;
-    // Values that agree to ten digits may still be another version's: those of the study are the ones in force.
+    // Values that agree to ten digits may still belong to another version: those of the study are used.
     request.manifest.check_points(&sha256)?;
     if model.flags().iter().any(|flag| !flag.warns) && !study.subject().is_external() {
         let note = "the file holds no validity flags of the model: none are counted".to_owned();
@@ -78,7 +78,7 @@ pub fn read_answers(reader: &mut dyn RowReader, request: &AnswersRequest<'_>) ->
     Ok(Answers { study, store, compared })
 }
 
-/// A file on its way into a store.
+/// A file that is read into a store.
 struct Reading<'a> {
     reader: &'a mut dyn RowReader,
     study: &'a Study,
@@ -86,12 +86,12 @@ struct Reading<'a> {
     columns: &'a Columns,
     /// The outputs, then the factors.
     wanted: Vec<(usize, ColumnKind)>,
-    /// Rows read and found right.
+    /// Number of rows read and checked.
     row: u64,
 }
 
 impl Reading<'_> {
-    /// Reads all rows; the SHA-256 of the design's numbers.
+    /// Reads all rows and returns the SHA-256 of the design's numbers.
     fn all(&mut self, store: &Store, missing: MissingOutputs) -> Result<String, TableError> {
         let design = &self.study.design();
         let mut cells = vec![Vec::new(); self.wanted.len()];
@@ -115,7 +115,7 @@ impl Reading<'_> {
         Ok(digest.finish())
     }
 
-    /// The outputs of a block.
+    /// Returns the outputs of a block.
     fn piece(&self, block: RowBlock, answers: &[Vec<f64>], missing: MissingOutputs) -> Result<Piece, TableError> {
         let outputs = self.model.outputs();
         let reason = RowFailure::new("the file of outputs has no finite number for it");
@@ -143,7 +143,7 @@ impl Reading<'_> {
         Ok(piece)
     }
 
-    /// Whether the first `count` rows found are those of the design.
+    /// Checks that the first `count` rows found are those of the design.
     fn compare(&self, points: &[Vec<f64>], found: &[Vec<f64>], count: usize) -> Result<(), TableError> {
         let differs = |row: usize| {
             let pairs = self.columns.factors.iter().zip(found);
@@ -170,7 +170,7 @@ impl Reading<'_> {
         refused(format!("the file has {found} rows, and the design {}", self.study.design().rows()))
     }
 
-    /// Rows of the file that have not been read.
+    /// Counts the rows of the file that have not been read.
     fn count_rest(&mut self) -> Result<u64, TableError> {
         let (mut rest, mut cells) = (0, vec![Vec::new(); self.wanted.len()]);
         loop {

@@ -11,7 +11,7 @@ use super::{
 };
 use crate::exchange::error::{TableError, refused};
 
-/// Rows that are looked at to tell columns of text from those of numbers.
+/// Number of rows that are examined to distinguish text columns from number columns.
 const AHEAD: usize = 100;
 
 /// Reads CSV: spaces around cells are ignored, empty lines and comments (`#`) are skipped.
@@ -19,14 +19,14 @@ pub(super) struct CsvRows {
     csv: csv::Reader<Lines>,
     names: Option<Vec<String>>,
     width: usize,
-    /// Numbers that stand for a missing value.
+    /// Numbers that mean a missing value.
     missing: Vec<f64>,
     record: csv::StringRecord,
-    /// Rows looked at before they are asked for, each with its line.
+    /// Rows examined before they are read, each with its line.
     ahead: VecDeque<(csv::StringRecord, u64)>,
     /// Lines of the rows of the last block.
     lines: Vec<u64>,
-    /// Rows read.
+    /// Number of rows read.
     rows: u64,
 }
 
@@ -49,7 +49,7 @@ impl CsvRows {
         Ok(rows)
     }
 
-    /// Reads the names of the columns, or looks at the first row of a table without.
+    /// Reads the names of the columns, or examines the first row of a table without names.
     fn read_header(&mut self, options: &ReadOptions) -> Result<(), TableError> {
         let mut comment = Vec::new();
         let first = loop {
@@ -57,7 +57,7 @@ impl CsvRows {
                 Some((record, 1)) if record[0].to_lowercase().starts_with("sep=") => (),
                 Some((record, _)) if record[0].starts_with('#') && !is_error_word(&record[0]) => {
                     let cells = record.iter().map(|cell| cell.trim_start_matches('#').trim());
-                    // A mark by itself is a cell where blanks separate them.
+                    // A single mark is a cell if blanks separate cells.
                     comment = cells.skip(usize::from(&record[0] == "#")).map(str::to_owned).collect();
                 }
                 first => break first,
@@ -74,7 +74,7 @@ impl CsvRows {
         let (has_numbers, of_numbers) = (!numbers.is_empty(), numbers.len() == record.len());
         let is_row = options.no_header || has_numbers && (!options.names.is_empty() || comment.len() == record.len());
         if !is_row {
-            // Whole numbers may be names among others, such as those of years.
+            // Whole numbers may be names among others, such as years.
             if of_numbers || numbers.iter().any(|value| value.fract() != 0.0) {
                 return refused(format!(
                     "line {line} holds numbers where the names of the columns are expected: if the file has no header, add \
@@ -100,7 +100,7 @@ impl CsvRows {
         Ok(())
     }
 
-    /// The next row with its line, from the text.
+    /// Returns the next row of the text with its line.
     fn next_row(&mut self) -> Result<Option<(csv::StringRecord, u64)>, TableError> {
         while let Some((record, line)) = self.next_record()? {
             if record.len() == self.width && !(record[0].starts_with("# ") || &record[0] == "#") {
@@ -116,7 +116,7 @@ impl CsvRows {
 
     fn next_record(&mut self) -> Result<Option<(csv::StringRecord, u64)>, TableError> {
         let read = self.csv.read_record(&mut self.record);
-        // The reader stands at the start of the next line.
+        // The reader is at the start of the next line.
         let line = self.csv.position().line().saturating_sub(1);
         let is_one = read.map_err(|source| wrong_record(source, line))?;
         Ok(is_one.then(|| (std::mem::take(&mut self.record), line)))
@@ -196,7 +196,7 @@ impl RowReader for CsvRows {
                 })?;
                 column.push(if self.missing.contains(&value) { f64::NAN } else { value });
             }
-            // Its memory serves the next row.
+            // Its memory is reused for the next row.
             self.record = record;
         }
         Ok(rows)
@@ -204,7 +204,7 @@ impl RowReader for CsvRows {
 }
 
 fn wrong_record(source: csv::Error, line: u64) -> TableError {
-    // The reader counts records and bytes from its own beginning, which are of no use to the user.
+    // The reader counts records and bytes from its own start, which do not help the user.
     match source.kind() {
         csv::ErrorKind::Utf8 { .. } => {
             TableError::Refused(format!("line {line}: it is not text in UTF-8: save the file as UTF-8"))
@@ -239,7 +239,7 @@ impl RowWriter for CsvWriter<'_> {
                 let value = values[row];
                 match kind.label(value) {
                     Some(label) => write!(out, "{}", csv_field(label))?,
-                    // An empty cell by itself would be an empty line, which readers skip.
+                    // A single empty cell would be an empty line, which readers skip.
                     None if value.is_nan() && columns.len() == 1 => write!(out, "\"\"")?,
                     None if value.is_nan() => (),
                     None if kind.whole => write!(out, "{value}")?,

@@ -1,31 +1,31 @@
-//! A text as the reader of CSV needs it: in UTF-8, with one kind of end of line, and one separator of cells.
+//! Text prepared for the CSV reader: in UTF-8, with one kind of line end, and one separator of cells.
 
 use std::io::{BufRead, BufReader, Cursor, Error, ErrorKind, Read, Result};
 
 use apportion::files::MAX_STREAM_BYTES;
 
-/// Most bytes of a line, so that a file without ends of lines takes no memory without end.
+/// Maximum number of bytes of a line, so that a file without line ends does not exhaust the memory.
 const LONGEST_LINE: usize = 16 << 20;
 
-/// Most bytes at the beginning of a text that are looked at for what separates its cells.
+/// Maximum number of bytes at the beginning of a text that are examined to find the separator of its cells.
 const LONGEST_BEGINNING: usize = 1 << 16;
 
 /// A text with `\n` at the end of every line, also after the last one.
 pub(super) struct Lines {
     reader: BufReader<Box<dyn Read>>,
-    /// What separates the cells in the lines as they are handed on.
+    /// The separator of the cells in the returned lines.
     pub separator: u8,
-    /// Whether cells are separated by any number of blanks, which become one tab.
+    /// Whether any number of blanks separates cells; they become one tab.
     blanks: bool,
     line: Vec<u8>,
-    /// Bytes of the line that have been handed on.
+    /// Number of bytes of the line that have been returned.
     given: usize,
-    /// Whether the text ended without an end of line.
+    /// Whether the text ended without a line end.
     unended: bool,
 }
 
 impl Lines {
-    /// The lines of a text in UTF-8, or in UTF-16 with a byte-order mark.
+    /// Creates the lines of a text in UTF-8, or in UTF-16 with a byte-order mark.
     pub(super) fn new(mut reader: Box<dyn Read>) -> Result<Self> {
         let mut begin = beginning(&mut reader)?;
         if begin.starts_with(b"\xff\xfe") || begin.starts_with(b"\xfe\xff") {
@@ -49,7 +49,7 @@ impl Lines {
         })
     }
 
-    /// Whether the text, read to its end, lacks the end of its last line: it may have been cut short, within a number too.
+    /// Returns whether the last line of the text, read to its end, has no line end: it may have been cut short.
     pub(super) fn is_unended(&self) -> bool {
         self.unended
     }
@@ -91,7 +91,7 @@ impl Read for Lines {
     }
 }
 
-/// The beginning of a text up to the end of its second line that is no comment, and maybe beyond.
+/// Reads the beginning of a text, at least to the end of its second line that is not a comment.
 fn beginning(reader: &mut dyn Read) -> Result<Vec<u8>> {
     let (mut begin, mut part) = (Vec::new(), [0; 4096]);
     while begin.len() < LONGEST_BEGINNING && plain_lines(&begin).count() < 3 {
@@ -105,17 +105,18 @@ fn beginning(reader: &mut dyn Read) -> Result<Vec<u8>> {
     Ok(begin)
 }
 
-/// Lines, but no empty ones and no comments.
+/// Iterates over the lines that are neither empty nor comments.
 fn plain_lines(text: &[u8]) -> impl Iterator<Item = &[u8]> {
     text.split(|byte| *byte == b'\n').map(<[u8]>::trim_ascii).filter(|line| !line.is_empty() && !line.starts_with(b"#"))
 }
 
-/// What separates the cells of a text that begins so: what `sep=` says in the first line, as spreadsheets do; else a comma if
-/// there is one outside of quotes, a semicolon or a tab; else blanks, if the first two lines have as many of them.
+/// Detects the separator of the cells from the beginning of a text: that of `sep=` in the first line, as in
+/// spreadsheets; else a comma, a semicolon or a tab outside quotes; else blanks, if the first two lines have equally
+/// many.
 fn separator(begin: &[u8]) -> u8 {
     let mut lines = plain_lines(begin);
     let first = lines.next().unwrap_or_default();
-    // Of `sep=` and a tab the tab is trimmed.
+    // After `sep=` a tab is trimmed.
     if let [b's' | b'S', b'e' | b'E', b'p' | b'P', b'=', rest @ ..] = first
         && rest.len() < 2
     {
@@ -137,7 +138,7 @@ fn separator(begin: &[u8]) -> u8 {
     if has_blanks && !is_text { b' ' } else { b',' }
 }
 
-/// A text in UTF-16 that begins so, as bytes of UTF-8.
+/// Converts a text in UTF-16 with this beginning to bytes of UTF-8.
 fn utf16(begin: Vec<u8>, rest: Box<dyn Read>) -> Result<Vec<u8>> {
     let (mut bytes, invalid) = (begin, |what: String| Error::new(ErrorKind::InvalidData, what));
     rest.take(MAX_STREAM_BYTES).read_to_end(&mut bytes)?;

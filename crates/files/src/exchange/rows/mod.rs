@@ -1,8 +1,7 @@
 //! Tables of numbers by rows, as CSV or NPY, behind one interface.
 //!
-//! Every cell is a number. A value that is missing is NaN; a label of a category is the number that stands for it, by
-//! the labels that the caller knows of the column. Readers and writers take blocks of rows, so that a file may be
-//! larger than memory.
+//! Every cell is a number. A missing value is NaN; a label of a category is its number, by the labels that the caller
+//! gives for the column. Readers and writers process blocks of rows, so that a file may be larger than memory.
 
 mod csv_rows;
 mod lines;
@@ -23,7 +22,7 @@ use flate2::read::MultiGzDecoder;
 use super::error::{TableError, refused};
 
 named! {
-    /// How a table is written down, known by the ending of a file's name.
+    /// The format of a table, chosen by the extension of its file.
     pub enum Format {
         /// Text: a header of names, then one line per row.
         Csv = "csv",
@@ -33,7 +32,7 @@ named! {
 }
 
 impl Format {
-    /// The format that the ending of `path` says, in capitals or not.
+    /// Returns the format of the extension of `path` in any case.
     ///
     /// ```
     /// use apportion_files::exchange::Format;
@@ -64,14 +63,14 @@ impl Format {
     }
 }
 
-/// What the file of a table does not say itself.
+/// Options for a table, which its file does not contain.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ReadOptions {
-    /// Names of the columns of a table that has none.
+    /// Names of the columns of a table without names.
     pub names: Vec<String>,
     /// Whether the first line of a text is a row, even if it does not look like one.
     pub no_header: bool,
-    /// Numbers that stand for a missing value.
+    /// Numbers that mean a missing value.
     pub missing: Vec<f64>,
 }
 
@@ -80,14 +79,14 @@ pub struct ReadOptions {
 pub struct ColumnKind {
     /// Its name.
     pub name: String,
-    /// The labels of a column of categories, each with the number that stands for it; none for a column of numbers.
+    /// The labels of a column of categories, each with its number; empty for a column of numbers.
     pub labels: Vec<(String, f64)>,
-    /// Whether all values are whole numbers, which text has without a decimal point.
+    /// Whether all values are whole numbers, which are written in text without a decimal point.
     pub whole: bool,
 }
 
 impl ColumnKind {
-    /// A column of numbers.
+    /// Creates a column of numbers.
     pub fn numbers(name: &str) -> Self {
         Self { name: name.to_owned(), ..Self::default() }
     }
@@ -103,7 +102,7 @@ impl ColumnKind {
         self.labels.iter().find(|(known, _)| is_it(known)).map(|(_, value)| *value)
     }
 
-    /// The number in a cell of text: that of a label, or of a label's number; of a column of numbers any number,
+    /// Returns the number in a cell of text: of a label, or of its number; for a column of numbers any number,
     /// infinities too, and 1 and 0 for `true` and `false`. `None` if it is neither; NaN if the value is missing.
     fn value(&self, cell: &str) -> Option<f64> {
         const MISSING: [&str; 9] = ["", "nan", "-nan", "na", "n/a", "null", "none", "-", "."];
@@ -129,7 +128,7 @@ impl ColumnKind {
     }
 }
 
-/// A number as programs print it, that of Fortran with `D` before the exponent too.
+/// Parses a number as programs print it, including Fortran's `D` before the exponent.
 fn number(cell: &str) -> Option<f64> {
     let of_fortran = || {
         let is_plain = cell.bytes().all(|byte| byte.is_ascii_digit() || b"+-.dD".contains(&byte));
@@ -138,7 +137,7 @@ fn number(cell: &str) -> Option<f64> {
     cell.parse().ok().or_else(of_fortran)
 }
 
-/// Whether a spreadsheet has written that the cell has no value, as `#N/A` and `#DIV/0!` say.
+/// Returns whether the cell holds an error of a spreadsheet, such as `#N/A` and `#DIV/0!`.
 fn is_error_word(cell: &str) -> bool {
     const WORDS: [&str; 7] = ["#N/A", "#DIV/0!", "#VALUE!", "#REF!", "#NUM!", "#NAME?", "#NULL!"];
     WORDS.iter().any(|word| cell.eq_ignore_ascii_case(word))
@@ -146,13 +145,13 @@ fn is_error_word(cell: &str) -> bool {
 
 /// Reads a table block by block.
 pub trait RowReader {
-    /// Names of all columns, in order; `None` for a format without names.
+    /// Returns the names of all columns, in order; `None` for a format without names.
     fn names(&self) -> Option<&[String]>;
 
-    /// Number of all columns.
+    /// Returns the number of all columns.
     fn width(&self) -> usize;
 
-    /// The columns that hold text, by their type, or by the first values in them.
+    /// Returns the columns that hold text, by their type, or by their first values.
     ///
     /// # Errors
     /// [`TableError`] if the file cannot be read.
@@ -160,37 +159,37 @@ pub trait RowReader {
         Ok(Vec::new())
     }
 
-    /// The first cell of a column of text that is no number, where the cells were looked at to tell.
+    /// Returns the first cell of a text column that is not a number, if the cells were examined.
     fn text_example(&self, _place: usize) -> Option<String> {
         None
     }
 
-    /// The line of the file, from 1, on which row number `row` of the last block ends; `None` in a format without lines.
+    /// Returns the line of the file, from 1, on which row number `row` of the last block ends; `None` without lines.
     fn line(&self, _row: usize) -> Option<u64> {
         None
     }
 
-    /// Whether the file, read to its end, is a text whose last line has no end: it may have been cut short, within a number
-    /// too.
+    /// Returns whether the file, read to its end, is a text whose last line has no end: it may have been cut short,
+    /// even in a number.
     fn is_unended(&self) -> bool {
         false
     }
 
-    /// Reads the next rows, at most `rows`, of some columns into `into`, one vector for each of `wanted` (number of the
-    /// column below [`width`](Self::width), what it holds; the
-    /// same ones in every call), and returns how many there were; 0 at the end.
+    /// Reads at most `rows` rows of some columns into `into`, one vector for each of `wanted` (number of the column
+    /// below [`width`](Self::width), its content; the same ones in every call), and returns how many there were; 0 at
+    /// the end.
     ///
     /// # Errors
-    /// [`TableError`] with the place of the first fault.
+    /// [`TableError`] with the place of the first error.
     fn read(&mut self, wanted: &[(usize, ColumnKind)], rows: usize, into: &mut [Vec<f64>])
     -> Result<usize, TableError>;
 }
 
-/// Opens the table in `path`, in the format that its first bytes say, whatever its name: NPY, or text as CSV, which may be
+/// Opens the table in `path`, in the format of its first bytes, whatever its name: NPY, or text as CSV, which may be
 /// compressed by gzip. Text is read in constant memory, from a pipe too.
 ///
 /// # Errors
-/// [`TableError`] if the file cannot be read or is of another format, or names do not fit.
+/// [`TableError`] if the file cannot be read or is of another format, or names do not match.
 pub fn open_table(path: &Path, options: &ReadOptions) -> Result<Box<dyn RowReader>, TableError> {
     let mut file = File::open(path)?;
     let about = file.metadata()?;
@@ -210,7 +209,7 @@ pub fn open_table(path: &Path, options: &ReadOptions) -> Result<Box<dyn RowReade
     table_of_bytes(begin, options)
 }
 
-/// The table in `bytes`, as [`open_table`] reads it.
+/// Opens the table in `bytes` in the way of [`open_table`].
 ///
 /// # Errors
 /// As for [`open_table`].
@@ -222,7 +221,7 @@ pub fn table_of_bytes(bytes: Vec<u8>, options: &ReadOptions) -> Result<Box<dyn R
     text(&begin, Box::new(Cursor::new(bytes)), options)
 }
 
-/// The table in a text that begins so.
+/// Opens the table in a text with this beginning.
 fn text(begin: &[u8], all: Box<dyn Read>, options: &ReadOptions) -> Result<Box<dyn RowReader>, TableError> {
     let all: Box<dyn Read> = match begin {
         [b'P', b'A', b'R', b'1', ..] => {
@@ -245,22 +244,22 @@ pub trait RowWriter {
     /// Writes rows: one slice for each column, all of one length.
     ///
     /// # Errors
-    /// Whatever the file's system says.
+    /// Any error of the file system.
     fn write(&mut self, columns: &[&[f64]]) -> std::io::Result<()>;
 
-    /// Writes what is left to be written.
+    /// Writes the remaining data.
     ///
     /// # Errors
-    /// Whatever the file's system says; or if the rows are not as many as were announced.
+    /// Any error of the file system, or a number of rows other than announced.
     fn finish(self: Box<Self>) -> std::io::Result<()>;
 }
 
-/// A writer of `rows` rows of these columns to `out`. Numbers come back from reading as the same bits.
+/// Creates a writer of `rows` rows of these columns to `out`. Numbers are read back as the same bits.
 ///
 /// Labels are written as text in CSV, as their numbers in NPY; a missing value is an empty cell, or NaN.
 ///
 /// # Errors
-/// Whatever the file's system says.
+/// Any error of the file system.
 pub fn row_writer<'a>(
     format: Format,
     out: &'a mut dyn Write,
@@ -273,7 +272,7 @@ pub fn row_writer<'a>(
     })
 }
 
-/// Names of all columns: `y[0..3]` stands for the columns `y[0]`, `y[1]` and `y[2]`.
+/// Expands the names of columns: `y[0..3]` means the columns `y[0]`, `y[1]` and `y[2]`.
 fn expanded(names: &[String]) -> Vec<String> {
     let mut all = Vec::new();
     for name in names {
@@ -285,7 +284,7 @@ fn expanded(names: &[String]) -> Vec<String> {
     all
 }
 
-/// The names of `width` columns, if there are any.
+/// Returns the names of `width` columns, if there are any.
 fn names_of_columns(names: Vec<String>, width: usize) -> Result<Option<Vec<String>>, TableError> {
     if names.is_empty() {
         return Ok(None);
@@ -297,7 +296,7 @@ fn names_of_columns(names: Vec<String>, width: usize) -> Result<Option<Vec<Strin
     Ok(Some(names))
 }
 
-/// Names that are all there and all different.
+/// Checks that no name is empty or repeated.
 fn check_names(names: &[String]) -> Result<(), TableError> {
     if names.iter().all(String::is_empty) {
         return refused("the file is empty: expected a header of column names, then one line per row");

@@ -11,10 +11,10 @@ use crate::exchange::error::TableError;
 /// The first bytes of such a file.
 pub(super) const MAGIC: &[u8; 6] = b"\x93NUMPY";
 
-/// The header's length is a multiple of this, as NumPy has it.
+/// The header's length is a multiple of this, as in NumPy.
 const ALIGNMENT: usize = 64;
 
-/// Longest header that is read: some hundred bytes are usual.
+/// Maximum length of a header that is read: some hundred bytes are usual.
 const MAX_HEADER: usize = 1 << 16;
 
 /// The type of the numbers.
@@ -23,12 +23,12 @@ struct Element {
     big_endian: bool,
     /// `f`, `i`, `u` or `b`.
     kind: u8,
-    /// Bytes.
+    /// Number of bytes.
     size: usize,
 }
 
 impl Element {
-    /// From a description such as `<f8`.
+    /// Parses a description such as `<f8`.
     fn parse(text: &str) -> Option<Self> {
         let [order, kind, size] = *text.as_bytes() else { return None };
         let known =
@@ -56,19 +56,18 @@ impl Element {
     }
 }
 
-/// Reads NPY.
 pub(super) struct NpyRows<R> {
     reader: R,
     names: Option<Vec<String>>,
-    /// Numbers that stand for a missing value.
+    /// Numbers that mean a missing value.
     missing: Vec<f64>,
     element: Element,
     fortran: bool,
     rows: u64,
     width: usize,
-    /// Where the numbers begin.
+    /// Position of the first number.
     start: u64,
-    /// Rows read.
+    /// Number of rows read.
     read: u64,
     bytes: Vec<u8>,
 }
@@ -118,7 +117,7 @@ impl<R: Read + Seek> NpyRows<R> {
         Ok(Self { reader, names, missing, element, fortran, rows, width, start, read: 0, bytes: Vec::new() })
     }
 
-    /// Reads the `count` numbers from number `first` on, as they lie in the file.
+    /// Reads `count` numbers from number `first` on, in the order of the file.
     fn numbers(&mut self, first: u64, count: usize) -> Result<(), TableError> {
         self.bytes.resize(count * self.element.size, 0);
         self.reader.seek(SeekFrom::Start(self.start + first * self.element.size as u64))?;
@@ -126,7 +125,7 @@ impl<R: Read + Seek> NpyRows<R> {
     }
 }
 
-/// Type of the numbers, whether columns lie together, and shape: from a Python dictionary of literals.
+/// Parses the type of the numbers, whether columns are contiguous, and the shape, from a Python dictionary of literals.
 fn parse_header(header: &str) -> Result<(Element, bool, Vec<u64>), TableError> {
     let header = header.replace('"', "'");
     let after = |key: &str| {
@@ -192,10 +191,9 @@ impl<R: Read + Seek> RowReader for NpyRows<R> {
     }
 }
 
-/// Writes NPY.
 pub(super) struct NpyWriter<'a> {
     out: BufWriter<&'a mut dyn Write>,
-    /// Rows still to come.
+    /// Number of rows still to come.
     left: u64,
 }
 

@@ -1,4 +1,4 @@
-//! What was typed of a program: `command = [...]`, or the table `[command]`.
+//! The settings of a program as typed: `command = [...]`, or the table `[command]`.
 
 use std::collections::BTreeMap;
 

@@ -1,4 +1,4 @@
-//! `model = "command"`: the user's own program, its outputs, and how it is asked.
+//! `model = "command"`: the user's own program, its outputs, and how it receives rows.
 
 pub(super) mod file;
 mod runs;
@@ -25,7 +25,7 @@ pub(super) fn no_program() -> Problem {
     Problem::missing("program", "command = [\"python3\", \"my_model.py\"]")
 }
 
-/// The program with all that is said of it, and notes on what has no effect.
+/// Returns the program with its settings, and notes on keys without effect.
 pub(super) fn subject(
     context: &Context<'_>,
     key: Option<&At<CommandKey>>,
@@ -102,7 +102,7 @@ fn arguments(context: &Context<'_>, key: &At<CommandKey>, program: &[At<String>]
     Ok(program.iter().map(|argument| argument.get_ref().clone()).collect())
 }
 
-/// How far the paths of the study may lead.
+/// Returns how far the paths of the study may lead.
 fn reach(section: &CommandSection) -> Reach {
     let is_free = section.files_outside.as_ref().is_some_and(|allowed| *allowed.get_ref());
     if is_free { Reach::Anywhere } else { Reach::Inside }
@@ -112,7 +112,7 @@ fn existing_file(context: &Context<'_>, section: &CommandSection, typed: &At<Str
     existing(context, section, typed, ("file", Path::is_file))
 }
 
-/// The path that is typed, of something that is there.
+/// Returns the typed path, which must exist.
 fn existing(
     context: &Context<'_>,
     section: &CommandSection,
@@ -128,7 +128,7 @@ fn existing(
     Err(context.fault(typed.span(), Problem::with_help(problem, help)))
 }
 
-/// The protocol of a program that is kept alive; what belongs to the other form has no place here.
+/// Returns the protocol of a program that is kept alive; keys of the other form are refused.
 fn protocol(
     context: &Context<'_>,
     section: &CommandSection,
@@ -147,7 +147,7 @@ fn protocol(
     Ok(choice_if_said(context, &section.protocol, "protocol")?.unwrap_or(Protocol::Csv))
 }
 
-/// A factor, or an output of JSON, called as the number of a row is.
+/// Refuses a factor, or an output of JSON, with the name of the row number.
 fn refuse_number(
     context: &Context<'_>,
     key: &At<CommandKey>,

@@ -15,10 +15,10 @@ use crate::study::error::Problem;
 use crate::study::paths::resolve;
 use crate::{CommandOutput, InputTemplate, PerRun, TemplateProblem};
 
-/// Names that the engine writes in the directory of a run.
+/// Names of files that the engine writes in the directory of a run.
 const TAKEN: [&str; 3] = ["stdout.txt", "stderr.txt", "factors.csv"];
 
-/// The form, and notes on factors that the template does not mention.
+/// Returns the form, and notes on factors that the template does not use.
 pub(super) fn form(
     context: &Context<'_>,
     section: &CommandSection,
@@ -42,7 +42,7 @@ pub(super) fn form(
     Ok((PerRun { template_file, template: read, input, files, keep }, notes))
 }
 
-/// Every output says where it stands after a run.
+/// Refuses an output that does not say where its number is after a run.
 pub(super) fn refuse_without_pick(
     context: &Context<'_>,
     key: &At<CommandKey>,
@@ -72,7 +72,7 @@ fn read_template(path: &Path, space: &Space) -> Result<InputTemplate, Problem> {
     })
 }
 
-/// A file in the directory of a run is named without a way out of it.
+/// Refuses a file name that leads out of the directory of a run.
 fn refuse_place(key: &str, name: &str) -> Result<(), Problem> {
     let mut parts = Path::new(name).components();
     let is_name = matches!((parts.next(), parts.next()), (Some(Component::Normal(_)), None));

@@ -1,4 +1,4 @@
-//! A problem shown at its place in the file.
+//! A problem shown at its position in the file.
 
 use std::borrow::Cow;
 use std::fmt;
@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use super::Problem;
 
-/// A [`Problem`] with its place in the file, shown as compilers show theirs.
+/// A [`Problem`] with its position in the file, shown in the style of compilers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Diagnostic {
     /// The file, as given.
@@ -16,13 +16,13 @@ pub struct Diagnostic {
     pub line: usize,
     /// Column in characters, from 1.
     pub column: usize,
-    /// What is wrong.
+    /// The problem.
     pub problem: Problem,
     /// The overrides applied to the text before it was read, if any.
     pub overrides: Vec<String>,
-    /// The line, or the part of a long one around the place.
+    /// The line, or the part of a long one around the position.
     source_line: String,
-    /// Where the place stands in it, in characters from 0, and how many are marked.
+    /// The position in it, in characters from 0, and the number of marked characters.
     mark: (usize, usize),
 }
 
@@ -51,11 +51,11 @@ impl Diagnostic {
     }
 }
 
-/// Most characters of a line that are shown, and how many of a longer one stand before the place.
+/// Maximum number of characters of a line that are shown, and the number shown before the position in a longer one.
 const MAX_LINE: usize = 160;
 const LEAD: usize = 40;
 
-/// A message that quotes a megabyte by its beginning and its end.
+/// Shortens a long message to its beginning and its end.
 fn shortened(message: &str) -> Cow<'_, str> {
     const MAX_BYTES: usize = 2000;
     const KEPT_BYTES: usize = 300;
@@ -67,7 +67,7 @@ fn shortened(message: &str) -> Cow<'_, str> {
     format!("{} ... {}", &message[..start], &message[end..]).into()
 }
 
-/// The line without characters that would change the terminal.
+/// Removes characters that would change the terminal from the line.
 fn printable(line: &str) -> String {
     line.chars().map(|c| if c.is_control() && c != '\t' { char::REPLACEMENT_CHARACTER } else { c }).collect()
 }

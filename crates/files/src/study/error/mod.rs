@@ -1,4 +1,4 @@
-//! What can be wrong with a study, and where in its file.
+//! Errors of a study, with their positions in its file.
 
 mod diagnostic;
 mod problem;
@@ -11,7 +11,7 @@ pub use problem::Problem;
 pub(super) use synonyms::meant;
 use thiserror::Error;
 
-/// A study that cannot be read or makes no sense.
+/// A study that cannot be read or is invalid.
 #[derive(Debug, Error)]
 pub enum StudyError {
     /// The file cannot be read at all.
@@ -19,18 +19,18 @@ pub enum StudyError {
     Unreadable {
         /// The path as given.
         path: PathBuf,
-        /// What the operating system said.
+        /// The error of the operating system.
         source: std::io::Error,
     },
-    /// An override from the command line makes no sense.
+    /// An override from the command line is invalid.
     #[error("--set {text}: {problem}")]
     Override {
         /// The override as given.
         text: String,
-        /// What is wrong with it.
+        /// The problem.
         problem: String,
     },
-    /// A place in the file is wrong.
+    /// A part of the file is invalid.
     #[error(transparent)]
     Invalid(#[from] Box<Diagnostic>),
 }

@@ -1,41 +1,41 @@
-//! What is wrong at a place of a study file, and what would be right.
+//! Problems at a position of a study file, and what is expected.
 
 use apportion::quantity::UnitError;
 use apportion::study::{BuildError, did_you_mean};
 use thiserror::Error;
 
-/// What is wrong at a place of a study file.
+/// A problem at a position of a study file.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum Problem {
-    /// A name that stands for nothing.
+    /// An unknown name.
     #[error("unknown {what} `{name}`{}", did_you_mean(.nearest))]
     UnknownName {
-        /// What the name should be of, such as "factor".
+        /// The kind of name, such as "factor".
         what: &'static str,
         /// The name as typed.
         name: String,
         /// The nearest known name.
         nearest: Option<String>,
-        /// All names that could stand here.
+        /// All names that are valid here.
         expected: Vec<String>,
     },
-    /// The same name twice.
+    /// A repeated name.
     #[error("{what} `{name}` stands here twice")]
     Repeated {
-        /// What the name is of.
+        /// The kind of name.
         what: &'static str,
         /// The name.
         name: String,
     },
-    /// A rule that every study obeys.
+    /// A rule of every study.
     #[error(transparent)]
     Build(#[from] BuildError),
-    /// Anything else.
+    /// Any other problem.
     #[error("{message}")]
     Refused {
-        /// What is wrong.
+        /// The problem.
         message: String,
-        /// What would be right, where the message does not say it yet.
+        /// What is expected, if the message does not say it.
         help: Option<String>,
     },
 }
@@ -55,23 +55,23 @@ impl Problem {
         Self::Refused { message: message.into(), help: Some(help.into()) }
     }
 
-    /// A key that stands in the wrong place; `right` says where it belongs, or what to write.
+    /// Creates the problem of a misplaced key; `right` says where it belongs, or what to write.
     pub(in crate::study) fn misplaced(name: &str, right: &str) -> Self {
         Self::new(format!("unknown key `{name}` here: {right}"))
     }
 
-    /// Something that a model needs, and that is not there.
+    /// Creates the problem of a missing key that a model needs.
     pub(in crate::study) fn missing(what: &str, example: &str) -> Self {
         Self::with_help(format!("the study has no {what}"), format!("write, for instance: {example}"))
     }
 
-    /// The study has no factor.
+    /// Creates the problem of a study without a factor.
     pub(in crate::study) fn no_factors() -> Self {
         let help = "add a table [factors] with a line for each, as in x1 = { min = 0, max = 1 }";
         Self::with_help("the study has no factor: there is nothing to vary", help)
     }
 
-    /// What would be right, where the message does not say it yet.
+    /// Returns what is expected, if the message does not say it.
     pub fn help(&self) -> Option<String> {
         match self {
             Self::UnknownName { expected, .. } => Some(format!("known: {}", expected.join(", "))),

@@ -1,8 +1,8 @@
-//! Words of other programs for what has another name in a study.
+//! Words of other programs for the names in a study.
 
 use apportion::names::nearest;
 
-/// Our word, or two of them, and what SciPy, SALib, UQLab and everyday language call it.
+/// Our word, or two of them, and the terms of SciPy, SALib, UQLab and everyday language.
 const SYNONYMS: [(&[&str], &[&str]); 46] = [
     // Keys of a factor.
     (&["distribution"], &["dist", "distr", "law", "type", "pdf"]),
@@ -57,8 +57,8 @@ const SYNONYMS: [(&[&str], &[&str]); 46] = [
     (&["empirical"], &["data", "measured"]),
 ];
 
-/// What somebody may have meant who typed `name` where only `known` can stand: the same thing by our name, or the nearest
-/// spelling. Two names that are meant together are joined by "and".
+/// Suggests what `name` may mean where only `known` names are valid: the synonym in our words, or the nearest spelling.
+/// Two suggested names are joined by "and".
 pub(in crate::study) fn meant<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<String> {
     let known: Vec<&str> = known.into_iter().collect();
     let word = name.to_lowercase();
@@ -84,7 +84,7 @@ mod tests {
         assert_eq!(meant("mim", factor).as_deref(), Some("min"));
     }
 
-    /// A word with two meanings at one place would be a guess.
+    /// A word with two meanings at one position would be a guess.
     #[test]
     fn no_word_is_listed_twice() {
         let mut words: Vec<&str> = SYNONYMS.iter().flat_map(|(_, words)| words.iter().copied()).collect();
