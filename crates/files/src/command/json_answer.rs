@@ -4,7 +4,7 @@ use apportion::model::item_of_list;
 use apportion::text::masked;
 use serde_json::Value;
 
-use super::protocol::{Answer, failed};
+use super::answer::{Answer, failed};
 
 /// The content of an object under one key: a single output, or a list of several.
 struct Key<'a> {

@@ -4,6 +4,7 @@
 //! No shell is involved. A program is the leader of a process group, which is ended with it; its errors are reported
 //! with a reason in the result, and never lose a row that it has answered.
 
+mod answer;
 mod json_answer;
 mod kept_alive;
 mod per_run;

@@ -2,9 +2,10 @@
 //! `docs/worker-protocol.md`.
 
 use apportion::names::named;
-use apportion::text::{cut, masked, shortened};
+use apportion::text::{cut, masked};
 use serde_json::Value;
 
+use super::answer::{Answer, failed};
 use super::json_answer::{json, json_answer, keys_in_words};
 
 named! {
@@ -16,9 +17,6 @@ named! {
         JsonLines = "json-lines",
     }
 }
-
-/// The reply of a program to a row: a value for every output, NaN for a missing one; or why there are none.
-pub(super) type Answer = Result<Vec<f64>, String>;
 
 /// Reads the line with which a program replies to a row: the number of the row, the first cell in CSV and the key `id`
 /// of a JSON object; and one value for each of `outputs` (the number, NaN for an empty cell, `nan` or null, or an
@@ -96,12 +94,6 @@ fn expected(protocol: Protocol, outputs: &[String]) -> String {
         (Protocol::Csv, _) => format!("the row's number and {} numbers, separated by commas", outputs.len()),
         (Protocol::JsonLines, _) => format!("a JSON object with id (the row's number), {}", keys_in_words(outputs)),
     }
-}
-
-/// Returns the reply of a program that says why a row has no values.
-pub(super) fn failed(reason: &str) -> Answer {
-    let reason = shortened(reason);
-    Err(if reason.is_empty() { "the program reported an error without a reason".to_owned() } else { reason })
 }
 
 /// Parses `text` as a reply; the error describes it if it is not one.
