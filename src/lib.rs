@@ -5,8 +5,7 @@
 //! can also be called one by one: a [`Design`] generates points by row number, a [`Worker`] of the model evaluates
 //! them, an [`Estimator`] computes indices from sums, and an [`IntervalMethod`] computes their confidence intervals.
 //!
-//! In addition to the Sobol' indices of a model there are [`given`] data, [`screening`], [`sweep`]s, and the points and
-//! formulas of [`salib`].
+//! There are also indices from [`given`] data, [`screening`], [`sweep`]s, and the points and formulas of [`salib`].
 //!
 //! # Related crates
 //!

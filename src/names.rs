@@ -1,7 +1,7 @@
 //! Rules for the names that users choose, file names derived from them, and enums selected by name.
 //!
 //! Names appear in tables, charts, pages, terminals and file names. A name is checked when it is read; file names are
-//! safe and unique whatever the names they are derived from.
+//! always safe and unique.
 
 /// Declares an enum without fields together with `ALL` and `name`, so that the three stay consistent.
 #[macro_export]

@@ -84,8 +84,7 @@ pub fn normal_quantile(u: f64) -> f64 {
     if q < 0.0 { -x } else { x }
 }
 
-/// Returns the quantile of the standard normal distribution at 1/2 + `q`, |q| <= 0.425, to full relative precision
-/// about 0.
+/// Returns the standard normal quantile at 1/2 + `q`, |q| <= 0.425, to full relative precision about 0.
 pub fn normal_quantile_beside_median(q: f64) -> f64 {
     let r = 0.180_625 - q * q;
     let above = polynomial(
@@ -161,8 +160,7 @@ pub fn t_above(t: f64, freedom: f64) -> f64 {
 /// infinity if it exceeds the range of `f64`.
 pub fn t_quantile_outside(outside: f64, freedom: f64) -> f64 {
     let target = libm::log(outside / 2.0);
-    // Newton on ln P(T > e^s), which falls and is concave: right of the root every step comes nearer and none passes
-    // it.
+    // Newton on ln P(T > e^s), which falls and is concave: right of the root steps come nearer, none passes it.
     let mut s = libm::log(-normal_quantile(outside / 2.0));
     for _ in 0..200 {
         let t = libm::exp(s);

@@ -1,8 +1,7 @@
 //! Measures of influence other than Sobol' indices, from rows A and B of a run.
 //!
 //! The rows A and B are draws from the distributions of the factors, like those of a table of given data. A run keeps
-//! the outputs of the first of them, and their inputs are a function of their numbers, so its memory does not grow with
-//! its size.
+//! the outputs of the first of them; inputs follow from row numbers, so memory does not grow with size.
 
 use super::first_rows::FirstRows;
 use crate::design::{Design, DesignSettings, Sampler};

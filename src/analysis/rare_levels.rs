@@ -1,5 +1,4 @@
-//! Levels of factors that are rare or absent in the rows of a design: the results miss their effect on the output,
-//! without any sign of it.
+//! Levels of factors that are rare or absent in the rows of a design: results silently miss their effect.
 
 use crate::design::Design;
 use crate::result::{PAIRS_OF_POINT, RareLevel};
@@ -9,8 +8,7 @@ use crate::uncertainty::{Interval, OutputIndices};
 /// Expected number of joint draws of two rare levels for their joint effect to be seen: one of 150 designs has none.
 const MIN_MEETINGS: f64 = 5.0;
 
-/// Probability of the more likely of two levels above which their joint effect may matter in addition to that of the
-/// other.
+/// Probability of the more likely of two levels above which their joint effect may matter next to that of the other.
 const MATTERS: f64 = 0.025;
 
 /// Values of a factor in A and B that a level needs for its effect to be estimated: with ten, to a third.
@@ -45,8 +43,7 @@ impl Part {
     }
 }
 
-/// Returns the levels of the factors of `space`, and the thin bins of histograms, with fewer than ten values of A and B
-/// in `design`.
+/// Returns the levels of the factors of `space`, and thin bins of histograms, with fewer than ten values in `design`.
 pub(crate) fn rare_levels(space: &Space, design: &Design) -> Vec<RareLevel> {
     let settings = design.settings();
     let all = 2 * settings.base_samples;
@@ -91,7 +88,7 @@ pub(crate) fn rare_levels(space: &Space, design: &Design) -> Vec<RareLevel> {
     rare.chain(pair).collect()
 }
 
-/// Returns the two levels of factors that are rarest together, if the more likely one is not rare itself.
+/// Returns the pair of levels that is rarest together, of which the more likely one is not rare itself.
 fn rarest_pair(mut levels: Vec<(usize, Part)>) -> Option<[(usize, Part); 2]> {
     levels.sort_by(|a, b| a.1.probability().total_cmp(&b.1.probability()));
     let partner = levels.iter().skip(1).position(|level| level.1.probability() >= MATTERS)? + 1;

@@ -23,8 +23,7 @@ pub fn unlikely_outputs(study: &Study, store: &Store) -> Vec<Option<String>> {
     outputs.iter().enumerate().map(of_output).collect()
 }
 
-/// Returns a warning of the unlikely value among the `samples` of an output: of every replicate of `design` the first
-/// rows A and B.
+/// Returns a warning of the unlikely value among the `samples` of an output: the first rows A and B of each replicate.
 pub(super) fn of_samples(design: &Design, output: &Output, samples: &[Vec<f64>]) -> Option<Warning> {
     let values: Vec<f64> = samples.iter().flatten().map(|si| output.unit.from_si(*si)).collect();
     let found = Unlikely::find(&values)?;

@@ -193,8 +193,7 @@ fn disagreements(study: &Study, name: &str, checks: &EffectChecks) -> Vec<Warnin
     warnings
 }
 
-/// Returns whether the rows A, B and AB of a base point look independent: every first-order index near 0, every total
-/// near 1.
+/// Returns whether the rows A, B and AB of a base point look independent: first-order indices near 0, totals near 1.
 fn looks_shuffled(indices: &OutputIndices) -> bool {
     const NEAR: f64 = 0.15;
     let all = |near: &dyn Fn(&EffectEstimates) -> bool| indices.factors.iter().all(near);

@@ -114,8 +114,7 @@ mod tests {
 
     #[test]
     fn dimensions_are_uncorrelated() {
-        // The standard error of a correlation of n independent pairs is n^-1/2; by chance it never exceeds five of them
-        // in 45 pairs.
+        // The standard error of a correlation of n pairs is n^-1/2; none of 45 exceeds five of them by chance.
         let n = 4096;
         let mut columns = vec![vec![0.0; n]; 10];
         LatinHypercube::new(10, n as u64, 0, 0).fill(0, &mut columns);

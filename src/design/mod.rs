@@ -40,12 +40,10 @@ pub const MAX_REPLICATES: u64 = 4096;
 pub const MAX_PAIRED_FACTORS: usize = 256;
 
 /// Maximum number of factors of a design with rows along random orders of single factors: its base points have a column
-/// for each factor in each of these rows. With fewer players than factors, more factors are possible up to this number
-/// of columns.
+/// for each factor in each of these rows. With fewer players, more factors are possible for as many columns.
 pub const MAX_ORDERED_FACTORS: usize = 100;
 
-/// Returns whether base points have room for the rows along random orders of `players` players with `factors` factors
-/// in all.
+/// Returns whether base points have room for the rows along random orders of `players` players of `factors` factors.
 pub fn has_room_for_orders(players: usize, factors: usize) -> bool {
     players.saturating_sub(1).saturating_mul(factors) <= (MAX_ORDERED_FACTORS - 1) * MAX_ORDERED_FACTORS
 }
@@ -84,8 +82,7 @@ pub struct Design {
 }
 
 impl Design {
-    /// Creates a design over `factors` factors with the rows `rows` (column numbers below `factors`) in addition to A
-    /// and B.
+    /// Creates a design over `factors` factors with `rows` (column numbers below `factors`) in addition to A and B.
     ///
     /// `base_samples` is rounded up to a multiple of `replicates`; [`Design::settings`] returns the rounded number.
     ///
@@ -277,8 +274,7 @@ impl Design {
         &self.runs.ba
     }
 
-    /// Returns the indices in [`Design::runs`] of the steps along random orders of the [players](Rows::players), in
-    /// step order.
+    /// Returns the indices in [`Design::runs`] of the steps along random orders of [players](Rows::players), in order.
     pub fn step_runs(&self) -> &[usize] {
         &self.runs.steps
     }
@@ -332,8 +328,8 @@ impl Design {
 
     /// Returns the correlation over all base points of the columns of each factor in A and in B, both uniform on (0,
     /// 1). Among many factors some pairs share leading digits over the first points: the outputs of rows that differ
-    /// only in such a factor then differ too little or too much. Empty for more than 1024 points a replicate, where
-    /// this is rare.
+    /// only in such a factor then differ too little or too much. Empty above 1024 points a replicate: this is rare
+    /// there.
     pub fn column_correlations(&self) -> Vec<f64> {
         let (points, factors) = (self.points_per_replicate(), self.factors());
         if points > MAX_CORRELATED_POINTS || !self.settings.sampler.is_digital() || self.is_dependent() {

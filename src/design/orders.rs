@@ -45,8 +45,7 @@ impl OrderColumns {
         (0..self.factors).map(|factor| (factor, self.first + step * self.factors + factor)).collect()
     }
 
-    /// Fills the columns after all others with the steps of the base points from `first_point` on, whose orders are
-    /// `orders`.
+    /// Fills the last columns with the steps of the base points from `first_point` on, whose orders are `orders`.
     pub fn fill(&self, orders: &Orders, first_point: u64, columns: &mut [Vec<f64>]) {
         let (own, steps) = columns.split_at_mut(self.first.min(columns.len()));
         let Some(points) = steps.first().map(Vec::len) else { return };
@@ -86,8 +85,7 @@ struct Redrawn {
 }
 
 impl Redrawn {
-    /// `places` is the position of every factor's player in the order; `a` and `b` are the scores of the dependent
-    /// factors.
+    /// `places` is the position of every factor's player in the order; `a`, `b` are the scores of dependent factors.
     fn new(copula: &GaussianCopula, places: &[usize], [a, b]: &[Vec<f64>; 2]) -> Self {
         let mut numbers: Vec<usize> = (0..a.len()).collect();
         numbers.sort_by_key(|number| std::cmp::Reverse(places[copula.dependent()[*number]]));

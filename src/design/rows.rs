@@ -24,8 +24,7 @@ pub struct Rows {
     pub plain_rows: u32,
     /// The copula of dependent factors. A swap then takes its columns from B, and the other factors follow them.
     pub copula: Option<Arc<GaussianCopula>>,
-    /// The swaps, by index, whose factors are drawn again given all others instead; for independent factors this is the
-    /// same.
+    /// The swaps, by index, whose factors are drawn again given all others; the same for independent factors.
     pub redrawn: Vec<usize>,
     /// The players whose Shapley effects are estimated along random orders: disjoint sets of factors, in rising order,
     /// that contain all factors. They take one row less than there are players, in addition to A and B. Empty for none.
@@ -52,8 +51,7 @@ pub enum RowKind {
     Ba(usize),
     /// A point that shares no column with any other row of the design; the number counts those of a base point.
     Plain(u32),
-    /// A with the columns of the first players in the order of its base point from B: of one player in step 0, and so
-    /// on.
+    /// A with the columns of the first players in its base point's order from B: of one player in step 0, and so on.
     Step(usize),
 }
 

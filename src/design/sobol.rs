@@ -29,8 +29,7 @@ pub struct SobolSequence {
 }
 
 impl SobolSequence {
-    /// Creates the scrambled sequence of `dimensions` coordinates; other values of `seed` or `replicate` are
-    /// independent.
+    /// Creates the scrambled sequence of `dimensions` coordinates; independent for another `seed` or `replicate`.
     pub fn scrambled(dimensions: usize, seed: u64, replicate: u64) -> Self {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
         rng.set_stream(replicate);

@@ -67,8 +67,7 @@ pub enum Undefined {
     },
 }
 
-/// Returns shares in percent, 100 x_i / sum x, as papers report them. `None` if the sum is not positive, when a share
-/// of it has no meaning.
+/// Returns the papers' percentages, 100 x_i / sum x; `None` if the sum is not positive: they have no meaning then.
 ///
 /// ```
 /// use apportion::estimate::shares;

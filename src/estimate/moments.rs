@@ -34,8 +34,7 @@ pub struct BlockOutputs<'a> {
     pub ba: &'a [&'a [f64]],
     /// The swaps whose pairs are counted for second-order indices, in rising order; none without `ba`.
     pub paired: &'a [usize],
-    /// The contribution of every player, one slice for each ([`contributions`](super::contributions)); empty without
-    /// random orders.
+    /// The [`contributions`](super::contributions) of the players, one slice for each; empty without random orders.
     pub shapley: &'a [&'a [f64]],
 }
 

@@ -4,8 +4,7 @@ use super::formula::{correlation, difference, double, product};
 use super::{Moments, SwapMoments};
 use crate::names::named;
 
-/// Declares an enum of estimators: for each a doc line, its name in results, its formula on the sums of a swap, and the
-/// source of the formula.
+/// Declares an enum of estimators: a doc line, the name in results, the formula on the sums of a swap, and its source.
 macro_rules! estimators {
     ($(#[$meta:meta])* pub enum $type:ident {
         $($(#[$doc:meta])* $variant:ident = $name:literal, $formula:path, $source:expr;)+
@@ -31,8 +30,8 @@ macro_rules! estimators {
                 2 + d * if self.needs_ba() { 2 } else { 1 }
             }
 
-            /// Returns the index of swap number `swap`, not clamped; NaN without rows BA if it [needs](Self::needs_ba)
-            /// them, or without variance.
+            /// Returns the index of swap `swap`, not clamped; NaN without variance, or without rows BA if
+            /// [needed](Self::needs_ba).
             ///
             /// # Panics
             /// If there is no such swap.
@@ -50,8 +49,8 @@ estimators! {
 /// In the formulas n is the number of base points, m_B the mean of y_B, V_B its variance, f0 and V the mean and
 /// variance of y_A and y_B pooled, r Pearson's correlation; AB is A with the columns of the swap from B. Sobol1993,
 /// HommaSaltelli1996, Saltelli2002 and Sobol2007 are not centred, as published: if the offset of the output is large
-/// compared with its spread, their error grows in proportion (Saltelli2002: also with its square over n), and digits
-/// are lost.
+/// compared with its spread, their error grows in proportion (Saltelli2002: also its square over n), and digits are
+/// lost.
 ///
 /// ```
 /// use apportion::estimate::{BlockOutputs, Moments, Workspace};

@@ -96,7 +96,7 @@ impl MomentParts {
     }
 }
 
-/// Merges the moments of `parts` in the tree of the run: the left branch contains the largest power of two below their
+/// Merges the moments of `parts` in the tree of the run: the left branch has the largest power of two below their
 /// number.
 pub fn merged(parts: &[Moments]) -> Moments {
     match parts {

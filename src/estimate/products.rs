@@ -27,8 +27,7 @@ const WITH_BA: [Product; 5] = [(E, ONE), (E, E), (A, E), (B, E), (D, E)];
 
 /// The products of the outputs at a base point from which the moments are computed.
 ///
-/// A swap that lost base points which A and B have needs its own count of points, and its own products of A and B over
-/// them; so does a pair.
+/// A swap without some points of A and B has its own count of points and products of A and B; so does a pair.
 #[derive(Debug, Clone)]
 pub struct Products {
     /// The moments of all points; the products are centred on their means.
@@ -223,8 +222,7 @@ fn set_centred(letters: &mut [Vec<f64>; LETTERS], letter: usize, y: &[f64], orig
 /// Sums of the centred outputs A and B, if they are about other means than their own.
 type Gaps = (f64, f64);
 
-/// Moves a sum of products to new means: nothing large is subtracted, because the means differ by about a standard
-/// error.
+/// Moves a sum of products to new means: nothing large is subtracted: the means differ by about a standard error.
 fn recentred(product: f64, x: f64, y: f64, n: f64) -> f64 {
     product - x * (y / n)
 }

@@ -22,8 +22,8 @@ pub enum SecondOrder {
 }
 
 impl SecondOrder {
-    /// Computes the index of the swaps `j` and `k`; NaN unless they are two of the paired ones, have base points, and
-    /// the output has variance.
+    /// Computes the index of the swaps `j` and `k`; NaN unless they are paired, have base points, and the output
+    /// varies.
     pub fn estimate(self, moments: &Moments, j: usize, k: usize) -> f64 {
         self.by_pair(moments, j.min(k), j.max(k)).unwrap_or(f64::NAN)
     }

@@ -9,8 +9,7 @@ pub const MAX_SHAPLEY_FACTORS: usize = 8;
 named! {
 /// How Shapley effects are estimated.
 pub enum ShapleyMethod {
-    /// From all subsets of the players, at most [`MAX_SHAPLEY_FACTORS`]: 2^p runs for each base sample, and smaller
-    /// errors.
+    /// From all subsets of the players, at most [`MAX_SHAPLEY_FACTORS`]: 2^p runs per base sample, smaller errors.
     Subsets = "subsets",
     /// Along a random order of the players at each base sample: p - 1 more runs for each.
     Permutations = "permutations",

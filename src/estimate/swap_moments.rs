@@ -108,8 +108,7 @@ impl SwapMoments {
         }
     }
 
-    /// Returns whether no row of the swap differs from the row from which it was derived: the swapped columns have no
-    /// effect.
+    /// Returns whether no row of the swap differs from its original row: the swapped columns have no effect.
     pub fn inert(&self) -> bool {
         let still = |mean: f64, squares: f64| mean == 0.0 && squares == 0.0;
         still(self.mean_d, self.dd) && self.ba.is_none_or(|ba| still(ba.mean_e, ba.ee))

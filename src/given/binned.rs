@@ -25,8 +25,7 @@ pub struct Binned {
     pub bins: usize,
 }
 
-/// Returns the number of bins for `rows` rows: the integer part of 0.6 sqrt(rows), but at least 6 (or rows/6, if that
-/// is less).
+/// Returns the number of bins for `rows` rows: the integer part of 0.6 sqrt(rows), at least 6 (or rows/6, if less).
 pub fn bins_for(rows: usize) -> usize {
     (rows * 9 / 25).isqrt().max((rows / 6).min(6)).max(2)
 }
@@ -58,8 +57,8 @@ pub fn binned_first_order(x: &[f64], y: &[f64]) -> Result<Binned, NoVariance> {
 
 /// Does the same for centred outputs `z` and the order of the input `x`.
 ///
-/// Without `independent` rows, as on quasi-random points, lines contain little noise: none is subtracted, and there is
-/// no interval.
+/// Without `independent` rows, as on quasi-random points, lines contain little noise: none is subtracted. There is no
+/// interval.
 pub(super) fn of_order(order: &Order, x: &[f64], z: &[f64], independent: bool) -> Binned {
     let wanted = bins_for(z.len());
     let x = rescaled(x).0;

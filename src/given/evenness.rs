@@ -148,8 +148,7 @@ impl Deviation {
     }
 }
 
-/// Computes the deviation of the counts of rows over two classifications from independence; `None` if either has one
-/// class.
+/// Computes the deviation from independence of the counts over two classifications; `None` if either has one class.
 pub(super) fn deviation((a, a_classes): &Classes, (b, b_classes): &Classes) -> Option<Deviation> {
     let (rows, columns) = (*a_classes, *b_classes);
     if rows < 2 || columns < 2 {

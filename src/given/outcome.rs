@@ -35,8 +35,7 @@ impl InputIndices {
         self.rank.unwrap_or(self.binned.estimate)
     }
 
-    /// Returns whether the two methods disagree by more than both intervals allow: their half widths on the facing
-    /// sides do not meet.
+    /// Returns whether the two methods disagree by more than both intervals allow, on the facing sides.
     pub fn disagree(&self) -> bool {
         let intervals = self.rank.and_then(|rank| rank.interval).zip(self.binned.estimate.interval);
         intervals.is_some_and(|(a, b)| a.high < b.low || b.high < a.low)

@@ -61,8 +61,7 @@ impl Equal {
     }
 }
 
-/// Returns the number of rows that differ from the previous row in exactly one input, if there are far too many of
-/// them.
+/// Returns the number of rows that differ from the previous row in exactly one input, if far too many.
 fn single_steps(labels: &[Vec<usize>], tied: &[f64], all_pairs: f64) -> Option<usize> {
     let rows = labels[0].len();
     let differing = |k: usize| labels.iter().filter(|column| column[k] != column[k - 1]).count();

@@ -20,8 +20,7 @@ pub struct Counter {
     pub kind: CounterKind,
 }
 
-/// How counts are combined. The result does not depend on their order, in any bit: sums are of whole numbers, and exact
-/// up to 2^53.
+/// How counts are combined. No bit depends on their order: sums are of whole numbers, and exact up to 2^53.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CounterKind {
     /// They are added.

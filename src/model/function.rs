@@ -67,8 +67,7 @@ where
     }
 }
 
-/// Creates a model from a function with a single dimensionless output called `output`. A result that is not finite is a
-/// failed row.
+/// Creates a model from a function with one dimensionless `output`. A result that is not finite is a failed row.
 ///
 /// ```
 /// use apportion::{Model, function_model};

@@ -119,8 +119,8 @@ pub trait Model: Send + Sync {
         false
     }
 
-    /// Returns whether a row takes long enough for its outputs to be recorded row by row: rows of other models are
-    /// evaluated in blocks.
+    /// Returns whether a row takes long enough for its outputs to be recorded row by row; if not, rows are evaluated in
+    /// blocks.
     fn is_slow(&self) -> bool {
         self.concurrency().is_some()
     }

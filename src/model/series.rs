@@ -112,8 +112,7 @@ impl OutputSeries {
         names.map(move |name| Output::new(name, unit.clone(), description))
     }
 
-    /// Returns those of `all` whose values are at the places `chosen`, all of them and in order, with the places in
-    /// `chosen`.
+    /// Returns those of `all` whose values are all in `chosen` and in order, with their places in `chosen`.
     pub fn chosen(all: &[Self], chosen: &[usize]) -> Vec<Self> {
         let place = |series: &Self| {
             let first = chosen.iter().position(|place| *place == series.first)?;

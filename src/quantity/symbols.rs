@@ -111,8 +111,7 @@ fn single(name: &str) -> Option<Vec<(&'static Symbol, i32)>> {
     Some(vec![(symbol, decade)])
 }
 
-/// Splits two symbols without a sign between them, as in `Ns/m`; only after `N`, `Pa` and `J`, where this is
-/// unambiguous.
+/// Splits two symbols without a sign between them, as in `Ns/m`; only after `N`, `Pa`, `J`: unambiguous.
 fn juxtaposed(name: &str) -> Option<Vec<(&'static Symbol, i32)>> {
     spellings().filter(|(_, symbol, _)| matches!(symbol.name, "N" | "Pa" | "J")).find_map(
         |(spelling, symbol, prefix)| {

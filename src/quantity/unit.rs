@@ -194,8 +194,7 @@ impl Unit {
         !self.is_label && self.dimension != Dimension::NUMBER
     }
 
-    /// Returns whether values can be converted between the units: the same dimension, and the same label if they have
-    /// one.
+    /// Returns whether values can be converted between the units: they have the same dimension, and label if any.
     pub fn compatible(&self, other: &Self) -> bool {
         let is_label = self.is_label || other.is_label;
         self.dimension == other.dimension && (!is_label || self == other)
@@ -225,8 +224,7 @@ impl Unit {
         typed.filter(|typed| self.to_si(*typed) == value).unwrap_or(near)
     }
 
-    /// Converts a difference of two values in this unit, such as a standard deviation, to SI: without the offset of
-    /// `degC`.
+    /// Converts a difference of values in this unit, such as a standard deviation, to SI: no offset of `degC`.
     pub fn span_to_si(&self, span: f64) -> f64 {
         let multiplied = if self.is_decimal() { span } else { span * self.times / self.over };
         shift(multiplied, self.decade) * 1f64.to_radians().powi(self.degrees.into())

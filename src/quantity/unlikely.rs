@@ -2,8 +2,7 @@
 
 use super::is_same;
 
-/// Numbers that programs write for missing values; the last two are the fill values of NetCDF in single and double
-/// precision.
+/// Numbers that programs write for missing values; the last two are NetCDF's fill values (single, double).
 const CODES: [f64; 12] = [
     -999.0,
     999.0,

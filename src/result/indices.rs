@@ -99,26 +99,22 @@ pub struct OtherIndexRecord {
     pub total: Option<Estimate>,
 }
 
-/// The noise of a stochastic model: its indices, which refer to the variance of a single run, and those of the mean
-/// over it.
+/// The noise of a stochastic model: its indices, relative to the variance of a single run, and those of the mean.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct NoiseRecord {
     /// The name under which the model receives its seed.
     pub name: String,
-    /// Its indices. The total one is the part of the variance of a single run that would be left if all factors were
-    /// known.
+    /// Its indices. The total one is the part of the variance of a run that is left if all factors are known.
     #[serde(flatten)]
     pub effect: EffectEstimates,
     /// The rest of the variance, 1 minus the total index: that of the mean over the noise.
     pub mean_share: Estimate,
-    /// Indices of the mean over the noise, relative to its own variance: of each factor, group and subset without the
-    /// noise.
+    /// Indices of the mean over the noise, relative to its own variance: for factors, groups and subsets without it.
     pub of_mean: Vec<OtherIndexRecord>,
 }
 
-/// The surrogates of an output: polynomials fitted to the runs of all replicates but one, which correct the indices of
-/// that one.
+/// The surrogates of an output: polynomials fitted to all replicates but one, which correct the indices of that one.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct SurrogateRecord {

@@ -1,8 +1,7 @@
 //! The result of a run: one type for Rust, JSON and Python.
 //!
 //! As JSON it is the format `apportion-result`, version 1, described key by key in `docs/result-format.md`. Later
-//! versions of the program only add keys. Numbers are in the unit given with them; a number that does not exist is
-//! `null`.
+//! versions of the program only add keys. Numbers are in the unit given with them; missing ones are `null`.
 
 mod distribution;
 mod indices;
@@ -266,8 +265,7 @@ pub struct SeriesRecord {
     pub first_output: usize,
     /// The position of every value on the axis, in rising order.
     pub positions: Vec<f64>,
-    /// Indices over all values together, each weighted by its variance, one entry per factor; `null` if a value has
-    /// none.
+    /// Indices over all values, each weighted by its variance, one entry per factor; `null` if a value has none.
     pub indices: Option<Vec<PlainIndexRecord>>,
     /// Why there are no indices.
     pub reason: Option<String>,

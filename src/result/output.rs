@@ -55,8 +55,7 @@ pub struct OutputResult {
     /// Shapley effects of the groups and of the factors that have none, if these are the players: they sum to 1.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shapley_groups: Option<Vec<PlayerRecord>>,
-    /// Other measures of the influence of the factors, if requested; also absent if the output does not vary, or too
-    /// few runs have succeeded.
+    /// Other measures of influence, if requested; absent if the output does not vary, or too few runs succeeded.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub measures: Option<RunMeasures>,
     /// Second-order indices of all pairs of factors, if requested.
@@ -97,8 +96,7 @@ impl OutputResult {
         Ok(&find("factor", name, indices, |index| &index.factor)?.effect)
     }
 
-    /// Returns the indices of the group called `name`: the first-order one is closed, so it includes interactions in
-    /// the group.
+    /// Returns the indices of the group called `name`: the first-order one is closed, with the group's interactions.
     ///
     /// # Errors
     /// As for [`factor`](Self::factor).
@@ -224,8 +222,7 @@ pub struct FailureCount {
     pub runs: u64,
     /// Row number of the first of them in the design.
     pub first_row: u64,
-    /// The factor values of that row, in the units of the factors; empty at points of SALib, whose inputs are not
-    /// known.
+    /// The factor values of that row, in the units of the factors; empty for SALib's points, which are unknown.
     pub first_inputs: Map<String, Value>,
 }
 

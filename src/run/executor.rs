@@ -14,8 +14,8 @@ use super::{Progress, RunError, threads_in_force};
 use crate::clock::Instant;
 use crate::model::{Batch, Model, RunContext, Worker};
 
-/// Target time of a batch of rows: short enough to lose little and to share rows evenly, long enough to be worth a
-/// journal record.
+/// Target time of a batch of rows: short enough to lose little and to share rows evenly, long enough for a journal
+/// record.
 const BATCH_SECONDS: f64 = 0.2;
 
 /// Maximum number of rows in a batch.
@@ -145,7 +145,7 @@ impl<'a> Executor<'a> {
     }
 }
 
-/// The state of one call of [`Executor::execute`].
+/// The state of one call of `execute`.
 struct Execution<'e, 'a> {
     executor: &'e Executor<'a>,
     source: &'e dyn RowSource,

@@ -88,8 +88,7 @@ pub const MAX_STORED_BYTES: u64 = 8 << 30;
 
 /// Runs the whole job on `threads` threads (0: one per core) and returns the totals of each replicate, in order.
 ///
-/// `on_progress` is called from time to time, from any of the threads. The result has the same bits on any number of
-/// threads.
+/// `on_progress` is called from time to time, from any thread. The result has the same bits on any number of threads.
 ///
 /// # Panics
 /// If the number of factors of the space differs from that of the design.

@@ -161,8 +161,7 @@ impl Talk<'_> {
         self.remote.workers.send(self.worker, request.write())
     }
 
-    /// Waits for the reply to the oldest open request, which was for `range`. If the run is to stop, the workers are
-    /// asked to stop.
+    /// Waits for the reply to the oldest open request, which was for `range`. Stops the workers if the run is to stop.
     pub fn receive(&self, range: &RowRange, outputs: usize) -> io::Result<Reply> {
         let reply = loop {
             if let Some(reply) = self.remote.workers.receive(self.worker, STOP_POLL_INTERVAL)? {

@@ -38,8 +38,7 @@ impl Scratch {
         &mut self.unit
     }
 
-    /// Sets the outputs of `points` base points at `place` to those in `store`; returns false if a row is missing
-    /// there.
+    /// Sets the outputs of `points` base points at `place` to those in `store`; returns false if a row is missing.
     pub fn recall(&mut self, store: &Store, place: BlockPlace, points: usize) -> bool {
         self.batches.iter_mut().for_each(|batch| batch.reset(points));
         store.recall(place.first.replicate, place.first.point, &mut self.batches)
@@ -127,8 +126,7 @@ impl Scratch {
 }
 
 impl OutputTotals {
-    /// Sets the sums to those of a block with an output for every one of `runs` and base point, not finite where it is
-    /// missing.
+    /// Sets the sums to those of a block with an output for each of `runs` and base point, not finite if missing.
     pub(crate) fn set_sums(&mut self, design: &Design, runs: &[&[f64]], place: BlockPlace, work: &mut Workspace) {
         let columns = |of: &[usize]| of.iter().map(|run| runs[*run]).collect::<Vec<&[f64]>>();
         let (a, b) = (runs[0], runs[1]);

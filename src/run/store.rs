@@ -18,8 +18,7 @@ pub struct Piece {
     pub first: u64,
     /// Outputs in SI units, row by row; NaN where missing.
     pub values: Vec<f64>,
-    /// Why outputs are missing, as (row from the first one, output, reason), in order. Every value that is not finite
-    /// is listed.
+    /// Why outputs are missing, as (row from the first one, output, reason), in order, for every value not finite.
     pub failures: Vec<(u32, u32, RowFailure)>,
     /// How many of the rows raised each validity flag of the model.
     pub flags: Vec<u64>,

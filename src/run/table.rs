@@ -40,8 +40,8 @@ impl<'a> TableRun<'a> {
         if self.0.model().concurrency().is_some() { 1 << 16 } else { 1 << 14 }
     }
 
-    /// Evaluates rows as [`Worker::run`](crate::model::Worker::run) does, and settles the batch. The result is the same
-    /// for any number of workers.
+    /// Evaluates rows as [`Worker::run`](crate::model::Worker::run) does, and settles the batch. The number of workers
+    /// does not matter.
     ///
     /// # Errors
     /// [`Halt`] if the model gives up or the run is to stop; the batch is then undefined.

@@ -111,8 +111,7 @@ struct Stage {
     widest: Option<f64>,
     /// Whether plain indices are accurate enough to contradict corrected ones.
     is_checked: bool,
-    /// Squared errors of the output with this half width, due to the rows of the model and due to the runs of a
-    /// low-fidelity model.
+    /// Squared errors of the output with this half width: due to the model's rows, and to a low-fidelity model's runs.
     squared_errors: [f64; 2],
     /// The surrogate estimates of every output.
     surrogates: Vec<Option<SurrogateEstimates>>,
@@ -159,7 +158,7 @@ fn reason_to_stop(study: &Study, run: &GrowingRun<'_>, longest: &Design, stage: 
     let runs = u128::from(next) * u128::from(replicates) * u128::from(longest.rows_per_point());
     let seconds = 2.0 * run.elapsed().as_secs_f64();
     let base_samples = run.points_per_replicate() * replicates;
-    // With one replicate there is no spread, whatever the points.
+    // With one replicate there is no spreadfor any points.
     let has_none =
         replicates < 2 && matches!(study.analysis.intervals, IntervalMethod::Nets | IntervalMethod::Replicates);
     let has_too_few = base_samples >= MIN_BASE_SAMPLES_OF_FAILURES && fails_too_often(study, run);

@@ -60,8 +60,7 @@ pub(super) fn merged(
     })
 }
 
-/// Checks, before anything is changed, that all journals are of this study and were evaluated with the same files;
-/// returns these files.
+/// Checks, before any change, that all journals are of this study and the same files; returns these files.
 fn files_of_all(study: &Study, journals: &[PathBuf]) -> Result<Value, RunError> {
     let mut first: Option<(&PathBuf, Value)> = None;
     for journal in journals {

@@ -135,8 +135,7 @@ impl fmt::Debug for Runner<'_> {
 }
 
 impl<'a> Runner<'a> {
-    /// Sets the number of threads, up to 1024 (0, the default: one per core). The result has the same bits for any
-    /// number.
+    /// Sets the number of threads, up to 1024 (default 0: one per core). The result has the same bits for any number.
     pub fn threads(self, threads: usize) -> Self {
         Self { threads, ..self }
     }
@@ -201,8 +200,7 @@ impl<'a> Runner<'a> {
         result
     }
 
-    /// Evaluates only the rows of `shard` that are missing in the journal, and estimates nothing. Returns the number of
-    /// rows of the shard.
+    /// Evaluates only the rows of `shard` missing in the journal, without estimates; returns the shard's row count.
     ///
     /// # Errors
     /// As for [`run`](Self::run); [`RunError::NoJournal`] without a journal, and [`RunError::NoSize`] for a study that
@@ -226,7 +224,7 @@ impl<'a> Runner<'a> {
     }
 
     /// Merges the parts of a run, the `journals` of shards, in the journal of this run, and estimates the indices. The
-    /// merged runs are recorded whatever their number: they may have cost much elsewhere.
+    /// merged runs are always recorded: they may have cost much elsewhere.
     /// # Errors
     /// As for [`run`](Self::run), and [`RunError::Refused`] if a part is of another study or model;
     /// [`RunError::Incomplete`] if runs are missing.
@@ -339,8 +337,7 @@ impl<'a> Runner<'a> {
         Ok((result, stopped.map(|stopped| stopped.reason)))
     }
 
-    /// Runs the study and its low-fidelity models; returns why it stopped and the surrogate estimates, if it chooses
-    /// its size.
+    /// Runs the study and its low-fidelity models; returns why it stopped and the surrogate estimates, if it grows.
     fn run_all(
         &self,
         run: &mut GrowingRun<'_>,

@@ -31,10 +31,10 @@ pub fn range(distribution: &Distribution) -> f64 {
 /// unit: then the total index of a factor is at most C nu/V (Lamboni, Iooss, Popelin and Gamboa 2013, Math. Comput.
 /// Simul. 87, 45-54, theorem 3.1). `None` for distributions without a known constant.
 ///
-/// The constants of uniform, (b - a)^2/pi^2, normal, sd^2, and exponential distributions, 4 scale^2, are optimal.
-/// Distributions on an interval with log-concave densities also have that of the uniform one (Payne and Weinberger
-/// 1960, Arch. Ration. Mech. Anal. 5, 286-292), and a truncated normal distribution has that of the normal one (Bakry
-/// and Emery 1985).
+/// The constants of uniform, (b - a)^2/pi^2, normal, sd^2, and exponential distributions, 4 scale^2, are optimal. Those
+/// on an interval with log-concave densities also have that of the uniform one (Payne and Weinberger 1960, Arch.
+/// Ration. Mech. Anal. 5, 286-292), and a truncated normal distribution has that of the normal one (Bakry and Emery
+/// 1985).
 pub fn poincare_constant(distribution: &Distribution) -> Option<f64> {
     let of_interval = || {
         let (low, high) = distribution.support();
@@ -53,8 +53,7 @@ pub fn poincare_constant(distribution: &Distribution) -> Option<f64> {
     }
 }
 
-/// Returns the sum of the upper bounds of the total indices of all factors, by the intervals; `None` if one of them has
-/// no bound.
+/// Returns the sum of the upper bounds of the total indices, by the intervals; `None` if a factor has no bound.
 ///
 /// Total indices of independent factors sum to at least 1: a smaller sum shows that the derivatives at the base points
 /// have missed a cause of the variation of the output, a step or a steep place between them.
@@ -67,8 +66,7 @@ pub(super) fn sum_of_bounds(factors: &[ScreenedFactor]) -> Option<f64> {
 }
 
 /// Computes the measures from `effects`, derivatives per `range` of the factor (NaN if missing), whose base points have
-/// the outputs `base`; both consist of `parts` independent parts of equal length. `None` with fewer than two effects,
-/// or if they overflow.
+/// the outputs `base`, in `parts` independent parts of equal length. `None` for fewer than two effects, or overflow.
 pub(super) fn derivative_measures(
     effects: &[f64],
     base: &[f64],

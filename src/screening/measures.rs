@@ -81,8 +81,7 @@ pub(super) fn measures(effects: &[f64], parts: usize) -> Option<Measures> {
     Some(Measures { mu, mu_star, sigma, ratio: Some(ratio).filter(|ratio| ratio.estimate.is_finite()) })
 }
 
-/// Computes mu, mu*, sigma and sigma / mu*, the last NaN if mu* is 0; `None` if there are too few effects or they
-/// overflow.
+/// Computes mu, mu*, sigma and sigma / mu*, the last NaN if mu* is 0; `None` for too few effects or overflow.
 fn quantities(effects: impl Iterator<Item = f64>) -> Option<[f64; QUANTITIES]> {
     let effects: Vec<f64> = effects.filter(|effect| effect.is_finite()).collect();
     if effects.len() < 2 {

@@ -11,8 +11,7 @@
 //! measures are the mean square of the derivative, and the bound on the total index that follows from it.
 //!
 //! r trajectories of d + 1 runs give r effects of each of d factors; [`ScreenedFactor`] summarises them, [`Reading`]
-//! interprets them, and a factor could be fixed if the upper bound of its mu* is below [`FIXABLE`] times the largest
-//! mu*.
+//! interprets them. A factor could be fixed if its upper bound of mu* is below [`FIXABLE`] times the largest.
 //!
 //! In the radial design a step shorter than [`MIN_STEP`] is replaced by one to the auxiliary coordinate half a range
 //! further on, modulo the range: tiny steps would divide the noise and the jumps of the output by nearly 0.

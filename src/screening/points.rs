@@ -134,8 +134,8 @@ impl Trajectories {
     }
 
     /// Generates one of Morris's walks. All levels of a grid are equally likely to be the first, as are all orders of
-    /// the factors. Every other walk has steps of a third of the grid: to Morris's step, half of the grid, an output
-    /// with that period looks constant.
+    /// the factors. Every other walk has steps of a third of the grid: to Morris's step, half the grid, an output of
+    /// that period is constant.
     fn walk(&self, number: u64) -> Vec<Move> {
         let mut rng = ChaCha8Rng::seed_from_u64(self.seed);
         rng.set_stream(number);
@@ -169,8 +169,7 @@ fn between(levels: &[f64], from: usize, to: usize) -> ([f64; 2], f64) {
     ([levels[from], levels[to]], (to as f64 - from as f64) / (levels.len() - 1) as f64)
 }
 
-/// Returns two different levels, drawn by their probabilities: the one at the quantile `a`, and of the others that at
-/// quantile `b`.
+/// Returns two different levels, drawn by their probabilities: at the quantile `a`, and at `b` among the others.
 fn two_levels(levels: &[Level], a: f64, b: f64) -> ([f64; 2], f64) {
     let at = |u: f64| levels.partition_point(|level| level.low <= u).saturating_sub(1);
     let from = at(a);

@@ -114,8 +114,7 @@ impl Bench<'_> {
     }
 }
 
-/// Returns the SI values at two coordinates. Quantiles are for the open interval: its ends are those of the range
-/// itself.
+/// Returns the SI values at two coordinates. Quantiles are for the open interval: its ends are those of the range.
 fn values_at(factor: &Factor, u: &[f64; 2]) -> [f64; 2] {
     let mut values = [0.0; 2];
     factor.fill_si(u, &mut values);

@@ -20,8 +20,7 @@ pub const MAX_LEVELS: u32 = 1000;
 pub const MIN_STEP: f64 = 0.02;
 
 /// Step of the finite differences of the derivative design, as a part of the factor's range, and of the unit interval:
-/// short enough for the derivative of a smooth model, and a thousand times the noise of an output with six digits or
-/// more.
+/// short enough for derivatives of smooth models, and a thousand times the noise of outputs with six digits or more.
 pub const DERIVATIVE_STEP: f64 = 1e-3;
 
 /// Independent randomisations of quasi-random points, whose spread gives the intervals.

@@ -1,5 +1,4 @@
-//! Dependent factors as stated: correlations by one of several measures, and their conversion to those of normal
-//! scores.
+//! Dependent factors as stated: correlations by several measures, and their conversion to those of normal scores.
 
 mod nataf;
 
@@ -25,8 +24,8 @@ named! {
 /// The kind of a correlation.
 #[derive(Default)]
 pub enum CorrelationMeasure {
-    /// Of the values themselves: Pearson's. The normal scores get the correlation that leads to it (Nataf's model, Liu
-    /// and Der Kiureghian 1986, Probab. Eng. Mech. 1, 105-112), computed by quadrature to about 1e-6 for continuous
+    /// Of the values themselves: Pearson's. Normal scores get the correlation that leads to it (Nataf's model, Liu and
+    /// Der Kiureghian 1986, Probab. Eng. Mech. 1, 105-112), computed by quadrature to about 1e-6 for continuous
     /// distributions.
     #[default]
     Pearson = "pearson",

@@ -64,9 +64,8 @@ impl StudyBuilder {
         self
     }
 
-    /// Sets the version of the model, which distinguishes it from others of the same outputs and factors: without it, a
-    /// [journal](crate::Runner::journal) cannot detect that the function has changed, and reuses the runs of the old
-    /// one.
+    /// Sets the version, which distinguishes the model from others of the same outputs and factors: without it, a
+    /// [journal](crate::Runner::journal) cannot detect a changed function, and reuses the old runs.
     pub fn version(mut self, version: &str) -> Self {
         if let Some(custom) = self.subject.downcast_ref::<CustomSubject>() {
             let (model, version) = (Arc::clone(&custom.model), Some(version.to_owned()));
@@ -128,8 +127,7 @@ impl StudyBuilder {
     }
 
     /// Sets the number of model runs in all, instead of [`base_samples`](Self::base_samples): the best design with at
-    /// most this many. With surrogates, up to a third of the runs are at base samples, and the others at points used to
-    /// fit them.
+    /// most this many. With surrogates, up to a third are at base samples, the others at points for the fit.
     ///
     /// ```
     /// use apportion::{Distribution, Study, function_model};
@@ -148,8 +146,7 @@ impl StudyBuilder {
         self
     }
 
-    /// Sets the number of independent randomisations that share the base samples; by default the best for the interval
-    /// method.
+    /// Sets the number of randomisations that share the base samples; by default the best for the interval method.
     pub fn replicates(mut self, replicates: u64) -> Self {
         self.replicates = Some(replicates);
         self

@@ -1,7 +1,6 @@
 //! Studies: the question and its settings, checked once.
 //!
-//! A [`Study`] is built in code ([`Study::builder`]) or comes from a file (`apportion_files::load_study`); it is not
-//! validated again.
+//! A [`Study`] is built in code ([`Study::builder`]) or read from a file (`apportion_files::load_study`), checked once.
 
 mod build_error;
 mod builder;
@@ -252,8 +251,7 @@ impl Study {
     /// Returns whether surrogates correct the indices of a run of `design`, which may be longer than that of the study.
     pub fn uses_surrogate(&self, design: &Design) -> bool {
         let has_points = self.target.grows() || design.points_per_replicate() >= fewest_points(design) as u64;
-        // Their polynomials are orthogonal only for independent factors, and do not give the subsets for Shapley
-        // effects.
+        // Their polynomials are orthogonal only for independent factors, and do not give Shapley effects.
         let is_plain = self.space.copula().is_none() && !self.analysis.has_shapley(&self.space);
         let fits = has_points
             && is_plain

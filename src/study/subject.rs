@@ -33,8 +33,7 @@ pub trait Subject: fmt::Debug + Send + Sync + Any {
         Vec::new()
     }
 
-    /// Returns files of the user, in addition to the study, on which the outputs depend, as far as the study names
-    /// them.
+    /// Returns files of the user other than the study on which the outputs depend, if the study names them.
     fn files(&self) -> Vec<PathBuf> {
         Vec::new()
     }

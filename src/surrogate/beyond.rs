@@ -33,7 +33,7 @@ const GROWTH: f64 = 3.2;
 
 /// One tail of a factor, from its edge outwards; or a knot, with its two sides instead of the tail and its tangents.
 struct Tail {
-    /// Whether it is a knot, of which a close fit tells nothing.
+    /// Whether it is a knot, which a close fit does not determine.
     is_knot: bool,
     /// Probabilities of the nodes.
     weights: Vec<f64>,
@@ -44,8 +44,7 @@ struct Tail {
 }
 
 impl Tail {
-    /// Returns both tails of a factor with polynomials of `family`, each of probability `mass`; none if the family has
-    /// no tails.
+    /// Returns both tails of a factor with polynomials of `family`, each of probability `mass`; none without tails.
     fn both(family: &Family, mass: f64, degree: usize) -> Vec<Self> {
         let (with_knots, family) = (family, family.smooth());
         let degree = if let Family::Knotted(own) = with_knots { own.degree() } else { degree };
@@ -244,8 +243,7 @@ mod tests {
 
     #[test]
     fn a_square_departs_from_its_tangents_as_integrals_say() {
-        // p = (z^2 - 1)/sqrt 2 minus its tangent is (z - c)^2/sqrt 2; its mean in both tails is by parts, with c at
-        // 1/100.
+        // p = (z^2 - 1)/sqrt 2 minus its tangent is (z - c)^2/sqrt 2; mean in both tails by parts, c at 1/100.
         let found = beyond(Family::Hermite, vec![vec![], vec![(0, 2)]], vec![5.0, 1.0], 1.0);
         let c = -normal_quantile(0.01);
         let density = libm::exp(-c * c / 2.0) / (2.0 * std::f64::consts::PI).sqrt();

@@ -112,8 +112,7 @@ impl Contributions {
         }
     }
 
-    /// Corrects `net` by the surrogate `expansion` of other nets; `swaps` and `pairs` have their factors in rising
-    /// order.
+    /// Corrects `net` by the surrogate `expansion` of other nets; factors of `swaps` and `pairs` are in rising order.
     pub fn new(
         design: &Design,
         net: &Net,

@@ -138,8 +138,7 @@ fn take_off(rest: &mut [f64], score: f64, factor: &[f64], squares: &mut [f64]) {
     }
 }
 
-/// Columns chosen one by one, each the one that reduces the sum of squares of all outputs most, orthonormalised in this
-/// order.
+/// Columns chosen one by one to reduce the sum of squares of all outputs most, orthonormalised in this order.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Path {
     /// The indices of the columns, in the order in which they were chosen.
@@ -285,8 +284,7 @@ pub fn lower_factor(gram: &Square) -> Vec<Vec<f64>> {
     lower
 }
 
-/// Solves G x = `right` by least squares, where `lower` is the first rows of the factor of G: only the first columns
-/// are used.
+/// Solves G x = `right` by least squares, using only the first columns; `lower` is the first rows of the factor of G.
 pub fn solve(lower: &[Vec<f64>], right: &[f64]) -> Vec<f64> {
     let size = lower.len();
     let mut x = right[..size].to_vec();

@@ -120,8 +120,7 @@ impl Knotted {
     }
 
     /// Returns the knots where a part of an expansion with `coefficients` (index, coefficient) has a kink and no step,
-    /// by one Newton step: near it, s + h (x - edge) is h (x - (edge - s/h)). The length of that step is the new width.
-    /// Steps stay.
+    /// by one Newton step: near it, s + h (x - edge) is h (x - (edge - s/h)). Its length is the new width. Steps stay.
     fn kinks(&self, coefficients: &[(usize, f64)]) -> Vec<Knot> {
         let of_knot = |(place, knot): (usize, &Knot)| {
             let part =
@@ -179,8 +178,7 @@ impl Knotted {
     }
 }
 
-/// Finds the knots of `factor` in the residuals `rest` of expansions on each net; none for seeds and factors with few
-/// levels.
+/// Finds the knots of `factor` in the residuals `rest` of expansions; none for seeds and factors with few levels.
 pub fn knots(nets: &[Net], rest: Rows<'_>, factor: usize, family: &Family, degree: usize) -> Vec<Knot> {
     let points: usize = nets.iter().map(Net::points).sum();
     let bins = (points / POINTS_OF_BIN).next_power_of_two().clamp(BINS.0, BINS.1);
@@ -258,8 +256,7 @@ impl Known {
     }
 
     /// Returns the largest reduction of the residuals by a step and a hinge in `x`, the first bin after them, and
-    /// whether the step alone reduces more. All sums run from the last bin down, so that all places cost as much as
-    /// one.
+    /// whether the step alone reduces more. Running sums from the last bin make all places as cheap as one.
     fn best(&self, x: &[f64], is_free: impl Fn(f64) -> bool) -> Option<(f64, usize, bool)> {
         let bins = x.len();
         let (mut own, mut of_rest, mut of_basis) = ([0.0; 3], [0.0; 2], vec![[0.0; 2]; self.basis.len()]);

@@ -37,8 +37,7 @@ pub struct LowOutputs<'a> {
     pub own: &'a OwnOutputs,
 }
 
-/// One output of a low-fidelity model at the rows of its own design, whose points are independent of the expensive
-/// model's.
+/// One output of a low-fidelity model at the rows of its own design, independent of the expensive model's.
 pub struct OwnOutputs {
     design: Design,
     /// Mean and standard deviation by which the outputs are scaled.
@@ -77,8 +76,7 @@ impl OwnOutputs {
     }
 }
 
-/// The approximation of one net of the expensive model: slope and constant of the low-fidelity model, and a fit to the
-/// rest.
+/// An approximation of the expensive model on one net: slope and constant of the other, expansion of the rest.
 struct StandIn {
     slope: f64,
     offset: f64,
@@ -230,8 +228,7 @@ fn differences(
     all
 }
 
-/// Returns the contributions of every base point of the low-fidelity model's own runs to Q(h), the mean over all
-/// stand-ins.
+/// Returns the contributions of the low-fidelity model's own base points to Q(h), the mean over all stand-ins.
 fn own_contributions(
     own: &OwnOutputs,
     families: &[Family],

@@ -171,8 +171,7 @@ impl Corrected {
     }
 }
 
-/// Returns the first base points of `design` with at most [`MAX_FITTED_ROWS`] rows in all: a power of two of them, or
-/// all.
+/// Returns the first base points of `design` with at most [`MAX_FITTED_ROWS`] rows: a power of two, or all.
 fn fitted_design(design: &Design) -> Design {
     let most = MAX_FITTED_ROWS * design.points_per_replicate() / design.rows().max(1);
     if design.rows() <= MAX_FITTED_ROWS || most == 0 {
@@ -261,8 +260,7 @@ fn columns(kept: &PointOutputs, runs: usize) -> Vec<Vec<f64>> {
     columns
 }
 
-/// Outputs of every replicate and run, standardised by the (mean, standard deviation) that follow, unless a scale is
-/// given.
+/// Outputs of every replicate and run, standardised, and their mean and standard deviation, or a given scale.
 type Scaled = (Vec<Vec<Vec<f64>>>, (f64, f64));
 
 fn scaled(replicates: &[&PointOutputs], runs: usize, scale: Option<(f64, f64)>) -> Option<Scaled> {
@@ -283,8 +281,7 @@ fn mean_and_sd(values: &[f64]) -> Option<(f64, f64)> {
     (size > 0.0 && sd.is_finite() && mean.is_finite()).then_some((mean, sd))
 }
 
-/// Returns the means over all points with the influences of each part; those of `low`, a low-fidelity model's runs, are
-/// added.
+/// Returns the means over all points with the influences of each part; adds those of `low`, a low-fidelity model.
 fn estimates(corrected: &Corrected, low: &[Contributions], (mean, sd): (f64, f64)) -> SurrogateEstimates {
     let Corrected { nets, expansions, beyond } = corrected;
     let of_nets = |nets: &[Contributions], column: &dyn Fn(&Contributions) -> &Vec<f64>| {
@@ -339,8 +336,7 @@ fn estimates(corrected: &Corrected, low: &[Contributions], (mean, sd): (f64, f64
     }
 }
 
-/// Returns the largest ratio, for all factors and those that matter, of the variance by surrogates to that over the
-/// rows.
+/// Returns the largest ratio of the claimed variance to that over the rows, for all factors and those that matter.
 fn growth(nets: &[Contributions]) -> f64 {
     let claims = |place: usize| {
         nets.iter().fold([0.0; 2], |sum, net| [sum[0] + net.claims[place][0], sum[1] + net.claims[place][1]])

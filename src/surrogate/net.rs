@@ -105,8 +105,7 @@ impl Net {
         &self.quantiles[self.matrices[run][factor] * self.factors + factor]
     }
 
-    /// Returns the mean and mean square of the polynomials of every degree of `factor` over the columns of all
-    /// matrices.
+    /// Returns mean and mean square of the polynomials of each degree of `factor` over the columns of all matrices.
     pub fn spreads(&self, factor: usize) -> Vec<(f64, f64)> {
         let matrices = self.columns.len() / self.factors;
         let columns = |degree: usize| (0..matrices).map(move |m| &self.columns[m * self.factors + factor][degree]);
@@ -130,8 +129,7 @@ impl Net {
     }
 
     /// Returns at most `most` rows (run, base point) in the order of the runs: one at a pseudo-random place in each of
-    /// as many equal stretches. At equal distances near a power of two the points of a net are not a net, and hardly
-    /// have a rare level.
+    /// as many equal stretches. Points at equal distances near a power of two are not a net, and miss rare levels.
     pub fn spaced_rows(&self, most: usize) -> Vec<(usize, usize)> {
         let all = self.points * self.runs();
         let count = all.min(most);

@@ -96,8 +96,7 @@ pub struct OwnPolynomials {
 
 impl OwnPolynomials {
     /// Computes polynomials up to `degree`, or fewer for a distribution with few levels. `None` without a bounded
-    /// support of positive width, and if the quadrature misses the standard deviation: if the quantile function has
-    /// unknown steps.
+    /// support of positive width, or if unknown steps spoil the standard deviation by quadrature.
     pub fn new(distribution: &Distribution, degree: usize) -> Option<Self> {
         let levels = match distribution {
             Distribution::Poisson(poisson) => poisson.levels_above(MISSED_COUNTS),
@@ -143,8 +142,7 @@ impl OwnPolynomials {
     }
 }
 
-/// Returns the values of a distribution with few levels and their probabilities: the steps of its quantile function, by
-/// bisection.
+/// Returns the values of a distribution with few levels and their probabilities: its quantile's steps, by bisection.
 fn of_levels(distribution: &Distribution, levels: &[(f64, f64)]) -> Vec<(f64, f64)> {
     let step = |[(_, mut low), (value, mut high)]: [(f64, f64); 2]| {
         for _ in 0..60 {

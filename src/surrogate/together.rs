@@ -32,8 +32,7 @@ const ROUGH: f64 = 1e-4;
 const KNOTS_RATIO: f64 = 0.9;
 
 /// Returns the estimates of [`surrogate_estimates`] for each of `outputs`, which have the outputs of every replicate,
-/// by the terms of the same output in `longer`, the estimates of a longer run, if known; for more than 32 by terms that
-/// neighbours share.
+/// by the terms of the same output in `longer`, those of a longer run, if known; above 32 outputs by shared terms.
 pub fn surrogates_together(
     design: &Design,
     families: &[Family],
@@ -82,8 +81,7 @@ pub(super) fn good_points((replicates, _): &Scaled) -> Vec<Vec<usize>> {
     replicates.iter().map(of_replicate).collect()
 }
 
-/// Fits outputs with values at the `good` points of every replicate, which choose their terms together, or have them
-/// `chosen`.
+/// Fits outputs with values at the `good` points of every replicate, with terms chosen together, or already `chosen`.
 pub(super) fn of_neighbours(
     design: &Design,
     families: &[Family],
@@ -222,8 +220,7 @@ impl Fit {
 }
 
 impl Fit {
-    /// Finds the knots of every factor, whose polynomials are `families`, in the residuals of these expansions of its
-    /// output.
+    /// Finds the knots of every factor, with polynomials in `families`, in the residuals of these expansions.
     fn knots(&self, families: &[Family], expansions: &[Expansion]) -> Vec<Vec<Knot>> {
         let nets = self.nets.iter().zip(expansions);
         let rest: Vec<Vec<Vec<f64>>> = nets.map(|(net, expansion)| values_and_rest(net, expansion).1).collect();

@@ -8,9 +8,8 @@ const TAIL: f64 = 1e-3;
 /// Maximum number of values of one factor.
 pub const MAX_POINTS: usize = 100_000;
 
-/// Returns `points` values of a factor of this distribution from end to end, in its unit: at equal ratios if it is
-/// log-uniform or log-normal, otherwise at equal distances. A discrete factor takes each of its values, or some of many
-/// whole numbers.
+/// Returns `points` values of a factor from end to end, in its unit: at equal ratios if it is log-uniform or
+/// log-normal, otherwise at equal distances. A discrete factor takes each of its values, or some of many whole numbers.
 ///
 /// # Errors
 /// [`SweepError::Points`] if there are fewer than 2 or more than 100,000 points.

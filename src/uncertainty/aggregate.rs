@@ -21,8 +21,7 @@ pub struct AggregateIndices {
     pub total: Vec<Estimate>,
 }
 
-/// Computes aggregated indices of `outputs`, which have the parts of their replicates, by the default estimators
-/// ([`aggregated`]).
+/// Computes aggregated indices of `outputs`, given the parts of replicates, by the default estimators ([`aggregated`]).
 ///
 /// # Errors
 /// [`Undefined`] if all outputs are constant, or one has no indices for another reason.

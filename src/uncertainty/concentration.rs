@@ -33,8 +33,7 @@ pub(super) enum Side {
     Both,
 }
 
-/// Returns the t-interval about `estimate`, longer on the side where the true value may be if few rows dominate the
-/// estimate.
+/// Returns the t-interval about `estimate`, longer on `side` if few rows dominate the estimate.
 pub(super) fn interval(estimate: f64, error: StandardError, parts: &PartInfluences, side: Side) -> Option<Interval> {
     let even = super::t_interval(estimate, error)?;
     let kurtosis = excess_kurtosis(parts);

@@ -81,8 +81,7 @@ pub struct LowFidelityUse {
     pub name: String,
     /// Regression slope of the output of the expensive model on that of the low-fidelity model, by least squares.
     pub slope: f64,
-    /// Share of the variance explained by the low-fidelity model alone, over the runs to which its slope was not
-    /// fitted.
+    /// Share of the variance explained by the low-fidelity model alone, over runs not used to fit its slope.
     pub explained: f64,
 }
 
@@ -204,8 +203,7 @@ impl SurrogateEstimates {
         (self.growth > MAX_GROWTH).then_some(Refusal::Growth { times: self.growth })
     }
 
-    /// Returns the replacements of the `plain` numbers of `layout` with the errors `errors`, except those of `settled`
-    /// swaps.
+    /// Returns the replacements of the `plain` numbers of `layout` with their `errors`, except for `settled` swaps.
     pub(super) fn corrections(
         &self,
         layout: &Layout,

@@ -94,8 +94,7 @@ pub struct EffectEstimates {
 /// Checks of the indices of one factor, group or subset.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EffectChecks {
-    /// First-order index minus its check by Janon and Monod's formula: 0 within the interval unless an estimate is
-    /// wrong.
+    /// First-order index minus its check by Janon and Monod's formula: 0 within the interval unless one is wrong.
     pub gap: Estimate,
     /// Total minus first-order index; for dependent factors with the full total index.
     pub interaction: Estimate,
@@ -142,8 +141,7 @@ pub struct OutputMoments {
 }
 
 impl EffectEstimates {
-    /// Returns the value by which factors are ranked: for dependent ones the Shapley effect, if there is one; else the
-    /// total index.
+    /// Returns the value that ranks factors: for dependent ones the Shapley effect, if any; else the total index.
     pub fn weight(&self) -> Estimate {
         self.shapley.filter(|_| self.dependent.is_some()).unwrap_or(self.total)
     }
@@ -158,8 +156,7 @@ impl EffectEstimates {
         self.share_total.map(|estimate| Estimate { estimate, interval: self.share_total_interval })
     }
 
-    /// Returns the indices of dependent factors, from those of a swap that others follow, and of one redrawn given all
-    /// others.
+    /// Returns the indices of dependent factors, from those of a swap that others follow, and of a redrawn one.
     pub(super) fn of_dependent_factors(self, alone: Self) -> Self {
         Self {
             total: alone.total,

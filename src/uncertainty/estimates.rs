@@ -109,8 +109,7 @@ impl Layout {
         self.redrawn(self.listed()) + usize::from(self.dummy)
     }
 
-    /// Returns the swap in which the factors of the listed swap `swap` are redrawn given all others: itself, if
-    /// independent.
+    /// Returns the swap in which the factors of the listed swap `swap` are redrawn: itself, if independent.
     pub fn redrawn(&self, swap: usize) -> usize {
         if self.dependent { self.listed() + swap } else { swap }
     }
@@ -182,8 +181,7 @@ impl Layout {
         self.shapley()..self.shapley() + if is_random { self.players.len() } else { 0 }
     }
 
-    /// Returns the quantities that determine the decay of errors: the default first-order and total indices except the
-    /// dummy's.
+    /// Returns the quantities that determine the decay of errors: default first-order and total indices, no dummy.
     pub(super) fn pooled(&self, length: usize) -> Vec<bool> {
         let real = self.swap(self.swaps() - usize::from(self.dummy));
         (0..length).map(|place| (2..real).contains(&place) && (place - 2) % PER_SWAP < 2).collect()

@@ -2,8 +2,7 @@
 
 use super::{Estimate, Interval, t_quantile};
 
-/// Returns estimates of several quantities with t-intervals from `R` independent replicates, by the delete-one
-/// jackknife.
+/// Returns estimates of quantities with t-intervals from `R` independent replicates, by the delete-one jackknife.
 ///
 /// `whole` is the quantities estimated from all replicates together, `without[r]` the same from all but replicate r.
 /// The standard error is sqrt((R - 1)/R sum_r (without_r - mean)^2) (Quenouille 1956, Tukey 1958; Efron and Stein

@@ -30,8 +30,7 @@ impl IntervalMethod {
         }
     }
 
-    /// Returns whether it is valid for points of `sampler`: for example, a bootstrap over Sobol' points is 3 to 30
-    /// times too wide.
+    /// Returns whether it is valid for points of `sampler`; a bootstrap over Sobol' points is 3 to 30 times too wide.
     pub fn serves(self, sampler: Sampler) -> bool {
         match self {
             Self::Nets => sampler.is_digital(),
@@ -90,8 +89,7 @@ impl IntervalMethod {
         }
     }
 
-    /// Computes standard errors from the parts of every replicate; batches approximate methods that work on kept
-    /// outputs.
+    /// Computes standard errors from the parts of every replicate; methods on kept outputs are approximated by batches.
     pub fn errors(self, quantities: &[PartInfluences], pooled: &[bool]) -> Vec<StandardError> {
         let unknown = |parts: &PartInfluences| parts.iter().flatten().any(|influence| !influence.is_finite());
         let errors = match self {

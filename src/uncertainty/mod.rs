@@ -164,8 +164,7 @@ pub fn t_interval(estimate: f64, error: StandardError) -> Option<Interval> {
     Interval::about(estimate, half_width).finite()
 }
 
-/// Returns the quantile of Student's t distribution for a two-sided interval at [`LEVEL`]; `None` without degrees of
-/// freedom.
+/// Returns the quantile of Student's t for a two-sided interval at [`LEVEL`]; `None` without degrees of freedom.
 fn t_quantile(freedom: f64) -> Option<f64> {
     // Above this the quantile is the normal one with its first correction (Abramowitz and Stegun 1964, 26.7.5), to
     // 1e-8.

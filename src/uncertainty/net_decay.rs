@@ -29,8 +29,7 @@ const FASTEST: f64 = 0.05;
 const SLOWEST: f64 = 0.5;
 
 /// Variance of the logarithm of sigma_m^2 about the trend, from index to index of one output. Measured 0.6 to 1.1: at
-/// some numbers of points, some pairs of Sobol' dimensions fit badly, and an index does not improve while the net grows
-/// fourfold.
+/// some numbers of points, some pairs of Sobol' dimensions fit badly, and an index stalls while the net grows fourfold.
 const SCATTER_OF_INDICES: f64 = 1.0;
 
 /// The same of the average over the indices of an output, from function to function. Measured 0.2 to 0.8.
@@ -153,8 +152,7 @@ fn decay(quantity: &PartInfluences, shape: &Shape, size: f64) -> Vec<f64> {
     logs.iter().enumerate().map(|(below, log)| log - log_bias(shape.freedom(below))).collect()
 }
 
-/// Returns the weights of the levels in the fit, the top one first, and their weighted mean place (0 the top, -1 below,
-/// ...).
+/// Returns the weights of the levels in the fit, top first, and their weighted mean place (0 top, -1 below, ...).
 fn weights(shape: &Shape, levels: usize) -> (Vec<f64>, f64) {
     let weights: Vec<f64> = (0..levels).map(|below| shape.freedom(below) / (shape.freedom(below) + DAMPING)).collect();
     let sum: f64 = weights.iter().sum();
@@ -259,8 +257,7 @@ mod tests {
     #[test]
     fn independent_parts_have_the_error_of_their_mean() {
         // 40 quantities, 2 nets, 64 independent parts each: the error of a mean of 128 is sd/sqrt(128). The trend is
-        // not trusted to be that of random points, so that intervals are wider than 1.96 such errors, but by less than
-        // a half.
+        // not trusted to be that of random points: intervals are wider than 1.96 such errors, by less than half.
         let quantities: Vec<PartInfluences> =
             (0..40).map(|q| vec![noise(64, 2 * q + 1), noise(64, 2 * q + 2)]).collect();
         let errors = net_errors(&quantities, &[true; 40]);

@@ -136,8 +136,7 @@ impl Noise {
         if of.low.is_empty() {
             return own;
         }
-        // The runs of the low-fidelity model are independent: variances add up (the freedom after Welch and
-        // Satterthwaite).
+        // The low-fidelity runs are independent: variances add up (the freedom after Welch and Satterthwaite).
         let low = Self::new(&[&of.low], false).error_of_parts(&of.low);
         let (a, b) = (own.error * own.error, low.error * low.error);
         let freedom = (a + b).powi(2) / (a * a / own.freedom + b * b / low.freedom);

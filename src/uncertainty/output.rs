@@ -36,8 +36,7 @@ pub struct IntervalOptions<'a> {
     pub points: Option<KeptPoints<'a>>,
     /// Whether the probabilities of being first are computed: they take most of the time of a small design.
     pub ranks: bool,
-    /// The [correlations](crate::design::Design::column_correlations) of the two samples, by factor; empty if
-    /// irrelevant.
+    /// The [correlations](crate::design::Design::column_correlations) of both samples, by factor; empty if irrelevant.
     pub correlations: &'a [f64],
     /// The surrogate estimates of the outputs, which replace the plain estimates where they are more accurate.
     pub surrogate: Option<&'a SurrogateEstimates>,
@@ -336,9 +335,8 @@ impl Judged {
     }
 }
 
-/// Returns the same indices with intervals that can both be true: since a first-order index is at most the total index,
-/// an interval wholly above that of the total one shows that both errors are larger than estimated, and at least their
-/// distance.
+/// Returns the same indices with intervals that can both be true: a first-order index is at most the total index, so an
+/// interval wholly above the total's shows that both errors are larger than estimated, at least their distance.
 pub(super) fn agreeing(first_order: Estimate, total: Estimate) -> (Estimate, Estimate, bool) {
     match (first_order.interval, total.interval) {
         (Some(first), Some(all)) if first.low > all.high => {

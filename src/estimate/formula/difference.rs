@@ -28,8 +28,7 @@ pub fn jansen_pooled(swap: &SwapMoments) -> f64 {
 }
 
 /// Solves for the index x = n/(x of_one + (1 - x) of_none), its weight x clamped to between 0 and 1: the denominator
-/// `of_one` removes the error of the numerator where the index is 1, and `of_none`, from the most rows, is for small
-/// indices.
+/// `of_one` removes the error of the numerator where the index is 1, and `of_none`, from most rows, suits small ones.
 fn over_own_mixture(numerator: f64, of_none: f64, of_one: f64) -> f64 {
     // Below this the equation could have no solution; this happens only if few rows determine the output.
     let of_one = of_one.max(of_none / 2.0);

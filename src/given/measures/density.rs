@@ -62,8 +62,7 @@ impl OutputDistribution {
 
     /// Computes half of the mean over the classes of the distance between the distribution of the outputs there and
     /// that of all: for atoms the sum of the differences of their shares, for the density the integral (Plischke et al.
-    /// 2013, eq. 26), by kernels of this part of Silverman's width. A row counts as often as its weight. Between 0 and
-    /// 1.
+    /// 2013, eq. 26), by kernels of `part` of Silverman's width. Rows are weighted. Between 0 and 1.
     pub fn delta(&self, (labels, count): &Partition, weights: &[f64], part: f64) -> f64 {
         let mut all = Spread::default();
         let mut classes = vec![Spread::default(); *count];
@@ -121,16 +120,14 @@ impl OutputDistribution {
     }
 }
 
-/// Returns the quantile of the normal distribution at the middle of each row's place among all; equal rows share
-/// theirs.
+/// Returns the normal quantile at the middle of each row's place among all; equal rows share theirs.
 fn centred_scores(order: &Order) -> Vec<f64> {
     let ranks = order.centred_ranks();
     let rows = ranks.len() as f64;
     normal_scores(&ranks.iter().map(|rank| rank / rows + 0.5).collect::<Vec<f64>>())
 }
 
-/// Adds the kernel at `place` of that `width`, both in grid steps, times its weight and the root of 2 pi times its
-/// width.
+/// Adds the kernel at `place` of that `width`, both in grid steps, times its weight and sqrt(2 pi) width.
 fn add_kernel(density: &mut [f64; GRID], place: f64, width: f64, weight: f64) {
     let nearest = place.round().clamp(0.0, (GRID - 1) as f64);
     let (centre, away, step) = (nearest as usize, (nearest - place) / width, 1.0 / width);

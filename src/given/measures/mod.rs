@@ -31,8 +31,8 @@ named! {
 #[serde(rename_all = "snake_case")]
 pub enum Measure {
     /// First-order index from the spectrum of the output in the order of the input: EASI, Plischke (2010), Reliab. Eng.
-    /// Syst. Saf. 95, 354-360, and RBD-FAST of given data, with the correction of Tissot and Prieur (2012). An estimate
-    /// of S_1.
+    /// Syst. Saf. 95, 354-360, and RBD-FAST of given data, with the correction of Tissot and Prieur (2012). Estimates
+    /// S_1.
     Fourier = "fourier",
     /// Borgonovo's (2007) delta: half of the mean distance between the distribution of the output and its distributions
     /// given the input. From shares of values and kernel densities in classes of the input (Plischke, Borgonovo and
@@ -85,8 +85,7 @@ pub struct Measured {
 pub struct InputMeasures {
     /// The input.
     pub input: String,
-    /// The requested ones that exist: kernels are undefined if the input or the output has one value in the rows that
-    /// they use.
+    /// The requested ones that exist: kernels are undefined if input or output has one value in the rows that they use.
     pub measures: BTreeMap<Measure, Measured>,
 }
 
@@ -96,8 +95,7 @@ impl InputMeasures {
         self.measures.get(&measure).copied()
     }
 
-    /// Returns whether the measure cannot be distinguished from that of an input without influence: its p-value exceeds
-    /// [`SIGNIFICANT`].
+    /// Returns whether an input without influence may have this measure: its p-value exceeds [`SIGNIFICANT`].
     pub fn may_be_chance(&self, measure: Measure) -> bool {
         self.get(measure).and_then(|found| found.p_value).is_some_and(|p_value| p_value > SIGNIFICANT)
     }
@@ -128,9 +126,8 @@ const PERMUTED: usize = 4;
 
 /// Computes the measures of every output with respect to every input, for the columns that gave `indices`.
 ///
-/// Costs O(N log N) for each input and permutation, and O(N^2) for the kernels, for at most [`MAX_ROWS_OF_KERNELS`]
-/// rows, a random part of a larger table. `seed` determines these rows, permutations, resamples, and the order of equal
-/// inputs in the spectrum.
+/// Costs O(N log N) for each input and permutation, and O(N^2) for the kernels, on at most [`MAX_ROWS_OF_KERNELS`]
+/// random rows. `seed` determines these rows, permutations, resamples, and the order of equal inputs in the spectrum.
 pub fn measures(
     inputs: &[Column],
     outputs: &[Column],
@@ -357,7 +354,7 @@ impl<'a> Job<'a> {
     }
 }
 
-/// Returns the half width of the interval from one of these resamples.
+/// Returns the half width of the interval from these resamples.
 fn half_width(resampled: &[f64]) -> f64 {
     let count = resampled.len() as f64;
     let mean = resampled.iter().sum::<f64>() / count;

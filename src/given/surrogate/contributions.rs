@@ -7,8 +7,7 @@
 //! - V ST_s = sum over a that touch s of (b_a^2 + 2 b_a r_a) + VT_s(e),
 //! - V = sum over a but the constant of (b_a^2 + 2 b_a r_a) + mean e^2 - (mean e)^2.
 //!
-//! The last summands of the first two are quadratic in e, and unknown from the rows of a table; they lie between 0 and
-//! Var(e).
+//! The last summands of the first two are quadratic in e, and unknown from a table; they are between 0 and Var(e).
 
 use std::collections::BTreeMap;
 

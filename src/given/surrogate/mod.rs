@@ -26,8 +26,7 @@ use crate::surrogate::net::Net;
 use crate::surrogate::{cross_fitted, told_terms};
 use crate::uncertainty::{Estimate, NamedTerm};
 
-/// Share of the variance of other rows that a surrogate must explain to be useful: its residual adds to the upper end
-/// of every interval.
+/// Share of the variance of other rows that a useful surrogate explains: its residual raises the ends of all intervals.
 pub const MIN_EXPLAINED: f64 = 0.9;
 
 /// Parts of the table, each of which is corrected by an expansion of the others.

@@ -78,8 +78,7 @@ fn dotted_length(text: &str) -> usize {
     end
 }
 
-/// Returns the length in bytes of the number at the beginning of `text`, with all following digits and dots: `1.2.3` is
-/// one number.
+/// Returns the bytes of the number at the beginning of `text`, with all following digits and dots: `1.2.3` is one.
 fn number_length(text: &str) -> usize {
     let bytes = text.as_bytes();
     let digits =

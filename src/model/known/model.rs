@@ -9,8 +9,7 @@ pub fn known_output() -> Output {
     Output::new("y", Unit::dimensionless(), "value of the function")
 }
 
-/// Creates the model of `function`. `base` has a value for every input, `factors` the index of the input for each
-/// factor of the space.
+/// Creates the model of `function`. `base` has a value for every input, `factors` the input's index for each factor.
 pub fn known_model(function: KnownFunction, base: Vec<f64>, factors: Vec<usize>) -> impl Model {
     let drives_all = factors.iter().copied().eq(0..base.len());
     FunctionModel::new(vec![known_output()], move |x: &[f64], y: &mut [f64]| {
@@ -29,8 +28,7 @@ pub fn known_model(function: KnownFunction, base: Vec<f64>, factors: Vec<usize>)
 }
 
 /// Returns the inputs of a function with its parameters chosen. An input that is not a factor is fixed at its upper
-/// quartile: at their median, many of these functions hide the effect of the other inputs (Sobol' G with a_1 = 0 is 0
-/// there).
+/// quartile: at the median, many functions hide the effect of other inputs (Sobol' G with a_1 = 0 is 0).
 pub fn known_inputs(function: &KnownFunction) -> Vec<Input> {
     let input = |input: &KnownInput| Input {
         symbol: input.name.clone(),

@@ -130,8 +130,7 @@ impl<'a> Given<'a> {
         Ok(inputs)
     }
 
-    /// Reads numbers per input, all of one length: that of `dimension`, else of the first list given, else of the
-    /// default.
+    /// Reads numbers per input, all of one length: `dimension`, else that of the first list, else of the default.
     pub(super) fn per_input<const N: usize>(
         &mut self,
         all: [PerInput<'_>; N],

@@ -66,7 +66,7 @@ pub struct Histogram {
 }
 
 impl OutputDistribution {
-    /// Computes the distribution of `values`, which are in SI; the record is in `unit`. Any finite values are allowed,
+    /// Computes the distribution of `values`, which are in SI; the record is in `unit`. Allows any finite values,
     /// however large, small or equal; `None` if there are none, or one is not finite. Costs O(n log n) time and a copy
     /// of the values.
     ///
@@ -121,8 +121,7 @@ impl OutputDistribution {
         central.filter(|width| *width > 0.0).unwrap_or(self.max - self.min)
     }
 
-    /// Returns whether at least one value is beyond the quantile of `percent` percent; otherwise it is an end of the
-    /// range.
+    /// Returns whether at least one value is beyond the quantile at `percent`; if not, it is an end of the range.
     pub fn tells(&self, percent: f64) -> bool {
         self.count as f64 * percent.min(100.0 - percent) >= 100.0
     }

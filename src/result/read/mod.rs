@@ -74,8 +74,7 @@ pub fn read_result(path: &Path) -> Result<StudyResult, ReadError> {
     read().map_err(|problem| ReadError { path: path.to_owned(), problem })
 }
 
-/// Reads the result of a run from JSON, as [`StudyResult::json`] writes it. Unknown keys, from a later version of the
-/// program, are ignored.
+/// Reads the result of a run from JSON, as [`StudyResult::json`] writes it. Unknown keys of later versions are ignored.
 ///
 /// ```
 /// use apportion::result::parse_result;

@@ -65,8 +65,7 @@ pub(in crate::run) fn write_record(out: &mut Vec<u8>, piece: &Piece) {
     out[begin + 4..begin + 8].copy_from_slice(&checksum);
 }
 
-/// Computes the checksum. It covers the length: a run of zeros, which some file systems leave after a power cut, is
-/// invalid.
+/// Computes the checksum. It covers the length: zeros, which some file systems leave after a power cut, are invalid.
 fn checksum(length: &[u8], body: &[u8]) -> u32 {
     let mut hasher = crc32fast::Hasher::new();
     hasher.update(length);
@@ -116,8 +115,7 @@ pub(in crate::run) fn record(reader: &mut Reader<'_>) -> Option<Piece> {
     reader.bytes.is_empty().then_some(piece)
 }
 
-/// Maximum number of rows in a replicate that a journal may state: more than any design has, and too few to overflow
-/// sums.
+/// Maximum number of rows in a replicate of a journal: more than any design has, and too few to overflow sums.
 const MAX_ROWS: u64 = 1 << 60;
 
 fn piece(reader: &mut Reader<'_>) -> Option<Piece> {

@@ -27,8 +27,7 @@ use super::Piece;
 use crate::clock::Instant;
 use crate::files::{read_opened, read_whole};
 
-/// Time between forced writes to the disk, the most that a power cut can lose. (If only the program dies, no appended
-/// record is lost.)
+/// Time between forced writes to the disk, the most that a power cut can lose (the death of the program loses none).
 const SYNC_INTERVAL: Duration = Duration::from_secs(1);
 
 /// How long to wait for a lock that another process holds.

@@ -1,8 +1,7 @@
 //! The triangular factor of correlations, in any order of the factors.
 
 /// L of S = L L^T, where S are the correlations of some factors in an order (Cholesky): scores z with these
-/// correlations are L e, where the e are independent of each other, and the first of them depend only on the first
-/// factors.
+/// correlations are L e, where the e are independent of each other, and the first depend only on the first factors.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct CholeskyFactor {
     rows: Vec<Vec<f64>>,

@@ -85,8 +85,7 @@ impl GaussianCopula {
         scores
     }
 
-    /// Returns the coefficients of E(score of `of` | scores of `given`) = sum of coefficient x score, in the order of
-    /// `given`.
+    /// Returns the coefficients in E(score of `of` | scores of `given`) = sum coefficient x score, in `given`'s order.
     pub fn regression(&self, of: usize, given: &[usize]) -> Vec<f64> {
         // Only factors connected with it, directly or through others, have a coefficient.
         let mut tied = vec![of];

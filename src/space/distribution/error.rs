@@ -86,8 +86,7 @@ pub(super) fn overflow(distribution: &str) -> DistributionError {
     ))
 }
 
-/// Returns an error for a mean and standard deviation, or quantiles, that no distribution of the family has; `key` is
-/// the first one.
+/// Returns an error for a mean and standard deviation, or quantiles, outside the family; `key` is the first one.
 pub(super) fn no_such_distribution(distribution: &str, statements: &str, key: &'static str) -> DistributionError {
     refused(key, format!("there is no {distribution} distribution, or more than one, with {statements}"))
 }
@@ -98,8 +97,7 @@ fn named(distribution: &str) -> String {
     format!("{article} {distribution}")
 }
 
-/// Returns an error for a unit in which values of the family have no meaning; `right` contains why, and what is
-/// allowed.
+/// Returns an error for a unit in which values of the family have no meaning; `right` is what is allowed, and why.
 pub(super) fn wrong_unit(distribution: &str, unit: &Unit, right: &str) -> DistributionError {
     refused_together(format!("{} distribution cannot be in {unit}{right}", named(distribution)))
 }
@@ -168,8 +166,7 @@ pub(super) fn entry(key: &'static str, index: usize, value: f64, must: &str) -> 
     refused(key, format!("`{key}[{index}]` is {value}, but must {must}"))
 }
 
-/// Returns the sum of `weights`, one for each of `count` entries of the list `of`: finite, none negative, not all of
-/// them 0.
+/// Returns the sum of `weights`, one for each of `count` entries of the list `of`: finite, none negative, not all 0.
 pub(super) fn sum_of_weights(weights: &[f64], count: usize, of: &str) -> Result<f64, DistributionError> {
     if weights.len() != count {
         let given = weights.len();

@@ -49,8 +49,7 @@ impl Integer {
     /// Maximum number of whole numbers that are treated as separate levels when a distribution is drawn or screened.
     const MAX_LEVELS: f64 = 1024.0;
 
-    /// Returns the values in ascending order, each with a `u` at which it is the quantile; `None` if there are more
-    /// than 1024.
+    /// Returns the values in ascending order, each with a `u` at which it is the quantile; `None` for more than 1024.
     pub fn levels(&self) -> Option<Vec<(f64, f64)>> {
         let level = |k: u32| {
             let k = f64::from(k);

@@ -36,8 +36,7 @@ impl Distribution {
         positive("mean", mean)?;
         positive("sd", sd)?;
         let variation = sd / mean;
-        // Below 1e-8 the logarithm equals its argument, above 1e8 the 1 is lost; the square might overflow or
-        // underflow.
+        // Below 1e-8 the logarithm equals its argument, above 1e8 the 1 is lost; the square might leave the range.
         let log_sd = match variation {
             small if small < 1e-8 => small,
             large if large > 1e8 => (2.0 * libm::log(large)).sqrt(),

@@ -188,8 +188,7 @@ impl Distribution {
         matches!(self, Self::Integer(_) | Self::Poisson(_))
     }
 
-    /// Returns whether its values are the seeds of a stochastic model: the factor is the noise, not an input with a
-    /// known value.
+    /// Returns whether its values are the seeds of a stochastic model: the factor is the noise, not an input.
     pub fn is_noise(&self) -> bool {
         matches!(self, Self::Seed(_))
     }

@@ -9,8 +9,7 @@ const NODES: [(f64, f64); 3] = [
     (0.906_179_845_938_664, 0.236_926_885_056_189_1),
 ];
 
-/// Returns twice the mean of a smooth function over `middle` - `half` to `middle` + `half`, by the Gauss-Legendre rule
-/// of five points.
+/// Returns twice the mean of a smooth function within `half` of `middle`, by the Gauss-Legendre rule of five points.
 fn panel(middle: f64, half: f64, function: &impl Fn(f64) -> f64) -> f64 {
     let pair = |(node, weight): (f64, f64)| {
         let sum = function(middle - half * node) + function(middle + half * node);

@@ -11,15 +11,13 @@ const LARGEST: f64 = ((1u64 << 31) - 1) as f64;
 pub struct Seed;
 
 impl Distribution {
-    /// Returns the seeds of a stochastic model: a whole number from 0 to 2^31 - 1 that is a function of the coordinate,
-    /// mixed so that near coordinates have seeds that look independent. The factor of this distribution is the *noise*
-    /// of a study.
+    /// Returns the seeds of a stochastic model: a whole number from 0 to 2^31 - 1, a function of the coordinate; seeds
+    /// of near coordinates look independent. The factor of this distribution is the *noise* of a study.
     ///
     /// # Formula
     ///
     /// The upper 31 bits of the finaliser of SplitMix64 (Steele, Lea and Flood 2014, OOPSLA, fig. 17) of the bits of
-    /// `u`. Unlike all others it is not a rising function of `u`: the values of a random `u` are uniform, but there is
-    /// no inverse.
+    /// `u`. It does not rise with `u`: the values are uniform, but without an inverse.
     ///
     /// ```
     /// use apportion::Distribution;

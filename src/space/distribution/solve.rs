@@ -1,7 +1,6 @@
 //! Quantiles by the logarithm of a distribution function and its derivatives.
 
-/// Residual of the logarithm of a probability, and step, after which one more step, of third order, leaves less than
-/// rounding.
+/// Residual of the logarithm of a probability, and step, after which one more step of third order is enough.
 const CLOSE: f64 = 1e-5;
 
 /// A limit that is never reached.
@@ -22,8 +21,7 @@ pub(super) fn halley(start: f64, (low, high): (f64, f64), log: impl Fn(f64) -> (
     (d, MAX_STEPS)
 }
 
-/// Returns the root nearer to 0 of a parabola of this slope and curvature at 0 that must rise by `target`, which is not
-/// positive.
+/// Returns the root nearer to 0 of a parabola of this slope and curvature at 0 that rises by `target` <= 0.
 pub(super) fn parabola(slope: f64, curvature: f64, target: f64) -> f64 {
     2.0 * target / (slope + (slope * slope - 2.0 * curvature * target).max(0.0).sqrt())
 }

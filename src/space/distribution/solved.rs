@@ -15,8 +15,7 @@ pub(super) enum Shape {
     None,
     /// It is given under this key.
     Given(&'static str),
-    /// It is solved for: from the shape of a narrow distribution to that of a wide one, in this many steps of its
-    /// logarithm.
+    /// It is solved for, from the shape of a narrow distribution to that of a wide one, in this many logarithmic steps.
     Between(f64, f64, u32),
     /// The share of the width below `mode`, which is given.
     Mode,
@@ -49,8 +48,7 @@ pub(super) fn solved(given: &Given<'_>, begins: bool) -> Result<Distribution, Di
     })
 }
 
-/// Returns the distribution of this shape, if it is as stated: to 1e-9 of its standard deviation, plus the rounding of
-/// values far from 0.
+/// Returns the distribution of this shape, if it is as stated: to 1e-9 standard deviations, plus rounding of values.
 fn at(shape: f64, given: &Given<'_>, begins: bool) -> Option<Distribution> {
     let (lines, origin) = lines(shape, given, begins)?;
     let (location, scale) = located(&lines)?;
@@ -61,8 +59,7 @@ fn at(shape: f64, given: &Given<'_>, begins: bool) -> Option<Distribution> {
     lines.into_iter().all(is_met).then_some(found)
 }
 
-/// Returns the statements as lines for one shape, and the offset subtracted from their values, which keeps digits far
-/// from 0.
+/// Returns the statements as lines for one shape, and the offset subtracted from values to keep digits.
 fn lines(shape: f64, given: &Given<'_>, begins: bool) -> Option<(Vec<Line>, f64)> {
     let standard = (given.entry.make)(&Given { values: &[], ..*given }, [0.0, 1.0, shape]).ok()?;
     let mut lines = Vec::with_capacity(3);

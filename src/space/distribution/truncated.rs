@@ -36,8 +36,7 @@ pub struct Truncated {
 enum Quantiles {
     /// From the nearer tail.
     Tails,
-    /// For a normal distribution, from the centre too: 2 P(0 < z < (min - mean) / sd), negative if `min` is below the
-    /// mean.
+    /// For a normal distribution, also from the centre: 2 P(0 < z < (min - mean) / sd), negative for `min` < mean.
     Normal { centre: f64 },
     /// For a Gumbel distribution, from -ln F(min), infinite if F(min) is 0, from -ln F(max), 0 if F(max) is 1, and from
     /// ln(F(max) / F(min)), computed from the width of the interval.
@@ -169,8 +168,7 @@ impl Distribution {
 }
 
 impl Normal {
-    /// Returns P(min < X < max): the difference of two tails on one side, or of two central parts, whichever loses no
-    /// digits.
+    /// Returns P(min < X < max): the difference of two tails or of two central parts, whichever loses no digits.
     fn share_between(&self, min: f64, max: f64) -> f64 {
         let [a, b] = [min, max].map(|x| (x - self.mean) / self.sd);
         if a > 0.5 {

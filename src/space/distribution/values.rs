@@ -42,8 +42,7 @@ pub struct MeasuredFile {
 }
 
 impl Distribution {
-    /// Returns the distribution of `values` with probabilities proportional to `weights`, or equal ones without
-    /// weights.
+    /// Returns the distribution of `values` with probabilities proportional to `weights`, or equal ones without.
     ///
     /// The order of the values is irrelevant; a value given twice counts twice, a value of weight 0 never occurs.
     ///
@@ -79,8 +78,7 @@ impl Distribution {
     /// mean = sum x_i / n,   sd = sqrt(sum (x_i - mean)^2 / n)
     /// ```
     ///
-    /// The inverse of the empirical distribution function: no other values occur, neither between these nor beyond
-    /// them.
+    /// The inverse of the empirical distribution function: no values between these or beyond them occur.
     ///
     /// # Errors
     ///
