@@ -85,7 +85,8 @@ struct Redrawn {
 }
 
 impl Redrawn {
-    /// `places` is the position of every factor's player in the order; `a`, `b` are the scores of dependent factors.
+    /// Prepares a base point: `places` is every factor's player's place in the order; `a`, `b` are the dependent
+    /// scores.
     fn new(copula: &GaussianCopula, places: &[usize], [a, b]: &[Vec<f64>; 2]) -> Self {
         let mut numbers: Vec<usize> = (0..a.len()).collect();
         numbers.sort_by_key(|number| std::cmp::Reverse(places[copula.dependent()[*number]]));

@@ -1,7 +1,7 @@
 //! Moments as sums over base points, for resampling and influences.
 //!
 //! All of [`Moments`] follow from sums over the base points of products of two centred outputs. Weighting the points,
-//! as a bootstrap does, weights the sums: the moments of a resample are a matrix product of the products.
+//! as a bootstrap does, weights the sums: the moments of a resample follow by a matrix product.
 
 use super::pair_moments::PairMoments;
 use super::shapley_moments::ShapleyMoments;
@@ -27,7 +27,7 @@ const WITH_BA: [Product; 5] = [(E, ONE), (E, E), (A, E), (B, E), (D, E)];
 
 /// The products of the outputs at a base point from which the moments are computed.
 ///
-/// A swap without some points of A and B has its own count of points and products of A and B; so does a pair.
+/// A swap that lost points of A and B has its own count and its own products of A and B over them; so does a pair.
 #[derive(Debug, Clone)]
 pub struct Products {
     /// The moments of all points; the products are centred on their means.

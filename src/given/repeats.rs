@@ -88,7 +88,7 @@ fn joint_repeats(inputs: &[(&str, &Order)], labels: &[Vec<usize>], equal_pairs: 
     }
     let all_pairs = rows as f64 * (rows as f64 - 1.0) / 2.0;
     let (mut observed, mut expected, mut possible) = (0.0, 0.0, 0.0);
-    // Neighbouring columns suffice, closed to a ring: a design treats all alike.
+    // Neighbouring columns suffice, closed to a ring: a design treats all equally.
     for (place, &j) in many.iter().enumerate() {
         let i = many[(place + 1) % many.len()];
         let (a, b) = (inputs[i].1.tied_pairs() - equal_pairs, inputs[j].1.tied_pairs() - equal_pairs);

@@ -158,7 +158,7 @@ fn reason_to_stop(study: &Study, run: &GrowingRun<'_>, longest: &Design, stage: 
     let runs = u128::from(next) * u128::from(replicates) * u128::from(longest.rows_per_point());
     let seconds = 2.0 * run.elapsed().as_secs_f64();
     let base_samples = run.points_per_replicate() * replicates;
-    // With one replicate there is no spreadfor any points.
+    // With one replicate there is no spread for any points.
     let has_none =
         replicates < 2 && matches!(study.analysis.intervals, IntervalMethod::Nets | IntervalMethod::Replicates);
     let has_too_few = base_samples >= MIN_BASE_SAMPLES_OF_FAILURES && fails_too_often(study, run);

@@ -165,7 +165,7 @@ impl<'a> Runner<'a> {
         Self { journal: Some(path.into()), only_if_long: false, ..self }
     }
 
-    /// The same, but a new journal is created only for a slow model (programs, functions of Python row by row,
+    /// Does the same, but creates a new journal only for a slow model (programs, functions of Python row by row,
     /// equations of motion that are integrated step by step), or once the run is expected to take longer than 10 s.
     pub fn journal_if_long(self, path: impl Into<PathBuf>) -> Self {
         Self { journal: Some(path.into()), only_if_long: true, ..self }

@@ -31,10 +31,10 @@ pub fn range(distribution: &Distribution) -> f64 {
 /// unit: then the total index of a factor is at most C nu/V (Lamboni, Iooss, Popelin and Gamboa 2013, Math. Comput.
 /// Simul. 87, 45-54, theorem 3.1). `None` for distributions without a known constant.
 ///
-/// The constants of uniform, (b - a)^2/pi^2, normal, sd^2, and exponential distributions, 4 scale^2, are optimal. Those
-/// on an interval with log-concave densities also have that of the uniform one (Payne and Weinberger 1960, Arch.
-/// Ration. Mech. Anal. 5, 286-292), and a truncated normal distribution has that of the normal one (Bakry and Emery
-/// 1985).
+/// The constants of uniform, (b - a)^2/pi^2, normal, sd^2, and exponential distributions, 4 scale^2, are optimal.
+/// Distributions on an interval with log-concave densities also have that of the uniform one (Payne and Weinberger
+/// 1960, Arch. Ration. Mech. Anal. 5, 286-292), and a truncated normal distribution has that of the normal one (Bakry
+/// and Emery 1985).
 pub fn poincare_constant(distribution: &Distribution) -> Option<f64> {
     let of_interval = || {
         let (low, high) = distribution.support();

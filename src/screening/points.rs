@@ -105,9 +105,9 @@ impl Trajectories {
         }
     }
 
-    /// Base point and auxiliary point are the two halves of one point. In an unscrambled sequence the halves begin with
-    /// equal coordinates, which Campolongo et al. avoid by taking b from a later point; here every coordinate has its
-    /// own scramble, so that b_j is independent of a_j.
+    /// Generates the moves of a star. Base point and auxiliary point are the two halves of one point. In an unscrambled
+    /// sequence the halves begin with equal coordinates, which Campolongo et al. avoid by taking b from a later point;
+    /// here every coordinate has its own scramble, so that b_j is independent of a_j.
     fn star(&self, points: &BasePoints, index: u64) -> Vec<Move> {
         let factors = self.grids.len();
         let mut columns = vec![vec![0.0]; 2 * factors];

@@ -190,8 +190,8 @@ struct Fit {
 }
 
 impl Fit {
-    /// `first` is one of the outputs, all points included; `runs` has all of them at the good ones. The terms are those
-    /// of each net in `chosen`, if any.
+    /// Fits the trial: `first` is one of the outputs, all points included; `runs` has all of them at the good ones. The
+    /// terms are those of each net in `chosen`, if any.
     fn new(
         design: &Design,
         trial: Trial,
