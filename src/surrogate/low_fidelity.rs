@@ -10,7 +10,7 @@
 //! - V S_s(h) = alpha^2 V S_s(g) + sum over a within s of (b_a^2 + 2 alpha b_a r_a),
 //!
 //! and similarly for total indices and the variance. alpha and P of a net are fitted to the others, and the runs at
-//! points of their own are independent of both: a poor low-fidelity model widens the intervals but does not bias them.
+//! points of their own are independent of both: a poor low-fidelity model costs accuracy, but intervals stay valid.
 
 use rayon::prelude::*;
 

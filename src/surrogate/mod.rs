@@ -2,7 +2,7 @@
 //!
 //! A sparse polynomial chaos expansion is fitted to the runs of all nets but one, and corrects the indices of that one
 //! ([`corrected`]): exact for the part of the output that the expansion explains, pick-freeze for the rest. No net is
-//! corrected by an expansion fitted to it: a poor surrogate widens the intervals but does not bias them.
+//! corrected by an expansion fitted to it: a poor surrogate costs accuracy, but intervals stay valid.
 
 pub mod basis;
 pub mod beyond;
