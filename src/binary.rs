@@ -1,13 +1,13 @@
-//! Numbers as bytes, little-endian, every bit kept: what files of a run are made of.
+//! Lossless little-endian encoding of numbers, used in the files of a run.
 
-/// Bytes still to be read.
+/// Bytes that remain to be read.
 #[derive(Clone, Copy)]
 pub(crate) struct Reader<'a> {
     pub bytes: &'a [u8],
 }
 
 impl<'a> Reader<'a> {
-    /// The next `count` bytes, if there are as many.
+    /// Returns the next `count` bytes, or `None` if fewer remain.
     pub fn take(&mut self, count: usize) -> Option<&'a [u8]> {
         let (taken, rest) = self.bytes.split_at_checked(count)?;
         self.bytes = rest;
@@ -19,16 +19,16 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// A value that is written as bytes, and read back with the same bits.
+/// A value that can be written as bytes and read back bit for bit.
 pub(crate) trait Binary: Sized {
     /// Appends the value to `out`.
     fn write(&self, out: &mut Vec<u8>);
 
-    /// The next value; `None` if the bytes are none.
+    /// Reads the next value; returns `None` if the bytes are invalid.
     fn read(from: &mut Reader<'_>) -> Option<Self>;
 }
 
-/// Implements [`Binary`] for a structure by its fields, all of them, in this order.
+/// Implements [`Binary`] for a struct by writing all of its fields in the given order.
 macro_rules! binary_fields {
     ($name:ident { $($field:ident),* $(,)? }) => {
         impl $crate::binary::Binary for $name {
@@ -121,7 +121,7 @@ impl<T: Binary> Binary for Vec<T> {
     }
 
     fn read(from: &mut Reader<'_>) -> Option<Self> {
-        // Every value takes a byte at least: a count beyond the bytes ends with them, and reserves no memory.
+        // Every value takes at least one byte: a count that is too large ends with the bytes and reserves no memory.
         (0..u64::read(from)?).map(|_| T::read(from)).collect()
     }
 }

@@ -1,8 +1,8 @@
-//! SHA-256 in hexadecimal: how a file, a study or a design is known again.
+//! SHA-256 in hexadecimal, which identifies a file, a study or a design.
 
 use hmac_sha256::Hash;
 
-/// The digest of bytes that come piece by piece.
+/// A digest of bytes that arrive in pieces.
 #[derive(Clone, Default)]
 pub struct Sha256(Hash);
 
@@ -12,13 +12,13 @@ impl Sha256 {
         self.0.update(bytes);
     }
 
-    /// The digest in hexadecimal.
+    /// Returns the digest in hexadecimal.
     pub fn finish(self) -> String {
         self.0.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
     }
 }
 
-/// The digest of `bytes` in hexadecimal.
+/// Returns the digest of `bytes` in hexadecimal.
 ///
 /// ```
 /// assert!(apportion::digest::sha256(b"abc").starts_with("ba7816bf8f01cfea"));

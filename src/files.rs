@@ -1,24 +1,24 @@
-//! Files read whole, but never without end.
+//! Reading whole files, with a limit on the size of streams.
 
 use std::fs::File;
 use std::io::{Error, ErrorKind, Read, Result};
 use std::path::Path;
 
-/// Most bytes that are read whole from what is not a regular file, such as a pipe: 256 MiB. A regular file has an end.
+/// Maximum number of bytes read from anything but a regular file, such as a pipe: 256 MiB. Regular files have no limit.
 pub const MAX_STREAM_BYTES: u64 = 256 << 20;
 
-/// All bytes of the file at `path`. A pipe or a device, as `/dev/stdin` is, serves as well, up to [`MAX_STREAM_BYTES`].
+/// Reads all bytes of the file at `path`; a pipe or a device such as `/dev/stdin` is read up to [`MAX_STREAM_BYTES`].
 ///
 /// # Errors
-/// What the operating system says; [`ErrorKind::FileTooLarge`] for a stream that has more bytes, or no end.
+/// The error of the operating system; [`ErrorKind::FileTooLarge`] for a stream that has more bytes, or no end.
 pub fn read_whole(path: &Path) -> Result<Vec<u8>> {
     read_opened(&mut File::open(path)?)
 }
 
-/// The same as text in UTF-8.
+/// Reads the file at `path` as [`read_whole`] does, as UTF-8 text.
 ///
 /// # Errors
-/// As for [`read_whole`], and [`ErrorKind::InvalidData`] for other bytes than text.
+/// As for [`read_whole`], and [`ErrorKind::InvalidData`] if the bytes are not UTF-8.
 pub fn read_text(path: &Path) -> Result<String> {
     String::from_utf8(read_whole(path)?).map_err(|error| {
         let valid = error.utf8_error().valid_up_to();
@@ -27,7 +27,7 @@ pub fn read_text(path: &Path) -> Result<String> {
     })
 }
 
-/// The bytes of an open file from where it stands, as [`read_whole`] reads them.
+/// Reads an open file from its current position to the end, with the limit of [`read_whole`].
 ///
 /// # Errors
 /// As for [`read_whole`].

@@ -1,14 +1,13 @@
 //! Sobol' global sensitivity analysis: which input of a model decides its output, and by how many percent.
 //!
-//! A [`Study`] says what is asked: a [`Model`], the [`Factor`]s that vary, the points, the [`Target`].
-//! [`Study::run`] answers it with a [`StudyResult`]; [`Runner`] is the same with threads, progress and a journal. The steps
-//! in between, for those who take them one by one: a [`Design`] gives its points by row number, a [`Worker`] of the model
-//! evaluates them, an [`Estimator`] turns sums into indices, and an [`IntervalMethod`] says how well they are known.
+//! A [`Study`] describes the question: a [`Model`], the [`Factor`]s that vary, the points and the [`Target`].
+//! [`Study::run`] returns a [`StudyResult`]; [`Runner`] does the same with threads, progress and a journal. The steps
+//! can also be called one by one: a [`Design`] generates points by row number, a [`Worker`] of the model evaluates
+//! them, an [`Estimator`] computes indices from sums, and an [`IntervalMethod`] computes their confidence intervals.
 //!
-//! Besides Sobol' indices of a model there are [`given`] data, [`screening`], [`sweep`]s, and the points and formulas of
-//! [`salib`].
+//! There are also indices from [`given`] data, [`screening`], [`sweep`]s, and the points and formulas of [`salib`].
 //!
-//! # The crates around it
+//! # Related crates
 //!
 //! | crate | what it adds |
 //! |---|---|
@@ -36,20 +35,20 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! # Programs to begin with
+//! # Example programs
 //!
-//! Each is a short program of its own in the folder `examples` of the sources, run by the tests:
-//! `cargo run --release --example NAME`.
+//! Each is a short program in the folder `examples` of the sources, and is run by the tests: `cargo run --release
+//! --example NAME`.
 //!
 //! | example | what it shows |
 //! |---|---|
 //! | `function_model` | a Rust function as a model |
 //! | `pendulum` | the same in few lines |
 //! | `study_file` | a study file run from Rust, with progress |
-//! | `units_and_failures` | units, several outputs, runs without an answer, second-order indices |
-//! | `interrupted` | a journal: interrupted, gone on with to the same bits, and made longer |
-//! | `own_program` | a program in any language as a model, asked from Rust (`CommandModel`) |
-//! | `three_steps` | points to a file, outputs from anywhere, analysed (`exchange`) |
+//! | `units_and_failures` | units, several outputs, failed runs, second-order indices |
+//! | `interrupted` | a journal: interrupted, resumed to the same bits, and extended |
+//! | `own_program` | a program in any language as a model, called from Rust (`CommandModel`) |
+//! | `three_steps` | points to a file, outputs from any source, analysed (`exchange`) |
 
 #![cfg_attr(not(test), deny(clippy::disallowed_methods))]
 

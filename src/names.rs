@@ -1,9 +1,9 @@
-//! Names that users give: what they may be, and the names of files made of them; and enums that are chosen by name.
+//! Rules for the names that users choose, file names derived from them, and enums selected by name.
 //!
-//! A name stands in tables, charts, pages, on terminals, and in the names of files. It is checked when it is read; the
-//! names of files are safe and unique all the same, whatever the names they are made of.
+//! Names appear in tables, charts, pages, terminals and file names. A name is checked when it is read; file names are
+//! always safe and unique.
 
-/// Declares an enum without fields together with `ALL` and `name`, so that the three cannot drift apart.
+/// Declares an enum without fields together with `ALL` and `name`, so that the three stay consistent.
 #[macro_export]
 macro_rules! named {
     ($(#[$meta:meta])* pub enum $type:ident { $($(#[$variant_meta:meta])* $variant:ident = $name:literal,)+ }) => {
@@ -12,10 +12,10 @@ macro_rules! named {
         pub enum $type { $($(#[$variant_meta])* $variant,)+ }
 
         impl $type {
-            /// All of them, in the order of declaration.
+            /// All variants, in the order of declaration.
             pub const ALL: [Self; [$($name),+].len()] = [$(Self::$variant),+];
 
-            /// The name used in study files and results.
+            /// Returns the name used in study files and results.
             pub const fn name(self) -> &'static str {
                 match self { $(Self::$variant => $name),+ }
             }
@@ -29,26 +29,26 @@ macro_rules! named {
 
 pub use named;
 
-/// An enum that is chosen by name.
+/// An enum that is selected by name.
 pub trait Named: Copy + 'static {
-    /// All of them with their names, in the order of declaration.
+    /// All variants with their names, in the order of declaration.
     const CHOICES: &'static [(&'static str, Self)];
 }
 
-/// Most characters of the name of a factor, output, group or label: far more than any table or chart has room for.
+/// Maximum number of characters in the name of a factor, output, group or label, more than any table or chart shows.
 pub const LONGEST_NAME: usize = 200;
 
-/// Most characters of a title.
+/// Maximum number of characters in a title.
 pub const LONGEST_TITLE: usize = 500;
 
-/// Most bytes of the name of a study. Names of files have 255 bytes on most systems, and endings are added to it.
+/// Maximum number of bytes in the name of a study: most systems allow 255 bytes in a file name, and endings are added.
 pub const LONGEST_STUDY_NAME: usize = 120;
 
-/// Most bytes of an output's name in the name of a file.
+/// Maximum number of bytes that an output's name contributes to a file name.
 const LONGEST_PART: usize = 80;
 
-/// Whether `c` is a character that cannot be seen, but changes the text around it: one of control, a mark that turns the
-/// direction of writing, a separator of lines, or one without a width.
+/// Returns whether `c` is invisible but changes the text around it: a control character, a mark of writing direction, a
+/// line separator or a character of zero width.
 pub fn is_hidden(c: char) -> bool {
     c.is_control()
         || matches!(
@@ -67,7 +67,7 @@ pub fn is_hidden(c: char) -> bool {
         )
 }
 
-/// What the name of a factor, group or label may be: why `name` is not, in words that follow "expected".
+/// Returns why `name` cannot name a factor, group or label, in words that follow "expected"; `None` if it can.
 pub fn refused_name(name: &str) -> Option<String> {
     if name.trim().is_empty() {
         return Some("a name that is not empty".to_owned());
@@ -79,13 +79,13 @@ pub fn refused_name(name: &str) -> Option<String> {
     name.contains(is_hidden).then(|| visible.to_owned())
 }
 
-/// The same for the name of an output, after which files are named.
+/// Returns the same for the name of an output, which is also used in file names.
 pub fn refused_output_name(name: &str) -> Option<String> {
     let leads_away = name.contains(['/', '\\', ':']);
     refused_name(name).or(leads_away.then(|| "a name without / \\ : (files are named after it)".to_owned()))
 }
 
-/// The same for a title; an empty one is none.
+/// Returns the same for a title; an empty title counts as none.
 pub fn refused_title(title: &str) -> Option<String> {
     if title.chars().count() > LONGEST_TITLE {
         return Some(format!("at most {LONGEST_TITLE} characters"));
@@ -94,15 +94,15 @@ pub fn refused_title(title: &str) -> Option<String> {
     hidden.then(|| "a text without control characters and marks that are not seen".to_owned())
 }
 
-/// What a unit or the name of an axis may be, in words that follow "must be".
+/// The rule for a unit or the name of an axis, in words that follow "must be".
 pub const SHORT_TEXT: &str = "a text of up to 60 characters, without control characters";
 
-/// Whether `text` keeps to [`SHORT_TEXT`].
+/// Returns whether `text` satisfies [`SHORT_TEXT`].
 pub fn is_short_text(text: &str) -> bool {
     text.chars().count() <= 60 && !text.contains(is_hidden)
 }
 
-/// A name or value as it stands in a message: the beginning of one that is long, and nothing hidden.
+/// Returns a name or value as messages show it: shortened if it is long, without hidden characters.
 pub fn shown(text: &str) -> String {
     let mut chars = text.chars();
     let begin: String = chars.by_ref().take(60).collect();
@@ -112,7 +112,7 @@ pub fn shown(text: &str) -> String {
     }
 }
 
-/// `name` as part of the name of a file: without characters that mean something to a file system, and not too long.
+/// Returns `name` as part of a file name: without characters that are special in a file system, and not too long.
 ///
 /// ```
 /// assert_eq!(apportion::names::file_part("../x: y"), ".._x_ y");
@@ -124,18 +124,18 @@ pub fn file_part(name: &str) -> String {
     part
 }
 
-/// What the name of a study may be.
+/// The rule for the name of a study.
 pub const NAME_RULE: &str =
     "letters, digits, '-', '_', '.' and spaces, not starting with a dot, at most 120 bytes (files are named after it)";
 
-/// Whether `name` keeps to [`NAME_RULE`].
+/// Returns whether `name` satisfies [`NAME_RULE`].
 pub fn names_files(name: &str) -> bool {
     let fits = |c: char| c.is_alphanumeric() || "-_. ".contains(c);
     !name.trim().is_empty() && name.len() <= LONGEST_STUDY_NAME && !name.starts_with('.') && name.chars().all(fits)
 }
 
-/// The name in `known` nearest to `name`, if one is near enough to be meant. Names of more than 100 characters, whose
-/// comparison would take long, are near to none.
+/// Returns the name in `known` nearest to `name`, if one is close enough to be meant. Names of more than 100 characters
+/// match none, because the comparison would take long.
 pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<String> {
     const LONGEST: usize = 100;
     let is_long = |name: &str| name.chars().nth(LONGEST).is_some();

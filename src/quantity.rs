@@ -1,4 +1,4 @@
-//! Units of inputs and outputs: what people type at the edges, SI inside.
+//! Units of inputs and outputs: as typed at the interfaces, SI inside.
 
 mod dimension;
 mod domain;
@@ -36,11 +36,11 @@ pub struct Quantity {
 }
 
 impl Quantity {
-    /// Reads a finite number and a unit, with or without a space between them; no unit is a pure number.
+    /// Parses a finite number and a unit, with or without a space between them; without a unit it is dimensionless.
     ///
     /// # Errors
     ///
-    /// [`UnitError::NotANumber`] if it does not begin with a finite number, else what [`Unit::parse`] says.
+    /// [`UnitError::NotANumber`] if it does not begin with a finite number, otherwise the error of [`Unit::parse`].
     pub fn parse(text: &str) -> Result<Self, UnitError> {
         let trimmed = text.trim();
         let number = &trimmed[..number_length(trimmed)];
@@ -49,13 +49,13 @@ impl Quantity {
         Ok(Self { value, unit: Unit::parse(&trimmed[number.len()..])? })
     }
 
-    /// The value in SI.
+    /// Returns the value in SI.
     pub fn to_si(&self) -> f64 {
         self.unit.to_si(self.value)
     }
 }
 
-/// Bytes of the decimal number that `text` begins with.
+/// Returns the length in bytes of the decimal number at the beginning of `text`.
 fn number_length(text: &str) -> usize {
     let digits = |from: usize| {
         let rest = text.get(from..).unwrap_or_default();
@@ -69,7 +69,7 @@ fn number_length(text: &str) -> usize {
     if matches!(text.as_bytes().get(end), Some(b'e' | b'E')) {
         let start = end + 1 + sign(end + 1);
         let stop = digits(start);
-        // "3 eV" and "2e" hold no exponent.
+        // "3 eV" and "2e" contain no exponent.
         if stop > start {
             end = stop;
         }

@@ -1,17 +1,17 @@
-//! Special functions of the normal and Student's t distribution, with the same bits on every platform: all that they take of
-//! a mathematical library is `libm`.
+//! Special functions of the normal and Student's t distribution, with the same bits on every platform: `libm` is the
+//! only mathematical library that they use.
 
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
 
 use libm::erfc;
 
-/// P(Z < z) of the standard normal distribution, to full relative precision in the lower tail.
+/// Returns P(Z < z) of the standard normal distribution, to full relative precision in the lower tail.
 pub fn normal_below(z: f64) -> f64 {
     0.5 * erfc(-z * FRAC_1_SQRT_2)
 }
 
-/// The quantile of the standard normal distribution at `u` in (0, 1), to a relative error of some 1e-16 down to u = 1e-316
-/// (Wichura 1988, Applied Statistics 37, algorithm AS 241, PPND16).
+/// Returns the quantile of the standard normal distribution at `u` in (0, 1), to a relative error of about 1e-16 down
+/// to u = 1e-316 (Wichura 1988, Applied Statistics 37, algorithm AS 241, PPND16).
 pub fn normal_quantile(u: f64) -> f64 {
     let q = u - 0.5;
     if q.abs() <= 0.425 {
@@ -84,7 +84,7 @@ pub fn normal_quantile(u: f64) -> f64 {
     if q < 0.0 { -x } else { x }
 }
 
-/// The quantile of the standard normal distribution at 1/2 + `q`, |q| <= 0.425, to full relative precision about 0.
+/// Returns the standard normal quantile at 1/2 + `q`, |q| <= 0.425, to full relative precision about 0.
 pub fn normal_quantile_beside_median(q: f64) -> f64 {
     let r = 0.180_625 - q * q;
     let above = polynomial(
@@ -120,11 +120,11 @@ fn polynomial(x: f64, coefficients: [f64; 8]) -> f64 {
     coefficients.iter().rev().fold(0.0, |sum, coefficient| sum * x + coefficient)
 }
 
-/// Degrees of freedom beyond which Student's t distribution is taken as a normal one of another argument.
+/// Degrees of freedom above which Student's t distribution is computed as a normal one of a transformed argument.
 const LARGE_FREEDOM: f64 = 1e5;
 
-/// P(T > t) of Student's t distribution with `freedom` > 0 degrees of freedom, in which `f64::INFINITY` is the normal one; to a
-/// relative error of some 1e-12.
+/// Returns P(T > t) of Student's t distribution with `freedom` > 0 degrees of freedom (`f64::INFINITY` for the normal
+/// distribution), to a relative error of about 1e-12.
 pub fn t_above(t: f64, freedom: f64) -> f64 {
     if t < 0.0 {
         return 1.0 - t_above(-t, freedom);
@@ -143,7 +143,7 @@ pub fn t_above(t: f64, freedom: f64) -> f64 {
     let (a, square) = (freedom / 2.0, t * t);
     let (x, rest) = (freedom / (freedom + square), square / (freedom + square));
     if square.is_infinite() {
-        // Of the series only the first term is left.
+        // Only the first term of the series remains.
         return 0.5 * libm::exp(a * (libm::log(freedom) - 2.0 * libm::log(t))) * root_ratio(a) / (a * PI.sqrt());
     }
     // x^a (1 - x)^(1/2) / B(a, 1/2); log1p where x is nearly 1.
@@ -156,11 +156,11 @@ pub fn t_above(t: f64, freedom: f64) -> f64 {
     }
 }
 
-/// The t at which P(|T| > t) is `outside`, of Student's t distribution with `freedom` > 0 degrees of freedom; infinite where it
-/// is beyond the range of `f64`.
+/// Returns the t at which P(|T| > t) is `outside`, for Student's t distribution with `freedom` > 0 degrees of freedom;
+/// infinity if it exceeds the range of `f64`.
 pub fn t_quantile_outside(outside: f64, freedom: f64) -> f64 {
     let target = libm::log(outside / 2.0);
-    // Newton on ln P(T > e^s), which falls and is concave: to the right of the answer every step comes nearer and none passes it.
+    // Newton on ln P(T > e^s), which falls and is concave: right of the root steps come nearer, none passes it.
     let mut s = libm::log(-normal_quantile(outside / 2.0));
     for _ in 0..200 {
         let t = libm::exp(s);
@@ -177,7 +177,7 @@ pub fn t_quantile_outside(outside: f64, freedom: f64) -> f64 {
     libm::exp(s)
 }
 
-/// The density of Student's t distribution.
+/// Returns the density of Student's t distribution.
 fn t_density(t: f64, freedom: f64) -> f64 {
     if freedom.is_infinite() {
         return libm::exp(-0.5 * t * t) / (2.0 * PI).sqrt();
@@ -186,8 +186,8 @@ fn t_density(t: f64, freedom: f64) -> f64 {
     root_ratio(freedom / 2.0) / (freedom * PI).sqrt() * power
 }
 
-/// Gamma(a + 1/2) / Gamma(a): the recurrence up to 20, then the asymptotic series (Tricomi and Erdelyi 1951, Pacific J. Math.
-/// 1), whose first term left out is below 1e-16 there.
+/// Returns Gamma(a + 1/2) / Gamma(a): by the recurrence up to 20, then by the asymptotic series (Tricomi and Erdelyi
+/// 1951, Pacific J. Math. 1), whose first omitted term is below 1e-16 there.
 fn root_ratio(a: f64) -> f64 {
     let (mut factor, mut a) = (1.0, a);
     while a < 20.0 {
@@ -199,8 +199,9 @@ fn root_ratio(a: f64) -> f64 {
     factor * a.sqrt() * libm::exp(log)
 }
 
-/// The continued fraction of the incomplete beta function I_x(a, b) (Abramowitz and Stegun 1964, 26.5.8), up to a relative change of
-/// less than `least_change`, by the modified Lentz algorithm (Press et al. 2007, Numerical Recipes, section 6.4). Some sqrt(a) terms are needed.
+/// Evaluates the continued fraction of the incomplete beta function I_x(a, b) (Abramowitz and Stegun 1964, 26.5.8) up
+/// to a relative change of less than `least_change`, by the modified Lentz algorithm (Press et al. 2007, Numerical
+/// Recipes, section 6.4). About sqrt(a) terms are needed.
 pub fn beta_fraction(x: f64, a: f64, b: f64, least_change: f64) -> f64 {
     const MIN_POSITIVE: f64 = 1e-300;
     let away = |value: f64| if value.abs() < MIN_POSITIVE { MIN_POSITIVE } else { value };
@@ -235,7 +236,7 @@ mod tests {
         assert!((got / expected - 1.0).abs() < tolerance || got == expected, "{what}: {got} against {expected}");
     }
 
-    /// 2e-15: what statrs and AS 241 state of themselves, together.
+    /// 2e-15: the sum of the stated errors of statrs and AS 241.
     #[test]
     fn the_normal_quantile_is_that_of_another_implementation_over_the_whole_range() {
         for exponent in 1..290 {

@@ -1,4 +1,4 @@
-//! Sums of fixed shape: the same operands give the same bits, however many threads there are.
+//! Sums of fixed shape: the same operands give the same bits on any number of threads.
 //!
 //! Each sum runs in [`LANES`] interleaved partial sums that are joined pairwise at the end. This fixes the order of the
 //! additions, keeps the rounding error of a block near eps sqrt(n), and lets the compiler use vector instructions.
@@ -8,14 +8,14 @@ use multiversion::multiversion;
 /// Number of interleaved partial sums.
 pub const LANES: usize = 8;
 
-/// Sum of `f(i)` for `i` in `0..n`, in the fixed shape.
+/// Returns the sum of `f(i)` for `i` in `0..n`, in the fixed shape.
 #[inline(always)]
 pub(crate) fn sum_by(n: usize, f: impl Fn(usize) -> f64) -> f64 {
     let [sum] = sums_by(n, |i| [f(i)]);
     sum
 }
 
-/// The sums of several terms at once, each in the fixed shape.
+/// Returns the sums of several terms at once, each in the fixed shape.
 #[expect(clippy::needless_range_loop, reason = "the compiler makes one wide register of the lanes of this form")]
 #[inline(always)]
 pub(crate) fn sums_by<const K: usize>(n: usize, f: impl Fn(usize) -> [f64; K]) -> [f64; K] {
@@ -40,7 +40,7 @@ pub(crate) fn sums_by<const K: usize>(n: usize, f: impl Fn(usize) -> [f64; K]) -
     lanes.map(|l| ((l[0] + l[1]) + (l[2] + l[3])) + ((l[4] + l[5]) + (l[6] + l[7])))
 }
 
-/// Arithmetic mean of `x`; 0 for no values.
+/// Returns the arithmetic mean of `x`; 0 if it is empty.
 ///
 /// The mean is taken relative to the first value, so that an offset common to all values costs no digits.
 #[multiversion(targets("x86_64+avx512f", "x86_64+avx2"))]
@@ -49,7 +49,7 @@ pub fn mean(x: &[f64]) -> f64 {
     origin + sum_by(x.len(), |i| x[i] - origin) / x.len() as f64
 }
 
-/// Sum of x y over the common length of `x` and `y`.
+/// Returns the sum of x y over the common length of `x` and `y`.
 #[multiversion(targets("x86_64+avx512f", "x86_64+avx2"))]
 pub fn product(x: &[f64], y: &[f64]) -> f64 {
     let n = x.len().min(y.len());
@@ -57,7 +57,7 @@ pub fn product(x: &[f64], y: &[f64]) -> f64 {
     sum_by(n, |i| x[i] * y[i])
 }
 
-/// Sum of (x - mean_x)(y - mean_y) over the common length of `x` and `y`.
+/// Returns the sum of (x - mean_x)(y - mean_y) over the common length of `x` and `y`.
 #[multiversion(targets("x86_64+avx512f", "x86_64+avx2"))]
 pub fn centred_product(x: (&[f64], f64), y: (&[f64], f64)) -> f64 {
     let ((x, mean_x), (y, mean_y)) = (x, y);
@@ -66,7 +66,7 @@ pub fn centred_product(x: (&[f64], f64), y: (&[f64], f64)) -> f64 {
     sum_by(n, |i| (x[i] - mean_x) * (y[i] - mean_y))
 }
 
-/// The [centred products](centred_product) of `z` with `x`, `y` and itself in one pass; all are of one length.
+/// Returns the [centred products](centred_product) of `z` with `x`, `y` and itself in one pass; all have one length.
 #[multiversion(targets("x86_64+avx512f", "x86_64+avx2"))]
 pub(crate) fn centred_products(x: (&[f64], f64), y: (&[f64], f64), z: (&[f64], f64)) -> [f64; 3] {
     let ((x, mean_x), (y, mean_y), (z, mean_z)) = (x, y, z);
@@ -78,7 +78,7 @@ pub(crate) fn centred_products(x: (&[f64], f64), y: (&[f64], f64), z: (&[f64], f
     })
 }
 
-/// The smallest and the largest of finite values; infinities of none.
+/// Returns the smallest and the largest of finite values; infinities if there are none.
 #[multiversion(targets("x86_64+avx512f", "x86_64+avx2"))]
 pub(crate) fn range(x: &[f64]) -> (f64, f64) {
     let (mut low, mut high) = ([f64::INFINITY; LANES], [f64::NEG_INFINITY; LANES]);
@@ -91,8 +91,8 @@ pub(crate) fn range(x: &[f64]) -> (f64, f64) {
     (low.into_iter().fold(f64::INFINITY, f64::min), high.into_iter().fold(f64::NEG_INFINITY, f64::max))
 }
 
-/// The values times 2^-e, and e, which brings the largest magnitude between 1 and 2: sums of powers of them can neither
-/// overflow nor vanish, and no digit is lost. Values are finite; e is 0 if all are zero.
+/// Returns the values times 2^-e, and e, such that the largest magnitude lies between 1 and 2: sums of their powers
+/// neither overflow nor underflow, and no digit is lost. Values must be finite; e is 0 if all are zero.
 pub(crate) fn rescaled(x: &[f64]) -> (Vec<f64>, i32) {
     let largest = x.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
     let exponent = if largest == 0.0 { 0 } else { libm::ilogb(largest) };
@@ -122,7 +122,7 @@ mod tests {
 
     #[test]
     fn a_large_offset_costs_no_digits_of_the_spread() {
-        // The offset leaves the small integers exact; the mean is known to half of 2^-12, which enters squared.
+        // The offset keeps the small integers exact; the error of the mean is up to half of 2^-12, and enters squared.
         let spread: Vec<f64> = (0..1001).map(|i| f64::from(i % 7)).collect();
         let shifted: Vec<f64> = spread.iter().map(|x| x + 2f64.powi(40)).collect();
         let centred = |x: &[f64]| centred_product((x, mean(x)), (x, mean(x)));

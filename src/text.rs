@@ -1,7 +1,7 @@
-//! Texts for people, texts as cells of CSV that no spreadsheet runs, and the words of programs: short, on one line, and
-//! equal for equal causes.
+//! Text for people, CSV cells that spreadsheets do not execute, and messages of programs shortened to one line that is
+//! the same for the same cause.
 
-/// A list as people say it: `a`, `a and b`, `a, b and c`.
+/// Joins a list as in prose: `a`, `a and b`, `a, b and c`.
 ///
 /// ```
 /// assert_eq!(apportion::text::listed(&["length", "width", "height"]), "length, width and height");
@@ -17,16 +17,16 @@ pub fn listed<S: AsRef<str>>(items: &[S]) -> String {
     }
 }
 
-/// `word` with its first letter a capital.
+/// Returns `word` with its first letter as a capital.
 pub fn capitalised(word: &str) -> String {
     let mut letters = word.chars();
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
-/// Most letters and digits of a subscript; what is longer is a name, unless it is that of a Greek letter.
+/// Maximum length of a subscript; a longer one is part of a name, unless it names a Greek letter.
 const LONGEST_SUBSCRIPT: usize = 4;
 
-/// Names that stand for a letter in a subscript.
+/// Names that represent a letter in a subscript.
 const GREEK: [(&str, &str); 12] = [
     ("theta", "θ"),
     ("phi", "φ"),
@@ -42,14 +42,14 @@ const GREEK: [(&str, &str); 12] = [
     ("tau", "τ"),
 ];
 
-/// The subscript as it is set, if it may be one: at most four letters or digits, or the name of a Greek letter.
+/// Returns the subscript as it is typeset, if valid: up to four letters or digits, or the name of a Greek letter.
 pub fn subscript(text: &str) -> Option<&str> {
     let greek = GREEK.iter().find(|(name, _)| *name == text).map(|(_, letter)| *letter);
     let fits = (1..=LONGEST_SUBSCRIPT).contains(&text.chars().count());
     greek.or((fits && text.chars().all(is_of_symbol)).then_some(text))
 }
 
-/// Whether a symbol may begin with the letter.
+/// Returns whether a symbol may begin with the letter.
 pub fn is_letter(c: char) -> bool {
     c.is_ascii_alphabetic() || matches!(c, 'Α'..='Ω' | 'α'..='ω' | 'ϕ' | 'ϑ' | 'µ')
 }
@@ -58,7 +58,7 @@ fn is_of_symbol(c: char) -> bool {
     is_letter(c) || c.is_ascii_digit()
 }
 
-/// The letter and the subscript of a word such as `F_cr`; `None` if it is no symbol.
+/// Splits a word such as `F_cr` into letter and subscript; returns `None` if it is not a symbol.
 pub fn symbol(word: &str) -> Option<(&str, &str)> {
     let (letter, below) = word.split_once('_')?;
     let mut letters = letter.chars();
@@ -66,34 +66,34 @@ pub fn symbol(word: &str) -> Option<(&str, &str)> {
     Some((letter, subscript(below).filter(|_| single)?))
 }
 
-/// A text as a CSV field, quoted where it must be (RFC 4180).
+/// Returns a text as a CSV field, quoted where required (RFC 4180).
 pub fn csv_field(text: &str) -> String {
     let text = inert(text.to_owned());
     if text.contains([',', '"', '\n', '\r']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text }
 }
 
-/// What a text begins with that a spreadsheet takes for a formula, or a reader of tables for a comment.
+/// First characters that make a spreadsheet read a formula, or a reader of tables a comment.
 const FORMULA: [char; 5] = ['=', '+', '-', '@', '#'];
 
-/// A cell that no spreadsheet runs: a text that it would take for a formula begins with an apostrophe. Numbers stay.
+/// Prefixes a text that a spreadsheet would take for a formula with an apostrophe. Numbers are unchanged.
 pub fn inert(text: String) -> String {
     if text.starts_with(FORMULA) && text.parse::<f64>().is_err() { format!("'{text}") } else { text }
 }
 
-/// A text without the apostrophe of [`inert`].
+/// Returns a text without the apostrophe of [`inert`].
 pub fn plain_field(text: &str) -> &str {
     text.strip_prefix('\'').filter(|text| text.starts_with(FORMULA)).unwrap_or(text)
 }
 
-/// Characters of a program's words that a reason keeps.
+/// Maximum number of characters of a program's message in a reason.
 const MAX_LETTERS: usize = 120;
 
-/// One line of a program's own words, shortened, for reasons.
+/// Shortens the message of a program to one line, for reasons.
 pub fn shortened(text: &str) -> String {
     cut(text.trim(), MAX_LETTERS)
 }
 
-/// The text on one line of at most `most` characters, without those that would change the terminal.
+/// Returns the text on one line of at most `most` characters, without those that would change the terminal.
 pub fn cut(text: &str, most: usize) -> String {
     let clean = text.trim_end().chars().map(|c| if c.is_control() { ' ' } else { c });
     let mut short: String = clean.take(most).collect();
@@ -103,7 +103,7 @@ pub fn cut(text: &str, most: usize) -> String {
     short
 }
 
-/// The same with every number as `#`: reasons that differ by the numbers of their rows alone are counted together.
+/// Returns the same with every number as `#`, so that reasons that differ only in numbers are counted together.
 pub fn masked(text: &str) -> String {
     let mut out = String::new();
     let mut letters = text.trim().chars().peekable();
@@ -135,7 +135,7 @@ pub fn masked(text: &str) -> String {
     shortened(&out)
 }
 
-/// A duration as people write it.
+/// Formats a duration for people.
 pub fn seconds(duration: std::time::Duration) -> String {
     format!("{} s", duration.as_secs_f64())
 }

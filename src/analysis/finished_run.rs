@@ -1,4 +1,4 @@
-//! A run that is over, the names of what is estimated from it, and the inputs of its rows.
+//! Finished runs, the names of their estimates, and the inputs of their rows.
 
 use serde_json::{Map, Value};
 
@@ -11,20 +11,20 @@ use crate::study::Study;
 use crate::surrogate::low_fidelity::OwnOutputs;
 use crate::uncertainty::SurrogateEstimates;
 
-/// A run of a study that is over.
+/// A finished run of a study.
 #[derive(Clone, Copy)]
 pub(crate) struct FinishedRun<'a> {
     /// The study.
     pub study: &'a Study,
     /// Its model.
     pub model: &'a dyn Model,
-    /// The design as it was in the end.
+    /// The final design.
     pub design: &'a Design,
     /// Totals of each replicate.
     pub replicates: &'a [Totals],
-    /// The runs of cheaper models.
+    /// The runs of low-fidelity models.
     pub lows: &'a [LowTotals<'a>],
-    /// What surrogates and cheaper models make of every output, where that is known already.
+    /// The surrogate estimates of every output, if already known.
     pub surrogates: Option<&'a [Option<SurrogateEstimates>]>,
     /// Threads that ran the model.
     pub threads: usize,
@@ -32,7 +32,7 @@ pub(crate) struct FinishedRun<'a> {
     pub wall_seconds: f64,
 }
 
-/// The runs of a cheaper model.
+/// The runs of a low-fidelity model.
 #[derive(Clone, Copy)]
 pub(crate) struct LowTotals<'a> {
     /// Its name.
@@ -41,18 +41,18 @@ pub(crate) struct LowTotals<'a> {
     pub shared: &'a [Totals],
     /// A design of its own.
     pub design: &'a Design,
-    /// Totals of each replicate of that.
+    /// Totals of each replicate of its own design.
     pub own: &'a [Totals],
     /// Every output at its rows.
     pub outputs: &'a [Option<OwnOutputs>],
 }
 
-/// Output number `number` of every run of each replicate.
+/// Returns output number `number` of every run of each replicate.
 pub(crate) fn outputs_kept(replicates: &[Totals], number: usize) -> Vec<&PointOutputs> {
     replicates.iter().map(|totals| &totals.outputs[number].point_outputs).collect()
 }
 
-/// Names of everything that has indices, in the order of the swaps: factors, groups, subsets, dummy.
+/// Returns the names of everything that has indices, in the order of the swaps: factors, groups, subsets, dummy.
 pub fn names_of_swaps(study: &Study) -> Vec<String> {
     let factors = study.space.factors();
     let subset = |numbers: &Vec<usize>| {
@@ -64,7 +64,7 @@ pub fn names_of_swaps(study: &Study) -> Vec<String> {
     names.chain(study.analysis.dummy.then(|| "dummy".to_owned())).collect()
 }
 
-/// The values of the factors of `space` by name: numbers in their units, or the labels of categories.
+/// Returns the values of the factors of `space` by name: numbers in their units, or the labels of categories.
 pub(crate) fn named_inputs(space: &Space, values: &[f64]) -> Map<String, Value> {
     let named = space.factors().iter().zip(values).map(|(factor, &value)| {
         let label = factor.distribution().label(value);
@@ -73,15 +73,15 @@ pub(crate) fn named_inputs(space: &Space, values: &[f64]) -> Map<String, Value> 
     named.collect()
 }
 
-/// The values of the factors at `place` of `design`, in their units.
+/// Returns the values of the factors at `place` of `design`, in their units.
 pub fn row_inputs(study: &Study, design: &Design, place: Place) -> Vec<f64> {
     let mut u = vec![0.0; design.factors()];
     design.point(place.row(design), &mut u);
     study.space.values_at(&u)
 }
 
-/// The inputs of a row of `study` in words, such as `length = 300 um, velocity = 0 nm/s`; `place` may lie beyond the
-/// study's own design, where a growing run has gone.
+/// Formats the inputs of a row of `study`, such as `length = 300 um, velocity = 0 nm/s`; `place` may be outside the
+/// study's own design, which a growing run exceeds.
 pub fn inputs_in_words(study: &Study, place: Place) -> String {
     let points = place.point.checked_add(1).and_then(u64::checked_next_power_of_two);
     let longer = points.filter(|points| *points > study.design.points_per_replicate());

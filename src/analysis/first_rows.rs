@@ -1,4 +1,4 @@
-//! The first rows A and B of a run, of which the outputs are kept.
+//! The first rows A and B of a run, whose outputs are kept.
 
 use crate::design::Design;
 use crate::run::SAMPLE;
@@ -12,7 +12,7 @@ pub(crate) struct FirstRows {
 }
 
 impl FirstRows {
-    /// Those of at most `most` base points over all replicates, and of at least one in each.
+    /// Computes those of at most `most` base points over all replicates, and of at least one in each.
     pub fn new(design: &Design, most: u64) -> Self {
         let replicates = design.settings().replicates;
         let points = (most.min(SAMPLE) / replicates).max(1).min(design.points_per_replicate()) as usize;
@@ -20,7 +20,7 @@ impl FirstRows {
         Self { factors: design.factors(), replicates: (0..replicates).map(rows).collect() }
     }
 
-    /// Coordinate `factor` of these rows: A and B of each base point in turn.
+    /// Iterates over coordinate `factor` of these rows: A and B of each base point in turn.
     pub fn coordinates(&self, factor: usize) -> impl Iterator<Item = f64> {
         self.replicates.iter().flat_map(move |columns| {
             let (a, b) = (&columns[factor], &columns[self.factors + factor]);
@@ -28,7 +28,7 @@ impl FirstRows {
         })
     }
 
-    /// The outputs of the same rows, NaN where a run failed; `samples` are those that each replicate has kept.
+    /// Returns the outputs of the same rows, NaN where a run failed; `samples` are those that each replicate has kept.
     pub fn outputs(&self, samples: &[Vec<f64>]) -> Vec<f64> {
         let of_replicate = |(columns, outputs): (&Vec<Vec<f64>>, &Vec<f64>)| {
             let rows = 2 * columns.first().map_or(0, Vec::len);
@@ -37,8 +37,8 @@ impl FirstRows {
         self.replicates.iter().zip(samples).flat_map(of_replicate).collect()
     }
 
-    /// The points of the unit cube of at most `most` of the rows A, the first of every replicate, with their outputs; failed
-    /// runs are left out.
+    /// Returns the points of the unit cube of at most `most` of the rows A, the first of every replicate, with their
+    /// outputs; failed runs are left out.
     pub fn first(&self, most: usize, samples: &[Vec<f64>]) -> Vec<(Vec<f64>, f64)> {
         let each = (most / self.replicates.len()).max(1);
         let of_replicate = |(columns, outputs): (&Vec<Vec<f64>>, &Vec<f64>)| {

@@ -1,4 +1,4 @@
-//! From the estimates of an output, by number, to its indices by name.
+//! Conversion of the estimates of an output, by index, to its indices by name.
 
 use super::finished_run::names_of_swaps;
 use crate::estimate::{Estimator, FirstOrder, ShapleyPlayers, Total};
@@ -13,7 +13,7 @@ use crate::uncertainty::{
     SurrogateUse,
 };
 
-/// Adds `indices` to `record`, by the names of what they belong to.
+/// Adds `indices` to `record`, with the names of their factors, groups and subsets.
 pub(super) fn add_indices(record: &mut OutputResult, study: &Study, indices: &OutputIndices) {
     let factors = study.space.factors();
     let names = |numbers: &[usize]| numbers.iter().map(|&number| factors[number].name.clone()).collect::<Vec<_>>();
@@ -46,7 +46,7 @@ pub(super) fn add_indices(record: &mut OutputResult, study: &Study, indices: &Ou
     record.surrogate = indices.surrogate.as_ref().map(|used| surrogate_record(study, used));
 }
 
-/// The Shapley effects of groups, and of factors without one, in a list of their own: those of factors alone are not theirs.
+/// Adds a separate list of the Shapley effects of groups, and of factors without one, if groups are the players.
 fn add_players(record: &mut OutputResult, indices: &OutputIndices) {
     let of_factors = record.indices.iter_mut().flatten().zip(&indices.factors);
     let of_factors = of_factors.map(|(index, effect)| {
@@ -79,7 +79,7 @@ fn noise_record(study: &Study, indices: &OutputIndices, noise: &NoiseIndices) ->
     }
 }
 
-/// What is reported of all swaps without the noise, which has an entry of its own.
+/// Returns the records of all swaps except the noise, which has its own entry.
 fn without_noise<T>(study: &Study, of_swaps: impl Iterator<Item = T>) -> Vec<T> {
     let noise = study.space.noise();
     of_swaps.enumerate().filter(|(swap, _)| Some(*swap) != noise).map(|(_, of)| of).collect()
@@ -125,7 +125,7 @@ fn estimator_records(study: &Study, indices: &OutputIndices) -> Vec<EstimatorRec
     estimators.map(record).collect()
 }
 
-/// The indices at a stage of the run.
+/// Returns the indices at a stage of the run.
 pub(super) fn stage_record(study: &Study, stage: &Stage, runs_per_point: u64) -> StageRecord {
     let of_factor = |(factor, effect): (&Factor, &EffectEstimates)| PlainIndexRecord {
         factor: factor.name.clone(),

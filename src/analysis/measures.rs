@@ -1,7 +1,7 @@
-//! Other measures of influence than Sobol' indices, from rows A and B of a run.
+//! Measures of influence other than Sobol' indices, from rows A and B of a run.
 //!
-//! The rows A and B are draws from the distributions of the factors, as those of a table of given data are. A run keeps the outputs of
-//! the first of them, and their inputs are a function of their numbers, so that its memory does not grow with its size.
+//! The rows A and B are draws from the distributions of the factors, like those of a table of given data. A run keeps
+//! the outputs of the first of them; inputs follow from row numbers, so memory does not grow with size.
 
 use super::first_rows::FirstRows;
 use crate::design::{Design, DesignSettings, Sampler};
@@ -9,10 +9,10 @@ use crate::given::{Column, MIN_ROWS, Measure, measures_of_rows};
 use crate::result::RunMeasures;
 use crate::space::{Factor, Space};
 
-/// Most rows, over all replicates, that other measures are taken from: the first of a run.
+/// Maximum number of rows, over all replicates, used for other measures: the first of a run.
 pub const MAX_ROWS_OF_MEASURES: u64 = 1 << 12;
 
-/// The rows that measures are taken from: the first rows A and B of every replicate, a column for each factor.
+/// The rows used for measures: the first rows A and B of every replicate, a column for each factor.
 pub(super) struct MeasuredRows {
     rows: FirstRows,
     factors: Vec<Column>,
@@ -34,11 +34,11 @@ impl MeasuredRows {
         Self { rows, factors, seed, independent: sampler == Sampler::Random }
     }
 
-    /// The measures `wanted` of output number `number`, of which every replicate has kept these rows; `None` if too few have a value,
-    /// or all the same.
+    /// Computes the measures `wanted` of output number `number`, of which every replicate has kept these rows; `None`
+    /// if too few have a value, or all the same.
     ///
-    /// Points of nets and Latin hypercubes are spread more evenly than independent draws: what permutations say of chance is far too
-    /// much there, and only rows of random points have p-values. Intervals are a little wide on nets, and hold.
+    /// Points of nets and Latin hypercubes are more even than independent draws: permutations overestimate the effect
+    /// of chance, so that only rows of random points have p-values. Intervals are a little wide on nets, but valid.
     pub fn measures(&self, wanted: &[Measure], number: usize, samples: &[Vec<f64>]) -> Option<RunMeasures> {
         let outputs = self.rows.outputs(samples);
         let has_value: Vec<bool> = outputs.iter().map(|y| y.is_finite()).collect();

@@ -1,4 +1,4 @@
-//! From the merged sums of a run to its result: indices with intervals, counts, reasons and warnings.
+//! Analysis of a finished run: indices with intervals, counts, reasons and warnings from the merged sums.
 
 mod finished_run;
 mod first_rows;

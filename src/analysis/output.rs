@@ -1,4 +1,4 @@
-//! What a run has found about one output.
+//! The results of a run for one output.
 
 use serde_json::Map;
 use thiserror::Error;
@@ -39,15 +39,15 @@ enum NoIndices {
     Undefined(#[from] Undefined),
 }
 
-/// The first rows of the design, for what is found from values one by one.
+/// The first rows of the design, for results that need individual values.
 pub(super) struct OutputRows {
-    /// Of scatters; `None` to have neither these nor distributions.
+    /// Rows for scatter plots; `None` for neither these nor distributions.
     pub scatter: Option<FirstRows>,
-    /// Of other measures than indices, if some are asked for.
+    /// Rows for other measures than indices, if requested.
     pub measured: Option<MeasuredRows>,
 }
 
-/// The result for output number `number`; `whole` holds the counts over all replicates.
+/// Returns the result for output number `number`; `whole` holds the counts over all replicates.
 pub(super) fn output_result(
     run: &FinishedRun<'_>,
     output: &Output,
@@ -83,7 +83,7 @@ pub(super) fn output_result(
         warnings.extend(warnings::of_indices(study, indices));
         warnings::without_consequences(&mut warnings);
     }
-    // Of a table all rows are looked at when it is read.
+    // All rows of a table are checked when it is read.
     if !study.subject.is_external() {
         warnings.extend(unlikely::of_samples(run.design, output, &samples));
     }
@@ -117,16 +117,16 @@ pub(super) fn output_result(
     }
     if let Some(rows) = &rows.scatter {
         result.distribution = distribution_record(&totals.values, &samples, unit, is_item);
-        // At points of SALib nothing is known of the inputs; a series has pictures as a whole.
+        // The inputs at points of SALib are unknown; a series has pictures as a whole.
         let indices = result.indices.as_deref().filter(|_| !study.analysis.salib && !is_item);
         result.scatter = indices.and_then(|indices| scatter_record(rows, &study.space, (unit, &samples), indices));
     }
     result
 }
 
-/// Mean and variance of all successful rows A and B. The indices rest on the `points` base points at which both rows
-/// succeeded, and so do the `moments` with their intervals; where some succeeded alone, the interval of the mean is moved to the
-/// mean of all, and that of the variance is scaled to theirs.
+/// Computes mean and variance of all successful rows A and B. The indices use the `points` base points at which both
+/// rows succeeded, and so do the `moments` with their intervals; if some succeeded alone, the interval of the mean is
+/// moved to the mean of all, and that of the variance is scaled to theirs.
 fn moments_of_all_rows(
     values: &CentralMoments,
     moments: Option<OutputMoments>,
@@ -155,8 +155,8 @@ fn failure_count(run: &FinishedRun<'_>, failure: &RowFailure, tally: Tally) -> F
     }
 }
 
-/// Moments and range from all values of the rows A and B, the rest from those that were kept. `None` without values, and
-/// where a number is beyond double precision in the unit. A value of a series has neither histogram nor density.
+/// Computes moments and range from all values of the rows A and B, the rest from the kept ones. `None` without values,
+/// and if a number exceeds double precision in the unit. A value of a series has neither histogram nor density.
 fn distribution_record(
     values: &CentralMoments,
     samples: &[Vec<f64>],
@@ -170,7 +170,7 @@ fn distribution_record(
     let n = values.count();
     let variance = values.variance()?;
     let sd = (variance * (n as f64 / (n as f64 - 1.0))).sqrt();
-    // Of values that vary by 1e-160 the variance is beyond double precision; that of the kept ones is scaled.
+    // The variance of values that vary by 1e-160 underflows; that of the kept ones is scaled.
     if variance.is_normal() || min == max {
         sample.sd = (n > 1).then(|| unit.span_from_si(sd)).filter(|sd| sd.is_finite());
     }

@@ -1,30 +1,29 @@
-//! Levels of factors that the rows of a design have hardly met, or not at all. What they do to the output is not in the numbers,
-//! and no number shows that it is missing.
+//! Levels of factors that are rare or absent in the rows of a design: results silently miss their effect.
 
 use crate::design::Design;
 use crate::result::{PAIRS_OF_POINT, RareLevel};
 use crate::space::{Distribution, Space};
 use crate::uncertainty::{Interval, OutputIndices};
 
-/// Times that two rare levels must meet for what they do together to be seen: fewer miss it in one of 150 designs.
+/// Expected number of joint draws of two rare levels for their joint effect to be seen: one of 150 designs has none.
 const MIN_MEETINGS: f64 = 5.0;
 
-/// Probability of the more likely of two levels from which what they do together may matter beside what the other does alone.
+/// Probability of the more likely of two levels above which their joint effect may matter next to that of the other.
 const MATTERS: f64 = 0.025;
 
-/// Values of a factor in A and B that a level needs for its effect to be known: with ten, to a third.
+/// Values of a factor in A and B that a level needs for its effect to be estimated: with ten, to a third.
 const MIN_DRAWS: u64 = 10;
 
-/// Of numbers in order, probability of a rare one over that of an average one: others are much like their neighbours.
+/// For ordered numbers, ratio of the probability of a rare one to the average: others are similar to their neighbours.
 const RARE: f64 = 0.5;
 
-/// Share of the variance of a histogram that a bin needs to carry weight.
+/// Share of the variance of a histogram above which a bin matters.
 const WEIGHT: f64 = 0.1;
 
-/// Base points at a time.
+/// Base points processed at a time.
 const CHUNK: u64 = 1 << 12;
 
-/// A part of the unit interval, and the values that it stands for.
+/// A part of the unit interval, and the name of its values.
 struct Part {
     name: String,
     low: f64,
@@ -34,7 +33,7 @@ struct Part {
 }
 
 impl Part {
-    /// One of `count`.
+    /// Creates one of `count` parts.
     fn new(name: String, low: f64, high: f64, count: usize) -> Self {
         Self { name, low, high, is_rare: (high - low) * (count as f64) < RARE }
     }
@@ -44,11 +43,11 @@ impl Part {
     }
 }
 
-/// The levels of the factors of `space`, and the thin bins of histograms, that fewer than ten values of A and B in `design` have.
+/// Returns the levels of the factors of `space`, and thin bins of histograms, with fewer than ten values in `design`.
 pub(crate) fn rare_levels(space: &Space, design: &Design) -> Vec<RareLevel> {
     let settings = design.settings();
     let all = 2 * settings.base_samples;
-    // No sampler is so uneven that a level of three times as many values in the mean has fewer.
+    // For any sampler, a level with an expected number three times as large has enough values.
     let is_thin = |part: &Part| part.probability() * (all as f64) < 3.0 * MIN_DRAWS as f64;
     let thin = |(factor, law): (usize, &Distribution)| -> Vec<(usize, Part)> {
         parts(law).into_iter().filter(is_thin).map(|part| (factor, part)).collect()
@@ -89,7 +88,7 @@ pub(crate) fn rare_levels(space: &Space, design: &Design) -> Vec<RareLevel> {
     rare.chain(pair).collect()
 }
 
-/// Of the rarest levels of factors the two that are rarest together, the more likely one of them not rare itself.
+/// Returns the pair of levels that is rarest together, of which the more likely one is not rare itself.
 fn rarest_pair(mut levels: Vec<(usize, Part)>) -> Option<[(usize, Part); 2]> {
     levels.sort_by(|a, b| a.1.probability().total_cmp(&b.1.probability()));
     let partner = levels.iter().skip(1).position(|level| level.1.probability() >= MATTERS)? + 1;
@@ -97,13 +96,13 @@ fn rarest_pair(mut levels: Vec<(usize, Part)>) -> Option<[(usize, Part); 2]> {
     Some([levels.swap_remove(0), partner])
 }
 
-/// Base samples with which every one of `rare` has enough values in the mean.
+/// Returns the number of base samples for which every one of `rare` is expected to have enough values.
 pub(crate) fn enough_base_samples(rare: &[RareLevel]) -> f64 {
     rare.iter().map(|level| level.base_samples(MIN_DRAWS as f64)).fold(0.0, f64::max)
 }
 
-/// Takes back what `indices` cannot say without the levels: probabilities, and of a factor of one value in all rows that it has no
-/// effect.
+/// Removes results from `indices` that are not valid without the levels: probabilities, and that a factor with a single
+/// value in all rows has no effect.
 pub(super) fn withdraw(indices: &mut OutputIndices, rare: &[RareLevel]) {
     for level in rare {
         for number in level.partner.into_iter().chain([level.number]) {
@@ -124,7 +123,7 @@ pub(super) fn withdraw(indices: &mut OutputIndices, rare: &[RareLevel]) {
     }
 }
 
-/// The parts that a distribution consists of, as far as each may do something of its own.
+/// Returns the parts of a distribution that may each have an effect of their own.
 fn parts(law: &Distribution) -> Vec<Part> {
     if let Distribution::Histogram(histogram) = law {
         let (mean, variance) = (law.mean(), law.sd().powi(2));
@@ -138,7 +137,7 @@ fn parts(law: &Distribution) -> Vec<Part> {
     let Some(levels) = law.levels() else { return Vec::new() };
     let count = levels.len();
     let mut end = 0.0;
-    // Each comes with the quantile in its middle.
+    // Each has the quantile in its middle.
     let part = |(value, middle): (f64, f64)| {
         let low = end;
         end = 2.0 * middle - low;
@@ -151,12 +150,12 @@ fn parts(law: &Distribution) -> Vec<Part> {
         Distribution::Discrete(_) | Distribution::Categorical(_) => {
             parts.into_iter().filter(|part| is_label || part.is_rare).collect()
         }
-        // Counts go on beyond any number: whether there is more than one of them is what matters.
+        // Counts are unbounded: what matters is whether there is more than one of them.
         _ => parts.into_iter().max_by(|a, b| a.probability().total_cmp(&b.probability())).map_or_else(Vec::new, others),
     }
 }
 
-/// What is below a part, and above it.
+/// Returns the parts below and above a part.
 fn others(part: Part) -> Vec<Part> {
     let below = Part::new(format!("below {}", part.name), 0.0, part.low, 2);
     let above = Part::new(format!("above {}", part.name), part.high, 1.0, 2);
@@ -164,7 +163,7 @@ fn others(part: Part) -> Vec<Part> {
     if larger.probability() > 0.0 { vec![larger] } else { Vec::new() }
 }
 
-/// How many values of A and B lie in each of `parts`.
+/// Returns the number of values of A and B in each of `parts`.
 fn counts(design: &Design, parts: &[(usize, Part)]) -> Vec<u64> {
     let mut counts = vec![0; parts.len()];
     let points = design.points_per_replicate();
@@ -182,7 +181,7 @@ fn counts(design: &Design, parts: &[(usize, Part)]) -> Vec<u64> {
     counts
 }
 
-/// The same in the mean.
+/// Returns the expected numbers.
 fn expected(all: u64, parts: &[(usize, Part)]) -> Vec<u64> {
     parts.iter().map(|(_, part)| (part.probability() * all as f64) as u64).collect()
 }
@@ -226,7 +225,7 @@ mod tests {
         assert_eq!((rare.len(), rare[0].partner, rare[0].draws, rare[0].values), (1, Some(1), 1, 512), "{rare:?}");
         assert!(rare[0].is_missed() && (rare[0].base_samples(10.0) - 1000.0).abs() < 1e-6);
         assert!(found([0.05, 0.05], 512).is_empty());
-        // Whatever they do together is little beside what either does alone.
+        // Their joint effect is small compared with the effect of either alone.
         assert!(found([0.01, 0.01], 512).iter().all(|rare| rare.partner.is_none()));
     }
 

@@ -1,4 +1,4 @@
-//! From the totals of a run to its result.
+//! Conversion of the totals of a run to its result.
 
 use std::path::Path;
 
@@ -19,7 +19,7 @@ use crate::run::Totals;
 use crate::study::Study;
 use crate::uncertainty::IntervalMethod;
 
-/// The result of a run; `stopped` tells why a growing one ended.
+/// Returns the result of a run; `stopped` is why a growing one ended.
 pub(crate) fn result(run: &FinishedRun<'_>, stopped: Option<&Stopped>) -> StudyResult {
     let FinishedRun { study, model, design, replicates, lows, .. } = *run;
     let mut whole = Totals::none(model);
@@ -107,7 +107,7 @@ fn name_of(file: &Path) -> String {
     file.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned())
 }
 
-/// Over all outputs if the study asks for it, else over those that belong to no series, if they are many.
+/// Aggregates all outputs if the study requests it, otherwise those that belong to no series, if there are many.
 fn aggregate(run: &FinishedRun<'_>) -> Option<AggregateRecord> {
     let FinishedRun { study, model, .. } = *run;
     let (outputs, single) = (model.outputs(), single_outputs(model));
@@ -133,7 +133,7 @@ fn aggregate(run: &FinishedRun<'_>) -> Option<AggregateRecord> {
     })
 }
 
-/// What a model with a ladder of fidelities spent, by its counters.
+/// Returns the effort of a model with a ladder of fidelities, by its counters.
 fn effort(model: &dyn Model, whole: &Totals) -> Option<EffortRecord> {
     let counts = || model.counters().iter().zip(whole.counts.values());
     let value = |name| counts().find(|(counter, _)| counter.name == name).map_or(0.0, |(_, value)| value);

@@ -1,4 +1,4 @@
-//! The output over its most influential factors: a few points to look at, and the means over slices of each factor.
+//! The output over its most influential factors: some points for plots, and the means over slices of each factor.
 
 use super::first_rows::FirstRows;
 use crate::design::Design;
@@ -7,30 +7,30 @@ use crate::result::{ConditionalMeansRecord, IndexRecord, ScatterRecord};
 use crate::space::{Distribution, Factor, Space};
 use crate::sum::{centred_product, mean, rescaled};
 
-/// Factors that are looked at.
+/// Number of factors.
 const FACTORS: usize = 6;
-/// Most points that are kept to be drawn.
+/// Maximum number of points kept for plots.
 const POINTS: usize = 400;
-/// Slices of equal probability of a factor that is not discrete.
+/// Slices of equal probability of a continuous factor.
 const SLICES: usize = 20;
-/// Most values of a discrete factor that are slices of their own.
+/// Maximum number of values of a discrete factor that are slices of their own.
 const MAX_VALUES: usize = 50;
-/// Most base points that the means rest on, over all replicates.
+/// Maximum number of base points for the means, over all replicates.
 const MAX_ROWS: u64 = 1 << 14;
-/// Fewest of them, however many columns the design has.
+/// Minimum number of them, for any number of columns of the design.
 const MIN_ROWS: u64 = 1 << 10;
-/// Numbers of the design that are computed again for the means, beyond [`MIN_ROWS`] points.
+/// Numbers of the design that are computed again for the means, in addition to [`MIN_ROWS`] points.
 const NUMBERS: u64 = 1 << 18;
 /// Half width of a 95 % interval of a mean of many values, in standard errors.
 const QUANTILE: f64 = 1.96;
 
-/// The rows that scatters are made from: fewer for many factors, to stay quick.
+/// Returns the rows for scatters: fewer for many factors, to limit the time.
 pub(super) fn rows_of_scatter(design: &Design) -> FirstRows {
     FirstRows::new(design, (NUMBERS / design.columns().max(1) as u64).clamp(MIN_ROWS, MAX_ROWS))
 }
 
-/// The scatter of an output in `unit`, of which every replicate has kept `samples`, for the factors with the largest of `indices`; `rows` are the first of its design. `None` where a
-/// number is beyond double precision in its unit.
+/// Computes the scatter of an output in `unit`, of which every replicate has kept `samples`, for the factors with the
+/// largest of `indices`; `rows` are the first of its design. `None` if a number exceeds double precision in its unit.
 pub(super) fn scatter_record(
     rows: &FirstRows,
     space: &Space,
@@ -63,7 +63,7 @@ pub(super) fn scatter_record(
     numbers.chain(means).all(|number| number.is_finite()).then_some(record)
 }
 
-/// Numbers of the factors with the largest total indices, the largest first.
+/// Returns the indices of the factors with the largest total indices, the largest first.
 fn largest(indices: &[IndexRecord]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..indices.len()).collect();
     order.sort_by(|&a, &b| indices[b].effect.total.estimate.total_cmp(&indices[a].effect.total.estimate));
@@ -71,7 +71,7 @@ fn largest(indices: &[IndexRecord]) -> Vec<usize> {
     order
 }
 
-/// The slices into which the values of a factor are cut.
+/// The slices of the values of a factor.
 enum Slices<'a> {
     /// Of equal probability, with their medians.
     Equal(Vec<f64>),
@@ -97,7 +97,7 @@ impl<'a> Slices<'a> {
         }
     }
 
-    /// The slice of a point of the unit interval.
+    /// Returns the slice of a point of the unit interval.
     fn number(&self, u: f64) -> usize {
         match self {
             Self::Equal(_) => ((u * SLICES as f64) as usize).min(SLICES - 1),
@@ -109,7 +109,7 @@ impl<'a> Slices<'a> {
     }
 }
 
-/// `rows` are (coordinate, output times 2^-exponent), for outputs with a value.
+/// Computes means over slices; `rows` are (coordinate, output times 2^-exponent), for outputs with a value.
 fn conditional_means(factor: &Factor, unit: &Unit, rows: &[(f64, f64)], exponent: i32) -> ConditionalMeansRecord {
     let slices = Slices::new(factor.distribution());
     let mut values = vec![Vec::new(); slices.middles().len()];

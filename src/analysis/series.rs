@@ -8,8 +8,8 @@ use crate::run::Totals;
 use crate::study::Study;
 use crate::uncertainty::{AggregateIndices, SurrogateEstimates, aggregate_indices};
 
-/// What the run says of every series of its model; `whole` holds the counts over all replicates, `surrogates` what these make of
-/// every output.
+/// Returns the results for every series of the model; `whole` holds the counts over all replicates, `surrogates` the
+/// surrogate estimates of every output.
 pub(super) fn series(
     run: &FinishedRun<'_>,
     whole: &Totals,
@@ -38,7 +38,7 @@ pub(super) fn series(
     run.model.series().iter().map(of_series).collect()
 }
 
-/// Indices over the outputs at `places` together.
+/// Computes joint indices of the outputs at `places`.
 pub(super) fn together(
     run: &FinishedRun<'_>,
     places: impl Iterator<Item = usize>,
@@ -51,7 +51,7 @@ pub(super) fn together(
     indices.map(|indices| indices.of_effects(&run.study.layout()))
 }
 
-/// The indices over several outputs together, of every factor but a noise.
+/// Returns the indices over several outputs together, of every factor but a noise.
 pub(super) fn together_records(study: &Study, all: &AggregateIndices) -> Vec<PlainIndexRecord> {
     let known = (0..study.space.factors().len()).filter(|factor| Some(*factor) != study.space.noise());
     known.map(|factor| together_record(study, all, factor)).collect()
@@ -65,7 +65,7 @@ pub(super) fn together_record(study: &Study, all: &AggregateIndices, factor: usi
     }
 }
 
-/// Places of the outputs that belong to no series.
+/// Returns the places of the outputs that belong to no series.
 pub(super) fn single_outputs(model: &dyn Model) -> Vec<usize> {
     let single = |place: &usize| !model.series().iter().any(|series| series.places().contains(place));
     (0..model.outputs().len()).filter(single).collect()

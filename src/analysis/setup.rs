@@ -1,4 +1,4 @@
-//! What was asked, as it stands in results: the study, its factors, validity flags.
+//! The question as recorded in results: the study, its factors, validity flags.
 
 use serde_json::Value;
 
@@ -7,7 +7,7 @@ use crate::result::{ConstantRecord, CorrelationRecord, FactorRecord, StudyRecord
 use crate::space::{Dependence, Factor};
 use crate::study::Study;
 
-/// The study as it was run.
+/// Returns the study as it was run.
 pub fn study_setup(study: &Study) -> StudySetup {
     StudySetup {
         asked: study_record(study),
@@ -35,13 +35,13 @@ pub(crate) fn factor_record(factor: &Factor) -> FactorRecord {
         name: factor.name.clone(),
         unit: factor.unit().to_string(),
         group: factor.group.clone(),
-        // Serialisation fails on maps without text keys only, of which there is none.
+        // Serialisation fails only on maps without text keys, of which there are none.
         distribution: serde_json::to_value(factor.distribution()).unwrap_or(Value::Null),
         nominal: factor.nominal,
     }
 }
 
-/// A dependence as it was stated.
+/// Returns the record of a dependence.
 fn dependence_record(dependence: &Dependence) -> CorrelationRecord {
     CorrelationRecord {
         factors: dependence.factors().to_vec(),
@@ -50,7 +50,7 @@ fn dependence_record(dependence: &Dependence) -> CorrelationRecord {
     }
 }
 
-/// The validity flags with the number of the `runs` that have raised each.
+/// Returns the validity flags with the number of the `runs` that have raised each.
 pub fn validity<'a>(raised: impl Iterator<Item = (&'a Flag, u64)>, runs: u64) -> Vec<ValidityRecord> {
     let reported = raised.filter(|(flag, runs)| !flag.warns || *runs > 0);
     let record = |(flag, raised): (&Flag, u64)| ValidityRecord {

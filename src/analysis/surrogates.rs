@@ -1,4 +1,4 @@
-//! What surrogates and cheaper models make of the outputs of a run.
+//! Surrogate estimates of the outputs of a run, with low-fidelity models if there are any.
 
 use std::collections::BTreeMap;
 
@@ -13,14 +13,14 @@ use crate::surrogate::low_fidelity::{LowOutputs, low_fidelity_estimates};
 use crate::surrogate::{families, surrogates_together};
 use crate::uncertainty::{IntervalOptions, SurrogateEstimates, output_indices, points_of_stages};
 
-/// Rows on which surrogates of a quick model are tried.
+/// Number of rows on which surrogates of a fast model are tried.
 const TRIAL_ROWS: u64 = 1 << 13;
 
-/// How many times smaller errors must be there with surrogates than without: what they leave is known less well from few rows than from
-/// all, and a correction of a million runs takes seconds.
+/// Minimum ratio of the errors without and with surrogates: their residual is estimated less accurately from few rows
+/// than from all, and a correction of a million runs takes seconds.
 const MIN_GAIN: f64 = 4.0;
 
-/// How the intervals and probabilities of `study` are found.
+/// Returns the options for intervals and probabilities of `study`.
 pub(crate) fn interval_options(study: &Study) -> IntervalOptions<'static> {
     let (analysis, seed) = (&study.analysis, study.design.settings().seed);
     let (method, threshold, resamples) = (analysis.intervals, analysis.threshold, analysis.resamples);
@@ -36,9 +36,9 @@ pub(crate) fn interval_options(study: &Study) -> IntervalOptions<'static> {
     }
 }
 
-/// What surrogates and cheaper models make of every output of the runs of `design`, the first of `replicates`, if the study
-/// asks for it and the outputs have been kept: of each the one with the smallest errors. `longer` has what they made of a longer run
-/// of the same points, if there was one: of its outputs the same ones are corrected, in the same terms.
+/// Computes the surrogate estimates of every output of the runs of `design`, the first of `replicates`, if the study
+/// requests them and the outputs have been kept: for each those with the smallest errors. `longer` is the estimates of
+/// a longer run of the same points, if there was one: the same outputs are corrected, in the same terms.
 pub(crate) fn surrogates(
     study: &Study,
     design: &Design,
@@ -49,7 +49,7 @@ pub(crate) fn surrogates(
     surrogates_and_trials(study, design, replicates, lows, longer).0
 }
 
-/// The same, and the trial of each output that had one.
+/// Returns the same, and the trial of each output that had one.
 fn surrogates_and_trials(
     study: &Study,
     design: &Design,
@@ -76,7 +76,7 @@ fn surrogates_and_trials(
         [] => trials.iter().map(|trial| trial.is_none_or(|trial| trial.gain > MIN_GAIN)).collect(),
         longer => longer.iter().map(Option::is_some).collect(),
     };
-    // Polynomials go on where runs fail, and the numbers are those of the part of the space where they succeed.
+    // Polynomials continue where runs fail, but the numbers are those of the part of the space where they succeed.
     let is_left_out = |(outputs, gains): (&Vec<&PointOutputs>, &bool)| {
         !gains
             || study.analysis.surrogate != SurrogateChoice::On && outputs.iter().any(|outputs| outputs.has_failures())
@@ -107,8 +107,8 @@ fn surrogates_and_trials(
     (alone.into_iter().enumerate().map(|place| best(place).map(of_rows)).collect(), trials)
 }
 
-/// What surrogates of each output gain, where it is not known beforehand that they are worth their time, by a fit to some of the base
-/// points.
+/// Returns the gain by surrogates of each output, if it is not known beforehand that they are worth their time, by a
+/// fit to some of the base points.
 fn trials(
     study: &Study,
     design: &Design,
@@ -137,23 +137,23 @@ fn trials(
     found.iter().enumerate().map(gains).collect()
 }
 
-/// How many of the parts of a replicate the trial takes.
+/// Returns the number of parts of a replicate that the trial uses.
 fn parts_of_trial(all: &MomentParts, design: &Design) -> usize {
     let parts = all.parts().len() as u64;
     let wanted = (TRIAL_ROWS * parts).div_ceil(design.rows()).next_power_of_two();
     wanted.min(parts) as usize
 }
 
-/// What surrogates and cheaper models make of every output, in the end and at every stage of the run.
+/// The surrogate estimates of every output, at the end and at every stage of the run.
 pub(super) struct Corrections {
     pub whole: Vec<Option<SurrogateEstimates>>,
     /// By the base points of a replicate.
     pub stages: BTreeMap<u64, Vec<Option<SurrogateEstimates>>>,
-    /// What surrogates gained in trials of the outputs; none of a run that grew.
+    /// The gains by surrogates in trials of the outputs; empty for a run that grew.
     pub trials: Vec<Option<SurrogateTrial>>,
-    /// What the rows hardly met.
+    /// The levels that are rare among the rows.
     pub rare: Vec<RareLevel>,
-    /// See [`Design::column_correlations`].
+    /// The [`Design::column_correlations`].
     pub correlations: Vec<f64>,
 }
 

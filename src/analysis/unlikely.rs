@@ -1,4 +1,4 @@
-//! Values of outputs that may stand for something else.
+//! Output values that may be codes or errors.
 
 use crate::design::Design;
 use crate::model::Output;
@@ -7,7 +7,7 @@ use crate::result::Warning;
 use crate::run::{Piece, Store};
 use crate::study::Study;
 
-/// For each output of `study` a sentence on the unlikely value among those in `store`, if there is one.
+/// Returns for each output of `study` a sentence on the unlikely value among those in `store`, if there is one.
 pub fn unlikely_outputs(study: &Study, store: &Store) -> Vec<Option<String>> {
     let design = &study.design;
     let rows = design.points_per_replicate() * design.rows_per_point();
@@ -23,7 +23,7 @@ pub fn unlikely_outputs(study: &Study, store: &Store) -> Vec<Option<String>> {
     outputs.iter().enumerate().map(of_output).collect()
 }
 
-/// A sentence on the unlikely value among the `samples` of an output: of every replicate of `design` the first rows A and B.
+/// Returns a warning of the unlikely value among the `samples` of an output: the first rows A and B of each replicate.
 pub(super) fn of_samples(design: &Design, output: &Output, samples: &[Vec<f64>]) -> Option<Warning> {
     let values: Vec<f64> = samples.iter().flatten().map(|si| output.unit.from_si(*si)).collect();
     let found = Unlikely::find(&values)?;

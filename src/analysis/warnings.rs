@@ -1,4 +1,4 @@
-//! The warnings that the runs and the numbers of an output give reason for.
+//! Warnings about the runs and the results of an output.
 
 use super::finished_run::{FinishedRun, names_of_swaps};
 use crate::estimate::{CentralMoments, Moments};
@@ -11,7 +11,7 @@ use crate::uncertainty::{
     SurrogateUse, differs_clearly,
 };
 
-/// Warnings about the runs behind an output.
+/// Returns warnings about the runs of an output.
 ///
 /// If failures depended on each factor by itself, the rows AB_j of two rows that succeed would succeed too: `used` counts both.
 pub(super) fn of_runs(run: &FinishedRun<'_>, failed: u64, used: &Moments) -> Vec<Warning> {
@@ -30,7 +30,7 @@ pub(super) fn of_runs(run: &FinishedRun<'_>, failed: u64, used: &Moments) -> Vec
     warnings
 }
 
-/// Drops the advice to take more samples where joint failures are why indices contradict each other.
+/// Removes the advice to take more samples if indices contradict each other because of joint failures.
 pub(super) fn without_consequences(warnings: &mut Vec<Warning>) {
     let is_cause = |warning: &Warning| matches!(warning, Warning::JointFailures { points, base_samples } if 1000 * points >= *base_samples);
     if warnings.iter().any(is_cause) {
@@ -52,7 +52,7 @@ pub(super) fn without_consequences(warnings: &mut Vec<Warning>) {
     }
 }
 
-/// Warnings that the model has raised.
+/// Returns warnings raised by the model.
 pub(super) fn of_flags(model: &dyn Model, whole: &Totals) -> Vec<Warning> {
     let raised = model.flags().iter().zip(&whole.flags).filter(|(flag, runs)| flag.warns && **runs > 0);
     let warning = |(flag, runs): (&crate::model::Flag, &u64)| Warning::ModelFlag {
@@ -63,30 +63,30 @@ pub(super) fn of_flags(model: &dyn Model, whole: &Totals) -> Vec<Warning> {
     raised.map(warning).collect()
 }
 
-/// Effective number of rows behind a variance below which it counts as that of few.
+/// Effective number of rows of a variance below which it counts as dominated by few.
 const MIN_EFFECTIVE_ROWS: f64 = 40.0;
 
 /// Share of the variance that surrogates should explain for a split design to gain (`docs/accuracy/surrogate.md`).
 const MIN_EXPLAINED: f64 = 0.9;
 
-/// Excess kurtosis (that of an exponential distribution) up to which few rows are just a small sample.
+/// Excess kurtosis (that of an exponential distribution) up to which few rows only mean a small sample.
 const MAX_KURTOSIS: f64 = 6.0;
 
-/// A warning if the variance of an output rests on few of its `values`: n/(g2 + 3) of n rows with the excess kurtosis g2
-/// is their number if all others did nothing.
+/// Returns a warning if few of its `values` dominate the variance of an output: n/(g2 + 3) of n rows with the excess
+/// kurtosis g2 is their number if all others had no effect.
 pub(super) fn of_values(moments: &CentralMoments) -> Option<Warning> {
     let (values, kurtosis) = (moments.count(), moments.excess_kurtosis()?);
     let rows = values as f64 / (kurtosis + 3.0);
     (kurtosis > MAX_KURTOSIS && rows < MIN_EFFECTIVE_ROWS).then_some(Warning::FewRows { rows, values, kurtosis })
 }
 
-/// A warning of outputs whose size leaves few digits to what varies in them.
+/// Returns a warning for outputs so large that few digits are left for their variation.
 pub(super) fn of_digits(values: &CentralMoments) -> Option<Warning> {
     let error = error_of_rounding(values);
     (error > LOST && error.is_finite()).then_some(Warning::FewDigits { error })
 }
 
-/// A warning of factors that take single values and depend on others: what is held fixed is the normal score behind a value.
+/// Returns a warning of discrete factors that depend on others: what is fixed is the normal score behind a value.
 fn of_dependent_steps(study: &Study) -> Option<Warning> {
     let space = study.space();
     let depends =
@@ -98,11 +98,11 @@ fn of_dependent_steps(study: &Study) -> Option<Warning> {
     (!factors.is_empty()).then_some(Warning::DependentSteps { factors })
 }
 
-/// Indices below this are not warned of one by one.
+/// Indices below this get no individual warnings.
 const MIN_INDEX: f64 = 1e-6;
 
-/// Warnings about indices that cannot all be right. Each compares an estimate with its interval, so that the noise of
-/// a small sample does not raise it.
+/// Returns warnings about indices that cannot all be right. Each compares an estimate with its interval, so that the
+/// noise of a small sample does not raise it.
 pub(super) fn of_indices(study: &Study, indices: &OutputIndices) -> Vec<Warning> {
     let mut warnings = Vec::new();
     let alone = study.design.settings().replicates == 1 && study.analysis.intervals == IntervalMethod::Replicates;
@@ -139,7 +139,7 @@ pub(super) fn of_indices(study: &Study, indices: &OutputIndices) -> Vec<Warning>
         }
         warnings.extend(disagreements(study, &name, checks));
     }
-    // Indices of factors that depend on each other sum to anything.
+    // Indices of dependent factors have no fixed sum.
     if study.space.copula().is_some() {
         return warnings;
     }
@@ -152,7 +152,7 @@ pub(super) fn of_indices(study: &Study, indices: &OutputIndices) -> Vec<Warning>
             warnings.push(Warning::TotalAboveOne { name, total: effect.total.estimate });
         }
     }
-    // Where this program runs the model, its rows are in order.
+    // If this program runs the model, its rows are in order.
     if study.subject.is_external() && looks_shuffled(indices) {
         warnings.push(Warning::Shuffled);
     }
@@ -165,7 +165,7 @@ pub(super) fn of_indices(study: &Study, indices: &OutputIndices) -> Vec<Warning>
     warnings
 }
 
-/// A noise that does nothing, or all.
+/// Returns a warning of a noise that has no effect, or the whole effect.
 fn of_noise(study: &Study, indices: &OutputIndices, noise: &NoiseIndices) -> Option<Warning> {
     let (name, total) = (&study.space.factors()[noise.factor].name, indices.factors[noise.factor].total);
     let factor = name.clone();
@@ -176,7 +176,7 @@ fn of_noise(study: &Study, indices: &OutputIndices, noise: &NoiseIndices) -> Opt
     noise.mean_share.interval.is_some_and(|share| share.low <= 0.0).then_some(Warning::AllNoise { factor })
 }
 
-/// Estimators asked for whose indices differ from the default ones by more than chance.
+/// Returns warnings of requested estimators whose indices differ from the default ones by more than chance.
 fn disagreements(study: &Study, name: &str, checks: &EffectChecks) -> Vec<Warning> {
     let mut warnings = Vec::new();
     for (estimator, other) in study.analysis.estimators.iter().zip(&checks.others) {
@@ -193,7 +193,7 @@ fn disagreements(study: &Study, name: &str, checks: &EffectChecks) -> Vec<Warnin
     warnings
 }
 
-/// Whether the rows A, B and AB of a base point are as different as any others: no factor acts alone, and each takes part in all.
+/// Returns whether the rows A, B and AB of a base point look independent: first-order indices near 0, totals near 1.
 fn looks_shuffled(indices: &OutputIndices) -> bool {
     const NEAR: f64 = 0.15;
     let all = |near: &dyn Fn(&EffectEstimates) -> bool| indices.factors.iter().all(near);
@@ -202,10 +202,10 @@ fn looks_shuffled(indices: &OutputIndices) -> bool {
         && all(&|effect| effect.first_order.estimate.abs() < NEAR)
 }
 
-/// Error of indices by rounding of the outputs beyond which a result warns of it.
+/// Error of indices by rounding of the outputs above which a result has a warning.
 const LOST: f64 = 1e-3;
 
-/// Largest error of an index by the rounding of outputs with these moments; infinite of outputs that do not vary.
+/// Returns the largest error of an index by the rounding of outputs with these moments; infinity if they do not vary.
 fn error_of_rounding(values: &CentralMoments) -> f64 {
     let Some(((low, high), variance)) = values.range().zip(values.variance()) else { return f64::INFINITY };
     let largest = low.abs().max(high.abs());

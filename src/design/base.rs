@@ -6,21 +6,21 @@ use super::mixed::MixedColumns;
 use super::orders::{OrderColumns, Orders};
 use super::{DesignSettings, LatinHypercube, RandomPoints, Rows, Sampler, SobolSequence};
 
-/// Plain rows have a stream of their own, of every sampler: replicates count below 2^12, and the permutations of the
-/// hypercube have bit 63.
+/// Plain rows have a random stream of their own, for every sampler: replicates count below 2^12, and the permutations
+/// of the hypercube have bit 63.
 const PLAIN_STREAM: u64 = 1 << 61;
 
-/// The base points of one replicate: a column for each dimension, the first d of A, the next d of B, and the last ones
-/// of the plain rows. The columns of A and B are the same with and without the others.
+/// The base points of one replicate: a column for each dimension, the first d for A, the next d for B, and the last
+/// ones for the plain rows. The columns of A and B do not depend on the others.
 #[derive(Debug, Clone)]
 pub struct BasePoints {
     points: Points,
-    /// The points of the plain rows, those of a base point one after the other, and how many it has.
+    /// The points of the plain rows, those of a base point one after the other, and their number per base point.
     plain: Option<(Points, usize)>,
     factors: usize,
     /// The columns of dependent factors.
     mixed: Option<Arc<MixedColumns>>,
-    /// Those of steps along random orders of the factors, and the orders.
+    /// The columns of steps along random orders of the factors, and the orders.
     steps: Option<(Arc<OrderColumns>, Orders)>,
 }
 
@@ -32,7 +32,7 @@ enum Points {
 }
 
 impl BasePoints {
-    /// The points of `replicate` in `factors` columns for each of A and B and the plain ones of `rows`.
+    /// Creates the points of `replicate` in `factors` columns for each of A and B and the plain rows of `rows`.
     pub(super) fn new(settings: &DesignSettings, replicate: u64, factors: usize, rows: &Rows) -> Self {
         let DesignSettings { sampler, seed, .. } = *settings;
         let plain_rows = rows.plain_rows as usize;
@@ -48,18 +48,18 @@ impl BasePoints {
         Self { points, plain, factors, mixed: None, steps: None }
     }
 
-    /// The same points with the columns of dependent factors.
+    /// Adds the columns of dependent factors.
     pub(super) fn with_mixed(self, mixed: Option<Arc<MixedColumns>>) -> Self {
         Self { mixed, ..self }
     }
 
-    /// The same points with the columns of steps along random orders.
+    /// Adds the columns of steps along random orders.
     pub(super) fn with_steps(self, steps: Option<(Arc<OrderColumns>, Orders)>) -> Self {
         Self { steps, ..self }
     }
 
-    /// The points `first`, `first + 1`, ... into `columns`, all of one length: one per dimension, or those of A and B alone; values in
-    /// (0, 1).
+    /// Writes the points `first`, `first + 1`, ... to `columns`, all of one length: one per dimension, or those of A
+    /// and B only; values in (0, 1).
     pub fn fill(&self, first: u64, columns: &mut [Vec<f64>]) {
         self.fill_independent(first, columns);
         if let Some(mixed) = &self.mixed {

@@ -1,4 +1,4 @@
-//! Why a design cannot be made.
+//! Errors of a design.
 
 use thiserror::Error;
 
@@ -6,61 +6,61 @@ use super::{
     MAX_DIMENSIONS, MAX_FACTORS, MAX_ORDERED_FACTORS, MAX_PAIRED_FACTORS, MAX_PLAIN_ROWS, MAX_POINTS, MAX_REPLICATES,
 };
 
-/// Why a design cannot be made.
+/// Why a design cannot be created.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum DesignError {
-    /// There is nothing to vary.
+    /// There are no factors.
     #[error("a design needs at least one factor")]
     NoFactors,
-    /// More factors than any design is for.
+    /// More factors than the maximum of any design.
     #[error(
         "{factors} factors are too many: at most {MAX_FACTORS} are possible; leave out or join those that hardly act"
     )]
     FarTooManyFactors {
-        /// The number asked for.
+        /// The number requested.
         factors: usize,
     },
-    /// More factors than the direction numbers serve.
+    /// More factors than there are direction numbers for.
     #[error(
         "{factors} factors need {} dimensions of the Sobol' sequence (2 for each), which has {MAX_DIMENSIONS}: at most {} factors, or another sampler",
         2 * factors,
         MAX_DIMENSIONS / 2
     )]
     TooManyFactors {
-        /// The number asked for.
+        /// The number requested.
         factors: usize,
     },
-    /// No replicate at all.
+    /// There are no replicates.
     #[error("replicates = 0: at least 1 is needed, and at least 2 for intervals")]
     NoReplicates,
-    /// A replicate would hold fewer than two base points, which have no variance.
+    /// A replicate would have fewer than two base points, which have no variance.
     #[error(
         "base_samples = {base_samples} is too few for {replicates} replicate{}: at least {} base samples are needed (2 in each replicate)",
         if *replicates == 1 { "" } else { "s" },
         u128::from(*replicates) * 2
     )]
     TooFewSamples {
-        /// The number asked for.
+        /// The number requested.
         base_samples: u64,
         /// The number of replicates that share them.
         replicates: u64,
     },
-    /// More replicates than anybody needs: each costs memory and a pass over the others.
+    /// Too many replicates: each costs memory and a pass over the others.
     #[error("replicates = {replicates}: at most {MAX_REPLICATES} are possible, and 4 to 32 are usual")]
     TooManyReplicates {
-        /// The number asked for.
+        /// The number requested.
         replicates: u64,
     },
-    /// More plain rows than the memory of a block of base points is for.
+    /// More plain rows than fit in the memory of a block of base points.
     #[error("plain_rows = {plain_rows}: at most {MAX_PLAIN_ROWS} for each base sample are possible")]
     TooManyPlainRows {
-        /// The number asked for.
+        /// The number requested.
         plain_rows: u32,
     },
     /// More model runs than can be counted.
     #[error("{base_samples} base samples of {rows_per_point} runs each are more runs than can be counted")]
     TooManyRuns {
-        /// The number asked for, rounded up to whole replicates.
+        /// The number requested, rounded up to whole replicates.
         base_samples: u128,
         /// Model runs of each base sample.
         rows_per_point: u64,
@@ -78,7 +78,7 @@ pub enum DesignError {
         "{base_samples} base samples in {replicates} replicates exceed {MAX_POINTS} (2^32) points a replicate, the length of the sequence"
     )]
     TooManySamples {
-        /// The number asked for.
+        /// The number requested.
         base_samples: u64,
         /// The number of replicates that share them.
         replicates: u64,
@@ -86,7 +86,7 @@ pub enum DesignError {
     /// Second-order indices without the rows that they need.
     #[error("second-order indices need the rows BA (B with the columns of one factor from A) beside the rows AB")]
     SecondOrderWithoutBa,
-    /// More pairs of factors than is sensible to keep sums for.
+    /// Too many pairs of factors for their sums to be kept.
     #[error(
         "second-order indices of {factors} factors are {} pairs: at most {MAX_PAIRED_FACTORS} factors are possible; find those that act by their total indices first",
         *factors as u128 * (*factors as u128 - 1) / 2
@@ -104,7 +104,7 @@ pub enum DesignError {
     /// Plain rows of dependent factors.
     #[error("plain rows serve surrogates alone, which need independent factors, and these depend on each other")]
     PlainRowsOfDependentFactors,
-    /// Random orders of more factors than the memory of a block of base points is for.
+    /// Random orders of more factors than fit in the memory of a block of base points.
     #[error(
         "{factors} factors are too many for Shapley effects along random orders of {players} players: at most {MAX_ORDERED_FACTORS} \
          single ones are possible; leave out those that hardly act, which their total indices tell, or put them into fewer groups"
@@ -112,16 +112,16 @@ pub enum DesignError {
     TooManyOrderedFactors {
         /// Players of the orders.
         players: usize,
-        /// Factors in all.
+        /// Total number of factors.
         factors: usize,
     },
-    /// Players that are not the factors.
+    /// The players do not partition the factors.
     #[error("the players of random orders are to be disjoint sets of factors that are all {factors} factors together")]
     NotPlayers {
         /// Number of factors.
         factors: usize,
     },
-    /// A copula of another number of factors.
+    /// A copula with a different number of factors.
     #[error("a copula of {copula} factors for a design of {factors}")]
     OtherFactors {
         /// Factors of the copula.

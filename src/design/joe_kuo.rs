@@ -2,8 +2,8 @@
 
 use std::sync::LazyLock;
 
-/// Number of dimensions the embedded tables hold (the first one needs no entry: it is van der Corput's sequence). In a web
-/// page the first table has to do, since every byte is loaded.
+/// Number of dimensions in the embedded tables (the first one is van der Corput's sequence and needs no entry). A web
+/// page has only the first table, since every byte is downloaded.
 pub const MAX_DIMENSIONS: usize = if cfg!(target_family = "wasm") { 1024 } else { 4096 };
 
 /// Bits of a coordinate, and so the number of direction numbers per dimension: 2^32 distinct points.
@@ -15,14 +15,14 @@ const TABLES: [&str; 2] = [
     if cfg!(target_family = "wasm") { "" } else { include_str!("../../assets/joe-kuo/new-joe-kuo-6.4096.txt") },
 ];
 
-/// Direction numbers of one dimension, bits reversed: entry `k` is XORed into the coordinate when bit `k` of the point's
-/// index is set. The least significant bit of an entry stands for 1/2, as the scramble wants it.
+/// Direction numbers of one dimension, bits reversed: entry `k` is XORed into the coordinate when bit `k` of the
+/// point's index is set. The least significant bit of an entry has the value 1/2, as the scramble requires.
 pub type Directions = [u32; BITS];
 
-/// Of most studies, so that a short run does not read thousands of dimensions.
+/// Dimensions that suffice for most studies, so that a short run does not read thousands of them.
 const FIRST_DIMENSIONS: usize = 128;
 
-/// The first few and all dimensions, each read once for the whole program.
+/// The first dimensions and all dimensions, each read once per program.
 static FIRST: LazyLock<Vec<Directions>> = LazyLock::new(|| read(FIRST_DIMENSIONS));
 static ALL: LazyLock<Vec<Directions>> = LazyLock::new(|| read(MAX_DIMENSIONS));
 
@@ -33,19 +33,19 @@ fn read(dimensions: usize) -> Vec<Directions> {
     all.take(dimensions).map(|v| v.map(u32::reverse_bits)).collect()
 }
 
-/// Direction numbers of the first `dimensions` dimensions, in order.
+/// Returns the direction numbers of the first `dimensions` dimensions, in order.
 ///
 /// Recurrence: Bratley and Fox (1988), ACM TOMS 14, 88-100, eq. (2), with the polynomials and initial numbers of
 /// Joe and Kuo (2008), SIAM J. Sci. Comput. 30, 2635-2654.
 ///
 /// # Panics
-/// If `dimensions` exceeds [`MAX_DIMENSIONS`]; [`crate::design::Design`] checks this before.
+/// If `dimensions` exceeds [`MAX_DIMENSIONS`]; [`crate::design::Design`] checks this first.
 pub fn directions(dimensions: usize) -> &'static [Directions] {
     assert!(dimensions <= MAX_DIMENSIONS, "at most {MAX_DIMENSIONS} dimensions");
     if dimensions <= FIRST_DIMENSIONS { &FIRST[..dimensions] } else { &ALL[..dimensions] }
 }
 
-/// Before the bits are reversed: the most significant bit of an entry stands for 1/2.
+/// Reads direction numbers before bit reversal: the most significant bit of an entry has the value 1/2.
 fn from_line(line: &str) -> Directions {
     let mut numbers = line.split(' ').map(|n| n.parse::<u32>().expect("the embedded table holds whole numbers"));
     let mut next = || numbers.next().expect("the embedded table is complete");
@@ -75,7 +75,7 @@ mod tests {
         assert_eq!(all.len(), MAX_DIMENSIONS);
         for v in all {
             for (k, entry) in v.iter().enumerate() {
-                // A one on the diagonal and zeros below it: this is what makes each coordinate a (0, m, 1)-net.
+                // A one on the diagonal and zeros below it make each coordinate a (0, m, 1)-net.
                 assert_eq!(entry.leading_zeros() as usize, BITS - 1 - k);
             }
         }

@@ -6,8 +6,8 @@ use rand_chacha::ChaCha8Rng;
 use super::random::RandomPoints;
 use crate::space::distribution::mixed;
 
-/// A Latin hypercube of `n` points: in every dimension each of the `n` cells of width 1/n holds exactly one point, at
-/// a random place in its cell (McKay, Beckman and Conover 1979, Technometrics 21, 239-245).
+/// A Latin hypercube of `n` points: in every dimension each of the `n` cells of width 1/n contains exactly one point,
+/// at a random position in its cell (McKay, Beckman and Conover 1979, Technometrics 21, 239-245).
 #[derive(Debug, Clone)]
 pub struct LatinHypercube {
     n: u64,
@@ -16,7 +16,7 @@ pub struct LatinHypercube {
 }
 
 impl LatinHypercube {
-    /// The hypercube of `replicate` under `seed`.
+    /// Creates the hypercube of `replicate` with `seed`.
     ///
     /// # Panics
     /// If `n` is 0.
@@ -29,7 +29,7 @@ impl LatinHypercube {
         Self { n, permutations, jitter: RandomPoints::new(dimensions, seed, replicate) }
     }
 
-    /// The rows `first`, `first + 1`, ... (below `n`) into `columns` (one slice per dimension), in (0, 1).
+    /// Writes the rows `first`, `first + 1`, ... (below `n`) to `columns` (one slice per dimension), in (0, 1).
     pub fn fill(&self, first: u64, columns: &mut [Vec<f64>]) {
         self.jitter.fill(first, columns);
         for (column, permutation) in columns.iter_mut().zip(&self.permutations) {
@@ -40,14 +40,14 @@ impl LatinHypercube {
     }
 }
 
-/// The place of a point at `jitter`, in (0, 1), of its cell, as a share of all `n` cells. With very many cells the sum
-/// rounds up to n in the last one: the point must stay below 1.
+/// Returns the coordinate of a point at `jitter`, in (0, 1), of its cell, out of `n` cells. With very many cells the
+/// sum rounds up to n in the last one: the result must stay below 1.
 fn place(cell: u64, jitter: f64, n: u64) -> f64 {
     const BELOW_ONE: f64 = 1.0 - f64::EPSILON / 2.0;
     ((cell as f64 + jitter) / n as f64).min(BELOW_ONE)
 }
 
-/// A pseudo-random permutation of 0 .. n: a Feistel network on the next even power of two, walked until it lands
+/// A pseudo-random permutation of 0 .. n: a Feistel network on the next even power of two, iterated until the result is
 /// below n (Black and Rogaway 2002, "Ciphers with arbitrary finite domains": fewer than four steps on average).
 #[derive(Debug, Clone)]
 struct Permutation {
@@ -56,8 +56,8 @@ struct Permutation {
     keys: [u64; ROUNDS],
 }
 
-/// Four rounds make a Feistel network of random functions indistinguishable from a random permutation (Luby and
-/// Rackoff 1988); six leave room for the round function being a hash.
+/// Four rounds make a Feistel network of random functions indistinguishable from a random permutation (Luby and Rackoff
+/// 1988); six allow for the round function being a hash.
 const ROUNDS: usize = 6;
 
 impl Permutation {
@@ -114,8 +114,7 @@ mod tests {
 
     #[test]
     fn dimensions_are_uncorrelated() {
-        // The standard error of a correlation of n independent pairs is n^-1/2; five of them are never exceeded by
-        // chance in 45 pairs.
+        // The standard error of a correlation of n pairs is n^-1/2; none of 45 exceeds five of them by chance.
         let n = 4096;
         let mut columns = vec![vec![0.0; n]; 10];
         LatinHypercube::new(10, n as u64, 0, 0).fill(0, &mut columns);

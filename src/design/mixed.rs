@@ -1,24 +1,24 @@
-//! The columns of rows of dependent factors that come from no matrix alone.
+//! Columns of rows of dependent factors that do not come from a single matrix.
 //!
-//! Where factors are independent, a row AB_s is A with the columns s from B. Where they depend on each other, something has to give:
-//! either the factors s come from B and the others follow them, each keeping of A what the factors s do not tell of it; or the others
-//! come from A, and the factors s are drawn anew given them. For a Gaussian copula both are linear in normal scores (Kucherenko,
-//! Tarantola and Annoni 2012, Comput. Phys. Commun. 183, 937-946; Mara, Tarantola and Annoni 2015, Environ. Model. Softw. 72,
-//! 173-183): with a difference b - a of the scores of B and A, the first is z_r = a_r + R (b_s - a_s), the second
-//! z_s = b_s + R' (a_r - b_r), R and R' being the regressions.
+//! For independent factors, a row AB_s is A with the columns s from B. For dependent factors there are two choices:
+//! either the factors s come from B and the others follow them, each keeping the part of A that is independent of the
+//! factors s; or the others come from A, and the factors s are drawn again given them. For a Gaussian copula both are
+//! linear in normal scores (Kucherenko, Tarantola and Annoni 2012, Comput. Phys. Commun. 183, 937-946; Mara, Tarantola
+//! and Annoni 2015, Environ. Model. Softw. 72, 173-183): with a difference b - a of the scores of B and A, the first is
+//! z_r = a_r + R (b_s - a_s), the second z_s = b_s + R' (a_r - b_r), R and R' being the regressions.
 
 use std::sync::Arc;
 
 use crate::space::{GaussianCopula, from_score};
 
-/// A column that follows others.
+/// A column computed from others.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct MixedColumn {
-    /// The factor whose column it is.
+    /// The factor of the column.
     pub factor: usize,
-    /// The column of a matrix to whose scores is added,
+    /// The column of a matrix whose scores are the starting value.
     start: usize,
-    /// of each of these: (coefficient, of the scores of this column, less those of that one).
+    /// Terms added to it: (coefficient, of the scores of this column, minus those of that one).
     terms: Vec<(f64, usize, usize)>,
 }
 
@@ -26,20 +26,20 @@ pub(super) struct MixedColumn {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct MixedColumns {
     copula: Arc<GaussianCopula>,
-    /// The number of the first one among the columns of the base points.
+    /// The index of the first mixed column among the columns of the base points.
     pub first: usize,
     pub columns: Vec<MixedColumn>,
 }
 
 impl MixedColumns {
-    /// Without any column yet.
+    /// Creates an empty set of columns.
     pub fn new(copula: Arc<GaussianCopula>, first: usize) -> Self {
         Self { copula, first, columns: Vec::new() }
     }
 
-    /// The columns in which a row differs from `base` with the columns `swap` of `from`, as (factor, column), in rising order;
-    /// `redrawn` tells whether the factors of the swap are drawn given the others, or else the others follow them. `base` and
-    /// `from` are the numbers of the first columns of the two matrices.
+    /// Returns the columns in which a row differs from `base` with the columns `swap` of `from`, as (factor, column),
+    /// in rising order. If `redrawn`, the factors of the swap are drawn given the others; otherwise the others follow
+    /// them. `base` and `from` are the indices of the first columns of the two matrices.
     pub fn of_row(&mut self, swap: &[usize], redrawn: bool, base: usize, from: usize) -> Vec<(usize, usize)> {
         let copula = Arc::clone(&self.copula);
         let (swapped, others): (Vec<usize>, Vec<usize>) = copula.dependent().iter().partition(|j| swap.contains(j));
@@ -68,7 +68,7 @@ impl MixedColumns {
             })
     }
 
-    /// Makes the columns of A and B dependent, `factors` each, and fills the mixed ones behind all others.
+    /// Makes the columns of A and B dependent, `factors` each, and fills the mixed ones after all others.
     pub fn fill(&self, columns: &mut [Vec<f64>], factors: usize) {
         let (own, mixed) = columns.split_at_mut(self.first.min(columns.len()));
         own.chunks_mut(factors).take(2).for_each(|matrix| self.copula.correlate(matrix));

@@ -1,11 +1,12 @@
-//! The Saltelli design as a pure function of the row number: nothing is stored, any row can be made anywhere.
+//! The Saltelli design as a pure function of the row number: nothing is stored, and any row can be computed anywhere.
 //!
 //! A design has `replicates` independent randomisations of `base_samples / replicates` base points each. A base point
 //! is one point of a 2d-dimensional sequence: its first d coordinates are the row of A, its last d the row of B. (Two
-//! sequences of d dimensions each would look alike, but the indices then never converge.) Every base point stands
-//! for `2 + k` rows: A, B, and one row AB_s for each of the k [`Swap`]s, which is A with some columns taken from B
-//! (Saltelli et al. 2010, Comput. Phys. Commun. 181, 259-270, "radial" scheme of its table 2). Rows BA_s, B with columns
-//! from A, are added for the estimators that need them. Rows that are the same point are one row: they are run once. Plain rows, at points of a sequence of their own, teach surrogates.
+//! sequences of d dimensions each would look similar, but the indices then never converge.) Every base point has `2 +
+//! k` rows: A, B, and one row AB_s for each of the k [`Swap`]s, which is A with some columns taken from B (Saltelli et
+//! al. 2010, Comput. Phys. Commun. 181, 259-270, "radial" scheme of its table 2). Rows BA_s, B with columns from A, are
+//! added for the estimators that need them. Rows at the same point are run only once. Plain rows, at points of their
+//! own, are used to fit surrogates.
 
 mod base;
 mod error;
@@ -29,32 +30,32 @@ pub use rows::{Matrix, RowKind, Rows, Run, Swap};
 pub use settings::{DesignSettings, Sampler};
 pub use sobol::SobolSequence;
 
-/// Most base points one replicate can hold: the length of the 32-bit Sobol' sequence.
+/// Maximum number of base points in a replicate: the length of the 32-bit Sobol' sequence.
 pub const MAX_POINTS: u64 = 1 << 32;
 
-/// Most replicates of a design.
+/// Maximum number of replicates of a design.
 pub const MAX_REPLICATES: u64 = 4096;
 
-/// Most factors of a design with second-order indices: their sums take d (d - 1) numbers for every output.
+/// Maximum number of factors for second-order indices: their sums take d (d - 1) numbers for every output.
 pub const MAX_PAIRED_FACTORS: usize = 256;
 
-/// Most factors of a design with rows along random orders of single factors: its base points have a column for each factor in each of
-/// these rows. Of fewer players than factors there may be more factors, as long as there are no more columns.
+/// Maximum number of factors of a design with rows along random orders of single factors: its base points have a column
+/// for each factor in each of these rows. With fewer players, more factors are possible for as many columns.
 pub const MAX_ORDERED_FACTORS: usize = 100;
 
-/// Whether base points have room for the rows along random orders of so many players that are so many factors together.
+/// Returns whether base points have room for the rows along random orders of `players` players of `factors` factors.
 pub fn has_room_for_orders(players: usize, factors: usize) -> bool {
     players.saturating_sub(1).saturating_mul(factors) <= (MAX_ORDERED_FACTORS - 1) * MAX_ORDERED_FACTORS
 }
 
-/// Most plain rows of a base point.
+/// Maximum number of plain rows of a base point.
 pub const MAX_PLAIN_ROWS: u32 = 1000;
 
-/// Points of a replicate up to which the columns of a factor can be correlated: no pair of the first 60 dimensions is by more than 0.1
-/// at so many.
+/// Maximum points of a replicate for which column correlations are computed: from this number on, no pair of the first
+/// 60 dimensions is correlated by more than 0.1.
 const MAX_CORRELATED_POINTS: u64 = 1 << 10;
 
-/// Most factors of a design, whatever the sampler: every base point costs a run for each of them.
+/// Maximum number of factors of a design, for any sampler: every base point costs a run for each of them.
 pub const MAX_FACTORS: usize = 10_000;
 
 /// A checked Saltelli design.
@@ -76,19 +77,20 @@ pub struct Design {
     factors: usize,
     asked: Rows,
     runs: Runs,
-    /// The swaps that are one factor each.
+    /// The swaps of a single factor.
     single: Vec<usize>,
 }
 
 impl Design {
-    /// A design over `factors` factors with the rows `rows` (column numbers below `factors`) beside A and B.
+    /// Creates a design over `factors` factors with `rows` (column numbers below `factors`) in addition to A and B.
     ///
-    /// `base_samples` is rounded up to a multiple of `replicates`; [`Design::settings`] tells the number in force.
+    /// `base_samples` is rounded up to a multiple of `replicates`; [`Design::settings`] returns the rounded number.
     ///
     /// # Errors
     /// [`DesignError`] if there is no factor, no replicate or more than [`MAX_REPLICATES`], fewer than two or more than
-    /// 2^32 base points a replicate, more factors than the Sobol' sequence has dimensions for, a swap of a column that does not exist, second-order indices without the rows BA or of more than [`MAX_PAIRED_FACTORS`] factors, or second-order
-    /// indices or plain rows of dependent factors.
+    /// 2^32 base points a replicate, more factors than the Sobol' sequence has dimensions for, a swap of a column that
+    /// does not exist, second-order indices without the rows BA or of more than [`MAX_PAIRED_FACTORS`] factors, or
+    /// second-order indices or plain rows of dependent factors.
     pub fn new(mut settings: DesignSettings, factors: usize, rows: Rows) -> Result<Self, DesignError> {
         let DesignSettings { sampler, base_samples, replicates, .. } = settings;
         if factors == 0 {
@@ -157,18 +159,18 @@ impl Design {
         Ok(Self { settings, factors, asked: rows, runs, single })
     }
 
-    /// The settings in force, with `base_samples` rounded up.
+    /// Returns the settings, with `base_samples` rounded up.
     pub fn settings(&self) -> &DesignSettings {
         &self.settings
     }
 
-    /// Base points in each replicate.
+    /// Returns the number of base points in each replicate.
     pub fn points_per_replicate(&self) -> u64 {
         self.settings.base_samples / self.settings.replicates
     }
 
-    /// The same design with `points` base points in each replicate: longer or shorter, but for Latin hypercubes made of
-    /// the same points.
+    /// Returns the same design with `points` base points in each replicate; except for Latin hypercubes, the longer of
+    /// the two contains the points of the shorter.
     ///
     /// # Errors
     /// [`DesignError`] if that is too many or too few.
@@ -177,7 +179,7 @@ impl Design {
         Self::new(DesignSettings { base_samples, ..self.settings.clone() }, self.factors, self.asked.clone())
     }
 
-    /// The longest design that a run of this one can grow into.
+    /// Returns the longest design that a run of this one can grow into.
     pub(crate) fn longest(&self) -> Self {
         let mut points = MAX_POINTS;
         loop {
@@ -189,41 +191,41 @@ impl Design {
         }
     }
 
-    /// Number of factors d.
+    /// Returns the number of factors d.
     pub fn factors(&self) -> usize {
         self.factors
     }
 
-    /// The rows that were asked for, repetitions and all.
+    /// Returns the requested rows, including repetitions.
     pub fn asked(&self) -> &Rows {
         &self.asked
     }
 
-    /// The columns each AB_s takes from B.
+    /// Returns the columns each AB_s takes from B.
     pub fn swaps(&self) -> &[Swap] {
         &self.asked.swaps
     }
 
-    /// Whether every AB_s has a row BA_s.
+    /// Returns whether every AB_s has a row BA_s.
     pub fn has_ba(&self) -> bool {
         self.asked.ba
     }
 
-    /// The swaps whose pairs have second-order indices: those of one factor each, the first one of every factor. Empty
-    /// if second-order indices were not asked for.
+    /// Returns the swaps whose pairs have second-order indices: those of one factor each, the first one of every
+    /// factor. Empty if second-order indices were not requested.
     pub fn paired(&self) -> &[usize] {
         if self.asked.second_order { &self.single } else { &[] }
     }
 
-    /// Columns of the base points: d for each of the matrices A, B and the plain ones; then those of
-    /// dependent factors that follow others, and those of the steps along random orders.
+    /// Returns the number of columns of the base points: d for each of the matrices A, B and the plain ones; then those
+    /// of dependent factors that follow others, and those of the steps along random orders.
     pub fn columns(&self) -> usize {
         let mixed = self.runs.mixed.as_ref().map_or(0, |mixed| mixed.columns.len());
         let steps = self.runs.orders.as_ref().map_or(0, |orders| orders.count());
         self.factors * (2 + self.asked.plain_rows as usize) + mixed + steps
     }
 
-    /// The factor whose column is that number.
+    /// Returns the factor of a column.
     pub fn factor_of(&self, column: usize) -> usize {
         let step = self.runs.orders.as_ref().and_then(|orders| column.checked_sub(orders.first));
         if let Some(column) = step {
@@ -233,7 +235,7 @@ impl Design {
         mixed.map_or(column % self.factors, |mixed| mixed.factor)
     }
 
-    /// The number of the column that `run` takes `factor` from.
+    /// Returns the index of the column from which `run` takes `factor`.
     pub fn column(&self, run: &Run, factor: usize) -> usize {
         if let Some((_, column)) = run.mixed.iter().find(|(mixed, _)| *mixed == factor) {
             return *column;
@@ -242,43 +244,43 @@ impl Design {
         self.first_column(matrix) + factor
     }
 
-    /// Whether factors depend on each other.
+    /// Returns whether factors depend on each other.
     pub fn is_dependent(&self) -> bool {
         self.asked.copula.is_some()
     }
 
-    /// The number of the first of the d columns of `matrix`.
+    /// Returns the index of the first of the d columns of `matrix`.
     pub fn first_column(&self, matrix: Matrix) -> usize {
         self.factors * matrix.place()
     }
 
-    /// Rows of every base point that only surrogates learn from.
+    /// Returns the number of rows of every base point that are used only to fit surrogates.
     pub fn plain_rows(&self) -> u32 {
         self.asked.plain_rows
     }
 
-    /// The rows of one base point that are run, in the order in which rows are counted.
+    /// Returns the rows of one base point that are run, in the order in which rows are counted.
     pub fn runs(&self) -> &[Run] {
         &self.runs.runs
     }
 
-    /// For each swap: which of [`Design::runs`] is its row AB_s.
+    /// Returns the index in [`Design::runs`] of the row AB_s of each swap.
     pub fn ab_runs(&self) -> &[usize] {
         &self.runs.ab
     }
 
-    /// For each swap: which of [`Design::runs`] is its row BA_s; empty without these rows.
+    /// Returns the index in [`Design::runs`] of the row BA_s of each swap; empty without these rows.
     pub fn ba_runs(&self) -> &[usize] {
         &self.runs.ba
     }
 
-    /// Which of [`Design::runs`] are the steps along random orders of the [players](Rows::players), in the order of the steps.
+    /// Returns the indices in [`Design::runs`] of the steps along random orders of [players](Rows::players), in order.
     pub fn step_runs(&self) -> &[usize] {
         &self.runs.steps
     }
 
-    /// The players in their order at each of `count` base points of `replicate`, from number `first` on: number `k` of an order
-    /// comes from B in step `k` and those that follow.
+    /// Returns the players in their order at each of `count` base points of `replicate`, from number `first` on: player
+    /// `k` of an order comes from B in step `k` and all later ones.
     pub fn orders(&self, replicate: u64, first: u64, count: usize) -> Vec<Vec<usize>> {
         let mut orders = self.orders_of(replicate).at(first);
         (0..count).map(|_| orders.next_order()).collect()
@@ -288,45 +290,46 @@ impl Design {
         Orders::new(self.asked.players.len(), self.settings.seed, replicate)
     }
 
-    /// Rows of one base point: A, B and those asked for, each point once.
+    /// Returns the number of rows of one base point: A, B and the requested ones, each distinct point once.
     pub fn rows_per_point(&self) -> u64 {
         self.runs.runs.len() as u64
     }
 
-    /// Rows in all, which is the number of model runs.
+    /// Returns the total number of rows, which is the number of model runs.
     pub fn rows(&self) -> u64 {
         self.settings.base_samples * self.rows_per_point()
     }
 
-    /// True if the points of a replicate are complete nets: a power of two of them, or points that need none.
+    /// Returns whether the points of a replicate are complete nets: a power of two of them, or points that need none.
     pub fn balanced(&self) -> bool {
         !self.settings.sampler.is_digital() || self.points_per_replicate().is_power_of_two()
     }
 
-    /// The base points of one replicate, in [`Design::columns`] columns.
+    /// Returns the base points of one replicate, in [`Design::columns`] columns.
     pub fn replicate(&self, replicate: u64) -> BasePoints {
         let steps = self.runs.orders.clone().map(|orders| (orders, self.orders_of(replicate)));
         let points = BasePoints::new(&self.settings, replicate, self.factors, &self.asked);
         points.with_mixed(self.runs.mixed.clone()).with_steps(steps)
     }
 
-    /// Replicate, base point within it, and kind of a row, in the order in which rows are counted. A row that is
-    /// several kinds at once has the first of them.
+    /// Returns the replicate, base point within it, and kind of a row, in the order in which rows are counted. A row of
+    /// several kinds has the first of them.
     pub fn locate(&self, row: u64) -> (u64, u64, RowKind) {
         let (base, run) = (row / self.rows_per_point(), row % self.rows_per_point());
         (base / self.points_per_replicate(), base % self.points_per_replicate(), self.runs.runs[run as usize].kind)
     }
 
-    /// The first `points` base points of `replicate`: the columns of A, then those of B.
+    /// Returns the first `points` base points of `replicate`: the columns of A, then those of B.
     pub(crate) fn first_points(&self, replicate: u64, points: usize) -> Vec<Vec<f64>> {
         let mut columns = vec![vec![0.0; points]; 2 * self.factors()];
         self.replicate(replicate).fill(0, &mut columns);
         columns
     }
 
-    /// The correlation over all base points of the columns of each factor in A and in B, both uniform on (0, 1). Among many factors
-    /// some pairs share leading digits over the first points: rows that differ in such a factor alone then differ too little
-    /// or too much in it. Of more than 1024 points a replicate, where this is rare, there are none.
+    /// Returns the correlation over all base points of the columns of each factor in A and in B, both uniform on (0,
+    /// 1). Among many factors some pairs share leading digits over the first points: the outputs of rows that differ
+    /// only in such a factor then differ too little or too much. Empty above 1024 points a replicate: this is rare
+    /// there.
     pub fn column_correlations(&self) -> Vec<f64> {
         let (points, factors) = (self.points_per_replicate(), self.factors());
         if points > MAX_CORRELATED_POINTS || !self.settings.sampler.is_digital() || self.is_dependent() {
@@ -344,7 +347,7 @@ impl Design {
         sums.into_iter().map(|sum| 12.0 * sum / self.settings.base_samples as f64).collect()
     }
 
-    /// Row number `row` of the design as a point of the unit cube: `u` has one entry per factor.
+    /// Writes row number `row` of the design as a point of the unit cube to `u`, which has one entry per factor.
     pub fn point(&self, row: u64, u: &mut [f64]) {
         let (replicate, point, _) = self.locate(row);
         let run = &self.runs.runs[(row % self.rows_per_point()) as usize];
@@ -356,7 +359,7 @@ impl Design {
     }
 }
 
-/// The numbers of the swaps that are one factor, the first of every factor, in the order of the swaps.
+/// Returns the indices of the swaps of a single factor, the first of every factor, in the order of the swaps.
 fn single_factors(swaps: &[Swap], factors: usize) -> Vec<usize> {
     let mut seen = vec![false; factors];
     let first = |swap: &Swap| match swap[..] {

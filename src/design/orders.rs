@@ -1,11 +1,12 @@
-//! Rows along random orders of the factors, from which Shapley effects are found where all subsets would be too many.
+//! Rows along random orders of the factors, used to estimate Shapley effects where there are too many subsets.
 //!
-//! Every base point has an order of its own of the players (single factors, or groups of them): a function of the seed, the
-//! replicate and the number of the point. Its step k is the row A in which the first k + 1 players of that order come from B (Goda
-//! 2021, Reliab. Eng. Syst. Saf. 213, 107702). Where factors depend on each other these are drawn anew given all others (Song,
-//! Nelson and Staum 2016, SIAM/ASA J. Uncertain. Quantif. 4, 1060-1083). In normal scores that is linear: with the correlations of
-//! the players from the last to the first as L L', and the innovations e_A = L^-1 a and e_B = L^-1 b, the scores are L e, where e
-//! comes from B for the players that are swapped, and from A for the others, which come before them.
+//! Every base point has its own order of the players (single factors, or groups of them): a function of the seed, the
+//! replicate and the number of the point. Its step k is the row A in which the first k + 1 players of that order come
+//! from B (Goda 2021, Reliab. Eng. Syst. Saf. 213, 107702). For dependent factors these are drawn again given all
+//! others (Song, Nelson and Staum 2016, SIAM/ASA J. Uncertain. Quantif. 4, 1060-1083). This is linear in normal scores:
+//! with the correlations of the players from the last to the first as L L', and the innovations e_A = L^-1 a and e_B =
+//! L^-1 b, the scores are L e, where e comes from B for the swapped players, and from A for the others, which precede
+//! them.
 
 use std::sync::Arc;
 
@@ -14,37 +15,37 @@ use rand_chacha::ChaCha8Rng;
 
 use crate::space::{CholeskyFactor, GaussianCopula, from_score};
 
-/// Orders have a stream of their own, of every sampler.
+/// Orders have a random stream of their own, for every sampler.
 const ORDER_STREAM: u64 = 1 << 60;
 
 /// The columns of the steps of a design: those of every factor in the first step, in the second one, and so on.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct OrderColumns {
-    /// Disjoint sets of factors that are all of them together.
+    /// Disjoint sets of factors that together contain all factors.
     pub players: Vec<Vec<usize>>,
-    /// The number of the first of the columns among those of the base points.
+    /// The index of the first of the columns among those of the base points.
     pub first: usize,
     pub factors: usize,
     pub copula: Option<Arc<GaussianCopula>>,
 }
 
 impl OrderColumns {
-    /// Rows between A and B: of one player fewer than there are.
+    /// Returns the number of rows between A and B: one less than the number of players.
     pub fn steps(&self) -> usize {
         self.players.len() - 1
     }
 
-    /// How many columns there are.
+    /// Returns the number of columns.
     pub fn count(&self) -> usize {
         self.steps() * self.factors
     }
 
-    /// The columns of step `step`, as (factor, column).
+    /// Returns the columns of step `step`, as (factor, column).
     pub fn of_step(&self, step: usize) -> Vec<(usize, usize)> {
         (0..self.factors).map(|factor| (factor, self.first + step * self.factors + factor)).collect()
     }
 
-    /// Fills the columns behind all others with the steps of the base points from number `first_point` on, whose orders are `orders`.
+    /// Fills the last columns with the steps of the base points from `first_point` on, whose orders are `orders`.
     pub fn fill(&self, orders: &Orders, first_point: u64, columns: &mut [Vec<f64>]) {
         let (own, steps) = columns.split_at_mut(self.first.min(columns.len()));
         let Some(points) = steps.first().map(Vec::len) else { return };
@@ -76,15 +77,16 @@ impl OrderColumns {
 
 /// The dependent factors of one base point.
 struct Redrawn {
-    /// Those of the last player first, and the place of its player in the order.
+    /// The factors of the last player first, and the position of the player in the order.
     factors: Vec<(usize, usize)>,
     lower: CholeskyFactor,
-    /// Those of A and of B.
+    /// The innovations of A and of B.
     innovations: [Vec<f64>; 2],
 }
 
 impl Redrawn {
-    /// `places` has the place of the player of every factor in the order; `a` and `b` are the scores of the dependent factors.
+    /// Prepares a base point: `places` is every factor's player's place in the order; `a`, `b` are the dependent
+    /// scores.
     fn new(copula: &GaussianCopula, places: &[usize], [a, b]: &[Vec<f64>; 2]) -> Self {
         let mut numbers: Vec<usize> = (0..a.len()).collect();
         numbers.sort_by_key(|number| std::cmp::Reverse(places[copula.dependent()[*number]]));
@@ -99,11 +101,11 @@ impl Redrawn {
         }
     }
 
-    /// The score of every factor that is swapped in step `step` and drawn given others.
+    /// Calls `of_factor` with the score of every factor that is swapped in step `step` and drawn given others.
     fn each(&self, step: usize, mut of_factor: impl FnMut(usize, f64)) {
         let kept = self.factors.partition_point(|(_, place)| *place > step);
         if kept == 0 {
-            // Given nothing they are those of B, to the last bit.
+            // Given nothing, the scores are those of B, to the last bit.
             return;
         }
         let [a, b] = &self.innovations;
@@ -128,15 +130,15 @@ impl Orders {
         Self { stream, players }
     }
 
-    /// The orders from base point `first` on.
+    /// Returns the orders from base point `first` on.
     pub fn at(&self, first: u64) -> Self {
         let mut orders = self.clone();
         orders.stream.set_word_pos(u128::from(first) * self.players as u128);
         orders
     }
 
-    /// The players in the order of the next base point (Fisher and Yates), any order as likely as any other but for some 1e-8: one
-    /// word of the stream for each player.
+    /// Returns the players in the order of the next base point (Fisher and Yates); all orders are equally likely to
+    /// within 1e-8. Takes one word of the stream for each player.
     pub fn next_order(&mut self) -> Vec<usize> {
         let mut order: Vec<usize> = (0..self.players).collect();
         for left in (1..=self.players).rev() {

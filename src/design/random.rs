@@ -4,25 +4,25 @@ use rand::SeedableRng;
 use rand::distr::{Distribution, Open01};
 use rand_chacha::ChaCha8Rng;
 
-/// Independent uniform points: one ChaCha stream per replicate, entered at any row.
+/// Independent uniform points: one ChaCha stream per replicate, with random access to rows.
 #[derive(Debug, Clone)]
 pub struct RandomPoints {
     stream: ChaCha8Rng,
     dimensions: usize,
 }
 
-/// A draw from [`Open01`] takes one `u64`, which is two words of the stream.
+/// A draw from [`Open01`] takes one `u64`, two words of the stream.
 const WORDS_PER_DRAW: u128 = 2;
 
 impl RandomPoints {
-    /// The stream of `replicate` under `seed`, for rows of `dimensions` coordinates.
+    /// Creates the stream of `replicate` with `seed`, for rows of `dimensions` coordinates.
     pub fn new(dimensions: usize, seed: u64, replicate: u64) -> Self {
         let mut stream = ChaCha8Rng::seed_from_u64(seed);
         stream.set_stream(replicate);
         Self { stream, dimensions }
     }
 
-    /// The rows `first`, `first + 1`, ... into `columns` (one slice per dimension, all of one length), in (0, 1).
+    /// Writes the rows `first`, `first + 1`, ... to `columns` (one slice per dimension, all of one length), in (0, 1).
     pub fn fill(&self, first: u64, columns: &mut [Vec<f64>]) {
         let mut rng = self.stream.clone();
         rng.set_word_pos(u128::from(first) * self.dimensions as u128 * WORDS_PER_DRAW);

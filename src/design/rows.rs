@@ -1,4 +1,4 @@
-//! The rows of a base point: which are asked for, and which of them are the same point and so run once.
+//! The rows of a base point: the requested ones, and those that share a point and are run once.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -11,34 +11,34 @@ use crate::space::GaussianCopula;
 /// factor: its rows repeat A or B but are run again, and show the noise of a model that is not deterministic.
 pub type Swap = Vec<usize>;
 
-/// The rows that a design is asked for beside A and B.
+/// The rows of a design in addition to A and B.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Rows {
-    /// One row AB_s for each; column numbers count from 0.
+    /// One row AB_s for each; column numbers start at 0.
     pub swaps: Vec<Swap>,
     /// Whether there is a row BA_s, B with the columns of the swap from A, for every AB_s.
     pub ba: bool,
     /// Whether the sums for second-order indices are kept; needs the rows BA.
     pub second_order: bool,
-    /// Rows of every base point at points of their own, which only surrogates learn from ([`crate::surrogate`]).
+    /// Rows of every base point at points of their own, used only to fit surrogates ([`crate::surrogate`]).
     pub plain_rows: u32,
     /// The copula of dependent factors. A swap then takes its columns from B, and the other factors follow them.
     pub copula: Option<Arc<GaussianCopula>>,
-    /// The swaps, by number, whose factors are drawn anew given all others instead; of independent factors that is the same.
+    /// The swaps, by index, whose factors are drawn again given all others; the same for independent factors.
     pub redrawn: Vec<usize>,
-    /// The players whose Shapley effects are found along random orders: disjoint sets of factors, in rising order, that are all
-    /// factors together. Beside A and B they take a row for each of them but one. None for none.
+    /// The players whose Shapley effects are estimated along random orders: disjoint sets of factors, in rising order,
+    /// that contain all factors. They take one row less than there are players, in addition to A and B. Empty for none.
     pub players: Vec<Swap>,
 }
 
 impl Rows {
-    /// The rows AB_s of `swaps`, without rows BA.
+    /// Returns the rows AB_s of `swaps`, without rows BA.
     pub fn plain(swaps: Vec<Swap>) -> Self {
         Self { swaps, ..Self::default() }
     }
 }
 
-/// What one row of a design is; the number is that of its swap.
+/// The kind of a row of a design; the number is that of its swap.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum RowKind {
     /// The first d coordinates of the base point.
@@ -49,9 +49,9 @@ pub enum RowKind {
     Ab(usize),
     /// B with the columns of the swap from A.
     Ba(usize),
-    /// A point that no other row of the design shares a column with; the number counts those of a base point.
+    /// A point that shares no column with any other row of the design; the number counts those of a base point.
     Plain(u32),
-    /// A with the columns of the first players of the order of its base point from B: of one player in step 0, and so on.
+    /// A with the columns of the first players in its base point's order from B: of one player in step 0, and so on.
     Step(usize),
 }
 
@@ -62,12 +62,12 @@ pub enum Matrix {
     A,
     /// Dimensions d to 2d.
     B,
-    /// Points of a sequence of its own, of which every base point has as many as it has plain rows.
+    /// Points of a separate sequence; every base point has one for each of its plain rows.
     Plain(u32),
 }
 
 impl Matrix {
-    /// Its place among the matrices of a design: A, B and the plain ones.
+    /// Returns its position among the matrices of a design: A, B and the plain ones.
     pub(super) fn place(self) -> usize {
         match self {
             Self::A => 0,
@@ -80,15 +80,15 @@ impl Matrix {
 /// A row that is run: the row of `base` with the `columns` of `from`.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Run {
-    /// The first of the rows that are this point.
+    /// The first kind among the rows at this point.
     pub kind: RowKind,
-    /// Where its columns come from,
+    /// The matrix of the columns that are not in `columns` or `mixed`.
     pub base: Matrix,
-    /// except these, in rising order,
+    /// The columns from `from`, in rising order.
     pub columns: Vec<usize>,
-    /// which come from here;
+    /// The matrix of `columns`.
     pub from: Matrix,
-    /// and except the columns of dependent factors, which follow others: the factor, and the number of its column among those of
+    /// The columns of dependent factors, which follow others: the factor, and the index of its column among those of
     /// the base points; in rising order.
     pub mixed: Vec<(usize, usize)>,
 }
@@ -99,11 +99,11 @@ impl Run {
     }
 }
 
-/// The runs of a base point, and which of them answers for each row.
+/// The runs of a base point, and the run for each row.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Runs {
     pub runs: Vec<Run>,
-    /// For each swap the number of the run that is its row AB_s.
+    /// For each swap, the index of the run that is its row AB_s.
     pub ab: Vec<usize>,
     /// Likewise BA_s; empty without these rows.
     pub ba: Vec<usize>,
@@ -116,7 +116,7 @@ pub(super) struct Runs {
 }
 
 impl Runs {
-    /// The runs for `rows` over `factors` factors, in the order A, B, AB_s, BA_s of their first rows, then the
+    /// Returns the runs for `rows` over `factors` factors, in the order A, B, AB_s, BA_s of their first rows, then the
     /// plain ones and the steps along random orders.
     pub fn new(rows: &Rows, factors: usize) -> Self {
         let first = factors * (2 + rows.plain_rows as usize);
@@ -150,14 +150,14 @@ impl Runs {
     }
 }
 
-/// Where the columns of a row come from.
+/// The source of the columns of a row.
 type Key = (Matrix, Matrix, Vec<usize>);
 
-/// Runs so far, and their numbers by what they are made of.
+/// Runs so far, and their indices by source.
 struct Unique {
     factors: usize,
     runs: Vec<Run>,
-    /// With the columns of dependent factors that follow others.
+    /// Including the columns of dependent factors that follow others.
     numbers: BTreeMap<(Key, Vec<(usize, usize)>), usize>,
     mixed: Option<MixedColumns>,
 }
@@ -181,7 +181,7 @@ impl Unique {
         number
     }
 
-    /// The number of the run that is this point; a new one if there is none yet.
+    /// Returns the index of the run at this point, adding a run if there is none yet.
     fn number(&mut self, kind: RowKind, base: Matrix, columns: &[usize], from: Matrix) -> usize {
         let number = self.numbered((key(self.factors, base, columns, from), Vec::new()));
         if number == self.runs.len() {
@@ -195,8 +195,8 @@ impl Unique {
     }
 }
 
-/// What a row is made of, written in one way only: the matrix of most of its columns first, A before B where
-/// both have half, and a row of one matrix alone with that matrix twice.
+/// Returns the source of a row in a unique form: the matrix of most of its columns first, A before B if both have half,
+/// and a row of a single matrix with that matrix twice.
 fn key(factors: usize, base: Matrix, columns: &[usize], from: Matrix) -> Key {
     let (swapped, kept) = (columns.len(), factors - columns.len());
     if swapped == 0 {
@@ -221,7 +221,7 @@ mod tests {
         Runs::new(&Rows { swaps, ba, ..Rows::default() }, factors)
     }
 
-    /// The row of a kind, column by column, straight from its definition.
+    /// Returns the row of a kind, column by column, from its definition.
     fn definition(kind: RowKind, factors: usize, swaps: &[&[usize]]) -> Vec<Matrix> {
         use Matrix::{A, B};
         let mixed = |base, swap: usize, from| {

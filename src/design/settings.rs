@@ -1,4 +1,4 @@
-//! What a design is asked to be: where its points come from, how many, and their seed.
+//! The settings of a design: its sampler, size and seed.
 
 use serde::Serialize;
 
@@ -19,27 +19,27 @@ pub enum Sampler {
 }
 
 impl Sampler {
-    /// Whether its points are scrambled digital nets, complete at powers of two.
+    /// Returns whether its points are scrambled digital nets, complete at powers of two.
     pub fn is_digital(self) -> bool {
         self == Self::Sobol
     }
 }
 
-/// What a design is asked to be; [`Design::new`](super::Design::new) checks it.
+/// The settings of a design, checked by [`Design::new`](super::Design::new).
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct DesignSettings {
-    /// Where the points come from.
+    /// The sampler.
     pub sampler: Sampler,
-    /// Base points in all, over the replicates; rounded up to a multiple of `replicates`.
+    /// Total number of base points over the replicates; rounded up to a multiple of `replicates`.
     pub base_samples: u64,
     /// Independent randomisations that share the base points; their spread gives the intervals.
     pub replicates: u64,
-    /// Seed of every random number of the design; 0 is a seed like any other.
+    /// Seed of every random number of the design; 0 is a valid seed.
     pub seed: u64,
 }
 
 impl Default for DesignSettings {
-    /// 2^14 base points of the scrambled Sobol' sequence in 4 replicates, seed 0.
+    /// Returns 2^14 base points of the scrambled Sobol' sequence in 4 replicates, seed 0.
     fn default() -> Self {
         Self { sampler: Sampler::Sobol, base_samples: 1 << 14, replicates: 4, seed: 0 }
     }

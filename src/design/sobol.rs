@@ -7,19 +7,19 @@ use sobol_burley::parts::owen_scramble_rev;
 
 use super::joe_kuo::{BITS, Directions, directions};
 
-/// One randomised Sobol' sequence of up to 2^32 points: every call for the same index gives the same point.
+/// One randomised Sobol' sequence of up to 2^32 points: every call for the same index returns the same point.
 ///
 /// Each coordinate is a 32-bit Sobol' number (Joe-Kuo direction numbers; Gray-code order of Antonov and Saleev 1979,
 /// as in SciPy and in Joe and Kuo's own program), scrambled by a hash that acts as a nested uniform (Owen) scramble
 /// (Burley 2020, "Practical Hash-based Owen Scrambling", JCGT 9(4); hash of `sobol_burley`), and placed in the middle
 /// of its cell of width 2^-32: never 0, never 1.
 ///
-/// Pairs of dimensions are as good as their direction numbers: excellent for low ones; but among many dimensions some pairs
-/// share leading digits over the first points, which no such sequence can avoid with more than 2^(m-1) dimensions for 2^m
-/// points. No pair is correlated by more than 0.1 among the first 60 dimensions (30 factors) from 2^10 points on, 100
-/// (50 factors) from 2^12 and 200 (100 factors) from 2^14. Of the 1000 pairs (A_j, B_j) of a design of 1000 factors,
-/// 20 may be at 2^10 points, by up to 0.75; seven at 2^12, one at 2^14. The scramble draws the sign of such a
-/// correlation, so that estimates stay unbiased and the spread of replicates shows it.
+/// Pairs of dimensions are as good as their direction numbers: excellent for low ones; but among many dimensions some
+/// pairs share leading digits over the first points, which no such sequence can avoid with more than 2^(m-1) dimensions
+/// for 2^m points. No pair is correlated by more than 0.1 among the first 60 dimensions (30 factors) from 2^10 points
+/// on, 100 (50 factors) from 2^12 and 200 (100 factors) from 2^14. Of the 1000 pairs (A_j, B_j) of a design of 1000
+/// factors, 20 may be at 2^10 points, by up to 0.75; seven at 2^12, one at 2^14. The scramble randomises the sign of
+/// such a correlation, so that estimates remain unbiased and the spread of replicates shows it.
 #[derive(Debug, Clone)]
 pub struct SobolSequence {
     /// Per dimension: the direction numbers.
@@ -29,19 +29,19 @@ pub struct SobolSequence {
 }
 
 impl SobolSequence {
-    /// The scrambled sequence of `dimensions` coordinates. Sequences of another `seed` or `replicate` are independent.
+    /// Creates the scrambled sequence of `dimensions` coordinates; independent for another `seed` or `replicate`.
     pub fn scrambled(dimensions: usize, seed: u64, replicate: u64) -> Self {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
         rng.set_stream(replicate);
         Self { scrambles: Some((0..dimensions).map(|_| rng.next_u32()).collect()), ..Self::plain(dimensions) }
     }
 
-    /// The sequence without scrambling, as published: for tests and comparisons, its first point is (nearly) 0.
+    /// Creates the sequence without scrambling, as published, for tests and comparisons; its first point is (nearly) 0.
     pub fn plain(dimensions: usize) -> Self {
         Self { directions: directions(dimensions).iter().collect(), scrambles: None }
     }
 
-    /// Coordinate `dimension` of the points `first`, `first + 1`, ... into `out`.
+    /// Writes coordinate `dimension` of the points `first`, `first + 1`, ... to `out`.
     ///
     /// # Panics
     /// If an index would reach 2^32, where the sequence would repeat itself.
@@ -54,7 +54,7 @@ impl SobolSequence {
         while !rest.is_empty() {
             let skipped = index as usize % TILE;
             let (part, others) = rest.split_at_mut(rest.len().min(TILE - skipped));
-            // Gray code is linear: the points of a tile differ from those of the first one by one number.
+            // Gray code is linear: the points of a tile differ from those of the first one by an XOR with one number.
             let points = coordinates(at_index(directions, index - skipped as u64), &tile, scramble);
             part.copy_from_slice(&points[skipped..][..part.len()]);
             index += part.len() as u64;
@@ -63,21 +63,21 @@ impl SobolSequence {
     }
 }
 
-/// Points that are made at once.
+/// Number of points computed at once.
 const TILE: usize = 64;
 
-/// The bit-reversed coordinates of the first points.
+/// Returns the bit-reversed coordinates of the first points.
 fn first_tile(directions: &Directions) -> [u32; TILE] {
     let mut tile = [0; TILE];
     for (bit, direction) in directions.iter().enumerate().take(TILE.ilog2() as usize) {
-        // Those with this bit of the Gray code, in the order of the Gray code: the others backwards.
+        // Points with this bit of the Gray code follow in Gray-code order: the others backwards.
         let (before, after) = tile[..2 << bit].split_at_mut(1 << bit);
         after.iter_mut().zip(before.iter().rev()).for_each(|(point, other)| *point = other ^ direction);
     }
     tile
 }
 
-/// The coordinates of the points of a tile, whose first one is at `origin`, scrambled by a key.
+/// Returns the coordinates of the points of a tile, whose first one is at `origin`, scrambled by a key.
 #[multiversion(targets("x86_64+avx512f", "x86_64+avx2"))]
 fn coordinates(origin: u32, tile: &[u32; TILE], scramble: Option<u32>) -> [f64; TILE] {
     let mut coordinates = [0.0; TILE];
@@ -92,7 +92,7 @@ fn coordinates(origin: u32, tile: &[u32; TILE], scramble: Option<u32>) -> [f64; 
     coordinates
 }
 
-/// The middle of the cell of a bit-reversed coordinate.
+/// Returns the middle of the cell of a bit-reversed coordinate.
 #[inline(always)]
 fn in_cell(reversed: u32) -> f64 {
     (f64::from(reversed.reverse_bits()) + 0.5) * CELL
@@ -100,7 +100,7 @@ fn in_cell(reversed: u32) -> f64 {
 
 const CELL: f64 = 1.0 / (1u64 << BITS) as f64;
 
-/// The bit-reversed coordinate of point `index`.
+/// Returns the bit-reversed coordinate of point `index`.
 fn at_index(directions: &Directions, index: u64) -> u32 {
     let gray = index ^ (index >> 1);
     directions.iter().enumerate().fold(0, |sum, (k, direction)| sum ^ if gray >> k & 1 == 1 { *direction } else { 0 })

@@ -2,20 +2,20 @@
 
 use super::Undefined;
 
-/// How outputs are weighed against each other.
+/// How outputs are weighted against each other.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Scaling {
-    /// As they are: for outputs of one unit, such as the values of a curve. An output counts by its variance.
+    /// Unscaled: for outputs of one unit, such as the values of a curve. The weight of an output is its variance.
     Plain,
-    /// Each divided by its own standard deviation: for outputs of different units. All count the same.
+    /// Each divided by its own standard deviation: for outputs of different units. All weigh the same.
     Standardised,
 }
 
-/// Aggregated indices of several outputs of one design, each with its variance and a list of its indices:
-/// sum_k V_j^k/sum_k V^k, which is the mean of the outputs' indices weighted by their variances.
+/// Returns aggregated indices of several outputs of one design, each with its variance and a list of its indices: sum_k
+/// V_j^k/sum_k V^k, the mean of the outputs' indices weighted by their variances.
 ///
 /// Gamboa, Janon, Klein and Lagnoux (2014), Electron. J. Stat. 8, 575-603; Lamboni, Monod and Makowski (2011), Reliab.
-/// Eng. Syst. Saf. 96, 450-459. An output that is constant has no part in it.
+/// Eng. Syst. Saf. 96, 450-459. Constant outputs are ignored.
 ///
 /// # Errors
 /// [`Undefined`] if all outputs are constant, or one has no indices for another reason.
@@ -31,7 +31,7 @@ pub fn aggregated<'a>(
             Err(undefined) => return Err(*undefined),
         }
     }
-    // Relative to the largest, so that variances near the ends of the doubles can be added.
+    // Relative to the largest, so that variances near the limits of `f64` can be added.
     let largest = varying.iter().map(|(variance, _)| *variance).fold(0.0, f64::max);
     let weight = |variance: f64| match scaling {
         Scaling::Plain => variance / largest,

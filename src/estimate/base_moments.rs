@@ -1,4 +1,4 @@
-//! Moments of the rows A and B, on which those of every swap rest.
+//! Moments of the rows A and B, shared by those of every swap.
 
 use crate::sum::{centred_product, mean};
 
@@ -22,12 +22,12 @@ pub struct BaseMoments {
     pub ab: f64,
 }
 
-/// How far other base points lie from those they are merged into, and what they weigh.
+/// The shift between the means of two sets of base points that are merged, and its weight.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Shift {
     /// Their share of the base points.
     pub share: f64,
-    /// n m/(n + m): what the product of two shifts of means adds to a sum of centred products.
+    /// n m/(n + m): the product of two shifts of means times this is added to a sum of centred products.
     pub weight: f64,
     /// Shift of the mean of y_A.
     pub a: f64,
@@ -36,7 +36,7 @@ pub(super) struct Shift {
 }
 
 impl BaseMoments {
-    /// The moments of two columns of one length.
+    /// Computes the moments of two columns of one length.
     pub(super) fn from_columns(a: &[f64], b: &[f64]) -> Self {
         let (ca, cb) = ((a, mean(a)), (b, mean(b)));
         Self {
@@ -49,7 +49,7 @@ impl BaseMoments {
         }
     }
 
-    /// Adds other base points. Neither side is empty.
+    /// Adds other base points. Both sides must have base points.
     pub(super) fn merge(&mut self, other: &Self) -> Shift {
         let (n, m) = (self.n as f64, other.n as f64);
         let shift = Shift {
@@ -67,17 +67,17 @@ impl BaseMoments {
         shift
     }
 
-    /// Half of mean_b - mean_a: what the pooled mean f0 lies above mean_a, and below mean_b.
+    /// Returns half of mean_b - mean_a: the pooled mean f0 minus mean_a, and mean_b minus f0.
     pub fn half_gap(&self) -> f64 {
         (self.mean_b - self.mean_a) / 2.0
     }
 
-    /// Mean f0 of the output over the rows A and B pooled.
+    /// Returns the mean f0 of the output over the rows A and B pooled.
     pub fn mean(&self) -> f64 {
         self.mean_a + self.half_gap()
     }
 
-    /// Variance of the output over the rows A and B pooled (two-pass; divided by the number of rows 2n).
+    /// Returns the variance of the output over the rows A and B pooled (two-pass; divided by the number of rows 2n).
     pub fn variance(&self) -> f64 {
         (self.aa + self.bb) / (2.0 * self.n as f64) + self.half_gap() * self.half_gap()
     }

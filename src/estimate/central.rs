@@ -27,7 +27,7 @@ pub struct CentralMoments {
 }
 
 impl CentralMoments {
-    /// The moments of `values`, of which those that are not finite do not count.
+    /// Computes the moments of `values`, ignoring those that are not finite.
     pub fn from_values(values: &[f64]) -> Self {
         // A mean is finite only if every value is.
         if mean(values).is_finite() {
@@ -52,7 +52,7 @@ impl CentralMoments {
         };
         self.range = Some((low.min(other_low), high.max(other_high)));
         let (n, m) = (self.n as f64, other.n as f64);
-        // Shares of the two sides; the powers of delta are spread so that none overflows before the sum does.
+        // Weights of the two sides; the powers of delta are spread so that none overflows before the sum does.
         let (p, q, delta) = (n / (n + m), m / (n + m), other.mean - self.mean);
         let pair = n * q * delta * delta;
         self.m4 += other.m4
@@ -65,40 +65,40 @@ impl CentralMoments {
         self.n += other.n;
     }
 
-    /// Number of values.
+    /// Returns the number of values.
     pub fn count(&self) -> u64 {
         self.n
     }
 
-    /// Smallest and largest value; `None` without any.
+    /// Returns the smallest and largest value; `None` if there are none.
     pub fn range(&self) -> Option<(f64, f64)> {
         self.range
     }
 
-    /// Mean; `None` without values.
+    /// Returns the mean; `None` without values.
     pub fn mean(&self) -> Option<f64> {
         (self.n > 0).then_some(self.mean)
     }
 
-    /// Variance with the divisor n, as that of the indices; `None` without values.
+    /// Returns the variance with the divisor n, as for the indices; `None` without values.
     pub fn variance(&self) -> Option<f64> {
         (self.n > 0).then(|| self.m2 / self.n as f64)
     }
 
-    /// Skewness g1 = (m3/n)/(m2/n)^(3/2); `None` without variance.
+    /// Returns the skewness g1 = (m3/n)/(m2/n)^(3/2); `None` without variance.
     pub fn skewness(&self) -> Option<f64> {
         let sd = self.variance()?.sqrt();
         Some(self.m3 / self.n as f64 / sd / sd / sd).filter(|g| g.is_finite())
     }
 
-    /// Excess kurtosis g2 = (m4/n)/(m2/n)^2 - 3, 0 for a normal distribution; `None` without variance.
+    /// Returns the excess kurtosis g2 = (m4/n)/(m2/n)^2 - 3, 0 for a normal distribution; `None` without variance.
     pub fn excess_kurtosis(&self) -> Option<f64> {
         let variance = self.variance()?;
         Some(self.m4 / self.n as f64 / variance / variance - 3.0).filter(|g| g.is_finite())
     }
 }
 
-/// Sums of the second, third and fourth powers of x - mean.
+/// Returns the sums of the second, third and fourth powers of x - mean.
 #[multiversion(targets("x86_64+avx512f", "x86_64+avx2"))]
 fn powers(x: &[f64], mean: f64) -> [f64; 3] {
     sums_by(x.len(), |i| {

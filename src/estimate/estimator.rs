@@ -1,14 +1,14 @@
-//! The estimators by the names of study files.
+//! Estimators as named in study files.
 
 use super::of_one_index::{FirstOrder, Total};
 use crate::names::named;
 
 named! {
-/// What a study file names: a paper's estimators of first-order and total indices. The variants that say nothing else
-/// have both.
+/// An estimator named in study files: a paper's estimators of first-order and total indices. Variants have both unless
+/// stated otherwise.
 #[derive(Default)]
 pub enum Estimator {
-    /// The most accurate of the rows that there are.
+    /// The most accurate estimators for the existing rows.
     #[default]
     Default = "default",
     /// Sobol' 1993: first order only.
@@ -35,8 +35,8 @@ pub enum Estimator {
 }
 
 impl Estimator {
-    /// Its estimators of first-order and of total indices; `None` where the paper has none of its own, and the default
-    /// for the rows that there are is used.
+    /// Returns its estimators of first-order and of total indices; `None` where the paper defines none, and the default
+    /// for the existing rows is used.
     pub fn formulas(self) -> (Option<FirstOrder>, Option<Total>) {
         match self {
             Self::Default => (None, None),
@@ -53,7 +53,7 @@ impl Estimator {
         }
     }
 
-    /// Whether it needs the rows BA beside A, B and AB.
+    /// Returns whether it needs the rows BA in addition to A, B and AB.
     pub fn needs_ba(self) -> bool {
         let (first_order, total) = self.formulas();
         first_order.is_some_and(FirstOrder::needs_ba) || total.is_some_and(Total::needs_ba)

@@ -10,13 +10,13 @@ pub struct Indices {
     /// Total index of the swapped columns.
     pub total: Vec<f64>,
     /// First-order index by Janon and Monod's formula, to check the first list; NaN where neither y_B nor y_AB varies,
-    /// whose variance it divides by.
+    /// since it divides by their variance.
     pub check: Vec<f64>,
 }
 
 impl Indices {
-    /// The default estimators on `moments`: Saltelli et al. 2010 (b), centred, and Jansen 1999, over the variance of the rows
-    /// of the swap; with rows BA those of Azzini et al. 2021.
+    /// Computes the indices by the default estimators: Saltelli et al. 2010 (b), centred, and Jansen 1999, over the
+    /// variance of the rows of the swap; with rows BA those of Azzini et al. 2021.
     ///
     /// # Errors
     /// [`Undefined`] if there are fewer than two base points or the output has no usable variance.
@@ -25,11 +25,11 @@ impl Indices {
         Self::by(moments, FirstOrder::default_for(has_ba), Total::default_for(has_ba))
     }
 
-    /// The indices by given estimators.
+    /// Computes the indices by the given estimators.
     ///
     /// # Errors
-    /// [`Undefined`] if there are fewer than two base points, the output has no usable variance, or the sums lack rows
-    /// that an estimator needs.
+    /// [`Undefined`] if there are fewer than two base points, the output has no usable variance, or rows that an
+    /// estimator needs are missing.
     pub fn by(moments: &Moments, first_order: FirstOrder, total: Total) -> Result<Self, Undefined> {
         if moments.count() < 2 {
             return Err(Undefined::NoRuns);
@@ -67,7 +67,7 @@ impl Indices {
     }
 }
 
-/// The variance, unless there is none that doubles can tell.
+/// Returns the variance, if it can be represented and exceeds rounding errors.
 fn usable_variance(base: &BaseMoments) -> Result<f64, Undefined> {
     let variance = base.variance();
     if !variance.is_normal() {

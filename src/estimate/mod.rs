@@ -1,8 +1,8 @@
 //! Sobol' indices from centred sums.
 //!
-//! [`Moments`] accumulate during the run; [`Indices::from_moments`] reads them once it is over, and [`FirstOrder`], [`Total`] and
-//! [`SecondOrder`] name the other formulas that can be read from the same sums. Indices are what the formulas give,
-//! never clamped: a first-order index of -0.001 says that 0 is within its error.
+//! [`Moments`] accumulate during the run; [`Indices::from_moments`] computes the indices at its end, and
+//! [`FirstOrder`], [`Total`] and [`SecondOrder`] are other formulas on the same sums. Indices are the results of the
+//! formulas, never clamped: a first-order index of -0.001 means that 0 is within its error.
 
 mod aggregate;
 mod base_moments;
@@ -67,8 +67,7 @@ pub enum Undefined {
     },
 }
 
-/// Shares in percent, 100 x_i / sum x: how indices become the papers' percentages. `None` if the sum is not positive,
-/// when a share of it has no meaning.
+/// Returns the papers' percentages, 100 x_i / sum x; `None` if the sum is not positive: they have no meaning then.
 ///
 /// ```
 /// use apportion::estimate::shares;

@@ -1,4 +1,4 @@
-//! The centred sums from which every estimator reads: constant in size, mergeable in any fixed tree.
+//! The centred sums used by every estimator: constant in size, mergeable in any fixed tree.
 
 use super::base_moments::BaseMoments;
 use super::pair_moments::PairMoments;
@@ -9,12 +9,12 @@ use crate::sum;
 
 /// First and second moments of the outputs of a Saltelli design, all centred on their own means.
 ///
-/// Every swap has sums of its own over the base points at which its rows, A, B, AB_s and perhaps BA_s, all have an
-/// output: a row that fails costs its own swap a base point, and the others none.
+/// Every swap has its own sums over the base points at which all of its rows, A, B, AB_s and possibly BA_s, have an
+/// output: a failed row removes a base point from its own swap only.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Moments {
     base: BaseMoments,
-    /// Smallest and largest output among the rows A and B; `None` without any.
+    /// Smallest and largest output among the rows A and B; `None` if there are none.
     range: Option<(f64, f64)>,
     swaps: Vec<SwapMoments>,
     pairs: Option<PairMoments>,
@@ -34,17 +34,17 @@ pub struct BlockOutputs<'a> {
     pub ba: &'a [&'a [f64]],
     /// The swaps whose pairs are counted for second-order indices, in rising order; none without `ba`.
     pub paired: &'a [usize],
-    /// What every player adds, one slice for each ([`contributions`](super::contributions)); none without rows along random orders.
+    /// The [`contributions`](super::contributions) of the players, one slice for each; empty without random orders.
     pub shapley: &'a [&'a [f64]],
 }
 
 impl Moments {
-    /// No base points, for `swaps` rows AB_s.
+    /// Creates moments of no base points, for `swaps` rows AB_s.
     pub fn empty(swaps: usize) -> Self {
         Self { swaps: vec![SwapMoments::default(); swaps], ..Self::default() }
     }
 
-    /// The moments of one block; `work` is reused between calls.
+    /// Computes the moments of one block; `work` is reused between calls.
     ///
     /// ```
     /// use apportion::estimate::{BlockOutputs, Indices, Moments, Workspace};
@@ -77,7 +77,7 @@ impl Moments {
         }
     }
 
-    /// Moments of weighted base points, whose sums are known but whose smallest and largest output is not.
+    /// Creates moments of weighted base points from their sums, without the range of the output.
     pub(super) fn from_sums(
         base: BaseMoments,
         swaps: Vec<SwapMoments>,
@@ -115,24 +115,24 @@ impl Moments {
         }
     }
 
-    /// The sums of y_A and y_B alone.
+    /// Returns only the sums of y_A and y_B.
     #[must_use]
     pub fn without_swaps(self) -> Self {
         Self { swaps: Vec::new(), pairs: None, shapley: None, ..self }
     }
 
-    /// Base points at which A and B have an output.
+    /// Returns the number of base points at which A and B have an output.
     pub fn count(&self) -> u64 {
         self.base.n
     }
 
-    /// Base points from which the index with the fewest of them is estimated.
+    /// Returns the smallest number of base points of any index.
     pub fn fewest(&self) -> u64 {
         let shapley = self.shapley.iter().map(|shapley| shapley.n);
         self.swaps.iter().map(|swap| swap.base.n).chain(shapley).fold(self.base.n, u64::min)
     }
 
-    /// About how many numbers are held.
+    /// Returns the approximate number of stored numbers.
     pub(super) fn numbers(&self) -> usize {
         let pairs = self.pairs.as_ref().map_or(0, |pairs| 2 * pairs.swaps().len().pow(2));
         self.swaps.len() * (size_of::<SwapMoments>() / size_of::<f64>())
@@ -140,12 +140,12 @@ impl Moments {
             + self.shapley.as_ref().map_or(0, |shapley| shapley.sums.len())
     }
 
-    /// Number of rows AB_s.
+    /// Returns the number of rows AB_s.
     pub fn swaps(&self) -> usize {
         self.swaps.len()
     }
 
-    /// The sums of one swap.
+    /// Returns the sums of one swap.
     ///
     /// # Panics
     /// If there is no such swap.
@@ -153,48 +153,48 @@ impl Moments {
         &self.swaps[swap]
     }
 
-    /// Whether the swaps have sums of rows BA.
+    /// Returns whether the swaps have sums of rows BA.
     pub fn has_ba(&self) -> bool {
         !self.swaps.is_empty() && self.swaps.iter().all(|swap| swap.ba.is_some())
     }
 
-    /// The sums of y_A and y_B.
+    /// Returns the sums of y_A and y_B.
     pub fn base(&self) -> &BaseMoments {
         &self.base
     }
 
-    /// What second-order indices are read from, if it was asked for.
+    /// Returns the moments for second-order indices, if requested.
     pub fn pairs(&self) -> Option<&PairMoments> {
         self.pairs.as_ref()
     }
 
-    /// What Shapley effects are read from, if they are found along random orders.
+    /// Returns the sums for Shapley effects, if they are estimated along random orders.
     pub fn shapley(&self) -> Option<&ShapleyMoments> {
         self.shapley.as_ref()
     }
 
-    /// Smallest and largest output among the rows A and B; `None` without any.
+    /// Returns the smallest and largest output among the rows A and B; `None` if there are none.
     pub fn range(&self) -> Option<(f64, f64)> {
         self.range
     }
 
-    /// Whether every row A and B has the same output.
+    /// Returns whether every row A and B has the same output.
     pub fn constant(&self) -> bool {
         self.range.is_none_or(|(low, high)| low == high)
     }
 
-    /// Mean of the output over the rows A and B.
+    /// Returns the mean of the output over the rows A and B.
     pub fn mean(&self) -> f64 {
         self.base.mean()
     }
 
-    /// Variance of the output over the rows A and B pooled (two-pass; divided by the number of rows 2n).
+    /// Returns the variance of the output over the rows A and B pooled (two-pass; divided by the number of rows 2n).
     pub fn variance(&self) -> f64 {
         self.base.variance()
     }
 }
 
-/// Smallest and largest of both columns; `None` without any.
+/// Returns the smallest and largest of both columns; `None` if they are empty.
 fn range(a: &[f64], b: &[f64]) -> Option<(f64, f64)> {
     let ((low, high), (other_low, other_high)) = (sum::range(a), sum::range(b));
     (!a.is_empty()).then(|| (low.min(other_low), high.max(other_high)))

@@ -1,11 +1,10 @@
-//! The estimators of first-order and of total indices by name.
+//! The estimators of first-order and of total indices.
 
 use super::formula::{correlation, difference, double, product};
 use super::{Moments, SwapMoments};
 use crate::names::named;
 
-/// Declares an enum of estimators: of each a doc line, its name in results, its formula on the sums of a swap, and where the
-/// formula comes from.
+/// Declares an enum of estimators: a doc line, the name in results, the formula on the sums of a swap, and its source.
 macro_rules! estimators {
     ($(#[$meta:meta])* pub enum $type:ident {
         $($(#[$doc:meta])* $variant:ident = $name:literal, $formula:path, $source:expr;)+
@@ -16,23 +15,23 @@ macro_rules! estimators {
         }
 
         impl $type {
-            /// Where the formula comes from.
+            /// Returns the source of the formula.
             pub fn source(self) -> &'static str {
                 match self { $(Self::$variant => $source),+ }
             }
 
-            /// Whether it needs the rows BA beside A, B and AB.
+            /// Returns whether it needs the rows BA in addition to A, B and AB.
             pub fn needs_ba(self) -> bool {
                 matches!(self, Self::GlenIsaacs2012 | Self::Azzini2021)
             }
 
-            /// Model runs of a base point for `d` factors, where no two rows are the same point.
+            /// Returns the model runs of a base point for `d` factors, if no two rows are the same point.
             pub fn runs_per_point(self, d: u64) -> u64 {
                 2 + d * if self.needs_ba() { 2 } else { 1 }
             }
 
-            /// The index of swap number `swap`, not clamped; NaN without rows BA if it [needs](Self::needs_ba) them, or
-            /// without variance.
+            /// Returns the index of swap `swap`, not clamped; NaN without variance, or without rows BA if
+            /// [needed](Self::needs_ba).
             ///
             /// # Panics
             /// If there is no such swap.
@@ -49,8 +48,9 @@ estimators! {
 ///
 /// In the formulas n is the number of base points, m_B the mean of y_B, V_B its variance, f0 and V the mean and
 /// variance of y_A and y_B pooled, r Pearson's correlation; AB is A with the columns of the swap from B. Sobol1993,
-/// HommaSaltelli1996, Saltelli2002 and Sobol2007 are not centred, as published: an offset of the output that is large
-/// against its spread makes their error grow in proportion (Saltelli2002: also its square over n), and takes digits.
+/// HommaSaltelli1996, Saltelli2002 and Sobol2007 are not centred, as published: if the offset of the output is large
+/// compared with its spread, their error grows in proportion (Saltelli2002: also its square over n), and digits are
+/// lost.
 ///
 /// ```
 /// use apportion::estimate::{BlockOutputs, Moments, Workspace};
@@ -97,17 +97,17 @@ pub enum FirstOrder {
     /// S = 1/n sum (y_B - f0)(y_AB - y_A)/(S V_B,AB + (1 - S) V3 - c), V_B,AB the variance of y_B and y_AB pooled, V3 that
     /// of y_A, y_B and y_AB, c the covariance of y_A and y_B: the default without rows BA.
     ///
-    /// The covariance, 0 for all points, is in the numerator too; at S = 1 so is the variance of y_B and y_AB: their noise
-    /// cancels. Small indices have the denominator of most rows. (On the right side S is held between 0 and 1, c between
-    /// -V3/2 and V3/2, and V_B,AB - c is at least half of V3 - c.)
+    /// The covariance, which tends to 0, is in the numerator too; so is the variance of y_B and y_AB at S = 1: their
+    /// noise cancels. Small indices have the denominator from the most rows. (On the right side S is clamped to between
+    /// 0 and 1, c to between -V3/2 and V3/2, and V_B,AB - c is at least half of V3 - c.)
     SaltelliPooled = "saltelli-pooled", difference::saltelli_pooled,
         "Saltelli et al. (2010), Comput. Phys. Commun. 181, 259-270, table 2 (b), centred on the pooled mean, over a mixture of the variances of B and AB, and of A, B and AB, less the covariance of A and B";
 }
 }
 
 impl FirstOrder {
-    /// The default: the most accurate estimator of the rows that there are (`benches/accuracy.rs`). With rows BA that is
-    /// Azzini's, else Saltelli's of 2010 over the variance of all three rows.
+    /// Returns the default: the most accurate estimator for the existing rows (`benches/accuracy.rs`). With rows BA it
+    /// is Azzini's, otherwise Saltelli's of 2010 over the variance of all three rows.
     pub fn default_for(has_ba: bool) -> Self {
         if has_ba { Self::Azzini2021 } else { Self::SaltelliPooled }
     }
@@ -138,16 +138,16 @@ pub enum Total {
     /// ST = sum [(y_B - y_BA)^2 + (y_A - y_AB)^2]/sum [(y_A - y_B)^2 + (y_BA - y_AB)^2]: the default with rows BA.
     Azzini2021 = "azzini-2021", double::azzini_total,
         FirstOrder::Azzini2021.source();
-    /// ST = 1/(2n) sum (y_A - y_AB)^2/(ST V_A,AB + (1 - ST) V3), V_A,AB the variance of y_A and y_AB pooled, at least V3/2:
-    /// the default without rows BA, with the reasons of [`FirstOrder::SaltelliPooled`].
+    /// ST = 1/(2n) sum (y_A - y_AB)^2/(ST V_A,AB + (1 - ST) V3), V_A,AB the variance of y_A and y_AB pooled, at least
+    /// V3/2: the default without rows BA, for the reasons of [`FirstOrder::SaltelliPooled`].
     JansenPooled = "jansen-pooled", difference::jansen_pooled,
         "Jansen (1999), Comput. Phys. Commun. 117, 35-43, eq. 14, over a mixture of the variances of A and AB, and of A, B and AB";
 }
 }
 
 impl Total {
-    /// The default: the most accurate estimator of the rows that there are, as [`FirstOrder::default_for`]. With rows BA
-    /// that is Azzini's, else Jansen's over the variance of all three rows.
+    /// Returns the default: the most accurate estimator for the existing rows, as [`FirstOrder::default_for`]. With
+    /// rows BA it is Azzini's, otherwise Jansen's over the variance of all three rows.
     pub fn default_for(has_ba: bool) -> Self {
         if has_ba { Self::Azzini2021 } else { Self::JansenPooled }
     }

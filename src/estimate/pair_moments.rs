@@ -1,4 +1,4 @@
-//! The means from which second-order indices are read.
+//! The means used to compute second-order indices.
 
 use super::workspace::{Difference, PairedColumns, Workspace};
 use crate::sum::{centred_product, mean};
@@ -12,7 +12,7 @@ pub struct PairMoments {
     means: Vec<PairMean>,
 }
 
-/// A mean and what it is taken over.
+/// A mean, and the number of its base points.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 struct PairMean {
     n: u64,
@@ -38,7 +38,8 @@ impl Difference {
 }
 
 impl PairMoments {
-    /// The means of one block for `swaps`: `a` and `b` are the outputs of A and B, `ab` and `ba` those of all swaps.
+    /// Computes the means of one block for `swaps`: `a` and `b` are the outputs of A and B, `ab` and `ba` those of all
+    /// swaps.
     pub(super) fn from_columns(
         swaps: &[usize],
         (a, b): (&[f64], &[f64]),
@@ -61,7 +62,7 @@ impl PairMoments {
         Self { swaps: swaps.to_vec(), means }
     }
 
-    /// The means of all ordered pairs of `swaps`, each with its number of base points.
+    /// Creates moments from the means of all ordered pairs of `swaps`, each with its number of base points.
     pub(super) fn from_means(swaps: &[usize], means: impl Iterator<Item = (f64, u64)>) -> Self {
         Self { swaps: swaps.to_vec(), means: means.map(|(mean, n)| PairMean { n, mean }).collect() }
     }
@@ -73,12 +74,12 @@ impl PairMoments {
         }
     }
 
-    /// The swaps whose pairs are counted, in rising order.
+    /// Returns the swaps whose pairs are counted, in rising order.
     pub fn swaps(&self) -> &[usize] {
         &self.swaps
     }
 
-    /// Mean of E_j D_k and the number of base points it is taken over; `None` unless `j` and `k` are two of the paired
+    /// Returns the mean of E_j D_k and the number of its base points; `None` unless `j` and `k` are two of the paired
     /// swaps.
     pub fn mean(&self, j: usize, k: usize) -> Option<(f64, u64)> {
         let (row, column) = (self.swaps.binary_search(&j).ok()?, self.swaps.binary_search(&k).ok()?);

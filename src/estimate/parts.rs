@@ -1,32 +1,32 @@
-//! The moments of nested parts of a run of base points: what shows how the error falls as the run grows.
+//! The moments of nested parts of a run of base points, which show how the error falls as the run grows.
 
 use super::Moments;
 
-/// Most parts that are kept.
+/// Maximum number of parts that are kept.
 pub const MAX_PARTS: usize = 64;
 
-/// Most numbers that the parts of one output may hold together: with very many factors there are fewer parts.
+/// Maximum number of numbers in the parts of one output: with very many factors there are fewer parts.
 const MAX_NUMBERS: usize = 1 << 19;
 
-/// Outputs, series value by value, above which parts have eight points at least.
+/// Number of outputs, series value by value, above which parts have at least eight points.
 const OUTPUTS_OF_SHORT_PARTS: usize = 256;
 
 /// Moments of consecutive base points, kept as those of up to [`MAX_PARTS`] consecutive parts of equal length, a power
 /// of two; the last part may be shorter.
 ///
-/// Neighbouring parts are merged in pairs whenever there are too many, in the tree in which the whole is merged in the
-/// end: the bits of the whole do not depend on when that happened.
+/// Neighbouring parts are merged in pairs whenever there are too many, in the same tree in which the whole is finally
+/// merged: the bits of the whole do not depend on when that happened.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct MomentParts {
-    /// Base points in a part, complete or not.
+    /// Base points in a part that is complete.
     length: u64,
-    /// Base points in all.
+    /// Total number of base points.
     points: u64,
     parts: Vec<Moments>,
 }
 
 impl MomentParts {
-    /// One part per `length` base points, a power of two, of `points` in all.
+    /// Creates parts of `length` base points each, a power of two, of `points` in all.
     pub fn new(length: u64, points: u64, parts: Vec<Moments>) -> Self {
         debug_assert!(length.is_power_of_two() && points.div_ceil(length) == parts.len() as u64);
         let mut new = Self { length, points, parts };
@@ -34,17 +34,17 @@ impl MomentParts {
         new
     }
 
-    /// The parts, in the order of their base points.
+    /// Returns the parts, in the order of their base points.
     pub fn parts(&self) -> &[Moments] {
         &self.parts
     }
 
-    /// Base points in all, whether or not they have outputs.
+    /// Returns the total number of base points, with or without outputs.
     pub fn points(&self) -> u64 {
         self.points
     }
 
-    /// The first `parts` parts alone.
+    /// Returns only the first `parts` parts.
     #[must_use]
     pub fn prefix(&self, parts: usize) -> Self {
         let parts = parts.min(self.parts.len());
@@ -67,7 +67,7 @@ impl MomentParts {
         self.shrink();
     }
 
-    /// The moments of all base points together.
+    /// Returns the moments of all base points together.
     pub fn whole(&self) -> Moments {
         merged(&self.parts)
     }
@@ -96,8 +96,8 @@ impl MomentParts {
     }
 }
 
-/// The moments of `parts` together, merged in the tree of the run: the left branch holds the largest power of two below
-/// their number.
+/// Merges the moments of `parts` in the tree of the run: the left branch has the largest power of two below their
+/// number.
 pub fn merged(parts: &[Moments]) -> Moments {
     match parts {
         [] => Moments::empty(0),
@@ -111,10 +111,10 @@ pub fn merged(parts: &[Moments]) -> Moments {
     }
 }
 
-/// Length of the parts in which the block number `block` (of `size` base points) of a model with so many outputs is summed
-/// up: as long as the parts of the shortest run that holds the block may be. Later blocks, which only long runs reach,
-/// need no parts at all. The sums of a part are as many numbers as the outputs of some fourteen base points: with
-/// many outputs, a part has eight points at least, so that sums do not need many times the memory of the outputs.
+/// Returns the length of the parts in which block number `block` (of `size` base points) is summed, for a model with
+/// `outputs` outputs: that of the parts of the shortest run that contains the block. Later blocks, which only long runs
+/// reach, need no parts at all. The sums of a part are as many numbers as the outputs of about fourteen base points:
+/// with many outputs, a part has at least eight points, so that sums do not need many times the memory of the outputs.
 pub fn part_length(block: u64, size: u64, outputs: usize) -> u64 {
     let points = (block + 1).next_power_of_two() * size;
     let least = if outputs > OUTPUTS_OF_SHORT_PARTS { 8 } else { 1 };
@@ -126,7 +126,7 @@ mod tests {
     use super::*;
     use crate::estimate::{BlockOutputs, Workspace};
 
-    /// Moments of the points `first..last` of a made-up output.
+    /// Returns the moments of the points `first..last` of an artificial output.
     fn moments(first: u64, last: u64) -> Moments {
         let column = |salt: f64| (first..last).map(|i| libm::sin(i as f64 * 0.7 + salt)).collect::<Vec<f64>>();
         let (a, b, ab) = (column(0.0), column(1.0), column(2.0));
@@ -134,7 +134,7 @@ mod tests {
         Moments::of_block(block, &mut Workspace::default())
     }
 
-    /// The points `first..last` in parts of `length`.
+    /// Returns the points `first..last` in parts of `length`.
     fn parts(first: u64, last: u64, length: u64) -> MomentParts {
         let starts = (first..last).step_by(length as usize);
         MomentParts::new(length, last - first, starts.map(|s| moments(s, (s + length).min(last))).collect())

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 /// One output at every run of consecutive base points: a column per unique run, the points in order; not finite where a
-/// run failed. Held in blocks that are shared, so that appending copies no outputs.
+/// run failed. Stored in shared blocks, so that appending copies no outputs.
 #[derive(Debug, Clone, Default)]
 pub struct PointOutputs {
     blocks: Vec<Arc<Block>>,
@@ -19,7 +19,7 @@ struct Block {
 }
 
 impl PointOutputs {
-    /// The outputs of one block, a column for each unique run, all of one length.
+    /// Stores the outputs of one block, a column for each unique run, all of one length.
     pub fn of_block(columns: &[&[f64]]) -> Self {
         let points = columns.first().map_or(0, |column| column.len());
         let block = Block { points, outputs: columns.concat() };
@@ -32,17 +32,17 @@ impl PointOutputs {
         self.points += following.points;
     }
 
-    /// Base points in all.
+    /// Returns the total number of base points.
     pub fn points(&self) -> u64 {
         self.points
     }
 
-    /// Whether a run of a base point has no value.
+    /// Returns whether a run of a base point has no value.
     pub fn has_failures(&self) -> bool {
         self.blocks.iter().any(|block| block.outputs.iter().any(|y| !y.is_finite()))
     }
 
-    /// The first `end` base points alone; blocks that end there are shared.
+    /// Returns the first `end` base points; blocks that end there are shared.
     #[must_use]
     pub fn prefix(&self, end: u64) -> Self {
         let mut prefix = Self::default();
@@ -58,7 +58,7 @@ impl PointOutputs {
         prefix
     }
 
-    /// The columns of every block up to base point number `end`, in order.
+    /// Iterates over the columns of every block up to base point number `end`, in order.
     pub fn blocks<'a>(&'a self, end: u64) -> impl Iterator<Item = Vec<&'a [f64]>> {
         let mut left = usize::try_from(end).unwrap_or(usize::MAX);
         let mut take = move |block: &Block| {

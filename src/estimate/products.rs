@@ -1,15 +1,15 @@
-//! Moments as sums over base points: what resampling and influences need.
+//! Moments as sums over base points, for resampling and influences.
 //!
 //! All of [`Moments`] follow from sums over the base points of products of two centred outputs. Weighting the points,
-//! as a bootstrap does, weights the sums: moments of a resample are a matrix product away from the products.
+//! as a bootstrap does, weights the sums: the moments of a resample follow by a matrix product.
 
 use super::pair_moments::PairMoments;
 use super::shapley_moments::ShapleyMoments;
 use super::swap_moments::BaMoments;
 use super::{BaseMoments, BlockOutputs, Moments, SwapMoments};
 
-/// The letters of which products are made: 1 at a base point that counts, and the outputs and differences of
-/// [`SwapMoments`] less their means over all points. All are 0 at a base point that does not count.
+/// The letters that form products: 1 at a base point that counts, and the outputs and differences of [`SwapMoments`]
+/// minus their means over all points. All are 0 at a base point that does not count.
 const ONE: usize = 0;
 const A: usize = 1;
 const B: usize = 2;
@@ -25,21 +25,20 @@ const BASE: [Product; 6] = [(ONE, ONE), (A, ONE), (B, ONE), (A, A), (B, B), (A, 
 const WITH_AB: [Product; 4] = [(D, ONE), (D, D), (A, D), (B, D)];
 const WITH_BA: [Product; 5] = [(E, ONE), (E, E), (A, E), (B, E), (D, E)];
 
-/// Which products of the outputs at a base point the moments are made of, and how.
+/// The products of the outputs at a base point from which the moments are computed.
 ///
-/// A swap that lost base points which A and B have counts its points, and the products of A and B over them, itself;
-/// so does a pair.
+/// A swap that lost points of A and B has its own count and its own products of A and B over them; so does a pair.
 #[derive(Debug, Clone)]
 pub struct Products {
-    /// The moments of all points, about whose means the products are taken.
+    /// The moments of all points; the products are centred on their means.
     whole: Moments,
-    /// Which swaps count points of their own.
+    /// Whether each swap counts its own points.
     own: Vec<bool>,
-    /// The products that each swap adds to the base.
+    /// The products that each swap adds to those of the base.
     of_swap: Vec<Product>,
-    /// Ordered pairs of swaps of which sums are kept, and which of them count points of their own.
+    /// Ordered pairs of swaps whose sums are kept, and whether each counts its own points.
     pairs: Vec<(usize, usize, bool)>,
-    /// Players of which what they add is kept, after a count of their base points.
+    /// Players whose contributions are kept, after a count of their base points.
     players: usize,
     columns: usize,
 }
@@ -54,7 +53,7 @@ pub struct ProductWork {
 }
 
 impl Products {
-    /// The products behind `whole`, the moments of all base points.
+    /// Creates the products that lead to `whole`, the moments of all base points.
     pub fn new(whole: Moments) -> Self {
         let mut of_swap = WITH_AB.to_vec();
         if whole.has_ba() {
@@ -74,12 +73,12 @@ impl Products {
         Self { whole, own, of_swap, pairs, players, columns }
     }
 
-    /// Number of products at each base point.
+    /// Returns the number of products at each base point.
     pub fn columns(&self) -> usize {
         self.columns
     }
 
-    /// For each product the number of the one that counts its base points; for those that count, their own.
+    /// Returns for each product the index of the one that counts its base points; for those that count, their own.
     pub fn counts(&self) -> Vec<usize> {
         let mut counts = vec![0; BASE.len()];
         for own in &self.own {
@@ -133,7 +132,7 @@ impl Products {
             put(letters, &self.of_swap);
         }
         self.fill_pairs(block, &letters[ONE], differences, &mut columns);
-        // Whether a base point counts is the same for all players.
+        // A base point counts for all players or none.
         let adds = |player: usize, i: usize| Some(block.shapley[player][i]).filter(|added| added.is_finite());
         if let Some(column) = columns.next().filter(|_| self.players > 0) {
             column.iter_mut().enumerate().for_each(|(i, out)| *out = f64::from(u8::from(adds(0, i).is_some())));
@@ -143,7 +142,7 @@ impl Products {
         }
     }
 
-    /// The products of pairs into the next columns.
+    /// Writes the products of pairs to the next columns.
     fn fill_pairs<'c>(
         &self,
         block: &BlockOutputs<'_>,
@@ -173,7 +172,7 @@ impl Products {
         }
     }
 
-    /// The moments of weighted base points from the weighted sums of their products.
+    /// Computes the moments of weighted base points from the weighted sums of their products.
     pub fn moments(&self, sums: &[f64]) -> Moments {
         let (of_rows, of_players) = sums.split_at(self.columns - if self.players > 0 { 1 + self.players } else { 0 });
         let mut sums = of_rows.iter().copied();
@@ -199,7 +198,7 @@ impl Products {
     }
 }
 
-/// 1 where all of `columns` are finite, 0 elsewhere.
+/// Sets `mask` to 1 where all of `columns` are finite, 0 elsewhere.
 fn set_mask(mask: &mut Vec<f64>, points: usize, columns: &[&[f64]]) {
     mask.clear();
     mask.resize(points, 1.0);
@@ -208,7 +207,7 @@ fn set_mask(mask: &mut Vec<f64>, points: usize, columns: &[&[f64]]) {
     }
 }
 
-/// A letter: `y`, or `y` less `origin`, less `mean`; 0 where the mask is.
+/// Sets a letter to `y`, or `y` minus `origin`, minus `mean`; 0 where the mask is 0.
 fn set_centred(letters: &mut [Vec<f64>; LETTERS], letter: usize, y: &[f64], origin: Option<&[f64]>, mean: f64) {
     let (mask, rest) = letters.split_at_mut(1);
     let (mask, into) = (&mask[0], &mut rest[letter - 1]);
@@ -220,16 +219,15 @@ fn set_centred(letters: &mut [Vec<f64>; LETTERS], letter: usize, y: &[f64], orig
     into.iter_mut().zip(mask).filter(|(_, mask)| **mask == 0.0).for_each(|(x, _)| *x = 0.0);
 }
 
-/// Sums of the centred outputs A and B, where they are about other means than their own.
+/// Sums of the centred outputs A and B, if they are about other means than their own.
 type Gaps = (f64, f64);
 
-/// A sum of products about new means, from that about the old: nothing large is subtracted, for the means differ by
-/// about a standard error.
+/// Moves a sum of products to new means: nothing large is subtracted: the means differ by about a standard error.
 fn recentred(product: f64, x: f64, y: f64, n: f64) -> f64 {
     product - x * (y / n)
 }
 
-/// The same of squares: what is left of a resample without variance is rounding, and taken to be 0.
+/// Moves a sum of squares; the remainder of a resample without variance is rounding, and set to 0.
 fn recentred_square(square: f64, x: f64, n: f64) -> f64 {
     const ROUNDING: f64 = 64.0 * f64::EPSILON;
     let left = recentred(square, x, x, n);

@@ -1,10 +1,10 @@
-//! The formulas of SALib, which centres outputs by the mean of all rows (Iwanaga, Usher and Herman 2022, Socio-Environ. Syst.
-//! Model. 4, 18155): S1 by Saltelli et al. 2010, ST by Jansen 1999, S2 by Saltelli 2002.
+//! The formulas of SALib, which centres outputs by the mean of all rows (Iwanaga, Usher and Herman 2022, Socio-Environ.
+//! Syst. Model. 4, 18155): S1 by Saltelli et al. 2010, ST by Jansen 1999, S2 by Saltelli 2002.
 
 use super::{FirstOrder, Indices, Moments, SecondOrder, Total, Undefined};
 
 impl Indices {
-    /// The first-order and total indices that SALib has for these outputs.
+    /// Computes the first-order and total indices as SALib does.
     ///
     /// # Errors
     /// As for [`Indices::by`].
@@ -19,16 +19,16 @@ impl Indices {
     }
 }
 
-/// The second-order index that SALib has for the swaps `j` and `k`; NaN unless they are two of the paired ones.
+/// Computes the second-order index of the swaps `j` and `k` as SALib does; NaN unless they are two of the paired ones.
 pub fn second_order_of_salib(moments: &Moments, j: usize, k: usize) -> f64 {
     let swap = moments.swap(j.min(k));
     let Some(ba) = &swap.ba else { return f64::NAN };
-    // About another centre than f0 the products of rows change by the differences of their means.
+    // If centred elsewhere than at f0, the products of rows change by the differences of their means.
     let change = shift(moments) * (swap.mean_d - ba.mean_e) / swap.base.variance();
     SecondOrder::ClosedMinusFirst.estimate(moments, j, k) + change
 }
 
-/// The mean of all rows less the mean f0 of the rows A and B.
+/// Returns the mean of all rows minus the mean f0 of the rows A and B.
 fn shift(moments: &Moments) -> f64 {
     let gap = 2.0 * moments.base().half_gap();
     // Relative to the mean of A, so that an offset costs no digits.

@@ -1,19 +1,19 @@
-//! Second-order indices: what two factors do together beyond what each does alone.
+//! Second-order indices: the joint effect of two factors beyond their individual effects.
 
 use super::{Moments, SwapMoments};
 use crate::names::named;
 
 named! {
-/// An estimator of second-order indices, the default first. Both need the rows BA and the pairs' sums.
+/// An estimator of second-order indices, the default first. Both need the rows BA and the sums of pairs.
 pub enum SecondOrder {
     /// S_jk = 1/(2n) sum [(y_BAj - y_B)(y_ABk - y_A) + (y_BAk - y_B)(y_ABj - y_A)]/V: the default.
     ///
     /// BA_j and AB_k share the columns j and k, BA_j and A the column j, B and AB_k the column k, and B and A none, so
     /// that the mean of the four products tends to V_{jk}^closed - V_j - V_k = V_jk. Nothing large is subtracted, and a
-    /// factor that does nothing has exactly 0.
+    /// factor without effect has exactly 0.
     Difference = "difference",
     /// S_jk = 1/n sum [(y_BAj - f0)(y_ABk - f0) - (y_A - f0)(y_B - f0)]/V - S_j - S_k with j < k and S by Saltelli et
-    /// al. 2010: the closed index less the first-order ones, as other programs have it (SALib, on outputs less their
+    /// al. 2010: the closed index minus the first-order ones, as in other programs (SALib, on outputs minus their
     /// mean).
     ///
     /// Its noise is that of the first-order indices. Where runs failed, each mean is over its own base points.
@@ -22,8 +22,8 @@ pub enum SecondOrder {
 }
 
 impl SecondOrder {
-    /// The index of the swaps `j` and `k`; NaN unless they are two of the paired ones, have base points, and the output
-    /// has variance.
+    /// Computes the index of the swaps `j` and `k`; NaN unless they are paired, have base points, and the output
+    /// varies.
     pub fn estimate(self, moments: &Moments, j: usize, k: usize) -> f64 {
         self.by_pair(moments, j.min(k), j.max(k)).unwrap_or(f64::NAN)
     }
@@ -44,7 +44,7 @@ impl SecondOrder {
     }
 }
 
-/// 1/n sum (y_B - f0)(y_AB - y_A).
+/// Computes 1/n sum (y_B - f0)(y_AB - y_A).
 fn partial_variance(swap: &SwapMoments) -> f64 {
     swap.bd / swap.n() + swap.base.half_gap() * swap.mean_d
 }

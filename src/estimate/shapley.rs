@@ -1,15 +1,15 @@
-//! Shapley effects: the share of the variance that each player accounts for, dependent or not, adding up to all of it. The players
-//! are the factors, or the groups of them.
+//! Shapley effects: the share of the variance due to each player, for dependent factors as well; they sum to 1. The
+//! players are the factors, or groups of them.
 
 use crate::names::named;
 
-/// Most players whose Shapley effects are found from all of their subsets: every base point costs 2^p runs of p players.
+/// Maximum number of players for Shapley effects from all subsets: every base point costs 2^p runs of p players.
 pub const MAX_SHAPLEY_FACTORS: usize = 8;
 
 named! {
-/// How Shapley effects are found.
+/// How Shapley effects are estimated.
 pub enum ShapleyMethod {
-    /// From all subsets of the players, at most [`MAX_SHAPLEY_FACTORS`]: 2^p runs for each base sample, and the smaller errors.
+    /// From all subsets of the players, at most [`MAX_SHAPLEY_FACTORS`]: 2^p runs per base sample, smaller errors.
     Subsets = "subsets",
     /// Along a random order of the players at each base sample: p - 1 more runs for each.
     Permutations = "permutations",
@@ -17,30 +17,30 @@ pub enum ShapleyMethod {
 }
 
 named! {
-/// Who shares out the variance in Shapley effects.
+/// The players of Shapley effects.
 #[derive(Default)]
 pub enum ShapleyPlayers {
     /// Every factor by itself.
     #[default]
     Factors = "factors",
-    /// The groups of factors, and the factors without a group each by itself: the effect of a group is what all its factors add
-    /// at once to the players before it, the value of the game between unions (Owen 1977, in Mathematical Economics and Game
-    /// Theory, Springer, 76-88).
+    /// The groups of factors, and each factor without a group by itself: the effect of a group is the joint
+    /// contribution of its factors in addition to the players before it, the value of the game between unions (Owen
+    /// 1977, in Mathematical Economics and Game Theory, Springer, 76-88).
     Groups = "groups",
 }
 }
 
-/// The subsets of `factors` factors with two of them or more, but not all: in rising order of the number whose bits they are.
+/// Returns the proper subsets of `factors` factors with at least two elements, in rising order of their bit mask.
 pub fn proper_subsets(factors: usize) -> Vec<Vec<usize>> {
     let all = 1usize << factors;
     let of = |mask: usize| (0..factors).filter(|factor| mask >> factor & 1 == 1).collect::<Vec<usize>>();
     (0..all).map(of).filter(|subset| subset.len() > 1 && subset.len() < factors).collect()
 }
 
-/// The Shapley effects of factors from c(u) = E Var(Y | all factors but u)/Var(Y) of all subsets u: the mean, over all orders of the
-/// factors, of what a factor adds to those before it (Owen 2014, SIAM/ASA J. Uncertain. Quantif. 2, 245-251; Song, Nelson and Staum
-/// 2016, SIAM/ASA J. Uncertain. Quantif. 4, 1060-1083, eq. 6 and theorem 1). `single` has c of each factor alone, `proper` those of
-/// [`proper_subsets`]; c is 0 of no factor and 1 of all.
+/// Computes the Shapley effects of factors from c(u) = E Var(Y | all factors but u)/Var(Y) of all subsets u: the mean,
+/// over all orders of the factors, of what a factor adds to those before it (Owen 2014, SIAM/ASA J. Uncertain. Quantif.
+/// 2, 245-251; Song, Nelson and Staum 2016, SIAM/ASA J. Uncertain. Quantif. 4, 1060-1083, eq. 6 and theorem 1).
+/// `single` is c of each factor alone, `proper` those of [`proper_subsets`]; c is 0 for no factor and 1 for all.
 pub fn shapley_effects(single: &[f64], proper: &[f64]) -> Vec<f64> {
     let factors = single.len();
     let mut costs = vec![0.0; 1 << factors];
@@ -86,7 +86,7 @@ mod tests {
         let proper: Vec<f64> = proper_subsets(4).iter().map(|u| u.iter().map(|&j| single[j]).sum()).collect();
         let effects = shapley_effects(&single, &proper);
         assert!(effects.iter().zip(single).all(|(a, b)| (a - b).abs() < 1e-15), "{effects:?}");
-        // Only the whole does anything: x1 x2 x3 of mean 0.
+        // Only all factors together have an effect: x1 x2 x3 of mean 0.
         let effects = shapley_effects(&[1.0; 3], &[1.0; 3]);
         assert!(effects.iter().all(|x| (x - 1.0 / 3.0).abs() < 1e-15), "{effects:?}");
         assert_eq!(shapley_effects(&[0.7], &[]), [1.0]);

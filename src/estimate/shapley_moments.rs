@@ -1,19 +1,19 @@
-//! Sums from which Shapley effects are read where they are found along random orders of the factors.
+//! Sums for Shapley effects estimated along random orders of the factors.
 
 use crate::design::Design;
 
-/// Sums of what every player adds to those before it in the order of a base point, over the base points of which all rows that
-/// this takes have an output.
+/// Sums of what every player adds to those before it in the order of a base point, over the base points at which all
+/// the required rows have an output.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ShapleyMoments {
-    /// Base points.
+    /// Number of base points.
     pub n: u64,
     /// The sum of each player.
     pub sums: Vec<f64>,
 }
 
 impl ShapleyMoments {
-    /// The sums of [`contributions`], a column for each player.
+    /// Sums the columns of [`contributions`], one for each player.
     pub(super) fn from_contributions(contributions: &[&[f64]]) -> Self {
         let points = contributions.first().map_or(0, |column| column.len());
         let mut moments = Self { n: 0, sums: vec![0.0; contributions.len()] };
@@ -30,7 +30,7 @@ impl ShapleyMoments {
         self.sums.iter_mut().zip(&other.sums).for_each(|(mine, theirs)| *mine += theirs);
     }
 
-    /// The Shapley effects of the players, which sum to 1: their sums over that of all. NaN where nothing varies.
+    /// Returns the Shapley effects of the players, which sum to 1: their sums over that of all. NaN if nothing varies.
     pub fn effects(&self) -> Vec<f64> {
         let all: f64 = self.sums.iter().sum();
         let share = |sum: &f64| if all > 0.0 { sum / all } else { f64::NAN };
@@ -38,13 +38,14 @@ impl ShapleyMoments {
     }
 }
 
-/// What every player adds at the base points of `replicate` from number `first` on, of whose runs `runs` are the outputs: a column for
-/// each player; not finite where a row that it takes has failed. Empty without rows along random orders.
+/// Computes what every player adds at the base points of `replicate` from number `first` on, with the outputs `runs`: a
+/// column for each player; not finite where a required row has failed. Empty without rows along random orders.
 ///
-/// With y_k the output after k players of the order, y_0 of A and y_d of B, c = E Var(Y | all that are not swapped) of k players
-/// is estimated by (y_k - y_0)^2/2 (Jansen 1999; Goda 2021, Reliab. Eng. Syst. Saf. 213, 107702, algorithm 1), so that number k adds
-/// (y_k - y_(k-1)) (y_k + y_(k-1) - 2 y_0)/2. Where factors are independent the same rows are a walk from B to A in the reverse order;
-/// the mean of both is (y_k - y_(k-1)) (y_d - y_0)/2, of about half the variance. The sum over the players is (y_d - y_0)^2/2 in both.
+/// With y_k the output after k players of the order, y_0 of A and y_d of B, c = E Var(Y | all that are not swapped) of
+/// k players is estimated by (y_k - y_0)^2/2 (Jansen 1999; Goda 2021, Reliab. Eng. Syst. Saf. 213, 107702, algorithm
+/// 1), so that player k adds (y_k - y_(k-1)) (y_k + y_(k-1) - 2 y_0)/2. For independent factors the same rows are a
+/// walk from B to A in the reverse order; the mean of both is (y_k - y_(k-1)) (y_d - y_0)/2, of about half the
+/// variance. The sum over the players is (y_d - y_0)^2/2 in both.
 pub fn contributions(design: &Design, replicate: u64, first: u64, runs: &[&[f64]]) -> Vec<Vec<f64>> {
     let players = design.asked().players.len();
     let [a, b, ..] = runs else { return Vec::new() };
@@ -82,7 +83,7 @@ mod tests {
         let players = (0..3).map(|factor| vec![factor]).collect();
         let design = Design::new(settings, 3, Rows { players, ..Rows::default() }).unwrap();
         assert_eq!(design.step_runs(), [2, 3]);
-        // A, B and two steps, at two base points, the second of which lacks a step.
+        // A, B and two steps, at two base points; a step is missing at the second.
         let runs: [&[f64]; 4] = [&[1.0, 1.0], &[7.0, 7.0], &[2.0, 2.0], &[5.0, f64::NAN]];
         let added = contributions(&design, 1, 2, &runs);
         let order = design.orders(1, 2, 1).remove(0);

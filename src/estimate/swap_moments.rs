@@ -1,4 +1,4 @@
-//! The sums from which the indices of one swap are read.
+//! The sums used to compute the indices of one swap.
 
 use super::base_moments::{BaseMoments, Shift};
 use super::workspace::Workspace;
@@ -7,11 +7,11 @@ use crate::sum::{centred_product, centred_products, mean};
 /// Means and sums of centred products of the outputs of one swap s, over the base points at which all of its rows have
 /// an output.
 ///
-/// Differences are kept instead of outputs, D = y_AB - y_A and E = y_BA - y_B: a factor of little effect has D and E near 0,
-/// and forming them from sums of the outputs would cancel.
+/// Differences are kept instead of outputs, D = y_AB - y_A and E = y_BA - y_B: D and E of a factor of little effect are
+/// near 0, and computing them from sums of the outputs would cancel.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct SwapMoments {
-    /// y_A and y_B.
+    /// Moments of y_A and y_B.
     pub base: BaseMoments,
     /// Mean of D.
     pub mean_d: f64,
@@ -21,7 +21,7 @@ pub struct SwapMoments {
     pub ad: f64,
     /// Sum of products of y_B and D.
     pub bd: f64,
-    /// What the row BA_s adds.
+    /// Sums that need the row BA_s.
     pub ba: Option<BaMoments>,
 }
 
@@ -50,10 +50,10 @@ pub(super) struct Columns<'a> {
 }
 
 impl SwapMoments {
-    /// The moments of one block. `base` are those of A and B if they have no failure in the block; an output that is
-    /// not finite is a failure.
+    /// Computes the moments of one block. `base` are those of A and B if they have no failure in the block; an output
+    /// that is not finite is a failure.
     pub(super) fn from_columns(base: Option<BaseMoments>, columns: Columns<'_>, work: &mut Workspace) -> Self {
-        // A sum over a column is finite only if the column is: no pass of its own looks for failures.
+        // A sum over a column is finite only if the column is, so that no separate pass for failures is needed.
         let whole = base.map(|base| Self::of_complete(base, columns, work)).filter(Self::finite);
         whole.unwrap_or_else(|| {
             let mut kept = std::mem::take(&mut work.kept);
@@ -108,28 +108,28 @@ impl SwapMoments {
         }
     }
 
-    /// Whether no row of the swap differs from the row it was made of: the swapped columns do nothing.
+    /// Returns whether no row of the swap differs from its original row: the swapped columns have no effect.
     pub fn inert(&self) -> bool {
         let still = |mean: f64, squares: f64| mean == 0.0 && squares == 0.0;
         still(self.mean_d, self.dd) && self.ba.is_none_or(|ba| still(ba.mean_e, ba.ee))
     }
 
-    /// Base points counted, as a number to divide by.
+    /// Returns the number of base points, as a divisor.
     pub fn n(&self) -> f64 {
         self.base.n as f64
     }
 
-    /// Variance of y_AB.
+    /// Returns the variance of y_AB.
     pub fn variance_ab(&self) -> f64 {
         (self.base.aa + 2.0 * self.ad + self.dd) / self.n()
     }
 
-    /// Covariance of y_A and y_AB, which share all columns but those of the swap.
+    /// Returns the covariance of y_A and y_AB, which share all columns except those of the swap.
     pub fn covariance_a_ab(&self) -> f64 {
         (self.base.aa + self.ad) / self.n()
     }
 
-    /// Covariance of y_B and y_AB, which share the columns of the swap.
+    /// Returns the covariance of y_B and y_AB, which share the columns of the swap.
     pub fn covariance_b_ab(&self) -> f64 {
         (self.base.ab + self.bd) / self.n()
     }
@@ -140,7 +140,7 @@ impl<'a> Columns<'a> {
         [Some(self.a), Some(self.b), Some(self.ab), self.ba]
     }
 
-    /// The base points whose outputs are all finite, copied to `kept`.
+    /// Copies the base points whose outputs are all finite to `kept`, and returns them.
     fn without_failures<'k>(&self, kept: &'k mut [Vec<f64>; 4]) -> Columns<'k> {
         let columns = self.all();
         for (kept, column) in kept.iter_mut().zip(columns) {
@@ -154,7 +154,7 @@ impl<'a> Columns<'a> {
     }
 }
 
-/// The differences `y - origin` in `buffer`, with their mean.
+/// Writes the differences `y - origin` to `buffer`, and returns them with their mean.
 fn difference<'a>(y: &[f64], origin: &[f64], buffer: &'a mut Vec<f64>) -> (&'a [f64], f64) {
     buffer.clear();
     buffer.extend(y.iter().zip(origin).map(|(y, origin)| y - origin));

@@ -1,9 +1,9 @@
 //! Memory that is reused from block to block.
 
-/// Buffers for [`super::Moments::of_block`]; any that has been used before serves as well as a new one.
+/// Buffers for [`super::Moments::of_block`]; used ones are as good as new ones.
 #[derive(Debug, Default)]
 pub struct Workspace {
-    /// Differences of the swap at hand.
+    /// Differences of the current swap.
     pub(super) differences: [Vec<f64>; 2],
     /// Columns of A, B and the rows of a swap without the base points that failed.
     pub(super) kept: [Vec<f64>; 4],
@@ -11,7 +11,7 @@ pub struct Workspace {
     pub(super) paired: Vec<PairedColumns>,
 }
 
-/// D and E of one swap, with 0 at the base points that failed and, if any did, 0 there and 1 elsewhere.
+/// D and E of one swap, with 0 at the base points that failed; if any did, also a mask of 0 there and 1 elsewhere.
 #[derive(Debug, Default)]
 pub(super) struct PairedColumns {
     pub d: Difference,
@@ -26,7 +26,7 @@ pub(super) struct Difference {
 }
 
 impl Workspace {
-    /// The base points at which A and B are both finite.
+    /// Returns the base points at which A and B are both finite.
     pub(super) fn without_failures(&mut self, a: &[f64], b: &[f64]) -> (&[f64], &[f64]) {
         let [kept_a, kept_b, ..] = &mut self.kept;
         kept_a.clear();

@@ -9,41 +9,41 @@ use super::order::{Order, Partition};
 use crate::sum::rescaled;
 use crate::uncertainty::{Estimate, Interval, LEVEL};
 
-/// Fewest rows of a bin that has a slope.
+/// Minimum number of rows of a bin with a slope.
 const MIN_ROWS_OF_LINE: f64 = 4.0;
 
-/// Parts of its size by which an input varies with its rounding.
+/// Relative variation of an input that counts as rounding.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 /// A binned estimate.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Binned {
-    /// The estimate; without interval where rows are not independent.
+    /// The estimate; without interval if rows are not independent.
     #[serde(flatten)]
     pub estimate: Estimate,
-    /// Bins that hold rows.
+    /// Number of bins with rows.
     pub bins: usize,
 }
 
-/// The number of bins for `rows` rows: the whole part of 0.6 sqrt(rows), but 6 (or rows/6, if that is less) where it is smaller.
+/// Returns the number of bins for `rows` rows: the integer part of 0.6 sqrt(rows), at least 6 (or rows/6, if less).
 pub fn bins_for(rows: usize) -> usize {
     (rows * 9 / 25).isqrt().max((rows / 6).min(6)).max(2)
 }
 
-/// First-order index of `y` with respect to `x` by lines in bins of equal probability:
+/// Estimates the first-order index of `y` with respect to `x` by lines in bins of equal probability:
 ///
 /// S = (sum of g^2 - noise) / SST,
 ///
-/// where g is the least-squares line of y on x in the bin of the row, its values less the mean of y, one line for each of M =
-/// [`bins_for`]`(N)` bins, and the noise is what v_b, the variance around the line of bin b, puts into its mean and its slope: the
-/// sum of 2 v_b, less their mean for that of y. Equal values of x stay in one bin; a bin of one value has a mean alone. (With
-/// means alone this is epsilon squared of the analysis of variance, Kelley 1935, which loses what goes on inside a bin: nearly all
-/// of the tail of a skewed input.)
+/// where g is the least-squares line of y on x in the bin of the row, its values minus the mean of y, one line for each
+/// of M = [`bins_for`]`(N)` bins, and the noise is the contribution of v_b, the variance around the line of bin b, to
+/// its mean and its slope: the sum of 2 v_b, minus their mean for that of y. Equal values of x stay in one bin; a bin
+/// of one value has only a mean. (With means only this is epsilon squared of the analysis of variance, Kelley 1935,
+/// which misses the effect inside a bin: nearly all of the tail of a skewed input.)
 ///
-/// The interval is asymptotic, from the variance over the rows of the influence g^2 + 2 g e - S z^2 (e: the rest, z = g + e),
-/// corrected for the noise in g, with as many degrees of freedom as there are rows that carry it, (sum of squares)^2 over the sum of
-/// fourth powers; and it holds the estimate of half as many bins, which shows what lines lose. How often it holds:
-/// `docs/existing-runs.md` (`cargo bench --bench given`).
+/// The interval is asymptotic, from the variance over the rows of the influence g^2 + 2 g e - S z^2 (e: the residual, z
+/// = g + e), corrected for the noise in g, with as many degrees of freedom as the effective number of rows, (sum of
+/// squares)^2 over the sum of fourth powers; and it includes the estimate of half as many bins, which shows the error
+/// of the lines. Its coverage: `docs/existing-runs.md` (`cargo bench --bench given`).
 ///
 /// # Errors
 /// [`NoVariance`] if `y` is constant, up to rounding errors. A constant `x` has index 0 without an interval.
@@ -55,9 +55,9 @@ pub fn binned_first_order(x: &[f64], y: &[f64]) -> Result<Binned, NoVariance> {
     Ok(of_order(&Order::from_values(x), x, &centred(y)?, true))
 }
 
-/// The same for centred outputs `z` and the order of the input `x`.
+/// Does the same for centred outputs `z` and the order of the input `x`.
 ///
-/// Without `independent` rows, as on quasi-random points, lines carry little noise: nothing is subtracted for it, and there is no
+/// Without `independent` rows, as on quasi-random points, lines contain little noise: none is subtracted. There is no
 /// interval.
 pub(super) fn of_order(order: &Order, x: &[f64], z: &[f64], independent: bool) -> Binned {
     let wanted = bins_for(z.len());
@@ -98,12 +98,12 @@ struct Bin {
     xz: f64,
     /// 2 of a line, 1 of a mean alone.
     parameters: f64,
-    /// Sum of the squares of what the line leaves.
+    /// Sum of the squared residuals of the line.
     rest: f64,
 }
 
 impl Bin {
-    /// Variance around the line; 0 where there are no rows to tell it.
+    /// Returns the variance around the line; 0 if there are too few rows.
     fn noise(&self) -> f64 {
         if self.rows > self.parameters { self.rest / (self.rows - self.parameters) } else { 0.0 }
     }
@@ -128,7 +128,7 @@ impl Lines {
             bin.xz += (x - bin.mean_x) * (z - bin.mean_z);
         }
         for bin in &mut bins {
-            // An input that varies by its rounding alone has no slope.
+            // An input that varies only by its rounding has no slope.
             let has_slope = bin.rows >= MIN_ROWS_OF_LINE && bin.xx > (ROUNDING * bin.mean_x).powi(2) * bin.rows;
             bin.parameters = if has_slope { 2.0 } else { 1.0 };
         }
@@ -151,7 +151,7 @@ impl Lines {
         (self.squares - (noise - of_mean)) / z.iter().map(|z| z * z).sum::<f64>()
     }
 
-    /// Of the interval of `estimate`, but for what lines lose.
+    /// Returns the half width of the interval of `estimate`, without the error of the lines.
     fn half_width(&self, z: &[f64], estimate: f64) -> Option<f64> {
         let rows = z.len() as f64;
         let influences = self.fitted.iter().zip(z).map(|(g, z)| g * (2.0 * z - g) - estimate * z * z);
@@ -160,8 +160,8 @@ impl Lines {
             let square = (influence - mean) * (influence - mean);
             (squares + square, fourth_powers + square * square)
         });
-        // Twice the squares of the noise, without the bias that normal noise would give them: its part of the variance of the sum of
-        // squares of g, which has twice as much in the influences.
+        // Twice the squares of the noise, without the bias that normal noise would give them: its part of the variance
+        // of the sum of squares of g, which has twice as much in the influences.
         let of_bin = |bin: &Bin| {
             let left = bin.rows - bin.parameters;
             2.0 * bin.noise().powi(2) * bin.parameters * left / (left + 2.0)
@@ -169,7 +169,7 @@ impl Lines {
         let from_noise: f64 = self.bins.iter().map(of_bin).sum();
         let variance = (squares - from_noise).max(from_noise);
         let parameters: f64 = self.bins.iter().map(|bin| bin.parameters).sum();
-        // A few rows of a thin tail may carry all of the variance: they are what is known.
+        // A few rows of a thin tail may have all of the variance: only they count.
         let carrying = if fourth_powers > 0.0 { squares * squares / fourth_powers } else { rows };
         let t = StudentsT::new(0.0, 1.0, (rows - parameters).min(carrying).max(2.0)).ok()?;
         Some(t.inverse_cdf((1.0 + LEVEL) / 2.0) * variance.sqrt() / z.iter().map(|z| z * z).sum::<f64>())

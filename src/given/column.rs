@@ -31,11 +31,11 @@ pub enum NoVariance {
 /// Values whose spread is below this many units in the last place of the largest one are taken for rounding errors.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
-/// The values less their mean, times a power of two that makes the largest about 1: no square of them can overflow or
-/// vanish, and no digit is lost.
+/// Returns the values minus their mean, times a power of two that makes the largest about 1: their squares neither
+/// overflow nor underflow, and no digit is lost.
 ///
 /// # Errors
-/// [`NoVariance`] if nothing is left but zeros or rounding errors.
+/// [`NoVariance`] if only zeros or rounding errors remain.
 pub(crate) fn centred(values: &[f64]) -> Result<Vec<f64>, NoVariance> {
     if values.windows(2).all(|pair| pair[0] == pair[1]) {
         return Err(NoVariance::Constant);
@@ -61,7 +61,7 @@ mod tests {
             assert!((centred[1] - centred[2]).abs() / (centred[0] - centred[2]).abs() - 2.0 / 22.0 < 1e-15);
         }
         assert!(centred(&[f64::MAX, -f64::MAX, 0.0]).unwrap().iter().all(|v| v.abs() < 2.0));
-        // The smallest numbers there are.
+        // The smallest positive numbers.
         assert!(centred(&[5e-324, 0.0]).is_ok());
     }
 
@@ -74,21 +74,21 @@ mod tests {
     }
 }
 
-/// A column that is no input because its cells are no numbers.
+/// A column that cannot be an input because its cells are not numbers.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct TextColumn {
     /// Its name.
     pub name: String,
-    /// Its first cell that is no number, among those that were looked at; `null` where the file says that there are none.
+    /// Its first cell that is not a number, among those examined; `null` if the file states that there are none.
     pub example: Option<String>,
 }
 
 impl TextColumn {
-    /// What makes a table of numbers of one with text.
+    /// How to turn a table with text into one of numbers.
     pub const REMEDY: &str = "write numbers with a point (1.5, not 1,5), their unit into the name of the column, and a number in the \
                               place of each word";
 
-    /// Why it is no input.
+    /// Returns why it cannot be an input.
     pub fn reason(&self) -> String {
         let example = self.example.as_ref().map_or_else(String::new, |cell| format!(" ({})", cut(cell, 24)));
         format!("the column `{}` holds text{example}", self.name)

@@ -6,16 +6,16 @@ use statrs::distribution::{ContinuousCDF, Normal};
 use super::evenness::{GRIDS, deviation};
 use super::order::Order;
 
-/// How the inputs of a table depend on each other.
+/// The dependence between the inputs of a table.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Dependence {
     /// The pair with the largest absolute rank correlation.
     #[serde(flatten)]
     pub strongest: PairDependence,
-    /// The level that independent inputs exceed in one table of a thousand, whatever their number.
+    /// The level that independent inputs exceed in one table of a thousand, for any number of inputs.
     pub noise: f64,
-    /// A pair whose joint counts are too uneven for independence, though its rank correlation may be small; only looked
-    /// for where the correlation does not tell already.
+    /// A pair whose joint counts are too uneven for independence, though its rank correlation may be small; only
+    /// computed if the correlation is not clear.
     pub uneven: Option<(String, String)>,
 }
 
@@ -29,21 +29,21 @@ pub struct PairDependence {
 }
 
 impl Dependence {
-    /// Correlations below this change no index visibly, however significant in a long table.
+    /// Correlations below this have no visible effect on indices, even if significant in a long table.
     const NEGLIGIBLE: f64 = 0.05;
 
-    /// Whether the largest rank correlation is clearly not zero.
+    /// Returns whether the largest rank correlation is clearly not zero.
     pub fn correlated(&self) -> bool {
         self.strongest.spearman.abs() > self.noise.max(Self::NEGLIGIBLE)
     }
 
-    /// A pair that clearly depends on each other, by rank or in another way.
+    /// Returns a pair that clearly depends on each other, by rank or in another way.
     pub fn dependent(&self) -> Option<&(String, String)> {
         if self.correlated() { Some(&self.strongest.inputs) } else { self.uneven.as_ref() }
     }
 }
 
-/// The dependence between `inputs`, all of which vary; `None` if there are fewer than two.
+/// Computes the dependence between `inputs`, all of which vary; `None` if there are fewer than two.
 pub(super) fn between(inputs: &[(&str, &Order)], rows: usize) -> Option<Dependence> {
     let ranks: Vec<Vec<f64>> = inputs.iter().map(|(_, order)| normalised(order.centred_ranks())).collect();
     let mut strongest: Option<(usize, usize, f64)> = None;
@@ -74,11 +74,11 @@ fn normalised(mut ranks: Vec<f64>) -> Vec<f64> {
     ranks
 }
 
-/// The pair whose counts in a coarse grid deviate most from independence, if by more than chance allows.
+/// Returns the pair whose counts in a coarse grid deviate most from independence, if by more than chance.
 fn uneven_pair(inputs: &[(&str, &Order)], rows: usize) -> Option<(usize, usize)> {
-    /// Of a standard normal number; some 2e-9 by chance.
+    /// Quantile of a standard normal number; the probability is about 2e-9 by chance.
     const CLEAR: f64 = 6.0;
-    // Five rows a cell, as Pearson's test wants.
+    // At least five rows a cell, as Pearson's test requires.
     let grid = *GRIDS.iter().rev().find(|&&grid| grid * grid * 5 <= rows)?;
     let classes: Vec<_> = inputs.iter().map(|(_, order)| order.classes(grid)).collect();
     let pairs = (1..inputs.len()).flat_map(|j| (0..j).map(move |i| (i, j)));

@@ -1,37 +1,37 @@
-//! Are the rows independent draws, or too even for that?
+//! Tests whether rows are independent draws, or too even for that.
 //!
-//! Quasi-random points (Sobol', Halton, lattices) fill space more evenly than chance does. That serves integrals, but
-//! neighbours in one input then are systematically far apart in the others, and the rank estimator, which takes
-//! neighbours for independent draws of the others, does not converge: on Sobol' points its error is 0.1 to 0.3 at any
-//! size. Latin hypercubes are even in each input alone, which ranks do not see; there it converges.
+//! Quasi-random points (Sobol', Halton, lattices) fill space more evenly than random ones. That benefits integrals, but
+//! neighbours in one input are then systematically far apart in the others, and the rank estimator, which treats
+//! neighbours as independent draws of the others, does not converge: on Sobol' points its error is 0.1 to 0.3 at any
+//! size. Latin hypercubes are even in each input alone, which does not affect ranks; there it converges.
 
 use super::order::Order;
 
 /// Classes per input of the grids on which rows are counted.
 pub(super) const GRIDS: [usize; 6] = [4, 8, 16, 32, 64, 128];
 
-/// A standard normal number below which counts are too even. By chance it is reached with probability 1e-9 a test.
+/// A standard normal number below which counts are too even, with probability 1e-9 a test by chance.
 const TOO_EVEN: f64 = -6.0;
 
-/// Fewest degrees of freedom of a test: with fewer, perfectly even counts occur by chance.
+/// Minimum degrees of freedom of a test: with fewer, perfectly even counts occur by chance.
 const MIN_FREEDOM: f64 = 27.0;
 
-/// Pairs of inputs that are looked at.
+/// Maximum number of pairs of inputs that are tested.
 const MAX_PAIRS: usize = 500;
 
-/// What kind of points the rows of a table are.
+/// The kind of points of the rows of a table.
 #[derive(Debug, Clone, PartialEq)]
 pub enum PointSet {
-    /// Nothing speaks against independent draws. (A Latin hypercube counts as such.)
+    /// There is no evidence against independent draws. (A Latin hypercube counts as such.)
     Independent,
-    /// Too even for independent draws: quasi-random points. What gave them away, in words.
+    /// Too even for independent draws: quasi-random points, with the evidence in words.
     TooEven(String),
     /// Every combination of the values of the inputs, once.
     Grid,
 }
 
 impl PointSet {
-    /// Why ranks are refused, in words; `None` for independent rows.
+    /// Returns why ranks are refused, in words; `None` for independent rows.
     pub fn reason(&self) -> Option<String> {
         match self {
             Self::Independent => None,
@@ -43,21 +43,21 @@ impl PointSet {
     }
 }
 
-/// Independent draws, or too even for that; `inputs` are those that vary.
+/// Classifies rows as independent draws, or too even for that; `inputs` are those that vary.
 ///
-/// Measured (`cargo bench --bench given`): none of 400,000 tables of independent rows, Latin hypercubes and rounded values,
-/// of 1 to 8 inputs and 32 to 1000 rows, is taken for quasi-random. In the order they were made,
-/// all Sobol', Halton and lattice points of two inputs or more are found from 256 rows on, nearly all from 64; with shuffled
-/// rows, all but one Kronecker table in eight at 256, and few below 100. A single input shows less: 100 scrambled Sobol'
-/// points pass.
+/// Measured (`cargo bench --bench given`): none of 400,000 tables of independent rows, Latin hypercubes and rounded
+/// values, of 1 to 8 inputs and 32 to 1000 rows, is classified as quasi-random. In their original order, all Sobol',
+/// Halton and lattice points of two inputs or more are detected from 256 rows on, nearly all from 64; with shuffled
+/// rows, all but one Kronecker table in eight at 256, and few below 100. A single input reveals less: 100 scrambled
+/// Sobol' points pass.
 ///
 /// Three tests, each with a chance of error far below 1e-6 a table: rows are counted in square grids over the ranks of
-/// pairs of inputs, and of row number and input (which sees a single sequence in its order), of which Pearson's
-/// statistic must not lie far in its lower tail; and the rank of an input must not step from row to row by a few
-/// numbers only (rank-1 and Kronecker lattices).
+/// pairs of inputs, and of row number and input (which detects a single sequence in its order), and Pearson's statistic
+/// must not be far in its lower tail; and the rank of an input must not step from row to row by only a few numbers
+/// (rank-1 and Kronecker lattices).
 pub(super) fn point_set(inputs: &[(&str, &Order)], rows: usize) -> PointSet {
     let fitting: Vec<usize> = GRIDS.into_iter().filter(|grid| grid * grid <= rows).collect();
-    // About 1 to 16 rows a cell (more beyond the finest grid): even on different scales.
+    // About 1 to 16 rows a cell (more beyond the finest grid): evenness appears on different scales.
     let finest = fitting.iter().rev().take(3).rev();
     for &grid in finest {
         if let Some(evidence) = too_even(inputs, rows, grid) {
@@ -70,14 +70,14 @@ pub(super) fn point_set(inputs: &[(&str, &Order)], rows: usize) -> PointSet {
     })
 }
 
-/// Whether there are as many different rows as combinations of values.
+/// Returns whether there are as many different rows as combinations of values.
 pub(super) fn is_grid(inputs: &[(&str, &Order)], rows: usize) -> bool {
     let combinations = inputs.iter().map(|(_, order)| order.groups() as u128);
     let combinations = combinations.fold(1u128, |product, groups| product.saturating_mul(groups));
     if inputs.len() < 2 || combinations != rows as u128 {
         return false;
     }
-    // Each combination has its number; all are taken if none is taken twice.
+    // Each combination has a number; all occur if none occurs twice.
     let mut seen = vec![false; rows];
     let mut numbers = vec![0usize; rows];
     for (_, order) in inputs {
@@ -91,7 +91,7 @@ pub(super) fn is_grid(inputs: &[(&str, &Order)], rows: usize) -> bool {
 /// Rows in classes by an input, and the number of classes.
 type Classes = (Vec<usize>, usize);
 
-/// Where the counts of rows over a grid are too even, and by how many standard deviations.
+/// Returns where the counts of rows over a grid are too even, and by how many standard deviations.
 fn too_even(inputs: &[(&str, &Order)], rows: usize, grid: usize) -> Option<String> {
     let classes: Vec<Classes> = inputs.iter().map(|(_, order)| order.classes(grid)).collect();
     let row_classes = ((0..rows).map(|row| row * grid / rows).collect(), grid);
@@ -118,7 +118,7 @@ fn too_even(inputs: &[(&str, &Order)], rows: usize, grid: usize) -> Option<Strin
     rows.or_else(|| pooled.too_even().map(|z| counts("pairs of inputs".to_owned(), z)))
 }
 
-/// Pairs of column numbers, neighbours first, as many as are looked at.
+/// Iterates over pairs of column numbers, neighbours first, up to the maximum number.
 fn nearest_pairs(columns: usize) -> impl Iterator<Item = (usize, usize)> {
     (1..columns).flat_map(move |lag| (lag..columns).map(move |j| (j - lag, j))).take(MAX_PAIRS)
 }
@@ -136,8 +136,8 @@ impl Deviation {
         self.freedom += other.freedom;
     }
 
-    /// The statistic as a standard normal number (Wilson and Hilferty 1931): far below 0 if counts are too even, far
-    /// above if the columns depend on each other.
+    /// Returns the statistic as a standard normal number (Wilson and Hilferty 1931): far below 0 if counts are too
+    /// even, far above if the columns depend on each other.
     pub fn normal(self) -> f64 {
         let v = 2.0 / (9.0 * self.freedom);
         (libm::cbrt(self.statistic / self.freedom) - (1.0 - v)) / v.sqrt()
@@ -148,7 +148,7 @@ impl Deviation {
     }
 }
 
-/// How the counts of rows over two classifications deviate from independence; `None` if either has one class.
+/// Computes the deviation from independence of the counts over two classifications; `None` if either has one class.
 pub(super) fn deviation((a, a_classes): &Classes, (b, b_classes): &Classes) -> Option<Deviation> {
     let (rows, columns) = (*a_classes, *b_classes);
     if rows < 2 || columns < 2 {
@@ -174,9 +174,9 @@ pub(super) fn deviation((a, a_classes): &Classes, (b, b_classes): &Classes) -> O
     Some(Deviation { statistic, freedom: ((rows - 1) * (columns - 1)) as f64 })
 }
 
-/// The number of different steps, modulo the number of rows, by which the rank of an input moves from row to row, if it
-/// is far below the 63 % of the rows that independent draws have; `None` too for a column with ties, and for one that
-/// moves to a close rank most of the time, as sorted columns and time series do.
+/// Returns the number of different steps, modulo the number of rows, of the rank of an input from row to row, if it is
+/// far below the 63 % of the rows for independent draws; also `None` for a column with ties, and for one that mostly
+/// moves to a close rank, as sorted columns and time series do.
 fn few_steps(order: &Order, rows: usize) -> Option<usize> {
     if order.groups() < rows {
         return None;

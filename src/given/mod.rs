@@ -1,10 +1,10 @@
-//! Sobol' indices from data that exist already: a table of inputs and outputs, from any source.
+//! Sobol' indices from existing data: a table of inputs and outputs, from any source.
 //!
-//! There is no design to rely on, and rows must be independent draws. [`analyse`] looks at the rows first ([`PointSet`]) and
-//! refuses what would give wrong numbers; then it estimates S_j = V(E[Y|X_j])/V(Y) by [`rank`](rank_first_order) and by
-//! [`bins`](binned_first_order), two methods that share nothing but the data. [`surrogate_indices`] adds total indices, and
-//! more accurate first-order ones where the model is smooth and the inputs are independent of each other. [`measures`] looks
-//! at more than the variance.
+//! There is no design, and rows must be independent draws. [`analyse`] checks the rows first ([`PointSet`]) and refuses
+//! those that would give wrong numbers; then it estimates S_j = V(E[Y|X_j])/V(Y) by [`rank`](rank_first_order) and by
+//! [`bins`](binned_first_order), two methods that share only the data. [`surrogate_indices`] adds total indices, and
+//! more accurate first-order ones if the model is smooth and the inputs are independent of each other. [`measures`]
+//! uses more than the variance.
 
 mod binned;
 mod column;
@@ -34,13 +34,13 @@ pub use surrogate::{
 };
 use thiserror::Error;
 
-/// Fewest rows that are analysed: below, an interval is wider than the range of an index.
+/// Minimum number of rows: with fewer, an interval is wider than the range of an index.
 pub const MIN_ROWS: usize = 30;
 
-/// Why a table is not analysed.
+/// Why a table cannot be analysed.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum GivenError {
-    /// No input, or no output.
+    /// There is no input, or no output.
     #[error("the table needs at least one input and one output: it has {inputs} and {outputs}")]
     Nothing {
         /// Number of inputs.
@@ -104,28 +104,28 @@ pub enum GivenError {
     },
 }
 
-/// What came out of a table.
+/// The results for a table.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GivenIndices {
     /// Rows used.
     pub rows: usize,
-    /// What kind of points the rows are.
+    /// The kind of points of the rows.
     pub points: PointSet,
-    /// How the inputs depend on each other; `None` with fewer than two inputs that vary.
+    /// The dependence between the inputs; `None` with fewer than two inputs that vary.
     pub dependence: Option<Dependence>,
     /// One entry per output.
     pub outputs: Vec<OutputIndices>,
 }
 
-/// First-order indices of every output with respect to every input.
+/// Estimates first-order indices of every output with respect to every input.
 ///
 /// `inputs` and `outputs` are columns of one length, in any units: indices have none. `seed` orders tied input values
 /// for the interval of the rank estimator; the estimates do not depend on it.
 ///
 /// # Errors
 /// [`GivenError`]: no columns, columns of different lengths, values that are not finite, fewer than [`MIN_ROWS`] rows,
-/// or rows that are not independent because they belong to a design or repeat each other. Points that are too even for ranks
-/// are analysed by bins alone.
+/// or rows that are not independent because they belong to a design or repeat each other. Points that are too even for
+/// ranks are analysed only by bins.
 ///
 /// # Example
 /// ```
@@ -166,7 +166,7 @@ pub fn analyse(inputs: &[Column], outputs: &[Column], seed: u64) -> Result<Given
     Ok(GivenIndices { rows, points, dependence, outputs })
 }
 
-/// The numbers of `most` of `rows` rows, of all if there are no more, in random order.
+/// Returns the indices of `most` of `rows` rows, or of all if there are no more, in random order.
 fn drawn_rows(rows: usize, most: usize, seed: u64) -> Vec<usize> {
     let mut all: Vec<usize> = (0..rows).collect();
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
@@ -177,7 +177,7 @@ fn drawn_rows(rows: usize, most: usize, seed: u64) -> Vec<usize> {
     all
 }
 
-/// The number of rows, if the table can be analysed at all.
+/// Returns the number of rows, if the table can be analysed.
 fn check(inputs: &[Column], outputs: &[Column]) -> Result<usize, GivenError> {
     let Some(first) = inputs.first().filter(|_| !outputs.is_empty()) else {
         return Err(GivenError::Nothing { inputs: inputs.len(), outputs: outputs.len() });

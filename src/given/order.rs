@@ -3,7 +3,7 @@
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-/// For every row the number of its class, from 0, and how many classes there are.
+/// For every row the index of its class, and the number of classes.
 pub(super) type Partition = (Vec<usize>, usize);
 
 /// Rows sorted by a column, with its ties.
@@ -11,17 +11,17 @@ pub(super) type Partition = (Vec<usize>, usize);
 pub(super) struct Order {
     /// Row numbers in ascending order of their values; rows of equal values in ascending order of their numbers.
     rows: Vec<usize>,
-    /// Where each group of equal values begins in `rows`; at the end the number of rows.
+    /// The start of each group of equal values in `rows`; the last entry is the number of rows.
     starts: Vec<usize>,
 }
 
 impl Order {
-    /// The order of `values`, which are finite. -0 and 0 are equal.
+    /// Computes the order of `values`, which are finite. -0 and 0 are equal.
     pub fn from_values(values: &[f64]) -> Self {
         Self::of_rounded(values, 0.0)
     }
 
-    /// The same where neighbours that differ by at most this part of their size are equal.
+    /// Does the same with neighbours equal that differ by at most this part of their size.
     pub fn of_rounded(values: &[f64], part: f64) -> Self {
         let mut rows: Vec<usize> = (0..values.len()).collect();
         let by_value = |a: &usize, b: &usize| (values[*a] + 0.0).total_cmp(&(values[*b] + 0.0)).then(a.cmp(b));
@@ -36,37 +36,37 @@ impl Order {
         Self { rows, starts }
     }
 
-    /// The rows in ascending order of their values; of equal values in ascending order of their numbers.
+    /// Returns the rows in ascending order of their values; of equal values in ascending order of their numbers.
     pub fn rows(&self) -> &[usize] {
         &self.rows
     }
 
-    /// Where the rows of each value begin in [`rows`](Self::rows); at the end the number of rows.
+    /// Returns the start of the rows of each value in [`rows`](Self::rows); the last entry is the number of rows.
     pub fn starts(&self) -> &[usize] {
         &self.starts
     }
 
-    /// Number of different values.
+    /// Returns the number of different values.
     pub fn groups(&self) -> usize {
         self.starts.len() - 1
     }
 
-    /// The rows of each value, in ascending order of the values.
+    /// Iterates over the rows of each value, in ascending order of the values.
     pub fn iter(&self) -> impl Iterator<Item = &[usize]> {
         self.starts.windows(2).map(|ends| &self.rows[ends[0]..ends[1]])
     }
 
-    /// Pairs of rows with equal values.
+    /// Returns the number of pairs of rows with equal values.
     pub fn tied_pairs(&self) -> f64 {
         self.iter().map(|group| group.len() as f64 * (group.len() - 1) as f64 / 2.0).sum()
     }
 
-    /// The number of its value, from 0, for every row.
+    /// Returns the index of its value for every row.
     pub fn labels(&self) -> Vec<usize> {
         self.spread(|place, _| place)
     }
 
-    /// For every row, the mean rank of its value, from 0, less that of all rows.
+    /// Returns for every row the mean rank of its value, from 0, minus that of all rows.
     pub fn centred_ranks(&self) -> Vec<f64> {
         let middle = (self.rows.len() as f64 - 1.0) / 2.0;
         let mut before = 0;
@@ -77,7 +77,7 @@ impl Order {
         })
     }
 
-    /// The rows in order, ties shuffled.
+    /// Returns the rows in order, ties shuffled.
     pub fn shuffled(&self, seed: u64, stream: u64) -> Vec<usize> {
         let mut rows = self.rows.clone();
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
@@ -91,12 +91,12 @@ impl Order {
         rows
     }
 
-    /// For every row the number, from 0, of one of at most `wanted` classes of about equal size that keep equal values
-    /// together, and the number of classes. None is smaller than half of what equal sizes would give.
+    /// Returns for every row the index of one of at most `wanted` classes of about equal size that keep equal values
+    /// together, and the number of classes. None is smaller than half of the equal size.
     pub fn classes(&self, wanted: usize) -> Partition {
         let n = self.rows.len();
         let least = n.div_ceil(2 * wanted);
-        // For each value its class: a new one when the middle of its ranks has passed a boundary.
+        // The class of each value: a new one when the middle of its ranks has passed a boundary.
         let mut class_of = Vec::with_capacity(self.groups());
         let (mut class, mut slot, mut size) = (0, 0, 0);
         for ends in self.starts.windows(2) {
@@ -116,7 +116,7 @@ impl Order {
         (self.spread(|place, _| class_of[place]), class + 1)
     }
 
-    /// A value per row from one per group.
+    /// Returns a value per row from one per group.
     fn spread<T: Copy + Default>(&self, mut of: impl FnMut(usize, &[usize]) -> T) -> Vec<T> {
         let mut spread = vec![T::default(); self.rows.len()];
         for (place, group) in self.iter().enumerate() {

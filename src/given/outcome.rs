@@ -7,7 +7,7 @@ use super::order::Order;
 use super::{Binned, binned, centred, rank};
 use crate::uncertainty::Estimate;
 
-/// What came out for one output.
+/// The results for one output.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OutputIndices {
     /// The output.
@@ -23,20 +23,19 @@ pub struct InputIndices {
     pub input: String,
     /// Whether it has one value only; its index is then 0 by definition.
     pub constant: bool,
-    /// By ranks, of independent rows.
+    /// The estimate by ranks, for independent rows.
     pub rank: Option<Estimate>,
-    /// By bins.
+    /// The estimate by bins.
     pub binned: Binned,
 }
 
 impl InputIndices {
-    /// The estimate that stands first in reports: by ranks if there is one, else by bins.
+    /// Returns the estimate that reports show first: by ranks if there is one, otherwise by bins.
     pub fn leading(&self) -> Estimate {
         self.rank.unwrap_or(self.binned.estimate)
     }
 
-    /// Whether the two methods disagree by more than both intervals allow: their half widths on the facing sides do not
-    /// meet.
+    /// Returns whether the two methods disagree by more than both intervals allow, on the facing sides.
     pub fn disagree(&self) -> bool {
         let intervals = self.rank.and_then(|rank| rank.interval).zip(self.binned.estimate.interval);
         intervals.is_some_and(|(a, b)| a.high < b.low || b.high < a.low)

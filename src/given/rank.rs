@@ -7,23 +7,23 @@ use super::column::NoVariance;
 use super::order::Order;
 use crate::uncertainty::{Estimate, Interval, LEVEL};
 
-/// First-order index of `y` with respect to `x` by ranks (Gamboa, Gremaud, Klein and Lagnoux 2022, "Global sensitivity
-/// analysis: a novel generation of mighty estimators based on rank statistics", Bernoulli 28(4)):
+/// Estimates the first-order index of `y` with respect to `x` by ranks (Gamboa, Gremaud, Klein and Lagnoux 2022,
+/// "Global sensitivity analysis: a novel generation of mighty estimators based on rank statistics", Bernoulli 28(4)):
 ///
 /// S = (1/N sum_j Y_j Y_N(j) - Ybar^2) / (1/N sum_j Y_j^2 - Ybar^2),
 ///
-/// where N(j) is the row whose x comes next in rank, the first one for the last. Here Y is centred first, which changes
-/// nothing but the digits lost. With ties of x the order within a tie is arbitrary: this is the mean over all such
+/// where N(j) is the row with the next x in rank, the first one for the last. Here Y is centred first, which only
+/// reduces the loss of digits. With ties of x the order within a tie is arbitrary: this is the mean over all such
 /// orders, in closed form, so that neither a seed nor the order of the rows matters. Costs O(N log N).
 ///
 /// The interval is asymptotic. Given the inputs, the products of neighbours W_k = Z_k Z_(k+1) - S (Z_k^2 + Z_(k+1)^2)/2
-/// of the sorted, centred outputs Z depend on their neighbours only, and their means change slowly with k; so the
-/// variance of N^(1/2) S is that of W, plus twice its covariance at lag 1, of which the part that is also there at lag 2
+/// of the sorted, centred outputs Z depend only on their neighbours, and their means change slowly with k; so the
+/// variance of N^(1/2) S is that of W, plus twice its covariance at lag 1, of which the part that also exists at lag 2
 /// is the change of the means. (A bootstrap is inconsistent here: repeated rows become each other's neighbours. The
 /// delete-one jackknife counts the noise three times.) The pair that closes the circle, the first and the last in rank,
 /// lowers S by up to a term of order 1/N, which is added to the upper bound. `seed` orders ties in W; with many ties of
-/// few values the interval is too wide. Over 400 seeds each of Ishigami, Sobol' G and a linear function it held in 93 to
-/// 96 % of the cases at 30 to 10,000 rows (`cargo bench --bench given`).
+/// few values the interval is too wide. Over 400 seeds each of Ishigami, Sobol' G and a linear function its coverage
+/// was 93 to 96 % at 30 to 10,000 rows (`cargo bench --bench given`).
 ///
 /// Rows must be independent; on quasi-random points S does not converge (see [`PointSet`](super::PointSet)).
 ///
@@ -31,13 +31,13 @@ use crate::uncertainty::{Estimate, Interval, LEVEL};
 /// [`NoVariance`] if `y` is constant, up to rounding errors. A constant `x` has index 0 without an interval.
 ///
 /// # Panics
-/// If the slices differ in length or hold fewer than 4 rows.
+/// If the slices differ in length or have fewer than 4 rows.
 pub fn rank_first_order(x: &[f64], y: &[f64], seed: u64) -> Result<Estimate, NoVariance> {
     assert_eq!(x.len(), y.len(), "one output per input value");
     Ok(of_order(&Order::from_values(x), &centred(y)?, (seed, 0)))
 }
 
-/// The same for centred outputs `z` and the order of the input; `random` is seed and stream.
+/// Does the same for centred outputs `z` and the order of the input; `random` is seed and stream.
 pub(super) fn of_order(order: &Order, z: &[f64], random: (u64, u64)) -> Estimate {
     if order.groups() < 2 {
         return Estimate::alone(0.0);
@@ -79,14 +79,14 @@ impl Tie {
         self.square_sum / self.count
     }
 
-    /// Sum of the products of neighbours inside the tie, in the mean over its orders: (k - 1) neighbours, each any two
-    /// different rows.
+    /// Returns the sum of the products of neighbours inside the tie, the mean over its orders: (k - 1) neighbours, each
+    /// any two different rows.
     fn neighbours(&self) -> f64 {
         if self.count < 2.0 { 0.0 } else { (self.sum * self.sum - self.square_sum) / self.count }
     }
 }
 
-/// Standard error of the mean product of neighbours less S times the mean square.
+/// Returns the standard error of the mean product of neighbours minus S times the mean square.
 fn standard_error(rows: &[usize], z: &[f64], s: f64) -> f64 {
     let w: Vec<f64> =
         rows.windows(2).map(|pair| (z[pair[0]], z[pair[1]])).map(|(a, b)| a * b - s * (a * a + b * b) / 2.0).collect();
@@ -95,7 +95,7 @@ fn standard_error(rows: &[usize], z: &[f64], s: f64) -> f64 {
         let pairs = w.iter().zip(&w[lag..]);
         pairs.map(|(a, b)| (a - mean) * (b - mean)).sum::<f64>() / (w.len() - lag) as f64
     };
-    // In theory the covariance of noise is the variance of what neighbours share, so never negative.
+    // In theory the covariance of noise is the variance of the part that neighbours share, so never negative.
     let variance = covariance(0) + 2.0 * (covariance(1) - covariance(2)).max(0.0);
     (variance / z.len() as f64).sqrt()
 }
@@ -106,7 +106,7 @@ mod tests {
 
     use super::*;
 
-    /// The formula as printed, ties in the order of `rows`.
+    /// Evaluates the formula as printed, ties in the order of `rows`.
     fn printed(rows: &[usize], y: &[f64]) -> f64 {
         let n = y.len();
         let mean = y.iter().sum::<f64>() / n as f64;

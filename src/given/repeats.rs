@@ -1,9 +1,9 @@
-//! Values that return in other rows: the marks of designs whose rows are not independent.
+//! Detection of values repeated in other rows, a sign of designs whose rows are not independent.
 
 use super::GivenError;
 use super::order::Order;
 
-/// Columns with fewer values than this repeat themselves by nature.
+/// Columns with fewer values than this always contain repetitions.
 const MAX_LISTED_VALUES: usize = 10;
 
 /// Refuses rows that repeat each other, one-at-a-time designs and pick-freeze designs. `inputs` are those that vary.
@@ -61,7 +61,7 @@ impl Equal {
     }
 }
 
-/// The number of rows that differ from the row before in exactly one input, if there are far too many of them.
+/// Returns the number of rows that differ from the previous row in exactly one input, if far too many.
 fn single_steps(labels: &[Vec<usize>], tied: &[f64], all_pairs: f64) -> Option<usize> {
     let rows = labels[0].len();
     let differing = |k: usize| labels.iter().filter(|column| column[k] != column[k - 1]).count();
@@ -73,14 +73,14 @@ fn single_steps(labels: &[Vec<usize>], tied: &[f64], all_pairs: f64) -> Option<u
             (1.0 - agree[j]) * others
         })
         .sum();
-    // A sorted table of a few levels has many such steps too, but none of its columns is then rich in values.
+    // A sorted table with few levels also has many such steps, but none of its columns then has many values.
     let rich = labels.iter().all(|column| column.iter().max().is_some_and(|last| *last + 1 >= 4));
     let enough = observed as f64 > 0.5 * rows as f64 && observed as f64 > 4.0 * chance * rows as f64;
     (enough && rich && labels.len() > 2).then_some(observed)
 }
 
-/// Whether equal values of one input come with equal values of another in too many pairs of rows: in a pick-freeze
-/// design of three inputs or more, A and AB_j share all but one.
+/// Returns whether equal values of two inputs coincide in too many pairs of rows: in a pick-freeze design of three
+/// inputs or more, A and AB_j share all but one.
 fn joint_repeats(inputs: &[(&str, &Order)], labels: &[Vec<usize>], equal_pairs: f64, rows: usize) -> bool {
     let many: Vec<usize> = (0..inputs.len()).filter(|&j| inputs[j].1.groups() >= MAX_LISTED_VALUES).collect();
     if many.len() < 3 {
@@ -88,7 +88,7 @@ fn joint_repeats(inputs: &[(&str, &Order)], labels: &[Vec<usize>], equal_pairs: 
     }
     let all_pairs = rows as f64 * (rows as f64 - 1.0) / 2.0;
     let (mut observed, mut expected, mut possible) = (0.0, 0.0, 0.0);
-    // Neighbouring columns suffice, closed to a ring: a design treats all alike.
+    // Neighbouring columns suffice, closed to a ring: a design treats all equally.
     for (place, &j) in many.iter().enumerate() {
         let i = many[(place + 1) % many.len()];
         let (a, b) = (inputs[i].1.tied_pairs() - equal_pairs, inputs[j].1.tied_pairs() - equal_pairs);
@@ -99,7 +99,7 @@ fn joint_repeats(inputs: &[(&str, &Order)], labels: &[Vec<usize>], equal_pairs: 
     observed >= rows as f64 / 8.0 && observed > 4.0 * expected && observed > 0.15 * possible
 }
 
-/// Pairs of rows that agree in both columns.
+/// Returns the number of pairs of rows that agree in both columns.
 fn jointly_tied(order: &Order, other: &[usize]) -> f64 {
     let mut pairs = 0.0;
     for group in order.iter().filter(|group| group.len() > 1) {
@@ -112,8 +112,8 @@ fn jointly_tied(order: &Order, other: &[usize]) -> f64 {
     pairs
 }
 
-/// Whether all inputs have the same two multiplicities equally often, or one alone, as the values of A and of B have in a
-/// pick-freeze design, however few its inputs. A full grid, which is recognised by [`PointSet`](super::PointSet), has
+/// Returns whether all inputs have the same two multiplicities equally often, or a single one, as the values of A and
+/// of B do in a pick-freeze design, even with few inputs. A full grid, which [`PointSet`](super::PointSet) detects, has
 /// few values, each many times.
 fn same_multiplicities(inputs: &[(&str, &Order)], rows: usize) -> bool {
     let multiplicities = |order: &Order| {

@@ -1,4 +1,4 @@
-//! The outputs of a block of rows, with the failures and validity flags among them.
+//! Outputs of blocks of rows, with their failures and validity flags.
 
 use std::fmt;
 use std::sync::Arc;
@@ -6,23 +6,23 @@ use std::sync::Arc;
 use super::{Counts, Model};
 use crate::binary::{Binary, Reader, binary_fields};
 
-/// Why a row has no value of an output, in the words of its model. Equal reasons are counted together, so that they
-/// name no values of the row; cheap to clone.
+/// Why a row has no value of an output, as a message of its model. Equal reasons are counted together, so a reason
+/// should not contain values of the row; cheap to clone.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct RowFailure(Arc<str>);
 
 impl RowFailure {
-    /// The reason `text`, a sentence without a full stop.
+    /// Creates the reason `text`, a sentence without a full stop.
     pub fn new(text: &str) -> Self {
         Self(text.into())
     }
 
-    /// The model answered with an infinity or NaN without saying why.
+    /// Returns the reason of an output that is infinite or NaN without an explanation.
     pub fn not_finite() -> Self {
         Self::new("the model returned a value that is not finite")
     }
 
-    /// The run was ended before the row was answered.
+    /// Returns the reason of a row that an interrupted run did not finish.
     pub fn interrupted() -> Self {
         Self::new("the run was interrupted")
     }
@@ -44,12 +44,12 @@ impl fmt::Display for RowFailure {
     }
 }
 
-/// Why a model cannot go on.
+/// Why a model cannot continue.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct GiveUp {
     /// What happened, and what to do.
     pub reason: RowFailure,
-    /// Whether the model must be changed before any run of it: bad input, and no failed run.
+    /// Whether the model must be changed before any run: an error in the input, not a failed run.
     pub is_bad_input: bool,
 }
 
@@ -79,7 +79,7 @@ pub struct Batch {
 }
 
 impl Batch {
-    /// An empty batch for the outputs, validity flags and counters of `model`.
+    /// Creates an empty batch for the outputs, validity flags and counters of `model`.
     pub fn new(model: &dyn Model) -> Self {
         Self {
             columns: vec![Vec::new(); model.outputs().len()],
@@ -89,7 +89,7 @@ impl Batch {
         }
     }
 
-    /// Forgets everything and makes room for `rows` rows.
+    /// Clears the batch and makes room for `rows` rows.
     pub fn reset(&mut self, rows: usize) {
         self.rows = rows;
         for column in &mut self.columns {
@@ -102,12 +102,12 @@ impl Batch {
         self.given_up = None;
     }
 
-    /// Number of rows.
+    /// Returns the number of rows.
     pub fn rows(&self) -> usize {
         self.rows
     }
 
-    /// Number of outputs of every row.
+    /// Returns the number of outputs of every row.
     pub fn outputs(&self) -> usize {
         self.columns.len()
     }
@@ -117,7 +117,7 @@ impl Batch {
         self.columns[output][row] = value;
     }
 
-    /// The column of one output, for models that fill it as a whole.
+    /// Returns the column of one output, for models that fill it as a whole.
     pub fn column_mut(&mut self, output: usize) -> &mut [f64] {
         &mut self.columns[output]
     }
@@ -135,13 +135,13 @@ impl Batch {
         }
     }
 
-    /// The model cannot go on, with these rows or any others: those that have neither value nor failure have none for
+    /// Records that the model cannot continue, with these rows or any others: those without value or failure fail for
     /// this reason, and the run ends.
     pub fn give_up(&mut self, reason: impl Into<GiveUp>) {
         self.given_up = Some(reason.into());
     }
 
-    /// Why the model cannot go on, if it cannot.
+    /// Returns why the model cannot continue, if so.
     pub fn given_up(&self) -> Option<&GiveUp> {
         self.given_up.as_ref()
     }
@@ -151,17 +151,17 @@ impl Batch {
         self.raise_by(flag, 1);
     }
 
-    /// Counts a validity flag that so many rows raised.
+    /// Counts a validity flag raised by `rows` rows.
     pub fn raise_by(&mut self, flag: usize, rows: u64) {
         self.flags[flag] += rows;
     }
 
-    /// Counts `amount` by the counter of that number.
+    /// Adds `amount` to the counter with that index.
     pub fn count(&mut self, counter: usize, amount: f64) {
         self.counts.add(counter, amount);
     }
 
-    /// Takes over the rows of a settled batch of the same model, from row `first` on.
+    /// Copies the rows of a settled batch of the same model to row `first` and the following ones.
     pub fn take_over(&mut self, first: usize, part: &Self) {
         for (mine, theirs) in self.columns.iter_mut().zip(&part.columns) {
             mine[first..first + part.rows].copy_from_slice(theirs);
@@ -170,14 +170,14 @@ impl Batch {
         self.add_counts(&part.flags, &part.counts);
     }
 
-    /// Names every value that is not finite and has no failure yet [`RowFailure::not_finite`], or the reason why the model
-    /// gave up, and puts the failures in order. To be called once after the worker.
+    /// Fails every value that is not finite and has no failure yet, with [`RowFailure::not_finite`] or the reason why
+    /// the model gave up, and sorts the failures. Must be called once after the worker.
     pub fn settle(&mut self) {
         let unnamed = self.given_up.clone().map_or_else(RowFailure::not_finite, |give_up| give_up.reason);
         self.failures.sort_unstable();
         let named = self.failures.len();
         for (output, column) in self.columns.iter().enumerate() {
-            // Without an early end, many values at a time.
+            // Without an early exit, many values are tested at a time.
             if column.iter().fold(true, |all, value| all & value.is_finite()) {
                 continue;
             }
@@ -194,22 +194,22 @@ impl Batch {
         self.failures.sort_unstable();
     }
 
-    /// The values of one output; NaN or infinite where it failed.
+    /// Returns the values of one output; NaN or infinite where it failed.
     pub fn column(&self, output: usize) -> &[f64] {
         &self.columns[output]
     }
 
-    /// All failures as (output, row, reason), in order once settled.
+    /// Returns all failures as (output, row, reason), in order once settled.
     pub fn failures(&self) -> &[(usize, usize, RowFailure)] {
         &self.failures
     }
 
-    /// How often each validity flag was raised.
+    /// Returns how often each validity flag was raised.
     pub fn flags(&self) -> &[u64] {
         &self.flags
     }
 
-    /// What the model counted.
+    /// Returns the model's counters.
     pub fn counts(&self) -> &Counts {
         &self.counts
     }

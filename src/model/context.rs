@@ -1,9 +1,9 @@
-//! What a run tells its workers, and what they tell it.
+//! The context of a run: stop requests to its workers, and messages from them.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
-/// What workers know of the run they work for: whether it is to end, and where their messages go.
+/// The context of a run for its workers: whether it is to stop, and where their messages go.
 ///
 /// ```
 /// use std::sync::atomic::{AtomicBool, Ordering};
@@ -22,46 +22,46 @@ pub struct RunContext<'a> {
 }
 
 impl<'a> RunContext<'a> {
-    /// A run that ends when `stop` is set, and passes every message of its workers, a line, to `on_message`. (The
-    /// default is a run without a stop and without a listener.)
+    /// Creates the context of a run that stops when `stop` is set, and passes every message of its workers, a line, to
+    /// `on_message`. (The default is a run without a stop that discards messages.)
     pub fn new(stop: Option<&'a AtomicBool>, on_message: impl Fn(&str) + Send + Sync + 'static) -> Self {
         let messages = Messages { receiver: Some(Arc::new(on_message)), lines: Arc::default() };
         Self { stop, ended: AtomicBool::new(false), messages }
     }
 
-    /// Whether workers are to end soon what they are at: they then [give up](super::Batch::give_up) with
-    /// [`RowFailure::interrupted`](super::RowFailure::interrupted). A model whose rows take no time worth speaking of need
-    /// not look.
+    /// Returns whether workers are to stop their current work soon: they then [give up](super::Batch::give_up) with
+    /// [`RowFailure::interrupted`](super::RowFailure::interrupted). A model whose rows take negligible time need not
+    /// check.
     pub fn is_stopped(&self) -> bool {
         self.ended.load(Ordering::Relaxed) || self.is_interrupted()
     }
 
-    /// Where messages go.
+    /// Returns the receiver of messages.
     pub fn messages(&self) -> &Messages {
         &self.messages
     }
 
-    /// Whether the caller wants the run to end.
+    /// Returns whether the caller wants the run to stop.
     pub(crate) fn is_interrupted(&self) -> bool {
         self.stop.is_some_and(|stop| stop.load(Ordering::Relaxed))
     }
 
-    /// Lets the workers end what they are at, for a reason of the run's own.
+    /// Asks the workers to stop, for a reason within the run.
     pub fn end(&self) {
         self.ended.store(true, Ordering::Relaxed);
     }
 }
 
-/// Lines that a program prints on standard error and that are passed on; the others are counted.
+/// Maximum number of lines from programs' standard error that are passed on; the others are counted.
 const MAX_LINES: u64 = 20;
 
 type Receiver = Arc<dyn Fn(&str) + Send + Sync>;
 
-/// Messages of the workers of one run, in the order in which they come. Clones go to the same place.
+/// Messages of the workers of one run, in order. Clones go to the same receiver.
 #[derive(Clone, Default)]
 pub struct Messages {
     receiver: Option<Receiver>,
-    /// Lines of programs so far.
+    /// Number of lines of programs so far.
     lines: Arc<AtomicU64>,
 }
 
@@ -79,14 +79,14 @@ impl Messages {
         }
     }
 
-    /// Sends a line that a program has printed, unless there have been enough.
+    /// Sends a line that a program has printed, up to the maximum number of lines.
     pub fn send_printed(&self, line: &str) {
         if self.lines.fetch_add(1, Ordering::Relaxed) < MAX_LINES {
             self.send(line);
         }
     }
 
-    /// Says how many lines of programs were not sent; to be called at the end of a run.
+    /// Reports how many lines of programs were not sent; to be called at the end of a run.
     pub fn finish(&self) {
         let left_out = self.lines.swap(0, Ordering::Relaxed).saturating_sub(MAX_LINES);
         if left_out > 0 {

@@ -1,32 +1,31 @@
-//! What a model counts over its rows, by name.
+//! Named counters of a model over its rows.
 
 use std::borrow::Cow;
 
 use crate::binary::{Binary, Reader, binary_fields};
 
-/// Beginning of the names of counters of rows that a rung of the ladder of fidelities answered.
+/// Prefix of the names of counters of rows evaluated by a rung of the ladder of fidelities.
 pub const RUNGS: &str = "rungs.";
 /// Name of the counter of evaluations of the right-hand side.
 pub const EVALUATIONS: &str = "evaluations";
 /// Name of the counter of the largest relative error estimate of any row.
 pub const LARGEST_ERROR: &str = "largest_error_estimate";
 
-/// A number that a model counts over the rows of a run.
+/// A quantity that a model counts over the rows of a run.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Counter {
     /// The name.
     pub name: Cow<'static, str>,
-    /// What the counts of two rows make together.
+    /// How the counts of two rows are combined.
     pub kind: CounterKind,
 }
 
-/// How counts are put together. Neither depends on their order, in any bit: sums are of whole numbers, and exact up to
-/// 2^53.
+/// How counts are combined. No bit depends on their order: sums are of whole numbers, and exact up to 2^53.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CounterKind {
     /// They are added.
     Sum,
-    /// The largest counts.
+    /// The maximum is taken.
     Maximum,
 }
 
@@ -56,27 +55,27 @@ impl Binary for CounterKind {
 }
 
 impl Counts {
-    /// Nothing counted by `counters`.
+    /// Returns zero counts for `counters`.
     pub fn new(counters: &[Counter]) -> Self {
         Self::from_values(counters.iter().map(|counter| (counter.kind, 0.0)))
     }
 
-    /// Counts of these kinds and values.
+    /// Creates counts of these kinds and values.
     pub(crate) fn from_values(values: impl IntoIterator<Item = (CounterKind, f64)>) -> Self {
         Self { entries: values.into_iter().map(|(kind, value)| Count { kind, value }).collect() }
     }
 
-    /// The values, in order.
+    /// Iterates over the values, in order.
     pub fn values(&self) -> impl ExactSizeIterator<Item = f64> {
         self.entries.iter().map(|count| count.value)
     }
 
-    /// Whether nothing was counted.
+    /// Returns whether nothing was counted.
     pub fn is_zero(&self) -> bool {
         self.entries.iter().all(|count| count.value == 0.0)
     }
 
-    /// Adds `amount` to the counter of that number, or takes the larger of both.
+    /// Adds `amount` to the counter with that index, or takes the maximum of both.
     pub fn add(&mut self, counter: usize, amount: f64) {
         self.entries[counter].add(amount);
     }

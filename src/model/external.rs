@@ -1,9 +1,9 @@
-//! A model outside of this program, whose outputs come from a file.
+//! A model outside this program, whose outputs come from a file.
 
 use super::{Batch, Model, Output, OutputSeries, RowFailure, RunContext, Worker};
 
-/// A model that runs elsewhere: it has outputs with names and units, but every row asked of it fails by name. Its
-/// outputs are read from a file, into a [`Store`](crate::run::Store).
+/// A model that runs elsewhere: it has outputs with names and units, but every row evaluated by it fails. Its outputs
+/// are read from a file, into a [`Store`](crate::run::Store).
 #[derive(Debug, Clone, PartialEq)]
 pub struct ExternalModel {
     outputs: Vec<Output>,
@@ -11,18 +11,18 @@ pub struct ExternalModel {
 }
 
 impl ExternalModel {
-    /// A model of these outputs.
+    /// Creates a model of these outputs.
     pub fn new(outputs: Vec<Output>) -> Self {
         Self { outputs, series: Vec::new() }
     }
 
-    /// The model with those of its outputs that are series.
+    /// Sets those of its outputs that are series.
     #[must_use]
     pub fn with_series(self, series: Vec<OutputSeries>) -> Self {
         Self { series, ..self }
     }
 
-    /// Why a row of it has no value here.
+    /// Returns why its rows have no values here.
     pub fn elsewhere() -> RowFailure {
         RowFailure::new("the model runs outside of this program, and the row's outputs have not been read")
     }

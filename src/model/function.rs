@@ -5,9 +5,9 @@ use crate::quantity::Unit;
 
 /// A Rust function as a model.
 ///
-/// It gets the values of one row, one per factor, in SI units and in the order of the factors (a factor without a unit has
-/// its own numbers), and is called from several threads at once. It must answer with the same numbers for the same values,
-/// else results are not repeatable. A panic of it ends the run with that panic.
+/// It receives the values of one row, one per factor, in SI units and in the order of the factors (a factor without a
+/// unit is passed as is), and is called from several threads at once. It must return the same numbers for the same
+/// values, otherwise results are not repeatable. If it panics, the run ends with that panic.
 pub struct FunctionModel<F> {
     outputs: Vec<Output>,
     series: Vec<OutputSeries>,
@@ -18,8 +18,8 @@ impl<F> FunctionModel<F>
 where
     F: Fn(&[f64], &mut [f64]) -> Result<(), RowFailure> + Send + Sync,
 {
-    /// The model of `function`, which sets the values of all `outputs` of a row, in SI units, or says why there are none. A
-    /// value that is not finite is a failure of that output alone.
+    /// Creates the model of `function`, which sets the values of all `outputs` of a row, in SI units, or returns why
+    /// there are none. A value that is not finite is a failure of that output only.
     ///
     /// ```
     /// use apportion::{FunctionModel, Output, RowFailure};
@@ -42,8 +42,8 @@ where
         Self { outputs, series: Vec::new(), function }
     }
 
-    /// The model with one more output that is a series: the function sets its values, in SI units, behind those of all
-    /// outputs before. They are called `name[0]`, `name[1]` and so on.
+    /// Adds an output that is a series: the function sets its values, in SI units, after those of all previous outputs.
+    /// They are called `name[0]`, `name[1]` and so on.
     ///
     /// ```
     /// use apportion::{FunctionModel, Model, SeriesAxis, Unit};
@@ -67,8 +67,7 @@ where
     }
 }
 
-/// The model of a function with a single output, a pure number called `output`. An answer that is not finite is a failed
-/// row.
+/// Creates a model from a function with one dimensionless `output`. A result that is not finite is a failed row.
 ///
 /// ```
 /// use apportion::{Model, function_model};
@@ -115,7 +114,7 @@ where
         for row in 0..batch.rows() {
             self.x.clear();
             self.x.extend(inputs.iter().map(|column| column[row]));
-            // What the function does not set has no value.
+            // An output that the function does not set has no value.
             self.y.fill(f64::NAN);
             match (self.function)(&self.x, &mut self.y) {
                 Ok(()) => self.y.iter().enumerate().for_each(|(output, y)| batch.set(row, output, *y)),

@@ -1,8 +1,8 @@
-//! What is studied: a shared description that lends out workers.
+//! Models: a shared description that creates workers.
 //!
-//! A [`Model`] says which outputs it has and makes [`Worker`]s; each thread owns one worker, which turns a block of
-//! rows (one slice of SI values per factor) into a [`Batch`] of outputs. A row may fail, wholly or in one output, with
-//! a [`RowFailure`]; it never panics and never answers with a number that only looks like a result.
+//! A [`Model`] declares its outputs and creates [`Worker`]s; each thread owns one worker, which turns a block of rows
+//! (one slice of SI values per factor) into a [`Batch`] of outputs. A row may fail, wholly or in one output, with a
+//! [`RowFailure`]; it must not panic, and must not return an invalid number as a result.
 
 mod batch;
 mod context;
@@ -33,7 +33,7 @@ pub use series::{MAX_SERIES_VALUES, OutputSeries, SeriesAxis, SeriesError, item_
 use crate::quantity::{Domain, Unit};
 use crate::space::Distribution;
 
-/// From so many outputs on they are shown together: an overview in the place of files for each.
+/// Minimum number of outputs that are shown together: an overview instead of files for each.
 pub const MIN_OUTPUTS_TOGETHER: usize = 12;
 
 /// One output of a model.
@@ -48,13 +48,13 @@ pub struct Output {
 }
 
 impl Output {
-    /// An output of that name, reported in `unit`.
+    /// Creates an output with that name, reported in `unit`.
     pub fn new(name: impl Into<Cow<'static, str>>, unit: Unit, description: impl Into<Cow<'static, str>>) -> Self {
         Self { name: name.into(), unit, description: description.into() }
     }
 }
 
-/// A choice of a model: its key, where it acts if not everywhere, and the names or the kind of value.
+/// A choice of a model: its key, where it applies if not everywhere, and the names or the kind of value.
 pub type Choice = (&'static str, Vec<&'static str>);
 
 /// An input of a model, which a study can make a factor.
@@ -64,68 +64,68 @@ pub struct Input {
     pub name: String,
     /// The symbol in the papers.
     pub symbol: String,
-    /// The unit in which people give it.
+    /// The unit in which users give it.
     pub unit: Unit,
-    /// The value it has where nothing else is said, in `unit`.
+    /// The default value, in `unit`.
     pub nominal: f64,
-    /// Where it is physical (of its SI value); `None` for any finite number.
+    /// Its physical range (of its SI value); `None` for any finite number.
     pub domain: Option<Domain>,
-    /// How it varies where a study says nothing else, in `unit`; `None` if a study has to say.
+    /// The default distribution, in `unit`; `None` if a study must give one.
     pub distribution: Option<Distribution>,
     /// A few words for people.
     pub description: String,
 }
 
-/// What a model may raise on a row: that its result stands, but outside the theory's range; or a warning.
+/// A flag that a model may raise on a row: its result is valid, but outside the theory's range; or a warning.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Flag {
     /// The name in results, in kebab-case.
     pub name: Cow<'static, str>,
-    /// What it means, one line.
+    /// Its meaning, in one line.
     pub description: Cow<'static, str>,
-    /// Whether it says nothing of the theory's range: results speak of it only where it was raised, and as a warning.
+    /// Whether it is unrelated to the theory's range: results mention it only if it was raised, and as a warning.
     pub warns: bool,
 }
 
 /// A model: shared between threads, immutable during a run.
 pub trait Model: Send + Sync {
-    /// The outputs, in the order of the columns of a [`Batch`].
+    /// Returns the outputs, in the order of the columns of a [`Batch`].
     fn outputs(&self) -> &[Output];
 
-    /// Those of the outputs that are the values of one quantity along an axis; no two have an output in common.
+    /// Returns those of the outputs that are the values of one quantity along an axis; no two share an output.
     fn series(&self) -> &[OutputSeries] {
         &[]
     }
 
-    /// The validity flags it may raise, in the order of their numbers in a [`Batch`].
+    /// Returns the validity flags it may raise, in the order of their indices in a [`Batch`].
     fn flags(&self) -> &[Flag] {
         &[]
     }
 
-    /// What it counts over its rows, in the order of the numbers in a [`Batch`].
+    /// Returns its counters, in the order of their indices in a [`Batch`].
     fn counters(&self) -> &[Counter] {
         &[]
     }
 
-    /// How many workers are best kept busy at once, where that is not one for each thread. A model that answers takes
-    /// its time over a row: its rows are shared out in pieces that grow only as fast as they are answered.
+    /// Returns the best number of simultaneous workers, if it is not one for each thread. A model that returns a number
+    /// is slow: its rows are distributed in batches that grow only as fast as they are evaluated.
     fn concurrency(&self) -> Option<usize> {
         None
     }
 
-    /// Whether the same row may have another answer when it is run again, as far as is known: a run then repeats a few rows
-    /// at its end to see.
+    /// Returns whether the same row may give another output when it is run again, as far as is known: a run then
+    /// repeats a few rows at its end to check.
     fn may_be_random(&self) -> bool {
         false
     }
 
-    /// Whether a row takes long enough for its outputs to be recorded row by row: rows of other models are evaluated in
+    /// Returns whether a row takes long enough for its outputs to be recorded row by row; if not, rows are evaluated in
     /// blocks.
     fn is_slow(&self) -> bool {
         self.concurrency().is_some()
     }
 
-    /// A worker for one thread of the run that `context` tells of.
+    /// Creates a worker for one thread of the run of `context`.
     fn worker<'a>(&'a self, context: &'a RunContext<'a>) -> Box<dyn Worker + 'a>;
 }
 
@@ -165,7 +165,7 @@ impl<M: Model + ?Sized> Model for Arc<M> {
 
 /// The part of a model that one thread owns.
 pub trait Worker: Send {
-    /// Evaluates a block of rows. `inputs` holds one slice of SI values per factor, in the order of the space, all of
-    /// the length [`Batch::rows`]; every output of every row is either set or failed in `batch`.
+    /// Evaluates a block of rows. `inputs` has one slice of SI values per factor, in the order of the space, all of the
+    /// length [`Batch::rows`]; every output of every row must be set or failed in `batch`.
     fn run(&mut self, inputs: &[&[f64]], batch: &mut Batch);
 }

@@ -1,4 +1,4 @@
-//! A stochastic model run several times at every row: mean and variance over its noise.
+//! Repeated runs of a stochastic model at every row: mean and variance over its noise.
 
 use std::sync::Arc;
 
@@ -6,11 +6,10 @@ use super::{Batch, Counter, Flag, Model, Output, RunContext, Worker};
 use crate::quantity::Unit;
 use crate::space::distribution::{mixed, seed_of};
 
-/// The mean and the variance of the outputs of a stochastic model over a few runs of each row, with seeds of their own.
+/// The mean and the variance of the outputs of a stochastic model over several runs of each row, with different seeds.
 ///
-/// In the place of every output `y` there are `y_mean` and `y_variance` (with the divisor n - 1, hence without bias), in this
-/// order. Both still vary with the noise, the less the more runs there are; as the noise is a factor, its indices say how
-/// much.
+/// Every output `y` is replaced by `y_mean` and `y_variance` (with the divisor n - 1, hence unbiased), in this order.
+/// Both still vary with the noise, less with more runs; the noise is a factor, and its indices measure this.
 ///
 /// ```
 /// use std::sync::Arc;
@@ -34,7 +33,7 @@ pub struct RepeatedModel {
 }
 
 impl RepeatedModel {
-    /// Of `model`, whose input number `seed` is its seed, so many runs for each row; fewer than 2 are 2.
+    /// Repeats `model`, whose input number `seed` is its seed, `repetitions` times for each row, at least twice.
     pub fn new(model: Arc<dyn Model>, seed: usize, repetitions: usize) -> Self {
         let of_output = |output: &Output| {
             let mean = Output::new(format!("{}_mean", output.name), output.unit.clone(), "mean over the noise");
@@ -46,7 +45,7 @@ impl RepeatedModel {
     }
 }
 
-/// The square of a unit, for variances; of one that is only a label, a label.
+/// Returns the square of a unit, for variances; the square of a label is a label.
 fn square(unit: &Unit) -> Unit {
     let symbol = unit.symbol();
     match symbol {
@@ -54,7 +53,7 @@ fn square(unit: &Unit) -> Unit {
         _ if unit.has_offset() => Unit::label("K^2"),
         _ => {
             let one = symbol.chars().all(char::is_alphabetic).then(|| format!("{symbol}^2"));
-            // A product has no place below "/".
+            // The syntax has no product after "/".
             let mut parts = symbol.split('/').map(str::trim);
             let above = parts.next().map(|part| format!("{part}*{part}"));
             let below: String = parts.map(|part| format!("/{part}/{part}")).collect();
@@ -71,7 +70,7 @@ fn same(a: f64, b: f64) -> bool {
     (a - b).abs() <= 1e-12 * b.abs()
 }
 
-/// The seed of repetition `number` of a row with this seed: of the first the row's own.
+/// Returns the seed of repetition `number` of a row with this seed: the first is the row's own.
 fn seed_of_repetition(seed: f64, number: u64) -> f64 {
     const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;
     if number == 0 { seed } else { seed_of(mixed((seed as u64).wrapping_add(number.wrapping_mul(GOLDEN)))) }
@@ -107,7 +106,7 @@ impl Model for RepeatedModel {
 struct RepeatedWorker<'a> {
     of: &'a RepeatedModel,
     worker: Box<dyn Worker + 'a>,
-    /// The outputs of all repetitions of a block: its rows, then its rows once more, and so on.
+    /// The outputs of all repetitions of a block: its rows, then its rows again, and so on.
     batch: Batch,
     columns: Vec<Vec<f64>>,
 }

@@ -7,29 +7,29 @@ use thiserror::Error;
 use super::Output;
 use crate::quantity::Unit;
 
-/// Most values of a series: each is an output, with sums of its own.
+/// Maximum number of values of a series: each is an output, with its own sums.
 pub const MAX_SERIES_VALUES: usize = 10_000;
 
-/// What is wrong with an axis.
+/// Errors in an axis.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum SeriesError {
     /// Too few values, or too many.
     #[error("a series has 2 to {MAX_SERIES_VALUES} values, not {found}")]
     Length {
-        /// How many it has.
+        /// The number of values.
         found: usize,
     },
-    /// A position that is no number, or not above the one before.
+    /// A position that is not finite, or not above the previous one.
     #[error("the positions of a series are finite numbers in rising order; position {place} is {found}")]
     Position {
-        /// Which one, from 0.
+        /// Its index, from 0.
         place: usize,
         /// The position.
         found: f64,
     },
 }
 
-/// The axis of a series: what it is called, its unit, and where the values stand on it.
+/// The axis of a series: its name, its unit, and the positions of the values.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SeriesAxis {
     label: String,
@@ -38,7 +38,7 @@ pub struct SeriesAxis {
 }
 
 impl SeriesAxis {
-    /// An axis called `label`; `positions` are in `unit`, which may be any text, or empty.
+    /// Creates an axis called `label`; `positions` are in `unit`, which may be any text, or empty.
     ///
     /// # Errors
     /// [`SeriesError`] unless there are 2 to 10,000 positions, finite and in rising order.
@@ -57,7 +57,7 @@ impl SeriesAxis {
         Ok(Self { label: label.to_owned(), unit: unit.to_owned(), positions })
     }
 
-    /// An axis of `length` positions from `start` on, `step` apart.
+    /// Creates an axis of `length` positions from `start` on, `step` apart.
     ///
     /// # Errors
     /// As for [`new`](Self::new).
@@ -68,17 +68,17 @@ impl SeriesAxis {
         Self::new(label, unit, (0..length).map(|place| start + step * place as f64).collect())
     }
 
-    /// What it is called.
+    /// Returns its name.
     pub fn label(&self) -> &str {
         &self.label
     }
 
-    /// The unit of the positions; empty for none.
+    /// Returns the unit of the positions; empty for none.
     pub fn unit(&self) -> &str {
         &self.unit
     }
 
-    /// Where the values stand, in rising order.
+    /// Returns the positions of the values, in rising order.
     pub fn positions(&self) -> &[f64] {
         &self.positions
     }
@@ -89,30 +89,30 @@ impl SeriesAxis {
 pub struct OutputSeries {
     /// Its name.
     pub name: String,
-    /// Place of its first value among the outputs.
+    /// Index of its first value among the outputs.
     pub first: usize,
-    /// Where the values stand.
+    /// The positions of the values.
     pub axis: SeriesAxis,
 }
 
 impl OutputSeries {
-    /// Places of its values among the outputs.
+    /// Returns the indices of its values among the outputs.
     pub fn places(&self) -> Range<usize> {
         self.first..self.first + self.axis.positions.len()
     }
 
-    /// The names of the values of the series called `name`: `name[0]`, `name[1]` and so on.
+    /// Iterates over the names of the values of the series called `name`: `name[0]`, `name[1]` and so on.
     pub fn value_names(name: &str, length: usize) -> impl Iterator<Item = String> {
         (0..length).map(move |place| format!("{name}[{place}]"))
     }
 
-    /// Its values as outputs in `unit`.
+    /// Iterates over its values as outputs in `unit`.
     pub fn outputs(&self, unit: &Unit, description: &'static str) -> impl Iterator<Item = Output> {
         let names = Self::value_names(&self.name, self.axis.positions.len());
         names.map(move |name| Output::new(name, unit.clone(), description))
     }
 
-    /// Those of `all` whose values are among the places `chosen`, all of them and in order; they stand where they are chosen.
+    /// Returns those of `all` whose values are all in `chosen` and in order, with their places in `chosen`.
     pub fn chosen(all: &[Self], chosen: &[usize]) -> Vec<Self> {
         let place = |series: &Self| {
             let first = chosen.iter().position(|place| *place == series.first)?;
@@ -123,7 +123,7 @@ impl OutputSeries {
     }
 }
 
-/// The list and the place in it that a name such as `infected[12]` stands for.
+/// Returns the list and the index in it for a name such as `infected[12]`.
 pub fn item_of_list(name: &str) -> Option<(&str, usize)> {
     let (list, place) = name.strip_suffix(']')?.rsplit_once('[')?;
     let is_plain = !list.is_empty() && !place.is_empty() && place.bytes().all(|byte| byte.is_ascii_digit());
@@ -131,8 +131,8 @@ pub fn item_of_list(name: &str) -> Option<(&str, usize)> {
     Some((list, place))
 }
 
-/// The names that a header such as `infected[0..365]` stands for: those of the items from the first number on up to the second,
-/// which is not among them. `None` of any other header, and of more than 10,000 items.
+/// Iterates over the names in a header such as `infected[0..365]`: those of the items from the first index to the
+/// second, exclusive. `None` for any other header, and for more than 10,000 items.
 pub fn items_of_header(header: &str) -> Option<impl Iterator<Item = String> + use<>> {
     let (list, range) = header.strip_suffix(']')?.rsplit_once('[')?;
     let number = |digits: &str| {

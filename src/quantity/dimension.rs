@@ -2,17 +2,17 @@
 
 use std::fmt;
 
-/// Exponents of metre, kilogram, second, ampere, kelvin, mole and radian: what kind of quantity a unit measures.
+/// Exponents of metre, kilogram, second, ampere, kelvin, mole and radian: the kind of quantity that a unit measures.
 ///
-/// The angle is a dimension of its own, so that a length given for an angle is found out.
-/// `Display` names the kind for error texts: "a length", "a pressure".
+/// The angle is a separate dimension, so that a length given for an angle is detected. `Display` names the kind for
+/// error texts: "a length", "a pressure".
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default)]
 pub struct Dimension([i8; 7]);
 
-/// The units that these are exponents of.
+/// The base units of the exponents.
 const BASES: [&str; 7] = ["m", "kg", "s", "A", "K", "mol", "rad"];
 
-/// Declares the kinds that have a name: a constant for each, and the words for it.
+/// Declares the named kinds: a constant for each, and its description.
 macro_rules! kinds {
     ($($(#[$doc:meta])* $name:ident = $powers:expr, $words:literal;)+) => {
         impl Dimension {
@@ -79,7 +79,7 @@ kinds! {
 }
 
 impl Dimension {
-    /// `self * other^power`, `None` past the range of `i8`.
+    /// Returns `self * other^power`, or `None` beyond the range of `i8`.
     pub(super) fn times(self, other: Self, power: i8) -> Option<Self> {
         let mut powers = self.0;
         for (own, other) in powers.iter_mut().zip(other.0) {

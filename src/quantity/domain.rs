@@ -1,9 +1,9 @@
-//! Where a quantity is physical.
+//! Physical ranges of quantities.
 
 use std::f64::consts::FRAC_PI_2;
 use std::fmt;
 
-/// Where a quantity is physical. Every domain holds finite numbers only.
+/// The physical range of a quantity. Every domain contains only finite numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Domain {
     /// Greater than zero.
@@ -17,7 +17,7 @@ pub enum Domain {
 }
 
 impl Domain {
-    /// Whether `value` is finite and lies in the domain.
+    /// Returns whether `value` is finite and in the domain.
     #[inline]
     pub fn contains(self, value: f64) -> bool {
         match self {
@@ -29,7 +29,7 @@ impl Domain {
     }
 }
 
-/// Reads after "must be": `> 0`, `>= 0`, `in (-1, 0.5]`, `in [0, pi/2]`.
+/// Completes "must be": `> 0`, `>= 0`, `in (-1, 0.5]`, `in [0, pi/2]`.
 impl fmt::Display for Domain {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {

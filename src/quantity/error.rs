@@ -1,9 +1,9 @@
-//! What can be wrong with a unit.
+//! Errors in units.
 
 /// Why a unit or a quantity could not be read.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum UnitError {
-    /// A symbol that is no unit.
+    /// A symbol that is not a unit.
     #[error(
         "unit \"{unit}\": \"{symbol}\" is not understood{}; units look like {EXAMPLES}; inputs and outputs of a model of your own may have none: their numbers are then passed on as they are",
         hint(nearest)
@@ -11,12 +11,12 @@ pub enum UnitError {
     Unknown {
         /// The unit as typed.
         unit: String,
-        /// The part of it that is no unit.
+        /// The part of it that is not a unit.
         symbol: String,
-        /// The known symbol that is spelled most alike, if one is.
+        /// The most similar known symbol, if there is one.
         nearest: Option<String>,
     },
-    /// A unit that is not put together as units are.
+    /// A malformed unit.
     #[error("unit \"{unit}\": {reason}; units look like {EXAMPLES}")]
     Malformed {
         /// The unit as typed.

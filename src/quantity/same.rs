@@ -1,9 +1,9 @@
-//! Whether two numbers are the same value, one of which may have been printed by another program.
+//! Equality of two numbers, one of which may have been printed by another program.
 
-/// Largest relative difference of two numbers that are the same value: ten digits are enough.
+/// Largest relative difference of two numbers that count as equal: ten digits are enough.
 pub const SAME_VALUE: f64 = 1e-9;
 
-/// Whether `found` is `expected` to [`SAME_VALUE`], or both are the same infinity; NaN is no value.
+/// Returns whether `found` is `expected` to [`SAME_VALUE`], or both are the same infinity; NaN equals nothing.
 ///
 /// ```
 /// use apportion::quantity::is_same;

@@ -1,4 +1,4 @@
-//! The symbols that units are made of, with their prefixes, factors to SI and dimensions.
+//! The symbols of units, with their prefixes, factors to SI and dimensions.
 
 use super::Dimension;
 
@@ -17,7 +17,7 @@ const fn symbol(name: &'static str, prefixes: &'static str, dimension: Dimension
     Symbol { name, prefixes, decade: 0, times: 1.0, over: 1.0, offset: 0.0, dimension }
 }
 
-/// A symbol without prefixes, whose factor to SI is `times` 10^decade.
+/// Creates a symbol without prefixes, whose factor to SI is `times` 10^decade.
 const fn multiple(name: &'static str, times: f64, decade: i32, dimension: Dimension) -> Symbol {
     Symbol { decade, times, ..symbol(name, "", dimension) }
 }
@@ -87,7 +87,7 @@ const SYMBOLS: [Symbol; 51] = [
 const PREFIXES: [(char, i32); 8] =
     [('G', 9), ('M', 6), ('k', 3), ('c', -2), ('m', -3), ('u', -6), ('n', -9), ('p', -12)];
 
-/// Every spelling of every symbol with its prefix, and the decade that the prefix adds.
+/// Iterates over every spelling of every symbol with its prefix, and the decade that the prefix adds.
 pub(super) fn spellings() -> impl Iterator<Item = (String, &'static Symbol, i32)> {
     SYMBOLS.iter().flat_map(|symbol| {
         let prefixed = PREFIXES.iter().filter(|(prefix, _)| symbol.prefixes.contains(*prefix));
@@ -96,7 +96,7 @@ pub(super) fn spellings() -> impl Iterator<Item = (String, &'static Symbol, i32)
     })
 }
 
-/// The symbol of that name with the decade of its prefix, or two that are joined in it.
+/// Returns the symbol of that name with the decade of its prefix, or the two symbols joined in it.
 pub(super) fn lookup(name: &str) -> Option<Vec<(&'static Symbol, i32)>> {
     single(name).or_else(|| juxtaposed(name))
 }
@@ -111,7 +111,7 @@ fn single(name: &str) -> Option<Vec<(&'static Symbol, i32)>> {
     Some(vec![(symbol, decade)])
 }
 
-/// Two symbols without a sign between them, as in `Ns/m`; only after `N`, `Pa` and `J`, where nothing else is meant.
+/// Splits two symbols without a sign between them, as in `Ns/m`; only after `N`, `Pa`, `J`: unambiguous.
 fn juxtaposed(name: &str) -> Option<Vec<(&'static Symbol, i32)>> {
     spellings().filter(|(_, symbol, _)| matches!(symbol.name, "N" | "Pa" | "J")).find_map(
         |(spelling, symbol, prefix)| {
@@ -123,7 +123,7 @@ fn juxtaposed(name: &str) -> Option<Vec<(&'static Symbol, i32)>> {
     )
 }
 
-/// The known spelling at most one edit away, a different case counting least.
+/// Returns the known spelling at most one edit away; a difference in case counts least.
 pub(super) fn nearest(name: &str) -> Option<String> {
     let distance = |spelling: &str| {
         let exact = strsim::damerau_levenshtein(name, spelling);

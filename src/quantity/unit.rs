@@ -1,12 +1,12 @@
 //! Unit symbols.
 //!
-//! A unit is a product of powers of SI symbols with prefixes, read by a small grammar rather than from a list, so
-//! that `mJ/m2`, `nN/nm` and `g/cm^3` need no entry of their own. Most factors are powers of ten, and conversions shift
-//! the decimal point of the decimal number that was typed, so that `230.3 um` becomes the very number `230.3e-6`, which
-//! neither 230.3 * 1e-6 nor 230.3 / 1e6 is.
+//! A unit is a product of powers of SI symbols with prefixes, parsed by a small grammar instead of a list, so that
+//! `mJ/m2`, `nN/nm` and `g/cm^3` need no separate entry. Most factors are powers of ten, and conversions shift the
+//! decimal point of the decimal number that was typed, so that `230.3 um` becomes exactly the number `230.3e-6`, unlike
+//! 230.3 * 1e-6 and 230.3 / 1e6.
 //!
-//! `degC` and `degF` have a zero of their own. It counts where such a unit stands alone and a value is converted; a
-//! difference of two values, and a product such as `W/m2/degC`, only has the scale.
+//! `degC` and `degF` have an offset. It applies if such a unit is used alone and a value is converted; a difference of
+//! two values, and a product such as `W/m2/degC`, has only the scale.
 
 use std::fmt;
 
@@ -17,8 +17,8 @@ use super::{Dimension, UnitError};
 
 /// A unit symbol, its factor to SI and its dimension.
 ///
-/// Two units are equal if they were typed alike; see [`compatible`](Self::compatible) for the same dimension.
-/// As JSON it is its symbol; read from there, a text that is no unit is a [`label`](Self::label).
+/// Two units are equal if they were typed alike; see [`compatible`](Self::compatible) for the same dimension. In JSON
+/// it is its symbol; when read from there, a text that is not a unit is a [`label`](Self::label).
 ///
 /// ```
 /// use apportion::quantity::Dimension;
@@ -43,23 +43,23 @@ pub struct Unit {
     times: f64,
     over: f64,
     degrees: i8,
-    /// What is added to a value, in this unit, before it is multiplied.
+    /// The offset added to a value, in this unit, before it is multiplied.
     offset: f64,
     dimension: Dimension,
     is_label: bool,
 }
 
-/// Factors beyond this power of ten are refused: values would leave the range of `f64`.
+/// Factors beyond this power of ten are refused: values would exceed the range of `f64`.
 const MAX_DECADES: f64 = 100.0;
 
 impl Unit {
-    /// The unit of pure numbers, `1`.
+    /// Returns the unit of dimensionless numbers, `1`.
     pub fn dimensionless() -> Self {
         Self::called("1")
     }
 
-    /// The unit `text` where it is one, else a label: a unit of its own kind, whose numbers stay as they are. Outputs of
-    /// programs have such units, as `USD` or `points`.
+    /// Returns the unit `text` if it is one, otherwise a label: a unit of its own kind, whose numbers are not
+    /// converted. Outputs of programs have such units, for example `USD` or `points`.
     ///
     /// ```
     /// use apportion::Unit;
@@ -73,30 +73,30 @@ impl Unit {
         Self::known(text).unwrap_or_else(|| Self { is_label: true, ..Self::called(text.trim()) })
     }
 
-    /// The unit `text`, if it is one.
+    /// Returns the unit `text`, if it is one.
     pub fn known(text: &str) -> Option<Self> {
         Self::read(text, |_| None).ok()
     }
 
-    /// Pure numbers, whose unit is written so.
+    /// Returns a dimensionless unit with this symbol.
     fn called(symbol: &str) -> Self {
         let (symbol, dimension) = (symbol.to_owned(), Dimension::NUMBER);
         Self { symbol, decade: 0, times: 1.0, over: 1.0, degrees: 0, offset: 0.0, dimension, is_label: false }
     }
 
-    /// Reads a unit: symbols with powers (`m2`, `m^2`, `m²`, `m-2`) joined by a space, `*`, `·` or `.`, and divided
-    /// by `/`. `µ` and `u` are both micro; `Ns`, `Nm`, `Pas` and `Js` need no sign between them; the empty string
-    /// and `1` are a pure number.
+    /// Parses a unit: symbols with powers (`m2`, `m^2`, `m²`, `m-2`) joined by a space, `*`, `·` or `.`, and divided by
+    /// `/`. `µ` and `u` are both micro; `Ns`, `Nm`, `Pas` and `Js` need no sign between them; the empty string and `1`
+    /// are dimensionless.
     ///
     /// # Errors
     ///
-    /// [`UnitError`] says which part was not understood. A product after a division (`N/m s`) is refused as
-    /// ambiguous; so is a factor to SI beyond 10^100.
+    /// [`UnitError`] with the part that is invalid. A product after a division (`N/m s`) is refused as ambiguous; so is
+    /// a factor to SI beyond 10^100.
     pub fn parse(text: &str) -> Result<Self, UnitError> {
         Self::read(text, nearest)
     }
 
-    /// Reads a unit; `nearest` finds a symbol like one that is unknown.
+    /// Parses a unit; `nearest` finds a symbol similar to an unknown one.
     fn read(text: &str, nearest: fn(&str) -> Option<String>) -> Result<Self, UnitError> {
         let malformed = |reason| UnitError::Malformed { unit: text.to_owned(), reason };
         let mut unit = Self::called(text.trim());
@@ -136,8 +136,8 @@ impl Unit {
         Ok(unit)
     }
 
-    /// Multiplies by one factor, such as `mm^2`, to the power 1 or -1. Returns the offset and the power of every symbol in
-    /// it, but for `1`. `symbols` finds those of a name in it.
+    /// Multiplies by one factor, such as `mm^2`, to the power 1 or -1. Returns the offset and the power of every symbol
+    /// in it, except `1`. `symbols` finds those of a name in it.
     fn multiply(
         &mut self,
         factor: &str,
@@ -174,69 +174,69 @@ impl Unit {
         Ok(offsets)
     }
 
-    /// The symbol as typed, without the spaces around it.
+    /// Returns the symbol as typed, without surrounding spaces.
     pub fn symbol(&self) -> &str {
         &self.symbol
     }
 
-    /// What kind of quantity it measures.
+    /// Returns the kind of quantity that it measures.
     pub fn dimension(&self) -> Dimension {
         self.dimension
     }
 
-    /// Whether it is a label, which is none of the units that are known.
+    /// Returns whether it is a label, not a known unit.
     pub fn is_label(&self) -> bool {
         self.is_label
     }
 
-    /// Whether it measures something: it is neither a label nor that of pure numbers, which stands where no unit is given.
+    /// Returns whether it measures something: neither a label nor dimensionless, which is the default.
     pub fn is_of_kind(&self) -> bool {
         !self.is_label && self.dimension != Dimension::NUMBER
     }
 
-    /// Whether values in one unit can be turned into the other: the same dimension, and the same label if they have one.
+    /// Returns whether values can be converted between the units: they have the same dimension, and label if any.
     pub fn compatible(&self, other: &Self) -> bool {
         let is_label = self.is_label || other.is_label;
         self.dimension == other.dimension && (!is_label || self == other)
     }
 
-    /// Whether its zero is not that of SI, as the zero of `degC`: ratios of its values have no meaning.
+    /// Returns whether its zero differs from that of SI, as for `degC`: ratios of its values have no meaning.
     pub fn has_offset(&self) -> bool {
         self.offset != 0.0
     }
 
-    /// A value in this unit, in SI. Where the factor is a power of ten, it is the `f64` nearest to the decimal number
-    /// typed, with its decimal point shifted; else it is within 2 ulp. Overflows to infinity. Some 0.2 us, so not for
-    /// inner loops.
+    /// Converts a value in this unit to SI. If the factor is a power of ten, the result is the `f64` nearest to the
+    /// decimal number typed, with its decimal point shifted; otherwise it is within 2 ulp. Overflows to infinity. Takes
+    /// about 0.2 us, so not for inner loops.
     pub fn to_si(&self, value: f64) -> f64 {
         self.span_to_si(if self.has_offset() { value + self.offset } else { value })
     }
 
-    /// A value in SI, in this unit; `from_si(to_si(x))` is `x` for numbers of up to 15 digits where the factor is a power
-    /// of ten, else to within 2 ulp, where a unit has an offset of the value and the offset together.
+    /// Converts a value in SI to this unit; `from_si(to_si(x))` is `x` for numbers of up to 15 digits if the factor is
+    /// a power of ten, otherwise to within 2 ulp, for a unit with an offset of the value and the offset together.
     pub fn from_si(&self, value: f64) -> f64 {
         if !self.has_offset() {
             return self.span_from_si(value);
         }
         let near = self.span_from_si(value) - self.offset;
-        // The decimal number that may have been typed, without the rounding errors of a sum.
+        // The decimal number that was probably typed, without the rounding errors of a sum.
         let typed: Option<f64> = format!("{near:.10}").parse().ok();
         typed.filter(|typed| self.to_si(*typed) == value).unwrap_or(near)
     }
 
-    /// A difference of two values in this unit, such as a standard deviation, in SI: without the offset of `degC`.
+    /// Converts a difference of values in this unit, such as a standard deviation, to SI: no offset of `degC`.
     pub fn span_to_si(&self, span: f64) -> f64 {
         let multiplied = if self.is_decimal() { span } else { span * self.times / self.over };
         shift(multiplied, self.decade) * 1f64.to_radians().powi(self.degrees.into())
     }
 
-    /// A difference of two values in SI, in this unit.
+    /// Converts a difference of two values in SI to this unit.
     pub fn span_from_si(&self, span: f64) -> f64 {
         let shifted = shift(span / 1f64.to_radians().powi(self.degrees.into()), -self.decade);
         if self.is_decimal() { shifted } else { shifted * self.over / self.times }
     }
 
-    /// Whether the factor is a power of ten, degrees apart.
+    /// Returns whether the factor is a power of ten, apart from degrees.
     fn is_decimal(&self) -> bool {
         self.times == 1.0 && self.over == 1.0
     }
@@ -250,7 +250,7 @@ impl PartialEq for Unit {
 
 impl Eq for Unit {}
 
-/// `value * 10^decade`, `value` standing for the shortest decimal number that is read as it.
+/// Returns `value * 10^decade`, where `value` represents the shortest decimal number that is read as it.
 fn shift(value: f64, decade: i32) -> f64 {
     let arithmetic = value * 10f64.powi(decade);
     if decade == 0 || !value.is_finite() {
@@ -264,7 +264,7 @@ fn shift(value: f64, decade: i32) -> f64 {
     shifted.unwrap_or(arithmetic)
 }
 
-/// The unit with its typographical characters in plain ones, powers as digits and `^`.
+/// Returns the unit with typographical characters replaced by plain ones, powers as digits and `^`.
 fn plain(text: &str) -> String {
     text.replace("**", "^")
         .chars()
@@ -276,7 +276,7 @@ fn plain(text: &str) -> String {
             '\u{b2}' => '2',
             '\u{b3}' => '3',
             '\u{2074}' => '4',
-            // The sign of the ohm is the Greek letter, that of the angstrom the Swedish one.
+            // The ohm sign becomes the Greek letter, the angstrom sign the Swedish one.
             '\u{2126}' => '\u{3a9}',
             '\u{212b}' => '\u{c5}',
             other => other,

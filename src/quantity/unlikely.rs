@@ -1,8 +1,8 @@
-//! Values that may stand for something else: codes for missing ones, and slips.
+//! Detection of unlikely values: codes for missing ones, and errors.
 
 use super::is_same;
 
-/// Numbers that programs write where there is none; the last two are the fill values of NetCDF in single and double precision.
+/// Numbers that programs write for missing values; the last two are NetCDF's fill values (single, double).
 const CODES: [f64; 12] = [
     -999.0,
     999.0,
@@ -18,20 +18,20 @@ const CODES: [f64; 12] = [
     9.96921e36,
 ];
 
-/// So many times the range of all others an extreme value lies beyond them before it is unlikely by itself.
+/// Distance of an extreme value from all others, in their range, above which it is unlikely by itself.
 const FAR: f64 = 1e3;
 
-/// Fewest different values of the others: fewer are steps, of which one may be large.
+/// Minimum number of different values of the others: fewer are steps, of which one may be large.
 const MIN_VALUES: usize = 10;
 
-/// A value that may be none of the model.
+/// A value that may not come from the model.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Unlikely {
     /// The value.
     pub value: f64,
     /// How often it occurs.
     pub count: usize,
-    /// The first place where it does, from 0.
+    /// Index of its first occurrence, from 0.
     pub first: usize,
     /// Number of finite values.
     pub of: usize,
@@ -40,8 +40,8 @@ pub struct Unlikely {
 }
 
 impl Unlikely {
-    /// The smallest or largest of the finite `values`, if it is a known code and stands out or is repeated among values that
-    /// differ, or if it lies far beyond all others.
+    /// Returns the smallest or largest of the finite `values`, if it is a known code and stands out or is repeated
+    /// among values that differ, or if it is far from all others.
     pub fn find(values: &[f64]) -> Option<Self> {
         let finite = || values.iter().copied().filter(|value| value.is_finite());
         let range = |values: &mut dyn Iterator<Item = f64>| {
@@ -68,12 +68,12 @@ impl Unlikely {
         })
     }
 
-    /// A sentence on it in a table; `row` is the row of its first place, from 1.
+    /// Describes it in a table; `row` is the row of its first occurrence, from 1.
     pub fn in_table(&self, row: usize) -> String {
         format!("{}, have it read as one (--missing-value={:?})", self.words("row", row), self.value)
     }
 
-    /// A sentence on it in runs, of which number `run`, from 1, is its first place.
+    /// Describes it in runs; `run` is the number of the run of its first occurrence, from 1.
     pub fn in_runs(&self, run: usize) -> String {
         format!("{}, the model should say there that the run failed", self.words("run", run))
     }

@@ -1,4 +1,4 @@
-//! Indices in the result file, and what a surrogate did to them.
+//! Indices in the result file, and the use of surrogates.
 
 use serde::{Deserialize, Serialize};
 
@@ -40,7 +40,7 @@ pub struct GroupRecord {
     pub effect: EffectEstimates,
 }
 
-/// The Shapley effect of a group, or of a factor that has none, where groups share out the variance.
+/// The Shapley effect of a group, or of a factor without a group, if groups are the players.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct PlayerRecord {
@@ -69,11 +69,11 @@ pub struct SubsetRecord {
 pub struct PairRecord {
     /// The two factors.
     pub factors: [String; 2],
-    /// Their second-order index: what they do together beyond what each does alone.
+    /// Their second-order index: their joint effect beyond their individual effects.
     pub index: Estimate,
 }
 
-/// Indices by one estimator besides the default ones.
+/// Indices by one estimator in addition to the default ones.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct EstimatorRecord {
@@ -87,7 +87,7 @@ pub struct EstimatorRecord {
     pub indices: Vec<OtherIndexRecord>,
 }
 
-/// Indices of one factor, group or subset besides the default ones, or of the mean over the noise.
+/// Indices of one factor, group or subset in addition to the default ones, or of the mean over the noise.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct OtherIndexRecord {
@@ -99,43 +99,42 @@ pub struct OtherIndexRecord {
     pub total: Option<Estimate>,
 }
 
-/// The noise of a stochastic model: its indices, which are of the variance of a single run, and those of the mean over it.
+/// The noise of a stochastic model: its indices, relative to the variance of a single run, and those of the mean.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct NoiseRecord {
-    /// The name under which the model gets its seed.
+    /// The name under which the model receives its seed.
     pub name: String,
-    /// Its indices. The total one is the part of the variance of a single run that would be left if all factors were known.
+    /// Its indices. The total one is the part of the variance of a run that is left if all factors are known.
     #[serde(flatten)]
     pub effect: EffectEstimates,
     /// The rest of the variance, 1 minus the total index: that of the mean over the noise.
     pub mean_share: Estimate,
-    /// Indices of the mean over the noise, of its own variance: of each factor, group and subset without the noise.
+    /// Indices of the mean over the noise, relative to its own variance: for factors, groups and subsets without it.
     pub of_mean: Vec<OtherIndexRecord>,
 }
 
-/// The surrogates of an output: polynomials fitted to the runs of all replicates but one, which correct the indices of that
-/// one.
+/// The surrogates of an output: polynomials fitted to all replicates but one, which correct the indices of that one.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct SurrogateRecord {
-    /// Share of the variance that they explain of runs that they were not fitted to, Q^2.
+    /// Share of the variance that they explain of runs to which they were not fitted, Q^2.
     pub explained: f64,
-    /// Terms of each, on average.
+    /// Mean number of terms of each.
     pub terms: f64,
     /// Whether the first-order indices are corrected by them.
     pub corrects_first_order: bool,
-    /// Whether the total indices are.
+    /// Whether the total indices are corrected by them.
     pub corrects_total: bool,
     /// Variance of the plain first-order indices over that of the corrected ones; `null` if one is unknown.
     pub gain_first_order: Option<f64>,
     /// The same of the total indices.
     pub gain_total: Option<f64>,
-    /// The terms that carry most of the variance.
+    /// The terms with the largest variance.
     pub leading_terms: Vec<NamedTerm>,
     /// The plain indices of everything that has indices: factors, groups, subsets, dummy.
     pub plain: Vec<OtherIndexRecord>,
-    /// The cheaper model that stands in beside them, if there is one.
+    /// The low-fidelity model used with them, if there is one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub low: Option<LowFidelityUse>,
 }

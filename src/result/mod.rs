@@ -1,7 +1,7 @@
 //! The result of a run: one type for Rust, JSON and Python.
 //!
-//! As JSON it is the format `apportion-result`, version 1, described key by key in `docs/result-format.md`. Later versions
-//! of the program only add keys. Numbers are in the unit that stands beside them; a number that does not exist is `null`.
+//! As JSON it is the format `apportion-result`, version 1, described key by key in `docs/result-format.md`. Later
+//! versions of the program only add keys. Numbers are in the unit given with them; missing ones are `null`.
 
 mod distribution;
 mod indices;
@@ -55,20 +55,20 @@ pub struct StudyResult {
     /// Version of the format.
     #[cfg_attr(feature = "schema", schemars(extend("const" = 1)))]
     pub version: u32,
-    /// What was asked.
+    /// The question.
     pub study: StudyRecord,
-    /// How it was answered.
+    /// How the result was computed.
     pub provenance: Provenance,
     /// The factors in the order of the study.
     pub factors: Vec<FactorRecord>,
     /// The outputs in the order of the study.
     pub outputs: Vec<OutputResult>,
-    /// Rows on which the model's assumptions do not hold; the rows count all the same.
+    /// Rows on which the model's assumptions do not hold; these rows still count.
     pub validity: Vec<ValidityRecord>,
-    /// What a model with a ladder of fidelities spent; `null` for other models.
+    /// The effort of a model with a ladder of fidelities; `null` for other models.
     #[serde(default)]
     pub effort: Option<EffortRecord>,
-    /// Indices over all outputs together, if asked for.
+    /// Indices over all outputs together, if requested.
     #[serde(default)]
     pub aggregate: Option<AggregateRecord>,
     /// The outputs that are series.
@@ -77,38 +77,38 @@ pub struct StudyResult {
     /// Why a growing run ended; `null` for one of fixed size.
     #[serde(default)]
     pub stopping: Option<StoppingRecord>,
-    /// What a run that was asked for an accuracy chose, and why.
+    /// The choices of a run with a target accuracy, and their reasons.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub spending: Option<SpendingRecord>,
-    /// Cheaper models that were run beside the model.
+    /// Low-fidelity models that were run in addition to the model.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub lows: Vec<LowRuns>,
 }
 
 impl StudyResult {
-    /// The output called `name`.
+    /// Returns the output called `name`.
     ///
     /// # Errors
-    /// [`LookupError`] with the names that there are.
+    /// [`LookupError`] with the existing names.
     pub fn output(&self, name: &str) -> Result<&OutputResult, LookupError> {
         find("output", name, &self.outputs, |output| &output.name)
     }
 
-    /// The series called `name`.
+    /// Returns the series called `name`.
     ///
     /// # Errors
-    /// [`LookupError`] with the names that there are.
+    /// [`LookupError`] with the existing names.
     pub fn series(&self, name: &str) -> Result<&SeriesRecord, LookupError> {
         find("series", name, &self.series, |series| &series.name)
     }
 
-    /// The result as JSON text, ending in a newline.
+    /// Returns the result as JSON text, ending in a newline.
     pub fn json(&self) -> String {
         json(self)
     }
 }
 
-/// What was asked.
+/// The question.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct StudyRecord {
@@ -118,7 +118,7 @@ pub struct StudyRecord {
     pub title: Option<String>,
     /// Name of the model.
     pub model: String,
-    /// The model's choices in force, such as `friction`.
+    /// The model's current choices, such as `friction`.
     pub settings: serde_json::Map<String, serde_json::Value>,
     /// The model's inputs that are fixed in the study, with their units.
     pub constants: Vec<ConstantRecord>,
@@ -127,7 +127,7 @@ pub struct StudyRecord {
     pub dependences: Vec<CorrelationRecord>,
     /// Changes made on the command line, as given.
     pub overrides: Vec<String>,
-    /// The study file, word for word.
+    /// The text of the study file.
     pub source: String,
 }
 
@@ -139,7 +139,7 @@ pub struct CorrelationRecord {
     pub factors: Vec<String>,
     /// Their correlations.
     pub correlation: Vec<Vec<f64>>,
-    /// What they are correlations of, by its name in study files.
+    /// The kind of correlation, by its name in study files.
     pub measure: String,
 }
 
@@ -155,9 +155,9 @@ pub struct ConstantRecord {
     pub unit: String,
 }
 
-/// How the answer came about. A result is cited by `apportion_version`, `seed` and `study_sha256`, and by the `overrides` of its
-/// study if it has some: they give the same numbers again. `CITATION.cff` in the sources of the program says how to cite
-/// the program itself.
+/// How the result was computed. A result is cited by `apportion_version`, `seed` and `study_sha256`, and by the
+/// `overrides` of its study if there are any: they give the same numbers again. `CITATION.cff` in the sources of the
+/// program describes how to cite the program itself.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Provenance {
@@ -167,11 +167,11 @@ pub struct Provenance {
     pub seed: u64,
     /// Sampler of the design.
     pub sampler: String,
-    /// Base points in all.
+    /// Total number of base points.
     pub base_samples: u64,
     /// Independent randomisations that share them.
     pub replicates: u64,
-    /// Runs of each base point at points of their own, for surrogates alone.
+    /// Runs of each base point at points of their own, used only to fit surrogates.
     #[serde(default)]
     pub plain_rows: u32,
     /// Runs of the model.
@@ -180,24 +180,24 @@ pub struct Provenance {
     pub threads: usize,
     /// Seconds from the first run to the last.
     pub wall_seconds: f64,
-    /// SHA-256 of the study file as it lies on disk, in hexadecimal.
+    /// SHA-256 of the study file on disk, in hexadecimal.
     pub study_sha256: String,
     /// Formula of the first-order indices.
     pub first_order_estimator: String,
     /// Formula of the total indices.
     pub total_estimator: String,
-    /// How Shapley effects were found, as in study files; absent where there are none.
+    /// The method for Shapley effects, as in study files; absent if there are none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shapley_method: Option<String>,
-    /// What the intervals are, in words; `null` if there are none.
+    /// A description of the intervals; `null` if there are none.
     pub interval: Option<String>,
     /// The kind of interval by its name in study files.
     #[serde(default)]
     pub interval_method: String,
-    /// The total index above which a factor counts as one that matters.
+    /// The total index above which a factor counts as important.
     #[serde(default)]
     pub threshold: f64,
-    /// The files of the model that a journal knows: the runs of a journal are not used once one of them has changed.
+    /// The files of the model recorded in a journal: its runs are not used once one of these files has changed.
     #[serde(default)]
     pub model_files: Vec<String>,
 }
@@ -224,14 +224,14 @@ pub struct FactorRecord {
 pub struct AggregateRecord {
     /// The outputs.
     pub outputs: Vec<String>,
-    /// How outputs are weighed against each other, in words.
+    /// How outputs are weighted against each other, in words.
     pub weighting: String,
-    /// One entry per factor; `null` where an output has no indices.
+    /// One entry per factor; `null` if an output has no indices.
     pub indices: Option<Vec<PlainIndexRecord>>,
-    /// The noise of a stochastic model, which is none of the factors.
+    /// The noise of a stochastic model, which is not a factor.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub noise: Option<PlainIndexRecord>,
-    /// Why there are none.
+    /// Why there are no indices.
     pub reason: Option<String>,
 }
 
@@ -257,41 +257,41 @@ pub struct SeriesRecord {
     pub name: String,
     /// The unit of its values.
     pub unit: String,
-    /// What its axis is called.
+    /// The name of its axis.
     pub axis: String,
     /// The unit of the positions; empty for none.
     pub axis_unit: String,
-    /// Place of its first value in `outputs`, from 0; the others follow.
+    /// Index of its first value in `outputs`, from 0; the others follow.
     pub first_output: usize,
-    /// Where every value stands on the axis, in rising order.
+    /// The position of every value on the axis, in rising order.
     pub positions: Vec<f64>,
-    /// Indices over all values together, each counted by its variance, one entry per factor; `null` where a value has none.
+    /// Indices over all values, each weighted by its variance, one entry per factor; `null` if a value has none.
     pub indices: Option<Vec<PlainIndexRecord>>,
-    /// Why there are none.
+    /// Why there are no indices.
     pub reason: Option<String>,
 }
 
 impl SeriesRecord {
-    /// Places of its values in `outputs`.
+    /// Returns the indices of its values in `outputs`.
     pub fn places(&self) -> Range<usize> {
         self.first_output..self.first_output + self.positions.len()
     }
 }
 
-/// What a run that was asked for an accuracy chose, and why.
+/// The choices of a run with a target accuracy, and their reasons.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct SpendingRecord {
-    /// The half width that was asked for.
+    /// The requested half width.
     pub accuracy: f64,
-    /// Runs of the model in all, those of trials included.
+    /// Total runs of the model, including those of trials.
     pub runs: u64,
-    /// Runs that the same half width would take at least without surrogates and cheaper models, by the intervals of the plain
-    /// indices of this run; `null` if they are unknown.
+    /// Minimum number of runs for the same half width without surrogates and low-fidelity models, by the intervals of
+    /// the plain indices of this run; `null` if they are unknown.
     pub plain_runs: Option<u64>,
-    /// Why it was chosen, in sentences.
+    /// The reasons, in sentences.
     pub reasons: Vec<String>,
-    /// Lines of a study that make the same run again, to the bit, in the place of `accuracy`.
+    /// Lines of a study that repeat the run, to the bit, in place of `accuracy`.
     pub lines: String,
 }
 
@@ -299,31 +299,31 @@ pub struct SpendingRecord {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct StoppingRecord {
-    /// In words.
+    /// The reason in words.
     pub reason: String,
     /// Whether every index met the target; `null` if there was none.
     pub target_met: Option<bool>,
-    /// The half width that was asked for.
+    /// The requested half width.
     pub target_half_width: Option<f64>,
-    /// The time that it might take, in seconds.
+    /// The maximum time, in seconds.
     pub budget_seconds: Option<f64>,
-    /// The model runs that it might take.
+    /// The maximum number of model runs.
     pub max_runs: Option<u64>,
 }
 
-/// What a model with a ladder of fidelities spent.
+/// The effort of a model with a ladder of fidelities.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct EffortRecord {
-    /// The rungs that answered, and how many runs each.
+    /// The rungs used, and the number of runs of each.
     pub rungs: Vec<RungRecord>,
-    /// Evaluations of the right-hand side (of the closed form, on the rung that has one), in all.
+    /// Total evaluations of the right-hand side (of the closed form, on the rung that has one).
     pub evaluations: u64,
-    /// Largest relative error of any run, as its rung estimates it from what it leaves out.
+    /// Largest relative error of any run, as estimated by its rung from what it neglects.
     pub largest_error_estimate: f64,
 }
 
-/// How many runs a rung answered.
+/// The number of runs evaluated by a rung.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct RungRecord {
@@ -333,7 +333,7 @@ pub struct RungRecord {
     pub runs: u64,
 }
 
-/// The runs of a cheaper model beside those of the model.
+/// The runs of a low-fidelity model in addition to those of the model.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(rename = "LowRecord"))]
 #[non_exhaustive]
@@ -344,6 +344,6 @@ pub struct LowRuns {
     pub shared_runs: u64,
     /// Base samples of its own design.
     pub own_base_samples: u64,
-    /// Runs of that.
+    /// Runs of its own design.
     pub own_runs: u64,
 }

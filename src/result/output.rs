@@ -1,4 +1,4 @@
-//! What a run has found about one output, and how to find its indices by name.
+//! The results for one output, and access to its indices by name.
 
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
@@ -11,7 +11,7 @@ use super::{
 use crate::given::InputMeasures;
 use crate::uncertainty::{EffectEstimates, Estimate, Interval, largest_half_width};
 
-/// Everything about one output.
+/// All results for one output.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct OutputResult {
@@ -29,9 +29,9 @@ pub struct OutputResult {
     pub variance_interval: Option<Interval>,
     /// Runs with a value.
     pub runs_ok: u64,
-    /// Runs without one.
+    /// Runs without a value.
     pub runs_failed: u64,
-    /// Base points that every estimate rests on at least: each uses those where its own runs have a value.
+    /// Minimum number of base points of any estimate: each uses those at which its own runs have a value.
     pub base_points_used: u64,
     /// Why runs failed.
     pub failures: Vec<FailureCount>,
@@ -39,56 +39,55 @@ pub struct OutputResult {
     pub sum_first_order: Option<Estimate>,
     /// Sum of the total indices.
     pub sum_total: Option<Estimate>,
-    /// One entry per factor; `null` where indices are undefined.
+    /// One entry per factor; `null` if indices are undefined.
     pub indices: Option<Vec<IndexRecord>>,
-    /// One entry per group; `null` where indices are undefined.
+    /// One entry per group; `null` if indices are undefined.
     pub groups: Option<Vec<GroupRecord>>,
-    /// One entry per subset that the study lists; `null` where indices are undefined.
+    /// One entry per subset that the study lists; `null` if indices are undefined.
     #[serde(default)]
     pub subsets: Option<Vec<SubsetRecord>>,
-    /// Indices of a factor that does nothing, if one was run along: the noise of the model.
+    /// Indices of a factor without effect, if one was added: the noise of the model.
     #[serde(default)]
     pub dummy: Option<EffectEstimates>,
-    /// The noise of a stochastic model, which is none of the factors, and what is known of the mean over it.
+    /// The noise of a stochastic model, which is not a factor, and the indices of the mean over it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub noise: Option<NoiseRecord>,
-    /// Shapley effects of the groups and of the factors that have none, where these are the players: they sum to 1.
+    /// Shapley effects of the groups and of the factors that have none, if these are the players: they sum to 1.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shapley_groups: Option<Vec<PlayerRecord>>,
-    /// Other measures of the influence of the factors, if asked for; absent too where the output does not vary, or too few runs have
-    /// succeeded.
+    /// Other measures of influence, if requested; absent if the output does not vary, or too few runs succeeded.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub measures: Option<RunMeasures>,
-    /// Second-order indices of all pairs of factors, if asked for.
+    /// Second-order indices of all pairs of factors, if requested.
     #[serde(default)]
     pub second_order: Option<Vec<PairRecord>>,
     /// Indices by the other estimators that the study lists.
     #[serde(default)]
     pub estimators: Vec<EstimatorRecord>,
-    /// What surrogates did to the indices; `null` without any.
+    /// The use of surrogates; `null` without any.
     #[serde(default)]
     pub surrogate: Option<SurrogateRecord>,
-    /// What surrogates gained in a trial, where one decided on them.
+    /// The gain by surrogates in a trial, if one decided on them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub surrogate_trial: Option<SurrogateTrial>,
-    /// How the indices and their intervals changed as the run grew, without surrogates.
+    /// The indices and their intervals at stages of the run, without surrogates.
     #[serde(default)]
     pub convergence: Vec<StageRecord>,
-    /// How its values are distributed; `null` if no run succeeded, or if a number is beyond double precision.
+    /// The distribution of its values; `null` if no run succeeded, or if a number exceeds double precision.
     #[serde(default)]
     pub distribution: Option<DistributionRecord>,
-    /// How it goes with its most influential factors; `null` without indices, or if a number is beyond double precision.
+    /// Its relation to its most influential factors; `null` without indices, or if a number exceeds double precision.
     #[serde(default)]
     pub scatter: Option<ScatterRecord>,
-    /// Why there are no indices, where there are none.
+    /// Why there are no indices, if there are none.
     pub reason: Option<String>,
-    /// What a careful reader should know: as JSON the sentences in `warnings`, and their codes in `warning_codes`.
+    /// Warnings: in JSON the sentences in `warnings`, and their codes in `warning_codes`.
     #[serde(flatten)]
     pub warnings: Warnings,
 }
 
 impl OutputResult {
-    /// The indices of the factor called `name`.
+    /// Returns the indices of the factor called `name`.
     ///
     /// # Errors
     /// [`LookupError`] if there is no such factor, or if the output has no indices.
@@ -97,7 +96,7 @@ impl OutputResult {
         Ok(&find("factor", name, indices, |index| &index.factor)?.effect)
     }
 
-    /// The indices of the group called `name`: the first-order one is closed, so it includes interactions in the group.
+    /// Returns the indices of the group called `name`: the first-order one is closed, with the group's interactions.
     ///
     /// # Errors
     /// As for [`factor`](Self::factor).
@@ -106,8 +105,8 @@ impl OutputResult {
         Ok(&find("group", name, groups, |group| &group.group)?.effect)
     }
 
-    /// Half the width of the widest interval of a first-order or total index, or of a Shapley effect, of factors, the noise,
-    /// groups and subsets; `None` without indices, or if one of them has no interval.
+    /// Returns half the width of the widest interval of a first-order or total index, or of a Shapley effect, of
+    /// factors, the noise, groups and subsets; `None` without indices, or if one of them has no interval.
     pub fn largest_half_width(&self) -> Option<f64> {
         let factors = self.indices.as_ref()?.iter().map(|index| &index.effect);
         let noise = self.noise.iter().map(|noise| &noise.effect);
@@ -128,7 +127,7 @@ impl OutputResult {
     }
 }
 
-/// The one of `all` called `name`.
+/// Returns the one of `all` called `name`.
 pub(super) fn find<'a, T>(
     what: &'static str,
     name: &str,
@@ -143,24 +142,24 @@ pub(super) fn find<'a, T>(
     all.iter().find(|one| name_of(one) == name).ok_or_else(unknown)
 }
 
-/// How the values of an output are distributed, as far as the rows A and B tell.
+/// The distribution of the values of an output, from the rows A and B.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct DistributionRecord {
-    /// Values that mean, standard deviation, skewness, kurtosis and range rest on: those of all rows A and B.
+    /// Number of values for mean, standard deviation, skewness, kurtosis and range: those of all rows A and B.
     pub values: u64,
-    /// The rest; quantiles, histogram and density rest on the `count` values that were kept, the first of every replicate.
+    /// The rest; quantiles, histogram and density use the `count` values that were kept, the first of every replicate.
     #[serde(flatten)]
     pub sample: OutputDistribution,
 }
 
-/// The indices as they were when the run had so many base points.
+/// The indices at a stage of the run, with the given number of base points.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct StageRecord {
-    /// Base points in all.
+    /// Total number of base points.
     pub base_samples: u64,
-    /// Model runs in all.
+    /// Total number of model runs.
     pub model_runs: u64,
     /// Largest half width of the first-order and total indices of the factors and groups; `null` without intervals.
     pub largest_half_width: Option<f64>,
@@ -168,7 +167,7 @@ pub struct StageRecord {
     pub indices: Vec<PlainIndexRecord>,
 }
 
-/// How an output goes with the factors of the largest total indices.
+/// The relation of an output to the factors with the largest total indices.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ScatterRecord {
@@ -204,11 +203,11 @@ pub struct ConditionalMeansRecord {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct SurrogateTrial {
-    /// Model runs in it.
+    /// Number of its model runs.
     pub runs: u64,
-    /// How many times smaller errors were with surrogates, of the first-order or the total indices, where it gains less.
+    /// Ratio of the errors without and with surrogates, for the first-order or the total indices, the smaller one.
     pub gain: f64,
-    /// How many times smaller they must be.
+    /// Minimum required ratio.
     pub needed: f64,
 }
 
@@ -223,7 +222,7 @@ pub struct FailureCount {
     pub runs: u64,
     /// Row number of the first of them in the design.
     pub first_row: u64,
-    /// The factor values of that row, in the units of the factors; nothing at points of SALib, whose inputs are not known.
+    /// The factor values of that row, in the units of the factors; empty for SALib's points, which are unknown.
     pub first_inputs: Map<String, Value>,
 }
 
@@ -232,24 +231,24 @@ pub struct FailureCount {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(rename = "MeasuresRecord"))]
 #[non_exhaustive]
 pub struct RunMeasures {
-    /// Rows A and B with a value that they were taken from: at most [`MAX_ROWS_OF_MEASURES`](crate::analysis::MAX_ROWS_OF_MEASURES).
+    /// Number of rows A and B with a value: at most [`MAX_ROWS_OF_MEASURES`](crate::analysis::MAX_ROWS_OF_MEASURES).
     pub rows: usize,
     /// The measures of every factor but a noise.
     pub factors: Vec<InputMeasures>,
 }
 
-/// A name that a result does not have, or indices that an output does not have.
+/// The error for a name that a result does not have, or indices that an output does not have.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum LookupError {
-    /// There is nothing of that name.
+    /// The name is unknown.
     #[error("there is no {what} `{name}`; there are: {known}", known = known.join(", "))]
     UnknownName {
-        /// What the name should be of.
+        /// The kind of the name.
         what: &'static str,
         /// The name.
         name: String,
-        /// The names that there are.
+        /// The existing names.
         known: Vec<String>,
     },
     /// The output has no indices.
@@ -257,7 +256,7 @@ pub enum LookupError {
     NoIndices {
         /// The output.
         output: String,
-        /// Why.
+        /// The cause.
         reason: String,
     },
 }

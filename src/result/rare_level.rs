@@ -1,11 +1,11 @@
-//! A level of a factor that the rows of a design have hardly met.
+//! A level of a factor that is rare among the rows of a design.
 
 use thiserror::Error;
 
-/// Pairs of levels of different factors that the rows A, B, A_B and B_A of a base point show.
+/// Number of pairs of levels of two factors in the rows A, B, A_B and B_A of a base point.
 pub(crate) const PAIRS_OF_POINT: u64 = 4;
 
-/// A level of a factor that rows hardly met, or two that they hardly met together.
+/// A level of a factor that is rare among the rows, or two that rarely occur together.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error(
     "{factor}: {level} (probability {probability:.2e}) is in {} of the {values} {} drawn, so that its effect on the \
@@ -17,29 +17,29 @@ pub(crate) const PAIRS_OF_POINT: u64 = 4;
 )]
 #[non_exhaustive]
 pub struct RareLevel {
-    /// The number of the factor.
+    /// The index of the factor.
     pub number: usize,
     /// The factor.
     pub factor: String,
-    /// The number of the other factor, of two levels.
+    /// The index of the other factor, for two levels.
     pub partner: Option<usize>,
-    /// The level: a value, a label, or a range; of two, both.
+    /// The level: a value, a label, or a range; for two levels, both.
     pub level: String,
     /// Its probability.
     pub probability: f64,
-    /// How many of the values of the factor in A and B are this level; of two, how many pairs are in the mean.
+    /// The number of values of the factor in A and B at this level; for two levels, the expected number of pairs.
     pub draws: u64,
-    /// How many values or pairs there are.
+    /// The total number of values or pairs.
     pub values: u64,
 }
 
 impl RareLevel {
-    /// Whether so few rows have it, or none, that surrogates cannot know of it.
+    /// Returns whether so few rows have it, or none, that surrogates cannot represent it.
     pub fn is_missed(&self) -> bool {
         self.draws < 3 || self.partner.is_some()
     }
 
-    /// Base samples with which the level is drawn that often in the mean.
+    /// Returns the base samples with which the level is expected to be drawn that often.
     pub fn base_samples(&self, draws: f64) -> f64 {
         draws / (if self.partner.is_some() { PAIRS_OF_POINT as f64 } else { 2.0 } * self.probability)
     }

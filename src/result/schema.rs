@@ -1,10 +1,10 @@
-//! The JSON Schema of result files, from the types that write them.
+//! The JSON Schema of result files, generated from the types that write them.
 
 use schemars::generate::SchemaSettings;
 
 use crate::result::StudyResult;
 
-/// The JSON Schema (draft 7, which editors understand) of result files.
+/// Returns the JSON Schema (draft 7, which editors support) of result files.
 ///
 /// ```
 /// let schema = apportion::result::result_schema();

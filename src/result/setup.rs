@@ -1,10 +1,10 @@
-//! What the results of several commands share.
+//! Parts shared by the results of several commands.
 
 use serde::{Deserialize, Serialize};
 
 use super::{FactorRecord, StudyRecord};
 
-/// How long a run took, and on how many threads.
+/// The duration of a run, and its number of threads.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RunFacts {
     /// Threads used.
@@ -16,12 +16,12 @@ pub struct RunFacts {
 /// The study as it was run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct StudySetup {
-    /// What was asked.
+    /// The question.
     #[serde(flatten)]
     pub asked: StudyRecord,
     /// The factors in the order of the study.
     pub factors: Vec<FactorRecord>,
-    /// SHA-256 of the study file as it lies on disk, in hexadecimal.
+    /// SHA-256 of the study file on disk, in hexadecimal.
     pub sha256: String,
 }
 
@@ -34,13 +34,13 @@ impl std::ops::Deref for StudySetup {
 }
 
 impl StudyRecord {
-    /// The headline of its charts and documents.
+    /// Returns the headline of its charts and documents.
     pub fn headline(&self) -> &str {
         self.title.as_deref().unwrap_or(&self.name)
     }
 }
 
-/// JSON text of plain data, ending in a newline; a number that is not finite is null.
+/// Returns plain data as JSON text, ending in a newline; a number that is not finite is null.
 pub fn json(file: &impl Serialize) -> String {
     serde_json::to_string_pretty(file).expect("plain data") + "\n"
 }

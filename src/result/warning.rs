@@ -1,4 +1,4 @@
-//! What a careful reader of a result should know: the kinds of warnings, their codes and their words.
+//! Warnings about results: their kinds, codes and words.
 
 use std::ops::{Deref, DerefMut};
 
@@ -7,7 +7,7 @@ use thiserror::Error;
 
 use super::RareLevel;
 
-/// Why numbers of an output may be wrong, or less sure than they look.
+/// Why numbers of an output may be wrong, or less accurate than they look.
 #[derive(Debug, Clone, Error)]
 #[non_exhaustive]
 pub enum Warning {
@@ -27,12 +27,12 @@ pub enum Warning {
         failed: u64,
         /// All runs.
         runs: u64,
-        /// Base points that an index does without, at most.
+        /// Maximum number of base points that an index leaves out.
         left_out: u64,
         /// All base points.
         base_samples: u64,
     },
-    /// Runs fail by several factors together.
+    /// Runs fail because of several factors together.
     #[error(
         "{points} of {base_samples} base points have a run that failed although it takes each factor from one of two runs that \
          succeeded: several factors together (or chance) decide what fails, so the factors depend on each other where runs succeed, \
@@ -77,21 +77,21 @@ pub enum Warning {
         /// Runs that raised it.
         runs: u64,
     },
-    /// The variance rests on few rows.
+    /// A few rows dominate the variance.
     #[error(
         "the variance rests on few rows, as if on {rows:.0} of the {values} of A and B (excess kurtosis {kurtosis:.0}): rows \
          as large may be missing from the sample, so that intervals are longer above the estimates than below, and may still \
          be too short; more base samples help, or the logarithm of the output"
     )]
     FewRows {
-        /// Rows that would have this variance if all others did nothing.
+        /// Number of rows that would have this variance if all others had no effect.
         rows: f64,
         /// Rows A and B.
         values: u64,
         /// Excess kurtosis of the values.
         kurtosis: f64,
     },
-    /// The output is large beside its variation.
+    /// The output is large compared with its variation.
     #[error(
         "the output is so much larger than what varies in it that doubles keep few digits of that: indices may be off by some \
          {error:.1e}; subtract a constant from it before it is rounded"
@@ -106,28 +106,28 @@ pub enum Warning {
          nothing tells the error of the indices: more base samples are needed"
     )]
     NoIntervals,
-    /// A few runs carry what the surrogate leaves.
+    /// A few runs dominate the residual of the surrogate.
     #[error(
         "a few runs carry what the surrogate leaves unexplained, and others like them may be missing: the intervals of the \
          corrected indices hold those of the plain ones too"
     )]
     HeavyTailedSurrogate,
-    /// Corrected and plain indices are apart, within what the intervals hold.
+    /// Corrected and plain indices differ, within the range of the intervals.
     #[error(
         "the indices corrected by surrogates and the plain ones of the same rows are apart by more than their errors make \
          likely: the intervals hold both"
     )]
     DoubtedSurrogate,
-    /// Corrected indices contradict plain ones, which are the result.
+    /// Corrected indices contradict plain ones, which are reported.
     #[error(
         "the indices corrected by surrogates contradict the plain ones of the same rows by {times:.1} times what their errors \
          allow: the rows do not represent a factor, and the plain ones are the result"
     )]
     ContradictedSurrogate {
-        /// The distance over what both errors allow.
+        /// The distance relative to both errors.
         times: f64,
     },
-    /// Surrogates claim more variance than the rows show; the plain indices are the result.
+    /// Surrogates claim more variance than the rows show; the plain indices are reported.
     #[error(
         "the surrogates claim {times:.1} times the variance that the rows show of a factor: the rows do not represent it, and \
          the plain indices are the result"
@@ -136,10 +136,10 @@ pub enum Warning {
         /// The variance claimed over that of the rows.
         times: f64,
     },
-    /// A level of a factor that hardly any row has.
+    /// A level of a factor is rare among the rows.
     #[error("{0}")]
     RareLevel(RareLevel),
-    /// Rows for surrogates, which explain little.
+    /// Rows for surrogates that explain little.
     #[error(
         "the surrogates explain {:.0} % of the variance of runs that they were not fitted to, so that plain rows, which only \
          they learn from, are of little use: all runs as base samples are better for this output, and errors and intervals may \
@@ -150,7 +150,7 @@ pub enum Warning {
         /// Share of the variance that they explain.
         explained: f64,
     },
-    /// Factors of single values depend on others.
+    /// Discrete factors depend on others.
     #[error(
         "{}: single values that depend on other factors: to fix the factor here is to fix the normal score behind its value, \
          which says more of the others than the value does; its own indices are too large by that, and those of its partners \
@@ -161,7 +161,7 @@ pub enum Warning {
         /// The factors.
         factors: Vec<String>,
     },
-    /// The noise does nothing.
+    /// The noise has no effect.
     #[error(
         "{factor}: no run changed with its seed: the model is not stochastic, or draws its random numbers without it"
     )]
@@ -169,7 +169,7 @@ pub enum Warning {
         /// The seed.
         factor: String,
     },
-    /// The noise may be all.
+    /// The noise may have the whole effect.
     #[error(
         "{factor}: all variance may be noise, so that the indices of the mean over it may be anything: more base samples are \
          needed, or several runs of each row (repetitions in [noise])"
@@ -178,7 +178,7 @@ pub enum Warning {
         /// The seed.
         factor: String,
     },
-    /// A first-order index above its total index.
+    /// A first-order index exceeds its total index.
     #[error(
         "{name}: the first-order index {} exceeds the total index {} beyond the error of their difference: too few samples",
         decimals(*first_order),
@@ -215,10 +215,10 @@ pub enum Warning {
     FormulasDiffer {
         /// Factor, group or subset.
         name: String,
-        /// By how much.
+        /// The difference.
         gap: f64,
     },
-    /// An estimator that was asked for disagrees with the default one.
+    /// A requested estimator disagrees with the default one.
     #[error(
         "{name}: the {index} index by `{estimator}` differs from the default one by {gap:.2e}, beyond the error of their \
          difference: one of the two is not to be trusted on this output"
@@ -230,16 +230,16 @@ pub enum Warning {
         index: &'static str,
         /// The estimator.
         estimator: &'static str,
-        /// By how much.
+        /// The difference.
         gap: f64,
     },
-    /// First-order indices that may sum to nothing.
+    /// First-order indices that may sum to 0.
     #[error(
         "the sum of the first-order indices may be 0: the output comes from interactions, or the samples are too few; shares \
          of the first-order indices mean nothing"
     )]
     NoFirstOrder,
-    /// First-order indices beyond 1.
+    /// First-order indices sum to more than 1.
     #[error("the first-order indices sum to {sum:.4}, beyond 1 by more than their error: too few samples")]
     FirstOrderAboveOne {
         /// Their sum.
@@ -262,19 +262,19 @@ pub enum Warning {
         /// Its total index.
         total: f64,
     },
-    /// Rows of a table that look as if they were in another order.
+    /// Rows of a table that may be in the wrong order.
     #[error(
         "every total index is near 1 and every first-order index near 0, as rows in another order than that of the design \
          give; if the order is right, the output is all interaction"
     )]
     Shuffled,
-    /// A value that may stand for a missing one.
+    /// A value that may be a code for a missing one.
     #[error("{text}")]
     Unlikely {
-        /// Which, and where.
+        /// The value and its place.
         text: String,
     },
-    /// Rows that were run again had another answer.
+    /// Repeated rows gave different outputs.
     #[error("{text}")]
     Irreproducible {
         /// How many, and why.
@@ -290,14 +290,14 @@ pub enum Warning {
     },
 }
 
-/// Warnings are equal if they say the same: those read from a file are equal to those that were written.
+/// Warnings are equal if their texts are: those read from a file are equal to those that were written.
 impl PartialEq for Warning {
     fn eq(&self, other: &Self) -> bool {
         self.code() == other.code() && self.to_string() == other.to_string()
     }
 }
 
-/// The warnings of an output: as JSON their sentences, and in the same order their codes.
+/// The warnings of an output: in JSON their sentences, and in the same order their codes.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(with = "WarningKeys"))]
 #[serde(from = "WarningKeys", into = "WarningKeys")]
@@ -307,9 +307,9 @@ pub struct Warnings(pub Vec<Warning>);
 #[derive(Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 struct WarningKeys {
-    /// What a careful reader should know.
+    /// The warnings in sentences.
     warnings: Vec<String>,
-    /// The kind of each warning, a name that stays the same.
+    /// The kind of each warning, a stable name.
     #[serde(default)]
     warning_codes: Vec<String>,
 }
@@ -345,7 +345,7 @@ impl DerefMut for Warnings {
 }
 
 impl Warning {
-    /// A name of the kind of warning that stays the same, as it stands in the result file.
+    /// Returns a stable name of the kind of warning, as in the result file.
     pub fn code(&self) -> &str {
         match self {
             Self::AllRunsFailed { .. } => "all-runs-failed",
@@ -383,7 +383,7 @@ impl Warning {
     }
 }
 
-/// An index in a warning: four decimals, or three digits of what is smaller.
+/// Formats an index in a warning: four decimals, or three digits if it is smaller.
 fn decimals(index: f64) -> String {
     if index == 0.0 || index.abs() >= 0.01 { format!("{index:.4}") } else { format!("{index:.2e}") }
 }

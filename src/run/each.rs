@@ -1,4 +1,4 @@
-//! Work of a caller's own through the workers of a model, piece by piece.
+//! A caller's own work, distributed over the workers of a model.
 
 use std::time::Duration;
 
@@ -10,11 +10,11 @@ use super::{Progress, RunError};
 use crate::clock::Instant;
 use crate::model::{Model, RunContext, Worker};
 
-/// What `evaluate` makes of every number below `count` with a worker of `model`, in order, on so many threads (0: one per
-/// core), in the run of `context`.
+/// Calls `evaluate` for every number below `count` with a worker of `model`, on `threads` threads (0: one per core) in
+/// the run of `context`; returns the results in order.
 ///
 /// # Errors
-/// [`RunError::Interrupted`] if the run is asked to end.
+/// [`RunError::Interrupted`] if the run is to stop.
 pub fn run_each<T: Send>(
     model: &dyn Model,
     threads: usize,

@@ -1,4 +1,4 @@
-//! Why a run ends without its totals.
+//! Errors that end a run without its totals.
 
 use std::path::PathBuf;
 
@@ -9,26 +9,26 @@ use super::{MAX_STORED_BYTES, Place};
 use crate::design::DesignError;
 use crate::model::{GiveUp, RowFailure};
 
-/// Why a run could not take place, or was given up.
+/// Why a run could not start, or was stopped.
 #[derive(Debug, Error)]
 pub enum RunError {
-    /// The operating system refused the threads.
+    /// The operating system could not start the threads.
     #[error("cannot start {threads} threads: {source}")]
     Threads {
-        /// The number asked for.
+        /// The number requested.
         threads: usize,
-        /// Why.
+        /// The cause.
         source: Box<dyn std::error::Error + Send + Sync>,
     },
-    /// A row failed, and the run was to stop at the first one.
+    /// A row failed, and the run was to stop at the first failure.
     #[error("a run failed, and the study says to stop then: {reason}")]
     RowFailed {
         /// The row.
         row: Place,
-        /// Why.
+        /// The cause.
         reason: RowFailure,
     },
-    /// The outputs of all runs were to be kept, and are too many.
+    /// The outputs of all runs were to be kept, and there are too many.
     #[error(
         "the outputs of {runs} runs, which are to be kept all at once, take {bytes} bytes of memory, more than the \
          {MAX_STORED_BYTES} that they may: take fewer base samples or fewer outputs, intervals = \"batches\", or begin anew without \
@@ -40,62 +40,62 @@ pub enum RunError {
         /// Bytes that their outputs take.
         bytes: u64,
     },
-    /// The run was asked to end.
+    /// The run was interrupted.
     #[error("interrupted after {done} of {total} runs")]
     Interrupted {
         /// Model runs finished.
         done: u64,
-        /// Model runs there would have been.
+        /// Model runs in total.
         total: u64,
     },
-    /// There is no design for a part of the run.
+    /// A part of the run has no valid design.
     #[error("a trial run, or that of a cheaper model, has no design: {0}")]
     Design(DesignError),
-    /// The model cannot go on.
+    /// The model cannot continue.
     #[error("the model cannot go on: {0}")]
     GaveUp(GiveUp),
-    /// A worker in another process does not answer any more, or answers nonsense.
+    /// A worker in another process is lost, or sent a malformed reply.
     #[error("the worker number {worker} in another process is lost: {source}")]
     LostWorker {
-        /// Its number among the workers in other processes, from 0.
+        /// Its number among the remote workers, from 0.
         worker: usize,
-        /// Why.
+        /// The cause.
         source: std::io::Error,
     },
     /// The journal cannot be used.
     #[error(transparent)]
     Journal(#[from] JournalError),
-    /// What is on record, or was asked of it, does not fit the study.
+    /// The journal, or what was requested of it, does not fit the study.
     #[error("{}: {reason}", .path.display())]
     Refused {
         /// The journal.
         path: PathBuf,
-        /// What is wrong, and what would be right.
+        /// What is wrong, and how to correct it.
         reason: String,
     },
-    /// What needs a journal has none.
+    /// A feature that needs a journal was used without one.
     #[error("{what} needs a journal: name one by Runner::journal")]
     NoJournal {
-        /// What needs it.
+        /// The feature.
         what: &'static str,
     },
-    /// A run that decides its own size has no parts.
+    /// A run that chooses its own size has no parts.
     #[error("a study with an accuracy, a target, a budget or max_runs has no size that could be shared out beforehand")]
     NoSize,
-    /// The parts of a run are not all there.
+    /// Parts of a run are missing.
     #[error("{missing} of {total} runs are missing: {places}")]
     Incomplete {
         /// Runs that are missing.
         missing: u64,
-        /// Runs of the whole design.
+        /// Model runs of the whole design.
         total: u64,
-        /// Which they are, in words.
+        /// Which runs they are, in words.
         places: String,
     },
-    /// Outputs could not be kept.
+    /// Outputs could not be saved.
     #[error("cannot keep the outputs of finished runs: {source}")]
     NotKept {
-        /// What the operating system said.
+        /// The error of the operating system.
         source: std::io::Error,
     },
 }

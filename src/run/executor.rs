@@ -1,8 +1,7 @@
-//! The one place where rows are handed out one by one: workers take batches of rows from a source, evaluate them, and hand
-//! the outputs back.
+//! Distribution of rows: workers take batches of rows from a source, evaluate them, and return the outputs.
 //!
-//! Batches are sized, stops watched, failures counted and progress reported here, whatever is run: rows of a design that go into a
-//! store and a journal, or a table of points.
+//! This module sizes batches, checks for stops, counts failures and reports progress, both for the rows of a design
+//! that go into a store and a journal, and for a table of points.
 
 use std::collections::VecDeque;
 use std::ops::Range;
@@ -15,20 +14,20 @@ use super::{Progress, RunError, threads_in_force};
 use crate::clock::Instant;
 use crate::model::{Batch, Model, RunContext, Worker};
 
-/// Time that a batch of rows should take: short enough to lose little, and to share out evenly; long enough to be worth a
+/// Target time of a batch of rows: short enough to lose little and to share rows evenly, long enough for a journal
 /// record.
 const BATCH_SECONDS: f64 = 0.2;
 
-/// Most rows of a batch.
+/// Maximum number of rows in a batch.
 const MAX_ROWS: u64 = 4096;
 
-/// Workers whose batches can come in at that rate: with more, batches are longer (`docs/scaling.md`).
+/// Number of workers up to which batches have the target time; with more, batches are longer (`docs/scaling.md`).
 const WORKERS_AT_BASE_RATE: f64 = 256.0;
 
-/// Batches that a worker in another process has at once: it need not wait while the next one is on its way.
+/// Batches that a remote worker holds at once, so that it need not wait for the next one.
 const BATCHES_AHEAD: usize = 2;
 
-/// Bytes of the stack of a thread that talks to a worker in another process, of which there may be thousands.
+/// Stack size in bytes of a thread that serves one remote worker; there may be thousands of them.
 const STACK: usize = 1 << 19;
 
 /// Consecutive rows of one replicate, or of a table.
@@ -44,29 +43,29 @@ impl RowRange {
     }
 }
 
-/// Rows to be run. A source that knows the outputs of some rows already does not give them out.
+/// A source of rows to be run. A source leaves out rows whose outputs it already has.
 pub(crate) trait RowSource: Sync {
-    /// At most `max_rows` rows for one of `workers` workers; `None` if there are none left.
+    /// Returns at most `max_rows` rows for one of `workers` workers; `None` if there are none left.
     fn next(&self, max_rows: u64, workers: usize) -> Option<RowRange>;
 
-    /// A column of SI values for each factor over the rows.
+    /// Returns a column of SI values for each factor over the rows.
     fn inputs<'s>(&'s self, values: &'s mut RowValues, range: &RowRange) -> Vec<&'s [f64]>;
 
-    /// Takes the outputs of the rows, those that were answered before the worker gave up if it did; returns how many rows
-    /// it took, and how many of them failed.
+    /// Accepts the outputs of the rows (those finished before the worker gave up, if it did); returns the number of
+    /// rows accepted, and how many of them failed.
     fn accept(&self, range: &RowRange, batch: &Batch) -> Result<(u64, u64), RunError>;
 
-    /// The same rows as workers in other processes can evaluate them, if they can.
+    /// Returns the same rows in the form that remote workers can evaluate, if there is one.
     fn remote(&self) -> Option<&MissingRows<'_>> {
         None
     }
 }
 
 /// The workers of a model for one run: threads of this process, each with a worker of its own that lives as long as the
-/// run. There are as many as the model asks for by its [concurrency](Model::concurrency), or else as many as threads.
+/// run. Their number is the [concurrency](Model::concurrency) of the model, or else the number of threads.
 ///
-/// [Workers in other processes](super::RemoteWorkers) (MPI ranks, an executor of another language) come in here, with the
-/// threads of [`execute`](Self::execute): each has a thread that takes batches for it and returns what it makes of them.
+/// [Remote workers](super::RemoteWorkers) (MPI ranks, an executor of another language) join in
+/// [`execute`](Self::execute): each has a thread that takes batches for it and returns its outputs.
 pub(crate) struct Executor<'a> {
     model: &'a dyn Model,
     context: &'a RunContext<'a>,
@@ -76,8 +75,8 @@ pub(crate) struct Executor<'a> {
 }
 
 impl<'a> Executor<'a> {
-    /// Workers of `model` for the run of `context`, on at most `threads` threads (0: as many as the model asks for, or
-    /// one per core).
+    /// Creates workers of `model` for the run of `context`, on at most `threads` threads (0: as many as the model asks
+    /// for, or one per core).
     pub fn new(model: &'a dyn Model, context: &'a RunContext<'a>, threads: usize) -> Self {
         let workers = match (model.concurrency(), threads) {
             (None, _) => threads_in_force(threads),
@@ -87,12 +86,12 @@ impl<'a> Executor<'a> {
         Self { model, context, workers, remote: None, idle: Mutex::default() }
     }
 
-    /// The same with workers in other processes.
+    /// Adds remote workers.
     pub fn with_remote(self, remote: Option<Remote<'a>>) -> Self {
         Self { remote, ..self }
     }
 
-    /// Whether there are workers in other processes.
+    /// Returns whether there are remote workers.
     pub fn has_remote(&self) -> bool {
         self.remote.is_some()
     }
@@ -101,10 +100,10 @@ impl<'a> Executor<'a> {
         self.model
     }
 
-    /// Runs the rows of `source` to their end. `before` is how far the run has come before: its total is that of the whole run.
+    /// Runs the rows of `source` to their end. `before` is the progress so far; its total is that of the whole run.
     ///
     /// # Errors
-    /// [`RunError`] if the run is to end; what the source has accepted by then stays there.
+    /// [`RunError`] if the run is to stop; rows that the source has accepted by then are kept.
     pub fn execute(
         &self,
         source: &dyn RowSource,
@@ -123,7 +122,7 @@ impl<'a> Executor<'a> {
         if workers == 1 && remote_count == 0 {
             execution.work();
         } else {
-            // Workers may wait for programs and for other machines: threads of their own, and none of the pool.
+            // Workers may wait for programs and other machines: they get threads of their own, not the pool's.
             std::thread::scope(|scope| {
                 for _ in 0..local_count {
                     scope.spawn(move || execution.work());
@@ -146,7 +145,7 @@ impl<'a> Executor<'a> {
     }
 }
 
-/// Rows on their way through the workers.
+/// The state of one call of `execute`.
 struct Execution<'e, 'a> {
     executor: &'e Executor<'a>,
     source: &'e dyn RowSource,
@@ -180,7 +179,7 @@ impl Execution<'_, '_> {
         self.executor.idle().push(worker);
     }
 
-    /// The same for a worker in another process: a batch is evaluated while the next one is on its way.
+    /// Does the same for a remote worker: a batch is evaluated while the next one is on its way.
     fn work_remotely(&self, talk: Talk<'_>, rows: &MissingRows<'_>) {
         let _guard = self.tracker.end_if_panicking();
         let worker = talk.worker();
@@ -200,7 +199,7 @@ impl Execution<'_, '_> {
             }
             let Some(range) = sent.pop_front() else { return Ok(()) };
             let Reply { seconds, given_up, pieces } = talk.receive(&range, rows.outputs())?;
-            // What is on its way is received to the end: the next run begins with a worker that has nothing to say.
+            // Receive all outstanding replies, so that the next run begins with a worker that has nothing to send.
             goes_on &= self.count(rows.keep(&pieces));
             if let Some(give_up) = given_up {
                 self.tracker.give_up(give_up);
@@ -210,20 +209,20 @@ impl Execution<'_, '_> {
         }
     }
 
-    /// The next rows for a worker, unless the run is to end.
+    /// Returns the next rows for a worker, unless the run is to stop.
     fn next(&self, max_rows: u64) -> Option<RowRange> {
         if self.tracker.goes_on() { self.source.next(max_rows, self.workers) } else { None }
     }
 
-    /// Rows of the next batch, where so many took so many seconds.
+    /// Returns the number of rows for the next batch, given that `rows` rows took `seconds`.
     fn fitting(&self, rows: u64, seconds: f64) -> u64 {
-        // A thousand workers must not bring a thousand replies at once.
+        // A thousand workers must not send a thousand replies at once.
         let batch_seconds = BATCH_SECONDS * (self.workers as f64 / WORKERS_AT_BASE_RATE).max(1.0);
         let fitting = (batch_seconds * rows as f64 / seconds.max(1e-9)) as u64;
         fitting.clamp(1, rows.saturating_mul(8).clamp(1, MAX_ROWS))
     }
 
-    /// Counts rows that were accepted; whether they were.
+    /// Counts accepted rows; returns whether they were accepted.
     fn count(&self, accepted: Result<(u64, u64), RunError>) -> bool {
         match accepted {
             Ok((rows, failed)) => self.tracker.add(rows, failed),

@@ -1,4 +1,4 @@
-//! Where rows failed and why, in bounded size: reasons are counted, however many of them a model has.
+//! Where rows failed and why, in bounded memory: the number of distinct reasons is limited.
 
 use std::collections::BTreeMap;
 
@@ -6,19 +6,19 @@ use crate::design::Design;
 use crate::model::RowFailure;
 use crate::text::masked;
 
-/// Where a row stands in a design, however many base points that has. Places are ordered as rows are counted.
+/// The place of a row in a design, independent of the number of base points. Places are ordered as rows are counted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Place {
-    /// Its replicate.
+    /// The replicate.
     pub replicate: u64,
-    /// Its base point in the replicate.
+    /// The base point in the replicate.
     pub point: u64,
-    /// Which of the base point's runs it is.
+    /// The run within the base point.
     pub run: u64,
 }
 
 impl Place {
-    /// The row's number in `design`.
+    /// Returns the row's number in `design`.
     pub fn row(self, design: &Design) -> u64 {
         (self.replicate * design.points_per_replicate() + self.point) * design.rows_per_point() + self.run
     }
@@ -34,23 +34,24 @@ pub struct Tally {
 }
 
 impl Tally {
-    /// Adds what happened in other rows.
+    /// Adds the count of other rows.
     pub fn add(&mut self, other: Self) {
         self.count += other.count;
         self.first = self.first.min(other.first);
     }
 }
 
-/// Most reasons that are counted apart.
+/// Maximum number of reasons that are counted separately.
 pub const MAX_REASONS: usize = 100;
 
-/// What is said of rows whose reasons are not counted apart.
+/// The reason shown for rows whose reasons are not counted separately.
 const OTHERS: &str = "other reasons";
 
-/// Why rows failed, and how often each.
+/// Why rows failed, with the count of each reason.
 ///
-/// More than [`MAX_REASONS`] reasons differ by numbers of their rows: every number in them then becomes `#`. If that leaves more, the
-/// first ones in the order of letters are counted apart. What is left does not depend on the order in which rows are counted.
+/// If there are more than [`MAX_REASONS`] reasons, every number in them becomes `#`. If there are still more, only the
+/// first ones in alphabetical order are counted separately. The result does not depend on the order in which rows are
+/// counted.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Failures {
     reasons: BTreeMap<RowFailure, Tally>,
@@ -59,14 +60,14 @@ pub struct Failures {
 }
 
 impl Failures {
-    /// Counts `tally` for `reason`.
+    /// Adds `tally` to `reason`.
     pub fn count(&mut self, reason: &RowFailure, tally: Tally) {
         let reason = if self.is_masked { without_numbers(reason) } else { reason.clone() };
         self.reasons.entry(reason).and_modify(|mine| mine.add(tally)).or_insert(tally);
         if self.reasons.len() > MAX_REASONS && !self.is_masked {
             self.mask();
         }
-        // The first reasons in the order of their texts are kept: more rows can only move the others further back.
+        // The first reasons in alphabetical order are kept: more rows can only move the others further back.
         while self.reasons.len() > MAX_REASONS
             && let Some((_, last)) = self.reasons.pop_last()
         {
@@ -74,7 +75,7 @@ impl Failures {
         }
     }
 
-    /// Adds what was counted over other rows.
+    /// Adds the counts of other rows.
     pub fn merge(&mut self, other: &Self) {
         if other.is_masked && !self.is_masked {
             self.mask();
@@ -101,19 +102,19 @@ impl Failures {
         }));
     }
 
-    /// Every reason with its count, in the order of letters, and at last those that are not counted apart.
+    /// Iterates over the reasons with their counts in alphabetical order; those not counted separately come last.
     pub fn iter(&self) -> impl Iterator<Item = (RowFailure, Tally)> {
         let others = self.others.map(|tally| (RowFailure::new(OTHERS), tally));
         self.reasons.iter().map(|(reason, tally)| (reason.clone(), *tally)).chain(others)
     }
 
-    /// The reason of the first row that failed.
+    /// Returns the reason of the first row that failed.
     pub fn first(&self) -> Option<(RowFailure, Tally)> {
         self.iter().min_by_key(|(_, tally)| tally.first)
     }
 }
 
-/// The same on one line with every number as `#`; what was masked before stays what it is.
+/// Returns the same on one line with every number as `#`; a masked reason does not change.
 fn without_numbers(reason: &RowFailure) -> RowFailure {
     let line: String = reason.to_string().chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
     RowFailure::new(&masked(&line))

@@ -1,8 +1,8 @@
-//! Blocks of base points through the model, and their totals merged in a tree of fixed shape.
+//! Evaluation of blocks of base points, and the merging of their totals in a tree of fixed shape.
 //!
-//! The blocks of a replicate are halved at the largest power of two below their number, and so are the halves, down to
-//! single blocks. The shape depends on the number of blocks alone, so that the totals are the same bits on any number of
-//! threads; and from one power of two to the next a longer run has the shorter one as its left half.
+//! The blocks of a replicate are split at the largest power of two below their number, and so are the parts, down to
+//! single blocks. The shape depends only on the number of blocks, so the totals have the same bits on any number of
+//! threads; from one power of two to the next, a longer run has the shorter one as its left half.
 
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
@@ -17,18 +17,18 @@ use crate::design::BasePoints;
 use crate::estimate::part_length;
 use crate::model::{RunContext, Worker};
 
-/// How the base points of a run become totals.
+/// Turns the base points of a run into totals.
 pub(super) struct Fold<'f> {
     pub job: Job<'f>,
     pub context: &'f RunContext<'f>,
     pub failures: FailurePolicy,
     pub keeps_outputs: bool,
-    /// Outputs of all rows, if they are there already.
+    /// Outputs of all rows, if they already exist.
     pub store: Option<&'f Store>,
-    /// Takes the outputs of blocks that are evaluated here.
+    /// Receives the outputs of blocks that are evaluated here.
     pub sink: Option<&'f dyn OutputSink>,
     pub tracker: &'f Tracker<'f>,
-    /// Workers and scratch space that no thread uses at the moment.
+    /// Workers and scratch space that no thread is using.
     pub idle: Mutex<Vec<Bench<'f>>>,
 }
 
@@ -38,7 +38,7 @@ pub(super) struct Bench<'f> {
     scratch: Scratch,
 }
 
-/// One replicate, and those of its base points that are folded.
+/// A replicate, with the range of its base points that are folded.
 struct Stretch {
     replicate: u64,
     base: BasePoints,
@@ -46,7 +46,7 @@ struct Stretch {
 }
 
 impl<'f> Fold<'f> {
-    /// The totals of the base points `points` of each replicate, in order; `None` if the run has ended before them.
+    /// Returns the totals of the base points `points` of each replicate, in order; `None` if the run ended before them.
     pub fn run(&self, points: Range<u64>) -> Option<Vec<Totals>> {
         let blocks = points.start / BLOCK..points.end.div_ceil(BLOCK);
         let fold = |replicate| {

@@ -1,4 +1,4 @@
-//! A run of totals that can be doubled.
+//! Runs whose totals can be extended by more base points.
 
 use std::ops::Range;
 use std::sync::Mutex;
@@ -15,33 +15,33 @@ use crate::clock::Instant;
 use crate::design::Design;
 use crate::model::RunContext;
 
-/// A run that can go on: every replicate holds the same number of base points, and can be given more.
+/// A run that can be extended: every replicate has the same number of base points, and can grow.
 ///
-/// Blocks of base points of quick models are evaluated and folded at once. The rows of a model that takes its time, and
-/// those that remote workers share, go through a store: in batches of any size, and folded from there.
+/// Blocks of base points of fast models are evaluated and folded at once. The rows of slow models, and those shared by
+/// remote workers, go through a store in batches of any size, and are folded from there.
 pub struct GrowingRun<'a> {
     job: Job<'a>,
     context: &'a RunContext<'a>,
     executor: Executor<'a>,
-    /// Threads for blocks, and for what is estimated from the totals; `None` for those of the caller.
+    /// Threads for blocks and for estimates from the totals; `None` to use those of the caller.
     pool: Option<ThreadPool>,
     start: Instant,
     failures: FailurePolicy,
     keeps_outputs: bool,
     store: Option<&'a Store>,
-    /// Of a run that needs a store and was given none.
+    /// The store of a run that needs one and was given none.
     own_store: Option<Store>,
     sink: Option<&'a dyn OutputSink>,
-    /// Base points of every replicate that have been run.
+    /// Base points of every replicate evaluated so far.
     points: u64,
     totals: Vec<Totals>,
 }
 
 impl<'a> GrowingRun<'a> {
-    /// A run of nothing yet, on `threads` threads (0: one per core), whose workers know of `context`.
+    /// Creates an empty run on `threads` threads (0: one per core), whose workers receive `context`.
     ///
     /// # Panics
-    /// If the space has not as many factors as the design.
+    /// If the number of factors of the space differs from that of the design.
     ///
     /// # Errors
     /// [`RunError::Threads`] if the threads cannot be started.
@@ -63,42 +63,42 @@ impl<'a> GrowingRun<'a> {
         })
     }
 
-    /// The same run with workers in other processes too.
+    /// Adds remote workers.
     #[must_use]
     pub(crate) fn with_remote(self, remote: Option<Remote<'a>>) -> Self {
         Self { executor: self.executor.with_remote(remote), ..self }
     }
 
-    /// The same run with outputs kept in `store`: rows that are there are not evaluated.
+    /// Keeps outputs in `store`: rows that it already has are not evaluated.
     #[must_use]
     pub fn with_store(self, store: &'a Store) -> Self {
         Self { store: Some(store), ..self }
     }
 
-    /// The same run with `sink`, which takes every piece of outputs that is evaluated before its rows count as done.
+    /// Adds `sink`, which receives every piece of evaluated outputs before its rows count as done.
     #[must_use]
     pub fn with_sink(self, sink: &'a dyn OutputSink) -> Self {
         Self { sink: Some(sink), ..self }
     }
 
-    /// The same run under another policy than [`FailurePolicy::DropBlock`].
+    /// Sets the failure policy; the default is [`FailurePolicy::DropBlock`].
     #[must_use]
     pub fn with_failures(self, failures: FailurePolicy) -> Self {
         Self { failures, ..self }
     }
 
-    /// The same run with the outputs of every run kept in `OutputTotals::kept`, if `keeps_outputs`.
+    /// Keeps the outputs of every run in `OutputTotals::kept`, if `keeps_outputs`.
     #[must_use]
     pub fn with_outputs_kept(self, keeps_outputs: bool) -> Self {
         Self { keeps_outputs, ..self }
     }
 
-    /// Whether rows go through a store.
+    /// Returns whether rows go through a store.
     fn needs_store(&self) -> bool {
         self.store.is_some() || self.job.model.is_slow() || self.executor.has_remote()
     }
 
-    /// Whether the outputs of `points` base points of every replicate can be kept, where they are to be.
+    /// Checks that the outputs of `points` base points of every replicate fit in memory, if they are to be kept.
     ///
     /// # Errors
     /// [`RunError::TooManyOutputs`] if they take more than [`MAX_STORED_BYTES`].
@@ -113,7 +113,7 @@ impl<'a> GrowingRun<'a> {
         Ok(())
     }
 
-    /// What `work` returns, done on the threads of this run.
+    /// Runs `work` on the threads of this run and returns its result.
     ///
     /// # Panics
     /// If the caller is a thread of another pool, and no thread can be started to wait for this one.
@@ -122,18 +122,18 @@ impl<'a> GrowingRun<'a> {
         if rayon::current_thread_index().is_none() {
             return pool.install(work);
         }
-        // A thread of another pool that waits for this one does other work of its pool, which may be a run as well, and
-        // another one in that: many runs side by side would use up its stack.
+        // A thread of another pool that waits for this one runs other work of its pool, which may be a run as well, and
+        // so on: many runs side by side would use up its stack.
         std::thread::scope(|scope| scope.spawn(|| pool.install(work)).join())
             .unwrap_or_else(|panic| std::panic::resume_unwind(panic))
     }
 
-    /// Runs the base points that every replicate lacks to hold `points` of them, at most the design's. Those that have been
-    /// run are not run again. From one power of two to the next, from [`BLOCK`](super::BLOCK) on, the totals are
-    /// the same bits as those of a run that began with the larger number.
+    /// Runs the base points missing for every replicate to have `points` of them, at most the design's. Existing ones
+    /// are not run again. From one power of two to the next, from [`BLOCK`](super::BLOCK) on, the totals have the same
+    /// bits as those of a run that began with the larger number.
     ///
     /// # Errors
-    /// [`RunError::RowFailed`] if a row fails and the run is to stop at that; the run is then of no further use.
+    /// [`RunError::RowFailed`] if a row fails and the run is to stop at that; the run cannot be used afterwards.
     /// [`RunError::TooManyOutputs`] if there is no [room](Self::room_for) for the outputs that are to be kept.
     pub fn grow_to(&mut self, points: u64, on_progress: &(dyn Fn(Progress) + Sync)) -> Result<(), RunError> {
         let design = self.job.design;
@@ -185,7 +185,7 @@ impl<'a> GrowingRun<'a> {
         Ok(())
     }
 
-    /// Evaluates those of `rows` (replicate, and rows counted within it) that `store` lacks.
+    /// Evaluates those of `rows` (replicate, and rows counted within it) that are missing in `store`.
     ///
     /// # Errors
     /// [`RunError`] if the run ends before that.
@@ -206,12 +206,12 @@ impl<'a> GrowingRun<'a> {
         Ok(())
     }
 
-    /// The design that the run grows into.
+    /// Returns the design that the run grows into.
     pub fn design(&self) -> &'a Design {
         self.job.design
     }
 
-    /// Base points of every replicate that have been run.
+    /// Returns the number of base points of every replicate that have been run.
     pub fn points_per_replicate(&self) -> u64 {
         self.points
     }
@@ -220,22 +220,22 @@ impl<'a> GrowingRun<'a> {
         self.totals
     }
 
-    /// Totals of each replicate, in order; empty before anything has been run.
+    /// Returns the totals of each replicate, in order; empty before the first base point has been run.
     pub fn totals(&self) -> &[Totals] {
         &self.totals
     }
 
-    /// Time since the run was made.
+    /// Returns the time since the run was created.
     pub fn elapsed(&self) -> std::time::Duration {
         self.start.elapsed()
     }
 }
 
-/// A pool of `threads` threads (0: one per core); `None` if those that the caller has are as many: to start a pool takes
-/// longer than many a run.
+/// Creates a pool of `threads` threads (0: one per core); `None` if the caller already has this many, because starting
+/// a pool takes longer than many runs.
 pub(super) fn thread_pool(threads: usize) -> Result<Option<ThreadPool>, RunError> {
     let threads = threads_in_force(threads);
-    // A page has one thread, and cannot start another.
+    // A web page has one thread, and cannot start another.
     let is_page = cfg!(target_family = "wasm");
     if is_page || rayon::current_thread_index().is_none() && rayon::current_num_threads() == threads {
         return Ok(None);

@@ -1,12 +1,12 @@
-//! Running a design through a model: fixed blocks of base points, folded into constant-size totals.
+//! Running a design through a model: fixed blocks of base points, folded into totals of constant size.
 //!
-//! A block is [`BLOCK`] base points with all of their rows. Blocks are merged in a binary tree whose shape depends on
-//! the number of blocks alone, so that the totals are the same bits on any number of threads; memory does not grow with
-//! the number of samples, unless outputs are kept.
+//! A block is [`BLOCK`] base points with all of their rows. Blocks are merged in a binary tree whose shape depends only
+//! on the number of blocks, so the totals have the same bits on any number of threads; memory does not grow with the
+//! number of samples, unless outputs are kept.
 //!
-//! A run may keep the outputs of its rows in a [`Store`]: what is there already, from an interrupted run, another machine
-//! or a file, is not evaluated again, and what is not is evaluated in batches of any size. The totals are then folded from
-//! the store, to the same bits.
+//! A run may keep the outputs of its rows in a [`Store`]: rows that it already has, from an interrupted run, another
+//! machine or a file, are not evaluated again; missing ones are evaluated in batches of any size. The totals are then
+//! folded from the store, to the same bits.
 
 mod each;
 mod error;
@@ -51,29 +51,29 @@ use crate::model::{Model, RunContext};
 use crate::names::named;
 use crate::space::Space;
 
-/// Base points in a block: their columns stay in the cache, and a block takes long enough to be worth a task.
+/// Base points in a block: their columns fit in the cache, and a block takes long enough to be worth a task.
 pub const BLOCK: u64 = 256;
 
-/// How long is waited for remote workers between two looks at whether the run is to end.
+/// How long to wait for remote workers between two checks for a stop.
 const STOP_POLL_INTERVAL: Duration = Duration::from_millis(20);
 
-/// What is run: every row of `design`, as points of `space`, through `model`.
+/// The work of a run: every row of `design`, as points of `space`, through `model`.
 #[derive(Clone, Copy)]
 pub struct Job<'a> {
-    /// Where the rows lie in the unit cube.
+    /// The rows in the unit cube.
     pub design: &'a Design,
-    /// What they mean in SI units; has as many factors as the design.
+    /// The distributions that map them to SI units; as many factors as the design.
     pub space: &'a Space,
-    /// What is evaluated.
+    /// The model to evaluate.
     pub model: &'a dyn Model,
 }
 
-/// How far a run has come.
+/// The progress of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Progress {
     /// Model runs finished.
     pub done: u64,
-    /// Those among them that were on record when the run began.
+    /// Those among them that were loaded when the run began.
     pub recalled: u64,
     /// Model runs of the whole design.
     pub total: u64,
@@ -83,16 +83,15 @@ pub struct Progress {
     pub elapsed: Duration,
 }
 
-/// Memory that kept outputs may take, in bytes: 8 GiB.
+/// Maximum memory for kept outputs, in bytes: 8 GiB.
 pub const MAX_STORED_BYTES: u64 = 8 << 30;
 
 /// Runs the whole job on `threads` threads (0: one per core) and returns the totals of each replicate, in order.
 ///
-/// `on_progress` is called from time to time, from any of the threads. The result
-/// does not depend on the number of threads, in any bit.
+/// `on_progress` is called from time to time, from any thread. The result has the same bits on any number of threads.
 ///
 /// # Panics
-/// If the space has not as many factors as the design.
+/// If the number of factors of the space differs from that of the design.
 ///
 /// # Errors
 /// [`RunError::Threads`] if the threads cannot be started. Rows that fail are part of the totals, not errors.
@@ -103,17 +102,17 @@ pub fn run(job: Job<'_>, threads: usize, on_progress: &(dyn Fn(Progress) + Sync)
     Ok(run.into_totals())
 }
 
-/// Takes every piece of outputs that a run evaluates, from the thread that did it, before its rows count as done.
+/// A receiver of every piece of evaluated outputs, called by the evaluating thread before its rows count as done.
 pub trait OutputSink: Sync {
-    /// Whether it takes outputs at the moment.
+    /// Returns whether it currently accepts outputs.
     fn is_open(&self) -> bool {
         true
     }
 
-    /// Takes a piece.
+    /// Accepts a piece.
     ///
     /// # Errors
-    /// Why it cannot be kept, which ends the run.
+    /// Why the piece cannot be saved, which ends the run.
     fn append(&self, piece: &Piece) -> std::io::Result<()>;
 }
 
@@ -123,7 +122,7 @@ impl<F: Fn(&Piece) -> std::io::Result<()> + Sync> OutputSink for F {
     }
 }
 
-/// Number of threads that a run uses when asked for `threads`.
+/// Returns the number of threads that a run uses when `threads` are requested.
 pub fn threads_in_force(threads: usize) -> usize {
     if threads == 0 { std::thread::available_parallelism().map_or(1, usize::from) } else { threads }
 }
@@ -131,9 +130,9 @@ pub fn threads_in_force(threads: usize) -> usize {
 named! {
     /// What happens when a row fails; the default first.
     pub enum FailurePolicy {
-        /// The indices that need the row do without its base point.
+        /// Indices that need the row are estimated without its base point.
         DropBlock = "drop-block",
-        /// The run is given up.
+        /// The run stops.
         Fail = "fail",
     }
 }

@@ -1,4 +1,4 @@
-//! How long the runs of a design will take, by a few of them.
+//! Pilot runs, which predict how long a design will take.
 
 use std::collections::BTreeSet;
 use std::time::Instant;
@@ -7,29 +7,29 @@ use super::repeats::compare;
 use super::{Job, Repeats, RowValues, RunError, threads_in_force};
 use crate::model::{Batch, RunContext};
 
-/// A few runs of a design, and how long the whole of it would take by them.
+/// A few runs of a design, and the predicted time of the whole.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Pilot {
-    /// Runs it took.
+    /// Number of pilot runs.
     pub runs: u64,
-    /// Seconds that the whole design will take, the start included.
+    /// Predicted seconds for the whole design, startup included.
     pub seconds: f64,
-    /// Seconds that a worker takes before its first run, where it takes any.
+    /// Seconds that a worker takes before its first run; 0 if it needs none.
     pub startup: f64,
-    /// What the first row says of the model, run once more by a new worker; `None` of models that are known to be no random ones.
+    /// Result of running the first row again on a new worker; `None` for models known to be deterministic.
     pub repeats: Option<Repeats>,
-    /// Runs that failed in some output.
+    /// Pilot runs that failed in some output.
     pub failed: u64,
-    /// Why the first of them did.
+    /// Why the first of them failed.
     pub reason: Option<String>,
 }
 
 impl Pilot {
-    /// Runs ever more first rows of the design by one worker until they take long enough to be measured, or are all of a
-    /// replicate. What the first row takes longer than the same row once more is the start.
+    /// Runs a growing number of first rows on one worker until they take long enough to be measured, or are a whole
+    /// replicate. The startup time is the extra time of the first row compared with the same row run once more.
     ///
     /// # Errors
-    /// [`RunError`] if the model gives up or the run of `context` is to end.
+    /// [`RunError`] if the model gives up or the run of `context` is to stop.
     pub fn new(job: Job<'_>, context: &RunContext<'_>) -> Result<Self, RunError> {
         const MIN_SECONDS: f64 = 0.3;
         const MAX_ROWS: u64 = 1 << 18;
@@ -46,7 +46,7 @@ impl Pilot {
             batch.settle();
             // Every batch begins with the first row.
             first_row = (0..batch.outputs()).map(|output| batch.column(output)[0]).collect();
-            // So that the last one has them all.
+            // The last batch contains all rows, so its failures replace earlier ones.
             let rows: BTreeSet<usize> = batch.failures().iter().map(|(_, row, _)| *row).collect();
             failed = rows.len() as u64;
             reason = batch.failures().first().map(|(.., reason)| reason.to_string());

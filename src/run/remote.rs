@@ -1,7 +1,7 @@
-//! Workers in other processes: what they are sent, and what they reply.
+//! Workers in other processes: their requests and replies.
 //!
-//! The other process knows the study. A request names one of its models, a design, and rows of that; the reply is the
-//! outputs of the rows.
+//! The other process has loaded the study. A request identifies one of its models, a design, and rows of the design;
+//! the reply contains the outputs of the rows.
 
 use std::io;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -16,43 +16,43 @@ use crate::model::{GiveUp, RunContext};
 
 /// Workers in other processes, which [`serve`](crate::WorkerStudy::serve) a study there.
 ///
-/// Each replies to its requests in their order. Requests and replies are bytes of no meaning to the carrier.
+/// Each replies to its requests in order. The transport treats requests and replies as opaque bytes.
 pub trait RemoteWorkers: Sync {
-    /// How many there are.
+    /// Returns the number of workers.
     fn count(&self) -> usize;
 
-    /// Sends a request to a worker, without waiting for it.
+    /// Sends a request to a worker, without waiting for the reply.
     ///
     /// # Errors
-    /// What keeps it from being sent.
+    /// Why it cannot be sent.
     fn send(&self, worker: usize, request: Vec<u8>) -> io::Result<()>;
 
-    /// The next reply of a worker, if there is one within `patience`.
+    /// Returns the next reply of a worker, if one arrives within `patience`.
     ///
     /// # Errors
-    /// Why there will never be one.
+    /// Why no reply will ever arrive.
     fn receive(&self, worker: usize, patience: Duration) -> io::Result<Option<Vec<u8>>>;
 
-    /// Lets all workers end soon what they are at: the run is to end. May be called more than once.
+    /// Asks all workers to stop their current work soon, because the run stops. May be called more than once.
     fn stop(&self);
 }
 
-/// Workers in other processes for one of the models of a study.
+/// Remote workers for one of the models of a study.
 #[derive(Clone, Copy)]
 pub(crate) struct Remote<'a> {
     pub workers: &'a dyn RemoteWorkers,
-    /// Which model: 0 is that of the study, others are its cheaper ones, from 1.
+    /// Index of the model: 0 is the study's model, its low-fidelity models follow from 1.
     pub subject: u64,
 }
 
 impl<'a> Remote<'a> {
-    /// The talk with one of the workers, in the run of `context`.
+    /// Opens the exchange with one of the workers, in the run of `context`.
     pub fn talk(self, worker: usize, context: &'a RunContext<'a>) -> Talk<'a> {
         Talk { remote: self, worker, context, told_to_stop: AtomicBool::new(false) }
     }
 }
 
-/// What designs of one study differ in.
+/// The fields in which designs of one study differ.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct DesignKey {
     sampler: u64,
@@ -71,7 +71,7 @@ impl DesignKey {
         Self { sampler, base_samples, replicates, seed, plain_rows: design.plain_rows().into() }
     }
 
-    /// The design that differs from `like` in this.
+    /// Returns the design that differs from `like` in these fields.
     pub fn design(self, like: &Design) -> Option<Design> {
         let Self { sampler, base_samples, replicates, seed, plain_rows } = self;
         let sampler = *Sampler::ALL.get(usize::try_from(sampler).ok()?)?;
@@ -82,7 +82,7 @@ impl DesignKey {
 
 /// Rows that a worker is to evaluate.
 pub(crate) struct Request {
-    /// Which model: see [`Remote::subject`].
+    /// Index of the model: see [`Remote::subject`].
     pub subject: u64,
     pub design: DesignKey,
     pub range: RowRange,
@@ -98,7 +98,7 @@ impl Request {
         out
     }
 
-    /// Reads a request; `None` if the bytes are none.
+    /// Reads a request; returns `None` if the bytes are invalid.
     pub fn read(bytes: &[u8]) -> Option<Self> {
         let mut from = Reader { bytes };
         let (subject, design) = (u64::read(&mut from)?, DesignKey::read(&mut from)?);
@@ -107,12 +107,12 @@ impl Request {
     }
 }
 
-/// What a worker makes of a request.
+/// The reply to a request.
 pub(crate) struct Reply {
-    /// How long the rows took.
+    /// Evaluation time of the rows.
     pub seconds: f64,
     pub given_up: Option<GiveUp>,
-    /// Outputs travel as they go on record.
+    /// Outputs, encoded as in the journal.
     pub pieces: Vec<Piece>,
 }
 
@@ -125,7 +125,7 @@ impl Reply {
         out
     }
 
-    /// Reads the reply to a request for rows of `outputs` outputs each; `None` if the bytes are none.
+    /// Reads the reply to a request for rows of `outputs` outputs each; returns `None` if the bytes are invalid.
     fn read(bytes: &[u8], range: &RowRange, outputs: usize) -> Option<Self> {
         let mut from = Reader { bytes };
         let (seconds, given_up) = (f64::read(&mut from)?, Option::read(&mut from)?);
@@ -142,7 +142,7 @@ impl Reply {
     }
 }
 
-/// The talk with one worker.
+/// The exchange with one worker.
 pub(crate) struct Talk<'a> {
     remote: Remote<'a>,
     worker: usize,
@@ -161,8 +161,7 @@ impl Talk<'_> {
         self.remote.workers.send(self.worker, request.write())
     }
 
-    /// The reply to the oldest request that has none, which was for `range`. A worker that has long to do hears when the run
-    /// is to end.
+    /// Waits for the reply to the oldest open request, which was for `range`. Stops the workers if the run is to stop.
     pub fn receive(&self, range: &RowRange, outputs: usize) -> io::Result<Reply> {
         let reply = loop {
             if let Some(reply) = self.remote.workers.receive(self.worker, STOP_POLL_INTERVAL)? {

@@ -1,41 +1,41 @@
-//! Rows that are run again, to see whether the model gives the same answer.
+//! Rows that are run again, to check that the model is reproducible.
 
 use super::{Job, RowValues, RunError, Store};
 use crate::design::Design;
 use crate::model::{Batch, RunContext};
 
-/// One of so many runs is run again, but no more rows than these.
+/// One in this many runs is repeated, up to the maximum number of rows.
 const RUNS_PER_REPEAT: u64 = 100;
 const MAX_ROWS: u64 = 16;
-/// Shorter runs repeat none.
+/// Studies with fewer runs repeat none.
 const MIN_RUNS: u64 = 50;
 
-/// Answers that are apart by no more than this share of them are the same: sums in another order differ in their last digits.
+/// Relative difference up to which outputs are equal: sums in another order differ in their last digits.
 const ROUNDING: f64 = 1e-9;
 
-/// What became of rows that were run again.
+/// The results of repeated rows.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Repeats {
-    /// Rows that were run again.
+    /// Number of repeated rows.
     pub rows: u64,
-    /// How many of them had another answer, by output.
+    /// Number of them with a different output, by output.
     pub differing: Vec<u64>,
-    /// Why, if any had.
+    /// The cause, if any differed.
     pub cause: Option<Irreproducible>,
 }
 
-/// Why a model does not give the same answer to the same row.
+/// Why a model does not return the same output for the same row.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Irreproducible {
-    /// New workers that are asked the same rows in the same order give different answers: it draws random numbers.
+    /// New workers that evaluate the same rows in the same order differ: the model draws random numbers.
     Random,
-    /// They give the same answers, but others than in the run: it remembers the rows before.
+    /// New workers agree with each other but not with the run: the model depends on earlier rows.
     Remembers,
 }
 
 impl Repeats {
-    /// What is wrong with the indices of an output of which so many rows had another answer, and what to do; `None` if no row
-    /// had. `has_noise` says whether the model gets a seed with every row.
+    /// Returns a warning about an output of which `differing` rows changed, with what to do; `None` if none changed.
+    /// `has_noise` is whether the model gets a seed with every row.
     pub fn warning(&self, differing: u64, has_noise: bool) -> Option<String> {
         let cause = self.cause.filter(|_| differing > 0)?;
         let why = match (cause, has_noise) {
@@ -60,7 +60,7 @@ impl Repeats {
     }
 }
 
-/// The rows that a run of `evaluated` runs of `design` runs again, as (replicate, row): a function of these alone.
+/// Returns the rows that a run of `evaluated` runs of `design` repeats, as (replicate, row): a function of these alone.
 pub(crate) fn rows_to_repeat(design: &Design, evaluated: u64) -> Vec<(u64, u64)> {
     if evaluated < MIN_RUNS {
         return Vec::new();
@@ -72,11 +72,11 @@ pub(crate) fn rows_to_repeat(design: &Design, evaluated: u64) -> Vec<(u64, u64)>
     (0..count).map(place).map(|place| (place / of_replicate, place % of_replicate)).collect()
 }
 
-/// Runs `rows` again by a new worker, and compares their outputs with those in `known`; with those of another new worker where
-/// they are not all there.
+/// Runs `rows` again on a new worker, and compares their outputs with those in `known`, or with those of another new
+/// worker if some are missing there.
 ///
 /// # Errors
-/// [`RunError`] if the model gives up or the run of `context` is to end.
+/// [`RunError`] if the model gives up or the run of `context` is to stop.
 pub(crate) fn repeat_rows(
     job: Job<'_>,
     context: &RunContext<'_>,
@@ -93,7 +93,7 @@ pub(crate) fn repeat_rows(
     compare(job, context, rows, &first)
 }
 
-/// The same with the outputs of the rows as they were `before`.
+/// Does the same with the outputs of the rows as they were `before`.
 ///
 /// # Errors
 /// As for [`repeat_rows`].
@@ -103,7 +103,7 @@ pub(crate) fn compare(
     rows: &[(u64, u64)],
     before: &[Vec<f64>],
 ) -> Result<Repeats, RunError> {
-    // In another order: the answer to a row does not depend on its place.
+    // In another order: the output of a row must not depend on its position.
     let backwards: Vec<(u64, u64)> = rows.iter().rev().copied().collect();
     let again = || outputs_of(job, context, &backwards);
     let second = again()?;
@@ -124,12 +124,12 @@ pub(crate) fn compare(
     Ok(Repeats { rows: rows.len() as u64, differing, cause })
 }
 
-/// Outputs without a value are no answers that could differ.
+/// Returns whether two outputs are equal within rounding; missing values count as equal.
 fn is_same(a: f64, b: f64) -> bool {
     !a.is_finite() || !b.is_finite() || (a - b).abs() <= ROUNDING * a.abs().max(b.abs())
 }
 
-/// The outputs of rows by a new worker.
+/// Returns the outputs of rows evaluated by a new worker.
 fn outputs_of(job: Job<'_>, context: &RunContext<'_>, rows: &[(u64, u64)]) -> Result<Vec<Vec<f64>>, RunError> {
     let mut inputs = vec![Vec::with_capacity(rows.len()); job.design.factors()];
     let mut values = RowValues::default();
@@ -157,7 +157,7 @@ mod tests {
     use crate::quantity::Unit;
     use crate::space::{Distribution, Factor, Space};
 
-    /// Adds what its workers count, from a start of their own or all together.
+    /// A model whose workers are counted, from a start of their own or all together.
     struct Counting {
         outputs: Vec<Output>,
         together: AtomicU32,

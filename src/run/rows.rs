@@ -1,4 +1,4 @@
-//! The rows of a design that a store lacks: their values, and where their outputs go.
+//! The rows of a design that are missing in a store: their values, and where their outputs go.
 
 use std::collections::VecDeque;
 use std::ops::Range;
@@ -13,25 +13,25 @@ use crate::design::{BasePoints, Design};
 use crate::model::Batch;
 use crate::space::Space;
 
-/// The rows of some replicates that a store lacks.
+/// The rows of some replicates that are missing in a store.
 pub(crate) struct MissingRows<'a> {
     job: Job<'a>,
     store: &'a Store,
-    /// Takes every piece before the store does.
+    /// Receives every piece before the store does.
     sink: Option<&'a dyn OutputSink>,
     failures: FailurePolicy,
     waiting: Mutex<Waiting>,
 }
 
 struct Waiting {
-    /// In the order in which they are run.
+    /// In the order of evaluation.
     ranges: VecDeque<RowRange>,
     rows: u64,
 }
 
 impl<'a> MissingRows<'a> {
-    /// Those of `rows` (replicate, and rows counted within it) that `store` lacks; and how far the run has come by those
-    /// that it has.
+    /// Collects those of `rows` (replicate, and rows counted within it) that are missing in `store`, and the progress
+    /// that the existing ones make.
     pub fn new(
         job: Job<'a>,
         rows: &[(u64, Range<u64>)],
@@ -54,17 +54,17 @@ impl<'a> MissingRows<'a> {
         (Self { job, store, sink, failures, waiting }, known)
     }
 
-    /// What tells the design from others of the study.
+    /// Returns the fields that distinguish the design from others of the study.
     pub fn design_key(&self) -> DesignKey {
         DesignKey::new(self.job.design)
     }
 
-    /// Outputs of every row.
+    /// Returns the number of outputs of every row.
     pub fn outputs(&self) -> usize {
         self.store.outputs()
     }
 
-    /// Puts pieces where outputs are kept; returns the number of their rows, and how many of them failed.
+    /// Saves pieces in the sink and the store; returns the number of their rows, and how many of them failed.
     pub fn keep(&self, pieces: &[Piece]) -> Result<(u64, u64), RunError> {
         let (mut rows, mut failed) = (0, 0);
         for piece in pieces {
@@ -85,7 +85,7 @@ impl<'a> MissingRows<'a> {
 }
 
 impl RowSource for MissingRows<'_> {
-    /// Fewer rows than the most where all workers would not have some to the end.
+    /// Returns fewer rows than the maximum near the end, so that all workers stay busy.
     fn next(&self, max_rows: u64, workers: usize) -> Option<RowRange> {
         let mut waiting = self.waiting.lock().unwrap_or_else(PoisonError::into_inner);
         let share = (waiting.rows / (2 * workers as u64)).max(1);
@@ -113,7 +113,7 @@ impl RowSource for MissingRows<'_> {
     }
 }
 
-/// The rows of a settled batch that were answered, as pieces: one, unless the model has given up on some of them.
+/// Returns the evaluated rows of a settled batch as pieces: one, unless the model has given up on some of them.
 pub(super) fn answered(range: &RowRange, batch: &Batch) -> Vec<Piece> {
     let piece = Piece::from_batches(range.replicate, range.rows.start, std::slice::from_ref(batch));
     let Some(reason) = batch.given_up().map(|give_up| &give_up.reason) else { return vec![piece] };
@@ -137,10 +137,10 @@ pub(super) fn answered(range: &RowRange, batch: &Batch) -> Vec<Piece> {
     pieces
 }
 
-/// Makes the values of any rows of a design.
+/// Computes the values of any rows of a design.
 #[derive(Debug, Default)]
 pub struct RowValues {
-    /// The replicate whose points these are.
+    /// The replicate to which the points belong.
     points: Option<(u64, BasePoints)>,
     /// Columns of A, B and C over the base points.
     unit: Vec<Vec<f64>>,
@@ -150,8 +150,8 @@ pub struct RowValues {
 }
 
 impl RowValues {
-    /// The values of rows `rows` of `replicate`, counted within the replicate as in [`Piece`](super::Piece): a column of
-    /// SI values for each factor of `space`.
+    /// Returns the values of rows `rows` of `replicate`, counted within the replicate as in [`Piece`](super::Piece): a
+    /// column of SI values for each factor of `space`.
     pub fn values(&mut self, space: &Space, design: &Design, replicate: u64, rows: Range<u64>) -> &[Vec<f64>] {
         let per_point = design.rows_per_point();
         let points = rows.start / per_point..rows.end.div_ceil(per_point);

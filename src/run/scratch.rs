@@ -1,4 +1,4 @@
-//! The outputs of a block of base points, as a thread evaluates them, and the totals of them.
+//! The outputs of a block of base points in one thread, and their totals.
 
 use super::failures::{Place, Tally};
 use super::totals::{OutputTotals, Totals};
@@ -7,11 +7,11 @@ use crate::design::{Design, Matrix};
 use crate::estimate::{BlockOutputs, CentralMoments, MomentParts, Moments, PointOutputs, Workspace, contributions};
 use crate::model::{Batch, GiveUp, RowFailure, RunContext, Worker};
 
-/// What a thread needs to evaluate blocks, kept from block to block.
+/// Buffers for the evaluation of blocks, reused from block to block.
 pub(super) struct Scratch {
     /// The columns of the base points, in the unit cube.
     unit: Vec<Vec<f64>>,
-    /// The same in SI units.
+    /// The same columns in SI units.
     values: Vec<Vec<f64>>,
     /// Outputs of every run of the design.
     batches: Vec<Batch>,
@@ -19,7 +19,7 @@ pub(super) struct Scratch {
 }
 
 impl Scratch {
-    /// Nothing is evaluated yet.
+    /// Creates empty buffers.
     pub fn new(job: Job<'_>) -> Self {
         let (columns, runs) = (job.design.columns(), job.design.runs().len());
         Self {
@@ -30,7 +30,7 @@ impl Scratch {
         }
     }
 
-    /// The unit-cube columns for `rows` base points, to be filled.
+    /// Returns the unit-cube columns for `rows` base points, to be filled.
     pub fn unit_columns(&mut self, rows: usize) -> &mut [Vec<f64>] {
         for column in &mut self.unit {
             column.resize(rows, 0.0);
@@ -38,13 +38,13 @@ impl Scratch {
         &mut self.unit
     }
 
-    /// Sets the outputs of `points` base points at `place` to those in `store`; false if a row is missing there.
+    /// Sets the outputs of `points` base points at `place` to those in `store`; returns false if a row is missing.
     pub fn recall(&mut self, store: &Store, place: BlockPlace, points: usize) -> bool {
         self.batches.iter_mut().for_each(|batch| batch.reset(points));
         store.recall(place.first.replicate, place.first.point, &mut self.batches)
     }
 
-    /// The totals of the outputs that were evaluated or recalled last.
+    /// Computes the totals of the outputs that were evaluated or recalled last.
     pub fn totals(&mut self, job: Job<'_>, place: BlockPlace) -> Totals {
         let rows = self.batches.first().map_or(0, Batch::rows);
         let mut totals = Totals {
@@ -64,7 +64,7 @@ impl Scratch {
         totals
     }
 
-    /// The outputs that were evaluated or recalled last, a batch for each run of the design.
+    /// Returns the outputs that were evaluated or recalled last, a batch for each run of the design.
     pub fn batches(&self) -> &[Batch] {
         &self.batches
     }
@@ -72,7 +72,7 @@ impl Scratch {
     /// Evaluates the base points in the unit columns.
     ///
     /// # Errors
-    /// [`GiveUp`] if the model gave up.
+    /// [`GiveUp`] if the model gives up.
     pub fn run_rows(&mut self, job: Job<'_>, worker: &mut dyn Worker, context: &RunContext<'_>) -> Result<(), GiveUp> {
         let factors = job.design.factors();
         for (k, (unit, values)) in self.unit.iter().zip(&mut self.values).enumerate() {
@@ -114,7 +114,7 @@ impl Scratch {
                 totals.runs_failed += 1;
                 totals.failures.count(failure, Tally { count: 1, first });
             }
-            // Whatever the model left there: it says that it failed.
+            // Values that the model left in failed rows are ignored.
             for row in failed {
                 batch.set(row, output, f64::NAN);
             }
@@ -126,7 +126,7 @@ impl Scratch {
 }
 
 impl OutputTotals {
-    /// Sets the sums to those of a block, which has an output for every one of `runs` and base point, not finite where there is none.
+    /// Sets the sums to those of a block with an output for each of `runs` and base point, not finite if missing.
     pub(crate) fn set_sums(&mut self, design: &Design, runs: &[&[f64]], place: BlockPlace, work: &mut Workspace) {
         let columns = |of: &[usize]| of.iter().map(|run| runs[*run]).collect::<Vec<&[f64]>>();
         let (a, b) = (runs[0], runs[1]);
@@ -157,12 +157,12 @@ impl OutputTotals {
     }
 }
 
-/// Where a block lies in its design, and what is kept of it.
+/// The place of a block in its design, and what is kept of it.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct BlockPlace {
-    /// The first base point's A.
+    /// Row A of the first base point.
     pub first: Place,
-    /// Base points in each part whose moments are kept apart, a power of two.
+    /// Base points in each part with separate moments, a power of two.
     pub part_length: u64,
     /// How many of its base points, from the first on, belong to the sample.
     pub sampled: usize,
@@ -170,7 +170,7 @@ pub(crate) struct BlockPlace {
     pub keeps_outputs: bool,
 }
 
-/// Rows of a settled batch with at least one failure.
+/// Returns the number of rows of a settled batch with at least one failure.
 fn failed_rows(batch: &Batch) -> u64 {
     let mut rows: Vec<usize> = batch.failures().iter().map(|&(_, row, _)| row).collect();
     rows.sort_unstable();

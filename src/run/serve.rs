@@ -1,4 +1,4 @@
-//! The other end of the talk with workers in other processes: requests are read there, and their rows evaluated.
+//! The worker's side of remote evaluation: reads requests and evaluates their rows.
 
 use super::remote::{DesignKey, Reply, Request};
 use super::rows::{RowValues, answered};
@@ -7,12 +7,12 @@ use crate::design::Design;
 use crate::model::{Batch, Model, RowFailure, RunContext, Worker};
 use crate::space::Space;
 
-/// Where requests come from, and where replies go.
+/// The source of requests and the receiver of replies.
 pub trait Requests {
-    /// The next request; `None` if there are no more.
+    /// Returns the next request; `None` if there are no more.
     fn next(&mut self) -> Option<Vec<u8>>;
 
-    /// Sends the reply to the last one.
+    /// Sends the reply to the last request.
     fn reply(&mut self, reply: Vec<u8>);
 }
 
@@ -21,7 +21,7 @@ pub(crate) struct RemoteServer<'a> {
     space: &'a Space,
     worker: Box<dyn Worker + 'a>,
     batch: Batch,
-    /// The design of the last request, and the points of it that are known.
+    /// The design of the last request, and its computed points.
     current: Option<(DesignKey, Design, RowValues)>,
 }
 
@@ -51,7 +51,7 @@ impl<'a> RemoteServer<'a> {
     }
 }
 
-/// The reply to a request that cannot be met.
+/// Returns the reply to a request that cannot be met.
 pub(crate) fn refusal(what: &str) -> Reply {
     let given_up = Some(RowFailure::new(&format!("a worker in another process was asked for {what}")).into());
     Reply { seconds: 0.0, given_up, pieces: Vec::new() }

@@ -8,10 +8,10 @@ use thiserror::Error;
 
 use crate::design::Design;
 
-/// Most parts.
+/// Maximum number of parts.
 const MAX_SHARDS: u64 = 1_000_000;
 
-/// One of several parts of a design, as equal as can be: consecutive base points with all of their rows.
+/// One of several parts of a design, as equal as possible: consecutive base points with all of their rows.
 ///
 /// ```
 /// use apportion::Shard;
@@ -26,7 +26,7 @@ pub struct Shard {
     of: u64,
 }
 
-/// A text that names no part.
+/// The error for a text that is not a valid part `k/n`.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("expected a part as in 3/8, the third of eight (from 1/8 to 8/8; at most {MAX_SHARDS} parts), not {found:?}")]
 pub struct ShardError {
@@ -52,17 +52,17 @@ impl fmt::Display for Shard {
 }
 
 impl Shard {
-    /// Its number, from 1.
+    /// Returns its number, from 1.
     pub fn number(self) -> u64 {
         self.number
     }
 
-    /// How many there are.
+    /// Returns the number of parts.
     pub fn count(self) -> u64 {
         self.of
     }
 
-    /// Its rows of `design`, as (replicate, rows counted within it); none if there are more parts than base points.
+    /// Returns its rows of `design`, as (replicate, rows in it); none if there are more parts than base points.
     pub fn rows(self, design: &Design) -> Vec<(u64, Range<u64>)> {
         let (all, per_replicate) = (design.settings().base_samples, design.points_per_replicate());
         let bound = |part: u64| (u128::from(part) * u128::from(all) / u128::from(self.of)) as u64;

@@ -1,4 +1,4 @@
-//! Outputs of any rows of a design, wherever they came from: a run under way, a journal, other machines, a file.
+//! Outputs of any rows of a design, from any source: the current run, a journal, other machines, a file.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -8,28 +8,27 @@ use super::BLOCK;
 use crate::design::Design;
 use crate::model::{Batch, Counts, Model, RowFailure};
 
-/// Outputs of consecutive rows of one replicate. Rows are counted within the replicate, base point by base point
-/// (row = point * [`Design::rows_per_point`] + run), so that their numbers stay the same when the design is made longer.
+/// Outputs of consecutive rows of one replicate. Rows are counted within the replicate, base point by base point (row =
+/// point * [`Design::rows_per_point`] + run), so that their numbers stay the same when the design grows.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Piece {
     /// The replicate.
     pub replicate: u64,
     /// The first row.
     pub first: u64,
-    /// Outputs in SI units, row by row; NaN where there is none.
+    /// Outputs in SI units, row by row; NaN where missing.
     pub values: Vec<f64>,
-    /// Why outputs are missing, as (row from the first one, output, reason), in order. Every value that is not finite
-    /// is among them.
+    /// Why outputs are missing, as (row from the first one, output, reason), in order, for every value not finite.
     pub failures: Vec<(u32, u32, RowFailure)>,
     /// How many of the rows raised each validity flag of the model.
     pub flags: Vec<u64>,
-    /// What the model counted over them.
+    /// The model's counters, summed over the rows.
     pub counts: Counts,
 }
 
 impl Piece {
-    /// The rows from row `first` of `replicate` on of settled batches: one for each run of a base point, whose rows are the
-    /// base points; or a single one of consecutive rows.
+    /// Creates a piece that starts at row `first` of `replicate` from settled batches: one for each run of a base
+    /// point, whose rows are the base points; or a single one of consecutive rows.
     pub fn from_batches(replicate: u64, first: u64, batches: &[Batch]) -> Self {
         let (points, outputs) = batches.first().map_or((0, 0), |batch| (batch.rows(), batch.outputs()));
         let (runs, mut piece) = (batches.len(), Self { replicate, first, ..Self::default() });
@@ -57,19 +56,19 @@ impl Piece {
         piece
     }
 
-    /// Whether flags were raised or anything counted over its rows: such a piece cannot be divided.
+    /// Returns whether flags were raised or anything counted over its rows: such a piece cannot be divided.
     pub(crate) fn is_counted(&self) -> bool {
         self.flags.iter().any(|raised| *raised > 0) || !self.counts.is_zero()
     }
 
-    /// Number of rows, of `outputs` outputs each.
+    /// Returns the number of rows, of `outputs` outputs each.
     pub fn rows(&self, outputs: usize) -> u64 {
         (self.values.len() / outputs.max(1)) as u64
     }
 }
 
-/// The outputs that are there, of a design that may still grow. Shared between threads. A run
-/// with a [store](crate::Runner::store) evaluates what is missing.
+/// The existing outputs of a design that may still grow, shared between threads. A run with a
+/// [store](crate::Runner::store) evaluates only the missing ones.
 #[derive(Debug)]
 pub struct Store {
     outputs: usize,
@@ -81,15 +80,15 @@ pub struct Store {
 struct Held {
     /// By replicate and block of base points.
     chunks: BTreeMap<(u64, u64), Chunk>,
-    /// What was counted over consecutive rows, by replicate and first row. They do not overlap, and all their rows are
-    /// there: counts cannot be divided, so that they go with the first row that does.
+    /// Counts over consecutive rows, by replicate and first row. They do not overlap, and all their rows exist: a count
+    /// cannot be divided, so it is removed with the first of its rows that is removed.
     counted: BTreeMap<(u64, u64), Counted>,
 }
 
 /// Flags and counts of the rows of one piece.
 #[derive(Debug)]
 struct Counted {
-    /// The row behind the last one.
+    /// One past the last row.
     end: u64,
     flags: Vec<u64>,
     counts: Counts,
@@ -104,19 +103,19 @@ struct Chunk {
 }
 
 impl Store {
-    /// Nothing yet of the rows of `design` through `model`.
+    /// Creates an empty store for the rows of `design` through `model`.
     pub fn new(design: &Design, model: &dyn Model) -> Self {
         let (outputs, rows_per_point) = (model.outputs().len(), design.rows_per_point());
         Self { outputs, rows_per_point, held: Mutex::default() }
     }
 
-    /// Outputs of every row.
+    /// Returns the number of outputs of every row.
     pub fn outputs(&self) -> usize {
         self.outputs
     }
 
     fn held(&self) -> MutexGuard<'_, Held> {
-        // A thread that panicked has ended the run; chunks are never left half changed in a way that matters then.
+        // A thread that panicked has ended the run; half-changed chunks do not matter then.
         self.held.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
@@ -124,8 +123,8 @@ impl Store {
         BLOCK * self.rows_per_point
     }
 
-    /// Puts the rows of `piece` in the store, in place of those that are there; returns how many were new. Rows that were
-    /// counted together with one of those are then missing, unless `piece` has them too.
+    /// Saves the rows of `piece` in the store, replacing existing ones; returns the number of new rows. Rows that were
+    /// counted together with a replaced one become missing, unless `piece` has them too.
     pub fn insert(&self, piece: &Piece) -> u64 {
         let rows = piece.rows(self.outputs);
         let mut new = 0;
@@ -159,7 +158,7 @@ impl Store {
         new
     }
 
-    /// Makes the rows `rows` of `replicate` missing; an empty range, however it came about, none.
+    /// Removes the rows `rows` of `replicate`; an empty range, however it came about, removes none.
     fn remove(&self, held: &mut Held, replicate: u64, rows: Range<u64>) {
         for (block, range) in self.by_block(rows) {
             let Some(chunk) = held.chunks.get_mut(&(replicate, block)) else { continue };
@@ -170,14 +169,14 @@ impl Store {
         }
     }
 
-    /// The rows `rows` of `replicate`, cut where one block ends and the next begins.
+    /// Splits the rows `rows` of `replicate` at the ends of blocks.
     fn by_block(&self, rows: Range<u64>) -> impl Iterator<Item = (u64, Range<u64>)> + use<> {
         let length = self.chunk_rows();
         let blocks = if rows.is_empty() { 0..0 } else { rows.start / length..rows.end.div_ceil(length) };
         blocks.map(move |block| (block, rows.start.max(block * length)..rows.end.min((block + 1) * length)))
     }
 
-    /// The rows among `rows` of `replicate` that are not there, as ranges in order, each within one block.
+    /// Returns the missing rows among `rows` of `replicate` as ranges in order, each within one block.
     pub fn missing(&self, replicate: u64, rows: Range<u64>) -> Vec<Range<u64>> {
         let held = self.held();
         let mut missing: Vec<Range<u64>> = Vec::new();
@@ -198,7 +197,7 @@ impl Store {
         missing
     }
 
-    /// Rows of `replicate` among `rows` that are there, and how many of them failed in an output.
+    /// Returns the number of existing rows of `replicate` among `rows`, and how many of them failed in an output.
     pub fn count(&self, replicate: u64, rows: Range<u64>) -> (u64, u64) {
         let held = self.held();
         let (mut present, mut failed) = (0, 0);
@@ -212,14 +211,14 @@ impl Store {
         (present, failed)
     }
 
-    /// Rows that are there, of all replicates.
+    /// Returns the number of existing rows of all replicates.
     pub fn rows(&self) -> u64 {
         let present = |chunk: &Chunk| chunk.present.iter().filter(|present| **present).count() as u64;
         self.held().chunks.values().map(present).sum()
     }
 
-    /// Forgets the rows that failed in an output, so that they are missing, and with them those that were counted together
-    /// with one; returns how many failed.
+    /// Removes the rows that failed in an output, and those that were counted together with one of them, so that they
+    /// are missing; returns how many failed.
     pub fn forget_failures(&self) -> u64 {
         let mut held = self.held();
         let mut failed: Vec<(u64, u64)> = Vec::new();
@@ -237,8 +236,8 @@ impl Store {
         failed.len() as u64
     }
 
-    /// The rows `rows` of `replicate` as one piece; `None` if one of them is missing. Flags and counts are those of the
-    /// pieces that began among them.
+    /// Returns the rows `rows` of `replicate` as one piece; `None` if one of them is missing. Flags and counts are
+    /// those of the pieces that begin among them.
     pub fn piece(&self, replicate: u64, rows: Range<u64>) -> Option<Piece> {
         let held = self.held();
         let mut piece = Piece { replicate, first: rows.start, ..Piece::default() };
@@ -265,7 +264,7 @@ impl Store {
         Some(piece)
     }
 
-    /// All rows that are there, as pieces in order, each within one block.
+    /// Returns all existing rows as pieces in order, each within one block.
     pub fn pieces(&self) -> Vec<Piece> {
         let length = self.chunk_rows();
         let blocks: Vec<(u64, u64)> = self.held().chunks.keys().copied().collect();
@@ -283,8 +282,8 @@ impl Store {
         blocks.into_iter().flat_map(present).filter_map(|(replicate, rows)| self.piece(replicate, rows)).collect()
     }
 
-    /// Sets `batches`, one for each run, to the base points from `point` on, as many as the batches have rows, all in one
-    /// block. False, with batches of no meaning, if a row is missing.
+    /// Sets `batches`, one for each run, to the base points from `point` on, as many as the batches have rows, all in
+    /// one block. Returns false, with undefined batches, if a row is missing.
     pub(super) fn recall(&self, replicate: u64, point: u64, batches: &mut [Batch]) -> bool {
         let held = self.held();
         let Some(chunk) = held.chunks.get(&(replicate, point / BLOCK)) else { return false };
@@ -308,7 +307,7 @@ impl Store {
             let row = row as usize - first;
             batches[row % runs].fail(row / runs, output as usize, why.clone());
         }
-        // Counts are summed over all runs of a block: any batch may hold them.
+        // Counts are summed over all runs of a block, so any batch may hold them.
         let rows = point * self.rows_per_point;
         for Counted { flags, counts, .. } in held.counted_from(replicate, rows..rows + (points * runs) as u64) {
             batches[0].add_counts(flags, counts);
@@ -341,12 +340,12 @@ impl Chunk {
 }
 
 impl Held {
-    /// What was counted from one of the rows `rows` of `replicate` on.
+    /// Iterates over the counts that start among the rows `rows` of `replicate`.
     fn counted_from(&self, replicate: u64, rows: Range<u64>) -> impl Iterator<Item = &Counted> {
         self.counted.range((replicate, rows.start)..(replicate, rows.end)).map(|(_, counted)| counted)
     }
 
-    /// Takes out what was counted over one of the rows `rows` of `replicate`; returns over which.
+    /// Removes the counts that cover any of the rows `rows` of `replicate`; returns their ranges.
     fn take_counted(&mut self, replicate: u64, rows: Range<u64>) -> Vec<Range<u64>> {
         let before = self.counted.range((replicate, 0)..(replicate, rows.end)).rev();
         let found = before.map(|((_, first), counted)| *first..counted.end);

@@ -1,4 +1,4 @@
-//! Tables of points: their rows through the workers, their outputs into one batch.
+//! Evaluation of tables of points: rows go to the workers, outputs into one batch.
 
 use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
@@ -11,40 +11,40 @@ use super::{Progress, RunError};
 use crate::clock::Instant;
 use crate::model::{Batch, GiveUp, Model, RunContext};
 
-/// Why rows were not evaluated to their end.
+/// Why rows were not all evaluated.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum Halt {
-    /// The model cannot go on.
+    /// The model cannot continue.
     #[error("the model cannot go on: {0}")]
     GaveUp(GiveUp),
-    /// It was asked to end.
+    /// The run was interrupted.
     #[error("interrupted")]
     Interrupted,
 }
 
-/// Fewest rows of a piece of a quick model: fewer are not worth a thread.
+/// Minimum rows in a batch of a fast model: fewer are not worth a thread.
 const MIN_QUICK_ROWS: u64 = 1024;
 
-/// The workers of a model for points that come as tables.
+/// The workers of a model for points in tables.
 pub struct TableRun<'a>(Executor<'a>);
 
 impl<'a> TableRun<'a> {
-    /// Workers of `model` for the run of `context`, on at most `threads` threads (0: as many as the model asks for, or one per
-    /// core).
+    /// Creates workers of `model` for the run of `context`, on at most `threads` threads (0: as many as the model asks
+    /// for, or one per core).
     pub fn new(model: &'a dyn Model, context: &'a RunContext<'a>, threads: usize) -> Self {
         Self(Executor::new(model, context, threads))
     }
 
-    /// How many rows of a table are best handed over at once.
+    /// Returns the recommended number of rows per call.
     pub fn rows_at_once(&self) -> usize {
         if self.0.model().concurrency().is_some() { 1 << 16 } else { 1 << 14 }
     }
 
-    /// Evaluates rows as [`Worker::run`](crate::model::Worker::run) does, and settles the batch. It is the same for any
-    /// number of workers.
+    /// Evaluates rows as [`Worker::run`](crate::model::Worker::run) does, and settles the batch. The number of workers
+    /// does not matter.
     ///
     /// # Errors
-    /// [`Halt`] if the model gave up or the run is to end; the batch then has no meaning.
+    /// [`Halt`] if the model gives up or the run is to stop; the batch is then undefined.
     pub fn run(&self, inputs: &[&[f64]], batch: &mut Batch) -> Result<(), Halt> {
         let total = batch.rows() as u64;
         if total == 0 {
@@ -55,7 +55,7 @@ impl<'a> TableRun<'a> {
         let table = Table { inputs, is_quick, sink: Mutex::new((0, batch)) };
         self.0.execute(&table, before, Instant::now(), &|_| ()).map_err(|error| match error {
             RunError::GaveUp(give_up) => Halt::GaveUp(give_up),
-            // A table has no failures that end it, and no sink that fails.
+            // A table has no failure policy and no sink, so nothing else can end it.
             _ => Halt::Interrupted,
         })?;
         let (_, batch) = table.sink.into_inner().unwrap_or_else(PoisonError::into_inner);

@@ -1,4 +1,4 @@
-//! What a run leaves behind: constant in size unless outputs are kept, merged in a fixed tree.
+//! The totals of a run: constant in size unless outputs are kept, merged in a fixed tree.
 
 use super::failures::{Failures, Place};
 use crate::estimate::{CentralMoments, MomentParts, PointOutputs};
@@ -10,7 +10,7 @@ pub const SAMPLE: u64 = 1 << 15;
 /// Totals of one output.
 #[derive(Debug, Clone, Default)]
 pub struct OutputTotals {
-    /// What the indices are read from: each from every base point at which its own rows have a value.
+    /// The moments for the indices, each over every base point at which its own rows have a value.
     pub moments: MomentParts,
     /// Moments of every value of the rows A and B.
     pub values: CentralMoments,
@@ -21,7 +21,7 @@ pub struct OutputTotals {
     pub point_outputs: PointOutputs,
     /// Rows without a value.
     pub runs_failed: u64,
-    /// Why, and how often each.
+    /// Why, with the count of each reason.
     pub failures: Failures,
 }
 
@@ -50,12 +50,12 @@ pub struct Totals {
     pub outputs: Vec<OutputTotals>,
     /// How many rows raised each validity flag of the model.
     pub flags: Vec<u64>,
-    /// What the model counted.
+    /// The model's counters.
     pub counts: Counts,
 }
 
 impl Totals {
-    /// Totals of no rows through `model`.
+    /// Returns the totals of no rows through `model`.
     pub fn none(model: &dyn Model) -> Self {
         Self {
             runs: 0,
@@ -66,7 +66,7 @@ impl Totals {
         }
     }
 
-    /// The first row that failed, and why.
+    /// Returns the first row that failed, and why.
     pub(super) fn first_failure(&self) -> Option<(Place, RowFailure)> {
         let failures = self.outputs.iter().filter_map(|output| output.failures.first());
         let (reason, tally) = failures.min_by_key(|(_, tally)| tally.first)?;
@@ -81,8 +81,8 @@ impl Totals {
         }
     }
 
-    /// Adds what is counted over the rows of another replicate: everything but moments, samples and kept outputs,
-    /// which belong to their replicate.
+    /// Adds the counts over the rows of another replicate: everything but moments, samples and kept outputs, which
+    /// belong to their replicate.
     pub fn add_counts(&mut self, other: &Self) {
         self.runs += other.runs;
         self.failed_runs += other.failed_runs;

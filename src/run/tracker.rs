@@ -1,4 +1,4 @@
-//! How far a run has come, and why it ends before its time.
+//! The progress of a run, and why it ends early.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
@@ -7,7 +7,7 @@ use super::{Progress, RunError};
 use crate::clock::Instant;
 use crate::model::{GiveUp, RunContext};
 
-/// The rows of a run that are finished, counted by its threads.
+/// The finished rows of a run, counted by its threads.
 pub(super) struct Tracker<'r> {
     context: &'r RunContext<'r>,
     before: Progress,
@@ -19,7 +19,7 @@ pub(super) struct Tracker<'r> {
 }
 
 impl<'r> Tracker<'r> {
-    /// A run that had come as far as `before`, whose total is that of the whole run.
+    /// Creates a tracker that starts at `before`, whose total is that of the whole run.
     pub fn new(
         context: &'r RunContext<'r>,
         before: Progress,
@@ -30,7 +30,7 @@ impl<'r> Tracker<'r> {
         Self { context, before, start, on_progress, done, failed, error: Mutex::new(None) }
     }
 
-    /// Whether the run goes on.
+    /// Returns whether the run continues.
     pub fn goes_on(&self) -> bool {
         if self.context.is_interrupted() {
             self.end(RunError::Interrupted { done: 0, total: self.before.total });
@@ -45,7 +45,7 @@ impl<'r> Tracker<'r> {
         (self.on_progress)(Progress { done, failed, elapsed: self.start.elapsed(), ..self.before });
     }
 
-    /// A worker cannot go on.
+    /// Records that a worker cannot continue.
     pub fn give_up(&self, give_up: GiveUp) {
         self.end(if self.context.is_interrupted() {
             RunError::Interrupted { done: 0, total: self.before.total }
@@ -54,7 +54,7 @@ impl<'r> Tracker<'r> {
         });
     }
 
-    /// Ends the run. The first error counts; of rows that failed, the first in the design.
+    /// Ends the run with an error. The first error counts; of rows that failed, the first in the design.
     pub fn end(&self, error: RunError) {
         let mut first = self.error.lock().unwrap_or_else(PoisonError::into_inner);
         let replaces = match (&*first, &error) {
@@ -68,7 +68,7 @@ impl<'r> Tracker<'r> {
         self.context.end();
     }
 
-    /// Ends the other threads if this one panics: they may wait for it.
+    /// Returns a guard that ends the other threads if this one panics: they may wait for it.
     pub fn end_if_panicking(&self) -> impl Drop + 'r {
         struct Guard<'r>(&'r RunContext<'r>);
         impl Drop for Guard<'_> {
@@ -81,7 +81,7 @@ impl<'r> Tracker<'r> {
         Guard(self.context)
     }
 
-    /// Why the run has ended before its time, if it has.
+    /// Returns the error if the run ended early.
     pub fn finish(self) -> Result<(), RunError> {
         let done = self.done.into_inner();
         match self.error.into_inner().unwrap_or_else(PoisonError::into_inner) {

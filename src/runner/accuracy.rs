@@ -1,10 +1,10 @@
-//! A run with a given accuracy of the indices, which chooses what gets there at the least cost.
+//! Runs to a given accuracy of the indices, by the method with the least cost.
 //!
-//! Runs begin with a small trial. If the study has cheaper models, these stand in, and each doubling goes where it takes most of
-//! the squared error away for its cost; that makes the squared errors of all parts proportional to what they cost, the optimal
-//! allocation of Qian et al. (2018, eq. 3.13) for errors that fall as those of random points do. If there are none, a split
-//! design is tried first, which is by far the cheapest where polynomials explain the model. Models inside the program go on without
-//! surrogates where these do not get there within a million runs.
+//! A run begins with a small trial. If the study has low-fidelity models, they are used, and each doubling is spent
+//! where it reduces the squared error most for its cost. The squared errors of all parts then become proportional to
+//! their costs, the optimal allocation of Qian et al. (2018, eq. 3.13) for errors that fall as those of random points
+//! do. Otherwise, a split design is tried first, by far the cheapest one where polynomials explain the model. Models
+//! inside the program continue without surrogates if these do not reach the accuracy within a million runs.
 
 use super::low_fidelity::sibling_path;
 use super::{Resume, Runner};
@@ -16,23 +16,23 @@ use crate::run::{RunError, Store};
 use crate::study::{LowFidelity, Study, SurrogateChoice, Target};
 use crate::uncertainty::largest_half_width;
 
-/// Base points of each replicate in a trial without plain rows, the fewest that surrogates are fitted to.
+/// Base points of each replicate in a trial without plain rows, the minimum to which surrogates are fitted.
 const TRIAL_POINTS: u64 = 4;
 
-/// The same with plain rows, and how many of these there are for each run of a base point.
+/// The same with plain rows, and the number of plain rows for each run of a base point.
 const SPLIT_POINTS: u64 = 2;
 const PLAIN_ROWS: u64 = 1;
 
-/// Runs of a model inside the program that surrogates are tried for.
+/// Maximum number of runs of a model inside the program for which surrogates are tried.
 const MAX_CORRECTED_RUNS: u64 = 1 << 20;
 
-/// Share of the variance that surrogates must explain for plain rows to be worth while.
+/// Share of the variance that surrogates must explain for plain rows to be useful.
 const SMOOTH: f64 = 0.9;
 
 /// Base samples with which a run without surrogates begins.
 const FIRST_PLAIN: u64 = 1 << 10;
 
-/// Runs `runner`'s study until it is as accurate as its target says.
+/// Runs `runner`'s study until it reaches the accuracy of its target.
 pub(super) fn run_accurately(runner: &Runner<'_>, context: &RunContext<'_>) -> Result<StudyResult, RunError> {
     let mut attempt = Attempt { runner, context, runs: 0, reasons: Vec::new() };
     let study = runner.study;
@@ -55,7 +55,7 @@ pub(super) fn run_accurately(runner: &Runner<'_>, context: &RunContext<'_>) -> R
     Ok(attempt.plain()?.0)
 }
 
-/// A result, and why its run ended.
+/// A result, and why its run stopped.
 type Ended = (StudyResult, Option<StopReason>);
 
 struct Attempt<'a> {
@@ -71,7 +71,7 @@ impl Attempt<'_> {
         self.reasons.push(reason.into());
     }
 
-    /// The study with another design.
+    /// Returns the study with another design.
     fn variant(&self, points: u64, plain_rows: u32, surrogate: SurrogateChoice) -> Result<Study, RunError> {
         let study = self.runner.study;
         let settings = study.design.settings();
@@ -85,21 +85,21 @@ impl Attempt<'_> {
         Ok(variant)
     }
 
-    /// Without surrogates.
+    /// Runs without surrogates.
     fn plain(&mut self) -> Result<Ended, RunError> {
         let replicates = self.runner.study.design.settings().replicates;
         let study = self.variant((FIRST_PLAIN / replicates.max(1)).max(2), 0, SurrogateChoice::Off)?;
         self.run(&study, None, None)
     }
 
-    /// The most runs with surrogates.
+    /// Returns the maximum number of runs with surrogates.
     fn max_runs(&self) -> Option<u64> {
         let study = self.runner.study;
         let own = study.model().concurrency().is_none().then_some(MAX_CORRECTED_RUNS);
         study.target.max_runs.into_iter().chain(own).min()
     }
 
-    /// With surrogates and `lows`, all runs at base points; those in `store` are there already.
+    /// Runs with surrogates and `lows`, all runs at base points; those in `store` are reused.
     fn fitted(&mut self, lows: Vec<LowFidelity>, store: &Store) -> Result<Ended, RunError> {
         let mut study = self.variant(TRIAL_POINTS, 0, self.runner.study.analysis.surrogate)?;
         study.lows = lows;
@@ -107,7 +107,7 @@ impl Attempt<'_> {
         self.run(&study, None, Some(store))
     }
 
-    /// With plain rows, if polynomials explain the model; `unsplit` holds outputs of rows without them.
+    /// Runs with plain rows, if polynomials explain the model; `unsplit` holds outputs of rows without them.
     fn split(&mut self, unsplit: &Store) -> Result<Ended, RunError> {
         let of_point = self.variant(SPLIT_POINTS, 0, SurrogateChoice::On)?.design.rows_per_point();
         let plain_rows = u32::try_from(of_point * PLAIN_ROWS).unwrap_or(u32::MAX).min(crate::design::MAX_PLAIN_ROWS);
@@ -160,13 +160,13 @@ impl Attempt<'_> {
             reasons: self.reasons.clone(),
             lines: lines(study, self.runner.study.lows.len(), &result),
         });
-        // What was asked for, and not what this attempt may take.
+        // Report the limit of the study, not that of this attempt.
         result.stopping.iter_mut().for_each(|stopping| stopping.max_runs = self.runner.study.target.max_runs);
         Ok((result, reason))
     }
 }
 
-/// Lines of a study with `lows` cheaper models of its own that make the same run again as this attempt.
+/// Returns the lines of a study with `lows` low-fidelity models that repeat the run of this attempt.
 fn lines(attempt: &Study, lows: usize, result: &StudyResult) -> String {
     let provenance = &result.provenance;
     let mut lines = match provenance.plain_rows {
@@ -186,13 +186,13 @@ fn lines(attempt: &Study, lows: usize, result: &StudyResult) -> String {
     lines
 }
 
-/// The least share of the variance of an output that surrogates explain.
+/// Returns the smallest share of the variance of an output that surrogates explain.
 fn explained(result: &StudyResult) -> f64 {
     let of_output = |output: &OutputResult| output.surrogate.as_ref().map_or(0.0, |used| used.explained);
     result.outputs.iter().map(of_output).fold(1.0, f64::min)
 }
 
-/// See [`SpendingRecord::plain_runs`].
+/// Computes [`SpendingRecord::plain_runs`].
 fn plain_runs(study: &Study, result: &StudyResult, accuracy: f64) -> Option<u64> {
     let of_output = |output: &OutputResult| match &output.surrogate {
         None => output.largest_half_width(),

@@ -1,4 +1,4 @@
-//! How a run grows, and when it has enough.
+//! The growth of a run, and its stopping rules.
 
 use super::Runner;
 use super::low_fidelity::LowRun;
@@ -10,27 +10,27 @@ use crate::run::{GrowingRun, Progress, RunError};
 use crate::study::{Study, Target};
 use crate::uncertainty::{IntervalMethod, IntervalOptions, KeptPoints, SurrogateEstimates, output_indices};
 
-/// Base samples below which missing intervals say nothing of those of more runs: an output that is rarely anything but 0 may not vary
-/// in a net of few points.
+/// Base samples below which missing intervals predict nothing about those of more runs: an output that is 0 except
+/// rarely may not vary in a net of few points.
 const MIN_BASE_SAMPLES: u64 = 1 << 12;
 
-/// The same where so many runs fail that there will be no indices: how many do is known much sooner.
+/// The same where too many runs fail for there to be indices: the share of failures is known much sooner.
 const MIN_BASE_SAMPLES_OF_FAILURES: u64 = 1 << 8;
 
-/// Why a run that grew has ended, and what surrogates and cheaper models make of every output.
+/// Why a growing run stopped, and the surrogate estimates of every output.
 pub(super) type Grown = (Stopped, Vec<Option<SurrogateEstimates>>);
 
-/// Base samples to which a run goes on for the rare levels of factors.
+/// Maximum number of base samples to which a run grows for the rare levels of factors.
 const MAX_FOR_RARE_LEVELS: f64 = (1 << 14) as f64;
 
-/// Half width of plain indices from which on they could contradict corrected ones.
+/// Half width of plain indices below which they can contradict corrected ones.
 const MAX_PLAIN_HALF_WIDTH: f64 = 0.5;
 
-/// Part of the squared error that cheaper models need not go below.
+/// Share of the squared error below which low-fidelity models need not go.
 const ENOUGH: f64 = 1.0 / 16.0;
 
 impl Runner<'_> {
-    /// The first runs of cheaper models. One that is no cheaper is not run in a run that grows.
+    /// Starts the first runs of low-fidelity models. One that is no cheaper is dropped in a run that grows.
     pub(super) fn begin_lows(&self, run: &GrowingRun<'_>, lows: &mut Vec<LowRun<'_>>) -> Result<(), RunError> {
         let seconds = run.elapsed().as_secs_f64();
         for low in lows.iter_mut() {
@@ -42,8 +42,8 @@ impl Runner<'_> {
         lows.iter_mut().try_for_each(|low| low.begin(seconds))
     }
 
-    /// Doubles the run, or the own runs of a cheaper model, until there is a reason to stop; that, and what surrogates and
-    /// cheaper models make of the outputs then.
+    /// Doubles the run, or the own runs of a low-fidelity model, until there is a reason to stop; returns the reason
+    /// and the surrogate estimates of the outputs at that stage.
     pub(super) fn grow(
         &self,
         run: &mut GrowingRun<'_>,
@@ -54,7 +54,7 @@ impl Runner<'_> {
         let is_met = |stopped: &Stopped| matches!(stopped.reason, StopReason::TargetMet { .. });
         let mut seconds = run.elapsed().as_secs_f64() - lows.iter().flat_map(LowRun::seconds).sum::<f64>();
         if self.study.target.accuracy.is_some() && !lows.is_empty() {
-            // Where the first runs are enough, cheaper models need not run.
+            // If the first runs suffice, low-fidelity models need not run.
             let first = run.install(|| stage(self.study, run, &[]));
             if let Some(stopped) = reason_to_stop(self.study, run, longest, &first).filter(is_met) {
                 lows.clear();
@@ -91,8 +91,8 @@ impl Runner<'_> {
     }
 }
 
-/// The one of `lows` that promises the least cost for an accuracy, by number, where the rows so far took `seconds`; `None` if
-/// none is better than surrogates alone.
+/// Returns the index in `lows` of the model with the least expected cost for an accuracy, given that the rows so far
+/// took `seconds`; `None` if none is better than surrogates alone.
 fn best_low(study: &Study, run: &GrowingRun<'_>, lows: &[LowRun<'_>], seconds: f64) -> Option<usize> {
     let alone = stage(study, run, &[]).squared_errors[0] * seconds;
     let of_low = |low: &LowRun<'_>| {
@@ -104,21 +104,20 @@ fn best_low(study: &Study, run: &GrowingRun<'_>, lows: &[LowRun<'_>], seconds: f
     all.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(place, _)| place)
 }
 
-/// How well the indices are known at some stage of a run.
+/// The accuracy of the indices at a stage of a run.
 #[derive(Debug, Clone, PartialEq)]
 struct Stage {
     /// Largest half width of the indices of all outputs; `None` if some are missing.
     widest: Option<f64>,
-    /// Whether plain indices are known well enough to contradict those that surrogates have corrected.
+    /// Whether plain indices are accurate enough to contradict corrected ones.
     is_checked: bool,
-    /// Of the output that it belongs to, the squared errors that come from the rows of the model, and those that come from the
-    /// runs of a cheaper model.
+    /// Squared errors of the output with this half width: due to the model's rows, and to a low-fidelity model's runs.
     squared_errors: [f64; 2],
-    /// What surrogates and cheaper models made of every output.
+    /// The surrogate estimates of every output.
     surrogates: Vec<Option<SurrogateEstimates>>,
 }
 
-/// The stage that `run` has reached with the help of `lows`. An output that does not vary has no indices and waits for none.
+/// Computes the stage that `run` has reached with `lows`. Outputs that do not vary have no indices and are ignored.
 fn stage(study: &Study, run: &GrowingRun<'_>, lows: &[LowRun<'_>]) -> Stage {
     let outputs = run.totals().first().map_or(0, |totals| totals.outputs.len());
     let (layout, options) = (study.layout(), interval_options(study));
@@ -150,7 +149,7 @@ fn stage(study: &Study, run: &GrowingRun<'_>, lows: &[LowRun<'_>]) -> Stage {
     all
 }
 
-/// Why the run should not be doubled once more; `None` if it should.
+/// Returns why the run should stop; `None` if it should be doubled again.
 fn reason_to_stop(study: &Study, run: &GrowingRun<'_>, longest: &Design, stage: &Stage) -> Option<Stopped> {
     let widest = stage.widest;
     let Target { accuracy, max_time, max_runs } = study.target;
@@ -159,7 +158,7 @@ fn reason_to_stop(study: &Study, run: &GrowingRun<'_>, longest: &Design, stage: 
     let runs = u128::from(next) * u128::from(replicates) * u128::from(longest.rows_per_point());
     let seconds = 2.0 * run.elapsed().as_secs_f64();
     let base_samples = run.points_per_replicate() * replicates;
-    // Whatever the points, one replicate has no spread.
+    // With one replicate there is no spread for any points.
     let has_none =
         replicates < 2 && matches!(study.analysis.intervals, IntervalMethod::Nets | IntervalMethod::Replicates);
     let has_too_few = base_samples >= MIN_BASE_SAMPLES_OF_FAILURES && fails_too_often(study, run);
@@ -185,7 +184,7 @@ fn reason_to_stop(study: &Study, run: &GrowingRun<'_>, longest: &Design, stage: 
     Some(Stopped { reason, target_met })
 }
 
-/// Whether more runs failed than an output with indices may have.
+/// Returns whether more runs failed than an output with indices may have.
 fn fails_too_often(study: &Study, run: &GrowingRun<'_>) -> bool {
     let rows = run.points_per_replicate() * run.design().rows_per_point() * run.totals().len() as u64;
     let outputs = run.totals().first().map_or(0, |totals| totals.outputs.len());

@@ -1,4 +1,4 @@
-//! The journal of a study's run: found, checked against the study, and resumed or replaced.
+//! The journal of a study's run: located, checked against the study, and resumed or replaced.
 
 mod recall;
 
@@ -19,32 +19,32 @@ use crate::study::Study;
 /// Runs that are expected to take longer than this are worth a journal.
 const LONG_RUN: Duration = Duration::from_secs(10);
 
-/// What a run must have taken before its length is estimated.
+/// Time that a run must have taken before its duration is estimated.
 const MIN_ELAPSED: Duration = Duration::from_millis(200);
 
-/// Which journal a run keeps.
+/// The journal that a run requests.
 #[derive(Clone, Copy)]
 pub(super) struct JournalRequest<'a> {
     pub path: &'a Path,
     pub resume: Resume,
     pub shard: Option<Shard>,
-    /// Whether a journal is begun only when the run is expected to be long.
+    /// Whether a journal is created only when the run is expected to be long.
     pub only_if_long: bool,
 }
 
-/// The runs of a study that are recorded, and where more are.
+/// The recorded runs of a study, and where new ones are recorded.
 pub(super) struct RunJournal {
     /// Outputs that were recorded when the journal was opened.
     pub store: Store,
     open: OnceLock<Journal>,
-    /// Path and header of the journal of a run that has not proved to be long yet.
+    /// Path and header of the journal of a run that is not yet expected to be long.
     waiting: Mutex<Option<(PathBuf, Value)>>,
-    /// When the first of the runs that are under way began: one that grows has spent time on its estimates before.
+    /// When the first of the current runs began: one that grows has spent time on its estimates before.
     began: Mutex<Duration>,
 }
 
 impl RunJournal {
-    /// No journal.
+    /// Returns a run without a journal.
     pub fn none(study: &Study) -> Self {
         Self {
             store: Store::new(&study.design, study.model().as_ref()),
@@ -54,17 +54,17 @@ impl RunJournal {
         }
     }
 
-    /// A new journal at `path`, of a study whose model has `files` (path: digest).
+    /// Creates a journal at `path`, of a study whose model has `files` (path: digest).
     fn create(study: &Study, path: &Path, shard: Option<Shard>, files: &Value) -> Result<Self, RunError> {
         Ok(Self { open: Journal::create(path, &header(study, shard, files))?.into(), ..Self::none(study) })
     }
 
-    /// A journal that is resumed, whose outputs are in `store`.
+    /// Wraps a resumed journal, whose outputs are in `store`.
     fn resumed(study: &Study, journal: Journal, store: Store) -> Self {
         Self { store, open: journal.into(), ..Self::none(study) }
     }
 
-    /// Begins the journal of a run that proves to be long. One that cannot be begun is done without.
+    /// Creates the journal of a run that is expected to be long; an error only causes a warning.
     pub fn watch(&self, progress: Progress, outputs: usize, messages: &Messages) {
         let Progress { done, recalled, total, elapsed, .. } = progress;
         let mut began = self.began.lock().unwrap_or_else(PoisonError::into_inner);
@@ -92,7 +92,7 @@ impl RunJournal {
         }
     }
 
-    /// Forces what is recorded to the disk.
+    /// Forces recorded outputs to the disk.
     pub fn sync(&self) -> Result<(), RunError> {
         self.open.get().map_or(Ok(()), Journal::sync).map_err(|source| RunError::NotKept { source })
     }
@@ -108,8 +108,8 @@ impl OutputSink for RunJournal {
     }
 }
 
-/// Opens the journal of `study` at `path` for parts that were evaluated with `files`. What is there is used if it was
-/// evaluated with the same files, and else moved aside.
+/// Opens the journal of `study` at `path` for parts that were evaluated with `files`. An existing journal is used if it
+/// was evaluated with the same files, and otherwise moved aside.
 pub(super) fn open_for_parts(
     study: &Study,
     path: &Path,
@@ -129,12 +129,12 @@ pub(super) fn open_for_parts(
     }
 }
 
-/// Opens the journal that `request` asks for. A journal of something else, or one that is not wanted, is moved aside.
+/// Opens the journal that `request` describes. A journal of another study, or an unwanted one, is moved aside.
 pub(super) fn open(study: &Study, request: JournalRequest<'_>, messages: &Messages) -> Result<RunJournal, RunError> {
     let JournalRequest { path, resume, shard, only_if_long } = request;
     let files = digests(study);
     let fresh = || {
-        // What a slow model answers may have cost much, however few its runs are.
+        // Even a few runs of a slow model may have cost much.
         if shard.is_some() || !only_if_long || study.model().is_slow() {
             return RunJournal::create(study, path, shard, &files);
         }
@@ -181,7 +181,7 @@ pub(super) fn open(study: &Study, request: JournalRequest<'_>, messages: &Messag
     Ok(RunJournal::resumed(study, journal, store))
 }
 
-/// The journal at `path` and what it holds; `None` if there is none, or only something else that was moved aside.
+/// Opens the journal at `path` and reads it; returns `None` if there is none, or if it was invalid and moved aside.
 fn resume_file(path: &Path, resume: Resume, messages: &Messages) -> Result<Option<(Journal, Contents)>, RunError> {
     if !path.exists() {
         if resume.is_required() {
@@ -210,19 +210,19 @@ fn header(study: &Study, shard: Option<Shard>, files: &Value) -> Value {
     })
 }
 
-/// Why a journal with this header is not one of `study`, if it is not.
+/// Returns why a journal with this header does not belong to `study`, if it does not.
 fn another_study(study: &Study, header: &Value) -> Option<String> {
     let found = differences(&header["identity"], &study.identity());
     let name = header["study"].as_str().unwrap_or_default();
     (!found.is_empty()).then(|| format!("the journal is of another study ({name}): {}", found.join("; ")))
 }
 
-/// Why a journal with this header is of another version of the model than that of `files` (path: digest), if it is.
+/// Returns why a journal with this header is of another version of the model than `files` (path: digest), if it is.
 fn another_model(header: &Value, files: &Value) -> Option<String> {
     differing(&header["files"], files).map(|names| format!("{names} changed since the journal was written"))
 }
 
-/// Moves a journal out of the way, to a name that no other has.
+/// Renames a journal to an unused name.
 fn move_aside(path: &Path, why: &str, messages: &Messages) -> Result<(), RunError> {
     let more = (2..).map(|number| format!(".old{number}"));
     let mut names = std::iter::once(".old".to_owned()).chain(more).map(|ending| with_ending(path, &ending));
@@ -241,10 +241,10 @@ pub(super) fn refused(path: &Path, reason: String) -> RunError {
     RunError::Refused { path: path.to_owned(), reason }
 }
 
-/// Reads the journal at `path`, which must be one of `study`, without locking it.
+/// Reads the journal at `path`, which must belong to `study`, without locking it.
 pub(super) fn read(study: &Study, path: &Path) -> Result<Contents, RunError> {
     let contents = read_journal_file(path).map_err(|error| match error {
-        // Named by the user, or found a moment ago.
+        // The path was named by the user, or found a moment ago.
         JournalError::Unreadable { source, .. } => refused(path, format!("cannot read the journal: {source}")),
         error => error.into(),
     })?;
@@ -254,7 +254,7 @@ pub(super) fn read(study: &Study, path: &Path) -> Result<Contents, RunError> {
     }
 }
 
-/// Runs of `study` on record in the journal at `path`.
+/// Counts the runs of `study` recorded in the journal at `path`.
 pub(super) fn recorded_runs(study: &Study, path: &Path) -> Result<u64, RunError> {
     let contents = read(study, path)?;
     if let Some(why) = another_model(&contents.header, &digests(study)) {

@@ -1,4 +1,4 @@
-//! The runs of cheaper models beside those of a model: at its rows, and at points of their own.
+//! The runs of low-fidelity models: at the rows of the model, and at points of their own.
 
 use std::path::Path;
 
@@ -14,26 +14,26 @@ use crate::study::{LowFidelity, Study, SurrogateChoice, Target};
 use crate::surrogate::families;
 use crate::surrogate::low_fidelity::OwnOutputs;
 
-/// Apart from the seed of the model's design by this, that of the cheaper models' own points is one that no user types.
+/// Combined with the seed of the model's design, it seeds the own points of low-fidelity models unlike any user does.
 const OWN_SEED: u64 = 0x6c6f_7720_6669_6465;
 
-/// Base samples of the own design where nothing is said and nothing is to be chosen.
+/// Default number of base samples of the own design where the size is not to be chosen.
 const OWN_BASE_SAMPLES: u64 = 1 << 14;
 
-/// The same at the start of a run that chooses, at most, and base points of each replicate, at least.
+/// Maximum number at the start of a run that chooses its size, and minimum of base points of each replicate.
 const FIRST_OWN_BASE_SAMPLES: u64 = 1 << 10;
 const FIRST_OWN_POINTS: u64 = 4;
 
-/// Rows of the own design, at most: their outputs are kept.
+/// Maximum number of rows of the own design: their outputs are kept.
 const MAX_OWN_ROWS: u64 = 1 << 22;
 
-/// Largest cost of a run over that of the model itself with which a model counts as cheaper.
+/// Largest cost of a run, relative to the model itself, of a model that counts as cheaper.
 const CHEAPER: f64 = 0.5;
 
-/// What a cheaper model is run for, and where that is kept.
+/// A low-fidelity model's study, and its journal.
 pub(super) struct LowStudy {
     name: String,
-    /// Its base samples, if they are not to be chosen.
+    /// Number of its base samples, if not to be chosen.
     base_samples: Option<u64>,
     /// At the rows of the model, and at its own.
     parts: [LowPart; 2],
@@ -47,7 +47,7 @@ struct LowPart {
 }
 
 impl LowStudy {
-    /// The cheaper models of the study that `runner` runs.
+    /// Returns the low-fidelity models of the study that `runner` runs.
     pub fn all(runner: &Runner<'_>, context: &RunContext<'_>) -> Result<Vec<Self>, RunError> {
         runner.study.lows.iter().map(|low| Self::new(runner, low, context)).collect()
     }
@@ -78,7 +78,7 @@ impl LowStudy {
 }
 
 impl LowPart {
-    /// The runs of a program are recorded beside those of the study, as its are.
+    /// Prepares the runs of a model. Those of a program have a journal next to that of the study, if there is one.
     fn new(runner: &Runner<'_>, study: Study, kind: &str, context: &RunContext<'_>) -> Result<Self, RunError> {
         let model = study.model();
         let longest = study.design.longest();
@@ -93,7 +93,7 @@ impl LowPart {
     }
 }
 
-/// `NAME-KIND.journal` for `NAME.journal`, and `NAME-KIND` for any other name: what stands behind its last dot tells journals apart.
+/// Returns `NAME-KIND.journal` for `NAME.journal`, and `NAME-KIND` for a name with another ending or none.
 pub(super) fn sibling_path(path: &Path, kind: &str) -> std::path::PathBuf {
     match path.extension() {
         Some(ending) if ending == "journal" => with_ending(&path.with_extension(""), &format!("-{kind}.journal")),
@@ -101,17 +101,17 @@ pub(super) fn sibling_path(path: &Path, kind: &str) -> std::path::PathBuf {
     }
 }
 
-/// The runs of a cheaper model.
+/// The runs of a low-fidelity model.
 pub(super) struct LowRun<'a> {
     study: &'a LowStudy,
-    /// At the rows of the model, and at its own, each with the seconds that it took.
+    /// At the rows of the model, and at its own, each with its duration in seconds.
     runs: [(GrowingRun<'a>, f64); 2],
-    /// Its own design as far as it has come, and every output at the rows of that.
+    /// Its own design as far as evaluated, and every output at its rows.
     own: (Design, Vec<Option<OwnOutputs>>),
 }
 
 impl<'a> LowRun<'a> {
-    /// Nothing is run yet.
+    /// Creates the runs; none is evaluated.
     pub fn all(
         runner: &Runner<'a>,
         studies: &'a [LowStudy],
@@ -146,7 +146,7 @@ impl<'a> LowRun<'a> {
         self.grow(0, points)
     }
 
-    /// The first of its own runs, which cost no more than `seconds` if they are chosen.
+    /// Starts its own runs, which cost at most `seconds` if their number is to be chosen.
     pub fn begin(&mut self, seconds: f64) -> Result<(), RunError> {
         let design = &self.study.parts[1].study.design;
         let (points, replicates) = (design.points_per_replicate(), design.settings().replicates);
@@ -164,7 +164,7 @@ impl<'a> LowRun<'a> {
         self.grow_own(points)
     }
 
-    /// Twice its own runs.
+    /// Doubles its own runs.
     pub fn double(&mut self) -> Result<(), RunError> {
         self.grow_own(self.runs[1].0.points_per_replicate() * 2)
     }
@@ -181,7 +181,7 @@ impl<'a> LowRun<'a> {
         Ok(())
     }
 
-    /// Whether its own runs can be doubled.
+    /// Returns whether its own runs can be doubled.
     pub fn can_double(&self) -> bool {
         let points = self.runs[1].0.points_per_replicate() * 2;
         let design = &self.study.parts[1].longest;
@@ -189,7 +189,7 @@ impl<'a> LowRun<'a> {
         self.study.base_samples.is_none() && rows <= MAX_OWN_ROWS && points <= design.points_per_replicate()
     }
 
-    /// Seconds of a run at the rows of the model; 0 before any.
+    /// Returns the seconds of a run at the rows of the model; 0 before any.
     fn seconds_per_run(&self) -> f64 {
         let (run, seconds) = &self.runs[0];
         let design = run.design();
@@ -197,17 +197,17 @@ impl<'a> LowRun<'a> {
         seconds / rows.max(1) as f64
     }
 
-    /// Whether its runs take clearly less than those of the model, which took `seconds` at the same rows.
+    /// Returns whether its runs are clearly faster than those of the model, which took `seconds` at the same rows.
     pub fn is_cheaper(&self, seconds: f64) -> bool {
         self.runs[0].1 <= CHEAPER * seconds
     }
 
-    /// Seconds that another doubling of its runs at the rows of the model takes, and of its own.
+    /// Returns the seconds that another doubling takes of its runs at the rows of the model, and of its own.
     pub fn seconds(&self) -> [f64; 2] {
         [self.runs[0].1, self.runs[1].1]
     }
 
-    /// What it has found.
+    /// Returns its totals.
     pub fn totals(&self) -> LowTotals<'_> {
         let [(shared, _), (own, _)] = &self.runs;
         let (design, outputs) = &self.own;

@@ -1,4 +1,4 @@
-//! The parts of a run, evaluated anywhere, joined in one record.
+//! Merging of the parts of a run, evaluated anywhere, in one journal.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -11,7 +11,7 @@ use crate::model::Messages;
 use crate::run::{OutputSink as _, Piece, RunError, Shard, Store};
 use crate::study::Study;
 
-/// The record at `path` with what is in `journals`, the whole of the design.
+/// Returns the journal at `path` extended by the contents of `journals`, the whole of the design.
 pub(super) fn merged(
     study: &Study,
     path: &Path,
@@ -37,7 +37,7 @@ pub(super) fn merged(
                 put(&piece)?;
                 continue;
             }
-            // What is counted over a piece cannot be divided.
+            // Counts over a piece cannot be divided.
             if piece.is_counted() && !gaps.is_empty() {
                 let why = "holds some of the runs that are there already, and some that are not: merge the parts of one \
                            division only, into a folder without a journal (--out)";
@@ -60,8 +60,7 @@ pub(super) fn merged(
     })
 }
 
-/// Checks, before anything is touched, that all journals are of this study and were evaluated with the same files; these
-/// files.
+/// Checks, before any change, that all journals are of this study and the same files; returns these files.
 fn files_of_all(study: &Study, journals: &[PathBuf]) -> Result<Value, RunError> {
     let mut first: Option<(&PathBuf, Value)> = None;
     for journal in journals {
@@ -80,7 +79,7 @@ fn files_of_all(study: &Study, journals: &[PathBuf]) -> Result<Value, RunError> 
     Ok(first.map_or(Value::Null, |(_, files)| files))
 }
 
-/// The parts that were found: how many of their runs each lacks, by the number of parts and their own.
+/// The parts found: the number of missing runs of each, by the number of parts and their own.
 #[derive(Default)]
 struct Shards(BTreeMap<u64, BTreeMap<u64, u64>>);
 
@@ -93,7 +92,7 @@ impl Shards {
         self.0.entry(shard.count()).or_default().insert(shard.number(), lacking);
     }
 
-    /// Which parts are missing or incomplete; `None` if the journals are not of one division into parts.
+    /// Lists the parts that are missing or incomplete; `None` if the journals are not of one division into parts.
     fn in_words(&self) -> Option<String> {
         const SHOWN: usize = 8;
         let (of, found) = self.0.iter().next().filter(|_| self.0.len() == 1)?;

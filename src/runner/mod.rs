@@ -1,4 +1,4 @@
-//! A study through its model: the whole way of the data in one call.
+//! Running a study: from the points to the result in one call.
 
 mod accuracy;
 mod growth;
@@ -54,7 +54,7 @@ impl Study {
         self.runner().run()
     }
 
-    /// A run of the study, to be set up and started.
+    /// Creates a run of the study, to be configured and started.
     pub fn runner(&self) -> Runner<'_> {
         Runner {
             study: self,
@@ -71,15 +71,15 @@ impl Study {
     }
 }
 
-/// What to do with runs that are recorded in a journal.
+/// What to do with the runs recorded in a journal.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Resume {
-    /// Use them if they are of this study, or else move the journal aside.
+    /// Use them if they are of this study, or otherwise move the journal aside.
     #[default]
     IfThere,
-    /// Refuse to run without them.
+    /// Fail without them.
     Require,
-    /// The same, but evaluate those that failed again.
+    /// The same, but evaluate failed runs again.
     RetryFailed,
     /// Move the journal aside.
     Restart,
@@ -91,7 +91,7 @@ impl Resume {
     }
 }
 
-/// A run of a study, as it is set up.
+/// A run of a study and its configuration.
 ///
 /// ```
 /// use apportion::{Distribution, Study, function_model};
@@ -135,12 +135,12 @@ impl fmt::Debug for Runner<'_> {
 }
 
 impl<'a> Runner<'a> {
-    /// On so many threads, up to 1024 (0, the default: one per core). The result is the same in every bit on any number.
+    /// Sets the number of threads, up to 1024 (default 0: one per core). The result has the same bits for any number.
     pub fn threads(self, threads: usize) -> Self {
         Self { threads, ..self }
     }
 
-    /// With workers in other processes too, which [know](WorkerStudy) the same study. The result is the same in every bit.
+    /// Adds workers in other processes, which have the [same study](WorkerStudy). The result has the same bits.
     pub fn remote_workers(self, workers: &'a dyn RemoteWorkers) -> Self {
         Self { remote: Some(workers), ..self }
     }
@@ -150,45 +150,45 @@ impl<'a> Runner<'a> {
         Self { on_progress: Arc::new(on_progress), ..self }
     }
 
-    /// Passes notes and warnings, a line each, to `on_message`: what becomes of a journal, and what programs say.
+    /// Passes notes and warnings, a line each, to `on_message`: about the journal, and messages of programs.
     pub fn on_message(self, on_message: impl Fn(&str) + Send + Sync + 'static) -> Self {
         Self { on_message: Arc::new(on_message), ..self }
     }
 
-    /// Ends the run soon after `stop` is set.
+    /// Stops the run soon after `stop` is set.
     pub fn stop(self, stop: &'a AtomicBool) -> Self {
         Self { stop: Some(stop), ..self }
     }
 
-    /// Records the outputs of every run in a file, and uses those that are there already.
+    /// Records the outputs of every run in a file, and reuses those that it contains.
     pub fn journal(self, path: impl Into<PathBuf>) -> Self {
         Self { journal: Some(path.into()), only_if_long: false, ..self }
     }
 
-    /// The same, but a journal that is not there yet is begun only for a slow model (programs, functions of Python row by row,
-    /// equations of motion that are marched), or once the run is expected to take longer than 10 s.
+    /// Does the same, but creates a new journal only for a slow model (programs, functions of Python row by row,
+    /// equations of motion that are integrated step by step), or once the run is expected to take longer than 10 s.
     pub fn journal_if_long(self, path: impl Into<PathBuf>) -> Self {
         Self { journal: Some(path.into()), only_if_long: true, ..self }
     }
 
-    /// What becomes of runs that are on record in the journal.
+    /// Sets what happens to the runs recorded in the journal.
     pub fn resume(self, resume: Resume) -> Self {
         Self { resume, ..self }
     }
 
-    /// Uses the outputs in `store`, and puts all others there.
+    /// Uses the outputs in `store`, and saves all others there.
     pub fn store(self, store: &'a Store) -> Self {
         Self { store: Some(store), ..self }
     }
 
-    /// Runs the study and estimates its indices. The result is the same in every bit for any number of threads and
-    /// wherever outputs come from, apart from the fields that tell about time and threads (and but for a study with a
-    /// budget of time, which ends when it is spent).
+    /// Runs the study and estimates its indices. The result has the same bits for any number of threads and any source
+    /// of outputs, except for the fields about time and threads (and for a study with a time budget, which ends when it
+    /// is spent).
     ///
     /// # Errors
-    /// [`RunError`] if the threads cannot be started, a row fails in a study that says to stop then, intervals need more
-    /// outputs at once than fit, the model gives up, the journal cannot be used or written, or the run is asked to end.
-    /// Otherwise rows that fail are part of the result.
+    /// [`RunError`] if the threads cannot be started, a row fails in a study that is to stop then, intervals need more
+    /// outputs at once than fit in memory, the model gives up, the journal cannot be used or written, or the run is
+    /// interrupted. Otherwise failed rows are part of the result.
     pub fn run(self) -> Result<StudyResult, RunError> {
         let context = self.context();
         let result = if self.study.target.accuracy.is_some() {
@@ -200,12 +200,11 @@ impl<'a> Runner<'a> {
         result
     }
 
-    /// Evaluates the rows of `shard` that the journal lacks, and no others; nothing is estimated. Returns how many rows
-    /// the shard has.
+    /// Evaluates only the rows of `shard` missing in the journal, without estimates; returns the shard's row count.
     ///
     /// # Errors
-    /// As for [`run`](Self::run); [`RunError::NoJournal`] without a journal, and [`RunError::NoSize`] for a study that decides by
-    /// itself how long it runs.
+    /// As for [`run`](Self::run); [`RunError::NoJournal`] without a journal, and [`RunError::NoSize`] for a study that
+    /// chooses its own size.
     pub fn run_shard(self, shard: Shard) -> Result<u64, RunError> {
         if self.study.target.grows() {
             return Err(RunError::NoSize);
@@ -224,9 +223,8 @@ impl<'a> Runner<'a> {
         Ok(rows.iter().map(|(_, rows)| rows.end - rows.start).sum())
     }
 
-    /// Joins the parts of a run, the `journals` of shards, in the journal of this run, and estimates the indices. The
-    /// merged runs are put on record whatever their number: they may have cost much elsewhere.
-    ///
+    /// Merges the parts of a run, the `journals` of shards, in the journal of this run, and estimates the indices. The
+    /// merged runs are always recorded: they may have cost much elsewhere.
     /// # Errors
     /// As for [`run`](Self::run), and [`RunError::Refused`] if a part is of another study or model;
     /// [`RunError::Incomplete`] if runs are missing.
@@ -237,10 +235,10 @@ impl<'a> Runner<'a> {
         Ok(self.analyse(&context, journal)?.0)
     }
 
-    /// Runs on record in the journal that a run would use; nothing is locked or written.
+    /// Counts the runs recorded in the journal that a run would use; nothing is locked or written.
     ///
     /// # Errors
-    /// As for [`run`](Self::run), if there is no journal, or it is of no use.
+    /// As for [`run`](Self::run), if there is no journal, or it cannot be used.
     pub fn recorded_runs(&self) -> Result<u64, RunError> {
         journal::recorded_runs(self.study, self.journal_for("a number of recorded runs")?)
     }
@@ -272,7 +270,7 @@ impl<'a> Runner<'a> {
     where
         'a: 'r,
     {
-        // More are refused by some systems and accepted by others, at the price of minutes.
+        // Some systems refuse more, and others take minutes to start them.
         const MAX_THREADS: usize = 1024;
         if self.threads > MAX_THREADS {
             let source = format!("at most {MAX_THREADS}").into();
@@ -282,12 +280,12 @@ impl<'a> Runner<'a> {
         Ok(run.with_outputs_kept(self.study.needs_outputs()).with_remote(self.remote_for(0)))
     }
 
-    /// The workers in other processes for the model of that number: see [`Remote::subject`].
+    /// Returns the remote workers for the model with that index: see [`Remote::subject`].
     fn remote_for(&self, subject: u64) -> Option<Remote<'a>> {
         self.remote.map(|workers| Remote { workers, subject })
     }
 
-    /// Runs the study and estimates its indices; that, and why a run that grows ended.
+    /// Runs the study and estimates its indices; also returns why a growing run stopped.
     fn analyse(
         &self,
         context: &RunContext<'_>,
@@ -314,7 +312,7 @@ impl<'a> Runner<'a> {
         let low_studies = LowStudy::all(self, context)?;
         let mut lows = LowRun::all(self, &low_studies, context)?;
         let grown = self.run_all(&mut run, &mut lows, &on_progress);
-        // An error of the run comes before one of its journal.
+        // An error of the run takes precedence over one of its journal.
         let (stopped, surrogates) = grown.and_then(|grown| journal.sync().map(|()| grown))?.unzip();
         let design = longest.with_points(run.points_per_replicate()).unwrap_or(longest.clone());
         let low_totals: Vec<LowTotals<'_>> = lows.iter().map(LowRun::totals).collect();
@@ -339,7 +337,7 @@ impl<'a> Runner<'a> {
         Ok((result, stopped.map(|stopped| stopped.reason)))
     }
 
-    /// Runs the study, and its cheaper models; why it stopped, and what surrogates make of it, if it decides on its size.
+    /// Runs the study and its low-fidelity models; returns why it stopped and the surrogate estimates, if it grows.
     fn run_all(
         &self,
         run: &mut GrowingRun<'_>,
@@ -355,8 +353,8 @@ impl<'a> Runner<'a> {
     }
 }
 
-/// Runs some rows of a run again, of which so many were evaluated now, if its model may be random. A model that does not answer
-/// any more does not cost the result.
+/// Repeats some rows of a run in which `evaluated` rows were evaluated, if its model may be random. A model that no
+/// longer responds does not cost the result.
 fn repeats_of(job: Job<'_>, context: &RunContext<'_>, evaluated: u64, store: Option<&Store>) -> Option<Repeats> {
     let rows = rows_to_repeat(job.design, evaluated);
     let is_worth_it = job.model.may_be_random() && !rows.is_empty();

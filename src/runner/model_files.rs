@@ -1,4 +1,4 @@
-//! The user's files that the outputs of a study depend on, by their digests: which model answered.
+//! Digests of the user's files on which the outputs of a study depend, to identify the model.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::File;
@@ -10,13 +10,13 @@ use serde_json::{Value, json};
 use crate::digest::Sha256;
 use crate::study::Study;
 
-/// The digests of the files of `study` (path: SHA-256); files that cannot be read are left out.
+/// Returns the digests of the files of `study` (path: SHA-256); files that cannot be read are left out.
 pub(super) fn digests(study: &Study) -> Value {
     let digest = |path: &PathBuf| Some((path.display().to_string(), json!(sha256(path).ok()?)));
     Value::Object(study.subject.files().iter().filter_map(digest).collect())
 }
 
-/// Piece by piece: data may be larger than the memory.
+/// Computes the digest in pieces: data may be larger than the memory.
 fn sha256(path: &Path) -> std::io::Result<String> {
     let (mut file, mut hash) = (File::open(path)?, Sha256::default());
     let mut piece = vec![0; 1 << 16];
@@ -28,8 +28,8 @@ fn sha256(path: &Path) -> std::io::Result<String> {
     }
 }
 
-/// The names of files (path: digest) that are not the same before and now, if any. They are known by their names, so that a
-/// study may move, and be called by any path; several of one name by the order of their paths.
+/// Returns the names of files (path: digest) that differ between before and now, if any. Files are compared by name, so
+/// that a study may move and be given by any path; several of one name are compared in the order of their paths.
 pub(super) fn differing(before: &Value, now: &Value) -> Option<String> {
     let (before, now) = (by_name(before), by_name(now));
     let names: BTreeSet<&String> = before.keys().chain(now.keys()).collect();
@@ -38,7 +38,7 @@ pub(super) fn differing(before: &Value, now: &Value) -> Option<String> {
     (!names.is_empty()).then(|| names.join(", "))
 }
 
-/// The digests of the files of every name, in the order of their paths.
+/// Returns the digests of the files of every name, in the order of their paths.
 fn by_name(files: &Value) -> BTreeMap<String, Vec<String>> {
     let mut entries: Vec<(&String, &str)> =
         files.as_object().into_iter().flatten().filter_map(|(path, digest)| Some((path, digest.as_str()?))).collect();

@@ -1,4 +1,4 @@
-//! A study in a process that works for another one.
+//! A study in a worker process.
 
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
@@ -7,11 +7,11 @@ use crate::model::{Model, RunContext};
 use crate::run::{RemoteServer, Request, Requests, refusal};
 use crate::study::Study;
 
-/// A study whose rows are evaluated for a run in another process, which has it as its
+/// A study whose rows are evaluated for a run in another process, which uses it through its
 /// [`RemoteWorkers`](crate::run::RemoteWorkers).
 pub struct WorkerStudy {
     study: Study,
-    /// The model of the study, then its cheaper ones, each made when it is asked for.
+    /// The model of the study, then its low-fidelity models, each created on first use.
     models: Vec<OnceLock<Box<dyn Model>>>,
 }
 
@@ -22,7 +22,7 @@ impl std::fmt::Debug for WorkerStudy {
 }
 
 impl WorkerStudy {
-    /// The models of `study`, which must be the same as that of the run in the other process.
+    /// Creates the models of `study`, which must be the same as that of the run in the other process.
     pub fn new(mut study: Study) -> Self {
         if study.lows.is_empty() {
             study.lows = study.subject.cheaper();

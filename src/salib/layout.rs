@@ -1,4 +1,4 @@
-//! Which rows a table made by SALib has, and whether they are what they should be.
+//! The rows of a table made by SALib, and checks of their order.
 
 use super::SalibError;
 use crate::quantity::is_same;
@@ -13,10 +13,10 @@ pub enum SalibLayout {
 }
 
 impl SalibLayout {
-    /// Both.
+    /// Both layouts.
     pub const ALL: [Self; 2] = [Self::SecondOrder, Self::FirstOrder];
 
-    /// Rows of a base point, for `d` inputs or groups.
+    /// Returns the number of rows of a base point, for `d` inputs or groups.
     pub fn rows_per_point(self, d: usize) -> usize {
         match self {
             Self::FirstOrder => d + 2,
@@ -38,7 +38,7 @@ impl SalibLayout {
         }
     }
 
-    /// What row `row` of a base point is, in words.
+    /// Describes row `row` of a base point.
     fn row_name(self, row: usize, d: usize) -> String {
         match row {
             0 => "A".to_owned(),
@@ -52,8 +52,8 @@ impl SalibLayout {
 /// Inputs by name, a column each.
 pub type Inputs = [(String, Vec<f64>)];
 
-/// The layout of `rows` rows for the indices of `members`: the one `asked` for, or the only one that the number of rows and
-/// the `inputs`, if they are known, fit. Members have the numbers of their inputs.
+/// Returns the layout of `rows` rows for the indices of `members`: the one `asked` for, or the only one that fits the
+/// number of rows and the `inputs`, if they are known. Members have the indices of their inputs.
 ///
 /// # Errors
 /// [`SalibError`] if the rows fit none, or both.
@@ -91,8 +91,8 @@ pub fn recognise(
     }
 }
 
-/// Whether the points are laid out so: in every base point the rows between A and B are those of one with the inputs of
-/// their member from the other.
+/// Checks the layout of the points: in every base point the rows between A and B must be those of one with the inputs
+/// of their member from the other.
 fn check_points(inputs: &Inputs, members: &[(String, Vec<usize>)], layout: SalibLayout) -> Result<(), SalibError> {
     let (d, step) = (members.len(), layout.rows_per_point(members.len()));
     let rows = inputs.first().map_or(0, |(_, column)| column.len());

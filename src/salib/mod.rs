@@ -1,4 +1,4 @@
-//! Indices of outputs at points made by SALib's `sample.sobol` or `sample.saltelli`, by SALib's own formulas.
+//! Indices of outputs at points made by SALib's `sample.sobol` or `sample.saltelli`, by SALib's formulas.
 //!
 //! SALib (Herman and Usher 2017, J. Open Source Softw. 2(9), 97; Iwanaga, Usher and Herman 2022) writes the rows of a base
 //! point one after another: A, then AB_j for every input, then, with second order, BA_j for every input, then B. AB_j is A
@@ -15,7 +15,7 @@ pub use problem::SalibProblem;
 pub use study::salib_study;
 use thiserror::Error;
 
-/// Why a table or a description is not one of SALib's, and what would be right.
+/// Why a table or a description is not SALib's, and what is allowed.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("{0}")]
 pub struct SalibError(String);

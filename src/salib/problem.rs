@@ -1,20 +1,20 @@
-//! SALib's description of a problem: its inputs, and perhaps their groups.
+//! SALib's description of a problem: its inputs, and optionally their groups.
 
 use serde::Deserialize;
 
 use super::SalibError;
 
-/// What indices are asked of: every input by itself, or every group of inputs.
+/// The subjects of the indices: every input by itself, or every group of inputs.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct SalibProblem {
     /// The inputs, in the order of the columns.
     pub inputs: Vec<String>,
-    /// What each index is of, in order: its name, and the numbers of its inputs.
+    /// The subject of each index, in order: its name, and the indices of its inputs.
     pub members: Vec<(String, Vec<usize>)>,
 }
 
 impl SalibProblem {
-    /// Indices of every input by itself.
+    /// Creates a problem with an index for every input by itself.
     ///
     /// # Errors
     /// [`SalibError`] if there are no inputs, or two of one name.
@@ -29,7 +29,7 @@ impl SalibProblem {
         Ok(Self { inputs, members })
     }
 
-    /// From SALib's dictionary as JSON: `num_vars`, `names` and `groups` are read, bounds and distributions are not
+    /// Reads SALib's dictionary as JSON: `num_vars`, `names` and `groups` are read, bounds and distributions are not
     /// needed. Groups are counted in the order in which they first appear, as SALib does.
     ///
     /// ```
@@ -42,7 +42,7 @@ impl SalibProblem {
     /// ```
     ///
     /// # Errors
-    /// [`SalibError`] if it is none.
+    /// [`SalibError`] if it is invalid.
     pub fn parse(text: &str) -> Result<Self, SalibError> {
         #[derive(Deserialize)]
         struct Typed {
@@ -67,7 +67,7 @@ impl SalibProblem {
                 None => members.push((group, vec![place])),
             }
         }
-        // One group in all is none, to SALib.
+        // SALib ignores a single group.
         if members.len() < 2 {
             return Ok(problem);
         }

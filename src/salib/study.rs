@@ -1,4 +1,4 @@
-//! Outputs in SALib's order as the runs of a study.
+//! Outputs in SALib's order, as the runs of a study.
 
 use std::sync::Arc;
 
@@ -12,13 +12,13 @@ use crate::space::Distribution;
 use crate::study::{AnalysisOptions, BuildError, ExternalSubject, Study, SurrogateChoice};
 use crate::uncertainty::IntervalMethod;
 
-/// The study called `name` of a model outside with these outputs, in SALib's order, and the runs of it: a
-/// [`Runner`](crate::Runner) with that [store](crate::Runner::store) finds indices by SALib's formulas, and warns of what is
-/// wrong with them. Outputs that are not finite are runs that failed.
+/// Returns the study called `name` of an external model with these outputs, in SALib's order, and its runs: a
+/// [`Runner`](crate::Runner) with that [store](crate::Runner::store) computes indices by SALib's formulas, with
+/// warnings. Outputs that are not finite are failed runs.
 ///
-/// Intervals are percentiles of `resamples` resamples of the base points, with random streams of `seed`; without any they are
-/// those of the delta method. Both hold for random points; for Sobol' points they are too wide. The study has a factor for
-/// every input or group; where its points lie is not known, and its distributions say nothing.
+/// Intervals are percentiles of `resamples` resamples of the base points, with random streams of `seed`; if `resamples`
+/// is 0 they are those of the delta method. Both are valid for random points; for Sobol' points they are too wide. The
+/// study has a factor for every input or group; the points are unknown, and the distributions have no meaning.
 ///
 /// ```
 /// use apportion::given::Column;
@@ -35,7 +35,7 @@ use crate::uncertainty::IntervalMethod;
 /// ```
 ///
 /// # Errors
-/// [`BuildError`] if there are fewer than two base points, or a name is not one of a factor, output or study.
+/// [`BuildError`] if there are fewer than two base points, or a name is not valid for a factor, output or study.
 pub fn salib_study(
     name: &str,
     problem: &SalibProblem,
@@ -64,7 +64,7 @@ pub fn salib_study(
         .replicates(1)
         .seed(seed)
         .analysis(analysis);
-    // Any distribution serves: the outputs are known, and no point is ever made.
+    // Any distribution works: the outputs are known, and no point is ever computed.
     let any = || Distribution::uniform(0.0, 1.0).expect("0 is below 1");
     let builder = problem.members.iter().fold(builder, |builder, (member, _)| builder.factor(member, any()));
     let mut study = builder.build()?;
@@ -88,7 +88,7 @@ pub fn salib_study(
     Ok((study, store))
 }
 
-/// Which row of a base point of SALib each row of a base point of `design` is.
+/// Returns for each row of a base point of `design` the index of SALib's row.
 fn places(design: &Design, layout: SalibLayout, d: usize) -> Vec<usize> {
     let place = |kind: RowKind| match kind {
         RowKind::A => 0,

@@ -1,4 +1,4 @@
-//! Measures of derivatives, and the bounds on total indices that follow from them.
+//! Derivative-based measures, and the bounds on total indices that follow from them.
 
 use std::f64::consts::PI;
 
@@ -8,32 +8,33 @@ use crate::space::Distribution;
 use crate::sum::{centred_product, mean};
 use crate::uncertainty::{Estimate, jackknife};
 
-/// What the derivatives by one factor say.
+/// The measures of the derivatives by one factor.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct DerivativeMeasures {
     /// nu: the mean square of the derivative (Sobol' and Kucherenko 2009, Math. Comput. Simul. 79, 3009-3017), in the square of
     /// the output's unit per unit of the factor.
     pub nu: Estimate,
-    /// C nu/V, which the total index does not exceed, with the variance V of the output and the constant C of
-    /// [`poincare_constant`]; `None` where there is no such constant, or no variance.
+    /// C nu/V, an upper bound of the total index, with the variance V of the output and the constant C of
+    /// [`poincare_constant`]; `None` if there is no such constant, or no variance.
     pub total_bound: Option<Estimate>,
 }
 
-/// The range of a factor in its unit, by which derivatives are multiplied so that they compare: that of its values, or on an unbounded
-/// side to its quantile at 0.001 or 0.999.
+/// Returns the range of a factor in its unit, by which derivatives are multiplied so that they can be compared: that of
+/// its values, or on an unbounded side to its quantile at 0.001 or 0.999.
 pub fn range(distribution: &Distribution) -> f64 {
     let (low, high) = distribution.support();
     let end = |bound: f64, u: f64| if bound.is_finite() { bound } else { distribution.quantile(u) };
     end(high, 1.0 - TAIL) - end(low, TAIL)
 }
 
-/// A constant C of the Poincare inequality Var g(X) <= C E g'(X)^2 of a distribution, in the square of its unit: then the total index
-/// of a factor is at most C nu/V (Lamboni, Iooss, Popelin and Gamboa 2013, Math. Comput. Simul. 87, 45-54, theorem 3.1). `None` of
-/// distributions for which none is known here.
+/// Returns a constant C of the Poincare inequality Var g(X) <= C E g'(X)^2 of a distribution, in the square of its
+/// unit: then the total index of a factor is at most C nu/V (Lamboni, Iooss, Popelin and Gamboa 2013, Math. Comput.
+/// Simul. 87, 45-54, theorem 3.1). `None` for distributions without a known constant.
 ///
-/// The constants of uniform, (b - a)^2/pi^2, normal, sd^2, and exponential distributions, 4 scale^2, are the least ones. Distributions
-/// on an interval with log-concave densities have that of the uniform one too (Payne and Weinberger 1960, Arch. Ration. Mech. Anal. 5,
-/// 286-292), and a truncated normal distribution has that of the normal one (Bakry and Emery 1985).
+/// The constants of uniform, (b - a)^2/pi^2, normal, sd^2, and exponential distributions, 4 scale^2, are optimal.
+/// Distributions on an interval with log-concave densities also have that of the uniform one (Payne and Weinberger
+/// 1960, Arch. Ration. Mech. Anal. 5, 286-292), and a truncated normal distribution has that of the normal one (Bakry
+/// and Emery 1985).
 pub fn poincare_constant(distribution: &Distribution) -> Option<f64> {
     let of_interval = || {
         let (low, high) = distribution.support();
@@ -44,7 +45,7 @@ pub fn poincare_constant(distribution: &Distribution) -> Option<f64> {
         Distribution::Uniform(_) | Distribution::Triangular(_) => Some(of_interval()),
         Distribution::Normal(_) => Some(distribution.sd().powi(2)),
         Distribution::Truncated(truncated) if matches!(truncated.law(), Distribution::Normal(_)) => {
-            // Of the normal distribution, not of what is left of it.
+            // That of the normal distribution before truncation.
             Some(truncated.law().sd().powi(2).min(of_interval())).filter(|constant| constant.is_finite())
         }
         Distribution::Exponential(_) => Some(4.0 * distribution.sd().powi(2)),
@@ -52,10 +53,10 @@ pub fn poincare_constant(distribution: &Distribution) -> Option<f64> {
     }
 }
 
-/// The sum of what the total indices of all factors are at most, by the upper ends of the intervals; `None` if one of them has no bound.
+/// Returns the sum of the upper bounds of the total indices, by the intervals; `None` if a factor has no bound.
 ///
-/// Total indices of independent factors sum to at least 1: a sum below that says that the derivatives at the base points have missed
-/// what the output varies by, a step or a steep place between them.
+/// Total indices of independent factors sum to at least 1: a smaller sum shows that the derivatives at the base points
+/// have missed a cause of the variation of the output, a step or a steep place between them.
 pub(super) fn sum_of_bounds(factors: &[ScreenedFactor]) -> Option<f64> {
     let high = |factor: &ScreenedFactor| {
         let Estimate { estimate, interval } = factor.total_bound?;
@@ -64,8 +65,8 @@ pub(super) fn sum_of_bounds(factors: &[ScreenedFactor]) -> Option<f64> {
     factors.iter().map(high).sum()
 }
 
-/// The measures of `effects`, derivatives per `range` of the factor (NaN where there is none), whose base points have the outputs
-/// `base`; both stand in `parts` independent parts of equal length. `None` with fewer than two effects, or if they overflow.
+/// Computes the measures from `effects`, derivatives per `range` of the factor (NaN if missing), whose base points have
+/// the outputs `base`, in `parts` independent parts of equal length. `None` for fewer than two effects, or overflow.
 pub(super) fn derivative_measures(
     effects: &[f64],
     base: &[f64],
@@ -80,7 +81,7 @@ pub(super) fn derivative_measures(
             of_others.copied().filter(|value| value.is_finite()).collect()
         };
         let (effects, base) = (kept(effects), kept(base));
-        // In units of the largest, so that squares neither vanish nor overflow.
+        // In units of the largest, so that squares neither underflow nor overflow.
         let size = effects.iter().fold(0.0, |largest: f64, effect| largest.max(effect.abs()));
         let unit = if size > 0.0 { size } else { 1.0 };
         let scaled: Vec<f64> = effects.iter().map(|effect| (effect / unit).powi(2)).collect();

@@ -1,11 +1,11 @@
-//! Morris's measures of the elementary effects of one factor on one output.
+//! Morris's measures from the elementary effects of one factor on one output.
 
 use serde::{Deserialize, Serialize};
 
 use crate::sum::{centred_product, mean};
 use crate::uncertainty::{Estimate, jackknife};
 
-/// A factor could be fixed if mu* with its error stays below this part of the largest mu*.
+/// A factor could be fixed if the upper bound of mu* is below this part of the largest mu*.
 pub const FIXABLE: f64 = 0.05;
 
 /// The measures of one factor, in units of the output per full range of the factor.
@@ -17,11 +17,11 @@ pub(super) struct Measures {
     pub mu_star: Estimate,
     /// sigma: their standard deviation, with n - 1.
     pub sigma: Estimate,
-    /// sigma / mu*; `None` where mu* is 0.
+    /// sigma / mu*; `None` if mu* is 0.
     pub ratio: Option<Estimate>,
 }
 
-/// What sigma / mu* says of a factor (Garcia Sanchez, Lacarriere, Musy and Bourges 2014, Energy and Buildings 68,
+/// The interpretation of sigma / mu* (Garcia Sanchez, Lacarriere, Musy and Bourges 2014, Energy and Buildings 68,
 /// 741-750).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -37,10 +37,10 @@ pub enum Reading {
 }
 
 impl Reading {
-    /// All of them, in ascending order of sigma / mu*.
+    /// All variants, in ascending order of sigma / mu*.
     pub const ALL: [Self; 4] = [Self::Linear, Self::Monotone, Self::AlmostMonotone, Self::NonLinearOrInteracting];
 
-    /// The reading of a ratio sigma / mu*.
+    /// Returns the reading of a ratio sigma / mu*.
     pub fn from_ratio(ratio: f64) -> Self {
         match ratio {
             r if r < 0.1 => Self::Linear,
@@ -50,7 +50,7 @@ impl Reading {
         }
     }
 
-    /// In words.
+    /// Returns its description.
     pub fn words(self) -> &'static str {
         match self {
             Self::Linear => "almost linear",
@@ -61,14 +61,14 @@ impl Reading {
     }
 }
 
-/// Numbers in the flat list that the jackknife works on.
+/// Number of quantities in the flat list for the jackknife.
 const QUANTITIES: usize = 4;
 
-/// The measures of `effects` (NaN where there is none), which stand in `parts` independent parts of equal length;
+/// Computes the measures from `effects` (NaN if missing), which consist of `parts` independent parts of equal length;
 /// `None` with fewer than two effects, or if they overflow.
 ///
 /// Intervals are the delete-one jackknife over the parts with Student's t, for mu and mu* the classical t-interval of a
-/// mean where no effect is missing; there is none if leaving out a part leaves too few effects.
+/// mean if no effect is missing; there is none if leaving out a part leaves too few effects.
 pub(super) fn measures(effects: &[f64], parts: usize) -> Option<Measures> {
     let whole = quantities(effects.iter().copied())?;
     let part = effects.len() / parts.max(1);
@@ -81,7 +81,7 @@ pub(super) fn measures(effects: &[f64], parts: usize) -> Option<Measures> {
     Some(Measures { mu, mu_star, sigma, ratio: Some(ratio).filter(|ratio| ratio.estimate.is_finite()) })
 }
 
-/// mu, mu*, sigma and sigma / mu*, the last NaN where mu* is 0; `None` if there are too few effects or they overflow.
+/// Computes mu, mu*, sigma and sigma / mu*, the last NaN if mu* is 0; `None` for too few effects or overflow.
 fn quantities(effects: impl Iterator<Item = f64>) -> Option<[f64; QUANTITIES]> {
     let effects: Vec<f64> = effects.filter(|effect| effect.is_finite()).collect();
     if effects.len() < 2 {
@@ -89,7 +89,7 @@ fn quantities(effects: impl Iterator<Item = f64>) -> Option<[f64; QUANTITIES]> {
     }
     let sizes: Vec<f64> = effects.iter().map(|effect| effect.abs()).collect();
     let (mu, mu_star) = (mean(&effects), mean(&sizes));
-    // In units of mu*, so that squares neither vanish nor overflow.
+    // In units of mu*, so that squares neither underflow nor overflow.
     let ratio = if mu_star > 0.0 {
         let scaled: Vec<f64> = effects.iter().map(|effect| effect / mu_star).collect();
         let centre = mean(&scaled);

@@ -1,20 +1,20 @@
-//! Screening by elementary effects: which of many factors matter, for a few runs each.
+//! Screening by elementary effects, which finds the important ones of many factors with a few runs each.
 //!
-//! An elementary effect of factor j at a point of the unit cube is the change of the output over the step of the
-//! factor alone, EE_j = (f(.., b_j, ..) - f(.., a_j, ..)) / (b_j - a_j) (Morris 1991, Technometrics 33, 161-174). Since
-//! the step is a part of the unit interval, effects are in units of the output per full range of the factor, and
-//! factors of different units compare. A factor that is not uniform has the bend of its quantile function in sigma,
-//! even where the model is linear in it. A discrete factor steps by its rank among its values, between two
+//! An elementary effect of factor j at a point of the unit cube is the change of the output over the step of this
+//! factor, EE_j = (f(.., b_j, ..) - f(.., a_j, ..)) / (b_j - a_j) (Morris 1991, Technometrics 33, 161-174). Since the
+//! step is a part of the unit interval, effects are in units of the output per full range of the factor, and factors of
+//! different units can be compared. For a factor that is not uniform, sigma includes the curvature of its quantile
+//! function, even if the model is linear in it. A discrete factor steps by its rank among its values, between two
 //! different ones drawn by their probabilities: one rank is 1 / (number of values - 1) of its range.
 //!
-//! In the derivative design the steps are short, and effects are derivatives times the range of the factor: beside the other measures
-//! stands the mean square of the derivative, and the bound on the total index that follows from it.
+//! In the derivative design the steps are short, and effects are derivatives times the range of the factor: further
+//! measures are the mean square of the derivative, and the bound on the total index that follows from it.
 //!
-//! r trajectories of d + 1 runs give r effects of each of d factors; [`ScreenedFactor`] sums them up, [`Reading`] says what
-//! they mean, and a factor whose mu* with its error stays below [`FIXABLE`] times the largest mu* could be fixed.
+//! r trajectories of d + 1 runs give r effects of each of d factors; [`ScreenedFactor`] summarises them, [`Reading`]
+//! interprets them. A factor could be fixed if its upper bound of mu* is below [`FIXABLE`] times the largest.
 //!
 //! In the radial design a step shorter than [`MIN_STEP`] is replaced by one to the auxiliary coordinate half a range
-//! further on, round the ends: tiny steps would divide the noise and the jumps of the output by next to nothing.
+//! further on, modulo the range: tiny steps would divide the noise and the jumps of the output by nearly 0.
 
 mod derivative;
 mod measures;
@@ -45,27 +45,27 @@ use crate::run::Progress;
 use crate::space::{Factor, Space};
 use crate::uncertainty::Estimate;
 
-/// What is screened.
+/// The work of a screening.
 #[derive(Clone, Copy)]
 pub struct ScreeningJob<'a> {
     /// The factors.
     pub space: &'a Space,
-    /// What is evaluated, over as many inputs as there are factors.
+    /// The model, over as many inputs as there are factors.
     pub model: &'a dyn Model,
-    /// How.
+    /// The settings.
     pub settings: ScreeningSettings,
 }
 
-/// A screening that has taken place.
+/// The results of a screening.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Screening {
-    /// The settings in force.
+    /// The settings, with the number of trajectories rounded up.
     pub settings: ScreeningSettings,
-    /// Independent parts that the intervals rest on.
+    /// Number of independent parts used for the intervals.
     pub parts: u64,
-    /// Model runs.
+    /// Number of model runs.
     pub runs: u64,
-    /// Model runs that failed in at least one output.
+    /// Number of model runs that failed in at least one output.
     pub failed: u64,
     /// For each validity flag of the model: runs that raised it.
     pub flags: Vec<u64>,
@@ -73,7 +73,7 @@ pub struct Screening {
     pub outputs: Vec<ScreenedOutput>,
 }
 
-/// What a screening says of one output.
+/// The results of a screening for one output.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ScreenedOutput {
     /// Its name.
@@ -84,45 +84,45 @@ pub struct ScreenedOutput {
     pub factors: Vec<ScreenedFactor>,
     /// Why runs failed.
     pub failures: Vec<ScreeningFailure>,
-    /// What a careful reader should know, in sentences.
+    /// Warnings, in sentences.
     pub warnings: Vec<String>,
 }
 
-/// What a screening says of one factor and one output. Measures are in the output's unit per full range of the factor; they are
-/// `None` with fewer than two effects, or if they overflow.
+/// The results of a screening for one factor and one output. Measures are in the output's unit per full range of the
+/// factor; they are `None` with fewer than two effects, or if they overflow.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ScreenedFactor {
     /// The factor.
     pub factor: String,
-    /// Place by mu*, from 1; factors without measures come last.
+    /// Rank by mu*, from 1; factors without measures come last.
     pub rank: usize,
-    /// mu*: the mean of the sizes of the elementary effects (Campolongo, Cariboni and Saltelli 2007).
+    /// mu*: the mean of the absolute elementary effects (Campolongo, Cariboni and Saltelli 2007).
     pub mu_star: Option<Estimate>,
     /// mu: the mean of the elementary effects (Morris 1991). Effects of both signs cancel in it.
     pub mu: Option<Estimate>,
     /// sigma: their standard deviation, with n - 1.
     pub sigma: Option<Estimate>,
-    /// sigma / mu*; `None` where mu* is 0 too.
+    /// sigma / mu*; `None` if mu* is 0.
     pub ratio: Option<Estimate>,
-    /// What the ratio says; `None` without measures, or where every effect is 0.
+    /// The interpretation of the ratio; `None` without measures, or if every effect is 0.
     pub reading: Option<Reading>,
     /// Whether the upper bound of mu* is below [`FIXABLE`] times the largest mu*, by at least half of the effects.
-    /// `None` where nothing can be said: without measures or an interval, where no factor has any effect, or where the derivatives
-    /// have missed what the output varies by.
+    /// `None` if this is unknown: without measures or an interval, if no factor has any effect, or if the derivatives
+    /// have missed a cause of the variation of the output.
     pub could_be_fixed: Option<bool>,
-    /// nu: the mean square of the derivative (Sobol' and Kucherenko 2009, Math. Comput. Simul. 79, 3009-3017), in the square of
-    /// the output's unit per unit of the factor; only of a derivative design.
+    /// nu: the mean square of the derivative (Sobol' and Kucherenko 2009, Math. Comput. Simul. 79, 3009-3017), in the
+    /// square of the output's unit per unit of the factor; only for a derivative design.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub nu: Option<Estimate>,
-    /// C nu/V, which the total index does not exceed, with the variance V of the output and the constant C of
-    /// [`poincare_constant`]; `None` where there is no such constant, or no variance.
+    /// C nu/V, an upper bound of the total index, with the variance V of the output and the constant C of
+    /// [`poincare_constant`]; `None` if there is no such constant, or no variance.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub total_bound: Option<Estimate>,
-    /// Elementary effects that the measures rest on.
+    /// Number of elementary effects used.
     pub effects: u64,
-    /// Effects dropped because a run at either end failed.
+    /// Number of effects dropped because a run at either end failed.
     pub dropped: u64,
-    /// Steps that did not change its value, as those of a constant; their effect is 0.
+    /// Number of steps that did not change its value, as for a constant; their effect is 0.
     pub idle_steps: u64,
 }
 
@@ -138,7 +138,7 @@ pub struct ScreeningFailure {
 }
 
 /// Screens the factors of `job` on `threads` threads (0: one per core). `on_progress` is called from time to time, from
-/// any thread. The result is the same on any number of threads, in every bit.
+/// any thread. The result has the same bits on any number of threads.
 ///
 /// ```
 /// use std::f64::consts::PI;
@@ -164,8 +164,8 @@ pub struct ScreeningFailure {
 /// ```
 ///
 /// # Errors
-/// [`ScreeningError`] if the settings make no sense, the threads cannot be started or the model gives up. Runs
-/// that fail are part of the result.
+/// [`ScreeningError`] if the settings are invalid, the threads cannot be started or the model gives up. Failed runs are
+/// part of the result.
 pub fn screen(
     job: ScreeningJob<'_>,
     threads: usize,
@@ -174,10 +174,10 @@ pub fn screen(
     screen_in(job, threads, on_progress, &RunContext::default())
 }
 
-/// The same as the run of `context`, which may end it.
+/// Does the same as the run of `context`, which may stop it.
 ///
 /// # Errors
-/// As for [`screen`], and [`RunError::Interrupted`](crate::run::RunError::Interrupted) if the run is to end.
+/// As for [`screen`], and [`RunError::Interrupted`](crate::run::RunError::Interrupted) if the run is to stop.
 pub fn screen_in(
     job: ScreeningJob<'_>,
     threads: usize,
@@ -230,8 +230,8 @@ pub fn screen_in(
     })
 }
 
-/// What there is to warn of in an output, of which the derivatives have `missed` something if what total indices are at most
-/// sums to less than 1.
+/// Returns the warnings for an output, of which the derivatives have `missed` something if the sum of the bounds of
+/// total indices is less than 1.
 fn warnings(factors: &[ScreenedFactor], missed: Option<f64>) -> impl Iterator<Item = String> {
     let dropped: u64 = factors.iter().map(|factor| factor.dropped).sum();
     let all = dropped + factors.iter().map(|factor| factor.effects).sum::<u64>();
@@ -251,8 +251,8 @@ fn warnings(factors: &[ScreenedFactor], missed: Option<f64>) -> impl Iterator<It
     dropped.into_iter().chain(missed)
 }
 
-/// The factors of output number `number`, from its effects in SI units, factor by factor within each trajectory, in `parts`
-/// independent parts.
+/// Returns the results for the factors and output number `number`, from its effects in SI units, factor by factor
+/// within each trajectory, in `parts` independent parts.
 fn screened(
     output: &Output,
     number: usize,

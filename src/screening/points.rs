@@ -8,10 +8,10 @@ use crate::design::{BasePoints, Design, DesignSettings, Rows, Sampler};
 use crate::space::distribution::{LARGEST_U, SMALLEST_U};
 use crate::space::{Distribution, Factor, Space};
 
-/// Where the grid ends on a side on which the factor's distribution is unbounded: this quantile, or 1 minus it.
+/// End of the grid on a side on which the factor's distribution is unbounded: this quantile, or 1 minus it.
 pub const TAIL: f64 = 1e-3;
 
-/// What one factor does in one trajectory.
+/// The move of one factor in one trajectory.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Move {
     /// Its coordinate in the unit cube before and after its step; 0 and 1 are the ends of a bounded range.
@@ -22,11 +22,11 @@ pub(super) struct Move {
     pub rows: [usize; 2],
 }
 
-/// Makes the trajectories.
+/// Generates the trajectories.
 pub(super) struct Trajectories {
     shape: Shape,
     seed: u64,
-    /// For each factor, where it can stand.
+    /// For each factor, its possible positions.
     grids: Vec<Grid>,
 }
 
@@ -39,21 +39,21 @@ enum Shape {
     Walk,
 }
 
-/// Where a factor can stand.
+/// The possible positions of a factor.
 enum Grid {
     /// Anywhere in the unit interval.
     Continuous,
     /// On a grid of coordinates of equal distance.
     Levels(Vec<f64>),
-    /// At the levels of a discrete factor, each as often as its probability says, of equal distance as far as effects are concerned.
+    /// At the levels of a discrete factor, each as often as its probability, at equal distances in the effects.
     Discrete(Vec<Level>),
     /// Anywhere in the unit interval, with short steps towards its middle.
     Derivative,
-    /// Anywhere, of seeds: these have no distance, and every step is one.
+    /// Anywhere, for seeds: these have no distance, and every step counts as one.
     Seeds,
 }
 
-/// One value of a discrete factor: the part of the unit interval that stands for it.
+/// One value of a discrete factor, with its part of the unit interval.
 struct Level {
     low: f64,
     middle: f64,
@@ -66,7 +66,7 @@ impl Level {
 }
 
 impl Trajectories {
-    /// The trajectories of `settings`, which are in force, for intervals from `parts` parts.
+    /// Prepares the trajectories of `settings`, which are rounded, for intervals from `parts` parts.
     pub fn new(space: &Space, settings: &ScreeningSettings, parts: u64) -> Result<Self, ScreeningError> {
         let ScreeningSettings { design, trajectories, seed } = *settings;
         let shape = match design {
@@ -82,7 +82,7 @@ impl Trajectories {
         Ok(Self { shape, seed, grids: space.factors().iter().map(|factor| Grid::new(factor, design)).collect() })
     }
 
-    /// The moves of all factors in trajectory `number`.
+    /// Returns the moves of all factors in trajectory `number`.
     pub fn moves(&self, number: u64) -> Vec<Move> {
         match &self.shape {
             Shape::Star { points, each } => self.star(&points[(number / each) as usize], number % each),
@@ -90,7 +90,7 @@ impl Trajectories {
         }
     }
 
-    /// The coordinates of factor `j` in all rows of a trajectory, from its two values.
+    /// Sets the coordinates of factor `j` in all rows of a trajectory, from its two values.
     pub fn fill(&self, factor: &Move, values: [f64; 2], column: &mut [f64]) {
         let [_, after] = factor.rows;
         match self.shape {
@@ -105,9 +105,9 @@ impl Trajectories {
         }
     }
 
-    /// Base point and auxiliary point are the two halves of one point. In an unscrambled sequence the halves begin
-    /// with equal coordinates, which Campolongo et al. avoid by taking b from a later point; here every coordinate has
-    /// a scramble of its own, so that b_j is independent of a_j.
+    /// Generates the moves of a star. Base point and auxiliary point are the two halves of one point. In an unscrambled
+    /// sequence the halves begin with equal coordinates, which Campolongo et al. avoid by taking b from a later point;
+    /// here every coordinate has its own scramble, so that b_j is independent of a_j.
     fn star(&self, points: &BasePoints, index: u64) -> Vec<Move> {
         let factors = self.grids.len();
         let mut columns = vec![vec![0.0]; 2 * factors];
@@ -133,8 +133,9 @@ impl Trajectories {
         self.grids.iter().enumerate().map(place).collect()
     }
 
-    /// One of Morris's walks. Each level of a grid is as likely as any other to be the first one, as is each order of the factors. Every
-    /// other walk has steps of a third of the grid: an output of a period that is Morris's step, half of the grid, looks constant to it.
+    /// Generates one of Morris's walks. All levels of a grid are equally likely to be the first, as are all orders of
+    /// the factors. Every other walk has steps of a third of the grid: to Morris's step, half the grid, an output of
+    /// that period is constant.
     fn walk(&self, number: u64) -> Vec<Move> {
         let mut rng = ChaCha8Rng::seed_from_u64(self.seed);
         rng.set_stream(number);
@@ -144,7 +145,7 @@ impl Trajectories {
         }
         let place = |(grid, row): (&Grid, usize)| {
             let (u, step) = match grid {
-                // A factor that cannot move: its coordinate is of no account.
+                // A factor that cannot move: its coordinate is irrelevant.
                 Grid::Continuous | Grid::Derivative => ([0.5, 0.5], 1.0),
                 Grid::Seeds => ([0; 2].map(|_| rng.random_range(SMALLEST_U..=LARGEST_U)), 1.0),
                 Grid::Discrete(levels) => two_levels(levels, rng.random(), rng.random()),
@@ -152,7 +153,7 @@ impl Trajectories {
                     let count = levels.len();
                     let stride = if number.is_multiple_of(2) { count / 2 } else { (count / 3).max(1) };
                     let from = rng.random_range(0..count);
-                    // Where there are two ways, either.
+                    // If both directions are possible, either.
                     let up = from + stride < count && (from < stride || rng.random_bool(0.5));
                     between(levels, from, if up { from + stride } else { from - stride })
                 }
@@ -163,19 +164,19 @@ impl Trajectories {
     }
 }
 
-/// The coordinates of two levels, and the step between them as a part of the range.
+/// Returns the coordinates of two levels, and the step between them as a part of the range.
 fn between(levels: &[f64], from: usize, to: usize) -> ([f64; 2], f64) {
     ([levels[from], levels[to]], (to as f64 - from as f64) / (levels.len() - 1) as f64)
 }
 
-/// Two different levels, drawn by their probabilities: the one at the quantile `a`, and of the others the one at their quantile `b`.
+/// Returns two different levels, drawn by their probabilities: at the quantile `a`, and at `b` among the others.
 fn two_levels(levels: &[Level], a: f64, b: f64) -> ([f64; 2], f64) {
     let at = |u: f64| levels.partition_point(|level| level.low <= u).saturating_sub(1);
     let from = at(a);
     let Level { low, .. } = levels[from];
     let rest = b * (1.0 - levels[from].width());
     let mut to = at(if rest < low { rest } else { rest + levels[from].width() });
-    // Rounding may lead back to where the first level begins or ends.
+    // Rounding may lead back to the start or the end of the first level.
     if to == from {
         to = if from + 1 < levels.len() { from + 1 } else { from - 1 };
     }
@@ -183,7 +184,7 @@ fn two_levels(levels: &[Level], a: f64, b: f64) -> ([f64; 2], f64) {
     ([levels[from].middle, levels[to].middle], step)
 }
 
-/// The coordinate half a range further on, round the ends.
+/// Returns the coordinate half a range further on, modulo 1.
 fn half_way_round(u: f64) -> f64 {
     (if u < 0.5 { u + 0.5 } else { u - 0.5 }).clamp(SMALLEST_U, LARGEST_U)
 }

@@ -1,4 +1,4 @@
-//! Trajectories through a model: blocks of them through its workers, each to its elementary effects.
+//! Evaluation of trajectories: blocks of them go to the model's workers, and give elementary effects.
 
 use std::collections::BTreeMap;
 
@@ -11,25 +11,25 @@ use crate::model::{Batch, RowFailure, RunContext};
 use crate::run::{Halt, Progress, RunError, TableRun};
 use crate::space::Factor;
 
-/// What became of some trajectories.
+/// The results of some trajectories.
 #[derive(Debug, Default)]
 pub(super) struct Outcome {
-    /// For each output, factor by factor within each trajectory: the effect in SI units, NaN where there is none.
+    /// For each output, factor by factor within each trajectory: the effect in SI units, NaN if missing.
     pub effects: Vec<Vec<f64>>,
-    /// For each output, row by row within each trajectory: the value in SI units, NaN where there is none.
+    /// For each output, row by row within each trajectory: the value in SI units, NaN if missing.
     pub values: Vec<Vec<f64>>,
     /// For each factor: steps that did not change its value.
     pub idle: Vec<u64>,
     /// For each output and reason: the failed runs, and the first one's factor values in SI units.
     pub failures: BTreeMap<(usize, RowFailure), (u64, Vec<f64>)>,
-    /// Runs that failed in at least one output.
+    /// Number of runs that failed in at least one output.
     pub failed: u64,
     /// For each validity flag: runs that raised it.
     pub flags: Vec<u64>,
 }
 
-/// Runs `trajectories` of them in the run of `context` on at most so many threads (0: one per core). The outcome does not
-/// depend on the number of threads, in any bit.
+/// Runs `trajectories` of them in the run of `context` on at most `threads` threads (0: one per core). The outcome has
+/// the same bits on any number of threads.
 pub(super) fn run(
     job: ScreeningJob<'_>,
     points: &Trajectories,
@@ -40,7 +40,7 @@ pub(super) fn run(
 ) -> Result<Outcome, ScreeningError> {
     let run = TableRun::new(job.model, context, threads);
     let rows = job.space.factors().len() + 1;
-    // Whole trajectories, and one at least.
+    // Whole trajectories, at least one.
     let block = (run.rows_at_once() / rows).max(1) as u64;
     let start = Instant::now();
     let total = trajectories * rows as u64;
@@ -65,7 +65,7 @@ pub(super) fn run(
     Ok(bench.outcome)
 }
 
-/// What it takes to evaluate blocks.
+/// The state for the evaluation of blocks.
 struct Bench<'a> {
     run: TableRun<'a>,
     batch: Batch,
@@ -114,7 +114,7 @@ impl Bench<'_> {
     }
 }
 
-/// The SI values at two coordinates. Quantiles are for the open interval: its ends are those of the range itself.
+/// Returns the SI values at two coordinates. Quantiles are for the open interval: its ends are those of the range.
 fn values_at(factor: &Factor, u: &[f64; 2]) -> [f64; 2] {
     let mut values = [0.0; 2];
     factor.fill_si(u, &mut values);
@@ -129,21 +129,21 @@ fn values_at(factor: &Factor, u: &[f64; 2]) -> [f64; 2] {
     values
 }
 
-/// Makes the step between two values no longer than [`DERIVATIVE_STEP`] of `range`, and tells the move how long it is.
+/// Limits the step between two values to [`DERIVATIVE_STEP`] of `range`, and stores its length in the move.
 fn shorten(step: &mut Move, values: &mut [f64; 2], range: f64) {
     let longest = DERIVATIVE_STEP * range;
     values[1] = values[0] + (values[1] - values[0]).clamp(-longest, longest);
     step.step = (values[1] - values[0]) / range;
 }
 
-/// The difference of the output by the step; NaN where a run failed or the quotient overflows.
+/// Returns the difference of the output over the step; NaN if a run failed or the quotient overflows.
 fn effect(Move { step, rows: [before, after], .. }: &Move, values: &[f64]) -> f64 {
     let effect = (values[*after] - values[*before]) / step;
     if effect.is_finite() { effect } else { f64::NAN }
 }
 
 impl Outcome {
-    /// Takes note of the failures and flags of a settled batch.
+    /// Records the failures and flags of a settled batch.
     fn note(&mut self, batch: &Batch, inputs: &[&[f64]]) {
         let mut failed: Vec<usize> = Vec::with_capacity(batch.failures().len());
         for (output, row, reason) in batch.failures() {

@@ -1,4 +1,4 @@
-//! What a screening is asked to be, and what can be wrong with that.
+//! The settings of a screening, and their errors.
 
 use serde::Serialize;
 use thiserror::Error;
@@ -6,11 +6,11 @@ use thiserror::Error;
 use crate::design::{DesignError, Sampler};
 use crate::run::RunError;
 
-/// Fewest trajectories: below this there is no spread worth the name.
+/// Minimum number of trajectories: with fewer there is no meaningful spread.
 pub const MIN_TRAJECTORIES: u64 = 4;
-/// Most model runs of a screening: its effects are kept in memory, 8 bytes each.
+/// Maximum number of model runs of a screening: its effects are kept in memory, 8 bytes each.
 pub const MAX_RUNS: u64 = 1 << 27;
-/// Most levels of the trajectory design's grid.
+/// Maximum number of levels of the trajectory design's grid.
 pub const MAX_LEVELS: u32 = 1000;
 /// Shortest step of the radial design, as a part of the factor's range.
 ///
@@ -19,43 +19,43 @@ pub const MAX_LEVELS: u32 = 1000;
 /// integral of 1/s diverges. The price is a small shift of sigma: for x^2, -3 %.
 pub const MIN_STEP: f64 = 0.02;
 
-/// Step of the finite differences of the derivative design, as a part of the factor's range, and of the unit interval: short enough
-/// for the derivative of a smooth model, and a thousand times the noise of an output with six digits or more.
+/// Step of the finite differences of the derivative design, as a part of the factor's range, and of the unit interval:
+/// short enough for derivatives of smooth models, and a thousand times the noise of outputs with six digits or more.
 pub const DERIVATIVE_STEP: f64 = 1e-3;
 
 /// Independent randomisations of quasi-random points, whose spread gives the intervals.
 const REPLICATES: u64 = 8;
-/// Most parts into which independent trajectories are divided for their intervals.
+/// Maximum number of parts into which independent trajectories are divided for their intervals.
 const PARTS: u64 = 64;
 
-/// How the points of a screening are laid out. Both cost d + 1 runs a trajectory for d factors.
+/// The layout of the points of a screening. All cost d + 1 runs a trajectory for d factors.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(tag = "name", rename_all = "kebab-case")]
 pub enum ScreeningDesign {
     /// Radial (Campolongo, Saltelli and Cariboni 2011, Comput. Phys. Commun. 182, 978-988): from a base point a, every
     /// factor by itself steps to its coordinate of an auxiliary point b. Both are halves of one point of 2d dimensions.
     Radial {
-        /// Where the points come from.
+        /// The sampler.
         sampler: Sampler,
     },
     /// Morris's own trajectories (Morris 1991, Technometrics 33, 161-174): a random walk on a grid of p levels, in
     /// which every factor in turn, in random order, makes one step of p / (2 (p - 1)) of its range; in every other
-    /// trajectory one of a third of the levels, which sees what has the period of the first step.
+    /// trajectory one of a third of the levels, which detects an output with the period of the first step.
     Trajectory {
         /// Levels p of the grid, even; 4 is usual.
         levels: u32,
     },
-    /// Derivatives by finite differences (Kucherenko, Rodriguez-Fernandez, Pantelides and Shah 2009, Reliab. Eng. Syst. Saf. 94,
-    /// 1135-1148): from a base point every factor by itself makes a step of [`DERIVATIVE_STEP`] of its range, or less where its
-    /// distribution is dense. The effects are then derivatives, times the range of the factor.
+    /// Derivatives by finite differences (Kucherenko, Rodriguez-Fernandez, Pantelides and Shah 2009, Reliab. Eng. Syst.
+    /// Saf. 94, 1135-1148): from a base point every factor by itself makes a step of [`DERIVATIVE_STEP`] of its range,
+    /// or less where its distribution is dense. The effects are then derivatives, times the range of the factor.
     Derivative {
-        /// Where the base points come from.
+        /// The sampler of the base points.
         sampler: Sampler,
     },
 }
 
 impl ScreeningDesign {
-    /// The name on the command line and in results.
+    /// Returns the name on the command line and in results.
     pub fn name(self) -> &'static str {
         match self {
             Self::Radial { .. } => "radial",
@@ -64,7 +64,7 @@ impl ScreeningDesign {
         }
     }
 
-    /// Where its points come from, if it has a sampler.
+    /// Returns its sampler, if it has one.
     pub fn sampler(self) -> Option<Sampler> {
         match self {
             Self::Radial { sampler } | Self::Derivative { sampler } => Some(sampler),
@@ -73,28 +73,28 @@ impl ScreeningDesign {
     }
 }
 
-/// What a screening is asked to be.
+/// The settings of a screening.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ScreeningSettings {
-    /// How the points are laid out.
+    /// The layout of the points.
     pub design: ScreeningDesign,
     /// Trajectories r: elementary effects of each factor. Rounded up to equal parts, see [`in_force`](Self::in_force).
     pub trajectories: u64,
-    /// Seed of every random number; 0 is a seed like any other.
+    /// Seed of every random number; 0 is a valid seed.
     pub seed: u64,
 }
 
 impl Default for ScreeningSettings {
-    /// 32 radial trajectories on scrambled Sobol' points, seed 0.
+    /// Returns 32 radial trajectories on scrambled Sobol' points, seed 0.
     fn default() -> Self {
         Self { design: ScreeningDesign::Radial { sampler: Sampler::Sobol }, trajectories: 32, seed: 0 }
     }
 }
 
 impl ScreeningSettings {
-    /// The settings with `trajectories` rounded up to equal independent parts, and the number of these parts, which the
-    /// intervals rest on: 8 randomisations of quasi-random points (fewer below 16 trajectories), or every independent
-    /// trajectory by itself (64 parts above 64 trajectories).
+    /// Returns the settings with `trajectories` rounded up to equal independent parts, and the number of these parts,
+    /// used for the intervals: 8 randomisations of quasi-random points (fewer below 16 trajectories), or every
+    /// independent trajectory by itself (64 parts above 64 trajectories).
     ///
     /// # Errors
     /// [`ScreeningError`] if there are too few trajectories or too many runs for `factors` factors, or the levels are
@@ -120,29 +120,29 @@ impl ScreeningSettings {
     }
 }
 
-/// Why a screening cannot take place.
+/// Why a screening cannot start.
 #[derive(Debug, Error)]
 pub enum ScreeningError {
     /// Too few trajectories.
     #[error("{trajectories} trajectories are too few: at least {MIN_TRAJECTORIES} are needed, and 10 to 50 are usual")]
     TooFewTrajectories {
-        /// The number asked for.
+        /// The number requested.
         trajectories: u64,
     },
-    /// A grid that the method does not have.
+    /// A grid that the method does not allow.
     #[error(
         "{levels} levels: the trajectory design needs an even number from 2 to {MAX_LEVELS}, so that all levels are equally likely; 4 is usual"
     )]
     Levels {
-        /// The number asked for.
+        /// The number requested.
         levels: u32,
     },
-    /// More runs than effects can be kept of.
+    /// Too many runs for their effects to be kept.
     #[error(
         "{trajectories} trajectories of {factors} factors are more than {MAX_RUNS} model runs: a screening needs 10 to 50 trajectories"
     )]
     TooManyRuns {
-        /// The number asked for.
+        /// The number requested.
         trajectories: u64,
         /// Number of factors.
         factors: usize,
@@ -161,10 +161,10 @@ pub enum ScreeningError {
         /// Its name.
         factor: String,
     },
-    /// The points cannot be made.
+    /// The points cannot be generated.
     #[error(transparent)]
     Design(#[from] DesignError),
-    /// The run cannot take place.
+    /// The run failed.
     #[error(transparent)]
     Run(#[from] RunError),
 }

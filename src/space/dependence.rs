@@ -1,4 +1,4 @@
-//! Dependent factors as they are stated: correlations by one of several measures, and how they become those of normal scores.
+//! Dependent factors as stated: correlations by several measures, and their conversion to those of normal scores.
 
 mod nataf;
 
@@ -11,7 +11,7 @@ use super::{Factor, Space};
 use crate::names::named;
 use crate::special::normal_quantile;
 
-/// Why factors cannot depend on each other as stated, and what would be right.
+/// Why factors cannot depend on each other as stated, and what is allowed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error("{0}")]
 pub struct DependenceError(String);
@@ -21,11 +21,12 @@ fn refused<T>(reason: impl Into<String>) -> Result<T, DependenceError> {
 }
 
 named! {
-/// What a correlation is a correlation of.
+/// The kind of a correlation.
 #[derive(Default)]
 pub enum CorrelationMeasure {
-    /// Of the values themselves: Pearson's. The normal scores get the correlation that brings it about (Nataf's model, Liu and Der
-    /// Kiureghian 1986, Probab. Eng. Mech. 1, 105-112), found by quadrature to some 1e-6 for continuous distributions.
+    /// Of the values themselves: Pearson's. Normal scores get the correlation that leads to it (Nataf's model, Liu and
+    /// Der Kiureghian 1986, Probab. Eng. Mech. 1, 105-112), computed by quadrature to about 1e-6 for continuous
+    /// distributions.
     #[default]
     Pearson = "pearson",
     /// Of the ranks: Spearman's rho = 6/pi arcsin(r/2) of normal scores with correlation r.
@@ -51,26 +52,26 @@ pub struct Dependence {
     factors: Vec<String>,
     correlation: Vec<Vec<f64>>,
     measure: CorrelationMeasure,
-    /// Whether the correlations are those of joint measurements, and not stated; that of a column with one value is NaN on the diagonal too.
+    /// Whether the correlations come from joint measurements; a column with one value then has NaN on the diagonal too.
     is_measured: bool,
 }
 
 impl Dependence {
-    /// The factors of these names with this matrix of correlations: symmetric, with ones on its diagonal. Pearson's, unless a
-    /// [`measure`](Self::measure) is set.
+    /// Creates a dependence of the factors with these names and this matrix of correlations: symmetric, with ones on
+    /// its diagonal. They are Pearson's, unless a [`measure`](Self::measure) is set.
     pub fn new(factors: &[&str], correlation: Vec<Vec<f64>>) -> Self {
         let factors = factors.iter().map(|&factor| factor.to_owned()).collect();
         Self { factors, correlation, measure: CorrelationMeasure::default(), is_measured: false }
     }
 
-    /// Two factors with this correlation.
+    /// Creates a dependence of two factors with this correlation.
     pub fn pair(a: &str, b: &str, correlation: f64) -> Self {
         Self::new(&[a, b], vec![vec![1.0, correlation], vec![correlation, 1.0]])
     }
 
-    /// The dependence of factors that were measured together: `columns` are their values, of one length, a row for each joint
-    /// measurement. The correlations are those of the normal scores of the ranks (van der Waerden scores, ranks of equal values
-    /// being averaged); the distributions of the factors are stated apart.
+    /// Creates the dependence of factors that were measured together: `columns` are their values, of one length, a row
+    /// for each joint measurement. The correlations are those of the normal scores of the ranks (van der Waerden
+    /// scores, ranks of equal values being averaged); the distributions of the factors are stated separately.
     pub fn from_measurements(factors: &[&str], columns: &[Vec<f64>]) -> Self {
         let scores: Vec<Vec<f64>> = columns.iter().map(|column| rank_scores(column)).collect();
 
@@ -86,28 +87,28 @@ impl Dependence {
         Self { is_measured: true, ..Self::new(factors, rows).measure(CorrelationMeasure::Normal) }
     }
 
-    /// What the numbers are correlations of.
+    /// Sets the kind of the correlations.
     #[must_use]
     pub fn measure(self, measure: CorrelationMeasure) -> Self {
         Self { measure, ..self }
     }
 
-    /// The names of the factors.
+    /// Returns the names of the factors.
     pub fn factors(&self) -> &[String] {
         &self.factors
     }
 
-    /// The matrix of correlations.
+    /// Returns the matrix of correlations.
     pub fn correlation(&self) -> &[Vec<f64>] {
         &self.correlation
     }
 
-    /// What its numbers are correlations of.
+    /// Returns the kind of the correlations.
     pub fn measure_in_force(&self) -> CorrelationMeasure {
         self.measure
     }
 
-    /// The numbers of its factors in `space`, once its matrix is seen to be one.
+    /// Checks the matrix, and returns the indices of its factors in `space`.
     fn checked(&self, space: &Space) -> Result<Vec<usize>, DependenceError> {
         let number = |name: &String| {
             let place = space.factors().iter().position(|factor| factor.name == *name);
@@ -153,10 +154,10 @@ impl Dependence {
     }
 }
 
-/// How near to 1 the correlation of measurements may come: nearer than this they have the same ranks, but for rounding.
+/// Distance of a correlation of measurements from 1 below which they have the same ranks, apart from rounding.
 const EQUAL_RANKS: f64 = 1e-12;
 
-/// The copula of `space` with these dependences; `None` without any.
+/// Returns the copula of `space` with these dependences; `None` without any.
 pub(super) fn copula(space: &Space, dependences: &[Dependence]) -> Result<Option<GaussianCopula>, DependenceError> {
     let factors = space.factors();
     let mut scores = DMatrix::identity(factors.len(), factors.len());
@@ -204,7 +205,7 @@ fn refuse_uncorrelated(factor: &Factor) -> Result<(), DependenceError> {
     refused(format!("`{}` is {kind}, which has no correlation with another factor", factor.name))
 }
 
-/// Phi^-1(rank / (n + 1)) of every value, the mean of all of them 0.
+/// Returns Phi^-1(rank / (n + 1)) of every value, with mean 0.
 fn rank_scores(column: &[f64]) -> Vec<f64> {
     let mut order: Vec<usize> = (0..column.len()).collect();
     order.sort_by(|a, b| column[*a].total_cmp(&column[*b]));

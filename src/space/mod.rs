@@ -1,4 +1,4 @@
-//! Factor spaces: ordered, named factors, each a distribution with a unit, a nominal value and perhaps a group.
+//! Factor spaces: ordered, named factors, each a distribution with a unit, a nominal value and optionally a group.
 //!
 //! The order is part of the meaning: factor j takes coordinate j of the unit cube.
 
@@ -20,46 +20,47 @@ use crate::quantity::Unit;
 pub struct Factor {
     /// The name, unique in its space.
     pub name: String,
-    /// Where it stands when it does not vary, in its unit.
+    /// Its value when it does not vary, in its unit.
     pub nominal: f64,
-    /// The group whose joint effect is asked for, if any.
+    /// The group whose joint effect is estimated, if any.
     pub group: Option<String>,
-    /// Whether the parameters of its distribution were found from something else that is known of it.
+    /// Whether the parameters of its distribution were solved for from other statements.
     pub determined: bool,
     unit: Unit,
     distribution: Distribution,
-    /// The distribution in SI units, so that no value has to be converted during a run; `None` where each one is.
+    /// The distribution in SI units, so that no value has to be converted during a run; `None` if each one is.
     si: Option<Distribution>,
 }
 
 impl Factor {
-    /// A factor in no group that varies by `distribution`, in `unit`, around its [`central`](Distribution::central) value.
+    /// Creates a factor in no group that varies by `distribution`, in `unit`, around its
+    /// [`central`](Distribution::central) value.
     ///
     /// # Errors
-    /// [`DistributionError`] if the distribution leaves the range of doubles when converted to SI units.
+    /// [`DistributionError`] if the distribution exceeds the range of doubles when converted to SI units.
     pub fn new(name: &str, unit: Unit, distribution: Distribution) -> Result<Self, DistributionError> {
         let si = (!distribution.is_converted_by_value()).then(|| distribution.to_si(&unit)).transpose()?;
         let nominal = distribution.central();
         Ok(Self { name: name.to_owned(), nominal, group: None, determined: false, unit, distribution, si })
     }
 
-    /// The unit of the distribution's parameters and of the nominal value.
+    /// Returns the unit of the distribution's parameters and of the nominal value.
     pub fn unit(&self) -> &Unit {
         &self.unit
     }
 
-    /// How the factor varies, in its unit.
+    /// Returns its distribution, in its unit.
     pub fn distribution(&self) -> &Distribution {
         &self.distribution
     }
 
-    /// `value`, which is in the factor's unit, as people read it: the label of a category, else the number by `number`.
+    /// Formats `value`, which is in the factor's unit: the label of a category, otherwise the number by `number`.
     pub fn in_words(&self, value: f64, number: impl Fn(f64) -> String) -> String {
         self.distribution.label(value).map_or_else(|| number(value), str::to_owned)
     }
 
-    /// Points of the unit interval to SI values, by the inverse of the distribution function. Both slices have one
-    /// length; `u` lies strictly between 0 and 1.
+    /// Converts points of the unit interval to SI values, by the inverse of the distribution function. Both slices have
+    /// one length; `u` is strictly between 0 and 1.
     ///
     /// # Panics
     /// If the slices have different lengths.
@@ -74,12 +75,12 @@ impl Factor {
     }
 }
 
-/// A group of factors whose joint effect is asked for.
+/// A group of factors whose joint effect is estimated.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Group {
     /// The name.
     pub name: String,
-    /// Numbers of its factors, ascending.
+    /// Indices of its factors, ascending.
     pub factors: Vec<usize>,
 }
 
@@ -92,15 +93,15 @@ pub struct Space {
 }
 
 impl Space {
-    /// A space of these factors. Names are expected to be distinct.
+    /// Creates a space of these factors. Names are expected to be distinct.
     pub fn new(factors: Vec<Factor>) -> Self {
         Self { factors, dependences: Vec::new(), copula: None }
     }
 
-    /// The same factors, some of which depend on each other.
+    /// Adds dependences between the factors.
     ///
     /// # Errors
-    /// [`DependenceError`] if they cannot depend on each other like that, with what would be right.
+    /// [`DependenceError`] if they cannot depend on each other like that, with what is allowed.
     ///
     /// ```
     /// use apportion::{Dependence, Distribution, Factor, Space, Unit};
@@ -115,27 +116,27 @@ impl Space {
         Ok(Self { dependences, copula, ..self })
     }
 
-    /// The dependences as stated.
+    /// Returns the dependences as stated.
     pub fn dependences(&self) -> &[Dependence] {
         &self.dependences
     }
 
-    /// The copula of the factors; `None` if they are independent.
+    /// Returns the copula of the factors; `None` if they are independent.
     pub(crate) fn copula(&self) -> Option<&Arc<GaussianCopula>> {
         self.copula.as_ref()
     }
 
-    /// The factors in order.
+    /// Returns the factors in order.
     pub fn factors(&self) -> &[Factor] {
         &self.factors
     }
 
-    /// The number of the factor that is the noise of a stochastic model, if there is one: that of its seeds.
+    /// Returns the index of the factor that is the noise of a stochastic model (with seeds as values), if there is one.
     pub fn noise(&self) -> Option<usize> {
         self.factors.iter().position(|factor| factor.distribution.is_noise())
     }
 
-    /// The groups in order of first appearance.
+    /// Returns the groups in order of first appearance.
     pub fn groups(&self) -> Vec<Group> {
         let mut groups: Vec<Group> = Vec::new();
         for (number, factor) in self.factors.iter().enumerate() {
@@ -148,7 +149,7 @@ impl Space {
         groups
     }
 
-    /// A point of the unit cube as values in the factors' own units.
+    /// Returns a point of the unit cube as values in the factors' own units.
     pub fn values_at(&self, u: &[f64]) -> Vec<f64> {
         self.factors.iter().zip(u).map(|(factor, &u)| factor.distribution.quantile(u)).collect()
     }

@@ -1,4 +1,4 @@
-//! What can be wrong with a study.
+//! Errors in a study.
 
 use thiserror::Error;
 
@@ -8,27 +8,27 @@ use crate::space::{DependenceError, DistributionError};
 /// Why a study cannot be built.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum BuildError {
-    /// A value that an option cannot have, or not beside another one.
+    /// A value that an option cannot have, or not with another option.
     #[error("`{key}` must be {expected}, not {found}")]
     Wrong {
-        /// The option, as it is called in study files.
+        /// The option's key in study files.
         key: &'static str,
-        /// What would be right.
+        /// What is allowed.
         expected: String,
         /// What was found.
         found: String,
     },
-    /// A name that no table or file has room for, or with marks in it that are not seen.
+    /// A name that is too long for tables and files, or contains invisible characters.
     #[error("{what} {}: expected {expected}", crate::names::shown(.name))]
     Name {
-        /// What it is of.
+        /// What the name is of.
         what: &'static str,
         /// The name.
         name: String,
-        /// What would be right.
+        /// What is allowed.
         expected: String,
     },
-    /// A name twice.
+    /// A duplicate name.
     #[error("{what} `{name}` is there twice")]
     Repeated {
         /// What the name is of.
@@ -41,21 +41,21 @@ pub enum BuildError {
     Factor {
         /// Its name.
         factor: String,
-        /// Why.
+        /// The cause.
         source: DistributionError,
     },
-    /// There is no such design.
+    /// The design is invalid.
     #[error(transparent)]
     Design(#[from] DesignError),
-    /// Factors that cannot depend on each other as stated.
+    /// Factors cannot depend on each other as stated.
     #[error(transparent)]
     Dependence(#[from] DependenceError),
-    /// A cheaper model that cannot stand in.
+    /// A low-fidelity model cannot be used.
     #[error("cheaper model `{name}`: {problem}")]
     LowFidelity {
         /// Its name.
         name: String,
-        /// What is wrong, and what would be right.
+        /// What is wrong, and what is allowed.
         problem: String,
     },
 }

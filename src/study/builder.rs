@@ -1,4 +1,4 @@
-//! Studies made in code, of models that no file can name.
+//! Studies built in code, of models that no file can name.
 
 use std::sync::Arc;
 
@@ -14,7 +14,7 @@ use crate::space::{Dependence, Distribution, Factor, Space};
 use crate::surrogate::MIN_NETS;
 use crate::uncertainty::IntervalMethod;
 
-/// A study in the making; [`Study::builder`] begins one.
+/// A builder of studies, created by [`Study::builder`].
 #[must_use]
 pub struct StudyBuilder {
     name: String,
@@ -23,24 +23,24 @@ pub struct StudyBuilder {
     subject: Arc<dyn Subject>,
     /// The factors, in the order of the Sobol' dimensions.
     pub factors: Vec<Result<Factor, BuildError>>,
-    /// How points are made.
+    /// The sampler.
     pub sampler: Sampler,
-    /// How long the run is.
+    /// The length of the run.
     pub length: Length,
-    /// Independent scrambles; the intervals' own number if there is none.
+    /// Number of independent scrambles; by default that of the interval method.
     pub replicates: Option<u64>,
     /// Seed of the points.
     pub seed: u64,
-    /// What is asked of the runs; the sampler's own if there is nothing.
+    /// What to estimate; by default [`AnalysisOptions::for_sampler`].
     pub analysis: Option<AnalysisOptions>,
-    /// Cheaper models of the same outputs.
+    /// Low-fidelity models of the same outputs.
     pub lows: Vec<LowFidelity>,
     /// Which factors depend on each other.
     pub dependences: Vec<Dependence>,
 }
 
 impl StudyBuilder {
-    /// A study of `subject` with neither factors nor settings; result files are named after `name`.
+    /// Creates a study of `subject` with neither factors nor settings; result files are named after `name`.
     pub fn new(name: &str, subject: Arc<dyn Subject>) -> Self {
         let DesignSettings { sampler, seed, .. } = DesignSettings::default();
         Self {
@@ -58,14 +58,14 @@ impl StudyBuilder {
         }
     }
 
-    /// A title for people.
+    /// Sets a title for people.
     pub fn title(mut self, title: &str) -> Self {
         self.title = Some(title.to_owned());
         self
     }
 
-    /// What tells the model from others of the same outputs and factors: without it a [journal](crate::Runner::journal) cannot
-    /// tell that the function has changed, and answers with the runs of the one before.
+    /// Sets the version, which distinguishes the model from others of the same outputs and factors: without it, a
+    /// [journal](crate::Runner::journal) cannot detect a changed function, and reuses the old runs.
     pub fn version(mut self, version: &str) -> Self {
         if let Some(custom) = self.subject.downcast_ref::<CustomSubject>() {
             let (model, version) = (Arc::clone(&custom.model), Some(version.to_owned()));
@@ -74,25 +74,25 @@ impl StudyBuilder {
         self
     }
 
-    /// One more factor: a pure number. The order of factors is that of the values that the model gets.
+    /// Adds a dimensionless factor. The model gets the values in the order of the factors.
     pub fn factor(self, name: &str, distribution: Distribution) -> Self {
         self.factor_in(name, Unit::dimensionless(), distribution)
     }
 
-    /// One more factor, whose distribution is in `unit`. The model gets its values in SI units.
+    /// Adds a factor, whose distribution is in `unit`. The model gets its values in SI units.
     pub fn factor_in(mut self, name: &str, unit: Unit, distribution: Distribution) -> Self {
         let factor = Factor::new(name, unit, distribution);
         self.factors.push(factor.map_err(|source| BuildError::Factor { factor: name.to_owned(), source }));
         self
     }
 
-    /// One more factor, made before: with a group, or a nominal value other than its median.
+    /// Adds an existing factor, for example with a group, or a nominal value other than its median.
     pub fn with_factor(mut self, factor: Factor) -> Self {
         self.factors.push(Ok(factor));
         self
     }
 
-    /// Factors that depend on each other.
+    /// Adds a dependence between factors.
     ///
     /// ```
     /// use apportion::{Dependence, Distribution, Study, function_model};
@@ -113,21 +113,21 @@ impl StudyBuilder {
         self
     }
 
-    /// Where the points come from; scrambled Sobol' points by default.
+    /// Sets the sampler; scrambled Sobol' points by default.
     pub fn sampler(mut self, sampler: Sampler) -> Self {
         self.sampler = sampler;
         self
     }
 
-    /// Base samples in all, best a power of two for each replicate; 2^14 by default. The cost is base samples x (2 + factors)
-    /// runs.
+    /// Sets the number of base samples in all, best a power of two for each replicate; 2^14 by default. The cost is
+    /// base samples x (2 + factors) runs.
     pub fn base_samples(mut self, base_samples: u64) -> Self {
         self.length.base_samples = Some(base_samples);
         self
     }
 
-    /// Model runs in all, in the place of [`base_samples`](Self::base_samples): the best design for at most so many. Where
-    /// surrogates serve, a third of the runs or less are at base samples, and the others at points from which surrogates learn.
+    /// Sets the number of model runs in all, instead of [`base_samples`](Self::base_samples): the best design with at
+    /// most this many. With surrogates, up to a third are at base samples, the others at points for the fit.
     ///
     /// ```
     /// use apportion::{Distribution, Study, function_model};
@@ -146,42 +146,42 @@ impl StudyBuilder {
         self
     }
 
-    /// Independent randomisations that share the base samples; by default as many as the kind of interval works best with.
+    /// Sets the number of randomisations that share the base samples; by default the best for the interval method.
     pub fn replicates(mut self, replicates: u64) -> Self {
         self.replicates = Some(replicates);
         self
     }
 
-    /// Seed of the design, 0 by default.
+    /// Sets the seed of the design, 0 by default.
     pub fn seed(mut self, seed: u64) -> Self {
         self.seed = seed;
         self
     }
 
-    /// What is asked of the runs; [`AnalysisOptions::for_sampler`] by default.
+    /// Sets what to estimate; [`AnalysisOptions::for_sampler`] by default.
     pub fn analysis(mut self, analysis: AnalysisOptions) -> Self {
         self.analysis = Some(analysis);
         self
     }
 
-    /// How well the indices must be known, and the limits of a run that goes on until they are.
+    /// Sets the required accuracy of the indices, and the limits of a run that continues until it is reached.
     pub fn until(mut self, target: Target) -> Self {
         self.length.target = target;
         self
     }
 
-    /// A cheaper model of the same outputs, by name: it stands in for the model where that helps, and the runs of the model
-    /// show the rest. `base_samples` is the size of its own design; `None` to let the run choose.
+    /// Adds a named low-fidelity model of the same outputs, used where it helps; the runs of the model correct it.
+    /// `base_samples` is the size of its own design; `None` to let the run choose.
     pub fn low_fidelity(mut self, name: &str, model: impl Model + 'static, base_samples: Option<u64>) -> Self {
         let subject = Arc::new(CustomSubject { model: Arc::new(model), version: None });
         self.lows.push(LowFidelity { name: name.to_owned(), subject, base_samples });
         self
     }
 
-    /// The study.
+    /// Builds the study.
     ///
     /// # Errors
-    /// [`BuildError`] with what is wrong and what would be right.
+    /// [`BuildError`] with what is wrong and what is allowed.
     pub fn build(self) -> Result<Study, BuildError> {
         let mut study = self.checked()?;
         study.source = in_words(&study);
@@ -189,10 +189,10 @@ impl StudyBuilder {
         Ok(study)
     }
 
-    /// The study, which obeys every rule, without the text that it is made from.
+    /// Builds the study, checked against every rule, without its source text.
     ///
     /// # Errors
-    /// [`BuildError`] with what is wrong and what would be right.
+    /// [`BuildError`] with what is wrong and what is allowed.
     pub fn checked(self) -> Result<Study, BuildError> {
         rules::check_title(&self.name, self.title.as_deref())?;
         let factors = self.factors.into_iter().collect::<Result<Vec<Factor>, _>>()?;
@@ -260,7 +260,7 @@ impl StudyBuilder {
     }
 }
 
-/// What stands in the result in the place of a study file: comments, since no file can name the model.
+/// Describes the study in comments, in place of a study file in the result: no file can name its model.
 fn in_words(study: &Study) -> String {
     let (base_samples, identity) = (study.design.settings().base_samples, study.identity());
     let lines =

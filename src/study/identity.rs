@@ -1,4 +1,4 @@
-//! What makes two studies the same, as far as the outputs of their runs go.
+//! The identity of a study: everything on which the outputs of its runs depend.
 
 use serde_json::{Map, Value, json};
 
@@ -7,13 +7,13 @@ use crate::design::{Sampler, Swap};
 use crate::digest::sha256;
 
 impl Study {
-    /// All that the outputs of the runs depend on, as JSON: the model with its choices and constants, the factors, the
-    /// points of the design and which rows they have, and the version of the program. Not how many points there are
-    /// (but for Latin hypercubes, whose points depend on it), what is estimated from them, and names and titles.
+    /// Returns all that the outputs of the runs depend on, as JSON: the model with its choices and constants, the
+    /// factors, the points of the design and its rows, and the version of the program. It excludes the number of points
+    /// (except for Latin hypercubes, whose points depend on it), what is estimated from them, and names and titles.
     ///
     /// Two studies of equal identity have the same outputs at the same rows, bit by bit, if their models are
-    /// deterministic. Of a model outside this program or in the program that uses the library it knows what the study
-    /// says, and no more.
+    /// deterministic. A model outside this program, or in a program that uses the library, is identified only by what
+    /// the study states about it.
     pub fn identity(&self) -> Value {
         let settings: Map<String, Value> =
             self.settings().into_iter().map(|(key, value)| (key.to_owned(), value)).collect();
@@ -26,7 +26,7 @@ impl Study {
                 "name": factor.name,
                 "unit": factor.unit().to_string(),
                 "distribution": factor.distribution(),
-                // Long lists of values are shortened by the line above.
+                // Long lists of values are shortened in the line above.
                 "digest": digest(&format!("{:?}", factor.distribution())),
             })
         };
@@ -38,7 +38,7 @@ impl Study {
             "replicates": settings_of_design.replicates,
             "rows_per_point": design.rows_per_point(),
             "swaps": design.swaps().iter().map(|swap| names(swap).join("+")).collect::<Vec<_>>(),
-            // The form of journals that are there: rows BC and CB exist no more.
+            // Kept for existing journals: rows BC and CB no longer exist.
             "companions": { "ba": design.has_ba(), "bc": false, "cb": false },
         });
         if design.plain_rows() > 0 {

@@ -1,7 +1,6 @@
-//! Studies: what is asked, checked once.
+//! Studies: the question and its settings, checked once.
 //!
-//! A [`Study`] is built in code ([`Study::builder`]) or comes from a file (`apportion_files::load_study`); after that nothing
-//! re-validates.
+//! A [`Study`] is built in code ([`Study::builder`]) or read from a file (`apportion_files::load_study`), checked once.
 
 mod build_error;
 mod builder;
@@ -33,49 +32,49 @@ pub struct Study {
     pub(crate) name: String,
     /// Title for people.
     pub(crate) title: Option<String>,
-    /// What is studied.
+    /// The model with its choices.
     pub(crate) subject: Arc<dyn Subject>,
     /// The factors.
     pub(crate) space: Space,
     /// The points at which the model runs, or starts to; its swaps are the factors, the groups, the subsets of
     /// [`Study::analysis`], and the dummy factor if there is one.
     pub(crate) design: Design,
-    /// What is asked of the runs.
+    /// What to estimate from the runs.
     pub(crate) analysis: AnalysisOptions,
-    /// When a run that grows ends.
+    /// When a growing run ends.
     pub(crate) target: Target,
-    /// Cheaper models of the same outputs.
+    /// Low-fidelity models of the same outputs.
     pub(crate) lows: Vec<LowFidelity>,
     /// Changes made to the file on the command line, as given.
     pub(crate) overrides: Vec<String>,
-    /// The file, word for word.
+    /// The text of the file.
     pub(crate) source: String,
     /// SHA-256 of the file in hexadecimal.
     pub(crate) sha256: String,
-    /// What was read otherwise than it was written, in sentences.
+    /// Notes on values that were read differently from how they were written, in sentences.
     pub(crate) notes: Vec<String>,
 }
 
 /// The file that a study was read from.
 #[derive(Debug, Clone, Default)]
 pub struct StudySource {
-    /// The file, word for word.
+    /// The text of the file.
     pub text: String,
     /// Its SHA-256 in hexadecimal.
     pub sha256: String,
     /// Changes made to it on the command line, as given.
     pub overrides: Vec<String>,
-    /// What was read otherwise than it was written, in sentences.
+    /// Notes on values that were read differently from how they were written, in sentences.
     pub notes: Vec<String>,
 }
 
-/// The end of a message about a name that does not exist, where one like it does; two that are meant are joined by "and".
+/// Returns the end of a message about an unknown name, if a similar one exists; two candidates are joined by "and".
 pub fn did_you_mean(nearest: &Option<String>) -> String {
     nearest.as_ref().map_or_else(String::new, |name| format!(": did you mean `{}`?", name.replace(" and ", "` and `")))
 }
 
 impl Study {
-    /// Begins a study of a model that is part of a program: a function (see
+    /// Creates a builder for a study of a model that is part of a program: a function (see
     /// [`function_model`](crate::model::function_model) and [`FunctionModel`](crate::model::FunctionModel)), or any other
     /// [`Model`]. Result files are named after `name`.
     ///
@@ -99,11 +98,11 @@ impl Study {
         StudyBuilder::new(name, Arc::new(CustomSubject { model: Arc::new(model), version: None }))
     }
 
-    /// The study with `model` in the place of its own: a model that is part of a program, with a study file for the rest.
-    /// `version` tells it from other models of the same outputs, so that the runs of one are not taken for those of another.
+    /// Replaces the model of the study: the new one is part of a program, and a study file has the rest. `version`
+    /// distinguishes it from other models of the same outputs, so that their recorded runs are not confused.
     ///
     /// # Errors
-    /// [`BuildError`] if its outputs, by name and unit, are not those of the study.
+    /// [`BuildError`] if its outputs, by name and unit, differ from those of the study.
     pub fn with_model(self, model: impl Model + 'static, version: &str) -> Result<Self, BuildError> {
         let words = |model: &dyn Model| {
             let outputs = model.outputs().iter().map(|output| format!("{} ({})", output.name, output.unit));
@@ -117,8 +116,8 @@ impl Study {
         Ok(Self { subject: Arc::new(subject), ..self })
     }
 
-    /// The study with so many base samples, as a run of that size: the first of them are those of this study, but for Latin
-    /// hypercubes.
+    /// Returns the study with `base_samples` base samples, as a run of fixed size: its first base samples are those of
+    /// this study, except for Latin hypercubes.
     ///
     /// # Errors
     /// [`DesignError`] if that is too many or too few.
@@ -127,48 +126,48 @@ impl Study {
         Ok(Self { design, target: Target::default(), ..self })
     }
 
-    /// Its name, by default that of the file without its ending. Result files are named after it.
+    /// Returns its name, by default that of the file without its ending. Result files are named after it.
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// Its title for people.
+    /// Returns its title for people.
     pub fn title(&self) -> Option<&str> {
         self.title.as_deref()
     }
 
-    /// What is studied.
+    /// Returns the model with its choices.
     pub fn subject(&self) -> &Arc<dyn Subject> {
         &self.subject
     }
 
-    /// The factors.
+    /// Returns the factors.
     pub fn space(&self) -> &Space {
         &self.space
     }
 
-    /// The points at which the model runs, or starts to; its swaps are the factors, the groups, the subsets of
+    /// Returns the points at which the model runs, or starts to; its swaps are the factors, the groups, the subsets of
     /// [`analysis`](Self::analysis), and the dummy factor if there is one.
     pub fn design(&self) -> &Design {
         &self.design
     }
 
-    /// What is asked of the runs.
+    /// Returns what to estimate from the runs.
     pub fn analysis(&self) -> &AnalysisOptions {
         &self.analysis
     }
 
-    /// When a run that grows ends.
+    /// Returns when a growing run ends.
     pub fn target(&self) -> Target {
         self.target
     }
 
-    /// Cheaper models of the same outputs, which stand in for the model where they help.
+    /// Returns the low-fidelity models of the same outputs, used where they help.
     pub fn low_fidelities(&self) -> &[LowFidelity] {
         &self.lows
     }
 
-    /// The study of another subject, with the same outputs or others.
+    /// Returns the study of another subject, with the same outputs or others.
     #[must_use]
     pub fn with_subject(self, subject: Arc<dyn Subject>) -> Self {
         Self { subject, ..self }
@@ -179,60 +178,60 @@ impl Study {
         self.notes.push(note);
     }
 
-    /// The study with another end of a run that grows; one that does not grow has the default target.
+    /// Returns the study with another target; one that does not grow has the default target.
     #[must_use]
     pub fn with_target(self, target: Target) -> Self {
         Self { target, ..self }
     }
 
-    /// The study at the points of `settings`, of whose runs `analysis` is asked.
+    /// Returns the study with the points of `settings` and the estimates of `analysis`.
     ///
     /// # Errors
-    /// [`DesignError`] if there is no such design.
+    /// [`DesignError`] if the design is invalid.
     pub fn with_design(self, settings: DesignSettings, analysis: AnalysisOptions) -> Result<Self, DesignError> {
         let design = Design::new(settings, self.design.factors(), rows(&analysis, &self.space, 0))?;
         Ok(Self { design, analysis, ..self })
     }
 
-    /// The study without cheaper models.
+    /// Returns the study without low-fidelity models.
     #[must_use]
     pub fn without_low_fidelities(self) -> Self {
         Self { lows: Vec::new(), ..self }
     }
 
-    /// The study as one that was read from a file.
+    /// Returns the study as one that was read from a file.
     #[must_use]
     pub fn with_source(mut self, source: StudySource) -> Self {
         self.notes.extend(source.notes);
         Self { source: source.text, sha256: source.sha256, overrides: source.overrides, ..self }
     }
 
-    /// Changes made to the file on the command line, as given.
+    /// Returns the changes made to the file on the command line, as given.
     pub fn overrides(&self) -> &[String] {
         &self.overrides
     }
 
-    /// The file, word for word.
+    /// Returns the text of the file.
     pub fn source(&self) -> &str {
         &self.source
     }
 
-    /// SHA-256 of the file in hexadecimal.
+    /// Returns the SHA-256 of the file in hexadecimal.
     pub fn sha256(&self) -> &str {
         &self.sha256
     }
 
-    /// What was read otherwise than it was written, in sentences.
+    /// Returns notes on values that were read differently from how they were written, in sentences.
     pub fn notes(&self) -> &[String] {
         &self.notes
     }
 
-    /// The model, ready to run on this study's factors.
+    /// Creates the model, ready to run on this study's factors.
     pub fn model(&self) -> Box<dyn Model> {
         self.subject.model(&self.space)
     }
 
-    /// What is estimated from the swaps of the design.
+    /// Returns what is estimated from the swaps of the design.
     pub fn layout(&self) -> Layout {
         Layout {
             factors: self.space.factors().len(),
@@ -249,10 +248,10 @@ impl Study {
         }
     }
 
-    /// Whether the indices of a run of `design`, which may be longer than that of the study, are corrected by surrogates.
+    /// Returns whether surrogates correct the indices of a run of `design`, which may be longer than that of the study.
     pub fn uses_surrogate(&self, design: &Design) -> bool {
         let has_points = self.target.grows() || design.points_per_replicate() >= fewest_points(design) as u64;
-        // Their polynomials are orthogonal only where factors are independent, and know nothing of the subsets of Shapley effects.
+        // Their polynomials are orthogonal only for independent factors, and do not give Shapley effects.
         let is_plain = self.space.copula().is_none() && !self.analysis.has_shapley(&self.space);
         let fits = has_points
             && is_plain
@@ -275,8 +274,8 @@ impl Study {
         }
     }
 
-    /// Whether surrogates are to be tried on a part of a run of `design` before they are fitted to it: of quick models, which might do
-    /// more runs in that time.
+    /// Returns whether surrogates are tried on a part of a run of `design` before they are fitted to it: for fast
+    /// models, which could do more runs in that time.
     pub(crate) fn tries_surrogates(&self, design: &Design) -> bool {
         let is_chosen =
             self.analysis.surrogate != SurrogateChoice::Auto || design.plain_rows() > 0 || !self.lows.is_empty();
@@ -285,17 +284,17 @@ impl Study {
         !is_chosen && model.concurrency().is_none() && values > MAX_AUTOMATIC_VALUES
     }
 
-    /// Whether the estimates need the outputs of every run, and not their sums alone.
+    /// Returns whether the estimates need the outputs of every run, not only their sums.
     pub fn needs_outputs(&self) -> bool {
         self.analysis.intervals.keeps_outputs() || self.uses_surrogate(&self.design)
     }
 
-    /// The choices in force, such as the protocol of a program, in the terms of the study file.
+    /// Returns the current choices, such as the protocol of a program, with the keys of the study file.
     pub fn settings(&self) -> Vec<(&'static str, serde_json::Value)> {
         self.subject.settings()
     }
 
-    /// The inputs that are not factors, as (name, value, unit).
+    /// Returns the inputs that are not factors, as (name, value, unit).
     pub fn constants(&self) -> Vec<(String, f64, String)> {
         self.subject.constants(&self.space)
     }

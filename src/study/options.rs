@@ -1,4 +1,4 @@
-//! What is asked of the runs of a study, and when they end.
+//! What is estimated from the runs of a study, and when they end.
 
 use std::ops::RangeInclusive;
 
@@ -12,43 +12,43 @@ use crate::space::Space;
 use crate::surrogate::MIN_NETS;
 use crate::uncertainty::IntervalMethod;
 
-/// What is asked of the runs.
+/// What to estimate from the runs.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AnalysisOptions {
-    /// Estimators whose indices stand beside those of the default ones.
+    /// Estimators to report in addition to the default ones.
     pub estimators: Vec<Estimator>,
-    /// Whether the formulas of SALib take the place of the default ones: for outputs at points that SALib made, which are not
-    /// known here.
+    /// Whether the formulas of SALib replace the default ones: for outputs at points from SALib, unknown here.
     pub salib: bool,
     /// Whether second-order indices are estimated.
     pub second_order: bool,
-    /// Sets of factors, by number, whose joint indices are asked for.
+    /// Sets of factors, by number, for which joint indices are estimated.
     pub subsets: Vec<Vec<usize>>,
-    /// Whether Shapley effects are asked for, of at most a hundred factors. `None` to have them of up to four factors
-    /// that depend on each other, and where `shapley_method` says how or `shapley_players` of whom.
+    /// Whether Shapley effects are estimated, of at most a hundred factors. `None` estimates them for up to four
+    /// dependent factors, and if `shapley_method` or `shapley_players` is set.
     pub shapley: Option<bool>,
-    /// How they are found. `None` for all subsets of up to [`MAX_SHAPLEY_FACTORS`] players, and random permutations of more.
+    /// The method. `None` for all subsets of up to [`MAX_SHAPLEY_FACTORS`] players, and random permutations of more.
     pub shapley_method: Option<ShapleyMethod>,
-    /// Who the players are. `None` for the factors.
+    /// The players. `None` for the factors.
     pub shapley_players: Option<ShapleyPlayers>,
-    /// Other measures than Sobol' indices that stand beside them, from the first
-    /// [`MAX_ROWS_OF_MEASURES`](crate::analysis::MAX_ROWS_OF_MEASURES) rows A and B; of at most [`MAX_OUTPUTS_OF_MEASURES`](crate::study::MAX_OUTPUTS_OF_MEASURES) outputs.
+    /// Other measures to report in addition to Sobol' indices, from the first
+    /// [`MAX_ROWS_OF_MEASURES`](crate::analysis::MAX_ROWS_OF_MEASURES) rows A and B; of at most
+    /// [`MAX_OUTPUTS_OF_MEASURES`](crate::study::MAX_OUTPUTS_OF_MEASURES) outputs.
     pub measures: Vec<Measure>,
-    /// Whether indices over all outputs together are asked for.
+    /// Whether indices over all outputs together are estimated.
     pub aggregate: bool,
-    /// Whether a dummy factor, which does nothing, is run along: its indices are the noise of the model.
+    /// Whether a dummy factor without effect is added: its indices are the noise of the model.
     pub dummy: bool,
-    /// Whether the result has the stages of the run too: the indices at each half of the runs after it.
+    /// Whether the result includes the stages of the run: the indices at each half of the runs after it.
     pub convergence: bool,
-    /// Whether the result has the distributions of the outputs, and scatter plots of them over the factors.
+    /// Whether the result includes the distributions of the outputs, and scatter plots of them over the factors.
     pub pictures: bool,
-    /// How intervals are found.
+    /// The method for intervals.
     pub intervals: IntervalMethod,
     /// Whether indices are corrected by surrogates.
     pub surrogate: SurrogateChoice,
-    /// Resamples of a bootstrap.
+    /// Number of bootstrap resamples.
     pub resamples: usize,
-    /// Total index above which a factor counts as one that matters.
+    /// Total index above which a factor counts as important.
     pub threshold: f64,
     /// What happens when a run fails.
     pub failures: FailurePolicy,
@@ -57,7 +57,7 @@ pub struct AnalysisOptions {
 }
 
 impl AnalysisOptions {
-    /// Nothing beside first-order and total indices, with the intervals that serve points of `sampler` best.
+    /// Returns first-order and total indices only, with the intervals that suit points of `sampler` best.
     pub fn for_sampler(sampler: Sampler) -> Self {
         Self {
             estimators: Vec::new(),
@@ -81,18 +81,18 @@ impl AnalysisOptions {
         }
     }
 
-    /// Whether there will be Shapley effects of the factors of `space`, or of their groups.
+    /// Returns whether there will be Shapley effects of the factors of `space`, or of their groups.
     pub fn has_shapley(&self, space: &Space) -> bool {
         let is_free = space.copula().is_some() && space.factors().len() <= FREE_SHAPLEY_FACTORS;
         self.asks_for_shapley() || is_free && self.shapley.is_none()
     }
 
-    /// Whether they are asked for in words.
+    /// Returns whether they are requested explicitly.
     pub(super) fn asks_for_shapley(&self) -> bool {
         self.shapley.unwrap_or(self.shapley_method.is_some() || self.shapley_players.is_some())
     }
 
-    /// How they will be found, if there will be some.
+    /// Returns how they will be estimated, if there will be any.
     pub fn shapley_of(&self, space: &Space) -> Option<ShapleyMethod> {
         let by_number = match self.players(space).len() <= MAX_SHAPLEY_FACTORS {
             true => ShapleyMethod::Subsets,
@@ -101,13 +101,13 @@ impl AnalysisOptions {
         self.has_shapley(space).then(|| self.shapley_method.unwrap_or(by_number))
     }
 
-    /// The players of Shapley effects, if there will be some: the number of each among the factors and groups in their order, and
-    /// its factors.
+    /// Returns the players of Shapley effects, if there will be any: the index of each among the factors and groups in
+    /// their order, and its factors.
     pub(super) fn players(&self, space: &Space) -> Vec<(usize, Swap)> {
         shapley_players(self.shapley_players.unwrap_or_default(), space)
     }
 
-    /// Warnings about a design and the intervals that rest on it.
+    /// Returns warnings about a design and the intervals that depend on it.
     pub fn design_warnings(&self, design: &Design) -> Vec<Warning> {
         let (points, replicates) = (design.points_per_replicate(), design.settings().replicates);
         let mut warnings = Vec::new();
@@ -123,7 +123,7 @@ impl AnalysisOptions {
         warnings
     }
 
-    /// Whether surrogates may correct the indices, at points of `sampler` in so many replicates.
+    /// Returns whether surrogates may correct the indices, at points of `sampler` in `replicates` replicates.
     pub(crate) fn takes_surrogates(&self, sampler: Sampler, replicates: u64, space: &Space) -> bool {
         self.surrogate != SurrogateChoice::Off
             && self.intervals == IntervalMethod::Nets
@@ -135,22 +135,22 @@ impl AnalysisOptions {
 }
 
 named! {
-    /// Whether indices are corrected by surrogates: polynomials fitted to the runs, whose indices are known exactly, so that the
-    /// runs need only show the rest ([`crate::surrogate`]).
+    /// Whether indices are corrected by surrogates: polynomials fitted to the runs, whose indices are known exactly, so
+    /// that the runs only need to estimate the remainder ([`crate::surrogate`]).
     #[derive(Default)]
     pub enum SurrogateChoice {
-        /// No.
+        /// Never.
         Off = "off",
-        /// Of up to 2^16 rows times outputs, and of programs up to 2^22; of up to 2^20 of quick models where a fit to some of the
-        /// rows explains so much that more runs in the time of the correction would gain less.
+        /// For up to 2^16 rows times outputs, and for programs up to 2^22; for up to 2^20 of fast models if a fit to
+        /// some of the rows explains so much that more runs in the time of the correction would gain less.
         #[default]
         Auto = "auto",
-        /// Of every run whose points are Sobol' nets or random, and whose outputs fit into memory.
+        /// For every run whose points are Sobol' nets or random, and whose outputs fit into memory.
         On = "on",
     }
 }
 
-/// Rows times outputs up to which surrogates are fitted without being asked for.
+/// Maximum number of rows times outputs up to which surrogates are fitted by default.
 pub(super) const MAX_AUTOMATIC_VALUES: u64 = 1 << 16;
 
 /// The same where a trial on fewer rows explains the output.
@@ -159,8 +159,8 @@ pub(super) const MAX_AUTOMATIC_VALUES_AFTER_TRIAL: u64 = 1 << 20;
 /// The same for programs, whose runs take longer than any fit: all outputs must fit into memory.
 pub(super) const MAX_AUTOMATIC_VALUES_OF_PROGRAMS: u64 = 1 << 22;
 
-/// How well the indices must be known, and the limits of a run that goes on until they are. With limits alone the run is doubled
-/// as far as they allow; without any of these it has the size that its design says.
+/// The required accuracy of the indices, and the limits of a run that continues until it is reached. With limits alone
+/// the run is doubled as far as they allow; with neither it has the size of its design.
 ///
 /// ```
 /// use apportion::Target;
@@ -170,52 +170,52 @@ pub(super) const MAX_AUTOMATIC_VALUES_OF_PROGRAMS: u64 = 1 << 22;
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Target {
-    /// Half width that the interval of every first-order and total index must reach: the run chooses by itself what gets there
-    /// at the least cost, with or without surrogates and cheaper models.
+    /// Half width that the interval of every first-order and total index must reach: the run chooses the cheapest
+    /// method, with or without surrogates and low-fidelity models.
     pub accuracy: Option<f64>,
-    /// Seconds that the run may take.
+    /// Maximum seconds of the run.
     pub max_time: Option<f64>,
-    /// Model runs that it may take.
+    /// Maximum number of model runs.
     pub max_runs: Option<u64>,
 }
 
 impl Target {
-    /// Every first-order and total index to this half width of its interval.
+    /// Creates a target of this half width for every first-order and total index.
     pub const fn accuracy(half_width: f64) -> Self {
         Self { accuracy: Some(half_width), max_time: None, max_runs: None }
     }
 
-    /// But no doubling that would take longer than so many seconds.
+    /// Excludes a doubling that would take longer than `seconds` in all.
     #[must_use]
     pub const fn max_time(self, seconds: f64) -> Self {
         Self { max_time: Some(seconds), ..self }
     }
 
-    /// But no doubling that would take more model runs.
+    /// Excludes a doubling that would take more model runs.
     #[must_use]
     pub const fn max_runs(self, runs: u64) -> Self {
         Self { max_runs: Some(runs), ..self }
     }
 
-    /// Whether the run grows.
+    /// Returns whether the run grows.
     pub fn grows(&self) -> bool {
         *self != Self::default()
     }
 
-    /// Base samples of the design from which a run with `replicates` starts where nothing else is said.
+    /// Returns the default number of base samples with which a run with `replicates` starts.
     pub(super) fn base_samples(&self, replicates: u64) -> u64 {
         match self {
-            // Trials decide what is run.
+            // Trials determine the method.
             Self { accuracy: Some(_), .. } => FIRST_TRIAL_POINTS.saturating_mul(replicates),
-            // The time may not suffice for more of a slow model.
+            // A slow model may not have time for more.
             Self { max_time: Some(_), .. } => FIRST_POINTS.saturating_mul(replicates),
             target if target.grows() => FIRST_STAGE,
             _ => DesignSettings::default().base_samples,
         }
     }
 
-    /// `design` halved until it takes no more than the runs that it may; an error with the runs of the smallest one if
-    /// that takes more.
+    /// Halves `design` until it takes at most the maximum number of runs; returns an error with the runs of the
+    /// smallest one if that takes more.
     pub(crate) fn within_max_runs(&self, mut design: Design) -> Result<Design, u64> {
         while self.max_runs.is_some_and(|most| design.rows() > most) {
             match design.with_points(design.points_per_replicate() / 2) {
@@ -230,27 +230,27 @@ impl Target {
 /// Base samples with which a growing run starts.
 const FIRST_STAGE: u64 = 1 << 10;
 
-/// Base points of each replicate with which one starts whose time is limited.
+/// Base points of each replicate with which a run with a time limit starts.
 const FIRST_POINTS: u64 = 64;
 
-/// The same of one that is asked for an accuracy.
+/// The same for a run with a target accuracy.
 const FIRST_TRIAL_POINTS: u64 = 4;
 
-/// Dependent factors up to which Shapley effects are not asked for one by one.
+/// Maximum number of dependent factors for which Shapley effects are estimated by default.
 const FREE_SHAPLEY_FACTORS: usize = 4;
 
-/// Most outputs of a study with other measures: each takes a second or so.
+/// Maximum number of outputs of a study with other measures: each takes about a second.
 pub const MAX_OUTPUTS_OF_MEASURES: usize = 100;
 
 pub(super) const DEFAULT_RESAMPLES: usize = 1000;
 
-/// How many resamples there may be.
+/// Allowed numbers of resamples.
 pub(super) const RESAMPLES: RangeInclusive<usize> = 100..=1_000_000;
 pub(super) const DEFAULT_THRESHOLD: f64 = 0.05;
 pub(super) const DEFAULT_MAX_FAILED: f64 = 0.1;
 
-/// Base samples and plain rows of each for the best design of at most `runs` runs in `replicates` of points of `sampler`; an
-/// error with the runs of the smallest such design if that takes more.
+/// Returns the base samples and plain rows of each for the best design of at most `runs` runs in `replicates` of points
+/// of `sampler`; an error with the runs of the smallest such design if that takes more.
 pub(super) fn sizes_within(
     runs: u64,
     analysis: &AnalysisOptions,
@@ -261,15 +261,15 @@ pub(super) fn sizes_within(
     let one = DesignSettings { sampler, base_samples: 2, replicates: 1, ..DesignSettings::default() };
     match Design::new(one, space.factors().len(), rows(analysis, space, 0)) {
         Ok(one) => split(runs, one.rows_per_point(), replicates, analysis.takes_surrogates(sampler, replicates, space)),
-        // What is wrong with the rows is said when the design is made.
+        // Errors in the rows are reported when the design is created.
         Err(_) => Ok((2 * replicates, 0)),
     }
 }
 
-/// Base samples and plain rows of each for at most `runs` runs: a power of two in each of `replicates`, whose runs are
-/// `runs_per_point` without plain rows. For surrogates an eighth to a third of the runs, rather more than less, are at base
-/// samples, and the others at plain rows, from which these alone learn. An error with the runs of the smallest design if that
-/// takes more.
+/// Returns the base samples and plain rows of each for at most `runs` runs: a power of two in each of `replicates`,
+/// with `runs_per_point` runs without plain rows. For surrogates an eighth to a third of the runs, preferably more, are
+/// at base samples, and the others at plain rows, used only to fit them. An error with the runs of the smallest design
+/// if that takes more.
 fn split(runs: u64, runs_per_point: u64, replicates: u64, for_surrogates: bool) -> Result<(u64, u32), u64> {
     const SHARE: u64 = 3;
     let runs_of = |points: u64| points.saturating_mul(replicates).saturating_mul(runs_per_point);
@@ -288,8 +288,8 @@ fn split(runs: u64, runs_per_point: u64, replicates: u64, for_surrogates: bool) 
     Ok((base_samples, plain))
 }
 
-/// The rows for what is asked: the factors, the groups, the subsets; of dependent factors these once more, redrawn; the dummy; and
-/// the subsets or the random orders that Shapley effects need.
+/// Returns the rows for the analysis: the factors, the groups, the subsets; for dependent factors these once more,
+/// redrawn; the dummy; and the subsets or the random orders that Shapley effects need.
 pub(super) fn rows(analysis: &AnalysisOptions, space: &Space, plain_rows: u32) -> Rows {
     let factors = space.factors().len();
     let single = (0..factors).map(|number| vec![number]);
@@ -322,7 +322,7 @@ pub(super) fn rows(analysis: &AnalysisOptions, space: &Space, plain_rows: u32) -
     Rows { swaps, ba, second_order, plain_rows, copula, redrawn, players }
 }
 
-/// The players of `space`: the number of each among the factors and groups in their order, and its factors.
+/// Returns the players of `space`: the index of each among the factors and groups in their order, and its factors.
 pub(super) fn shapley_players(players: ShapleyPlayers, space: &Space) -> Vec<(usize, Swap)> {
     let factors = space.factors();
     let alone = |number: &usize| players == ShapleyPlayers::Factors || factors[*number].group.is_none();

@@ -1,4 +1,4 @@
-//! The rules that every study obeys, whether it is made in code or read from a file.
+//! The rules for every study, built in code or read from a file.
 
 use std::collections::BTreeSet;
 
@@ -11,12 +11,12 @@ use crate::names::{NAME_RULE, names_files, refused_name, refused_output_name, re
 use crate::space::{Factor, Space};
 use crate::uncertainty::IntervalMethod;
 
-/// A value that `key` cannot have.
+/// Returns an error for a value that `key` cannot have.
 pub(super) fn wrong<T>(key: &'static str, expected: impl Into<String>, found: impl ToString) -> Result<T, BuildError> {
     Err(BuildError::Wrong { key, expected: expected.into(), found: found.to_string() })
 }
 
-/// The name of the study names files, and its title stands on pages.
+/// Checks that the name of the study is valid in file names, and that its title can be shown on pages.
 pub(super) fn check_title(name: &str, title: Option<&str>) -> Result<(), BuildError> {
     if !names_files(name) {
         return wrong("name", NAME_RULE, shown(name));
@@ -27,7 +27,7 @@ pub(super) fn check_title(name: &str, title: Option<&str>) -> Result<(), BuildEr
     }
 }
 
-/// Outputs have names of their own, and every series has outputs of its own.
+/// Checks that outputs have distinct names, and that every series has outputs of its own.
 pub(super) fn check_outputs(model: &dyn Model) -> Result<(), BuildError> {
     let outputs = model.outputs();
     if outputs.is_empty() {
@@ -48,7 +48,7 @@ pub(super) fn check_outputs(model: &dyn Model) -> Result<(), BuildError> {
     Ok(())
 }
 
-/// Factors, their groups and labels have names that can be shown, and somewhere to stand when they do not vary.
+/// Checks that factors, their groups and labels have valid names, and that factors have a valid nominal value.
 pub(super) fn check_factors(factors: &[Factor], model: &dyn Model) -> Result<(), BuildError> {
     let mut seen: BTreeSet<&str> = BTreeSet::new();
     if let Some(output) = model.outputs().iter().find(|output| !seen.insert(&output.name)) {
@@ -81,7 +81,7 @@ pub(super) fn check_factors(factors: &[Factor], model: &dyn Model) -> Result<(),
     }
 }
 
-/// The options, each of them possible for points of `sampler` and the factors of `space`.
+/// Returns the options, checked to be valid for points of `sampler` and the factors of `space`.
 pub(super) fn checked_options(
     mut options: AnalysisOptions,
     sampler: Sampler,
@@ -130,7 +130,7 @@ pub(super) fn checked_options(
     check_shapley(&options, space)?;
     options.measures.sort_unstable();
     options.measures.dedup();
-    // The default ones are in every result.
+    // Every result contains the default ones.
     options.estimators.retain(|estimator| *estimator != Estimator::Default);
     let all = options.estimators.clone();
     let is_first = |(place, estimator): &(usize, &Estimator)| !all[..*place].contains(estimator);
@@ -163,7 +163,7 @@ fn check_shapley(options: &AnalysisOptions, space: &Space) -> Result<(), BuildEr
     Ok(())
 }
 
-/// What needs independent factors is not asked of others.
+/// Refuses options that need independent factors.
 pub(super) fn check_dependent(
     options: &AnalysisOptions,
     space: &Space,
@@ -182,7 +182,7 @@ pub(super) fn check_dependent(
     }
 }
 
-/// How long a run is, said in one way: by base samples, by runs, or by an accuracy; and limits where it grows.
+/// The length of a run, given in one way: by base samples, by runs, or by an accuracy; and limits if it grows.
 pub struct Length {
     pub base_samples: Option<u64>,
     pub runs: Option<u64>,
@@ -219,7 +219,7 @@ impl Length {
         Ok(())
     }
 
-    /// Base samples, and plain rows of each.
+    /// Returns the base samples, and plain rows of each.
     pub(super) fn sizes(
         &self,
         options: &AnalysisOptions,

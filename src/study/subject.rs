@@ -1,4 +1,4 @@
-//! What a study is about: a model with its choices made.
+//! The subject of a study: a model with its choices made.
 
 use std::any::Any;
 use std::fmt;
@@ -12,53 +12,53 @@ use crate::space::{Factor, Space};
 
 /// A model with its choices made, ready to be run on the factors of any space.
 pub trait Subject: fmt::Debug + Send + Sync + Any {
-    /// The model's name in study files; `custom` for one that is part of a program.
+    /// Returns the model's name in study files; `custom` for one that is part of a program.
     fn name(&self) -> &'static str;
 
-    /// The model on the factors of `space`.
+    /// Creates the model on the factors of `space`.
     fn model(&self, space: &Space) -> Box<dyn Model>;
 
-    /// The choices in force, in the terms of the study file.
+    /// Returns the current choices, with the keys of the study file.
     fn settings(&self) -> Vec<(&'static str, Value)> {
         Vec::new()
     }
 
-    /// The inputs that are not factors, as (name, value, unit).
+    /// Returns the inputs that are not factors, as (name, value, unit).
     fn constants(&self, _space: &Space) -> Vec<(String, f64, String)> {
         Vec::new()
     }
 
-    /// Inputs that are no factors of `space`, and whose extremes are worth a look all the same.
+    /// Returns inputs that are not factors of `space`, but whose extremes are worth examining.
     fn further_inputs(&self, _space: &Space) -> Vec<Factor> {
         Vec::new()
     }
 
-    /// Files of the user, beside the study itself, that the outputs depend on, as far as the study names them.
+    /// Returns files of the user other than the study on which the outputs depend, if the study names them.
     fn files(&self) -> Vec<PathBuf> {
         Vec::new()
     }
 
-    /// The name of the model among its [rungs](Self::rungs).
+    /// Returns the name of the model among its [rungs](Self::rungs).
     fn rung_name(&self) -> String {
         "the model".to_owned()
     }
 
-    /// The models of the same outputs that differ in fidelity, the cheapest first; none if there is one alone.
+    /// Returns the models of the same outputs that differ in fidelity, the cheapest first; none if there is only one.
     fn rungs(&self) -> Vec<Rung> {
         Vec::new()
     }
 
-    /// The exact first-order and total indices of the factors of `space`, if they are known.
+    /// Returns the exact first-order and total indices of the factors of `space`, if they are known.
     fn exact_indices(&self, _space: &Space) -> Option<(Vec<f64>, Vec<f64>)> {
         None
     }
 
-    /// Cheaper models of the same outputs that come with this one, by name, the nearest first.
+    /// Returns the built-in low-fidelity models of the same outputs, by name, the nearest first.
     fn cheaper(&self) -> Vec<LowFidelity> {
         Vec::new()
     }
 
-    /// Whether rows are evaluated by somebody else, and only their outputs are analysed here.
+    /// Returns whether rows are evaluated elsewhere, and only their outputs are analysed here.
     fn is_external(&self) -> bool {
         false
     }
@@ -71,13 +71,13 @@ pub struct Rung {
     pub name: String,
     /// The model.
     pub subject: Arc<dyn Subject>,
-    /// The lines of a study that ask for it.
+    /// The lines of a study that select it.
     pub lines: String,
-    /// Whether it stands for the truth.
+    /// Whether it is the reference for the others.
     pub is_finest: bool,
 }
 
-/// A cheaper model of the same outputs.
+/// A low-fidelity model of the same outputs.
 #[derive(Debug, Clone)]
 pub struct LowFidelity {
     /// Its name.
@@ -89,7 +89,7 @@ pub struct LowFidelity {
 }
 
 impl LowFidelity {
-    /// Why it cannot stand in for `model` on the factors of `space`; `None` if it can.
+    /// Returns why it cannot be used with `model` on the factors of `space`; `None` if it can.
     pub(super) fn refused(&self, model: &dyn Model, space: &Space) -> Option<String> {
         let low = self.subject.model(space);
         let names = |model: &dyn Model| -> Vec<String> { model.outputs().iter().map(|o| o.name.to_string()).collect() };
@@ -106,17 +106,17 @@ impl LowFidelity {
 }
 
 impl dyn Subject {
-    /// The subject as a `T`, if it is one.
+    /// Returns the subject as a `T`, if it is one.
     pub fn downcast_ref<T: Subject>(&self) -> Option<&T> {
         (self as &dyn Any).downcast_ref()
     }
 }
 
-/// A stochastic model, several runs of which make a row: see [`RepeatedModel`].
+/// A stochastic model, whose rows consist of several runs: see [`RepeatedModel`].
 #[derive(Debug)]
 pub struct RepeatedSubject {
     pub subject: Arc<dyn Subject>,
-    /// The number of the factor that is its seed.
+    /// The index of the factor that is its seed.
     pub seed: usize,
     pub repetitions: usize,
 }
@@ -149,7 +149,7 @@ impl Subject for RepeatedSubject {
 /// A model that is part of a program.
 pub(super) struct CustomSubject {
     pub(super) model: Arc<dyn Model>,
-    /// What tells it from others in journals, if anything does.
+    /// What distinguishes it from others in journals, if anything does.
     pub(super) version: Option<String>,
 }
 
@@ -173,10 +173,10 @@ impl Subject for CustomSubject {
     }
 }
 
-/// A model outside of this program.
+/// A model outside this program.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ExternalSubject {
-    /// What it computes.
+    /// Its outputs.
     pub outputs: Vec<Output>,
     /// Those of the outputs that are series.
     pub series: Vec<OutputSeries>,

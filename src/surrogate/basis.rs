@@ -5,19 +5,19 @@ use super::own::{OwnPolynomials, Recurrence};
 use crate::space::Distribution;
 use crate::special::normal_quantile;
 
-/// Most factors in a term of the first candidates.
+/// Maximum number of factors in a term of the first candidates.
 const MAX_FACTORS: usize = 3;
 
-/// Most factors in a term at all.
+/// Maximum number of factors in any term.
 const MAX_FACTORS_OF_NEIGHBOURS: usize = 5;
 
-/// The norm of hyperbolic truncation: of two terms with equal sums of degrees, that of fewer factors comes first.
+/// The norm of hyperbolic truncation: of two terms with equal sums of degrees, the one with fewer factors comes first.
 const NORM: f64 = 0.75;
 
 /// Factors that are tried as partners of every term.
 const LEADING: usize = 8;
 
-/// Share of the variance below which a factor is no partner.
+/// Share of the variance below which a factor is not tried as a partner.
 const LEADING_SHARE: f64 = 1e-7;
 
 /// The polynomials of one factor.
@@ -27,19 +27,19 @@ pub enum Family {
     Legendre,
     /// Hermite polynomials of the normal quantile: for normal and log-normal factors.
     Hermite,
-    /// Those of the factor's own distribution, in its values.
+    /// Polynomials orthonormal in the factor's own distribution, in its values.
     Own(Box<OwnPolynomials>),
-    /// Those of the values of a column, orthonormal in its own distribution, at these values.
+    /// Polynomials of the values of a column, orthonormal in the distribution of the column, at these values.
     Column(Box<Recurrence>),
-    /// Others with steps and kinks among them, all of which count as degrees.
+    /// Polynomials of another family together with steps and kinks, all of which count as degrees.
     Knotted(Box<Knotted>),
 }
 
 impl Family {
-    /// That of a factor with this distribution.
+    /// Returns the family of a factor with this distribution.
     pub fn new(distribution: &Distribution) -> Self {
         match distribution {
-            // Nothing is smooth in a seed: no polynomials at all.
+            // No output is smooth in a seed: no polynomials at all.
             Distribution::Seed(_) => Self::Column(Box::default()),
             // Smooth in the logarithm, which is uniform.
             Distribution::Uniform(_) | Distribution::LogUniform(_) | Distribution::Empirical(_) => Self::Legendre,
@@ -47,12 +47,12 @@ impl Family {
             | Distribution::LogNormal(_)
             | Distribution::Weibull(_)
             | Distribution::Gumbel(_) => Self::Hermite,
-            // Those without bounds of the rest have none of their own, and are taken by their quantiles.
+            // Unbounded distributions have no own polynomials here, and use their quantiles.
             _ => OwnPolynomials::new(distribution, MAX_DEGREES).map_or(Self::Legendre, |own| Self::Own(Box::new(own))),
         }
     }
 
-    /// That of a column of `values`, between -2 and 2: of no degree if they are all alike.
+    /// Returns the family of a column of `values`, between -2 and 2, with no degree if they are all equal.
     pub fn of_column(values: &[f64]) -> Self {
         let bounds = |(low, high): (f64, f64), x: &f64| (low.min(*x), high.max(*x));
         let (low, high) = values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), bounds);
@@ -62,12 +62,12 @@ impl Family {
         Self::Column(Box::new(recurrence.unwrap_or_default()))
     }
 
-    /// Its polynomials without steps and kinks.
+    /// Returns its polynomials without steps and kinks.
     pub fn smooth(&self) -> &Self {
         if let Self::Knotted(own) = self { own.base() } else { self }
     }
 
-    /// The largest degree that there is.
+    /// Returns the largest available degree.
     fn degree(&self) -> usize {
         match self {
             Self::Legendre | Self::Hermite => MAX_DEGREES,
@@ -78,28 +78,28 @@ impl Family {
     }
 }
 
-/// Largest degree of any polynomial.
+/// Maximum degree of any polynomial.
 const MAX_DEGREES: usize = 14;
 
 /// A product of polynomials of different factors: (factor, degree) by rising factor, degrees from 1; the empty one is the
 /// constant.
 pub type Term = Vec<(usize, usize)>;
 
-/// How many candidate terms there are, and of which degree at most.
+/// Limits on the number and the degree of candidate terms.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Caps<'a> {
-    /// Candidate terms.
+    /// Maximum number of candidate terms.
     pub terms: usize,
-    /// Largest sum of degrees.
+    /// Maximum sum of degrees.
     pub degree: usize,
-    /// Largest sum of the degrees of Hermite polynomials.
+    /// Maximum sum of the degrees of Hermite polynomials.
     pub hermite_degree: usize,
     /// The polynomials of every factor.
     pub families: &'a [Family],
 }
 
 impl<'a> Caps<'a> {
-    /// For factors with polynomials of these `families`.
+    /// Returns the limits for factors with polynomials of these `families`.
     pub fn new(families: &'a [Family], hermite_degree: usize) -> Self {
         let terms = match families.len() {
             0..=4 => 400,
@@ -110,7 +110,7 @@ impl<'a> Caps<'a> {
         Self { terms, degree, hermite_degree, families }
     }
 
-    /// Largest sum of degrees of a term, of that many factors.
+    /// Returns the largest sum of degrees of a term with this number of factors.
     pub fn degree_of(factors: usize) -> usize {
         match factors {
             0..=4 => MAX_DEGREES,
@@ -119,7 +119,7 @@ impl<'a> Caps<'a> {
         }
     }
 
-    /// Whether `term` is of no higher degree than it may be.
+    /// Returns whether the degree of `term` is within the limits.
     fn allow(&self, term: &[(usize, usize)]) -> bool {
         let degree = |counts: &dyn Fn(usize) -> bool| -> usize {
             term.iter().filter(|(factor, _)| counts(*factor)).map(|(_, degree)| degree).sum()
@@ -131,12 +131,12 @@ impl<'a> Caps<'a> {
     }
 }
 
-/// The first `count` terms by the hyperbolic norm of their degrees, the constant first.
+/// Returns the first `count` terms by the hyperbolic norm of their degrees, the constant first.
 pub fn first_terms(caps: Caps<'_>, count: usize) -> Vec<Term> {
     let (factors, degree) = (caps.families.len(), caps.degree);
     let mut patterns: Vec<(f64, Vec<usize>)> = Vec::new();
     for members in 1..=MAX_FACTORS.min(factors) {
-        // Rising degrees, each to be dealt to factors in every way.
+        // Rising degrees, to be assigned to factors in every way.
         let most = match members {
             1 => degree,
             2 => degree.min(7),
@@ -170,7 +170,7 @@ pub fn first_terms(caps: Caps<'_>, count: usize) -> Vec<Term> {
     terms
 }
 
-/// Every list of `members` rising degrees whose sum is at most `most`.
+/// Calls `found` with every list of `members` rising degrees whose sum is at most `most`.
 fn rising(members: usize, most: usize, so_far: &mut Vec<usize>, found: &mut dyn FnMut(&[usize])) {
     if so_far.len() == members {
         found(so_far);
@@ -185,7 +185,7 @@ fn rising(members: usize, most: usize, so_far: &mut Vec<usize>, found: &mut dyn 
     }
 }
 
-/// The different orders of `degrees`.
+/// Returns the distinct permutations of `degrees`.
 fn permutations(degrees: &[usize]) -> Vec<Vec<usize>> {
     if degrees.len() <= 1 {
         return vec![degrees.to_vec()];
@@ -204,7 +204,7 @@ fn permutations(degrees: &[usize]) -> Vec<Vec<usize>> {
     all
 }
 
-/// The next choice of rising members below `factors`; `false` after the last one.
+/// Advances to the next choice of rising members below `factors`; returns `false` after the last one.
 fn next_members(members: &mut [usize], factors: usize) -> bool {
     let count = members.len();
     for place in (0..count).rev() {
@@ -219,9 +219,9 @@ fn next_members(members: &mut [usize], factors: usize) -> bool {
     false
 }
 
-/// The terms `active` by falling square of their coefficients, and then, for each in this order, its neighbours: with one and
-/// two degrees more in one of its factors, and with one of the leading factors as a partner: in degree 1, and one with steps or kinks
-/// also in the degree of its leading term.
+/// Returns the terms `active` by falling square of their coefficients, and then, for each in this order, its
+/// neighbours: with one and two degrees more in one of its factors, and with one of the leading factors as a partner,
+/// in degree 1, and for one with steps or kinks also in the degree of its leading term.
 pub fn neighbours(active: &[Term], coefficients: &[f64], caps: Caps<'_>) -> Vec<Term> {
     let mut order: Vec<usize> = (0..active.len()).collect();
     order.sort_by(|&i, &j| {
@@ -264,7 +264,7 @@ pub fn neighbours(active: &[Term], coefficients: &[f64], caps: Caps<'_>) -> Vec<
     terms
 }
 
-/// The degree of the first term of `factor` alone.
+/// Returns the degree of the first term with only `factor`.
 fn leading_degree(active: &[Term], order: &[usize], factor: usize) -> usize {
     let degree = |&place: &usize| match active[place][..] {
         [(other, degree)] if other == factor => Some(degree),
@@ -273,7 +273,7 @@ fn leading_degree(active: &[Term], order: &[usize], factor: usize) -> usize {
     order.iter().find_map(degree).unwrap_or(1)
 }
 
-/// The factors whose terms carry most variance, the first ones first.
+/// Returns the factors whose terms have the most variance, in falling order.
 fn leading_factors(active: &[Term], coefficients: &[f64], order: &[usize]) -> Vec<usize> {
     let mut variances: Vec<(usize, f64)> = Vec::new();
     for &place in order {
@@ -292,8 +292,8 @@ fn leading_factors(active: &[Term], coefficients: &[f64], order: &[usize]) -> Ve
     variances.into_iter().map(|(factor, _)| factor).collect()
 }
 
-/// The orthonormal polynomials of degrees 1 to `degree` of one factor at `u`, a column for each degree: at the quantiles of the
-/// factor, or at the values of a [`Family::Column`].
+/// Returns the orthonormal polynomials of degrees 1 to `degree` of one factor at `u`, a column for each degree: at the
+/// quantiles of the factor, or at the values of a [`Family::Column`].
 pub fn polynomials(family: &Family, u: &[f64], degree: usize) -> Vec<Vec<f64>> {
     let mut columns: Vec<Vec<f64>> = Vec::with_capacity(degree);
     match family {
@@ -355,7 +355,7 @@ mod tests {
             &[(1, 3)],
         ];
         assert_eq!(terms, expected);
-        // All degrees up to 14 of one factor, and no term twice.
+        // All degrees up to 14 of one factor, and no duplicate term.
         assert_eq!(first_terms(Caps::new(&[Family::Legendre], 0), 400).len(), 15);
         let many = first_terms(Caps::new(&legendre(8), 0), 300);
         assert_eq!(many.iter().collect::<std::collections::HashSet<_>>().len(), 300);
@@ -364,7 +364,7 @@ mod tests {
 
     #[test]
     fn polynomials_are_orthonormal() {
-        // By the midpoint rule, which misses what Hermite polynomials have in the tails.
+        // By the midpoint rule, which misses the tails of Hermite polynomials.
         let n = 20_000;
         let u: Vec<f64> = (0..n).map(|i| (f64::from(i) + 0.5) / f64::from(n)).collect();
         for (family, degree, tolerance) in [(Family::Legendre, 10, 1e-5), (Family::Hermite, 4, 1e-1)] {

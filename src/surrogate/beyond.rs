@@ -1,12 +1,13 @@
-//! What expansions say of the tails of their factors, where no run is.
+//! The error of expansions in the tails of their factors, where there are no runs.
 //!
-//! An expansion is known exactly, and so counts also where no run shows whether it is right. A polynomial of high degree in an
-//! unbounded variable has most of its variance there. How far it departs in the tails from its own tangents at their edges is
-//! therefore a part of the error of every number that it enters; less of it the better the expansion fits and the lower its
-//! degree is, since what is close to a polynomial of low degree goes on like one.
+//! The indices of an expansion are computed exactly, which includes regions where no run shows whether it is right. A
+//! polynomial of high degree in an unbounded variable has most of its variance there. Its departure in the tails from
+//! its own tangents at their edges is therefore counted as a part of the error of every number to which it contributes;
+//! less of it if the expansion fits well or its degree is low, since a function close to a polynomial of low degree
+//! continues like one.
 //!
-//! Nor do runs show where a step lies between two values drawn. How far the two sides of a knot depart from one another counts as if it
-//! were uniform over the width within which the knot lies, of standard deviation width/sqrt(12).
+//! Runs also do not show where a step lies between two sampled values. The departure of the two sides of a knot from
+//! one another counts as if the step were uniform over the width of the knot, of standard deviation width/sqrt(12).
 
 use std::collections::BTreeMap;
 
@@ -15,24 +16,24 @@ use super::corrected::{touches, within};
 use super::fit::Expansion;
 use crate::uncertainty::Knot;
 
-/// Width of the panels of the midpoint rule in ln u, and their number, to 1e-17 of the edge.
+/// Width of the panels of the midpoint rule in ln u, and their number, down to 1e-17 of the edge.
 const STEP: f64 = 0.25;
 const PANELS: usize = 160;
 
-/// Distance of two values of u about the edge over that of the edge, for slopes.
+/// Relative distance from the edge of the two values of u used for slopes.
 const NEAR: f64 = 1e-5;
 
-/// Distance in u of either side of a knot.
+/// Distance in u to either side of a knot.
 const KNOT_SIDE: f64 = 1e-9;
 
-/// How many times the root mean square of the rest counts for every degree of a polynomial, times its departure; at most all of
-/// that does. Polynomials that are small where the runs are grow so fast beyond them, as those of Chebyshev do. Measured on
-/// sines, exponentials and powers of normal factors.
+/// Multiple of the root mean square residual that counts for every degree of a polynomial, times its departure; limited
+/// to the whole departure. Polynomials that are small at the runs grow this fast beyond them, as those of Chebyshev do.
+/// Measured on sines, exponentials and powers of normal factors.
 const GROWTH: f64 = 3.2;
 
-/// One tail of a factor, from its edge outwards; or a knot, with its two sides in place of the tail and its tangents.
+/// One tail of a factor, from its edge outwards; or a knot, with its two sides instead of the tail and its tangents.
 struct Tail {
-    /// Whether a close fit tells nothing of it.
+    /// Whether it is a knot, which a close fit does not determine.
     is_knot: bool,
     /// Probabilities of the nodes.
     weights: Vec<f64>,
@@ -43,7 +44,7 @@ struct Tail {
 }
 
 impl Tail {
-    /// Both tails of a factor with polynomials of `family`, each of the probability `mass`; none where polynomials have no tails.
+    /// Returns both tails of a factor with polynomials of `family`, each of probability `mass`; none without tails.
     fn both(family: &Family, mass: f64, degree: usize) -> Vec<Self> {
         let (with_knots, family) = (family, family.smooth());
         let degree = if let Family::Knotted(own) = with_knots { own.degree() } else { degree };
@@ -72,7 +73,7 @@ impl Tail {
             let [edge, near] = [PANELS, PANELS + 1];
             let tangent = |of: &Vec<f64>| -> Vec<f64> {
                 let slope = (of[edge] - of[near]) / (x[edge] - x[near]);
-                // Between two levels of a discrete distribution there is none.
+                // The slope is undefined between two levels of a discrete distribution.
                 let slope = if slope.is_finite() { slope } else { 0.0 };
                 x[..PANELS].iter().map(|x_node| of[edge] + slope * (x_node - x[edge])).collect()
             };
@@ -83,7 +84,7 @@ impl Tail {
         is_upper.iter().map(tail).collect()
     }
 
-    /// Steps and kinks of a factor with functions of `family`.
+    /// Returns the steps and kinks of a factor with functions of `family`.
     fn knots(family: &Family) -> Vec<Self> {
         let Family::Knotted(own) = family else { return Vec::new() };
         let of_knot = |knot: &Knot| {
@@ -94,8 +95,8 @@ impl Tail {
         own.knots().iter().map(of_knot).collect()
     }
 
-    /// How far the polynomial with `coefficients` (degree, coefficient) and the constant `offset` departs from its tangent: the
-    /// means of the absolute differences, and of those of the squares.
+    /// Computes the departure of the polynomial with `coefficients` (degree, coefficient) and the constant `offset`
+    /// from its tangent: the means of the absolute differences, and of those of the squares.
     fn departure(&self, coefficients: &[(usize, f64)], offset: f64) -> [f64; 2] {
         let mut sums = [0.0; 2];
         for (node, weight) in self.weights.iter().enumerate() {
@@ -110,24 +111,24 @@ impl Tail {
     }
 }
 
-/// The errors by what expansions say of tails, of an output scaled to variance 1.
+/// The errors due to the tails of expansions, of an output scaled to variance 1.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Beyond {
-    /// Of the mean.
+    /// Error of the mean.
     pub mean: f64,
-    /// Of the variance.
+    /// Error of the variance.
     pub variance: f64,
-    /// Of V S of every swap.
+    /// Error of V S of every swap.
     pub first_order: Vec<f64>,
-    /// Of V ST of every swap.
+    /// Error of V ST of every swap.
     pub total: Vec<f64>,
-    /// Of V S_jk of the pairs of factors.
+    /// Error of V S_jk of the pairs of factors.
     pub pairs: Vec<f64>,
 }
 
 impl Beyond {
-    /// Of the mean of `expansions` in polynomials of `families`, fitted to runs at `points` points, of which they leave the mean
-    /// square `rest`.
+    /// Computes the errors of the mean of `expansions` in polynomials of `families`, fitted to runs at `points` points
+    /// with a mean square residual of `rest`.
     pub fn new(
         expansions: &[Expansion],
         families: &[Family],
@@ -187,19 +188,19 @@ impl Beyond {
     }
 }
 
-/// The largest degree of a factor in `terms`.
+/// Returns the largest degree of a factor in `terms`.
 fn degree(terms: &[Term], factor: usize) -> usize {
     terms.iter().flatten().filter(|(of, _)| *of == factor).map(|(_, degree)| *degree).max().unwrap_or(0)
 }
 
-/// `rest` with the factor of any degree.
+/// Returns `rest` with the factor inserted; its degree is irrelevant.
 fn with(rest: &[(usize, usize)], factor: usize) -> Term {
     let mut term = rest.to_vec();
     term.insert(term.partition_point(|(other, _)| *other < factor), (factor, 1));
     term
 }
 
-/// The polynomial of one factor beside the same polynomials of the others.
+/// The polynomials of one factor that are multiplied by the same polynomials of the others.
 #[derive(Default)]
 struct Group {
     /// Degrees and coefficients.
@@ -208,7 +209,7 @@ struct Group {
     offset: f64,
 }
 
-/// The polynomials of `factor` by what stands beside them.
+/// Returns the polynomials of `factor`, grouped by the polynomials that multiply them.
 fn groups(expansion: &Expansion, factor: usize) -> BTreeMap<Term, Group> {
     let mut groups: BTreeMap<Term, Group> = BTreeMap::new();
     let terms = || expansion.terms.iter().zip(&expansion.coefficients);
@@ -219,7 +220,7 @@ fn groups(expansion: &Expansion, factor: usize) -> BTreeMap<Term, Group> {
             groups.entry(rest).or_default().coefficients.push((degree, *b));
         }
     }
-    // The mean is no part of the variance.
+    // The mean does not contribute to the variance.
     for (term, b) in terms().filter(|(term, _)| !term.is_empty()) {
         if let Some(group) = groups.get_mut(term) {
             group.offset = *b;
@@ -242,7 +243,7 @@ mod tests {
 
     #[test]
     fn a_square_departs_from_its_tangents_as_integrals_say() {
-        // p = (z^2 - 1)/sqrt 2 less its tangent is (z - c)^2/sqrt 2; its mean in both tails is by parts, with c at 1/100.
+        // p = (z^2 - 1)/sqrt 2 minus its tangent is (z - c)^2/sqrt 2; mean in both tails by parts, c at 1/100.
         let found = beyond(Family::Hermite, vec![vec![], vec![(0, 2)]], vec![5.0, 1.0], 1.0);
         let c = -normal_quantile(0.01);
         let density = libm::exp(-c * c / 2.0) / (2.0 * std::f64::consts::PI).sqrt();
@@ -250,7 +251,7 @@ mod tests {
         assert!((found.mean / exact - 1.0).abs() < 2e-3, "{} {exact}", found.mean);
         assert_eq!((found.variance, found.variance), (found.first_order[0], found.total[0]));
         assert_eq!([found.first_order[1], found.total[1], found.pairs[0]], [0.0; 3]);
-        // Well fitted, it goes on like that.
+        // If it fits well, the departure does not count.
         let fitted = beyond(Family::Hermite, vec![vec![(0, 2)]], vec![1.0], 1e-12);
         assert!((fitted.variance / (found.variance * 3.2_f64.powi(2) * 1e-6) - 1.0).abs() < 1e-9);
     }
@@ -261,7 +262,7 @@ mod tests {
             let knots = [Knot { u: 0.3, width, is_step: true }];
             Family::Knotted(Box::new(Knotted::new(&Family::Legendre, &knots, 6)))
         };
-        // The rest does not matter.
+        // The residual does not matter.
         let found = [0.0, 0.01].map(|width| beyond(of(width), vec![vec![(0, 1)], vec![(0, 2)]], vec![0.3, 0.8], 1e-9));
         let at = |u: f64| {
             let columns = polynomials(&of(0.01), &[u], 6);
@@ -284,7 +285,7 @@ mod tests {
         ];
         let [bounded, long] = [&uniform, &normal].map(|law| of(Family::new(law), vec![(0, 8)]));
         assert!(bounded < 0.3 && long > 0.5, "{bounded} {long}");
-        // Most of a polynomial of high degree lies where no run is.
+        // Most of a polynomial of high degree lies outside the runs.
         let high = of(Family::Hermite, vec![(0, 10)]);
         assert!((0.5..1.0).contains(&high), "{high}");
     }
@@ -297,7 +298,7 @@ mod tests {
         let of_pair = [found.total[0], found.total[1], found.pairs[0]];
         assert_eq!(of_pair, [found.variance; 3]);
         assert_eq!(found.first_order, [0.0; 2]);
-        // Both tails, of which each has a half by symmetry of the odd polynomial but for what stands beside it.
+        // Both tails have a half each, by symmetry of the odd polynomial, apart from the other terms.
         let alone = beyond(Family::Hermite, terms, vec![0.5, 0.0], 1.0);
         assert!(alone.variance < found.variance);
     }

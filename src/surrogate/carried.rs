@@ -1,34 +1,35 @@
-//! Which terms the rows of the nets can carry.
+//! Selection of the terms that the rows of the nets can determine.
 //!
-//! Polynomials are orthonormal in the distribution of their factor, and over the rows only as far as these stand for it. Of a
-//! rare level that no row has, or a thin tail, one of them is constant over the rows, or two are the same column; a fit takes
-//! either, and the variance that it claims is that of the distribution, (1 - p)/p times too large for a level of probability p.
-//! A term with levels in it is therefore a candidate only where its mean square over the rows of every net is close to 1, and a
-//! factor with a thin tail has polynomials only where that of degree 1 is over all nets together.
+//! Polynomials are orthonormal in the distribution of their factor, and over the rows only as far as these represent
+//! it. For a rare level that no row has, or a thin tail, one of them is constant over the rows, or two are the same
+//! column; a fit accepts either, and the variance that it claims is that of the distribution, (1 - p)/p times too large
+//! for a level of probability p. A term with levels in it is therefore a candidate only if its mean square over the
+//! rows of every net is close to 1, and a factor with a thin tail has polynomials only if that of degree 1 has this
+//! over all nets together.
 
 use super::basis::{Caps, Family, Term};
 use super::net::Net;
 
-/// Least and largest mean square over the rows of a net of a term that these can carry. Of a level that half as many rows have
-/// as there should be, the polynomial has a mean square of a half.
+/// Allowed range of the mean square of a term over the rows of a net. If half as many rows as expected have a level,
+/// the mean square of its polynomial is a half.
 const MIN_MEAN_SQUARE: f64 = 0.5;
 const MAX_MEAN_SQUARE: f64 = 2.0;
 
-/// Rows of a net that products of polynomials are judged by, at most.
+/// Maximum number of rows of a net by which products of polynomials are judged.
 const ROWS: usize = 2000;
 
-/// The candidates that the rows of some nets can carry.
+/// The candidates that the rows of some nets can determine.
 pub struct Carried<'a> {
     nets: &'a [Net],
     caps: Caps<'a>,
-    /// Of each factor the highest degree up to which the rows of every net can carry all of them.
+    /// For each factor, the highest degree up to which the rows of every net can determine all polynomials.
     degrees: Vec<usize>,
-    /// Of each net the rows that products are judged by.
+    /// For each net, the rows by which products are judged.
     rows: Vec<Vec<(usize, usize)>>,
 }
 
 impl<'a> Carried<'a> {
-    /// By the rows of `nets`.
+    /// Computes the limits from the rows of `nets`.
     pub fn new(nets: &'a [Net], caps: Caps<'a>) -> Self {
         let of_factor = |(factor, family): (usize, &Family)| {
             let spreads: Vec<_> = nets.iter().map(|net| net.spreads(factor)).collect();
@@ -36,7 +37,7 @@ impl<'a> Carried<'a> {
                 Family::Own(own) if own.has_levels() => {
                     spreads.iter().map(|net| carried_degrees(net)).min().unwrap_or(0)
                 }
-                // What polynomials of high degree say of thin tails is a part of their error.
+                // The behaviour of polynomials of high degree in thin tails is a part of their error.
                 Family::Own(_) if carried_degrees(&[mean_of_first(&spreads)]) == 0 => 0,
                 _ => usize::MAX,
             }
@@ -46,12 +47,12 @@ impl<'a> Carried<'a> {
         Self { nets, caps, degrees, rows }
     }
 
-    /// What limits the terms besides.
+    /// Returns the other limits on the terms.
     pub fn caps(&self) -> Caps<'a> {
         self.caps
     }
 
-    /// Those of `terms` that the rows can carry.
+    /// Returns those of `terms` that the rows can determine.
     pub fn retain(&self, terms: Vec<Term>) -> Vec<Term> {
         terms.into_iter().filter(|term| self.carries(term)).collect()
     }
@@ -72,8 +73,8 @@ impl<'a> Carried<'a> {
     }
 }
 
-/// How many of the first degrees have a mean square that is close to 1, given those of every degree, and the squares of the
-/// means, over some rows: none of a column that is constant.
+/// Returns how many of the first degrees have a mean square close to 1, given the mean squares of every degree and the
+/// squares of the means over some rows: 0 for a constant column.
 fn carried_degrees(spreads: &[(f64, f64)]) -> usize {
     spreads
         .iter()
@@ -81,7 +82,7 @@ fn carried_degrees(spreads: &[(f64, f64)]) -> usize {
         .count()
 }
 
-/// Mean and mean square of the polynomial of degree 1 over all nets.
+/// Returns the mean and mean square of the polynomial of degree 1 over all nets.
 fn mean_of_first(spreads: &[Vec<(f64, f64)>]) -> (f64, f64) {
     let first = spreads.iter().filter_map(|net| net.first());
     let (mean, square) = first.fold((0.0, 0.0), |sum, of| (sum.0 + of.0, sum.1 + of.1));
@@ -94,7 +95,7 @@ mod tests {
     use super::*;
     use crate::space::Distribution;
 
-    /// A net of plain rows with these quantiles of every factor.
+    /// Returns a net of plain rows with these quantiles of every factor.
     fn net(families: &[Family], rows: &[Vec<f64>]) -> Net {
         let columns = families.iter().zip(rows).map(|(family, u)| polynomials(family, u, 6)).collect();
         Net::of_rows(columns, vec![0.0; rows[0].len()])

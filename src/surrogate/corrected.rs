@@ -1,4 +1,4 @@
-//! Indices of the model as those of a surrogate, known exactly, plus what the runs say of the rest.
+//! Indices of the model as those of a surrogate, computed exactly, plus an estimate of the remainder from the runs.
 //!
 //! Net k is corrected by a surrogate g of the other nets, which is independent of it. With orthonormal terms phi_a of
 //! coefficients b_a, e = f - g on net k, and r_a the mean of phi_a e over **all** of its rows,
@@ -7,16 +7,16 @@
 //! - V ST_s = sum over a that touch s of (b_a^2 + 2 b_a r_a) + mean\[(e_A - e_ABs)^2\]/2,
 //! - V = sum over a but the constant of (b_a^2 + 2 b_a r_a) + mean e^2 - (mean e)^2.
 //!
-//! For f = g + e, and what is linear in e has the exact value 2 sum b_a E\[phi_a e\], which all rows estimate together; only
-//! what is quadratic in e is left to pick-freeze rows. A second form of the total index, that of g plus Jansen's estimate of
-//! f less that of g, is better where g is poor; both are mixed by one weight. Every number is a mean over base points, so that
-//! what each point contributes tells the error.
+//! This is because f = g + e. The terms linear in e have the exact value 2 sum b_a E\[phi_a e\], which all rows
+//! estimate together; only the terms quadratic in e are left to pick-freeze rows. A second form of the total index,
+//! that of g plus Jansen's estimate of f minus that of g, is better if g is poor; both are mixed by one weight. Every
+//! number is a mean over base points, so that the contributions of the points give the error.
 
 use super::fit::Expansion;
 use super::net::Net;
 use crate::design::Design;
 
-/// What every base point of a net contributes to the numbers of an output; each number is the mean over the points.
+/// The contribution of every base point of a net to the numbers of an output; each number is the mean over the points.
 pub struct Contributions {
     /// V S of every swap.
     pub first_order: Vec<Vec<f64>>,
@@ -28,16 +28,16 @@ pub struct Contributions {
     pub variance: Vec<f64>,
     /// The mean of the output.
     pub mean: Vec<f64>,
-    /// Mean square and mean fourth power of e, what the surrogate leaves unexplained.
+    /// Mean square and mean fourth power of e, the part not explained by the surrogate.
     pub residual: (f64, f64),
-    /// Of every swap, and of all factors last, the variance of the part of the surrogate that they have to do with: as it claims it, and
-    /// as the rows show it.
+    /// For every swap, and for all factors last, the variance of the part of the surrogate that depends on them: by its
+    /// coefficients, and over the rows.
     pub claims: Vec<[f64; 2]>,
     /// Rows.
     pub rows: usize,
 }
 
-/// How the factors of a term stand to those of a swap.
+/// Returns whether all factors of a term are in a swap.
 pub(super) fn within(term: &[(usize, usize)], swap: &[usize]) -> bool {
     !term.is_empty() && term.iter().all(|(factor, _)| swap.binary_search(factor).is_ok())
 }
@@ -46,13 +46,13 @@ pub(super) fn touches(term: &[(usize, usize)], swap: &[usize]) -> bool {
     term.iter().any(|(factor, _)| swap.binary_search(factor).is_ok())
 }
 
-/// The mean of a power over all columns.
+/// Returns the mean of a power over all columns.
 pub(super) fn mean_power(columns: &[Vec<f64>], power: i32) -> f64 {
     let count: usize = columns.iter().map(Vec::len).sum();
     columns.iter().flatten().map(|e| e.powi(power)).sum::<f64>() / count.max(1) as f64
 }
 
-/// The values of `expansion` at every run and point of `net`, and what it leaves of the outputs.
+/// Returns the values of `expansion` at every run and point of `net`, and the residuals of the outputs.
 pub(super) fn values_and_rest(net: &Net, expansion: &Expansion) -> (Vec<Vec<f64>>, Vec<Vec<f64>>) {
     let mut values = Vec::new();
     let mut surrogate = vec![vec![0.0; net.points()]; net.runs()];
@@ -67,7 +67,7 @@ pub(super) fn values_and_rest(net: &Net, expansion: &Expansion) -> (Vec<Vec<f64>
     (surrogate, e)
 }
 
-/// See [`Contributions::claims`].
+/// Computes [`Contributions::claims`].
 fn claims(net: &Net, expansion: &Expansion, swaps: &[Vec<usize>]) -> Vec<[f64; 2]> {
     let acts = |term: &[(usize, usize)], place: usize| {
         !term.is_empty() && swaps.get(place).is_none_or(|swap| touches(term, swap))
@@ -96,7 +96,7 @@ fn claims(net: &Net, expansion: &Expansion, swaps: &[Vec<usize>]) -> Vec<[f64; 2
 }
 
 impl Contributions {
-    /// Nothing yet, of that many swaps and pairs at the points of `net`.
+    /// Returns zero contributions of `swaps` swaps and `pairs` pairs at the points of `net`.
     pub(super) fn zeros(swaps: usize, pairs: usize, net: &Net) -> Self {
         let points = net.points();
         let columns = |count: usize| vec![vec![0.0; points]; count];
@@ -112,7 +112,7 @@ impl Contributions {
         }
     }
 
-    /// Of `net` corrected by the surrogate `expansion` of other nets; `swaps` and `pairs` have their factors in rising order.
+    /// Corrects `net` by the surrogate `expansion` of other nets; factors of `swaps` and `pairs` are in rising order.
     pub fn new(
         design: &Design,
         net: &Net,
@@ -129,7 +129,7 @@ impl Contributions {
         all
     }
 
-    /// What is constant or linear in `e`.
+    /// Adds the terms that are constant or linear in `e`.
     fn add_surrogate(
         &mut self,
         net: &Net,
@@ -155,8 +155,8 @@ impl Contributions {
         }
     }
 
-    /// What a term that is no constant adds at every point to the numbers that it belongs to, and to the second form of the
-    /// total indices.
+    /// Adds the contributions of a non-constant term at every point to the numbers to which it belongs, and to the
+    /// second form of the total indices.
     pub(super) fn add_term(
         &mut self,
         swaps: &[Vec<usize>],
@@ -184,7 +184,7 @@ impl Contributions {
         }
     }
 
-    /// All columns of numbers.
+    /// Iterates over all columns of numbers.
     fn columns_mut(&mut self) -> impl Iterator<Item = &mut Vec<f64>> {
         let [total, second] = &mut self.total;
         let lists = self.first_order.iter_mut().chain(total).chain(second).chain(&mut self.pairs);
@@ -208,7 +208,7 @@ impl Contributions {
         self.columns_mut().zip(following.columns_mut()).for_each(|(column, more)| column.append(more));
     }
 
-    /// What is quadratic in `e`, by pick-freeze.
+    /// Adds the terms that are quadratic in `e`, by pick-freeze.
     fn add_residual(
         &mut self,
         design: &Design,

@@ -1,4 +1,4 @@
-//! Sparse polynomial chaos expansions: few terms, chosen by greedy least squares, their number by leaving out a net.
+//! Sparse polynomial chaos expansions: terms chosen by greedy least squares, their number by leaving out a net.
 
 use super::basis::{Term, first_terms, neighbours};
 use super::carried::Carried;
@@ -6,16 +6,16 @@ use super::gram::{Path, Square, lower_factor, solve};
 use super::net::Net;
 use crate::sum::product;
 
-/// Most terms of a surrogate.
+/// Maximum number of terms of a surrogate.
 const MAX_TERMS: usize = 150;
 
-/// Rows by which terms are chosen.
+/// Number of rows by which terms are chosen.
 const SELECTION_ROWS: usize = 3000;
 
-/// Fewest of them of one net.
+/// Minimum number of these rows from one net.
 const SELECTION_ROWS_OF_NET: usize = 64;
 
-/// Most terms for each row that they are chosen by.
+/// Maximum number of terms for each row by which they are chosen.
 const TERMS_PER_ROW: f64 = 0.6;
 
 /// An expansion in orthonormal terms.
@@ -27,20 +27,20 @@ pub struct Expansion {
     pub coefficients: Vec<f64>,
 }
 
-/// The runs of a net that surrogates are fitted to: those of one output, or of many at the same rows.
+/// The runs of a net to which surrogates are fitted: those of one output, or of many at the same rows.
 pub struct Training<'a> {
     net: &'a Net,
-    /// For each output those of every run.
+    /// For each output, the outputs of every run.
     outputs: Vec<&'a [Vec<f64>]>,
 }
 
 impl<'a> Training<'a> {
-    /// The output of `net`.
+    /// Uses the output of `net`.
     pub fn new(net: &'a Net) -> Self {
         Self::of_outputs(net, vec![&net.outputs])
     }
 
-    /// Other `outputs` at the rows of `net`: for each of them those of every run.
+    /// Uses other `outputs` at the rows of `net`: for each of them those of every run.
     pub fn of_outputs(net: &'a Net, outputs: Vec<&'a [Vec<f64>]>) -> Self {
         Self { net, outputs }
     }
@@ -56,7 +56,7 @@ pub struct NetSums {
 }
 
 impl NetSums {
-    /// For the candidates `terms`, of at most `most` rows.
+    /// Computes the sums for the candidates `terms` over at most `most` rows.
     pub fn new(of: &Training<'_>, terms: &[Term], most: usize) -> Self {
         let rows = of.net.spaced_rows(most);
         let columns: Vec<Vec<f64>> = terms.iter().map(|term| of.net.at(term, &rows)).collect();
@@ -73,12 +73,12 @@ impl NetSums {
     }
 }
 
-/// Rows of each of `nets` nets by which terms are chosen.
+/// Returns the number of rows of each of `nets` nets by which terms are chosen.
 pub fn selection_rows(nets: usize) -> usize {
     SELECTION_ROWS_OF_NET.max(SELECTION_ROWS / nets.max(1))
 }
 
-/// The candidates of the first round, if that many rows choose among them.
+/// Returns the candidates of the first round, if `rows` rows choose among them.
 pub fn first_candidates(carried: &Carried<'_>, rows: usize) -> Vec<Term> {
     let caps = carried.caps();
     carried.retain(first_terms(caps, caps.terms.min(20.max(2 * rows))))
@@ -88,26 +88,26 @@ pub fn first_candidates(carried: &Carried<'_>, rows: usize) -> Vec<Term> {
 pub struct Expansions {
     /// Lists of terms.
     terms: Vec<Vec<Term>>,
-    /// For each output the number of its list, and the coefficients of the first of its terms.
+    /// For each output, the index of its list, and the coefficients of the first of its terms.
     of: Vec<(usize, Vec<f64>)>,
 }
 
 impl Expansions {
-    /// The expansion of output number `output`.
+    /// Returns the expansion of output number `output`.
     pub fn of_output(&self, output: usize) -> Expansion {
         let (list, coefficients) = &self.of[output];
         Expansion { terms: self.terms[*list][..coefficients.len()].to_vec(), coefficients: coefficients.clone() }
     }
 }
 
-/// The expansions fitted to the nets `training`; `first` holds the candidates of the first round and their sums over each of
-/// these nets. Terms are chosen for all outputs together, and for each output how many of them it takes.
+/// Fits expansions to the nets `training`; `first` holds the candidates of the first round and their sums over each of
+/// these nets. Terms are chosen for all outputs together, and their number for each output.
 pub fn fit(training: &[&Training<'_>], first: (&[Term], &[&NetSums]), carried: &Carried<'_>) -> Expansions {
     let rounds = if carried.caps().families.len() <= 10 { 3 } else { 2 };
     fit_in_rounds(training, first, carried, rounds)
 }
 
-/// The same in so many rounds, each with the neighbours of what the best one before it has chosen.
+/// Does the same in `rounds` rounds, each with the neighbours of the terms chosen by the best previous one.
 pub fn fit_in_rounds(
     training: &[&Training<'_>],
     first: (&[Term], &[&NetSums]),
@@ -150,25 +150,25 @@ pub fn fit_in_rounds(
     all
 }
 
-/// Terms chosen among some candidates, those that all outputs gain most from first.
+/// Terms chosen among some candidates, in falling order of the gain over all outputs.
 struct Chosen {
     terms: Vec<Term>,
     /// Root mean squares of their coefficients over the outputs.
     weights: Vec<f64>,
-    /// How many of them each output takes.
+    /// The number of them that each output uses.
     sizes: Vec<usize>,
-    /// The sum of squares that these leave of each net when it is left out.
+    /// The sum of squared residuals of each net when it is left out.
     errors: Vec<f64>,
 }
 
 impl Chosen {
-    /// What is left of all outputs.
+    /// Returns the sum of squared residuals of all outputs.
     fn error(&self) -> f64 {
         self.errors.iter().sum()
     }
 }
 
-/// The best terms among `candidates`.
+/// Chooses the best terms among `candidates`.
 fn chosen(candidates: &[Term], nets: &[&NetSums]) -> Chosen {
     let rows: usize = nets.iter().map(|net| net.rows).sum();
     let folds = nets.len() as f64;
@@ -217,8 +217,8 @@ fn joined(nets: &[&NetSums]) -> (Square, Vec<Vec<f64>>) {
     (gram, right)
 }
 
-/// The coefficients of the least-squares expansions over all rows of the nets: for each of `members` its number of the first
-/// `terms`.
+/// Computes the coefficients of the least-squares expansions over all rows of the nets: for each of `members` its
+/// number of the first `terms`.
 fn refitted(nets: &[&Training<'_>], terms: &[Term], members: &[(usize, usize)]) -> Vec<Vec<f64>> {
     let mut gram = Square::zeros(terms.len());
     let mut right = vec![vec![0.0; terms.len()]; members.len()];

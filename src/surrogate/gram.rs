@@ -1,23 +1,22 @@
-//! Inner products of many columns, and greedy least squares on them. Sums have a fixed order, whatever the number of
-//! threads.
+//! Inner products of many columns, and greedy least squares on them. Sums have a fixed order for any number of threads.
 
 use multiversion::multiversion;
 
 use crate::sum::product;
 
-/// Rows whose products are summed before they are added to the whole: two panels of them fit into a cache.
+/// Rows whose products are summed before they are added to the total: two panels of them fit into a cache.
 const CHUNK: usize = 256;
 
 /// Columns of a panel.
 const WIDTH: usize = 8;
 
-/// Columns of one panel that are multiplied with those of another one at a time: the sums fit into registers.
+/// Columns of one panel that are multiplied with those of another at a time: the sums fit into registers.
 const HEIGHT: usize = WIDTH / 2;
 
-/// Share of its own square that a column must keep beyond those chosen before it.
+/// Share of its own square that a column must keep in addition to those chosen before it.
 const INDEPENDENT: f64 = 1e-6;
 
-/// Gain in the sum of squares below which no further column is chosen, of outputs scaled to standard deviation 1.
+/// Gain in the sum of squares below which no further column is chosen, for outputs scaled to standard deviation 1.
 const MIN_GAIN: f64 = 1e-26;
 
 /// A square matrix, row by row.
@@ -28,28 +27,28 @@ pub struct Square {
 }
 
 impl Square {
-    /// Of zeros.
+    /// Creates a matrix of zeros.
     pub fn zeros(size: usize) -> Self {
         Self { size, values: vec![0.0; size * size] }
     }
 
-    /// Number of rows.
+    /// Returns the number of rows.
     pub fn size(&self) -> usize {
         self.size
     }
 
-    /// The value in row `i` and column `j`.
+    /// Returns the value in row `i` and column `j`.
     #[inline(always)]
     pub fn at(&self, i: usize, j: usize) -> f64 {
         self.values[i * self.size + j]
     }
 
-    /// A row.
+    /// Returns a row.
     pub fn row(&self, i: usize) -> &[f64] {
         &self.values[i * self.size..(i + 1) * self.size]
     }
 
-    /// Adds another one of the same size.
+    /// Adds another matrix of the same size.
     pub fn add(&mut self, other: &Self) {
         self.values.iter_mut().zip(&other.values).for_each(|(sum, more)| *sum += more);
     }
@@ -65,8 +64,8 @@ impl Square {
     }
 }
 
-/// Adds the inner products of `columns` on the diagonal and below it, and some above. Each version does the same operations
-/// in the same order: wider registers change the time and no bit.
+/// Adds the inner products of `columns` on and below the diagonal, and some above it. Each version does the same
+/// operations in the same order: wider registers change the time but no bit.
 #[multiversion(targets("x86_64+avx512f", "x86_64+avx2"))]
 fn add_products(sums: &mut Square, columns: &[&[f64]]) {
     let (size, rows) = (sums.size, columns.first().map_or(0, |column| column.len()));
@@ -92,7 +91,7 @@ fn add_products(sums: &mut Square, columns: &[&[f64]]) {
     }
 }
 
-/// The products of the columns `FIRST`, `FIRST` + 1, ... of one panel with all of another one.
+/// Computes the products of the columns `FIRST`, `FIRST` + 1, ... of one panel with all of another one.
 #[inline(always)]
 fn products<const FIRST: usize>(a: &[[f64; WIDTH]], b: &[[f64; WIDTH]]) -> [[f64; WIDTH]; HEIGHT] {
     let mut sums = [[0.0; WIDTH]; HEIGHT];
@@ -106,13 +105,13 @@ fn products<const FIRST: usize>(a: &[[f64; WIDTH]], b: &[[f64; WIDTH]]) -> [[f64
     sums
 }
 
-/// `factor` less `weight` times `earlier`.
+/// Subtracts `weight` times `earlier` from `factor`.
 #[multiversion(targets("x86_64+avx512f", "x86_64+avx2"))]
 fn subtract(factor: &mut [f64], weight: f64, earlier: &[f64]) {
     factor.iter_mut().zip(earlier).for_each(|(value, earlier)| *value -= weight * earlier);
 }
 
-/// The same of four columns one after the other, in one pass.
+/// Subtracts four columns one after the other, in one pass.
 #[multiversion(targets("x86_64+avx512f", "x86_64+avx2"))]
 fn subtract_four(factor: &mut [f64], [w0, w1, w2, w3]: [f64; 4], [e0, e1, e2, e3]: [&[f64]; 4]) {
     let earlier = e0.iter().zip(e1).zip(e2.iter().zip(e3));
@@ -121,7 +120,7 @@ fn subtract_four(factor: &mut [f64], [w0, w1, w2, w3]: [f64; 4], [e0, e1, e2, e3
     }
 }
 
-/// What the choice of each column would take off the sum of squares; -1 where no more than `fewest` of its own square is left.
+/// Sets the reduction of the sum of squares by each column; -1 if at most `fewest` of its own square is left.
 #[multiversion(targets("x86_64+avx512f", "x86_64+avx2"))]
 fn set_gains(gains: &mut [f64], squares: &[f64], left: &[f64], fewest: &[f64]) {
     for ((gain, square), (left, fewest)) in gains.iter_mut().zip(squares).zip(left.iter().zip(fewest)) {
@@ -130,7 +129,7 @@ fn set_gains(gains: &mut [f64], squares: &[f64], left: &[f64], fewest: &[f64]) {
     }
 }
 
-/// Takes `score` times `factor` off `rest`, and adds the squares of what is left to `squares`.
+/// Subtracts `score` times `factor` from `rest`, and adds the squares of the remainder to `squares`.
 #[multiversion(targets("x86_64+avx512f", "x86_64+avx2"))]
 fn take_off(rest: &mut [f64], score: f64, factor: &[f64], squares: &mut [f64]) {
     for ((rest, factor), square) in rest.iter_mut().zip(factor).zip(squares) {
@@ -139,20 +138,20 @@ fn take_off(rest: &mut [f64], score: f64, factor: &[f64], squares: &mut [f64]) {
     }
 }
 
-/// Columns chosen one by one, each the one that lowers the sum of squares of all outputs most, made orthonormal in this order.
+/// Columns chosen one by one to reduce the sum of squares of all outputs most, orthonormalised in this order.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Path {
-    /// The numbers of the columns, in the order in which they were chosen.
+    /// The indices of the columns, in the order in which they were chosen.
     pub chosen: Vec<usize>,
     /// For each output the coefficient of each in the orthonormal system.
     scores: Vec<Vec<f64>>,
-    /// The orthonormal column number k in terms of the chosen ones: row k has k + 1 values.
+    /// The orthonormal column k in terms of the chosen ones: row k has k + 1 values.
     inverse: Vec<Vec<f64>>,
 }
 
 impl Path {
-    /// Up to `most` columns of those with the inner products `gram`, whose products with each output are `right`. The first
-    /// column is always the first. Equal gains go to the column that comes first.
+    /// Chooses up to `most` columns of those with the inner products `gram`, whose products with each output are
+    /// `right`. The first column is always chosen first. Of equal gains, the column that comes first is chosen.
     pub fn new(gram: &Square, right: Vec<Vec<f64>>, most: usize) -> Self {
         let size = gram.size();
         let own: Vec<f64> = (0..size).map(|j| gram.at(j, j)).collect();
@@ -205,7 +204,7 @@ impl Path {
         Self { chosen, scores, inverse: inverse(&lower) }
     }
 
-    /// The coefficients of the first `size` chosen columns for output number `output`.
+    /// Returns the coefficients of the first `size` chosen columns for output number `output`.
     pub fn coefficients(&self, output: usize, size: usize) -> Vec<f64> {
         let mut all = vec![0.0; size];
         for (score, row) in self.scores[output].iter().zip(&self.inverse).take(size) {
@@ -214,8 +213,8 @@ impl Path {
         all
     }
 
-    /// The sums of squares that 1, 2, ... chosen columns leave of other rows, with the inner products `gram`, and for each
-    /// output the products `right` and the sum of squares in `squares`.
+    /// Returns the sums of squared residuals of other rows for 1, 2, ... chosen columns, given the inner products
+    /// `gram`, and for each output the products `right` and the sum of squares in `squares`.
     pub fn held_out(&self, gram: &Square, right: &[Vec<f64>], squares: &[f64]) -> Vec<Vec<f64>> {
         let of_chosen: Vec<Vec<f64>> =
             self.chosen.iter().map(|&i| self.chosen.iter().map(|&j| gram.at(i, j)).collect()).collect();
@@ -244,7 +243,7 @@ impl Path {
     }
 }
 
-/// The inverse of a lower triangular matrix.
+/// Returns the inverse of a lower triangular matrix.
 pub fn inverse(lower: &[Vec<f64>]) -> Vec<Vec<f64>> {
     let mut rows: Vec<Vec<f64>> = Vec::with_capacity(lower.len());
     for (i, row) in lower.iter().enumerate() {
@@ -259,7 +258,7 @@ pub fn inverse(lower: &[Vec<f64>]) -> Vec<Vec<f64>> {
     rows
 }
 
-/// The lower triangular factor of `gram`, with a ridge at the size of rounding (Cholesky).
+/// Returns the lower triangular factor of `gram`, with a ridge at the size of rounding (Cholesky).
 pub fn lower_factor(gram: &Square) -> Vec<Vec<f64>> {
     let size = gram.size();
     let trace: f64 = (0..size).map(|i| gram.at(i, i)).sum();
@@ -285,7 +284,7 @@ pub fn lower_factor(gram: &Square) -> Vec<Vec<f64>> {
     lower
 }
 
-/// The least-squares solution of G x = `right`, where the first rows of the factor of G are `lower`: the first columns alone.
+/// Solves G x = `right` by least squares, using only the first columns; `lower` is the first rows of the factor of G.
 pub fn solve(lower: &[Vec<f64>], right: &[f64]) -> Vec<f64> {
     let size = lower.len();
     let mut x = right[..size].to_vec();
@@ -304,7 +303,7 @@ pub fn solve(lower: &[Vec<f64>], right: &[f64]) -> Vec<f64> {
 mod tests {
     use super::*;
 
-    /// Numbers without structure between -1/2 and 1/2.
+    /// Returns pseudo-random numbers between -1/2 and 1/2.
     fn columns(count: usize, rows: usize) -> Vec<Vec<f64>> {
         let mut x = 88_172_645_463_325_252_u64;
         let mut next = || {

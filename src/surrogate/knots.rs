@@ -1,9 +1,9 @@
 //! Steps and kinks of single factors.
 //!
-//! Polynomials approach a step or a kink slowly. Where they leave much, what they leave is averaged in bins of the quantile of each factor,
-//! and a knot is put wherever a step and a hinge there take significantly more of it than chance would. The factor then has both among its
-//! functions, orthonormal under its distribution, and a product of steps is one term. A step lies between two values drawn, a kink where
-//! the step beside its hinge vanishes.
+//! Polynomials approach a step or a kink slowly. If their residual is large, it is averaged in bins of the quantile of
+//! each factor, and a knot is placed wherever a step and a hinge there reduce it significantly more than by chance. The
+//! factor then has both among its functions, orthonormal under its distribution, and a product of steps is one term. A
+//! step lies between two sampled values, a kink where the step that accompanies its hinge vanishes.
 
 use super::basis::{Family, polynomials};
 use super::gram::{Square, inverse, lower_factor};
@@ -11,26 +11,26 @@ use super::net::Net;
 use super::own::rule;
 use crate::uncertainty::Knot;
 
-/// Most knots of a factor.
+/// Maximum number of knots of a factor.
 const MAX_KNOTS: usize = 4;
 
-/// Least and largest number of bins, and base points for each: four values of a factor.
+/// Minimum and maximum number of bins, and base points for each: four values of a factor.
 const BINS: (usize, usize) = (16, 256);
 const POINTS_OF_BIN: usize = 2;
 
-/// Bins for each polynomial that their means are compared with.
+/// Number of bins for each polynomial with which their means are compared.
 const BINS_OF_POLYNOMIAL: usize = 3;
 
-/// Least F ratio of the step and the hinge of a knot, the largest of all places.
+/// Minimum F ratio of the step and the hinge of a knot, the largest over all places.
 const SIGNIFICANT: f64 = 10.0;
 
-/// Least distance of two knots in the quantile. Nearer ones are mostly one that lies beside the edge of a bin.
+/// Minimum distance of two knots in the quantile. Nearer ones are mostly a single one next to the edge of a bin.
 const APART: f64 = 0.04;
 
-/// How far a knot is moved, in its widths.
+/// Maximum move of a knot, in its widths.
 pub const MAX_MOVED: f64 = 1.5;
 
-/// Share of its own square that a column must keep beyond others.
+/// Share of its own square that a column must keep in addition to others.
 const INDEPENDENT: f64 = 1e-6;
 
 /// Panels of the quadrature, each half as wide as the one before it, towards either end.
@@ -39,20 +39,20 @@ const PANELS: i32 = 50;
 /// Values at every net, run and base point.
 pub type Rows<'a> = &'a [Vec<Vec<f64>>];
 
-/// The polynomials of a factor, and steps and hinges at its knots: made orthonormal under the distribution in the order x, those of the
-/// knots, x^2, ..., by quadrature.
+/// The polynomials of a factor, and steps and hinges at its knots: orthonormalised under the distribution in the order
+/// x, those of the knots, x^2, ..., by quadrature.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Knotted {
     base: Family,
     knots: Vec<Knot>,
-    /// Of every knot its polynomial of degree 1.
+    /// For every knot, its polynomial of degree 1.
     edges: Vec<f64>,
-    /// Row k has the coefficients of function number k in 1, x, those of the knots, x^2, ...: as many as it needs.
+    /// Row k has the coefficients of function k in 1, x, those of the knots, x^2, ..., as many as it needs.
     rows: Vec<Vec<f64>>,
 }
 
 impl Knotted {
-    /// `degree` functions at most, of a factor with these `knots` and the polynomials `base`.
+    /// Creates at most `degree` functions of a factor with these `knots` and the polynomials `base`.
     pub fn new(base: &Family, knots: &[Knot], degree: usize) -> Self {
         let all = Self { base: base.clone(), knots: knots.to_vec(), edges: Vec::new(), rows: Vec::new() }.moved(0.0);
         let halves = (1..=PANELS).map(|k| 0.5f64.powi(k));
@@ -68,31 +68,31 @@ impl Knotted {
         Self { rows: inverse(&lower_factor(&gram)), ..all }
     }
 
-    /// The polynomials without steps and hinges.
+    /// Returns the polynomials without steps and hinges.
     pub fn base(&self) -> &Family {
         &self.base
     }
 
-    /// Steps and kinks.
+    /// Returns the steps and kinks.
     pub fn knots(&self) -> &[Knot] {
         &self.knots
     }
 
-    /// The largest number of a function.
+    /// Returns the largest index of a function.
     pub fn degree(&self) -> usize {
         self.rows.len() - 1
     }
 
-    /// The same functions with the steps and hinges at knots that are moved by so many of their widths: what an expansion says of either
-    /// side of a knot.
+    /// Returns the same functions with the steps and hinges at knots moved by `by` of their widths: the expansion on
+    /// either side of a knot.
     pub fn moved(mut self, by: f64) -> Self {
         let places: Vec<f64> = self.knots.iter().map(|knot| knot.u + by * knot.width).collect();
         self.edges = polynomials(&self.base, &places, 1).swap_remove(0);
         self
     }
 
-    /// 1, x, those of the knots, x^2, ... but for the last ones, given the polynomials of degree 1, 2, ... . Of a step its hinge comes
-    /// second, of a kink its step.
+    /// Returns 1, x, those of the knots, x^2, ... except the last ones, given the polynomials of degree 1, 2, ... . For
+    /// a step its hinge comes second, for a kink its step.
     fn raw(&self, mut polynomials: Vec<Vec<f64>>, degree: usize) -> Vec<Vec<f64>> {
         polynomials.truncate(degree.saturating_sub(2 * self.knots.len()).max(1));
         let higher = polynomials.split_off(1);
@@ -106,7 +106,7 @@ impl Knotted {
         [vec![1.0; x.len()], x].into_iter().chain(knots).chain(higher).collect()
     }
 
-    /// The functions number 1, 2, ..., given at least as many polynomials.
+    /// Returns the functions 1, 2, ..., given at least as many polynomials.
     pub fn columns(&self, polynomials: Vec<Vec<f64>>, degree: usize) -> Vec<Vec<f64>> {
         let raw = self.raw(polynomials, self.degree());
         let of_row = |row: &Vec<f64>| {
@@ -119,8 +119,8 @@ impl Knotted {
         self.rows[1..].iter().take(degree).map(of_row).collect()
     }
 
-    /// The knots where a part of an expansion with `coefficients` (number, coefficient) has a kink and no step, by one step of Newton's
-    /// method: beside it s + h (x - edge) is h (x - (edge - s/h)). The length of that step is the new width. Steps stay.
+    /// Returns the knots where a part of an expansion with `coefficients` (index, coefficient) has a kink and no step,
+    /// by one Newton step: near it, s + h (x - edge) is h (x - (edge - s/h)). Its length is the new width. Steps stay.
     fn kinks(&self, coefficients: &[(usize, f64)]) -> Vec<Knot> {
         let of_knot = |(place, knot): (usize, &Knot)| {
             let part =
@@ -135,9 +135,10 @@ impl Knotted {
         self.knots.iter().enumerate().map(of_knot).collect()
     }
 
-    /// The knots of `factor` where the output of `nets` says that they lie, given the values of expansions with all knots `moved` to the
-    /// left and to the right as far as they may be, and the `coefficients` of its functions alone. At a step those places are left with which
-    /// the sum of squares of what is left of all rows nearby is least: between two values drawn, whose distance is the new width.
+    /// Places the knots of `factor` by the output of `nets`, given the values of expansions with all knots `moved` to
+    /// the left and to the right as far as allowed, and the `coefficients` of its own functions. For a step, the places
+    /// kept are those with the least sum of squared residuals of all rows nearby: between two sampled values, whose
+    /// distance is the new width.
     pub fn placed(
         &self,
         nets: &[Net],
@@ -150,7 +151,7 @@ impl Knotted {
             if !knot.is_step {
                 return knot;
             }
-            // How much more the values before the step leave than those after it.
+            // How much larger the residuals are with the values before the step than with those after it.
             let mut rows: Vec<(f64, f64)> = Vec::new();
             for (k, net) in nets.iter().enumerate() {
                 for (run, output) in net.outputs.iter().enumerate() {
@@ -177,7 +178,7 @@ impl Knotted {
     }
 }
 
-/// The knots of `factor` with these polynomials that `rest`, what expansions leave of each net, shows: none of seeds and few levels.
+/// Finds the knots of `factor` in the residuals `rest` of expansions; none for seeds and factors with few levels.
 pub fn knots(nets: &[Net], rest: Rows<'_>, factor: usize, family: &Family, degree: usize) -> Vec<Knot> {
     let points: usize = nets.iter().map(Net::points).sum();
     let bins = (points / POINTS_OF_BIN).next_power_of_two().clamp(BINS.0, BINS.1);
@@ -186,7 +187,7 @@ pub fn knots(nets: &[Net], rest: Rows<'_>, factor: usize, family: &Family, degre
     let mut columns = polynomials(family, &centres, degree);
     let Some(x) = columns.first().cloned().filter(|x| x.is_sorted_by(|a, b| a < b)) else { return Vec::new() };
     if *family == Family::Hermite {
-        // Their tails are steep: both serve.
+        // The tails of its polynomials are steep: both families work.
         columns.truncate(super::SAFE_HERMITE_DEGREES);
         columns.append(&mut polynomials(&Family::Legendre, &centres, degree));
     }
@@ -218,14 +219,14 @@ pub fn knots(nets: &[Net], rest: Rows<'_>, factor: usize, family: &Family, degre
         let column = |of: &dyn Fn(usize) -> f64| (0..bins).map(of).collect::<Vec<f64>>();
         known.extend(column(&|bin| f64::from(u8::from(bin >= t))));
         known.extend(column(&|bin| (x[bin] - edge).max(0.0)));
-        // It may lie anywhere in the bins beside it.
+        // It may lie anywhere in the bins next to it.
         known.extend(column(&|bin| f64::from(u8::from(bin == t - 1))));
         known.extend(column(&|bin| f64::from(u8::from(bin == t))));
     }
     found
 }
 
-/// Orthonormal columns of bins with weights, and what they leave of some means.
+/// Orthonormal columns of bins with weights, and the residuals of some means.
 struct Known {
     basis: Vec<Vec<f64>>,
     rest: Vec<f64>,
@@ -237,10 +238,10 @@ impl Known {
         self.weights.iter().zip(a.iter().zip(b)).map(|(weight, (a, b))| weight * a * b).sum()
     }
 
-    /// Appends what `column` has beyond the others, if it has something.
+    /// Appends the part of `column` that is orthogonal to the others, unless it vanishes.
     fn extend(&mut self, mut column: Vec<f64>) {
         let own = self.product(&column, &column);
-        // Twice, as the first time leaves rounding.
+        // Twice, because the first pass leaves rounding.
         for known in self.basis.iter().chain(&self.basis) {
             let part = self.product(known, &column);
             column.iter_mut().zip(known).for_each(|(value, known)| *value -= part * known);
@@ -254,8 +255,8 @@ impl Known {
         }
     }
 
-    /// What a step and a hinge in `x` take most of the rest, the first bin after them, and whether the step takes more, alone. All sums
-    /// are running ones from the last bin down, so that all places cost as much as one.
+    /// Returns the largest reduction of the residuals by a step and a hinge in `x`, the first bin after them, and
+    /// whether the step alone reduces more. Running sums from the last bin make all places as cheap as one.
     fn best(&self, x: &[f64], is_free: impl Fn(f64) -> bool) -> Option<(f64, usize, bool)> {
         let bins = x.len();
         let (mut own, mut of_rest, mut of_basis) = ([0.0; 3], [0.0; 2], vec![[0.0; 2]; self.basis.len()]);
@@ -269,7 +270,7 @@ impl Known {
             if t > bins - 2 || !is_free(t as f64 / bins as f64) {
                 continue;
             }
-            // Products of the step and the hinge with one another, less what the basis has of them.
+            // Products of the step and the hinge with one another, minus their part in the basis.
             let edge = (at + x[t - 1]) / 2.0;
             let squares = [own[0], own[2] - 2.0 * edge * own[1] + edge * edge * own[0]];
             let mut left = [squares[0], squares[1], own[1] - edge * own[0]];
@@ -328,13 +329,13 @@ mod tests {
 
     #[test]
     fn a_small_step_beside_a_hinge_is_a_kink_elsewhere() {
-        // |u - .8| less what 1 and u explain, as a step and a hinge at .79 see it: 2 (u - .8) beyond .8.
+        // u - .8| minus its part in 1 and u, for a step and a hinge at .79: 2 (u - .8) beyond .8.
         let knot = Knot { u: 0.79, width: 0.02, is_step: false };
         let own = Knotted::new(&Family::Legendre, &[knot], 4);
         let root = 12.0f64.sqrt();
         // x = sqrt(12)(u - 1/2): the hinge has the slope 2/sqrt(12) in it, and the step -2 (.8 - .79).
         let [slope, step] = [2.0 / root, -0.02];
-        // Functions 2 and 3 are the hinge and the step, each less what the ones before it explain.
+        // Functions 2 and 3 are the hinge and the step, each minus its part in the earlier ones.
         let third = step / own.rows[3][3];
         let second = (slope - third * own.rows[3][2]) / own.rows[2][2];
         let moved = own.kinks(&[(2, second), (3, third)]);

@@ -1,16 +1,16 @@
-//! Indices of an expensive model by those of a cheaper one.
+//! Indices of an expensive model with the help of a low-fidelity model.
 //!
-//! The cheaper model g stands in for f together with a surrogate P of what it leaves: h = alpha g + P. Its indices come from
-//! many runs of g at points of their own, and those of f follow from the rows at which both were evaluated: any number Q that
-//! is a mean over base points has Q(f) = Q(h) + mean\[q(f) - q(h)\], the control variates of Qian, Peherstorfer, O'Malley,
-//! Vesselinov and Willcox (2018), "Multifidelity Monte Carlo estimation of variance and sensitivity indices", SIAM/ASA J.
-//! Uncertain. Quantif. 6, 683-706, with the model and not its estimates as the variate. With orthonormal terms phi_a of P,
-//! coefficients b_a, and r_a = E\[phi_a g\],
+//! The low-fidelity model g approximates f together with a surrogate P of the remainder: h = alpha g + P. Its indices
+//! come from many runs of g at points of their own, and those of f follow from the rows at which both were evaluated:
+//! any number Q that is a mean over base points has Q(f) = Q(h) + mean\[q(f) - q(h)\], the control variates of Qian,
+//! Peherstorfer, O'Malley, Vesselinov and Willcox (2018), "Multifidelity Monte Carlo estimation of variance and
+//! sensitivity indices", SIAM/ASA J. Uncertain. Quantif. 6, 683-706, with the model and not its estimates as the
+//! variate. With orthonormal terms phi_a of P, coefficients b_a, and r_a = E\[phi_a g\],
 //!
 //! - V S_s(h) = alpha^2 V S_s(g) + sum over a within s of (b_a^2 + 2 alpha b_a r_a),
 //!
-//! and alike for total indices and the variance. alpha and P of a net are fitted to the others, and the runs at points of
-//! their own are independent of both, so that a poor cheap model costs accuracy and no honesty.
+//! and similarly for total indices and the variance. alpha and P of a net are fitted to the others, and the runs at
+//! points of their own are independent of both: a poor low-fidelity model costs accuracy, but intervals stay valid.
 
 use rayon::prelude::*;
 
@@ -26,10 +26,10 @@ use crate::design::Design;
 use crate::estimate::PointOutputs;
 use crate::uncertainty::{Layout, LowFidelityUse, SurrogateEstimates};
 
-/// One output of a cheaper model.
+/// One output of a low-fidelity model.
 #[derive(Clone)]
 pub struct LowOutputs<'a> {
-    /// The name of the cheaper model.
+    /// The name of the low-fidelity model.
     pub name: &'a str,
     /// Its outputs at the rows of the expensive model, of every replicate.
     pub shared: Vec<&'a PointOutputs>,
@@ -37,7 +37,7 @@ pub struct LowOutputs<'a> {
     pub own: &'a OwnOutputs,
 }
 
-/// One output of a cheaper model at the rows of a design of its own, whose points are independent of those of the expensive model.
+/// One output of a low-fidelity model at the rows of its own design, independent of the expensive model's.
 pub struct OwnOutputs {
     design: Design,
     /// Mean and standard deviation by which the outputs are scaled.
@@ -48,12 +48,12 @@ pub struct OwnOutputs {
 enum OwnNets {
     /// Every net and an expansion fitted to the others.
     Fitted(Vec<(Net, Expansion)>),
-    /// Scaled outputs of every net and run: too many for a fit, or too few.
+    /// Scaled outputs of every net and run, if there are too many or too few for a fit.
     Kept(Vec<Vec<Vec<f64>>>),
 }
 
 impl OwnOutputs {
-    /// Of every run of `design`; `None` where [`low_fidelity_estimates`] has no use for them.
+    /// Creates them from every run of `design`; `None` if [`low_fidelity_estimates`] cannot use them.
     pub fn new(design: &Design, families: &[Family], replicates: &[&PointOutputs]) -> Option<Self> {
         if !takes_surrogates(design, replicates.len()) {
             return None;
@@ -76,15 +76,15 @@ impl OwnOutputs {
     }
 }
 
-/// What stands in for one net of the expensive model: slope and constant of the cheaper model, and an expansion of the rest.
+/// An approximation of the expensive model on one net: slope and constant of the other, expansion of the rest.
 struct StandIn {
     slope: f64,
     offset: f64,
     rest: Expansion,
 }
 
-/// The indices of `layout` from the outputs of every run of `design`, with the cheaper model `low` as a control variate; `None`
-/// where there are too few nets or points, points that are no Sobol' nets, or an output without variance.
+/// Estimates the indices of `layout` from the outputs of every run of `design`, with `low` as a control variate; `None`
+/// if there are too few nets or points, the points are not Sobol' nets, or an output has no variance.
 pub fn low_fidelity_estimates(
     design: &Design,
     families: &[Family],
@@ -134,7 +134,7 @@ pub fn low_fidelity_estimates(
     Some(all)
 }
 
-/// Makes those points of `f` not finite at which a run of `g` failed.
+/// Sets those points of `f` to not finite at which a run of `g` failed.
 fn leave_out_points_that_failed(f: &mut [Vec<Vec<f64>>], g: &[Vec<Vec<f64>>]) {
     for (f, g) in f.iter_mut().zip(g) {
         let points = f.first().map_or(0, Vec::len);
@@ -146,7 +146,7 @@ fn leave_out_points_that_failed(f: &mut [Vec<Vec<f64>>], g: &[Vec<Vec<f64>>]) {
     }
 }
 
-/// Fitted to all nets but number `k`.
+/// Fits to all nets except number `k`.
 fn stand_in(expensive: &[Net], cheap: &[Net], k: usize, caps: Caps<'_>) -> StandIn {
     let others = |nets: &[Net]| -> Vec<f64> {
         let of_others = nets.iter().enumerate().filter(|(place, _)| *place != k);
@@ -163,19 +163,19 @@ fn stand_in(expensive: &[Net], cheap: &[Net], k: usize, caps: Caps<'_>) -> Stand
     StandIn { slope, offset, rest: expansion_without(&left, k, caps) }
 }
 
-/// f - alpha g - offset at every run and point.
+/// Returns f - alpha g - offset at every run and point.
 fn rest(expensive: &Net, cheap: &Net, slope: f64, offset: f64) -> Vec<Vec<f64>> {
     let of_run = |(f, g): (&Vec<f64>, &Vec<f64>)| f.iter().zip(g).map(|(f, g)| f - slope * g - offset).collect();
     expensive.outputs.iter().zip(&cheap.outputs).map(of_run).collect()
 }
 
-/// Share of the variance of the expensive model, which is 1, that the cheaper one leaves without any expansion.
+/// Returns the share of the variance of the expensive model, which is 1, that the low-fidelity model alone leaves.
 fn alone(expensive: &[Net], cheap: &[Net], stand_ins: &[StandIn]) -> f64 {
     let of_net = |((f, g), of): ((&Net, &Net), &StandIn)| mean_power(&rest(f, g, of.slope, of.offset), 2);
     expensive.iter().zip(cheap).zip(stand_ins).map(of_net).sum::<f64>() / expensive.len() as f64
 }
 
-/// What every base point of a net contributes to Q(f) - Q(h), and what is exact of Q(h).
+/// Returns the contributions of every base point of a net to Q(f) - Q(h), and the exact part of Q(h).
 fn differences(
     design: &Design,
     expensive: &Net,
@@ -228,7 +228,7 @@ fn differences(
     all
 }
 
-/// What every base point of the cheaper model's own runs contributes to Q(h), the mean over all stand-ins.
+/// Returns the contributions of the low-fidelity model's own base points to Q(h), the mean over all stand-ins.
 fn own_contributions(
     own: &OwnOutputs,
     families: &[Family],

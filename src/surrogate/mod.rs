@@ -2,7 +2,7 @@
 //!
 //! A sparse polynomial chaos expansion is fitted to the runs of all nets but one, and corrects the indices of that one
 //! ([`corrected`]): exact for the part of the output that the expansion explains, pick-freeze for the rest. No net is
-//! corrected by an expansion that has seen it, so that a poor surrogate costs accuracy and no honesty.
+//! corrected by an expansion fitted to it: a poor surrogate costs accuracy, but intervals stay valid.
 
 pub mod basis;
 pub mod beyond;
@@ -33,51 +33,51 @@ use crate::uncertainty::{
     ChosenTerms, Influenced, Layout, PartInfluences, SurrogateEstimates, SurrogateTerm, in_parts,
 };
 
-/// Fewest nets: a surrogate of the others has its number of terms by leaving out one of them.
+/// Minimum number of nets: the number of terms of a surrogate of the others is chosen by leaving out one of them.
 pub const MIN_NETS: usize = 3;
 
-/// Fewest base points of a net.
+/// Minimum number of base points of a net.
 const MIN_POINTS: usize = 4;
 
-/// The same if each has plain rows, which teach more than those of a base point that share their columns.
+/// The same if each has plain rows, which are more informative than rows of a base point that share their columns.
 const MIN_POINTS_WITH_PLAIN_ROWS: usize = 2;
 
-/// Largest sum of degrees of Hermite polynomials in a term. Those of high degree are large where hardly any row is: few rows
-/// decide their coefficients, and no row shows what they do beyond.
+/// Maximum sum of degrees of Hermite polynomials in a term. Those of high degree are large where there are hardly any
+/// rows: few rows determine their coefficients, and no row shows their behaviour beyond.
 const SAFE_HERMITE_DEGREES: usize = 4;
 
-/// The same where this leaves clearly less of the runs that the surrogates were not fitted to: of powers and exponentials.
+/// The same if this reduces the residuals of the other runs clearly, as for powers and exponentials.
 const MAX_HERMITE_DEGREES: usize = 10;
 
-/// What is clearly less.
+/// The ratio that counts as clearly less.
 const CLEARLY_LESS: f64 = 0.25;
 
-/// Share of the variance that the surrogates leave, and rows that carry it, three over their kurtosis times their number, from
-/// and below which corrected intervals must hold the plain ones too: what is missing from the runs is missing from a fit to them.
+/// Residual share of the variance above which, and effective number of rows in it (three over their kurtosis times
+/// their number) below which, corrected intervals must include the plain ones: a fit misses what the runs miss.
 const RESIDUAL: f64 = 1e-3;
 const MIN_EFFECTIVE_ROWS: f64 = 50.0;
 
-/// Share of the variance by which a factor matters.
+/// Share of the variance above which a factor matters.
 const MATTERS: f64 = 0.02;
 
-/// Rows of all nets together that surrogates are fitted to, at most: more of them hardly change the coefficients of some hundred terms,
-/// and what an expansion leaves is taken from all rows.
+/// Maximum number of rows of all nets together to which surrogates are fitted: more hardly change the coefficients of
+/// about a hundred terms, and the residuals of an expansion are computed from all rows.
 pub const MAX_FITTED_ROWS: u64 = 1 << 16;
 
-/// Base points that are corrected at a time where there are more than the surrogates are fitted to.
+/// Number of base points corrected at a time if there are more than the surrogates are fitted to.
 const CHUNK: usize = 1 << 13;
 
-/// Terms that are reported.
+/// Number of terms that are reported.
 const TOLD_TERMS: usize = 12;
 
-/// The polynomials of every factor of `space`.
+/// Returns the polynomials of every factor of `space`.
 pub fn families(space: &Space) -> Vec<Family> {
     space.factors().iter().map(|factor| Family::new(factor.distribution())).collect()
 }
 
-/// The indices of `layout` from the outputs of every run of `design`, corrected by surrogates, in the terms that a longer run has
-/// `chosen` if there is one; `None` where there are too few nets or points, points that are no Sobol' nets, or an output without
-/// variance.
+/// Estimates the indices of `layout` from the outputs of every run of `design`, corrected by surrogates, in the terms
+/// that a longer run has `chosen` if there is one; `None` if there are too few nets or points, the points are not
+/// Sobol' nets, or an output has no variance.
 pub fn surrogate_estimates(
     design: &Design,
     families: &[Family],
@@ -92,28 +92,28 @@ pub fn surrogate_estimates(
     of_neighbours(design, families, layout, &good_points(&scaled), &[&scaled], chosen).pop().flatten()
 }
 
-/// Whether there are enough nets, and points that are nets.
+/// Returns whether there are enough nets, and the points are nets.
 fn takes_surrogates(design: &Design, replicates: usize) -> bool {
     design.settings().sampler != Sampler::LatinHypercube && replicates >= MIN_NETS
 }
 
-/// Fewest base points of a net of `design` that surrogates are fitted to.
+/// Returns the minimum number of base points of a net of `design` to which surrogates are fitted.
 pub fn fewest_points(design: &Design) -> usize {
     if design.plain_rows() > 0 { MIN_POINTS_WITH_PLAIN_ROWS } else { MIN_POINTS }
 }
 
-/// Polynomials that are tried.
+/// A set of polynomials to try.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Trial {
-    /// Those of every factor.
+    /// The polynomials of every factor.
     pub families: Vec<Family>,
-    /// Largest sum of degrees of Hermite polynomials in a term.
+    /// Maximum sum of degrees of Hermite polynomials in a term.
     pub hermite_degree: usize,
-    /// How much of what the best trial before it leaves it may leave, to be taken in its place.
+    /// Maximum ratio of its residual to that of the best previous trial for which it is preferred.
     pub ratio: f64,
 }
 
-/// What is tried for factors with the polynomials `families`, in this order.
+/// Returns the trials for factors with the polynomials `families`, in order.
 pub fn trials(families: &[Family]) -> Vec<Trial> {
     let trial = |families: &[Family], hermite_degree: usize, ratio: f64| Trial {
         families: families.to_vec(),
@@ -138,7 +138,7 @@ struct Corrected {
 }
 
 impl Corrected {
-    /// The `nets` of `design` corrected by `expansions` in polynomials of `families`.
+    /// Corrects the `nets` of `design` by `expansions` in polynomials of `families`.
     fn new(
         design: &Design,
         nets: Vec<Contributions>,
@@ -152,17 +152,17 @@ impl Corrected {
         Self { nets, expansions, beyond }
     }
 
-    /// Mean square of what the surrogates leave.
+    /// Returns the mean square of the residuals.
     fn residual(&self) -> f64 {
         residual_powers(&self.nets).0
     }
 
-    /// The same, and what no runs show.
+    /// Returns the same plus the error that no runs show.
     fn unknown(&self) -> f64 {
         self.residual() + self.beyond.variance
     }
 
-    /// Whether a few rows carry what the surrogates leave, and it matters.
+    /// Returns whether a few rows dominate the residuals, and these matter.
     fn is_heavy_tailed(&self) -> bool {
         let (two, four) = residual_powers(&self.nets);
         let rows: usize = self.nets.iter().map(|net| net.rows).sum();
@@ -171,7 +171,7 @@ impl Corrected {
     }
 }
 
-/// The first base points of `design` of at most [`MAX_FITTED_ROWS`] rows in all: a power of two of them, or all.
+/// Returns the first base points of `design` with at most [`MAX_FITTED_ROWS`] rows: a power of two, or all.
 fn fitted_design(design: &Design) -> Design {
     let most = MAX_FITTED_ROWS * design.points_per_replicate() / design.rows().max(1);
     if design.rows() <= MAX_FITTED_ROWS || most == 0 {
@@ -180,7 +180,7 @@ fn fitted_design(design: &Design) -> Design {
     design.with_points(1 << most.ilog2()).unwrap_or_else(|_| design.clone())
 }
 
-/// What the base points up to number `points` contribute, some of them at a time.
+/// Returns the contributions of the base points below `points`, some of them at a time.
 fn in_chunks(points: usize, of: impl Fn(std::ops::Range<usize>) -> Contributions) -> Contributions {
     let mut all = of(0..points.min(CHUNK));
     for first in (CHUNK..points).step_by(CHUNK) {
@@ -189,19 +189,19 @@ fn in_chunks(points: usize, of: impl Fn(std::ops::Range<usize>) -> Contributions
     all
 }
 
-/// Mean square and mean fourth power of what surrogates leave of `nets`.
+/// Returns the mean square and mean fourth power of the residuals of `nets`.
 fn residual_powers(nets: &[Contributions]) -> (f64, f64) {
     let (two, four) = nets.iter().fold((0.0, 0.0), |sum, net| (sum.0 + net.residual.0, sum.1 + net.residual.1));
     (two / nets.len() as f64, four / nets.len() as f64)
 }
 
-/// For every net the expansion fitted to the others.
+/// Returns for every net the expansion fitted to the others.
 pub fn cross_fitted(nets: &[Net], caps: Caps<'_>) -> Vec<Expansion> {
     let training: Vec<Training<'_>> = nets.iter().map(Training::new).collect();
     fitted_to_others(nets, &training, caps).iter().map(|expansions| expansions.of_output(0)).collect()
 }
 
-/// For every net the expansions fitted to the `training` runs of the others.
+/// Returns for every net the expansions fitted to the `training` runs of the others.
 fn fitted_to_others(nets: &[Net], training: &[Training<'_>], caps: Caps<'_>) -> Vec<Expansions> {
     let carried = Carried::new(nets, caps);
     let (candidates, rows) = first_round(nets, &carried);
@@ -210,7 +210,7 @@ fn fitted_to_others(nets: &[Net], training: &[Training<'_>], caps: Caps<'_>) -> 
     (0..nets.len()).into_par_iter().map(of_net).collect()
 }
 
-/// The same in some of the terms that a longer run has `chosen` for each net: one round of few candidates.
+/// Does the same in some of the terms that a longer run has `chosen` for each net: one round of few candidates.
 fn fitted_among(nets: &[Net], training: &[Training<'_>], caps: Caps<'_>, chosen: &[Vec<Term>]) -> Vec<Expansions> {
     let carried = Carried::new(nets, caps);
     let rows = selection_rows(nets.len() - 1);
@@ -222,7 +222,7 @@ fn fitted_among(nets: &[Net], training: &[Training<'_>], caps: Caps<'_>, chosen:
     (0..nets.len()).into_par_iter().map(of_net).collect()
 }
 
-/// The candidates of the first round, and the rows of each net that choose among them.
+/// Returns the candidates of the first round, and the number of rows of each net that choose among them.
 fn first_round(nets: &[Net], carried: &Carried<'_>) -> (Vec<Term>, usize) {
     let training = nets.len() - 1;
     let rows = selection_rows(training);
@@ -230,7 +230,7 @@ fn first_round(nets: &[Net], carried: &Carried<'_>) -> (Vec<Term>, usize) {
     (first_candidates(carried, all_rows), rows)
 }
 
-/// The expansion fitted to all nets but number `k`.
+/// Returns the expansion fitted to all nets except number `k`.
 fn expansion_without(nets: &[Net], k: usize, caps: Caps<'_>) -> Expansion {
     let carried = Carried::new(nets, caps);
     let (candidates, rows) = first_round(nets, &carried);
@@ -240,7 +240,7 @@ fn expansion_without(nets: &[Net], k: usize, caps: Caps<'_>) -> Expansion {
     fit(&others, (&candidates, &sums), &carried).of_output(0)
 }
 
-/// The factors of every swap in rising order.
+/// Returns the factors of every swap in rising order.
 fn sorted_swaps(design: &Design) -> Vec<Vec<usize>> {
     let mut swaps: Vec<Vec<usize>> = design.swaps().to_vec();
     swaps.iter_mut().for_each(|swap| swap.sort_unstable());
@@ -251,7 +251,7 @@ fn without<T>(list: &[T], left_out: usize) -> Vec<&T> {
     list.iter().enumerate().filter(|(place, _)| *place != left_out).map(|(_, item)| item).collect()
 }
 
-/// The outputs of every run, a column for each.
+/// Returns the outputs of every run, a column for each.
 fn columns(kept: &PointOutputs, runs: usize) -> Vec<Vec<f64>> {
     let mut columns = vec![Vec::with_capacity(kept.points() as usize); runs];
     for block in kept.blocks(u64::MAX) {
@@ -260,7 +260,7 @@ fn columns(kept: &PointOutputs, runs: usize) -> Vec<Vec<f64>> {
     columns
 }
 
-/// Outputs of every replicate and run over their standard deviation, less their mean, and both, unless a scale is given.
+/// Outputs of every replicate and run, standardised, and their mean and standard deviation, or a given scale.
 type Scaled = (Vec<Vec<Vec<f64>>>, (f64, f64));
 
 fn scaled(replicates: &[&PointOutputs], runs: usize, scale: Option<(f64, f64)>) -> Option<Scaled> {
@@ -271,17 +271,17 @@ fn scaled(replicates: &[&PointOutputs], runs: usize, scale: Option<(f64, f64)>) 
     Some((outputs, (mean, sd)))
 }
 
-/// `None` if the values are all alike, or none.
+/// Returns the mean and standard deviation; `None` if all values are equal, or there are none.
 fn mean_and_sd(values: &[f64]) -> Option<(f64, f64)> {
     let mean = crate::sum::mean(values);
     let size = values.iter().fold(0.0, |largest: f64, y| largest.max((y - mean).abs()));
-    // In units of the largest deviation, so that nothing under- or overflows when squared.
+    // In units of the largest deviation, so that squares neither underflow nor overflow.
     let square = |y: &f64| ((y - mean) / size).powi(2);
     let sd = size * (values.iter().map(square).sum::<f64>() / values.len() as f64).sqrt();
     (size > 0.0 && sd.is_finite() && mean.is_finite()).then_some((mean, sd))
 }
 
-/// The means over all points, and what each part does to them; those of `low`, the runs of a cheaper model, are added.
+/// Returns the means over all points with the influences of each part; adds those of `low`, a low-fidelity model.
 fn estimates(corrected: &Corrected, low: &[Contributions], (mean, sd): (f64, f64)) -> SurrogateEstimates {
     let Corrected { nets, expansions, beyond } = corrected;
     let of_nets = |nets: &[Contributions], column: &dyn Fn(&Contributions) -> &Vec<f64>| {
@@ -336,7 +336,7 @@ fn estimates(corrected: &Corrected, low: &[Contributions], (mean, sd): (f64, f64
     }
 }
 
-/// Of all factors, and of those that matter, the largest variance that surrogates claim over that which the rows of `nets` show.
+/// Returns the largest ratio of the claimed variance to that over the rows, for all factors and those that matter.
 fn growth(nets: &[Contributions]) -> f64 {
     let claims = |place: usize| {
         nets.iter().fold([0.0; 2], |sum, net| [sum[0] + net.claims[place][0], sum[1] + net.claims[place][1]])
@@ -347,7 +347,7 @@ fn growth(nets: &[Contributions]) -> f64 {
     (0..count).map(|place| ratio(claims(place))).fold(0.0, f64::max)
 }
 
-/// The weight of the second form of the total indices with which the spread within the nets is least, over all swaps.
+/// Returns the weight of the second form of the total indices with the least spread within the nets, over all swaps.
 fn weight_of_second([first, second]: &[Vec<Influenced>; 2]) -> f64 {
     let (mut covariance, mut variance) = (0.0, 0.0);
     for (a, b) in first.iter().zip(second) {
@@ -365,7 +365,7 @@ fn weight_of_second([first, second]: &[Vec<Influenced>; 2]) -> f64 {
     if variance > 0.0 { (-covariance / variance).clamp(0.0, 1.0) } else { 0.0 }
 }
 
-/// The terms of all surrogates by their mean share of the variance.
+/// Returns the terms of all surrogates by their mean share of the variance.
 pub fn told_terms(expansions: &[Expansion], variance: f64) -> Vec<SurrogateTerm> {
     let mut terms: Vec<(&Term, f64)> = Vec::new();
     for expansion in expansions {

@@ -1,4 +1,4 @@
-//! The runs of one replicate as the fit sees them: polynomials of the base points, and the outputs of every run.
+//! The runs of one replicate as used in the fit: polynomials of the base points, and the outputs of every run.
 
 use std::sync::Arc;
 
@@ -13,7 +13,7 @@ pub struct Net {
     /// For each matrix and factor the quantiles.
     quantiles: Arc<Vec<Vec<f64>>>,
     factors: usize,
-    /// For each run its outputs, less the mean of all and over their standard deviation.
+    /// For each run its standardised outputs.
     pub outputs: Vec<Vec<f64>>,
     /// For each run and factor the matrix of its column.
     matrices: Arc<Vec<Vec<usize>>>,
@@ -21,13 +21,13 @@ pub struct Net {
 }
 
 impl Net {
-    /// The first base points of `replicate`, those of them whose `outputs`, a column for each run, are all finite.
+    /// Creates a net of the first base points of `replicate` whose `outputs`, a column for each run, are all finite.
     pub fn new(design: &Design, replicate: u64, families: &[Family], degree: usize, outputs: &[Vec<f64>]) -> Self {
         let outputs: Vec<&[f64]> = outputs.iter().map(Vec::as_slice).collect();
         Self::of_points(design, replicate, 0, families, degree, &outputs)
     }
 
-    /// The same from base point number `first` on.
+    /// Does the same from base point number `first` on.
     pub fn of_points(
         design: &Design,
         replicate: u64,
@@ -58,7 +58,7 @@ impl Net {
         }
     }
 
-    /// Plain rows, one run of one matrix: `columns` has a column for each factor and degree from 1.
+    /// Creates a net of plain rows, one run of one matrix: `columns` has a column for each factor and degree from 1.
     pub fn of_rows(columns: Vec<Vec<Vec<f64>>>, outputs: Vec<f64>) -> Self {
         let (factors, points) = (columns.len(), outputs.len());
         let matrices = Arc::new(vec![vec![0; factors]]);
@@ -72,7 +72,7 @@ impl Net {
         }
     }
 
-    /// Other `outputs` at the same rows.
+    /// Returns the net with other `outputs` at the same rows.
     pub fn with_outputs(&self, outputs: Vec<Vec<f64>>) -> Self {
         let Self { columns, quantiles, factors, matrices, points, .. } = self;
         Self {
@@ -85,27 +85,27 @@ impl Net {
         }
     }
 
-    /// Base points.
+    /// Returns the number of base points.
     pub fn points(&self) -> usize {
         self.points
     }
 
-    /// Runs of each of them.
+    /// Returns the number of runs of each of them.
     pub fn runs(&self) -> usize {
         self.outputs.len()
     }
 
-    /// The polynomial of `degree` of `factor` at the base points of `run`.
+    /// Returns the polynomial of `degree` of `factor` at the base points of `run`.
     fn column(&self, run: usize, factor: usize, degree: usize) -> &[f64] {
         &self.columns[self.matrices[run][factor] * self.factors + factor][degree - 1]
     }
 
-    /// The quantiles of `factor` at the base points of `run`.
+    /// Returns the quantiles of `factor` at the base points of `run`.
     pub fn quantiles(&self, run: usize, factor: usize) -> &[f64] {
         &self.quantiles[self.matrices[run][factor] * self.factors + factor]
     }
 
-    /// Of the polynomials of every degree of `factor` their mean and their mean square over the columns of all matrices.
+    /// Returns mean and mean square of the polynomials of each degree of `factor` over the columns of all matrices.
     pub fn spreads(&self, factor: usize) -> Vec<(f64, f64)> {
         let matrices = self.columns.len() / self.factors;
         let columns = |degree: usize| (0..matrices).map(move |m| &self.columns[m * self.factors + factor][degree]);
@@ -114,7 +114,7 @@ impl Net {
         (0..self.columns[factor].len()).map(|k| (mean(k, |x| *x), mean(k, |x| x * x))).collect()
     }
 
-    /// The values of `term` at every base point of `run`, into `values`.
+    /// Writes the values of `term` at every base point of `run` to `values`.
     pub fn fill(&self, term: &Term, run: usize, values: &mut Vec<f64>) {
         values.clear();
         let Some(((factor, degree), others)) = term.split_first() else {
@@ -128,8 +128,8 @@ impl Net {
         }
     }
 
-    /// Rows (run, base point) in the order of the runs, at most `most` of them: one in each of as many equal stretches, somewhere in
-    /// it. At equal distances near a power of two the points of a net are no net, and hardly have a rare level.
+    /// Returns at most `most` rows (run, base point) in the order of the runs: one at a pseudo-random place in each of
+    /// as many equal stretches. Points at equal distances near a power of two are not a net, and miss rare levels.
     pub fn spaced_rows(&self, most: usize) -> Vec<(usize, usize)> {
         let all = self.points * self.runs();
         let count = all.min(most);
@@ -142,7 +142,7 @@ impl Net {
         (0..count).map(row).map(|row| (row / self.points, row % self.points)).collect()
     }
 
-    /// The values of `term` at some rows, in the order of the runs.
+    /// Returns the values of `term` at some rows, in the order of the runs.
     pub fn at(&self, term: &Term, rows: &[(usize, usize)]) -> Vec<f64> {
         let mut values = vec![1.0; rows.len()];
         let mut rest = &mut values[..];

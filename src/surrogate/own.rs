@@ -1,12 +1,12 @@
-//! Polynomials orthonormal under a factor's own distribution, in its values: a model that is smooth in the values need not be
-//! so in the quantiles, and one of few levels needs few polynomials.
+//! Polynomials orthonormal under a factor's own distribution, in its values: a model that is smooth in the values need
+//! not be smooth in the quantiles, and a factor with few levels needs few polynomials.
 
 use crate::space::Distribution;
 
 /// Panels of the quadrature, each half as wide as the one before it, towards either end.
 const PANELS: i32 = 40;
 
-/// Equal parts of each.
+/// Number of equal parts of each panel.
 const PARTS: u32 = 12;
 
 /// Nodes and weights of the Gauss-Legendre rule of five points on -1 to 1 (Abramowitz and Stegun 1964, table 25.4).
@@ -18,17 +18,17 @@ const RULE: [(f64, f64); 5] = [
     (0.906_179_845_938_664, 0.236_926_885_056_189_1),
 ];
 
-/// Relative error of the standard deviation by quadrature that is no rounding.
+/// Relative error of the standard deviation by quadrature that is more than rounding.
 const MISSED: f64 = 1e-8;
 
-/// Probability of the counts of a Poisson distribution that no polynomial is made for, on either side.
+/// Probability of the counts of a Poisson distribution that the polynomials ignore, on either side.
 const MISSED_COUNTS: f64 = 1e-13;
 
-/// Length of what a polynomial has beyond those of lower degree, below which it has nothing: as many levels, as many degrees.
+/// Length of the new part of a polynomial below which it vanishes: there are as many degrees as levels.
 const NOTHING: f64 = 1e-7;
 
-/// Polynomials orthonormal under some weights, by the three-term recurrence b_(k+1) p_(k+1) = (x - a_k) p_k - b_k p_(k-1),
-/// p_0 = 1, of values moved to -1 to 1.
+/// Polynomials orthonormal under some weights, by the three-term recurrence b_(k+1) p_(k+1) = (x - a_k) p_k - b_k
+/// p_(k-1), p_0 = 1, for values shifted and scaled to -1 to 1.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Recurrence {
     middle: f64,
@@ -38,9 +38,9 @@ pub struct Recurrence {
 }
 
 impl Recurrence {
-    /// Up to `degree`, or fewer for few values, under `nodes` (value, weight) of weights that sum to 1, between `low` and `high`,
-    /// by the discretised procedure of Stieltjes (Gautschi 1982, SIAM J. Sci. Stat. Comput. 3, 289-317). `None` without bounds
-    /// of positive distance.
+    /// Computes polynomials up to `degree`, or fewer for few values, under `nodes` (value, weight) of weights that sum
+    /// to 1, between `low` and `high`, by the discretised procedure of Stieltjes (Gautschi 1982, SIAM J. Sci. Stat.
+    /// Comput. 3, 289-317). `None` if the bounds are not finite and of positive distance.
     pub fn new(nodes: &[(f64, f64)], (low, high): (f64, f64), degree: usize) -> Option<Self> {
         let (middle, half) = (low + (high - low) / 2.0, (high - low) / 2.0);
         if !(half > 0.0 && half.is_finite() && middle.is_finite()) {
@@ -66,12 +66,12 @@ impl Recurrence {
         Some(Self { middle, half, coefficients })
     }
 
-    /// The largest degree.
+    /// Returns the largest degree.
     pub fn degree(&self) -> usize {
         self.coefficients.len()
     }
 
-    /// The polynomials of degree 1, 2, ... and at most `degree` at the values `x`, a column for each.
+    /// Returns the polynomials of degree 1, 2, ... and at most `degree` at the values `x`, a column for each.
     pub fn columns(&self, x: &[f64], degree: usize) -> Vec<Vec<f64>> {
         let x: Vec<f64> = x.iter().map(|x| (x - self.middle) / self.half).collect();
         let (mut before, mut now, mut length) = (vec![0.0; x.len()], vec![1.0; x.len()], 0.0);
@@ -95,8 +95,8 @@ pub struct OwnPolynomials {
 }
 
 impl OwnPolynomials {
-    /// Up to `degree`, or fewer for a distribution of few levels. `None` without a bounded support of positive width, and where
-    /// the quadrature misses the standard deviation: where the quantile function has steps that it does not know.
+    /// Computes polynomials up to `degree`, or fewer for a distribution with few levels. `None` without a bounded
+    /// support of positive width, or if unknown steps spoil the standard deviation by quadrature.
     pub fn new(distribution: &Distribution, degree: usize) -> Option<Self> {
         let levels = match distribution {
             Distribution::Poisson(poisson) => poisson.levels_above(MISSED_COUNTS),
@@ -124,17 +124,17 @@ impl OwnPolynomials {
         Some(Self { distribution: distribution.clone(), recurrence })
     }
 
-    /// The largest degree.
+    /// Returns the largest degree.
     pub fn degree(&self) -> usize {
         self.recurrence.degree()
     }
 
-    /// Whether the distribution has few values.
+    /// Returns whether the distribution has few values.
     pub fn has_levels(&self) -> bool {
         self.distribution.levels().is_some()
     }
 
-    /// The polynomials of degree 1, 2, ... at the quantiles of `u`, a column for each.
+    /// Returns the polynomials of degree 1, 2, ... at the quantiles of `u`, a column for each.
     pub fn columns(&self, u: &[f64]) -> Vec<Vec<f64>> {
         let mut x = vec![0.0; u.len()];
         self.distribution.fill(u, &mut x);
@@ -142,7 +142,7 @@ impl OwnPolynomials {
     }
 }
 
-/// The values of a distribution of few levels with their probabilities: the steps of its quantile function, by bisection.
+/// Returns the values of a distribution with few levels and their probabilities: its quantile's steps, by bisection.
 fn of_levels(distribution: &Distribution, levels: &[(f64, f64)]) -> Vec<(f64, f64)> {
     let step = |[(_, mut low), (value, mut high)]: [(f64, f64); 2]| {
         for _ in 0..60 {
@@ -157,9 +157,9 @@ fn of_levels(distribution: &Distribution, levels: &[(f64, f64)]) -> Vec<(f64, f6
     levels.iter().zip(steps.windows(2)).map(|((value, _), pair)| (*value, pair[1] - pair[0])).collect()
 }
 
-/// The values at the nodes of a quadrature in the quantiles, which is finer towards the ends, with their weights.
+/// Returns the values and weights at the nodes of a quadrature in the quantiles, which is finer towards the ends.
 fn of_quantiles(distribution: &Distribution) -> Vec<(f64, f64)> {
-    // What is left at the ends counts as one node.
+    // The remainder at the ends counts as one node.
     let rest = 0.5f64.powi(PANELS + 1);
     let mut nodes = vec![(distribution.quantile(rest / 2.0), rest), (distribution.quantile(1.0 - rest / 2.0), rest)];
     for number in 1..=PANELS {
@@ -171,7 +171,7 @@ fn of_quantiles(distribution: &Distribution) -> Vec<(f64, f64)> {
     nodes
 }
 
-/// Nodes and weights of the rule on each of some parts of `low` to `high`.
+/// Iterates over nodes and weights of the rule on each of some parts of `low` to `high`.
 pub(super) fn rule(low: f64, high: f64) -> impl Iterator<Item = (f64, f64)> {
     let width = (high - low) / f64::from(PARTS);
     let of_part = move |part: u32| {
@@ -205,7 +205,7 @@ mod tests {
                 for (k, b) in columns.iter().enumerate() {
                     let product = product(a, b) / f64::from(n);
                     let exact = f64::from(u8::from(j == k));
-                    // The midpoint rule itself errs by so much where quantiles are steep.
+                    // The midpoint rule itself has this error where quantiles are steep.
                     assert!((product - exact).abs() < 1e-2, "{distribution:?} {j} {k} {product}");
                 }
             }

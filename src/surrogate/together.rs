@@ -1,6 +1,6 @@
-//! Surrogates of many outputs of one run. Neighbours whose runs failed at the same points share the polynomials of the points
-//! and the terms, which are chosen for all of them; each has coefficients of its own, and as many terms as the nets that it
-//! leaves out ask for. A thousand outputs then cost some fifty times one.
+//! Surrogates of many outputs of one run. Neighbours whose runs failed at the same points share the polynomials of the
+//! points and the terms, which are chosen for all of them; each has its own coefficients, and its own number of terms
+//! by cross-validation over the nets. A thousand outputs then cost about fifty times as much as one.
 
 use std::collections::BTreeMap;
 
@@ -19,20 +19,20 @@ use crate::design::Design;
 use crate::estimate::PointOutputs;
 use crate::uncertainty::{ChosenTerms, Knot, Layout, SurrogateEstimates};
 
-/// Outputs up to which each has terms of its own: what that gains is worth its time.
+/// Number of outputs up to which each has its own terms: the gain is worth the time.
 const MAX_ALONE: usize = 32;
 
-/// About as many neighbours share their terms. Outputs of a series change slowly along it.
+/// Approximate number of neighbours that share their terms. Outputs of a series change slowly along it.
 const NEIGHBOURS: usize = 64;
 
-/// Share of the variance that polynomials leave of an output above which it may have steps and kinks.
+/// Residual share of the variance of an output above which it may have steps and kinks.
 const ROUGH: f64 = 1e-4;
 
-/// How much of what polynomials leave may be left with knots, to be taken in their place.
+/// Maximum ratio of the residual with knots to that of polynomials for which knots are used.
 const KNOTS_RATIO: f64 = 0.9;
 
-/// What [`surrogate_estimates`] makes of each of `outputs`, which have the outputs of every replicate, by the terms of the same
-/// output in `longer`, the estimates of a longer run, if these are known; of more than 32 by terms that neighbours share.
+/// Returns the estimates of [`surrogate_estimates`] for each of `outputs`, which have the outputs of every replicate,
+/// by the terms of the same output in `longer`, those of a longer run, if known; above 32 outputs by shared terms.
 pub fn surrogates_together(
     design: &Design,
     families: &[Family],
@@ -50,14 +50,14 @@ pub fn surrogates_together(
     }
     let all: Vec<Option<Scaled>> =
         outputs.par_iter().map(|replicates| scaled(replicates, design.runs().len(), None)).collect();
-    // By the points at which all runs have a value.
+    // Grouped by the points at which all runs have a value.
     let mut groups: BTreeMap<Vec<Vec<usize>>, Vec<usize>> = BTreeMap::new();
     for (number, scaled) in all.iter().enumerate().filter_map(|(number, all)| Some((number, all.as_ref()?))) {
         groups.entry(good_points(scaled)).or_default().push(number);
     }
     let mut found: Vec<Option<SurrogateEstimates>> = vec![None; outputs.len()];
     for (good, members) in groups {
-        // Lists of nearly one length.
+        // Lists of nearly equal length.
         let length = members.len().div_ceil(members.len().div_ceil(NEIGHBOURS));
         for members in members.chunks(length) {
             let of_members: Vec<Option<SurrogateEstimates>> = if members.len() <= MAX_ALONE {
@@ -72,7 +72,7 @@ pub fn surrogates_together(
     found
 }
 
-/// The base points of every replicate at which all runs have a value.
+/// Returns the base points of every replicate at which all runs have a value.
 pub(super) fn good_points((replicates, _): &Scaled) -> Vec<Vec<usize>> {
     let of_replicate = |runs: &Vec<Vec<f64>>| {
         let points = runs.first().map_or(0, Vec::len);
@@ -81,7 +81,7 @@ pub(super) fn good_points((replicates, _): &Scaled) -> Vec<Vec<usize>> {
     replicates.iter().map(of_replicate).collect()
 }
 
-/// Of outputs that have values at the `good` points of every replicate, and choose their terms together, or have them `chosen`.
+/// Fits outputs with values at the `good` points of every replicate, with terms chosen together, or already `chosen`.
 pub(super) fn of_neighbours(
     design: &Design,
     families: &[Family],
@@ -136,7 +136,7 @@ pub(super) fn of_neighbours(
         }
         let (kind, mut best) = best?;
         let mut knots = chosen.map_or_else(Vec::new, |chosen| chosen.knots.clone());
-        // What a few rows carry where factors have no bounds is a tail.
+        // If factors are unbounded, residuals in a few rows are a tail.
         let is_tail = families.contains(&Family::Hermite) && best.is_heavy_tailed();
         if chosen.is_none() && outputs.len() == 1 && best.residual() > ROUGH && !is_tail {
             let (mut next, mut terms) = (fits[kind].1.knots(families, &best.expansions), None);
@@ -149,7 +149,7 @@ pub(super) fn of_neighbours(
                 if found.residual() > ratio * best.residual() {
                     break;
                 }
-                // The second time in the terms of the first, with the knots where that says that they lie.
+                // The second time with the terms of the first, and with the knots where these place them.
                 let of_found = |of: &Expansion| of.terms.clone();
                 terms = Some(found.expansions.iter().map(of_found).collect::<Vec<Vec<Term>>>());
                 let placed = if is_last { Vec::new() } else { fit.placed(&fitted, outputs[0], &found.expansions) };
@@ -170,7 +170,7 @@ pub(super) fn of_neighbours(
     (0..outputs.len()).into_par_iter().map(of_output).collect()
 }
 
-/// Functions of all factors with these `knots`: what is tried of an output whose polynomials leave much.
+/// Returns functions of all factors with these `knots`: the trial for an output with large residuals of polynomials.
 fn with_knots(families: &[Family], knots: &[Vec<Knot>]) -> Trial {
     let degree = Caps::degree_of(families.len());
     let of_factor = |(family, knots): (&Family, &Vec<Knot>)| {
@@ -190,8 +190,8 @@ struct Fit {
 }
 
 impl Fit {
-    /// `first` is one of the outputs, all points included; `runs` has all of them at the good ones. The terms are those of each
-    /// net in `chosen`, if there are some.
+    /// Fits the trial: `first` is one of the outputs, all points included; `runs` has all of them at the good ones. The
+    /// terms are those of each net in `chosen`, if any.
     fn new(
         design: &Design,
         trial: Trial,
@@ -220,7 +220,7 @@ impl Fit {
 }
 
 impl Fit {
-    /// The knots of every factor, whose polynomials are `families`, that what these expansions of its output leave shows.
+    /// Finds the knots of every factor, with polynomials in `families`, in the residuals of these expansions.
     fn knots(&self, families: &[Family], expansions: &[Expansion]) -> Vec<Vec<Knot>> {
         let nets = self.nets.iter().zip(expansions);
         let rest: Vec<Vec<Vec<f64>>> = nets.map(|(net, expansion)| values_and_rest(net, expansion).1).collect();
@@ -228,7 +228,7 @@ impl Fit {
         (0..families.len()).into_par_iter().map(of_factor).collect()
     }
 
-    /// Its knots, where these expansions of its output say that they lie.
+    /// Places its knots by these expansions of its output.
     fn placed(&self, design: &Design, output: &Scaled, expansions: &[Expansion]) -> Vec<Vec<Knot>> {
         let points = design.points_per_replicate() as usize;
         let moved = |by: f64| -> Vec<Vec<Vec<f64>>> {
@@ -264,7 +264,7 @@ mod tests {
     use crate::space::Distribution;
     use crate::uncertainty::Influenced;
 
-    /// Outputs of every run and point of each replicate of `design`.
+    /// Returns outputs of every run and point of each replicate of `design`.
     fn kept(design: &Design, f: impl Fn(&[f64]) -> f64) -> Vec<PointOutputs> {
         let of_replicate = |replicate: u64| {
             let points = design.points_per_replicate();
@@ -303,7 +303,7 @@ mod tests {
                 assert!((a.estimate - b.estimate).abs() < 1e-4, "{k}: {} {}", a.estimate, b.estimate);
             }
         }
-        // Fewer are fitted one by one, to the same bits.
+        // Up to 32 outputs are fitted one by one, to the same bits.
         let few = surrogates_together(&design, &families, &layout, &refs[..3], &[]);
         assert_eq!(few[1], surrogate_estimates(&design, &families, &layout, &refs[1], None));
     }
@@ -339,7 +339,7 @@ mod tests {
         let first: Vec<PointOutputs> = rough.iter().map(|kept| kept.prefix(64)).collect();
         let of_half = estimates(&half, &first, Some(&chosen));
         assert!(of_half.explained > 0.99, "{}", of_half.explained);
-        // Nothing of the kind is seen where the output is smooth.
+        // No knots are found where the output is smooth.
         let smooth = kept(&design, |u| libm::exp(u[0]) * libm::sin(9.0 * u[1]) + u[2]);
         assert_eq!(estimates(&design, &smooth, None).chosen.unwrap().knots, [] as [Vec<Knot>; 0]);
     }

@@ -1,7 +1,7 @@
 //! Sweeps: one factor at a time over its range, every other at its nominal value.
 //!
-//! A look, not an analysis: it shows how the output goes with each factor where the others stand, and says nothing of
-//! how they act together. A run that fails leaves a gap in its curve, with the reason.
+//! A view, not an analysis: it shows how the output depends on each factor with the others fixed, but no interactions.
+//! A failed run leaves a gap in its curve, with the reason.
 
 mod range;
 #[cfg(test)]
@@ -16,14 +16,14 @@ use crate::run::{Halt, TableRun};
 use crate::space::{Factor, Space};
 use crate::study::{did_you_mean, nearest};
 
-/// Sweeps that have taken place.
+/// The results of sweeps.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sweeps {
     /// Every output at the nominal point.
     pub nominal: Vec<NominalOutput>,
-    /// One entry per factor asked for.
+    /// One entry per requested factor.
     pub sweeps: Vec<Sweep>,
-    /// Model runs.
+    /// Number of model runs.
     pub runs: u64,
     /// For each validity flag of the model: runs that raised it.
     pub flags: Vec<u64>,
@@ -38,11 +38,11 @@ pub struct NominalOutput {
     pub unit: String,
     /// Its value.
     pub value: Option<f64>,
-    /// Why there is no value, where there is none.
+    /// Why there is no value, if there is none.
     pub reason: Option<String>,
 }
 
-/// One factor moved over its range.
+/// The sweep of one factor over its range.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Sweep {
     /// The factor.
@@ -51,11 +51,11 @@ pub struct Sweep {
     pub unit: String,
     /// Its nominal value in `unit`.
     pub nominal: f64,
-    /// `linear` or `logarithmic`: how its axis is best divided.
+    /// The recommended scale of its axis: `linear` or `logarithmic`.
     pub spacing: String,
     /// Its values in `unit`.
     pub values: Vec<f64>,
-    /// What the values stand for, of a factor of categories.
+    /// The labels of the values, for a factor of categories.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub labels: Option<Vec<String>>,
     /// The outputs over the values.
@@ -73,12 +73,12 @@ pub struct SweptOutput {
     pub values: Vec<Option<f64>>,
     /// The runs that failed.
     pub gaps: Vec<Gap>,
-    /// Its least value.
+    /// Its smallest value.
     pub low: Option<f64>,
     /// Its largest value.
     pub high: Option<f64>,
-    /// 100 (high - low)/|nominal|: by so many percent of its nominal value the output moves; `None` where the nominal
-    /// value is 0 or does not exist, or is in a unit such as `degC`, of which 1 % has no meaning.
+    /// 100 (high - low)/|nominal|: the range of the output in percent of its nominal value; `None` if the nominal value
+    /// is 0 or does not exist, or is in a unit such as `degC`, of which 1 % has no meaning.
     pub percent: Option<f64>,
 }
 
@@ -91,13 +91,13 @@ pub struct Gap {
     pub reason: String,
 }
 
-/// Why there is no sweep.
+/// Why a sweep failed.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum SweepError {
-    /// The model gave up, or the sweep was asked to end.
+    /// The model gave up, or the sweep was stopped.
     #[error(transparent)]
     Halted(#[from] Halt),
-    /// There is no such factor.
+    /// The factor is unknown.
     #[error("the study has no factor `{name}`{}; its factors are {}", did_you_mean(nearest), known.join(", "))]
     UnknownFactor {
         /// The name given.
@@ -107,7 +107,7 @@ pub enum SweepError {
         /// All factors of the study.
         known: Vec<String>,
     },
-    /// A factor asked for twice.
+    /// A factor was requested twice.
     #[error("factor `{0}` is asked for twice")]
     Repeated(String),
     /// Too few or too many points.
@@ -115,10 +115,10 @@ pub enum SweepError {
     Points(usize),
 }
 
-/// The numbers of the factors of these names; of all factors if none is named.
+/// Returns the indices of the factors with these names; of all factors if none is named.
 ///
 /// # Errors
-/// [`SweepError`]: an unknown name, or one that stands there twice.
+/// [`SweepError`]: an unknown name, or a duplicate one.
 pub fn find(space: &Space, names: &[impl AsRef<str>]) -> Result<Vec<usize>, SweepError> {
     let known = || space.factors().iter().map(|factor| factor.name.as_str());
     let mut found = Vec::new();
@@ -136,7 +136,7 @@ pub fn find(space: &Space, names: &[impl AsRef<str>]) -> Result<Vec<usize>, Swee
     Ok(if names.is_empty() { (0..space.factors().len()).collect() } else { found })
 }
 
-/// Moves each of `factors`, by their numbers, over its range at so many points, every other factor at its nominal value.
+/// Moves each of `factors`, by index, over its range at `points` points, every other factor at its nominal value.
 ///
 /// # Errors
 /// [`SweepError`] for a number of points that is out of range; [`SweepError::Halted`] if the model gives up or is
@@ -235,14 +235,14 @@ struct Bench<'a> {
     outputs: &'a [Output],
     run: TableRun<'a>,
     batch: Batch,
-    /// Runs so far.
+    /// Number of runs so far.
     runs: u64,
-    /// For each validity flag: runs so far that raised it.
+    /// For each validity flag, the number of runs so far that raised it.
     flags: Vec<u64>,
 }
 
 impl Bench<'_> {
-    /// Every output for each of `values` of one factor, in its unit.
+    /// Returns every output for each of `values` of one factor, in its unit.
     fn curve(&mut self, factor: usize, values: &[f64]) -> Result<Vec<SweptOutput>, Halt> {
         let factors = self.space.factors();
         let mut swept: Vec<SweptOutput> = self.outputs.iter().map(SweptOutput::new).collect();

@@ -3,13 +3,13 @@
 use super::SweepError;
 use crate::space::Distribution;
 
-/// Where a sweep ends on a side on which the factor's distribution is unbounded: this quantile, or 1 minus it.
+/// End of a sweep on a side on which the factor's distribution is unbounded: this quantile, or 1 minus it.
 const TAIL: f64 = 1e-3;
-/// Most values of one factor.
+/// Maximum number of values of one factor.
 pub const MAX_POINTS: usize = 100_000;
 
-/// So many values of a factor of this distribution from end to end, in its unit: at equal ratios if it is log-uniform or
-/// log-normal, else at equal distances. A factor of single values takes each of them, or some of many whole numbers.
+/// Returns `points` values of a factor from end to end, in its unit: at equal ratios if it is log-uniform or
+/// log-normal, otherwise at equal distances. A discrete factor takes each of its values, or some of many whole numbers.
 ///
 /// # Errors
 /// [`SweepError::Points`] if there are fewer than 2 or more than 100,000 points.
@@ -21,7 +21,7 @@ pub fn values_over_range(distribution: &Distribution, points: usize) -> Result<V
     let last = points - 1;
     let between = |i: usize| match i {
         0 => low,
-        // At the end itself, whatever the rounding on the way.
+        // Exactly the end, despite rounding on the way.
         _ if i == last => high,
         _ => {
             let part = i as f64 / last as f64;
@@ -42,16 +42,16 @@ pub fn values_over_range(distribution: &Distribution, points: usize) -> Result<V
     })
 }
 
-/// Whether an axis of it is best divided by ratios.
+/// Returns whether its axis should be logarithmic.
 pub(super) fn is_logarithmic(distribution: &Distribution) -> bool {
     matches!(distribution, Distribution::LogUniform(_) | Distribution::LogNormal(_))
 }
 
-/// The ends of the range.
+/// Returns the ends of the range.
 fn range(distribution: &Distribution) -> (f64, f64) {
     let (low, high) = distribution.support();
     let is_open = matches!(distribution, Distribution::LogNormal(_));
-    // The logarithm of a log-normal factor is unbounded below: its least value, 0, is none.
+    // The logarithm of a log-normal factor is unbounded below: its lower bound, 0, cannot be used.
     let low = if low.is_finite() && !is_open { low } else { distribution.quantile(TAIL) };
     (low, if high.is_finite() { high } else { distribution.quantile(1.0 - TAIL) })
 }

@@ -21,7 +21,7 @@ pub struct AggregateIndices {
     pub total: Vec<Estimate>,
 }
 
-/// Aggregated indices of `outputs`, which have the parts of their replicates, by the default estimators ([`aggregated`]).
+/// Computes aggregated indices of `outputs`, given the parts of replicates, by the default estimators ([`aggregated`]).
 ///
 /// # Errors
 /// [`Undefined`] if all outputs are constant, or one has no indices for another reason.
@@ -34,7 +34,7 @@ pub fn aggregate_indices(
         Indices::from_moments(moments)
             .map(|Indices { first_order, total, .. }| (moments.variance(), [first_order, total].concat()))
     };
-    // Output by output: the sums of all at once, without each part, would fill the memory.
+    // Output by output: the sums of all outputs at once, without each part, would fill the memory.
     let all: Vec<LeftOut<_>> = outputs.par_iter().map(|replicates| LeftOut::new(replicates, &of)).collect();
     let whole = aggregated(all.iter().map(|output| &output.whole), scaling)?;
     let largest = |of: &dyn Fn(&LeftOut<_>) -> f64| all.iter().map(of).fold(0.0, f64::max);
@@ -53,8 +53,8 @@ pub fn aggregate_indices(
 }
 
 impl AggregateIndices {
-    /// The indices of all effects, in the order of [`OutputIndices::effects`](super::OutputIndices::effects), from those of all
-    /// swaps: the total indices of dependent factors are those of redrawn swaps.
+    /// Returns the indices of all effects, in the order of [`OutputIndices::effects`](super::OutputIndices::effects),
+    /// from those of all swaps: the total indices of dependent factors are those of redrawn swaps.
     #[must_use]
     pub fn of_effects(self, layout: &Layout) -> Self {
         let dummy = layout.dummy.then_some(layout.swaps().wrapping_sub(1));
@@ -64,9 +64,9 @@ impl AggregateIndices {
         Self { first_order: first_order.collect(), total: total.collect() }
     }
 
-    /// These plain indices, or those that surrogates make of the same outputs where their errors are smaller: the sum of the
-    /// numerators over the sum of the variances, each with its influences. The outputs are those that vary; without a surrogate
-    /// of every one of them, the plain ones stay.
+    /// Replaces these plain indices by those of surrogates of the same outputs where their errors are smaller: the sum
+    /// of the numerators over the sum of the variances, each with its influences. The outputs are those that vary;
+    /// unless every one of them has a surrogate, the plain ones stay.
     #[must_use]
     pub fn corrected(self, surrogates: &[&SurrogateEstimates]) -> Self {
         if surrogates.iter().any(|of_output| of_output.refusal().is_some()) {
@@ -75,7 +75,7 @@ impl AggregateIndices {
         let Some((first_order, total)) = Self::by_surrogates(surrogates) else { return self };
         let is_heavy_tailed = surrogates.iter().any(|of_output| of_output.is_heavy_tailed || of_output.misses_levels);
         let better = |plain: Vec<Estimate>, numbers: &[Influenced], skewed: bool| -> Vec<Estimate> {
-            // A factor that changes no row stays what it is.
+            // A factor that changes no row keeps its indices.
             let settled = |plain: &Estimate| plain.interval.is_some_and(|interval| interval.low == interval.high);
             let moving = || plain.iter().zip(numbers).filter(|(plain, _)| !settled(plain));
             let parts: Vec<_> = moving().map(|(_, number)| &number.parts).collect();
@@ -100,7 +100,7 @@ impl AggregateIndices {
         Self { first_order: better(self.first_order, &first_order, false), total: better(self.total, &total, true) }
     }
 
-    /// First-order and total indices of all outputs together, each counted by its variance.
+    /// Computes first-order and total indices of all outputs together, each weighted by its variance.
     fn by_surrogates(surrogates: &[&SurrogateEstimates]) -> Option<(Vec<Influenced>, Vec<Influenced>)> {
         let first = surrogates.first()?;
         let shape = |of: &SurrogateEstimates| -> [Vec<usize>; 2] {

@@ -1,10 +1,10 @@
 //! The bootstrap over base points (Efron 1979, Ann. Stat. 7, 1-26), as matrix products.
 //!
-//! A resample draws n of the n base points with replacement: it is a list of counts. The sums that moments are made of
-//! are then counts times products of outputs ([`Products`]), so that all resamples together are a matrix product,
-//! which runs near the peak of the machine. The counts of each resample and each chunk of points come from a random
-//! stream of their own: the number that falls into the chunk is binomial given those before it, and its points are
-//! uniform. So nothing depends on the number of threads.
+//! A resample draws n of the n base points with replacement: it is a list of counts. The sums for the moments are then
+//! counts times products of outputs ([`Products`]), so that all resamples together are a matrix product, which runs
+//! near the peak speed of the machine. The counts of each resample and each chunk of points come from their own random
+//! stream: the number that falls into the chunk is binomial given those before it, and its points are uniform. So the
+//! result does not depend on the number of threads.
 
 use nalgebra::DMatrix;
 use rand::{Rng, SeedableRng};
@@ -18,10 +18,10 @@ use crate::estimate::{Moments, Products};
 /// Resamples that share a pass over the products.
 const BATCH: usize = 32;
 
-/// Resamples whose sums are held at a time.
+/// Resamples whose sums are in memory at a time.
 const ROUND: usize = 1 << 12;
 
-/// What `quantities` gives on the moments of each of `resamples` resamples of `points`, in order; `None` where it does.
+/// Returns the results of `quantities` on the moments of each of `resamples` resamples of `points`, in order.
 pub(super) fn resampled<Q>(
     points: KeptPoints<'_>,
     products: &Products,
@@ -56,12 +56,12 @@ where
     values
 }
 
-/// Some resamples on their way through the chunks.
+/// Some resamples, processed chunk by chunk.
 struct Batch {
     first: usize,
-    /// How many points each resample has still to draw.
+    /// Number of points that each resample still has to draw.
     left: Vec<u64>,
-    /// Points that no chunk has held yet.
+    /// Points in the chunks that follow.
     points: usize,
     /// Sums so far, a column for each resample.
     sums: DMatrix<f64>,
@@ -99,25 +99,25 @@ impl Batch {
     }
 }
 
-/// The random stream of a resample and a chunk; those of random designs count up from 0.
+/// Returns the random stream of a resample and a chunk; those of random designs count up from 0.
 fn stream_of(resample: usize, chunk: usize) -> u64 {
     1 << 63 | (resample as u64) << 32 | chunk as u64
 }
 
-/// How many of `left` draws fall on `points` of the `of` points.
+/// Draws how many of `left` draws fall on `points` of the `of` points.
 fn drawn_here(left: u64, points: usize, of: usize, random: &mut ChaCha8Rng) -> u64 {
     if points >= of {
         return left;
     }
-    // The share is a number between 0 and 1.
+    // The share is between 0 and 1.
     Binomial::new(left, points as f64 / of as f64).map_or(0, |binomial| binomial.sample(random))
 }
 
-/// How often each of `points` points (at most 2^16) is drawn in `draws` draws, to `counts`.
+/// Counts how often each of `points` points (at most 2^16) is drawn in `draws` draws, into `counts`.
 fn count(counts: &mut Vec<u8>, draws: u64, points: usize, random: &mut ChaCha8Rng) {
     counts.clear();
     counts.resize(points, 0);
-    // Lemire (2019, ACM Trans. Model. Comput. Simul. 29(1), 3) on 16-bit words: no point is likelier than another.
+    // Lemire (2019, ACM Trans. Model. Comput. Simul. 29(1), 3) on 16-bit words: all points are equally likely.
     let points = points as u32;
     let uneven = (1 << 16) % points.max(1);
     let mut left = draws;
@@ -135,7 +135,7 @@ fn count(counts: &mut Vec<u8>, draws: u64, points: usize, random: &mut ChaCha8Rn
     }
 }
 
-/// How often resample number `resample` draws each of all points: for tests that resample the rows themselves.
+/// Returns how often resample number `resample` draws each of all points: for tests that resample the rows themselves.
 #[cfg(test)]
 pub(super) fn counts_of(points: KeptPoints<'_>, seed: u64, resample: usize) -> Vec<u8> {
     let random = ChaCha8Rng::seed_from_u64(seed);

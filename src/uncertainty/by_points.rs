@@ -8,10 +8,10 @@ use super::points::KeptPoints;
 use super::{Interval, LEVEL, t_interval};
 use crate::estimate::{Moments, Products};
 
-/// Share of resamples in which a quantity may be undefined before it has no interval.
+/// Maximum share of resamples in which a quantity may be undefined and still have an interval.
 const UNDEFINED: f64 = 0.01;
 
-/// Asked for: how, and for a bootstrap from which random numbers.
+/// The method, and for a bootstrap its random numbers.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ByPoints<'a> {
     pub method: IntervalMethod,
@@ -20,11 +20,11 @@ pub(super) struct ByPoints<'a> {
     pub resamples: usize,
 }
 
-/// A standard error and an interval, where there is one.
+/// A standard error, and an interval if there is one.
 pub(super) type Bounds = (StandardError, Option<Interval>);
 
 impl ByPoints<'_> {
-    /// The bounds of `estimates`, which `quantities` gives on `whole`, the moments of all points.
+    /// Computes the bounds of `estimates`, the results of `quantities` on `whole`, the moments of all points.
     pub fn bounds(
         self,
         whole: Moments,
@@ -58,7 +58,7 @@ impl ByPoints<'_> {
     }
 }
 
-/// Standard deviation of the resampled values, from their deviations from the estimate.
+/// Returns the standard deviation of the resampled values, from their deviations from the estimate.
 fn deviation(values: &[f64], estimate: f64) -> f64 {
     let size = values.iter().fold(0.0, |largest: f64, x| largest.max((x - estimate).abs()));
     if size == 0.0 {
@@ -70,8 +70,8 @@ fn deviation(values: &[f64], estimate: f64) -> f64 {
     size * (deviations().map(|d| (d - mean).powi(2)).sum::<f64>() / (n - 1.0)).sqrt()
 }
 
-/// The quantile at `p` of R sorted values, the (R + 1) p-th of them (Davison and Hinkley 1997, Bootstrap Methods and
-/// their Application, section 5.2), on the line between neighbours.
+/// Returns the quantile at `p` of R sorted values, the (R + 1) p-th of them (Davison and Hinkley 1997, Bootstrap
+/// Methods and their Application, section 5.2), interpolated linearly.
 pub(crate) fn quantile(sorted: &[f64], p: f64) -> f64 {
     let place = ((sorted.len() + 1) as f64 * p - 1.0).clamp(0.0, (sorted.len() - 1) as f64);
     let below = place as usize;

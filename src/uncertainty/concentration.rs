@@ -1,29 +1,30 @@
-//! Intervals of estimates that few rows carry.
+//! Intervals of estimates that few rows dominate.
 //!
-//! Where a sum rests on a few large contributions, some of the rows that matter are missing from most samples: the
-//! estimate and its standard error are then both too small, and the truth lies above the interval. How few the rows are
-//! shows in the excess kurtosis of the sum of the parts' influences, sum I^4/(sum I^2)^2 - 3/P with P parts: kappa/n for
-//! a sum of n independent terms of excess kurtosis kappa, whatever the size of the parts, so that no sum beyond those of
-//! the parts has to be kept. An error seen in such a sum is worth fewer degrees of freedom (the variance of a sample
-//! variance is (2/f + kappa/n) sigma^4), and the side on which the truth is missed gets the longer Student's t.
+//! If a sum consists of a few large contributions, some of the rows that matter are missing from most samples: the
+//! estimate and its standard error are then both too small, and the true value lies above the interval. The
+//! concentration shows in the excess kurtosis of the sum of the parts' influences, sum I^4/(sum I^2)^2 - 3/P with P
+//! parts: kappa/n for a sum of n independent terms of excess kurtosis kappa, for any size of the parts, so that no
+//! other sums than those of the parts need to be kept. An error from such a sum has fewer degrees of freedom (the
+//! variance of a sample variance is (2/f + kappa/n) sigma^4), and the side on which the true value is missed gets the
+//! longer Student's t.
 //!
-//! Measured on 29 functions at N = 256 and 1024, 200 seeds (`benches/coverage.rs`): coverage of seven functions with
-//! rare, large outputs rose from .88 to .95 in the mean, that of the others stayed at .95 to .96.
+//! Measured on 29 functions at N = 256 and 1024, 200 seeds (`benches/coverage.rs`): the mean coverage of seven
+//! functions with rare, large outputs rose from .88 to .95, that of the others stayed at .95 to .96.
 
 use super::net_decay::{PartInfluences, StandardError};
 use super::{Interval, t_quantile};
 
-/// Excess kurtosis of a sum up to which it counts as one of many terms: less lengthens no interval by more than a twentieth.
+/// Maximum excess kurtosis of a sum of many terms: up to this, no interval would grow by more than a twentieth.
 const EVEN_SHARE: f64 = 0.03;
 
-/// What the excess kurtosis takes off: 1/f' = 1/f + WEIGHT kappa. Theory for random points says 1/2; measured best 1 to 2,
-/// since what a sample shows of its kurtosis is too small as well.
+/// Weight of the excess kurtosis: 1/f' = 1/f + WEIGHT kappa. Theory for random points says 1/2; 1 to 2 measured best,
+/// since the kurtosis of a sample is also too small.
 const WEIGHT: f64 = 1.5;
 
-/// Fewest degrees of freedom of the longer side: t = 6.0.
+/// Minimum degrees of freedom of the longer side: t = 6.0.
 const MIN_FREEDOM: f64 = 1.5;
 
-/// On which sides of an estimate the truth may be where few rows carry it.
+/// The sides of an estimate on which the true value may be if few rows dominate it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Side {
     /// Above: a sum of contributions of one sign, such as an index or a variance.
@@ -32,7 +33,7 @@ pub(super) enum Side {
     Both,
 }
 
-/// The t-interval about `estimate`, longer on the side where the truth may be if few rows carry the estimate.
+/// Returns the t-interval about `estimate`, longer on `side` if few rows dominate the estimate.
 pub(super) fn interval(estimate: f64, error: StandardError, parts: &PartInfluences, side: Side) -> Option<Interval> {
     let even = super::t_interval(estimate, error)?;
     let kurtosis = excess_kurtosis(parts);
@@ -45,7 +46,7 @@ pub(super) fn interval(estimate: f64, error: StandardError, parts: &PartInfluenc
     Interval { low, high: estimate + long }.finite()
 }
 
-/// Excess kurtosis of the sum of all influences, as they tell it; 0 without any.
+/// Estimates the excess kurtosis of the sum of all influences; 0 if there are none.
 fn excess_kurtosis(parts: &PartInfluences) -> f64 {
     let all = || parts.iter().flatten();
     let size = all().fold(0.0, |largest: f64, x| largest.max(x.abs()));
@@ -74,7 +75,7 @@ mod tests {
         let even = t_interval(0.3, ERROR).unwrap();
         let above = interval(0.3, ERROR, &parts, Side::Above).unwrap();
         assert_eq!(above.low, even.low);
-        // 1/f' = 1/5 + 1.5 (1 - 3/128) is below the fewest 1.5 degrees of freedom, whose quantile is 6.0.
+        // 1/f' = 1/5 + 1.5 (1 - 3/128) is below the minimum of 1.5 degrees of freedom, whose quantile is 6.0.
         assert!((above.high - 0.3 - 0.1 * t_quantile(1.5).unwrap()).abs() < 1e-12, "{above:?}");
         let both = interval(0.3, ERROR, &parts, Side::Both).unwrap();
         assert_eq!((both.high, (0.3 - both.low - (both.high - 0.3)).abs() < 1e-12), (above.high, true));
@@ -85,7 +86,7 @@ mod tests {
         let parts: PartInfluences =
             (0..4).map(|net| (0..32).map(|i| f64::from((i * 7 + net * 3) % 32) - 15.5).collect()).collect();
         assert_eq!(interval(0.3, ERROR, &parts, Side::Above), t_interval(0.3, ERROR));
-        // Scale does not matter, and nothing has no kurtosis.
+        // Scale does not matter, and without influences there is no kurtosis.
         let small: PartInfluences = parts.iter().map(|net| net.iter().map(|x| x * 1e-200).collect()).collect();
         assert!((excess_kurtosis(&small) - excess_kurtosis(&parts)).abs() < 1e-12);
         assert_eq!(excess_kurtosis(&vec![vec![0.0; 8]; 2]), 0.0);

@@ -1,4 +1,4 @@
-//! How estimates and intervals changed as a run grew, read from its parts once it is over.
+//! The change of estimates and intervals as a run grew, computed from its parts at the end.
 
 use super::corrected::SurrogateEstimates;
 use super::effects::OutputIndices;
@@ -6,19 +6,19 @@ use super::estimates::Layout;
 use super::output::{IntervalOptions, output_indices};
 use crate::estimate::MomentParts;
 
-/// What an output's indices were when the run had fewer base points.
+/// The indices of an output when the run had fewer base points.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stage {
-    /// Base points in all.
+    /// Total number of base points.
     pub base_samples: u64,
-    /// The indices then.
+    /// The indices at that stage.
     pub indices: OutputIndices,
 }
 
-/// Fewest parts of a replicate that make a stage: fewer say next to nothing of its error.
+/// Minimum number of parts of a replicate in a stage: fewer reveal almost nothing about its error.
 const MIN_PARTS: usize = 4;
 
-/// How many parts of a replicate each stage but the last has, in ascending order.
+/// Returns the number of parts of a replicate in each stage but the last, in ascending order.
 fn sizes_of_stages(replicates: &[&MomentParts]) -> Vec<usize> {
     let parts = replicates.iter().map(|replicate| replicate.parts().len()).min().unwrap_or(0);
     let mut sizes = Vec::new();
@@ -32,15 +32,15 @@ fn sizes_of_stages(replicates: &[&MomentParts]) -> Vec<usize> {
     sizes
 }
 
-/// The most base points that a replicate has at each stage but the last.
+/// Returns the maximum number of base points of a replicate at each stage but the last.
 pub fn points_of_stages(replicates: &[&MomentParts]) -> Vec<u64> {
     let longest = |size: usize| replicates.iter().map(|replicate| replicate.prefix(size).points()).max().unwrap_or(0);
     sizes_of_stages(replicates).into_iter().map(longest).collect()
 }
 
-/// The stages of a run at each half of the one after it, `whole` last: every prefix of the parts of each replicate is a
-/// run of its own. `surrogate` tells what a surrogate makes of so many first base points of each replicate. Stages without
-/// indices are left out.
+/// Returns the stages of a run at each half of the one after it, `whole` last: every prefix of the parts of each
+/// replicate is a run of its own. `surrogate` returns the surrogate estimates for a number of first base points of each
+/// replicate. Stages without indices are left out.
 pub fn stages<'s>(
     replicates: &[MomentParts],
     layout: &Layout,

@@ -1,4 +1,4 @@
-//! Indices corrected by a surrogate in the place of the plain ones, where their errors are smaller.
+//! Replacement of plain indices by corrected ones, if their errors are smaller.
 
 use std::collections::BTreeMap;
 
@@ -11,18 +11,18 @@ use super::net_decay::StandardError;
 use super::noise::{Noise, Replacement};
 use super::{Estimate, Interval, difference, mean};
 
-/// Distance of plain and corrected indices, over what their intervals allow, beyond which the corrected ones are refused: of one
-/// index, and the root mean square over those of one kind. Of smooth functions, where the corrected ones are right, the largest
-/// of some hundred runs at 16 to 1024 base samples was 6.0, and 2.4 jointly.
+/// Distance of plain and corrected indices, relative to their intervals, above which the corrected ones are refused: of
+/// one index, and the root mean square over those of one kind. For smooth functions, where the corrected ones are
+/// right, the largest in several hundred runs at 16 to 1024 base samples was 6.0, and 2.4 jointly.
 const CONTRADICTION: f64 = 10.0;
 const JOINT_CONTRADICTION: f64 = 6.0;
 
-/// The same beyond which intervals hold both.
+/// The same distance above which intervals include both.
 const DOUBT: f64 = 3.0;
 const JOINT_DOUBT: f64 = 1.5;
 
-/// How many times the variance that rows show of a factor the surrogates may claim: 3.2 at most for smooth functions at 16 base
-/// samples and 1.5 at more; from 6 to many thousand where rows do not stand for a factor.
+/// Maximum ratio of the variance of a factor claimed by surrogates to that over the rows: at most 3.2 for smooth
+/// functions at 16 base samples and 1.5 at more; from 6 to many thousand if rows do not represent a factor.
 const MAX_GROWTH: f64 = 4.0;
 
 /// Why corrected indices are not used.
@@ -31,93 +31,93 @@ const MAX_GROWTH: f64 = 4.0;
 pub enum Refusal {
     /// They contradict the plain ones of the same rows.
     Contradiction {
-        /// How far they are apart, over what both errors allow.
+        /// Their distance relative to both errors.
         times: f64,
     },
-    /// They multiply a variance by more than the rows show.
+    /// The claimed variance exceeds that over the rows too much.
     Growth {
         /// The variance by the surrogates over that in the rows.
         times: f64,
     },
 }
 
-/// What a surrogate makes of the runs of an output. Indices are those of all swaps, in the order of the layout.
+/// Surrogate estimates of an output. Indices are those of all swaps, in the order of the layout.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SurrogateEstimates {
     /// First-order indices.
     pub first_order: Vec<Influenced>,
     /// Total indices.
     pub total: Vec<Influenced>,
-    /// Second-order indices of the pairs of factors; empty if not asked for.
+    /// Second-order indices of the pairs of factors; empty if not requested.
     pub second_order: Vec<Influenced>,
     /// The mean of the output.
     pub mean: Influenced,
     /// Its variance.
     pub variance: Influenced,
-    /// Share of the variance that the surrogates explain of the runs that they were not fitted to (Q^2).
+    /// Share of the variance that the surrogates explain of the runs to which they were not fitted (Q^2).
     pub explained: f64,
-    /// Whether what they leave matters and is carried by a few rows: intervals then hold the plain ones too.
+    /// Whether a few rows dominate a residual that matters: intervals then include the plain ones.
     pub is_heavy_tailed: bool,
-    /// Whether rows hardly met a level of a factor: intervals then hold the plain ones too.
+    /// Whether a level of a factor is rare among the rows: intervals then include the plain ones.
     pub misses_levels: bool,
-    /// The largest variance, of all factors or of one that matters, that the surrogates claim over that which rows show.
+    /// The largest ratio, for all factors or one that matters, of the claimed variance to that over the rows.
     pub growth: f64,
-    /// The terms that carry most of the variance.
+    /// The terms with the largest variance.
     pub terms: Vec<SurrogateTerm>,
-    /// All terms, for runs of some of these rows; `None` of outputs that share theirs.
+    /// All terms, for runs of some of these rows; `None` for outputs that share theirs.
     pub chosen: Option<ChosenTerms>,
-    /// Number of terms, of all surrogates on average.
+    /// Mean number of terms of the surrogates.
     pub term_count: f64,
-    /// The cheaper model that stands in beside the surrogates, if there is one.
+    /// The low-fidelity model used with the surrogates, if there is one.
     pub low: Option<LowFidelityUse>,
 }
 
-/// What was made of a cheaper model.
+/// The use of a low-fidelity model.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(rename = "LowUseRecord"))]
 #[non_exhaustive]
 pub struct LowFidelityUse {
     /// Its name.
     pub name: String,
-    /// How much the output of the expensive model rises with that of the cheaper one, by least squares.
+    /// Regression slope of the output of the expensive model on that of the low-fidelity model, by least squares.
     pub slope: f64,
-    /// Share of the variance that the cheaper model explains by itself, of the runs that its slope was not fitted to.
+    /// Share of the variance explained by the low-fidelity model alone, over runs not used to fit its slope.
     pub explained: f64,
 }
 
-/// Where an output has a step or a kink in a factor.
+/// The place of a step or a kink of an output in a factor.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Knot {
     /// The quantile.
     pub u: f64,
-    /// How wide the quantiles are within which it lies.
+    /// Width of the range of quantiles that contains it.
     pub width: f64,
-    /// Whether it is a step more than a kink.
+    /// Whether it is a step rather than a kink.
     pub is_step: bool,
 }
 
 /// The terms of the surrogates of every net.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ChosenTerms {
-    /// Number of the kind of polynomials.
+    /// Index of the kind of polynomials.
     pub kind: usize,
-    /// The knots of every factor; none at all of polynomials alone.
+    /// The knots of every factor; empty for polynomials only.
     pub knots: Vec<Vec<Knot>>,
-    /// Of each net the terms of the surrogate of the others: the factors in each, by number, with their degrees.
+    /// For each net the terms of the surrogate of the others: the factors in each, by index, with their degrees.
     pub of_nets: Vec<Vec<Vec<(usize, usize)>>>,
 }
 
 /// A term of a surrogate.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SurrogateTerm {
-    /// The factors in it, by number, each with its degree.
+    /// The factors in it, by index, each with its degree.
     pub factors: Vec<(usize, usize)>,
     /// Its share of the variance.
     pub share: f64,
 }
 
 impl SurrogateTerm {
-    /// The term in factors or inputs of these names.
+    /// Returns the term with these names of factors or inputs.
     pub fn named(&self, names: &[&str]) -> NamedTerm {
         let degrees = self.factors.iter().map(|&(number, degree)| (names[number].to_owned(), degree));
         NamedTerm { degrees: degrees.collect(), share: 100.0 * self.share }
@@ -134,59 +134,59 @@ pub struct NamedTerm {
     pub share: f64,
 }
 
-/// What was made of a surrogate.
+/// The use of a surrogate.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct SurrogateUse {
-    /// Share of the variance that the surrogates explain of the runs that they were not fitted to (Q^2).
+    /// Share of the variance that the surrogates explain of the runs to which they were not fitted (Q^2).
     pub explained: f64,
-    /// Number of terms, of all surrogates on average.
+    /// Mean number of terms of the surrogates.
     pub term_count: f64,
-    /// The terms that carry most of the variance, the first ones first.
+    /// The terms with the largest variance, in falling order.
     pub terms: Vec<SurrogateTerm>,
-    /// Whether what they leave matters and is carried by a few rows: intervals then hold the plain ones too.
+    /// Whether a few rows dominate a residual that matters: intervals then include the plain ones.
     pub is_heavy_tailed: bool,
-    /// Whether the first-order indices are corrected ones, and not the plain ones.
+    /// Whether the first-order indices are corrected, not plain.
     pub corrects_first_order: bool,
-    /// Whether the total indices are.
+    /// Whether the total indices are corrected.
     pub corrects_total: bool,
-    /// Variance of the plain first-order indices over that of the corrected ones: as many times the runs would be needed
-    /// without the surrogate, if errors fell as those of random points do. `None` if one of them is unknown.
+    /// Variance of the plain first-order indices over that of the corrected ones: without the surrogate this many times
+    /// the runs would be needed, if errors fell as those of random points do. `None` if one of them is unknown.
     pub gain_first_order: Option<f64>,
     /// The same for the total indices.
     pub gain_total: Option<f64>,
-    /// Whether they are further from the plain ones of the same rows than is likely: intervals then hold both.
+    /// Whether their distance from the plain ones of the same rows is unlikely: intervals then include both.
     pub is_doubted: bool,
-    /// Why neither is; `None` if it is by their errors alone.
+    /// Why neither is corrected; `None` if the errors alone decide.
     pub refusal: Option<Refusal>,
     /// The plain first-order indices of all swaps.
     pub plain_first_order: Vec<Estimate>,
     /// The plain total indices of all swaps.
     pub plain_total: Vec<Estimate>,
-    /// The cheaper model that stands in beside the surrogates, if there is one.
+    /// The low-fidelity model used with the surrogates, if there is one.
     pub low: Option<LowFidelityUse>,
 }
 
 impl SurrogateUse {
-    /// The largest half width of the plain indices; `None` if one is unknown.
+    /// Returns the largest half width of the plain indices; `None` if one is unknown.
     pub fn plain_half_width(&self) -> Option<f64> {
         largest_half_width(self.plain_first_order.iter().chain(&self.plain_total).copied())
     }
 }
 
-/// Places of a list of quantities and what belongs there.
+/// The places of quantities in a list, and their replacements.
 pub(super) struct Corrections {
     pub replacements: Vec<(usize, Replacement)>,
     pub used: SurrogateUse,
 }
 
 impl SurrogateEstimates {
-    /// The sum of the squared errors of all first-order and total indices.
+    /// Returns the sum of the squared errors of all first-order and total indices.
     pub fn squared_error(&self) -> f64 {
         self.squared_errors().iter().sum()
     }
 
-    /// What the rows of the model contribute to it, and what the runs of a cheaper model do.
+    /// Returns the contributions to it by the rows of the model, and by the runs of a low-fidelity model.
     pub fn squared_errors(&self) -> [f64; 2] {
         let of_kind = |list: &[Influenced], skewed: bool| {
             let noise = Noise::new(&list.iter().map(|of| &of.parts).collect::<Vec<_>>(), skewed);
@@ -198,12 +198,12 @@ impl SurrogateEstimates {
         [own + more_own, (all + more - own - more_own).max(0.0)]
     }
 
-    /// Whether they claim more variance than rows show.
+    /// Returns a refusal if they claim more variance than the rows show.
     pub fn refusal(&self) -> Option<Refusal> {
         (self.growth > MAX_GROWTH).then_some(Refusal::Growth { times: self.growth })
     }
 
-    /// What replaces the `plain` numbers of `layout` with the errors `errors`, but for those of `settled` swaps.
+    /// Returns the replacements of the `plain` numbers of `layout` with their `errors`, except for `settled` swaps.
     pub(super) fn corrections(
         &self,
         layout: &Layout,
@@ -265,7 +265,7 @@ impl SurrogateEstimates {
                     replacements.push((place, total.even().replacement(&interaction)));
                 }
                 (true, false) => {
-                    // Nothing is known of the two together but that their errors are of independent kinds.
+                    // Their joint distribution is unknown, except that the errors are of independent kinds.
                     let first = first.estimate(of_first);
                     replacements.push((place, (difference(first, plain_total), errors[place], Vec::new())));
                 }
@@ -307,10 +307,10 @@ impl SurrogateEstimates {
         Corrections { replacements, used }
     }
 
-    /// Mean and variance with their errors.
+    /// Returns the mean and variance with their errors.
     pub(super) fn moments(&self) -> [Replacement; 2] {
         let of = |of: &Influenced, skewed| {
-            // In units of the largest influence, so that nothing under- or overflows when squared.
+            // In units of the largest influence, so that squares neither underflow nor overflow.
             let influences = of.parts.iter().chain(&of.low).flatten();
             let largest = influences.fold(0.0, |largest: f64, x| largest.max(x.abs()));
             let size = if largest > 0.0 { largest } else { 1.0 };
@@ -324,8 +324,8 @@ impl SurrogateEstimates {
     }
 }
 
-/// Gives `put` the indices of one kind: their sum, those of every swap, and the shares of factors and groups, but for those of
-/// `settled` swaps.
+/// Calls `put` with the indices of one kind: their sum, those of every swap, and the shares of factors and groups,
+/// except those of `settled` swaps.
 fn indices(
     layout: &Layout,
     list: &[Influenced],
@@ -334,13 +334,13 @@ fn indices(
     put: &mut dyn FnMut(usize, bool, &Influenced),
 ) {
     let factors = 0..layout.factors;
-    // The sums of both kinds stand before the swaps, in the order of the kinds.
+    // The sums of both kinds precede the swaps, in the order of the kinds.
     put(index as usize, false, &sum(&list[factors.clone()]));
     for (swap, of) in list.iter().enumerate().filter(|(swap, _)| !settled[*swap]) {
         put(layout.place(swap, index), false, of);
     }
     for range in [factors, layout.factors..layout.factors + layout.groups] {
-        // The noise of a stochastic model is no factor that has a share.
+        // The noise of a stochastic model has no share.
         let noise = layout.noise.as_ref().map(|noise| noise.factor);
         let sharing = range.filter(|swap| Some(*swap) != noise);
         let all = Influenced::combined(&sharing.clone().map(|swap| (1.0, &list[swap])).collect::<Vec<_>>());
@@ -351,16 +351,16 @@ fn indices(
     }
 }
 
-/// How far plain and corrected indices are apart, over what both errors allow.
+/// Distances of plain and corrected indices, relative to both errors.
 struct Gaps {
-    /// Of one index, at most.
+    /// The largest distance of one index.
     largest: f64,
-    /// Of the indices of one kind, in the root mean square.
+    /// The root mean square distance of the indices of one kind.
     joint: f64,
 }
 
 impl Gaps {
-    /// Of the indices of each kind.
+    /// Computes them from the distances of each kind.
     fn new(kinds: &[Vec<f64>]) -> Self {
         let joint = |gaps: &Vec<f64>| (gaps.iter().map(|gap| gap * gap).sum::<f64>() / gaps.len().max(1) as f64).sqrt();
         Self {
@@ -369,19 +369,19 @@ impl Gaps {
         }
     }
 
-    /// Whether both cannot be true.
+    /// Returns a refusal if both cannot be true.
     fn refusal(&self) -> Option<Refusal> {
         let is_contradiction = self.largest > CONTRADICTION || self.joint > JOINT_CONTRADICTION;
         is_contradiction.then_some(Refusal::Contradiction { times: self.largest })
     }
 
-    /// Whether it may be that one of them is wrong.
+    /// Returns whether one of them may be wrong.
     fn is_doubt(&self) -> bool {
         self.largest > DOUBT || self.joint > JOINT_DOUBT
     }
 }
 
-/// The distance of two estimates of the same number over what the intervals of both allow; 0 if one of them has none.
+/// Returns the distance of two estimates of the same number, relative to their intervals; 0 if one of them has none.
 fn gap(plain: Estimate, corrected: Estimate) -> f64 {
     let (lower, upper) = if plain.estimate < corrected.estimate { (plain, corrected) } else { (corrected, plain) };
     let (Some(of_lower), Some(of_upper)) = (lower.interval, upper.interval) else { return 0.0 };
@@ -393,7 +393,7 @@ fn sum(list: &[Influenced]) -> Influenced {
     Influenced::combined(&list.iter().map(|of| (1.0, of)).collect::<Vec<_>>())
 }
 
-/// 100 part/all.
+/// Returns 100 part/all.
 fn share(part: &Influenced, all: &Influenced) -> Influenced {
     let percent = 100.0 * part.estimate / all.estimate;
     Influenced {
@@ -402,7 +402,7 @@ fn share(part: &Influenced, all: &Influenced) -> Influenced {
     }
 }
 
-/// The interval that holds both, or nothing if one of them is unknown.
+/// Returns the interval that contains both, or `None` if one of them is unknown.
 pub(super) fn hull(a: Option<Interval>, b: Option<Interval>) -> Option<Interval> {
     a.zip(b).map(|(a, b)| Interval { low: a.low.min(b.low), high: a.high.max(b.high) })
 }

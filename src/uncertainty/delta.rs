@@ -1,4 +1,4 @@
-//! What every single base point does to an estimate: the delta method.
+//! The influence of every single base point on an estimate: the delta method.
 
 use nalgebra::DMatrix;
 use rayon::prelude::*;
@@ -12,15 +12,15 @@ use crate::estimate::{Moments, Products};
 pub(super) struct InfluenceSums {
     /// Number of points.
     points: f64,
-    /// The unit of the sums, so that none of them under- or overflows; 0 if no point has any influence.
+    /// The unit of the sums, so that none of them underflows or overflows; 0 if no point has any influence.
     unit: f64,
     sum: f64,
     squares: f64,
 }
 
 impl InfluenceSums {
-    /// Standard error sqrt(sum (U - mean)^2/(n (n - 1))) of the quantity, with n - 1 degrees of freedom (van der Vaart
-    /// 1998, Asymptotic Statistics, chapter 3, with the variance of the sample).
+    /// Returns the standard error sqrt(sum (U - mean)^2/(n (n - 1))) of the quantity, with n - 1 degrees of freedom
+    /// (van der Vaart 1998, Asymptotic Statistics, chapter 3, with the variance of the sample).
     pub fn error(&self) -> StandardError {
         let n = self.points;
         if n < 2.0 || !self.squares.is_finite() {
@@ -31,10 +31,10 @@ impl InfluenceSums {
     }
 }
 
-/// The influences of the points on what `quantities` gives; `None` where it does on all points.
+/// Computes the influences of the points on the results of `quantities`; `None` if these are undefined on all points.
 ///
 /// The influence function of a function of sums over points is n times its gradient in the sums times the products of
-/// the point. The gradient is taken numerically.
+/// the point. The gradient is computed numerically.
 pub(super) fn influence_sums(
     points: KeptPoints<'_>,
     products: &Products,
@@ -49,7 +49,7 @@ pub(super) fn influence_sums(
     let total = |c: usize| sums.iter().fold((0.0, 0.0), |(sum, size), chunk| (sum + chunk[c].0, size + chunk[c].1));
     let total: Vec<(f64, f64)> = (0..products.columns()).map(total).collect();
     let gradient = gradient(products, &total, quantities)?;
-    // In units of what the sizes of the products would do together.
+    // In units of the joint size of the products.
     let n = points.count() as f64;
     let unit =
         |g: nalgebra::DVectorView<'_, f64>| g.iter().zip(&total).map(|(g, (_, size))| g.abs() * size).sum::<f64>();
@@ -74,8 +74,8 @@ pub(super) fn influence_sums(
     Some(units.iter().enumerate().map(of_quantity).collect())
 }
 
-/// Gradient of the quantities (columns) in the sums of the products (rows) about `total`, the sums and the sums of
-/// absolute values.
+/// Computes the gradient of the quantities (columns) in the sums of the products (rows) about `total`, the sums and the
+/// sums of absolute values.
 fn gradient(
     products: &Products,
     total: &[(f64, f64)],
@@ -102,8 +102,8 @@ fn gradient(
         (0..length).map(|q| difference(q) / (12.0 * STEP) / size).collect()
     };
     let mut rows: Vec<Vec<f64>> = (0..sums.len()).into_par_iter().map(row).collect();
-    // A quantity does not change if the points that count and all sums over them double: this gives its derivative by the
-    // number of points.
+    // A quantity does not change if the points that count and all sums over them double: this gives its derivative by
+    // the number of points.
     for c in 0..sums.len() {
         if counts[c] != c {
             let weight = sums[c] / sums[counts[c]];

@@ -1,4 +1,4 @@
-//! What is found of one output: indices of factors, groups and subsets, each with its interval.
+//! The results for one output: indices of factors, groups and subsets, each with its interval.
 
 use serde::{Deserialize, Serialize};
 
@@ -13,32 +13,32 @@ pub struct OutputIndices {
     pub factors: Vec<EffectEstimates>,
     /// Closed first-order and total indices of the groups.
     pub groups: Vec<EffectEstimates>,
-    /// Likewise of the subsets that the study lists.
+    /// Closed first-order and total indices of the subsets that the study lists.
     pub subsets: Vec<EffectEstimates>,
-    /// Of the dummy factor, if one was asked for.
+    /// Indices of the dummy factor, if requested.
     pub dummy: Option<EffectEstimates>,
     /// Sum of the first-order indices of the factors: 1 for an additive output, less where factors interact.
     pub sum_first_order: Estimate,
     /// Sum of the total indices of the factors: 1 for an additive output, more where factors interact.
     pub sum_total: Estimate,
-    /// Second-order indices, in the order of [`Layout::pair_list`](super::Layout::pair_list); empty if not asked for.
+    /// Second-order indices, in the order of [`Layout::pair_list`](super::Layout::pair_list); empty if not requested.
     pub second_order: Vec<Estimate>,
-    /// What a surrogate did to them, if there was one.
+    /// The use of a surrogate, if there was one.
     pub surrogate: Option<SurrogateUse>,
-    /// What is known of the mean over the noise, of a stochastic model.
+    /// Indices of the mean over the noise, for a stochastic model.
     pub noise: Option<NoiseIndices>,
-    /// What the indices are checked by, in the order of [`effects`](Self::effects).
+    /// Checks of the indices, in the order of [`effects`](Self::effects).
     pub checks: Vec<EffectChecks>,
 }
 
 impl OutputIndices {
-    /// All effects in the order of the swaps: of factors, groups, subsets and the dummy.
+    /// Iterates over all effects in the order of the swaps: of factors, groups, subsets and the dummy.
     pub fn effects(&self) -> impl Iterator<Item = &EffectEstimates> {
         self.factors.iter().chain(&self.groups).chain(&self.subsets).chain(&self.dummy)
     }
 
-    /// Largest half width of the first-order and total indices of factors, groups and subsets, and of the Shapley effects; `None`
-    /// if one of them has no interval.
+    /// Returns the largest half width of the first-order and total indices of factors, groups and subsets, and of the
+    /// Shapley effects; `None` if one of them has no interval.
     pub fn largest_half_width(&self) -> Option<f64> {
         let effects = self.factors.iter().chain(&self.groups).chain(&self.subsets);
         let indices =
@@ -47,13 +47,13 @@ impl OutputIndices {
     }
 }
 
-/// Half the width of the widest interval; `None` if an estimate has none.
+/// Returns half the width of the widest interval; `None` if an estimate has none.
 pub(crate) fn largest_half_width(estimates: impl IntoIterator<Item = Estimate>) -> Option<f64> {
     let half_widths = estimates.into_iter().map(|estimate| estimate.interval.map(|interval| interval.width() / 2.0));
     half_widths.into_iter().try_fold(0.0, |largest: f64, half_width| Some(largest.max(half_width?)))
 }
 
-/// The indices of one factor, group or subset, and what they are of the sum over all factors (or groups) in percent.
+/// The indices of one factor, group or subset, and their percentages of the sum over all factors (or groups).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(rename = "EffectRecord"))]
 pub struct EffectEstimates {
@@ -61,7 +61,7 @@ pub struct EffectEstimates {
     pub first_order: Estimate,
     /// Total index.
     pub total: Estimate,
-    /// 100 S_i / sum S_j over the factors (of a group: over the groups); `None` where the sum is not positive.
+    /// 100 S_i / sum S_j over the factors (of a group: over the groups); `None` if the sum is not positive.
     pub share_first_order: Option<f64>,
     /// 100 ST_i / sum ST_j, likewise.
     pub share_total: Option<f64>,
@@ -69,50 +69,52 @@ pub struct EffectEstimates {
     pub share_first_order_interval: Option<Interval>,
     /// Interval of `share_total`.
     pub share_total_interval: Option<Interval>,
-    /// Total minus first-order index, what the factor does together with others: not negative, within the interval, if all is
-    /// well. `None` where factors depend on each other.
+    /// Total minus first-order index, the interaction of the factor with others: not negative, within the interval,
+    /// unless an estimate is wrong. `None` for dependent factors.
     #[serde(default)]
     pub interaction: Option<Estimate>,
-    /// Probability that the total index (the Shapley effect, if all factors have one) is the largest of all factors'; `None` for others than factors, and where errors are
-    /// unknown or [ranks](super::IntervalOptions::ranks) were not asked for. Where several total indices are equal in truth, it is as likely to be any number as any other.
+    /// Probability that the total index (the Shapley effect, if all factors have one) is the largest of all factors';
+    /// `None` for other effects than factors, and if errors are unknown or [ranks](super::IntervalOptions::ranks) were
+    /// not requested. If several total indices are truly equal, any value is equally likely.
     #[serde(default)]
     pub probability_first: Option<f64>,
     /// Probability that the total index is above the threshold.
     #[serde(default)]
     pub probability_above_threshold: Option<f64>,
-    /// Shapley effect of a player, if it was asked for: its share of the variance, dependent on others or not. Players are the factors,
-    /// or the groups and the factors that have none; the effects of all players sum to 1 (Owen 2014; Song, Nelson and Staum 2016).
+    /// Shapley effect of a player, if requested: its share of the variance, for dependent factors too. Players are the
+    /// factors, or the groups and the factors that have none; the effects of all players sum to 1 (Owen 2014; Song,
+    /// Nelson and Staum 2016).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shapley: Option<Estimate>,
-    /// What there is of a factor, group or subset where factors depend on each other; `None` where they are independent.
+    /// Further indices of a factor, group or subset of dependent factors; `None` if factors are independent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub dependent: Option<DependentEstimates>,
 }
 
-/// What the indices of one factor, group or subset are checked by.
+/// Checks of the indices of one factor, group or subset.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EffectChecks {
-    /// First-order index minus its check by Janon and Monod's formula: 0 within the interval if all is well.
+    /// First-order index minus its check by Janon and Monod's formula: 0 within the interval unless one is wrong.
     pub gap: Estimate,
-    /// Total minus first-order index, of dependent factors the total one with all that the factor tells of others.
+    /// Total minus first-order index; for dependent factors with the full total index.
     pub interaction: Estimate,
-    /// Whether the interval of the first-order index lay wholly above that of the total index, which no pair of indices can:
-    /// both were then lengthened until they met.
+    /// Whether the interval of the first-order index was wholly above that of the total index, which is impossible for
+    /// true indices: both were then extended until they met.
     pub is_contradictory: bool,
-    /// The indices by each of the other estimators asked for.
+    /// The indices by each of the other requested estimators.
     pub others: Vec<OtherEstimates>,
 }
 
-/// Indices of dependent factors beside the first-order index Var E(Y | X_i)/V, which includes what X_i tells of others, and the
-/// total index E Var(Y | all but X_i)/V, which is without what others tell of X_i and so may be smaller (Kucherenko, Tarantola and
-/// Annoni 2012, Comput. Phys. Commun. 183, 937-946); the other two are those of Mara, Tarantola and Annoni (2015), Environ. Model.
-/// Softw. 72, 173-183.
+/// Indices of dependent factors in addition to the first-order index Var E(Y | X_i)/V, which includes the dependence of
+/// others on X_i, and the total index E Var(Y | all but X_i)/V, which excludes the dependence of X_i on others and so
+/// may be smaller (Kucherenko, Tarantola and Annoni 2012, Comput. Phys. Commun. 183, 937-946); these two are those of
+/// Mara, Tarantola and Annoni (2015), Environ. Model. Softw. 72, 173-183.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(rename = "DependentRecord"))]
 pub struct DependentEstimates {
-    /// First-order index of what the factor has on its own, given all others.
+    /// First-order index of the part of the factor that is independent of all others.
     pub independent_first_order: Estimate,
-    /// Total index of the factor with all that it tells of others.
+    /// Total index of the factor including the dependence of others on it.
     pub full_total: Estimate,
 }
 
@@ -123,9 +125,9 @@ pub struct OtherEstimates {
     pub first_order: Option<Estimate>,
     /// Total index, if it estimates one.
     pub total: Option<Estimate>,
-    /// How much larger than the default first-order index.
+    /// First-order index minus the default one.
     pub first_order_gap: Option<Estimate>,
-    /// How much larger than the default total index.
+    /// Total index minus the default one.
     pub total_gap: Option<Estimate>,
 }
 
@@ -139,22 +141,22 @@ pub struct OutputMoments {
 }
 
 impl EffectEstimates {
-    /// What factors are ranked by: where they depend on each other the Shapley effect, if there is one; else the total index.
+    /// Returns the value that ranks factors: for dependent ones the Shapley effect, if any; else the total index.
     pub fn weight(&self) -> Estimate {
         self.shapley.filter(|_| self.dependent.is_some()).unwrap_or(self.total)
     }
 
-    /// 100 S_i / sum S_j with its interval.
+    /// Returns 100 S_i / sum S_j with its interval.
     pub fn first_order_percent(&self) -> Option<Estimate> {
         self.share_first_order.map(|estimate| Estimate { estimate, interval: self.share_first_order_interval })
     }
 
-    /// 100 ST_i / sum ST_j with its interval.
+    /// Returns 100 ST_i / sum ST_j with its interval.
     pub fn total_percent(&self) -> Option<Estimate> {
         self.share_total.map(|estimate| Estimate { estimate, interval: self.share_total_interval })
     }
 
-    /// The indices of dependent factors, from those of a swap that others follow, and of one that is redrawn given all others.
+    /// Returns the indices of dependent factors, from those of a swap that others follow, and of a redrawn one.
     pub(super) fn of_dependent_factors(self, alone: Self) -> Self {
         Self {
             total: alone.total,
@@ -167,7 +169,7 @@ impl EffectEstimates {
 }
 
 impl EffectChecks {
-    /// Those of dependent factors, likewise.
+    /// Returns the checks of dependent factors, likewise.
     pub(super) fn of_dependent_factors(self, alone: Self) -> Self {
         let others = self.others.iter().zip(&alone.others).map(|(with_others, alone)| OtherEstimates {
             total: alone.total,

@@ -1,6 +1,6 @@
-//! Everything that is reported about one output, in one flat list, and its intervals.
+//! All reported quantities of one output in one flat list.
 //!
-//! Intervals work on lists of numbers: [`quantities`] lays the list out, [`Layout`] knows the places in it.
+//! Intervals work on lists of numbers: [`quantities`] computes the list, [`Layout`] defines the places in it.
 
 use super::concentration::Side;
 use crate::estimate::{
@@ -8,8 +8,9 @@ use crate::estimate::{
     shares,
 };
 
-/// What is estimated from the swaps of a design, which come in this order. Of dependent factors the swaps of factors, groups and
-/// subsets come once more before the dummy factor, redrawn given all others, and then redrawn subsets for the Shapley effects.
+/// The quantities estimated from the swaps of a design, in the order of the swaps. For dependent factors the swaps of
+/// factors, groups and subsets are repeated before the dummy factor, redrawn given all others, followed by redrawn
+/// subsets for Shapley effects.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Layout {
     /// Number of factors.
@@ -20,44 +21,44 @@ pub struct Layout {
     pub subsets: usize,
     /// Whether the last swap is a dummy factor.
     pub dummy: bool,
-    /// Estimators whose indices stand beside the default ones.
+    /// Estimators whose indices are reported in addition to the default ones.
     pub estimators: Vec<Estimator>,
-    /// Whether the formulas of SALib take the place of the default ones.
+    /// Whether the formulas of SALib replace the default ones.
     pub salib: bool,
     /// Whether there are second-order indices of the factors.
     pub second_order: bool,
     /// Whether factors depend on each other.
     pub dependent: bool,
-    /// How the Shapley effects of the players are found, if there are any.
+    /// How the Shapley effects of the players are estimated, if requested.
     pub shapley: Option<ShapleyMethod>,
-    /// The players, by their numbers among the factors and groups in their order.
+    /// The players, by their indices among the factors and groups in their order.
     pub players: Vec<usize>,
     /// The noise of a stochastic model, if it has one; there are no Shapley effects then, nor dependent factors.
     pub noise: Option<NoiseLayout>,
 }
 
-/// Which swaps say something of the mean of a stochastic model over its noise.
+/// The swaps that give indices of the mean of a stochastic model over its noise.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct NoiseLayout {
     /// The factor that is the noise.
     pub factor: usize,
-    /// What each swap has to do with it.
+    /// The relation of each swap to the noise.
     pub swaps: Vec<BesideNoise>,
 }
 
-/// What a swap has to do with the noise.
+/// The relation of a swap to the noise.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum BesideNoise {
-    /// It holds the noise: the mean has no such index.
+    /// It contains the noise: the mean has no such index.
     Holds,
-    /// It does not, and no other swap is the same with the noise: the mean has its first-order index alone.
+    /// It does not, and no other swap is the same with the noise: the mean has only its first-order index.
     Alone,
-    /// The swap of that number is the same with the noise: the mean has its total index too.
+    /// The swap of this number is the same with the noise: the mean also has its total index.
     With(usize),
 }
 
 impl NoiseLayout {
-    /// That of swaps of these factors, each list ascending, where `factor` is the noise.
+    /// Creates the layout for swaps of these factors, each list ascending, where `factor` is the noise.
     pub fn new(factor: usize, swaps: &[Vec<usize>]) -> Self {
         let beside = |swap: &Vec<usize>| {
             if swap.contains(&factor) {
@@ -80,88 +81,88 @@ pub(super) enum Number {
     Total,
     ShareFirstOrder,
     ShareTotal,
-    /// First order less its check by another formula.
+    /// First-order index minus its check by another formula.
     CheckGap,
-    /// Total less first order.
+    /// Total minus first-order index.
     Interaction,
 }
 
-/// How many there are.
+/// Number of variants.
 const PER_SWAP: usize = Number::Interaction as usize + 1;
 
-/// Numbers of one swap under one other estimator: first order and total, and how far they are from the default ones.
+/// Numbers of one swap for one other estimator: first order and total, and their differences from the default ones.
 const PER_ESTIMATOR: usize = 4;
 
 impl Layout {
-    /// Factors only.
+    /// Returns the layout of factors only.
     pub fn plain(factors: usize) -> Self {
         Self { factors, players: (0..factors).collect(), ..Self::default() }
     }
 
-    /// Number of factors, groups and subsets.
+    /// Returns the number of factors, groups and subsets.
     pub fn listed(&self) -> usize {
         self.factors + self.groups + self.subsets
     }
 
-    /// Number of swaps with indices of their own: but for those that serve Shapley effects alone.
+    /// Returns the number of swaps with indices of their own, excluding those only for Shapley effects.
     pub fn swaps(&self) -> usize {
         self.redrawn(self.listed()) + usize::from(self.dummy)
     }
 
-    /// The swap in which the factors of the listed swap `swap` are drawn given all others: itself, if factors are independent.
+    /// Returns the swap in which the factors of the listed swap `swap` are redrawn: itself, if independent.
     pub fn redrawn(&self, swap: usize) -> usize {
         if self.dependent { self.listed() + swap } else { swap }
     }
 
-    /// Place of the numbers of swap `swap`.
+    /// Returns the place of the numbers of swap `swap`.
     pub(super) fn swap(&self, swap: usize) -> usize {
         2 + swap * PER_SWAP
     }
 
-    /// Place of one of them.
+    /// Returns the place of one of them.
     pub(super) fn place(&self, swap: usize, number: Number) -> usize {
         self.swap(swap) + number as usize
     }
 
-    /// Place of the numbers of swap `swap` under the estimator number `estimator`.
+    /// Returns the place of the numbers of swap `swap` for the estimator number `estimator`.
     pub(super) fn other(&self, estimator: usize, swap: usize) -> usize {
         self.swap(self.swaps()) + (estimator * self.swaps() + swap) * PER_ESTIMATOR
     }
 
-    /// Place of the second-order index of the first pair.
+    /// Returns the place of the second-order index of the first pair.
     pub(super) fn pairs(&self) -> usize {
         self.other(self.estimators.len(), 0)
     }
 
-    /// Place of the share of the variance that the mean over the noise has; of the mean's indices after it see
+    /// Returns the place of the share of the variance of the mean over the noise; for the mean's indices after it see
     /// [`of_mean`](Self::of_mean).
     pub(super) fn mean_share(&self) -> usize {
         let pairs = self.factors * self.factors.saturating_sub(1) / 2;
         self.pairs() + if self.second_order { pairs } else { 0 }
     }
 
-    /// Place of the first-order index of swap `swap` of the mean over the noise; its total index comes next.
+    /// Returns the place of the first-order index of swap `swap` of the mean over the noise; its total index is next.
     pub(super) fn of_mean(&self, swap: usize) -> usize {
         self.mean_share() + 1 + 2 * swap
     }
 
-    /// Place of the Shapley effect of the first player.
+    /// Returns the place of the Shapley effect of the first player.
     pub(super) fn shapley(&self) -> usize {
         self.mean_share() + self.noise.as_ref().map_or(0, |noise| 1 + 2 * noise.swaps.len())
     }
 
-    /// Whether every factor is a player, so that Shapley effects are those of factors.
+    /// Returns whether every factor is a player, so that Shapley effects are those of factors.
     pub(super) fn has_shapley_of_factors(&self) -> bool {
         self.shapley.is_some() && self.players.iter().copied().eq(0..self.factors)
     }
 
-    /// The pairs of factors, in the order of their second-order indices.
+    /// Returns the pairs of factors, in the order of their second-order indices.
     pub fn pair_list(&self) -> Vec<(usize, usize)> {
         (0..self.factors).flat_map(|j| (j + 1..self.factors).map(move |k| (j, k))).collect()
     }
 
-    /// Where the truth may be beyond an interval if few rows carry the quantity number `place`: indices and their sums are
-    /// sums of contributions of one sign, shares and gaps are not.
+    /// Returns where the true value may be outside an interval if few rows dominate the quantity number `place`:
+    /// indices and their sums are sums of contributions of one sign, shares and gaps are not.
     pub(super) fn side(&self, place: usize) -> Side {
         let (of_swaps, of_others) = (self.swap(0)..self.other(0, 0), self.other(0, 0)..self.pairs());
         let difference = if of_swaps.contains(&place) {
@@ -173,21 +174,21 @@ impl Layout {
         if difference { Side::Both } else { Side::Above }
     }
 
-    /// The places of the quantities whose errors decay at a rate of their own: orders are random, and what hangs on them falls no
-    /// faster with the number of points than random points do.
+    /// Returns the places of the quantities whose errors decay at a separate rate: orders are random, and the errors
+    /// that depend on them fall no faster with the number of points than those of random points.
     pub(super) fn random(&self) -> std::ops::Range<usize> {
         let is_random = self.shapley == Some(ShapleyMethod::Permutations);
         self.shapley()..self.shapley() + if is_random { self.players.len() } else { 0 }
     }
 
-    /// Which quantities tell how errors decay: the default first-order and total indices of everything but the dummy.
+    /// Returns the quantities that determine the decay of errors: default first-order and total indices, no dummy.
     pub(super) fn pooled(&self, length: usize) -> Vec<bool> {
         let real = self.swap(self.swaps() - usize::from(self.dummy));
         (0..length).map(|place| (2..real).contains(&place) && (place - 2) % PER_SWAP < 2).collect()
     }
 }
 
-/// Everything reported about an output with `moments`, NaN for what does not exist. `None` if there are no indices.
+/// Computes all quantities of an output with `moments`, NaN if one does not exist. `None` if there are no indices.
 pub(super) fn quantities(layout: &Layout, moments: &Moments) -> Option<Vec<f64>> {
     let indices = if layout.salib { Indices::of_salib(moments) } else { Indices::from_moments(moments) };
     let Indices { first_order, total, check } = indices.ok()?;
@@ -225,7 +226,7 @@ pub(super) fn quantities(layout: &Layout, moments: &Moments) -> Option<Vec<f64>>
         }
     }
     if let Some(noise) = &layout.noise {
-        // The mean has the variance V(E[y|x]) = V (1 - ST_noise), and all that the factors do without the noise.
+        // The mean has the variance V(E[y|x]) = V (1 - ST_noise), and all effects of the factors without the noise.
         let share = 1.0 - total[noise.factor];
         let index = |part: f64| if share > 0.0 { part / share } else { f64::NAN };
         list.push(share);
@@ -240,8 +241,8 @@ pub(super) fn quantities(layout: &Layout, moments: &Moments) -> Option<Vec<f64>>
     Some(list)
 }
 
-/// Shares in percent among the factors, and among the groups; NaN for subsets, which may overlap, for the dummy, for the noise, which
-/// is none of the factors, and where factors depend on each other, so that their indices share out nothing.
+/// Computes shares in percent among the factors, and among the groups; NaN for subsets, which may overlap, for the
+/// dummy, for the noise, which is not a factor, and for dependent factors, whose indices do not partition the variance.
 fn all_shares(layout: &Layout, indices: &[f64]) -> Vec<f64> {
     if layout.dependent {
         return vec![f64::NAN; indices.len()];

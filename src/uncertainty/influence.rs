@@ -1,28 +1,28 @@
-//! What each part of the runs does to the estimates.
+//! The influence of each part of the runs on the estimates.
 
 use super::net_decay::PartInfluences;
 use crate::estimate::{MomentParts, Moments, merged};
 
-/// A number and what the parts of every net do to it.
+/// A number and its influences from the parts of every net.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Influenced {
     /// The number.
     pub estimate: f64,
     /// The mean influence of the points of every part, `[net][part]`.
     pub parts: PartInfluences,
-    /// The same of the runs of a cheaper model, which are independent of the others; empty without one.
+    /// The same for the runs of a low-fidelity model, which are independent of the others; empty without one.
     pub low: PartInfluences,
-    /// Standard error by what no runs show: what a surrogate says of tails beyond them.
+    /// Standard error that no runs show, from the tails of a surrogate.
     pub beyond: f64,
 }
 
 impl Influenced {
-    /// The number is `estimate`, whatever the rows.
+    /// Returns the exact number `estimate`, independent of the rows.
     pub(super) fn settled(&self, estimate: f64) -> Self {
         Self { estimate, parts: still(&self.parts), low: still(&self.low), beyond: 0.0 }
     }
 
-    /// A sum of numbers with weights.
+    /// Returns a weighted sum of numbers.
     pub fn combined(list: &[(f64, &Self)]) -> Self {
         let estimate = list.iter().map(|(weight, of)| weight * of.estimate).sum();
         let of = |parts: fn(&Self) -> &PartInfluences| {
@@ -34,40 +34,40 @@ impl Influenced {
             }
             sums
         };
-        // These errors have one cause, and add up.
+        // These errors have a common cause, so they add linearly.
         let beyond = list.iter().map(|(weight, of)| weight.abs() * of.beyond).sum();
         Self { estimate, parts: of(|of| &of.parts), low: of(|of| &of.low), beyond }
     }
 }
 
-/// Parts of the same sizes that have no influence.
+/// Returns parts of the same sizes without influence.
 fn still(parts: &PartInfluences) -> PartInfluences {
     parts.iter().map(|net| vec![0.0; net.len()]).collect()
 }
 
-/// Quantities estimated from all parts of all replicates together, and how much each part moves them.
+/// Quantities estimated from all parts of all replicates together, and the influence of each part on them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Influences {
     /// The estimates.
     pub whole: Vec<f64>,
-    /// For each quantity: the mean influence of the points of every part, `[replicate][part]`; not finite where leaving
-    /// out a part leaves the quantity undefined.
+    /// For each quantity: the mean influence of the points of every part, `[replicate][part]`; not finite if the
+    /// quantity is undefined without a part.
     pub parts: Vec<PartInfluences>,
 }
 
 impl Influences {
-    /// `quantities` turns the moments of an output into a list of numbers of fixed length, or `None` where they are
-    /// undefined. Returns `None` if they are undefined on the whole.
+    /// Computes influences on `quantities`, a function from the moments of an output to a list of numbers of fixed
+    /// length, or `None` if undefined. Returns `None` if they are undefined on the whole.
     pub fn from_moments(replicates: &[MomentParts], quantities: &dyn Fn(&Moments) -> Option<Vec<f64>>) -> Option<Self> {
         let replicates: Vec<&MomentParts> = replicates.iter().collect();
         let LeftOut { whole, without, points, points_of_parts } = LeftOut::new(&replicates, quantities);
         Some(Self::new(&replicates, whole?, &without, points, &points_of_parts))
     }
 
-    /// From the quantities of the whole and those `without` each part of the replicates.
+    /// Computes influences from the quantities of the whole and those `without` each part of the replicates.
     ///
-    /// The influence of a part of n_p of the n points is found by leaving it out: (theta - theta_without) (n - n_p)/n_p,
-    /// to first order the mean of the influence function (Hampel 1974) over its points.
+    /// The influence of a part of n_p of the n points is computed by leaving it out: (theta - theta_without) (n -
+    /// n_p)/n_p, to first order the mean of the influence function (Hampel 1974) over its points.
     pub fn new(
         replicates: &[&MomentParts],
         whole: Vec<f64>,
@@ -82,26 +82,26 @@ impl Influences {
     }
 }
 
-/// What is made of the moments of an output, of all parts and of all but each.
+/// A function of the moments of an output, evaluated on all parts and on all but each.
 #[derive(Debug, Clone)]
 pub struct LeftOut<T> {
-    /// Of all parts.
+    /// The value on all parts.
     pub whole: T,
-    /// Of all but each, the parts of all replicates in a row.
+    /// The values on all but each part, the parts of all replicates in a row.
     pub without: Vec<T>,
-    /// Base points in all.
+    /// Total number of base points.
     pub points: f64,
-    /// Those of each part.
+    /// Number of base points of each part.
     pub points_of_parts: Vec<f64>,
 }
 
 impl<T> LeftOut<T> {
-    /// What `of` makes of the parts of `replicates`.
+    /// Evaluates `of` on the parts of `replicates`.
     pub fn new(replicates: &[&MomentParts], of: &dyn Fn(&Moments) -> T) -> Self {
         let parts: Vec<&Moments> = replicates.iter().flat_map(|replicate| replicate.parts()).collect();
         let sums: Vec<Moments> = replicates.iter().map(|replicate| replicate.whole()).collect();
         let all = merged(&sums);
-        // What comes before each part, and (from the back) after it: two passes instead of one per part.
+        // The parts before each part, and (from the back) after it: two passes instead of one per part.
         let mut before = vec![Moments::default()];
         for part in &parts[..parts.len().saturating_sub(1)] {
             let mut sum = before[before.len() - 1].clone();
@@ -131,7 +131,7 @@ fn influence(whole: &[f64], without: Option<&Vec<f64>>, n: f64, n_p: f64) -> Vec
     whole.iter().zip(without).map(|(theta, without)| (theta - without) * ((n - n_p) / n_p)).collect()
 }
 
-/// The influences on quantity `q`, sorted into replicates.
+/// Returns the influences on quantity `q`, sorted into replicates.
 fn by_replicate(replicates: &[&MomentParts], columns: &[Vec<f64>], q: usize) -> PartInfluences {
     let mut columns = columns.iter();
     replicates.iter().map(|r| columns.by_ref().take(r.parts().len()).map(|column| column[q]).collect()).collect()

@@ -2,12 +2,12 @@
 
 use super::{Estimate, Interval, t_quantile};
 
-/// Estimates of several quantities with t-intervals from `R` independent replicates, by the delete-one jackknife.
+/// Returns estimates of quantities with t-intervals from `R` independent replicates, by the delete-one jackknife.
 ///
-/// `whole` holds the quantities estimated from all replicates together, `without[r]` the same from all but replicate
-/// r. The standard error is sqrt((R - 1)/R sum_r (without_r - mean)^2) (Quenouille 1956, Tukey 1958; Efron and Stein
-/// 1981), and the interval is `whole` +- t_{R-1} times it. Replicates are independent randomisations of a whole net,
-/// so this is honest for quasi-random points, where a bootstrap over the points is not.
+/// `whole` is the quantities estimated from all replicates together, `without[r]` the same from all but replicate r.
+/// The standard error is sqrt((R - 1)/R sum_r (without_r - mean)^2) (Quenouille 1956, Tukey 1958; Efron and Stein
+/// 1981), and the interval is `whole` +- t_{R-1} times it. Replicates are independent randomisations of a whole net, so
+/// this is valid for quasi-random points, where a bootstrap over the points is not.
 ///
 /// All lists have one entry per quantity, in the same order.
 pub fn jackknife(whole: &[f64], without: &[Vec<f64>]) -> Vec<Estimate> {

@@ -1,25 +1,25 @@
 //! Corrected indices of the mean of a stochastic model over its noise.
 //!
-//! The mean has the variance V(E[y|x]) = V (1 - ST_n), n the noise. Its closed first-order indices are S/(1 - ST_n), since the
-//! noise adds nothing to the variance of E[y|x_s]; its total indices (ST_sn - ST_n)/(1 - ST_n), since all that the other
-//! factors do without s and the noise is V (1 - ST_sn).
+//! The mean has the variance V(E[y|x]) = V (1 - ST_n), n the noise. Its closed first-order indices are S/(1 - ST_n),
+//! since the noise adds nothing to the variance of E[y|x_s]; its total indices are (ST_sn - ST_n)/(1 - ST_n), since all
+//! effects of the other factors without s and the noise have the variance V (1 - ST_sn).
 
 use super::estimates::{BesideNoise, Layout};
 use super::influence::Influenced;
 use super::noise::{Noise, Replacement};
 use super::{Estimate, Interval, StandardError};
 
-/// What the runs of a stochastic model say of its mean over the noise, E[y|x]. First-order and total index of the noise
-/// itself, which are of the variance of a single run, stand among those of the factors.
+/// Estimates for the mean of a stochastic model over its noise, E[y|x]. The first-order and total index of the noise
+/// itself, which refer to the variance of a single run, are among those of the factors.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct NoiseIndices {
-    /// The number of the factor that is the noise.
+    /// The index of the factor that is the noise.
     pub factor: usize,
-    /// V(E[y|x])/V(y) = 1 - ST of the noise: the share of the variance of a single run that its mean has.
+    /// V(E[y|x])/V(y) = 1 - ST of the noise: the share of the variance of a single run that is variance of the mean.
     pub mean_share: Estimate,
-    /// The indices of the mean, in the order of the swaps: of factors, groups, subsets and the dummy; `None` of those that
-    /// hold the noise.
+    /// The indices of the mean, in the order of the swaps: of factors, groups, subsets and the dummy; `None` for those
+    /// that contain the noise.
     pub of_mean: Vec<Option<MeanEstimates>>,
 }
 
@@ -27,21 +27,20 @@ pub struct NoiseIndices {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct MeanEstimates {
-    /// (Closed) first-order index: S/(1 - ST of the noise). `None` where the runs show no variance of the mean.
+    /// (Closed) first-order index: S/(1 - ST of the noise). `None` if the runs show no variance of the mean.
     pub first_order: Option<Estimate>,
     /// Total index; `None` without the joint index with the noise, from which it follows.
     pub total: Option<Estimate>,
 }
 
-/// The indices that are corrected: all of them, and the noise of those of their kind; `None` of a kind of which the plain ones
-/// stay.
+/// The corrected indices: all of one kind, and that of the noise; `None` for a kind whose plain ones stay.
 pub(super) struct Corrected<'a> {
     pub first_order: Option<(&'a [Influenced], Noise)>,
     pub total: Option<(&'a [Influenced], Noise)>,
 }
 
-/// Gives `put` what replaces the indices of the mean among the `plain` numbers of `layout`; `plain_first` tells the plain
-/// first-order index of a swap.
+/// Calls `put` with the replacements of the indices of the mean among the `plain` numbers of `layout`; `plain_first`
+/// returns the plain first-order index of a swap.
 pub(super) fn corrected(
     layout: &Layout,
     corrected: &Corrected<'_>,
@@ -67,7 +66,7 @@ pub(super) fn corrected(
     for (swap, beside) in noise.swaps.iter().enumerate().filter(|(_, beside)| **beside != BesideNoise::Holds) {
         let place = layout.of_mean(swap);
         let nothing = || (Estimate::alone(f64::NAN), errors[place], Vec::new());
-        // Errors of which nothing is known together may be larger than those of the plain index, which are.
+        // Errors of unknown correlation may be larger than those of the plain index, whose correlation is known.
         let width = |of: Estimate| of.interval.map_or(f64::INFINITY, Interval::width);
         let mut put_narrower = |index: Estimate| {
             if width(index) < width(plain[place]) {
@@ -103,7 +102,7 @@ pub(super) fn corrected(
     }
 }
 
-/// The quotient of two numbers of which nothing is known together but that their errors are of independent kinds.
+/// Returns the quotient of two numbers of unknown joint distribution, whose errors are of independent kinds.
 fn quotient(a: Estimate, b: Estimate) -> Estimate {
     let estimate = a.estimate / b.estimate;
     let interval = a.interval.zip(b.interval).map(|(of_a, of_b)| {

@@ -1,17 +1,17 @@
-//! The kinds of interval, and what each of them says.
+//! The kinds of interval.
 
 use super::net_decay::{PartInfluences, StandardError, net_errors};
 use crate::design::Sampler;
 use crate::names::named;
 
 named! {
-/// How the error of an estimate is found.
+/// How the error of an estimate is computed.
 pub enum IntervalMethod {
-    /// From few long scrambled nets: their spread, and how the error falls inside them ([`net_errors`]).
+    /// From few long scrambled nets: their spread, and the decay of the error inside them ([`net_errors`]).
     Nets = "nets",
     /// Student's t on independent replicates.
     Replicates = "replicates",
-    /// Student's t on parts of a random design, which are as good as independent.
+    /// Student's t on parts of a random design, which are nearly independent.
     Batches = "batches",
     /// The delta method: the variance of the influence of every point of a random design.
     Delta = "delta",
@@ -21,7 +21,7 @@ pub enum IntervalMethod {
 }
 
 impl IntervalMethod {
-    /// The one that serves points of `sampler` best.
+    /// Returns the best method for points of `sampler`.
     pub fn default_for(sampler: Sampler) -> Self {
         match sampler {
             Sampler::Sobol => Self::Nets,
@@ -30,7 +30,7 @@ impl IntervalMethod {
         }
     }
 
-    /// Whether it is honest for points of `sampler`: a bootstrap over Sobol' points, for one, is 3 to 30 times too wide.
+    /// Returns whether it is valid for points of `sampler`; a bootstrap over Sobol' points is 3 to 30 times too wide.
     pub fn serves(self, sampler: Sampler) -> bool {
         match self {
             Self::Nets => sampler.is_digital(),
@@ -39,7 +39,7 @@ impl IntervalMethod {
         }
     }
 
-    /// How many replicates it works best with.
+    /// Returns the recommended number of replicates.
     pub fn default_replicates(self) -> u64 {
         match self {
             Self::Nets => 4,
@@ -48,12 +48,12 @@ impl IntervalMethod {
         }
     }
 
-    /// Whether it needs the outputs of every run, and so memory that grows with their number.
+    /// Returns whether it needs the outputs of every run, so that memory grows with their number.
     pub fn keeps_outputs(self) -> bool {
         matches!(self, Self::Delta | Self::Percentile)
     }
 
-    /// What an interval of this kind is, in a sentence.
+    /// Describes an interval of this kind in a sentence.
     pub fn words(self, replicates: u64, resamples: usize) -> String {
         let nets = if replicates == 1 {
             "one scrambled net".to_owned()
@@ -89,7 +89,7 @@ impl IntervalMethod {
         }
     }
 
-    /// Standard errors from the parts of every replicate; for methods that work on kept outputs, an approximation by batches.
+    /// Computes standard errors from the parts of every replicate; methods on kept outputs are approximated by batches.
     pub fn errors(self, quantities: &[PartInfluences], pooled: &[bool]) -> Vec<StandardError> {
         let unknown = |parts: &PartInfluences| parts.iter().flatten().any(|influence| !influence.is_finite());
         let errors = match self {
@@ -109,18 +109,18 @@ impl IntervalMethod {
     }
 }
 
-/// Mean influence of each replicate.
+/// Returns the mean influence of each replicate.
 fn means(parts: &PartInfluences) -> Vec<f64> {
     parts.iter().map(|replicate| replicate.iter().sum::<f64>() / replicate.len().max(1) as f64).collect()
 }
 
-/// The parts of all replicates but those that may be incomplete, unless there is nothing else.
+/// Returns the parts of all replicates except those that may be incomplete, or all if there are no others.
 fn complete(parts: &PartInfluences) -> Vec<f64> {
     let whole = |replicate: &Vec<f64>| replicate[..replicate.len().saturating_sub(1).max(1)].to_vec();
     parts.iter().flat_map(whole).collect()
 }
 
-/// Standard error of the mean of independent values of one distribution.
+/// Returns the standard error of the mean of independent values of one distribution.
 fn spread(values: &[f64]) -> StandardError {
     let n = values.len() as f64;
     if values.len() < 2 {

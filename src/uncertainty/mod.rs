@@ -1,8 +1,8 @@
-//! Intervals that say how wrong an estimate may be, and what follows from them.
+//! Confidence intervals of estimates, and quantities derived from them.
 //!
-//! An estimate rests on all runs. [`Influences`] tell what each part of them does to it; an [`IntervalMethod`] turns that
-//! into a standard error: for Sobol' points by [`net_errors`], for random points by their batches, or from the outputs of
-//! every point ([`KeptPoints`]) by the delta method or a bootstrap.
+//! An estimate depends on all runs. [`Influences`] are the influences of each part of them; an [`IntervalMethod`] turns
+//! these into a standard error: for Sobol' points by [`net_errors`], for random points by their batches, or from the
+//! outputs of every point ([`KeptPoints`]) by the delta method or a bootstrap.
 
 mod aggregate;
 mod bootstrap;
@@ -63,40 +63,40 @@ pub struct Interval {
 }
 
 impl Interval {
-    /// The interval that reaches as far to both sides of `middle`.
+    /// Returns the interval with `middle` at its centre.
     pub fn about(middle: f64, half_width: f64) -> Self {
         Self { low: middle - half_width, high: middle + half_width }
     }
 
-    /// From end to end.
+    /// Returns the distance of its bounds.
     pub fn width(self) -> f64 {
         self.high - self.low
     }
 
-    /// The interval with changed ends; `None` if one of them is beyond double precision.
+    /// Returns the interval with `change` applied to its bounds; `None` if one of them overflows.
     pub fn map(self, change: impl Fn(f64) -> f64) -> Option<Self> {
         Self { low: change(self.low), high: change(self.high) }.finite()
     }
 
-    /// The interval, unless an end is beyond double precision.
+    /// Returns the interval, or `None` if a bound has overflowed.
     pub(crate) fn finite(self) -> Option<Self> {
         (self.low.is_finite() && self.high.is_finite()).then_some(self)
     }
 }
 
-/// A number with its interval, where there is one. Files have it as `estimate`, `low` and `high`.
+/// A number with its interval, if there is one. Files contain `estimate`, `low` and `high`.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(from = "EstimateRecord", into = "EstimateRecord")]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Estimate {
     /// The estimate.
     pub estimate: f64,
-    /// Its interval; `None` where nothing is known of its error.
+    /// Its interval; `None` if its error is unknown.
     pub interval: Option<Interval>,
 }
 
 impl Estimate {
-    /// A number of whose error nothing is known.
+    /// Returns a number of unknown error.
     pub fn alone(estimate: f64) -> Self {
         Self { estimate, interval: None }
     }
@@ -126,13 +126,13 @@ impl From<EstimateRecord> for Estimate {
     }
 }
 
-/// `b` minus `a`, with an interval of the level of theirs, if both have one.
+/// Returns `b` minus `a`, with an interval of the level of theirs, if both have one.
 ///
 /// With the distances of the bounds from their estimates,
 /// low = b - a - sqrt((b - b_low)² + (a_high - a)²) and high = b - a + sqrt((b_high - b)² + (a - a_low)²):
 /// the method of Zou and Donner (2008), *Construction of confidence limits about effect measures: a general approach*,
-/// Statistics in Medicine 27, 1693-1702, for two estimates whose errors are independent. For symmetric intervals that is
-/// the root of the sum of squares of the half widths.
+/// Statistics in Medicine 27, 1693-1702, for two estimates whose errors are independent. For symmetric intervals this
+/// is the root of the sum of squares of the half widths.
 ///
 /// ```
 /// use apportion::{Estimate, Interval};
@@ -155,7 +155,7 @@ pub fn difference(a: Estimate, b: Estimate) -> Estimate {
     Estimate { estimate, interval }
 }
 
-/// The two-sided t-interval at [`LEVEL`] about `estimate`; `None` if the estimate or its error is unknown.
+/// Returns the two-sided t-interval at [`LEVEL`] about `estimate`; `None` if the estimate or its error is unknown.
 pub fn t_interval(estimate: f64, error: StandardError) -> Option<Interval> {
     if error.error == 0.0 {
         return Interval::about(estimate, 0.0).finite();
@@ -164,9 +164,9 @@ pub fn t_interval(estimate: f64, error: StandardError) -> Option<Interval> {
     Interval::about(estimate, half_width).finite()
 }
 
-/// The quantile of Student's t distribution for a two-sided interval at [`LEVEL`]; `None` without degrees of freedom.
+/// Returns the quantile of Student's t for a two-sided interval at [`LEVEL`]; `None` without degrees of freedom.
 fn t_quantile(freedom: f64) -> Option<f64> {
-    // Beyond this many the quantile is the normal one with its first correction (Abramowitz and Stegun 1964, 26.7.5), to
+    // Above this the quantile is the normal one with its first correction (Abramowitz and Stegun 1964, 26.7.5), to
     // 1e-8.
     const LARGE_FREEDOM: f64 = 1e4;
     if freedom > LARGE_FREEDOM {

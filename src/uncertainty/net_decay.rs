@@ -1,48 +1,48 @@
 //! Standard errors of estimates from a few scrambled nets.
 //!
 //! Few long nets are accurate, but their spread says little about their error: two of them leave one degree of freedom,
-//! and a t-interval on it is six times too wide. Yet every net shows how its error falls as it grows, because its points
-//! are nested: halves, quarters, ... 64ths of a Sobol' net are nets of their own (Owen 1997). With sigma_l^2 the variance
-//! of an estimate from 2^l points, the mean square of half the difference between neighbouring parts of 2^l points is
-//! D_l = sigma_l^2 - sigma_(l+1)^2: many degrees of freedom at small l, one per net at the last. If D_l falls by a factor
-//! rho per level, what is left of the whole net of 2^m points is
+//! and a t-interval from it is six times too wide. But every net shows how its error falls as it grows, because its
+//! points are nested: halves, quarters, ... 64ths of a Sobol' net are nets of their own (Owen 1997). With sigma_l^2 the
+//! variance of an estimate from 2^l points, the mean square of half the difference between neighbouring parts of 2^l
+//! points is D_l = sigma_l^2 - sigma_(l+1)^2: many degrees of freedom at small l, one per net at the last. If D_l falls
+//! by a factor rho per level, the variance of the whole net of 2^m points is
 //!
 //! sigma_m^2 = sum_(l >= m) D_l = D_(m-1) rho/(1 - rho).
 //!
-//! The rate rho belongs to the function and the sampler rather than to one index: it is fitted to all indices of an
-//! output together. This extrapolation is a *prior*, because a net can be luckier or unluckier than the trend. The nets'
-//! own spread corrects it twice: on average over the indices (a common factor, as far as that is known), and index by
-//! index, as in the moderated t-statistic of Smyth (2004, Stat. Appl. Genet. Mol. Biol. 3, article 3): the variance is
-//! the mean of prior and spread, weighted by their degrees of freedom, and the interval is Student's t with the sum of
-//! both. How far the trend can be trusted was measured over fifteen functions; four nets are the fewest
-//! whose intervals then held in 92 to 98 % of the cases nearly everywhere: in 121 of 126 cells of eighteen functions at seven
-//! sizes, seven of them functions not looked at before (`benches/coverage.rs`, `docs/coverage.md`).
+//! The rate rho depends on the function and the sampler more than on one index: it is fitted to all indices of an
+//! output together. This extrapolation is a *prior*, because the error of a net can be smaller or larger than the
+//! trend. The spread of the nets corrects it twice: on average over the indices (a common factor, as far as that is
+//! known), and index by index, as in the moderated t-statistic of Smyth (2004, Stat. Appl. Genet. Mol. Biol. 3, article
+//! 3): the variance is the mean of prior and spread, weighted by their degrees of freedom, and the interval is
+//! Student's t with the sum of both. The reliability of the trend was measured over fifteen functions; four nets are
+//! the minimum for which the intervals had a coverage of 92 to 98 % nearly everywhere: in 121 of 126 cells of eighteen
+//! functions at seven sizes, seven of them functions not examined before (`benches/coverage.rs`, `docs/coverage.md`).
 
 use super::special::{freedom_of_log_variance, log_bias, log_variance};
 
-/// Most levels of nested parts that the trend is fitted to.
+/// Maximum number of levels of nested parts to which the trend is fitted.
 const LEVELS: usize = 6;
 
-/// Fastest and slowest decay of D_l per level that the trend may have: eightfold is the rate of the variance of smooth
-/// functions (Owen 1997: N^-3), with some room; twofold is that of random points, below which scrambled nets do not fall.
+/// Fastest and slowest allowed decay of D_l per level: eightfold is the rate of the variance of smooth functions (Owen
+/// 1997: N^-3), with some margin; twofold is that of random points, the slowest for scrambled nets.
 const FASTEST: f64 = 0.05;
 const SLOWEST: f64 = 0.5;
 
-/// Variance of the logarithm of sigma_m^2 about the trend, from index to index of one output. Measured 0.6 to 1.1: at some
-/// numbers of points, some pairs of Sobol' dimensions fit badly, and an index stays put while the net grows fourfold.
+/// Variance of the logarithm of sigma_m^2 about the trend, from index to index of one output. Measured 0.6 to 1.1: at
+/// some numbers of points, some pairs of Sobol' dimensions fit badly, and an index stalls while the net grows fourfold.
 const SCATTER_OF_INDICES: f64 = 1.0;
 
 /// The same of the average over the indices of an output, from function to function. Measured 0.2 to 0.8.
 const SCATTER_OF_OUTPUTS: f64 = 0.5;
 
-/// Number of levels' worth of scatter that a level has besides its sampling error, in degrees of freedom: keeps the many
-/// small parts from outweighing the few large ones that the trend is about.
+/// Scatter of a level in addition to its sampling error, in degrees of freedom: prevents the many small parts from
+/// outweighing the few large ones, which matter for the trend.
 const DAMPING: f64 = 4.0;
 
-/// Indices of one output come from the same points: so many of them count as one independent one.
+/// Number of indices of one output that count as one independent one, because they come from the same points.
 const DEPENDENCE: f64 = 2.0;
 
-/// A standard error with the degrees of freedom of Student's t that go with it.
+/// A standard error with its degrees of freedom of Student's t.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StandardError {
     /// The standard error, in the unit of the estimate.
@@ -52,11 +52,11 @@ pub struct StandardError {
 }
 
 /// Mean influences of the parts of every net on one quantity: `[net][part]`, all nets with the same parts, which have
-/// equal numbers of points but for the last. Their mean over everything is 0.
+/// equal numbers of points except the last. Their mean over everything is 0.
 pub type PartInfluences = Vec<Vec<f64>>;
 
-/// Standard errors of quantities estimated from all nets together. The quantities for which `pooled` is true (the
-/// indices) determine the common rate and factor; the others only use them.
+/// Computes standard errors of quantities estimated from all nets together. The quantities for which `pooled` is true
+/// (the indices) determine the common rate and factor; the others only use them.
 ///
 /// All quantities have the same nets and parts. A quantity that no part influences has error 0.
 pub fn net_errors(quantities: &[PartInfluences], pooled: &[bool]) -> Vec<StandardError> {
@@ -65,13 +65,13 @@ pub fn net_errors(quantities: &[PartInfluences], pooled: &[bool]) -> Vec<Standar
     let levels: Vec<Option<Levels>> = quantities.iter().map(|q| Levels::new(q, &shape)).collect();
     let is_pooled = |(k, _): &(usize, &Option<Levels>)| pooled.get(*k).copied().unwrap_or(false);
     let pool: Vec<&Levels> = levels.iter().enumerate().filter(is_pooled).filter_map(|(_, l)| l.as_ref()).collect();
-    // Without any quantity to pool, all of them are.
+    // If no quantity is to be pooled, all are.
     let pool = if pool.is_empty() { levels.iter().flatten().collect() } else { pool };
     let trend = Trend::fit(&pool, &shape);
     levels.iter().map(|level| level.as_ref().map_or(shape.nothing(), |level| trend.error(level, &shape))).collect()
 }
 
-/// What all quantities of an output have in common.
+/// The common shape of all quantities of an output.
 struct Shape {
     nets: usize,
     /// Parts of each net, counting an incomplete last one.
@@ -86,12 +86,12 @@ impl Shape {
         Self { nets: quantity.len(), parts, depth: parts.checked_ilog2().unwrap_or(0) as usize }
     }
 
-    /// Degrees of freedom of the differences `below` levels under the top one.
+    /// Returns the degrees of freedom of the differences `below` levels under the top one.
     fn freedom(&self, below: usize) -> f64 {
         self.nets as f64 * (1u64 << below) as f64
     }
 
-    /// Degrees of freedom of the spread between the nets.
+    /// Returns the degrees of freedom of the spread between the nets.
     fn direct_freedom(&self) -> f64 {
         self.nets as f64 - 1.0
     }
@@ -101,9 +101,9 @@ impl Shape {
     }
 }
 
-/// What the parts say about one quantity.
+/// The statistics of the parts for one quantity.
 struct Levels {
-    /// Weighted mean of ln D over the levels, where the sampling bias of each logarithm has been taken off.
+    /// Weighted mean of ln D over the levels, where the sampling bias of each logarithm has been subtracted.
     height: f64,
     /// Slope of ln D per level, towards larger parts.
     slope: f64,
@@ -112,13 +112,13 @@ struct Levels {
 }
 
 impl Levels {
-    /// `None` if no part has any influence.
+    /// Computes the statistics; `None` if no part has any influence.
     fn new(quantity: &PartInfluences, shape: &Shape) -> Option<Self> {
         let size = quantity.iter().flatten().fold(0.0, |largest: f64, x| largest.max(x.abs()));
         if size == 0.0 || !size.is_finite() {
             return None;
         }
-        // In units of the largest influence, so that nothing under- or overflows when squared.
+        // In units of the largest influence, so that squares neither underflow nor overflow.
         let means: Vec<f64> =
             quantity.iter().map(|net| net.iter().map(|x| x / size).sum::<f64>() / net.len() as f64).collect();
         let centre = means.iter().sum::<f64>() / means.len() as f64;
@@ -130,7 +130,7 @@ impl Levels {
     }
 }
 
-/// ln D of the levels of nested parts, the top one (halves) first, free of the bias of the logarithm.
+/// Returns ln D of the levels of nested parts, the top one (halves) first, free of the bias of the logarithm.
 fn decay(quantity: &PartInfluences, shape: &Shape, size: f64) -> Vec<f64> {
     let mut parts: Vec<Vec<f64>> =
         quantity.iter().map(|net| net[..1 << shape.depth].iter().map(|x| x / size).collect()).collect();
@@ -144,7 +144,7 @@ fn decay(quantity: &PartInfluences, shape: &Shape, size: f64) -> Vec<f64> {
             }
             *net = net.chunks_exact(2).map(|pair| (pair[0] + pair[1]) / 2.0).collect();
         }
-        // A level without any difference is one of rounding.
+        // A level without any difference counts as one of rounding.
         logs.push(libm::log((sum / count).max(f64::EPSILON * f64::EPSILON)));
     }
     logs.reverse();
@@ -152,7 +152,7 @@ fn decay(quantity: &PartInfluences, shape: &Shape, size: f64) -> Vec<f64> {
     logs.iter().enumerate().map(|(below, log)| log - log_bias(shape.freedom(below))).collect()
 }
 
-/// Weights of the levels in the fit, the top one first, and their weighted mean place (0 the top, -1 below it, ...).
+/// Returns the weights of the levels in the fit, top first, and their weighted mean place (0 top, -1 below, ...).
 fn weights(shape: &Shape, levels: usize) -> (Vec<f64>, f64) {
     let weights: Vec<f64> = (0..levels).map(|below| shape.freedom(below) / (shape.freedom(below) + DAMPING)).collect();
     let sum: f64 = weights.iter().sum();
@@ -160,7 +160,7 @@ fn weights(shape: &Shape, levels: usize) -> (Vec<f64>, f64) {
     (weights, mean)
 }
 
-/// Weighted mean of `logs` and slope of the line through them.
+/// Returns the weighted mean of `logs` and the slope of the line through them.
 fn line(logs: &[f64], shape: &Shape) -> (f64, f64) {
     if logs.is_empty() {
         return (f64::NEG_INFINITY, libm::log(SLOWEST));
@@ -171,7 +171,7 @@ fn line(logs: &[f64], shape: &Shape) -> (f64, f64) {
     let place = |below: usize| -(below as f64) - centre;
     let square: f64 = weights.iter().enumerate().map(|(below, w)| w * place(below).powi(2)).sum();
     let product: f64 = logs.iter().zip(&weights).enumerate().map(|(below, (log, w))| w * log * place(below)).sum();
-    // Three levels are the least that tell a slope from chance; fewer are taken to fall like random points.
+    // At least three levels are needed for a slope; fewer are taken to fall like random points.
     (height, if logs.len() < 3 { libm::log(SLOWEST) } else { product / square })
 }
 
@@ -179,7 +179,7 @@ fn line(logs: &[f64], shape: &Shape) -> (f64, f64) {
 struct Trend {
     /// ln of the variance of a whole net over exp(height), by extrapolation and common correction.
     rise: f64,
-    /// Degrees of freedom that this prior is worth.
+    /// Degrees of freedom of this prior.
     freedom: f64,
 }
 
@@ -210,7 +210,7 @@ impl Trend {
         Self { rise: rise + trust * gap, freedom: freedom_of_log_variance(SCATTER_OF_INDICES + left) }
     }
 
-    /// The standard error of the mean over the nets.
+    /// Returns the standard error of the mean over the nets.
     fn error(&self, levels: &Levels, shape: &Shape) -> StandardError {
         let direct = shape.direct_freedom();
         let prior =
@@ -224,8 +224,8 @@ impl Trend {
     }
 }
 
-/// Variance of a net of `shape.parts` parts over that of its largest nested net of 2^depth parts: a number of points
-/// that is no power of two is a chain of shrinking nets, each with the error of its own size.
+/// Returns the variance of a net of `shape.parts` parts over that of its largest nested net of 2^depth parts: a number
+/// of points that is no power of two is a chain of shrinking nets, each with the error of its own size.
 fn incomplete(shape: &Shape, rho: f64) -> f64 {
     let parts = shape.parts as f64;
     (0..=shape.depth)
@@ -239,7 +239,7 @@ mod tests {
     use super::*;
     use crate::uncertainty::t_interval;
 
-    /// Numbers without structure, about 0 with variance 1/12.
+    /// Returns pseudo-random numbers about 0 with variance 1/12.
     fn noise(n: usize, salt: u64) -> Vec<f64> {
         let mut x = salt.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
         let mut next = || {
@@ -256,8 +256,8 @@ mod tests {
 
     #[test]
     fn independent_parts_have_the_error_of_their_mean() {
-        // 40 quantities, 2 nets, 64 independent parts each: the error of a mean of 128 is sd/sqrt(128). The trend is not
-        // trusted to be that of random points, so that intervals come out wider than 1.96 such errors, but not by half.
+        // 40 quantities, 2 nets, 64 independent parts each: the error of a mean of 128 is sd/sqrt(128). The trend is
+        // not trusted to be that of random points: intervals are wider than 1.96 such errors, by less than half.
         let quantities: Vec<PartInfluences> =
             (0..40).map(|q| vec![noise(64, 2 * q + 1), noise(64, 2 * q + 2)]).collect();
         let errors = net_errors(&quantities, &[true; 40]);
@@ -302,9 +302,9 @@ mod tests {
     fn an_incomplete_net_counts_its_chain_of_nets() {
         let shape = |parts: usize| Shape { nets: 1, parts, depth: parts.ilog2() as usize };
         assert_eq!(incomplete(&shape(64), 0.25), 1.0);
-        // Random points: variance goes with 1/points whatever the chain.
+        // Random points: the variance is proportional to 1/points for any chain.
         assert!((incomplete(&shape(96), 0.5) - 64.0 / 96.0).abs() < 1e-15);
-        // 96 = 64 + 32 parts at rho = 1/4, where the variance goes with points^-2: (4/9) 1 + (1/9) 4.
+        // 96 = 64 + 32 parts at rho = 1/4, where the variance is proportional to points^-2: (4/9) 1 + (1/9) 4.
         assert!((incomplete(&shape(96), 0.25) - 8.0 / 9.0).abs() < 1e-15);
     }
 }

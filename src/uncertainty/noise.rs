@@ -1,40 +1,41 @@
 //! Errors of corrected indices.
 //!
-//! What base points contribute to a corrected index behaves almost like independent noise, and is skewed: squares of what
-//! the surrogate leaves are rarely large. The spread within the nets has many degrees of freedom, but says too much where nets
-//! are more even than random points: up to fifty times the variance, at many points. That between the nets has no such
-//! error, and few degrees of freedom; over all indices of a kind it tells how much of the spread within counts. The
-//! variance is the mean of both, and each side of an interval has the degrees of freedom that its largest contributions leave.
+//! The contributions of base points to a corrected index behave almost like independent noise, and are skewed: squares
+//! of the residuals are rarely large. The spread within the nets has many degrees of freedom, but is too large if nets
+//! are more even than random points: up to fifty times the variance, at many points. The spread between the nets has no
+//! such error, and few degrees of freedom; over all indices of a kind it determines how much of the spread within
+//! counts. The variance is the mean of both, and each side of an interval has the degrees of freedom that its largest
+//! contributions leave.
 
 use super::influence::Influenced;
 use super::net_decay::{PartInfluences, StandardError};
 use super::{Estimate, Interval, t_quantile};
 
-/// Parts of a net whose mean influences stand for its points, at most.
+/// Maximum number of parts of a net whose mean influences represent its points.
 const PARTS: usize = 64;
 
-/// Degrees of freedom that the spread within the nets is worth as a prior.
+/// Degrees of freedom of the spread within the nets as a prior.
 const PRIOR_FREEDOM: f64 = 5.0;
 
-/// Degrees of freedom that a common factor of 1 over the indices of a kind is worth: few, since it is often below a tenth. With
-/// the next number it was measured on 32 functions, 12 of them made for that, at 16 to 4096 base samples.
+/// Degrees of freedom of a common factor of 1 over the indices of a kind: few, since it is often below a tenth. It and
+/// the next number were measured on 32 functions, 12 of them made for that, at 16 to 4096 base samples.
 const COMMON_FREEDOM: f64 = 1.0;
 
-/// Indices of an output are no independent witnesses: so many of them count as one.
+/// Number of indices of an output that count as one independent one.
 const DEPENDENCE: f64 = 2.0;
 
-/// The two numbers where estimates are chosen by their errors.
+/// The two numbers for a choice between estimates by their errors.
 const PRUDENT_FREEDOM: f64 = 8.0;
 const PRUDENT_DEPENDENCE: f64 = 4.0;
 
-/// Half width of an interval about an index that rounding alone calls for: the terms of a surrogate are not exactly orthonormal
+/// Half width of an interval about an index due to rounding alone: the terms of a surrogate are not exactly orthonormal
 /// in their sums.
 const ROUNDING: f64 = 1e-12;
 
 /// Degrees of freedom of a side over the share of its largest contributions, sum x^4/(sum x^2)^2.
 const FREEDOM_OF_SIDE: f64 = 0.4;
 
-/// What the indices of one kind, first-order or total ones, say of their errors together.
+/// The joint statistics of the errors of indices of one kind, first-order or total.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Noise {
     /// The spread between nets over that expected from within.
@@ -45,16 +46,16 @@ pub struct Noise {
     prudent: f64,
     /// Concentration of the influences below and above their mean.
     concentration: [f64; 2],
-    /// Whether the truth is further above than below: true of sums of squares.
+    /// Whether the true value is further above than below, as for sums of squares.
     skewed: bool,
-    /// The size of the numbers that rounding is measured by: 1 for indices.
+    /// The scale of rounding errors: 1 for indices.
     unit: f64,
 }
 
 /// A number, its interval, its error, and its influences.
 pub(super) type Replacement = (Estimate, StandardError, PartInfluences);
 
-/// Variance of the mean over all nets by the spread within them, and by that between them.
+/// Returns the variance of the mean over all nets by the spread within them, and by that between them.
 fn variances(parts: &PartInfluences) -> (f64, f64) {
     let nets = parts.len() as f64;
     let means: Vec<f64> = parts.iter().map(|net| net.iter().sum::<f64>() / net.len().max(1) as f64).collect();
@@ -71,7 +72,7 @@ fn variances(parts: &PartInfluences) -> (f64, f64) {
     (within / (nets * nets), between)
 }
 
-/// sum x^4/(sum x^2)^2 over the negative and the positive influences.
+/// Returns sum x^4/(sum x^2)^2 over the negative and the positive influences.
 fn concentration(parts: &PartInfluences) -> [f64; 2] {
     let size = parts.iter().flatten().fold(0.0, |largest: f64, x| largest.max(x.abs()));
     if size == 0.0 {
@@ -85,7 +86,7 @@ fn concentration(parts: &PartInfluences) -> [f64; 2] {
 }
 
 impl Noise {
-    /// Of indices of one kind; `skewed` of total indices.
+    /// Computes the statistics of indices of one kind; `skewed` for total indices.
     pub fn new(quantities: &[&PartInfluences], skewed: bool) -> Self {
         let moving: Vec<&PartInfluences> =
             quantities.iter().copied().filter(|parts| variances(parts).0 > 0.0).collect();
@@ -112,30 +113,30 @@ impl Noise {
         Self { common, common_freedom, prudent, concentration: sums.map(|sum| sum / count), skewed, unit: 1.0 }
     }
 
-    /// Of a number whose size says what rounding is: a mean or a variance.
+    /// Computes those of a number whose size is the scale of rounding: a mean or a variance.
     pub fn of_moment(parts: &PartInfluences, skewed: bool) -> Self {
         Self { unit: 0.0, ..Self::new(&[parts], skewed) }
     }
 
-    /// The same for a choice by errors: of a rare event nets may agree by chance, and be wrong together.
+    /// Adapts them to a choice by errors: for a rare event nets may agree by chance, and all be wrong.
     pub fn prudent(self) -> Self {
         Self { common: self.prudent, ..self }
     }
 
-    /// The same without the skewness: for differences.
+    /// Removes the skewness: for differences.
     pub fn even(self) -> Self {
         let [low, high] = self.concentration;
         Self { concentration: [low.max(high); 2], skewed: false, ..self }
     }
 
-    /// The standard error of the number.
+    /// Returns the standard error of the number.
     pub fn error(&self, of: &Influenced) -> StandardError {
         let mut own = self.error_of_parts(&of.parts);
         own.error = libm::hypot(own.error, of.beyond);
         if of.low.is_empty() {
             return own;
         }
-        // The runs of the cheaper model are independent: variances add up (the freedom after Welch and Satterthwaite).
+        // The low-fidelity runs are independent: variances add up (the freedom after Welch and Satterthwaite).
         let low = Self::new(&[&of.low], false).error_of_parts(&of.low);
         let (a, b) = (own.error * own.error, low.error * low.error);
         let freedom = (a + b).powi(2) / (a * a / own.freedom + b * b / low.freedom);
@@ -143,7 +144,7 @@ impl Noise {
         StandardError { error: libm::hypot(own.error, low.error), freedom }
     }
 
-    /// The standard error of the mean of influences (its freedom after Welch and Satterthwaite).
+    /// Returns the standard error of the mean of influences (its freedom after Welch and Satterthwaite).
     pub fn error_of_parts(&self, parts: &PartInfluences) -> StandardError {
         let (within, between) = variances(parts);
         let direct = parts.len() as f64 - 1.0;
@@ -154,14 +155,14 @@ impl Noise {
         StandardError { error: variance.sqrt(), freedom }
     }
 
-    /// The number with its interval.
+    /// Returns the number with its interval.
     pub fn estimate(&self, of: &Influenced) -> Estimate {
         let (estimate, error) = (of.estimate, self.error(of));
         let half = |concentration: f64| {
             let freedom = (FREEDOM_OF_SIDE / concentration).min(error.freedom).max(1.0);
             t_quantile(freedom).map(|quantile| quantile * error.error + ROUNDING * estimate.abs().max(self.unit))
         };
-        // The influences of rows that are missing are like those that are there: large positive ones that few rows have are
+        // The influences of missing rows are like those of existing ones: if large positive ones are rare, they are
         // missing from an estimate that is too small.
         let [low, high] = self.concentration.map(half);
         let interval = low.zip(high).map(|(low, high)| {
@@ -172,13 +173,13 @@ impl Noise {
         Estimate { estimate, interval: interval.and_then(Interval::finite) }
     }
 
-    /// The number with all that stands in the place of a plain one.
+    /// Returns the number with all that replaces a plain one.
     pub(super) fn replacement(self, of: &Influenced) -> Replacement {
         (self.estimate(of), self.error(of), of.parts.clone())
     }
 }
 
-/// The contributions of the points of every net as influences of up to 64 parts of each.
+/// Returns the contributions of the points of every net as influences of up to 64 parts of each.
 pub fn in_parts(nets: &[Vec<f64>]) -> PartInfluences {
     let of_net = |points: &Vec<f64>| {
         let (count, parts) = (points.len(), points.len().min(PARTS));

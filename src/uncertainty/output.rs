@@ -17,28 +17,28 @@ use super::unseen::{Unseen, half_seen, unseen};
 use super::{Estimate, Interval, NORMAL_QUANTILE};
 use crate::estimate::{Indices, MomentParts, Moments, Undefined, merged};
 
-/// Correlation of the two columns of a factor up to which the spread of the nets shows what it does to the indices.
+/// Maximum correlation of the two columns of a factor for which the spread of the nets shows its effect on the indices.
 const MAX_CORRELATION: f64 = 0.3;
 
-/// How intervals and probabilities are found.
+/// Options for intervals and probabilities.
 #[derive(Debug, Clone, Copy)]
 pub struct IntervalOptions<'a> {
     /// The kind of interval.
     pub method: IntervalMethod,
-    /// The total index above which a factor counts as one that matters.
+    /// The total index above which a factor counts as important.
     pub threshold: f64,
-    /// Seed of the draws behind the probabilities, and of the resamples of a bootstrap.
+    /// Seed of the draws for the probabilities, and of the resamples of a bootstrap.
     pub seed: u64,
     /// Resamples of a bootstrap.
     pub resamples: usize,
-    /// The outputs of every base point, for the methods that [keep](IntervalMethod::keeps_outputs) them. Without any they
-    /// are approximated by batches.
+    /// The outputs of every base point, for the methods that [keep](IntervalMethod::keeps_outputs) them. Without these
+    /// the methods are approximated by batches.
     pub points: Option<KeptPoints<'a>>,
-    /// Whether the probabilities to be first are wanted: they take most of the time of a small design.
+    /// Whether the probabilities of being first are computed: they take most of the time of a small design.
     pub ranks: bool,
-    /// The [correlations](crate::design::Design::column_correlations) of the two samples, by factor; empty if they do not matter.
+    /// The [correlations](crate::design::Design::column_correlations) of both samples, by factor; empty if irrelevant.
     pub correlations: &'a [f64],
-    /// What a surrogate makes of the outputs, to take the place of the plain estimates where it is more accurate.
+    /// The surrogate estimates of the outputs, which replace the plain estimates where they are more accurate.
     pub surrogate: Option<&'a SurrogateEstimates>,
 }
 
@@ -49,7 +49,7 @@ impl<'a> IntervalOptions<'a> {
     }
 }
 
-/// Mean and variance of one output from the parts of its replicates; `None` without any base point.
+/// Computes mean and variance of one output from the parts of its replicates; `None` without any base point.
 pub fn output_moments(replicates: &[MomentParts], options: &IntervalOptions<'_>) -> Option<OutputMoments> {
     let of = |m: &Moments| (m.count() > 0).then(|| vec![m.mean(), m.variance()]);
     let influences = Influences::from_moments(replicates, &of)?;
@@ -78,7 +78,7 @@ pub fn output_moments(replicates: &[MomentParts], options: &IntervalOptions<'_>)
     Some(OutputMoments { mean: estimates[0], variance: estimates[1] })
 }
 
-/// Indices of one output from the parts of its replicates.
+/// Computes the indices of one output from the parts of its replicates.
 ///
 /// # Errors
 /// [`Undefined`] if the replicates together give no indices.
@@ -103,7 +103,7 @@ pub fn output_indices(
             Judged::with(influences, bounds)
         }
         None => {
-            // Rounding says nothing of how errors decay.
+            // Rounding says nothing about the decay of errors.
             let pooled: Vec<bool> = pooled.iter().zip(&still).map(|(pooled, still)| *pooled && !still).collect();
             Judged::from_nets(influences, options.method, &pooled, layout.random(), &|place| layout.side(place))
         }
@@ -113,7 +113,7 @@ pub fn output_indices(
     if !layout.dependent {
         judged.allow_for_correlated(layout, options.correlations);
     }
-    // Where all rows agree the plain indices have no noise that a surrogate could take away.
+    // If all rows agree, the plain indices have no noise that a surrogate could reduce.
     let settled: Vec<bool> = (0..layout.swaps())
         .map(|swap| {
             let places = [Number::FirstOrder, Number::Total].map(|number| layout.place(swap, number));
@@ -146,7 +146,7 @@ pub fn output_indices(
         effect
     });
     let subsets = effects.split_off(layout.factors + layout.groups);
-    // Players are factors and groups alone.
+    // Only factors and groups are players.
     for (player, shapley) in layout.players.iter().zip(&judged.estimates[layout.shapley()..]) {
         effects[*player].shapley = Some(*shapley);
     }
@@ -168,7 +168,7 @@ pub fn output_indices(
     })
 }
 
-/// A list of quantities with all that is known of their errors.
+/// A list of quantities with all known facts about their errors.
 pub(super) struct Judged {
     pub estimates: Vec<Estimate>,
     errors: Vec<StandardError>,
@@ -176,8 +176,8 @@ pub(super) struct Judged {
 }
 
 impl Judged {
-    /// `side` tells for the number of a quantity where its interval must reach further if few rows carry it.
-    /// The errors of those in the range of places `random` decay at a rate of their own.
+    /// Computes errors from the nets. `side` returns where the interval of a quantity must reach further if few rows
+    /// dominate it. The errors of those in the range of places `random` decay at a separate rate.
     pub fn from_nets(
         influences: Influences,
         method: IntervalMethod,
@@ -197,8 +197,8 @@ impl Judged {
         Self { estimates, errors, parts }
     }
 
-    /// Gives the quantities that are `still`, and those whose nets agree to rounding, the errors that their rows cannot show;
-    /// tells which.
+    /// Sets the errors that the rows cannot show for the quantities that are `still`, and those whose nets agree to
+    /// rounding; returns which.
     fn allow_for_unseen(&mut self, unseen: &[Unseen], still: &[bool]) -> Vec<bool> {
         let mut allowed = vec![false; self.estimates.len()];
         for (place, unseen) in unseen.iter().enumerate().filter(|(_, unseen)| unseen.half_width > 0.0) {
@@ -214,7 +214,7 @@ impl Judged {
         allowed
     }
 
-    /// Puts what the surrogate has corrected in the place of the plain estimates, where its errors are smaller; the indices of
+    /// Replaces the plain estimates by those corrected by the surrogate where their errors are smaller; the indices of
     /// `settled` swaps stay.
     fn correct(&mut self, layout: &Layout, surrogate: &SurrogateEstimates, settled: &[bool]) -> SurrogateUse {
         let Corrections { replacements, used } = surrogate.corrections(layout, &self.estimates, &self.errors, settled);
@@ -228,7 +228,7 @@ impl Judged {
         used
     }
 
-    /// With errors and intervals that are known from elsewhere.
+    /// Combines estimates with errors and intervals from elsewhere.
     pub fn with(influences: Influences, bounds: Vec<Bounds>) -> Self {
         let Influences { whole, parts } = influences;
         let (errors, intervals): (Vec<StandardError>, Vec<Option<Interval>>) = bounds.into_iter().unzip();
@@ -236,8 +236,8 @@ impl Judged {
         Self { estimates: estimates.collect(), errors, parts }
     }
 
-    /// Bounds the first-order indices of the swaps that are `half_seen` above by their total indices alone, and what is made
-    /// of them accordingly.
+    /// Bounds the first-order indices of the swaps that are `half_seen` from above only by their total indices, and the
+    /// derived quantities accordingly.
     fn allow_for_half_seen(&mut self, layout: &Layout, half_seen: &[bool]) {
         for swap in (0..layout.swaps()).filter(|swap| half_seen[*swap]) {
             let [first, total, interaction] =
@@ -261,8 +261,8 @@ impl Judged {
         }
     }
 
-    /// Extends the intervals of factors whose columns of the two samples are correlated by r: of what is monotone in the factor,
-    /// rows that differ in it alone show a part 1 - r, in all nets alike if r is.
+    /// Extends the intervals of factors whose columns of the two samples are correlated by r: for an output monotone in
+    /// the factor, rows that differ only in it show a part 1 - r, in all nets alike if r is.
     fn allow_for_correlated(&mut self, layout: &Layout, correlations: &[f64]) {
         use Number::{FirstOrder, Interaction, ShareFirstOrder, ShareTotal, Total};
         for (factor, r) in correlations.iter().enumerate().filter(|(_, r)| r.abs() > MAX_CORRELATION) {
@@ -335,8 +335,8 @@ impl Judged {
     }
 }
 
-/// The same indices with intervals that can both be true: since a first-order index is at most the total index, an interval
-/// wholly above that of the total one shows that both errors are larger than they look, and at least their distance.
+/// Returns the same indices with intervals that can both be true: a first-order index is at most the total index, so an
+/// interval wholly above the total's shows that both errors are larger than estimated, at least their distance.
 pub(super) fn agreeing(first_order: Estimate, total: Estimate) -> (Estimate, Estimate, bool) {
     match (first_order.interval, total.interval) {
         (Some(first), Some(all)) if first.low > all.high => {
@@ -352,8 +352,8 @@ fn defined(estimate: Estimate) -> Option<Estimate> {
     Some(estimate).filter(|e| e.estimate.is_finite())
 }
 
-/// Whether an interval excludes 0 by more than its own width: 1 in 1000 by chance or rarer, where 1 in 20 would cry
-/// wolf in every study of eight factors.
+/// Returns whether an interval excludes 0 by more than its own width: by chance at most 1 in 1000; a 5 % test would
+/// raise a false warning in most studies of eight factors.
 pub fn differs_clearly(gap: Estimate) -> bool {
     gap.interval.is_some_and(|interval| gap.estimate.abs() > interval.width())
 }

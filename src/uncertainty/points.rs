@@ -1,4 +1,4 @@
-//! Kept outputs as the matrix of products that intervals by points work on.
+//! Kept outputs as the matrix of products used by intervals by points.
 
 use std::ops::Range;
 
@@ -7,39 +7,39 @@ use nalgebra::DMatrix;
 use crate::design::Design;
 use crate::estimate::{BlockOutputs, PointOutputs, ProductWork, Products, contributions};
 
-/// Base points whose products are held at a time, at most: some megabytes.
+/// Maximum number of base points whose products are in memory at a time: some megabytes.
 const CHUNK: usize = 1 << 13;
 
 /// One output at every run of the first base points of each replicate.
 #[derive(Debug, Clone, Copy)]
 pub struct KeptPoints<'a> {
-    /// Which runs are which rows.
+    /// Maps runs to rows.
     pub design: &'a Design,
     /// Its replicates.
     pub replicates: &'a [&'a PointOutputs],
-    /// Base points of each replicate that are looked at.
+    /// Number of base points of each replicate that are used.
     pub per_replicate: u64,
 }
 
 impl<'a> KeptPoints<'a> {
-    /// All points of all replicates; `None` if no outputs have been kept.
+    /// Returns all points of all replicates; `None` if no outputs have been kept.
     pub fn all(design: &'a Design, replicates: &'a [&'a PointOutputs]) -> Option<Self> {
         let per_replicate = replicates.iter().map(|kept| kept.points()).max().filter(|points| *points > 0)?;
         Some(Self { design, replicates, per_replicate })
     }
 
-    /// The first `points` base points of each replicate.
+    /// Returns the first `points` base points of each replicate.
     #[must_use]
     pub fn prefix(self, points: u64) -> Self {
         Self { per_replicate: self.per_replicate.min(points), ..self }
     }
 
-    /// Base points in all.
+    /// Returns the total number of base points.
     pub fn count(&self) -> u64 {
         self.replicates.iter().map(|kept| kept.points().min(self.per_replicate)).sum()
     }
 
-    /// The points in chunks of blocks, in order; their sizes depend on the number of points alone.
+    /// Splits the points into chunks of blocks, in order; their sizes depend only on the number of points.
     pub(super) fn chunks(&self) -> Vec<Chunk<'a>> {
         let blocks = self.replicates.iter().zip(0..).flat_map(|(kept, replicate)| {
             let mut first = 0;
@@ -71,14 +71,14 @@ type Placed<'a> = ((u64, u64), Vec<&'a [f64]>);
 
 /// Some consecutive base points.
 pub(super) struct Chunk<'a> {
-    /// Their numbers.
+    /// Their indices.
     pub points: Range<usize>,
     /// Their blocks.
     blocks: Vec<Placed<'a>>,
 }
 
 impl Chunk<'_> {
-    /// The products of every point: a row per point, a column per product.
+    /// Computes the products of every point: a row per point, a column per product.
     pub fn products(&self, design: &Design, products: &Products) -> DMatrix<f64> {
         let points = self.points.len();
         let mut matrix = DMatrix::zeros(points, products.columns());

@@ -1,4 +1,4 @@
-//! Probabilities that follow from the errors: which factor is first, and which matter at all.
+//! Probabilities that follow from the errors: that a factor is first, and that it matters.
 
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
@@ -8,16 +8,16 @@ use super::net_decay::{PartInfluences, StandardError};
 use super::{Estimate, NORMAL_QUANTILE, t_quantile};
 use crate::special::t_above;
 
-/// Draws behind each probability: its own error is then below 0.008.
+/// Number of draws for each probability: its own error is then below 0.008.
 const DRAWS: usize = 4096;
 
-/// Distance from the lead, in standard errors of both together, beyond which a quantity is not drawn: t of one degree of
-/// freedom is beyond it once in 60 draws, of three once in 30000.
+/// Distance from the lead, in standard errors of both together, beyond which a quantity is not drawn: t of one degree
+/// of freedom exceeds it once in 60 draws, of three once in 30000.
 const OUT_OF_REACH: f64 = 40.0;
 
-/// For each quantity the probability that its true value is the largest of all, in so far as the errors are known: the
-/// share of draws from their joint distribution (Student's t, correlated as the influences of the parts are) in which it
-/// is the largest. `seed` makes the draws repeatable. The probabilities sum to 1; with fewer than two
+/// Estimates for each quantity the probability that its true value is the largest of all, as far as the errors are
+/// known: the share of draws from their joint distribution (Student's t, correlated as the influences of the parts are)
+/// in which it is the largest. `seed` makes the draws repeatable. The probabilities sum to 1; with fewer than two
 /// parts, or unknown errors, there are none.
 pub fn probability_first(
     estimates: &[f64],
@@ -31,7 +31,7 @@ pub fn probability_first(
     }
     let within_reach = |&k: &usize| {
         let reach = libm::hypot(errors[k].error, errors[lead].error) * OUT_OF_REACH;
-        // What provably does nothing is not first as long as anything does.
+        // A factor that provably has no effect is not first if any factor has one.
         let does_nothing = estimates[k] == 0.0 && errors[k].error == 0.0 && estimates[lead] > 0.0;
         k == lead || (estimates[lead] - estimates[k] <= reach && !does_nothing)
     };
@@ -60,15 +60,15 @@ pub fn probability_first(
     Some(wins.into_iter().map(|wins| wins / DRAWS as f64).collect())
 }
 
-/// The influences of all parts, scaled to unit length; all zero for a quantity without any.
+/// Returns the influences of all parts, scaled to unit length; all zero for a quantity without any.
 fn direction(parts: &PartInfluences) -> Vec<f64> {
     let size = parts.iter().flatten().fold(0.0, |largest: f64, x| largest.max(x.abs()));
     let length = parts.iter().flatten().map(|x| (x / size).powi(2)).sum::<f64>().sqrt() * size;
     parts.iter().flatten().map(|x| if size > 0.0 { x / length } else { 0.0 }).collect()
 }
 
-/// The same directions in a basis of as few dimensions as they span: each in terms of those before it and a new one
-/// (Gram and Schmidt), so that no more normal numbers have to be drawn than there are directions.
+/// Returns the same directions in a basis of minimal dimension: each in terms of those before it and a new one (Gram
+/// and Schmidt), so that no more normal numbers have to be drawn than there are directions.
 fn coordinates(directions: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
     /// A remainder of this length is rounding.
     const SPANNED: f64 = 1e-12;
@@ -91,9 +91,9 @@ fn coordinates(directions: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
     all
 }
 
-/// Probability that the true value lies above `threshold`, by Student's t about the estimate; `None` if the error is
-/// unknown. Where the interval reaches further towards the threshold than the error alone says, so does the t distribution: a
-/// threshold at an end of the interval has 2.5 % beyond it.
+/// Returns the probability that the true value is above `threshold`, by Student's t about the estimate; `None` if the
+/// error is unknown. If the interval reaches further towards the threshold than the error alone implies, so does the t
+/// distribution: a threshold at an end of the interval has 2.5 % beyond it.
 pub fn probability_above(estimate: Estimate, error: StandardError, threshold: f64) -> Option<f64> {
     let Estimate { estimate, interval } = estimate;
     let reach = interval.map_or(0.0, |i| if threshold < estimate { estimate - i.low } else { i.high - estimate });
@@ -103,7 +103,7 @@ pub fn probability_above(estimate: Estimate, error: StandardError, threshold: f6
     let freedom = if error.freedom > 0.0 { error.freedom } else { f64::INFINITY };
     let of_interval = reach / t_quantile(freedom).unwrap_or(NORMAL_QUANTILE);
     let is_known = (error.freedom > 0.0 || of_interval > 0.0) && error.error.is_finite();
-    // An interval that is the error's own differs from it by rounding.
+    // An interval from the error itself differs from it by rounding.
     let scale = if of_interval > error.error * (1.0 + 1e-9) { of_interval } else { error.error };
     is_known.then(|| t_above((threshold - estimate) / scale, freedom))
 }

@@ -1,19 +1,20 @@
-//! The few special functions that variance components need.
+//! Special functions for variance components.
 
-/// Bias of the logarithm of a mean square with `freedom` degrees of freedom: E ln(chi^2_f / f) = psi(f/2) - ln(f/2).
+/// Returns the bias of the logarithm of a mean square with `freedom` degrees of freedom: E ln(chi^2_f / f) = psi(f/2) -
+/// ln(f/2).
 pub(super) fn log_bias(freedom: f64) -> f64 {
     digamma(freedom / 2.0) - libm::log(freedom / 2.0)
 }
 
-/// Variance of the logarithm of a mean square with `freedom` degrees of freedom: psi'(f/2).
+/// Returns the variance of the logarithm of a mean square with `freedom` degrees of freedom: psi'(f/2).
 pub(super) fn log_variance(freedom: f64) -> f64 {
     trigamma(freedom / 2.0)
 }
 
-/// Degrees of freedom of the mean square whose logarithm has the variance `variance` > 0.
+/// Returns the degrees of freedom of the mean square whose logarithm has the variance `variance` > 0.
 pub(super) fn freedom_of_log_variance(variance: f64) -> f64 {
-    // Newton on 1/psi', which is nearly a line and convex (Smyth 2004, Stat. Appl. Genet. Mol. Biol. 3, appendix):
-    // from 1/2 + 1/v it converges from one side in a handful of steps.
+    // Newton on 1/psi', which is nearly a line and convex (Smyth 2004, Stat. Appl. Genet. Mol. Biol. 3, appendix): from
+    // 1/2 + 1/v it converges from one side in a few steps.
     let mut x = 0.5 + 1.0 / variance;
     for _ in 0..50 {
         let tri = trigamma(x);
@@ -26,8 +27,8 @@ pub(super) fn freedom_of_log_variance(variance: f64) -> f64 {
     2.0 * x
 }
 
-/// psi(x) for x > 0: the recurrence psi(x) = psi(x + 1) - 1/x up to 10, then the asymptotic series (Abramowitz and Stegun 1964,
-/// 6.3.18), whose first term left out is below 1e-15 there.
+/// Returns psi(x) for x > 0: by the recurrence psi(x) = psi(x + 1) - 1/x up to 10, then by the asymptotic series
+/// (Abramowitz and Stegun 1964, 6.3.18), whose first omitted term is below 1e-15 there.
 fn digamma(x: f64) -> f64 {
     let (mut sum, mut x) = (0.0, x);
     while x < 10.0 {
@@ -39,8 +40,8 @@ fn digamma(x: f64) -> f64 {
     sum + libm::log(x) - 0.5 / x - series
 }
 
-/// psi'(x) for x > 0: the recurrence psi'(x) = psi'(x + 1) + 1/x^2 up to 10, then the asymptotic series (Abramowitz and
-/// Stegun 1964, 6.4.12), whose first term left out is below 1e-14 there.
+/// Returns psi'(x) for x > 0: by the recurrence psi'(x) = psi'(x + 1) + 1/x^2 up to 10, then by the asymptotic series
+/// (Abramowitz and Stegun 1964, 6.4.12), whose first omitted term is below 1e-14 there.
 fn trigamma(x: f64) -> f64 {
     let (mut sum, mut x) = (0.0, x);
     while x < 10.0 {
@@ -52,7 +53,7 @@ fn trigamma(x: f64) -> f64 {
     sum + 1.0 / x + y / 2.0 + series / x
 }
 
-/// psi''(x) for x > 0, likewise (6.4.13).
+/// Returns psi''(x) for x > 0, likewise (6.4.13).
 fn tetragamma(x: f64) -> f64 {
     let (mut sum, mut x) = (0.0, x);
     while x < 10.0 {

@@ -1,37 +1,37 @@
-//! Errors of indices whose rows have not shown any.
+//! Errors of indices whose rows show no spread.
 //!
-//! An output of few values, such as 0 and 1, can give an index without any spread: a first-order index of exactly 0 because
-//! no base point moved the output on both of its sides, or an index that is the same in every part. The spread then says
-//! 0, which the index is not known to be. What is known is that n rows did not show a contribution of another kind: by
-//! the rule of three (Hanley and Lippman-Hand 1983, JAMA 249, 1743-1745), such rows are fewer than 3 in n, at 95 %. None
-//! moves the index by more than the range of the output allows. Only a factor that leaves the output unchanged in
-//! every row keeps an error of 0.
+//! An output with few values, such as 0 and 1, can give an index without any spread: a first-order index of exactly 0
+//! because no base point changed the output in both of its rows, or an index that is the same in every part. The spread
+//! is then 0, although the index may be wrong. All that is known is that n rows did not show a contribution of another
+//! kind: by the rule of three (Hanley and Lippman-Hand 1983, JAMA 249, 1743-1745), such rows are fewer than 3 in n, at
+//! 95 %. Each moves the index by at most what the range of the output allows. Only a factor that leaves the output
+//! unchanged in every row keeps an error of 0.
 
 use super::estimates::{BesideNoise, Layout, Number};
 use super::net_decay::PartInfluences;
 use crate::estimate::Moments;
 
-/// Rows of a kind of which n rows have shown none are fewer than so many, at 95 %: -ln 0.05.
+/// Upper bound at 95 % of the expected number of rows of a kind not seen in n rows: -ln 0.05.
 const RULE_OF_THREE: f64 = 2.995_732_273_553_991;
 
-/// Influences up to this share of the size of an index are rounding: at most some 64 units in the last place, times n/n_p
-/// of leaving out one of 256 parts.
+/// Influences up to this share of the size of an index are rounding: at most about 64 units in the last place, times
+/// n/n_p for leaving out one of 256 parts.
 const ROUNDING: f64 = 1e-11;
 
-/// Least part of the sum of squares of A and B that B must have, for first-order indices by rows AB to be judged by their spread.
+/// Minimum part of B in the sum of squares of A and B for which the spread of first-order indices by rows AB is valid.
 const MIN_PART: f64 = 0.2;
 
-/// Whether the sample B has hardly any of the large outputs: the formula sum (y_B - f0)(y_AB - y_A) has then not seen what
-/// they contribute to a first-order index, and its spread says nothing of it. With rows BA no one sample decides.
+/// Returns whether the sample B has hardly any of the large outputs: the formula sum (y_B - f0)(y_AB - y_A) then misses
+/// their contribution to a first-order index, and its spread does not show it. With rows BA no single sample decides.
 pub(super) fn half_seen(moments: &Moments, swap: usize) -> bool {
     let sums = moments.swap(swap);
     sums.ba.is_none() && sums.base.bb < MIN_PART * (sums.base.aa + sums.base.bb)
 }
 
-/// What an estimate without spread may be off by.
+/// The possible error of an estimate without spread.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Unseen {
-    /// Half width of its interval; 0 where the estimate is known to be exact, or where nothing of the kind applies.
+    /// Half width of its interval; 0 if the estimate is exact, or if no bound applies.
     pub half_width: f64,
     /// Influences up to this size are rounding.
     pub rounding: f64,
@@ -40,13 +40,13 @@ pub(super) struct Unseen {
 impl Unseen {
     const NONE: Self = Self { half_width: 0.0, rounding: 0.0 };
 
-    /// Whether no part moves the estimate although rows might have.
+    /// Returns whether no part moves the estimate although rows might have.
     pub fn applies(&self, parts: &PartInfluences) -> bool {
         self.half_width > 0.0 && parts.iter().flatten().all(|influence| influence.abs() <= self.rounding)
     }
 }
 
-/// For every quantity of [`super::estimates::quantities`] what it may be off by if its influences show no spread;
+/// Returns for every quantity of [`super::estimates::quantities`] its possible error if its influences show no spread;
 /// `values` are the quantities. Differences between estimators have none.
 pub(super) fn unseen(layout: &Layout, moments: &Moments, values: &[f64]) -> Vec<Unseen> {
     let mut list = vec![Unseen::NONE; values.len()];
@@ -69,7 +69,7 @@ pub(super) fn unseen(layout: &Layout, moments: &Moments, values: &[f64]) -> Vec<
         for (number, unseen) in [(Number::FirstOrder, of_first), (Number::Total, of_total)] {
             list[layout.place(swap, number)] = unseen;
         }
-        // The share of the only factor that does anything is 100 % for sure.
+        // The share of the only factor with an effect is exactly 100 %.
         if active > 1 || swap >= layout.factors {
             let percent =
                 |unseen: Unseen| Unseen { half_width: 100.0 * unseen.half_width, rounding: 100.0 * unseen.rounding };
@@ -135,7 +135,7 @@ mod tests {
         assert_eq!(of(1), Unseen::NONE);
         assert!(of(0).applies(&vec![vec![1e-16, -1e-16]; 2]) && !of(0).applies(&vec![vec![1e-3, 0.0]; 2]));
         assert!(!of(1).applies(&vec![vec![0.0; 2]; 2]));
-        // The only factor that acts has all of the share.
+        // The only factor with an effect has all of the share.
         assert_eq!(unseen[layout.place(0, Number::ShareFirstOrder)], Unseen::NONE);
     }
 

@@ -2,7 +2,7 @@
 
 use crate::estimate::SwapMoments;
 
-/// S = (1/n sum y_B y_AB - m^2)/(1/n sum (y_B^2 + y_AB^2)/2 - m^2), m the mean of y_B and y_AB pooled.
+/// Computes S = (1/n sum y_B y_AB - m^2)/(1/n sum (y_B^2 + y_AB^2)/2 - m^2), m the mean of y_B and y_AB pooled.
 pub fn janon_monod_first_order(swap: &SwapMoments) -> f64 {
     let base = &swap.base;
     let half_gap = (base.mean_b - base.mean_a - swap.mean_d) / 2.0;
@@ -11,29 +11,29 @@ pub fn janon_monod_first_order(swap: &SwapMoments) -> f64 {
     covariance / variance
 }
 
-/// S = r(y_B, y_AB), Pearson's correlation.
+/// Computes S = r(y_B, y_AB), Pearson's correlation.
 pub fn martinez_first_order(swap: &SwapMoments) -> f64 {
     swap.covariance_b_ab() / (swap.base.bb / swap.n()).sqrt() / swap.variance_ab().sqrt()
 }
 
-/// ST = 1 - r(y_A, y_AB).
+/// Computes ST = 1 - r(y_A, y_AB).
 pub fn martinez_total(swap: &SwapMoments) -> f64 {
     one_minus_correlation(swap.base.aa / swap.n(), swap.ad / swap.n(), swap.dd / swap.n())
 }
 
-/// 1 - r(x, x + d) from the variance of x, its covariance with d and the variance of d: with s and t the standard
-/// deviations of x and x + d it is (var d - (s - t)^2)/(2 s t), where nothing cancels for a small d.
+/// Computes 1 - r(x, x + d) from the variance of x, its covariance with d and the variance of d: with s and t the
+/// standard deviations of x and x + d it is (var d - (s - t)^2)/(2 s t), which has no cancellation for a small d.
 fn one_minus_correlation(xx: f64, xd: f64, dd: f64) -> f64 {
     let (s, t) = (xx.sqrt(), (xx + 2.0 * xd + dd).sqrt());
     let gap = (2.0 * xd + dd) / (s + t);
     (dd - gap * gap) / (2.0 * s * t)
 }
 
-/// First-order and total index with the correction for spurious correlations.
+/// Computes the first-order and total index with the correction for spurious correlations.
 ///
-/// The total index is formula D3 as the script published with Lo Piano et al. (2021, Reliab. Eng. Syst. Saf. 206,
-/// 107300) has it, but for Pearson's correlations where that script standardises all rows by one mean and variance; the
-/// first-order index is the same with the parts of the swap and of the other columns exchanged.
+/// The total index is formula D3 as in the script published with Lo Piano et al. (2021, Reliab. Eng. Syst. Saf. 206,
+/// 107300), except that it uses Pearson's correlations where that script standardises all rows by one mean and
+/// variance; the first-order index is the same with the parts of the swap and of the other columns exchanged.
 ///
 /// With r Pearson's correlation, each averaged over the two pairs of rows that estimate it:
 /// c = (r(B, AB) + r(A, BA))/2, which tends to S; q = 1 - (r(A, AB) + r(B, BA))/2, which tends to ST; and
@@ -59,12 +59,12 @@ fn glen_isaacs(swap: &SwapMoments) -> (f64, f64) {
     (c - p * v / (1.0 - u * v), q + p * u / (1.0 - u * v))
 }
 
-/// The first-order index of [`glen_isaacs`].
+/// Computes the first-order index of [`glen_isaacs`].
 pub fn glen_isaacs_first_order(swap: &SwapMoments) -> f64 {
     glen_isaacs(swap).0
 }
 
-/// The total index of [`glen_isaacs`].
+/// Computes the total index of [`glen_isaacs`].
 pub fn glen_isaacs_total(swap: &SwapMoments) -> f64 {
     glen_isaacs(swap).1
 }

@@ -1,33 +1,33 @@
-//! The distribution of an output, values that are counted and a density, and how far those of classes lie from that of all rows.
+//! The distribution of an output, as atoms and a density, and the distances of the distributions in classes from it.
 
 use std::f64::consts::TAU;
 
 use crate::given::order::{Order, Partition};
 use crate::space::normal_scores;
 
-/// Points of the grid that densities are compared on.
+/// Points of the grid on which densities are compared.
 const GRID: usize = 100;
 
-/// Most different values of an output all of which are counted, however few rows have each.
+/// Maximum number of different values of an output that are all counted, even with few rows each.
 const MAX_COUNTED_VALUES: usize = 50;
-/// Of an output of more values one is counted, and no part of the density, where it has so many times the rows of the median value,
+/// An output with more values has an atom at one of them if it has this many times the rows of the median value,
 const ATOM_OVER_MEDIAN: usize = 10;
-/// and at least one in so many of all rows.
+/// and at least one in this many of all rows.
 const ROWS_PER_ATOM: usize = 100;
 /// Kernels are no narrower than this, in steps of the grid: sums over it would not be integrals.
 const MIN_WIDTH: f64 = 0.5;
-/// Values that differ by less than this part of their size are one value in the digits of a double.
+/// Relative difference below which values count as one value within double precision.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
-/// The distribution of an output: atoms, single values that many rows have, and the density of the rest.
+/// The distribution of an output: atoms, which are single values with many rows, and the density of the rest.
 pub struct OutputDistribution {
-    /// For every row the number of its value, if that is an atom.
+    /// For every row the index of its value, if it is an atom.
     atom_of: Vec<Option<usize>>,
     atoms: usize,
-    /// Normal scores of the other rows among themselves, 0 for atoms: delta does not change when the output is bent, and kernels need
-    /// tails that are short.
+    /// Normal scores of the other rows among themselves, 0 for atoms: delta is invariant under monotone transformations
+    /// of the output, and kernels need short tails.
     scores: Vec<f64>,
-    /// The least score, and the step of the grid from there to the largest one.
+    /// The smallest score, and the step of the grid from there to the largest one.
     low: f64,
     step: f64,
 }
@@ -60,9 +60,9 @@ impl OutputDistribution {
         self.atoms > 0
     }
 
-    /// Half of the mean over the classes of the distance between the distribution of the outputs there and that of all: of atoms the
-    /// sum of the differences of their shares, of the density the integral (Plischke et al. 2013, eq. 26), by kernels of this part of
-    /// Silverman's width. A row counts as often as its weight says. Between 0 and 1.
+    /// Computes half of the mean over the classes of the distance between the distribution of the outputs there and
+    /// that of all: for atoms the sum of the differences of their shares, for the density the integral (Plischke et al.
+    /// 2013, eq. 26), by kernels of `part` of Silverman's width. Rows are weighted. Between 0 and 1.
     pub fn delta(&self, (labels, count): &Partition, weights: &[f64], part: f64) -> f64 {
         let mut all = Spread::default();
         let mut classes = vec![Spread::default(); *count];
@@ -108,7 +108,7 @@ impl OutputDistribution {
             let atoms: f64 = of_atoms.map(|(own, all)| (own / sizes[class] - all / total).abs()).sum();
             let (own, width) = (&densities[class], widths[class]);
             let smooth = if of_all == 0.0 || width == 0.0 {
-                // A class without spread is a point, as far as can be from any density.
+                // A class without spread is a point, at the maximum distance from any density.
                 all.weight / total + classes[class].weight / sizes[class]
             } else {
                 let gap = |k: usize| (density[k] / (total * of_all) - own[k] / (sizes[class] * width)).abs();
@@ -120,14 +120,14 @@ impl OutputDistribution {
     }
 }
 
-/// The quantile of the normal distribution at the middle of each row's place among all; equal rows share the middle of theirs.
+/// Returns the normal quantile at the middle of each row's place among all; equal rows share theirs.
 fn centred_scores(order: &Order) -> Vec<f64> {
     let ranks = order.centred_ranks();
     let rows = ranks.len() as f64;
     normal_scores(&ranks.iter().map(|rank| rank / rows + 0.5).collect::<Vec<f64>>())
 }
 
-/// Adds the kernel at `place` of that `width`, both in steps of the grid, times its weight and the root of 2 pi times its width.
+/// Adds the kernel at `place` of that `width`, both in grid steps, times its weight and sqrt(2 pi) width.
 fn add_kernel(density: &mut [f64; GRID], place: f64, width: f64, weight: f64) {
     let nearest = place.round().clamp(0.0, (GRID - 1) as f64);
     let (centre, away, step) = (nearest as usize, (nearest - place) / width, 1.0 / width);
@@ -167,7 +167,7 @@ impl Spread {
         }
     }
 
-    /// Silverman's (1986) width of kernels; 0 without spread.
+    /// Returns Silverman's (1986) width of kernels; 0 without spread.
     pub fn width(&self) -> f64 {
         if self.squares <= 0.0 || self.weight < 2.0 {
             return 0.0;
@@ -187,7 +187,7 @@ mod tests {
             add_kernel(&mut density, place, width, 2.0);
             for (k, got) in density.iter().enumerate() {
                 let expected = 2.0 * libm::exp(-((k as f64 - place) / width).powi(2) / 2.0);
-                // The error of a ratio counts as often as there are steps.
+                // The error of a ratio is multiplied by the number of steps.
                 assert!((got - expected).abs() <= 1e-11 * expected.max(1e-30), "{place} {width} {k}: {got} {expected}");
             }
         }
@@ -206,11 +206,11 @@ mod tests {
         let rows = |of: fn(u32) -> f64| (0..1000u32).map(of).collect::<Vec<f64>>();
         assert_eq!(atoms(&rows(f64::from)), 0);
         assert_eq!(atoms(&rows(|k| f64::from(k % 50))), 50);
-        // Two thirds 0, or 1 in 100 rows; a fine rounding is as good as none.
+        // Two thirds 0, or 1 in 100 rows; finely rounded values have no atoms.
         assert_eq!(atoms(&rows(|k| if k % 3 > 0 { 0.0 } else { f64::from(k) })), 1);
         assert_eq!(atoms(&rows(|k| if k % 100 > 0 { f64::from(k) } else { 0.5 })), 1);
         assert_eq!(atoms(&rows(|k| f64::from(k % 200))), 0);
-        // Digits that are rounding make no values of their own, beside a huge one neither.
+        // Digits that are rounding create no separate values, not even next to a huge one.
         assert_eq!(atoms(&rows(|k| if k == 7 { 1e20 } else { f64::from(1 + k % 2) + f64::from(k % 3) * 2.3e-16 })), 3);
     }
 }

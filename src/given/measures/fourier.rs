@@ -5,12 +5,12 @@ use std::f64::consts::TAU;
 /// Harmonics that count as the effect of the input.
 const HARMONICS: usize = 10;
 
-/// The first-order index from the centred outputs in ascending order of the input; `starts` are the places at which a new value of the
-/// input begins, and the number of rows.
+/// Computes the first-order index from the centred outputs in ascending order of the input; `starts` are the places at
+/// which a new value of the input begins, and the number of rows.
 ///
-/// Every second row up and the others down again make one period of a wave, whose first harmonics carry what the output owes to
-/// the input (Plischke 2010), less what noise would put there (Tissot and Prieur 2012). Rows with the same input have no order: the
-/// power is the mean over all of theirs, in closed form.
+/// Every second row in ascending order, followed by the others in descending order, is one period of a wave, whose
+/// first harmonics contain the effect of the input (Plischke 2010), minus the expected noise (Tissot and Prieur 2012).
+/// Rows with the same input have no order: the power is the mean over all of their orders, in closed form.
 pub fn first_order(sorted: &[f64], starts: &[usize]) -> f64 {
     let rows = sorted.len();
     let ties: Vec<Tie> = starts.windows(2).map(|ends| Tie::new(&sorted[ends[0]..ends[1]])).collect();
@@ -22,7 +22,7 @@ pub fn first_order(sorted: &[f64], starts: &[usize]) -> f64 {
         let (sine, cosine) = libm::sincos(TAU * harmonic as f64 / rows as f64);
         let (mut at, mut sums) = ((1.0, 0.0), vec![(0.0, 0.0); ties.len()]);
         for (k, &tie) in wave.iter().enumerate() {
-            // Computed again from time to time: rounding would grow with the rows.
+            // Computed directly from time to time, because rounding grows with the rows.
             if k % 256 == 0 {
                 let (sine, cosine) = libm::sincos(TAU * (harmonic * k % rows) as f64 / rows as f64);
                 at = (cosine, sine);
@@ -35,7 +35,7 @@ pub fn first_order(sorted: &[f64], starts: &[usize]) -> f64 {
         for (tie, (cosines, sines)) in ties.iter().zip(sums) {
             re += tie.mean * cosines;
             im += tie.mean * sines;
-            // Of values in random order at fixed places.
+            // For values in random order at fixed places.
             spread += tie.variance * (tie.rows - (cosines * cosines + sines * sines) / tie.rows);
         }
         re * re + im * im + spread
@@ -50,7 +50,7 @@ pub fn first_order(sorted: &[f64], starts: &[usize]) -> f64 {
 struct Tie {
     rows: f64,
     mean: f64,
-    /// With the divisor of a sample; 0 of a single row.
+    /// With the divisor n - 1; 0 for a single row.
     variance: f64,
 }
 

@@ -1,10 +1,10 @@
-//! The criterion of independence of Hilbert and Schmidt.
+//! The Hilbert-Schmidt independence criterion.
 
 use statrs::distribution::{ContinuousCDF, Gamma};
 
 use crate::given::drawn_rows;
 
-/// Most rows that are looked at, a random part of those of a larger table: the time grows with their square.
+/// Maximum number of rows, a random part of those of a larger table: the time grows with their square.
 pub const MAX_ROWS: usize = 4096;
 
 /// A column in Gaussian kernels of the width of its standard deviation: k(a, b) = exp(-(a - b)^2/(2 s^2)).
@@ -18,7 +18,7 @@ struct Kernel {
 }
 
 impl Kernel {
-    /// That of a column; `None` if it has one value.
+    /// Computes the kernels of a column; `None` if it has one value.
     fn new(values: &[f64]) -> Option<Self> {
         if values.iter().all(|value| *value == values[0]) {
             return None;
@@ -34,12 +34,12 @@ impl Kernel {
         Some(Self { x, means, mean })
     }
 
-    /// The kernel of rows `i` and `j`, centred.
+    /// Returns the kernel of rows `i` and `j`, centred.
     fn centred(&self, i: usize, j: usize) -> f64 {
         kernel(self.x[i], self.x[j]) - self.means[i] - self.means[j] + self.mean
     }
 
-    /// The mean of the matrix without its diagonal.
+    /// Returns the mean of the matrix without its diagonal.
     fn mean_of_pairs(&self) -> f64 {
         let count = self.x.len() as f64;
         (self.mean * count - 1.0) / (count - 1.0)
@@ -52,7 +52,7 @@ fn kernel(a: f64, b: f64) -> f64 {
 
 /// An output.
 pub struct Outputs {
-    /// The rows that are looked at.
+    /// The rows that are used.
     rows: Vec<usize>,
     kernel: Kernel,
     /// The sum of the squares of its centred kernels.
@@ -60,8 +60,8 @@ pub struct Outputs {
 }
 
 impl Outputs {
-    /// At most [`MAX_ROWS`] rows of a table, by `seed`: the first ones of a sorted table would be a part of the input's range.
-    /// `None` if they have one value.
+    /// Draws at most [`MAX_ROWS`] rows of a table by `seed`: the first ones of a sorted table would be a part of the
+    /// input's range. `None` if they have one value.
     pub fn new(z: &[f64], seed: u64) -> Option<Self> {
         let mut rows: Vec<usize> = (0..z.len()).collect();
         if z.len() > MAX_ROWS {
@@ -75,9 +75,9 @@ impl Outputs {
         Some(Self { rows, kernel, squares })
     }
 
-    /// HSIC(X, Y)/sqrt(HSIC(X, X) HSIC(Y, Y)) by V-statistics, and the probability that independent columns reach it, by the gamma
-    /// distribution of the same mean and variance (Gretton et al. 2008, eq. 9 with its appendix). `None` if the input has one value
-    /// in the rows that are looked at.
+    /// Computes HSIC(X, Y)/sqrt(HSIC(X, X) HSIC(Y, Y)) by V-statistics, and the probability that independent columns
+    /// reach it, by the gamma distribution of the same mean and variance (Gretton et al. 2008, eq. 9 with its
+    /// appendix). `None` if the input has one value in the rows that are used.
     pub fn with(&self, x: &[f64]) -> Option<(f64, Option<f64>)> {
         let x = Kernel::new(&taken(x, &self.rows))?;
         let (y, count) = (&self.kernel, self.kernel.x.len());
@@ -120,7 +120,7 @@ mod tests {
         let outputs = Outputs::new(&x, 0).unwrap();
         let (itself, p_value) = outputs.with(&x).unwrap();
         assert!((itself - 1.0).abs() < 1e-12 && p_value.unwrap() < 1e-10);
-        // Neither scale nor offset count.
+        // Scale and offset are irrelevant.
         let moved: Vec<f64> = x.iter().map(|x| 3e200 * (x - 7.0)).collect();
         assert!((outputs.with(&moved).unwrap().0 - 1.0).abs() < 1e-12);
         let (other, p_value) = outputs.with(&y).unwrap();
@@ -136,7 +136,7 @@ mod tests {
         let outputs = Outputs::new(&y, 3).unwrap();
         let [of_a, of_b] = [&a, &b].map(|x| outputs.with(x).unwrap().0);
         assert!(of_a > 0.5 && of_b < 0.1, "{of_a} {of_b}");
-        // The same rows again, and others by another seed.
+        // The same rows again, and others with another seed.
         assert_eq!(Outputs::new(&y, 3).unwrap().rows, outputs.rows);
         assert_ne!(Outputs::new(&y, 4).unwrap().rows, outputs.rows);
     }

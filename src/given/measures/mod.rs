@@ -1,7 +1,7 @@
-//! Other measures of influence than the share of the variance, from the same table.
+//! Measures of influence other than the share of the variance, from the same table.
 //!
-//! They look at more of an output than its variance, or ask for less: whether an input has any influence at all. None of them
-//! divides a whole among the inputs, and none tells interactions from what an input does alone.
+//! They use more of an output than its variance, or test less: whether an input has any influence at all. None of them
+//! divides a whole among the inputs, and none separates interactions from the individual effect of an input.
 
 mod density;
 mod distances;
@@ -30,27 +30,28 @@ named! {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Measure {
-    /// First-order index from the spectrum of the output in the order of the input: EASI, Plischke (2010), Reliab. Eng. Syst. Saf.
-    /// 95, 354-360, and RBD-FAST of given data, with the correction of Tissot and Prieur (2012). An estimate of S_1.
+    /// First-order index from the spectrum of the output in the order of the input: EASI, Plischke (2010), Reliab. Eng.
+    /// Syst. Saf. 95, 354-360, and RBD-FAST of given data, with the correction of Tissot and Prieur (2012). Estimates
+    /// S_1.
     Fourier = "fourier",
-    /// Borgonovo's (2007) delta: half of the mean distance between the distribution of the output and its distributions where the
-    /// input is known. From shares of values and kernel densities in classes of the input (Plischke, Borgonovo and Smith 2013,
-    /// Eur. J. Oper. Res. 226, 536-550), less what chance would put there.
+    /// Borgonovo's (2007) delta: half of the mean distance between the distribution of the output and its distributions
+    /// given the input. From shares of values and kernel densities in classes of the input (Plischke, Borgonovo and
+    /// Smith 2013, Eur. J. Oper. Res. 226, 536-550), minus the expected noise.
     Delta = "delta",
-    /// The median over ten classes of the input of the distance of Kolmogorov and Smirnov: PAWN, Pianosi and Wagener (2018),
+    /// The median over ten classes of the input of the Kolmogorov-Smirnov distance: PAWN, Pianosi and Wagener (2018),
     /// Environ. Model. Softw. 108, 197-207.
     PawnMedian = "pawn_median",
-    /// The largest of them.
+    /// The largest of these distances.
     PawnMax = "pawn_max",
-    /// The criterion of independence of Hilbert and Schmidt with Gaussian kernels, normalised (R2-HSIC): Gretton et al. (2005); Da
-    /// Veiga (2015), J. Stat. Comput. Simul. 85, 1283-1305.
+    /// The Hilbert-Schmidt independence criterion with Gaussian kernels, normalised (R2-HSIC): Gretton et al. (2005);
+    /// Da Veiga (2015), J. Stat. Comput. Simul. 85, 1283-1305.
     #[serde(rename = "r2_hsic")]
     Hsic = "r2_hsic",
 }
 }
 
 impl Measure {
-    /// The name in tables.
+    /// Returns the name in tables.
     pub fn heading(self) -> &'static str {
         match self {
             Self::Fourier => "S_1, Fourier",
@@ -67,13 +68,13 @@ impl Measure {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(rename = "MeasuredRecord"))]
 #[non_exhaustive]
 pub struct Measured {
-    /// The measure, with its interval where it has one: of delta, of independent rows and those of a run.
+    /// The measure, with its interval if there is one: for delta, of independent rows and those of a run.
     #[serde(flatten)]
     pub estimate: Estimate,
-    /// The probability of a measure so large, or larger, of an input without influence; `None` where rows are not independent draws
-    /// (those of nets and Latin hypercubes are spread more evenly, and p-values would be far too large there), or the input has
-    /// one value. By [`PERMUTATIONS`] permutations of the output, of the kernels by a gamma distribution (Gretton
-    /// et al. 2008).
+    /// The probability of a measure at least as large for an input without influence; `None` if rows are not
+    /// independent draws (those of nets and Latin hypercubes are more even, and p-values would be far too large), or
+    /// the input has one value. From [`PERMUTATIONS`] permutations of the output; for the kernels from a gamma
+    /// distribution (Gretton et al. 2008).
     pub p_value: Option<f64>,
 }
 
@@ -84,51 +85,49 @@ pub struct Measured {
 pub struct InputMeasures {
     /// The input.
     pub input: String,
-    /// Those that were asked for and exist: kernels say nothing where the input or the output has one value in the rows that they
-    /// look at.
+    /// The requested ones that exist: kernels are undefined if input or output has one value in the rows that they use.
     pub measures: BTreeMap<Measure, Measured>,
 }
 
 impl InputMeasures {
-    /// One of them, if it is known.
+    /// Returns one of them, if it is known.
     pub fn get(&self, measure: Measure) -> Option<Measured> {
         self.measures.get(&measure).copied()
     }
 
-    /// Whether the measure cannot be distinguished from that of an input without influence: its p-value is above [`SIGNIFICANT`].
+    /// Returns whether an input without influence may have this measure: its p-value exceeds [`SIGNIFICANT`].
     pub fn may_be_chance(&self, measure: Measure) -> bool {
         self.get(measure).and_then(|found| found.p_value).is_some_and(|p_value| p_value > SIGNIFICANT)
     }
 }
 
-/// Permutations behind a p-value: it is known to 0.005 at best.
+/// Number of permutations for a p-value: its resolution is 0.005.
 pub const PERMUTATIONS: usize = 199;
 
-/// p-values below this are taken for influence.
+/// p-values below this indicate influence.
 pub const SIGNIFICANT: f64 = 0.05;
 
-/// Resamples behind the interval of delta.
+/// Number of resamples for the interval of delta.
 const RESAMPLES: usize = 100;
 
-/// Of the kernels that show what wider ones in half as many classes do not: the part of their width.
+/// Relative width of the narrower kernels, which reveal what wider ones in half as many classes miss.
 const NARROWER: f64 = 0.5;
-/// What they do not show either, in parts of the difference: as much again, where errors fall in proportion to the width.
+/// Remaining error of the narrower kernels relative to the difference: 1 if errors are proportional to the width.
 const LEFT: f64 = 1.0;
 
-/// Permutations that narrower kernels are tried with: their mean alone is asked for.
+/// Number of permutations for narrower kernels: only their mean is needed.
 const FINER_PERMUTATIONS: usize = 40;
 
 /// Classes of PAWN.
 const PAWN_CLASSES: usize = 10;
 
-/// What is measured by permutations: all but the kernels.
+/// Number of measures by permutations: all but the kernels.
 const PERMUTED: usize = 4;
 
-/// The measures of every output with respect to every input, of the columns that gave `indices`.
+/// Computes the measures of every output with respect to every input, for the columns that gave `indices`.
 ///
-/// Costs O(N log N) for each input and permutation, and O(N^2) for the kernels, of at most [`MAX_ROWS_OF_KERNELS`] rows, a
-/// random part of a larger table. `seed` is that of these rows, permutations, resamples, and the order of equal inputs in the
-/// spectrum.
+/// Costs O(N log N) for each input and permutation, and O(N^2) for the kernels, on at most [`MAX_ROWS_OF_KERNELS`]
+/// random rows. `seed` determines these rows, permutations, resamples, and the order of equal inputs in the spectrum.
 pub fn measures(
     inputs: &[Column],
     outputs: &[Column],
@@ -144,9 +143,9 @@ pub fn measures(
     outputs.iter().enumerate().map(of_output).collect()
 }
 
-/// The measures `wanted` of one output with respect to every input, of rows that are known to be draws from the distributions of the
-/// inputs: with the intervals of delta, which were measured to hold of nets and Latin hypercubes too (docs/coverage-measures.md), and
-/// with p-values if they are `independent` draws.
+/// Computes the measures `wanted` of one output with respect to every input, for rows that are draws from the
+/// distributions of the inputs: with the intervals of delta, which were measured to be valid for nets and Latin
+/// hypercubes too (docs/coverage-measures.md), and with p-values if they are `independent` draws.
 pub(crate) fn measures_of_rows(
     inputs: &[Column],
     output: &[f64],
@@ -160,20 +159,20 @@ pub(crate) fn measures_of_rows(
     Ok(job.measures(inputs, &orders, known))
 }
 
-/// What the rows say beside the measures themselves.
+/// Known properties of the rows.
 #[derive(Clone, Copy)]
 struct Known {
     has_p_values: bool,
-    /// Of delta.
+    /// Whether delta has intervals.
     has_intervals: bool,
 }
 
 /// One output.
 struct Job<'a> {
     wanted: &'a [Measure],
-    /// Less the mean: of the measures that are parts of a variance.
+    /// Minus the mean: for the measures that are parts of a variance.
     z: Vec<f64>,
-    /// Of the values themselves: no mean is taken off before ranks, next to a huge value it would leave one of the others.
+    /// Of the values themselves: subtracting the mean first would make all others equal next to a huge value.
     order: Order,
     distribution: OutputDistribution,
     seed: [u64; 2],
@@ -181,22 +180,22 @@ struct Job<'a> {
 
 /// Classes of the rows by one input.
 struct Classes {
-    /// Those of delta, and twice as many.
+    /// Classes for delta, and twice as many.
     delta: [Partition; 2],
-    /// Those of PAWN.
+    /// Classes for PAWN.
     coarse: Partition,
 }
 
 impl Classes {
     fn new(order: &Order, rows: usize, has_atoms: bool) -> Self {
         let count = classes_for(rows);
-        // Shares of values need fewer rows than densities, and lose more of an output that goes on inside a class.
+        // Shares of values need fewer rows than densities, and miss more of the effect inside a class.
         let of_delta = if has_atoms { 2 * count } else { count };
         let delta = [of_delta, 2 * of_delta].map(|count| order.classes(count));
         Self { delta, coarse: order.classes(PAWN_CLASSES) }
     }
 
-    /// The classes with the rows in another order.
+    /// Returns the classes with the rows in another order.
     fn permuted(&self, rows: &[usize]) -> Self {
         let permuted = |(labels, count): &Partition| (rows.iter().map(|&row| labels[row]).collect(), *count);
         Self { delta: self.delta.each_ref().map(permuted), coarse: permuted(&self.coarse) }
@@ -206,13 +205,13 @@ impl Classes {
 /// The measures of inputs without influence.
 #[derive(Default)]
 struct Chance {
-    /// Of each permutation.
+    /// The measures in each permutation.
     measures: Vec<[f64; PERMUTED]>,
     /// The mean of delta by narrower kernels in twice as many classes.
     finer_delta: f64,
 }
 
-/// Classes for delta (Plischke, Borgonovo and Smith 2013, as in SALib): at most 48.
+/// Returns the number of classes for delta (Plischke, Borgonovo and Smith 2013, as in SALib): at most 48.
 fn classes_for(rows: usize) -> usize {
     let rows = rows as f64;
     let power = 2.0 / (7.0 + libm::tanh((1500.0 - rows) / 500.0));
@@ -239,7 +238,7 @@ impl<'a> Job<'a> {
         let has_atoms = self.distribution.has_atoms();
         let classes: Vec<Classes> = orders.iter().map(|order| Classes::new(order, self.z.len(), has_atoms)).collect();
         let has_interval = known.has_intervals && self.wants(Measure::Delta);
-        // What chance does depends on the ties of an input alone. An interval asks for it too.
+        // The distribution by chance depends only on the ties of an input. An interval needs it too.
         let mut chance: BTreeMap<&[usize], Chance> = BTreeMap::new();
         if known.has_p_values || has_interval {
             for (order, classes) in orders.iter().zip(&classes) {
@@ -265,7 +264,7 @@ impl<'a> Job<'a> {
                     let delta = &mut values[Measure::Delta as usize];
                     delta.estimate = self.delta(classes, delta.estimate.estimate, chance, number as u64);
                     if let (Some(interval), Some(SIGNIFICANT..)) = (&mut delta.estimate.interval, delta.p_value) {
-                        // What is not distinguished from chance may be nothing.
+                        // If it is not distinguished from chance, it may be 0.
                         interval.low = 0.0;
                     }
                 }
@@ -283,7 +282,7 @@ impl<'a> Job<'a> {
         (0..inputs.len()).into_par_iter().map(of_input).collect()
     }
 
-    /// All but the kernels, of the rows in the order of the input.
+    /// Computes all but the kernels, for the rows in the order of the input.
     fn plain(&self, order: &Order, classes: &Classes, rows: &[usize]) -> [f64; PERMUTED] {
         let mut slides = distances(&self.order, &classes.coarse);
         slides.sort_by(f64::total_cmp);
@@ -301,7 +300,7 @@ impl<'a> Job<'a> {
         self.distribution.delta(classes, &vec![1.0; self.z.len()], part)
     }
 
-    /// The measures of inputs with such ties and without influence.
+    /// Computes the measures of inputs with these ties and without influence.
     fn by_chance(&self, order: &Order, classes: &Classes) -> Chance {
         let permutation = |number: usize| {
             let mut random = self.random(1 << 16 | number as u64);
@@ -319,10 +318,10 @@ impl<'a> Job<'a> {
         Chance { measures: all.into_iter().map(|(measures, _)| measures).collect(), finer_delta }
     }
 
-    /// Delta, of which `plain` is the estimate with all of its noise. An input without influence has d_0, the mean over
-    /// permutations, of which d is freed: sqrt((d^2 - d_0^2)/(1 - d_0^2)), for what is certain has no noise. The interval is
-    /// that of resamples of the rows; its upper end is as high as narrower kernels in finer classes say, with what they
-    /// leave, and no lower than that of `plain`.
+    /// Corrects delta, where `plain` is the estimate with all of its noise. For an input without influence it is d_0,
+    /// the mean over permutations; the corrected d is sqrt((d^2 - d_0^2)/(1 - d_0^2)), because a deterministic output
+    /// has no noise. The interval is that of resamples of the rows; its upper end includes the estimate by narrower
+    /// kernels in finer classes with their remaining error, and is at least that of `plain`.
     fn delta(&self, classes: &Classes, plain: f64, chance: &Chance, input: u64) -> Estimate {
         let noise = chance.measures.iter().map(|measures| measures[Measure::Delta as usize]).sum::<f64>();
         let noise = noise / chance.measures.len() as f64;
@@ -345,7 +344,7 @@ impl<'a> Job<'a> {
         let around_finer = half_width(&classes.delta[1], NARROWER);
         let left = LEFT * (freed(finer, chance.finer_delta) - estimate);
         let high = freed(plain + around, noise).max(freed(finer + around_finer, chance.finer_delta) + left);
-        // Where an input acts, chance adds less than where none does.
+        // If an input has an effect, chance adds less than if none has.
         let high = high.max(plain + around);
         // No delta is above 1.
         Estimate {
@@ -355,7 +354,7 @@ impl<'a> Job<'a> {
     }
 }
 
-/// The half width of the interval of one of these resamples.
+/// Returns the half width of the interval from these resamples.
 fn half_width(resampled: &[f64]) -> f64 {
     let count = resampled.len() as f64;
     let mean = resampled.iter().sum::<f64>() / count;

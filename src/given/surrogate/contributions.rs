@@ -1,13 +1,13 @@
-//! What the rows of a fold say of the indices, corrected by the expansion of the other folds.
+//! Contributions of the rows of a fold to the indices, corrected by the expansion of the other folds.
 //!
-//! With the terms phi_a of coefficients b_a of an expansion g that has not seen the fold, e = f - g on its rows, and r_a the
-//! mean of phi_a e over them,
+//! With the terms phi_a of coefficients b_a of an expansion g not fitted to the fold, e = f - g on its rows, and r_a
+//! the mean of phi_a e over them,
 //!
 //! - V S_s = sum over a within s of (b_a^2 + 2 b_a r_a) + V_s(e),
 //! - V ST_s = sum over a that touch s of (b_a^2 + 2 b_a r_a) + VT_s(e),
 //! - V = sum over a but the constant of (b_a^2 + 2 b_a r_a) + mean e^2 - (mean e)^2.
 //!
-//! The last summands of the first two are quadratic in e, and no rows of a table tell them; they lie between 0 and Var(e).
+//! The last summands of the first two are quadratic in e, and unknown from a table; they are between 0 and Var(e).
 
 use std::collections::BTreeMap;
 
@@ -18,9 +18,9 @@ use crate::uncertainty::in_parts;
 /// A number that is a mean over rows.
 #[derive(Debug, Clone)]
 pub(super) struct Contribution {
-    /// What each row of the fold contributes.
+    /// The contribution of each row of the fold.
     rows: Vec<f64>,
-    /// How else each row moves it.
+    /// The other influences of each row.
     moves: Vec<f64>,
 }
 
@@ -38,7 +38,7 @@ impl Contribution {
         self.moves.iter_mut().zip(more).for_each(|(sum, more)| *sum += more);
     }
 
-    /// These influences.
+    /// Returns these influences.
     #[cfg(test)]
     pub fn moves(&self) -> &[f64] {
         &self.moves
@@ -56,13 +56,13 @@ impl Contribution {
 pub(super) struct Folded {
     /// The sum.
     pub sum: f64,
-    /// The mean influences of the rows of each part, not less their mean.
+    /// The mean influences of the rows of each part, without subtraction of their mean.
     pub parts: Vec<f64>,
 }
 
-/// What every row of a fold contributes, for the inputs that the expansion has.
+/// The contributions of every row of a fold, for the inputs of the expansion.
 pub(super) struct Contributions {
-    /// To V.
+    /// Contributions to V.
     pub variance: Contribution,
     first_order: BTreeMap<usize, Contribution>,
     total: BTreeMap<usize, Contribution>,
@@ -73,18 +73,18 @@ pub(super) struct Contributions {
 pub(super) struct FoldSums {
     /// Rows.
     pub rows: usize,
-    /// V, with the mean square of what is left.
+    /// V, with the mean square of the residual.
     pub variance: Folded,
     /// V S.
     pub first_order: BTreeMap<usize, Folded>,
     /// V ST.
     pub total: BTreeMap<usize, Folded>,
-    /// Sum and sum of squares of what the expansion leaves.
+    /// Sum and sum of squares of the residuals.
     pub left: (f64, f64),
 }
 
 impl Contributions {
-    /// Of the rows of `net`, one run of one matrix.
+    /// Computes them for the rows of `net`, one run of one matrix.
     pub fn new(net: &Net, expansion: &Expansion) -> Self {
         let rows = net.points();
         let mut left = net.outputs[0].clone();
@@ -117,19 +117,19 @@ impl Contributions {
         all
     }
 
-    /// To V S of an input.
+    /// Returns the contribution to V S of an input.
     pub fn first_order_of(&mut self, input: usize) -> &mut Contribution {
         let rows = self.variance.rows.len();
         self.first_order.entry(input).or_insert_with(|| Contribution::zeros(rows))
     }
 
-    /// To V ST of an input.
+    /// Returns the contribution to V ST of an input.
     pub fn total_of(&mut self, input: usize) -> &mut Contribution {
         let rows = self.variance.rows.len();
         self.total.entry(input).or_insert_with(|| Contribution::zeros(rows))
     }
 
-    /// In parts, as the intervals need them.
+    /// Returns the sums in parts, as the intervals need them.
     pub fn in_parts(&self) -> FoldSums {
         let of =
             |list: &BTreeMap<usize, Contribution>| list.iter().map(|(input, of)| (*input, of.in_parts())).collect();

@@ -1,4 +1,4 @@
-//! In which variable of every input an expansion is a polynomial.
+//! The variable of every input in which an expansion is a polynomial.
 
 use rayon::prelude::*;
 
@@ -13,29 +13,29 @@ use crate::surrogate::{Trial, trials};
 /// A positive or negative column whose largest value is this many times its smallest may be smooth in its logarithm.
 const WIDE: f64 = 3.0;
 
-/// Share of the tables of which a column is farther from its stated distribution, by chance, than is accepted.
+/// Share of tables with a column that is farther from its stated distribution by chance than is accepted.
 const REFUSED_BY_CHANCE: f64 = 1e-4;
 
-/// Share of the support by which values may lie outside, as rounding leaves them.
+/// Share of the support by which values may be outside, because of rounding.
 const MARGIN: f64 = 1e-9;
 
 /// Steps of the search for a probability: each halves the interval.
 const HALVINGS: usize = 64;
 
-/// A probability that a value has of its own is larger than this.
+/// Minimum probability of a single value that is an atom.
 const STEP: f64 = 1e-9;
 
-/// The polynomials of every input in one set of variables, and these.
+/// A set of variables, and the polynomials of every input in these.
 pub(super) struct Coordinates {
     /// The polynomials.
     pub trial: Trial,
     /// The variable of every input at every row.
     pub values: Vec<Vec<f64>>,
-    /// What the variables are.
+    /// A name of the variables.
     pub name: &'static str,
 }
 
-/// What is tried, without knowing the distributions: the values, the logarithms of wide and skewed columns, the ranks.
+/// Returns the trials without known distributions: the values, the logarithms of wide and skewed columns, the ranks.
 pub(super) fn of_columns(inputs: &[Column], orders: &[Order]) -> Vec<Coordinates> {
     let values: Vec<Vec<f64>> = inputs.iter().map(|input| rescaled(&input.values).0).collect();
     let logarithms: Vec<Option<Vec<f64>>> = values.iter().map(|x| logarithm(x)).collect();
@@ -58,7 +58,7 @@ pub(super) fn of_columns(inputs: &[Column], orders: &[Order]) -> Vec<Coordinates
     all
 }
 
-/// The logarithm of the absolute values of a wide column of one sign, if it is less skewed than they are.
+/// Returns the logarithm of the absolute values of a wide column of one sign, if it is less skewed than they are.
 fn logarithm(x: &[f64]) -> Option<Vec<f64>> {
     let size = |bound: fn(f64, f64) -> f64, from: f64| x.iter().map(|x| x.abs()).fold(from, bound);
     let one_sign = x.iter().all(|x| *x > 0.0) || x.iter().all(|x| *x < 0.0);
@@ -75,7 +75,7 @@ fn skewness(x: &[f64]) -> f64 {
     moment(3) / libm::pow(moment(2), 1.5)
 }
 
-/// What is tried where the distributions are known.
+/// Returns the trial with known distributions.
 ///
 /// # Errors
 /// [`SurrogateRefusal::OtherDistribution`] if a column has not been drawn from its distribution.
@@ -90,7 +90,7 @@ pub(super) fn of_distributions(
         quantiles(&input.values, order, distribution, far)
             .ok_or_else(|| SurrogateRefusal::OtherDistribution { input: input.name.clone() })
     };
-    // All of them before the first refusal, which would otherwise be that of the quickest thread.
+    // Compute all of them before the first refusal, which would otherwise be that of the fastest thread.
     let values: Vec<Result<Vec<f64>, SurrogateRefusal>> =
         inputs.par_iter().zip(orders).zip(distributions).map(quantiles).collect();
     let values: Vec<Vec<f64>> = values.into_iter().collect::<Result<_, _>>()?;
@@ -99,8 +99,8 @@ pub(super) fn of_distributions(
     Ok(trials(&families).into_iter().map(of).collect())
 }
 
-/// The probability of values below each of `values`, with half of that of the value itself; `None` if they do not follow the
-/// distribution.
+/// Returns the probability of values below each of `values`, plus half of that of the value itself; `None` if they do
+/// not follow the distribution.
 fn quantiles(values: &[f64], order: &Order, distribution: &Distribution, far: f64) -> Option<Vec<f64>> {
     let (low, high) = distribution.support();
     let margin = MARGIN * (high - low);
@@ -120,7 +120,7 @@ fn quantiles(values: &[f64], order: &Order, distribution: &Distribution, far: f6
     (distance * count.sqrt() <= far).then_some(u)
 }
 
-/// The probabilities of values below `x`, and of values up to `x`.
+/// Returns the probabilities of values below `x`, and of values up to `x`.
 fn probabilities(distribution: &Distribution, x: f64) -> (f64, f64) {
     let search = |(mut low, mut high): (f64, f64), is_below: &dyn Fn(f64) -> bool| {
         for _ in 0..HALVINGS {

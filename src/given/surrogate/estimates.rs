@@ -4,7 +4,7 @@ use super::contributions::{FoldSums, Folded};
 use super::{Fitted, MIN_EXPLAINED, SurrogateIndices, SurrogateOutput, told_terms};
 use crate::uncertainty::{Estimate, Influenced, Interval, Noise};
 
-/// What all folds say of the indices of the inputs of these names.
+/// Computes the estimates of the inputs with these names from all folds.
 pub(super) fn surrogate_output(fitted: &Fitted, names: &[&str]) -> SurrogateOutput {
     let Fitted { folds, expansions, beyond, polynomials_of } = fitted;
     let rows = folds.iter().map(|fold| fold.rows).sum::<usize>() as f64;
@@ -12,7 +12,7 @@ pub(super) fn surrogate_output(fitted: &Fitted, names: &[&str]) -> SurrogateOutp
     let mut variance = gathered(folds, rows, beyond.variance, |fold| Some(&fold.variance));
     variance.estimate -= left_mean * left_mean;
     if !(variance.estimate > 0.0 && variance.estimate.is_finite()) {
-        // What is left is then larger than all there is; the outputs have variance 1.
+        // The residual is then larger than the total; the outputs have variance 1.
         variance.estimate = 1.0;
     }
     let index = |numerator: &Influenced| {
@@ -54,7 +54,7 @@ pub(super) fn surrogate_output(fitted: &Fitted, names: &[&str]) -> SurrogateOutp
     }
 }
 
-/// The mean over all rows, with the influences of the parts of every fold and the error `beyond` the rows.
+/// Returns the mean over all rows, with the influences of the parts of every fold and the error `beyond` the rows.
 fn gathered<'a>(
     folds: &'a [FoldSums],
     rows: f64,

@@ -1,14 +1,15 @@
-//! What the rows do to indices through the distributions of the inputs, where these are those of the columns.
+//! Influences of the rows on indices through the distributions of the inputs, if these are those of the columns.
 //!
-//! The polynomials of a column are orthonormal in its own distribution, so that an expansion has the variances that belong
-//! to the distributions of the table. Other rows would have had others. With g = sum b_a phi_a less its constant, V_u = E g_u^2
-//! the variance of its conditional mean given the inputs u, and the inputs independent, a row x moves V_u by the n-th part of
+//! The polynomials of a column are orthonormal in its own distribution, so that the variances of an expansion are those
+//! under the distributions of the table. Other rows would give others. With g = sum b_a phi_a minus its constant, V_u =
+//! E g_u^2 the variance of its conditional mean given the inputs u, and the inputs independent, a row x moves V_u by
+//! the n-th part of
 //!
 //! - sum over j in u of E\[g_u^2 | x_j\] - V_u, and
 //! - sum over j not in u of 2 (E\[g_u g | x_j\] - V_u),
 //!
-//! the derivative of V_u by the distribution of each input (von Mises 1947). Terms that differ in the degree of one input only
-//! are what both conditional means are made of.
+//! the derivative of V_u by the distribution of each input (von Mises 1947). Both conditional means consist of terms
+//! that differ only in the degree of one input.
 
 use std::collections::BTreeMap;
 
@@ -17,7 +18,7 @@ use crate::surrogate::basis::Term;
 use crate::surrogate::fit::Expansion;
 use crate::surrogate::net::Net;
 
-/// The terms of an expansion that are alike but for the degree of one input.
+/// The terms of an expansion that differ only in the degree of one input.
 struct Alike {
     /// The other inputs of the terms, with their degrees.
     rest: Term,
@@ -81,7 +82,7 @@ mod tests {
         a + b * b - 2.0 * a * b
     }
 
-    /// V, V_1, V_2, VT_1, VT_2 where the rows have these weights in the distribution of each input.
+    /// Returns V, V_1, V_2, VT_1, VT_2 if the rows have these weights in the distribution of each input.
     fn variances(weights: &[f64]) -> [f64; 5] {
         let mean = |of: &dyn Fn(usize) -> f64| -> f64 { (0..8).map(|i| weights[i] * of(i)).sum() };
         let all = mean(&|i| mean(&|j| model(X[0][i], X[1][j])));

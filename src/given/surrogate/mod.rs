@@ -1,9 +1,9 @@
 //! First-order and total indices from given data by a surrogate.
 //!
-//! The rows are dealt to folds. A sparse polynomial chaos expansion fitted to all folds but one has exact indices (Sudret 2008,
-//! Reliab. Eng. Syst. Saf. 93, 964-979), and the rows of that one correct what it missed, as far as rows of a table can
-//! ([`contributions`]). What they cannot tell is bounded by the variance that the expansion leaves, and stands in the upper end
-//! of every interval.
+//! The rows are divided into folds. A sparse polynomial chaos expansion fitted to all folds but one has exact indices
+//! (Sudret 2008, Reliab. Eng. Syst. Saf. 93, 964-979), and the rows of that one correct its error, as far as rows of a
+//! table can ([`contributions`]). The remaining error is bounded by the variance of the residual, and is included in
+//! the upper end of every interval.
 
 mod contributions;
 mod coordinates;
@@ -26,23 +26,22 @@ use crate::surrogate::net::Net;
 use crate::surrogate::{cross_fitted, told_terms};
 use crate::uncertainty::{Estimate, NamedTerm};
 
-/// Share of the variance of rows that it has not seen which a surrogate must explain to serve: what it leaves adds to the upper
-/// end of every interval.
+/// Share of the variance of other rows that a useful surrogate explains: its residual raises the ends of all intervals.
 pub const MIN_EXPLAINED: f64 = 0.9;
 
 /// Parts of the table, each of which is corrected by an expansion of the others.
 const FOLDS: usize = 8;
 
-/// Most rows that are used.
+/// Maximum number of rows that are used.
 const MAX_ROWS: usize = 1 << 16;
 
-/// Most values of polynomials that are kept.
+/// Maximum number of values of polynomials that are kept.
 const MAX_VALUES: usize = 100_000_000;
 
 /// Why no surrogate is fitted to a table.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum SurrogateRefusal {
-    /// Inputs that depend on each other.
+    /// Inputs depend on each other.
     #[error(
         "the inputs `{}` and `{}` depend on each other; a surrogate yields indices of independent inputs only, and no total \
          index has a meaning here", .inputs.0, .inputs.1
@@ -51,15 +50,15 @@ pub enum SurrogateRefusal {
         /// The pair.
         inputs: (String, String),
     },
-    /// Another number of distributions than of inputs.
+    /// The numbers of distributions and inputs differ.
     #[error("{distributions} distributions for {inputs} inputs")]
     Distributions {
-        /// Distributions.
+        /// Number of distributions.
         distributions: usize,
-        /// Inputs.
+        /// Number of inputs.
         inputs: usize,
     },
-    /// A column that has not been drawn from the distribution that it is said to have.
+    /// A column has not been drawn from its stated distribution.
     #[error(
         "the values of `{input}` do not follow the distribution that is stated for it: check its unit and its bounds"
     )]
@@ -69,35 +68,35 @@ pub enum SurrogateRefusal {
     },
 }
 
-/// What surrogates say of a table.
+/// The estimates by surrogates for a table.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Surrogates {
-    /// Rows used: all, or of very large tables some, drawn at random.
+    /// Rows used: all, or for very large tables some, drawn at random.
     pub rows: usize,
     /// Parts of the table, each corrected by an expansion of the others.
     pub folds: usize,
-    /// Whether the distributions of the inputs were given; else they are those of the columns.
+    /// Whether the distributions of the inputs were given; otherwise they are those of the columns.
     pub given_distributions: bool,
     /// One entry per output, in their order, or why there is none.
     pub outputs: Vec<Result<SurrogateOutput, NoVariance>>,
 }
 
-/// What surrogates say of an output.
+/// The estimates by surrogates for an output.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SurrogateOutput {
-    /// Share of the variance that the surrogates explain of the rows that they were not fitted to (Q^2); 1 at most, and
-    /// negative where they are worse than the mean.
+    /// Share of the variance that the surrogates explain of the rows to which they were not fitted (Q^2); at most 1,
+    /// and negative if they are worse than the mean.
     pub explained: f64,
-    /// The rest, between 0 and 1: an index may be larger than its estimate by so much, whatever the number of rows. The upper
-    /// ends of the intervals contain it.
+    /// The rest, between 0 and 1: an index may exceed its estimate by this much, for any number of rows. The upper ends
+    /// of the intervals contain it.
     pub unknown: f64,
-    /// Whether the surrogates explain at least [`MIN_EXPLAINED`]; else the other estimates are the ones to read.
+    /// Whether the surrogates explain at least [`MIN_EXPLAINED`]; if not, use the other estimates.
     pub serves: bool,
-    /// In which variable of the inputs the surrogates are polynomials, in words.
+    /// The variable of the inputs in which the surrogates are polynomials, in words.
     pub polynomials_of: String,
-    /// Number of terms, of all surrogates on average.
+    /// Mean number of terms of the surrogates.
     pub terms: f64,
-    /// The terms that carry most of the variance, the first ones first.
+    /// The terms with the largest variance, in falling order.
     pub leading_terms: Vec<NamedTerm>,
     /// One entry per input, in their order.
     pub indices: Vec<SurrogateIndices>,
@@ -110,25 +109,25 @@ pub struct SurrogateOutput {
 pub struct SurrogateIndices {
     /// The input.
     pub input: String,
-    /// First-order index, without what no rows tell.
+    /// First-order index, without the part that no rows determine.
     pub first_order: Estimate,
-    /// Total index, without what no rows tell.
+    /// Total index, without the part that no rows determine.
     pub total: Estimate,
 }
 
-/// First-order and total Sobol' indices of every output of a table by surrogates, cross-fitted and corrected.
+/// Estimates first-order and total Sobol' indices of every output of a table by surrogates, cross-fitted and corrected.
 ///
-/// `inputs` and `outputs` are the columns that `indices` were estimated from. `distributions` has one entry per input, or is
-/// `None`: then the distributions are those of the columns, and the intervals contain how well the rows know them. They are
-/// needed for high accuracy: from n random rows of unknown distributions no index is known better than to some 1/sqrt(n).
+/// `inputs` and `outputs` are the columns from which `indices` were estimated. `distributions` has one entry per input,
+/// or is `None`: then the distributions are those of the columns, and the intervals include their error. They are
+/// needed for high accuracy: from n random rows of unknown distributions no index has an error below about 1/sqrt(n).
 ///
-/// Estimates are those of the surrogates (Sudret 2008), with the correction that is linear in what these leave. The part that
-/// is quadratic in it lies between 0 and [`unknown`](SurrogateOutput::unknown), which is added to the upper ends of the 95 %
-/// intervals. These are those of independent rows, and too wide for points that are more even.
+/// Estimates are those of the surrogates (Sudret 2008), with the correction that is linear in their residuals. The part
+/// that is quadratic in these is between 0 and [`unknown`](SurrogateOutput::unknown), which is added to the upper ends
+/// of the 95 % intervals. The intervals assume independent rows, and are too wide for points that are more even.
 ///
 /// # Errors
-/// [`SurrogateRefusal`]: inputs that depend on each other, another number of distributions than of inputs, a column that does not
-/// follow its distribution.
+/// [`SurrogateRefusal`]: inputs that depend on each other, a number of distributions other than that of inputs, a
+/// column that does not follow its distribution.
 pub fn surrogate_indices(
     inputs: &[Column],
     outputs: &[Column],
@@ -164,8 +163,8 @@ pub fn surrogate_indices(
     })
 }
 
-/// The numbers of the rows of every fold, each in rising order. They are dealt at random, but always in the same way: rows of
-/// Sobol' points that are at equal distances in their order fill a part of the space only.
+/// Returns the indices of the rows of every fold, each in rising order. They are assigned at random, but always in the
+/// same way: rows of Sobol' points at equal distances in their order fill only a part of the space.
 fn used_rows(rows: usize, inputs: usize) -> Vec<Vec<usize>> {
     let most = MAX_ROWS.min(MAX_VALUES / (inputs * Caps::degree_of(inputs))).max(super::MIN_ROWS);
     let all = drawn_rows(rows, most, 0);
@@ -175,11 +174,11 @@ fn used_rows(rows: usize, inputs: usize) -> Vec<Vec<usize>> {
     folds
 }
 
-/// The same table for all outputs.
+/// The table, shared by all outputs.
 struct Job<'a> {
     /// The names of the inputs.
     names: &'a [&'a str],
-    /// What is tried, one at least.
+    /// The trials, at least one.
     coordinates: &'a [Coordinates],
     /// Rows of every fold.
     folds: &'a [usize],
@@ -196,12 +195,12 @@ struct Fitted {
 }
 
 impl Fitted {
-    /// Mean square of what the expansions leave.
+    /// Returns the mean square residual of the expansions.
     fn left_square(&self) -> f64 {
         left_square(&self.folds)
     }
 
-    /// The same, and what no rows show.
+    /// Returns the same plus the error that no rows show.
     fn unknown(&self) -> f64 {
         self.left_square() + self.beyond.variance
     }
@@ -213,7 +212,7 @@ fn left_square(folds: &[FoldSums]) -> f64 {
 }
 
 impl Job<'_> {
-    /// What surrogates say of the centred outputs `z`.
+    /// Computes the surrogate estimates of the centred outputs `z`.
     fn output(&self, z: &[f64]) -> SurrogateOutput {
         let square = z.iter().map(|z| z * z).sum::<f64>() / z.len() as f64;
         let z: Vec<f64> = z.iter().map(|z| z / square.sqrt()).collect();

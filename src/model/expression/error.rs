@@ -1,8 +1,8 @@
-//! What can be wrong with a formula, and where.
+//! Errors in a formula, with their place.
 
 use std::ops::Range;
 
-/// A text that is no formula.
+/// The error for a text that is not a valid formula.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{problem}")]
 pub struct ExpressionError {
@@ -15,7 +15,7 @@ pub struct ExpressionError {
 /// What is wrong with a formula.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ExpressionProblem {
-    /// There is nothing.
+    /// The text is empty.
     #[error("the formula is empty")]
     Empty,
     /// A character that has no meaning.
@@ -24,13 +24,13 @@ pub enum ExpressionProblem {
     /// A number that cannot be read, or is beyond double precision.
     #[error("`{0}` is no number that double precision can hold")]
     Number(String),
-    /// A name of nothing.
+    /// An unknown name.
     #[error("there is no `{0}`")]
     UnknownName(String),
-    /// A name of a function that does not exist.
+    /// An unknown function.
     #[error("there is no function `{0}`")]
     UnknownFunction(String),
-    /// `log`, which means one thing here and another there.
+    /// `log`, which is ambiguous.
     #[error("`log` has two meanings: write `ln` for the natural logarithm or `log10` for the decimal one")]
     Log,
     /// A function without its arguments.
@@ -38,10 +38,10 @@ pub enum ExpressionProblem {
     NoArguments {
         /// The function.
         name: String,
-        /// What it takes, such as `x, y`.
+        /// Its arguments, such as `x, y`.
         arguments: &'static str,
     },
-    /// Something called that is no function.
+    /// A call of a name that is not a function.
     #[error("`{0}` is no function: write {0}*(...) to multiply")]
     NotAFunction(String),
     /// Too few or too many arguments.
@@ -49,17 +49,17 @@ pub enum ExpressionProblem {
     Arity {
         /// The function.
         name: String,
-        /// How many arguments it takes, in words.
+        /// The number of arguments it takes, in words.
         expected: &'static str,
-        /// How many there are.
+        /// The number of arguments found.
         found: usize,
     },
-    /// Something else should stand here.
+    /// An unexpected token.
     #[error("expected {expected}, not {found}")]
     Expected {
-        /// What should stand here.
+        /// The expected token.
         expected: &'static str,
-        /// What does.
+        /// The token found.
         found: String,
     },
     /// Two comparisons in a row.
@@ -68,7 +68,7 @@ pub enum ExpressionProblem {
     /// `=` alone.
     #[error("`=` has no meaning in a formula: `==` compares")]
     Assignment,
-    /// Too many things inside each other.
+    /// Too many nested parentheses or operators.
     #[error("the formula is nested more than 200 deep")]
     TooDeep,
 }

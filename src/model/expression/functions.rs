@@ -1,4 +1,4 @@
-//! The functions of the formula language. None hides an argument that has no value: NaN in, NaN out.
+//! The functions of the formula language. All return NaN if an argument is NaN.
 
 /// A function of one argument.
 #[derive(Clone, Copy, Debug)]
@@ -14,21 +14,21 @@ pub struct OfTwo {
     pub value: fn(f64, f64) -> f64,
 }
 
-/// What a function computes.
+/// The computation of a function.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Function {
     /// Of one argument.
     One(OfOne),
     /// Of two arguments.
     Two(OfTwo),
-    /// Of two arguments or more, taken together from the left.
+    /// Of two or more arguments, combined from left to right.
     Several(OfTwo),
     /// `if(condition, then, else)`.
     Select,
 }
 
 impl Function {
-    /// How many arguments it takes, in words.
+    /// Returns the number of arguments it takes, in words.
     pub fn arity(self) -> &'static str {
         match self {
             Self::One(_) => "one argument",
@@ -38,7 +38,7 @@ impl Function {
         }
     }
 
-    /// Its arguments, as they are written.
+    /// Returns its arguments, as they are written.
     pub fn arguments(self) -> &'static str {
         match self {
             Self::One(_) => "x",
@@ -116,7 +116,7 @@ pub(super) fn vocabulary() -> Vec<&'static str> {
     FUNCTIONS.into_iter().map(|(name, _)| name).chain(NUMBERS.into_iter().map(|(name, _)| name)).collect()
 }
 
-/// The lesser one; `f64::min` would pass over NaN.
+/// Returns the minimum; unlike `f64::min`, it returns NaN if an argument is NaN.
 fn least(a: f64, b: f64) -> f64 {
     if a.is_nan() || b.is_nan() { f64::NAN } else { a.min(b) }
 }

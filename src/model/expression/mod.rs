@@ -1,8 +1,8 @@
-//! Formulas as a model: checked when they are read, computed column by column, nothing else executed.
+//! Formulas as a model: checked when they are read, computed column by column, without execution of other code.
 //!
 //! The grammar is that of mathematics and of most languages: `^` (or `**`) binds tightest and to the right, so that
-//! `-x^2` is -(x^2) and `2^3^2` is 2^9; then the sign; `*` and `/`; `+` and `-`; and one comparison. No crate serves:
-//! exmex 0.21 reads `-x^2` as (-x)^2 and `2^3^2` as (2^3)^2, has no `1e-3`, and gives errors no place.
+//! `-x^2` is -(x^2) and `2^3^2` is 2^9; then the sign; `*` and `/`; `+` and `-`; and one comparison. No crate fits:
+//! exmex 0.21 reads `-x^2` as (-x)^2 and `2^3^2` as (2^3)^2, does not support `1e-3`, and its errors have no position.
 
 mod error;
 mod functions;
@@ -16,10 +16,10 @@ use program::{Program, Stack, TILE};
 
 use super::{Batch, Model, Output, RowFailure, RunContext, Worker};
 
-/// What a name in a formula stands for.
+/// The meaning of a name in a formula.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Symbol {
-    /// The input of that number.
+    /// The input with that index.
     Input(usize),
     /// A number.
     Number(f64),
@@ -55,32 +55,32 @@ impl PartialEq for Expression {
 }
 
 impl Expression {
-    /// Reads a formula, whose names `symbol` knows: inputs and constants. Functions and `pi` are known anyway.
+    /// Parses a formula, whose inputs and constants `symbol` looks up. Functions and `pi` are built in.
     ///
     /// # Errors
-    /// [`ExpressionError`] with the place in the text, for anything that is no formula: unknown names, a wrong number
-    /// of arguments, parentheses that do not match, more than 200 of them inside each other.
+    /// [`ExpressionError`] with the place in the text, for anything that is not a valid formula: unknown names, a wrong
+    /// number of arguments, unbalanced parentheses, more than 200 nested ones.
     pub fn parse(text: &str, symbol: &dyn Fn(&str) -> Option<Symbol>) -> Result<Self, ExpressionError> {
         let program = parse::parse(text, symbol)?;
         Ok(Self { text: text.to_owned(), program })
     }
 
-    /// The formula as written.
+    /// Returns the formula as written.
     pub fn text(&self) -> &str {
         &self.text
     }
 
-    /// The formula as steps on a stack of columns.
+    /// Returns the formula as steps on a stack of columns.
     pub fn program(&self) -> &Program {
         &self.program
     }
 
-    /// Whether the input of that number stands in the formula.
+    /// Returns whether the formula contains the input with that index.
     pub fn uses(&self, input: usize) -> bool {
         self.program.uses(input)
     }
 
-    /// The value at one point, which has an entry for every input; not finite where there is none.
+    /// Computes the value at one point, which has an entry for every input; not finite if there is no value.
     ///
     /// # Panics
     /// If an input of the formula is missing.
@@ -91,17 +91,17 @@ impl Expression {
         value[0]
     }
 
-    /// Whether `name` is a function or a number of the formula language, which no input can be called.
+    /// Returns whether `name` is a function or a number of the formula language, and so not allowed for an input.
     pub fn is_reserved(name: &str) -> bool {
         functions::named(name).is_some() || functions::number(name).is_some()
     }
 
-    /// Whether `name` can stand in a formula: a letter or `_`, then letters, digits and `_`.
+    /// Returns whether `name` is a valid name: a letter or `_`, then letters, digits and `_`.
     pub fn is_name(name: &str) -> bool {
         name.chars().next().is_some_and(token::begins_name) && name.chars().all(token::in_name)
     }
 
-    /// The names of the functions, and of the one number.
+    /// Returns the names of the functions, and of the one number.
     pub fn vocabulary() -> Vec<&'static str> {
         functions::vocabulary()
     }
@@ -115,8 +115,8 @@ pub struct ExpressionModel {
 }
 
 impl ExpressionModel {
-    /// A model of these outputs, each with its formula of the SI values of the factors, in the order of the space; the
-    /// value is in SI too.
+    /// Creates a model of these outputs, each with its formula of the SI values of the factors, in the order of the
+    /// space; the value is also in SI.
     pub fn new(formulas: Vec<(Output, Expression)>) -> Self {
         let (outputs, formulas) = formulas.into_iter().unzip();
         Self { formulas, outputs }
@@ -140,7 +140,7 @@ impl Model for ExpressionModel {
 struct ExpressionWorker<'a> {
     model: &'a ExpressionModel,
     stack: Stack,
-    /// Why a value is NaN, and why it is infinite.
+    /// The reasons for NaN and for an infinite value.
     failures: [RowFailure; 2],
 }
 

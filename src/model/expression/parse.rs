@@ -1,4 +1,4 @@
-//! From tokens to a program, by recursive descent.
+//! Parser from tokens to a program, by recursive descent.
 
 use std::ops::Range;
 
@@ -8,9 +8,9 @@ use super::functions::{self, Function};
 use super::program::{Comparison, Program, Step};
 use super::token::{Token, tokens};
 
-/// Things inside each other: enough for any formula, and far from the end of the thread's stack.
+/// Maximum nesting depth: enough for any formula, and far from the end of the thread's stack.
 const DEEPEST: u32 = 200;
-/// Whole exponents up to this are multiplications.
+/// Integer exponents up to this are computed by multiplication.
 const LARGEST_POWER: f64 = 64.0;
 
 pub(super) fn parse(text: &str, symbol: &dyn Fn(&str) -> Option<Symbol>) -> Result<Program, ExpressionError> {
@@ -45,7 +45,7 @@ impl Parser<'_> {
         self.tokens[self.at].1.clone()
     }
 
-    /// Goes on; the end stays where it is.
+    /// Advances to the next token; stays at the end.
     fn advance(&mut self) {
         self.at = (self.at + 1).min(self.tokens.len() - 1);
     }
@@ -198,7 +198,7 @@ impl Parser<'_> {
         Err(ExpressionError { problem, place })
     }
 
-    /// The function of that name, which stands before `(`.
+    /// Returns the function of that name, which is followed by `(`.
     fn function(&self, name: &str, place: Range<usize>) -> Result<Function, ExpressionError> {
         functions::named(name).ok_or_else(|| {
             let problem = match name {
@@ -212,7 +212,7 @@ impl Parser<'_> {
         })
     }
 
-    /// The arguments of a function, after `(`.
+    /// Parses the arguments of a function, after `(`.
     fn call(&mut self, name: &str, function: Function, place: Range<usize>) -> Parsed {
         let mut count = 0;
         if !self.take(")") {

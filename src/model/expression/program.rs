@@ -2,7 +2,7 @@
 
 use super::functions::{OfOne, OfTwo};
 
-/// Rows computed at a time: a few columns of them stay in the nearest cache.
+/// Number of rows computed at a time: a few columns of them fit in the nearest cache.
 pub const TILE: usize = 256;
 
 /// A comparison of two numbers: 1 if it holds, 0 if not, NaN if one of them is NaN.
@@ -39,7 +39,7 @@ pub enum Step {
     Input(usize),
     Number(f64),
     Negate,
-    /// A whole power, by multiplication.
+    /// An integer power, by multiplication.
     Power(i32),
     One(OfOne),
     Add,
@@ -58,14 +58,14 @@ pub struct Program {
     steps: Vec<Step>,
 }
 
-/// Columns of intermediate values, one after the other; kept from one tile to the next.
+/// Columns of intermediate values, one after the other; reused from tile to tile.
 #[derive(Default)]
 pub struct Stack {
     columns: Vec<[f64; TILE]>,
 }
 
 impl Program {
-    /// Adds a step. Steps on numbers alone are done at once: their result is a number.
+    /// Adds a step. A step whose operands are all numbers is computed at once and becomes a number.
     pub fn push(&mut self, step: Step) {
         self.steps.push(step);
         let operands = step.operands();
@@ -79,7 +79,7 @@ impl Program {
         }
     }
 
-    /// The number that was pushed last, if it is one.
+    /// Returns the number that was pushed last, if it is one.
     pub fn last_number(&self) -> Option<f64> {
         match self.steps.last() {
             Some(Step::Number(number)) => Some(*number),
@@ -99,7 +99,7 @@ impl Program {
         self.steps.iter().any(|step| matches!(step, Step::Input(number) if *number == input))
     }
 
-    /// The numbers in it, by their bits.
+    /// Returns the numbers in the program, by their bits.
     pub fn numbers(&self) -> Vec<u64> {
         self.steps
             .iter()
@@ -110,12 +110,12 @@ impl Program {
             .collect()
     }
 
-    /// The values of up to [`TILE`] rows, those of `inputs` from row `first` on.
+    /// Computes the values of up to [`TILE`] rows, those of `inputs` from row `first` on.
     pub fn run(&self, inputs: &[&[f64]], first: usize, values: &mut [f64], stack: &mut Stack) {
         self.run_with(inputs, first, values, stack, |_, _| ());
     }
 
-    /// The same, where `after` may change the results of every step.
+    /// Does the same, where `after` may change the results of every step.
     #[inline(always)]
     pub fn run_with(
         &self,

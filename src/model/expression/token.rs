@@ -1,14 +1,14 @@
-//! A formula as words and signs.
+//! Tokens of a formula.
 
 use std::ops::Range;
 
 use super::error::{ExpressionError, ExpressionProblem};
 
-/// A word or sign.
+/// A token.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Token {
     Number(f64),
-    /// A name, or several joined by points, as in `np.sin`, which nothing is called.
+    /// A name, or several joined by dots, as in `np.sin`, which is never defined.
     Name(String),
     Sign(&'static str),
     End,
@@ -26,7 +26,7 @@ pub(super) fn in_name(c: char) -> bool {
     c.is_alphanumeric() || c == '_'
 }
 
-/// All tokens with their places, and the end.
+/// Returns all tokens with their places, and the end.
 pub(super) fn tokens(text: &str) -> Result<Vec<(Token, Range<usize>)>, ExpressionError> {
     let mut tokens = Vec::new();
     let mut at = 0;
@@ -66,7 +66,7 @@ pub(super) fn tokens(text: &str) -> Result<Vec<(Token, Range<usize>)>, Expressio
     Ok(tokens)
 }
 
-/// Bytes of the name at the beginning of `text`, with those that follow it after points.
+/// Returns the length in bytes of the name at the beginning of `text`, with any names joined to it by dots.
 fn dotted_length(text: &str) -> usize {
     let name = |from: usize| text[from..].find(|c| !in_name(c)).map_or(text.len(), |length| from + length);
     let mut end = name(0);
@@ -78,7 +78,7 @@ fn dotted_length(text: &str) -> usize {
     end
 }
 
-/// Bytes of the number at the beginning of `text`, with all digits and points that follow: `1.2.3` is one wrong number.
+/// Returns the bytes of the number at the beginning of `text`, with all following digits and dots: `1.2.3` is one.
 fn number_length(text: &str) -> usize {
     let bytes = text.as_bytes();
     let digits =

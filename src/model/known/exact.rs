@@ -1,4 +1,4 @@
-//! Exact answers, and the rules by which families of functions have theirs.
+//! Exact mean, variance and indices, and the rules for families of functions.
 
 /// Mean, variance and indices of a function of independent inputs.
 #[derive(Debug, Clone, PartialEq)]
@@ -7,9 +7,9 @@ pub struct Exact {
     pub mean: f64,
     /// The variance.
     pub variance: f64,
-    /// The indices; none where the variance is 0.
+    /// The indices; `None` if the variance is 0.
     pub indices: Option<ExactIndices>,
-    /// How well they are known.
+    /// How they were computed.
     pub basis: Basis,
 }
 
@@ -22,10 +22,10 @@ pub struct ExactIndices {
     pub total: Vec<f64>,
 }
 
-/// How well an answer is known.
+/// How exact values were computed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Basis {
-    /// By a formula, to rounding: some 1e-15 of the variance.
+    /// By a formula, to rounding: about 1e-15 of the variance.
     ClosedForm,
     /// By quadrature (`tests/oracle/known_reference.py`).
     Quadrature {
@@ -35,7 +35,7 @@ pub enum Basis {
 }
 
 impl Exact {
-    /// From the parts V_u of the variance, each with its set of inputs u (ascending, each set once).
+    /// Computes it from the parts V_u of the variance, each with its set of inputs u (ascending, each set once).
     pub(super) fn of_parts(mean: f64, inputs: usize, parts: &[(Vec<usize>, f64)]) -> Self {
         let variance: f64 = parts.iter().map(|(_, part)| part).sum();
         let (mut first, mut total) = (vec![0.0; inputs], vec![0.0; inputs]);
@@ -49,8 +49,8 @@ impl Exact {
         Self::closed(mean, variance, first, total)
     }
 
-    /// Of a product of functions of one input each, with the variances `r` over their squared means; `mean` is the
-    /// product of their means.
+    /// Computes it for a product of functions of one input each, with the variances `r` over their squared means;
+    /// `mean` is the product of their means.
     ///
     /// S_i = r_i / D, S_ij = r_i r_j / D, ST_i = r_i prod_{j != i} (1 + r_j) / D and variance = mean^2 D, where
     /// D = prod (1 + r_j) - 1 (Sobol' 1993).
@@ -58,18 +58,18 @@ impl Exact {
         let log: f64 = r.iter().map(|&r| libm::log1p(r)).sum();
         let d = libm::expm1(log);
         let first = r.iter().map(|r| r / d).collect();
-        // (1 + D) / D, which stays finite where D does not.
+        // (1 + D) / D, which is finite even where D is not.
         let total = r.iter().map(|r| r / (1.0 + r) / -libm::expm1(-log)).collect();
         Self::closed(mean, mean * mean * d, first, total)
     }
 
-    /// From the indices themselves.
+    /// Creates it from the indices themselves.
     pub(super) fn closed(mean: f64, variance: f64, first_order: Vec<f64>, total: Vec<f64>) -> Self {
         let indices = (variance > 0.0).then_some(ExactIndices { first_order, total });
         Self { mean, variance, indices, basis: Basis::ClosedForm }
     }
 
-    /// From a table of references: the first-order and the total index of each input.
+    /// Creates it from a table of references: the first-order and the total index of each input.
     pub(super) fn by_quadrature(mean: f64, variance: f64, indices: &[[f64; 2]], error: f64) -> Self {
         let (first_order, total) = indices.iter().map(|[first, total]| (*first, *total)).unzip();
         let indices = ExactIndices { first_order, total };
@@ -77,12 +77,12 @@ impl Exact {
     }
 }
 
-/// Variance over squared mean of e^(b x), x uniform on (0, 1): (b/2) coth(b/2) - 1.
+/// Returns the variance over the squared mean of e^(b x), x uniform on (0, 1): (b/2) coth(b/2) - 1.
 pub(super) fn relative_variance_of_exponential(b: f64) -> f64 {
     let x = b / 2.0;
     let s = x * x;
     if x.abs() < 0.3 {
-        // The series of x coth x - 1, which loses no digits; the first term left out is below 1e-16 of the sum.
+        // The series of x coth x - 1, which loses no digits; the first omitted term is below 1e-16 of the sum.
         let terms = [
             1.0 / 3.0,
             -1.0 / 45.0,
@@ -100,7 +100,7 @@ pub(super) fn relative_variance_of_exponential(b: f64) -> f64 {
     }
 }
 
-/// Mean of e^(b x), x uniform on (0, 1): (e^b - 1) / b.
+/// Returns the mean of e^(b x), x uniform on (0, 1): (e^b - 1) / b.
 pub(super) fn mean_of_exponential(b: f64) -> f64 {
     if b == 0.0 { 1.0 } else { libm::expm1(b) / b }
 }

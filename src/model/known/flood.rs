@@ -15,9 +15,9 @@ pub(super) const ENTRY: Entry = Entry {
 
 /// The overflow S = Zv + H - Hd - Cb in metres, H = (Q / (B Ks sqrt((Zm - Zv)/L)))^0.6 the depth of the river.
 ///
-/// The strength Ks is normal above 15 without an upper end; it is cut at 110, ten standard deviations above its mean,
-/// where a probability of 1e-23 is left. The indices are integrals over one or two inputs, since H is a product: mean
-/// -10.9445, variance 1.17447.
+/// The strength Ks is normal above 15 without an upper end; it is truncated at 110, ten standard deviations above its
+/// mean, where the remaining probability is 1e-23. The indices are integrals over one or two inputs, since H is a
+/// product: mean -10.9445, variance 1.17447.
 struct Flood;
 
 fn inputs() -> Vec<KnownInput> {

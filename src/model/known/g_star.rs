@@ -26,7 +26,7 @@ pub(super) const ENTRY: Entry = Entry {
     },
 };
 
-/// The shifts of the default: drawn once, since the paper draws its own at random and they change no index.
+/// The default shifts: drawn once, since the paper draws its own at random and they do not change the indices.
 const DELTA: [f64; 11] = [0.637, 0.27, 0.041, 0.017, 0.813, 0.913, 0.607, 0.729, 0.544, 0.935, 0.0];
 
 /// prod ((1 + alpha_i) |2 frac(x_i + delta_i) - 1|^alpha_i + a_i) / (1 + a_i), x uniform on (0, 1)^d.

@@ -1,4 +1,4 @@
-//! The smallest of several inputs.
+//! The minimum of several inputs.
 
 use super::function::unit_cube;
 use super::parameters::Range;

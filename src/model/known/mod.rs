@@ -1,4 +1,4 @@
-//! Functions with known indices, to try the engine on and to test it with.
+//! Functions with known indices, for trials and tests of the engine.
 //!
 //! One file per function or family; each states its formula, its source, its inputs and its exact mean, variance and
 //! indices. To add one: a file with a struct, its [`Function`] and its `Entry`; one line in [`KnownAnswer::all`].
@@ -35,7 +35,7 @@ pub use model::{known_inputs, known_model, known_output};
 use parameters::Given;
 pub use parameters::{MAX_INPUTS, ParameterError, ParameterInfo, ParameterValue};
 
-/// What the list of functions holds of each.
+/// An entry of the list of functions.
 struct Entry {
     name: &'static str,
     summary: &'static str,
@@ -70,42 +70,42 @@ const ENTRIES: [&Entry; 17] = [
 pub struct KnownAnswer(&'static Entry);
 
 impl KnownAnswer {
-    /// All of them.
+    /// Iterates over all of them.
     pub fn all() -> impl Iterator<Item = Self> {
         ENTRIES.into_iter().map(Self)
     }
 
-    /// The function of that name.
+    /// Returns the function of that name.
     pub fn from_name(name: &str) -> Option<Self> {
         Self::all().find(|function| function.name() == name)
     }
 
-    /// The name in study files.
+    /// Returns the name in study files.
     pub fn name(self) -> &'static str {
         self.0.name
     }
 
-    /// One line for people.
+    /// Returns one line for people.
     pub fn description(self) -> &'static str {
         self.0.summary
     }
 
-    /// The formula of the value, in plain characters.
+    /// Returns the formula of the value, in plain characters.
     pub fn formula(self) -> &'static str {
         self.0.formula
     }
 
-    /// Where the function comes from.
+    /// Returns the source of the function.
     pub fn source(self) -> &'static str {
         self.0.source
     }
 
-    /// The parameters it takes, in the order in which they are shown.
+    /// Returns the parameters, in the order in which they are shown.
     pub fn parameters(self) -> &'static [ParameterInfo] {
         self.0.parameters
     }
 
-    /// The function with these parameters, and its defaults for the others.
+    /// Returns the function with these parameters, and its defaults for the others.
     ///
     /// ```
     /// use apportion::model::ParameterValue;
@@ -121,7 +121,7 @@ impl KnownAnswer {
     /// ```
     ///
     /// # Errors
-    /// [`ParameterError`] if the function has no such parameter, or the value makes no sense.
+    /// [`ParameterError`] if the function has no such parameter, or the value is invalid.
     pub fn with(self, parameters: &[(String, ParameterValue)]) -> Result<KnownFunction, ParameterError> {
         let is_known = |name: &String| self.0.parameters.iter().any(|parameter| parameter.name == name);
         if let Some((name, _)) = parameters.iter().find(|(name, _)| !is_known(name)) {
@@ -133,10 +133,10 @@ impl KnownAnswer {
         Ok(KnownFunction { answer: self, inputs, parameters, function: function.into() })
     }
 
-    /// The function with its default parameters.
+    /// Returns the function with its default parameters.
     ///
     /// # Panics
-    /// Never: a test goes through all of them.
+    /// Never: a test covers all of them.
     pub fn default_function(self) -> KnownFunction {
         self.with(&[]).expect("the defaults make sense")
     }
@@ -166,32 +166,32 @@ pub struct KnownFunction {
 }
 
 impl KnownFunction {
-    /// Its entry in the list.
+    /// Returns its entry in the list.
     pub fn answer(&self) -> KnownAnswer {
         self.answer
     }
 
-    /// The inputs in order, each with the distribution for which the exact indices hold.
+    /// Returns the inputs in order, each with the distribution for which the exact indices hold.
     pub fn inputs(&self) -> &[KnownInput] {
         &self.inputs
     }
 
-    /// The parameters in force.
+    /// Returns the current parameters.
     pub fn parameters(&self) -> &[(&'static str, ParameterValue)] {
         &self.parameters
     }
 
-    /// The value at `x`, which has one entry per input; NaN where there is none.
+    /// Returns the value at `x`, which has one entry per input; NaN if there is none.
     pub fn value(&self, x: &[f64]) -> f64 {
         self.function.value(x)
     }
 
-    /// Why there is no value at `x`, where the function can say so.
+    /// Returns why there is no value at `x`, if the function can tell.
     pub fn reason(&self, x: &[f64]) -> Option<&'static str> {
         self.function.reason(x)
     }
 
-    /// Mean, variance and indices for independent inputs of their own distributions.
+    /// Returns mean, variance and indices for independent inputs with their own distributions.
     pub fn exact(&self) -> Exact {
         self.function.exact()
     }

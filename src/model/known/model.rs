@@ -4,13 +4,12 @@ use super::{KnownFunction, KnownInput};
 use crate::model::{FunctionModel, Input, Model, Output, RowFailure};
 use crate::quantity::Unit;
 
-/// The one output, y.
+/// Returns the single output, y.
 pub fn known_output() -> Output {
     Output::new("y", Unit::dimensionless(), "value of the function")
 }
 
-/// The model of `function`. `base` holds a value for every input, `factors` the number of the input that each factor of the space
-/// drives.
+/// Creates the model of `function`. `base` has a value for every input, `factors` the input's index for each factor.
 pub fn known_model(function: KnownFunction, base: Vec<f64>, factors: Vec<usize>) -> impl Model {
     let drives_all = factors.iter().copied().eq(0..base.len());
     FunctionModel::new(vec![known_output()], move |x: &[f64], y: &mut [f64]| {
@@ -28,8 +27,8 @@ pub fn known_model(function: KnownFunction, base: Vec<f64>, factors: Vec<usize>)
     })
 }
 
-/// The inputs of a function with its parameters chosen. An input that is no factor stands at its upper quartile: at
-/// their middle, many of these functions hide what the other inputs do (Sobol' G of a_1 = 0 is 0 there).
+/// Returns the inputs of a function with its parameters chosen. An input that is not a factor is fixed at its upper
+/// quartile: at the median, many functions hide the effect of other inputs (Sobol' G with a_1 = 0 is 0).
 pub fn known_inputs(function: &KnownFunction) -> Vec<Input> {
     let input = |input: &KnownInput| Input {
         symbol: input.name.clone(),

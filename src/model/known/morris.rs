@@ -32,7 +32,7 @@ fn sign(parity: usize) -> f64 {
     if parity.is_multiple_of(2) { 1.0 } else { -1.0 }
 }
 
-/// b_i; the parity of i counted from 1.
+/// Returns b_i; the parity of i counted from 1.
 fn single(i: usize) -> f64 {
     if i < 10 { 20.0 } else { sign(i + 1) }
 }
@@ -81,7 +81,7 @@ impl Function for Morris {
     }
 }
 
-/// Every term with its inputs and its coefficient; each subset of a term's inputs is a term of its own.
+/// Returns every term with its inputs and its coefficient; each subset of a term's inputs is a separate term.
 fn terms() -> Vec<(Vec<usize>, f64)> {
     let mut terms = vec![(vec![0, 1, 2, 3], QUADRUPLE)];
     for i in 0..INPUTS {

@@ -4,7 +4,7 @@ use std::fmt;
 
 use thiserror::Error;
 
-/// Most inputs of a function whose number of inputs can be chosen.
+/// Maximum number of inputs of a function whose number of inputs can be chosen.
 pub const MAX_INPUTS: usize = 4096;
 
 /// A parameter that a function takes.
@@ -12,7 +12,7 @@ pub const MAX_INPUTS: usize = 4096;
 pub struct ParameterInfo {
     /// The key in `[function]`.
     pub name: &'static str,
-    /// What it is, and what values it may have.
+    /// Its meaning, and its allowed values.
     pub description: &'static str,
 }
 
@@ -42,23 +42,23 @@ impl fmt::Display for ParameterValue {
     }
 }
 
-/// Why a function cannot be made: a parameter that it does not have, or a value that makes no sense.
+/// Why a function cannot be built: an unknown parameter, or an invalid value.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error("{problem}")]
 pub struct ParameterError {
     /// The parameter.
     pub parameter: String,
-    /// What is wrong, and what would be right.
+    /// What is wrong, and what is allowed.
     pub problem: String,
 }
 
 impl ParameterError {
-    /// The function has no such parameter.
+    /// Returns the error for an unknown parameter.
     pub fn unknown(parameter: &str) -> Self {
         Self { parameter: parameter.to_owned(), problem: format!("the function has no parameter `{parameter}`") }
     }
 
-    /// A value outside the range of the parameter, which `must` says in words.
+    /// Returns the error for a value outside the range of the parameter, described by `must`.
     pub(super) fn out_of_range(parameter: &str, value: f64, must: &str) -> Self {
         refused(parameter, format!("must be {must}, not {value}"))
     }
@@ -68,7 +68,7 @@ fn refused(parameter: &str, problem: String) -> ParameterError {
     ParameterError { parameter: parameter.to_owned(), problem: format!("`{parameter}` {problem}") }
 }
 
-/// A range of values, with the words for it.
+/// A range of values, with its description.
 pub(super) type Range = (fn(f64) -> bool, &'static str);
 
 pub(super) const FINITE: Range = (f64::is_finite, "a finite number");
@@ -77,14 +77,14 @@ pub(super) const POSITIVE: Range = (|x| x > 0.0 && x < f64::INFINITY, "greater t
 pub(super) const PORTION: Range = (|x| (0.0..=1.0).contains(&x), "between 0 and 1");
 const INPUTS: Range = (|x| (1.0..=MAX_INPUTS as f64).contains(&x) && x.fract() == 0.0, "a whole number from 1 to 4096");
 
-/// A parameter with one number per input: its name, its default for the first inputs (the last entry stands for all
-/// that follow), and its range.
+/// A parameter with one number per input: its name, its default for the first inputs (the last entry also applies to
+/// all that follow), and its range.
 pub(super) type PerInput<'a> = (&'static str, &'a [f64], Range);
 
-/// The parameters given, for the functions to read.
+/// The given parameters, read by the functions.
 pub(super) struct Given<'a> {
     given: &'a [(String, ParameterValue)],
-    /// Those read so far, be they given or defaults.
+    /// Those read so far, given or default.
     pub in_force: Vec<(&'static str, ParameterValue)>,
 }
 
@@ -107,11 +107,11 @@ impl<'a> Given<'a> {
 
     fn number_of_inputs(&self, default: usize, range: Range) -> Result<usize, ParameterError> {
         let value = within("dimension", self.one_number("dimension", default as f64, range)?, INPUTS)?;
-        // Whole and at most 4096.
+        // An integer up to 4096.
         Ok(value as usize)
     }
 
-    /// One number.
+    /// Reads one number.
     pub(super) fn number(
         &mut self,
         parameter: &'static str,
@@ -123,14 +123,14 @@ impl<'a> Given<'a> {
         Ok(value)
     }
 
-    /// The parameter `dimension` alone.
+    /// Reads only the parameter `dimension`.
     pub(super) fn dimension(&mut self, default: usize, range: Range) -> Result<usize, ParameterError> {
         let inputs = self.number_of_inputs(default, range)?;
         self.in_force.push(("dimension", ParameterValue::Number(inputs as f64)));
         Ok(inputs)
     }
 
-    /// Numbers per input, all of one length: that of `dimension`, else of the first list given, else of the default.
+    /// Reads numbers per input, all of one length: `dimension`, else that of the first list, else of the default.
     pub(super) fn per_input<const N: usize>(
         &mut self,
         all: [PerInput<'_>; N],

@@ -32,11 +32,11 @@ pub(super) const ENTRY: Entry = Entry {
 
 /// prod x_i, x_i normal of mean mu_i and standard deviation sigma_i.
 ///
-/// Mean prod mu_i, variance prod (mu_i^2 + sigma_i^2) - prod mu_i^2. With the shares t_i = sigma_i^2 / (mu_i^2 + sigma_i^2)
-/// and c_i = 1 - t_i: ST_i = t_i / (1 - prod c_j), S_i = t_i prod_{j != i} c_j / (1 - prod c_j),
-/// S_ij = t_i t_j prod_{k != i, j} c_k / (1 - prod c_k), which are the rules of a product with r_i = (sigma_i / mu_i)^2 and
-/// hold for mu_i = 0 too. For mu = (1, 2, 3), sigma = 0.5: mean 6, variance 13.1406, S = (0.6849, 0.1712, 0.0761),
-/// ST = (0.7479, 0.2200, 0.1011).
+/// Mean prod mu_i, variance prod (mu_i^2 + sigma_i^2) - prod mu_i^2. With the shares t_i = sigma_i^2 / (mu_i^2 +
+/// sigma_i^2) and c_i = 1 - t_i: ST_i = t_i / (1 - prod c_j), S_i = t_i prod_{j != i} c_j / (1 - prod c_j), S_ij = t_i
+/// t_j prod_{k != i, j} c_k / (1 - prod c_k), which are the rules of a product with r_i = (sigma_i / mu_i)^2 and also
+/// hold for mu_i = 0. For mu = (1, 2, 3), sigma = 0.5: mean 6, variance 13.1406, S = (0.6849, 0.1712, 0.0761), ST =
+/// (0.7479, 0.2200, 0.1011).
 struct Product {
     mu: Vec<f64>,
     sigma: Vec<f64>,

@@ -16,7 +16,7 @@ pub(super) const ENTRY: Entry = Entry {
     },
 };
 
-/// Beyond 12 the simplex is too small to be met by any sample.
+/// Above 12 the simplex is too small for any sample to hit it.
 const DIMENSIONS: Range = (|d| (2.0..=12.0).contains(&d), "a whole number from 2 to 12");
 
 /// 1 where sum x_i <= 1, else 0; x uniform on (0, 1)^d.

@@ -27,7 +27,7 @@ pub(super) const ENTRY: Entry = Entry {
     },
 };
 
-/// The exponential and its square have to fit into `f64`.
+/// The exponential and its square must fit into `f64`.
 const EXPONENT: Range = (|b| b.abs() <= 350.0, "between -350 and 350, the sum of all too");
 
 /// exp(sum b_i x_i) - I + c0, x uniform on (0, 1)^d, I = prod (e^b_i - 1)/b_i.

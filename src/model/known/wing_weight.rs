@@ -18,7 +18,7 @@ pub(super) const ENTRY: Entry = Entry {
 /// The indices are integrals over one input: mean 268.075, variance 2311.93.
 struct WingWeight;
 
-/// Place of the sweep, the one input that may be negative.
+/// Index of the sweep, the only input that may be negative.
 const SWEEP: usize = 3;
 
 fn inputs() -> Vec<KnownInput> {

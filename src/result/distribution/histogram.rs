@@ -2,10 +2,10 @@
 
 use super::{Histogram, Sample};
 
-/// Most bins.
+/// Maximum number of bins.
 const MAX_BINS: f64 = 100.0;
 
-/// The histogram of a sample, in the scale of its values.
+/// Returns the histogram of a sample, in the scale of its values.
 pub(super) fn histogram(sample: &Sample<'_>) -> Histogram {
     let (low, high) = sample.reach;
     let root = libm::cbrt(sample.n());
@@ -14,7 +14,7 @@ pub(super) fn histogram(sample: &Sample<'_>) -> Histogram {
     let mut edges: Vec<f64> = (0..=bins).map(|k| low + (high - low) * k as f64 / bins as f64).collect();
     edges[bins] = high;
     let (values, below, above) = sample.within();
-    // Values are sorted: each inner edge parts them, and what equals it goes up.
+    // Values are sorted: each inner edge divides them, and equal values go up.
     let ends: Vec<usize> = edges[1..bins].iter().map(|edge| values.partition_point(|v| v < edge)).collect();
     let starts = std::iter::once(0).chain(ends.iter().copied());
     let counts = starts.zip(ends.iter().copied().chain([values.len()])).map(|(from, to)| (to - from) as u64).collect();

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use crate::quantity::Unit;
 use crate::sum::{mean, rescaled};
 
-/// The distribution of one output over a sample, as it stands in result files. Numbers are in `unit`.
+/// The distribution of one output over a sample, as in result files. Numbers are in `unit`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct OutputDistribution {
@@ -48,10 +48,10 @@ pub struct QuantileRecord {
 
 /// A histogram of equal bins.
 ///
-/// It reaches from the smallest to the largest value, but no further than 6 interquartile ranges beyond the quartiles:
-/// a few far values would else leave all others in one bin. They are counted in `below` and `above`. The width is that
-/// of Freedman and Diaconis (1981), 2 IQR n^(-1/3), or where the IQR is 0 that of Scott (1979), 3.49 sd n^(-1/3), and not
-/// less than a hundredth of the whole.
+/// It covers the range from the smallest to the largest value, but at most 6 interquartile ranges beyond the quartiles:
+/// otherwise a few far values would leave all others in one bin. They are counted in `below` and `above`. The width is
+/// that of Freedman and Diaconis (1981), 2 IQR n^(-1/3), or if the IQR is 0 that of Scott (1979), 3.49 sd n^(-1/3), and
+/// at least a hundredth of the whole.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Histogram {
@@ -66,8 +66,9 @@ pub struct Histogram {
 }
 
 impl OutputDistribution {
-    /// The distribution of `values`, which are in SI; the record is in `unit`. Any finite values will do, however large,
-    /// small or equal; `None` if there are none, or one is not finite. Costs O(n log n) time and a copy of the values.
+    /// Computes the distribution of `values`, which are in SI; the record is in `unit`. Allows any finite values,
+    /// however large, small or equal; `None` if there are none, or one is not finite. Costs O(n log n) time and a copy
+    /// of the values.
     ///
     /// # Example
     /// ```
@@ -109,32 +110,32 @@ impl OutputDistribution {
         })
     }
 
-    /// The values that leave out 2.5 % at either end; `None` of so few values that these are the smallest and the largest.
+    /// Returns the quantiles at 2.5 % from either end; `None` if there are so few values that these are the extremes.
     pub fn central(&self) -> Option<(f64, f64)> {
         self.tells(2.5).then(|| self.quantile(2.5).zip(self.quantile(97.5))).flatten()
     }
 
-    /// How far most values lie apart: the width of the central 95 %, or of all where that is 0 or unknown.
+    /// Returns the typical distance of values: the width of the central 95 %, or of all if that is 0 or unknown.
     pub fn spread(&self) -> f64 {
         let central = self.central().map(|(low, high)| high - low);
         central.filter(|width| *width > 0.0).unwrap_or(self.max - self.min)
     }
 
-    /// Whether a value or more lies beyond the quantile of so many percent: of fewer it would be an end of the range.
+    /// Returns whether at least one value is beyond the quantile at `percent`; if not, it is an end of the range.
     pub fn tells(&self, percent: f64) -> bool {
         self.count as f64 * percent.min(100.0 - percent) >= 100.0
     }
 
-    /// The quantile at a percentage of [`PERCENTS`].
+    /// Returns the quantile at a percentage of [`PERCENTS`].
     pub fn quantile(&self, percent: f64) -> Option<f64> {
         self.quantiles.iter().find(|q| q.percent == percent).map(|q| q.value)
     }
 }
 
-/// A spread below this, of values whose largest lies between 1 and 2, is rounding error: the sample counts as constant.
+/// A spread below this, for values whose largest is between 1 and 2, is rounding error: the sample counts as constant.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
-/// From the working scale, in which the largest value lies between 1 and 2, to the unit of the record.
+/// Conversion from the working scale, in which the largest value is between 1 and 2, to the unit of the record.
 struct Scale<'a> {
     exponent: i32,
     unit: &'a Unit,
@@ -145,7 +146,7 @@ impl Scale<'_> {
         self.unit.from_si(libm::scalbn(x, self.exponent))
     }
 
-    /// A difference of two values.
+    /// Converts a difference of two values.
     fn span(&self, x: f64) -> f64 {
         self.unit.span_from_si(libm::scalbn(x, self.exponent))
     }
@@ -175,12 +176,12 @@ impl Moments {
     }
 }
 
-/// A sorted sample that varies, with what a histogram needs of it.
+/// A sorted sample that varies, with the quantities for its histogram.
 struct Sample<'a> {
     sorted: &'a [f64],
     sd: f64,
     iqr: f64,
-    /// Where the histogram begins and ends.
+    /// The ends of the histogram.
     reach: (f64, f64),
 }
 
@@ -191,7 +192,7 @@ impl<'a> Sample<'a> {
         let (lower, upper) = (quantile(sorted, 0.25), quantile(sorted, 0.75));
         let iqr = upper - lower;
         let (min, max) = (sorted[0], sorted[sorted.len() - 1]);
-        // An IQR of rounding errors would leave nothing within reach.
+        // An IQR of rounding errors would leave no value within reach.
         let (iqr, reach) = if iqr > ROUNDING {
             (iqr, (min.max(lower - REACH * iqr), max.min(upper + REACH * iqr)))
         } else {
@@ -204,7 +205,7 @@ impl<'a> Sample<'a> {
         self.sorted.len() as f64
     }
 
-    /// The values within reach, and how many there are below and above.
+    /// Returns the values within reach, and the numbers of those below and above.
     fn within(&self) -> (&'a [f64], usize, usize) {
         let from = self.sorted.partition_point(|&v| v < self.reach.0);
         let to = self.sorted.partition_point(|&v| v <= self.reach.1);

@@ -1,14 +1,14 @@
-//! Whether the parts of a result fit together: what draws a result relies on it.
+//! Consistency checks of a result, on which charts rely.
 
 use serde_json::Value;
 
 use crate::names::{LONGEST_NAME, LONGEST_STUDY_NAME};
 use crate::result::{OutputResult, PlainIndexRecord, SeriesRecord, StudyResult};
 
-/// A key, and what is wrong there.
+/// A key, and the error there.
 type Fault = (String, String);
 
-/// What the types of the keys do not say.
+/// Checks conditions that the types of the keys do not express.
 pub(super) fn check(result: &StudyResult) -> Result<(), Fault> {
     file_name("study.name", &result.study.name, LONGEST_STUDY_NAME)?;
     for (place, output) in result.outputs.iter().enumerate() {
@@ -22,7 +22,7 @@ pub(super) fn check(result: &StudyResult) -> Result<(), Fault> {
     result.series.iter().enumerate().try_for_each(|(place, of)| series(&format!("series[{place}]"), result, of))
 }
 
-/// A series has values that are outputs, and a loading for each.
+/// Checks that the values of a series are outputs, and that each has a position.
 fn series(key: &str, result: &StudyResult, series: &SeriesRecord) -> Result<(), Fault> {
     file_name(&format!("{key}.name"), &series.name, LONGEST_NAME)?;
     let end = series.first_output.checked_add(series.positions.len()).filter(|end| *end <= result.outputs.len());
@@ -41,7 +41,7 @@ fn series(key: &str, result: &StudyResult, series: &SeriesRecord) -> Result<(), 
     Ok(())
 }
 
-/// Files are named after the study and its outputs: a name must not lead to another folder.
+/// Checks a name used in file names (those of the study and its outputs): it must not lead to another folder.
 fn file_name(key: &str, name: &str, most: usize) -> Result<(), Fault> {
     let leads_away = |c: char| matches!(c, '/' | '\\' | ':') || c.is_control();
     if name.is_empty() || name.chars().count() > most || name.contains(leads_away) {
@@ -52,13 +52,13 @@ fn file_name(key: &str, name: &str, most: usize) -> Result<(), Fault> {
     Ok(())
 }
 
-/// Largest count: up to here sums of a few counts, and the counts as numbers, are exact.
+/// Largest count: up to this, sums of a few counts, and the counts as numbers, are exact.
 const MAX_COUNT: u64 = 1 << 53;
 
-/// Numbers that are no counts.
+/// Numbers that are not counts.
 const NO_COUNTS: [&str; 2] = ["seed", "first_row"];
 
-/// Every whole number is a count that can be reckoned with, but for seeds and row numbers.
+/// Checks that every whole number except seeds and row numbers is a valid count.
 pub(super) fn counts(value: &Value, key: &str) -> Result<(), Fault> {
     match value {
         Value::Object(map) => map
@@ -82,7 +82,7 @@ fn joined(key: &str, name: &str) -> String {
     if key.is_empty() { name.to_owned() } else { format!("{key}.{name}") }
 }
 
-/// There is an index for each factor, or none at all.
+/// Checks that there is an index for each factor, or none at all.
 fn indices(key: &str, result: &StudyResult, output: &OutputResult) -> Result<(), Fault> {
     let Some(indices) = &output.indices else { return Ok(()) };
     let names = || indices.iter().map(|index| &index.factor);

@@ -1,4 +1,4 @@
-//! Result files read back: what is no result is refused, with what is wrong and where.
+//! Reading of result files, with errors that name the place.
 
 mod coherence;
 
@@ -10,7 +10,7 @@ use thiserror::Error;
 use crate::files::read_whole;
 use crate::result::StudyResult;
 
-/// The newest version of the format that is understood.
+/// The newest supported version of the format.
 const VERSION: u32 = 1;
 const FORMAT: &str = "apportion-result";
 
@@ -27,10 +27,10 @@ pub struct ReadError {
 /// What is wrong with a result file.
 #[derive(Debug, Error)]
 pub enum ReadProblem {
-    /// It cannot be read at all.
+    /// It cannot be read.
     #[error("cannot read the result: {0}")]
     Unreadable(#[from] std::io::Error),
-    /// It is no JSON, or not this JSON; line and column are in the message.
+    /// It is not JSON, or not this JSON; line and column are in the message.
     #[error("not a result of `apportion run`: {0}")]
     Malformed(#[from] serde_json::Error),
     /// It is JSON of another kind.
@@ -38,26 +38,26 @@ pub enum ReadProblem {
         "not a result of `apportion run`: its \"format\" is {found:?}, expected \"{FORMAT}\" (the file NAME.json of a run)"
     )]
     Format {
-        /// The format it says it has.
+        /// The format that it states.
         found: String,
     },
     /// It comes from a later version of the program.
     #[error("version {found} of the format is not known to this program, which reads version {VERSION}")]
     Version {
-        /// The version it says it has.
+        /// The version that it states.
         found: u32,
     },
-    /// Its parts do not fit together.
+    /// It is inconsistent.
     #[error("`{key}`: {problem}")]
     Incoherent {
         /// The place in the file, as in `outputs[0].scatter`.
         key: String,
-        /// What is wrong there.
+        /// The inconsistency.
         problem: String,
     },
 }
 
-/// What every file of this program says of itself.
+/// The header of every file of this program.
 #[derive(Deserialize)]
 struct Header {
     format: String,
@@ -67,15 +67,14 @@ struct Header {
 /// Reads the result of a run from its JSON file.
 ///
 /// # Errors
-/// [`ReadError`] with what is wrong: a file that cannot be read, that is no JSON or JSON of another kind, a version of the
-/// format that is not known, or parts that do not fit together.
+/// [`ReadError`] with what is wrong: a file that cannot be read, that is not JSON or JSON of another kind, an unknown
+/// version of the format, or inconsistent parts.
 pub fn read_result(path: &Path) -> Result<StudyResult, ReadError> {
     let read = || parse_result(&read_whole(path)?);
     read().map_err(|problem| ReadError { path: path.to_owned(), problem })
 }
 
-/// Reads the result of a run from JSON, as [`StudyResult::json`] writes it. Keys that are not known, of a
-/// later version of the program, are left out.
+/// Reads the result of a run from JSON, as [`StudyResult::json`] writes it. Unknown keys of later versions are ignored.
 ///
 /// ```
 /// use apportion::result::parse_result;

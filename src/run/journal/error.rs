@@ -1,4 +1,4 @@
-//! What can be wrong with a journal.
+//! Errors of a journal.
 
 use std::path::{Path, PathBuf};
 
@@ -12,7 +12,7 @@ pub enum JournalError {
     Unreadable {
         /// The file.
         path: PathBuf,
-        /// What the operating system said.
+        /// The error of the operating system.
         source: std::io::Error,
     },
     /// The file cannot be written.
@@ -20,22 +20,22 @@ pub enum JournalError {
     Unwritable {
         /// The file.
         path: PathBuf,
-        /// What the operating system said.
+        /// The error of the operating system.
         source: std::io::Error,
     },
-    /// A pipe, a device or a folder is in its place.
+    /// The path is a pipe, a device or a folder.
     #[error("{}: a journal is a file, but a pipe, a device or a folder is there: remove it, or give another folder", .path.display())]
     NoFile {
         /// The path.
         path: PathBuf,
     },
-    /// Another process has it open.
+    /// The file is open in another process.
     #[error("{}: another run is writing this journal", .path.display())]
     InUse {
         /// The file.
         path: PathBuf,
     },
-    /// It is something else, or its header is damaged.
+    /// The file is not a journal, or its header is damaged.
     #[error("{}: this is no journal of a run: {found}", .path.display())]
     NotAJournal {
         /// The file.
@@ -43,12 +43,12 @@ pub enum JournalError {
         /// What is wrong with it.
         found: String,
     },
-    /// It is of a format that is not known.
+    /// The version of the format is unknown.
     #[error("{}: the journal is of format {version}, and this program reads format 1 (format 2 holds sums of runs, which are no longer kept)", .path.display())]
     OtherVersion {
         /// The file.
         path: PathBuf,
-        /// Its format.
+        /// Its version.
         version: u32,
     },
 }

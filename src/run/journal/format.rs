@@ -14,19 +14,19 @@ use crate::run::Piece;
 
 const MAGIC: &[u8] = b"apportion journal";
 const VERSION: u32 = 1;
-/// Stands in every record where the effort of a model stood before models had counters.
+/// Written in every record in place of the model's effort, a field from before models had counters.
 const LEGACY_EFFORT: [u8; 20] = [0; 20];
 
-/// What a journal holds.
+/// The contents of a journal.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Contents {
-    /// Of which study it is.
+    /// The identity of its study.
     pub header: Value,
-    /// Its pieces, in the order in which they were written: later ones stand in place of earlier ones.
+    /// Its pieces, in the order in which they were written: later ones replace earlier ones.
     pub pieces: Vec<Piece>,
     /// Bytes up to the end of the last whole record.
     pub length: u64,
-    /// Bytes after it: of a record that was cut short or damaged, and all that follows.
+    /// Bytes after it: a record that was cut short or damaged, and everything that follows.
     pub cut_off: u64,
 }
 
@@ -65,7 +65,7 @@ pub(in crate::run) fn write_record(out: &mut Vec<u8>, piece: &Piece) {
     out[begin + 4..begin + 8].copy_from_slice(&checksum);
 }
 
-/// The length is part of what is checked: a run of zeros, which some file systems leave after a power cut, is no record.
+/// Computes the checksum. It covers the length: zeros, which some file systems leave after a power cut, are invalid.
 fn checksum(length: &[u8], body: &[u8]) -> u32 {
     let mut hasher = crc32fast::Hasher::new();
     hasher.update(length);
@@ -76,7 +76,7 @@ fn checksum(length: &[u8], body: &[u8]) -> u32 {
 /// Reads the bytes of a journal; `path` is for messages.
 ///
 /// # Errors
-/// [`JournalError`] if it is no journal, or of another version. Whatever is wrong with its records is cut off.
+/// [`JournalError`] if it is no journal, or of another version. Damaged records are cut off.
 pub fn read_journal(path: &Path, bytes: &[u8]) -> Result<Contents, JournalError> {
     let wrong = |found: &str| JournalError::NotAJournal { path: path.to_owned(), found: found.to_owned() };
     let mut reader = Reader { bytes };
@@ -103,7 +103,7 @@ pub fn read_journal(path: &Path, bytes: &[u8]) -> Result<Contents, JournalError>
     Ok(Contents { header, pieces, length: (bytes.len() - whole) as u64, cut_off: whole as u64 })
 }
 
-/// The next record, if it is whole.
+/// Reads the next record, if it is complete.
 pub(in crate::run) fn record(reader: &mut Reader<'_>) -> Option<Piece> {
     let (length, expected) = (reader.u32()?, reader.u32()?);
     let body = reader.take(length as usize)?;
@@ -115,7 +115,7 @@ pub(in crate::run) fn record(reader: &mut Reader<'_>) -> Option<Piece> {
     reader.bytes.is_empty().then_some(piece)
 }
 
-/// Most rows that a replicate may have by what a journal says: beyond any design, and far from where sums overflow.
+/// Maximum number of rows in a replicate of a journal: more than any design has, and too few to overflow sums.
 const MAX_ROWS: u64 = 1 << 60;
 
 fn piece(reader: &mut Reader<'_>) -> Option<Piece> {
@@ -133,7 +133,7 @@ fn piece(reader: &mut Reader<'_>) -> Option<Piece> {
     }
     let flags = list(reader)?;
     reader.take(LEGACY_EFFORT.len()).filter(|effort| *effort == LEGACY_EFFORT)?;
-    // Records of that time end here.
+    // Records of older versions end here.
     let counts = if reader.bytes.is_empty() { Counts::default() } else { Counts::read(reader)? };
     Some(Piece { replicate, first, values, failures, flags, counts })
 }

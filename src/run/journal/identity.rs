@@ -1,8 +1,8 @@
-//! In what two headers differ.
+//! Differences between the identities of two journals.
 
 use serde_json::Value;
 
-/// In what the identity of a journal differs from that of a study, in sentences, at most a few; none if they are equal.
+/// Lists how the identity of a journal differs from that of a study, in a few sentences; empty if they are equal.
 pub fn differences(journal: &Value, study: &Value) -> Vec<String> {
     const MAX_LISTED: usize = 3;
     let mut found = Vec::new();
@@ -19,7 +19,7 @@ fn compare(key: &str, journal: &Value, study: &Value, found: &mut Vec<String>) {
     match (journal, study) {
         (Value::Object(a), Value::Object(b)) => {
             let keys = a.keys().chain(b.keys().filter(|key| !a.contains_key(*key)));
-            // A digest says that something differs; it is reported only where nothing says what.
+            // A digest only shows that something differs; it is reported if no other difference is found.
             let (digests, others): (Vec<_>, Vec<_>) = keys.partition(|key| *key == "digest");
             let before = found.len();
             for name in others.into_iter().chain(digests) {
@@ -32,7 +32,7 @@ fn compare(key: &str, journal: &Value, study: &Value, found: &mut Vec<String>) {
         }
         (Value::Array(a), Value::Array(b)) if a.len() == b.len() => {
             for (place, (a, b)) in a.iter().zip(b).enumerate() {
-                // Lists of things with names speak of them by name.
+                // Lists of named items are compared by name.
                 let name = b.get("name").and_then(Value::as_str).map_or_else(|| (place + 1).to_string(), str::to_owned);
                 compare(&format!("{key}.{name}"), a, b, found);
             }

@@ -1,11 +1,10 @@
-//! The journal of a run: a file of finished pieces with checksums, that survives whatever ends the run.
+//! The journal of a run: a file of finished pieces with checksums that survives an abrupt end of the run.
 //!
-//! A journal is a header, which says of which study it is, and records, which are only ever appended, each by one write. A
-//! record that was cut short or damaged ends what is read: it and all after it are evaluated again. The format is
-//! described in `docs/journal-format.md`.
+//! A journal is a header, which identifies the study, and records, which are only appended, each by one write. Reading
+//! stops at a record that was cut short or damaged: it and all after it are evaluated again. The format is described in
+//! `docs/journal-format.md`.
 //!
-//! [`Runner::journal`](crate::Runner::journal) keeps a journal, and goes on with one; `examples/interrupted.rs` is a program
-//! that does so.
+//! [`Runner::journal`](crate::Runner::journal) writes and resumes a journal; see `examples/interrupted.rs`.
 
 mod error;
 mod format;
@@ -28,14 +27,13 @@ use super::Piece;
 use crate::clock::Instant;
 use crate::files::{read_opened, read_whole};
 
-/// Time between forced writes to the disk: what a power cut may cost, at most. (The death of the program alone costs
-/// nothing that was appended.)
+/// Time between forced writes to the disk, the most that a power cut can lose (the death of the program loses none).
 const SYNC_INTERVAL: Duration = Duration::from_secs(1);
 
-/// How long is waited for a lock that somebody else has.
+/// How long to wait for a lock that another process holds.
 const LOCK_PATIENCE: Duration = Duration::from_millis(500);
 
-/// A journal open for appending; no other process has it open at the same time.
+/// A journal open for appending, by one process at a time.
 #[derive(Debug)]
 pub struct Journal {
     path: PathBuf,
@@ -45,20 +43,20 @@ pub struct Journal {
 #[derive(Debug)]
 struct Writer {
     file: File,
-    /// Bytes of whole records.
+    /// Number of bytes in complete records.
     length: u64,
     synced: Instant,
     buffer: Vec<u8>,
 }
 
 impl Journal {
-    /// Begins a journal at `path` with `header`, in place of a file that is there.
+    /// Creates a journal at `path` with `header`, replacing an existing file.
     ///
     /// # Errors
     /// [`JournalError`] if the file cannot be written, or another run is writing it.
     pub fn create(path: &Path, header: &Value) -> Result<Self, JournalError> {
         refuse_no_file(path)?;
-        // Truncated only once the lock is held: the file may be another run's.
+        // Truncate only once the lock is held: the file may belong to another run.
         let file = open_locked(path, true)?;
         let journal = Self::writing(path, file, 0);
         let mut buffer = Vec::new();
@@ -70,8 +68,8 @@ impl Journal {
         Ok(journal)
     }
 
-    /// Opens the journal at `path` to go on with it: returns it with what it holds. What follows the last whole record is
-    /// cut off.
+    /// Opens the journal at `path` to resume it, and returns it with its contents. Anything after the last complete
+    /// record is cut off.
     ///
     /// # Errors
     /// [`JournalError`] if the file cannot be read or written, is no journal, or another run is writing it.
@@ -88,15 +86,15 @@ impl Journal {
         Self { path: path.to_owned(), writer: Mutex::new(writer) }
     }
 
-    /// Where it is.
+    /// Returns the path of the file.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Appends a piece, by one write: when this returns, the death of the program does not lose it.
+    /// Appends a piece, by one write: when this returns, the piece survives the death of the program.
     ///
     /// # Errors
-    /// What the operating system says; the journal then ends with the record before.
+    /// The error of the operating system; the journal then ends with the previous record.
     pub fn append(&self, piece: &Piece) -> std::io::Result<()> {
         let mut writer = self.writer.lock().unwrap_or_else(PoisonError::into_inner);
         let mut buffer = std::mem::take(&mut writer.buffer);
@@ -112,10 +110,10 @@ impl Journal {
         writer.append(bytes)
     }
 
-    /// Forces all that was appended to the disk.
+    /// Forces all appended records to the disk.
     ///
     /// # Errors
-    /// What the operating system says.
+    /// The error of the operating system.
     pub fn sync(&self) -> std::io::Result<()> {
         self.writer.lock().unwrap_or_else(PoisonError::into_inner).file.sync_data()
     }
@@ -123,13 +121,13 @@ impl Journal {
 
 impl Writer {
     fn append(&mut self, bytes: &[u8]) -> std::io::Result<()> {
-        // The first write of a resumed journal goes over what was cut off.
+        // The first write of a resumed journal overwrites the damaged end.
         if self.file.metadata()?.len() != self.length {
             self.file.set_len(self.length)?;
         }
         self.file.seek(SeekFrom::Start(self.length))?;
         if let Err(error) = self.file.write_all(bytes) {
-            // If this fails too, the reader cuts the rest off.
+            // If this fails too, the reader cuts off the rest.
             let _ = self.file.set_len(self.length);
             return Err(error);
         }
@@ -142,14 +140,14 @@ impl Writer {
     }
 }
 
-/// The path with `ending` behind its whole name: journals whose names differ have others beside them whose names differ.
+/// Returns the path with `ending` after its whole name, so that different journals get different companion files.
 pub(crate) fn with_ending(path: &Path, ending: &str) -> PathBuf {
     let mut name = path.file_name().unwrap_or_default().to_owned();
     name.push(ending);
     path.with_file_name(name)
 }
 
-/// Opening a pipe waits for somebody at its other end, and a device keeps nothing.
+/// Refuses anything but a regular file: opening a pipe waits for its other end, and a device stores nothing.
 fn refuse_no_file(path: &Path) -> Result<(), JournalError> {
     match std::fs::metadata(path) {
         Ok(there) if !there.is_file() => Err(JournalError::NoFile { path: path.to_owned() }),
@@ -167,7 +165,7 @@ pub fn read_journal_file(path: &Path) -> Result<Contents, JournalError> {
     read_journal(path, &bytes)
 }
 
-/// Opens the journal at `path` and locks it; a new one if it is not there and `creates`.
+/// Opens the journal at `path` and locks it; creates it if it is missing and `creates`.
 fn open_locked(path: &Path, creates: bool) -> Result<File, JournalError> {
     let file = OpenOptions::new().create(creates).truncate(false).read(true).write(true).open(path);
     let wrong = if creates { JournalError::unwritable } else { JournalError::unreadable };
@@ -181,10 +179,10 @@ fn lock(path: &Path, file: &File) -> Result<(), JournalError> {
     loop {
         match file.try_lock() {
             Ok(()) => return Ok(()),
-            // A child of the process that had it holds it too, between its birth and the program that it becomes.
+            // A child of the process that held the lock also holds it between fork and exec.
             Err(TryLockError::WouldBlock) if begin.elapsed() < LOCK_PATIENCE => thread::sleep(LOCK_PATIENCE / 50),
             Err(TryLockError::WouldBlock) => return Err(JournalError::InUse { path: path.to_owned() }),
-            // File systems without locks have none to respect.
+            // Some file systems do not support locks.
             Err(TryLockError::Error(_)) => return Ok(()),
         }
     }

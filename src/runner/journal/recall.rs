@@ -1,10 +1,10 @@
-//! The runs of a study that a journal holds.
+//! The recorded runs of a journal.
 
 use crate::run::Store;
 use crate::run::journal::Contents;
 use crate::study::Study;
 
-/// A store of the runs of `study` in a journal; where one is there twice, the later counts.
+/// Returns a store of the runs of `study` in a journal; of duplicates, the later one counts.
 pub(in crate::runner) fn recorded(study: &Study, contents: &Contents) -> Store {
     let store = Store::new(&study.design, study.model().as_ref());
     let outputs = store.outputs();
@@ -20,7 +20,7 @@ pub(in crate::runner) fn recorded(study: &Study, contents: &Contents) -> Store {
     store
 }
 
-/// Rows of the design that are in `store`.
+/// Counts the rows of the design that are in `store`.
 pub(in crate::runner) fn rows_on_record(study: &Study, store: &Store) -> u64 {
     let rows = study.design.points_per_replicate() * study.design.rows_per_point();
     (0..study.design.settings().replicates).map(|replicate| store.count(replicate, 0..rows).0).sum()

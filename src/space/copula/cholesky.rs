@@ -1,15 +1,15 @@
 //! The triangular factor of correlations, in any order of the factors.
 
-/// L of S = L L^T, where S are the correlations of some factors in an order (Cholesky): scores z with these correlations are L e, where
-/// the e are independent of each other, and the first of them are those of the first factors alone.
+/// L of S = L L^T, where S are the correlations of some factors in an order (Cholesky): scores z with these
+/// correlations are L e, where the e are independent of each other, and the first depend only on the first factors.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct CholeskyFactor {
     rows: Vec<Vec<f64>>,
 }
 
 impl CholeskyFactor {
-    /// That of `factors` factors, whose `correlation` at two places of the order is asked for the greater place first. The matrix is
-    /// positive definite.
+    /// Computes the factor for `factors` factors; `correlation` is called with two places of the order, the greater one
+    /// first. The matrix must be positive definite.
     pub fn new(factors: usize, correlation: impl Fn(usize, usize) -> f64) -> Self {
         let mut rows: Vec<Vec<f64>> = Vec::with_capacity(factors);
         for row in 0..factors {
@@ -18,14 +18,14 @@ impl CholeskyFactor {
                 let known: f64 = own.iter().zip(other).map(|(a, b)| a * b).sum();
                 own.push((correlation(row, column) - known) / other[column]);
             }
-            // Above 0: the least eigenvalue of the matrix is.
+            // Above 0, because the smallest eigenvalue of the matrix is.
             own.push((1.0 - own.iter().map(|l| l * l).sum::<f64>()).max(f64::MIN_POSITIVE).sqrt());
             rows.push(own);
         }
         Self { rows }
     }
 
-    /// e of the scores of the first factors.
+    /// Returns the e of the scores of the first factors.
     pub fn whiten(&self, scores: &[f64]) -> Vec<f64> {
         let mut e: Vec<f64> = Vec::with_capacity(scores.len());
         for (score, row) in scores.iter().zip(&self.rows) {
@@ -35,7 +35,7 @@ impl CholeskyFactor {
         e
     }
 
-    /// The score of the factor at `place` of a point with this e, which may end there.
+    /// Returns the score of the factor at `place` of a point with this e, which may end there.
     pub fn score(&self, place: usize, e: &[f64]) -> f64 {
         self.rows[place].iter().zip(e).map(|(l, e)| l * e).sum()
     }

@@ -6,8 +6,8 @@ use super::{from_score, normal_scores};
 
 /// A Gaussian copula of all factors of a space: the normal scores Phi^-1(u) of the factors have a joint normal distribution.
 ///
-/// Conditional distributions are linear in the scores, so that any factors can be drawn given any others (Kucherenko, Tarantola
-/// and Annoni 2012, Comput. Phys. Commun. 183, 937-946, section 4).
+/// Conditional distributions are linear in the scores, so any factors can be drawn given any others (Kucherenko,
+/// Tarantola and Annoni 2012, Comput. Phys. Commun. 183, 937-946, section 4).
 #[derive(Debug, Clone, PartialEq)]
 pub struct GaussianCopula {
     correlation: DMatrix<f64>,
@@ -17,18 +17,18 @@ pub struct GaussianCopula {
     lower: DMatrix<f64>,
 }
 
-// Correlations are numbers, which equal themselves.
+// Correlations are never NaN, so equality is reflexive.
 impl Eq for GaussianCopula {}
 
-/// The least eigenvalue of a correlation matrix: with less, a factor is almost a function of others.
+/// The minimum eigenvalue of a correlation matrix: with less, a factor is almost a function of others.
 const MIN_EIGENVALUE: f64 = 1e-9;
 
-/// The least eigenvalue of a matrix that is proposed: four digits can be written without losing it.
+/// The minimum eigenvalue of a proposed matrix: rounding to four digits then keeps it positive definite.
 const PROPOSED_EIGENVALUE: f64 = 1e-3;
 
 impl GaussianCopula {
-    /// The copula whose normal scores have this correlation matrix, symmetric with a diagonal of ones; an error with the nearest
-    /// matrix that would do, rounded to four digits, if it is not positive definite.
+    /// Creates the copula whose normal scores have this correlation matrix, symmetric with a diagonal of ones; returns
+    /// the nearest valid matrix, rounded to four digits, as an error if it is not positive definite.
     pub(crate) fn new(correlation: DMatrix<f64>) -> Result<Self, DMatrix<f64>> {
         let factors = correlation.nrows();
         let is_dependent = |i: &usize| (0..factors).any(|j| j != *i && correlation[(*i, j)] != 0.0);
@@ -45,23 +45,23 @@ impl GaussianCopula {
         }
     }
 
-    /// Number of factors.
+    /// Returns the number of factors.
     pub fn factors(&self) -> usize {
         self.correlation.nrows()
     }
 
-    /// The correlation of the normal scores of two factors.
+    /// Returns the correlation of the normal scores of two factors.
     pub fn correlation(&self, i: usize, j: usize) -> f64 {
         self.correlation[(i, j)]
     }
 
-    /// The factors that are correlated with another one, in rising order.
+    /// Returns the factors that are correlated with another one, in rising order.
     pub fn dependent(&self) -> &[usize] {
         &self.dependent
     }
 
-    /// Points of the unit cube, a column for each factor, whose coordinates are independent, become dependent: the first of
-    /// the dependent factors keeps its coordinates.
+    /// Makes points of the unit cube, a column for each factor, whose coordinates are independent, dependent: the first
+    /// of the dependent factors keeps its coordinates.
     pub fn correlate(&self, columns: &mut [Vec<f64>]) {
         let mut scores: Vec<Vec<f64>> = self.dependent.iter().map(|&factor| normal_scores(&columns[factor])).collect();
         for (row, &factor) in self.dependent.iter().enumerate().skip(1).rev() {
@@ -76,7 +76,7 @@ impl GaussianCopula {
         }
     }
 
-    /// The scores of points of the unit cube, a column for each factor: empty for one that depends on no other.
+    /// Returns the scores of points of the unit cube, a column for each factor: empty for one that depends on no other.
     pub(crate) fn scores(&self, columns: &[Vec<f64>]) -> Vec<Vec<f64>> {
         let mut scores = vec![Vec::new(); columns.len()];
         for &factor in &self.dependent {
@@ -85,9 +85,9 @@ impl GaussianCopula {
         scores
     }
 
-    /// The coefficients of E(score of `of` | scores of `given`) = sum of coefficient x score, in the order of `given`.
+    /// Returns the coefficients in E(score of `of` | scores of `given`) = sum coefficient x score, in `given`'s order.
     pub fn regression(&self, of: usize, given: &[usize]) -> Vec<f64> {
-        // Only those that are tied to it, be it by way of others, have a coefficient.
+        // Only factors connected with it, directly or through others, have a coefficient.
         let mut tied = vec![of];
         let mut next = 0;
         while next < tied.len() {
@@ -99,7 +99,7 @@ impl GaussianCopula {
         }
         let tied: Vec<usize> = given.iter().copied().filter(|j| tied[1..].contains(j)).collect();
         let covariances = DVector::from_iterator(tied.len(), tied.iter().map(|&j| self.correlation[(of, j)]));
-        // A principal part of a positive definite matrix is one.
+        // A principal part of a positive definite matrix is positive definite.
         let solved = part(&self.correlation, &tied, &tied).cholesky().map(|cholesky| cholesky.solve(&covariances));
         let coefficient = |j: &usize| {
             let place = tied.iter().position(|other| other == j)?;
@@ -113,8 +113,8 @@ fn part(matrix: &DMatrix<f64>, rows: &[usize], columns: &[usize]) -> DMatrix<f64
     DMatrix::from_fn(rows.len(), columns.len(), |i, j| matrix[(rows[i], columns[j])])
 }
 
-/// The correlation matrix nearest to `matrix` in the Frobenius norm, made safely positive definite and rounded to four digits, by
-/// alternating projections (Higham 2002, IMA J. Numer. Anal. 22, 329-343, algorithm 3.3).
+/// Returns the correlation matrix nearest to `matrix` in the Frobenius norm, made safely positive definite and rounded
+/// to four digits, by alternating projections (Higham 2002, IMA J. Numer. Anal. 22, 329-343, algorithm 3.3).
 fn nearest_correlation(matrix: &DMatrix<f64>) -> DMatrix<f64> {
     const STEPS: usize = 500;
     let n = matrix.nrows();
@@ -190,7 +190,7 @@ mod tests {
         let expected = [(0.2 + 0.5 * 0.4) / 0.75, (-0.4 - 0.5 * 0.2) / 0.75];
         assert!(found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-15), "{found:?}");
         assert!(copula.regression(1, &[]).is_empty());
-        // 0 is tied to 2 by 1 alone: of no use where 1 is not given, and of use by way of it.
+        // 0 is connected with 2 only through 1: it has no coefficient unless 1 is given, and one through it.
         let chain = GaussianCopula::new(matrix(3, &[0.5, 0.0, 0.5])).unwrap();
         assert_eq!(chain.regression(0, &[2]), [0.0]);
         assert!(chain.regression(0, &[1, 2])[1] < -0.1);

@@ -1,4 +1,4 @@
-//! How factors depend on each other: by a Gaussian copula.
+//! Dependence of factors by a Gaussian copula.
 
 mod cholesky;
 mod gaussian;
@@ -9,12 +9,12 @@ pub use gaussian::GaussianCopula;
 use super::distribution::{LARGEST_U, SMALLEST_U};
 use crate::special::{normal_below, normal_quantile};
 
-/// Normal scores of coordinates of the unit cube.
+/// Returns the normal scores of coordinates of the unit cube.
 pub(crate) fn normal_scores(u: &[f64]) -> Vec<f64> {
     u.iter().map(|&u| normal_quantile(u)).collect()
 }
 
-/// The coordinate of the unit cube with this normal score, inside the range of all coordinates.
+/// Returns the coordinate of the unit cube with this normal score, inside the range of all coordinates.
 pub(crate) fn from_score(score: f64) -> f64 {
     normal_below(score).clamp(SMALLEST_U, LARGEST_U)
 }

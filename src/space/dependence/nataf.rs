@@ -1,4 +1,4 @@
-//! The correlation of normal scores that brings about a correlation of another measure (Nataf's model).
+//! The correlation of normal scores that leads to a correlation of another measure (Nataf's model).
 
 use std::f64::consts::PI;
 
@@ -6,7 +6,7 @@ use super::{CorrelationMeasure, DependenceError, refused};
 use crate::space::copula::from_score;
 use crate::space::{Distribution, Factor};
 
-/// The correlation of normal scores that brings about the correlation `stated` by `measure`.
+/// Returns the correlation of normal scores that leads to the correlation `stated` by `measure`.
 pub(super) fn of_normal_scores(
     measure: CorrelationMeasure,
     stated: f64,
@@ -25,11 +25,11 @@ pub(super) fn of_normal_scores(
 const LINE: usize = 4000;
 const PLANE: usize = 240;
 
-/// The quadrature leaves out scores beyond this.
+/// Scores beyond this are ignored by the quadrature.
 const FARTHEST: f64 = 8.5;
 
-/// Nodes of the midpoint rule over normal scores with their weights, which sum to 1: its error falls faster than any power of the
-/// distance of nodes where the integrand is smooth.
+/// Returns nodes of the midpoint rule over normal scores with their weights, which sum to 1: for smooth integrands its
+/// error falls faster than any power of the distance of nodes.
 fn nodes(count: usize) -> Vec<(f64, f64)> {
     let step = 2.0 * FARTHEST / count as f64;
     let place = |k: usize| -FARTHEST + step * (k as f64 + 0.5);

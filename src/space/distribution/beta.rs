@@ -1,13 +1,13 @@
 //! The beta distribution.
 //!
-//! The quantile is solved here rather than taken from statrs 0.19, whose `inv_beta_reg` stops at an absolute 1e-17
-//! (at alpha = 0.01, beta = 50 a quantile in the middle is off by 8 %) and takes up to 13 us.
+//! The quantile is solved here instead of by statrs 0.19, whose `inv_beta_reg` stops at an absolute 1e-17 (at alpha =
+//! 0.01, beta = 50 a quantile in the middle is off by 8 %) and takes up to 13 us.
 
 use super::prelude::*;
 use super::solve::{halley, parabola};
 use crate::special::beta_fraction;
 
-/// Shapes beyond are refused: the continued fraction would need thousands of terms, or all values lie on a bound.
+/// Shapes outside are refused: the continued fraction would need thousands of terms, or all values are at a bound.
 const SHAPES: (f64, f64) = (1e-3, 1e5);
 
 /// The beta distribution between two bounds.
@@ -23,7 +23,7 @@ pub struct Beta {
 }
 
 impl Distribution {
-    /// Beta with shapes `alpha` and `beta`, stretched from [0, 1] to [`min`, `max`].
+    /// Returns the beta distribution with shapes `alpha` and `beta`, scaled from [0, 1] to [`min`, `max`].
     ///
     /// # Formula
     ///
@@ -53,7 +53,7 @@ impl Distribution {
         Self::Beta(Beta { alpha, beta, min, max, width, lower, upper }).finite()
     }
 
-    /// The beta distribution on [`min`, `max`] of this mean and standard deviation.
+    /// Returns the beta distribution on [`min`, `max`] with this mean and standard deviation.
     ///
     /// # Formula
     ///
@@ -61,7 +61,7 @@ impl Distribution {
     ///
     /// # Errors
     ///
-    /// As of [`beta`](Self::beta), and if no beta distribution has that mean and standard deviation.
+    /// As for [`beta`](Self::beta), and if no beta distribution has that mean and standard deviation.
     pub fn beta_of_mean(mean: f64, sd: f64, min: f64, max: f64) -> Result<Self, DistributionError> {
         let width = bounds(min, max, "beta")?;
         let (m, spread) = ((finite("mean", mean)? - min) / width, positive("sd", sd)? / width);
@@ -100,7 +100,7 @@ impl Family for Beta {
             (x, y)
         };
         let value = if x < y { self.min + self.width * x } else { self.max - self.width * y };
-        // Rounding may lead an ulp past a bound.
+        // Rounding may exceed a bound by an ulp.
         value.clamp(self.min, self.max)
     }
 
@@ -145,10 +145,10 @@ impl Family for Beta {
 /// I_x(a, b) = x^a y^b c(x) / (a B(a, b)),   y = 1 - x,   c(x) the continued fraction
 /// ```
 ///
-/// The two sides are 1 together at the split, which gives B(a, b) without gamma functions, and a distribution
-/// function without a step there. In terms of d, the distance from the split in the logit ln(x / y), the derivative
-/// of ln I is r = a / c, its logarithm has the derivative a y - b x - r, and ln I is concave: Halley's iteration
-/// for ln I = ln p converges from the left of the root, and is never led away from it for long.
+/// The sum of both sides is 1 at the split, which gives B(a, b) without gamma functions, and a continuous distribution
+/// function there. In terms of d, the distance from the split in the logit ln(x / y), the derivative of ln I is r = a /
+/// c, its logarithm has the derivative a y - b x - r, and ln I is concave: Halley's iteration for ln I = ln p converges
+/// from the left of the root, and never leaves it for long.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Side {
     a: f64,
@@ -174,13 +174,13 @@ impl Side {
         Self { a, b, x, y, mass, ln_mass: libm::log(mass), fraction }
     }
 
-    /// x and 1 - x at which the probability below x is `p`, at most that of this side.
+    /// Returns x and 1 - x at which the probability below x is `p`, at most that of this side.
     pub fn solve(&self, p: f64) -> (f64, f64) {
         let (d, _) = self.distance(p);
         self.point(d)
     }
 
-    /// The probability below `x`, on this side of the split; `y` is 1 - x.
+    /// Returns the probability below `x`, on this side of the split; `y` is 1 - x.
     fn below(&self, (x, y): (f64, f64)) -> f64 {
         let d = libm::log(x / y) - libm::log(self.x / self.y);
         let growth = libm::log1p(self.x * libm::expm1(d));
@@ -188,7 +188,7 @@ impl Side {
         libm::exp(self.ln_mass + self.a * d - (self.a + self.b) * growth + libm::log(fraction / self.fraction))
     }
 
-    /// The distance d of the solution, and the steps taken.
+    /// Returns the distance d of the solution, and the number of steps.
     fn distance(&self, p: f64) -> (f64, u32) {
         let target = libm::log(p) - self.ln_mass;
         halley(self.start(target), (f64::NEG_INFINITY, 0.0), |d| {
@@ -202,8 +202,8 @@ impl Side {
         })
     }
 
-    /// A first guess of d: the greater root of the tangent at minus infinity (which is left of the solution) and of the
-    /// parabola at the split.
+    /// Returns a first guess of d: the greater root of the tangent at minus infinity (which is left of the solution)
+    /// and of the parabola at the split.
     fn start(&self, target: f64) -> f64 {
         let slope = self.a / self.fraction;
         let curvature = slope * (slope + self.b * self.x - self.a * self.y);
@@ -211,7 +211,7 @@ impl Side {
         tangent.max(parabola(slope, curvature, target)).min(0.0)
     }
 
-    /// x and 1 - x at the distance d from the split.
+    /// Returns x and 1 - x at the distance d from the split.
     fn point(&self, d: f64) -> (f64, f64) {
         let ratio = libm::exp(d);
         let sum = self.y + self.x * ratio;
@@ -219,7 +219,7 @@ impl Side {
     }
 }
 
-/// The probabilities below and above `x`, `y` being 1 - x, from the two sides of one distribution.
+/// Returns the probabilities below and above `x`, `y` being 1 - x, from the two sides of one distribution.
 pub(super) fn tails_of_sides(lower: &Side, upper: &Side, (x, y): (f64, f64)) -> (f64, f64) {
     if x / y <= lower.x / lower.y {
         let below = lower.below((x, y)).min(1.0);

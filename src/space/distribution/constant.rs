@@ -9,7 +9,7 @@ pub struct Constant {
 }
 
 impl Distribution {
-    /// Always `value`.
+    /// Returns the distribution that is always `value`.
     ///
     /// # Errors
     ///

@@ -1,21 +1,21 @@
-//! What can be wrong with the parameters of a distribution.
+//! Errors in the parameters of a distribution.
 
 use crate::quantity::Unit;
 
-/// Why a distribution was refused; the text says what was wrong and what would be right.
+/// Why a distribution was refused; the text contains what is wrong and what is allowed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum DistributionError {
-    /// A parameter, or several together, that cannot be.
+    /// An invalid parameter, or several that are invalid together.
     #[error("{message}")]
     Refused {
-        /// The key of the parameter, where it is one.
+        /// The key of the parameter, if it is a single one.
         key: Option<&'static str>,
         /// What is wrong.
         message: String,
-        /// What would be right, where the message does not say it yet.
+        /// What is allowed, if the message does not contain it.
         help: Option<String>,
     },
-    /// A key that the family needs is not there.
+    /// A key that the family needs is missing.
     #[error("the {distribution} distribution needs {needed}")]
     Missing {
         /// The name of the family.
@@ -40,7 +40,7 @@ pub enum DistributionError {
 }
 
 impl DistributionError {
-    /// The key of the parameter that is wrong, where it is one.
+    /// Returns the key of the invalid parameter, if it is a single one.
     pub fn key(&self) -> Option<&'static str> {
         match self {
             Self::Refused { key, .. } => *key,
@@ -49,7 +49,7 @@ impl DistributionError {
         }
     }
 
-    /// What would be right, where the message does not say it yet.
+    /// Returns what is allowed, if the message does not contain it.
     pub fn help(&self) -> Option<String> {
         match self {
             Self::Refused { help, .. } => help.clone(),
@@ -59,17 +59,17 @@ impl DistributionError {
     }
 }
 
-/// What is wrong with the parameter `key`.
+/// Returns an error for the parameter `key`.
 pub(super) fn refused(key: &'static str, message: impl Into<String>) -> DistributionError {
     DistributionError::Refused { key: Some(key), message: message.into(), help: None }
 }
 
-/// What is wrong with the parameters together.
+/// Returns an error for several parameters together.
 fn refused_together(message: String) -> DistributionError {
     DistributionError::Refused { key: None, message, help: None }
 }
 
-/// Two numbers that are equal or the wrong way round.
+/// Returns an error for two numbers that are equal or in the wrong order.
 pub(super) fn order(lower: &'static str, low: f64, upper: &'static str, high: f64) -> DistributionError {
     let message = format!("`{lower}` is {low} and `{upper}` is {high}, but `{lower}` must be below `{upper}`");
     let is_fixed = lower == "min" && low == high;
@@ -77,7 +77,7 @@ pub(super) fn order(lower: &'static str, low: f64, upper: &'static str, high: f6
     DistributionError::Refused { key: Some(lower), message, help }
 }
 
-/// The parameters are sound one by one, but lead beyond the range of `f64`.
+/// Returns an error for parameters that are valid one by one, but exceed the range of `f64`.
 pub(super) fn overflow(distribution: &str) -> DistributionError {
     refused_together(format!(
         "{} distribution with these parameters has values, a mean or a standard deviation beyond 1.8e308: choose a narrower one, \
@@ -86,18 +86,18 @@ pub(super) fn overflow(distribution: &str) -> DistributionError {
     ))
 }
 
-/// The mean and standard deviation, or the quantiles, of no distribution of the family; `key` is that of the first of them.
+/// Returns an error for a mean and standard deviation, or quantiles, outside the family; `key` is the first one.
 pub(super) fn no_such_distribution(distribution: &str, statements: &str, key: &'static str) -> DistributionError {
     refused(key, format!("there is no {distribution} distribution, or more than one, with {statements}"))
 }
 
-/// The name of a family with its article.
+/// Returns the name of a family with its article.
 fn named(distribution: &str) -> String {
     let article = if distribution.starts_with(['a', 'e', 'i', 'o']) { "an" } else { "a" };
     format!("{article} {distribution}")
 }
 
-/// A unit in which values of the family have no meaning; `right` says why, and what would be right.
+/// Returns an error for a unit in which values of the family have no meaning; `right` is what is allowed, and why.
 pub(super) fn wrong_unit(distribution: &str, unit: &Unit, right: &str) -> DistributionError {
     refused_together(format!("{} distribution cannot be in {unit}{right}", named(distribution)))
 }
@@ -109,7 +109,7 @@ pub(super) fn no_order(distribution: &'static str, key: &'static str, what: &str
     refused(key, format!("{named} distribution has {values}, which have no order: it cannot be {what}"))
 }
 
-/// The value, if `is_right`, else an error with what it `must`.
+/// Returns the value, if `is_right`, otherwise an error with `must`.
 pub(super) fn number(key: &'static str, value: f64, is_right: bool, must: &str) -> Result<f64, DistributionError> {
     let must = if value.is_finite() { must } else { "be a finite number" };
     match value.is_finite() && is_right {
@@ -118,22 +118,22 @@ pub(super) fn number(key: &'static str, value: f64, is_right: bool, must: &str) 
     }
 }
 
-/// The value, if it is finite.
+/// Returns the value, if it is finite.
 pub(super) fn finite(key: &'static str, value: f64) -> Result<f64, DistributionError> {
     number(key, value, true, "")
 }
 
-/// The value, if it is finite and greater than 0.
+/// Returns the value, if it is finite and greater than 0.
 pub(super) fn positive(key: &'static str, value: f64) -> Result<f64, DistributionError> {
     number(key, value, value > 0.0, "be greater than 0")
 }
 
-/// The value, if it is finite and within the range.
+/// Returns the value, if it is finite and within the range.
 pub(super) fn within(key: &'static str, value: f64, (min, max): (f64, f64)) -> Result<f64, DistributionError> {
     number(key, value, (min..=max).contains(&value), &format!("lie between {min:?} and {max:?}"))
 }
 
-/// The value of a parameter of a power law, if it is great enough for a finite variance.
+/// Checks that a parameter of a power law is large enough for a finite variance.
 pub(super) fn of_finite_variance(key: &'static str, value: f64, least: f64) -> Result<(), DistributionError> {
     let must = format!(
         "be greater than {least:?}, or both tails be cut off, as in truncate = [a, b]: else it has no finite variance, of which \
@@ -142,7 +142,7 @@ pub(super) fn of_finite_variance(key: &'static str, value: f64, least: f64) -> R
     number(key, value, value > least, &must).map(|_| ())
 }
 
-/// Two finite bounds in order, and the finite width between them.
+/// Checks that two bounds are finite and in order, and returns the finite width between them.
 pub(super) fn bounds(min: f64, max: f64, distribution: &'static str) -> Result<f64, DistributionError> {
     finite("min", min)?;
     finite("max", max)?;
@@ -153,7 +153,7 @@ pub(super) fn bounds(min: f64, max: f64, distribution: &'static str) -> Result<f
     }
 }
 
-/// Refuses a list with an entry that is infinite or not a number.
+/// Refuses a list with an entry that is infinite or NaN.
 pub(super) fn finite_entries(key: &'static str, entries: &[f64]) -> Result<(), DistributionError> {
     match entries.iter().enumerate().find(|(_, value)| !value.is_finite()) {
         Some((index, &value)) => Err(entry(key, index, value, "be a finite number")),
@@ -161,12 +161,12 @@ pub(super) fn finite_entries(key: &'static str, entries: &[f64]) -> Result<(), D
     }
 }
 
-/// A number of a list that cannot be.
+/// Returns an error for an entry of a list.
 pub(super) fn entry(key: &'static str, index: usize, value: f64, must: &str) -> DistributionError {
     refused(key, format!("`{key}[{index}]` is {value}, but must {must}"))
 }
 
-/// The sum of `weights`, one for each of `count` entries of the list `of`: finite, none of them negative, not all of them 0.
+/// Returns the sum of `weights`, one for each of `count` entries of the list `of`: finite, none negative, not all 0.
 pub(super) fn sum_of_weights(weights: &[f64], count: usize, of: &str) -> Result<f64, DistributionError> {
     if weights.len() != count {
         let given = weights.len();

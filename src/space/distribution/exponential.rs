@@ -2,7 +2,7 @@
 
 use super::prelude::*;
 
-/// The distribution of waiting times between events that come by chance.
+/// The distribution of waiting times between random events.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Exponential {
     scale: f64,
@@ -10,8 +10,8 @@ pub struct Exponential {
 }
 
 impl Distribution {
-    /// Exponential with scale `scale` (its standard deviation, and one over the rate), beginning at `location`, 0 for the
-    /// usual one.
+    /// Returns the exponential distribution with scale `scale` (its standard deviation, and one over the rate),
+    /// beginning at `location`, usually 0.
     ///
     /// # Formula
     ///

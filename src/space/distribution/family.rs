@@ -1,4 +1,4 @@
-//! What every family of distributions can do.
+//! The interface of a family of distributions.
 
 use serde::Serialize;
 use serde::ser::{SerializeSeq, Serializer};
@@ -7,7 +7,7 @@ use super::keys::{Entry, in_si};
 use super::{Distribution, DistributionError, MeasuredFile};
 use crate::quantity::Unit;
 
-/// A parameter as a study file holds it.
+/// A parameter as in a study file.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum Parameter {
@@ -19,13 +19,13 @@ pub enum Parameter {
     Text(String),
     /// A list of texts.
     Texts(Vec<String>),
-    /// Two bounds of which one may be infinite, which is written as a text: `[2.0, "inf"]`.
+    /// Two bounds, one of which may be infinite and is then written as a text: `[2.0, "inf"]`.
     #[serde(serialize_with = "bounds")]
     Bounds(f64, f64),
-    /// Values by their probabilities; results have the bins that they make.
+    /// Values by their probabilities; results contain the bins between them.
     #[serde(skip)]
     Quantiles(Vec<(f64, f64)>),
-    /// Measured values and the file that they come from; results have the name of the file.
+    /// Measured values and the file that they come from; results contain the name of the file.
     #[serde(skip)]
     Measured(Vec<f64>, MeasuredFile),
 }
@@ -55,7 +55,7 @@ impl From<&[f64]> for Parameter {
 
 /// One family; [`Distribution`] describes each of these. A family has [`quantile`](Self::quantile) or [`at`](Self::at).
 pub(super) trait Family {
-    /// P(X <= x) and P(X > x), each with its own last digits where the distribution is continuous.
+    /// Returns P(X <= x) and P(X > x), each to full precision if the distribution is continuous.
     fn tails(&self, x: f64) -> (f64, f64);
     fn mean(&self) -> f64;
     fn sd(&self) -> f64;
@@ -65,12 +65,12 @@ pub(super) trait Family {
         (f64::NEG_INFINITY, f64::INFINITY)
     }
 
-    /// Its name in study files; `own` is that of its first entry.
+    /// Returns its name in study files; `own` is that of its first entry.
     fn name(&self, own: &'static str) -> &'static str {
         own
     }
 
-    /// The quantile at `u`, `v` being 1 - `u`, with its last digits where either is small.
+    /// Returns the quantile at `u`, `v` being 1 - `u`, to full precision if either is small.
     fn at(&self, u: f64, _v: f64) -> f64 {
         self.quantile(u)
     }
@@ -79,7 +79,7 @@ pub(super) trait Family {
         self.at(u, 1.0 - u)
     }
 
-    /// The quantile at 1 - `v`, with its last digits where `v` is small.
+    /// Returns the quantile at 1 - `v`, to full precision if `v` is small.
     fn upper_quantile(&self, v: f64) -> f64 {
         self.at(1.0 - v, v)
     }
@@ -90,12 +90,12 @@ pub(super) trait Family {
         }
     }
 
-    /// The same quantity in SI, before its variance is looked at, of which a part of it may have one.
+    /// Returns the same quantity in SI, without a check of its variance: a truncated part may have one.
     fn in_si(&self, own: &'static Entry, unit: &Unit) -> Result<Distribution, DistributionError> {
         in_si(own, self.parameters(), unit)
     }
 
-    /// Refuses what has no variance, by its parameters.
+    /// Refuses parameters for which there is no variance.
     fn refuse_infinite_variance(&self) -> Result<(), DistributionError> {
         Ok(())
     }

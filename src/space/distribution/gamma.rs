@@ -1,11 +1,11 @@
 //! The gamma distribution.
 //!
-//! The quantile is solved here rather than taken from statrs 0.19, whose gamma quantiles are wrong in the lower tail.
+//! The quantile is solved here instead of by statrs 0.19, whose gamma quantiles are wrong in the lower tail.
 
 use super::prelude::*;
 use super::solve::{halley, parabola};
 
-/// Shapes beyond are refused: the series would need thousands of terms, or all values are next to 0.
+/// Shapes outside are refused: the series would need thousands of terms, or all values are next to 0.
 const SHAPES: (f64, f64) = (1e-3, 1e5);
 
 /// The distribution of sums of waiting times, and of positive quantities of moderate scatter.
@@ -18,7 +18,7 @@ pub struct Gamma {
 }
 
 impl Distribution {
-    /// Gamma with shape `shape` and scale `scale`, beginning at `location` (0 for the usual two parameters).
+    /// Returns the gamma distribution with shape `shape` and scale `scale`, beginning at `location` (usually 0).
     ///
     /// # Formula
     ///
@@ -99,9 +99,9 @@ impl Family for Gamma {
 /// P(a, x) = x^a e^-x S(x) / Gamma(a + 1),   Q(a, x) = x^a e^-x a C(x) / Gamma(a + 1)
 /// ```
 ///
-/// Both are 1 together at x_s, which gives them without gamma functions, and a distribution function without a step
-/// there. In terms of d = ln(x / x_s) both logarithms are concave, with the slopes a / S and -1 / C, and Halley's
-/// iteration is never led away from the root for long.
+/// Their sum is 1 at x_s, which gives them without gamma functions, and a continuous distribution function there. In
+/// terms of d = ln(x / x_s) both logarithms are concave, with the slopes a / S and -1 / C, and Halley's iteration never
+/// leaves the root for long.
 #[derive(Clone, Debug, PartialEq)]
 struct Split {
     a: f64,
@@ -121,7 +121,7 @@ impl Split {
         Self { a, x, below: series / sum, above: a * fraction / sum, series, fraction }
     }
 
-    /// x with P(a, x) = `u`, `v` being 1 - u.
+    /// Returns x with P(a, x) = `u`, `v` being 1 - u.
     fn solve(&self, u: f64, v: f64) -> f64 {
         if u <= 0.0 {
             0.0
@@ -148,7 +148,7 @@ impl Split {
         }
     }
 
-    /// d at which ln P has risen by `target` from the split, which is not positive.
+    /// Returns the d at which ln P has risen by `target` from the split, which is not positive.
     fn lower(&self, target: f64) -> f64 {
         // The greater root of the tangent at minus infinity (which is left of the solution) and of the parabola at the
         // split.
@@ -161,9 +161,9 @@ impl Split {
         })
     }
 
-    /// d at which ln Q has risen by `target` from the split, which is not positive.
+    /// Returns the d at which ln Q has risen by `target` from the split, which is not positive.
     fn upper(&self, target: f64) -> f64 {
-        // The lesser root of the parabola at the split and of an exponential of the slowest fall.
+        // The smaller root of the parabola at the split and of an exponential of the slowest fall.
         let slope = 1.0 / self.fraction;
         let parabola = -parabola(slope, slope * (slope + self.a - self.x), target);
         let exponential = libm::log1p(-target / (self.x * (slope / self.x).min(1.0)));
@@ -173,8 +173,8 @@ impl Split {
         })
     }
 
-    /// d between two bounds at which the logarithm of P or Q has risen by `target`, from a first guess; `side` gives that of the series
-    /// or fraction over its value at the split, and the slope.
+    /// Returns the d between two bounds at which the logarithm of P or Q has risen by `target`, from a first guess;
+    /// `side` returns the series or fraction over its value at the split, and the slope.
     fn distance(&self, start: f64, target: f64, bounds: (f64, f64), side: impl Fn(f64) -> (f64, f64)) -> f64 {
         let (d, _) = halley(start, bounds, |d| {
             let x = self.x * libm::exp(d);
@@ -185,7 +185,7 @@ impl Split {
     }
 }
 
-/// S(x) = 1 + x / (a + 1) + x^2 / ((a + 1) (a + 2)) + ... (Abramowitz and Stegun 1964, 6.5.29).
+/// Returns S(x) = 1 + x / (a + 1) + x^2 / ((a + 1) (a + 2)) + ... (Abramowitz and Stegun 1964, 6.5.29).
 fn series(a: f64, x: f64) -> f64 {
     const TERMS: u32 = 5000;
     let (mut term, mut sum) = (1.0, 1.0);
@@ -199,9 +199,9 @@ fn series(a: f64, x: f64) -> f64 {
     sum
 }
 
-/// C(x) = 1 / (x + 1 - a - 1 (1 - a) / (x + 3 - a - 2 (2 - a) / (x + 5 - a - ...))), the continued fraction 6.5.31 of
-/// Abramowitz and Stegun 1964 in its even form, by the modified Lentz algorithm (Press et al. 2007, Numerical Recipes,
-/// section 6.2).
+/// Returns C(x) = 1 / (x + 1 - a - 1 (1 - a) / (x + 3 - a - 2 (2 - a) / (x + 5 - a - ...))), the continued fraction
+/// 6.5.31 of Abramowitz and Stegun 1964 in its even form, by the modified Lentz algorithm (Press et al. 2007, Numerical
+/// Recipes, section 6.2).
 fn continued_fraction(a: f64, x: f64) -> f64 {
     const TERMS: u32 = 5000;
     const TINY: f64 = 1e-300;

@@ -15,7 +15,7 @@ pub struct Gumbel {
 }
 
 impl Distribution {
-    /// Gumbel of maximum type: mode `location`, scale `scale`.
+    /// Returns the Gumbel distribution of maximum type with mode `location` and scale `scale`.
     ///
     /// # Formula
     ///

@@ -23,8 +23,8 @@ struct Bin {
 }
 
 impl Distribution {
-    /// Bin k reaches from `edges[k]` to `edges[k + 1]` and has a probability proportional to `weights[k]`, as counts and
-    /// edges of `numpy.histogram` do; the density inside a bin is constant.
+    /// Returns the distribution whose bin k is from `edges[k]` to `edges[k + 1]` and has a probability proportional to
+    /// `weights[k]`, like counts and edges of `numpy.histogram`; the density inside a bin is constant.
     ///
     /// # Errors
     ///
@@ -66,12 +66,12 @@ impl Distribution {
         Self::Histogram(Histogram { edges: edges.to_vec(), weights: weights.to_vec(), bins }).finite()
     }
 
-    /// The histogram whose bins lie between quantiles that are known: pairs of a probability and the value below which lies
-    /// that share of all values. The distribution function is linear between them.
+    /// Returns the histogram whose bins are between known quantiles: pairs of a probability and the value below which
+    /// this share of all values lies. The distribution function is linear between them.
     ///
     /// # Errors
     ///
-    /// If a probability lies outside [0, 1] or stands twice, 0 or 1 is missing, or values do not rise with the
+    /// If a probability is outside [0, 1] or duplicate, 0 or 1 is missing, or values do not rise with the
     /// probabilities.
     ///
     /// ```
@@ -113,7 +113,7 @@ impl Distribution {
 }
 
 impl Histogram {
-    /// The bins of positive weight: where each begins and ends in the unit interval, and its edges.
+    /// Iterates over the bins of positive weight: where each begins and ends in the unit interval, and its edges.
     pub(crate) fn bins(&self) -> impl Iterator<Item = (f64, f64, [f64; 2])> {
         self.bins.iter().map(|bin| (bin.before, bin.before + bin.probability, [bin.min, bin.max]))
     }

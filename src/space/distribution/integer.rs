@@ -2,10 +2,10 @@
 
 use super::prelude::*;
 
-/// The largest whole number up to which every whole number is an `f64`, 2^53.
+/// The largest integer up to which every integer is an `f64`, 2^53.
 const LARGEST: f64 = (1u64 << 53) as f64;
 
-/// Every whole number between two, both included, is equally likely.
+/// A uniform distribution over all whole numbers between two, both included.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Integer {
     min: f64,
@@ -13,7 +13,7 @@ pub struct Integer {
 }
 
 impl Distribution {
-    /// Every whole number from `min` to `max`, both included, with equal probability.
+    /// Returns the distribution of every whole number from `min` to `max`, both included, with equal probability.
     ///
     /// # Formula
     ///
@@ -46,10 +46,10 @@ impl Distribution {
 }
 
 impl Integer {
-    /// Whole numbers up to so many are gone through one by one where a distribution is drawn or screened.
+    /// Maximum number of whole numbers that are treated as separate levels when a distribution is drawn or screened.
     const MAX_LEVELS: f64 = 1024.0;
 
-    /// The values in ascending order, each with a `u` at which it is the quantile; `None` if they are more than 1024.
+    /// Returns the values in ascending order, each with a `u` at which it is the quantile; `None` for more than 1024.
     pub fn levels(&self) -> Option<Vec<(f64, f64)>> {
         let level = |k: u32| {
             let k = f64::from(k);

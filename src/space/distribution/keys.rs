@@ -1,5 +1,5 @@
-//! The keys by which distributions are given, and the families that take them: one table each, from which the reader of study
-//! files, the JSON schema and the messages come.
+//! The keys of distributions, and the families that use them: one table each, which defines the reader of study files,
+//! the JSON schema and the messages.
 
 use super::error::{finite, wrong_unit};
 use super::family::Parameter;
@@ -14,7 +14,7 @@ pub struct Key {
     pub name: &'static str,
     /// The type of its value.
     pub kind: KeyKind,
-    /// What it says, for editors.
+    /// Its meaning, for editors.
     pub description: &'static str,
     measure: Measure,
 }
@@ -36,10 +36,10 @@ pub enum KeyKind {
     Quantiles,
 }
 
-/// How a number becomes one of SI.
+/// How a number is converted to SI.
 #[derive(Clone, Copy, Debug)]
 enum Measure {
-    /// A value, perhaps from a zero of its unit.
+    /// A value, possibly with an offset of its unit.
     Value,
     /// A difference of two values.
     Span,
@@ -113,47 +113,47 @@ pub static KEYS: [Key; 32] = {
     ]
 };
 
-/// The probability below the quantile of that key, `p05` for instance.
+/// Returns the probability below the quantile of that key, for example `p05`.
 fn probability(key: &str) -> Option<f64> {
     let percent: u8 = key.strip_prefix('p')?.parse().ok()?;
     Some(f64::from(percent) / 100.0)
 }
 
-/// Keys that determine a distribution together.
+/// Keys that together determine a distribution.
 #[derive(Debug)]
 pub(super) struct Way {
     needs: &'static [&'static str],
-    /// Keys that may stand beside these.
+    /// Optional keys in addition to these.
     may: &'static [&'static str],
-    /// Whether two quantiles belong to them.
+    /// Whether two quantiles are also needed.
     has_quantiles: bool,
     /// Whether its parameters are solved for.
     is_solved: bool,
 }
 
-/// These keys, all of them.
+/// Requires all of these keys.
 pub(super) const fn keys(needs: &'static [&'static str]) -> Way {
     Way { needs, may: &[], has_quantiles: false, is_solved: false }
 }
 
-/// These keys, from which the parameters are solved for.
+/// Requires these keys, from which the parameters are solved for.
 pub(super) const fn solved_keys(needs: &'static [&'static str]) -> Way {
     Way { is_solved: true, ..keys(needs) }
 }
 
-/// Mean and standard deviation, where they are not the parameters themselves.
+/// Mean and standard deviation, if they are not the parameters themselves.
 pub(super) const MOMENTS: Way = solved_keys(&["mean", "sd"]);
 
 /// Two quantiles.
 pub(super) const TWO_QUANTILES: Way = two_quantiles_and(&[]);
 
-/// Two quantiles and these keys.
+/// Requires two quantiles and these keys.
 pub(super) const fn two_quantiles_and(needs: &'static [&'static str]) -> Way {
     Way { has_quantiles: true, ..solved_keys(needs) }
 }
 
 impl Way {
-    /// The same, and perhaps these keys too.
+    /// Returns the same with these optional keys.
     pub const fn perhaps(self, may: &'static [&'static str]) -> Self {
         Self { may, ..self }
     }
@@ -162,7 +162,7 @@ impl Way {
         self.needs.contains(&key) || self.may.contains(&key) || self.has_quantiles && probability(key).is_some()
     }
 
-    /// What is missing among `given`, in words.
+    /// Returns what is missing among `given`, in words.
     fn missing(&self, given: &Given<'_>) -> Option<String> {
         let key = self.needs.iter().find(|key| given.get(key).is_none()).map(|key| format!("`{key}`"));
         let few = self.has_quantiles && given.quantiles().count() != 2;
@@ -179,25 +179,25 @@ impl Way {
     }
 }
 
-/// What the list of families holds of each.
+/// An entry of the list of families.
 pub(super) struct Entry {
     pub name: &'static str,
     pub summary: &'static str,
-    /// The ways to give one, the first of them by its own parameters.
+    /// The ways to specify one, the first of them by its own parameters.
     pub ways: &'static [Way],
-    /// Whether it is made of ratios of values above 0, which have no meaning in a unit with a zero of its own.
+    /// Whether it depends on ratios of values above 0, which have no meaning in a unit with an offset.
     pub of_ratios: bool,
-    /// The parameter beside location and scale, where the parameters are solved for.
+    /// The parameter in addition to location and scale, if the parameters are solved for.
     pub shape: Shape,
-    /// The values of keys that may be left out; of keys of Python's constructors too, which study files ask for.
+    /// The values of optional keys; also of keys that are optional only in Python's constructors.
     pub defaults: &'static [(&'static str, f64)],
-    /// From a location, a scale and a shape, where these are solved for; other parameters are as given.
+    /// Creates it from a location, a scale and a shape, if these are solved for; other parameters are as given.
     pub make: fn(&Given<'_>, [f64; 3]) -> Result<Distribution, DistributionError>,
-    /// From its parameters; it may have no finite variance before it is truncated.
+    /// Creates it from its parameters; it may have no finite variance before it is truncated.
     pub build: fn(&Given<'_>) -> Result<Distribution, DistributionError>,
 }
 
-/// What most entries have beside their own.
+/// The fields that most entries share.
 pub(super) const PLAIN: Entry = Entry {
     name: "",
     summary: "",
@@ -242,7 +242,7 @@ impl<'a> Given<'a> {
         self.list_if(key).ok_or_else(|| self.missing(format!("`{key}`")))
     }
 
-    /// The quantiles that have a key: key, probability and value, in rising order of the probabilities.
+    /// Iterates over the quantiles that have a key: key, probability and value, in rising order of the probabilities.
     pub fn quantiles(&self) -> impl Iterator<Item = (&'static str, f64, f64)> {
         KEYS.iter().filter_map(|key| Some((key.name, probability(key.name)?, self.number_if(key.name)?)))
     }
@@ -257,9 +257,9 @@ impl<'a> Given<'a> {
 pub struct Argument {
     /// The key.
     pub key: &'static Key,
-    /// Whether it may be left out.
+    /// Whether it is optional.
     pub is_optional: bool,
-    /// What it is then, where there is a number for it.
+    /// Its default, if that is a number.
     pub default: Option<f64>,
 }
 
@@ -268,34 +268,34 @@ pub struct Argument {
 pub struct Kind(&'static Entry);
 
 impl Default for Kind {
-    /// The default of study files.
+    /// Returns the default of study files.
     fn default() -> Self {
         Self(&ENTRIES[0][0])
     }
 }
 
 impl Kind {
-    /// All of them, the default of study files first.
+    /// Iterates over all of them, the default of study files first.
     pub fn all() -> impl Iterator<Item = Self> + Clone {
         ENTRIES.iter().copied().flatten().map(Self)
     }
 
-    /// The family of that name.
+    /// Returns the family of that name.
     pub fn from_name(name: &str) -> Option<Self> {
         Self::all().find(|kind| kind.name() == name)
     }
 
-    /// The name in study files.
+    /// Returns the name in study files.
     pub fn name(self) -> &'static str {
         self.0.name
     }
 
-    /// One line for people.
+    /// Returns one line for people.
     pub fn summary(self) -> &'static str {
         self.0.summary
     }
 
-    /// The arguments of its constructor in other languages: its own parameters.
+    /// Iterates over the arguments of its constructor in other languages: its own parameters.
     pub fn arguments(self) -> impl Iterator<Item = Argument> {
         let Entry { ways, defaults, .. } = self.0;
         let argument = |name: &str, is_optional: bool| {
@@ -307,16 +307,16 @@ impl Kind {
         needs.chain(ways[0].may.iter().filter_map(move |key| argument(key, true)))
     }
 
-    /// The keys that determine one, in words.
+    /// Returns the keys that determine one, in words.
     pub fn takes(self) -> String {
         let ways: Vec<String> = self.0.ways.iter().map(Way::in_words).collect();
         if ways == [""] { "no keys".to_owned() } else { ways.join("; or ") }
     }
 
-    /// The distribution that these parameters by key determine, as in a study file: its own parameters, or a mean and a standard
-    /// deviation, or two quantiles; cut off where `truncate` says so.
+    /// Returns the distribution that these parameters by key determine, as in a study file: its own parameters, or a
+    /// mean and a standard deviation, or two quantiles; truncated if `truncate` is given.
     ///
-    /// What is solved for holds to 1e-9 standard deviations.
+    /// Solved parameters are accurate to 1e-9 standard deviations.
     ///
     /// ```
     /// use apportion::space::distribution::{Kind, Parameter};
@@ -328,8 +328,8 @@ impl Kind {
     /// ```
     ///
     /// # Errors
-    /// [`DistributionError`] if a key is missing, or too much; if no distribution of the family has that mean and standard
-    /// deviation or these quantiles; or as the constructor of the family.
+    /// [`DistributionError`] if a key is missing or superfluous; if no distribution of the family has that mean and
+    /// standard deviation or these quantiles; or as for the constructor of the family.
     pub fn make(self, parameters: &[(&'static str, Parameter)]) -> Result<Distribution, DistributionError> {
         let given = Given { entry: self.0, values: parameters };
         let way = self.way(&given)?;
@@ -343,7 +343,7 @@ impl Kind {
         }
     }
 
-    /// The way that is meant by the keys that are given.
+    /// Returns the way that the given keys select.
     fn way(self, given: &Given<'_>) -> Result<&'static Way, DistributionError> {
         let keys = || given.values.iter().map(|(key, _)| *key).filter(|key| *key != "truncate");
         let fits = |way: &&Way| keys().all(|key| way.takes(key));
@@ -354,7 +354,7 @@ impl Kind {
         if let Some(missing) = fitting().next().and_then(|way| way.missing(given)) {
             return Err(given.missing(missing));
         }
-        // The way that most keys belong to says which one does not.
+        // The way with the most matching keys determines which key is wrong.
         let fitted = |way: &&Way| keys().filter(|key| way.takes(key)).count();
         let nearest = self.0.ways.iter().rev().max_by_key(fitted);
         let foreign = keys().find(|key| nearest.is_none_or(|way| !way.takes(key))).unwrap_or_default();
@@ -370,7 +370,7 @@ impl Kind {
     }
 }
 
-/// The distribution with `parameters`, which are in `unit`, in SI.
+/// Returns the distribution with `parameters`, which are in `unit`, in SI.
 pub(super) fn in_si(
     entry: &'static Entry,
     mut parameters: Vec<(&'static str, Parameter)>,
@@ -396,7 +396,7 @@ pub(super) fn in_si(
     (entry.build)(&Given { entry, values: &parameters })
 }
 
-/// Bounds of which one or both may be infinite, in SI.
+/// Returns bounds, one or both of which may be infinite, in SI.
 pub(super) fn bounds_to_si((min, max): (f64, f64), unit: &Unit) -> Result<(f64, f64), DistributionError> {
     let in_si = |key: &'static str, bound: f64| match bound.is_finite() {
         true => finite(key, unit.to_si(bound)),

@@ -3,17 +3,17 @@
 use super::prelude::*;
 use crate::special::{normal_below, normal_quantile};
 
-/// The logarithm is normal.
+/// The distribution of a variable whose logarithm is normal.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LogNormal {
     log_mean: f64,
     log_sd: f64,
-    /// Mean and standard deviation of the variable itself, if it was given by them.
+    /// Mean and standard deviation of the variable itself, if these were given.
     moments: Option<(f64, f64)>,
 }
 
 impl Distribution {
-    /// Log-normal with mean `mean` and standard deviation `sd` of the variable itself.
+    /// Returns the log-normal distribution with mean `mean` and standard deviation `sd` of the variable itself.
     ///
     /// # Formula
     ///
@@ -36,7 +36,7 @@ impl Distribution {
         positive("mean", mean)?;
         positive("sd", sd)?;
         let variation = sd / mean;
-        // Below 1e-8 the logarithm is its argument, past 1e8 the 1 is lost; the square might leave the range.
+        // Below 1e-8 the logarithm equals its argument, above 1e8 the 1 is lost; the square might leave the range.
         let log_sd = match variation {
             small if small < 1e-8 => small,
             large if large > 1e8 => (2.0 * libm::log(large)).sqrt(),
@@ -46,7 +46,7 @@ impl Distribution {
         Self::LogNormal(LogNormal { log_mean, log_sd, moments: Some((mean, sd)) }).finite()
     }
 
-    /// Log-normal whose natural logarithm has mean `log_mean` and standard deviation `log_sd`.
+    /// Returns the log-normal distribution whose natural logarithm has mean `log_mean` and standard deviation `log_sd`.
     ///
     /// # Formula
     ///

@@ -2,7 +2,7 @@
 
 use super::prelude::*;
 
-/// The logarithm is uniform between the logarithms of two positive bounds.
+/// The distribution of a variable whose logarithm is uniform between the logarithms of two positive bounds.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LogUniform {
     min: f64,
@@ -14,7 +14,7 @@ pub struct LogUniform {
 }
 
 impl Distribution {
-    /// Log-uniform on [`min`, `max`]: each decade between the bounds is equally likely.
+    /// Returns the log-uniform distribution on [`min`, `max`]: each decade between the bounds is equally likely.
     ///
     /// # Formula
     ///
@@ -36,8 +36,8 @@ impl Distribution {
     pub fn log_uniform(min: f64, max: f64) -> Result<Self, DistributionError> {
         positive("min", min)?;
         let width = bounds(min, max, "log-uniform")?;
-        // The difference is exact up to a ratio of 2, the quotient of it then keeps all digits; past it the
-        // logarithm does, taken of the square roots since the quotient itself may overflow.
+        // The difference is exact up to a ratio of 2, and its quotient then keeps all digits; above it the logarithm
+        // does, computed from the square roots because the quotient itself may overflow.
         let half = match width < min {
             true => 0.5 * libm::log1p(width / min),
             false => libm::log(max.sqrt() / min.sqrt()),

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use super::prelude::*;
 
-/// Symmetric like a normal distribution, with longer tails.
+/// A distribution that is symmetric like a normal one, with longer tails.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Logistic {
     location: f64,
@@ -12,7 +12,7 @@ pub struct Logistic {
 }
 
 impl Distribution {
-    /// Logistic with mean `location` and scale `scale`.
+    /// Returns the logistic distribution with mean `location` and scale `scale`.
     ///
     /// # Formula
     ///

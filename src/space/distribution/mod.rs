@@ -1,12 +1,12 @@
 //! Distributions of single factors, by their quantile functions.
 //!
-//! A design lives in the open unit cube; each coordinate becomes a value by the inverse of the factor's cumulative
-//! distribution function. Every distribution is checked when it is made: after that, every quantile for `u` in
+//! A design is in the open unit cube; each coordinate becomes a value by the inverse of the factor's cumulative
+//! distribution function. Every distribution is checked when it is created: after that, every quantile for `u` in
 //! [[`SMALLEST_U`], [`LARGEST_U`]], the mean and the standard deviation are finite.
 //!
-//! To add a distribution: one file here with a struct, its constructor on [`Distribution`], its `Family` and its entries for
-//! study files; one line in the list of families below; one case in `tests/oracle/distributions.py`. The reader of study files, the
-//! schema, the messages and the constructors of Python come from the entries.
+//! To add a distribution: one file here with a struct, its constructor on [`Distribution`], its `Family` and its
+//! entries for study files; one line in the list of families below; one case in `tests/oracle/distributions.py`. The
+//! reader of study files, the schema, the messages and the constructors of Python are generated from the entries.
 
 mod beta;
 mod constant;
@@ -45,12 +45,12 @@ pub use values::{MeasuredFile, Values};
 
 use crate::quantity::Unit;
 
-/// The smallest `u` at which quantiles are promised to be finite, 2^-64.
+/// The smallest `u` at which quantiles are guaranteed to be finite, 2^-64.
 pub const SMALLEST_U: f64 = 1.0 / (1u128 << 64) as f64;
 /// The largest `u` below 1, 1 - 2^-53.
 pub const LARGEST_U: f64 = 1.0 - f64::EPSILON / 2.0;
 
-/// What the file of a family uses.
+/// Imports for the file of a family.
 mod prelude {
     pub(super) use super::error::*;
     pub(super) use super::family::{Family, Parameter};
@@ -64,7 +64,7 @@ macro_rules! families {
     ($($variant:ident($family:ident) = $module:ident::$entries:ident,)+) => {
         /// A univariate distribution with its parameters, immutable and checked.
         ///
-        /// Made by the constructors named after the families; as JSON it is a map of `name` (its
+        /// Created by the constructors named after the families; in JSON it is a map of `name` (its
         /// [`name`](Self::name)) and its [`parameters`](Self::parameters).
         ///
         /// ```
@@ -84,7 +84,7 @@ macro_rules! families {
             $(#[doc = concat!("See `", stringify!($family), "`.")] $variant($module::$family),)+
         }
 
-        /// What study files call the families, the default first.
+        /// The entries of the families in study files, the default first.
         static ENTRIES: &[&[keys::Entry]] = &[$($module::$entries),+];
 
         impl Distribution {
@@ -92,7 +92,7 @@ macro_rules! families {
                 match self { $(Self::$variant(family) => family),+ }
             }
 
-            /// The first entry of its family.
+            /// Returns the first entry of its family.
             fn entry(&self) -> &'static keys::Entry {
                 match self { $(Self::$variant(_) => &$module::$entries[0]),+ }
             }
@@ -126,17 +126,17 @@ families! {
 }
 
 impl Distribution {
-    /// The quantile function (inverse of the cumulative distribution function) at `u` in the open interval (0, 1).
+    /// Returns the quantile (the inverse of the cumulative distribution function) at `u` in the open interval (0, 1).
     ///
-    /// Finite from [`SMALLEST_U`] to [`LARGEST_U`], inside [`support`](Self::support), and non-decreasing: exactly
-    /// so for the uniform, triangular, discrete, integer, Poisson, categorical, empirical and constant distributions, else up
-    /// to the last few bits of the result; the [`seed`](Self::seed)s of a stochastic model have no order. Outside (0, 1) it
-    /// means nothing, but does not panic.
+    /// Finite from [`SMALLEST_U`] to [`LARGEST_U`], inside [`support`](Self::support), and non-decreasing: exactly so
+    /// for the uniform, triangular, discrete, integer, Poisson, categorical, empirical and constant distributions,
+    /// otherwise up to the last few bits of the result; the [`seed`](Self::seed)s of a stochastic model have no order.
+    /// Outside (0, 1) the result has no meaning, but there is no panic.
     pub fn quantile(&self, u: f64) -> f64 {
         self.family().quantile(u)
     }
 
-    /// The quantiles of a whole column: `out[i] = quantile(u[i])`, the very same bits.
+    /// Computes the quantiles of a whole column: `out[i] = quantile(u[i])`, with the same bits.
     ///
     /// # Panics
     ///
@@ -146,30 +146,29 @@ impl Distribution {
         self.family().fill(u, out);
     }
 
-    /// The mean.
+    /// Returns the mean.
     pub fn mean(&self) -> f64 {
         self.family().mean()
     }
 
-    /// The standard deviation.
+    /// Returns the standard deviation.
     pub fn sd(&self) -> f64 {
         self.family().sd()
     }
 
-    /// The median.
+    /// Returns the median.
     pub fn median(&self) -> f64 {
         self.quantile(0.5)
     }
 
-    /// The smallest closed interval that holds every value; its ends may be infinite.
+    /// Returns the smallest closed interval that contains every value; its ends may be infinite.
     pub fn support(&self) -> (f64, f64) {
         self.family().support()
     }
 
-    /// The values of a factor that takes single ones by design, ascending, each with a `u` at which it is the quantile:
-    /// of a discrete or categorical one, and of up to 1024 whole numbers (of a Poisson distribution but for a thousandth at
-    /// either end). `None` of any other: measured values stand
-    /// for the range between them.
+    /// Returns the values of a discrete factor, ascending, each with a `u` at which it is the quantile: for discrete or
+    /// categorical distributions, and for up to 1024 whole numbers (of a Poisson distribution except a thousandth at
+    /// either end). `None` for all others: measured values represent the range between them.
     pub fn levels(&self) -> Option<Vec<(f64, f64)>> {
         match self {
             Self::Discrete(values) | Self::Categorical(values) => Some(values.levels()),
@@ -179,22 +178,22 @@ impl Distribution {
         }
     }
 
-    /// Whether its values are whole numbers, one by one: of an integer or a Poisson distribution, and of seeds.
+    /// Returns whether its values are whole numbers: for integer and Poisson distributions, and for seeds.
     pub fn is_whole(&self) -> bool {
         matches!(self, Self::Integer(_) | Self::Poisson(_) | Self::Seed(_))
     }
 
-    /// Whether values are converted to SI one by one, since whole numbers in another unit are none.
+    /// Returns whether values are converted to SI one by one, because whole numbers are not whole in another unit.
     pub(super) fn is_converted_by_value(&self) -> bool {
         matches!(self, Self::Integer(_) | Self::Poisson(_))
     }
 
-    /// Whether its values are the seeds of a stochastic model: the factor is the noise, and no input that anybody knows.
+    /// Returns whether its values are the seeds of a stochastic model: the factor is the noise, not an input.
     pub fn is_noise(&self) -> bool {
         matches!(self, Self::Seed(_))
     }
 
-    /// Whether values come close to the lower end of the support without reaching it.
+    /// Returns whether values come close to the lower end of the support without reaching it.
     pub fn is_open_below(&self) -> bool {
         let (low, _) = self.support();
         match self {
@@ -204,66 +203,66 @@ impl Distribution {
         }
     }
 
-    /// The categories of a categorical or boolean distribution.
+    /// Returns the categories of a categorical or boolean distribution.
     fn categories(&self) -> Option<&Values> {
         if let Self::Categorical(categories) = self { Some(categories) } else { None }
     }
 
-    /// The labels of a categorical or boolean distribution, as given.
+    /// Returns the labels of a categorical or boolean distribution, as given.
     pub fn labels(&self) -> Option<&[String]> {
         self.categories().map(Values::labels)
     }
 
-    /// Whether one value is no more than another: of labels and seeds.
+    /// Returns whether its values have no order: labels and seeds.
     fn has_no_order(&self) -> bool {
         self.labels().is_some() || self.is_noise()
     }
 
-    /// The label that `value` stands for, in a categorical or boolean distribution.
+    /// Returns the label for `value`, in a categorical or boolean distribution.
     pub fn label(&self, value: f64) -> Option<&str> {
         self.categories()?.label(value)
     }
 
-    /// The value that stands for `label`, in a categorical or boolean distribution.
+    /// Returns the value for `label`, in a categorical or boolean distribution.
     pub fn value_of(&self, label: &str) -> Option<f64> {
         self.categories()?.value_of(label)
     }
 
-    /// The default nominal value: the most probable category, otherwise the median.
+    /// Returns the default nominal value: the most probable category, otherwise the median.
     pub fn central(&self) -> f64 {
         self.categories().map_or_else(|| self.median(), Values::most_probable)
     }
 
-    /// The name of the family, as in study files: `log-uniform`.
+    /// Returns the name of the family, as in study files: `log-uniform`.
     pub fn name(&self) -> &'static str {
         self.family().name(self.entry().name)
     }
 
-    /// The parameters by which it was made, with their names.
+    /// Returns the parameters from which it was created, with their names.
     pub fn parameters(&self) -> Vec<(&'static str, Parameter)> {
         self.family().parameters()
     }
 
-    /// The distribution of the same quantity in SI, this one being in `unit`; of one whose values are not
-    /// [converted one by one](Self::is_converted_by_value).
+    /// Returns the distribution of the same quantity in SI, this one being in `unit`; for a distribution whose values
+    /// are not [converted one by one](Self::is_converted_by_value).
     ///
-    /// Parameters that are values are converted one by one, so that bounds and constants are the `f64` nearest to
-    /// what was typed (a constant of 225 um is 225e-6); a `log_mean` is shifted by the logarithm of the factor;
-    /// shapes stay.
+    /// Parameters that are values are converted one by one, so that bounds and constants are the `f64` nearest to what
+    /// was typed (a constant of 225 um is 225e-6); a `log_mean` is shifted by the logarithm of the factor; shapes are
+    /// unchanged.
     ///
     /// # Errors
     ///
-    /// As the constructor, if a parameter leaves the range of `f64`.
+    /// As for the constructor, if a parameter exceeds the range of `f64`.
     pub(super) fn to_si(&self, unit: &Unit) -> Result<Self, DistributionError> {
         self.in_si(unit)?.finite()
     }
 
-    /// The same before its variance is looked at, of which a part of it may have one.
+    /// Does the same without a check of the variance: a truncated part may have one.
     fn in_si(&self, unit: &Unit) -> Result<Self, DistributionError> {
         self.family().in_si(self.entry(), unit)
     }
 
-    /// P(X <= x) and P(X > x).
+    /// Returns P(X <= x) and P(X > x).
     fn tails(&self, x: f64) -> (f64, f64) {
         match x.is_infinite() {
             true if x > 0.0 => (1.0, 0.0),
@@ -272,12 +271,12 @@ impl Distribution {
         }
     }
 
-    /// The quantile at 1 - `v`, with its last digits where `v` is small.
+    /// Returns the quantile at 1 - `v`, to full precision if `v` is small.
     fn upper_quantile(&self, v: f64) -> f64 {
         self.family().upper_quantile(v)
     }
 
-    /// Refuses what has no variance, or overflows within the promised range of `u`.
+    /// Refuses a distribution that has no variance, or overflows within the guaranteed range of `u`.
     fn finite(self) -> Result<Self, DistributionError> {
         self.family().refuse_infinite_variance()?;
         let figures = [self.quantile(SMALLEST_U), self.quantile(LARGEST_U), self.mean(), self.sd()];

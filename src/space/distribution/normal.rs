@@ -11,7 +11,7 @@ pub struct Normal {
 }
 
 impl Distribution {
-    /// Normal with mean `mean` and standard deviation `sd`.
+    /// Returns the normal distribution with mean `mean` and standard deviation `sd`.
     ///
     /// # Formula
     ///
@@ -21,7 +21,7 @@ impl Distribution {
     ///
     /// # Errors
     ///
-    /// If `mean` is not finite, `sd` is not finite and positive, or values some 9 sd from the mean overflow.
+    /// If `mean` is not finite, `sd` is not finite and positive, or values about 9 sd from the mean overflow.
     ///
     /// ```
     /// use apportion::Distribution;

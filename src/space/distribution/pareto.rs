@@ -2,7 +2,7 @@
 
 use super::prelude::*;
 
-/// A power law from a least value on: sizes, incomes, losses.
+/// A power law above a minimum: sizes, incomes, losses.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pareto {
     shape: f64,
@@ -10,7 +10,7 @@ pub struct Pareto {
 }
 
 impl Distribution {
-    /// Pareto (of type I) with exponent `shape`, from `min` on.
+    /// Returns the Pareto distribution (of type I) with exponent `shape`, from `min` on.
     ///
     /// # Formula
     ///
@@ -21,7 +21,7 @@ impl Distribution {
     ///
     /// # Errors
     ///
-    /// If a parameter is not finite and positive, values overflow, or `shape <= 2`: there is no variance then.
+    /// If a parameter is not finite and positive, values overflow, or `shape <= 2`, where there is no variance.
     ///
     /// ```
     /// use apportion::Distribution;
@@ -36,12 +36,12 @@ impl Distribution {
 }
 
 impl Pareto {
-    /// Any shape above 0, which needs an upper bound up to 2.
+    /// Allows any shape above 0; one of at most 2 needs an upper bound.
     pub(crate) fn new(shape: f64, min: f64) -> Result<Self, DistributionError> {
         Ok(Self { shape: positive("shape", shape)?, min: positive("min", min)? })
     }
 
-    /// What is left from `min` on is Pareto too.
+    /// Returns the part from `min` on, which is Pareto too.
     pub(super) fn beginning_at(&self, min: f64) -> Result<Distribution, DistributionError> {
         Distribution::pareto(self.shape, min)
     }

@@ -5,17 +5,17 @@ use std::sync::Arc;
 
 use super::prelude::*;
 
-/// Means beyond are refused: the table of probabilities would grow long, and none but 0 would ever occur.
+/// Means outside are refused: the table of probabilities would be too long, or only 0 would ever occur.
 const MEANS: (f64, f64) = (1e-300, 1e6);
 
-/// Numbers of events that come by chance.
+/// The distribution of the number of random events.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Poisson {
     mean: f64,
     table: Arc<Table>,
 }
 
-/// The probabilities of all numbers that are worth one.
+/// The probabilities of all numbers that are not negligible.
 #[derive(PartialEq)]
 struct Table {
     first: f64,
@@ -23,11 +23,11 @@ struct Table {
     below: Vec<f64>,
     /// P(X > k) of each.
     above: Vec<f64>,
-    /// The place of the median.
+    /// The index of the median.
     middle: usize,
 }
 
-// It follows from the rest.
+// It follows from the mean.
 impl fmt::Debug for Table {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         formatter.write_str("..")
@@ -35,7 +35,7 @@ impl fmt::Debug for Table {
 }
 
 impl Distribution {
-    /// Poisson with mean `mean`: 0, 1, 2 and so on.
+    /// Returns the Poisson distribution with mean `mean`: 0, 1, 2 and so on.
     ///
     /// # Formula
     ///
@@ -46,7 +46,7 @@ impl Distribution {
     ///
     /// # Errors
     ///
-    /// If `mean` lies outside [1e-300, 1e6]. Beyond, a normal distribution of this mean and its square root as the
+    /// If `mean` is outside [1e-300, 1e6]. Above, a normal distribution of this mean with its square root as the
     /// standard deviation differs by less than a thousandth of that.
     ///
     /// ```
@@ -64,18 +64,18 @@ impl Distribution {
 }
 
 impl Poisson {
-    /// Levels up to so many are gone through one by one where a distribution is drawn or screened.
+    /// Maximum number of levels that are treated separately when a distribution is drawn or screened.
     const MAX_LEVELS: usize = 1024;
-    /// Levels that are rarer than this together on either side do not count among them.
+    /// Levels that together are rarer than this on either side are not among them.
     const RARE: f64 = 1e-3;
 
-    /// The numbers that occur, but for the rare ones, each with a `u` at which it is the quantile; `None` if they are
-    /// more than 1024.
+    /// Returns the numbers that occur, except the rare ones, each with a `u` at which it is the quantile; `None` if
+    /// there are more than 1024.
     pub fn levels(&self) -> Option<Vec<(f64, f64)>> {
         self.levels_above(Self::RARE)
     }
 
-    /// The same, but for those that are rarer than `rare` together on either side.
+    /// Returns the same, except those that together are rarer than `rare` on either side.
     pub fn levels_above(&self, rare: f64) -> Option<Vec<(f64, f64)>> {
         let table = &self.table;
         let (first, last) = (table.place(rare, 1.0 - rare), table.place(1.0 - rare, rare));
@@ -91,7 +91,7 @@ impl Table {
     fn new(mean: f64) -> Self {
         const MIN_RATIO: f64 = 1e-300;
         let mode = mean.floor();
-        // Up and down from the most probable number, whose own probability is found by the sum.
+        // Up and down from the most probable number, whose own probability follows from the sum.
         let mut falling = vec![1.0];
         let mut k = mode;
         while k > 0.0 {
@@ -130,7 +130,7 @@ impl Table {
         Self { first, below, above, middle }
     }
 
-    /// The place of the quantile at `u`, `v` being 1 - u.
+    /// Returns the index of the quantile at `u`, `v` being 1 - u.
     fn place(&self, u: f64, v: f64) -> usize {
         let place = if u < v {
             self.below.partition_point(|below| *below <= u).min(self.middle)

@@ -1,4 +1,4 @@
-//! Quadrature for the moments that have no formula without cancellation.
+//! Quadrature for moments without a cancellation-free formula.
 
 use std::f64::consts::PI;
 
@@ -9,7 +9,7 @@ const NODES: [(f64, f64); 3] = [
     (0.906_179_845_938_664, 0.236_926_885_056_189_1),
 ];
 
-/// The mean of a smooth function over `middle` - `half` to `middle` + `half`, twice, by one Gauss-Legendre rule of five points.
+/// Returns twice the mean of a smooth function within `half` of `middle`, by the Gauss-Legendre rule of five points.
 fn panel(middle: f64, half: f64, function: &impl Fn(f64) -> f64) -> f64 {
     let pair = |(node, weight): (f64, f64)| {
         let sum = function(middle - half * node) + function(middle + half * node);
@@ -19,17 +19,17 @@ fn panel(middle: f64, half: f64, function: &impl Fn(f64) -> f64) -> f64 {
     NODES.into_iter().map(pair).sum::<f64>()
 }
 
-/// The integral of a smooth function, by the Gauss-Legendre rule of five points on each of 200 panels.
+/// Returns the integral of a smooth function, by the Gauss-Legendre rule of five points on each of 200 panels.
 pub(super) fn integral(from: f64, to: f64, function: impl Fn(f64) -> f64) -> f64 {
     const PANELS: u32 = 200;
     let half = 0.5 * (to - from) / f64::from(PANELS);
     half * (0..PANELS).map(|index| panel(from + half * f64::from(2 * index + 1), half, &function)).sum::<f64>()
 }
 
-/// Mean and standard deviation of the values `quantile(u, v)`, v = 1 - u, for u from 0 to 1.
+/// Returns mean and standard deviation of the values `quantile(u, v)`, v = 1 - u, for u from 0 to 1.
 ///
-/// By the tanh-sinh rule (Takahasi and Mori 1974, Publ. RIMS Kyoto Univ. 9, 721-741), which endures singularities at the
-/// ends; `u` and `v` go down to 1e-290.
+/// Uses the tanh-sinh rule (Takahasi and Mori 1974, Publ. RIMS Kyoto Univ. 9, 721-741), which allows singularities at
+/// the ends; `u` and `v` go down to 1e-290.
 pub(super) fn moments(quantile: impl Fn(f64, f64) -> f64) -> (f64, f64) {
     const STEP: f64 = 1.0 / 32.0;
     let origin = quantile(0.5, 0.5);

@@ -3,7 +3,7 @@
 use super::prelude::*;
 use crate::quantity::Unit;
 
-/// The largest seed, 2^31 - 1: the largest whole number that the generators of C, R, Fortran and NumPy all take.
+/// The largest seed, 2^31 - 1: the largest integer that the generators of C, R, Fortran and NumPy all accept.
 const LARGEST: f64 = ((1u64 << 31) - 1) as f64;
 
 /// Whole numbers from 0 to 2^31 - 1, equally likely, in no order.
@@ -11,13 +11,13 @@ const LARGEST: f64 = ((1u64 << 31) - 1) as f64;
 pub struct Seed;
 
 impl Distribution {
-    /// The seed of a stochastic model: a whole number from 0 to 2^31 - 1 that is a function of the coordinate, mixed so that
-    /// near coordinates have seeds that look independent. The factor of this distribution is the *noise* of a study.
+    /// Returns the seeds of a stochastic model: a whole number from 0 to 2^31 - 1, a function of the coordinate; seeds
+    /// of near coordinates look independent. The factor of this distribution is the *noise* of a study.
     ///
     /// # Formula
     ///
-    /// The upper 31 bits of the finaliser of SplitMix64 (Steele, Lea and Flood 2014, OOPSLA, fig. 17) of the bits of `u`. As
-    /// the only one it is no rising function of `u`: the values of a random `u` are uniform, but there is no inverse.
+    /// The upper 31 bits of the finaliser of SplitMix64 (Steele, Lea and Flood 2014, OOPSLA, fig. 17) of the bits of
+    /// `u`. It does not rise with `u`: the values are uniform, but without an inverse.
     ///
     /// ```
     /// use apportion::Distribution;
@@ -32,14 +32,14 @@ impl Distribution {
     }
 }
 
-/// The finaliser of SplitMix64: every bit of the result depends on every bit of `x`.
+/// Returns the finaliser of SplitMix64: every bit of the result depends on every bit of `x`.
 pub(crate) fn mixed(x: u64) -> u64 {
     let x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     let x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
     x ^ (x >> 31)
 }
 
-/// The seed that a mixed number stands for.
+/// Returns the seed for a mixed number.
 pub(crate) fn seed_of(mixed: u64) -> f64 {
     (mixed >> 33) as f64
 }
@@ -100,7 +100,7 @@ mod tests {
         assert!(seeds.iter().all(|seed| seed.fract() == 0.0 && (low..=high).contains(seed)));
         let distinct: std::collections::BTreeSet<u64> = seeds.iter().map(|seed| *seed as u64).collect();
         assert_eq!(distinct.len(), seeds.len());
-        // Both ends of the bits: some generators take the lower ones alone.
+        // Both ends of the bits: some generators use only the lower ones.
         for part in [|seed: f64| seed / 2f64.powi(31), |seed: f64| (seed % 1024.0) / 1024.0] {
             let mean = seeds.iter().map(|seed| part(*seed)).sum::<f64>() / f64::from(n);
             assert!((mean - 0.5).abs() < 4.0 * (1.0 / 12.0 / f64::from(n)).sqrt(), "{mean}");

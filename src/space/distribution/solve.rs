@@ -1,13 +1,13 @@
 //! Quantiles by the logarithm of a distribution function and its derivatives.
 
-/// Residual of the logarithm of a probability, and step, from which one more step, of third order, leaves less than rounding.
+/// Residual of the logarithm of a probability, and step, after which one more step of third order is enough.
 const CLOSE: f64 = 1e-5;
 
-/// Never reached.
+/// A limit that is never reached.
 const MAX_STEPS: u32 = 60;
 
-/// The root, between two bounds, of a logarithm less its target, by Halley's iteration from `start`, and the steps taken. `log` gives
-/// the residual, its slope, and what twice the curvature is of the slope.
+/// Returns the root, between two bounds, of a logarithm minus its target, by Halley's iteration from `start`, and the
+/// number of steps. `log` returns the residual, its slope, and twice the curvature over the slope.
 pub(super) fn halley(start: f64, (low, high): (f64, f64), log: impl Fn(f64) -> (f64, f64, f64)) -> (f64, u32) {
     let mut d = start;
     for steps in 1..=MAX_STEPS {
@@ -21,7 +21,7 @@ pub(super) fn halley(start: f64, (low, high): (f64, f64), log: impl Fn(f64) -> (
     (d, MAX_STEPS)
 }
 
-/// The root nearer to 0 of a parabola of this slope and curvature at 0 that has to rise by `target`, which is not positive.
+/// Returns the root nearer to 0 of a parabola of this slope and curvature at 0 that rises by `target` <= 0.
 pub(super) fn parabola(slope: f64, curvature: f64, target: f64) -> f64 {
     2.0 * target / (slope + (slope * slope - 2.0 * curvature * target).max(0.0).sqrt())
 }

@@ -1,31 +1,31 @@
-//! Distributions by a mean and a standard deviation, or by two quantiles.
+//! Distributions specified by a mean and a standard deviation, or by two quantiles.
 //!
-//! x = location + scale z, with z of the standard distribution, which has at most one shape. Every statement is linear in location
-//! and scale: a location + b scale = value. Two statements give both; a third one gives the shape, at which the determinant of the
-//! three lines vanishes.
+//! x = location + scale z, with z of the standard distribution, which has at most one shape. Every statement is linear
+//! in location and scale: a location + b scale = value. Two statements determine both; a third one determines the
+//! shape, at which the determinant of the three lines vanishes.
 
 use super::error::{finite, no_such_distribution, order, positive};
 use super::family::Parameter;
 use super::keys::Given;
 use super::{Distribution, DistributionError};
 
-/// The parameter beside location and scale.
+/// The parameter in addition to location and scale.
 pub(super) enum Shape {
     /// There is none.
     None,
     /// It is given under this key.
     Given(&'static str),
-    /// It is solved for: from the shape of a narrow distribution to that of a wide one, by as many steps of its logarithm.
+    /// It is solved for, from the shape of a narrow distribution to that of a wide one, in this many logarithmic steps.
     Between(f64, f64, u32),
-    /// The share of the width up to `mode`, which is given.
+    /// The share of the width below `mode`, which is given.
     Mode,
 }
 
 /// A statement: coefficients of location and scale, and the value.
 type Line = [f64; 3];
 
-/// The distribution with the mean and standard deviation, or the quantiles, that are given: the narrowest where there are
-/// several. A family that `begins` somewhere does so at `location`, by default 0.
+/// Returns the distribution with the given mean and standard deviation, or quantiles: the narrowest if there are
+/// several. A family that `begins` at a location does so at `location`, by default 0.
 pub(super) fn solved(given: &Given<'_>, begins: bool) -> Result<Distribution, DistributionError> {
     check(given)?;
     let found = match given.entry.shape {
@@ -48,8 +48,7 @@ pub(super) fn solved(given: &Given<'_>, begins: bool) -> Result<Distribution, Di
     })
 }
 
-/// The distribution of this shape, if it is as stated: to 1e-9 of its standard deviation, to which the last digits of a value
-/// far from 0 may add a few.
+/// Returns the distribution of this shape, if it is as stated: to 1e-9 standard deviations, plus rounding of values.
 fn at(shape: f64, given: &Given<'_>, begins: bool) -> Option<Distribution> {
     let (lines, origin) = lines(shape, given, begins)?;
     let (location, scale) = located(&lines)?;
@@ -60,7 +59,7 @@ fn at(shape: f64, given: &Given<'_>, begins: bool) -> Option<Distribution> {
     lines.into_iter().all(is_met).then_some(found)
 }
 
-/// The statements as lines for one shape, and what was taken off their values, so that those far from 0 keep their digits.
+/// Returns the statements as lines for one shape, and the offset subtracted from values to keep digits.
 fn lines(shape: f64, given: &Given<'_>, begins: bool) -> Option<(Vec<Line>, f64)> {
     let standard = (given.entry.make)(&Given { values: &[], ..*given }, [0.0, 1.0, shape]).ok()?;
     let mut lines = Vec::with_capacity(3);
@@ -76,15 +75,15 @@ fn lines(shape: f64, given: &Given<'_>, begins: bool) -> Option<(Vec<Line>, f64)
     Some((lines, origin))
 }
 
-/// Zero where three statements agree; NaN where the standard distribution does not exist.
+/// Returns zero if three statements agree; NaN if the standard distribution does not exist.
 fn determinant(shape: f64, given: &Given<'_>, begins: bool) -> f64 {
     let Some((lines, _)) = lines(shape, given, begins) else { return f64::NAN };
     let [a, b, c] = lines[..] else { return f64::NAN };
     a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) + a[2] * (b[0] * c[1] - b[1] * c[0])
 }
 
-/// The mean, standard deviation and quantiles that are given: whether each moves with the location, what it is of `distribution`, and
-/// its value.
+/// Iterates over the given mean, standard deviation and quantiles: whether each moves with the location, its value for
+/// `distribution`, and its given value.
 fn stated(given: &Given<'_>, distribution: &Distribution) -> impl Iterator<Item = (f64, f64, f64)> {
     let mean = given.number_if("mean").map(|value| (1.0, distribution.mean(), value));
     let sd = given.number_if("sd").map(|value| (0.0, distribution.sd(), value));
@@ -92,7 +91,7 @@ fn stated(given: &Given<'_>, distribution: &Distribution) -> impl Iterator<Item 
     mean.into_iter().chain(sd).chain(quantiles)
 }
 
-/// Refuses numbers that cannot be, and quantiles out of order.
+/// Refuses invalid numbers, and quantiles out of order.
 fn check(given: &Given<'_>) -> Result<(), DistributionError> {
     for (key, value) in given.values {
         let Parameter::Number(value) = value else { continue };
@@ -112,12 +111,12 @@ fn in_words((key, value): &(&'static str, Parameter)) -> Option<String> {
     if let Parameter::Number(value) = value { Some(format!("{key} = {value}")) } else { None }
 }
 
-/// Location and scale from the two lines that determine them best.
+/// Computes location and scale from the two lines that determine them best.
 fn located(lines: &[Line]) -> Option<(f64, f64)> {
     let pairs = (0..lines.len()).flat_map(|i| (i + 1..lines.len()).map(move |j| (i, j)));
     let (_, i, j) = pairs
         .map(|(i, j)| ((lines[i][0] * lines[j][1] - lines[i][1] * lines[j][0]).abs(), i, j))
-        // The coefficients are of order 1: lines of no more angle than this are one line.
+        // The coefficients are of order 1: lines at a smaller angle count as one.
         .filter(|(size, ..)| *size > 1e-12)
         .max_by(|a, b| a.0.total_cmp(&b.0))?;
     let ([a, b, v], [c, d, w]) = (lines[i], lines[j]);
@@ -126,9 +125,9 @@ fn located(lines: &[Line]) -> Option<(f64, f64)> {
     (scale > 0.0 && scale.is_finite()).then_some((location, scale))
 }
 
-/// The first zero of `function` along `grid`, to the last digits of its argument: between two neighbours of different
-/// sign, or at one of them. NaN where the function does not exist. Zeros that `accept` refuses (steps, poles) are
-/// passed over.
+/// Returns the first zero of `function` along `grid`, to the last digits of its argument: between two neighbours of
+/// different sign, or at one of them. NaN where the function does not exist. Zeros that `accept` refuses (steps, poles)
+/// are skipped.
 fn first_zero<T>(
     grid: impl Iterator<Item = f64>,
     function: impl Fn(f64) -> f64,
@@ -153,7 +152,7 @@ fn first_zero<T>(
     None
 }
 
-/// The zero between `low` (with its value) and `high`, where the function has the other sign.
+/// Returns the zero between `low` (with its value) and `high`, where the function has the other sign.
 fn bisected((mut low, start): (f64, f64), mut high: f64, function: &impl Fn(f64) -> f64) -> f64 {
     loop {
         let middle = low + (high - low) / 2.0;
@@ -168,7 +167,7 @@ fn bisected((mut low, start): (f64, f64), mut high: f64, function: &impl Fn(f64)
     }
 }
 
-/// `count` numbers from `from` to `to`, both included, at equal distances.
+/// Iterates over `count` numbers from `from` to `to`, both included, at equal distances.
 fn evenly(from: f64, to: f64, count: u32) -> impl Iterator<Item = f64> {
     let last = f64::from(count - 1);
     (0..count).map(f64::from).map(move |k| if k == last { to } else { from + (to - from) * (k / last) })

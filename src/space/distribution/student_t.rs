@@ -3,13 +3,13 @@
 use super::beta::{Side, tails_of_sides};
 use super::prelude::*;
 
-/// Degrees of freedom beyond are refused: fewer mean nothing, with more it is a normal distribution.
+/// Degrees of freedom outside are refused: fewer have no practical meaning, with more it is a normal distribution.
 const DEGREES: (f64, f64) = (0.01, 2e5);
 
-/// What one-sided tails of fewer degrees of freedom leave beyond the smallest probabilities shows in the moments.
+/// With fewer degrees of freedom, the part of a single tail beyond the smallest probabilities affects the moments.
 const MIN_DF_OF_ONE_TAIL: f64 = 2.1;
 
-/// Symmetric, with tails that fall by a power: means of few measurements.
+/// A symmetric distribution with tails that fall by a power: means of few measurements.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StudentT {
     df: f64,
@@ -21,7 +21,7 @@ pub struct StudentT {
 }
 
 impl Distribution {
-    /// Student's t with `df` degrees of freedom, moved to `location` and stretched by `scale`.
+    /// Returns Student's t distribution with `df` degrees of freedom, shifted to `location` and scaled by `scale`.
     ///
     /// # Formula
     ///
@@ -35,8 +35,8 @@ impl Distribution {
     ///
     /// # Errors
     ///
-    /// If `df` lies outside [0.01, 2e5] or is at most 2 (there is no variance then), `location` is not finite, `scale`
-    /// is not finite and positive, or values overflow.
+    /// If `df` is outside [0.01, 2e5] or at most 2 (where there is no variance), `location` is not finite, `scale` is
+    /// not finite and positive, or values overflow.
     ///
     /// ```
     /// use apportion::Distribution;
@@ -51,7 +51,7 @@ impl Distribution {
 }
 
 impl StudentT {
-    /// Any degrees of freedom, up to 2 of which need two bounds.
+    /// Allows any degrees of freedom; at most 2 of them need two bounds.
     pub(crate) fn new(df: f64, location: f64, scale: f64) -> Result<Self, DistributionError> {
         within("df", df, DEGREES)?;
         finite("location", location)?;
@@ -60,13 +60,13 @@ impl StudentT {
         Ok(Self { df, location, scale, tails, middle })
     }
 
-    /// The same of what a truncation leaves between the bounds.
+    /// Does the same for the part between the bounds of a truncation.
     pub(super) fn refuse_one_long_tail(&self, (min, max): (f64, f64)) -> Result<(), DistributionError> {
         let least = if min.is_finite() && max.is_finite() { 0.0 } else { MIN_DF_OF_ONE_TAIL };
         of_finite_variance("df", self.df, least)
     }
 
-    /// t beyond which there is the probability `tail`, at most 1/2, on one side; `rest` is 1/2 - `tail`.
+    /// Returns the t beyond which the probability is `tail`, at most 1/2, on one side; `rest` is 1/2 - `tail`.
     fn beyond(&self, tail: f64, rest: f64) -> f64 {
         if tail <= 0.0 {
             return f64::INFINITY;
@@ -83,7 +83,7 @@ impl StudentT {
         (self.df * (y / x)).sqrt()
     }
 
-    /// How far from the location the values are of which the share `tail`, or the rest, lies on one side.
+    /// Returns the distance from the location of the value with the share `tail`, or the rest, on one side.
     fn deviation(&self, tail: f64) -> f64 {
         self.scale * self.beyond(tail.min(1.0 - tail), (tail - 0.5).abs()).copysign(0.5 - tail)
     }

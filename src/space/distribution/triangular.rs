@@ -2,7 +2,7 @@
 
 use super::prelude::*;
 
-/// The density rises linearly from `min` to `mode` and falls linearly to `max`.
+/// A distribution whose density rises linearly from `min` to `mode` and falls linearly to `max`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Triangular {
     min: f64,
@@ -16,7 +16,7 @@ pub struct Triangular {
 }
 
 impl Distribution {
-    /// Triangular on [`min`, `max`] with its peak at `mode`.
+    /// Returns the triangular distribution on [`min`, `max`] with its peak at `mode`.
     ///
     /// # Formula
     ///
@@ -27,7 +27,7 @@ impl Distribution {
     ///
     /// # Errors
     ///
-    /// If a parameter is not finite, `min >= max`, their difference overflows, or `mode` lies outside the bounds.
+    /// If a parameter is not finite, `min >= max`, their difference overflows, or `mode` is outside the bounds.
     ///
     /// ```
     /// use apportion::Distribution;
@@ -49,7 +49,7 @@ impl Triangular {
         self.mode
     }
 
-    /// The density at a value between the bounds.
+    /// Returns the density at a value between the bounds.
     pub(super) fn density(&self, x: f64) -> f64 {
         let part = if x < self.mode { (x - self.min) / self.below } else { (self.max - x) / self.above };
         2.0 * part / self.width / self.width
@@ -72,7 +72,7 @@ pub(super) const ENTRIES: &[Entry] = &[Entry {
 
 impl Family for Triangular {
     fn quantile(&self, u: f64) -> f64 {
-        // The two branches meet at the mode, past which rounding must not lead either.
+        // The two branches meet at the mode, which rounding must not exceed either.
         if u <= self.below {
             (self.min + self.width * (u * self.below).sqrt()).min(self.mode)
         } else {

@@ -11,10 +11,10 @@ use super::quadrature::{integral, moments};
 use crate::quantity::Unit;
 use crate::special::{normal_below, normal_quantile, normal_quantile_beside_median};
 
-/// Below this probability between the bounds, probabilities of single values would leave the range of `f64`.
+/// Below this probability between the bounds, probabilities of single values would exceed the range of `f64`.
 const MIN_MASS: f64 = 1e-280;
 
-/// A distribution on the condition that it lies between two bounds.
+/// A distribution conditional on being between two bounds.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Truncated {
     law: Box<Distribution>,
@@ -31,25 +31,25 @@ pub struct Truncated {
     sd: f64,
 }
 
-/// How quantiles are found.
+/// How quantiles are computed.
 #[derive(Clone, Debug, PartialEq)]
 enum Quantiles {
     /// From the nearer tail.
     Tails,
-    /// Of a normal distribution, from the centre too: 2 P(0 < z < (min - mean) / sd), negative if `min` is below the mean.
+    /// For a normal distribution, also from the centre: 2 P(0 < z < (min - mean) / sd), negative for `min` < mean.
     Normal { centre: f64 },
-    /// Of a Gumbel distribution, from -ln F(min), infinite where F(min) is 0, from -ln F(max), 0 where F(max) is 1, and from
-    /// ln(F(max) / F(min)), found from the width of the interval.
+    /// For a Gumbel distribution, from -ln F(min), infinite if F(min) is 0, from -ln F(max), 0 if F(max) is 1, and from
+    /// ln(F(max) / F(min)), computed from the width of the interval.
     Gumbel { log_min: f64, log_max: f64, ratio: f64 },
 }
 
 impl Distribution {
-    /// This distribution on the condition that it lies between `min` and `max`, both included; an infinite bound cuts nothing
-    /// off. Parameters keep their meaning: they are those before truncation. Mean, standard deviation and quantiles of
-    /// the result are those after it.
+    /// Returns this distribution conditional on being between `min` and `max`, both included; an infinite bound has no
+    /// effect. Parameters keep their meaning: they are those before truncation. Mean, standard deviation and quantiles
+    /// of the result are those after it.
     ///
-    /// Where a family stays itself (uniform, log-uniform, discrete, integer, empirical, histogram, mixture, Poisson; Pareto
-    /// from below) the result is of that family.
+    /// If a family is closed under truncation (uniform, log-uniform, discrete, integer, empirical, histogram, mixture,
+    /// Poisson; Pareto from below) the result is of that family.
     ///
     /// # Formula
     ///
@@ -61,8 +61,8 @@ impl Distribution {
     ///
     /// # Errors
     ///
-    /// If the bounds are not in order, next to nothing lies between them, the distribution has labels, or it has no
-    /// finite variance even so.
+    /// If the bounds are not in order, almost no probability is between them, the distribution has labels, or it still
+    /// has no finite variance.
     ///
     /// ```
     /// use apportion::Distribution;
@@ -111,12 +111,13 @@ impl Distribution {
         }
     }
 
-    /// Normal with mean `mean` and standard deviation `sd` *before* it is [`truncated`](Self::truncated) to [`min`, `max`].
+    /// Returns the normal distribution with mean `mean` and standard deviation `sd` *before* it is
+    /// [`truncated`](Self::truncated).
     ///
     /// # Errors
     ///
-    /// If a parameter is not finite, `sd <= 0`, `min >= max`, or the probability between the bounds is below
-    /// 1e-280: both bounds beyond some 35 sd from the mean on one side.
+    /// If a parameter is not finite, `sd <= 0`, `min >= max`, or the probability between the bounds is below 1e-280:
+    /// both bounds more than about 35 sd from the mean on one side.
     ///
     /// ```
     /// use apportion::Distribution;
@@ -131,12 +132,13 @@ impl Distribution {
         Self::Normal(normal).truncated(min, max)
     }
 
-    /// Gumbel of maximum type with mode `location` and scale `scale` *before* it is [`truncated`](Self::truncated) to [`min`, `max`].
+    /// Returns the Gumbel distribution of mode `location` and scale `scale` *before* it is
+    /// [`truncated`](Self::truncated).
     ///
     /// # Errors
     ///
     /// If a parameter is not finite, `scale <= 0`, `min >= max`, or the probability between the bounds is below 1e-280:
-    /// both bounds some 6 scales below or 640 scales above the location.
+    /// both bounds about 6 scales below or 640 scales above the location.
     ///
     /// ```
     /// use apportion::Distribution;
@@ -151,10 +153,10 @@ impl Distribution {
         Self::Gumbel(gumbel).truncated(min, max)
     }
 
-    /// P(min <= X <= max), without the loss of digits by a difference from 1.
+    /// Returns P(min <= X <= max), without the loss of digits by a difference from 1.
     pub(super) fn share_between(&self, min: f64, max: f64) -> f64 {
         let (below, above) = (self.tails(min.next_down()), self.tails(max));
-        // Whichever sides of the bounds are small.
+        // By the tails that are small.
         if below.0 > 0.5 {
             below.1 - above.1
         } else if above.1 > 0.5 {
@@ -166,7 +168,7 @@ impl Distribution {
 }
 
 impl Normal {
-    /// P(min < X < max): the difference of two tails on one side, or of two central parts, whichever loses no digits.
+    /// Returns P(min < X < max): the difference of two tails or of two central parts, whichever loses no digits.
     fn share_between(&self, min: f64, max: f64) -> f64 {
         let [a, b] = [min, max].map(|x| (x - self.mean) / self.sd);
         if a > 0.5 {
@@ -180,11 +182,11 @@ impl Normal {
 }
 
 impl Gumbel {
-    /// -ln F(min), -ln F(max) and ln(F(max) / F(min)).
+    /// Returns -ln F(min), -ln F(max) and ln(F(max) / F(min)).
     fn logs(&self, min: f64, max: f64) -> (f64, f64, f64) {
         let [log_min, log_max] = [min, max].map(|bound| libm::exp(-(bound - self.location) / self.scale));
         let width = (max - min) / self.scale;
-        // exp(-a) - exp(-b), which cancels nothing; where exp(-a) overflows, F(min) is 0.
+        // exp(-a) - exp(-b) without cancellation; if exp(-a) overflows, F(min) is 0.
         let ratio = if log_min.is_finite() { log_min * -libm::expm1(-width) } else { f64::INFINITY };
         (log_min, log_max, ratio)
     }
@@ -193,7 +195,7 @@ impl Gumbel {
 impl Truncated {
     fn new(law: &Distribution, (min, max): (f64, f64)) -> Option<Self> {
         let mass = share(law, min, max);
-        // NaN where the bounds are one number as seen from the distribution.
+        // NaN if the bounds are one number at the scale of the distribution.
         if mass.is_nan() || mass < MIN_MASS {
             return None;
         }
@@ -214,12 +216,12 @@ impl Truncated {
         Some(truncated)
     }
 
-    /// The distribution before truncation.
+    /// Returns the distribution before truncation.
     pub fn law(&self) -> &Distribution {
         &self.law
     }
 
-    /// Mean and standard deviation, by quadrature: formulas cancel where the bounds are far out or close together.
+    /// Computes mean and standard deviation by quadrature: formulas cancel if the bounds are far out or close together.
     fn moments(&self) -> (f64, f64) {
         let Self { min, max, mass, .. } = *self;
         match &*self.law {
@@ -233,7 +235,7 @@ impl Truncated {
                 let mean = mode + over(&|x| x - mode);
                 (mean, over(&|x| (x - mean) * (x - mean)).sqrt())
             }
-            // Where a density has fallen below exp(-45) of its maximum, nothing is left.
+            // Where a density has fallen below exp(-45) of its maximum, it is negligible.
             Distribution::Normal(Normal { mean, sd }) => {
                 let mode = mean.clamp(min, max);
                 let z = (mode - mean) / sd;
@@ -250,7 +252,7 @@ impl Truncated {
         }
     }
 
-    /// Mean and standard deviation by the density of (x - mode) / scale, within `reach` of it.
+    /// Computes mean and standard deviation by the density of (x - mode) / scale, within `reach` of it.
     fn moments_around(&self, mode: f64, scale: f64, reach: (f64, f64), density: impl Fn(f64) -> f64) -> (f64, f64) {
         let (from, to) = (((self.min - mode) / scale).max(reach.0), ((self.max - mode) / scale).min(reach.1));
         let mass = integral(from, to, &density);
@@ -260,7 +262,7 @@ impl Truncated {
     }
 }
 
-/// The probability of `law` between two bounds.
+/// Returns the probability of `law` between two bounds.
 fn share(law: &Distribution, min: f64, max: f64) -> f64 {
     match law {
         Distribution::Normal(normal) => normal.share_between(min, max),
@@ -312,7 +314,7 @@ impl Family for Truncated {
         }
         let value = match (&self.quantiles, &*self.law) {
             (Quantiles::Normal { centre }, Distribution::Normal(Normal { mean, sd })) => {
-                // From the tail or the centre where the probability has the most digits.
+                // From the tail or the centre, where the probability has the most digits.
                 let (lower, upper) = (below + u * mass, above + (1.0 - u) * mass);
                 let z = if lower < 0.25 {
                     normal_quantile(lower)
@@ -341,13 +343,13 @@ impl Family for Truncated {
                 }
             }
             (_, law) => {
-                // The quadrature of the moments asks for less than a double can hold.
+                // The quadrature of the moments uses probabilities smaller than a double can represent.
                 let part = |beyond: f64, part: f64| (beyond + part * mass).max(f64::MIN_POSITIVE);
                 let (lower, upper) = (part(below, u), part(above, v));
                 if lower < upper { law.quantile(lower) } else { law.upper_quantile(upper) }
             }
         };
-        // Rounding may lead an ulp past a bound.
+        // Rounding may exceed a bound by an ulp.
         value.clamp(min, max)
     }
 

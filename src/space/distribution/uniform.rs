@@ -2,7 +2,7 @@
 
 use super::prelude::*;
 
-/// Every value between two bounds is equally likely.
+/// A distribution in which every value between two bounds is equally likely.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Uniform {
     min: f64,
@@ -11,7 +11,7 @@ pub struct Uniform {
 }
 
 impl Distribution {
-    /// Uniform on [`min`, `max`].
+    /// Returns the uniform distribution on [`min`, `max`].
     ///
     /// # Formula
     ///
@@ -46,7 +46,7 @@ pub(super) const ENTRIES: &[Entry] = &[Entry {
 
 impl Family for Uniform {
     fn quantile(&self, u: f64) -> f64 {
-        // Never past `max`: the width is rounded up by half an ulp at most, and u <= 1 - 2^-53 takes a whole one off.
+        // Never above `max`: the width is rounded up by at most half an ulp, and u <= 1 - 2^-53 subtracts a whole one.
         self.min + self.width * u
     }
 

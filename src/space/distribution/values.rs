@@ -19,14 +19,14 @@ pub struct Values {
     origin: Origin,
 }
 
-/// What the values are.
+/// The kind of the values.
 #[derive(Clone, Debug, PartialEq)]
 enum Origin {
     /// As stated.
     Stated,
     /// Measured, and perhaps read from a file.
     Measured(Option<MeasuredFile>),
-    /// The numbers of these labels, distinct; of false and true by the probability of true.
+    /// The numbers of these labels, distinct; for false and true with the probability of true.
     Labels { labels: Vec<String>, truth: Option<f64> },
 }
 
@@ -42,9 +42,9 @@ pub struct MeasuredFile {
 }
 
 impl Distribution {
-    /// Each of `values` with a probability proportional to its weight; equal probabilities without `weights`.
+    /// Returns the distribution of `values` with probabilities proportional to `weights`, or equal ones without.
     ///
-    /// The order of the values is immaterial; a value given twice counts twice, a value of weight 0 never occurs.
+    /// The order of the values is irrelevant; a value given twice counts twice, a value of weight 0 never occurs.
     ///
     /// # Formula
     ///
@@ -54,8 +54,8 @@ impl Distribution {
     ///
     /// # Errors
     ///
-    /// If there are no values, as many weights as values are not given, an entry is not finite, a weight is
-    /// negative, all weights are 0, or their sum or the moments overflow.
+    /// If there are no values, the numbers of weights and values differ, an entry is not finite, a weight is negative,
+    /// all weights are 0, or their sum or the moments overflow.
     ///
     /// ```
     /// use apportion::Distribution;
@@ -69,7 +69,7 @@ impl Distribution {
         Values::new(values, weights, Origin::Stated)?.distribution().finite()
     }
 
-    /// Each of the measured `values` with equal probability; a value measured twice counts twice.
+    /// Returns the distribution of the measured `values` with equal probability; a value measured twice counts twice.
     ///
     /// # Formula
     ///
@@ -78,7 +78,7 @@ impl Distribution {
     /// mean = sum x_i / n,   sd = sqrt(sum (x_i - mean)^2 / n)
     /// ```
     ///
-    /// The inverse of the empirical distribution function: nothing between the values, nothing beyond them.
+    /// The inverse of the empirical distribution function: no values between these or beyond them occur.
     ///
     /// # Errors
     ///
@@ -95,15 +95,16 @@ impl Distribution {
         Values::new(values, None, Origin::Measured(source))?.distribution().finite()
     }
 
-    /// Each of `labels` with a probability proportional to its weight, equal ones without `weights`. The model gets
-    /// the number of the label in `values`, or else 0 for the first, 1 for the second and so on.
+    /// Returns the distribution of `labels` with probabilities proportional to `weights`, or equal ones without
+    /// weights. The model gets the number of the label in `values`, or otherwise 0 for the first, 1 for the second and
+    /// so on.
     ///
-    /// Mean, standard deviation and quantiles are those of the numbers. A Sobol' index does not depend on which
-    /// numbers stand for the labels as long as the model tells them apart.
+    /// Mean, standard deviation and quantiles are those of the numbers. A Sobol' index does not depend on the numbers
+    /// of the labels as long as the model distinguishes them.
     ///
     /// # Errors
     ///
-    /// As [`discrete`](Self::discrete); also if a label is empty or stands twice, or two labels have one number.
+    /// As for [`discrete`](Self::discrete); also if a label is empty or duplicate, or two labels have one number.
     ///
     /// ```
     /// use apportion::Distribution;
@@ -135,7 +136,7 @@ impl Distribution {
             let problem = format!("there are {values} `values` for {labels} `labels`, but there must be one for each");
             return Err(refused("values", problem));
         }
-        // 0 and -0 are one number. What is no number is refused with its place below.
+        // 0 and -0 are one number. NaN and infinity are refused with their place below.
         let mut seen = BTreeSet::new();
         let is_repeated = |value: &f64| value.is_finite() && !seen.insert((value + 0.0).to_bits());
         if let Some(index) = values.iter().position(is_repeated) {
@@ -145,11 +146,11 @@ impl Distribution {
         Values::new(&values, weights, Origin::Labels { labels, truth: None })?.distribution().finite()
     }
 
-    /// 1 (`true`) with this probability, else 0 (`false`).
+    /// Returns the distribution that is 1 (`true`) with this probability, otherwise 0 (`false`).
     ///
     /// # Errors
     ///
-    /// If `probability` lies outside [0, 1].
+    /// If `probability` is outside [0, 1].
     ///
     /// ```
     /// use apportion::Distribution;
@@ -205,12 +206,12 @@ impl Values {
         }
     }
 
-    /// The labels as given; none of values without.
+    /// Returns the labels as given; empty for values without labels.
     pub fn labels(&self) -> &[String] {
         if let Origin::Labels { labels, .. } = &self.origin { labels } else { &[] }
     }
 
-    /// Each label with its number and its probability, as given.
+    /// Iterates over the labels with their numbers and probabilities, as given.
     pub fn categories(&self) -> impl Iterator<Item = (&str, f64, f64)> {
         self.labels().iter().zip(&self.values).map(|(label, &value)| {
             // Numbers of labels are distinct.
@@ -220,30 +221,30 @@ impl Values {
         })
     }
 
-    /// Whether the numbers are the places of the labels, 0, 1, 2 and so on, which measure nothing.
+    /// Returns whether the numbers are the positions of the labels, 0, 1, 2 and so on, which measure nothing.
     pub fn are_places(&self) -> bool {
         self.values.iter().enumerate().all(|(place, value)| *value == place as f64)
     }
 
-    /// The label whose number is `value`.
+    /// Returns the label whose number is `value`.
     pub fn label(&self, value: f64) -> Option<&str> {
         let place = self.values.iter().position(|other| *other == value)?;
         self.labels().get(place).map(String::as_str)
     }
 
-    /// The number of `label`.
+    /// Returns the number of `label`.
     pub fn value_of(&self, label: &str) -> Option<f64> {
         self.labels().iter().position(|other| other == label).map(|place| self.values[place])
     }
 
-    /// The number of the most probable label, the first of several: the default nominal value.
+    /// Returns the number of the most probable label, the first of several: the default nominal value.
     pub fn most_probable(&self) -> f64 {
         let largest = self.categories().map(|(_, _, share)| share).fold(0.0, f64::max);
         self.categories().find(|(_, _, share)| *share == largest).map_or(f64::NAN, |(_, value, _)| value)
     }
 
-    /// The distinct values that occur, in ascending order, each with a `u` at which it is the quantile: the middle of
-    /// its part of the unit interval.
+    /// Returns the distinct values that occur, in ascending order, each with a `u` at which it is the quantile: the
+    /// middle of its part of the unit interval.
     ///
     /// ```
     /// use apportion::Distribution;
@@ -260,7 +261,7 @@ impl Values {
         let mut low = 0.0;
         for same in self.sorted.iter().zip(&self.cumulative).collect::<Vec<_>>().chunk_by(|a, b| a.0 == b.0) {
             let (&value, &high) = same[same.len() - 1];
-            // A part without any double inside is never drawn.
+            // A part that contains no double is never drawn.
             let middle = low + (high - low) / 2.0;
             if low < middle && middle < high {
                 levels.push((value, middle));

@@ -11,7 +11,7 @@ pub struct Weibull {
 }
 
 impl Distribution {
-    /// Weibull with shape `shape` and scale `scale`, beginning at `location` (0 for the usual two parameters).
+    /// Returns the Weibull distribution with shape `shape` and scale `scale`, beginning at `location` (usually 0).
     ///
     /// # Formula
     ///
@@ -23,8 +23,8 @@ impl Distribution {
     ///
     /// # Errors
     ///
-    /// If `location` is not finite, `shape` or `scale` is not finite and positive, or values or moments overflow
-    /// (the standard deviation does so for shapes below some 0.012).
+    /// If `location` is not finite, `shape` or `scale` is not finite and positive, or values or moments overflow (for
+    /// the standard deviation, at shapes below about 0.012).
     ///
     /// ```
     /// use apportion::Distribution;
@@ -87,7 +87,7 @@ impl Family for Weibull {
     }
 }
 
-/// The standard deviation at scale 1, `power` being 1 / shape.
+/// Returns the standard deviation at scale 1, `power` being 1 / shape.
 fn unit_sd(power: f64) -> f64 {
     if power > 0.5 {
         let mean = libm::tgamma(1.0 + power);
