@@ -1,5 +1,6 @@
 """Wrong sizes, wrong input and signals: what is said, and when."""
 
+import inspect
 import os
 import subprocess
 import sys
@@ -62,6 +63,24 @@ def test_unknown_keywords_are_errors_whatever_their_value():
         if "n_jobs" not in keywords:
             with pytest.raises(ap.StudyError, match=words):
                 ap.analyse(add, UNIT, **keywords)
+
+
+def test_errors_speak_of_the_argument():
+    for keywords, words in [
+        ({"sampler": "halton"}, "^unknown sampler `halton`; known: sobol, random, latin-hypercube$"),
+        ({"base_samples": -4}, "^base_samples = -4: invalid value"),
+        ({"accuracy": -1}, "^`accuracy` must be a finite number above 0, not -1$"),
+    ]:
+        with pytest.raises(ap.StudyError, match=words):
+            ap.Study(add, UNIT, **keywords)
+
+
+def test_keywords_are_in_the_signature_and_a_generator_is_a_seed():
+    of_study, of_call = inspect.signature(ap.Study).parameters, inspect.signature(ap.analyse).parameters
+    assert {"base_samples", "second_order", "measures"} < set(of_study) < set(of_call) and "journal" in of_call
+    made = [ap.Study(None, UNIT, base_samples=16, seed=np.random.default_rng(3)).sample() for _ in range(2)]
+    assert np.array_equal(*made)
+    assert not np.array_equal(made[0], ap.Study(None, UNIT, base_samples=16).sample())
 
 
 def test_both_spellings_of_vectorised_are_honoured():

@@ -70,3 +70,27 @@ def test_an_output_without_indices_is_nan_in_arrays(result):
 def test_warnings_of_a_result_are_warned_of():
     with pytest.warns(UserWarning, match="not a power of two"):
         ap.analyse(polynomial, {f"x{k}": (0, 1) for k in (1, 2, 3)}, base_samples=24)
+
+
+def test_pairs_are_found_in_either_order_and_in_frames():
+    pandas = pytest.importorskip("pandas")
+    result = ap.analyse(lambda x1, x2: x1 * x2, UNIT, base_samples=64, second_order=True)
+    pairs = result.second_order
+    assert pairs["x1", "x2"] == pairs["x2", "x1"] and ("x2", "x1") in pairs and ("x1", "x3") not in pairs
+    frame = pairs.to_frame()
+    assert isinstance(frame, pandas.DataFrame) and frame.loc[("x1", "x2"), "estimate"] == pairs["x1", "x2"].estimate
+    assert list(result.total.to_frame().index) == ["x1", "x2"]
+
+
+def test_outputs_and_series_are_drawn():
+    pytest.importorskip("matplotlib").use("Agg")
+    result = ap.analyse(lambda x1, x2: x1 + x2, UNIT, base_samples=64)
+    assert len(result["y"].plot().patches) == 4
+    wave = ap.analyse(lambda x1, x2: np.outer(x1, [1, 2, 3]) + x2[:, None], UNIT, outputs={"w": {"axis": "day"}}, base_samples=64)
+    series = wave.series["w"]
+    assert len(series.plot().lines) == 2 and series.plot("first_order").get_xlabel() == "day"
+
+
+def test_a_default_of_many_runs_is_said(capsys):
+    ap.Study(lambda x1, x2: x1 + x2, UNIT, vectorised=False, name="slow").run()
+    assert "slow: 65536 runs of the function" in capsys.readouterr().err

@@ -31,13 +31,13 @@ class Indices(Mapping[str, Index]):
 
     def __getitem__(self, name: Any) -> Index:
         try:
-            return self._entries[name]
+            return self._entries[name if name in self._entries else _turned(name)]
         except (KeyError, TypeError):
             there = ", ".join(map(repr, self._entries)) or "none at all"
             raise KeyError(f"{name!r}: the indices are those of {there}") from None
 
     def __contains__(self, name: Any) -> bool:
-        return name in self._entries
+        return name in self._entries or _turned(name) in self._entries
 
     def __iter__(self) -> Iterator[Any]:
         return iter(self._entries)
@@ -71,8 +71,21 @@ class Indices(Mapping[str, Index]):
         """Upper ends of the intervals."""
         return self._column(2)
 
+    def to_frame(self) -> Any:
+        """A row for each with `estimate`, `low` and `high`, as a `pandas.DataFrame`; of pairs under both names."""
+        pandas = needed("pandas", "to_frame")
+        names = list(self._entries)
+        is_of_pairs = bool(names) and all(isinstance(name, tuple) for name in names)
+        index = pandas.MultiIndex.from_tuples(names) if is_of_pairs else pandas.Index(names)
+        return pandas.DataFrame({"estimate": self.estimates, "low": self.low, "high": self.high}, index=index)
+
     def _column(self, place: int) -> np.ndarray:
         return np.array([index[place] for index in self._entries.values()], dtype=float)
+
+
+def _turned(name: Any) -> Any:
+    """A pair of names in the other order."""
+    return name[::-1] if isinstance(name, tuple) and len(name) == 2 else name
 
 
 class OutputResult:
@@ -192,6 +205,21 @@ class OutputResult:
         return pandas.DataFrame(columns, index=pandas.Index(self.first_order.names, name="factor"))
 
 
+    def plot(self, ax: Any = None) -> Any:
+        """Bars of first-order and total indices with their intervals, on `ax` of matplotlib; returns the axes."""
+        ax = axes(ax, (6.0, 0.45 * len(self.total) + 1.2))
+        places = np.arange(len(self.total))
+        for indices, shift, label in ((self.first_order, -0.19, "first-order"), (self.total, 0.19, "total")):
+            values = np.asarray(indices)
+            errors = np.nan_to_num(np.abs([values - indices.low, indices.high - values]))
+            ax.barh(places + shift, values, 0.36, xerr=errors, label=label, error_kw={"elinewidth": 1, "capsize": 2})
+        ax.set_yticks(places, [str(name) for name in self.total])
+        ax.invert_yaxis()
+        ax.set_xlabel(f"Sobol' indices of {self.name}")
+        ax.legend()
+        return ax
+
+
 class SeriesResult:
     """The indices of an output that is a series of values along an axis."""
 
@@ -241,6 +269,23 @@ class SeriesResult:
         """Total indices of the whole series."""
         return _of_factors(self.record["indices"], "total")
 
+    def to_frame(self) -> Any:
+        """A row for each value and factor with first-order and total index, as a `pandas.DataFrame`."""
+        pandas = needed("pandas", "to_frame")
+        frames = {position: value.to_frame() for position, value in zip(self.positions, self.values)}
+        return pandas.concat(frames, names=[self.axis])
+
+    def plot(self, kind: str = "total", ax: Any = None) -> Any:
+        """Lines of the "first_order" or "total" indices against the axis with their intervals; returns the axes of matplotlib."""
+        ax = axes(ax, (6.0, 3.6))
+        for name, values in self._against(kind).items():
+            (line,) = ax.plot(self.positions, values[:, 0], label=name)
+            ax.fill_between(self.positions, values[:, 1], values[:, 2], color=line.get_color(), alpha=0.2, linewidth=0)
+        ax.set_xlabel(self.axis if self.axis_unit in ("", "1") else f"{self.axis} ({self.axis_unit})")
+        ax.set_ylabel(f"{kind.replace('_', '-')} index of {self.name}")
+        ax.legend()
+        return ax
+
     def _against(self, kind: str) -> dict[str, np.ndarray]:
         indices = [getattr(value, kind) for value in self.values]
         names = next((list(of) for of in indices if len(of)), [])
@@ -250,6 +295,11 @@ class SeriesResult:
 
 def _of_factors(records: Any, kind: str) -> Indices:
     return Indices({record["factor"]: Index.of(record[kind]) for record in records or []})
+
+
+def axes(ax: Any, size: tuple[float, float]) -> Any:
+    """The axes, or new ones of that size in inches."""
+    return ax or needed("matplotlib.pyplot", "plot").subplots(figsize=size, layout="constrained")[1]
 
 
 def needed(module: str, what: str) -> Any:

@@ -235,20 +235,7 @@ class Result(Document):
 
     def plot(self, output: str | None = None, ax: Any = None) -> Any:
         """Bars of first-order and total indices with their intervals, on `ax` of matplotlib; returns the axes."""
-        pyplot = needed("matplotlib.pyplot", "plot")
-        of = self._only() if output is None else self[output]
-        if ax is None:
-            _, ax = pyplot.subplots(figsize=(6.0, 0.45 * len(of.total) + 1.2), layout="constrained")
-        places = np.arange(len(of.total))
-        for indices, shift, label in ((of.first_order, -0.19, "first-order"), (of.total, 0.19, "total")):
-            values = np.asarray(indices)
-            errors = np.nan_to_num(np.abs([values - indices.low, indices.high - values]))
-            ax.barh(places + shift, values, 0.36, xerr=errors, label=label, error_kw={"elinewidth": 1, "capsize": 2})
-        ax.set_yticks(places, [str(name) for name in of.total])
-        ax.invert_yaxis()
-        ax.set_xlabel(f"Sobol' indices of {of.name}")
-        ax.legend()
-        return ax
+        return (self._only() if output is None else self[output]).plot(ax)
 
 
 def load_result(path: str | os.PathLike[str]) -> Result:

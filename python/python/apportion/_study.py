@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import warnings
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any
+from typing import Any, NoReturn
 
 import numpy as np
 
@@ -24,6 +24,7 @@ from ._keys import (
     dependence_tables,
     factors_of,
     lengths_of,
+    of_arguments,
     overridden,
     refuse_unknown,
     said,
@@ -56,14 +57,23 @@ class Study:
     `noise={"mean_totals": True}` adds the total indices of the mean over it, one more run of each base sample for each factor,
     and `noise={"repetitions": 8}` calls the function so often for each row: its outputs are then `y_mean` and `y_variance`.
 
-    How long a run is: `base_samples`, or `runs` in all, or the `accuracy` that every index must reach, within `max_runs` and
-    `max_time` (seconds). Other keywords are the keys of a study file: `sampler`, `replicates`, `seed`; `second_order`, `subsets`, `shapley`, `shapley_method`, `shapley_players`,
-    `measures`, `estimators`, `intervals`, `surrogate`,
-    `threshold`, `dummy`, `convergence`, `aggregate`, `resamples`, `failures`, `max_failed`; and its tables: `afm={...}`, `function={...}`,
-    `expression={...}` (constants), `fidelity={...}`. A keyword that is not known is an error. Factors that depend on each other, by a Gaussian copula:
-    `dependence={("a", "b"): 0.6}`, Pearson's correlations, or a list of tables as in a study file, as in
-    `[{"factors": ["a", "b"], "correlation": 0.6, "measure": "spearman"}]`; as an array of joint measurements has them, a row
-    each: `[{"factors": ["a", "b"], "measurements": array}]`.
+    How long a run is: `base_samples` (N of the matrices A and B), or `runs` in all, or the `accuracy` that every index must reach,
+    within `max_runs` and `max_time` (seconds). By default 16,384 base samples.
+
+    The design: `sampler` ("sobol", "random", "latin-hypercube"), `replicates` (independent scrambles, 4), `seed` (a whole number or
+    a NumPy generator, of which one is drawn).
+
+    What is estimated: `second_order` indices, closed indices of `subsets` of factors, `shapley` effects (`shapley_method`,
+    `shapley_players`), `measures` ("delta", "pawn_median", ...), `aggregate` indices of all outputs, further `estimators`
+    ("janon-monod", ...), `intervals` ("nets", "percentile", "delta", with `resamples`), `surrogate` ("auto", "on", "off"),
+    a `dummy` factor, `convergence`, and the `threshold` of the total index that a factor is compared with.
+
+    Runs without an answer: `failures` ("drop-block" or "fail") and `max_failed`, the largest share of failed runs.
+
+    Tables of a study file: `afm={...}`, `function={...}`, `expression={...}` (constants), `fidelity={...}` (cheaper models).
+    Factors that depend on each other, by a Gaussian copula: `dependence={("a", "b"): 0.6}`, Pearson's correlations, or a list of
+    tables as in a study file, as in `[{"factors": ["a", "b"], "correlation": 0.6, "measure": "spearman"}]`; as an array of joint
+    measurements has them, a row each: `[{"factors": ["a", "b"], "measurements": array}]`.
     """
 
     def __init__(
@@ -71,18 +81,50 @@ class Study:
         model: Callable[..., Any] | str | None,
         factors: Mapping[str, Any] | None = None,
         *,
-        outputs: Sequence[str] | Mapping[str, str] | str | None = None,
+        outputs: Sequence[str] | Mapping[str, Any] | str | None = None,
         name: str = "study",
         title: str | None = None,
         vectorised: bool = True,
         vectorized: bool | None = None,
         call: str | None = None,
+        base_samples: int | None = None,
+        runs: int | None = None,
         accuracy: float | None = None,
+        max_runs: int | None = None,
         max_time: float | None = None,
+        sampler: str | None = None,
+        replicates: int | None = None,
+        seed: int | np.random.Generator | None = None,
+        second_order: bool | None = None,
+        subsets: Sequence[Sequence[str]] | None = None,
+        estimators: Sequence[str] | None = None,
+        intervals: str | None = None,
+        surrogate: str | None = None,
+        shapley: bool | None = None,
+        shapley_method: str | None = None,
+        shapley_players: str | None = None,
+        measures: Sequence[str] | None = None,
+        threshold: float | None = None,
+        dummy: bool | None = None,
+        convergence: bool | None = None,
+        aggregate: bool | None = None,
+        resamples: int | None = None,
+        failures: str | None = None,
+        max_failed: float | None = None,
         noise: str | Mapping[str, Any] | None = None,
-        **options: Any,
+        dependence: Mapping[Any, Any] | Sequence[Mapping[str, Any]] | None = None,
+        afm: Mapping[str, Any] | None = None,
+        function: Mapping[str, Any] | None = None,
+        expression: Mapping[str, Any] | None = None,
+        fidelity: Mapping[str, Any] | None = None,
+        **unknown: NoReturn,
     ):
-        refuse_unknown(options, (*_NAMED, *DESIGN, *ANALYSIS, *TABLES))
+        keywords = dict(locals())
+        self._is_long_by_default = callable(model) and not vectorised and base_samples is runs is accuracy is None
+        refuse_unknown(unknown, (*_NAMED, *DESIGN, *ANALYSIS, *TABLES))
+        options = {key: keywords[key] for key in (*DESIGN, *ANALYSIS, *TABLES)}
+        if isinstance(seed, np.random.Generator):
+            options["seed"] = int(seed.integers(2**63 - 1))
         vectorised = vectorised if vectorized is None else vectorized
         if isinstance(outputs, str):
             outputs = [outputs]
@@ -133,7 +175,10 @@ class Study:
     def _parse(self) -> None:
         table = {key: value for key, value in self._table.items() if value != []}
         self._made_from: tuple[str, str, list[str]] = (_toml.dumps(table), f"{self._table['name']}.toml", [])
-        self._study = _engine.Study.parse(*self._made_from)
+        try:
+            self._study = _engine.Study.parse(*self._made_from)
+        except StudyError as error:
+            raise StudyError(of_arguments(str(error))) from None
 
     def __getstate__(self) -> dict[str, Any]:
         return {key: value for key, value in vars(self).items() if key != "_study"}
@@ -159,6 +204,7 @@ class Study:
     def _of(cls, study: _engine.Study, made_from: tuple[str, str, list[str]]) -> "Study":
         made = cls.__new__(cls)
         made._table, made._call, made._study, made._made_from, made._tried = {}, None, study, made_from, None
+        made._is_long_by_default = False
         return made
 
     def __repr__(self) -> str:
@@ -277,6 +323,8 @@ class Study:
         threads = whole("threads", threads, 0, MAX_THREADS)
         stop = _engine.Stop()
         function = self._function(stop, executor, in_flight)
+        if self._is_long_by_default:
+            say(f"{self.name}: {self.runs} runs of the function; fewer with base_samples=, runs= or accuracy=")
         path = None if journal is None else os.fspath(journal)
         with Progress(progress, self.name) as bar:
             result = self._study.run(
@@ -415,7 +463,56 @@ def _told(result: Result) -> Result:
     return result
 
 
-def analyse(model: Callable[..., Any] | str | None, factors: Mapping[str, Any] | None = None, **options: Any) -> Result:
-    """Runs a study and estimates its indices: `Study(model, factors, ...)` and its `run(...)` in one call."""
-    of_run = {key: options.pop(key) for key in RUN if key in options}
-    return Study(model, factors, **options).run(**of_run)
+def analyse(
+    model: Callable[..., Any] | str | None,
+    factors: Mapping[str, Any] | None = None,
+    *,
+    outputs: Sequence[str] | Mapping[str, Any] | str | None = None,
+    name: str = "study",
+    title: str | None = None,
+    vectorised: bool = True,
+    vectorized: bool | None = None,
+    call: str | None = None,
+    base_samples: int | None = None,
+    runs: int | None = None,
+    accuracy: float | None = None,
+    max_runs: int | None = None,
+    max_time: float | None = None,
+    sampler: str | None = None,
+    replicates: int | None = None,
+    seed: int | np.random.Generator | None = None,
+    second_order: bool | None = None,
+    subsets: Sequence[Sequence[str]] | None = None,
+    estimators: Sequence[str] | None = None,
+    intervals: str | None = None,
+    surrogate: str | None = None,
+    shapley: bool | None = None,
+    shapley_method: str | None = None,
+    shapley_players: str | None = None,
+    measures: Sequence[str] | None = None,
+    threshold: float | None = None,
+    dummy: bool | None = None,
+    convergence: bool | None = None,
+    aggregate: bool | None = None,
+    resamples: int | None = None,
+    failures: str | None = None,
+    max_failed: float | None = None,
+    noise: str | Mapping[str, Any] | None = None,
+    dependence: Mapping[Any, Any] | Sequence[Mapping[str, Any]] | None = None,
+    afm: Mapping[str, Any] | None = None,
+    function: Mapping[str, Any] | None = None,
+    expression: Mapping[str, Any] | None = None,
+    fidelity: Mapping[str, Any] | None = None,
+    threads: int = 0,
+    executor: Any = None,
+    in_flight: int | None = None,
+    journal: str | os.PathLike[str] | None = None,
+    resume: str = "if-there",
+    progress: bool | Callable[[int, int], None] | None = None,
+    **unknown: NoReturn,
+) -> Result:
+    """Runs a study and estimates its indices: `Study(model, factors, ...)` and its `run(...)` in one call. The keywords are those of
+    `Study` and of `Study.run`."""
+    keywords = {key: value for key, value in locals().items() if key not in ("model", "factors", "unknown")}
+    of_run = {key: keywords.pop(key) for key in RUN}
+    return Study(model, factors, **keywords, **unknown).run(**of_run)

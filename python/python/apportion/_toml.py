@@ -54,5 +54,5 @@ def value_of(value: Any) -> str:
     if isinstance(value, (list, tuple, set, frozenset, np.ndarray)):
         return "[" + ", ".join(value_of(inner) for inner in value) + "]"
     raise StudyError(
-        f"{value!r} cannot stand in a study: expected a number, a text, true or false, a list or a table of these"
+        f"{value!r} cannot be a value of a study: expected a number, a text, true or false, a list or a table of these"
     )

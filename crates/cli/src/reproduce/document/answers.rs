@@ -13,7 +13,7 @@ use crate::reproduce::{FRICTIONS, GROUPS, Reproduced, named_together};
 
 /// Formats an index in percent of the variance, to a whole percent; one decimal below 10 % and near 100 %.
 fn percent(index: f64) -> String {
-    let is_near_an_end = index < 0.0995 || index > 0.985;
+    let is_near_an_end = !(0.0995..=0.985).contains(&index);
     format!("{} %", fixed(100.0 * index, usize::from(is_near_an_end)))
 }
 
