@@ -90,7 +90,7 @@ pub fn short_among(value: f64, spread: f64) -> String {
     estimates::rounded(value, digits as usize)
 }
 
-/// Does the same as [`short_among`], with the unit if there is one.
+/// Does the same as `short_among`, with the unit if there is one.
 pub fn among_with_unit(value: f64, spread: f64, unit: &str) -> String {
     let value = short_among(value, spread);
     if matches!(unit, "" | "1") { value } else { format!("{value} {}", self::unit(unit)) }

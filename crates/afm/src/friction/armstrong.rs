@@ -21,7 +21,7 @@ pub struct Loading {
 }
 
 impl Armstrong<'_> {
-    /// Returns the static friction F_C + F_S(gamma, t_d) (N) under `load` (N) after a rest of `dwell` (s <= infinity).
+    /// Returns the static friction F_C + F_S(gamma, t_d) (N) under `load` (N) after a rest of `dwell` (s) or for ever.
     pub fn static_force(&self, load: f64, dwell: f64) -> f64 {
         let aged = 1.0 / (1.0 + self.0.dwell_constant / dwell);
         load * (self.0.fresh_friction * (1.0 - aged) + self.0.static_friction * aged)

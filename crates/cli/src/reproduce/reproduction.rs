@@ -16,7 +16,7 @@ pub struct Request {
     pub only: Option<Topic>,
     /// Changes to the design of every study, such as `design.seed=1`. Under others they are no longer the papers' studies.
     pub overrides: Vec<String>,
-    /// Threads; 0 stands for one per core. The results do not depend on it.
+    /// Threads; 0 means one per core. The results do not depend on it.
     pub threads: usize,
 }
 
@@ -42,7 +42,7 @@ pub struct Reproduction {
     pub animation: Option<Animation>,
     /// The claims with their verdicts, if asked for.
     pub claims: Vec<Claim>,
-    /// Our shares beside the printed percentages, if claims were asked for.
+    /// Our shares and the printed percentages, if claims were asked for.
     pub percentages: Vec<Percentages>,
 }
 

@@ -185,7 +185,7 @@ pub trait RowReader {
     -> Result<usize, TableError>;
 }
 
-/// Opens the table in `path`, in the format of its first bytes, whatever its name: NPY, or text as CSV, which may be
+/// Opens the table in `path`, in the format of its first bytes, not of its name: NPY, or text as CSV, which may be
 /// compressed by gzip. Text is read in constant memory, from a pipe too.
 ///
 /// # Errors
