@@ -2,9 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::corrected::SurrogateUse;
 use super::mean::NoiseIndices;
-use super::{Estimate, Interval};
+use super::surrogate_use::SurrogateUse;
+use super::{Estimate, Interval, largest_half_width};
 
 /// Indices of one output.
 #[derive(Debug, Clone, PartialEq)]
@@ -45,12 +45,6 @@ impl OutputIndices {
             effects.flat_map(|effect| [Some(effect.first_order), Some(effect.total), effect.shapley]).flatten();
         largest_half_width(indices)
     }
-}
-
-/// Returns half the width of the widest interval; `None` if an estimate has none.
-pub(crate) fn largest_half_width(estimates: impl IntoIterator<Item = Estimate>) -> Option<f64> {
-    let half_widths = estimates.into_iter().map(|estimate| estimate.interval.map(|interval| interval.width() / 2.0));
-    half_widths.into_iter().try_fold(0.0, |largest: f64, half_width| Some(largest.max(half_width?)))
 }
 
 /// The indices of one factor, group or subset, and their percentages of the sum over all factors (or groups).

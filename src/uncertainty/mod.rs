@@ -23,14 +23,12 @@ mod output;
 mod points;
 mod ranks;
 mod special;
+mod surrogate_use;
 mod unseen;
 
 pub use aggregate::{AggregateIndices, aggregate_indices};
 pub use convergence::{Stage, points_of_stages, stages};
-pub use corrected::{
-    ChosenTerms, Knot, LowFidelityUse, NamedTerm, Refusal, SurrogateEstimates, SurrogateTerm, SurrogateUse,
-};
-pub(crate) use effects::largest_half_width;
+pub use corrected::SurrogateEstimates;
 pub use effects::{DependentEstimates, EffectChecks, EffectEstimates, OtherEstimates, OutputIndices, OutputMoments};
 pub use estimates::{BesideNoise, Layout, NoiseLayout};
 pub use influence::{Influenced, Influences};
@@ -43,6 +41,7 @@ pub use output::{IntervalOptions, differs_clearly, output_indices, output_moment
 pub use points::KeptPoints;
 pub use ranks::{probability_above, probability_first};
 use serde::{Deserialize, Serialize};
+pub use surrogate_use::{ChosenTerms, Knot, LowFidelityUse, NamedTerm, Refusal, SurrogateTerm, SurrogateUse};
 
 use crate::special::t_quantile_outside;
 
@@ -174,6 +173,12 @@ fn t_quantile(freedom: f64) -> Option<f64> {
         return Some(z + (z.powi(3) + z) / (4.0 * freedom)).filter(|_| freedom.is_finite());
     }
     (freedom > 0.0).then(|| t_quantile_outside(1.0 - LEVEL, freedom)).filter(|quantile| quantile.is_finite())
+}
+
+/// Returns half the width of the widest interval; `None` if an estimate has none.
+pub(crate) fn largest_half_width(estimates: impl IntoIterator<Item = Estimate>) -> Option<f64> {
+    let half_widths = estimates.into_iter().map(|estimate| estimate.interval.map(|interval| interval.width() / 2.0));
+    half_widths.into_iter().try_fold(0.0, |largest: f64, half_width| Some(largest.max(half_width?)))
 }
 
 #[cfg(test)]

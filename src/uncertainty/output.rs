@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::by_points::{Bounds, ByPoints};
 use super::concentration::{Side, interval};
-use super::corrected::{Corrections, SurrogateEstimates, SurrogateUse};
+use super::corrected::{Corrections, SurrogateEstimates};
 use super::effects::{EffectChecks, EffectEstimates, OtherEstimates, OutputIndices, OutputMoments};
 use super::estimates::{BesideNoise, Layout, Number, quantities};
 use super::influence::Influences;
@@ -13,6 +13,7 @@ use super::method::IntervalMethod;
 use super::net_decay::{PartInfluences, StandardError};
 use super::points::KeptPoints;
 use super::ranks::{probability_above, probability_first};
+use super::surrogate_use::SurrogateUse;
 use super::unseen::{Unseen, half_seen, unseen};
 use super::{Estimate, Interval, NORMAL_QUANTILE};
 use crate::estimate::{Indices, MomentParts, Moments, Undefined, merged};
