@@ -107,7 +107,7 @@ impl Unit {
         for (place, part) in plain(&unit.symbol.clone()).split('/').enumerate() {
             let mut factors = part.split(['*', '.', ' ']).filter(|factor| !factor.is_empty()).peekable();
             if factors.peek().is_none() {
-                return Err(malformed("something is missing beside the \"/\""));
+                return Err(malformed("something is missing next to the \"/\""));
             }
             for (count, factor) in factors.enumerate() {
                 if place > 0 && count > 0 {

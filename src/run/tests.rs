@@ -231,7 +231,7 @@ fn a_dummy_factor_is_the_noise_of_the_model() {
         crate::estimate::Indices::from_moments(&with_rows(rows(), model).moments.whole()).unwrap().total[2]
     };
     assert_eq!(total(&Of::new(|x, _| x[0] + x[1])), 0.0);
-    // Noise of +-0.1 from row to row beside a variance of 1/6: 0.01/(1/6 + 0.01) of the whole.
+    // Noise of +-0.1 from row to row and a variance of 1/6: 0.01/(1/6 + 0.01) of the whole.
     let noisy = total(&Of::new(|x, row| {
         let hash = (row.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 29).wrapping_mul(0xbf58_476d_1ce4_e5b9);
         x[0] + x[1] + if hash >> 63 == 0 { 0.1 } else { -0.1 }
@@ -247,7 +247,7 @@ fn a_failure_costs_the_indices_of_its_own_rows_only() {
     let output = with_rows(Rows::plain(vec![vec![0], vec![1], vec![0, 1]]), &model);
     let moments = output.moments.whole();
     let counts = [0, 1, 2].map(|swap| moments.swap(swap).base.n);
-    // A and B: 1 - 2 (0.3 0.2) + (0.06)^2 of the points; AB_2 is B and loses none beside.
+    // A and B: 1 - 2 (0.3 0.2) + (0.06)^2 of the points; AB_2 is B and loses no others.
     assert_eq!(counts[2], moments.count());
     assert!(counts[0] < counts[2] && counts[1] < counts[2] && moments.fewest() == counts[0].min(counts[1]));
     assert!((moments.count() as f64 / 1024.0 - 0.94 * 0.94).abs() < 0.01);

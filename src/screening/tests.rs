@@ -407,7 +407,7 @@ proptest! {
         let scale = 2f64.powi(exponent);
         let scaled: Vec<f64> = effects.iter().map(|effect| effect * scale).collect();
         let (m, s) = (measures::measures(&effects, 8).unwrap(), measures::measures(&scaled, 8).unwrap());
-        // A power of two scales every step of the sums without rounding; only sigma is put together anew.
+        // A power of two scales every step of the sums without rounding; only sigma is computed again.
         prop_assert_eq!(s.mu.estimate, m.mu.estimate * scale);
         prop_assert_eq!(s.mu_star.estimate, m.mu_star.estimate * scale);
         prop_assert!((s.sigma.estimate / (m.sigma.estimate * scale) - 1.0).abs() < 1e-14);

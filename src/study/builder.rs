@@ -223,7 +223,7 @@ impl StudyBuilder {
                 return Err(BuildError::LowFidelity { name: low.name.clone(), problem });
             }
             if low.base_samples.is_some() && length.target.accuracy.is_some() {
-                return wrong("base_samples", "left out beside `accuracy`, with which the run chooses it", "there");
+                return wrong("base_samples", "left out with `accuracy`, with which the run chooses it", "there");
             }
         }
         let mut notes = Vec::new();

@@ -74,7 +74,7 @@ pub(super) fn check_factors(factors: &[Factor], model: &dyn Model) -> Result<(),
     match noises {
         0 => Ok(()),
         1 if factors.len() > 1 => Ok(()),
-        1 => wrong("noise", "beside factors", "alone"),
+        1 => wrong("noise", "with factors", "alone"),
         _ => {
             wrong("noise", "one seed, from which the model draws all that is random in it", format!("{noises} of them"))
         }
@@ -110,8 +110,8 @@ pub(super) fn checked_options(
     if options.surrogate == SurrogateChoice::On && intervals != IntervalMethod::Nets {
         return wrong(
             "surrogate",
-            "\"on\" only beside intervals = \"nets\"",
-            format!("beside \"{}\"", intervals.name()),
+            "\"on\" only with intervals = \"nets\"",
+            format!("with \"{}\"", intervals.name()),
         );
     }
     if !options.measures.is_empty() && outputs > MAX_OUTPUTS_OF_MEASURES {
@@ -142,7 +142,7 @@ fn check_shapley(options: &AnalysisOptions, space: &Space) -> Result<(), BuildEr
     let (players, factors) = (options.players(space).len(), space.factors().len());
     let of_groups = options.shapley_players == Some(ShapleyPlayers::Groups);
     if options.shapley == Some(false) && (options.shapley_method.is_some() || options.shapley_players.is_some()) {
-        return wrong("shapley", "true beside what says how Shapley effects are found", "false");
+        return wrong("shapley", "true with a choice of how Shapley effects are found", "false");
     }
     if of_groups && space.groups().is_empty() {
         return wrong("shapley_players", "\"groups\" only where factors have a group", "it in a study without groups");
@@ -158,7 +158,7 @@ fn check_shapley(options: &AnalysisOptions, space: &Space) -> Result<(), BuildEr
         return wrong("shapley", expected, format!("true with {players}"));
     }
     if options.asks_for_shapley() && space.noise().is_some() {
-        return wrong("shapley", "false beside the noise of a stochastic model, which can have no share", "true");
+        return wrong("shapley", "false with the noise of a stochastic model, which can have no share", "true");
     }
     Ok(())
 }
@@ -200,13 +200,13 @@ impl Length {
         let mut said = sizes.into_iter().filter(|(_, said)| *said).map(|(key, _)| key);
         let (size, second) = (said.next(), said.next());
         if let Some((size, second)) = size.zip(second) {
-            return wrong(second, "alone: the length of a run is said in one way", format!("beside `{size}`"));
+            return wrong(second, "alone: the length of a run is said in one way", format!("with `{size}`"));
         }
         let limits = [("max_runs", max_runs.is_some()), ("max_time", max_time.is_some())];
         if let Some((limit, _)) = limits.into_iter().find(|(_, said)| *said)
             && let Some(size) = size.filter(|size| *size != "accuracy")
         {
-            return wrong(limit, "beside `accuracy`, or alone", format!("beside `{size}`"));
+            return wrong(limit, "with `accuracy`, or alone", format!("with `{size}`"));
         }
         for (key, value) in [("accuracy", accuracy), ("max_time", max_time)] {
             if let Some(value) = value.filter(|value| !(*value > 0.0 && value.is_finite())) {

@@ -1,8 +1,8 @@
-"""Errors and seconds of first-order and total indices beside SciPy's and SALib's, at equal runs: docs/accuracy/peers.md.
+"""Errors and seconds of first-order and total indices compared with SciPy and SALib, at equal runs: docs/accuracy/peers.md.
 
     python tests/peers/errors.py [SEEDS]
 
-needs `requirements.txt` beside it and the package of `python/`. Some ten minutes on two cores with 20 seeds.
+needs `requirements.txt` next to it and the package of `python/`. Some ten minutes on two cores with 20 seeds.
 """
 import math
 import pathlib
@@ -144,7 +144,7 @@ def main():
     seeds = int(sys.argv[1]) if len(sys.argv) > 1 else 20
     page = pathlib.Path(__file__).resolve().parents[2] / "docs/accuracy/peers.md"
     lines = [
-        "# Beside SciPy and SALib, at equal runs",
+        "# Compared with SciPy and SALib, at equal runs",
         "",
         "Root mean square error of all first-order and total indices, and in brackets the median milliseconds from the function",
         f"to the indices, on one machine of two cores; N base samples, N (d + 2) runs; {seeds} seeds, {max(seeds // 4, 2)} from N = 16,384 on.",

@@ -1,4 +1,4 @@
-//! Maugis-Dugdale contacts against `tests/oracle/maugis_dugdale.json`, computed to 60 digits by the script beside it.
+//! Maugis-Dugdale contacts against `tests/oracle/maugis_dugdale.json`, computed to 60 digits by the script next to it.
 
 use apportion_afm::ContactTheory::MaugisDugdale;
 use apportion_afm::contact::Pair;

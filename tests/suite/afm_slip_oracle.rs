@@ -1,4 +1,4 @@
-//! Every rung against slips that SciPy integrated, frozen in `tests/oracle/afm_slip.json` by the script beside it.
+//! Every rung against slips that SciPy integrated, frozen in `tests/oracle/afm_slip.json` by the script next to it.
 
 use apportion_afm::{Critical, Failure, Fidelity, FrictionLaw, Options, Scene, critical_force};
 use serde::Deserialize;

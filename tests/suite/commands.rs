@@ -1,4 +1,4 @@
-//! What a user does with results and studies beside running them: report, compare.
+//! What a user does with results and studies besides running them: report, compare.
 
 use std::collections::BTreeMap;
 use std::path::Path;

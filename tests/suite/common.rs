@@ -94,7 +94,7 @@ pub fn all_files(folder: &Path) -> BTreeSet<String> {
     others.chain(charts.into_iter().map(|name| format!("charts/{name}"))).collect()
 }
 
-/// Runs the study `file` in three parts, each in a folder beside `merged`, and joins them there.
+/// Runs the study `file` in three parts, each in a folder next to `merged`, and joins them there.
 #[track_caller]
 pub fn run_in_parts(file: &Path, merged: &Path) {
     let part = |shard: u32| {

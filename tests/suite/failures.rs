@@ -123,7 +123,7 @@ fn ranges_that_are_none() {
     assert_spoilt("min = 200", "min = nan", &["study.toml:8:7:"]);
     assert_spoilt("max = 700", "max = inf", &["study.toml:9:7:"]);
     assert_spoilt("max = 700\n", "", &["study.toml:7:8:", "needs `max`", "min and max"]);
-    assert_spoilt("max = 700", "max = 700\nsd = 3", &["study.toml:10:6:", "has no `sd` beside `min`"]);
+    assert_spoilt("max = 700", "max = 700\nsd = 3", &["study.toml:10:6:", "has no `sd` together with `min`"]);
 }
 
 #[test]
@@ -233,7 +233,7 @@ fn keys_that_end_a_run() {
     refused("base_samples = 64\nruns = 300", &["`base_samples` must be alone"]);
     refused(
         "base_samples = 64\nmax_runs = 300",
-        &["study.toml:6:12:", "`max_runs` must be beside `accuracy`, or alone"],
+        &["study.toml:6:12:", "`max_runs` must be with `accuracy`, or alone"],
     );
     refused("max_runs = -1", &["study.toml:5:12:", "whole number"]);
     refused("max_runs = 15", &["study.toml:5:12:", "32 or more"]);

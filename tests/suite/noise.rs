@@ -1,4 +1,4 @@
-//! Stochastic models: the noise beside the factors, and the mean over it.
+//! Stochastic models: the noise as well as the factors, and the mean over it.
 
 use std::path::Path;
 use std::sync::Arc;

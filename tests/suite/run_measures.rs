@@ -1,4 +1,4 @@
-//! Other measures than Sobol' indices beside those of a run, from its first rows A and B.
+//! Other measures than Sobol' indices in the result of a run, from its first rows A and B.
 
 use ::apportion::analysis::MAX_ROWS_OF_MEASURES;
 use ::apportion::given::{Column, Measure, analyse, measures};

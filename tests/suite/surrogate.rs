@@ -275,7 +275,7 @@ fn the_program_tells_what_the_surrogate_did() {
     // From the file alone, the same.
     succeed(&["report", text(&folder.path().join("mine.json")), "--out", text(&folder.path().join("again"))]);
     let refusal = apportion(&["run", text(&file), "--set", "analysis.intervals=replicates", "--set", ON]);
-    refused(&refusal, "only beside intervals = \"nets\"");
+    refused(&refusal, "only with intervals = \"nets\"");
     let unknown = apportion(&["check", text(&file), "--set", "analysis.surrogate=yes"]);
     refused(&unknown, "auto");
 }

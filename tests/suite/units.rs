@@ -185,7 +185,7 @@ fn labels_of_outputs_are_any_short_text() {
     .unwrap();
     let compared: serde_json::Value = serde_json::from_str(&json).unwrap();
     let output = &compared["outputs"][0];
-    // 25 degC beside 25 K, which is -248.15 degC, and one spread.
+    // 25 degC and 25 K, which is -248.15 degC, and one spread.
     assert!((output["mean"][0].as_f64().unwrap() - 25.0).abs() < 0.05, "{output}");
     assert!((output["mean"][1].as_f64().unwrap() + 248.15).abs() < 0.05, "{output}");
     let sd = |side: usize| output["sd"][side].as_f64().unwrap();

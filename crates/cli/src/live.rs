@@ -32,7 +32,7 @@ pub enum LiveError {
         factors: usize,
     },
     /// The study needs other files.
-    #[error("a page cannot run the study {study}: it needs files beside it ({source})")]
+    #[error("a page cannot run the study {study}: it needs other files ({source})")]
     Files {
         /// The name of the study.
         study: String,
@@ -128,7 +128,7 @@ pub fn file_name(name: &str) -> String {
 /// one on how to make a live page.
 pub fn put_beside(document: &mut Document, name: &str, page: String) {
     const TITLE: &str = "Try your own ranges";
-    let text = "What if your own factors vary less, or more? A page beside this one computes it while a \
+    let text = "What if your own factors vary less, or more? A page next to this one computes it while a \
                 range is dragged, with the engine of this program inside; it needs no network.";
     let parts = vec![Part::Text(text.to_owned()), Part::Links(vec![Link::new(TITLE, name)])];
     document.sections.retain(|section| section.id != TRY);

@@ -360,7 +360,7 @@ impl Kind {
         let foreign = keys().find(|key| nearest.is_none_or(|way| !way.takes(key))).unwrap_or_default();
         let is_known = self.0.ways.iter().any(|way| way.takes(foreign));
         let beside = if is_known { keys().find(|key| nearest.is_some_and(|way| way.takes(key))) } else { None };
-        let beside = beside.map_or_else(String::new, |key| format!(" beside `{key}`"));
+        let beside = beside.map_or_else(String::new, |key| format!(" together with `{key}`"));
         let message = format!("the {} distribution has no `{foreign}`{beside}", self.0.name);
         Err(DistributionError::Refused {
             key: Some(foreign),

@@ -28,8 +28,8 @@ fn keys_are_checked_with_their_places() {
     refused("timeout = 60", &["study.toml:6:11:"]);
     refused("retries = 101", &["study.toml:6:11:", "a whole number from 0 to 100"]);
     refused("directory = \"nowhere\"", &["study.toml:6:13:", "no such directory"]);
-    refused("keep = \"runs\"", &["study.toml:6:8:", "only beside `template`"]);
-    refused("outputs.y = { regex = \"1\" }", &["study.toml:2:13:", "only beside `template`"]);
+    refused("keep = \"runs\"", &["study.toml:6:8:", "only with `template`"]);
+    refused("outputs.y = { regex = \"1\" }", &["study.toml:2:13:", "only with `template`"]);
     refused("outputs.y = 3", &["study.toml:2:13:", "`outputs.y` must be a unit"]);
     refused("outputs.y = \"a\\u0007b\"", &["study.toml:2:13:", "without control characters"]);
     refused("outputs.y = { units = \"N\" }", &["unknown key `units`: did you mean `unit`?"]);
@@ -46,7 +46,7 @@ fn keys_are_checked_with_their_places() {
     refused(&format!("{pick}{{ pointer = \"a\" }}"), &["which begins with a slash"]);
     refused(&format!("{pick}{{ pointer = \"/a\", column = \"b\" }}"), &["one of `regex`, `column`, `pointer`"]);
     refused(&format!("{pick}{{ column = \"b\", match = \"all\" }}"), &["\"first\" or \"last\""]);
-    refused(&format!("{pick}{{ file = \"b\" }}"), &["only beside `regex`, `column` or `pointer`"]);
+    refused(&format!("{pick}{{ file = \"b\" }}"), &["only with `regex`, `column` or `pointer`"]);
 }
 
 #[test]

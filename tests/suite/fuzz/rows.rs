@@ -1,4 +1,4 @@
-//! Files of points and outputs, and what stands beside them.
+//! Files of points and outputs, and their manifests.
 
 use apportion::salib::SalibProblem;
 use apportion_files::exchange::{ColumnKind, Manifest, ReadOptions, table_of_bytes};

@@ -158,7 +158,7 @@ fn other_laws_may_be_as_fast_as_they_like() {
     }
 }
 
-/// For each law the default parameters that it must not feel, beside the height, which no law
+/// For each law the default parameters that it must not feel, besides the height, which no law
 /// feels.
 #[test]
 fn parameters_a_law_does_not_know_do_not_act() {

@@ -24,7 +24,7 @@ pub struct Arguments {
     threads: Threads,
 }
 
-/// The live page beside the page of a result, which links to it.
+/// The live page next to the page of a result, which links to it.
 #[derive(Default, clap::Args)]
 pub struct LiveArguments {
     /// Leave out the page in which other ranges can be tried (NAME-live.html, 2 MB), written where a page can run the study

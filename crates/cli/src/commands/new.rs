@@ -66,7 +66,7 @@ pub fn new(arguments: &Arguments) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Writes the program beside its study, unless there is one: it may be somebody's work.
+/// Writes the program next to its study, unless there is one: it may be somebody's work.
 fn write_program(path: &Path, text: &str) -> Result<(), Failure> {
     if path.exists() {
         say(&format!("{} is there already and stays as it is", path.display()));

@@ -100,10 +100,10 @@ pub fn deliver(artefacts: &Artefacts, document: &Document) -> Result<(), Failure
     let (json, others): (Vec<&PathBuf>, Vec<&PathBuf>) = data.into_iter().partition(|path| ends_with(path, "json"));
     match (&json[..], others.len()) {
         ([], 0) => (),
-        ([], tables) => say(&format!("wrote {} beside it", counted(tables as u64, "table"))),
+        ([], tables) => say(&format!("wrote {} next to it", counted(tables as u64, "table"))),
         ([json], 0) => say(&format!("wrote {}", json.display())),
-        ([json], tables) => say(&format!("wrote {} and {} beside it", json.display(), counted(tables as u64, "table"))),
-        (several, tables) => say(&format!("wrote {} beside it", counted((several.len() + tables) as u64, "file"))),
+        ([json], tables) => say(&format!("wrote {} and {} next to it", json.display(), counted(tables as u64, "table"))),
+        (several, tables) => say(&format!("wrote {} next to it", counted((several.len() + tables) as u64, "file"))),
     }
     if let Some((folder, charts)) = &written.charts {
         say(&format!("wrote {} to {}", counted(*charts as u64, "chart"), folder.display()));

@@ -48,7 +48,7 @@ pub fn report(arguments: &Arguments) -> Result<(), Failure> {
     deliver(&arguments.charts.artefacts(folder), &document)
 }
 
-/// Charts of one result must not come to lie beside the JSON of another.
+/// Charts of one result must not be mixed with the JSON of another.
 fn refuse_another(json: &Path, bytes: &[u8]) -> Result<(), Failure> {
     match read_whole(json) {
         Ok(there) if there != bytes => {

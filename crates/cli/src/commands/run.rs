@@ -48,7 +48,7 @@ struct RecordArguments {
     /// Evaluate the runs that failed again, and keep all others
     #[arg(long, conflicts_with_all = ["restart", "no_journal"])]
     retry_failed: bool,
-    /// Evaluate every run anew; a journal that is there is moved aside
+    /// Evaluate every run again; a journal that is there is moved aside
     #[arg(long)]
     restart: bool,
     /// Keep a journal however quick the runs are (without this option: if they take longer than 10 s, or the model is a program)

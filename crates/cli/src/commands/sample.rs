@@ -81,7 +81,7 @@ pub fn sample(arguments: &Arguments) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Whether the file at `path` is a design of the study called `name` as `sample` wrote it: the manifest beside it says so, and no
+/// Whether the file at `path` is a design of the study called `name` as `sample` wrote it: the manifest next to it says so, and no
 /// outputs have been put in.
 fn is_own(path: &Path, name: &str) -> bool {
     let manifest = read_text(&Manifest::path_beside(path)).ok().and_then(|text| Manifest::parse(&text).ok());

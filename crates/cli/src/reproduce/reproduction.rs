@@ -25,7 +25,7 @@ pub struct Request {
 pub enum Topic {
     /// The figures of the papers.
     Figures,
-    /// The verdicts on their claims, and their percentages beside ours.
+    /// The verdicts on their claims, and their percentages with ours.
     Claims,
 }
 

@@ -45,7 +45,7 @@ impl Program {
                 format!("there is no directory {}", self.directory.display())
             }
             io::ErrorKind::NotFound if self.file().is_none() => {
-                "is it installed, and in PATH? (a program beside the study is named with a slash, as in \"./model\")"
+                "is it installed, and in PATH? (a program in the folder of the study is named with a slash, as in \"./model\")"
                     .to_owned()
             }
             io::ErrorKind::NotFound => {

@@ -20,7 +20,7 @@ fn dependence(context: &Context<'_>, section: &At<DependenceSection>, space: &Sp
         None => CorrelationMeasure::default(),
         Some(measure) if measured.is_some() => {
             let expected =
-                "nothing beside joint measurements, whose correlations are those of the normal scores of their ranks";
+                "nothing else with joint measurements, whose correlations are those of the normal scores of their ranks";
             return context.refuse(measure, "measure", expected, format!("{:?}", measure.get_ref()));
         }
         Some(name) => choice(context, name, "measure of correlation")?,

@@ -35,7 +35,7 @@ pub(super) fn repeated(
         return refused(expected, repetitions.to_string());
     }
     if file.fidelity.is_some() {
-        return refused("1 beside [fidelity]", repetitions.to_string());
+        return refused("1 with [fidelity]", repetitions.to_string());
     }
     Ok(Arc::new(RepeatedSubject { subject, seed, repetitions: repetitions as usize }))
 }

@@ -151,7 +151,7 @@ fn output(
     let pick = context.at(value, pick(&key, &table))?;
     if axis.is_some() && table.which.is_some() {
         let expected = "only of a single number: a series takes every match or row, from the first on";
-        return context.refuse(value, &format!("{key}.match"), expected, "beside `length`".to_owned());
+        return context.refuse(value, &format!("{key}.match"), expected, "with `length`".to_owned());
     }
     let unit = output_unit(context, value, table.unit.as_deref().unwrap_or_default())?;
     let stated = stated(&table, &unit, axis.as_ref());
@@ -192,7 +192,7 @@ fn pick(key: &str, table: &OutputTable) -> Result<Option<Pick>, Problem> {
         },
         (None, Some(column), None) => Way::Column(column.clone(), taken),
         (None, None, Some(_)) if which.is_some() => {
-            return refused(".match", "only beside `regex` or `column`", "beside `pointer`".to_owned());
+            return refused(".match", "only with `regex` or `column`", "with `pointer`".to_owned());
         }
         (None, None, Some(pointer)) if pointer.is_empty() || pointer.starts_with('/') => Way::Pointer(pointer.clone()),
         (None, None, Some(pointer)) => {
@@ -201,7 +201,7 @@ fn pick(key: &str, table: &OutputTable) -> Result<Option<Pick>, Problem> {
         }
         (None, None, None) => {
             let alone = [(".file", file), (".match", which)].into_iter().find(|(_, text)| text.is_some());
-            let expected = "only beside `regex`, `column` or `pointer`";
+            let expected = "only with `regex`, `column` or `pointer`";
             return alone.map_or(Ok(None), |(left, _)| refused(left, expected, "without one of them".to_owned()));
         }
         _ => return refused("", "a table with one of `regex`, `column`, `pointer`", "one with several".to_owned()),

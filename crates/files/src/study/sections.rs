@@ -49,7 +49,7 @@ pub(super) struct StudyFile {
     #[serde(default)]
     #[schemars(schema_with = "key_schemas::function")]
     pub function: Option<At<Choices>>,
-    /// What formulas may name beside the factors.
+    /// What formulas may name besides the factors.
     #[serde(default)]
     pub expression: Option<At<ExpressionSection>>,
     /// The program that is the model: itself with its arguments, or a table of these and more.
@@ -72,7 +72,7 @@ pub(super) struct StudyFile {
     /// The points at which the model runs.
     #[serde(default)]
     pub design: DesignSection,
-    /// What is asked of the runs beside first-order and total indices.
+    /// What is asked of the runs besides first-order and total indices.
     #[serde(default)]
     pub analysis: AnalysisSection,
     /// The inputs whose influence is asked for: tables [[factor]], whose order in the file assigns the dimensions of the sequence.
@@ -87,7 +87,7 @@ pub(super) struct StudyFile {
 /// Names of outputs, or a table of what each is.
 pub(super) type Outputs = ListOrTable<Choices>;
 
-/// What formulas may name beside the factors.
+/// What formulas may name besides the factors.
 #[derive(Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table [expression]")]
 pub(super) struct ExpressionSection {
@@ -178,11 +178,11 @@ pub(super) struct DesignSection {
 /// Names, each with its place.
 pub(super) type NameList = At<Vec<At<String>>>;
 
-/// What is asked of the runs beside first-order and total indices.
+/// What is asked of the runs besides first-order and total indices.
 #[derive(Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table [analysis]")]
 pub(super) struct AnalysisSection {
-    /// Estimators whose indices stand beside those of the default ones.
+    /// Estimators whose indices are given besides those of the default ones.
     #[schemars(extend("items" = json!({ "enum": names(&Estimator::ALL, Estimator::name) })))]
     pub estimators: Option<At<Vec<At<String>>>>,
     /// Second-order indices of all pairs; nearly twice the runs.
@@ -200,7 +200,7 @@ pub(super) struct AnalysisSection {
     /// factors and runs above are then those of the groups.
     #[schemars(extend("enum" = names(&ShapleyPlayers::ALL, ShapleyPlayers::name), "default" = "factors"))]
     pub shapley_players: Option<At<String>>,
-    /// Other measures of the influence of every factor beside Sobol' indices, from the first 4096 rows A and B; of at most 100 outputs.
+    /// Other measures of the influence of every factor besides Sobol' indices, from the first 4096 rows A and B; of at most 100 outputs.
     #[schemars(extend("items" = json!({ "enum": names(&Measure::ALL, Measure::name) })))]
     pub measures: Option<At<Vec<At<String>>>>,
     /// Indices over all outputs together.

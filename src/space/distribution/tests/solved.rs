@@ -37,7 +37,7 @@ fn closed_forms_are_met() {
     close(triangle.mean(), 3.0, 1e-9);
 }
 
-/// One of each family that is solved for, and what has to be given beside mean and standard deviation or quantiles.
+/// One of each family that is solved for, and what has to be given with mean and standard deviation or quantiles.
 fn samples() -> Vec<(Distribution, Stated)> {
     let cases: [(Result<Distribution, Error>, Stated); 15] = [
         (Distribution::uniform(-1.0, 2.5), vec![]),
@@ -88,7 +88,7 @@ fn what_cannot_be_is_refused_by_name() {
     let cases: [Case<'_>; 12] = [
         ("normal", &[("p05", 3.0), ("p95", 3.0)], "`p05` is 3 and `p95` is 3, but `p05` must be below `p95`"),
         ("normal", &[("p05", 3.0)], "the normal distribution needs two quantiles, such as `p05` and `p95`"),
-        ("normal", &[("p05", 3.0), ("p95", 4.0), ("mean", 3.5)], "the normal distribution has no `mean` beside `p05`"),
+        ("normal", &[("p05", 3.0), ("p95", 4.0), ("mean", 3.5)], "the normal distribution has no `mean` together with `p05`"),
         ("normal", &[("p05", 3.0), ("p50", 3.5), ("p95", 4.0)], "needs two quantiles"),
         ("normal", &[("mean", 3.5)], "the normal distribution needs `sd`"),
         ("uniform", &[("mode", 3.0), ("p95", 4.0)], "the uniform distribution has no `mode`"),

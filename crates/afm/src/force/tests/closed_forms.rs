@@ -32,7 +32,7 @@ fn solve(forms: &mut ClosedForms, scenes: &[Scene]) -> bool {
 }
 
 proptest! {
-    /// The same bits, whatever stands in the columns beside a scene.
+    /// The same bits, whatever the other columns of a scene hold.
     #[test]
     fn many_scenes_have_the_bits_of_each(
         scenes in prop::collection::vec(within_ranges(), 1..=AT_ONCE),

@@ -28,10 +28,10 @@ pub struct Arguments {
     data: PathBuf,
     #[command(flatten)]
     table: TableArguments,
-    /// The file of points that `sample` wrote, with its manifest beside it [default: DATA]
+    /// The file of points that `sample` wrote, with its manifest next to it [default: DATA]
     #[arg(long, value_name = "FILE", conflicts_with = "layout")]
     design: Option<PathBuf>,
-    /// The manifest, if it does not lie beside the points
+    /// The manifest, if it is not next to the points
     #[arg(long, value_name = "FILE", conflicts_with_all = ["design", "layout"])]
     manifest: Option<PathBuf>,
     /// Columns that are outputs, separated by commas [default: those of the study, or all that are no factors]
@@ -104,7 +104,7 @@ fn of_design(arguments: &Arguments) -> Result<Read, Failure> {
     Ok(Read { study: answers.study, store: answers.store, unlikely })
 }
 
-/// The manifest that was named, or the one beside the points.
+/// The manifest that was named, or the one next to the points.
 fn manifest_path(arguments: &Arguments) -> Result<PathBuf, Failure> {
     if let Some(manifest) = &arguments.manifest {
         return Ok(manifest.clone());

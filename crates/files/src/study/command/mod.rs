@@ -134,7 +134,7 @@ fn protocol(
     section: &CommandSection,
     first_pick: Option<&Range<usize>>,
 ) -> Result<Protocol, Fault> {
-    const RUNS: &str = "only beside `template`, of a program that runs once for each row";
+    const RUNS: &str = "only with `template`, of a program that runs once for each row";
     let spans = [
         ("input", section.input.as_ref().map(At::span)),
         ("files", section.files.first().map(At::span)),

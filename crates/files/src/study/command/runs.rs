@@ -27,7 +27,7 @@ pub(super) fn form(
 ) -> Result<(PerRun, Vec<String>), Fault> {
     if let Some(protocol) = &section.protocol {
         let expected = "only of a program that is kept alive, without `template`";
-        return Err(context.fault(protocol.span(), wrong("protocol", expected, "beside one".to_owned())));
+        return Err(context.fault(protocol.span(), wrong("protocol", expected, "with one".to_owned())));
     }
     let template_file = resolve(context, template, reach(section))?;
     let file_name = template_file.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
@@ -51,7 +51,7 @@ pub(super) fn refuse_without_pick(
     let Some(output) = outputs.iter().find(|output| output.pick.is_none()) else { return Ok(()) };
     let expected = "a table that says where the number stands, as in { file = \"out.txt\", regex = \"force = (\\\\S+)\" }, \
                     { file = \"out.csv\", column = \"y\" } or { file = \"out.json\", pointer = \"/result/y\" }";
-    context.refuse(key, &format!("outputs.{}", output.name), expected, "without that beside `template`".to_owned())
+    context.refuse(key, &format!("outputs.{}", output.name), expected, "without that, with `template`".to_owned())
 }
 
 fn read_template(path: &Path, space: &Space) -> Result<InputTemplate, Problem> {
