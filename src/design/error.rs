@@ -84,7 +84,9 @@ pub enum DesignError {
         replicates: u64,
     },
     /// Second-order indices without the rows that they need.
-    #[error("second-order indices need the rows BA (B with the columns of one factor from A) in addition to the rows AB")]
+    #[error(
+        "second-order indices need the rows BA (B with the columns of one factor from A) in addition to the rows AB"
+    )]
     SecondOrderWithoutBa,
     /// Too many pairs of factors for their sums to be kept.
     #[error(

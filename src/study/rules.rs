@@ -108,11 +108,7 @@ pub(super) fn checked_options(
         return wrong("resamples", expected, options.resamples);
     }
     if options.surrogate == SurrogateChoice::On && intervals != IntervalMethod::Nets {
-        return wrong(
-            "surrogate",
-            "\"on\" only with intervals = \"nets\"",
-            format!("with \"{}\"", intervals.name()),
-        );
+        return wrong("surrogate", "\"on\" only with intervals = \"nets\"", format!("with \"{}\"", intervals.name()));
     }
     if !options.measures.is_empty() && outputs > MAX_OUTPUTS_OF_MEASURES {
         let expected = format!("those of at most {MAX_OUTPUTS_OF_MEASURES} outputs");

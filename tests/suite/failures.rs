@@ -231,10 +231,7 @@ fn keys_that_end_a_run() {
     refused("max_time = \"-1 s\"", &["study.toml:5:12:", "a time above 0"]);
     refused("max_time = 30", &["study.toml:5:12:"]);
     refused("base_samples = 64\nruns = 300", &["`base_samples` must be alone"]);
-    refused(
-        "base_samples = 64\nmax_runs = 300",
-        &["study.toml:6:12:", "`max_runs` must be with `accuracy`, or alone"],
-    );
+    refused("base_samples = 64\nmax_runs = 300", &["study.toml:6:12:", "`max_runs` must be with `accuracy`, or alone"]);
     refused("max_runs = -1", &["study.toml:5:12:", "whole number"]);
     refused("max_runs = 15", &["study.toml:5:12:", "32 or more"]);
     refused("sampler = \"latin-hypercube\"\nmax_runs = 1000", &["study.toml:5:11:", "`sampler` must be"]);

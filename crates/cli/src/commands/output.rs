@@ -102,7 +102,9 @@ pub fn deliver(artefacts: &Artefacts, document: &Document) -> Result<(), Failure
         ([], 0) => (),
         ([], tables) => say(&format!("wrote {} next to it", counted(tables as u64, "table"))),
         ([json], 0) => say(&format!("wrote {}", json.display())),
-        ([json], tables) => say(&format!("wrote {} and {} next to it", json.display(), counted(tables as u64, "table"))),
+        ([json], tables) => {
+            say(&format!("wrote {} and {} next to it", json.display(), counted(tables as u64, "table")))
+        }
         (several, tables) => say(&format!("wrote {} next to it", counted((several.len() + tables) as u64, "file"))),
     }
     if let Some((folder, charts)) = &written.charts {

@@ -19,8 +19,7 @@ fn dependence(context: &Context<'_>, section: &At<DependenceSection>, space: &Sp
     let measure = match measure {
         None => CorrelationMeasure::default(),
         Some(measure) if measured.is_some() => {
-            let expected =
-                "nothing else with joint measurements, whose correlations are those of the normal scores of their ranks";
+            let expected = "nothing else with joint measurements, whose correlations are those of the normal scores of their ranks";
             return context.refuse(measure, "measure", expected, format!("{:?}", measure.get_ref()));
         }
         Some(name) => choice(context, name, "measure of correlation")?,

@@ -88,7 +88,11 @@ fn what_cannot_be_is_refused_by_name() {
     let cases: [Case<'_>; 12] = [
         ("normal", &[("p05", 3.0), ("p95", 3.0)], "`p05` is 3 and `p95` is 3, but `p05` must be below `p95`"),
         ("normal", &[("p05", 3.0)], "the normal distribution needs two quantiles, such as `p05` and `p95`"),
-        ("normal", &[("p05", 3.0), ("p95", 4.0), ("mean", 3.5)], "the normal distribution has no `mean` together with `p05`"),
+        (
+            "normal",
+            &[("p05", 3.0), ("p95", 4.0), ("mean", 3.5)],
+            "the normal distribution has no `mean` together with `p05`",
+        ),
         ("normal", &[("p05", 3.0), ("p50", 3.5), ("p95", 4.0)], "needs two quantiles"),
         ("normal", &[("mean", 3.5)], "the normal distribution needs `sd`"),
         ("uniform", &[("mode", 3.0), ("p95", 4.0)], "the uniform distribution has no `mode`"),
