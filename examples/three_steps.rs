@@ -39,7 +39,7 @@ fn sampled(points: &Path) -> Result<(), Box<dyn Error>> {
         Ok(())
     })?;
     let manifest = manifest.ok_or("no manifest")?;
-    Ok(write_atomically(&Manifest::path_beside(points), manifest.json().as_bytes())?)
+    Ok(write_atomically(&Manifest::path_for(points), manifest.json().as_bytes())?)
 }
 
 /// The second step, which any program on any machine can do: an output for each point, in the order of the points.
@@ -60,7 +60,7 @@ pub fn main() -> Result<(), Box<dyn Error>> {
     std::fs::write(&outputs, evaluated(&std::fs::read_to_string(&points)?)?)?;
 
     // The third: outputs that are not those of the points in the manifest are refused, with the first place that shows it.
-    let manifest = Manifest::parse(&std::fs::read_to_string(Manifest::path_beside(&points))?)?;
+    let manifest = Manifest::parse(&std::fs::read_to_string(Manifest::path_for(&points))?)?;
     let request = AnswersRequest { manifest: &manifest, outputs: &[], units: &[], missing: MissingOutputs::Refuse };
     let answers = read_answers(open_table(&outputs, &ReadOptions::default())?.as_mut(), &request)?;
     let result = answers.study.runner().store(&answers.store).run()?;

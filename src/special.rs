@@ -15,7 +15,7 @@ pub fn normal_below(z: f64) -> f64 {
 pub fn normal_quantile(u: f64) -> f64 {
     let q = u - 0.5;
     if q.abs() <= 0.425 {
-        return normal_quantile_beside_median(q);
+        return normal_quantile_near_median(q);
     }
     let tail = if q < 0.0 { u } else { 1.0 - u };
     if tail <= 0.0 {
@@ -85,7 +85,7 @@ pub fn normal_quantile(u: f64) -> f64 {
 }
 
 /// Returns the standard normal quantile at 1/2 + `q`, |q| <= 0.425, to full relative precision about 0.
-pub fn normal_quantile_beside_median(q: f64) -> f64 {
+pub fn normal_quantile_near_median(q: f64) -> f64 {
     let r = 0.180_625 - q * q;
     let above = polynomial(
         r,
@@ -252,7 +252,7 @@ mod tests {
         }
         assert_eq!(normal_quantile(0.5), 0.0);
         // The derivative at the median is sqrt(2 pi).
-        close(normal_quantile_beside_median(1e-200) * 1e200, (2.0 * PI).sqrt(), 1e-15, "beside the median");
+        close(normal_quantile_near_median(1e-200) * 1e200, (2.0 * PI).sqrt(), 1e-15, "beside the median");
     }
 
     /// T has closed forms for 1 and 2 degrees of freedom: 1/2 - atan(t)/pi and (1 - t/sqrt(2 + t^2))/2.

@@ -48,7 +48,7 @@ pub(crate) struct Remote<'a> {
 impl<'a> Remote<'a> {
     /// Opens the exchange with one of the workers, in the run of `context`.
     pub fn talk(self, worker: usize, context: &'a RunContext<'a>) -> Talk<'a> {
-        Talk { remote: self, worker, context, told_to_stop: AtomicBool::new(false) }
+        Talk { remote: self, worker, context, stop_sent: AtomicBool::new(false) }
     }
 }
 
@@ -147,7 +147,7 @@ pub(crate) struct Talk<'a> {
     remote: Remote<'a>,
     worker: usize,
     context: &'a RunContext<'a>,
-    told_to_stop: AtomicBool,
+    stop_sent: AtomicBool,
 }
 
 impl Talk<'_> {
@@ -167,7 +167,7 @@ impl Talk<'_> {
             if let Some(reply) = self.remote.workers.receive(self.worker, STOP_POLL_INTERVAL)? {
                 break reply;
             }
-            if self.context.is_stopped() && !self.told_to_stop.swap(true, Ordering::Relaxed) {
+            if self.context.is_stopped() && !self.stop_sent.swap(true, Ordering::Relaxed) {
                 self.remote.workers.stop();
             }
         };

@@ -84,11 +84,11 @@ impl AnalysisOptions {
     /// Returns whether there will be Shapley effects of the factors of `space`, or of their groups.
     pub fn has_shapley(&self, space: &Space) -> bool {
         let is_free = space.copula().is_some() && space.factors().len() <= FREE_SHAPLEY_FACTORS;
-        self.asks_for_shapley() || is_free && self.shapley.is_none()
+        self.wants_shapley() || is_free && self.shapley.is_none()
     }
 
     /// Returns whether they are requested explicitly.
-    pub(super) fn asks_for_shapley(&self) -> bool {
+    pub(super) fn wants_shapley(&self) -> bool {
         self.shapley.unwrap_or(self.shapley_method.is_some() || self.shapley_players.is_some())
     }
 

@@ -147,13 +147,13 @@ fn check_shapley(options: &AnalysisOptions, space: &Space) -> Result<(), BuildEr
         let expected = format!("\"permutations\": all subsets are those of at most {MAX_SHAPLEY_FACTORS} players");
         return wrong("shapley_method", expected, format!("\"subsets\" with {players}"));
     }
-    if options.asks_for_shapley() && players > MAX_SHAPLEY_FACTORS && !has_room_for_orders(players, factors) {
+    if options.wants_shapley() && players > MAX_SHAPLEY_FACTORS && !has_room_for_orders(players, factors) {
         let expected = format!(
             "false of more than {MAX_ORDERED_FACTORS} players; fewer are groups, with shapley_players = \"groups\""
         );
         return wrong("shapley", expected, format!("true with {players}"));
     }
-    if options.asks_for_shapley() && space.noise().is_some() {
+    if options.wants_shapley() && space.noise().is_some() {
         return wrong("shapley", "false with the noise of a stochastic model, which can have no share", "true");
     }
     Ok(())

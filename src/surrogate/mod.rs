@@ -68,7 +68,7 @@ pub const MAX_FITTED_ROWS: u64 = 1 << 16;
 const CHUNK: usize = 1 << 13;
 
 /// Number of terms that are reported.
-const TOLD_TERMS: usize = 12;
+const MAX_LEADING_TERMS: usize = 12;
 
 /// Returns the polynomials of every factor of `space`.
 pub fn families(space: &Space) -> Vec<Family> {
@@ -329,7 +329,7 @@ fn estimates(corrected: &Corrected, low: &[Contributions], (mean, sd): (f64, f64
         chosen: None,
         misses_levels: false,
         growth: growth(nets),
-        terms: told_terms(expansions, variance.estimate),
+        terms: leading_terms(expansions, variance.estimate),
         term_count: expansions.iter().map(|e| e.terms.len() as f64).sum::<f64>() / expansions.len() as f64,
         variance: scaled(variance, 0.0, sd * sd),
         low: None,
@@ -366,7 +366,7 @@ fn weight_of_second([first, second]: &[Vec<Influenced>; 2]) -> f64 {
 }
 
 /// Returns the terms of all surrogates by their mean share of the variance.
-pub fn told_terms(expansions: &[Expansion], variance: f64) -> Vec<SurrogateTerm> {
+pub fn leading_terms(expansions: &[Expansion], variance: f64) -> Vec<SurrogateTerm> {
     let mut terms: Vec<(&Term, f64)> = Vec::new();
     for expansion in expansions {
         for (term, b) in expansion.terms.iter().zip(&expansion.coefficients).filter(|(term, _)| !term.is_empty()) {
@@ -378,6 +378,6 @@ pub fn told_terms(expansions: &[Expansion], variance: f64) -> Vec<SurrogateTerm>
         }
     }
     terms.sort_by(|a, b| b.1.total_cmp(&a.1).then_with(|| a.0.cmp(b.0)));
-    terms.truncate(TOLD_TERMS);
+    terms.truncate(MAX_LEADING_TERMS);
     terms.into_iter().map(|(term, share)| SurrogateTerm { factors: term.clone(), share }).collect()
 }

@@ -43,12 +43,12 @@ pub struct NoiseLayout {
     /// The factor that is the noise.
     pub factor: usize,
     /// The relation of each swap to the noise.
-    pub swaps: Vec<BesideNoise>,
+    pub swaps: Vec<SwapNoise>,
 }
 
 /// The relation of a swap to the noise.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum BesideNoise {
+pub enum SwapNoise {
     /// It contains the noise: the mean has no such index.
     Holds,
     /// It does not, and no other swap is the same with the noise: the mean has only its first-order index.
@@ -62,13 +62,13 @@ impl NoiseLayout {
     pub fn new(factor: usize, swaps: &[Vec<usize>]) -> Self {
         let beside = |swap: &Vec<usize>| {
             if swap.contains(&factor) {
-                return BesideNoise::Holds;
+                return SwapNoise::Holds;
             }
             let mut joined = swap.clone();
             joined.push(factor);
             joined.sort_unstable();
             let with = swaps.iter().position(|other| *other == joined).filter(|_| !swap.is_empty());
-            with.map_or(BesideNoise::Alone, BesideNoise::With)
+            with.map_or(SwapNoise::Alone, SwapNoise::With)
         };
         Self { factor, swaps: swaps.iter().map(beside).collect() }
     }
@@ -232,9 +232,9 @@ pub(super) fn quantities(layout: &Layout, moments: &Moments) -> Option<Vec<f64>>
         list.push(share);
         for (s, beside) in noise.swaps.iter().enumerate() {
             list.extend(match *beside {
-                BesideNoise::Holds => [f64::NAN; 2],
-                BesideNoise::Alone => [index(first_order[s]), f64::NAN],
-                BesideNoise::With(joined) => [index(first_order[s]), index(total[joined] - total[noise.factor])],
+                SwapNoise::Holds => [f64::NAN; 2],
+                SwapNoise::Alone => [index(first_order[s]), f64::NAN],
+                SwapNoise::With(joined) => [index(first_order[s]), index(total[joined] - total[noise.factor])],
             });
         }
     }

@@ -4,7 +4,7 @@
 //! since the noise adds nothing to the variance of E[y|x_s]; its total indices are (ST_sn - ST_n)/(1 - ST_n), since all
 //! effects of the other factors without s and the noise have the variance V (1 - ST_sn).
 
-use super::estimates::{BesideNoise, Layout};
+use super::estimates::{Layout, SwapNoise};
 use super::influence::Influenced;
 use super::noise::{Noise, Replacement};
 use super::{Estimate, Interval, StandardError};
@@ -63,7 +63,7 @@ pub(super) fn corrected(
         }
     };
     let exists = share.estimate > 0.0;
-    for (swap, beside) in noise.swaps.iter().enumerate().filter(|(_, beside)| **beside != BesideNoise::Holds) {
+    for (swap, beside) in noise.swaps.iter().enumerate().filter(|(_, beside)| **beside != SwapNoise::Holds) {
         let place = layout.of_mean(swap);
         let nothing = || (Estimate::alone(f64::NAN), errors[place], Vec::new());
         // Errors of unknown correlation may be larger than those of the plain index, whose correlation is known.
@@ -87,7 +87,7 @@ pub(super) fn corrected(
             }
             (None, Some(_)) => put_narrower(quotient(plain_first(swap), share)),
         }
-        let (BesideNoise::With(joined), Some((of_noise, of_kind)), Some((total, _))) =
+        let (SwapNoise::With(joined), Some((of_noise, of_kind)), Some((total, _))) =
             (*beside, &of_noise, &corrected.total)
         else {
             continue;

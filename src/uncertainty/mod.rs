@@ -30,7 +30,7 @@ pub use aggregate::{AggregateIndices, aggregate_indices};
 pub use convergence::{Stage, points_of_stages, stages};
 pub use corrected::SurrogateEstimates;
 pub use effects::{DependentEstimates, EffectChecks, EffectEstimates, OtherEstimates, OutputIndices, OutputMoments};
-pub use estimates::{BesideNoise, Layout, NoiseLayout};
+pub use estimates::{Layout, NoiseLayout, SwapNoise};
 pub use influence::{Influenced, Influences};
 pub use jackknife::jackknife;
 pub use mean::{MeanEstimates, NoiseIndices};

@@ -6,7 +6,7 @@ use super::by_points::{Bounds, ByPoints};
 use super::concentration::{Side, interval};
 use super::corrected::{Corrections, SurrogateEstimates};
 use super::effects::{EffectChecks, EffectEstimates, OtherEstimates, OutputIndices, OutputMoments};
-use super::estimates::{BesideNoise, Layout, Number, quantities};
+use super::estimates::{Layout, Number, SwapNoise, quantities};
 use super::influence::Influences;
 use super::mean::{MeanEstimates, NoiseIndices};
 use super::method::IntervalMethod;
@@ -297,10 +297,10 @@ impl Judged {
 
     fn noise(&self, layout: &Layout) -> Option<NoiseIndices> {
         let noise = layout.noise.as_ref()?;
-        let of_mean = |(swap, beside): (usize, &BesideNoise)| {
+        let of_mean = |(swap, beside): (usize, &SwapNoise)| {
             let place = layout.of_mean(swap);
             let [first_order, total] = [place, place + 1].map(|place| defined(self.estimates[place]));
-            (*beside != BesideNoise::Holds).then_some(MeanEstimates { first_order, total })
+            (*beside != SwapNoise::Holds).then_some(MeanEstimates { first_order, total })
         };
         let of_mean = noise.swaps.iter().enumerate().map(of_mean).collect();
         Some(NoiseIndices { factor: noise.factor, mean_share: self.estimates[layout.mean_share()], of_mean })

@@ -7,7 +7,7 @@
 //! 95 %. Each moves the index by at most what the range of the output allows. Only a factor that leaves the output
 //! unchanged in every row keeps an error of 0.
 
-use super::estimates::{BesideNoise, Layout, Number};
+use super::estimates::{Layout, Number, SwapNoise};
 use super::net_decay::PartInfluences;
 use crate::estimate::Moments;
 
@@ -102,10 +102,10 @@ pub(super) fn unseen(layout: &Layout, moments: &Moments, values: &[f64]) -> Vec<
         let over_share = |of: Unseen| Unseen { half_width: of.half_width / share, rounding: of.rounding / share };
         list[layout.mean_share()] = list[place(noise.factor, Number::Total)];
         for (swap, beside) in noise.swaps.iter().enumerate().filter(|_| share > 0.0) {
-            if *beside != BesideNoise::Holds {
+            if *beside != SwapNoise::Holds {
                 list[layout.of_mean(swap)] = over_share(list[place(swap, Number::FirstOrder)]);
             }
-            if let BesideNoise::With(joined) = *beside {
+            if let SwapNoise::With(joined) = *beside {
                 list[layout.of_mean(swap) + 1] = over_share(list[place(joined, Number::Total)]);
             }
         }

@@ -126,7 +126,7 @@ pub fn file_name(name: &str) -> String {
 
 /// Adds the live `page` to a document, as the file `name` with a section that links to it; that section replaces the
 /// one on how to make a live page.
-pub fn put_beside(document: &mut Document, name: &str, page: String) {
+pub fn place_next_to(document: &mut Document, name: &str, page: String) {
     const TITLE: &str = "Try your own ranges";
     let text = "What if your own factors vary less, or more? A page next to this one computes it while a \
                 range is dragged, with the engine of this program inside; it needs no network.";

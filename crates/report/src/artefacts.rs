@@ -94,7 +94,7 @@ impl Artefacts {
     }
 
     /// Sets the input file, which is never overwritten.
-    pub fn beside_input(self, input: impl Into<PathBuf>) -> Self {
+    pub fn next_to_input(self, input: impl Into<PathBuf>) -> Self {
         Self { input: Some(input.into()), ..self }
     }
 
@@ -199,7 +199,7 @@ mod tests {
         let written = artefacts.write(&document).unwrap();
         assert_eq!(written.data, ["s.json", "charts/s.csv"].map(|name| folder.path().join(name)));
         assert!(written.charts.is_none() && written.data.iter().all(|path| path.is_file()));
-        let overwriting = artefacts.beside_input(folder.path().join("s.json")).write(&document);
+        let overwriting = artefacts.next_to_input(folder.path().join("s.json")).write(&document);
         assert!(matches!(overwriting, Err(ArtefactError::Input { .. })));
     }
 }

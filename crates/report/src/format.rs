@@ -80,11 +80,11 @@ pub fn short(value: f64) -> String {
 /// Formats a value with four significant digits, or with as many more as distinguish values over a range of `spread`.
 pub fn short_among(value: f64, spread: f64) -> String {
     /// Number of digits of the spread that are shown.
-    const TOLD: i32 = 3;
+    const SPREAD_DIGITS: i32 = 3;
     /// Number of digits of a double.
     const MAX_DIGITS: i32 = 15;
     let digits = match value != 0.0 && value.is_finite() && spread > 0.0 {
-        true => (estimates::exponent(value) - estimates::exponent(spread) + TOLD).clamp(4, MAX_DIGITS),
+        true => (estimates::exponent(value) - estimates::exponent(spread) + SPREAD_DIGITS).clamp(4, MAX_DIGITS),
         false => 4,
     };
     estimates::rounded(value, digits as usize)

@@ -264,7 +264,7 @@ class Study:
         if is_unnamed and set(columns) != set(self.outputs):
             self._table["outputs"] = list(columns)
             self._parse()
-        return _told(Result(self._study.analyse(np.column_stack(placed(columns, self.outputs, "the outputs come")))))
+        return _with_warnings(Result(self._study.analyse(np.column_stack(placed(columns, self.outputs, "the outputs come")))))
 
     def _split(self, columns: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
         """The columns of the engine: those of series one by one."""
@@ -330,7 +330,7 @@ class Study:
             result = self._study.run(
                 function, stop, threads=threads, journal=path, resume=resume, progress=bar.callback, message=say
             )
-        return _told(Result(result))
+        return _with_warnings(Result(result))
 
     def screen(
         self,
@@ -450,7 +450,7 @@ class Study:
         self._parse()
 
 
-def _told(result: Result) -> Result:
+def _with_warnings(result: Result) -> Result:
     """The result, with every warning of it warned of; a `RunError` if no output has an index."""
     records = result.to_dict()["outputs"]
     if all(record.get("indices") is None for record in records):

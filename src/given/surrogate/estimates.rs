@@ -1,7 +1,7 @@
 //! Indices and intervals from the contributions of all folds.
 
 use super::contributions::{FoldSums, Folded};
-use super::{Fitted, MIN_EXPLAINED, SurrogateIndices, SurrogateOutput, told_terms};
+use super::{Fitted, MIN_EXPLAINED, SurrogateIndices, SurrogateOutput, leading_terms};
 use crate::uncertainty::{Estimate, Influenced, Interval, Noise};
 
 /// Computes the estimates of the inputs with these names from all folds.
@@ -40,7 +40,7 @@ pub(super) fn surrogate_output(fitted: &Fitted, names: &[&str]) -> SurrogateOutp
         first_order: raised(of_first_order, first),
         total: raised(of_total, all),
     };
-    let leading = told_terms(expansions, variance.estimate);
+    let leading = leading_terms(expansions, variance.estimate);
     let explained = 1.0 - left;
     SurrogateOutput {
         explained,

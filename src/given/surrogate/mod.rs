@@ -23,7 +23,7 @@ use crate::surrogate::basis::{Caps, polynomials};
 use crate::surrogate::beyond::Beyond;
 use crate::surrogate::fit::Expansion;
 use crate::surrogate::net::Net;
-use crate::surrogate::{cross_fitted, told_terms};
+use crate::surrogate::{cross_fitted, leading_terms};
 use crate::uncertainty::{Estimate, NamedTerm};
 
 /// Share of the variance of other rows that a useful surrogate explains: its residual raises the ends of all intervals.

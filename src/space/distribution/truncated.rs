@@ -9,7 +9,7 @@ use super::normal::Normal;
 use super::prelude::*;
 use super::quadrature::{integral, moments};
 use crate::quantity::Unit;
-use crate::special::{normal_below, normal_quantile, normal_quantile_beside_median};
+use crate::special::{normal_below, normal_quantile, normal_quantile_near_median};
 
 /// Below this probability between the bounds, probabilities of single values would exceed the range of `f64`.
 const MIN_MASS: f64 = 1e-280;
@@ -321,7 +321,7 @@ impl Family for Truncated {
                 } else if upper < 0.25 {
                     -normal_quantile(upper)
                 } else {
-                    normal_quantile_beside_median(0.5 * centre + u * mass)
+                    normal_quantile_near_median(0.5 * centre + u * mass)
                 };
                 mean + sd * z
             }

@@ -78,7 +78,7 @@ pub fn given_data(arguments: &Arguments) -> Result<(), Failure> {
     let fit = || surrogate_indices(&inputs, &outputs, &indices, distributions.as_deref());
     let surrogates = arguments.surrogate.then(fit);
     let name = stem(&arguments.table);
-    let artefacts = arguments.output.artefacts(&name).beside_input(&arguments.table);
+    let artefacts = arguments.output.artefacts(&name).next_to_input(&arguments.table);
     let facts = GivenFacts {
         file: path.to_string(),
         sha256,

@@ -9,7 +9,7 @@ use apportion_report::{prepare_file, prepare_folder, write_atomically};
 use super::output::default_folder;
 use super::stop::on_signal;
 use super::{DesignChanges, Failure, StudyArguments, Threads, say};
-use crate::live::{LiveError, file_name, live_page, own_text, page_of_result, put_beside};
+use crate::live::{LiveError, file_name, live_page, own_text, page_of_result, place_next_to};
 
 #[derive(clap::Args)]
 pub struct Arguments {
@@ -34,12 +34,12 @@ pub struct LiveArguments {
 
 impl LiveArguments {
     /// Adds the page to the `document` of `result`, if there is to be one. Without it the result is whole still.
-    pub fn put_beside(&self, document: &mut Document, result: &StudyResult) {
+    pub fn place_next_to(&self, document: &mut Document, result: &StudyResult) {
         if self.no_live {
             return;
         }
         match page_of_result(document, result) {
-            Ok(Some(page)) => put_beside(document, &file_name(&result.study.name), page),
+            Ok(Some(page)) => place_next_to(document, &file_name(&result.study.name), page),
             Ok(None) => (),
             Err(error) => say(&format!("note: no page to try other ranges in: {error}")),
         }

@@ -40,7 +40,7 @@ pub fn report(arguments: &Arguments) -> Result<(), Failure> {
     }
     let text = String::from_utf8(bytes).map_err(|_| Failure::Input(anyhow!("{}: not text", path.display())))?;
     document.files.iter_mut().filter(|file| file.name == name).for_each(|file| file.text.clone_from(&text));
-    arguments.live.put_beside(&mut document, &result);
+    arguments.live.place_next_to(&mut document, &result);
     if result.provenance.apportion_version != env!("CARGO_PKG_VERSION") {
         let version = &result.provenance.apportion_version;
         say(&format!("note: the numbers are those of apportion {version}; only the drawing is this version's"));

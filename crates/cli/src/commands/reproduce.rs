@@ -9,7 +9,7 @@ use super::output::{ChartArguments, deliver};
 use super::progress::Meter;
 use super::stop::on_signal;
 use super::{DesignChanges, Failure, Threads};
-use crate::live::{live_page, put_beside};
+use crate::live::{live_page, place_next_to};
 use crate::reproduce::{Effort, Event, ReproduceError, Request, Topic, document, reproduce as run};
 
 /// The file of the live page.
@@ -55,7 +55,7 @@ pub fn reproduce(arguments: &Arguments) -> Result<(), Failure> {
     let mut document = document(&reproduction);
     if request.only.is_none() {
         let page = live_page(&live_study()?, request.threads, on_signal())?;
-        put_beside(&mut document, LIVE, page);
+        place_next_to(&mut document, LIVE, page);
     }
     deliver(&artefacts, &document)
 }

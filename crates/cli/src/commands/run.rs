@@ -215,7 +215,7 @@ pub fn deliver(
     live: &LiveArguments,
 ) -> Result<(), Failure> {
     let mut document = run_document(result);
-    live.put_beside(&mut document, result);
+    live.place_next_to(&mut document, result);
     output::deliver(artefacts, &document)?;
     let lost: Vec<&OutputResult> = result.outputs.iter().filter(|output| lost(study, output)).collect();
     let Some(first) = lost.first() else { return Ok(()) };

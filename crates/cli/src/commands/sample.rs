@@ -43,7 +43,7 @@ pub fn sample(arguments: &Arguments) -> Result<(), Failure> {
     let default = || PathBuf::from(format!("{}-{kind}.csv", study.name()));
     let path = arguments.output.clone().unwrap_or_else(default);
     let format = Format::from_path(&path).map_err(|error| Failure::Input(anyhow!("{}: {error}", path.display())))?;
-    let beside = Manifest::path_beside(&path);
+    let beside = Manifest::path_for(&path);
     if !arguments.force && path.is_file() && !is_own(&path, study.name()) {
         let what = "exists already, and is no design that `sample` wrote of this study";
         return Err(Failure::Input(anyhow!("{} {what}: give another name, or add --force", path.display())));
@@ -84,7 +84,7 @@ pub fn sample(arguments: &Arguments) -> Result<(), Failure> {
 /// Whether the file at `path` is a design of the study called `name` as `sample` wrote it: the manifest next to it says so, and no
 /// outputs have been put in.
 fn is_own(path: &Path, name: &str) -> bool {
-    let manifest = read_text(&Manifest::path_beside(path)).ok().and_then(|text| Manifest::parse(&text).ok());
+    let manifest = read_text(&Manifest::path_for(path)).ok().and_then(|text| Manifest::parse(&text).ok());
     let width = open_table(path, &ReadOptions::default()).map(|rows| rows.width());
     manifest
         .zip(width.ok())

@@ -148,9 +148,9 @@ impl Manifest {
     ///
     /// ```
     /// # use apportion_files::exchange::Manifest;
-    /// assert_eq!(Manifest::path_beside("a/x.csv".as_ref()), std::path::Path::new("a/x.csv.manifest.json"));
+    /// assert_eq!(Manifest::path_for("a/x.csv".as_ref()), std::path::Path::new("a/x.csv.manifest.json"));
     /// ```
-    pub fn path_beside(design: &Path) -> PathBuf {
+    pub fn path_for(design: &Path) -> PathBuf {
         let mut name = design.as_os_str().to_owned();
         name.push(".manifest.json");
         name.into()

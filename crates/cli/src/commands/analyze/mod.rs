@@ -73,7 +73,7 @@ pub fn analyze(arguments: &Arguments) -> Result<(), Failure> {
     let read = if arguments.layout.is_some() { salib::study(arguments)? } else { of_design(arguments)? };
     let Read { study, store, unlikely } = read;
     say_notes(&study);
-    let artefacts = arguments.output.artefacts(study.name()).beside_input(&arguments.data);
+    let artefacts = arguments.output.artefacts(study.name()).next_to_input(&arguments.data);
     artefacts.prepare()?;
     let runner = study.runner().threads(arguments.threads.number()).store(&store);
     let mut result = runner.run().map_err(|error| with_inputs(&study, error))?;
@@ -110,7 +110,7 @@ fn manifest_path(arguments: &Arguments) -> Result<PathBuf, Failure> {
         return Ok(manifest.clone());
     }
     let points: &Path = arguments.design.as_deref().unwrap_or(&arguments.data);
-    let beside = Manifest::path_beside(points);
+    let beside = Manifest::path_for(points);
     if beside.exists() {
         return Ok(beside);
     }

@@ -2,7 +2,7 @@
 
 use apportion_report::document::{Figure, Link, Part, Section};
 
-use super::beside_charts;
+use super::chart_file;
 use crate::reproduce::figures::{ANIMATION_STEM, Animation, PaperFigure};
 use crate::reproduce::papers::papers;
 use crate::reproduce::{GROUPS, Reproduction};
@@ -65,7 +65,7 @@ fn alone(figure: &PaperFigure) -> Figure {
         },
         chart: figure.chart.clone(),
         stem: figure.stem.to_owned(),
-        data: beside_charts(figure.stem, "csv"),
+        data: chart_file(figure.stem, "csv"),
     }
 }
 
@@ -88,7 +88,7 @@ fn shown_together(figures: &[PaperFigure], group: &str) -> Option<Figure> {
 fn moving(animation: &Animation) -> Part {
     let html = animation.html.clone();
     let frame = Part::Frame { title: "TS04 fig. 14 as an animation".to_owned(), html };
-    let file = |ending: &str| beside_charts(ANIMATION_STEM, ending);
+    let file = |ending: &str| chart_file(ANIMATION_STEM, ending);
     let links = Part::Links(vec![
         Link::new("the animation as a page of its own", file("html")),
         Link::new("every state as CSV", file("csv")),

@@ -61,17 +61,17 @@ fn files(reproduction: &Reproduction) -> Vec<DataFile> {
     }
     if let Some(animation) = &reproduction.animation {
         for (ending, text) in [("html", &animation.html), ("csv", &animation.csv), ("json", &animation.json)] {
-            add(beside_charts(ANIMATION_STEM, ending), text.clone());
+            add(chart_file(ANIMATION_STEM, ending), text.clone());
         }
     }
     for figure in &reproduction.figures {
-        add(beside_charts(figure.stem, "csv"), figure.csv.clone());
+        add(chart_file(figure.stem, "csv"), figure.csv.clone());
     }
     files
 }
 
 /// Returns the path of a file next to those of the chart `stem`.
-fn beside_charts(stem: &str, ending: &str) -> String {
+fn chart_file(stem: &str, ending: &str) -> String {
     format!("charts/{stem}.{ending}")
 }
 
