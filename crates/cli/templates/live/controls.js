@@ -127,7 +127,7 @@ const tabulate = () => {
   at("ranges").replaceChildren(at("ranges-heading"), make("div", { className: "table" }, table));
 };
 
-// Whoever uses the keyboard stays at the control that is drawn anew, or near it.
+// The keyboard focus stays at the control that is drawn again, or near it.
 const keepFocus = (draw) => {
   const active = document.activeElement;
   const box = active.closest("fieldset.factor");
@@ -349,7 +349,7 @@ const halt = () => {
   goal = null;
   interrupt();
 };
-// The controls show the whole state anew: at once, but for a study that is to be described first.
+// The controls show the whole state again: at once, but for a study that is to be described first.
 const fresh = async () => {
   halt();
   const { preset } = state;

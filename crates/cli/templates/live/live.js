@@ -2,7 +2,7 @@
 const at = (id) => document.getElementById(id);
 const given = JSON.parse(at("study").textContent);
 const FEWEST = 256;
-const MOST = 65536;
+const MAX_SAMPLES = 65536;
 // A step of the doubling that would take longer is not made.
 const LONGEST = 10;
 const FRAME = 1 / 60;
@@ -231,19 +231,19 @@ const pump = async () => {
       const done = await run(mine.samples, !isFirst);
       if (goal !== mine || !done) continue;
       const { seconds } = done;
-      if (seconds && 2 * mine.samples <= MOST && 2.2 * seconds <= LONGEST) {
+      if (seconds && 2 * mine.samples <= MAX_SAMPLES && 2.2 * seconds <= LONGEST) {
         mine.samples *= 2;
       } else if (seconds && isFirst) {
         mine.whole = true;
       } else {
         goal = null;
         // A reader of the screen hears the sentence once it has settled.
-        if (seconds) at("told").textContent = shown.lead.join(" ");
+        if (seconds) at("announcement").textContent = shown.lead.join(" ");
       }
     } else {
       goal = null;
       const { seconds, drawing } = await run(quick, false) || {};
-      if (seconds + drawing < FRAME / 2 && quick < MOST / 4) quick *= 2;
+      if (seconds + drawing < FRAME / 2 && quick < MAX_SAMPLES / 4) quick *= 2;
       if (seconds + drawing > FRAME && quick > FEWEST) quick /= 2;
     }
   }

@@ -49,7 +49,7 @@ function short(value, digits = 3) {
   return (size === 0 ? "0" : plain).replace("e+", "e").replaceAll("-", "−");
 }
 const withUnit = (value, unit) => (value === null ? "–" : `${short(value)} ${unit}`);
-/** Decimals with which steps of the story are told apart. */
+/** Decimals with which steps of the story are distinguished. */
 const decimals = Math.min(9, Math.max(0, 2 - Math.floor(Math.log10(last - first || 1))));
 const clock = (t) => `${t.toFixed(decimals).replaceAll("-", "−")} s`;
 function change(value, from) {

@@ -6,7 +6,7 @@ tip.className = "tip";
 tip.hidden = true;
 tip.setAttribute("aria-hidden", "true");
 document.body.append(tip);
-const told = (target) => {
+const labelOf = (target) => {
   for (let mark = target; mark instanceof SVGElement && !(mark instanceof SVGSVGElement); mark = mark.parentElement) {
     const title = mark.querySelector(":scope > title");
     if (title) {
@@ -26,7 +26,7 @@ const index = (below) => {
   return all;
 };
 const show = (event) => {
-  const text = told(event.target);
+  const text = labelOf(event.target);
   tip.hidden = !text;
   if (!text) return;
   tip.replaceChildren(...text.split(/\b(S_[1T])\b/).map((part, i) => (i % 2 ? index(part[2]) : part)));
