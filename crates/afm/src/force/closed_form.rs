@@ -44,7 +44,7 @@ pub(super) fn slip(probe: &Probe, height: f64, lateral_force: f64, contact: Cont
 
 /// Returns the possible error of `capacity` by the law itself (N): a LuGre ramp peaks between Fss(V), the fast form,
 /// and the strength at rest; other laws are as accurate as their integration.
-#[inline]
+#[inline(always)]
 pub(super) fn of_law(substrate: &Substrate, normal_force: f64, capacity: f64) -> f64 {
     if substrate.options.friction != FrictionLaw::LuGre {
         return capacity * substrate.error();
@@ -62,7 +62,7 @@ pub(super) fn flags(slip: &Slip, scene: &Scene, options: &Options) -> Flags {
     slip.flags(scene, options).with(Flag::FastLuGreForm, is_lugre & is_fast)
 }
 
-/// Returns the relative error of F_cr by the neglected twist and swing of the tip, and by the [law](of_law).
+/// Returns the relative error of F_cr, and of the critical time if it matters.
 #[inline(always)]
 pub(super) fn error(
     substrate: &Substrate,
@@ -70,14 +70,19 @@ pub(super) fn error(
     (slip, presliding): (&Slip, Option<&Presliding>),
     of_law: f64,
 ) -> f64 {
-    let mut error = twisting(substrate, probe, slip) + Swing::new(substrate.scene, probe).left_out(slip, substrate);
-    error.lateral += of_law;
-    let of_forces = error.value(slip);
+    let of_forces = left_out(substrate, probe, slip, of_law).value(slip);
     if substrate.options.accurate_time {
         of_forces.max(time_error(substrate, probe, (slip, presliding), of_law))
     } else {
         of_forces
     }
+}
+
+/// Returns the errors of both forces by the neglected twist and swing of the tip, and by the [law](of_law).
+#[inline(always)]
+pub(super) fn left_out(substrate: &Substrate, probe: &Probe, slip: &Slip, of_law: f64) -> Error {
+    let error = twisting(substrate, probe, slip) + Swing::new(substrate.scene, probe).left_out(slip, substrate);
+    Error { lateral: error.lateral + of_law, ..error }
 }
 
 /// Returns the relative error of the critical time for the same reasons: the moment of the normal force turns the tip

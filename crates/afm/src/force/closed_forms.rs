@@ -13,7 +13,7 @@ use super::slip::{ORDINARY_SQUARES, Slip, critical_time};
 use super::substrate::{Substrate, adhesion};
 use super::{Fidelity, Options, closed_form};
 use crate::contact::{Contact, Pair};
-use crate::friction::{Coulomb, Drive, LuGreForm, Pressed};
+use crate::friction::{Drive, LuGreForm, Pressed};
 use crate::probe::Probe;
 use crate::{ContactTheory, Failure, Flag, Flags, FrictionLaw, Parameter, Scene, Torsion};
 
@@ -62,7 +62,6 @@ struct Probes {
     adhesive_load: Column,
     support: Column,
     of_law: Column,
-    presliding: [Option<Presliding>; AT_ONCE],
 }
 
 macro_rules! columns {
@@ -131,28 +130,10 @@ impl ClosedForms {
     pub fn solve(&mut self) {
         let Self { scene, options, drive, columns, probes, slips, .. } = self;
         press(scene, options, columns, probes, &mut slips.contact_radius);
-        let capacity = &mut slips.lateral_force;
-        if options.friction == FrictionLaw::Coulomb {
-            hold_by_coulomb(scene, columns, probes, &slips.contact_radius, capacity);
-        } else {
-            for (i, capacity) in capacity.iter_mut().enumerate() {
-                let scene = columns.scene(i, scene);
-                let pressed = Pressed {
-                    load: probes.preload_force[i] + probes.adhesive_load[i],
-                    radius: slips.contact_radius[i],
-                };
-                let drive = Drive { velocity: scene.velocity, stiffness: probes.apex[i], ..*drive };
-                let held = options.friction.capacity(&scene, pressed, &drive);
-                *capacity = held.map_or(f64::NAN, |held| held.force);
-                let substrate = probes.substrate(i, &scene, options, drive);
-                probes.of_law[i] = closed_form::of_law(&substrate, probes.preload_force[i], *capacity);
-                let (probe, contact) = (probes.probe(i), Contact { radius: slips.contact_radius[i], indentation: 0.0 });
-                let slip = closed_form::slip(&probe, scene.height, *capacity, contact);
-                // Only integrations can fail, and integrated laws are not computed here.
-                probes.presliding[i] = Presliding::new(&substrate, &slip, &probe, probe.apex).unwrap_or_default();
-            }
+        slide(scene, options, drive, columns, probes, slips);
+        if options.accurate_time {
+            creep(scene, options, drive, columns, probes, slips);
         }
-        finish(scene, options, drive, columns, probes, slips);
         doubt(scene, options, columns, slips, &mut self.flags);
     }
 
@@ -209,7 +190,6 @@ impl Probes {
             adhesive_load: none,
             support: none,
             of_law: none,
-            presliding: [None; AT_ONCE],
         }
     }
 
@@ -295,28 +275,68 @@ fn touch(scene: &Scene, options: &Options, columns: &Columns, probes: &mut Probe
 }
 
 #[multiversion(targets("x86_64+avx512f", "x86_64+avx2"))]
-fn hold_by_coulomb(scene: &Scene, columns: &Columns, probes: &Probes, radius: &Column, capacity: &mut Column) {
+fn slide(scene: &Scene, options: &Options, drive: &Drive, columns: &Columns, probes: &mut Probes, slips: &mut Slips) {
+    macro_rules! with_constant {
+        ($($law:ident)+) => {
+            match options.friction {
+                $(FrictionLaw::$law => {
+                    let options = Options { friction: FrictionLaw::$law, ..*options };
+                    hold(scene, &options, drive, columns, probes, slips);
+                    finish(scene, &options, drive, columns, probes, slips);
+                })+
+                _ => {
+                    hold(scene, options, drive, columns, probes, slips);
+                    finish(scene, options, drive, columns, probes, slips);
+                }
+            }
+        };
+    }
+    with_constant!(Coulomb HurtadoKim LuGre);
+}
+
+#[inline(always)]
+fn hold(rest: &Scene, options: &Options, drive: &Drive, columns: &Columns, probes: &mut Probes, slips: &mut Slips) {
     for i in 0..AT_ONCE {
+        let scene = columns.scene(i, rest);
+        let drive = Drive { velocity: scene.velocity, stiffness: probes.apex[i], ..*drive };
         let load = probes.preload_force[i] + probes.adhesive_load[i];
-        capacity[i] = Coulomb::from_scene(&columns.scene(i, scene)).capacity(Pressed { load, radius: radius[i] });
+        let pressed = Pressed { load, radius: slips.contact_radius[i] };
+        // Only integrations can fail, and integrated laws are not computed here.
+        let force = options.friction.capacity(&scene, pressed, &drive).map_or(f64::NAN, |held| held.force);
+        let substrate = probes.substrate(i, &scene, options, drive);
+        slips.lateral_force[i] = force;
+        probes.of_law[i] = closed_form::of_law(&substrate, probes.preload_force[i], force);
     }
 }
 
-#[multiversion(targets("x86_64+avx512f", "x86_64+avx2"))]
+#[inline(always)]
 fn finish(rest: &Scene, options: &Options, drive: &Drive, columns: &Columns, probes: &Probes, slips: &mut Slips) {
     for i in 0..AT_ONCE {
         let scene = columns.scene(i, rest);
         let (probe, substrate) = (probes.probe(i), probes.substrate(i, &scene, options, *drive));
         let contact = Contact { radius: slips.contact_radius[i], indentation: 0.0 };
-        let slip: Slip = closed_form::slip(&probe, scene.height, slips.lateral_force[i], contact);
-        let presliding = probes.presliding[i].as_ref();
-        let slip = presliding.map_or(slip, |presliding| presliding.timed(&slip, probe.apex));
-        let squared = slip.squared();
+        let slip = closed_form::slip(&probe, scene.height, slips.lateral_force[i], contact);
         slips.normal_force[i] = slip.normal_force;
-        slips.critical_force[i] = squared.sqrt();
-        slips.travel[i] = slip.travel + slip.advance;
+        slips.critical_force[i] = slip.squared().sqrt();
+        slips.travel[i] = slip.travel;
         slips.twist[i] = slip.twist;
-        slips.error_estimate[i] = closed_form::error(&substrate, &probe, (&slip, presliding), probes.of_law[i]);
+        slips.error_estimate[i] = closed_form::left_out(&substrate, &probe, &slip, probes.of_law[i]).of_ordinary(&slip);
+    }
+}
+
+/// Adds the creep before the slips, which affects only their times.
+fn creep(rest: &Scene, options: &Options, drive: &Drive, columns: &Columns, probes: &Probes, slips: &mut Slips) {
+    for i in 0..AT_ONCE {
+        let scene = columns.scene(i, rest);
+        let drive = Drive { velocity: scene.velocity, stiffness: probes.apex[i], ..*drive };
+        let (probe, substrate) = (probes.probe(i), probes.substrate(i, &scene, options, drive));
+        let contact = Contact { radius: slips.contact_radius[i], indentation: 0.0 };
+        let slip = closed_form::slip(&probe, scene.height, slips.lateral_force[i], contact);
+        let presliding = Presliding::new(&substrate, &slip, &probe, probe.apex).unwrap_or_default();
+        let slip = presliding.map_or(slip, |presliding| presliding.timed(&slip, probe.apex));
+        slips.travel[i] = slip.travel + slip.advance;
+        slips.error_estimate[i] =
+            closed_form::error(&substrate, &probe, (&slip, presliding.as_ref()), probes.of_law[i]);
     }
 }
 

@@ -47,15 +47,19 @@ impl Error {
     /// Returns the relative error of F_cr: |dF_cr| <= (F_Z |dF_Z| + F_Y |dF_Y|)/F_cr. At most 1, which claims nothing.
     #[inline(always)]
     pub fn value(self, slip: &Slip) -> f64 {
+        if slip.squared().is_normal() { self.of_ordinary(slip) } else { self.of_extreme(slip) }
+    }
+
+    /// Returns the same if no square underflows or overflows, without branches.
+    #[inline(always)]
+    pub fn of_ordinary(self, slip: &Slip) -> f64 {
         let shift = slip.normal_force.abs() * self.normal + slip.lateral_force * self.lateral;
-        let squared = slip.squared();
-        if !(squared.is_normal() && shift.is_finite()) {
-            return self.of_extreme(slip);
-        }
         // Errors far above the forces themselves are of second order: dF_cr <= hypot(dF_Z, dF_Y).
         let second = self.normal * self.normal + self.lateral * self.lateral;
         let shift = if second > shift { shift + second } else { shift };
-        if shift > 0.0 { (ROUNDING + shift / squared).min(1.0) } else { ROUNDING }
+        let relative = (ROUNDING + shift / slip.squared()).min(1.0);
+        // An error of NaN claims nothing.
+        if shift > 0.0 || shift.is_nan() { relative } else { ROUNDING }
     }
 
     /// Returns the same if squares over- or underflow. An error of NaN claims nothing.

@@ -132,7 +132,7 @@ impl FrictionLaw {
     /// # Errors
     /// [`Failure::StepBudget`] and [`Failure::StepTooSmall`] of the laws that are integrated; [`Failure::VelocityZero`]
     /// for Lemaitre-Carlson at rest, whose layer grows stronger without limit.
-    #[inline]
+    #[inline(always)]
     pub fn capacity(self, scene: &Scene, pressed: Pressed, drive: &Drive) -> Result<Held, Failure> {
         let load = pressed.load;
         let force = match self {

@@ -37,7 +37,9 @@ proptest! {
     fn many_scenes_have_the_bits_of_each(
         scenes in prop::collection::vec(within_ranges(), 1..=AT_ONCE),
         options in prop::sample::select(closed_form_options(&LAWS)),
+        accurate_time in any::<bool>(),
     ) {
+        let options = Options { accurate_time, ..options };
         let mut forms = ClosedForms::new(&Scene::default(), &options, &factors()).unwrap();
         prop_assert!(solve(&mut forms, &scenes));
         let mut raised = vec![0; Flag::ALL.len()];
@@ -47,11 +49,13 @@ proptest! {
             prop_assert_eq!(slips.normal_force[i], one.normal_force);
             prop_assert_eq!(slips.lateral_force[i], one.lateral_force);
             prop_assert_eq!(slips.critical_force[i], one.critical_force);
-            prop_assert_eq!(slips.travel[i], one.travel);
             prop_assert_eq!(slips.twist[i], one.twist);
             prop_assert_eq!(slips.contact_radius[i], one.contact_radius);
             prop_assert_eq!(slips.error_estimate[i], one.error_estimate);
-            prop_assert_eq!(forms.critical_time(i), one.critical_time);
+            if options.accurate_time {
+                prop_assert_eq!(slips.travel[i], one.travel);
+                prop_assert_eq!(forms.critical_time(i), one.critical_time);
+            }
             prop_assert_eq!(forms.indentation(i), Ok(one.indentation));
             Flag::ALL.iter().zip(&mut raised).for_each(|(&flag, count)| *count += u64::from(one.flags.contains(flag)));
         }
