@@ -1,6 +1,6 @@
 //! Motion of the tip with a particle with mass on LuGre bristles.
 
-use super::motion::{Motion, local_tolerance};
+use super::motion::{Motion, Twist, local_tolerance};
 use super::presliding::REACHED;
 use super::slip::Slip;
 use super::substrate::Substrate;
@@ -39,7 +39,7 @@ impl<'a> Bristles<'a> {
             limit,
             law,
             velocity,
-            agility: motion.time() * motion.force / (particle_mass(scene) * velocity),
+            agility: motion.time * motion.force / (particle_mass(scene) * velocity),
             stiffness: law.stiffness * motion.length / motion.force,
             damping: law.damping * velocity / motion.force,
             viscosity: law.viscous_friction * velocity / motion.force,
@@ -133,7 +133,11 @@ impl<'a> Bristles<'a> {
 
     /// Returns the load of the friction law (N).
     fn load(&self, s: f64, q: f64) -> f64 {
-        self.motion.normal_spring(self.motion.twist(s, q)) + self.substrate.adhesive_load
+        self.load_at(&self.motion.twist(s, q))
+    }
+
+    fn load_at(&self, twist: &Twist) -> f64 {
+        twist.normal_spring + self.substrate.adhesive_load
     }
 
     fn strength(&self, load: f64, u: f64) -> f64 {
@@ -143,23 +147,25 @@ impl<'a> Bristles<'a> {
 
 impl Problem<5> for Bristles<'_> {
     fn rate(&self, t: f64, &[q, w, x, u, p]: &[f64; 5]) -> [f64; 5] {
-        let [rise, turn] = self.motion.rates([t - x, 1.0 - u], &[q, w]);
-        let sprung = u - u.abs() * p / self.strength(self.load(t - x, q), u);
+        let twist = self.motion.twist(t - x, q);
+        let [rise, turn] = self.motion.rates(&twist, 1.0 - u, &[q, w]);
+        let sprung = u - u.abs() * p / self.strength(self.load_at(&twist), u);
         let friction = p + self.damping * sprung + self.viscosity * u;
         [rise, turn, u, self.agility * (q - friction), self.stiffness * sprung]
     }
 
     /// Neglects the change of the load by the twist, which is of second order; the error estimate covers it.
     fn jacobian(&self, t: f64, &[q, w, x, u, p]: &[f64; 5]) -> [[f64; 5]; 5] {
-        let [[rise_q, rise_w, rise_s], [turn_q, turn_w, turn_s]] = self.motion.slopes(t - x, &[q, w]);
-        let load = self.load(t - x, q);
+        let twist = self.motion.twist(t - x, q);
+        let [[rise_q, rise_w, rise_s], [turn_q, turn_w, turn_s]] = self.motion.slopes(&twist, &[q, w]);
+        let load = self.load_at(&twist);
         let strength = self.strength(load, u);
         let slope = self.law.stribeck_slope(load, u * self.velocity) * self.velocity / self.motion.force;
         let by_p = -u.abs() / strength;
         let by_u = 1.0 - u.signum() * p / strength + u.abs() * p * slope / (strength * strength);
         let g = self.agility;
         [
-            [rise_q, rise_w, -rise_s, -self.motion.stiffness(), 0.0],
+            [rise_q, rise_w, -rise_s, -self.motion.stiffness, 0.0],
             [turn_q, turn_w, -turn_s, 0.0, 0.0],
             [0.0, 0.0, 0.0, 1.0, 0.0],
             [g, 0.0, 0.0, -g * (self.damping * by_u + self.viscosity), -g * (1.0 + self.damping * by_p)],
@@ -168,7 +174,7 @@ impl Problem<5> for Bristles<'_> {
     }
 
     fn time_rate(&self, t: f64, &[q, w, x, _, _]: &[f64; 5]) -> [f64; 5] {
-        let [[_, _, rise_s], [_, _, turn_s]] = self.motion.slopes(t - x, &[q, w]);
+        let [[_, _, rise_s], [_, _, turn_s]] = self.motion.slopes(&self.motion.twist(t - x, q), &[q, w]);
         [rise_s, turn_s, 0.0, 0.0, 0.0]
     }
 }

@@ -91,7 +91,7 @@ impl Motion<'_> {
         // The error of the adiabatic swing is of the order of its change in one turn.
         let doubt = overtone / amplitude + self.drift(theta) / turns + 1e-14 * turns + 1e-6;
         let (here, early, late) = (crossing(offset)?, crossing(offset + doubt)?, crossing(offset - doubt)?);
-        let share = 1.0 / (frequency * self.time());
+        let share = 1.0 / (frequency * self.time);
         let away = (here * share).abs();
         let error = ((early - here).abs().max((late - here).abs()) * share + away * away).min(1.0);
         // Before the start, or without a swing, there is no effect.

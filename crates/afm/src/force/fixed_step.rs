@@ -41,7 +41,7 @@ pub(super) fn critical_force(scene: &Scene, options: &Options) -> Result<Critica
 
 fn march(motion: &Motion, substrate: &Substrate, limit: &Slip) -> Result<(Slip, u64), Failure> {
     let options = substrate.options;
-    let h = options.step / motion.time();
+    let h = options.step / motion.time;
     // The slip comes at 1, so at least this many steps are needed.
     if 1.0 > h * options.step_budget as f64 {
         return Err(Failure::StepBudget);

@@ -24,6 +24,21 @@ pub(super) struct Motion<'a> {
     /// I_T (kg m2) and m (kg).
     pub inertia: f64,
     mass: f64,
+    /// The time unit (s): travel to the slip over V.
+    pub time: f64,
+    /// K_y over the unit of stiffness.
+    pub stiffness: f64,
+    /// theta'' in units of V/H per unit of time, per newton of moment over H.
+    agility: f64,
+}
+
+/// A twist of the tip.
+pub(super) struct Twist {
+    theta: f64,
+    sin: f64,
+    cos: f64,
+    /// F_Z of the probe alone (N).
+    pub normal_spring: f64,
 }
 
 /// The tip at an instant, in SI.
@@ -36,24 +51,24 @@ pub(super) struct Tip {
 impl<'a> Motion<'a> {
     /// Creates the motion of a scene whose quasi-static slip is `slip`, at a velocity above zero.
     pub fn new(scene: &'a Scene, statics: &'a Statics<'a>, slip: &Slip) -> Self {
+        let &Slip { lateral_force: force, travel: length, .. } = slip;
+        let (time, inertia, height) = (length / scene.velocity, inertia_about_apex(scene), scene.height);
         Self {
             scene,
             statics,
-            force: slip.lateral_force,
-            length: slip.travel,
-            inertia: inertia_about_apex(scene),
+            force,
+            length,
+            inertia,
             mass: scene.effective_tip_mass(),
+            time,
+            stiffness: statics.probe.lateral * length / force,
+            agility: height * time * (height / scene.velocity) / inertia,
         }
-    }
-
-    /// Returns the time unit (s): travel to the slip over V.
-    pub fn time(&self) -> f64 {
-        self.length / self.scene.velocity
     }
 
     /// Returns the frequency of the fastest motion: the swing of the tip about the apex, in radians per unit of time.
     pub fn frequency(&self) -> f64 {
-        self.swing().frequency * self.time()
+        self.swing().frequency * self.time
     }
 
     pub fn swing(&self) -> Swing {
@@ -62,49 +77,33 @@ impl<'a> Motion<'a> {
 
     /// Returns the twist at the apex position `s` (units of length), with the lateral force `q` (units of force). NaN
     /// if the tip would have to be longer.
-    pub fn twist(&self, s: f64, q: f64) -> f64 {
+    pub fn twist(&self, s: f64, q: f64) -> Twist {
         let deflection = q * self.force / self.statics.probe.lateral;
-        libm::asin((s * self.length - deflection) / self.scene.height)
+        let theta = libm::asin((s * self.length - deflection) / self.scene.height);
+        let (sin, cos) = libm::sincos(theta);
+        Twist { theta, sin, cos, normal_spring: self.statics.normal_force(theta) }
+    }
+
+    /// Returns y' of `Motion` at a twist, where the apex moves at `u` (units of V).
+    pub fn rates(&self, twist: &Twist, u: f64, &[q, w]: &[f64; 2]) -> [f64; 2] {
+        [self.stiffness * (u - w * twist.cos), self.agility * self.moment(twist, q)]
     }
 
     /// Returns the moment about the apex over H (N): F_Y cos theta + F_Z sin theta - K_theta theta/H.
-    fn moment(&self, theta: f64, q: f64) -> f64 {
-        q * self.force * libm::cos(theta) - self.statics.lateral_moment(theta)
-    }
-
-    /// Returns theta'' in units of V/H per unit of time, per newton of moment over H.
-    fn agility(&self) -> f64 {
-        let height = self.scene.height;
-        height * self.time() * (height / self.scene.velocity) / self.inertia
-    }
-
-    /// Returns y' of `Motion` at the apex position `s`, which moves at `u` (units of V).
-    pub fn rates(&self, [s, u]: [f64; 2], &[q, w]: &[f64; 2]) -> [f64; 2] {
-        let theta = self.twist(s, q);
-        [self.stiffness() * (u - w * libm::cos(theta)), self.agility() * self.moment(theta, q)]
-    }
-
-    /// Returns F_Z (N) of the probe alone at a twist.
-    pub fn normal_spring(&self, theta: f64) -> f64 {
-        self.statics.normal_force(theta)
-    }
-
-    /// Returns K_y over the unit of stiffness.
-    pub fn stiffness(&self) -> f64 {
-        self.statics.probe.lateral * self.length / self.force
+    fn moment(&self, twist: &Twist, q: f64) -> f64 {
+        let lateral = self.statics.restoring * twist.theta - twist.normal_spring * twist.sin;
+        q * self.force * twist.cos - lateral
     }
 
     /// Returns the derivatives of [`rates`](Self::rates) by q, w, and s.
-    pub fn slopes(&self, s: f64, &[q, w]: &[f64; 2]) -> [[f64; 3]; 2] {
-        let theta = self.twist(s, q);
-        let (sin, cos) = libm::sincos(theta);
+    pub fn slopes(&self, twist: &Twist, &[q, w]: &[f64; 2]) -> [[f64; 3]; 2] {
+        let (&Self { stiffness, agility, .. }, &Twist { theta, sin, cos, .. }) = (self, twist);
         let by_s = self.length / (self.scene.height * cos);
-        let by_q = -by_s / self.stiffness();
-        let turning = self.stiffness() * w * sin;
+        let by_q = -by_s / stiffness;
+        let turning = stiffness * w * sin;
         let moment = -q * self.force * sin - self.statics.lateral_moment_slope(theta);
-        let agility = self.agility();
         [
-            [turning * by_q, -self.stiffness() * cos, turning * by_s],
+            [turning * by_q, -stiffness * cos, turning * by_s],
             [agility * (self.force * cos + moment * by_q), 0.0, agility * moment * by_s],
         ]
     }
@@ -113,34 +112,33 @@ impl<'a> Motion<'a> {
     /// accelerations of the indentations, which follow the forces.
     pub fn tip(&self, s: f64, &[q, w]: &[f64; 2]) -> Tip {
         let twist = self.twist(s, q);
-        let (sin, cos) = libm::sincos(twist);
+        let Twist { theta, sin, cos, normal_spring } = twist;
         let height = self.scene.height;
         let spin = w * self.scene.velocity / height;
         let lateral_spring = q * self.force;
-        let moment = self.moment(twist, q);
+        let moment = self.moment(&twist, q);
         let angular = height * moment / self.inertia;
         let half = 0.5 * self.mass * height;
         // I_p = I_T - m H^2/2.
         let turning = (self.inertia - half * height) / height * angular;
-        let normal_spring = self.statics.normal_force(twist);
         // [K_theta th/H] sin th + K_z z_P cos^2 th - K_y y_P sin th cos th, minus the moment it contains.
         let normal_force = normal_spring - moment * sin + turning * sin - half * cos * spin * spin;
         let lateral_force = lateral_spring + half * (spin * spin * sin - angular * cos);
-        Tip { twist, lateral_force, normal_force }
+        Tip { twist: theta, lateral_force, normal_force }
     }
 }
 
 impl Problem<2> for Motion<'_> {
     fn rate(&self, t: f64, y: &[f64; 2]) -> [f64; 2] {
-        self.rates([t, 1.0], y)
+        self.rates(&self.twist(t, y[0]), 1.0, y)
     }
 
     fn jacobian(&self, t: f64, y: &[f64; 2]) -> [[f64; 2]; 2] {
-        self.slopes(t, y).map(|[by_q, by_w, _]| [by_q, by_w])
+        self.slopes(&self.twist(t, y[0]), y).map(|[by_q, by_w, _]| [by_q, by_w])
     }
 
     fn time_rate(&self, t: f64, y: &[f64; 2]) -> [f64; 2] {
-        self.slopes(t, y).map(|[_, _, by_s]| by_s)
+        self.slopes(&self.twist(t, y[0]), y).map(|[_, _, by_s]| by_s)
     }
 }
 

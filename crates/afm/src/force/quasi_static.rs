@@ -98,7 +98,7 @@ pub(crate) struct Statics<'a> {
     /// Tip height H (m).
     height: f64,
     /// K_theta/H (N).
-    restoring: f64,
+    pub(super) restoring: f64,
 }
 
 impl<'a> Statics<'a> {

@@ -38,8 +38,9 @@ impl<const N: usize> Factors<N> {
 
     /// Returns the solution for the right-hand side `b`.
     pub fn solve(&self, b: &[f64; N]) -> [f64; N] {
-        let mut x: [f64; N] = std::array::from_fn(|i| b[self.rows[i]]);
+        let mut x = [0.0; N];
         for i in 0..N {
+            x[i] = b[self.rows[i]];
             for k in 0..i {
                 x[i] -= self.matrix[i][k] * x[k];
             }

@@ -70,9 +70,11 @@ impl Method for Rodas {
             }
             let rate = if stage == 0 { start.rate } else { problem.rate(start.t + TIMES[stage] * h, &y) };
             let coupling = if stage == 0 { [0.0; N] } else { shifted(&[0.0; N], &C[stage - 1], &k) };
-            k[stage] = factors.solve(&std::array::from_fn(|i| {
-                rate[i] + mass[i] * coupling[i] / h + h * TIME_RATES[stage] * time_rate[i]
-            }));
+            let mut b = [0.0; N];
+            for i in 0..N {
+                b[i] = rate[i] + mass[i] * coupling[i] / h + h * TIME_RATES[stage] * time_rate[i];
+            }
+            k[stage] = factors.solve(&b);
         }
         let end: [f64; N] = std::array::from_fn(|i| y[i] + k[5][i]);
         let rise = std::array::from_fn(|i| end[i] - start.y[i]);
