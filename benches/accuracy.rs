@@ -176,7 +176,7 @@ fn curves((name, kind): (&'static str, &'static str), sampler: Sampler) -> Vec<C
 }
 
 fn write(name: &str, bytes: &[u8]) {
-    let folder = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join("docs/accuracy");
+    let folder = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/..")).join("docs/accuracy");
     write_atomically(&folder.join(name), bytes).expect("docs/accuracy can be written");
 }
 

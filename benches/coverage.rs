@@ -267,7 +267,7 @@ fn cell(sample: &Sample, exact: &[f64], ideal: &[f64]) -> Cell {
 fn main() {
     let seeds = std::env::args().filter_map(|argument| argument.parse().ok()).next();
     let write = seeds.is_none();
-    let docs = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs");
+    let docs = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs");
     if std::env::args().any(|argument| argument == "skewed") {
         let csv = skewed(seeds.unwrap_or(2 * SEEDS));
         std::fs::write(format!("{docs}/coverage-skewed.csv"), csv).expect("docs/ can be written");

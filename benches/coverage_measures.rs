@@ -392,7 +392,7 @@ fn main() {
     deltas(&mut text, seeds.min(DELTA_SEEDS));
     println!("{text}");
     if asked.is_none() {
-        let page = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/coverage-measures.md");
+        let page = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/coverage-measures.md");
         std::fs::write(page, text).expect("docs/ can be written");
     }
 }

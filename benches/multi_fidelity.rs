@@ -197,7 +197,7 @@ fn main() {
         }
     }
     if asked.is_none() {
-        let page = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join("docs/accuracy/multi-fidelity.md");
+        let page = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/..")).join("docs/accuracy/multi-fidelity.md");
         let head = include_str!("multi_fidelity.md.in");
         std::fs::write(page, format!("{head}\n{text}")).expect("docs/accuracy can be written");
     }

@@ -142,8 +142,7 @@ fn functions(seeds: u64) -> String {
 
 fn motion(seeds: u64) -> String {
     let load = |name: &str, more: &[String]| {
-        let path =
-            Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join("studies").join(format!("{name}.toml"));
+        let path = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/..")).join("studies").join(format!("{name}.toml"));
         let sets = [&["afm.fidelity=dynamic".to_owned()], more].concat();
         apportion_files::load_study(&path, &sets).expect("a study of the repository")
     };
@@ -197,7 +196,7 @@ fn main() {
     }
     let (first, second) = (functions(seeds), motion(seeds));
     if asked.is_none() {
-        let page = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join("docs/accuracy/promise.md");
+        let page = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/..")).join("docs/accuracy/promise.md");
         let head = include_str!("promise.md.in");
         std::fs::write(page, format!("{head}\n{first}\n{second}")).expect("docs/accuracy can be written");
     }

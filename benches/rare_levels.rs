@@ -459,7 +459,7 @@ fn main() {
     let first = if only("accuracy") { String::new() } else { indices(seeds) };
     let second = if only("indices") { String::new() } else { accuracy(seeds.min(20)) };
     if asked.is_none() {
-        let page = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join("docs/accuracy/rare-levels.md");
+        let page = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/..")).join("docs/accuracy/rare-levels.md");
         let head = include_str!("rare_levels.md.in");
         std::fs::write(page, format!("{head}\n{first}\n{second}")).expect("docs/accuracy can be written");
     }

@@ -245,7 +245,7 @@ fn main() {
     print!("{text}");
     if asked.is_none() {
         let head = include_str!("small_budgets.md.in");
-        let path = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join("docs/small-budgets.md");
+        let path = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/..")).join("docs/small-budgets.md");
         std::fs::write(path, head.replace("SEEDS", &seeds.to_string()) + &text).expect("the page can be written");
     }
 }

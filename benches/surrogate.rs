@@ -456,7 +456,7 @@ fn write(folder: &Path, cells: &[Cell]) {
 
 fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).filter(|text| text != "--bench").collect();
-    let folder = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join("docs/accuracy");
+    let folder = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/..")).join("docs/accuracy");
     let table = folder.join("surrogate.csv");
     if arguments.first().is_some_and(|word| word == "draw") {
         write(&folder, &written_before(&table));

@@ -1,6 +1,6 @@
 """What the README, the pages of the book and the README of this package show of Python, runs.
 
-The comments above blocks are those of `tests/suite/book.rs`, which runs everything else on the pages.
+The comments above blocks are those of `tests/documents/book.rs`, which runs everything else on the pages.
 """
 
 import re

@@ -14,6 +14,51 @@ pub const HOLES: &str = "model = \"expression\"\n\
     outputs.y = \"sin(x1) + 7*sin(x2)^2 + 0.1*x3^4*sin(x1) + 0*sqrt(3 - abs(x3))\"\n[factors]\n\
     x1 = { min = -3.14159, max = 3.14159 }\nx2 = { min = -3.14159, max = 3.14159 }\nx3 = { min = -3.14159, max = 3.14159 }\n";
 
+/// A study with a factor of every family that people asked for, among them truncated ones; its model is their sum.
+pub const FAMILIES: &str = r#"model = "expression"
+[outputs]
+y = "g + e + p + t + l + a + h + q + n"
+[design]
+base_samples = 4096
+[factors.g]
+distribution = "gamma"
+mean = 2
+sd = 1
+[factors.e]
+distribution = "exponential"
+mean = 1
+truncate = [0.5, inf]
+[factors.p]
+distribution = "poisson"
+mean = 4
+[factors.t]
+distribution = "student-t"
+df = 5
+location = 0
+scale = 1
+[factors.l]
+distribution = "logistic"
+mean = 2
+sd = 1
+[factors.a]
+distribution = "pareto"
+shape = 1
+min = 1
+truncate = [-inf, 4]
+[factors.h]
+distribution = "histogram"
+quantiles = { "0" = 1, "0.5" = 2, "1" = 5 }
+[factors.q]
+distribution = "histogram"
+edges = [0, 1, 3]
+weights = [1, 3]
+[factors.n]
+distribution = "normal"
+mean = 0
+sd = 1
+truncate = [-inf, 0]
+"#;
+
 /// A folder of its own for a test, with files in it.
 pub struct Folder(tempfile::TempDir);
 
@@ -112,7 +157,7 @@ pub fn run_in_parts(file: &Path, merged: &Path) {
 
 /// The folder of the sources.
 pub fn root() -> &'static Path {
-    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))
+    Path::new(env!("CARGO_MANIFEST_DIR")).ancestors().find(|folder| folder.join("studies").is_dir()).unwrap()
 }
 
 /// A study of this repository.

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use serde_json::Value;
 
-use crate::common::{Folder, apportion, stderr, succeed, text};
+use crate::common::{FAMILIES, Folder, apportion, stderr, succeed, text};
 
 /// A study with a factor of every kind; its model gives what it gets.
 const STUDY: &str = r#"model = "expression"
@@ -220,51 +220,6 @@ fn points_of_no_category_are_refused() {
         );
     }
 }
-
-/// A study with a factor of every family that people asked for, among them truncated ones; its model is their sum.
-pub const FAMILIES: &str = r#"model = "expression"
-[outputs]
-y = "g + e + p + t + l + a + h + q + n"
-[design]
-base_samples = 4096
-[factors.g]
-distribution = "gamma"
-mean = 2
-sd = 1
-[factors.e]
-distribution = "exponential"
-mean = 1
-truncate = [0.5, inf]
-[factors.p]
-distribution = "poisson"
-mean = 4
-[factors.t]
-distribution = "student-t"
-df = 5
-location = 0
-scale = 1
-[factors.l]
-distribution = "logistic"
-mean = 2
-sd = 1
-[factors.a]
-distribution = "pareto"
-shape = 1
-min = 1
-truncate = [-inf, 4]
-[factors.h]
-distribution = "histogram"
-quantiles = { "0" = 1, "0.5" = 2, "1" = 5 }
-[factors.q]
-distribution = "histogram"
-edges = [0, 1, 3]
-weights = [1, 3]
-[factors.n]
-distribution = "normal"
-mean = 0
-sd = 1
-truncate = [-inf, 0]
-"#;
 
 /// Indices of a sum are the shares of the variances, which all have closed forms here.
 #[test]

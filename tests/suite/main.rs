@@ -4,8 +4,6 @@ mod accuracy;
 mod afm_contact_oracle;
 mod afm_slip_oracle;
 mod analytic;
-#[cfg(unix)]
-mod book;
 mod builder;
 mod command;
 mod commands;
@@ -49,7 +47,6 @@ mod run_measures;
 mod salib;
 mod scatter;
 mod scenes;
-mod schema;
 mod screening;
 mod series;
 mod series_files;

@@ -57,7 +57,6 @@ fn read(path: &Path) -> Page {
 
 /// Every page is tried before the test fails, two at a time.
 #[test]
-#[ignore = "runs all commands of the book, which .ci/run does"]
 fn what_the_pages_show_comes_out() {
     let (waiting, faults) = (Mutex::new(pages()), Mutex::new(Vec::new()));
     let work = || {

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use jsonschema::Validator;
 use serde_json::{Value, json};
 
-use crate::common::{analysed, apportion, stderr, stdout, study_path};
+use crate::common::{FAMILIES, analysed, apportion, stderr, stdout, study_path};
 
 fn validator(kind: &str) -> Validator {
     let output = apportion(&["schema", kind]);
@@ -45,7 +45,7 @@ fn every_study_of_the_repository_fits_the_schema() {
 fn a_study_of_all_families_fits_the_schema() {
     let validator = validator("study");
     // JSON has no infinity.
-    let text = crate::factors::FAMILIES.replace("inf]", "1e9]").replace("[-inf", "[-1e9");
+    let text = FAMILIES.replace("inf]", "1e9]").replace("[-inf", "[-1e9");
     assert_eq!(complaints(&validator, &study(&text)), Vec::<String>::new());
     for wrong in
         ["truncate = [1]", "quantiles = [1, 2]", "components = []", "components = [{ name = \"x\" }]", "df = \"x\""]
@@ -151,5 +151,22 @@ fn results_fit_the_schema() {
             *changed.pointer_mut(pointer).unwrap() = wrong;
             assert!(!validator.is_valid(&changed), "{pointer}");
         }
+    }
+}
+
+/// Editors know every form that is read.
+#[test]
+fn the_forms_of_factors_and_outputs_fit_the_schema() {
+    let validator = validator("study");
+    for form in [
+        "[factors]\na = { min = 0, max = 1 }",
+        "[[factor]]\nname = \"a\"\nmin = 0\nmax = 1",
+        "outputs.y = \"x1\"",
+        "outputs = [\"y\"]",
+    ] {
+        assert_eq!(complaints(&validator, &study(form)), Vec::<String>::new(), "{form}");
+    }
+    for form in ["factors.a = { mim = 0 }", "factors.a = 3", "[factor]\nmin = 1", "outputs = \"y\""] {
+        assert!(!validator.is_valid(&study(form)), "{form}");
     }
 }
