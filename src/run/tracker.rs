@@ -59,8 +59,7 @@ impl<'r> Tracker<'r> {
         let mut first = self.error.lock().unwrap_or_else(PoisonError::into_inner);
         let replaces = match (&*first, &error) {
             (Some(RunError::RowFailed { row: first, .. }), RunError::RowFailed { row, .. }) => row < first,
-            (Some(_), RunError::RowFailed { .. }) | (None, _) => true,
-            (Some(_), _) => false,
+            (first, _) => first.is_none(),
         };
         if replaces {
             *first = Some(error);
