@@ -154,7 +154,7 @@ fn a_job_whose_ranks_are_killed_goes_on_with_any_number_of_them() {
     }
     let last = on_ranks(3, &arguments).unwrap();
     assert_eq!(last.status.code(), Some(0), "{}", stderr(&last));
-    assert!(stderr(&last).contains(" runs are on record in "), "{}", stderr(&last));
+    assert!(stderr(&last).contains(" runs are already saved in "), "{}", stderr(&last));
     let asked = std::fs::read_to_string(folder.path("asked.txt")).unwrap().lines().count();
     // Each rank has at most two pieces of at most a fifth of a second: that much is lost, of 4 ms a row.
     assert!(asked <= 8192 + KILLS * 4 * 2 * 50, "{asked} rows");

@@ -39,7 +39,7 @@ fn both_layouts_are_recognised_by_their_points() {
         assert_eq!(recognise(48, &members, Some(layout), None), Ok(layout));
     }
     assert_eq!(recognise(18, &members, None, None), Ok(SalibLayout::SecondOrder));
-    assert!(refused(7).starts_with("7 rows are no whole number of base points"));
+    assert!(refused(7).starts_with("7 rows are not a whole number of base points"));
     assert!(refused(4).starts_with("4 rows are a single base point"));
 }
 

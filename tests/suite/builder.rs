@@ -107,7 +107,7 @@ fn what_cannot_be_built_says_why() {
     let two = || sum().factor("a", unit()).factor("b", unit());
     let reason = |builder: StudyBuilder| builder.build().unwrap_err().to_string();
     assert_eq!(reason(sum()), "a design needs at least one factor");
-    assert_eq!(reason(two().factor("a", unit())), "factor or output `a` is there twice");
+    assert_eq!(reason(two().factor("a", unit())), "factor or output `a` is listed twice");
     assert!(reason(two().base_samples(2)).contains("base_samples = 2 is too few for 4 replicates"));
     assert!(reason(two().replicates(0)).contains("replicates = 0"));
     let key = |builder: StudyBuilder| match builder.build() {

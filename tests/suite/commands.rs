@@ -80,7 +80,7 @@ fn what_is_no_result_is_refused_with_file_and_place() {
             "{\"format\": \"apportion-screening\", \"version\": 1}",
             "\"apportion-screening\", expected \"apportion-result\"",
         ),
-        ("{\"format\": \"apportion-result\", \"version\": 9}", "version 9 of the format is not known"),
+        ("{\"format\": \"apportion-result\", \"version\": 9}", "format version 9 is unknown"),
     ] {
         std::fs::write(&path, content).unwrap();
         for command in [vec!["report", text(&path)], vec!["compare", text(&path), text(&path)]] {
@@ -224,10 +224,8 @@ fn new_overwrites_nothing_and_names_what_it_does_not_know() {
     let message = refused(&["new", text(&other), "--factors", "thicknes"]);
     assert!(message.contains("--factors: unknown factor `thicknes`: did you mean `thickness`?"), "{message}");
     let message = refused(&["new", text(&other), "--outputs", "critical_force,critical_force"]);
-    assert!(message.contains("--outputs: output `critical_force` stands here twice"), "{message}");
-    assert!(
-        refused(&["new", text(&other), "--factors", "length,length"]).contains("factor `length` stands here twice")
-    );
+    assert!(message.contains("--outputs: output `critical_force` is listed twice"), "{message}");
+    assert!(refused(&["new", text(&other), "--factors", "length,length"]).contains("factor `length` is listed twice"));
     assert!(refused(&["new", text(&other), "--outputs", "force"]).contains("--outputs: unknown output `force`"));
     assert!(refused(&["new", text(&other), "--model", "ishigam"]).contains("did you mean `ishigami`?"));
     let message = refused(&["new", text(&other), "--model", "command", "--factors", "a,"]);

@@ -160,7 +160,7 @@ fn parameters_of_functions() {
     let refused = |table: &str, expected: &[&str]| {
         assert_refused(&format!("model = \"sobol-g\"\n[function]\n{table}\n"), expected)
     };
-    refused("b = 3", &["study.toml:3:1:", "unknown key `b`", "keys that can stand here: a, dimension"]);
+    refused("b = 3", &["study.toml:3:1:", "unknown key `b`", "keys allowed here: a, dimension"]);
     refused("dimensions = 3", &["study.toml:3:1:", "did you mean `dimension`?"]);
     refused("a = \"1\"", &["study.toml:3:5:", "`a` must be a number or a list of numbers, not string"]);
     refused("a = [1, true]", &["study.toml:3:5:", "a list of numbers"]);
@@ -231,7 +231,10 @@ fn keys_that_end_a_run() {
     refused("max_time = \"-1 s\"", &["study.toml:5:12:", "a time above 0"]);
     refused("max_time = 30", &["study.toml:5:12:"]);
     refused("base_samples = 64\nruns = 300", &["`base_samples` must be alone"]);
-    refused("base_samples = 64\nmax_runs = 300", &["study.toml:6:12:", "`max_runs` must be with `accuracy`, or alone"]);
+    refused(
+        "base_samples = 64\nmax_runs = 300",
+        &["study.toml:6:12:", "`max_runs` must be used with `accuracy` or alone"],
+    );
     refused("max_runs = -1", &["study.toml:5:12:", "whole number"]);
     refused("max_runs = 15", &["study.toml:5:12:", "32 or more"]);
     refused("sampler = \"latin-hypercube\"\nmax_runs = 1000", &["study.toml:5:11:", "`sampler` must be"]);
@@ -290,7 +293,7 @@ fn the_first_failed_run_ends_a_run_that_says_so() {
         let message = stderr(&output);
         assert_eq!(output.status.code(), Some(1), "{message}");
         assert!(
-            message.contains("the study says to stop then") && message.contains("the run's inputs: x1 = "),
+            message.contains("the study stops at the first failure") && message.contains("the run's inputs: x1 = "),
             "{message}"
         );
         let files = crate::common::files(&out);

@@ -211,7 +211,7 @@ fn a_study_tells_the_distributions() {
     );
     assert!(result.outputs[0].surrogate.is_none() && result.outputs[0].indices.is_some());
     std::fs::write(&path, study(1.0).replace("x3", "x4")).unwrap();
-    Run::of(&content, &with_study).refused("the input `x3` is no factor of the study");
+    Run::of(&content, &with_study).refused("the input `x3` is not a factor of the study");
 }
 
 #[test]

@@ -111,7 +111,7 @@ fn a_signal_ends_a_run_in_order_and_resume_goes_on() {
         let (code, messages) = ended(child);
         assert_eq!(code, Some(1), "{messages}");
         assert!(messages.contains("error: interrupted after ") && messages.contains(" of 1536 runs"), "{messages}");
-        assert!(messages.contains("lugre-environmental.journal: the same command with --resume goes on"), "{messages}");
+        assert!(messages.contains("lugre-environmental.journal: repeat the command with --resume"), "{messages}");
         let resumed = apportion(&words(&slow(&stopped, &["--resume"])));
         assert_eq!(resumed.status.code(), Some(0), "{}", stderr(&resumed));
         assert!(on_record(&stderr(&resumed)) > 100, "{}", stderr(&resumed));
@@ -196,7 +196,7 @@ fn a_journal_of_another_study_is_refused_with_the_reason_or_moved_aside() {
     assert_eq!((output.status.code(), on_record(&stderr(&output))), (Some(0), 0));
     assert!(stderr(&output).contains(": the journal was moved to ") && out.join("ishigami.journal.old").is_file());
     std::fs::write(out.join("ishigami.journal"), "x1,x2\n").unwrap();
-    refused(&other(&["--resume"]), 2, "this is no journal of a run: it does not begin as one");
+    refused(&other(&["--resume"]), 2, "this is not a journal of a run: it does not begin like a journal");
     let before = std::fs::read(out.join("ishigami.journal.old")).unwrap();
     assert_eq!(other(&[]).status.code(), Some(0));
     // Nothing that was moved aside is lost.
@@ -303,7 +303,7 @@ fn a_full_disk_ends_a_run_without_loss() {
     limited.args(["-c", "trap '' XFSZ; ulimit -f 8; exec \"$@\"", "bash", text(program)]).args(slow(&full, &[]));
     let output = limited.output().unwrap();
     refused(&output, 1, "cannot keep the outputs of finished runs: File too large");
-    assert!(stderr(&output).contains("the same command with --resume goes on with them"), "{}", stderr(&output));
+    assert!(stderr(&output).contains("repeat the command with --resume to continue"), "{}", stderr(&output));
     let resumed = apportion(&words(&slow(&full, &["--resume"])));
     assert_eq!(resumed.status.code(), Some(0), "{}", stderr(&resumed));
     assert!(on_record(&stderr(&resumed)) > 100, "{}", stderr(&resumed));

@@ -40,7 +40,7 @@ fn a_split_design_is_doubled_as_it_is() {
             apportion(&["run", study, "--set", "design.runs=100", "--double", "--out", out, "--charts", "none"]);
         assert_eq!(doubled.status.code(), Some(0), "{}", stderr(&doubled));
         let (now, recorded) =
-            (design(), format!("note: {} of {} runs are on record", before.model_runs, 2 * before.model_runs));
+            (design(), format!("note: {} of {} runs are already saved", before.model_runs, 2 * before.model_runs));
         assert!(stderr(&doubled).contains(&recorded), "{}", stderr(&doubled));
         assert_eq!((now.base_samples, now.plain_rows), (2 * before.base_samples, first.plain_rows));
     }
@@ -62,14 +62,8 @@ fn a_run_that_chose_its_design_is_not_doubled_but_made_more_accurate() {
     let said = succeed(&["run", study, "--accuracy", "0.05", "--out", out, "--charts", "none"]);
     assert!(said.contains("make the same run again, to the bit.\n    [design]\n    runs = "), "{said}");
     let before = files(Path::new(out));
-    refused(
-        &["run", study, "--double", "--out", out],
-        "ask for one again, which goes on with its runs: --accuracy 0.025",
-    );
-    refused(
-        &["run", study, "--retry-failed", "--out", out],
-        "ask for one again, which goes on with its runs: --accuracy 0.05",
-    );
+    refused(&["run", study, "--double", "--out", out], "use --accuracy 0.025 instead");
+    refused(&["run", study, "--retry-failed", "--out", out], "use --accuracy 0.05 instead");
     assert_eq!(files(Path::new(out)), before);
     succeed(&["run", study, "--accuracy", "0.025", "--out", out, "--charts", "none"]);
     assert_eq!(files(Path::new(out)), before);
@@ -86,7 +80,7 @@ fn rows_behind_the_last_one_are_not_passed_over() {
     for (rest, expected) in [
         (outputs.as_str(), "row 33: column `y`: expected a number"),
         ("abc\n", "row 33: column `y`: expected a number"),
-        ("1\n2\n", "the file has 34 rows, and the design 32"),
+        ("1\n2\n", "the file has 34 rows, but the design has 32"),
     ] {
         let data = folder.with("z.csv", format!("{outputs}{rest}"));
         refused(&["analyze", text(&data), "--design", design, "--out", out], expected);
@@ -103,7 +97,7 @@ fn a_file_that_is_read_is_not_written() {
     for output in [&points, &same, &study] {
         refused(
             &["evaluate", text(&study), text(&points), "-o", text(output)],
-            "this file is read, and would be overwritten",
+            "this is the input file, and it would be overwritten",
         );
     }
     assert_eq!(std::fs::read_to_string(points).unwrap(), "a,b\n0.5,1\n");
@@ -116,7 +110,7 @@ fn sample_overwrites_its_own_designs_alone() {
     let (study, table) = (folder.with("s.toml", SUM), folder.with("t.csv", "a,b\n0.5,1\n"));
     let sample = |more: &[&str]| apportion(&[&["sample", text(&study), "-o", text(&table)], more].concat());
     let expected =
-        "exists already, and is no design that `sample` wrote of this study: give another name, or add --force";
+        "exists already, and is not a design that `sample` wrote of this study: give another name, or add --force";
     for more in [&[][..], &["--random", "10"]] {
         let output = sample(more);
         assert!(output.status.code() == Some(2) && stderr(&output).contains(expected), "{}", stderr(&output));
@@ -137,7 +131,7 @@ fn factors_without_a_column_are_told_with_their_values() {
     let (study, points, out) = (folder.with("s.toml", SUM), folder.with("p.csv", "b\n1\n"), folder.path("o.csv"));
     let output = apportion(&["evaluate", text(&study), text(&points), "-o", text(&out)]);
     let said = stderr(&output);
-    let expected = "p.csv: factors without a column stand at their nominal values: a = 0.25 mm\n";
+    let expected = "p.csv: factors without a column are at their nominal values: a = 0.25 mm\n";
     assert!(output.status.code() == Some(0) && said.contains(expected), "{said}");
 }
 
@@ -204,8 +198,5 @@ fn text_that_is_not_utf_8_is_told_with_its_line() {
     let latin = folder.with("latin.toml", b"model = \"ishigami\"\n# caf\xe9\n");
     refused(&["check", text(&latin)], "cannot read the study file: line 2 is not text in UTF-8: save it as UTF-8");
     let (study, points) = (folder.with("s.toml", SUM), folder.with("p.csv", b"a,b\n0.5,\xe9\n"));
-    refused(
-        &["evaluate", text(&study), text(&points), "-o", text(&folder.path("o.csv"))],
-        "line 2: it is not text in UTF-8",
-    );
+    refused(&["evaluate", text(&study), text(&points), "-o", text(&folder.path("o.csv"))], "line 2: not text in UTF-8");
 }

@@ -59,7 +59,7 @@ fn the_page_of_a_run_links_to_its_own() {
     let to = folder.path("out");
     let out = ["--charts", "none", "--base-samples", "256", "--out", text(&to)];
     let done = stderr(&apportion(&[&["run", text(&study_path("ishigami"))], &out[..]].concat()));
-    assert!(done.contains("ishigami.html, and ishigami-live.html to try other ranges in"), "{done}");
+    assert!(done.contains("ishigami.html, and the interactive page ishigami-live.html"), "{done}");
     let page = std::fs::read_to_string(to.join("ishigami.html")).unwrap();
     assert!(page.contains("href=\"ishigami-live.html\"") && page.contains("Try your own ranges"));
     assert_eq!(presets(&std::fs::read_to_string(to.join("ishigami-live.html")).unwrap()).len(), 1);

@@ -193,10 +193,7 @@ fn what_makes_no_sense_is_refused() {
         (format!("{FORMULA}{x}[factors.s]\ndistribution = \"seed\"\ntruncate = [0, 5]"), "no order"),
         (format!("{FORMULA}{x}[factors.s]\ndistribution = \"seed\"\nunit = \"um\""), "a seed is a pure number"),
         (format!("{FORMULA}{x}[factors.s]\ndistribution = \"seed\"\nmin = 0"), "has no `min`"),
-        (
-            "model = \"external\"\noutputs = [\"y\"]\n[noise]\nrepetitions = 4\n".to_owned() + x,
-            "outside of this program",
-        ),
+        ("model = \"external\"\noutputs = [\"y\"]\n[noise]\nrepetitions = 4\n".to_owned() + x, "outside this program"),
         ("model = \"ishigami\"\nnoise = \"seed\"\n".to_owned() + &x.replace(".x]", ".x1]"), "seed"),
     ] {
         let found = refused(&text);
@@ -237,7 +234,7 @@ fn a_run_tells_random_programs_from_those_that_remember() {
         ("y = x", None),
         ("y = x + random.random()", Some("the model draws random numbers")),
         // From one seed at its start.
-        ("n = globals().get('n') or random.Random(1); y = x + n.random()", Some("depends on the rows before")),
+        ("n = globals().get('n') or random.Random(1); y = x + n.random()", Some("depend on earlier rows")),
     ] {
         let study = program(&folder, draws);
         let study = folder.with("s.toml", std::fs::read_to_string(study).unwrap().replace("noise = \"seed\"\n", ""));

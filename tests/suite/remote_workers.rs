@@ -134,7 +134,7 @@ fn a_lost_worker_ends_the_run() {
     let study = load("ishigami", &["design.base_samples=65536"]);
     let lost = with_workers(&study, 2, 3, |far| study.runner().threads(1).remote_workers(far).run());
     let message = lost.unwrap_err().to_string();
-    assert!(message.starts_with("the worker number ") && message.contains("in another process is lost"), "{message}");
+    assert!(message.starts_with("worker ") && message.contains("in another process was lost"), "{message}");
 }
 
 /// The exit code of a run that sees these variables, and what it said.

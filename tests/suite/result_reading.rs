@@ -67,7 +67,7 @@ fn parts_that_do_not_fit_together_are_named() {
     let mut twice = whole;
     let output = twice["outputs"][0].clone();
     twice["outputs"].as_array_mut().unwrap().push(output);
-    assert!(parsed(&twice).unwrap_err().to_string().contains("`outputs[1].name`: the output \"y\" is there twice"));
+    assert!(parsed(&twice).unwrap_err().to_string().contains("`outputs[1].name`: the output \"y\" is listed twice"));
 }
 
 /// Every leaf of a result replaced by rubbish of its kind: it is refused, or all of it is drawn without a panic.

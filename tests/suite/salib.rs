@@ -57,7 +57,7 @@ fn tables_of_salib_are_recognised_checked_and_analysed() {
     sampled.refused(
         "t.csv",
         &salib,
-        "47 rows are no whole number of base points: for 2 inputs or groups there are 6 rows each",
+        "47 rows are not a whole number of base points: for 2 inputs or groups there are 6 rows each",
     );
     let mut missing = salib_table(true);
     let (inputs, _) = missing[1].rsplit_once(',').unwrap();
@@ -67,7 +67,7 @@ fn tables_of_salib_are_recognised_checked_and_analysed() {
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let result = read_result(&sampled.path("out").join("t.json")).unwrap();
     assert_eq!((result.outputs[0].runs_failed, result.outputs[0].base_points_used), (1, 7));
-    sampled.refused("t.csv", &["--layout", "salib"], "which columns are outputs?");
+    sampled.refused("t.csv", &["--layout", "salib"], "the outputs are unknown");
     std::fs::write(sampled.path("p.json"), "{\"names\": [\"x1\"], \"num_vars\": 2}").unwrap();
     let problem = sampled.name("p.json");
     sampled.refused("t.csv", &["--layout", "salib", "--problem", &problem], "`num_vars` is 2, but `names` has 1");

@@ -189,9 +189,9 @@ fn bad_requests_are_refused_before_anything_is_written() {
         &["--design", "trajectory", "--levels", "5"],
         "5 levels: the trajectory design needs an even number",
     );
-    refused("screen", &["--levels", "4"], "--levels is of no account to the radial design");
+    refused("screen", &["--levels", "4"], "--levels has no effect on the radial design");
     refused("screen", &["--design", "star"], "radial, trajectory, derivative");
-    refused("screen", &["--design", "derivative", "--levels", "4"], "of no account to the derivative design");
+    refused("screen", &["--design", "derivative", "--levels", "4"], "has no effect on the derivative design");
     refused("screen", &["--seed", "-1"], "-1");
     refused("screen", &["--set", "factor.length.max=100"], "must be below");
     refused(
@@ -200,7 +200,7 @@ fn bad_requests_are_refused_before_anything_is_written() {
         "the study has no factor `thicknes`: did you mean `thickness`?; its factors are length,",
     );
     refused("sweep", &["--points", "1"], "expected a whole number from 2 to 100000");
-    refused("sweep", &["--factor", "length", "--factor", "length"], "factor `length` is asked for twice");
+    refused("sweep", &["--factor", "length", "--factor", "length"], "factor `length` is listed twice");
 }
 
 #[test]

@@ -212,5 +212,5 @@ fn what_is_wrong_with_a_series_is_said_at_its_place() {
         refused(model, "outputs.y = { length = 3 }\noutputs.\"y[1]\" = \"1\"", "y[1]");
     }
     let pick = "command.template = \"s.toml\"\noutputs.y = { length = 3, column = \"y\", match = \"last\" }";
-    refused("command", pick, "only of a single number");
+    refused("command", pick, "only for a single number");
 }

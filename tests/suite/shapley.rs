@@ -204,7 +204,7 @@ fn what_cannot_be_is_refused() {
     for (change, expected) in [
         ("analysis.shapley_method=\"subsets\"", "at most 8 players"),
         ("analysis.shapley_method=\"orders\"", "permutations"),
-        ("analysis={shapley=false, shapley_method=\"permutations\"}", "true with a choice of how"),
+        ("analysis={shapley=false, shapley_method=\"permutations\"}", "true with `shapley_method`"),
     ] {
         let output = apportion(&["check", text(&file), "--set", change]);
         assert_eq!(output.status.code(), Some(2), "{change}");

@@ -278,7 +278,7 @@ fn groups_serve_where_factors_are_too_many_and_what_cannot_be_is_refused() {
     for (file, change, expected) in [
         (&file, "analysis.shapley_players=\"teams\"", "groups"),
         (&file, "analysis={shapley=false, shapley_players=\"groups\"}", "`shapley` must be true"),
-        (&lone, "analysis.shapley=true", "where factors have a group"),
+        (&lone, "analysis.shapley=true", "in a study without groups"),
     ] {
         let output = apportion(&["check", text(file), "--set", change]);
         assert_eq!(output.status.code(), Some(2), "{change}");

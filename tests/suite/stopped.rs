@@ -90,7 +90,11 @@ fn a_journal_or_result_is_a_file() {
             }
             let output = run(more);
             assert_eq!(output.status.code(), Some(2), "{more:?}: {}", stderr(&output));
-            assert!(stderr(&output).contains("a pipe, a device or a folder is there"), "{}", stderr(&output));
+            assert!(
+                stderr(&output).contains("a pipe, a device or a folder has the name of the journal"),
+                "{}",
+                stderr(&output)
+            );
         }
         let merged = apportion(&["merge", text(&study), "--out", text(&out)]);
         assert_eq!(merged.status.code(), Some(2), "{}", stderr(&merged));

@@ -66,14 +66,14 @@ fn other_forms_are_refused_with_todays_lines() {
         "[factor.a]\nmin = 0\nmax = 1\n",
         "factors = [{ name = \"a\", min = 0, max = 1 }]\n",
     ] {
-        refused(&format!("{head}{old}"), &["s.toml:3:", "another way today", "[factors]\nx1 = { min = 0, max = 1 }"]);
+        refused(&format!("{head}{old}"), &["s.toml:3:", "no longer read", "[factors]\nx1 = { min = 0, max = 1 }"]);
     }
     let outputs = "[expression]\noutputs.z = \"a\"\n";
     refused(
         &format!("model = \"expression\"\n{outputs}{list}"),
-        &["s.toml:3:1:", "another way today", "outputs.y = ...\nabove the first table"],
+        &["s.toml:3:1:", "no longer read", "outputs.y = ...\nabove the first table"],
     );
-    refused(&format!("{head}[factors.a]\nname = \"b\"\nmin = 0\n"), &["stands before its table"]);
+    refused(&format!("{head}[factors.a]\nname = \"b\"\nmin = 0\n"), &["the key before its table"]);
     refused(&format!("{head}[factors.a]\nmin = 0\n"), &["s.toml:3:10:", "factor `a`", "needs `max`"]);
 }
 
@@ -119,7 +119,7 @@ fn what_stands_in_the_wrong_table_is_told_where_it_belongs() {
         &["s.toml:1:1:", "unknown key `seed` here: it stands in the table [design]"],
     );
     refused(&format!("{factor}outputs = [\"y\"]\n"), &["s.toml:5:1:", "above the first table"]);
-    refused(&format!("N = 1024\n{factor}"), &["did you mean `base_samples`, which stands in the table [design]?"]);
+    refused(&format!("N = 1024\n{factor}"), &["did you mean `base_samples`, which belongs in the table [design]?"]);
     refused(
         &format!("model = \"my_model.py\"\n{factor}"),
         &["s.toml:1:9:", "a program of your own is a `command`", "command = [\"python3\", \"my_model.py\"]"],
@@ -184,7 +184,7 @@ fn a_key_mistyped_is_not_mistaken_for_a_fault_of_another() {
     }
     let factors = |line: &str| format!("model = \"expression\"\noutputs.y = \"a\"\n[factors]\n{line}\n");
     refused(&factors("a = [0, 1.5]"), &["s.toml:4:5:", "expected a table, as in { min = 0, max = 1 }"]);
-    refused(&factors("größe = { min = 0, max = 1 }"), &["s.toml:4:", "stands in quotes, as in \"größe\" = 2"]);
+    refused(&factors("größe = { min = 0, max = 1 }"), &["s.toml:4:", "in quotes, as in \"größe\" = 2"]);
 }
 
 /// Editors are told of every form that is read.

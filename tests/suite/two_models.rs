@@ -76,7 +76,7 @@ fn a_journal_of_another_program_is_refused_until_it_is_restarted() {
     // Undone.
     case.model("a + b");
     let (_, said) = case.result(&["--resume"]);
-    assert!(said.contains(&format!("note: {RUNS} of {RUNS} runs are on record")), "{said}");
+    assert!(said.contains(&format!("note: {RUNS} of {RUNS} runs are already saved")), "{said}");
     case.model("a - b");
     let (restarted, _) = case.result(&["--restart"]);
     assert_eq!(restarted.outputs, Case::new("a - b").result(&[]).0.outputs);

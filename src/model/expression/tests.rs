@@ -57,7 +57,7 @@ fn names_with_points_are_nothing() {
         ("np.sin(x)", "there is no function `np.sin`", "np.sin"),
         ("1 + scipy.special.erf(x)", "there is no function `scipy.special.erf`", "scipy.special.erf"),
         ("np.x1", "there is no `np.x1`", "np.x1"),
-        ("np.", "`.` is no number", "."),
+        ("np.", "`.` is not a number", "."),
     ] {
         let error = Expression::parse(text, &symbol).expect_err(text);
         assert!(error.to_string().contains(message), "{text}: {error}");
@@ -120,7 +120,7 @@ fn faults_are_named_with_their_place() {
         ("sin()", "`sin` takes one argument, not 0", "sin()"),
         ("max(x)", "`max` takes two arguments or more, not 1", "max(x)"),
         ("log(x)", "`log` has two meanings", "log"),
-        ("a(x)", "`a` is no function: write a*(...) to multiply", "a"),
+        ("a(x)", "`a` is not a function: write a*(...) to multiply", "a"),
         ("2x", "expected an operator or the end of the formula, not `x`", "x"),
         ("x +", "expected a number, a name or `(`, not the end of the formula", ""),
         ("(x + 1", "expected an operator or `)`, not the end of the formula", ""),
@@ -130,8 +130,8 @@ fn faults_are_named_with_their_place() {
         ("x; y", "`;` has no meaning in a formula", ";"),
         ("y = x", "`=` has no meaning in a formula: `==` compares", "="),
         ("1 < x < 2", "a second comparison has no meaning", "<"),
-        ("1.2.3*x", "`1.2.3` is no number", "1.2.3"),
-        ("1e999", "`1e999` is no number that double precision can hold", "1e999"),
+        ("1.2.3*x", "`1.2.3` is not a number", "1.2.3"),
+        ("1e999", "`1e999` is not a number that double precision can hold", "1e999"),
     ];
     for (text, message, place) in cases {
         let error = Expression::parse(text, &symbol).expect_err(text);

@@ -67,7 +67,7 @@ fn what_cannot_be_is_refused_with_what_would_be_right() {
     let space = space(vec![uniform(), uniform(), uniform(), Distribution::constant(1.0).unwrap()]);
     let message = |dependences: &[Dependence]| copula(&space, dependences).unwrap_err().to_string();
     let pair = |a: &str, b: &str| Dependence::pair(a, b, 0.5);
-    assert!(message(&[pair("a", "x")]).contains("`x`, which is no factor"));
+    assert!(message(&[pair("a", "x")]).contains("`x`, which is not a factor"));
     assert!(message(&[pair("a", "a")]).contains("each named once"));
     assert!(message(&[pair("a", "b"), pair("b", "a")]).contains("`b` and `a` is stated twice"));
     assert!(message(&[pair("a", "d")]).contains("`d` is a constant"));

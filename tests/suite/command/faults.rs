@@ -169,10 +169,7 @@ fn a_program_that_never_works_is_given_up() {
     let broken = Case::new("", "import no_such_module\n");
     let message = broken.gives_up(&["exit status 1", "ModuleNotFoundError: No module named 'no_such_module'"]);
     // A program that has been mended is asked for what failed, too.
-    contains(
-        &message,
-        &["the same command with --retry-failed goes on with them, and evaluates those that failed again"],
-    );
+    contains(&message, &["repeat the command with --retry-failed to continue and to evaluate the failed runs again"]);
     let silent = Case::new("", "import sys\nsys.exit(7)\n");
     silent.gives_up(&["answered none of its first 5 rows: the program ended with exit status 7"]);
     let closed = Case::new("retries = 0", "import os, time\nos.close(1)\ntime.sleep(1000)\n");

@@ -42,11 +42,11 @@ fn outputs_are_picked_from_files() {
 fn what_a_run_does_not_leave_is_named() {
     let bad = rows_where(|x| x > 0.9);
     for (more, reason) in [
-        ("if (x1 <= 0.9) print \"y = \" y > \"out.txt\"", "the run left no file `out.txt`"),
+        ("if (x1 <= 0.9) print \"y = \" y > \"out.txt\"", "the run wrote no file `out.txt`"),
         ("print (x1 > 0.9 ? \"nothing\" : \"y = \" y) > \"out.txt\"", "nothing in `out.txt` matches the regex"),
         (
             "print \"y = \" (x1 > 0.9 ? \"*****\" : y) > \"out.txt\"",
-            "what was found in `out.txt` is not a number: `*****`",
+            "the text found in `out.txt` is not a number: `*****`",
         ),
         (
             "print \"y = \" (x1 > 0.9 ? \"nan\" : y) > \"out.txt\"",
@@ -70,7 +70,7 @@ fn a_file_that_was_there_before_is_no_output() {
     let case = simulator("", REPORT, more).replace("[\"model.awk\"]", "[\"model.awk\", \"out.txt\"]");
     case.write("out.txt", "y = 7\n");
     let (result, _) = case.result();
-    let reason = "the run left `out.txt` as it was before";
+    let reason = "the run did not change `out.txt`";
     assert_eq!(failures(&result.outputs[0]), [(reason, rows_where(|x| x > 0.9))]);
 }
 
@@ -113,7 +113,7 @@ fn a_simulator_that_never_works_is_given_up() {
     let broken = simulator("", REPORT, "print \"no licence\" > \"/dev/stderr\"; exit 9");
     broken.gives_up(&["answered none of its first 5 rows", "exit status 9: no licence"]);
     let elsewhere = simulator("", REPORT, "print \"y = \" y");
-    elsewhere.gives_up(&["answered none of its first 5 rows: the run left no file `out.txt`"]);
+    elsewhere.gives_up(&["answered none of its first 5 rows: the run wrote no file `out.txt`"]);
 }
 
 #[test]
@@ -121,7 +121,7 @@ fn templates_are_checked_when_the_study_is_read() {
     let case = simulator("", REPORT, "print \"y = \" y > \"out.txt\"");
     case.write("model.in", "x1 = {{x1}}\nx3 = {{x3}}\n");
     let output = case.run();
-    contains(&stderr(&output), &["factor `x2` does not stand in the template"]);
+    contains(&stderr(&output), &["factor `x2` is not in the template"]);
     case.write("model.in", "x1 = {{x1}}\ny = {{x4}}\n");
     let output = case.run();
     assert_eq!(output.status.code(), Some(2));

@@ -79,7 +79,7 @@ fn an_engine_that_is_killed_asks_no_row_on_record_again_and_leaves_no_process() 
     }
     let resumed = case.run_with(&["--resume"]);
     assert_eq!(resumed.status.code(), Some(0), "{}", stderr(&resumed));
-    contains(&stderr(&resumed), &[&format!("{before} of {ROWS} runs are on record")]);
+    contains(&stderr(&resumed), &[&format!("{before} of {ROWS} runs are already saved")]);
     let rows = asked(&case);
     // Those that are not on record, each once; and at the end some of all rows again, to see whether the program is random.
     let (evaluated, again) = rows.split_at(ROWS - before);

@@ -62,7 +62,7 @@ fn a_study_without_program_or_outputs_is_refused() {
     refused("model = \"command\"\ncommand = [\"x\"]", &["the study has no outputs"]);
     refused("model = \"command\"\ncommand = \"x y\"", &["s.toml:2:11:", "a list in square brackets"]);
     refused("command = [\"x\"]", &["unknown key `command`"]);
-    refused("model = \"command\"\ncommand = [\"x\"]\noutputs = [\"y\", \"y\"]", &["`y` stands here twice"]);
+    refused("model = \"command\"\ncommand = [\"x\"]\noutputs = [\"y\", \"y\"]", &["`y` is listed twice"]);
 }
 
 #[test]
@@ -91,7 +91,7 @@ fn a_new_study_comes_with_its_program() {
     assert!(program.contains("row.pop(\"id\")"), "{program}");
     std::fs::write(folder.path().join("my_model.py"), "mine").unwrap();
     let again = apportion(&["new", text(&study), "--model", "command", "--force"]);
-    contains(&stderr(&again), &["my_model.py is there already and stays as it is"]);
+    contains(&stderr(&again), &["my_model.py exists already and is not changed"]);
     assert_eq!(std::fs::read_to_string(folder.path().join("my_model.py")).unwrap(), "mine");
     contains(&stdout(&apportion(&["models", "command"])), &["flush=True", "{{name}}", "worker-protocol.md"]);
 }

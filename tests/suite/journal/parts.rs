@@ -79,10 +79,10 @@ fn shards_of_any_machine_merge_to_the_bits_of_one_run() {
     refused(&other, 2, "design.seed was 0 and is now 2");
     assert!(!parts.join("ishigami.journal.old").exists(), "nothing is touched before all is known to fit");
     let empty = folder.path().join("empty");
-    refused(&apportion(&["merge", text(&study), "--out", text(&empty)]), 2, "no ishigami-shard-I-of-N.journal is here");
-    refused(&ishigami(&parts, &["--shard", "4/3"]), 2, "expected a part as in 3/8");
+    refused(&apportion(&["merge", text(&study), "--out", text(&empty)]), 2, "found no ishigami-shard-I-of-N.journal");
+    refused(&ishigami(&parts, &["--shard", "4/3"]), 2, "expected a shard such as 3/8");
     let growing = ["--shard", "1/2", "--set", "design.max_runs=100000"];
-    refused(&ishigami(&parts, &growing), 2, "has no size that could be shared out beforehand");
+    refused(&ishigami(&parts, &growing), 2, "has no fixed size to divide into shards");
 }
 
 /// The commands of `docs/clusters.md` for GNU parallel, with whatever stands for it here.

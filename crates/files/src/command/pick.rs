@@ -109,7 +109,7 @@ impl Source {
         let unreadable = |reason: String| format!("`{file}` cannot be read: {reason}");
         match std::fs::metadata(&path) {
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
-                return Err(format!("the run left no file `{file}`"));
+                return Err(format!("the run wrote no file `{file}`"));
             }
             Err(error) => return Err(unreadable(error.to_string())),
             Ok(data) if data.len() > MAX_BYTES => return Err(unreadable("it has more than 256 MiB".to_owned())),
@@ -197,7 +197,7 @@ impl Way {
                 }
             }
         };
-        number(&found).ok_or_else(|| format!("what was found in {of} is not a number: `{}`", masked(&found)))
+        number(&found).ok_or_else(|| format!("the text found in {of} is not a number: `{}`", masked(&found)))
     }
 }
 

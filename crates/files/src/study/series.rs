@@ -41,7 +41,7 @@ pub(super) fn axis(key: &str, table: &OutputTable) -> Result<Option<SeriesAxis>,
         }
         (_, None) => {
             let found = format!("`{first}` without one");
-            return Err(wrong(&format!("{key}.length"), "how many values the series has, as in length = 365", found));
+            return Err(wrong(&format!("{key}.length"), "the number of values, as in length = 365", found));
         }
     };
     axis.map(Some).map_err(refused)

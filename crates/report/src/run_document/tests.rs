@@ -177,7 +177,8 @@ fn warnings_of_a_kind_are_one() {
     let few_rows = |place: usize| result.outputs[place].warnings.iter().any(|warning| warning.code() == "few-rows");
     assert!(few_rows(0) && few_rows(1) && result.outputs[2].warnings.is_empty());
     let grouped = super::warnings::grouped_warnings(&result.outputs);
-    let of_few_rows: Vec<&String> = grouped.iter().filter(|text| text.contains("rests on few rows")).collect();
+    let of_few_rows: Vec<&String> =
+        grouped.iter().filter(|text| text.contains("few rows determine the variance")).collect();
     assert!(of_few_rows.len() == 1 && of_few_rows[0].contains("(2 outputs: y and z)"), "{grouped:?}");
 }
 

@@ -57,7 +57,7 @@ fn what_cannot_be_is_refused_by_name() {
         (Distribution::boolean(1.5), "`probability` is 1.5, but must lie between 0.0 and 1.0"),
         (Distribution::categorical::<&str>(&[], None, None), "`values` is empty"),
         (Distribution::categorical(&["a", ""], None, None), "`labels[1]` is empty"),
-        (Distribution::categorical(&["a", "a"], None, None), "the label \"a\" stands in `labels` twice"),
+        (Distribution::categorical(&["a", "a"], None, None), "the label \"a\" is listed twice in `labels`"),
         (Distribution::categorical(&["a"], Some(&[1.0, 2.0]), None), "there are 2 `values` for 1 `labels`"),
         (
             Distribution::categorical(&["a", "b"], Some(&[1.0, 1.0]), None),

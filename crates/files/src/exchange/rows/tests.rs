@@ -92,8 +92,8 @@ fn faults_are_named_with_their_place() {
         (b"a,b\n1,0\n\n2\n", "line 4: expected 2 cells as in the header, not 1"),
         (b"PAR1,b\n1,3\n", "it is a Parquet file"),
         (b"PK\x03\x04\x14", "it is a workbook"),
-        (b"1,2\n3,4\n", "line 1 holds numbers"),
-        (b"# a comment\na,1.5\n3,4\n", "line 2 holds numbers"),
+        (b"1,2\n3,4\n", "line 1 has numbers"),
+        (b"# a comment\na,1.5\n3,4\n", "line 2 has numbers"),
     ] {
         let message = refused(bytes).to_string();
         assert!(message.starts_with(reason), "{message}");
@@ -143,7 +143,7 @@ fn other_separators_and_tables_without_names_are_read() {
     }
     assert!(table_of_bytes(numbers, &ReadOptions::default()).unwrap().names().is_none());
     let refused = table_of_bytes(b"a,b\n1,2\n".to_vec(), &named(&["a", "b"])).err().unwrap();
-    assert!(refused.to_string().starts_with("it names its columns itself (a, b)"));
+    assert!(refused.to_string().starts_with("its header names the columns (a, b)"));
     let without = ReadOptions { no_header: true, ..ReadOptions::default() };
     let rows = table_of_bytes(b"steel,2\n".to_vec(), &without).unwrap();
     assert_eq!((rows.names(), rows.width()), (None, 2));

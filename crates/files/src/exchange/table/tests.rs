@@ -27,7 +27,7 @@ fn faults_are_named_with_their_place() {
     for (text, inputs, reason) in [
         ("\n\n", &[][..], "the file is empty"),
         ("y\n1\n", &[], "no column of numbers is left as an input; the columns are y"),
-        ("a,y\n", &["y"], "`y` is asked for twice"),
+        ("a,y\n", &["y"], "`y` is listed twice"),
         ("a,force\n", &[], "no column is called `y`"),
         ("a,y\n1,2\n3,nan\n", &[], "line 3: column 2 (`y`): the value is missing"),
         ("a,y\n1,2\n,2\n", &[], "line 3: column 1 (`a`): the value is missing"),
