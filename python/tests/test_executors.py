@@ -127,7 +127,7 @@ def test_functions_of_a_script_reach_new_processes(tmp_path):
 def test_an_executor_that_is_gone_is_not_asked_again(cube):
     executor = ProcessPoolExecutor(1)
     executor.shutdown()
-    with pytest.raises(ap.RunError, match="over a block of .* rows: it takes no more work: cannot schedule"):
+    with pytest.raises(ap.RunError, match="over a block of .* rows: it accepts no more work: cannot schedule"):
         ap.analyse(polynomial, cube, base_samples=64, executor=executor)
 
 
@@ -141,7 +141,7 @@ def test_what_cannot_go_to_another_process_says_so(cube):
             return polynomial(x1, x2, x3)
 
     with ProcessPoolExecutor(1) as executor:
-        with pytest.raises(ap.RunError, match="cannot go to another process .*lock"):
+        with pytest.raises(ap.RunError, match="cannot be sent to another process .*lock"):
             ap.analyse(locked, cube, base_samples=64, executor=executor)
     with ThreadPoolExecutor(2) as executor:
         assert dict(ap.analyse(locked, cube, base_samples=64, executor=executor).total) == dict(

@@ -276,7 +276,7 @@ def test_points_and_outputs_go_by_the_names_of_their_columns():
     for wrong, words in [
         ({"a": x1}, "without b: expected the columns a, b"),
         ({"a": x1, "b": x2, "c": x1}, "with c"),
-        (pandas.DataFrame(np.column_stack([x1, x2]), columns=["a", "a"]), "two columns of the name 'a'"),
+        (pandas.DataFrame(np.column_stack([x1, x2]), columns=["a", "a"]), "two columns with the name 'a'"),
         ({"a": x1, "b": x2[:-1]}, "output b has the shape"),
         ({}, "no columns"),
         (np.ones((64, 3)), r"outputs of shape \(64, 3\): expected \(64, 2\), of a, b"),

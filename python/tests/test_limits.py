@@ -100,7 +100,7 @@ def test_the_length_of_a_run_is_said_in_one_way():
 
 def test_factors_that_are_none_say_what_would_be_one():
     for factors, words in [
-        ({1: (0, 1)}, "the name 1 is no text: expected one such as '1'"),
+        ({1: (0, 1)}, "the name 1 is not a text: expected a name such as '1'"),
         ([(0, 1), (0, 1)], "no mapping from names to distributions"),
         ("x1", "no mapping from names"),
     ]:
@@ -121,7 +121,7 @@ def test_tables_that_cannot_be_used_name_the_column():
     frame = pandas.DataFrame(x, columns=["a", "b"])
     for inputs, outputs, words in [
         (frame.assign(c="red"), y, "the inputs have in the column 'c'.*expected real numbers"),
-        (pandas.DataFrame(x, columns=["a", "a"]), y, "two columns of the name 'a'"),
+        (pandas.DataFrame(x, columns=["a", "a"]), y, "two columns with the name 'a'"),
         (frame[:0], y[:0], "the inputs have no rows"),
         (frame[[]], y, "the inputs have no rows"),
         ({}, y, "the inputs have no rows"),

@@ -75,7 +75,7 @@ def test_what_is_wrong_is_said():
 
     with pytest.raises(ap.AnswerError, match="wave with 3 values, and 7 values were expected"):
         ap.analyse(changing, FACTORS, base_samples=64)
-    with pytest.raises(ap.AnswerError, match="say their `length`"):
+    with pytest.raises(ap.AnswerError, match="state their `length`"):
         ap.analyse(waves, FACTORS, outputs={"a": {"axis": "t"}, "b": {"axis": "t"}}, base_samples=64)
     with pytest.raises(ap.AnswerError, match="shape"):
         ap.analyse(lambda x1, x2: {"y": np.zeros((3, 2))}, FACTORS, base_samples=64)

@@ -146,7 +146,7 @@ fn outputs_keep_the_kind_of_unit_that_the_study_says() {
         ["analyze", text(&outputs), "--design", text(&design), "--out", text(&out), "--charts", "none", "--units"];
     for (unit, expected) in [
         ("y=kg", "the unit `kg` is given for `y`, and measures a mass: the study says `mm`"),
-        ("y=mmm", "and is not known"),
+        ("y=mmm", "and is unknown"),
     ] {
         refused(&[&analyze[..], &[unit]].concat(), expected);
     }

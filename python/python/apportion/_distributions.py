@@ -36,7 +36,7 @@ class Factor:
 
     @classmethod
     def of(cls, value: Any) -> "Factor":
-        """A factor from what stands for one: itself, a mapping of keys, a pair (min, max), a frozen distribution of SciPy."""
+        """A factor from a factor, a mapping of keys, a pair (min, max) or a frozen distribution of SciPy."""
         if isinstance(value, Factor):
             return value
         if isinstance(value, Mapping):
@@ -45,7 +45,7 @@ class Factor:
             return from_scipy(value)
         if isinstance(value, (tuple, list)) and len(value) == 2:
             return Uniform(*value)
-        raise StudyError(f"{value!r} is no factor: expected a distribution such as ap.Normal(0, 1), or a pair (min, max)")
+        raise StudyError(f"{value!r} is not a factor: expected a distribution such as ap.Normal(0, 1), or a pair (min, max)")
 
 
 def _plain(values: Sequence[float] | np.ndarray | None) -> list | None:
@@ -60,7 +60,7 @@ _REMARKS = {
     "exponential": "`scale` is the standard deviation, one over the rate.",
     "student-t": "More than 2 degrees of freedom, unless it is truncated on both sides.",
     "pareto": "`shape` is above 2, unless it is truncated above.",
-    "seed": "A whole number from 0 to 2**31 - 1: the noise, which is none of the factors.",
+    "seed": "A whole number from 0 to 2**31 - 1: the noise, which is not one of the factors.",
 }
 _READ: dict[str, tuple[str, Callable[[Any], Any]]] = {
     "number": ("float", lambda value: value),
@@ -154,7 +154,7 @@ def from_scipy(distribution: Any, *, group: str | None = None) -> Factor:
     """
     name = getattr(getattr(distribution, "dist", None), "name", None)
     if not hasattr(distribution, "ppf") or name is None:
-        raise StudyError(f"{distribution!r} is no frozen distribution of scipy.stats, as stats.gamma(2) is one")
+        raise StudyError(f"{distribution!r} is not a frozen distribution of scipy.stats, such as stats.gamma(2)")
     same = _of_engine(name, distribution) or _of_values(distribution)
     if same is not None:
         return Factor({**same.keys, "group": group})

@@ -87,7 +87,7 @@ class Blocks:
         try:
             future = self.executor.submit(_evaluate, self.call, x)
         except RuntimeError as error:
-            raise _Closed(f"it takes no more work: {error}") from error
+            raise _Closed(f"it accepts no more work: {error}") from error
         while True:
             try:
                 return future.result(timeout=0.2)
@@ -131,7 +131,7 @@ def _portable(call: Call | RepeatedCall) -> Any:
         data, reason = pickle.dumps(call), None
     except Exception as error:
         data, reason = b"", error
-    # What refers to the script or notebook, wherever in the function it stands, is not found by workers that begin anew.
+    # What refers to the script or notebook, at any place in the function, is not found by workers that start again.
     if reason is None and b"__main__" not in data:
         return call
     try:
@@ -148,7 +148,7 @@ def _portable(call: Call | RepeatedCall) -> Any:
 
 
 def _words(error: Exception) -> str:
-    return f"the function cannot go to another process ({type(error).__name__}: {error})"
+    return f"the function cannot be sent to another process ({type(error).__name__}: {error})"
 
 
 def called_elsewhere(executor: Any, call: Call | RepeatedCall, stop: Stop) -> Callable[..., Any]:

@@ -33,7 +33,7 @@ class Call:
         quantiles: Mapping[int, Callable[[np.ndarray], np.ndarray]],
     ):
         if not callable(function):
-            raise StudyError(f"{function!r} is no function")
+            raise StudyError(f"{function!r} is not a function")
         if style is not None and style not in STYLES:
             raise StudyError(f"call={style!r}: expected one of {', '.join(map(repr, STYLES))}")
         self.function = function
@@ -83,7 +83,7 @@ class Call:
             if len(open_ones) == 1:
                 self.lengths[open_ones[0]] = left
             elif open_ones:
-                raise AnswerError(f"it cannot be told how many values {' and '.join(open_ones)} have: say their `length`")
+                raise AnswerError(f"the number of values of {' and '.join(open_ones)} is unknown: state their `length`")
             return
         for name, length in zip(outputs, found):
             if length is not None or name in self.lengths:
@@ -173,7 +173,7 @@ def with_hint(error: Exception, vectorised: bool) -> Exception:
     if not vectorised or not of_arrays:
         return error
     words = f"the function failed with arrays of several rows: {reason_of(error)}"
-    hinted = StudyError(f"{words}: if it is a function of one row, say vectorised=False")
+    hinted = StudyError(f"{words}: if it is a function of one row, pass vectorised=False")
     hinted.__cause__ = error
     return hinted
 

@@ -33,8 +33,8 @@ class Indices(Mapping[str, Index]):
         try:
             return self._entries[name if name in self._entries else _turned(name)]
         except (KeyError, TypeError):
-            there = ", ".join(map(repr, self._entries)) or "none at all"
-            raise KeyError(f"{name!r}: the indices are those of {there}") from None
+            there = ", ".join(map(repr, self._entries)) or "none"
+            raise KeyError(f"no index of {name!r}: there are {there}") from None
 
     def __contains__(self, name: Any) -> bool:
         return name in self._entries or _turned(name) in self._entries
@@ -241,7 +241,7 @@ class SeriesResult:
 
     @property
     def positions(self) -> np.ndarray:
-        """Where the values stand on the axis, in `axis_unit`."""
+        """The positions of the values on the axis, in `axis_unit`."""
         return np.array(self.record["positions"])
 
     @property

@@ -84,10 +84,10 @@ def factors_of(factors: Any) -> dict[str, Factor]:
     if factors is None:
         return {}
     if not isinstance(factors, Mapping):
-        raise StudyError(f'factors: {factors!r:.80} is no mapping from names to distributions, as {{"x1": (0, 1)}} is one')
+        raise StudyError(f'factors: {factors!r:.80} is not a mapping from names to distributions, such as {{"x1": (0, 1)}}')
     for name in factors:
         if not isinstance(name, str):
-            raise StudyError(f"factors: the name {name!r} is no text: expected one such as {str(name)!r}")
+            raise StudyError(f"factors: the name {name!r} is not a text: expected a name such as {str(name)!r}")
     return {str(name): Factor.of(value) for name, value in factors.items()}
 
 

@@ -33,7 +33,7 @@ class Document:
         return f"<div>{lead}{self._table_html()}{charts[0][1] if charts else ''}</div>"
 
     def __reduce__(self) -> Any:
-        raise TypeError("only results of runs can be pickled: keep the to_json(), or what save() writes, of this one")
+        raise TypeError("only results of runs can be pickled: use to_json() or save() for this one")
 
     def __copy__(self) -> "Document":
         return type(self)(self._document)

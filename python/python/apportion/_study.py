@@ -156,7 +156,7 @@ class Study:
                 self._call = RepeatedCall(self._call, list(made).index(noise["name"]), repetitions)
                 outputs = outputs_of(outputs)
         elif any(factor.quantile is not None for factor in made.values()):
-            raise StudyError("factors by their quantile functions serve functions of Python alone")
+            raise StudyError("factors by their quantile functions work only with functions of Python")
         table["model"] = "external" if callable(model) or model is None else model
         if isinstance(outputs, Mapping):
             table["outputs"] = stated_outputs(outputs, {})
@@ -246,7 +246,7 @@ class Study:
         (rows,) by the names of the outputs, in any order, in a mapping also of (rows, values) of a series. NaN, and what is masked or
         missing, says that a run failed."""
         if self._study.grows:
-            raise StudyError("a study with an accuracy or limits chooses its runs as they go on: give it base_samples")
+            raise StudyError("a study with an accuracy or limits chooses its rows during the run: set base_samples instead")
         # Nobody has said what the outputs are.
         is_unnamed = self._study.is_external and self._table.get("outputs") == ["y"]
         columns = named(outputs, "the outputs have")
@@ -345,7 +345,7 @@ class Study:
         `levels` the trajectories of Morris (1991) on a grid; with `derivatives` short steps, for the mean squares of derivatives and
         what total indices are at most (Sobol' and Kucherenko 2009)."""
         if derivatives and levels is not None:
-            raise StudyError("levels are of no account to derivatives: leave out one of them")
+            raise StudyError("levels have no effect on derivatives: leave out one of them")
         trajectories = whole("trajectories", trajectories, 1, _MAX_TRAJECTORIES)
         levels = None if levels is None else whole("levels", levels, 2, _MAX_LEVELS)
         seed = None if seed is None else whole("seed", seed, 0, MAX_SEED)
@@ -374,7 +374,7 @@ class Study:
         """What the engine calls."""
         if self._call is None:
             if executor is not None:
-                raise StudyError("executors serve functions of Python; models of the engine run on its own threads")
+                raise StudyError("executors work only with functions of Python; models of the engine run on its own threads")
             if self._study.is_external:
                 raise StudyError("the study has no model: evaluate its sample() and pass the outputs to analyse()")
             return None
