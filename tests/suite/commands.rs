@@ -110,7 +110,7 @@ fn compare_tells_what_differs_and_by_how_much() {
     let (a, b) = (a.join("soft-cantilever.json"), b.join("soft-cantilever.json"));
     let said = succeed(&["compare", text(&a), text(&b), "--out", text(&out)]);
     for expected in
-        ["friction", "coulomb", "hk", "factor thickness", "max 2.8", "seed", "leaves out 0", "critical time (s)"]
+        ["friction", "coulomb", "hk", "factor thickness", "max 2.8", "seed", "excludes 0", "critical time (s)"]
     {
         assert!(said.contains(expected), "{expected}: {said}");
     }
@@ -147,7 +147,7 @@ fn compare_refuses_other_outputs_and_writes_nothing() {
     let (a, b) = (folder.path().join("ishigami.json"), folder.path().join("coulomb-dimensional.json"));
     let out = folder.path().join("out");
     let message = refused(&["compare", text(&a), text(&b), "--out", text(&out)]);
-    assert!(message.contains("no output in common: A has y, B has critical_force"), "{message}");
+    assert!(message.contains("no output in common; A has y, B has critical_force"), "{message}");
     assert!(message.contains("ishigami.json") && !out.exists());
 }
 

@@ -167,7 +167,7 @@ fn a_journal_that_was_cut_short_or_damaged_is_used_as_far_as_it_goes() {
         std::fs::write(&journal, torn).unwrap();
         let output = ishigami(&cut, &["--base-samples", "4096", "--resume"]);
         assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-        assert!(stderr(&output).contains("bytes were cut off behind its last whole record"), "{}", stderr(&output));
+        assert!(stderr(&output).contains("bytes were cut off after its last complete record"), "{}", stderr(&output));
         assert!((0..20480).contains(&on_record(&stderr(&output))), "{}", stderr(&output));
         assert!(numbers(&cut, "ishigami") == expected);
         // What was cut off has been made good.

@@ -60,7 +60,7 @@ fn a_run_that_chose_its_design_is_not_doubled_but_made_more_accurate() {
     let (study, out) = (folder.with("s.toml", SUM), folder.path("out"));
     let [study, out] = [text(&study), text(&out)];
     let said = succeed(&["run", study, "--accuracy", "0.05", "--out", out, "--charts", "none"]);
-    assert!(said.contains("make the same run again, to the bit.\n    [design]\n    runs = "), "{said}");
+    assert!(said.contains("repeat the same run exactly.\n    [design]\n    runs = "), "{said}");
     let before = files(Path::new(out));
     refused(&["run", study, "--double", "--out", out], "use --accuracy 0.025 instead");
     refused(&["run", study, "--retry-failed", "--out", out], "use --accuracy 0.05 instead");

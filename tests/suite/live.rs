@@ -34,7 +34,7 @@ fn a_page_has_the_engine_the_study_as_it_was_changed_and_its_result() {
     assert_eq!(title, "Soft cantilever in humid air");
     assert!(own.contains("min = 1.5") && own.contains("velocity = \"60 nm/s\"") && own.contains("base_samples = 256"));
     assert!(!own.contains("name = \"velocity\""));
-    assert!(page.contains("matters most") || page.contains("cannot be told apart"));
+    assert!(page.contains("matters most") || page.contains("cannot be distinguished"));
     assert!(page.contains("runs of the model by the program."));
     for id in ["indices", "shares", "distribution", "validity"] {
         assert!(page.contains(&format!("<section id=\"{id}\"")), "{id}");

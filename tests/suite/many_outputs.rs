@@ -117,7 +117,7 @@ fn a_signal_is_heard_once_the_result_is_written() {
     // A busy machine may have drawn the page before the signal came.
     if !out.join("s.html").exists() {
         assert_eq!(code, Some(1), "{said}");
-        assert!(said.contains("error: interrupted while files were written: those that are there are whole"), "{said}");
+        assert!(said.contains("error: interrupted while writing files: existing files are complete"), "{said}");
     }
     let json: serde_json::Value = serde_json::from_slice(&std::fs::read(out.join("s.json")).unwrap()).unwrap();
     assert_eq!(json["outputs"].as_array().unwrap().len(), 1500);

@@ -95,7 +95,7 @@ fn derivatives_bound_total_indices() {
     );
     // The bend of a distribution has no part in derivatives; what has no bound is said.
     let (_folder, file, _) = screened("soft-cantilever", &["--design", "derivative"]);
-    assert!(file.notes[0].contains("a model with jumps has no bounds"));
+    assert!(file.notes[0].contains("for a model with jumps there are no bounds"));
     assert!(file.notes[1].contains("no bound on the total index by derivatives is known for the distribution of"));
     assert!(file.notes[1].contains("velocity (log-uniform)"));
     assert!(screened("soft-cantilever", &[]).1.outputs[0].factors.iter().all(|factor| factor.nu.is_none()));

@@ -59,7 +59,7 @@ fn a_signal_is_heard_while_charts_are_drawn() {
         let mut said = String::new();
         run.stderr.take().unwrap().read_to_string(&mut said).unwrap();
         assert_eq!(code, Some(1), "{said}");
-        assert!(said.contains("error: interrupted while files were written: those that are there are whole"), "{said}");
+        assert!(said.contains("error: interrupted while writing files: existing files are complete"), "{said}");
         assert!(drawn() < 66, "it was stopped before its end");
         assert_whole(&out);
     }

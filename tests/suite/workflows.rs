@@ -240,8 +240,7 @@ fn pairs_other_estimators_and_a_dummy_are_in_every_result_that_asks_for_them() {
     );
     assert_eq!(output.dummy.unwrap().total.estimate, 0.0);
     assert_eq!(result.provenance.model_runs, 4096 * (2 + 2 * 4));
-    for expected in
-        ["x1 × x3", "S_1 by estimator", "martinez", "dummy, which does nothing", "Intervals (", "P(S_T > 0.05)"]
+    for expected in ["x1 × x3", "S_1 by estimator", "martinez", "dummy, without effect", "Intervals (", "P(S_T > 0.05)"]
     {
         assert!(printed.contains(expected), "{expected}: {printed}");
     }

@@ -179,7 +179,7 @@ pub fn study_chart(result: &StudyResult, output: &OutputResult) -> Chart {
     }
     let caption = match indices().any(|index| index.effect.dependent.is_some()) {
         true => {
-            "Indices of dependent factors share out nothing; Shapley effects would, and were not asked for.".to_owned()
+            "Indices of dependent factors do not sum to 1; Shapley effects would, but were not requested.".to_owned()
         }
         false => leader_of(output),
     };

@@ -52,7 +52,7 @@ fn a_missing_program_ends_every_command_with_the_reason() {
         assert_eq!(output.status.code(), Some(1), "{command}: {}", stderr(&output));
         contains(
             &stderr(&output),
-            &["error: the model cannot go on", "no-such-program", "is it installed, and in PATH?"],
+            &["error: the model cannot continue", "no-such-program", "is it installed, and in PATH?"],
         );
     }
     assert!(

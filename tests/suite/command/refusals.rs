@@ -34,7 +34,7 @@ fn keys_are_checked_with_their_places() {
     refused("outputs.y = \"a\\u0007b\"", &["study.toml:2:13:", "without control characters"]);
     refused("outputs.y = { units = \"N\" }", &["unknown key `units`: did you mean `unit`?"]);
     refused("template = \"no.in\"", &["study.toml:6:12:", "no.in: cannot read the template"]);
-    refused("template = \"model.py\"", &["`outputs.y` must be a table that says where the number stands"]);
+    refused("template = \"model.py\"", &["`outputs.y` must be a table that locates the number"]);
     refused("template = \"model.py\"\nprotocol = \"csv\"", &["study.toml:7:12:", "without `template`"]);
     refused("template = \"model.py\"\ninput = \"../x\"", &["study.toml:7:9:", "the name of a file, without a folder"]);
     refused("template = \"model.py\"\nfiles = [\"no.dat\"]", &["study.toml:7:10:", "there is no such file"]);

@@ -122,7 +122,7 @@ impl ComparedIndex {
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum CompareError {
     /// They have no common output or no common factor.
-    #[error("there is nothing to compare, the results have no {what} in common: A has {a}, B has {b}")]
+    #[error("nothing to compare: the results have no {what} in common; A has {a}, B has {b}")]
     NothingInCommon {
         /// `output` or `factor`.
         what: &'static str,

@@ -78,7 +78,7 @@ fn what_cannot_be_compared_is_refused_with_the_reason() {
     let mut b = a.clone();
     b.outputs[0].name = "force".to_owned();
     let message = compared(&a, &b).unwrap_err().to_string();
-    assert!(message.ends_with("no output in common: A has y, B has force"), "{message}");
+    assert!(message.ends_with("no output in common; A has y, B has force"), "{message}");
     let mut b = a.clone();
     b.outputs[0].unit = "nN".to_owned();
     let message = compared(&a, &b).unwrap_err().to_string();
@@ -99,7 +99,7 @@ fn one_sided_factors_and_missing_indices_have_their_place() {
     assert_eq!((&file.factors_left_out.a, &file.factors_left_out.b), (&vec![], &vec!["x3".to_owned()]));
     let x3 = &file.outputs[0].factors[2];
     assert!(x3.total.a.is_none() && x3.total.b.is_some() && x3.total.difference.is_none());
-    assert!(comparison_document(&file, "a-vs-b").text().contains("factors of B alone: x3"));
+    assert!(comparison_document(&file, "a-vs-b").text().contains("factors only in B: x3"));
 
     let mut none = a.clone();
     none.outputs[0].indices = None;

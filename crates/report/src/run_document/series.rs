@@ -112,7 +112,7 @@ fn in_full(
     let mut chart = together_chart(alone);
     chart.set_title(chart.title().replace("all outputs together", &format!("{} as a whole", name(&of.series.name))));
     parts.push(figures.add(chart, "together", together));
-    let caption = "Indices of the whole series, for how many of its values a factor surely matters most, and the median and \
+    let caption = "Indices of the whole series, the number of its values for which a factor surely matters most, and the median and \
                    largest of its total indices.";
     parts.push(Table { caption: caption.to_owned(), ..overview::factors(alone) }.into());
     parts.push(overview::every_output(alone));
