@@ -29,7 +29,7 @@ fn the_orders_of_the_papers_come_out_or_do_not() {
     let claims = claims_of(folder.path());
     let range = |number: &str| &claims.iter().find(|claim| &claim[0] == number).unwrap()[5];
     assert_eq!(range("17"), "Coulomb, Hurtado-Kim, LuGre: the whole order");
-    let beginning = "the order as far as there are visible shares, which velocity and adhesion lack";
+    let beginning = "the order of the visible shares, which velocity and adhesion do not have";
     let other = "another order: not velocity before adhesion, a visible share of equivalent modulus, which the paper does \
                  not rank";
     assert_eq!(range("18"), format!("Coulomb, LuGre: {beginning}; Hurtado-Kim: {other}"));

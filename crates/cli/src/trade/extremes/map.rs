@@ -31,7 +31,7 @@ impl Outcome {
         match self {
             Self::Right => ("R", "right", "a second calculation agrees"),
             Self::FlaggedConfirmed => {
-                ("f", "flagged, confirmed", "the model raises a flag, and a second calculation agrees all the same")
+                ("f", "flagged, confirmed", "the model raises a flag, but a second calculation agrees")
             }
             Self::Flagged => (
                 "F",

@@ -147,7 +147,7 @@ impl Comparison {
 /// [`RunError`] if the finest model fails, or the comparison is stopped. Settings that cannot be run are omitted.
 pub fn compare_settings(job: &SettingsJob<'_>) -> Result<Comparison, RunError> {
     let start = Instant::now();
-    (job.on_progress)("the truth", 0.0);
+    (job.on_progress)("the reference", 0.0);
     let truth = Truth::new(job, SHARE_OF_TRUTH * job.seconds)?;
     let curves = Curve::all(job.study);
     let mut settings = Vec::new();
