@@ -69,7 +69,7 @@ mod tests {
     }
 
     #[test]
-    fn a_file_is_read_whole_and_a_folder_is_none() {
+    fn files_are_read_completely_and_text_must_be_utf_8() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("text");
         std::fs::write(&path, "µ").unwrap();

@@ -124,7 +124,7 @@ fn processes(job: u32) -> Vec<String> {
 
 /// What is on record is not evaluated again, whoever was killed; what was under way is.
 #[test]
-fn a_job_whose_ranks_are_killed_goes_on_with_any_number_of_them() {
+fn a_job_with_killed_ranks_resumes_with_any_number_of_ranks() {
     const KILLS: usize = 20;
     let folder = Folder::new();
     folder.with("model.py", PROGRAM);

@@ -189,7 +189,7 @@ mod tests {
     }
 
     #[test]
-    fn random_models_are_told_from_those_that_remember_and_from_pure_ones() {
+    fn random_models_are_distinguished_from_models_with_state_and_pure_ones() {
         let settings = DesignSettings { sampler: Sampler::Sobol, base_samples: 64, replicates: 4, seed: 1 };
         let design = Design::new(settings, 1, Rows::default()).unwrap();
         let law = Distribution::uniform(0.0, 1.0).unwrap();

@@ -131,7 +131,7 @@ fn codes_for_missing_values_are_found() {
 }
 
 #[test]
-fn a_problem_says_its_groups() {
+fn groups_of_a_problem_are_read() {
     let parse = |text: &str| SalibProblem::parse(text).map_err(|error| error.to_string());
     assert_eq!(parse(r#"{"names": ["a", "b"], "groups": null}"#).unwrap().members.len(), 2);
     assert!(

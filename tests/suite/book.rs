@@ -58,7 +58,7 @@ fn read(path: &Path) -> Page {
 /// Every page is tried before the test fails, two at a time.
 #[test]
 #[ignore = "runs all commands of the book, which .ci/run does"]
-fn what_the_pages_show_comes_out() {
+fn outputs_of_the_pages_are_reproduced() {
     let (waiting, faults) = (Mutex::new(pages()), Mutex::new(Vec::new()));
     let work = || {
         while let Some(path) = { waiting.lock().unwrap().pop() } {
@@ -84,7 +84,7 @@ fn commands_in_sentences_are_there() {
 
 /// The first look at the README: these lines are read by others.
 #[test]
-fn the_two_commands_stand_in_the_readme() {
+fn the_two_commands_are_in_the_readme() {
     let readme = include_str!("../../README.md");
     assert!(readme.contains("\n    cargo run --release -- reproduce\n    cargo test --release\n"));
 }

@@ -64,7 +64,7 @@ fn factors_reach_the_function_in_si_and_in_order() {
 }
 
 #[test]
-fn what_the_function_leaves_out_is_a_failed_run() {
+fn rows_that_the_function_leaves_out_fail() {
     let outputs = || ["set", "unset"].map(|name| Output::new(name, Unit::dimensionless(), "")).to_vec();
     let model = FunctionModel::new(outputs(), |x: &[f64], y: &mut [f64]| {
         y[0] = x[0];
@@ -103,7 +103,7 @@ fn a_number_of_runs_makes_the_design_of_the_file() {
 }
 
 #[test]
-fn what_cannot_be_built_says_why() {
+fn errors_of_the_builder_state_the_reason() {
     let two = || sum().factor("a", unit()).factor("b", unit());
     let reason = |builder: StudyBuilder| builder.build().unwrap_err().to_string();
     assert_eq!(reason(sum()), "a design needs at least one factor");
@@ -144,7 +144,7 @@ fn what_cannot_be_built_says_why() {
 }
 
 #[test]
-fn what_needs_a_journal_or_a_size_is_refused_without_one() {
+fn options_that_need_a_journal_or_a_size_are_refused_without_one() {
     let study = sum().factor("a", unit()).factor("b", unit()).base_samples(64).build().unwrap();
     let shard = || "1/2".parse::<Shard>().unwrap();
     let none = |error: RunError| matches!(error, RunError::NoJournal { .. });
@@ -160,7 +160,7 @@ fn what_needs_a_journal_or_a_size_is_refused_without_one() {
 }
 
 #[test]
-fn a_version_tells_functions_apart_in_a_journal() {
+fn a_journal_distinguishes_functions_by_version() {
     let folder = tempfile::tempdir().unwrap();
     let journal = folder.path().join("j");
     let mean = |slope: f64, version: &str| {

@@ -68,7 +68,7 @@ fn report_overwrites_no_other_result_and_keeps_unknown_keys() {
 }
 
 #[test]
-fn what_is_no_result_is_refused_with_file_and_place() {
+fn invalid_result_files_are_refused_with_file_and_place() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("x.json");
     let missing = refused(&["report", text(&path)]);
@@ -102,7 +102,7 @@ fn what_is_no_result_is_refused_with_file_and_place() {
 }
 
 #[test]
-fn compare_tells_what_differs_and_by_how_much() {
+fn compare_shows_differences_and_their_sizes() {
     let folder = tempfile::tempdir().unwrap();
     let (a, b, out) = (folder.path().join("a"), folder.path().join("b"), folder.path().join("out"));
     run("soft-cantilever", &a, &[]);
@@ -161,7 +161,7 @@ fn commands() -> Vec<String> {
 }
 
 #[test]
-fn completions_know_every_command() {
+fn completions_contain_every_command() {
     let commands = commands();
     assert!(commands.len() > 10, "{commands:?}");
     for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
@@ -210,7 +210,7 @@ fn a_new_study_runs_as_it_is() {
 }
 
 #[test]
-fn new_overwrites_nothing_and_names_what_it_does_not_know() {
+fn new_overwrites_no_file_and_names_unknown_inputs() {
     let folder = tempfile::tempdir().unwrap();
     let study = folder.path().join("study.toml");
     std::fs::write(&study, "mine").unwrap();

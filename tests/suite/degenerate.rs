@@ -27,7 +27,7 @@ fn a_constant_output_has_a_reason_and_no_indices() {
 }
 
 #[test]
-fn failures_by_several_factors_are_told_from_those_by_one() {
+fn failures_by_several_factors_are_distinguished_from_those_by_one() {
     let codes = |formula: &str| -> Vec<String> {
         let factors = "[factors]\nx = { min = 0, max = 1 }\ny = { min = 0, max = 1 }\n";
         let output =

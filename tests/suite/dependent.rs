@@ -158,7 +158,7 @@ fn linear_outputs_of_correlated_normal_factors_have_closed_forms() {
 /// Of a product of correlated factors nothing is linear; the Shapley effects by Owen and Prieur (2017), section 5, are the same for
 /// both by symmetry.
 #[test]
-fn what_is_symmetric_stays_so() {
+fn symmetric_models_have_symmetric_indices() {
     let pair = |r: f64| {
         let study = Study::builder("product", function_model("y", |x: &[f64]| x[0] * x[1]))
             .factor("a", Distribution::normal(0.0, 1.0).unwrap())

@@ -26,7 +26,7 @@ fn examples_run() {
 }
 
 #[test]
-fn an_interrupted_run_goes_on() {
+fn an_interrupted_run_is_resumed() {
     interrupted::main().unwrap();
 }
 

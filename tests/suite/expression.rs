@@ -115,7 +115,7 @@ fn faults_are_named_with_line_and_column() {
 }
 
 #[test]
-fn what_stands_in_no_formula_is_said() {
+fn unused_factors_and_constants_are_noted() {
     let study =
         apportion_files::parse_study(&ISHIGAMI.replace("b*x3^4*sin(x1)", "1"), Path::new("s.toml"), &[]).unwrap();
     assert_eq!(study.notes(), ["factor `x3` is used in no formula", "constant `b` is used in no formula"]);

@@ -100,7 +100,7 @@ fn every_corner_of_the_box_has_an_answer_by_every_law_theory_and_fidelity() {
 }
 
 #[test]
-fn what_lies_beyond_the_box_ends_in_an_answer_or_a_name() {
+fn scenes_beyond_the_box_have_a_result_or_a_named_failure() {
     let (mut answers, mut asked) = (0, 0);
     for options in all_options() {
         answers += beyond().iter().filter(|scene| assert_sound(scene, &options)).count();

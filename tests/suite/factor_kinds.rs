@@ -60,7 +60,7 @@ fn whole_numbers_categories_and_lists_are_those_of_scipy() {
 }
 
 #[test]
-fn what_is_stated_determines_the_distribution_that_scipy_has() {
+fn stated_parameters_give_the_distribution_of_scipy() {
     let cases = oracle("stated");
     assert_eq!(cases.len(), 10);
     for case in cases {

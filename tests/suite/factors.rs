@@ -142,7 +142,7 @@ fn refused(from: &str, to: &str, expected: &[&str]) {
 }
 
 #[test]
-fn what_determines_nothing_is_refused_with_its_place() {
+fn incomplete_parameters_are_refused_with_their_place() {
     refused("p95 = 5\n", "", &["study.toml:8:8:", "needs two quantiles", "it takes min and mode and max; or mode"]);
     refused("p95 = 5", "p95 = 5\nmean = 3", &["study.toml:13:8:", "the triangular distribution has no `mean`"]);
     refused("p95 = 5", "p95 = 0.5", &["study.toml:11:7:", "`p05` is 1 and `p95` is 0.5"]);
@@ -314,7 +314,7 @@ fn refused_family(from: &str, to: &str, expected: &[&str]) {
 }
 
 #[test]
-fn what_makes_no_family_is_refused_with_its_place() {
+fn invalid_parameters_of_families_are_refused_with_their_place() {
     refused_family("truncate = [-inf, 0]", "truncate = [2, -1]", &["study.toml:42:12:", "the lower one first"]);
     refused_family("truncate = [-inf, 0]", "truncate = [1]", &["study.toml:42:12:", "must be two numbers"]);
     refused_family(
@@ -332,7 +332,7 @@ fn what_makes_no_family_is_refused_with_its_place() {
 }
 
 #[test]
-fn a_bound_that_is_another_factor_is_refused_with_a_way_out() {
+fn a_bound_that_depends_on_another_factor_is_refused_with_advice() {
     refused_family("truncate = [-inf, 0]", "max = \"g\"", &["study.toml:42:7:", "expected a number"]);
     refused_family("truncate = [-inf, 0]", "truncate = [0, \"g\"]", &["study.toml:42:16:", "expected a number"]);
 }

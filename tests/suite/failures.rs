@@ -62,7 +62,7 @@ fn a_missing_file() {
 }
 
 #[test]
-fn a_folder_and_bytes_that_are_no_text() {
+fn a_folder_and_bytes_that_are_not_text_are_refused() {
     let folder = Folder::new();
     for path in [folder.path("."), folder.with("binary.toml", [0xff, 0xfe, 0x00, 0x9f])] {
         let output = apportion(&["check", text(&path)]);
@@ -71,7 +71,7 @@ fn a_folder_and_bytes_that_are_no_text() {
 }
 
 #[test]
-fn not_toml_and_nothing_at_all() {
+fn not_toml_and_empty_files() {
     assert_refused("this is no study", &["study.toml:1:", "^"]);
     assert_refused("", &["study.toml:1:1:", "no factor", "[factors]"]);
     assert_refused("\u{0}\u{1b}[31m", &["study.toml:1:", "\u{fffd}"]);
@@ -112,7 +112,7 @@ fn units_of_the_wrong_kind_and_no_unit() {
 }
 
 #[test]
-fn ranges_that_are_none() {
+fn invalid_ranges_are_refused() {
     assert_spoilt(
         "min = 200",
         "min = 700",
@@ -284,7 +284,7 @@ fn an_output_lost_to_failed_runs_is_a_failed_run() {
 }
 
 #[test]
-fn the_first_failed_run_ends_a_run_that_says_so() {
+fn the_first_failed_run_stops_a_study_that_stops_at_failures() {
     let folder = Folder::new();
     for size in ["base_samples = 256", "max_runs = 100000"] {
         let text_of = holes("failures = \"fail\"").replace("base_samples = 256", size);

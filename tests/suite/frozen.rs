@@ -125,7 +125,7 @@ fn studies_give_the_numbers_they_gave() {
 
 /// The journal was written by the program before rows of programs had numbers.
 #[test]
-fn a_journal_of_before_is_gone_on_with() {
+fn a_journal_of_an_earlier_version_is_resumed() {
     let folder_of_run = Folder::new();
     std::fs::copy(folder().join("ishigami.journal"), folder_of_run.path("ishigami.journal")).unwrap();
     let study = crate::common::study_path("ishigami");
@@ -140,7 +140,7 @@ fn a_journal_of_before_is_gone_on_with() {
 
 /// The points of a design, and what `analyze` makes of outputs computed at them elsewhere.
 #[test]
-fn a_design_of_before_is_analysed() {
+fn a_design_of_an_earlier_version_is_analysed() {
     let folder_of_run = Folder::new();
     let design = folder_of_run.path("design.csv");
     let study = study_path("ishigami");

@@ -190,7 +190,7 @@ fn a_surrogate_adds_total_indices() {
 }
 
 #[test]
-fn a_study_tells_the_distributions() {
+fn distributions_come_from_the_study() {
     let study = |max: f64| {
         let factors: String = (1..=3).map(|j| format!("[[factor]]\nname = \"x{j}\"\nmin = 0\nmax = {max}\n")).collect();
         format!("model = \"expression\"\n[outputs]\ny = \"3*x1 + 2*x2 + x3\"\n{factors}")
@@ -218,7 +218,7 @@ fn a_study_tells_the_distributions() {
 }
 
 #[test]
-fn a_surrogate_that_does_not_serve_says_so() {
+fn a_useless_surrogate_gives_a_warning() {
     let columns = random(4, 200, 4);
     let mut content = "x1,x2,y\n".to_owned();
     (0..200).for_each(|k| content.push_str(&format!("{},{},{}\n", columns[0][k], columns[1][k], columns[3][k])));
@@ -230,7 +230,7 @@ fn a_surrogate_that_does_not_serve_says_so() {
 }
 
 #[test]
-fn other_measures_stand_beside_the_indices() {
+fn other_measures_are_listed_with_the_indices() {
     // x3 counts least, and x4 for nothing.
     let columns = random(4, 600, 12);
     let content = table(&columns);

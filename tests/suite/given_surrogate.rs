@@ -104,7 +104,7 @@ fn ishigami_from_a_table() {
 }
 
 #[test]
-fn the_truth_of_a_rough_function_lies_within() {
+fn intervals_contain_the_exact_values_of_a_rough_function() {
     let function = KnownAnswer::from_name("steps").unwrap().default_function();
     let exact = function.exact().indices.unwrap();
     for seed in 0..4 {
@@ -122,7 +122,7 @@ fn the_truth_of_a_rough_function_lies_within() {
 }
 
 #[test]
-fn noise_is_not_served() {
+fn noise_is_refused() {
     let columns = random(4, 300, 5);
     let y = Column { name: "y".to_owned(), values: columns[3].clone() };
     let of = output(&columns[..3].to_vec(), y, None);

@@ -58,7 +58,7 @@ fn an_output_of_0_and_1_has_no_interval_of_width_0() {
 }
 
 #[test]
-fn a_factor_that_does_nothing_keeps_a_width_of_0() {
+fn a_factor_without_effect_has_an_interval_of_width_0() {
     let result = analysed("if(a+b > 1, 1, 0)", UNIFORM, "base_samples = 256\n[analysis]\nsecond_order = true");
     assert_eq!(bounds(&result, 2), [(0.0, 0.0, 0.0); 2]);
     // A half-plane of one factor is integrated exactly by every net; its indices are 1, which 256 rows do not prove.

@@ -70,7 +70,7 @@ fn ended(mut child: Child) -> (Option<i32>, String) {
 }
 
 #[test]
-fn a_run_killed_at_fifty_moments_ends_in_the_same_bits_and_repeats_nothing() {
+fn a_run_killed_fifty_times_has_the_same_bits_and_repeats_no_run() {
     let folder = tempfile::tempdir().unwrap();
     let (whole, killed) = (folder.path().join("whole"), folder.path().join("killed"));
     succeed(&words(&slow(&whole, &["--no-journal"])));
@@ -98,7 +98,7 @@ fn a_run_killed_at_fifty_moments_ends_in_the_same_bits_and_repeats_nothing() {
 
 #[test]
 #[cfg(unix)]
-fn a_signal_ends_a_run_in_order_and_resume_goes_on() {
+fn a_signal_stops_a_run_cleanly_and_resume_continues_it() {
     let folder = tempfile::tempdir().unwrap();
     let (whole, stopped) = (folder.path().join("whole"), folder.path().join("stopped"));
     succeed(&words(&slow(&whole, &[])));
@@ -150,7 +150,7 @@ fn refused(output: &Output, code: i32, expected: &str) {
 }
 
 #[test]
-fn a_journal_that_was_cut_short_or_damaged_is_used_as_far_as_it_goes() {
+fn a_truncated_or_damaged_journal_is_used_up_to_the_damage() {
     let folder = tempfile::tempdir().unwrap();
     let (whole, cut) = (folder.path().join("whole"), folder.path().join("cut"));
     ishigami_runs(&whole, &["--base-samples", "4096"]);
@@ -266,7 +266,7 @@ fn failures_that_come_back_leave_the_result_as_it_was() {
 }
 
 #[test]
-fn what_is_counted_is_counted_once_however_often_failures_are_tried_again() {
+fn retried_failures_are_counted_once() {
     let folder = tempfile::tempdir().unwrap();
     let study = "name = \"still\"\nmodel = \"afm\"\noutputs = [\"critical_force\"]\n[afm]\nfriction = \"lugre\"\n[design]\n\
                  base_samples = 64\n[analysis]\nmax_failed = 0.9\n[[factor]]\nname = \"velocity\"\ndistribution = \"discrete\"\n\

@@ -105,7 +105,7 @@ fn a_file_that_is_read_is_not_written() {
 }
 
 #[test]
-fn sample_overwrites_its_own_designs_alone() {
+fn sample_overwrites_only_its_own_designs() {
     let folder = Folder::new();
     let (study, table) = (folder.with("s.toml", SUM), folder.with("t.csv", "a,b\n0.5,1\n"));
     let sample = |more: &[&str]| apportion(&[&["sample", text(&study), "-o", text(&table)], more].concat());
@@ -126,7 +126,7 @@ fn sample_overwrites_its_own_designs_alone() {
 }
 
 #[test]
-fn factors_without_a_column_are_told_with_their_values() {
+fn factors_without_a_column_are_listed_with_their_values() {
     let folder = Folder::new();
     let (study, points, out) = (folder.with("s.toml", SUM), folder.with("p.csv", "b\n1\n"), folder.path("o.csv"));
     let output = apportion(&["evaluate", text(&study), text(&points), "-o", text(&out)]);
@@ -154,7 +154,7 @@ fn outputs_keep_the_kind_of_unit_that_the_study_says() {
 }
 
 #[test]
-fn a_file_is_no_folder_and_a_folder_that_is_missing_is_named() {
+fn a_file_in_place_of_a_folder_and_a_missing_folder_are_named() {
     let folder = Folder::new();
     let (study, file) = (folder.with("s.toml", SUM), folder.with("afile", ""));
     let [table, new] = ["nodir/x.csv", "nodir/x.toml"].map(|name| folder.path(name));
@@ -168,17 +168,17 @@ fn a_file_is_no_folder_and_a_folder_that_is_missing_is_named() {
 }
 
 #[test]
-fn nothing_is_said_to_be_kept_where_nothing_is() {
+fn a_run_without_saved_rows_does_not_offer_to_resume() {
     let folder = Folder::new();
     let study = folder.with("s.toml", SLOW.replace("python3", "no-such-program"));
     let output = apportion(&["run", text(&study), "--out", text(&folder.path("out"))]);
     assert_eq!(output.status.code(), Some(1));
     let said = stderr(&output);
-    assert!(said.contains("cannot start the program `no-such-program`") && !said.contains("are kept"), "{said}");
+    assert!(said.contains("cannot start the program `no-such-program`") && !said.contains("are saved"), "{said}");
 }
 
 #[test]
-fn numbers_and_places_that_serve_no_option_are_told_as_such() {
+fn invalid_numbers_and_paths_of_options_are_refused() {
     let folder = Folder::new();
     let study = folder.with("s.toml", SUM);
     refused(&["run", text(&study), "--seed", "-1"], "expected a whole number from 0 to");
@@ -193,7 +193,7 @@ fn numbers_and_places_that_serve_no_option_are_told_as_such() {
 }
 
 #[test]
-fn text_that_is_not_utf_8_is_told_with_its_line() {
+fn text_that_is_not_utf_8_is_reported_with_its_line() {
     let folder = Folder::new();
     let latin = folder.with("latin.toml", b"model = \"ishigami\"\n# caf\xe9\n");
     refused(&["check", text(&latin)], "cannot read the study file: line 2 is not text in UTF-8: save it as UTF-8");

@@ -84,7 +84,7 @@ fn only(result: &StudyResult) -> &OutputResult {
 }
 
 #[test]
-fn a_constant_has_no_indices_and_says_why() {
+fn a_constant_output_has_a_reason_instead_of_indices() {
     let result = analysed("model = \"linear\"\n[function]\nc = 0\ndimension = 3\n", &[]);
     let output = only(&result);
     assert_eq!((output.mean, output.variance), (Some(0.0), Some(0.0)));
@@ -92,7 +92,7 @@ fn a_constant_has_no_indices_and_says_why() {
 }
 
 #[test]
-fn factors_take_their_own_distributions_and_others_stand_still() {
+fn factors_have_their_own_distributions_and_other_inputs_are_fixed() {
     let some =
         analysed("model = \"flood\"\n[[factor]]\nname = \"Hd\"\n[[factor]]\nname = \"Q\"\ngroup = \"river\"\n", &[]);
     let names: Vec<_> =

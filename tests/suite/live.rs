@@ -127,7 +127,7 @@ fn a_title_does_not_break_out_of_the_page() {
 }
 
 #[test]
-fn what_a_page_cannot_run_is_refused() {
+fn studies_that_a_page_cannot_run_are_refused() {
     let folder = Folder::new();
     let page = folder.path("live.html");
     for study in ["command-python/command-python", "epidemic/epidemic"] {

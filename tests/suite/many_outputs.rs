@@ -88,7 +88,7 @@ fn the_same_numbers_on_any_number_of_threads() {
 
 #[cfg(unix)]
 #[test]
-fn a_signal_is_heard_once_the_result_is_written() {
+fn a_signal_takes_effect_after_the_result_is_written() {
     use std::io::Read;
     use std::process::{Command, Stdio};
     use std::time::{Duration, Instant};
@@ -125,7 +125,7 @@ fn a_signal_is_heard_once_the_result_is_written() {
 }
 
 #[test]
-fn outputs_that_are_told_apart_by_names_alone_have_rows() {
+fn outputs_that_differ_only_by_name_have_rows() {
     let folder = Folder::new();
     let names =
         ["mass", "cost", "stress", "drag", "lift", "range", "noise", "fuel", "speed", "climb", "load", "heat", "flat"];
@@ -145,7 +145,7 @@ fn outputs_that_are_told_apart_by_names_alone_have_rows() {
 }
 
 #[test]
-fn failures_of_many_outputs_are_told_once() {
+fn failures_of_many_outputs_are_reported_once() {
     let folder = Folder::new();
     let outputs: String = (0..20).map(|k| format!("y{k} = \"sqrt(a - 0.01) + {k} * b\"\n")).collect();
     let factors: String = ["a", "b"].map(|name| format!("[[factor]]\nname = \"{name}\"\nmin = 0\nmax = 1\n")).concat();

@@ -161,7 +161,7 @@ fn parsed(text: &str) -> Result<Study, apportion_files::StudyError> {
 }
 
 #[test]
-fn a_file_says_it_in_two_ways() {
+fn noise_can_be_written_in_three_equivalent_forms() {
     let short = parsed(&format!("{FORMULA}[factors.x]\nmin = 0\nmax = 1")).unwrap();
     let long = FORMULA.replace("noise = \"seed\"\n", "")
         + "[noise]\nname = \"seed\"\n[[factor]]\nname = \"x\"\nmin = 0\nmax = 1";
@@ -180,7 +180,7 @@ fn a_file_says_it_in_two_ways() {
 }
 
 #[test]
-fn what_makes_no_sense_is_refused() {
+fn senseless_input_is_refused() {
     let x = "[factors.x]\nmin = 0\nmax = 1\n";
     let refused = |text: &str| parsed(text).map(|_| ()).unwrap_err().to_string();
     for (text, expected) in [
@@ -228,7 +228,7 @@ fn check_finds_programs_that_draw_without_their_seed() {
 }
 
 #[test]
-fn a_run_tells_random_programs_from_those_that_remember() {
+fn a_run_distinguishes_random_programs_from_programs_with_state() {
     let folder = Folder::new();
     for (draws, expected) in [
         ("y = x", None),

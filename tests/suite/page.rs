@@ -51,7 +51,7 @@ fn every_output_has_its_section_and_pairs_their_table() {
 }
 
 #[test]
-fn an_evil_title_stays_a_title() {
+fn a_malicious_title_is_escaped() {
     let folder = tempfile::tempdir().unwrap();
     let study = folder.path().join("evil.toml");
     let title = "</title></script><script>alert('1')</script><img src=x onerror=alert(2)> & \\\"quoted\\\"";

@@ -87,7 +87,7 @@ fn json(result: &StudyResult) -> serde_json::Value {
 }
 
 #[test]
-fn workers_elsewhere_change_no_bit() {
+fn remote_workers_change_no_bit() {
     let dynamic = "afm.fidelity=dynamic";
     for (name, overrides) in [
         ("ishigami", &["design.base_samples=70000"][..]),

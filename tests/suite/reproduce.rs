@@ -13,7 +13,7 @@ fn claims_of(folder: &Path) -> Vec<csv::StringRecord> {
 }
 
 #[test]
-fn the_orders_of_the_papers_come_out_or_do_not() {
+fn the_orders_of_the_papers_are_confirmed_or_refuted() {
     let folder = tempfile::tempdir().unwrap();
     let said = succeed(&["reproduce", "--quick", "--only", "claims", "--out", text(folder.path())]);
     let names = files(folder.path());

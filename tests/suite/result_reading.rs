@@ -28,14 +28,14 @@ fn parsed(value: &Value) -> Result<StudyResult, ReadProblem> {
 }
 
 #[test]
-fn what_was_written_is_read() {
+fn a_written_result_is_read_back() {
     let result = result();
     let text = result.json();
     assert_eq!(parse_result(text.as_bytes()).unwrap(), result);
 }
 
 #[test]
-fn what_is_no_result_is_refused_with_the_reason() {
+fn invalid_results_are_refused_with_the_reason() {
     let reason = |text: &str| parse_result(text.as_bytes()).unwrap_err().to_string();
     assert!(reason("{\n  \"format\": ,").contains("line 2 column 13"), "{}", reason("{\n  \"format\": ,"));
     assert!(reason("").contains("EOF"));

@@ -24,7 +24,7 @@ fn linear(sampler: Sampler, base_samples: u64, wanted: &[Measure], fails: bool) 
 
 /// The deltas of a sum of normals by quadrature, and the squares of the correlations, which the spectrum finds.
 #[test]
-fn what_is_known_exactly_is_found_from_nets_and_random_rows() {
+fn exact_measures_are_found_from_nets_and_random_rows() {
     for sampler in [Sampler::Sobol, Sampler::Random, Sampler::LatinHypercube] {
         let analysis = linear(sampler, 1 << 13, &[Measure::Delta, Measure::Fourier], false).run().unwrap();
         let found = analysis.outputs[0].measures.as_ref().unwrap();
@@ -76,7 +76,7 @@ fn rows_of_a_run_are_given_data() {
 }
 
 #[test]
-fn nothing_is_made_up_where_nothing_can_be_told() {
+fn measures_are_missing_for_constant_outputs_and_few_rows() {
     let of = |value: fn(&[f64]) -> f64, base_samples: u64| {
         let options =
             AnalysisOptions { measures: vec![Measure::Delta], ..AnalysisOptions::for_sampler(Sampler::Sobol) };
@@ -96,7 +96,7 @@ fn study() -> String {
 }
 
 #[test]
-fn the_program_states_them_beside_the_indices() {
+fn the_program_lists_them_with_the_indices() {
     let folder = Folder::new();
     let file = folder.with("study.toml", study());
     let told = succeed(&["check", text(&file)]);
@@ -137,7 +137,7 @@ fn the_program_states_them_beside_the_indices() {
 }
 
 #[test]
-fn what_is_no_measure_is_refused() {
+fn unknown_measures_are_refused() {
     let folder = Folder::new();
     let file = folder.with("study.toml", study());
     for (change, expected) in

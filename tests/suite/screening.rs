@@ -120,7 +120,7 @@ fn designs_seeds_and_threads_do_what_they_say() {
 }
 
 #[test]
-fn failed_runs_are_told_with_their_factors() {
+fn failed_runs_are_reported_with_their_factors() {
     let more = ["--design", "trajectory", "--set", "outputs=['critical_force', 'critical_time']"];
     let (_folder, file, table) = screened("coulomb-environmental", &more);
     let [force, time] = &file.outputs[..] else { panic!("two outputs") };

@@ -63,7 +63,7 @@ fn a_program_gives_a_series_by_cells_or_as_a_list() {
 }
 
 #[test]
-fn a_list_of_another_length_is_no_answer() {
+fn a_list_of_the_wrong_length_is_not_an_answer() {
     let folder = Folder::new();
     folder.with("model.py", "import json, sys\nfor line in sys.stdin:\n    print(json.dumps({'id': json.loads(line)['id'], 'y': [1, 2, 3]}), flush=True)\n");
     let study = format!(
@@ -192,7 +192,7 @@ fn the_epidemic_runs() {
 }
 
 #[test]
-fn what_is_wrong_with_a_series_is_said_at_its_place() {
+fn errors_of_a_series_have_a_place() {
     let refused = |model: &str, outputs: &str, expected: &str| {
         let folder = Folder::new();
         let program = if model == "command" { "command.program = [\"true\"]\n" } else { "" };

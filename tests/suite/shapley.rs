@@ -179,7 +179,7 @@ fn shards_journals_threads_and_files_give_the_bits_of_one_run() {
 }
 
 #[test]
-fn the_program_tells_how_effects_were_found() {
+fn the_program_states_the_method_of_shapley_effects() {
     let folder = Folder::new();
     let file = folder.with("twelve.toml", twelve());
     let told = succeed(&["check", text(&file)]);
@@ -198,7 +198,7 @@ fn the_program_tells_how_effects_were_found() {
 }
 
 #[test]
-fn what_cannot_be_is_refused() {
+fn invalid_settings_are_refused() {
     let folder = Folder::new();
     let file = folder.with("twelve.toml", twelve());
     for (change, expected) in [

@@ -228,7 +228,7 @@ fn twelve() -> String {
 }
 
 #[test]
-fn the_program_tells_of_groups() {
+fn the_program_describes_groups() {
     let folder = Folder::new();
     for (kind, dependence) in
         [("plain", ""), ("tied", "[[dependence]]\nfactors = [\"x1\", \"x5\", \"x12\"]\ncorrelation = 0.4\n")]
@@ -270,7 +270,7 @@ fn the_program_tells_of_groups() {
 }
 
 #[test]
-fn groups_serve_where_factors_are_too_many_and_what_cannot_be_is_refused() {
+fn groups_work_for_many_factors_and_invalid_settings_are_refused() {
     let folder = Folder::new();
     let file = folder.with("twelve.toml", twelve());
     let alone: Vec<String> = twelve().lines().filter(|line| !line.starts_with("group")).map(str::to_owned).collect();

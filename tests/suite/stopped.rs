@@ -34,7 +34,7 @@ fn assert_whole(folder: &Path) {
 }
 
 #[test]
-fn a_signal_is_heard_while_charts_are_drawn() {
+fn a_signal_takes_effect_while_charts_are_drawn() {
     let folder = Folder::new();
     let study = folder.with("s.toml", many_charts());
     for (signal, moment) in [("-INT", 1), ("-TERM", 8), ("-INT", 20), ("-HUP", 30), ("-TERM", 45)] {

@@ -78,7 +78,7 @@ fn other_forms_are_refused_with_todays_lines() {
 }
 
 #[test]
-fn outputs_stand_above_the_tables_of_models() {
+fn outputs_are_written_above_the_tables_of_models() {
     let factor = "[factors.x1]\nmin = 0\nmax = 1\n";
     let outputs = |study: &str| -> Vec<String> {
         parsed(study).model().outputs().iter().map(|output| format!("{} [{}]", output.name, output.unit)).collect()
@@ -107,7 +107,7 @@ fn outputs_stand_above_the_tables_of_models() {
 }
 
 #[test]
-fn what_stands_in_the_wrong_table_is_told_where_it_belongs() {
+fn keys_in_the_wrong_table_are_reported_with_the_right_one() {
     let factor = "[[factor]]\nname = \"x1\"\nmin = 0\nmax = 1\n";
     refused(
         &format!("model = \"expression\"\noutputs.y = \"x1\"\n[expression]\na = 7\n{factor}"),
@@ -143,7 +143,7 @@ fn more_factors_than_any_study_can_have_are_refused_while_they_are_read() {
 }
 
 #[test]
-fn words_of_other_programs_are_answered_by_ours() {
+fn words_of_other_programs_are_answered_with_the_keywords_of_this_one() {
     let factor = |line: &str| {
         format!("model = \"expression\"\noutputs.y = \"x1\"\n[[factor]]\nname = \"x1\"\n{line}\n[design]\nseed = 1\n")
     };
@@ -176,7 +176,7 @@ fn functions_of_python_are_refused_with_those_that_there_are() {
 }
 
 #[test]
-fn a_key_mistyped_is_not_mistaken_for_a_fault_of_another() {
+fn mistyped_keys_and_values_are_reported_at_their_place() {
     let rest = "outputs.y = \"x1\"\n[factors.x1]\nmin = 0\nmax = 1\n";
     for typed in ["modle", "Model", "models"] {
         let study = format!("{typed} = \"expression\"\n{rest}");
@@ -189,7 +189,7 @@ fn a_key_mistyped_is_not_mistaken_for_a_fault_of_another() {
 
 /// Editors are told of every form that is read.
 #[test]
-fn the_schema_knows_the_forms() {
+fn the_schema_allows_all_forms() {
     let folder = Folder::new();
     let path = folder.with("bad.toml", "[design]\nN = 3\n");
     let output = apportion(&["check", text(&path)]);

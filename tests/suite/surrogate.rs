@@ -155,7 +155,7 @@ fn stages_can_be_left_out() {
 }
 
 #[test]
-fn where_there_is_nothing_to_fit_the_plain_indices_stand() {
+fn without_a_fit_the_plain_indices_are_reported() {
     let with = |text: &str, more: &[&str]| {
         let result = study(text, &[more, &[ON]].concat()).run().unwrap();
         result.outputs[0].surrogate.is_some()
@@ -260,7 +260,7 @@ fn the_stages_of_a_run_are_what_shorter_runs_give() {
 }
 
 #[test]
-fn the_program_tells_what_the_surrogate_did() {
+fn the_program_describes_the_surrogate() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("mine.toml");
     std::fs::write(&file, "model = \"ishigami\"\n[design]\nbase_samples = 256\n[analysis]\nsurrogate = \"auto\"\n")

@@ -69,7 +69,7 @@ fn no_study_is_silently_wrong() {
 }
 
 #[test]
-fn other_seeds_find_nothing_either() {
+fn other_seeds_find_no_wrong_numbers() {
     for name in ["lugre-general", "coulomb-general", "hk-environmental", "soft-cantilever", "cantilever-formula"] {
         let study = loaded(&study_path(name));
         for seed in 1..=2 {
@@ -119,7 +119,7 @@ fn cancellation_and_underflow_are_flagged() {
 }
 
 #[test]
-fn a_code_model_that_is_off_by_itself_is_not_called_right() {
+fn numbers_of_a_model_in_code_are_flagged_and_not_called_right() {
     let source = apportion::function_model("y", |x| x[0] * 2.0);
     let study = Study::builder("code", source)
         .factor("x", apportion::Distribution::uniform(0.0, 1.0).unwrap())

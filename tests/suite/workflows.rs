@@ -185,7 +185,7 @@ fn models_lists_every_model_and_shows_each_in_full() {
 }
 
 #[test]
-fn a_reader_that_goes_away_is_no_failure() {
+fn a_closed_output_pipe_is_not_a_failure() {
     let binary = assert_cmd::cargo::cargo_bin!("apportion");
     let mut child = std::process::Command::new(binary)
         .arg("models")
@@ -300,7 +300,7 @@ fn runs_that_grow_say_why_they_ended() {
 }
 
 #[test]
-fn a_run_does_not_end_where_more_runs_bring_intervals() {
+fn a_run_continues_while_more_runs_give_intervals() {
     // The output is 1 in a tenth of the square: of nets of four points some do not vary.
     let folder = Folder::new();
     let study = "model = \"expression\"\noutputs.y = \"(a > 0.6837722339831621)*(b > 0.6837722339831621)\"\naccuracy = 0.1\n[design]\nseed = 1\n\
@@ -323,7 +323,7 @@ fn a_run_ends_soon_where_most_runs_fail() {
 }
 
 #[test]
-fn check_says_what_is_asked_and_what_it_takes() {
+fn check_shows_the_request_and_its_cost() {
     let check = |study: &str, settings: &[&str]| {
         let path = study_path(study);
         let set: Vec<&str> = settings.iter().flat_map(|setting| ["--set", setting]).collect();

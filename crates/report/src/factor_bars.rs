@@ -218,7 +218,7 @@ mod tests {
     }
 
     #[test]
-    fn an_index_of_which_nothing_is_known_has_no_bar() {
+    fn an_index_without_estimate_has_no_bar() {
         let keys = [1.0, 0.5, 0.4, 0.3];
         let names: Vec<String> = ["a", "b", "c", "d"].map(str::to_owned).to_vec();
         let alone = Some(Estimate::alone(2.73));

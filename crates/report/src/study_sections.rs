@@ -134,7 +134,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn distributions_are_said_with_their_units() {
+    fn distributions_are_described_with_their_units() {
         let uniform = serde_json::json!({"name": "uniform", "min": 0.25, "max": 2.5});
         assert_eq!(distribution(&uniform, "um"), "uniform, min 0.25, max 2.5 (µm)");
         assert_eq!(distribution(&uniform, "1"), "uniform, min 0.25, max 2.5");

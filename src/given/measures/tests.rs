@@ -119,7 +119,7 @@ fn neither_scale_nor_offset_of_the_output_nor_a_growing_function_of_the_input_co
 }
 
 #[test]
-fn an_input_without_influence_is_told_from_chance_in_five_of_a_hundred_tables() {
+fn an_input_without_influence_is_significant_in_five_of_a_hundred_tables() {
     let mut seen = [0; Measure::ALL.len()];
     const TABLES: u64 = 100;
     for table in 0..TABLES {
@@ -135,7 +135,7 @@ fn an_input_without_influence_is_told_from_chance_in_five_of_a_hundred_tables() 
 }
 
 #[test]
-fn inputs_of_one_value_and_even_points_claim_nothing() {
+fn constant_inputs_and_even_points_have_no_p_values() {
     let mut inputs = uniform(64, 2, 5);
     inputs[1].values.fill(3.0);
     let found = measured(&inputs, output(&inputs, |x| x[0]), 0);

@@ -52,7 +52,7 @@ fn operators_bind_as_in_mathematics() {
 }
 
 #[test]
-fn names_with_points_are_nothing() {
+fn names_with_points_are_unknown() {
     for (text, message, place) in [
         ("np.sin(x)", "there is no function `np.sin`", "np.sin"),
         ("1 + scipy.special.erf(x)", "there is no function `scipy.special.erf`", "scipy.special.erf"),
@@ -99,7 +99,7 @@ fn columns_of_any_length_are_their_rows() {
 }
 
 #[test]
-fn what_has_no_value_is_never_hidden() {
+fn nan_is_never_hidden() {
     for text in ["min(0/0, x)", "max(x, 0/0)", "0/0 < x", "if(0/0, 1, 2)", "(0/0)*0"] {
         assert!(value(text, &[1.0]).is_nan(), "{text}");
     }

@@ -26,7 +26,7 @@ fn reasons_with_numbers_in_them_are_one() {
 }
 
 #[test]
-fn of_more_words_than_that_the_first_are_told_apart() {
+fn only_the_first_reasons_are_counted_separately() {
     let word = |k: u32| [k / 26 % 26, k % 26].map(|place| char::from(b'a' + place as u8)).iter().collect::<String>();
     let all = counted(&(0..300).rev().map(|k| (u64::from(k), word(k))).collect::<Vec<_>>());
     let found: Vec<_> = all.iter().collect();

@@ -165,7 +165,7 @@ fn constants_of_poincare_are_those_that_are_known() {
 }
 
 #[test]
-fn a_step_between_the_base_points_frees_no_factor() {
+fn a_step_between_the_base_points_marks_no_factor_as_fixable() {
     // x2 has a total index of 0.98, at a step that no difference of 0.001 meets.
     let step = |x: &[f64]| x[0] + 2.0 * libm::tanh(2000.0 * (x[1] - 0.3));
     let settings = ScreeningSettings {

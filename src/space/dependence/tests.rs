@@ -63,7 +63,7 @@ fn discrete_factors_have_pearson_correlations_too() {
 }
 
 #[test]
-fn what_cannot_be_is_refused_with_what_would_be_right() {
+fn invalid_settings_are_refused_with_advice() {
     let space = space(vec![uniform(), uniform(), uniform(), Distribution::constant(1.0).unwrap()]);
     let message = |dependences: &[Dependence]| copula(&space, dependences).unwrap_err().to_string();
     let pair = |a: &str, b: &str| Dependence::pair(a, b, 0.5);
@@ -87,7 +87,7 @@ fn what_cannot_be_is_refused_with_what_would_be_right() {
 }
 
 #[test]
-fn joint_measurements_that_say_nothing_are_refused_by_name() {
+fn useless_joint_measurements_are_refused_by_name() {
     let space = space(vec![uniform(), uniform(), Distribution::discrete(&[1.0], None).unwrap()]);
     let rising: Vec<f64> = (0..20).map(f64::from).collect();
     let columns = |other: fn(f64) -> f64| vec![rising.clone(), rising.iter().map(|x| other(*x)).collect()];

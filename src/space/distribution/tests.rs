@@ -191,7 +191,7 @@ fn whole_numbers_and_categories_have_their_exact_shares() {
 
 /// Each label was once compared with all others: 60,000 of them took half a minute, 300,000 a quarter of an hour.
 #[test]
-fn a_great_many_labels_take_no_time() {
+fn many_labels_are_parsed_quickly() {
     let labels: Vec<String> = (0..300_000).map(|place| place.to_string()).collect();
     let many = made(Distribution::categorical(&labels, None, None));
     assert_eq!((many.central(), many.value_of("299999")), (0.0, Some(299_999.0)));
@@ -213,7 +213,7 @@ fn quantiles_outside_the_open_interval_do_not_panic() {
 }
 
 #[test]
-fn what_was_typed_in_a_unit_is_exact_in_si() {
+fn numbers_with_units_are_exact_in_si() {
     let unit = |symbol| Unit::parse(symbol).expect("a unit");
     let si = |distribution: Distribution, symbol| made(distribution.to_si(&unit(symbol)));
     let length = si(made(Distribution::uniform(225.0, 230.3)), "um");
@@ -276,7 +276,7 @@ fn any_number() -> impl Strategy<Value = f64> {
 proptest! {
     /// Whatever the constructors let pass keeps the promises.
     #[test]
-    fn what_is_accepted_is_finite(p in prop::array::uniform4(any_number()), list in prop::collection::vec(any_number(), 0..4)) {
+    fn accepted_distributions_are_finite(p in prop::array::uniform4(any_number()), list in prop::collection::vec(any_number(), 0..4)) {
         let [a, b, c, d] = p;
         let results = [
             Distribution::uniform(a, b),

@@ -156,7 +156,7 @@ fn in_an_example(shown: &str) -> Option<String> {
 }
 
 #[test]
-fn what_is_left_out_may_be_anything() {
+fn elisions_match_any_text() {
     for (shown, printed, expected) in [
         ("a\n...\nc\n", "a\nb\nb\nc\n", true),
         ("a\n...\n", "a\n", true),

@@ -81,7 +81,7 @@ pub fn write(page: &Page, corrections: &[(&Block, String)]) {
 }
 
 #[test]
-fn what_is_shown_follows_what_is_printed() {
+fn shown_output_is_updated_from_printed_output() {
     let printed =
         "run: 12 runs in 3 s\nFor y, x1 matters most: its index is 0.6, 60 %.\n\ntable\n  x1  0.60\n  x2  0.40\nend\n";
     let shown = "...\nX1 matters most for y: its index is 0.5, [..]\n...\n  x1  0.50\n...\n";

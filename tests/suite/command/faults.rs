@@ -45,7 +45,7 @@ fn a_program_may_answer_in_blocks() {
 }
 
 #[test]
-fn the_program_says_which_rows_failed() {
+fn the_program_reports_failed_rows() {
     let errors = "    answer('error: no root' if x[0] > 0.9 else y)\n";
     some_fail(&Case::each_row("", errors), "no root");
     let missing = "    answer('nan' if x[0] > 0.9 else y)\n";
@@ -55,7 +55,7 @@ fn the_program_says_which_rows_failed() {
 }
 
 #[test]
-fn a_row_on_which_the_program_dies_fails_alone() {
+fn only_the_row_that_crashes_the_program_fails() {
     let dies = "    if x[0] > 0.9:\n        print('no convergence at', x[0], file=sys.stderr, flush=True)\n        os._exit(3)\n    answer(y)\n";
     let said = some_fail(&Case::each_row("", dies), "the program ended with exit status 3: no convergence at #");
     contains(&said, &["the program: no convergence at 0.9", "more lines on standard error left out"]);
@@ -65,7 +65,7 @@ fn a_row_on_which_the_program_dies_fails_alone() {
 
 /// The one guilty row is found though the program had read others.
 #[test]
-fn a_row_on_which_a_program_of_blocks_dies_fails_alone() {
+fn only_the_row_that_crashes_a_program_of_blocks_fails() {
     let blocks = "import os, sys\nsys.stdin.buffer.readline()\nrest = b''\nwhile block := sys.stdin.buffer.read1(65536):\n    \
                   lines, _, rest = (rest + block).rpartition(b'\\n')\n    answers = ''\n    for line in lines.splitlines():\n        \
                   n, *x = [float(cell) for cell in line.split(b',')]\n        if x[0] > 0.9: os._exit(3)\n        \
@@ -74,7 +74,7 @@ fn a_row_on_which_a_program_of_blocks_dies_fails_alone() {
 }
 
 #[test]
-fn one_in_a_hundred_rows_that_crash_cost_no_other() {
+fn crashing_rows_do_not_fail_other_rows() {
     let dies = "    if x[0] > 0.99:\n        os._exit(1)\n    answer(y)\n";
     let case = Case::each_row("", dies);
     let output = case.run_with(&["--base-samples", "512"]);
@@ -137,7 +137,7 @@ fn a_hanging_program_is_ended_and_started_again() {
 }
 
 #[test]
-fn a_program_that_does_not_flush_is_told_to() {
+fn a_program_that_does_not_flush_gets_a_hint() {
     let buffered =
         "    kept = globals().setdefault('kept', open(1, 'w', buffering=65536))\n    kept.write(f'{number},{y}\\n')\n";
     let case = Case::each_row("timeout = \"300 ms\"\nretries = 0", buffered);
@@ -177,7 +177,7 @@ fn a_program_that_never_works_is_given_up() {
 }
 
 #[test]
-fn check_tells_of_rows_that_fail() {
+fn check_reports_failing_rows() {
     let all = Case::each_row("", "    answer('error: no root')\n");
     let output = apportion(&["check", text(&all.path("study.toml"))]);
     assert_eq!(output.status.code(), Some(1), "{}", stdout(&output));
@@ -188,7 +188,7 @@ fn check_tells_of_rows_that_fail() {
 }
 
 #[test]
-fn check_tells_the_start_of_a_program_from_its_runs() {
+fn check_separates_the_start_time_of_a_program_from_its_runs() {
     let slow = Case::new("", &format!("import time\ntime.sleep(1.2)\n{}    answer(y)\n", super::LOOP));
     let told = succeed(&["check", text(&slow.path("study.toml"))]);
     let cost = told.lines().find(|line| line.starts_with("cost: ")).unwrap();

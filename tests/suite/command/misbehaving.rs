@@ -194,7 +194,7 @@ fn no_program_makes_a_wrong_number() {
 }
 
 #[test]
-fn a_row_without_an_answer_fails_alone() {
+fn only_the_row_without_an_answer_fails() {
     let case =
         Case::each_row("", "    if x[0] > 0.97: continue\n    answer(y)\n").replace("workers = 2", "workers = 8");
     let (result, _) = case.result();

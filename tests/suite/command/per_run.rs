@@ -39,7 +39,7 @@ fn outputs_are_picked_from_files() {
 }
 
 #[test]
-fn what_a_run_does_not_leave_is_named() {
+fn missing_output_of_a_run_is_named() {
     let bad = rows_where(|x| x > 0.9);
     for (more, reason) in [
         ("if (x1 <= 0.9) print \"y = \" y > \"out.txt\"", "the run wrote no file `out.txt`"),
@@ -65,7 +65,7 @@ fn what_a_run_does_not_leave_is_named() {
 
 /// A result of an earlier run of the simulator, copied along, is not taken for that of a row.
 #[test]
-fn a_file_that_was_there_before_is_no_output() {
+fn a_file_from_before_the_run_is_not_an_output() {
     let more = "if (x1 <= 0.9) print \"y = \" y > \"out.txt\"";
     let case = simulator("", REPORT, more).replace("[\"model.awk\"]", "[\"model.awk\", \"out.txt\"]");
     case.write("out.txt", "y = 7\n");

@@ -58,7 +58,7 @@ pub fn signal(name: &str, child: &Child) {
 const HANGS: &str = "    if n > 3: time.sleep(1000)\n";
 
 #[test]
-fn a_run_that_ends_leaves_no_process() {
+fn a_finished_run_leaves_no_process() {
     let case = worker("");
     case.result();
     let all = processes(&case);

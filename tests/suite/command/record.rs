@@ -49,7 +49,7 @@ fn only_rows_that_failed_are_asked_again_and_the_result_is_that_of_a_run_without
 
 #[cfg(target_os = "linux")]
 #[test]
-fn an_engine_that_is_killed_asks_no_row_on_record_again_and_leaves_no_process() {
+fn a_killed_engine_repeats_no_recorded_row_and_leaves_no_process() {
     // With 4 ms a row, pieces that take 0.2 s have at most 50 rows.
     const IN_FLIGHT: usize = 2 * 50;
     const ROWS: usize = 512 * 5;

@@ -7,7 +7,7 @@ use super::{ishigami, ishigami_runs, numbers, refused};
 use crate::common::{apportion, stderr, study_path, succeed, text};
 
 #[test]
-fn a_merge_that_is_refused_leaves_the_runs_on_record_alone() {
+fn a_refused_merge_does_not_change_recorded_runs() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path();
     let small = ["--base-samples", "256"];

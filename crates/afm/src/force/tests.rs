@@ -161,7 +161,7 @@ fn other_laws_may_be_as_fast_as_they_like() {
 /// For each law the default parameters that it must not feel, besides the height, which no law
 /// feels.
 #[test]
-fn parameters_a_law_does_not_know_do_not_act() {
+fn parameters_of_other_friction_laws_have_no_effect() {
     let deaf: [(FrictionLaw, &[&str]); 3] = [
         (FrictionLaw::Coulomb, &["height", "velocity", "dynamic_friction", "burgers_vector", "poisson_ratio"]),
         (FrictionLaw::HurtadoKim, &["height", "velocity", "static_friction", "shear_strength", "poisson_ratio"]),

@@ -190,7 +190,7 @@ fn capacity_is_the_break_away_force() {
 }
 
 #[test]
-fn laws_that_live_on_load_hold_nothing_without_it() {
+fn friction_that_depends_on_load_vanishes_without_load() {
     let scene = Scene { viscous_friction: 0.0, ..Scene::default() };
     for &law in FrictionLaw::ALL.iter().filter(|law| !law.lives_on_area()) {
         for form in [LuGreForm::Fast, LuGreForm::Ramp] {

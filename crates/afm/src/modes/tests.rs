@@ -111,7 +111,7 @@ fn spin_limits() {
 }
 
 #[test]
-fn what_is_not_physical_is_named() {
+fn unphysical_values_are_named() {
     let constants = ModeConstants { tip_friction: -1.0, ..ModeConstants::default() };
     let force = TipForce { normal: 1e-7, lateral: 0.0 };
     let failure = Pushing { constants, ..nominal() }.balance(Mode::Slide, force).unwrap_err();

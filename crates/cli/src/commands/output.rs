@@ -123,7 +123,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn live_pages_are_told_from_animations() {
+    fn live_pages_are_distinguished_from_animations() {
         assert!(is_live(Path::new("out/ishigami-live.html")) && is_live(Path::new("live.html")));
         assert!(!is_live(Path::new("charts/ts04-14-animation.html")) && !is_live(Path::new("alive.json")));
     }

@@ -93,7 +93,7 @@ mod tests {
     }
 
     #[test]
-    fn the_diagram_is_drawn_and_says_what_it_shows() {
+    fn the_diagram_is_drawn_with_a_caption() {
         let svg = mode_diagram_chart(&diagram()).svg();
         Document::parse(&svg).unwrap();
         assert!(!svg.contains("NaN") && !svg.contains("inf"));

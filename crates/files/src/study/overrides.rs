@@ -191,7 +191,7 @@ mod tests {
     }
 
     #[test]
-    fn the_length_of_a_run_is_said_in_one_way() {
+    fn only_one_key_sets_the_length_of_a_run() {
         let text = "accuracy = 0.1\n[design]\nmax_runs = 9\n";
         let applied = |set: &str| apply(text, &[set.to_owned()]).unwrap().unwrap();
         assert_eq!(applied("design.runs=300"), "[design]\nruns = 300\n");
@@ -199,7 +199,7 @@ mod tests {
     }
 
     #[test]
-    fn what_makes_no_sense_is_named() {
+    fn invalid_overrides_are_named() {
         let refused = |text: &str, expected: &str| {
             let problem = applied(text).unwrap_err();
             assert!(problem.contains(expected), "{text}: {problem}");
@@ -209,6 +209,6 @@ mod tests {
         // 30,000 parts used to take more than a minute.
         refused(&format!("{}=1", ["a"; 30_000].join(".")), "the key has 30000 parts");
         let formulas = apply("outputs.y = 'x1'\n", &["outputs=['y']".to_owned()]);
-        assert!(formulas.unwrap_err().1.contains("`outputs` is a table in this study"));
+        assert!(formulas.unwrap_err().1.contains("`outputs` is a table of formulas or units in this study"));
     }
 }

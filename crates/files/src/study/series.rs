@@ -68,7 +68,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_series_is_refused_with_what_would_be() {
+    fn invalid_series_are_refused_with_advice() {
         for (text, expected) in [
             ("length = 1", "2 to 10000 values"),
             ("length = 10000000", "2 to 10000 values"),

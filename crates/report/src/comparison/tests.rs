@@ -73,7 +73,7 @@ fn the_other_way_round_is_the_same_with_the_other_sign() {
 }
 
 #[test]
-fn what_cannot_be_compared_is_refused_with_the_reason() {
+fn results_that_cannot_be_compared_are_refused_with_the_reason() {
     let a = linear("[1.0, 2.0]", "");
     let mut b = a.clone();
     b.outputs[0].name = "force".to_owned();
@@ -144,7 +144,7 @@ fn a_table_has_no_more_columns_than_a_page_has_room_for() {
 }
 
 #[test]
-fn rounding_is_no_difference() {
+fn rounding_does_not_count_as_a_difference() {
     let record = |estimate: f64| Some(Estimate { estimate, interval: Some(Interval::about(estimate, 0.0)) });
     assert_eq!(ComparedIndex::new(record(0.0), record(5e-15)).differs, Some(false));
     assert_eq!(ComparedIndex::new(record(0.0), record(5e-9)).differs, Some(true));

@@ -21,7 +21,7 @@ fn titles(page: &Document) -> Vec<&str> {
 const SMALL: &str = "\n[design]\nbase_samples = 256\n";
 
 #[test]
-fn the_leading_factor_stands_at_the_top() {
+fn the_leading_factor_is_at_the_top() {
     let result = result(&format!("model = \"linear\"\n[function]\nc = [1.0, 4.0, 2.0]{SMALL}"));
     let page = page(&result);
     assert!(page.lead[0].starts_with("For y, x2 matters most"), "{}", page.lead[0]);
@@ -127,7 +127,7 @@ fn few_values_have_a_range_and_no_quantiles_of_it() {
 }
 
 #[test]
-fn no_index_of_the_table_is_known_worse_than_the_lead_says() {
+fn no_index_of_the_table_has_a_larger_error_than_the_lead() {
     for model in ["linear", "ishigami"] {
         for samples in [64, 256, 1024] {
             let result = result(&format!("model = \"{model}\"\n[design]\nbase_samples = {samples}\n"));

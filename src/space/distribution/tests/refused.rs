@@ -3,7 +3,7 @@
 use super::*;
 
 #[test]
-fn what_cannot_be_is_refused_by_name() {
+fn invalid_settings_are_refused_by_name() {
     let (nan, infinite) = (f64::NAN, f64::INFINITY);
     let refused = |result: Result<Distribution, Error>| result.expect_err("must be refused");
     let cases = [
@@ -104,7 +104,7 @@ fn what_cannot_be_is_refused_by_name() {
 }
 
 #[test]
-fn truncation_where_nothing_is_left_is_refused() {
+fn truncation_without_remaining_values_is_refused() {
     let refused =
         |min, max| matches!(Distribution::truncated_normal(0.0, 1.0, min, max), Err(Error::NothingLeft { .. }));
     assert!(refused(36.0, 37.0) && refused(-50.0, -36.0) && refused(1e300, 1.5e300));

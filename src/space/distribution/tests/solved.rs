@@ -83,7 +83,7 @@ fn every_way_leads_back() {
 }
 
 #[test]
-fn what_cannot_be_is_refused_by_name() {
+fn invalid_settings_are_refused_by_name() {
     type Case<'a> = (&'a str, &'a [(&'static str, f64)], &'a str);
     let cases: [Case<'_>; 12] = [
         ("normal", &[("p05", 3.0), ("p95", 3.0)], "`p05` is 3 and `p95` is 3, but `p05` must be below `p95`"),

@@ -62,7 +62,7 @@ proptest! {
 
     /// What is taken is finite, at every magnitude, and has the bits of the scene alone.
     #[test]
-    fn what_is_not_ordinary_is_left_to_the_other_way(exponents in prop::collection::vec(-300.0..300.0_f64, 8)) {
+    fn extreme_scenes_are_left_to_the_scalar_code(exponents in prop::collection::vec(-300.0..300.0_f64, 8)) {
         let mut scene = Scene::default();
         for (parameter, exponent) in factors().into_iter().zip(exponents) {
             (parameter.set)(&mut scene, 10_f64.powf(exponent));
@@ -86,7 +86,7 @@ fn values_outside_of_their_domain_are_left_to_the_other_way() {
 }
 
 #[test]
-fn what_has_no_columns_is_computed_one_by_one() {
+fn parameters_without_columns_are_computed_one_by_one() {
     let none = |scene: Scene, options: Options, name: &str| {
         ClosedForms::new(&scene, &options, &[Parameter::from_name(name).unwrap()]).is_none()
     };

@@ -54,7 +54,7 @@ proptest! {
 
     /// Where the substrate is fast, the swing of the tip brings the slip forward, up to a fifth of the time and more.
     #[test]
-    fn errors_tell_of_the_critical_time_where_it_is_asked_for(
+    fn errors_include_the_critical_time_if_requested(
         scene in within_ranges(), velocity in -8.0..-2.7_f64, law in prop::sample::select(&STUCK[..2])
     ) {
         let scene = Scene { velocity: libm::exp10(velocity), ..scene };
@@ -134,7 +134,7 @@ fn nominal_rungs() {
 }
 
 #[test]
-fn auto_takes_the_lowest_rung_that_will_do() {
+fn auto_uses_the_lowest_sufficient_rung() {
     let rung = |scene: &Scene, tolerance| {
         let options = Options { tolerance, ..at(Fidelity::Auto, FrictionLaw::Coulomb) };
         critical_force(scene, &options).unwrap().rung
@@ -200,7 +200,7 @@ fn both_methods_follow_a_heavy_tip() {
 /// Where friction weakens as the particle speeds up, the swing of the tip shakes it loose before the peak of a motion without it:
 /// steps so fine that they keep part of the swing gave 6.185056e-7 N here, 1.6e-4 less than any rung finds.
 #[test]
-fn what_the_swing_may_shake_loose_is_in_the_estimate() {
+fn the_error_estimate_includes_breakaway_by_the_swing() {
     let scene = Scene {
         bristle_stiffness: 294.585_744_801_317_6,
         bristle_damping: 1.6e-6,

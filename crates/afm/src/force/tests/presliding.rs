@@ -123,7 +123,7 @@ proptest! {
 
 /// Nine in ten of the runs that the swing used to send to the march do without it.
 #[test]
-fn the_march_is_for_few() {
+fn the_march_is_used_for_few_scenes() {
     let mut random = 1_u64;
     let mut uniform = move |low: f64, high: f64| {
         random = random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);

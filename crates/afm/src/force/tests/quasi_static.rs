@@ -133,7 +133,7 @@ proptest! {
 
     /// The closed form's estimate bounds its error, and is not idle: within a factor 20.
     #[test]
-    fn the_closed_form_knows_its_error(scene in within_ranges(), law in prop::sample::select(&LAWS[..])) {
+    fn the_closed_form_states_its_error(scene in within_ranges(), law in prop::sample::select(&LAWS[..])) {
         let exact = critical_force(&scene, &by_geometry(law)).unwrap();
         let closed = critical_force(&scene, &by(law)).unwrap();
         let error = (closed.critical_force / exact.critical_force - 1.0).abs();

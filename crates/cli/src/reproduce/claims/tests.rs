@@ -76,7 +76,7 @@ fn times(factor: impl Fn(&Scene, &Options) -> f64) -> impl Fn(&Scene, &Options) 
 }
 
 #[test]
-fn a_force_that_knows_the_tip_height_or_grows_with_length_changes_verdicts() {
+fn verdicts_change_if_the_force_depends_on_tip_height_or_grows_with_length() {
     let bent = times(|scene, _| scene.height / 12e-6 * (scene.length / 225e-6).powi(4));
     assert_eq!(
         verdicts(with_force(&bent), 8..=11),
@@ -85,14 +85,14 @@ fn a_force_that_knows_the_tip_height_or_grows_with_length_changes_verdicts() {
 }
 
 #[test]
-fn a_force_that_knows_the_thickness_less_or_the_width_squared_changes_verdicts() {
+fn verdicts_change_if_the_force_depends_on_less_thickness_or_squared_width() {
     let bent = times(|scene, _| (1e-6 / scene.thickness).powi(4) * (scene.width / 48e-6).powi(2));
     let found = verdicts(with_force(&bent), 8..=11);
     assert_eq!((found[1], found[2]), ((9, "not reproduced"), (10, "not reproduced")));
 }
 
 #[test]
-fn a_force_that_knows_the_velocity_or_the_contact_changes_verdicts() {
+fn verdicts_change_if_the_force_depends_on_velocity_or_contact() {
     let bent = times(|scene, _| {
         let contact = (scene.equivalent_modulus / 60e9).powi(3) * (1.0 + scene.adhesion).powi(-9);
         (1.0 + scene.velocity / 800e-9) * contact * (scene.elastic_modulus / 169e9).powi(-4)

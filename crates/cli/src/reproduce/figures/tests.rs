@@ -75,7 +75,7 @@ fn drawn_soundly(figure: &PaperFigure) {
 }
 
 #[test]
-fn every_figure_is_there_once_and_in_order() {
+fn every_figure_occurs_once_and_in_order() {
     let labels: Vec<&str> = QUICK.iter().map(|figure| figure.label.as_str()).collect();
     assert_eq!(labels, COMPUTED);
     let all = figures(&reproduced(), Effort::Quick).unwrap();
@@ -141,7 +141,7 @@ fn sweeps_follow_the_exact_laws() {
 }
 
 #[test]
-fn captions_say_what_the_data_hold() {
+fn captions_describe_the_data() {
     let caption = |stem| figure(stem).chart.caption();
     // (2.5/0.25)^3 = 1000, and half of the way of t^3 lies at 2.5 (1.001/2)^(1/3) = 1.985 um.
     let thickness = caption("lg-2c");
@@ -175,7 +175,7 @@ fn data_have_a_row_for_every_point_drawn() {
 }
 
 #[test]
-fn the_animation_is_one_page_beside_its_data() {
+fn the_animation_is_one_page_next_to_its_data() {
     let animation = animation().unwrap();
     assert!(!animation.html.contains("<h2>Charts</h2>"));
     assert!(animation.csv.starts_with("time_s,"));

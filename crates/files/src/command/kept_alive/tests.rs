@@ -45,7 +45,7 @@ fn answers(model: &CommandModel, x: &[f64]) -> Vec<f64> {
 const ECHO: &str = "while read -r x; do echo \"$x\"; done";
 
 #[test]
-fn a_program_that_is_long_silent_at_its_first_row_is_asked_whether_it_flushes() {
+fn a_program_silent_at_its_first_row_gets_a_hint_to_flush() {
     let slow = format!("read -r header; read -r x; sleep 0.6; echo \"$x\"; {ECHO}");
     for (silence, hinted) in [(Duration::from_millis(50), true), (super::super::SILENCE, false)] {
         let mut model = model(&slow);
@@ -56,7 +56,7 @@ fn a_program_that_is_long_silent_at_its_first_row_is_asked_whether_it_flushes() 
 }
 
 #[test]
-fn a_program_that_has_answered_is_not_asked_that() {
+fn a_program_that_has_answered_gets_no_hint_to_flush() {
     // Slow over every row of a process but its first.
     let slow = "read -r header; n=0; while read -r x; do test $n -eq 0 || sleep 0.2; n=1; echo \"$x\"; done";
     let mut model = model(slow);

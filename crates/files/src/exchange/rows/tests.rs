@@ -202,7 +202,7 @@ fn missing_values_and_words_of_yes_and_no_are_numbers() {
 }
 
 #[test]
-fn columns_of_text_are_told_from_those_of_numbers() {
+fn text_columns_are_distinguished_from_number_columns() {
     let csv = b"id,a,b,c\n,1,nan,x\nr2,2,red,\n".to_vec();
     let mut rows = table_of_bytes(csv, &ReadOptions::default()).unwrap();
     assert_eq!(rows.text_columns().unwrap(), [0, 2, 3]);

@@ -19,7 +19,7 @@ fn paths(document: &Document, class: &str) -> Vec<Vec<f64>> {
 }
 
 #[test]
-fn points_stand_at_their_values_and_gaps_stay_open() {
+fn points_are_at_their_values_and_gaps_stay_open() {
     let points =
         vec![(0.0, 10.0), (1.0, 30.0), (2.0, f64::NAN), (3.0, 20.0), (4.0, f64::INFINITY), (5.0, 5.0), (6.0, 40.0)];
     let svg = svg(vec![panel(vec![series(0).line(points)])]);

@@ -73,7 +73,7 @@ fn tags(html: &str) -> Vec<&str> {
 }
 
 #[test]
-fn the_page_needs_nothing_else() {
+fn the_page_needs_no_other_files() {
     let html = page(every_part("words")).html();
     let own = html.replace("http://www.w3.org/2000/svg", "");
     for outside in ["http:", "https:", " src=", "@import", "url(", "//cdn", "fetch("] {
@@ -91,7 +91,7 @@ fn the_page_needs_nothing_else() {
 }
 
 #[test]
-fn what_follows_a_number_does_not_run_into_it() {
+fn links_are_separated_from_numbers() {
     let cell = Cell { links: vec![Link::new("fig. 8", "#two")], ..Cell::from("1") };
     let table = Table::from_rows("Claims.", [&cell]).text("claim", Cell::clone);
     let html = page(vec![table.into()]).html();
@@ -127,7 +127,7 @@ fn the_same_page_gives_the_same_bytes() {
 }
 
 #[test]
-fn a_page_links_to_the_files_that_lie_in_its_folder_alone() {
+fn a_page_links_only_to_files_in_its_folder() {
     let document = page(vec![figure("f1", scatter("a"))]);
     let alone = document.html();
     assert!(!alone.contains(".svg\"") && !alone.contains(".csv\""));
