@@ -1,4 +1,4 @@
-//! How fast the errors fall: the promise of Sobol' points, in short (`benches/accuracy.rs` has it at length).
+//! The convergence rate of the errors with Sobol' points (`benches/accuracy.rs` measures it in detail).
 
 #[path = "../../benches/outputs/mod.rs"]
 mod outputs;
@@ -41,7 +41,7 @@ fn errors_fall_as_the_points_promise() {
         let slopes = slopes(name, Sampler::Sobol);
         assert!(slopes.iter().all(|slope| *slope < -0.8), "{name}: {slopes:?}");
     }
-    // Independent points: -1/2 whatever the function, with the same uncertainty.
+    // Independent points: -1/2 for every function, with the same uncertainty.
     for name in ["product", "steps"] {
         let slopes = slopes(name, Sampler::Random);
         assert!(slopes.iter().all(|slope| (slope + 0.5).abs() < 0.15), "{name}: {slopes:?}");

@@ -130,7 +130,7 @@ fn every_rung_finds_the_time_of_slip_on_bristles() {
             // The oracle's peak is missed by OF_ORACLE, which the slow rise there makes more of in the time.
             let allowed = critical.error_estimate + 100.0 * OF_ORACLE;
             assert!(error < allowed, "{fidelity:?} {error:e} {critical:?}\n{scene:?}");
-            // Where viscosity is large the last 0.1 % take so long that the twist goes on meanwhile.
+            // With large viscosity the last 0.1 % take so long that the twist increases meanwhile.
             let is_exact = fidelity == Fidelity::QuasiStatic && ramp.sigma2 < 0.1;
             assert!(!is_exact || error < 1e-6, "{error:e} {critical:?}\n{scene:?}");
             worst[number] = worst[number].max(error);

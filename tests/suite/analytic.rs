@@ -1,4 +1,4 @@
-//! Indices against exact answers. Seeds are fixed; the tolerances are those the project promises.
+//! Indices against exact answers. Seeds are fixed; the tolerances are those stated by the project.
 
 use apportion::model::KnownAnswer;
 use apportion::result::StudyResult;

@@ -7,9 +7,9 @@
 //! |---|---|
 //! | `sh` | runs with `sh -eu`, and must end well |
 //! | `toml` | is a part of a study, whose keys must be known |
-//! | `rust` | must stand, line by line, in a program of `examples`, which the tests run |
+//! | `rust` | must be, line by line, in a program of `examples`, which the tests run |
 //! | `python` | runs in `python/tests/test_documentation.py`, where the Python package is |
-//! | `text`, `json`, `csv` | is left alone |
+//! | `text`, `json`, `csv` | is ignored |
 //!
 //! A comment in the line above a block says otherwise:
 //!
@@ -19,10 +19,10 @@
 //! | `<!-- output -->` | the block before it printed this; a line `...` stands for any lines, `[..]` for anything in a line |
 //! | `<!-- exit: 2 -->` | the block ends with this exit code |
 //! | `<!-- not run: REASON -->` | the block is not for this machine |
-//! | `<!-- setup: COMMAND -->` | by itself: runs, and no reader sees it |
+//! | `<!-- setup: COMMAND -->` | without a block: runs, and is not shown |
 //!
 //! Code by indentation alone would pass unseen and is refused, but for the two commands of the README. `BOOK_PAGE=first`
-//! in the environment tries the pages with `first` in their names alone. Where the program says something else than it did,
+//! in the environment tries only the pages with `first` in their names. Where the program prints something else than before,
 //! `BOOK=update` writes it into the pages, elisions kept, to be looked at.
 
 mod page;

@@ -92,7 +92,7 @@ fn invalid_result_files_are_refused_with_file_and_place() {
     let json = std::fs::read_to_string(folder.path().join("ishigami.json")).unwrap();
     std::fs::write(&path, json.replacen("\"name\": \"ishigami\"", "\"name\": \"../escaped\"", 1)).unwrap();
     assert!(refused(&["report", text(&path)]).contains("`study.name`: files are named after it"));
-    // At the end of a line: half of a number, or of a letter, is told in other words.
+    // At the end of a line: half of a number or of a letter has another message.
     let half = json[..json.floor_char_boundary(json.len() / 2)].rfind('\n').unwrap();
     std::fs::write(&path, &json.as_bytes()[..half]).unwrap();
     let cut = refused(&["report", text(&path)]);
@@ -114,7 +114,7 @@ fn compare_shows_differences_and_their_sizes() {
     {
         assert!(said.contains(expected), "{expected}: {said}");
     }
-    // The studies have one name and the files too: their folders tell them apart.
+    // The studies have one name and the files too: their folders distinguish them.
     let written = contents(&out);
     let charts = ["critical_force", "critical_force-differences", "critical_time", "critical_time-differences"];
     for chart in
@@ -235,7 +235,7 @@ fn new_overwrites_no_file_and_names_unknown_inputs() {
     assert_eq!(nowhere.status.code(), Some(2));
     let message = stderr(&nowhere);
     assert!(message.contains("cannot write") && message.ends_with("none does not exist\n"), "{message}");
-    // What is said to be typed next can be typed.
+    // The suggested next commands work.
     let spaced = folder.path().join("my own.toml");
     let said = stderr(&apportion(&["new", text(&spaced), "--model", "expression"]));
     assert!(said.contains("apportion run '") && said.contains("/my own.toml'`"), "{said}");

@@ -14,7 +14,7 @@ pub const HOLES: &str = "model = \"expression\"\n\
     outputs.y = \"sin(x1) + 7*sin(x2)^2 + 0.1*x3^4*sin(x1) + 0*sqrt(3 - abs(x3))\"\n[factors]\n\
     x1 = { min = -3.14159, max = 3.14159 }\nx2 = { min = -3.14159, max = 3.14159 }\nx3 = { min = -3.14159, max = 3.14159 }\n";
 
-/// A folder of its own for a test, with files in it.
+/// A separate folder for a test, with files in it.
 pub struct Folder(tempfile::TempDir);
 
 impl Folder {
@@ -41,7 +41,7 @@ pub fn apportion(arguments: &[&str]) -> Output {
     assert_cmd::Command::cargo_bin("apportion").unwrap().args(arguments).output().unwrap()
 }
 
-/// Where programs are looked for: as ever, but the interpreter itself before a script that stands for it, such as pyenv's, which
+/// The search path of programs: the usual one, but the interpreter before a script that wraps it, such as pyenv's, which
 /// takes five times as long to start it, some hundred times a test.
 pub fn search_path() -> &'static OsStr {
     static PATH: LazyLock<OsString> = LazyLock::new(|| {

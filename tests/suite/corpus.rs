@@ -54,7 +54,7 @@ fn all_of(name: &str) {
             run(target, &format!("{file}, changed for the {}. time", number + 1), text.as_bytes());
         }
     }
-    // From nothing, by the words of the language alone.
+    // From an empty text, with the words of the language only.
     let mut text = String::new();
     for number in 0..50 * changes {
         text = if text.len() < 200 { mutated(&text, &dictionary, &mut random) } else { String::new() };

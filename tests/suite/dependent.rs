@@ -206,7 +206,7 @@ fn independent_factors_are_a_special_case() {
     let pairs = effects(plain.output("y").unwrap());
     let zero = effects(zero.output("y").unwrap());
     for (plain, zero) in pairs.iter().zip(&zero) {
-        // Their intervals differ by the indices that are there beside.
+        // Their intervals depend on the other indices in the result.
         let estimates = |effect: &EffectEstimates| [effect.first_order.estimate, effect.total.estimate];
         assert_eq!(estimates(plain), estimates(zero));
         let dependent = zero.dependent.unwrap();

@@ -1,4 +1,4 @@
-//! Factors that depend on each other, through the program: what it tells of them, and what it refuses.
+//! Factors that depend on each other, through the program: what it prints and what it refuses.
 
 use crate::common::{Folder, apportion, stderr, study_path, succeed, text};
 
@@ -103,7 +103,7 @@ fn other_requests_for_dependent_factors_have_their_lines() {
         for kind in [",factor,", ",group,", ",subset,", ",dummy,", ",aggregate,"] {
             assert!(lines.contains(kind), "{kind}: {lines}");
         }
-        // From the result alone, the same page.
+        // The same page from the result only.
         let again = folder.path(&format!("again-{shapley}"));
         succeed(&["report", text(&out.join("study.json")), "--out", text(&again)]);
         let page = |of: &std::path::Path| std::fs::read_to_string(of.join("study.html")).unwrap();

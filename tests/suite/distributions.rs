@@ -51,7 +51,7 @@ fn from_json(case: &Value) -> Distribution {
     }
 }
 
-/// Families without a variance of their own are truncated in study files alone.
+/// Families without a variance are truncated only in study files.
 fn by_study(keys: &str) -> Distribution {
     let text = format!("model = 'expression'\n[outputs]\ny = 'x'\n[factors.x]\n{keys}");
     let study = apportion_files::parse_study(&text, std::path::Path::new("s.toml"), &[]);
@@ -179,7 +179,7 @@ fn distribution_function_of_quantile_is_the_probability() {
     for (distribution, tails) in cases {
         let distribution = made(distribution);
         for &u in &u {
-            // The true quantile lies within a few ulp of the value, as the distribution function tells (itself good to
+            // The true quantile lies within a few ulp of the value, according to the distribution function (accurate to
             // 1e-12 by beta_reg): both tails are looked at, each keeps the digits of its own side.
             let value = distribution.quantile(u);
             let slack = 4.0 * f64::EPSILON * (value.abs() + 0.1 * distribution.sd());

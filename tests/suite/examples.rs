@@ -17,7 +17,7 @@ mod units_and_failures;
 
 #[test]
 fn examples_run() {
-    // Users start them in the folder of the sources; no other test looks where it stands.
+    // Users start them in the folder of the sources; no other test depends on the working directory.
     std::env::set_current_dir(crate::common::root()).unwrap();
     function_model::main().unwrap();
     pendulum::main().unwrap();

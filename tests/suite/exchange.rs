@@ -120,7 +120,7 @@ fn three_steps_give_the_bits_of_one_run_in_every_format() {
         let (design, outputs) = (at(&format!("d.{ending}")), at(&format!("outputs.{ending}")));
         succeed(&["sample", text(&study), "--base-samples", "512", "-o", text(&design)]);
         assert_eq!(columns(&design), points, "{format:?}");
-        // Outputs alone, then the design with the outputs in it.
+        // Only outputs, then the design with the outputs in it.
         write_columns(&outputs, &["y"], &y);
         let out = at("analyzed");
         succeed(&["analyze", text(&outputs), "--design", text(&design), "--out", text(&out)]);

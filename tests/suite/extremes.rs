@@ -45,7 +45,7 @@ fn beyond() -> Vec<Scene> {
     scenes
 }
 
-/// Checks one answer and tells whether there was one.
+/// Checks one answer and returns whether there was one.
 #[track_caller]
 fn assert_sound(scene: &Scene, options: &Options) -> bool {
     match critical_force(scene, options) {
@@ -80,7 +80,7 @@ fn all_options() -> impl Iterator<Item = Options> {
                 friction,
                 contact,
                 fidelity,
-                // Coarse marches: what is asked is whether they end, not how well.
+                // Coarse steps: the test is whether they end, not their accuracy.
                 tolerance: 1e-4,
                 ..Options::default()
             })

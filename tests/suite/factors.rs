@@ -86,7 +86,7 @@ fn labels_are_kept_in_results_points_and_sweeps() {
     let points = folder.with("points.csv", "material,d,wet\nbrass,0,true\n\"soft, pure copper\",0,false\n0,0,0\n");
     let values = folder.path("values.csv");
     succeed(&["evaluate", text(&study), text(&points), "-o", text(&values)]);
-    // n and r are left out: they stand at 4 and 51.
+    // n and r are left out: they are 4 and 51.
     assert_eq!(std::fs::read_to_string(&values).unwrap(), "y\n66.0\n75.0\n55.0\n");
 
     succeed(&["sweep", text(&study), "--factor", "material", "--out", text(&out)]);
@@ -217,7 +217,7 @@ fn points_of_no_category_are_refused() {
     }
 }
 
-/// A study with a factor of every family that people asked for, among them truncated ones; its model is their sum.
+/// A study with a factor of every requested family, some of them truncated; its model is their sum.
 pub const FAMILIES: &str = r#"model = "expression"
 [outputs]
 y = "g + e + p + t + l + a + h + q + n"

@@ -94,7 +94,7 @@ fn a_cheaper_model_equal_to_the_model_explains_all_variance() {
             .base_samples(if low { 16 } else { 1 << 14 });
         if low { builder.low_fidelity("the same", model(), Some(1 << 14)) } else { builder }.build().unwrap()
     };
-    // The points of the cheaper model are others, with errors of their own.
+    // The cheaper model has other points, with other errors.
     for (found, other) in numbers(&builder(true), 1).iter().zip(numbers(&builder(false), 1)) {
         assert!((found - other).abs() < 2e-3, "{found} {other}");
     }

@@ -78,7 +78,7 @@ fn a_table_becomes_a_result() {
     for chart in ["table.svg", "table.png"] {
         assert!(run.out().join("charts").join(chart).is_file());
     }
-    // The same again gives the same bytes, whatever the threads and the time.
+    // A repetition gives the same bytes, for any threads and time.
     let again = Run::of(&content, &["--outputs", "y"]);
     let bytes = |run: &Run, name: &str| std::fs::read(run.out().join(name)).unwrap();
     assert_eq!(bytes(&run, "charts/table.svg"), bytes(&again, "charts/table.svg"));

@@ -30,14 +30,14 @@ fn spawn(arguments: &[String]) -> Child {
     command.args(arguments).stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap()
 }
 
-/// The result of a study in a folder, but for what tells about the computer.
+/// The result of a study in a folder, without the fields about the computer.
 fn result(folder: &Path, study: &str) -> Vec<String> {
     let json = std::fs::read_to_string(folder.join(format!("{study}.json"))).unwrap();
     let telling = |line: &&str| !line.contains("\"threads\"") && !line.contains("\"wall_seconds\"");
     json.lines().filter(telling).map(str::to_owned).collect()
 }
 
-/// The same without what was asked on the command line.
+/// The same without the command line.
 fn numbers(folder: &Path, study: &str) -> serde_json::Value {
     let json = std::fs::read_to_string(folder.join(format!("{study}.json"))).unwrap();
     let mut json: serde_json::Value = serde_json::from_str(&json).unwrap();
@@ -46,13 +46,13 @@ fn numbers(folder: &Path, study: &str) -> serde_json::Value {
     json
 }
 
-/// Runs on record when a run began, by what it said.
+/// Recorded runs at the start of a run, from its note.
 fn on_record(messages: &str) -> u64 {
     let said = messages.lines().find_map(|line| line.strip_prefix("note: ")?.split(" of ").next()?.parse().ok());
     said.unwrap_or(0)
 }
 
-/// Numbers that look random and are the same every time (Knuth's MMIX generator).
+/// Pseudo-random numbers with a fixed seed (Knuth's MMIX generator).
 fn random(state: &mut u64) -> u64 {
     *state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
     *state >> 33
@@ -130,7 +130,7 @@ fn wait_for_bytes(path: &Path, bytes: u64) {
     panic!("{} does not grow to {bytes} bytes", path.display());
 }
 
-/// A quick run, which keeps a journal only if it is asked to.
+/// A quick run, which keeps a journal only with --journal.
 fn ishigami(out: &Path, more: &[&str]) -> Output {
     let study = study_path("ishigami");
     apportion(&[&["run", text(&study), "--out", text(out), "--journal"], more].concat())
@@ -170,7 +170,7 @@ fn a_truncated_or_damaged_journal_is_used_up_to_the_damage() {
         assert!(stderr(&output).contains("bytes were cut off after its last complete record"), "{}", stderr(&output));
         assert!((0..20480).contains(&on_record(&stderr(&output))), "{}", stderr(&output));
         assert!(numbers(&cut, "ishigami") == expected);
-        // What was cut off has been made good.
+        // The missing records were written again.
         assert_eq!(ishigami_runs(&cut, &["--base-samples", "4096", "--resume"]), 20480);
     }
 }
@@ -297,7 +297,7 @@ fn a_full_disk_ends_a_run_without_loss() {
     let (whole, full) = (folder.path().join("whole"), folder.path().join("full"));
     succeed(&words(&slow(&whole, &["--no-journal"])));
     std::fs::create_dir(&full).unwrap();
-    // No file may become longer than 8 KiB, and the program is told so by an error, as on a full disk.
+    // No file may exceed 8 KiB; beyond it the program gets an error, as on a full disk.
     let program = assert_cmd::cargo::cargo_bin!("apportion");
     let mut limited = Command::new("bash");
     limited.args(["-c", "trap '' XFSZ; ulimit -f 8; exec \"$@\"", "bash", text(program)]).args(slow(&full, &[]));

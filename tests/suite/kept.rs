@@ -45,7 +45,7 @@ fn a_split_design_is_doubled_as_it_is() {
         assert_eq!((now.base_samples, now.plain_rows), (2 * before.base_samples, first.plain_rows));
     }
     assert!(!files(Path::new(out)).contains("s.journal.old"));
-    // Another design cannot go on, and nothing is touched.
+    // Another design cannot resume, and no file changes.
     let before = std::fs::read(Path::new(out).join("s.journal")).unwrap();
     refused(
         &["run", study, "--set", "design.runs=100", "--double", "--seed", "7", "--out", out],

@@ -4,7 +4,7 @@ use serde_json::Value;
 
 use crate::common::{Folder, apportion, stderr, study_path, succeed, text};
 
-/// What stands in the element `id` of a page.
+/// The text of the element `id` of a page.
 fn element<'a>(page: &'a str, id: &str) -> &'a str {
     let begin = page.find(&format!("id=\"{id}\">")).expect("the element is there") + id.len() + 6;
     &page[begin..begin + page[begin..].find("</").expect("the element ends")]

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use crate::common::{Folder, all_files, apportion, stderr, stdout, succeed, text};
 
-/// A wave that three factors shape and one hardly does, at so many times; the output `flat` does not vary.
+/// A wave with three influential factors and one with little effect, at so many times; the output `flat` does not vary.
 fn study(outputs: usize, more: &str) -> String {
     let output = |k: usize| {
         let time = k as f64 / outputs as f64;
@@ -52,7 +52,7 @@ fn a_thousand_outputs_are_a_few_files_and_a_page_of_a_few_megabytes() {
     let csv = std::fs::read_to_string(out.join("s.csv")).unwrap();
     assert_eq!(csv.lines().count(), 1 + 4 * 1000 + 4);
     assert!(csv.lines().last().unwrap().starts_with("all outputs,aggregate,d,"), "{csv}");
-    // The same page can be drawn from the result alone.
+    // The same page can be drawn from the result only.
     succeed(&["report", text(&out.join("s.json")), "--out", text(&folder.path("again"))]);
     assert!(std::fs::read_to_string(folder.path("again/s.html")).unwrap() == page);
 }

@@ -1,4 +1,4 @@
-//! Names of any kind, through the program: none leads out of the folder, none takes another's file, none is too long.
+//! Names of any kind, through the program: no file outside the folder, no file of another study, no name too long.
 
 use std::time::{Duration, Instant};
 

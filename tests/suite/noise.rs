@@ -172,7 +172,7 @@ fn noise_can_be_written_in_three_equivalent_forms() {
     assert_eq!(short.identity(), long.identity());
     assert_eq!(short.identity(), as_factor.identity());
     assert_eq!(short.space().noise(), Some(1));
-    // The noise is none of the factors of a result.
+    // The noise is not one of the factors of a result.
     let result = short.run().unwrap();
     let output = &result.outputs[0];
     assert_eq!((result.factors.len(), output.indices.as_ref().unwrap().len()), (1, 1));
@@ -293,7 +293,7 @@ fn the_example_says_which_question_each_number_answers() {
     assert!(one.len() == 6 && one.iter().zip(&two).all(|(a, b)| (a - b).abs() < 1e-12), "{one:?} {two:?}");
 }
 
-/// The noise has a line among the indices over all outputs together: it is none of the factors, and their total indices sum to 1 with it.
+/// The noise has a line among the indices over all outputs together: it is not a factor, and the total indices of all sum to 1 with it.
 #[test]
 fn indices_over_all_outputs_have_a_line_of_the_noise() {
     let folder = Folder::new();

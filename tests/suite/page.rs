@@ -4,7 +4,7 @@ use std::path::Path;
 
 use crate::common::{Folder, all_files, apportion, stderr, study_path, succeed, text};
 
-/// The page that `apportion run` writes for a study file, and the folder it stands in.
+/// The page that `apportion run` writes for a study file, and its folder.
 fn page_of(study: &Path, settings: &[&str]) -> (String, tempfile::TempDir) {
     let folder = tempfile::tempdir().unwrap();
     let mut arguments = vec!["run", study.to_str().unwrap(), "--out", folder.path().to_str().unwrap()];
@@ -83,7 +83,7 @@ fn results_without_indices_have_pages() {
     assert!(page.contains("There are no indices of y") && page.contains("zero variance"));
 }
 
-/// Checks that the page of a folder stands by itself and leads only to files that are there; gives it.
+/// Checks that the page of a folder needs no other files and links only to existing ones; returns it.
 #[track_caller]
 fn whole(folder: &Path, name: &str) -> String {
     let page = std::fs::read_to_string(folder.join(format!("{name}.html"))).unwrap();

@@ -1,4 +1,4 @@
-//! Rare levels and thin tails: surrogates do not claim what rows cannot carry, and what rows never met is said to be unknown.
+//! Rare levels and thin tails: surrogates claim nothing that the rows do not contain, and effects of missing levels are unknown.
 
 use apportion::model::{Model, Output, RunContext, Worker};
 use apportion::{

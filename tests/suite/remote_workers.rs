@@ -137,7 +137,7 @@ fn a_lost_worker_ends_the_run() {
     assert!(message.starts_with("worker ") && message.contains("in another process was lost"), "{message}");
 }
 
-/// The exit code of a run that sees these variables, and what it said.
+/// The exit code of a run with these variables, and its standard error.
 #[cfg(not(feature = "mpi"))]
 fn started_with(variables: &[(&str, &str)]) -> (Option<i32>, String) {
     let folder = tempfile::tempdir().unwrap();
@@ -163,7 +163,7 @@ fn a_program_without_mpi_refuses_to_run_on_ranks() {
         let (code, said) = started_with(&[(size, "3"), (rank, "0")]);
         assert_eq!(code, Some(2), "{said}");
         assert!(said.contains("started as 3 ranks of an MPI job") && said.contains("--features mpi"), "{said}");
-        // The first rank speaks for all.
+        // The first rank prints the messages of all.
         assert_eq!(started_with(&[(size, "3"), (rank, "2")]), (Some(2), String::new()));
         assert_eq!(started_with(&[(size, "1"), (rank, "0")]).0, Some(0));
         assert_eq!(started_with(&[(size, "3"), (rank, "0"), ("APPORTION_MPI", "off")]).0, Some(0));

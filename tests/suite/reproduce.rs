@@ -70,8 +70,8 @@ fn reproduce_at_few_points_leaves_open_what_they_do_not_decide() {
     assert_eq!(others.map(|claim| &claim[0]).collect::<Vec<_>>(), ["18"], "{claims:?}");
 }
 
-/// Every file of the reproduction that is the same on every run: but for the page, which tells times, and with the fields
-/// of the results that tell about time and threads taken out.
+/// Every file of the reproduction that is the same on every run: without the page, which shows times, and without the fields
+/// of the results about time and threads.
 fn lasting(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     let names = all_files(folder).into_iter();
     let read = |name: String| {
@@ -117,7 +117,7 @@ fn the_whole_is_the_same_on_any_number_of_threads_and_its_page_leads_nowhere_els
     for part in page.split("href=\"").skip(1) {
         let target = part.split('"').next().unwrap();
         let file = !target.starts_with('#') && !target.starts_with("data:");
-        // The framed animation has links of its own, escaped.
+        // The framed animation has its own links, escaped.
         assert!(!file || one.path().join(target).is_file(), "{target}");
     }
     assert!(page.contains("href=\"charts/ts04-14-animation.csv\""));
@@ -133,7 +133,7 @@ fn the_whole_is_the_same_on_any_number_of_threads_and_its_page_leads_nowhere_els
     ] {
         assert!(page.contains(expected), "{expected}");
     }
-    // The answer, its chart and its table come first, the papers in full last; what all captions would say is said once.
+    // The result, its chart and its table come first, the papers in full last; common text of the captions is printed once.
     let places = [
         "of the variance of the critical force alone",
         "id=\"overview\"",

@@ -70,7 +70,7 @@ fn parts_that_do_not_fit_together_are_named() {
     assert!(parsed(&twice).unwrap_err().to_string().contains("`outputs[1].name`: the output \"y\" is listed twice"));
 }
 
-/// Every leaf of a result replaced by rubbish of its kind: it is refused, or all of it is drawn without a panic.
+/// Every leaf of a result replaced by an invalid value: the result is refused, or drawn without a panic.
 #[test]
 fn rubbish_is_refused_or_drawn() {
     let whole = serde_json::to_value(result()).unwrap();
@@ -94,7 +94,7 @@ fn rubbish_is_refused_or_drawn() {
     assert!(refused > 100 && accepted > 100, "{refused} refused, {accepted} accepted");
 }
 
-/// Where the leaves are; of a long list the first and the last entry stand for all.
+/// The positions of the leaves; of a long list only the first and the last entry.
 fn leaves(value: &Value, at: String, pointers: &mut Vec<String>) {
     match value {
         Value::Object(map) => {

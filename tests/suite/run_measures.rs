@@ -6,7 +6,7 @@ use ::apportion::{AnalysisOptions, Distribution, Sampler, Study, SurrogateChoice
 
 use crate::common::{Folder, apportion, run_in_parts, stderr, succeed, text};
 
-/// A sum of three normal factors with slopes 3, 2 and 1, and one that does nothing; rows with a large first factor fail if asked.
+/// A sum of three normal factors with slopes 3, 2 and 1, and one without effect; rows with a large first factor fail if requested.
 fn linear(sampler: Sampler, base_samples: u64, wanted: &[Measure], fails: bool) -> Study {
     let value = move |x: &[f64]| if fails && x[0] > 1.0 { f64::NAN } else { 3.0 * x[0] + 2.0 * x[1] + x[2] };
     let options = AnalysisOptions {

@@ -34,7 +34,7 @@ fn tables_of_salib_are_recognised_checked_and_analysed() {
         assert!(result.outputs[0].scatter.is_none());
         let index = result.outputs[0].indices.as_ref().unwrap()[1].effect.first_order;
         assert!(index.interval.unwrap().low < index.estimate && index.estimate < index.interval.unwrap().high);
-        // The outputs alone: 48 rows are both 12 times 4 and 8 times 6.
+        // Only the outputs: 48 rows are both 12 times 4 and 8 times 6.
         let alone: Vec<String> = lines.iter().map(|line| line.rsplit_once(',').unwrap().1.to_owned()).collect();
         sampled.write("y.csv", &alone);
         let names = ["--layout", "salib", "--names", "x1,x2", "--resamples", "100"];

@@ -93,7 +93,7 @@ fn derivatives_bound_total_indices() {
         csv.lines().next().unwrap().contains(",ratio_high,nu,nu_low,nu_high,total_bound,total_bound_low,"),
         "{csv}"
     );
-    // The bend of a distribution has no part in derivatives; what has no bound is said.
+    // The curvature of a distribution does not affect derivatives; factors without a bound are noted.
     let (_folder, file, _) = screened("soft-cantilever", &["--design", "derivative"]);
     assert!(file.notes[0].contains("for a model with jumps there are no bounds"));
     assert!(file.notes[1].contains("no bound on the total index by derivatives is known for the distribution of"));

@@ -56,7 +56,7 @@ fn a_program_gives_a_series_by_cells_or_as_a_list() {
     let indices = series.indices.as_ref().unwrap();
     assert!((indices[0].total.estimate - 14.0 / 18.0).abs() < 0.02, "{indices:?}");
     assert!(printed.contains("a matters most: its total index S_T is"), "{printed}");
-    // The other output has its section and files, as ever.
+    // The other output has its section and files, as before.
     assert!(
         page(&folder.path("out")).contains("id=\"output-1\"") || page(&folder.path("out")).contains("Shares of sum")
     );
@@ -165,7 +165,7 @@ fn a_thousand_values_are_a_few_files_and_a_page_of_a_few_megabytes() {
     let csv = std::fs::read_to_string(out.join("s.csv")).unwrap();
     assert_eq!(csv.lines().count(), 1 + 2 * 1000 + 2);
     assert!(csv.lines().last().unwrap().starts_with("y,aggregate,b,"), "{csv}");
-    // The same page can be drawn from the result alone.
+    // The same page can be drawn from the result only.
     succeed(&["report", text(&out.join("s.json")), "--out", text(&folder.path("again"))]);
     assert!(std::fs::read_to_string(folder.path("again/s.html")).unwrap() == html);
 }

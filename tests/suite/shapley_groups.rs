@@ -137,7 +137,7 @@ fn linear_outputs_have_closed_forms() {
     }
 }
 
-/// Two groups share out what they do only together, whatever the number of their factors; single factors would not.
+/// Two groups divide their interaction equally, for any number of factors in them; single factors would not.
 #[test]
 fn a_group_counts_once() {
     let product = |x: &[f64]| x[0] * x[1] * x[2];
@@ -212,7 +212,7 @@ fn intervals_of_groups_hold_the_truth() {
     }
 }
 
-/// Twelve factors in groups of four, three and four, and one by itself.
+/// Twelve factors in groups of four, three and four, and one without a group.
 fn twelve() -> String {
     let group = |k: usize| match k {
         1..=4 => "group = \"load\"\n",

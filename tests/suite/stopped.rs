@@ -1,4 +1,4 @@
-//! Signals while files are written, and what may stand in the place of a file.
+//! Signals while files are written, and other objects in place of a file.
 #![cfg(unix)]
 
 use std::io::Read;
@@ -120,7 +120,7 @@ fn a_file_beyond_the_limit_of_sizes_is_an_error_with_its_reason() {
         assert!(stderr(&output).contains("File too large"), "{more}: {}", stderr(&output));
     }
     assert_whole(&out);
-    // With room enough it goes on.
+    // With enough space it resumes.
     let output = apportion(&["run", text(&study), "--out", text(&out)]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
 }

@@ -1,4 +1,4 @@
-//! What people type first: studies in the forms they expect, and what they are told where those do not serve.
+//! First attempts of users: studies in the forms that they expect, and the messages where those are invalid.
 
 use std::path::Path;
 
@@ -187,7 +187,7 @@ fn mistyped_keys_and_values_are_reported_at_their_place() {
     refused(&factors("größe = { min = 0, max = 1 }"), &["s.toml:4:", "in quotes, as in \"größe\" = 2"]);
 }
 
-/// Editors are told of every form that is read.
+/// The schema for editors has every form that is read.
 #[test]
 fn the_schema_allows_all_forms() {
     let folder = Folder::new();

@@ -1,5 +1,5 @@
 //! Indices corrected by surrogates: exact where the model is a polynomial, more accurate elsewhere, the same bits on any
-//! number of threads and from a journal, and told of in the result.
+//! number of threads and from a journal, and described in the result.
 
 use std::path::Path;
 
@@ -140,7 +140,7 @@ fn the_bits_are_the_same_on_any_number_of_threads_and_from_a_journal() {
     assert!(first.outputs[0].surrogate.as_ref().unwrap().gain_total.unwrap() > 100.0);
 }
 
-/// The stages cost fits of their own, and change nothing of the result.
+/// The stages need additional fits, and do not change the result.
 #[test]
 fn stages_can_be_left_out() {
     let result = |more: &str| {
@@ -272,7 +272,7 @@ fn the_program_describes_the_surrogate() {
     let record = &value["outputs"][0]["surrogate"];
     assert!(record["explained"].as_f64().unwrap() > 0.999_999 && record["plain"].as_array().unwrap().len() == 3);
     assert!(record["leading_terms"][0]["degrees"].is_object());
-    // From the file alone, the same.
+    // The same from the file only.
     succeed(&["report", text(&folder.path().join("mine.json")), "--out", text(&folder.path().join("again"))]);
     let refusal = apportion(&["run", text(&file), "--set", "analysis.intervals=replicates", "--set", ON]);
     refused(&refusal, "only with intervals = \"nets\"");
@@ -312,7 +312,7 @@ fn intervals_hold_where_polynomials_blow_up_in_the_tails() {
     }
 }
 
-/// Polynomials go on where the model fails, which no number is of.
+/// Polynomials also have values where the model fails and has none.
 #[test]
 fn outputs_with_failed_runs_are_not_corrected_unless_asked() {
     let text = "model = \"expression\"\noutputs.y = \"x1 + 2*x2 + 10*x1*x2 + 0*sqrt(0.3 - x1*x2)\"\noutputs.z = \"x1*x2\"\n\

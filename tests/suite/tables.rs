@@ -43,7 +43,7 @@ fn points_of_every_format_give_the_same_outputs() {
     }
     let (code, said, outputs) = evaluate("labelled.csv", &[]);
     assert!(code == Some(0) && outputs == expected && said.contains("columns of text are skipped: id, when"), "{said}");
-    // What is missing is asked for.
+    // The message requests the missing names.
     for (points, more, reason) in [
         ("p.npy", &[][..], "its 3 columns have no names"),
         ("bare.csv", &[], "line 1 has numbers where the names of the columns are expected"),

@@ -84,7 +84,7 @@ fn the_map_is_the_same_in_every_bit_on_any_threads() {
     let study = apportion_files::load_study(&study_path("hk-general"), &[]).unwrap();
     let settings = ExtremesSettings { points: 60, seed: 5 };
     let on = |threads| extremes(&ExtremesJob { settings, threads, ..ExtremesJob::new(&study) }).unwrap();
-    // Values that are not numbers are none here, so that maps that are alike are equal.
+    // NaN is replaced by `None` here, so that equal maps compare equal.
     assert_eq!(on(1), on(3));
 }
 

@@ -105,7 +105,7 @@ fn evaluate_answers_in_the_units_of_the_study_and_names_what_fails() {
     let written = std::fs::read_to_string(&out).unwrap();
     let lines: Vec<Vec<&str>> = written.lines().map(|line| line.split(',').collect()).collect();
     assert_eq!(lines[0], ["critical_force", "normal_force", "critical_time"]);
-    // The length has no column: it stands at the nominal 225 um, where the reference gives 631.3 and 489.404 nN.
+    // The length has no column: it is the nominal 225 um, where the reference gives 631.3 and 489.404 nN.
     let number = |row: usize, column: usize| lines[row][column].parse::<f64>().unwrap();
     assert!((number(1, 0) - 631.3).abs() < 0.05 && (number(1, 1) - 489.404).abs() < 5e-4);
     assert_eq!(lines[2][..2], lines[1][..2]);
@@ -208,7 +208,7 @@ fn round_sample_sizes_are_made_whole_and_said_so() {
     assert!(stdout(&output).contains("not a power of two"));
 }
 
-/// Runs `study` with settings into a folder of its own and returns its result, what was printed, and the folder.
+/// Runs `study` with settings into a separate folder and returns its result, its output, and the folder.
 #[track_caller]
 fn run_with(study: &str, settings: &[&str]) -> (StudyResult, String, tempfile::TempDir) {
     let folder = tempfile::tempdir().unwrap();

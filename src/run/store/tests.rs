@@ -34,7 +34,7 @@ fn design() -> Design {
     Design::new(settings, 3, Rows::plain(vec![vec![0], vec![1], vec![2]])).unwrap()
 }
 
-/// Outputs that tell their row; every 7th row fails in its second output, with a flag for every row.
+/// Outputs that identify their row; every 7th row fails in its second output, with a flag for every row.
 fn piece(rows: Range<u64>) -> Piece {
     let values = |row: u64| [row as f64, if row.is_multiple_of(7) { f64::NAN } else { -(row as f64) }];
     let failed = rows.clone().filter(|row| row.is_multiple_of(7));
@@ -141,7 +141,7 @@ fn every_row_is_counted_once() {
         }
         assert_eq!((store.rows(), raised(&store)), (300, 300));
     }
-    // As journals of before have it: the rows that failed, one by one behind the pieces that they were in.
+    // As in journals of earlier versions: the failed rows, one by one, after the pieces that contain them.
     store.insert(&piece(0..300));
     (0..300).step_by(7).for_each(|row| _ = store.insert(&piece(row..row + 1)));
     assert_eq!((store.rows(), raised(&store), store.count(0, 0..300).1), (43, 43, 43));

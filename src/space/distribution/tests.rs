@@ -1,4 +1,4 @@
-//! Tests of what a distribution promises apart from its numbers, which `tests/distributions.rs` checks.
+//! Tests of the properties of distributions except their numbers, which `tests/distributions.rs` checks.
 
 use DistributionError as Error;
 use proptest::prelude::*;
@@ -274,7 +274,7 @@ fn any_number() -> impl Strategy<Value = f64> {
 }
 
 proptest! {
-    /// Whatever the constructors let pass keeps the promises.
+    /// Every accepted distribution has these properties.
     #[test]
     fn accepted_distributions_are_finite(p in prop::array::uniform4(any_number()), list in prop::collection::vec(any_number(), 0..4)) {
         let [a, b, c, d] = p;

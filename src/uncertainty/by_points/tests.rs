@@ -166,7 +166,7 @@ fn influences_are_what_another_copy_of_the_point_does() {
 
 #[test]
 fn the_error_of_a_mean_is_the_textbook_one() {
-    // Mean over A and B of independent columns: sd of (y_A + y_B)/2 over sqrt(n), whatever the offset.
+    // Mean over A and B of independent columns: sd of (y_A + y_B)/2 over sqrt(n), for any offset.
     for offset in [0.0, 1e6] {
         let sample = Sample::new(1000, false, offset);
         let kept = sample.kept();

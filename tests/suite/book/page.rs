@@ -1,4 +1,4 @@
-//! The fenced blocks of a Markdown page, with the comments that stand above them.
+//! The fenced blocks of a Markdown page, with the comments above them.
 
 /// What becomes of a block.
 #[derive(Debug, PartialEq)]

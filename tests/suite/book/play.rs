@@ -140,7 +140,7 @@ fn fragment(text: &str) -> Option<String> {
     (!complaints.is_empty()).then(|| complaints.join("\n"))
 }
 
-/// The lines stand one after the other in a program of `examples`, whatever their indentation.
+/// The lines follow each other in a program of `examples`, with any indentation.
 fn in_an_example(shown: &str) -> Option<String> {
     let lines = |text: &str| -> Vec<String> {
         text.lines().map(str::trim).filter(|line| !line.is_empty()).map(str::to_owned).collect()

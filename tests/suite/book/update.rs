@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use super::page::{Block, Page};
 use super::play::is_alike;
 
-/// Least likeness of two lines of which one can stand for the other: the words they share, of all that they have.
+/// Smallest similarity of two lines of which one can replace the other: the share of their words that they have in common.
 const ALIKE: f64 = 0.35;
 
 /// `shown` with the lines that `printed` has today, and what is left out of it left out again.
@@ -58,7 +58,7 @@ fn most_alike(line: &str, printed: &[&str]) -> Option<usize> {
     (best.1 >= ALIKE).then_some(best.0)
 }
 
-/// As many words of `printed` as stand before the first `[..]` of `line`; all of them where it has none.
+/// As many words of `printed` as there are before the first `[..]` of `line`; all of them if it has none.
 fn cut_like(line: &str, printed: &str) -> String {
     let Some((kept, _)) = line.split_once("[..]") else { return printed.to_owned() };
     let count = kept.split_whitespace().count();

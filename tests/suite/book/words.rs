@@ -37,7 +37,7 @@ impl Known {
                 && word.starts_with(char::is_alphabetic)
         };
         let mut words = code.split_whitespace().map(|word| word.trim_matches(['\'', '"', ')', ';', ',']));
-        // Not what Python calls the package, nor the first bytes of a journal.
+        // Neither the name of the Python package nor the first bytes of a journal.
         if code.contains("import ") || code == "apportion journal" {
             return None;
         }

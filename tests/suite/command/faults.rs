@@ -168,7 +168,7 @@ fn floods_take_little_memory() {
 fn a_program_that_never_works_is_given_up() {
     let broken = Case::new("", "import no_such_module\n");
     let message = broken.gives_up(&["exit status 1", "ModuleNotFoundError: No module named 'no_such_module'"]);
-    // A program that has been mended is asked for what failed, too.
+    // A repaired program gets the failed rows again.
     contains(&message, &["repeat the command with --retry-failed to continue and to evaluate the failed runs again"]);
     let silent = Case::new("", "import sys\nsys.exit(7)\n");
     silent.gives_up(&["answered none of its first 5 rows: the program ended with exit status 7"]);

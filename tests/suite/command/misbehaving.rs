@@ -1,4 +1,4 @@
-//! Programs that print more or fewer lines than they should, at several speeds: no row ever gets another number than its own.
+//! Programs that print more or fewer lines than they should, at several speeds: no row gets the answer of another row.
 
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -98,7 +98,7 @@ const PROGRAMS: [Program; 19] = [
     ),
 ];
 
-/// One program, asked in one way.
+/// One program with one protocol.
 #[derive(Clone, Copy)]
 struct Trial {
     program: &'static Program,
@@ -134,7 +134,7 @@ impl Trial {
             .replace("base_samples = 32", "base_samples = 4")
     }
 
-    /// Rows with a number of their own; why there is more to say, if there is.
+    /// Rows with their numbers; the reason for a message, if there is one.
     fn fault(self) -> Result<usize, String> {
         let case = self.case();
         let output = case.run();
@@ -214,7 +214,7 @@ fn answers_may_come_in_any_order() {
     assert_eq!(on_record(&case), (160, 160, 0));
 }
 
-/// From another thread, each after a time of its own: without numbers nobody could tell whose answers they are.
+/// From other threads, each after another time: without numbers the answers could not be assigned to rows.
 #[test]
 fn answers_may_come_from_threads() {
     let threads = "import sys, threading, time\nlock = threading.Lock()\nsys.stdin.readline()\ndef work(line):\n    \

@@ -1,4 +1,4 @@
-//! Programs in the commands other than `run`: a program that does not work ends them, and slow ones are asked in several
+//! Programs in the commands other than `run`: a program that does not work stops them, and slow ones run in several
 //! processes at once.
 
 use std::io::Read;

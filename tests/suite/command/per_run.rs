@@ -1,4 +1,4 @@
-//! Programs that run once for each row, in directories of their own.
+//! Programs that run once for each row, in separate directories.
 
 use super::{Case, contains, failures, rows_where};
 use crate::common::{files, stderr};

@@ -1,4 +1,4 @@
-//! What is on record of the answers of programs is not asked again.
+//! Recorded answers of programs are not requested again.
 
 use std::collections::BTreeSet;
 
@@ -12,14 +12,14 @@ use crate::common::{numbers, stderr, text};
 /// Writes every row that the program gets to the file `asked`.
 const NOTES: &str = "    with open('asked', 'a') as log: log.write(line)\n";
 
-/// The rows that were asked since this was called last.
+/// The rows requested since the last call.
 fn asked(case: &Case) -> Vec<String> {
     let rows = std::fs::read_to_string(case.path("asked")).unwrap_or_default();
     let _ = std::fs::remove_file(case.path("asked"));
     rows.lines().map(str::to_owned).collect()
 }
 
-/// A result without what tells about the computer.
+/// A result without the fields about the computer.
 fn without_times(mut result: StudyResult) -> StudyResult {
     (result.provenance.threads, result.provenance.wall_seconds) = (0, 0.0);
     result
@@ -33,7 +33,7 @@ fn only_rows_that_failed_are_asked_again_and_the_result_is_that_of_a_run_without
     let (case, sound) = (new(), new());
     let bad = rows_where(|x| x > 0.9);
     let (first, _) = case.result();
-    // One of them is asked again at the end, to see whether the program is random.
+    // One of them is repeated at the end, to detect a random program.
     assert_eq!((first.outputs[0].runs_failed, asked(&case).len()), (bad, 161));
     case.write("licence", "");
     let retried = case.run_with(&["--retry-failed"]);

@@ -1,5 +1,5 @@
 //! What a stranger can feed the program, as targets of fuzzing: each takes any bytes and must end, without a panic, and
-//! keep what it promises. The fuzzers in `fuzz/` and the tests in `corpus.rs` run the same targets.
+//! have its properties. The fuzzers in `fuzz/` and the tests in `corpus.rs` run the same targets.
 
 mod answers;
 mod expression;

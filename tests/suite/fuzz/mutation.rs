@@ -219,7 +219,7 @@ fn bracket(tokens: &[String], random: &mut Random) -> Option<Range<usize>> {
     None
 }
 
-/// Words and numbers, runs of spaces, and every other character by itself.
+/// Words and numbers, runs of spaces, and every other single character.
 fn tokens(text: &str) -> Vec<String> {
     let kind = |c: char| match c {
         c if c.is_alphanumeric() || "_.-".contains(c) => 0,

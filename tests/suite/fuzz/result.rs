@@ -1,4 +1,4 @@
-//! Result files: whatever is read as one can be drawn.
+//! Result files: every accepted file can be drawn.
 
 use apportion::result::{StudyResult, parse_result};
 use apportion_report::comparison::{NamedResult, compare_results, comparison_document};
@@ -25,7 +25,7 @@ pub fn drawn(result: &StudyResult) {
 
 /// Makes everything that is written of a document.
 pub fn written(document: &Document) {
-    // Every chart is on the page or among the charts that are files alone.
+    // Every chart is on the page or among the charts that are only files.
     document.html();
     for figure in &document.charts {
         figure.chart.svg();

@@ -8,7 +8,7 @@ use apportion::study::Study;
 use apportion_afm::AfmSubject;
 use apportion_files::{StudyError, TemplateRequest, template};
 
-/// What stands between the file and the changes, one a line.
+/// The separator of the file and the changes, which have one line each.
 const CHANGES: &str = "\n--set\n";
 
 /// Runs up to which a study is run as a whole.

@@ -71,7 +71,7 @@ fn shards_of_any_machine_merge_to_the_bits_of_one_run() {
     let merged = merge(&[]);
     assert_eq!(merged.status.code(), Some(0), "{}", stderr(&merged));
     assert!(numbers(&parts, "ishigami") == numbers(&whole, "ishigami"));
-    // Merging again changes nothing; the merged journal is one to go on with.
+    // Merging again changes nothing; the merged journal can be resumed.
     assert_eq!(merge(&[]).status.code(), Some(0));
     assert_eq!(ishigami_runs(&parts, &["--double"]), 5120);
 
@@ -85,7 +85,7 @@ fn shards_of_any_machine_merge_to_the_bits_of_one_run() {
     refused(&ishigami(&parts, &growing), 2, "has no fixed size to divide into shards");
 }
 
-/// The commands of `docs/clusters.md` for GNU parallel, with whatever stands for it here.
+/// The commands of `docs/clusters.md` for GNU parallel, with its replacement on this machine.
 #[test]
 #[cfg(unix)]
 fn a_job_array_on_one_machine() {

@@ -29,7 +29,7 @@ fn scaled(scene: &Scene, name: &str, factor: f64) -> Scene {
     scaled
 }
 
-/// The laws that hold the same whatever pulls: neither stiffness nor rest nor age act.
+/// Laws whose capacity depends neither on the spring nor on the time at rest nor on age.
 const RIGID: [FrictionLaw; 5] =
     [FrictionLaw::Coulomb, FrictionLaw::HurtadoKim, FrictionLaw::LuGre, FrictionLaw::Dahl, FrictionLaw::Stribeck];
 

@@ -67,7 +67,7 @@ fn every_law_breaks_away_to_steady_sliding() {
         let expected = sliding_by_hand(law);
         // The ten digits written down.
         assert!((steady / expected - 1.0).abs() < 2e-10, "{law:?} {steady} {expected}");
-        // Armstrong remembers the rest before break-away, found to one sample of 0.5 ms of gamma = 1 s.
+        // Armstrong's law depends on the time at rest before breakaway, which is known to one sample of 0.5 ms; gamma = 1 s.
         assert!((end.force / expected - 1.0).abs() < 1e-4, "{law:?} {end:?} {expected}");
     }
 }

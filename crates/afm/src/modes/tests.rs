@@ -20,7 +20,7 @@ fn sliding_sets_in_at_the_critical_lateral_force() {
     close(lateral, critical.lateral_force, 1e-15);
 }
 
-/// What these criteria say of the claim that sliding precedes rolling: it does not, nor does it precede a slip of the
+/// These criteria contradict the claim that sliding precedes rolling; sliding does not precede a slip of the
 /// tip, whose preload pushes 60 degrees off the contact's normal. At the critical force the tip holds.
 #[test]
 fn order_at_the_nominal_scene() {
@@ -58,7 +58,7 @@ fn mode_diagram_without_shear_strength() {
     let angle = 1.2_f64;
     let expected = 0.8 * 1.5 * PI * 0.2 * 50e-9 / (libm::sin(angle) - 0.8 * libm::cos(angle));
     close(sticky.critical_tip_force(Mode::Slide, angle).unwrap().unwrap(), expected, 1e-14);
-    // Without either there is nothing but a cone of friction.
+    // Without both, only the friction cone remains.
     let dry = Pushing::new(scene);
     assert_eq!(dry.critical_tip_force(Mode::Slide, libm::atan(0.8) + 1e-9), Ok(Some(0.0)));
     assert_eq!(dry.critical_tip_force(Mode::Slide, libm::atan(0.8) - 1e-9), Ok(None));

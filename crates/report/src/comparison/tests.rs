@@ -120,7 +120,7 @@ fn one_sided_factors_and_missing_indices_have_their_place() {
 fn moments_are_compared_in_one_unit() {
     let a = result("[design]\nbase_samples = 64\n[[factor]]\nname = \"thickness\"\nmin = 1\nmax = 2\nunit = \"um\"");
     let mut b = a.clone();
-    // The same forces, said in micronewtons.
+    // The same forces in micronewtons.
     b.outputs[0].unit = "uN".to_owned();
     b.outputs[0].mean = a.outputs[0].mean.map(|mean| mean * 1e-3);
     b.outputs[0].variance = a.outputs[0].variance.map(|variance| variance * 1e-6);

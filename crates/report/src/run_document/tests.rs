@@ -91,7 +91,7 @@ fn names_and_titles_cannot_break_out() {
     assert_eq!(html.matches("</script>").count(), 1);
 }
 
-/// A surrogate may know the variance so much better that the values' own is outside of its interval.
+/// A surrogate may determine the variance so much better that the variance of the values is outside its interval.
 #[test]
 fn a_standard_deviation_has_its_error() {
     let mut result = result(&format!("model = \"ishigami\"{SMALL}"));

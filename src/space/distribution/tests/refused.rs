@@ -1,4 +1,4 @@
-//! Parameters that make no distribution, each with what is said of them.
+//! Invalid parameters of distributions, each with its message.
 
 use super::*;
 

@@ -32,7 +32,7 @@ fn solve(forms: &mut ClosedForms, scenes: &[Scene]) -> bool {
 }
 
 proptest! {
-    /// The same bits, whatever the other columns of a scene hold.
+    /// The same bits for any other columns of a scene.
     #[test]
     fn many_scenes_have_the_bits_of_each(
         scenes in prop::collection::vec(within_ranges(), 1..=AT_ONCE),
@@ -60,7 +60,7 @@ proptest! {
         prop_assert_eq!(counted, raised);
     }
 
-    /// What is taken is finite, at every magnitude, and has the bits of the scene alone.
+    /// Accepted scenes give finite results at every magnitude, with the bits of the same scene alone.
     #[test]
     fn extreme_scenes_are_left_to_the_scalar_code(exponents in prop::collection::vec(-300.0..300.0_f64, 8)) {
         let mut scene = Scene::default();

@@ -32,7 +32,7 @@ fn moving() -> impl Strategy<Value = Scene> {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(50))]
 
-    /// The promise of this rung, at its default tolerance. Where the twist is large and the probe swings, the
+    /// The accuracy of this rung at its default tolerance. Where the twist is large and the probe swings, the
     /// quasi-static estimate says how far the two may part.
     #[test]
     fn dynamic_agrees_with_quasi_static(scene in moving(), law in prop::sample::select(&STUCK[..])) {
@@ -86,7 +86,7 @@ proptest! {
         prop_assert!(excess > -1e-5 * exact.lateral_force && excess < step * (1.01 + 10.0 * fixed.twist.powi(2)));
     }
 
-    /// `auto` is as accurate as it was asked to be, by the rung above the one it took.
+    /// `auto` meets its tolerance, compared with the rung above the one that it used.
     #[test]
     fn auto_meets_its_tolerance(scene in moving(), decade in -8.0..-2.0_f64, law in prop::sample::select(&STUCK[..3])) {
         let tolerance = 10_f64.powf(decade);

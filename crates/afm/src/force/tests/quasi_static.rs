@@ -77,7 +77,7 @@ fn agrees(scene: &Scene, friction: FrictionLaw) {
         (found.normal_force, printed.normal),
         (found.critical_force, printed.normal.hypot(printed.lateral)),
         (found.twist, printed.twist),
-        // Dahl's bristles creep, of which the printed equations know nothing.
+        // Dahl's bristles creep, which the printed equations do not include.
         (if friction == FrictionLaw::Dahl { printed.travel } else { found.travel }, printed.travel),
     ];
     for (found, printed) in pairs {
@@ -97,7 +97,7 @@ fn agrees_with_twice_the_precision_at_every_corner() {
     }
 }
 
-/// Twists up to a right angle: friction that holds whatever pulls, and a preload of 60 degrees that keeps pressing.
+/// Twists up to a right angle: friction without limit, and a preload of 60 degrees, which keeps pressing.
 #[test]
 fn agrees_up_to_a_right_angle() {
     for static_friction in [0.8, 10.0, 100.0, 1e3, 1e4, 1e6] {
@@ -154,19 +154,19 @@ fn the_ramp_and_the_fast_form_agree_within_the_estimate() {
     }
 }
 
-/// The preload alone twists a soft cantilever over.
+/// The preload alone makes the twist of a soft cantilever unstable.
 #[test]
 fn a_probe_that_tips_over_is_named() {
     let scene = Scene { preload_angle: 1.5, shear_modulus: Some(1e9), ..Scene::default() };
     assert_eq!(critical_force(&scene, &by_geometry(FrictionLaw::Coulomb)), Err(Failure::ProbeTips));
 }
 
-/// Friction that never gives way lifts the tip until the particle comes off.
+/// With unlimited friction the tip lifts until the particle detaches.
 #[test]
 fn friction_too_strong_ends_in_pull_off() {
     let scene = Scene { static_friction: 0.0, shear_strength: 1e15, ..Scene::default() };
     assert_eq!(critical_force(&scene, &by_geometry(FrictionLaw::Coulomb)), Err(Failure::BeyondPullOff));
-    // Friction that lives on the load gives way before.
+    // Friction that depends on the load is exceeded before.
     let scene = Scene { dynamic_friction: 1e9, ..Scene::default() };
     let critical = critical_force(&scene, &by_geometry(FrictionLaw::Dahl)).unwrap();
     assert!(critical.normal_force > 0.0 && critical.normal_force < 1e-3 * critical.lateral_force);

@@ -1,4 +1,4 @@
-//! A law of friction by itself: against velocity, and along a given motion.
+//! A friction law without a probe: against velocity, and along a given motion.
 
 use std::f64::consts::PI;
 

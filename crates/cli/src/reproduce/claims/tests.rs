@@ -1,4 +1,4 @@
-//! The verdicts as they stand, and that they change with the physics.
+//! The current verdicts, and that they change with the physics.
 
 use std::sync::LazyLock;
 

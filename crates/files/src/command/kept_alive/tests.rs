@@ -87,7 +87,7 @@ fn a_model_can_be_run_again_after_it_was_interrupted_and_messages_go_to_the_run(
     assert_eq!(answers(&model, &[1.5, 2.5]), [1.5, 2.5]);
 }
 
-/// Each process answers one row: all rows are answered, each by a process of its own.
+/// Each process answers one row: all rows are answered, each by another process.
 #[test]
 fn a_program_that_closes_its_output_after_its_first_answer_is_started_for_every_row() {
     let once = "read -r header; read -r x; echo \"$x\"; exec 1>&-";

@@ -28,7 +28,7 @@ fn read(bytes: &[u8], kinds: &[ColumnKind], block: usize) -> Result<Vec<Vec<f64>
 }
 
 fn bits(columns: &[Vec<f64>]) -> Vec<Vec<u64>> {
-    // A NaN is a missing value, whatever its bits.
+    // A NaN of any bits is a missing value.
     let bits = |value: &f64| if value.is_nan() { f64::NAN.to_bits() } else { value.to_bits() };
     columns.iter().map(|column| column.iter().map(bits).collect()).collect()
 }

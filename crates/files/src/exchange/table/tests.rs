@@ -50,7 +50,7 @@ fn columns_of_text_are_skipped_and_named() {
     let skipped: Vec<_> = table.skipped.iter().map(|column| (&*column.name, column.example.as_deref())).collect();
     assert_eq!((table.inputs.len(), &table.inputs[0].values), (1, &vec![0.5]));
     assert_eq!(skipped, [("id", Some("r1")), ("when", Some("2026-01-01"))]);
-    // One that is asked for is not.
+    // A requested column is not skipped.
     assert!(read(text, &["y"], &["id"], Missing::Drop).is_err());
     let tabs = read("a\ty\n1\t2\n", &["y"], &[], Missing::Refuse).unwrap();
     assert_eq!((tabs.inputs[0].values[0], tabs.outputs[0].values[0]), (1.0, 2.0));

@@ -26,7 +26,7 @@ fn points_are_at_their_values_and_gaps_stay_open() {
     let document = Document::parse(&svg).expect("well-formed");
     let (zero, scale) = y_axis(&groups(&document, "y-axis")[0]);
     let drawn = paths(&document, "series");
-    // Two lines and, between two gaps, a point of its own.
+    // Two lines and, between two gaps, a separate point.
     assert_eq!(drawn.len(), 3);
     // 0.02 px: two coordinates of two decimals.
     let near = |y: f64, value: f64| (zero - y - value * scale).abs() < 0.02 + 1e-3 * value * scale;

@@ -37,7 +37,7 @@ fn page(parts: Vec<Part>) -> Document {
     }
 }
 
-/// A part of every kind, with `text` wherever a text can stand.
+/// A part of every kind, with `text` at every place for text.
 fn every_part(text: &str) -> Vec<Part> {
     let t = || text.to_owned();
     vec![
@@ -67,7 +67,7 @@ fn every_part(text: &str) -> Vec<Part> {
     ]
 }
 
-/// The start tags of a document, as they stand.
+/// The start tags of a document, unchanged.
 fn tags(html: &str) -> Vec<&str> {
     html.split('<').skip(1).filter_map(|rest| rest.split_once('>')).map(|(tag, _)| tag).collect()
 }
