@@ -162,7 +162,7 @@ fn a_job_with_killed_ranks_resumes_with_any_number_of_ranks() {
     assert!(result(&whole, "program") == result(&killed, "program"));
 }
 
-/// The scripts of `docs/clusters.md`, with `mpirun` in the place of `srun`.
+/// The scripts of `docs/clusters.md`, with `mpirun` instead of `srun`.
 #[test]
 fn the_scripts_of_the_page_run() {
     const SRUN: &str = "#!/bin/sh\nshift\nexec mpirun -n 3 \"$@\"\n";

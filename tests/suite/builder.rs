@@ -36,7 +36,7 @@ fn a_built_study_gives_the_bits_of_the_file() {
     let typed = typed.runner().threads(1).run().unwrap();
     assert_eq!(built.outputs[0].indices, typed.outputs[0].indices);
     assert_eq!((built.study.model.as_str(), built.provenance.study_sha256.len()), ("custom", 64));
-    // What is written of it is read back like any result.
+    // Its files can be read like any result.
     let json = built.json();
     assert_eq!(parse_result(json.as_bytes()).unwrap(), built);
 }
@@ -58,7 +58,7 @@ fn factors_reach_the_function_in_si_and_in_order() {
     let study = study.with_factor(share).base_samples(256).build().unwrap();
     let result = study.runner().threads(1).run().unwrap();
     let output = &result.outputs[0];
-    // Evenly spread points: the mean of 256 is known to 1e-3 of the range.
+    // Evenly spread points: the mean of 256 has an error of 1e-3 of the range.
     assert!((output.mean.unwrap() - 3.0).abs() < 2e-3 && output.unit == "um");
     assert_eq!(output.groups.as_ref().unwrap()[0].factors, ["share"]);
 }
@@ -173,7 +173,7 @@ fn a_journal_distinguishes_functions_by_version() {
     assert!((mean(2.0, "2") - 1.0).abs() < 1e-9);
 }
 
-/// Runs on the threads of somebody's pool do not run inside each other, which would use up the stack.
+/// Runs on the threads of a caller's pool are not nested, which would exhaust the stack.
 #[test]
 fn many_runs_go_side_by_side_on_the_threads_of_another_pool() {
     use rayon::prelude::*;

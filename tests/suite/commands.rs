@@ -5,7 +5,7 @@ use std::path::Path;
 
 use crate::common::{all_files, apportion, stderr, study_path, succeed, text};
 
-/// What it says on standard error when the input is wrong.
+/// The standard error for wrong input.
 #[track_caller]
 fn refused(arguments: &[&str]) -> String {
     let output = apportion(arguments);
@@ -59,7 +59,7 @@ fn report_overwrites_no_other_result_and_keeps_unknown_keys() {
     let message = refused(&["report", text(&json), "--out", text(&b)]);
     assert!(message.contains("is another result") && message.contains("--out"), "{message}");
     assert_eq!(contents(&b), before);
-    // A key of a later version comes along, since the result is copied word for word.
+    // A key of a later version is kept, since the result is copied unchanged.
     let later = std::fs::read_to_string(&json).unwrap().replacen('{', "{\n  \"later\": 1,", 1);
     std::fs::write(&json, &later).unwrap();
     let c = folder.path().join("c");
@@ -134,7 +134,7 @@ fn compare_shows_differences_and_their_sizes() {
     let line = csv.lines().find(|line| line.starts_with("critical_force,factor,thickness,total,")).unwrap();
     let cells: Vec<f64> = line.split(',').skip(4).take(9).map(|cell| cell.parse().unwrap()).collect();
     assert_eq!((cells[0], cells[3], cells[6]), (index(&a), index(&b), index(&b) - index(&a)));
-    // Labels of the user's own.
+    // Labels of the user.
     let said = succeed(&["compare", text(&a), text(&b), "--out", text(&out), "--label-a", "dry", "--label-b", "humid"]);
     assert!(said.contains("A: dry") && said.contains("B: humid"), "{said}");
 }
@@ -173,7 +173,7 @@ fn completions_contain_every_command() {
     assert!(refused(&["completions", "tcsh"]).contains("possible values: bash"));
 }
 
-/// The script is one that bash takes, and it completes.
+/// bash accepts the script, and it completes.
 #[test]
 #[cfg(unix)]
 fn bash_completes_with_the_script() {

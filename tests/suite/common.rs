@@ -36,7 +36,7 @@ impl Folder {
     }
 }
 
-/// Runs the program and returns what it printed and how it ended.
+/// Runs the program and returns its output and exit status.
 pub fn apportion(arguments: &[&str]) -> Output {
     assert_cmd::Command::cargo_bin("apportion").unwrap().args(arguments).output().unwrap()
 }
@@ -73,7 +73,7 @@ pub fn text(path: &Path) -> &str {
     path.to_str().unwrap()
 }
 
-/// What a run of the program printed that ends well.
+/// The standard output of a successful run of the program.
 #[track_caller]
 pub fn succeed(arguments: &[&str]) -> String {
     let output = apportion(arguments);
@@ -146,7 +146,7 @@ pub fn gap(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
 }
 
-/// What is known of every factor of an output.
+/// The indices of every factor of an output.
 pub fn effects(output: &OutputResult) -> Vec<EffectEstimates> {
     output.indices.iter().flatten().map(|index| index.effect).collect()
 }

@@ -1,4 +1,4 @@
-//! Studies at the edge of what can be studied: each has an answer or a reason, and none a number that only looks like one.
+//! Degenerate studies: each has a result or a reason, and none has a meaningless number.
 
 use std::path::Path;
 
@@ -34,7 +34,7 @@ fn failures_by_several_factors_are_distinguished_from_those_by_one() {
             format!("model = \"expression\"\noutputs.z.formula = \"{formula}\"\n[design]\nbase_samples = 16384\n");
         analysed(&format!("{output}{factors}")).outputs[0].warnings.iter().map(|w| w.code().to_owned()).collect()
     };
-    // The samples are many: the advice to take more would be wrong.
+    // There are many samples: advice to use more would be wrong.
     assert_eq!(codes("if(x/y > 10, sqrt(-1), x + y)"), ["runs-failed", "joint-failures"]);
     assert_eq!(codes("if((x > 0.5) + (y > 0.9) > 1, sqrt(-1), x*y)"), ["runs-failed", "joint-failures"]);
     // Where runs succeed the factors are independent, of smaller ranges.

@@ -180,7 +180,7 @@ fn symmetric_models_have_symmetric_indices() {
     }
 }
 
-/// Where correlations are 0 all is as without them; a factor that is tied to none keeps its indices apart from the others.
+/// With correlations of 0 everything is as without them; an uncorrelated factor keeps its indices.
 #[test]
 fn independent_factors_are_a_special_case() {
     let ishigami = |x: &[f64]| x[0].sin() + 7.0 * x[1].sin().powi(2) + 0.1 * x[2].powi(4) * x[0].sin();
@@ -266,7 +266,7 @@ fn ishigami_with_correlated_factors_has_the_indices_of_quadrature() {
     assert_eq!(tied.total, tied.dependent.unwrap().full_total);
 }
 
-/// 95 % intervals hold the truth in 92 to 98 % of the seeds: `cargo test --release -- --ignored intervals_of_dependent` prints the
+/// 95 % intervals contain the exact value in 92 to 98 % of the seeds: `cargo test --release -- --ignored intervals_of_dependent` prints the
 /// table; few seeds here.
 #[test]
 fn intervals_of_dependent_factors_hold_the_truth() {

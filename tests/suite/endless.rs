@@ -7,7 +7,7 @@ use crate::common::{Folder, apportion, stderr, text};
 
 const STUDY: &str = "model = \"ishigami\"\n[design]\nbase_samples = 64\n";
 
-/// Ends with exit code 2, and says that the file has no end.
+/// Fails with exit code 2, with the message that the file has no end.
 #[track_caller]
 fn is_refused(arguments: &[&str], expected: &str) {
     let output = apportion(arguments);

@@ -1,4 +1,4 @@
-//! The examples run, and what they assert holds.
+//! The examples run, and their assertions hold.
 
 #[path = "../../examples/function_model.rs"]
 mod function_model;

@@ -1,4 +1,4 @@
-//! The three steps joined by files, through the program: `sample`, a model outside, `analyze`.
+//! The three steps joined by files, through the program: `sample`, an external model, `analyze`.
 
 use std::path::{Path, PathBuf};
 
@@ -56,7 +56,7 @@ impl Sampled {
     }
 }
 
-/// A model outside of two factors: 2 base points in each of 4 replicates, 4 rows each.
+/// An external model of two factors: 2 base points in each of 4 replicates, 4 rows each.
 const OUTSIDE: &str = r#"
     model = "external"
     outputs.force = "nN"
@@ -141,7 +141,7 @@ fn a_model_outside_is_sampled_and_analyzed_but_not_run() {
     assert!(stderr(&output).contains("the points in the file are those of the design"), "{}", stderr(&output));
     let result = sampled.result("s");
     assert_eq!(result.outputs[0].name, "force");
-    // The same model inside.
+    // The same model, run by the program.
     let formula = "outputs.force = { formula = \"1e-9*(1e6*a + 2*b + probe)\", unit = \"nN\" }";
     let inside = OUTSIDE.replace("outputs.force = \"nN\"", formula).replace("external", "expression");
     std::fs::write(sampled.path("inside.toml"), inside).unwrap();

@@ -1,4 +1,4 @@
-//! Every friction law with every contact theory at every fidelity, at the edges of what a user can ask for: a finite
+//! Every friction law with every contact theory at every fidelity, at the limits of valid input: a finite
 //! answer or a named reason, never NaN, a panic or an endless loop.
 
 use apportion_afm::{
@@ -50,7 +50,7 @@ fn beyond() -> Vec<Scene> {
 fn assert_sound(scene: &Scene, options: &Options) -> bool {
     match critical_force(scene, options) {
         Err(failure) => {
-            // A glassy layer (Lemaitre-Carlson) has no limit at rest; nothing else in the box may be without an answer.
+            // A glassy layer (Lemaitre-Carlson) has no limit at rest; everything else in the box has a result.
             let at_rest = options.friction == FrictionLaw::LemaitreCarlson && scene.velocity == 0.0;
             assert!(!at_rest || failure == Failure::VelocityZero, "{failure}");
             false

@@ -1,4 +1,4 @@
-//! Factors as people have them, through the program: named statistics, whole numbers, categories, measured values.
+//! Factors in the forms that users have, through the program: named statistics, whole numbers, categories, measured values.
 
 use std::path::PathBuf;
 
@@ -6,7 +6,7 @@ use serde_json::Value;
 
 use crate::common::{Folder, apportion, stderr, succeed, text};
 
-/// A study with a factor of every kind; its model gives what it gets.
+/// A study with a factor of every kind; its model returns its inputs.
 const STUDY: &str = r#"model = "expression"
 [outputs]
 y = "d + n + wet + 10*material + r"
@@ -287,7 +287,7 @@ fn every_family_has_its_share_of_a_sum() {
     for (index, variance) in indices.iter().zip(variances) {
         for kind in ["first_order", "total"] {
             let estimate = index[kind]["estimate"].as_f64().expect("a number");
-            // The long tails are felt at 4096 base samples.
+            // The long tails matter at 4096 base samples.
             assert!((estimate - variance / total).abs() < 0.01, "{index} {}", variance / total);
         }
     }

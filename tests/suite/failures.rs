@@ -1,8 +1,8 @@
-//! Bad input through the program: each has its clear error, the place of the fault, and exit code 2.
+//! Invalid input through the program: each case has a clear error, its place, and exit code 2.
 
 use crate::common::{Folder, HOLES, apportion, stderr, study_path, text};
 
-/// A study that is right, to be spoilt line by line.
+/// A valid study, to be made invalid line by line.
 const GOOD: &str = r#"outputs = ["critical_force"]
 [afm]
 friction = "coulomb"
@@ -20,7 +20,7 @@ max = 800
 unit = "nm/s"
 "#;
 
-/// Runs `check` on a spoilt study and expects exit code 2 with every one of `expected` in the message.
+/// Runs `check` on an invalid study and expects exit code 2 with every one of `expected` in the message.
 #[track_caller]
 fn assert_refused(study: &str, expected: &[&str]) {
     let folder = Folder::new();
@@ -261,11 +261,11 @@ fn an_output_lost_to_failed_runs_is_a_failed_run() {
     assert!(result.outputs[0].reason.as_ref().unwrap().contains("max_failed = 0"), "{json}");
     assert!(result.outputs[0].distribution.is_some(), "the values that there are");
     assert!(out.join("charts/holes-distribution.png").exists());
-    // What was allowed to fail is no failure.
+    // An allowed failure is not an error.
     let study = folder.with("holes.toml", holes("max_failed = 1"));
     let output = apportion(&["run", text(&study), "--out", text(&out)]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    // No run at all has a value: the time to slip at velocity 0.
+    // No run has a value: the time to slip at velocity 0.
     let none = GOOD
         .replace("critical_force", "critical_time")
         .replace("friction =", "velocity = \"0 nm/s\"\nfriction =")

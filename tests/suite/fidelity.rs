@@ -1,4 +1,4 @@
-//! Cheaper models and runs that choose: right, unbiased, the same bits again, and refused with reasons.
+//! Cheaper models and runs with `accuracy`: correct, unbiased, reproducible to the bit, and refused with reasons.
 
 use std::path::Path;
 

@@ -79,7 +79,7 @@ fn differences(held: &Value, found: &Value, at: &str, has_unit: bool, into: &mut
             }
         }
         _ if held == found => (),
-        // Words may be bettered; numbers may not go.
+        // Words may change; numbers must stay.
         (Value::String(_), Value::String(_)) if at.contains("warnings") || at.contains("reason") => (),
         _ => into.push(format!("{at}: {held} before, {found} now")),
     }
@@ -138,7 +138,7 @@ fn a_journal_of_an_earlier_version_is_resumed() {
     assert!(journal == before, "runs on record were evaluated again");
 }
 
-/// The points of a design, and what `analyze` makes of outputs computed at them elsewhere.
+/// The points of a design, and the result of `analyze` for outputs computed elsewhere.
 #[test]
 fn a_design_of_an_earlier_version_is_analysed() {
     let folder_of_run = Folder::new();

@@ -175,7 +175,7 @@ fn a_surrogate_adds_total_indices() {
     for part in ["S_1, by surrogate", "S_T, by surrogate", "explains more than 99.9 %"] {
         assert!(printed.contains(part), "no {part:?} in {printed}");
     }
-    // What is left is nothing.
+    // Nothing is left unexplained.
     assert!(
         !printed.contains("is not assigned to inputs") && !printed.contains("include the unexplained"),
         "{printed}"
@@ -231,7 +231,7 @@ fn a_useless_surrogate_gives_a_warning() {
 
 #[test]
 fn other_measures_are_listed_with_the_indices() {
-    // x3 counts least, and x4 for nothing.
+    // x3 has the smallest effect, and x4 none.
     let columns = random(4, 600, 12);
     let content = table(&columns);
     let weightless = content.lines().enumerate().map(|(row, line)| match row {
@@ -257,7 +257,7 @@ fn other_measures_are_listed_with_the_indices() {
     }
     let csv = std::fs::read_to_string(run.out().join("table-measures.csv")).unwrap();
     assert!(csv.starts_with("output,input,fourier,fourier_low,fourier_high,fourier_p,delta,"), "{csv}");
-    // The rows of a net are no independent draws.
+    // The rows of a net are not independent draws.
     let even = Run::of(&table(&sobol(3, 512, 0)), &["--outputs", "y", "--measures"]);
     let result: GivenFile =
         serde_json::from_str(&std::fs::read_to_string(even.out().join("table.json")).unwrap()).unwrap();

@@ -1,4 +1,4 @@
-//! Indices from given data by surrogates: exact answers, intervals that hold the truth of rough functions too, and every table
+//! Indices from given data by surrogates: exact answers, intervals that contain the exact indices also for rough functions, and every table
 //! that must be refused.
 
 use apportion::Distribution;
@@ -145,7 +145,7 @@ fn scales_and_offsets_change_nothing() {
             assert!((a.total.estimate - b.total.estimate).abs() < 1e-6, "{a:?} {b:?}");
         }
     }
-    // Here the output has some three digits.
+    // Here the output has about three digits.
     let far = output(&columns, evaluated(&columns, |x| function(x) + 1e13), None);
     for (a, b) in far.indices.iter().zip(&reference.indices) {
         assert!((a.total.estimate - b.total.estimate).abs() < 1e-2, "{a:?} {b:?}");

@@ -1,4 +1,4 @@
-//! Intervals and sentences on outputs that are hard to judge: rare events, values of 0 and 1, ties, failed rows.
+//! Intervals and sentences for difficult outputs: rare events, values of 0 and 1, ties, failed rows.
 
 use std::path::Path;
 

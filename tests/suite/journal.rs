@@ -1,4 +1,4 @@
-//! Interrupted is not lost: journals, resuming, doubling, shards, through the program.
+//! Interrupted runs through the program: journals, resuming, doubling, shards.
 
 mod parts;
 
@@ -12,7 +12,7 @@ use crate::common::{HOLES, apportion, stderr, study_path, succeed, text};
 /// Some 1500 runs of a millisecond: long enough to be interrupted, short enough to be run to its end.
 const SLOW: [&str; 4] = ["--set", "afm.fidelity=dynamic", "--base-samples", "256"];
 
-/// Outputs that are saved are put on record too.
+/// Saved outputs are recorded in the journal too.
 fn slow(out: &Path, more: &[&str]) -> Vec<String> {
     let study = study_path("lugre-environmental");
     std::fs::create_dir_all(out).unwrap();
@@ -188,10 +188,10 @@ fn a_journal_of_another_study_is_refused_with_the_reason_or_moved_aside() {
     refused(&changed, 2, "factors.x2.distribution.max was 3.14");
     refused(&other(&["--resume", "--set", "function.a=6"]), 2, "settings.a was 7 and is now 6");
     refused(&other(&["--retry-failed", "--set", "analysis.second_order=true"]), 2, "design.rows_per_point was 5");
-    // What changes no output is no other study.
+    // Changes that affect no output do not make another study.
     let same = ["--resume", "--set", "analysis.threshold=0.1", "--set", "title=\"Other words\""];
     assert_eq!(ishigami_runs(out, &[&small[..], &same].concat()), 5120);
-    // Without --resume the journal makes way.
+    // Without --resume the journal is renamed.
     let output = other(&["--seed", "9"]);
     assert_eq!((output.status.code(), on_record(&stderr(&output))), (Some(0), 0));
     assert!(stderr(&output).contains(": the journal was moved to ") && out.join("ishigami.journal.old").is_file());
@@ -199,7 +199,7 @@ fn a_journal_of_another_study_is_refused_with_the_reason_or_moved_aside() {
     refused(&other(&["--resume"]), 2, "this is not a journal of a run: it does not begin like a journal");
     let before = std::fs::read(out.join("ishigami.journal.old")).unwrap();
     assert_eq!(other(&[]).status.code(), Some(0));
-    // Nothing that was moved aside is lost.
+    // Renamed journals are kept.
     assert_eq!(std::fs::read(out.join("ishigami.journal.old2")).unwrap(), b"x1,x2\n");
     assert_eq!(std::fs::read(out.join("ishigami.journal.old")).unwrap(), before);
 }
@@ -240,7 +240,7 @@ fn a_study_may_be_called_by_any_path_and_moved_but_a_changed_program_is_noticed(
     refused(&merge(), 2, "sum-shard-1-of-2.journal: evaluated with another sum.py than ");
     std::fs::remove_file(out.join("sum-shard-1-of-2.journal")).unwrap();
     assert_eq!(merge().status.code(), Some(0));
-    // What was merged is still of the program before.
+    // The merged runs are still of the earlier program.
     let again = apportion(&["run", text(&there.join("sum.toml")), "--out", text(&out)]);
     refused(&again, 2, "sum.py changed since the journal was written");
     assert_eq!(on_record(&run(&there.join("sum.toml"), &["--restart"])), 0);
@@ -313,7 +313,7 @@ fn a_full_disk_ends_a_run_without_loss() {
 #[test]
 fn two_runs_do_not_write_one_journal() {
     let folder = tempfile::tempdir().unwrap();
-    // Long enough to be at work still when the second one begins, on any machine.
+    // Long enough to be still running when the second one starts, on any machine.
     let longer = |argument: String| if argument == SLOW[3] { "262144".to_owned() } else { argument };
     let long: Vec<String> = slow(folder.path(), &[]).into_iter().map(longer).collect();
     let mut first = spawn(&long);

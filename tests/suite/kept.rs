@@ -1,4 +1,4 @@
-//! Runs and files that must not be lost: what a command keeps, or refuses before it touches anything.
+//! Runs and files that must not be lost: what a command keeps, or refuses before it changes any file.
 
 use std::path::Path;
 
@@ -120,7 +120,7 @@ fn sample_overwrites_only_its_own_designs() {
         let output = sample(more);
         assert_eq!(output.status.code(), Some(0), "{more:?}: {}", stderr(&output));
     }
-    // Outputs that somebody has put in are no points.
+    // A file with outputs is not a file of points.
     std::fs::write(&table, std::fs::read_to_string(&table).unwrap().replace('\n', ",1\n")).unwrap();
     assert_eq!(sample(&[]).status.code(), Some(2));
 }

@@ -1,4 +1,4 @@
-//! `apportion live`: pages that compute. What they compute is tried in a browser (`tests/browser/live.py`).
+//! `apportion live`: interactive pages. Their computations are tested in a browser (`tests/browser/live.py`).
 
 use serde_json::Value;
 
@@ -69,7 +69,7 @@ fn the_page_of_a_run_links_to_its_own() {
     assert!(!to.join("command-python-live.html").exists(), "a program cannot be asked from a page");
 }
 
-/// What a stranger's result says of its study makes the program read no file.
+/// The study in an untrusted result does not make the program read a file.
 #[test]
 fn the_live_page_of_a_result_reads_no_files() {
     let folder = Folder::new();

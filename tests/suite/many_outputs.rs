@@ -102,7 +102,7 @@ fn a_signal_takes_effect_after_the_result_is_written() {
     while !out.join("s.json").exists() {
         assert!(begun.elapsed() < Duration::from_secs(240));
         if let Some(code) = run.try_wait().unwrap() {
-            // On a busy machine all may be over between two looks.
+            // On a busy machine the run may end between two checks.
             assert!(code.success());
             return;
         }

@@ -1,4 +1,4 @@
-//! What must not matter: the output's offset and scale, the order of the factors, the number of threads.
+//! Invariance: offset and scale of the output, order of the factors, number of threads.
 
 use apportion::design::{Design, DesignSettings, Rows};
 use apportion::model::{Batch, KnownAnswer, KnownFunction, Model, Output, RunContext, Worker};

@@ -85,7 +85,7 @@ fn the_intervals_hold() {
     }
 }
 
-/// Without noise it does nothing, and everything else is that of a study with a factor that does nothing in its place.
+/// Without noise the seed has no effect, and all else is that of a study with an inert factor instead.
 #[test]
 fn without_noise_all_is_as_without_it() {
     let of = |last: Distribution| {
@@ -118,7 +118,7 @@ fn without_noise_all_is_as_without_it() {
     assert_eq!(noise.of_mean.len(), 3);
 }
 
-/// Rows that differ in a factor share the seed: where the noise is all, factors do nothing in any row.
+/// Rows that differ in a factor share the seed: if there is only noise, factors have no effect in any row.
 #[test]
 fn rows_of_a_factor_share_the_noise_of_their_point() {
     let model = function_model("y", |x| normal(x[3]));
@@ -248,7 +248,7 @@ fn a_run_distinguishes_random_programs_from_programs_with_state() {
     }
 }
 
-/// The seed is a part of the row: a journal gives the same result, and so does a table that somebody else has filled.
+/// The seed is a part of the row: a journal gives the same result, and so does a table filled by another program.
 #[test]
 fn the_example_says_which_question_each_number_answers() {
     let folder = Folder::new();
@@ -276,7 +276,7 @@ fn the_example_says_which_question_each_number_answers() {
     assert!(noise.effect.total.estimate > 0.1 && noise.of_mean.iter().all(|of_mean| of_mean.total.is_some()));
     let csv = std::fs::read_to_string(folder.path("one").join("stochastic.csv")).unwrap();
     assert!(csv.lines().any(|line| line.starts_with("wait,noise,seed,")), "{csv}");
-    // Sampled, evaluated and analysed apart.
+    // Sampled, evaluated and analysed in separate steps.
     let (design, answers) = (out("design.csv"), out("answers.csv"));
     succeed(&["sample", text(&study), runs[0], runs[1], "-o", &design]);
     let first = std::fs::read_to_string(&design).unwrap();

@@ -8,7 +8,7 @@ use apportion::{
 
 use crate::common::effects;
 
-/// A model that says that it takes its time, as a program does.
+/// A model that reports long run times, as a program does.
 struct Program<M>(M);
 
 impl<M: Model> Model for Program<M> {
@@ -151,7 +151,7 @@ fn a_trial_explains_why_indices_are_plain() {
     }
 }
 
-/// What is refused has no intervals that hold the plain ones too.
+/// Rejected surrogates do not extend the intervals of the plain indices.
 #[test]
 fn surrogates_that_are_refused_are_warned_of_once() {
     let text = "model = \"expression\"\noutputs.y = \"a*b + 100*d\"\naccuracy = 0.01\n[factors]\na = { min = 0, max = 1 }\n\

@@ -1,4 +1,4 @@
-//! Workers elsewhere, here threads behind channels: the same bits, and an end in order.
+//! Remote workers, here threads behind channels: the same bits, and a clean end.
 
 use std::io;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -44,7 +44,7 @@ impl RemoteWorkers for Elsewhere {
     }
 }
 
-/// The requests to one worker, and how many it answers before it is lost.
+/// The requests to one worker, and the number that it answers before it is lost.
 struct Queue(Receiver<Vec<u8>>, Sender<Vec<u8>>, usize);
 
 impl Requests for Queue {
@@ -58,7 +58,7 @@ impl Requests for Queue {
     }
 }
 
-/// What `run` returns with so many workers elsewhere, each of which answers so many requests.
+/// The result of `run` with this number of remote workers, each of which answers this number of requests.
 fn with_workers<R>(study: &Study, workers: usize, answers: usize, run: impl FnOnce(&Elsewhere) -> R) -> R {
     let far = WorkerStudy::new(study.clone());
     let stop = AtomicBool::new(false);

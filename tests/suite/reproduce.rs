@@ -24,8 +24,8 @@ fn the_orders_of_the_papers_are_confirmed_or_refuted() {
     }
     assert_eq!(std::fs::read_to_string(folder.path().join("shares.csv")).unwrap().lines().count(), 1 + 3 * 16);
     assert!(names.contains("percentages.csv") && !names.contains("charts"), "{names:?}");
-    // The rankings of the papers' claims 17, 19 and 20 come out, that of 18 does not under Hurtado-Kim friction, and the
-    // velocity has no share anywhere: the verdicts say so.
+    // The rankings of the papers' claims 17, 19 and 20 are confirmed, that of 18 is not under Hurtado-Kim friction, and the
+    // velocity has no share anywhere: the verdicts state this.
     let claims = claims_of(folder.path());
     let range = |number: &str| &claims.iter().find(|claim| &claim[0] == number).unwrap()[5];
     assert_eq!(range("17"), "Coulomb, Hurtado-Kim, LuGre: the whole order");
@@ -40,7 +40,7 @@ fn the_orders_of_the_papers_are_confirmed_or_refuted() {
     {
         assert!(said.contains(expected), "{expected}: {said}");
     }
-    // What the README says of the verdicts is what they are.
+    // The README states the current verdicts.
     let count = |verdict: &str| claims.iter().filter(|claim| &claim[3] == verdict).count();
     let said = format!(
         "Of {} answers to the papers' 20 claims, {} are reproduced, {} are not reproduced, and {} are contradicted",
@@ -55,11 +55,11 @@ fn the_orders_of_the_papers_are_confirmed_or_refuted() {
     }
 }
 
-/// Intervals that overlap decide nothing: only what is the other way round is called so.
+/// Overlapping intervals are undecided: only a reversed order is reported as reversed.
 #[test]
 fn reproduce_at_few_points_leaves_open_what_they_do_not_decide() {
     let folder = tempfile::tempdir().unwrap();
-    // With 64 all is decided.
+    // With 64 every order is decided.
     let few = ["--base-samples", "32"];
     succeed(&[&["reproduce", "--quick", "--only", "claims", "--out", text(folder.path())], &few[..]].concat());
     let claims = claims_of(folder.path());

@@ -1,4 +1,4 @@
-//! What is read back from a result file, and what is refused.
+//! Reading of result files, and refused files.
 
 use std::path::Path;
 

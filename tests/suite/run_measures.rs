@@ -38,7 +38,7 @@ fn exact_measures_are_found_from_nets_and_random_rows() {
             assert!(interval.low < delta && delta < interval.high, "{sampler:?} {}: {found:?}", factor.input);
             assert!(interval.high - interval.low < 0.08, "{sampler:?} {}: {found:?}", factor.input);
             assert!((s1 - first / 14.0).abs() < 0.04, "{sampler:?} {}: {s1}", factor.input);
-            // Rows that are spread evenly are no independent draws, to which permutations could be compared.
+            // Evenly spread rows are not independent draws, so permutations do not apply.
             assert_eq!(found.p_value.map(|p| p < 0.01), (sampler == Sampler::Random).then_some(true), "{sampler:?}");
             assert!(factor.get(Measure::Hsic).is_none());
         }
@@ -126,7 +126,7 @@ fn the_program_lists_them_with_the_indices() {
     let json: serde_json::Value = serde_json::from_slice(&std::fs::read(drawn.join("study.json")).unwrap()).unwrap();
     let idle = &json["outputs"][1]["measures"]["factors"][0]["measures"]["pawn_median"]["p_value"];
     assert!(idle.as_f64().unwrap() > 0.05, "z is b alone");
-    // Threads, and parts that are joined, make no difference.
+    // Threads and merged shards make no difference.
     let measured = |folder: &std::path::Path| std::fs::read(folder.join("study-measures.csv")).unwrap();
     let alone = folder.path("alone");
     succeed(&["run", text(&file), "--threads", "1", "--out", text(&alone)]);

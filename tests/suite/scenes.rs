@@ -1,4 +1,4 @@
-//! The nanoparticle model through the program: scenes in time, and every choice of its physics.
+//! The nanoparticle model through the program: scenes in time, and every choice of the physics.
 
 use crate::common::{apportion, files, stderr, study_path, succeed, text};
 

@@ -140,7 +140,7 @@ fn a_sweep_shows_curves_and_ranges() {
     assert_eq!(file.sweeps.len(), 8);
     let thickness = &file.sweeps[2];
     assert_eq!((thickness.values[0], thickness.values[10], thickness.values.len()), (0.25, 2.5, 11));
-    // F goes with the stiffness, E w t^3 / (4 L^2 ..), but for the load on the contact: tenfold width, nearly tenfold force.
+    // F is proportional to the stiffness, E w t^3 / (4 L^2 ..), except for the load on the contact: tenfold width, nearly tenfold force.
     let ends = |name: &str| {
         let sweep = file.sweeps.iter().find(|sweep| sweep.factor == name).unwrap();
         let y = &sweep.outputs[0];

@@ -1,4 +1,4 @@
-//! Outputs that are series: indices of single values and of the whole, where they are known.
+//! Outputs that are series: known indices of single values and of the whole series.
 
 use std::f64::consts::TAU;
 

@@ -187,7 +187,7 @@ fn groups_of_one_are_their_factors() {
     }
 }
 
-/// Share of 95 % intervals that hold the truth; more seeds with `SEEDS=200 cargo test --release --test suite -- --nocapture
+/// Share of 95 % intervals that contain the exact value; more seeds with `SEEDS=200 cargo test --release --test suite -- --nocapture
 /// intervals_of_groups`.
 #[test]
 fn intervals_of_groups_hold_the_truth() {

@@ -1,4 +1,4 @@
-//! Few runs: random points as a table for `given-data`.
+//! Small budgets: random points as a table for `given-data`.
 
 use apportion_report::given::GivenFile;
 

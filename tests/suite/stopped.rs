@@ -17,7 +17,7 @@ fn many_charts() -> String {
     )
 }
 
-/// Every picture is whole, and nothing is left half written.
+/// Every picture is complete, and no file is partly written.
 fn assert_whole(folder: &Path) {
     for name in all_files(folder) {
         let bytes = std::fs::read(folder.join(&name)).unwrap();
@@ -54,7 +54,7 @@ fn a_signal_takes_effect_while_charts_are_drawn() {
         assert!(Command::new("kill").args([signal, &run.id().to_string()]).status().unwrap().success());
         let heard = Instant::now();
         let code = run.wait().unwrap().code();
-        // A second is promised; a machine that does much else takes its time to end anything.
+        // One second is the specification; a busy machine needs longer.
         assert!(heard.elapsed() < Duration::from_secs(30), "{:?}", heard.elapsed());
         let mut said = String::new();
         run.stderr.take().unwrap().read_to_string(&mut said).unwrap();
@@ -106,7 +106,7 @@ fn a_journal_or_result_is_a_file() {
     }
 }
 
-/// By default the system ends a program that writes beyond the limit without a word.
+/// By default the system stops a program that writes beyond the limit without a message.
 #[test]
 fn a_file_beyond_the_limit_of_sizes_is_an_error_with_its_reason() {
     let folder = Folder::new();

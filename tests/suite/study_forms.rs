@@ -127,7 +127,7 @@ fn keys_in_the_wrong_table_are_reported_with_the_right_one() {
     refused(&format!("model = \"ishigam\"\n{factor}"), &["did you mean `ishigami`?"]);
 }
 
-/// Before any of them is worked on.
+/// Before any of them is processed.
 #[test]
 fn more_factors_than_any_study_can_have_are_refused_while_they_are_read() {
     let lines = |count: usize| (0..count).map(|number| format!("x{number} = {{}}\n")).collect::<String>();

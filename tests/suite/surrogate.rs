@@ -305,7 +305,7 @@ fn intervals_hold_where_polynomials_blow_up_in_the_tails() {
                 }
             }
         }
-        // Without what polynomials say of the tails: 30 and 45 of 80, and errors of 0.08.
+        // Without the terms of the polynomials for the tails: 30 and 45 of 80, and errors of 0.08.
         assert!(held >= all * 3 / 4, "{wave}: {held} of {all}");
         let error = (squares / all as f64).sqrt();
         assert!(error < 0.005, "{wave}: {error}");

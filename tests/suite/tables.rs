@@ -1,4 +1,4 @@
-//! Tables in every format that `evaluate` and `given-data` read, and what of them is skipped or doubted.
+//! Tables in every format that `evaluate` and `given-data` read, with skipped columns and warnings.
 
 use apportion_files::exchange::{ColumnKind, Format, row_writer};
 use apportion_report::given::GivenFile;
@@ -53,7 +53,7 @@ fn points_of_every_format_give_the_same_outputs() {
         let (code, said, _) = evaluate(points, more);
         assert!(code == Some(2) && said.contains(reason), "{points}: {said}");
     }
-    // A number may have lost its end.
+    // A number may be truncated.
     folder.with("cut.csv", &plain[..plain.len() - 3]);
     let (code, said, _) = evaluate("cut.csv", &[]);
     assert!(code == Some(0) && said.contains("warning") && said.contains("the last line has no line end"), "{said}");

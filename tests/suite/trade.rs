@@ -1,4 +1,4 @@
-//! `apportion trade`: settings against each other.
+//! `apportion trade`: comparison of settings.
 
 use apportion_cli::trade::settings::SettingsFile;
 

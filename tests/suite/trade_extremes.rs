@@ -21,7 +21,7 @@ fn studies() -> Vec<PathBuf> {
     all
 }
 
-/// Few enough steps that a hopeless march far outside of any laboratory ends soon.
+/// A small number of steps, so that hopeless integrations of extreme scenes end soon.
 const STEPS: &str = "afm.step_budget=20000";
 
 fn loaded(path: &Path) -> Study {

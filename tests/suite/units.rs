@@ -1,4 +1,4 @@
-//! Units of factors and outputs, through the binary: what a model gets, and what is printed of it.
+//! Units of factors and outputs, through the binary: the inputs of a model, and the printed values.
 
 use std::path::Path;
 

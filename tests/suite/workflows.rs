@@ -71,7 +71,7 @@ fn the_format_of_a_result_is_what_it_was() {
             histogram.counts.truncate(2);
         }
     }
-    // Four digits: the format is at stake here, not the last bits of another processor's logarithm.
+    // Four digits: this tests the format, not the last bits of another processor's logarithm.
     let text = result.json();
     let mut value: serde_json::Value = serde_json::from_str(&text).unwrap();
     round(&mut value);
@@ -263,7 +263,7 @@ fn subsets_and_outputs_together() {
     let (result, printed, folder) = run_with("soft-cantilever-subsets", &["design.base_samples=2048"]);
     let subsets = result.outputs[0].subsets.as_ref().unwrap();
     assert_eq!(subsets[0].factors, ["particle_radius", "adhesion"]);
-    // Thickness and friction make the force but for adhesion and radius, which add 0.1 %.
+    // Thickness and friction determine the force, except for adhesion and radius, which add 0.1 %.
     assert!((subsets[1].effect.total.estimate - 0.9987).abs() < 5e-3, "{:?}", subsets[1]);
     let aggregate = result.aggregate.as_ref().unwrap();
     assert_eq!(aggregate.outputs, ["critical_force", "critical_time"]);
@@ -291,7 +291,7 @@ fn runs_that_grow_say_why_they_ended() {
     let (unmet, runs, _) = stopping(&["accuracy=1e-6", "design.max_runs=50000"]);
     assert_eq!((unmet.target_met, unmet.max_runs), (Some(false), Some(50_000)));
     assert!(unmet.reason.contains("more than max_runs = 50000") && (25_000..=50_000).contains(&runs), "{unmet:?}");
-    // Ten runs a base sample: the first stage of 1024 has to give way.
+    // Ten runs per base sample: the first stage of 1024 must be smaller.
     let (few, runs, _) = stopping(&["design.max_runs=100"]);
     assert_eq!((few.target_met, runs), (None, 80));
     let (spent, _, _) = stopping(&["design.max_time=0.05 s"]);

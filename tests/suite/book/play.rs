@@ -11,7 +11,7 @@ use super::page::{Block, Page, Role};
 use super::update;
 use crate::common::{Folder, search_path, succeed, text};
 
-/// What is wrong with a page, each with its place. `BOOK=update` in the environment puts outputs that differ into the page.
+/// Errors of a page, each with its place. `BOOK=update` in the environment puts outputs that differ into the page.
 pub fn faults(page: &Page) -> Vec<String> {
     let is_update = std::env::var("BOOK").is_ok_and(|wish| wish == "update");
     let mut corrections = Vec::new();
@@ -90,7 +90,7 @@ fn compare(shown: &str, printed: &str) -> Option<String> {
     })
 }
 
-/// `left` becomes how many lines were left at the furthest place that was reached.
+/// `left` is set to the number of lines left at the last matching line.
 fn are_alike(shown: &[String], printed: &[String], left: &mut usize) -> bool {
     *left = shown.len().min(*left);
     match shown.split_first() {

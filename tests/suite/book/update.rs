@@ -1,4 +1,4 @@
-//! Puts what came out into the page: `BOOK=update`.
+//! Writes current outputs into the page: `BOOK=update`.
 
 use std::collections::BTreeSet;
 
@@ -8,7 +8,7 @@ use super::play::is_alike;
 /// Smallest similarity of two lines of which one can replace the other: the share of their words that they have in common.
 const ALIKE: f64 = 0.35;
 
-/// `shown` with the lines that `printed` has today, and what is left out of it left out again.
+/// `shown` with the current lines of `printed`, and the same elisions.
 pub fn corrected(shown: &str, printed: &str) -> String {
     let lines: Vec<&str> = printed.lines().map(str::trim_end).collect();
     let (mut next, mut corrected) = (0, Vec::<String>::new());

@@ -1,4 +1,4 @@
-//! Programs that do something wrong: every good row is used, every bad one has its reason.
+//! Faulty programs: every good row is used, every bad one has its reason.
 
 use super::{Case, FORMULA, by_formula, contains, failures, rows_where};
 use crate::common::{apportion, numbers, stderr, stdout, succeed, text};
@@ -63,7 +63,7 @@ fn only_the_row_that_crashes_the_program_fails() {
     some_fail(&Case::each_row("retries = 0", by_signal), "the program ended with signal 11 (SIGSEGV)");
 }
 
-/// The one guilty row is found though the program had read others.
+/// The row that causes the failure is found although the program had read others.
 #[test]
 fn only_the_row_that_crashes_a_program_of_blocks_fails() {
     let blocks = "import os, sys\nsys.stdin.buffer.readline()\nrest = b''\nwhile block := sys.stdin.buffer.read1(65536):\n    \
@@ -126,7 +126,7 @@ fn a_banner_on_standard_output_is_named() {
 
 #[test]
 fn a_hanging_program_is_ended_and_started_again() {
-    // A child of it would hold the pipes, were it not ended too.
+    // A child process would keep the pipes open if it were not stopped too.
     let hangs = "    if 0.997 < x[0]:\n        import subprocess; subprocess.run(['sleep', '1000'])\n    answer(y)\n";
     // Long enough for a very busy machine to start Python.
     let case = Case::each_row("timeout = \"3 s\"\nretries = 0", hangs).replace("workers = 2", "workers = 4");

@@ -35,14 +35,14 @@ n = 0
 const EACH: &str =
     "for number, x in rows():\n    n += 1\n    y = x[0] + 2*x[1] + x[0]*x[2]\n    a = answer(number, y)\n";
 
-/// What becomes of a study of a program.
+/// The outcome of a study of a program.
 #[derive(Clone, Copy, PartialEq, Debug)]
 enum End {
     /// All rows have their numbers.
     Whole,
     /// Some rows may have failed.
     Failures,
-    /// That, or the run is given up.
+    /// Some rows may have failed, or the run is given up.
     Any,
     /// The program has to be changed.
     Refused,
@@ -176,7 +176,7 @@ fn no_program_makes_a_wrong_number() {
     let (trials, next) = (Trial::all(), AtomicUsize::new(0));
     let (faults, answered) = (Mutex::new(Vec::new()), AtomicUsize::new(0));
     std::thread::scope(|scope| {
-        // They wait more than they compute.
+        // The programs wait more than they compute.
         for _ in 0..16 {
             scope.spawn(|| {
                 while let Some(trial) = trials.get(next.fetch_add(1, Ordering::Relaxed)) {

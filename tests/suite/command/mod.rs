@@ -65,7 +65,7 @@ impl Case {
         Self { folder }
     }
 
-    /// One whose program does `what`, indented, with every row: its values are in `x`, without its number in `line`, and
+    /// One whose program runs `what`, indented, for every row: its values are in `x` and, without its number, in `line`, and
     /// `answer(y)` is the answer.
     pub fn each_row(command: &str, what: &str) -> Self {
         Self::new(command, &format!("{LOOP}{what}"))

@@ -3,7 +3,7 @@
 use super::{Case, contains, failures, rows_where};
 use crate::common::{files, stderr};
 
-/// A simulator in Python's place that is quick to start: it reads `model.in` and writes what `more` says.
+/// A simulator that starts faster than Python: it reads `model.in` and writes according to `more`.
 fn simulator(command: &str, outputs: &str, more: &str) -> Case {
     let keys = format!("template = \"model.in\"\nfiles = [\"model.awk\"]\n{command}\n{outputs}");
     let case = Case::new(&keys, "");
@@ -63,7 +63,7 @@ fn missing_output_of_a_run_is_named() {
     }
 }
 
-/// A result of an earlier run of the simulator, copied along, is not taken for that of a row.
+/// A copied result of an earlier run of the simulator is not used as that of a row.
 #[test]
 fn a_file_from_before_the_run_is_not_an_output() {
     let more = "if (x1 <= 0.9) print \"y = \" y > \"out.txt\"";
@@ -97,7 +97,7 @@ fn directories_are_kept_if_asked_for() {
     let case = simulator("keep = \"runs\"", REPORT, "print \"y = \" y > \"out.txt\"");
     case.result();
     let runs: Vec<_> = files(&case.path("runs")).into_iter().collect();
-    // Identical points share theirs.
+    // Identical points share their directory.
     assert!(runs.len() > 100 && runs.len() <= 160, "{}", runs.len());
     let one = case.path("runs").join(&runs[0]);
     let expected = ["factors.csv", "model.awk", "model.in", "out.txt", "stderr.txt", "stdout.txt"];

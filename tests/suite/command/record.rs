@@ -81,7 +81,7 @@ fn a_killed_engine_repeats_no_recorded_row_and_leaves_no_process() {
     assert_eq!(resumed.status.code(), Some(0), "{}", stderr(&resumed));
     contains(&stderr(&resumed), &[&format!("{before} of {ROWS} runs are already saved")]);
     let rows = asked(&case);
-    // Those that are not on record, each once; and at the end some of all rows again, to see whether the program is random.
+    // Each unrecorded row once; and at the end some of all rows again, to detect a random program.
     let (evaluated, again) = rows.split_at(ROWS - before);
     assert_eq!(again.len(), (evaluated.len() / 100).clamp(1, 16));
     assert_eq!(evaluated.iter().collect::<BTreeSet<_>>().len(), evaluated.len());

@@ -1,4 +1,4 @@
-//! Studies of programs that make no sense, and programs that cannot be started.
+//! Invalid studies of programs, and programs that cannot be started.
 
 use super::{Case, contains};
 use crate::common::{apportion, stderr, stdout, succeed, text};

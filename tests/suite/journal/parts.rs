@@ -1,4 +1,4 @@
-//! Parts of a run, and what becomes of them together.
+//! Shards of a run, and their merged result.
 
 use std::path::PathBuf;
 use std::process::Command;
@@ -38,7 +38,7 @@ fn parts_add_to_what_an_interrupted_run_and_other_parts_have_done() {
     let (out, whole) = (folder.path().join("out"), folder.path().join("whole"));
     let size = ["--base-samples", "4096"];
     ishigami_runs(&whole, &size);
-    // A journal that was cut short is that of a run that was interrupted.
+    // A truncated journal is that of an interrupted run.
     ishigami_runs(&out, &size);
     let journal = out.join("ishigami.journal");
     let bytes = std::fs::read(&journal).unwrap();
@@ -66,7 +66,7 @@ fn shards_of_any_machine_merge_to_the_bits_of_one_run() {
     }
     refused(&merge(&[]), 1, "1705 of 5120 runs are missing: there is no journal of shard 2/3");
     ishigami_runs(&parts, &[&small[..], &["--shard", "2/3"]].concat());
-    // A shard that is there is not evaluated again.
+    // An existing shard is not evaluated again.
     assert!(ishigami_runs(&parts, &[&small[..], &["--shard", "2/3", "--resume"]].concat()) > 0);
     let merged = merge(&[]);
     assert_eq!(merged.status.code(), Some(0), "{}", stderr(&merged));
