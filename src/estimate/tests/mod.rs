@@ -17,7 +17,7 @@ struct Sample {
 }
 
 impl Sample {
-    /// `n` base points of columns that are correlated somehow, with `offset`.
+    /// `n` base points of columns with arbitrary correlations, with `offset`.
     fn noise(n: usize, offset: f64) -> Self {
         let raw: Vec<Vec<f64>> = (1..=6).map(|salt| noise(n, salt)).collect();
         let column = |own: usize, shared: &[usize]| -> Vec<f64> {

@@ -66,7 +66,7 @@ fn delta_of_a_sum_of_normals_is_that_of_the_integral() {
     for (found, exact) in found.iter().zip([0.505_497_139, 0.160_393_820]) {
         let delta = found.get(Measure::Delta).unwrap().estimate;
         let interval = delta.interval.unwrap();
-        // Nineteen classes know the input no better than to within one of them.
+        // Nineteen classes resolve the input only to the width of a class.
         assert!((-0.03..0.01).contains(&(delta.estimate - exact)), "{delta:?} {exact}");
         assert!(interval.high - interval.low < 0.06 && interval.low < interval.high);
     }
@@ -156,7 +156,7 @@ fn constant_inputs_and_even_points_have_no_p_values() {
 fn delta_of_outputs_with_values_that_many_rows_share() {
     type Case = (&'static str, fn(&[f64]) -> f64, [f64; 2]);
     let cases: [Case; 8] = [
-        // Of an input whose value decides the output itself, classes see a part: not compared.
+        // For an input that determines the output, classes resolve only a part: not compared.
         ("a switch over a density", |x| if x[0] < 0.5 { 0.0 } else { x[1] }, [0.5, f64::NAN]),
         ("a switch over two values", |x| if x[0] < 0.5 { 0.0 } else { (2.0 * x[1]).floor() }, [0.25, 0.25]),
         ("two values", |x| f64::from(x[0] < 0.5), [0.5, 0.0]),

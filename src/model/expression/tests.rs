@@ -94,7 +94,7 @@ fn columns_of_any_length_are_their_rows() {
         assert_eq!(batch.column(0)[row].to_bits(), if alone.is_finite() { alone } else { f64::NAN }.to_bits());
     }
     let reasons: Vec<String> = batch.failures().iter().map(|(_, _, reason)| reason.to_string()).collect();
-    // Of ln(0), which is met more than once.
+    // From ln(0), which occurs more than once.
     assert!(!reasons.is_empty() && reasons.iter().all(|reason| reason == "the formula is infinite"), "{reasons:?}");
 }
 
@@ -103,7 +103,7 @@ fn nan_is_never_hidden() {
     for text in ["min(0/0, x)", "max(x, 0/0)", "0/0 < x", "if(0/0, 1, 2)", "(0/0)*0"] {
         assert!(value(text, &[1.0]).is_nan(), "{text}");
     }
-    // The branch that is not taken has no say.
+    // The branch that is not taken does not matter.
     assert_eq!(value("if(x > 0, x, 0/0)", &[1.0]), 1.0);
 }
 

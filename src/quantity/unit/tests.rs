@@ -106,7 +106,7 @@ fn every_usual_unit_has_its_factor_and_dimension() {
         (Dimension::ENERGY, 3.6e6, "kWh"),
         (Dimension::ENERGY, 1.602176634e-19, "eV"),
         (Dimension::ENERGY, 1.602176634e-22, "meV"),
-        // Beside other symbols a degree is a step, without a zero.
+        // In a product of units a degree is a difference, without an offset.
         (Dimension::TEMPERATURE, 1.0, "degC m/m"),
     ];
     for (dimension, factor, text) in expected {

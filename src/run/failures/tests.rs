@@ -36,7 +36,7 @@ fn only_the_first_reasons_are_counted_separately() {
 }
 
 proptest! {
-    /// Whatever is counted where, and in which order it is merged, the same is left.
+    /// The result does not depend on where failures are counted, or on the order of merging.
     #[test]
     fn the_order_does_not_count(
         reasons in prop::collection::vec("[ab\u{1}#-]{0,2}[0-9]{1,2}[cd]{0,3}", 0..400),

@@ -36,7 +36,7 @@ fn appended_records_are_read_back() {
     journal.append(&pieces[2]).unwrap();
     drop(journal);
     assert_same(&read_journal(&path, &std::fs::read(&path).unwrap()).unwrap().pieces, &pieces);
-    // A new one takes the place of the old.
+    // A new one replaces the old one.
     drop(Journal::create(&path, &json!({ "study": "b" })).unwrap());
     let contents = read_journal(&path, &std::fs::read(&path).unwrap()).unwrap();
     assert_eq!((contents.header, contents.pieces.len()), (json!({ "study": "b" }), 0));
@@ -83,7 +83,7 @@ fn damage_is_cut_off_and_never_read_as_outputs() {
             }
         }
     }
-    // What some file systems leave behind a file whose end had not reached the disk.
+    // The content that some file systems leave at the end of a file that was not completely written to the disk.
     let zeros = [&bytes[..], &[0; 4096]].concat();
     let contents = read_journal(&path, &zeros).unwrap();
     assert_eq!((contents.pieces.len(), contents.cut_off), (3, 4096));

@@ -110,7 +110,7 @@ fn joint_measurements_give_the_correlation_of_their_scores() {
     let mut columns = vec![vec![0.0; 4096]; 2];
     columns.iter_mut().enumerate().for_each(|(j, column)| points.fill(j, 0, column));
     copula.correlate(&mut columns);
-    // Whatever the distributions.
+    // For any distributions.
     columns[0].iter_mut().for_each(|x| *x = x.powi(5));
     columns[1].iter_mut().for_each(|x| *x = libm::exp(3.0 * *x));
     let measured = Dependence::from_measurements(&["a", "b"], &columns);

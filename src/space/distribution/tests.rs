@@ -48,7 +48,7 @@ fn samples() -> Vec<Distribution> {
     .collect()
 }
 
-/// What is cut off of any family: what stays itself, the two that have their own way to the bit, what is empty.
+/// Truncation of any family: unchanged distributions, the two families with their own form to the bit, empty ones.
 #[test]
 fn continuous_families_are_truncated_by_one_rule() {
     let (none, two) = (f64::NEG_INFINITY, [2.0, 5.0]);
@@ -97,7 +97,7 @@ fn continuous_families_are_truncated_by_one_rule() {
     }
     let unordered = cut(Distribution::boolean(0.5), [0.0, 0.5]).expect_err("labels");
     assert!(unordered.to_string().contains("has labels, which have no order: it cannot be truncated"), "{unordered}");
-    // Between two bounds everything has a variance, and not on one side.
+    // Between two bounds every variance is finite, but not with one bound.
     let cauchy = Distribution::StudentT(StudentT::new(1.0, 0.0, 1.0).expect("a law"));
     assert!((made(cauchy.truncated(-1.0, 1.0)).quantile(0.75) - libm::tan(std::f64::consts::PI / 8.0)).abs() < 1e-15);
     let error = cauchy.truncated(0.0, f64::INFINITY).expect_err("a long tail");

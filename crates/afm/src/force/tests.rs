@@ -1,4 +1,4 @@
-//! Exact answers, edges and named failures.
+//! Exact results, limits and named failures.
 
 mod closed_forms;
 mod dynamic;
@@ -113,7 +113,7 @@ fn without_adhesion_the_contact_is_hertz() {
     assert!(critical.flags.is_empty(), "without adhesion the Tabor parameter does not matter");
 }
 
-/// Nothing presses and nothing sticks: all forces are zero, nothing is undefined.
+/// Without load and adhesion all forces are zero, and none is undefined.
 #[test]
 fn no_load_and_no_adhesion_is_no_force() {
     let scene = Scene { adhesion: 0.0, preload_angle: 0.0, viscous_friction: 0.0, ..Scene::default() };
@@ -158,7 +158,7 @@ fn other_laws_may_be_as_fast_as_they_like() {
     }
 }
 
-/// For each law the default parameters that it must not feel, besides the height, which no law
+/// For each law the default parameters that must not affect it, in addition to the height, which affects no law
 /// feels.
 #[test]
 fn parameters_of_other_friction_laws_have_no_effect() {

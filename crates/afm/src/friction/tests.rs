@@ -1,4 +1,4 @@
-//! The textbook behaviours of the laws, on the bench.
+//! The textbook properties of the friction laws, on a test bench.
 
 mod bench;
 
@@ -40,7 +40,7 @@ fn presliding_stiffness_is_sigma0() {
     }
 }
 
-/// Friction of sliding steadily at 100 nm/s by the printed formulas, worked out apart from this program (N). Coulomb
+/// Friction of sliding steadily at 100 nm/s by the printed formulas, computed independently of this program (N). Coulomb
 /// 0.8 N + 28 MPa pi a^2; Hurtado-Kim with G* = 28.9485 GPa at a/b = 31.25; Fss + sigma2 v; mu_d N; Armstrong after a
 /// rest of 5.1 ms, the rest before its break-away; Lemaitre-Carlson from ageing and plastic work in balance, 28.0518 MPa.
 fn sliding_by_hand(law: FrictionLaw) -> f64 {
@@ -54,7 +54,7 @@ fn sliding_by_hand(law: FrictionLaw) -> f64 {
     }
 }
 
-/// Pulled along, each law holds until its break-away force and then slides.
+/// Pulled along, each law sticks up to its breakaway force and then slides.
 #[test]
 fn every_law_breaks_away_to_steady_sliding() {
     let scene = Scene { frictional_lag: 0.0, ..Scene::default() };
@@ -72,7 +72,7 @@ fn every_law_breaks_away_to_steady_sliding() {
     }
 }
 
-/// A loop of +-2 nm: after the first turn it repeats itself, and turns work into heat.
+/// A loop of +-2 nm: after the first cycle it is periodic, and dissipates work.
 #[test]
 fn hysteresis_loops_close_and_dissipate() {
     for law in [FrictionLaw::LuGre, FrictionLaw::Dahl, FrictionLaw::Armstrong, FrictionLaw::Coulomb] {
@@ -116,7 +116,7 @@ fn dahl_approaches_coulomb_exponentially() {
     }
 }
 
-/// Dahl's force depends on the path, not on how fast it is run.
+/// Dahl's force depends on the path, not on the velocity.
 #[test]
 fn dahl_does_not_feel_the_rate() {
     let scene = Scene::default();

@@ -1,4 +1,4 @@
-//! Limits in which a mode has a closed form, and an answer or a reason everywhere.
+//! Limits in which a mode has a closed form, and a result or a named failure for all input.
 
 use proptest::prelude::*;
 
@@ -78,7 +78,7 @@ fn tip_slip_in_line_and_on_top() {
     close(balance.resistance, resistance, 1e-15);
 }
 
-/// M = 4 F_ad xi at either contact where it carries no load; nothing resists without adhesion.
+/// M = 4 F_ad xi at either contact without load; there is no resistance without adhesion.
 #[test]
 fn rolling_limits() {
     let none = TipForce { normal: 0.0, lateral: 0.0 };
@@ -99,7 +99,7 @@ fn rolling_limits() {
     close(drive(0.0), 1e-7 * 50e-9 * libm::sin(60_f64.to_radians()), 1e-7);
 }
 
-/// F_Y x0 = (2 pi/3) tau a^3; a push through the centre never spins.
+/// F_Y x0 = (2 pi/3) tau a^3; a push through the centre causes no spin.
 #[test]
 fn spin_limits() {
     let radius = ContactTheory::Jkr.contact(&Pair::substrate(&Scene::default()), 5e-7).unwrap().radius;
@@ -158,7 +158,7 @@ proptest! {
         }
     }
 
-    /// The onset parts what holds from what moves.
+    /// The onset separates sticking from motion.
     #[test]
     fn onsets_part_rest_from_motion(pushing in pushing(), log_normal in -9.0..-5.0_f64) {
         let normal = libm::pow(10.0, log_normal);

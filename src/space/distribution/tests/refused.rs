@@ -109,7 +109,7 @@ fn truncation_without_remaining_values_is_refused() {
         |min, max| matches!(Distribution::truncated_normal(0.0, 1.0, min, max), Err(Error::NothingLeft { .. }));
     assert!(refused(36.0, 37.0) && refused(-50.0, -36.0) && refused(1e300, 1.5e300));
     assert!(!refused(35.0, 37.0) && !refused(-50.0, -35.0) && !refused(-1e300, 1e-300));
-    // Bounds that are one number as seen from the mean.
+    // Bounds that are equal within the rounding of the mean.
     assert!(matches!(Distribution::truncated_normal(1e20, 1e20, 0.0, 1.0), Err(Error::NothingLeft { .. })));
     let refused =
         |min, max| matches!(Distribution::truncated_gumbel(0.0, 1.0, min, max), Err(Error::NothingLeft { .. }));

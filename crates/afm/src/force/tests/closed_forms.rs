@@ -1,4 +1,4 @@
-//! Many scenes at once against one by one.
+//! Many scenes at once, compared with single scenes.
 
 use proptest::prelude::*;
 
@@ -19,7 +19,7 @@ fn factors() -> Vec<&'static Parameter> {
     Parameter::ALL[..8].iter().collect()
 }
 
-/// Sets and solves `scenes`; whether they are to be taken.
+/// Sets and solves `scenes`; returns whether the results are valid.
 fn solve(forms: &mut ClosedForms, scenes: &[Scene]) -> bool {
     for parameter in factors() {
         let values: Vec<f64> = scenes.iter().map(parameter.get).collect();

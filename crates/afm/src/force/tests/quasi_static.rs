@@ -13,7 +13,7 @@ fn by_geometry(friction: FrictionLaw) -> Options {
     Options { fidelity: Fidelity::QuasiStatic, ..by(friction) }
 }
 
-/// F_Y*, F_Z and theta at the slip from the equations as printed, 1 - cos theta and all, by halving in twice the
+/// F_Y*, F_Z and theta at the slip from the equations as printed, including 1 - cos theta, by bisection in twice the
 /// precision. JKR contact.
 struct Printed {
     lateral: f64,
@@ -87,7 +87,7 @@ fn agrees(scene: &Scene, friction: FrictionLaw) {
 
 const LAWS: [FrictionLaw; 3] = [FrictionLaw::Coulomb, FrictionLaw::HurtadoKim, FrictionLaw::Dahl];
 
-/// 1e-12, well below the 1e-10 promised: some thousand roundings.
+/// 1e-12, well below the stated 1e-10: about a thousand rounding errors.
 #[test]
 fn agrees_with_twice_the_precision_at_every_corner() {
     for scene in corners() {
@@ -117,7 +117,7 @@ proptest! {
         agrees(&scene, law);
     }
 
-    /// As friction vanishes so does the twist, and with it all that the closed form leaves out.
+    /// Without friction there is no twist, and the closed form is exact.
     #[test]
     fn tends_to_the_closed_form(scene in within_ranges(), decade in -9.0..-3.0_f64) {
         let weak = 10_f64.powf(decade);
@@ -131,7 +131,7 @@ proptest! {
         prop_assert!((exact.critical_force / closed.critical_force - 1.0).abs() < bound);
     }
 
-    /// The closed form's estimate bounds its error, and is not idle: within a factor 20.
+    /// The closed form's estimate bounds its error, and overestimates it by at most a factor 20.
     #[test]
     fn the_closed_form_states_its_error(scene in within_ranges(), law in prop::sample::select(&LAWS[..])) {
         let exact = critical_force(&scene, &by_geometry(law)).unwrap();

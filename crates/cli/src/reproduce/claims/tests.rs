@@ -10,7 +10,7 @@ use super::bench::{Bench, ForceOf, HistoryOf, Physics};
 use super::*;
 use crate::reproduce::studies;
 
-/// The nine studies at 4096 base points: enough to decide every order, and soon done.
+/// The nine studies at 4096 base points: enough to decide every order, and quick.
 static NINE_STUDIES: LazyLock<Vec<Reproduced>> = LazyLock::new(|| {
     let studies = studies(&["design.base_samples=4096".to_owned()]).unwrap();
     let run = |(group, friction, study): (_, _, apportion::Study)| Reproduced {
@@ -26,7 +26,7 @@ fn in_words(claims: &[Claim]) -> String {
     claims.iter().map(line).collect::<Vec<_>>().join("\n")
 }
 
-/// Every claim with its verdict. A change of the physics that changes what is true of the papers changes this.
+/// Every claim with its verdict. A change of the physics that affects the claims changes this.
 #[test]
 fn the_verdicts_are_those_reviewed() {
     let claims = super::claims(&NINE_STUDIES, Effort::Quick).unwrap();
@@ -50,7 +50,7 @@ fn the_verdicts_are_those_reviewed() {
     }
 }
 
-/// More points sharpen the shares of the box; no verdict hangs on them.
+/// More points reduce the errors of the shares of the box; no verdict depends on them.
 #[test]
 fn a_quick_look_gives_the_verdicts_of_the_full_answer() {
     let full = claims(&NINE_STUDIES, Effort::Full).unwrap();
@@ -117,7 +117,7 @@ fn friction_models_in_each_other_s_place_change_the_seventh() {
     assert_eq!(verdicts(with_force(&times(factor)), 7..=7), [(7, "reproduced")]);
 }
 
-/// A particle that resists rolling slides first, and one whose force depends on the contact angle answers the fourth.
+/// A particle that resists rolling slides first, and a force that depends on the contact angle changes the fourth verdict.
 #[test]
 fn a_particle_that_cannot_roll_slides_first() {
     let stuck = |scene| {
@@ -155,7 +155,7 @@ fn a_history_that_runs_the_other_way_changes_verdicts() {
     assert_eq!(verdicts(physics, 5..=5), [(5, expected)]);
 }
 
-/// LG's percentages contradict each other only where the force is a product; and a physics without one says so.
+/// LG's percentages contradict each other only where the force is a product; a force that is not a product has another verdict.
 #[test]
 fn percentages_contradict_each_other_only_under_a_product() {
     let last_half = |physics: Physics<'_>| {
@@ -168,7 +168,7 @@ fn percentages_contradict_each_other_only_under_a_product() {
     assert_eq!(last_half(with_force(&bent)), Verdict::NotReproduced);
 }
 
-/// What the claims on shares say follows the studies: with thickness and length in each other's place the orders are not
+/// The verdicts on shares follow the studies: with thickness and length exchanged the orders are not
 /// the published ones, and without intervals nothing is decided.
 #[test]
 fn other_shares_give_other_verdicts() {

@@ -1,4 +1,4 @@
-//! The figures as a whole: all are there, all can be drawn, and what they say agrees with what they show.
+//! All figures: all exist, all can be drawn, and their captions agree with their data.
 
 use std::collections::HashSet;
 use std::sync::LazyLock;
@@ -109,7 +109,7 @@ fn a_second_time_gives_the_same() {
     assert!(animation().unwrap() == animation().unwrap());
 }
 
-/// Under LuGre friction F_cr is c E w t^3 L^-2; Coulomb friction has its shear term tau pi a^2 besides.
+/// Under LuGre friction F_cr is c E w t^3 L^-2; Coulomb friction also has the shear term tau pi a^2.
 #[test]
 fn sweeps_follow_the_exact_laws() {
     let (header, rows) = data("lg-2b");
@@ -120,7 +120,7 @@ fn sweeps_follow_the_exact_laws() {
         let (_, rows) = data(stem);
         for row in &rows {
             let law = libm::pow(row[0] / rows[0][0], exponent);
-            // LuGre friction at this velocity is a constant share of F_Z, but for sigma2 V, which is 1e-14 N: 1e-6 of
+            // LuGre friction at this velocity is a constant share of F_Z, except for sigma2 V, which is 1e-14 N: 1e-6 of
             // the least force here.
             assert!((row[1] / rows[0][1] / law - 1.0).abs() < 2e-6, "{stem} at {}", row[0]);
         }

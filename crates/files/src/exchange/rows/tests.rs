@@ -206,7 +206,7 @@ fn text_columns_are_distinguished_from_number_columns() {
     let csv = b"id,a,b,c\n,1,nan,x\nr2,2,red,\n".to_vec();
     let mut rows = table_of_bytes(csv, &ReadOptions::default()).unwrap();
     assert_eq!(rows.text_columns().unwrap(), [0, 2, 3]);
-    // Nothing is lost by looking.
+    // Detecting the format loses no rows.
     let mut columns = vec![Vec::new()];
     assert_eq!(rows.read(&[(1, ColumnKind::numbers("a"))], 9, &mut columns).unwrap(), 2);
     assert_eq!((&columns[0][..], rows.line(1), rows.is_unended()), (&[1.0, 2.0][..], Some(3), false));

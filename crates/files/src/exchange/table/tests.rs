@@ -62,7 +62,7 @@ fn rows_without_a_value_are_dropped_and_counted_if_asked() {
     let table = read(text, &["y"], &["a"], Missing::Drop).unwrap();
     assert_eq!(table.inputs[0].values, [1.0, 4.0]);
     assert_eq!(table.dropped, Some(DroppedRows { rows: 2, first_line: 3 }));
-    // Text and infinities are no missing values.
+    // Text and infinities are not missing values.
     assert!(read("a,y\n1,1\nred,1\n", &["y"], &[], Missing::Drop).is_err());
     assert!(read("a,y\n1,inf\n", &["y"], &[], Missing::Drop).is_err());
 }

@@ -27,7 +27,7 @@ fn spacing(is_logarithmic: bool) -> Spacing {
     if is_logarithmic { Spacing::Logarithmic } else { Spacing::Linear }
 }
 
-/// A number, now and then one that cannot be drawn.
+/// A number, sometimes one that cannot be drawn.
 fn any_number() -> impl Strategy<Value = f64> {
     prop_oneof![4 => -20.0..120.0, 1 => prop::num::f64::ANY]
 }

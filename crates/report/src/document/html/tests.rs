@@ -112,7 +112,7 @@ fn texts_cannot_break_out() {
     let names = |html: &str| -> Vec<String> {
         tags(html).iter().map(|tag| tag.split([' ', '\n']).next().unwrap_or_default().to_owned()).collect()
     };
-    // The chart breaks its texts into lines as they are long: its elements are its own affair.
+    // The chart breaks its texts into lines by their length: its elements are not tested here.
     let drawn = ["text", "/text", "g", "/g", "line", "rect"];
     let frame = |names: Vec<String>| names.into_iter().filter(|n| !drawn.contains(&n.as_str())).collect::<Vec<_>>();
     assert_eq!(frame(names(&html)), frame(names(&tame)));
