@@ -82,7 +82,7 @@ fn the_page_needs_no_other_files() {
     assert_eq!(html.matches("<svg").count(), 3, "one chart drawn twice, and a small one once");
     assert!(!html.contains("f2-wide") && html.contains("aria-labelledby=\"f2-narrow-title\""));
     assert!(
-        html.contains("</div>\n<p class=\"on-paper\">On the screen, an animation stands here: words.</p>"),
+        html.contains("</div>\n<p class=\"on-paper\">On the screen, there is an animation here: words.</p>"),
         "{html}"
     );
     assert!(html.contains("aria-labelledby=\"f1-wide-title\"") && html.contains("id=\"f1-narrow-desc\""));
