@@ -1,4 +1,4 @@
-"""Indices from a table that exists already."""
+"""Indices from an existing table."""
 
 from __future__ import annotations
 
