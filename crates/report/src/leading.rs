@@ -146,7 +146,7 @@ pub(super) fn leader_of_all(indices: &[PlainIndexRecord], of: &str) -> Option<St
 
 /// Says why an output has no indices.
 pub(super) fn no_indices(output: &OutputResult) -> String {
-    let reason = output.reason.as_deref().unwrap_or("the result holds none");
+    let reason = output.reason.as_deref().unwrap_or("the result has none");
     format!("There are no indices of {}: {reason}.", name(&output.name))
 }
 

@@ -36,7 +36,7 @@ pub(super) fn read(
             context.fault(column.span(), unknown_name("column", column.get_ref(), names))
         })?,
         None if header.len() > 1 => {
-            let reason = format!("there are several columns: say which, as in column = \"{}\"", header[0]);
+            let reason = format!("there are several columns: name one, as in column = \"{}\"", header[0]);
             return Err(wrong(Some(first), reason));
         }
         None => 0,

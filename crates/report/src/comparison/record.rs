@@ -283,7 +283,7 @@ fn compared(names: &[String], a: &OutputResult, b: &OutputResult) -> Result<Comp
 }
 
 fn reason(output: &OutputResult) -> String {
-    output.reason.clone().unwrap_or_else(|| "the result holds none".to_owned())
+    output.reason.clone().unwrap_or_else(|| "the result has none".to_owned())
 }
 
 fn factor(name: &str, group: bool, a: Option<EffectEstimates>, b: Option<EffectEstimates>) -> ComparedFactor {

@@ -94,7 +94,7 @@ pub(super) fn mind(result: &StudyResult) -> Vec<Part> {
     let places: Vec<usize> = (0..result.outputs.len()).filter(|&place| without(&result.outputs[place])).collect();
     if let Some(&first) = places.first() {
         let names: Vec<&str> = result.outputs.iter().map(|output| output.name.as_str()).collect();
-        let reason = result.outputs[first].reason.as_deref().unwrap_or("the result holds none");
+        let reason = result.outputs[first].reason.as_deref().unwrap_or("the result has none");
         parts.push(Part::no_indices(format!("There are no indices of {}: {reason}.", of_which(&names, &places))));
     }
     let mut warnings = grouped_warnings(&result.outputs);

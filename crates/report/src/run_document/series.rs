@@ -124,6 +124,6 @@ pub(super) fn answer(result: &StudyResult, series: &SeriesRecord) -> String {
     let label = name(&series.name);
     let whole = format!("For {label} as a whole ({} values)", SeriesOf { result, series }.values().len());
     let sentence = series.indices.as_ref().and_then(|indices| leader_of_all(indices, &whole));
-    let reason = || series.reason.as_deref().unwrap_or("the result holds none");
+    let reason = || series.reason.as_deref().unwrap_or("the result has none");
     sentence.unwrap_or_else(|| format!("There are no indices of {label} as a whole: {}.", reason()))
 }

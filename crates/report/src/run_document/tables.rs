@@ -279,7 +279,7 @@ pub(super) fn aggregate_of(result: &StudyResult, record: &AggregateRecord, indic
     let outputs = match record.outputs.len() {
         ..MIN_OUTPUTS_TOGETHER => record.outputs.join(" + "),
         all if all == result.outputs.len() => "all outputs".to_owned(),
-        _ => "all outputs that are no series".to_owned(),
+        _ => "all outputs that are not series".to_owned(),
     };
     let rows = effects(result, &outputs, "Aggregated indices of all outputs.", "factor", &lines);
     rows.largest(order, FACTORS, IN_CSV).into()

@@ -38,7 +38,7 @@ impl Outcome {
                 "flagged",
                 "the model raises a flag, or its stated error is large, or nothing can check the number",
             ),
-            Self::Refused => ("N", "refused", "there is no number, and the model says why"),
+            Self::Refused => ("N", "refused", "there is no number, and the model states the reason"),
             Self::Wrong => ("W", "silently wrong", "a second calculation disagrees by more than the model states"),
         }
     }

@@ -63,7 +63,7 @@ pub fn output_columns(
 ) -> Result<Vec<(usize, String)>, TableError> {
     if asked.is_empty() {
         let known = names.join(", ");
-        return refused(format!("the file holds no outputs: its columns are the factors {known}"));
+        return refused(format!("the file has no outputs: its columns are the factors {known}"));
     }
     let column = |(number, name): (usize, &String)| {
         if is_input(name) || asked[..number].contains(name) {
