@@ -48,7 +48,7 @@ fn read_at_most(reader: &mut impl Read, most: u64, bytes: &mut Vec<u8>) -> Resul
     if reader.take(most + 1).read_to_end(bytes)? as u64 > most {
         let mebibytes = most >> 20;
         let message =
-            format!("it is no regular file and has more than {mebibytes} MiB, or no end: save it to a file first");
+            format!("it is not a regular file and exceeds {mebibytes} MiB or has no end: save it to a file first");
         return Err(Error::new(ErrorKind::FileTooLarge, message));
     }
     Ok(())
@@ -65,11 +65,11 @@ mod tests {
         assert_eq!(bytes, b"abc");
         let error = read_at_most(&mut std::io::repeat(0), 3 << 20, &mut Vec::new()).unwrap_err();
         assert_eq!(error.kind(), ErrorKind::FileTooLarge);
-        assert!(error.to_string().contains("more than 3 MiB, or no end"), "{error}");
+        assert!(error.to_string().contains("exceeds 3 MiB or has no end"), "{error}");
     }
 
     #[test]
-    fn a_file_is_read_whole_and_a_folder_is_none() {
+    fn files_are_read_completely_and_text_must_be_utf_8() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("text");
         std::fs::write(&path, "µ").unwrap();

@@ -75,7 +75,7 @@ pub fn refused_name(name: &str) -> Option<String> {
     if name.chars().count() > LONGEST_NAME {
         return Some(format!("at most {LONGEST_NAME} characters"));
     }
-    let visible = "a name without control characters and marks that are not seen (of line breaks and of the direction of writing)";
+    let visible = "a name without control characters and invisible characters (line separators, direction marks)";
     name.contains(is_hidden).then(|| visible.to_owned())
 }
 
@@ -91,7 +91,7 @@ pub fn refused_title(title: &str) -> Option<String> {
         return Some(format!("at most {LONGEST_TITLE} characters"));
     }
     let hidden = title.contains(|c| is_hidden(c) && !matches!(c, '\n' | '\t'));
-    hidden.then(|| "a text without control characters and marks that are not seen".to_owned())
+    hidden.then(|| "a text without control characters and invisible characters".to_owned())
 }
 
 /// The rule for a unit or the name of an axis, in words that follow "must be".

@@ -11,7 +11,7 @@ use std::time::Duration;
 
 use common::{Folder, stderr, study_path, succeed, text};
 
-/// Answers slowly, and keeps a list of the rows that it was asked.
+/// Answers slowly, and keeps a list of the rows that it got.
 const PROGRAM: &str = "import csv, sys, time\n\
     for row in csv.DictReader(sys.stdin):\n\
     \x20   x = [float(row[name]) for name in ('a', 'b')]\n\
@@ -45,7 +45,7 @@ fn on_ranks(number: usize, arguments: &[&str]) -> Option<Output> {
     ranks(number, arguments).map(|mut command| command.output().unwrap())
 }
 
-/// The result in a folder, but for what tells about the computer.
+/// The result in a folder, without the fields about the computer.
 fn result(folder: &Path, study: &str) -> serde_json::Value {
     let json = std::fs::read_to_string(folder.join(format!("{study}.json"))).unwrap();
     let mut json: serde_json::Value = serde_json::from_str(&json).unwrap();
@@ -122,9 +122,9 @@ fn processes(job: u32) -> Vec<String> {
     String::from_utf8(found.stdout).unwrap().split_whitespace().map(str::to_owned).collect()
 }
 
-/// What is on record is not evaluated again, whoever was killed; what was under way is.
+/// Recorded runs are not evaluated again, for any killed rank; runs in progress are.
 #[test]
-fn a_job_whose_ranks_are_killed_goes_on_with_any_number_of_them() {
+fn a_job_with_killed_ranks_resumes_with_any_number_of_ranks() {
     const KILLS: usize = 20;
     let folder = Folder::new();
     folder.with("model.py", PROGRAM);
@@ -138,7 +138,7 @@ fn a_job_whose_ranks_are_killed_goes_on_with_any_number_of_them() {
         let number = [2, 3, 4][random as usize % 3];
         let Some(mut command) = ranks(number, &arguments) else { return };
         let mut job = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
-        // One that is killed while the job starts may leave mpirun waiting for ever (Open MPI 4.1).
+        // A rank that is killed while the job starts may leave mpirun waiting forever (Open MPI 4.1).
         let mut messages = BufReader::new(job.stderr.take().unwrap()).lines().map_while(Result::ok);
         assert!(messages.any(|line| line.contains("ranks with a worker each")), "{number} ranks");
         std::thread::sleep(Duration::from_millis(random % 700));
@@ -154,7 +154,7 @@ fn a_job_whose_ranks_are_killed_goes_on_with_any_number_of_them() {
     }
     let last = on_ranks(3, &arguments).unwrap();
     assert_eq!(last.status.code(), Some(0), "{}", stderr(&last));
-    assert!(stderr(&last).contains(" runs are on record in "), "{}", stderr(&last));
+    assert!(stderr(&last).contains(" runs are already saved in "), "{}", stderr(&last));
     let asked = std::fs::read_to_string(folder.path("asked.txt")).unwrap().lines().count();
     // Each rank has at most two pieces of at most a fifth of a second: that much is lost, of 4 ms a row.
     assert!(asked <= 8192 + KILLS * 4 * 2 * 50, "{asked} rows");
@@ -162,7 +162,7 @@ fn a_job_whose_ranks_are_killed_goes_on_with_any_number_of_them() {
     assert!(result(&whole, "program") == result(&killed, "program"));
 }
 
-/// The scripts of `docs/clusters.md`, with `mpirun` in the place of `srun`.
+/// The scripts of `docs/clusters.md`, with `mpirun` instead of `srun`.
 #[test]
 fn the_scripts_of_the_page_run() {
     const SRUN: &str = "#!/bin/sh\nshift\nexec mpirun -n 3 \"$@\"\n";

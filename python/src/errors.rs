@@ -8,9 +8,9 @@ create_exception!(
     apportion,
     StudyError,
     PyValueError,
-    "What was asked makes no sense: the message says where, and what would."
+    "An argument is invalid: the message says which, and what is expected."
 );
-create_exception!(apportion, RunError, PyRuntimeError, "The run could not be brought to its end.");
+create_exception!(apportion, RunError, PyRuntimeError, "The run could not be completed.");
 
 /// Wrong input.
 pub fn input(error: impl std::fmt::Display) -> PyErr {

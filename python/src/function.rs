@@ -113,9 +113,7 @@ fn assert_shape(found: (usize, usize), expected: (usize, usize)) -> PyResult<()>
     if found == expected {
         return Ok(());
     }
-    Err(crate::errors::failed(format!(
-        "the function answered with an array of {found:?}, and {expected:?} were expected"
-    )))
+    Err(crate::errors::failed(format!("the function returned an array of shape {found:?}, expected {expected:?}")))
 }
 
 impl Model for PythonModel {

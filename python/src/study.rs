@@ -151,7 +151,11 @@ impl Study {
         let (factors, model) = (self.study.space().factors(), self.study.model());
         let array = points.as_array();
         if array.ncols() != factors.len() {
-            return Err(input(format!("points of {} columns: the study has {} factors", array.ncols(), factors.len())));
+            return Err(input(format!(
+                "points have {} columns, the study has {} factors",
+                array.ncols(),
+                factors.len()
+            )));
         }
         let in_si = |(column, factor): (numpy::ndarray::ArrayView1<'_, f64>, &apportion::Factor)| -> Vec<f64> {
             column.iter().map(|x| factor.unit().to_si(*x)).collect()
@@ -166,7 +170,7 @@ impl Study {
             batch.settle();
         });
         if let Some(reason) = batch.given_up() {
-            return Err(failed(format!("the model cannot go on: {reason}")));
+            return Err(failed(format!("the model cannot continue: {reason}")));
         }
         let outputs = model.outputs();
         let value = |row: usize, output: usize| outputs[output].unit.from_si(batch.column(output)[row]);
@@ -226,7 +230,7 @@ impl Study {
         }
         if study.target().grows() {
             return Err(input(
-                "a study with an accuracy or limits chooses its rows as it goes on: give it base_samples",
+                "a study with an accuracy or limits chooses its rows during the run: set base_samples instead",
             ));
         }
         let store = Store::new(design, model.as_ref());

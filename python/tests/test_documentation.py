@@ -68,7 +68,7 @@ def test_the_first_example_of_the_readme(tmp_path, monkeypatch):
     assert abs(names["result"].total["x1"].estimate - 0.5576) < 2e-3
 
 
-def test_every_name_of_the_pages_is_there():
+def test_every_name_of_the_pages_exists():
     code = "".join(block["text"] for page in PAGES for block in blocks(page) if block["language"] == "python")
     code += "".join(re.findall("`([^`]+)`", README))
     for name in set(re.findall(r"\bap\.(\w+)", code)):

@@ -27,14 +27,14 @@ def test_processes_and_threads_give_the_same_bits(cube):
         assert dict(ap.analyse(polynomial, cube, base_samples=64, executor=executor, in_flight=5).total) == here
 
 
-def test_functions_without_a_module_go_along(cube):
+def test_functions_without_a_module_are_sent(cube):
     pytest.importorskip("cloudpickle")
     with ProcessPoolExecutor(1, mp_context=multiprocessing.get_context("spawn")) as executor:
         result = ap.analyse(lambda x1, x2, x3: x1 + 2 * x2, cube, base_samples=64, executor=executor)
     assert abs(result.total["x2"].estimate - 0.8) < 1e-6
 
 
-def test_a_broken_pool_ends_the_run_and_its_journal_goes_on(cube, tmp_path):
+def test_a_broken_pool_stops_the_run_and_its_journal_resumes(cube, tmp_path):
     journal = tmp_path / "f.journal"
     function = DiesOnce(str(tmp_path / "mark"))
     options = {"base_samples": 64, "outputs": ["y"], "call": "columns", "journal": journal}
@@ -124,14 +124,14 @@ def test_functions_of_a_script_reach_new_processes(tmp_path):
     assert done.stdout.split() == ["0.8"] * 6
 
 
-def test_an_executor_that_is_gone_is_not_asked_again(cube):
+def test_a_closed_executor_is_not_used_again(cube):
     executor = ProcessPoolExecutor(1)
     executor.shutdown()
-    with pytest.raises(ap.RunError, match="over a block of .* rows: it takes no more work: cannot schedule"):
+    with pytest.raises(ap.RunError, match="over a block of .* rows: it accepts no more work: cannot schedule"):
         ap.analyse(polynomial, cube, base_samples=64, executor=executor)
 
 
-def test_what_cannot_go_to_another_process_says_so(cube):
+def test_functions_that_cannot_be_sent_to_another_process_are_reported(cube):
     import threading
 
     lock = threading.Lock()
@@ -141,7 +141,7 @@ def test_what_cannot_go_to_another_process_says_so(cube):
             return polynomial(x1, x2, x3)
 
     with ProcessPoolExecutor(1) as executor:
-        with pytest.raises(ap.RunError, match="cannot go to another process .*lock"):
+        with pytest.raises(ap.RunError, match="cannot be sent to another process .*lock"):
             ap.analyse(locked, cube, base_samples=64, executor=executor)
     with ThreadPoolExecutor(2) as executor:
         assert dict(ap.analyse(locked, cube, base_samples=64, executor=executor).total) == dict(

@@ -108,7 +108,7 @@ def fingerprints(make):
     return found
 
 
-def test_what_calls_change_is_no_other_function():
+def test_state_changed_by_calls_keeps_the_fingerprint():
     """Counters, caches, generators and the like, which would make a journal useless."""
 
     def with_cache():
@@ -276,7 +276,7 @@ def test_points_and_outputs_go_by_the_names_of_their_columns():
     for wrong, words in [
         ({"a": x1}, "without b: expected the columns a, b"),
         ({"a": x1, "b": x2, "c": x1}, "with c"),
-        (pandas.DataFrame(np.column_stack([x1, x2]), columns=["a", "a"]), "two columns of the name 'a'"),
+        (pandas.DataFrame(np.column_stack([x1, x2]), columns=["a", "a"]), "two columns with the name 'a'"),
         ({"a": x1, "b": x2[:-1]}, "output b has the shape"),
         ({}, "no columns"),
         (np.ones((64, 3)), r"outputs of shape \(64, 3\): expected \(64, 2\), of a, b"),
@@ -298,7 +298,7 @@ def test_points_and_outputs_go_by_the_names_of_their_columns():
             model.evaluate(wrong)
 
 
-def test_what_a_signature_does_not_tell_is_asked():
+def test_an_ambiguous_signature_needs_call():
     ab = {"a": (0, 1), "b": (0, 1)}
     for function in (lambda x, scale=1.0: x, lambda x=0, y=0: x, lambda b, c: b):
         with pytest.raises(ap.StudyError, match='call="columns"'):
@@ -319,7 +319,7 @@ def test_what_a_signature_does_not_tell_is_asked():
         assert ap.analyse(function, ab, base_samples=64).total["a"].estimate > 0.99
 
 
-def test_a_function_of_numbers_that_gets_arrays_is_told_so():
+def test_a_function_of_numbers_that_gets_arrays_has_a_hint():
     import math
 
     three = UNIT | {"x3": (0, 1)}

@@ -18,13 +18,13 @@ def add(x1, x2):
     return x1 + x2
 
 
-def test_what_has_no_room_is_refused():
+def test_points_beyond_memory_are_refused():
     study = ap.Study(None, UNIT, base_samples=2**34)
     with pytest.raises(MemoryError, match="68719476736 points of 2 factors need 1100 GB"):
         study.sample()
 
 
-def test_numbers_that_make_no_sense_are_refused():
+def test_invalid_numbers_are_refused():
     study = ap.Study(add, UNIT, base_samples=16)
     y = list(range(8))
     cases = [
@@ -65,7 +65,7 @@ def test_unknown_keywords_are_errors_whatever_their_value():
                 ap.analyse(add, UNIT, **keywords)
 
 
-def test_errors_speak_of_the_argument():
+def test_errors_name_the_argument():
     for keywords, words in [
         ({"sampler": "halton"}, "^unknown sampler `halton`; known: sobol, random, latin-hypercube$"),
         ({"base_samples": -4}, "^base_samples = -4: invalid value"),
@@ -90,7 +90,7 @@ def test_both_spellings_of_vectorised_are_honoured():
     assert set(seen) == {0}
 
 
-def test_the_length_of_a_run_is_said_in_one_way():
+def test_only_one_key_sets_the_length_of_a_run():
     assert ap.Study(add, UNIT, runs=100).runs <= 100
     with pytest.raises(ap.StudyError, match="`base_samples` must be alone"):
         ap.Study(add, UNIT, runs=100, base_samples=16)
@@ -98,9 +98,9 @@ def test_the_length_of_a_run_is_said_in_one_way():
         ap.Study(add, UNIT, accuracy=0.01, max_time=0)
 
 
-def test_factors_that_are_none_say_what_would_be_one():
+def test_invalid_factors_are_reported_with_an_example():
     for factors, words in [
-        ({1: (0, 1)}, "the name 1 is no text: expected one such as '1'"),
+        ({1: (0, 1)}, "the name 1 is not a text: expected a name such as '1'"),
         ([(0, 1), (0, 1)], "no mapping from names to distributions"),
         ("x1", "no mapping from names"),
     ]:
@@ -121,7 +121,7 @@ def test_tables_that_cannot_be_used_name_the_column():
     frame = pandas.DataFrame(x, columns=["a", "b"])
     for inputs, outputs, words in [
         (frame.assign(c="red"), y, "the inputs have in the column 'c'.*expected real numbers"),
-        (pandas.DataFrame(x, columns=["a", "a"]), y, "two columns of the name 'a'"),
+        (pandas.DataFrame(x, columns=["a", "a"]), y, "two columns with the name 'a'"),
         (frame[:0], y[:0], "the inputs have no rows"),
         (frame[[]], y, "the inputs have no rows"),
         ({}, y, "the inputs have no rows"),
@@ -155,7 +155,7 @@ except KeyboardInterrupt:
 
 
 @pytest.mark.skipif(os.name == "nt", reason="signals of the keyboard are others there")
-def test_given_data_hears_an_interrupt():
+def test_given_data_can_be_interrupted():
     process = subprocess.Popen([sys.executable, "-c", SIGNALLED], stdout=subprocess.PIPE)
     assert process.stdout.readline() == b"begun\n"
     time.sleep(1.0)

@@ -7,7 +7,7 @@ def noisy(x1, x2, seed):
     return x1 + 2 * x2 + np.random.default_rng(int(seed)).normal()
 
 
-def test_the_noise_stands_beside_the_factors():
+def test_the_noise_is_listed_with_the_factors():
     factors = {"x1": (0, 1), "x2": (0, 1)}
     result = ap.analyse(noisy, factors, noise="seed", vectorised=False, base_samples=2048, subsets=[["x1", "seed"]])
     output = result["y"]

@@ -45,11 +45,11 @@ def test_studies_are_copied_and_pickled(cube, studies):
         pickle.dumps(ap.Study(lambda x1, x2: x1, UNIT))
 
 
-def test_what_is_not_there_is_told_with_what_is(result):
+def test_unknown_names_are_reported_with_the_known_ones(result):
     assert list(result) == ["a", "b"] and len(result) == 2 and "a" in result and "x1" not in result
-    with pytest.raises(KeyError, match="'zz': the indices are those of 'x1', 'x2'"):
+    with pytest.raises(KeyError, match="no index of 'zz': there are 'x1', 'x2'"):
         result["a"].total["zz"]
-    with pytest.raises(KeyError, match="the indices are those of none at all"):
+    with pytest.raises(KeyError, match="there are none"):
         result["a"].second_order["x1", "x2"]
     assert "zz" not in result["a"].total and result["a"].total.get("zz") is None
 
@@ -67,7 +67,7 @@ def test_an_output_without_indices_is_nan_in_arrays(result):
         ap.analyse(lambda x1, x2: 0 * x1 + 3, UNIT, base_samples=16)
 
 
-def test_warnings_of_a_result_are_warned_of():
+def test_warnings_of_a_result_are_python_warnings():
     with pytest.warns(UserWarning, match="not a power of two"):
         ap.analyse(polynomial, {f"x{k}": (0, 1) for k in (1, 2, 3)}, base_samples=24)
 
@@ -91,6 +91,6 @@ def test_outputs_and_series_are_drawn():
     assert len(series.plot().lines) == 2 and series.plot("first_order").get_xlabel() == "day"
 
 
-def test_a_default_of_many_runs_is_said(capsys):
+def test_a_default_of_many_runs_is_reported(capsys):
     ap.Study(lambda x1, x2: x1 + x2, UNIT, vectorised=False, name="slow").run()
     assert "slow: 65536 runs of the function" in capsys.readouterr().err

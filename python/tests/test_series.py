@@ -37,7 +37,7 @@ def test_an_array_under_a_name_is_a_series():
     assert "time" in stated.to_html()
 
 
-def test_rows_one_by_one_and_beside_single_numbers():
+def test_series_row_by_row_and_with_single_numbers():
     def of_row(x1, x2):
         return x1 - x2, waves([x1], [x2])[0]
 
@@ -68,14 +68,14 @@ def test_series_that_are_computed_elsewhere_and_saved(tmp_path):
     assert ap.analyse("ishigami", base_samples=64).series == {}
 
 
-def test_what_is_wrong_is_said():
+def test_errors_of_series_are_reported():
     def changing(x1, x2, calls=[]):
         calls.append(1)
         return {"wave": waves(x1, x2)[:, : 7 if len(calls) == 1 else 3]}
 
     with pytest.raises(ap.AnswerError, match="wave with 3 values, and 7 values were expected"):
         ap.analyse(changing, FACTORS, base_samples=64)
-    with pytest.raises(ap.AnswerError, match="say their `length`"):
+    with pytest.raises(ap.AnswerError, match="state their `length`"):
         ap.analyse(waves, FACTORS, outputs={"a": {"axis": "t"}, "b": {"axis": "t"}}, base_samples=64)
     with pytest.raises(ap.AnswerError, match="shape"):
         ap.analyse(lambda x1, x2: {"y": np.zeros((3, 2))}, FACTORS, base_samples=64)

@@ -25,7 +25,7 @@ use crate::uncertainty::{
 enum NoIndices {
     /// More runs failed than the study allows.
     #[error(
-        "{percent:.3} % of the runs failed, more than max_failed = {allowed} allows: what is left would not stand for the whole",
+        "{percent:.3} % of the runs failed, more than max_failed = {allowed} allows: the other runs would not represent the factor space",
         percent = 100.0 * share
     )]
     TooManyFailed {

@@ -230,7 +230,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_in_order_are_no_levels_of_their_own() {
+    fn ordered_numbers_count_as_levels_only_if_rare() {
         let values: Vec<f64> = (0..200).map(f64::from).collect();
         assert!(found(Distribution::discrete(&values, None).unwrap(), 64).is_empty());
         assert!(found(Distribution::poisson(3.0).unwrap(), 64).is_empty());

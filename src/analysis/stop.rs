@@ -24,8 +24,8 @@ pub(crate) enum StopReason {
     },
     /// An output has no indices or no intervals, and more runs are not expected to change this.
     #[error(
-        "there are indices or intervals missing with {base_samples} base samples, and nothing says that more runs would bring \
-         them: see what is said of the outputs, or begin with more base samples"
+        "indices or intervals are missing with {base_samples} base samples, and more runs may not help: see the reasons at \
+         the outputs, or start with more base samples"
     )]
     NoIntervals {
         /// Base samples of the run.
@@ -33,8 +33,8 @@ pub(crate) enum StopReason {
     },
     /// Every interval is as narrow as requested, but a level of a factor is rare among the rows.
     #[error(
-        "every half width is {widest:.2e} or less, but rows hardly met a level of a factor, so that nothing can be promised: \
-         some {base_samples:.0} base samples would meet it ten times"
+        "every half width is {widest:.2e} or less, but a level of a factor is in too few rows for reliable intervals: \
+         about {base_samples:.0} base samples would contain it ten times"
     )]
     RareLevels {
         /// The largest half width.
@@ -43,10 +43,10 @@ pub(crate) enum StopReason {
         base_samples: f64,
     },
     /// There are no more points.
-    #[error("the sequence of points has come to its end")]
+    #[error("the sequence has no more points")]
     EndOfSequence,
     /// The outputs of twice the runs would not fit into memory.
-    #[error("the outputs of twice the runs would not fit: these intervals need all of them at once")]
+    #[error("the outputs of twice the runs would not fit into memory, and these intervals need all of them")]
     Memory,
     /// Twice the runs would be too many.
     #[error("twice the runs would be {runs}, more than max_runs = {most}")]
@@ -57,7 +57,7 @@ pub(crate) enum StopReason {
         most: u64,
     },
     /// Twice the runs would take too long.
-    #[error("twice the runs would take some {seconds:.1} s, more than the budget of {budget} s")]
+    #[error("twice the runs would take about {seconds:.1} s, more than the budget of {budget} s")]
     Budget {
         /// The seconds that twice the runs would take.
         seconds: f64,

@@ -14,7 +14,7 @@ pub enum DesignError {
     NoFactors,
     /// More factors than the maximum of any design.
     #[error(
-        "{factors} factors are too many: at most {MAX_FACTORS} are possible; leave out or join those that hardly act"
+        "{factors} factors are too many: at most {MAX_FACTORS} are possible; leave out or group factors with little effect"
     )]
     FarTooManyFactors {
         /// The number requested.
@@ -75,7 +75,7 @@ pub enum DesignError {
     },
     /// A replicate would be longer than the sequence.
     #[error(
-        "{base_samples} base samples in {replicates} replicates exceed {MAX_POINTS} (2^32) points a replicate, the length of the sequence"
+        "{base_samples} base samples in {replicates} replicates exceed {MAX_POINTS} (2^32) points per replicate, the length of the sequence"
     )]
     TooManySamples {
         /// The number requested.
@@ -90,7 +90,7 @@ pub enum DesignError {
     SecondOrderWithoutBa,
     /// Too many pairs of factors for their sums to be kept.
     #[error(
-        "second-order indices of {factors} factors are {} pairs: at most {MAX_PAIRED_FACTORS} factors are possible; find those that act by their total indices first",
+        "second-order indices of {factors} factors are {} pairs: at most {MAX_PAIRED_FACTORS} factors are possible; select factors by their total indices first",
         *factors as u128 * (*factors as u128 - 1) / 2
     )]
     TooManyPairs {
@@ -99,17 +99,17 @@ pub enum DesignError {
     },
     /// Second-order indices of dependent factors.
     #[error(
-        "second-order indices share out the variance among independent factors, and these depend on each other: Shapley effects \
-         share out all of it"
+        "second-order indices need independent factors, and these factors depend on each other: use Shapley effects \
+         instead"
     )]
     PairsOfDependentFactors,
     /// Plain rows of dependent factors.
-    #[error("plain rows serve surrogates alone, which need independent factors, and these depend on each other")]
+    #[error("plain rows serve only surrogates, which need independent factors, and these factors depend on each other")]
     PlainRowsOfDependentFactors,
     /// Random orders of more factors than fit in the memory of a block of base points.
     #[error(
         "{factors} factors are too many for Shapley effects along random orders of {players} players: at most {MAX_ORDERED_FACTORS} \
-         single ones are possible; leave out those that hardly act, which their total indices tell, or put them into fewer groups"
+         single factors are possible; leave out factors with small total indices, or put them into fewer groups"
     )]
     TooManyOrderedFactors {
         /// Players of the orders.
@@ -118,13 +118,13 @@ pub enum DesignError {
         factors: usize,
     },
     /// The players do not partition the factors.
-    #[error("the players of random orders are to be disjoint sets of factors that are all {factors} factors together")]
+    #[error("the players of random orders must be disjoint sets that together contain all {factors} factors")]
     NotPlayers {
         /// Number of factors.
         factors: usize,
     },
     /// A copula with a different number of factors.
-    #[error("a copula of {copula} factors for a design of {factors}")]
+    #[error("the copula has {copula} factors, but the design has {factors}")]
     OtherFactors {
         /// Factors of the copula.
         copula: usize,

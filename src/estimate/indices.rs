@@ -125,7 +125,7 @@ mod tests {
     }
 
     #[test]
-    fn a_rare_event_in_one_sample_alone_has_indices_without_a_check() {
+    fn a_rare_event_in_only_one_sample_has_indices_without_a_check() {
         // y is 1 in a single row of A, and B has no such row: B and AB, with the factor from B, are 0 everywhere.
         let zero = [0.0; 16];
         let mut a = zero;

@@ -46,7 +46,7 @@ pub use workspace::Workspace;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 pub enum Undefined {
     /// Every base point lost at least one of its runs.
-    #[error("fewer than two base points have all of their runs: there is nothing to estimate from")]
+    #[error("fewer than two base points have all of their runs: no index can be estimated")]
     NoRuns,
     /// The output does not vary.
     #[error("the output has zero variance over the sample: no factor changes it, and indices are undefined")]

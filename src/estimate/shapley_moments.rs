@@ -78,7 +78,7 @@ mod tests {
     use crate::design::{DesignSettings, Rows};
 
     #[test]
-    fn what_players_add_is_that_of_the_steps_and_sums_to_all() {
+    fn contributions_of_players_are_those_of_the_steps_and_sum_to_the_total() {
         let settings = DesignSettings { base_samples: 8, replicates: 2, ..DesignSettings::default() };
         let players = (0..3).map(|factor| vec![factor]).collect();
         let design = Design::new(settings, 3, Rows { players, ..Rows::default() }).unwrap();

@@ -193,7 +193,7 @@ mod tests {
 
     /// y = 3 a + b, log-normal a and b: means of bins find 0.75 instead of 0.9, in a table of a thousand rows.
     #[test]
-    fn what_goes_on_inside_a_bin_is_not_lost() {
+    fn variation_within_a_bin_is_included() {
         let quantile = |u: f64| libm::exp(crate::special::normal_quantile(u));
         let a: Vec<f64> = (0..1000).map(|k| quantile((f64::from(k) + 0.5) / 1000.0)).collect();
         let y: Vec<f64> =

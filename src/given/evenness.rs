@@ -37,7 +37,7 @@ impl PointSet {
             Self::Independent => None,
             Self::Grid => Some("the rows are a full grid of the inputs' values, not independent draws".to_owned()),
             Self::TooEven(evidence) => Some(format!(
-                "the rows are quasi-random points (Sobol', Halton, lattice) or as even as such: {evidence}"
+                "the rows are quasi-random points (Sobol', Halton, lattice) or equally even points: {evidence}"
             )),
         }
     }
@@ -98,7 +98,7 @@ fn too_even(inputs: &[(&str, &Order)], rows: usize, grid: usize) -> Option<Strin
     let mut pooled = Deviation::default();
     let mut by_row = Deviation::default();
     let counts = |place: String, z: f64| {
-        format!("counts over a grid of {place} are too even for independent draws (z = {z:.1}; chance ends at -6)")
+        format!("counts over a grid of {place} are too even for independent draws (z = {z:.1}, limit -6)")
     };
     for ((name, _), classes) in inputs.iter().zip(&classes) {
         let Some(one) = deviation(&row_classes, classes) else { continue };

@@ -74,14 +74,14 @@ pub enum GivenError {
     },
     /// The rows of a Saltelli design.
     #[error(
-        "the rows are those of a pick-freeze (Saltelli) design: values of an input return in other rows together with \
+        "the rows are those of a pick-freeze (Saltelli) design: values of an input recur in other rows together with \
          those of other inputs. Rows that share values are not independent, and indices from them as from given data \
          would be wrong. Analyse the design as such, or keep only its rows A and B"
     )]
     PickFreeze,
     /// The rows of a one-at-a-time design.
     #[error(
-        "the rows are those of a one-at-a-time design (Morris trajectories, for one): {pairs} of {rows} rows differ from \
+        "the rows are those of a one-at-a-time design (such as Morris trajectories): {pairs} of {rows} rows differ from \
          the row before in a single input. They are not independent draws, and indices from them would be wrong. Analyse \
          the design as such"
     )]

@@ -46,7 +46,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn domains_hold_their_edges_and_no_infinities() {
+    fn domains_contain_their_bounds_but_not_infinity() {
         let cases = [
             (Domain::Positive, f64::MIN_POSITIVE, 0.0, "> 0"),
             (Domain::NonNegative, 0.0, -f64::MIN_POSITIVE, ">= 0"),

@@ -5,7 +5,7 @@
 pub enum UnitError {
     /// A symbol that is not a unit.
     #[error(
-        "unit \"{unit}\": \"{symbol}\" is not understood{}; units look like {EXAMPLES}; inputs and outputs of a model of your own may have none: their numbers are then passed on as they are",
+        "unit \"{unit}\": \"{symbol}\" is not understood{}; units look like {EXAMPLES}; inputs and outputs of your own model may have none: their numbers are then passed unchanged",
         hint(nearest)
     )]
     Unknown {

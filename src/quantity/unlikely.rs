@@ -70,19 +70,19 @@ impl Unlikely {
 
     /// Describes it in a table; `row` is the row of its first occurrence, from 1.
     pub fn in_table(&self, row: usize) -> String {
-        format!("{}, have it read as one (--missing-value={:?})", self.words("row", row), self.value)
+        format!("{}, read it as one (--missing-value={:?})", self.words("row", row), self.value)
     }
 
     /// Describes it in runs; `run` is the number of the run of its first occurrence, from 1.
     pub fn in_runs(&self, run: usize) -> String {
-        format!("{}, the model should say there that the run failed", self.words("run", run))
+        format!("{}, let the model report a failed run there", self.words("run", run))
     }
 
     fn words(&self, what: &str, first: usize) -> String {
         let Self { value, count, of, others: (low, high), .. } = self;
         format!(
-            "the value {value:?} stands in {count} of {of} {what}s (the first is {what} {first}), and all others lie between \
-             {low:?} and {high:?}: if it stands for a missing value"
+            "the value {value:?} occurs in {count} of {of} {what}s (the first is {what} {first}), and all others lie between \
+             {low:?} and {high:?}: if it marks a missing value"
         )
     }
 }

@@ -8,8 +8,8 @@ pub(crate) const PAIRS_OF_POINT: u64 = 4;
 /// A level of a factor that is rare among the rows, or two that rarely occur together.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error(
-    "{factor}: {level} (probability {probability:.2e}) is in {} of the {values} {} drawn, so that its effect on the \
-     output is not known, and the indices may be anything: some {:.0} base samples meet it once, and {:.0} ten times",
+    "{factor}: {level} (probability {probability:.2e}) occurs in {} of the {values} {} drawn, so its effect on the \
+     output is unknown and the indices may be far off: about {:.0} base samples contain it once, and {:.0} ten times",
     if *draws == 0 { "none".to_owned() } else { draws.to_string() },
     if partner.is_some() { "pairs" } else { "values" },
     self.base_samples(1.0),

@@ -19,8 +19,8 @@ pub enum Warning {
     },
     /// Some runs have no value.
     #[error(
-        "{failed} of {runs} runs failed: every index does without the base points at which one of its own runs failed (at \
-         most {left_out} of {base_samples}), and describes the part of the factor space where they succeed"
+        "{failed} of {runs} runs failed: every index leaves out the base points at which one of its own runs failed (at \
+         most {left_out} of {base_samples}), and describes the part of the factor space where runs succeed"
     )]
     RunsFailed {
         /// Runs without a value.
@@ -36,7 +36,7 @@ pub enum Warning {
     #[error(
         "{points} of {base_samples} base points have a run that failed although it takes each factor from one of two runs that \
          succeeded: several factors together (or chance) decide what fails, so the factors depend on each other where runs succeed, \
-         and these indices are not defined there, however many runs there are; narrow the ranges until no run fails, study an output \
+         and more runs cannot define these indices there; narrow the ranges until no run fails, study an output \
          that is 1 where a run fails and 0 elsewhere, or pass the rows that succeed (--save-outputs) to given-data"
     )]
     JointFailures {
@@ -59,11 +59,11 @@ pub enum Warning {
         more: u64,
     },
     /// One replicate, and intervals from the spread of replicates.
-    #[error("a single replicate says nothing about its error: no intervals")]
+    #[error("one replicate gives no estimate of its error: no intervals")]
     SingleReplicate,
     /// One net, and intervals from its parts.
     #[error(
-        "a single net gives no independent estimate of its error: intervals rest on how its parts differ (4 replicates are \
+        "one replicate gives no independent estimate of the error: intervals rest on how its parts differ (4 replicates are \
          safer)"
     )]
     SingleNet,
@@ -79,9 +79,9 @@ pub enum Warning {
     },
     /// A few rows dominate the variance.
     #[error(
-        "the variance rests on few rows, as if on {rows:.0} of the {values} of A and B (excess kurtosis {kurtosis:.0}): rows \
-         as large may be missing from the sample, so that intervals are longer above the estimates than below, and may still \
-         be too short; more base samples help, or the logarithm of the output"
+        "few rows determine the variance, as if {rows:.0} of the {values} of A and B did (excess kurtosis {kurtosis:.0}): rows \
+         with values as large may be missing from the sample, so intervals are longer above the estimates than below and may still \
+         be too short; use more base samples, or the logarithm of the output"
     )]
     FewRows {
         /// Number of rows that would have this variance if all others had no effect.
@@ -93,7 +93,7 @@ pub enum Warning {
     },
     /// The output is large compared with its variation.
     #[error(
-        "the output is so much larger than what varies in it that doubles keep few digits of that: indices may be off by some \
+        "the output is so much larger than its variation that doubles keep few digits of the variation: indices may be off by about \
          {error:.1e}; subtract a constant from it before it is rounded"
     )]
     FewDigits {
@@ -102,26 +102,26 @@ pub enum Warning {
     },
     /// Intervals do not exist.
     #[error(
-        "no intervals: without the rows of one part of the sample the output does not vary (or too few rows are left), so that \
-         nothing tells the error of the indices: more base samples are needed"
+        "no intervals: without the rows of one part of the sample the output does not vary (or too few rows are left), so \
+         the error of the indices is unknown: use more base samples"
     )]
     NoIntervals,
     /// A few runs dominate the residual of the surrogate.
     #[error(
-        "a few runs carry what the surrogate leaves unexplained, and others like them may be missing: the intervals of the \
-         corrected indices hold those of the plain ones too"
+        "a few runs determine the variance that the surrogate does not explain, and similar runs may be missing: the intervals of the \
+         corrected indices contain those of the plain ones"
     )]
     HeavyTailedSurrogate,
     /// Corrected and plain indices differ, within the range of the intervals.
     #[error(
-        "the indices corrected by surrogates and the plain ones of the same rows are apart by more than their errors make \
-         likely: the intervals hold both"
+        "the indices corrected by surrogates and the plain ones of the same rows differ by more than their errors make \
+         likely: the intervals contain both"
     )]
     DoubtedSurrogate,
     /// Corrected indices contradict plain ones, which are reported.
     #[error(
         "the indices corrected by surrogates contradict the plain ones of the same rows by {times:.1} times what their errors \
-         allow: the rows do not represent a factor, and the plain ones are the result"
+         allow: the rows do not represent a factor, so the plain ones are reported"
     )]
     ContradictedSurrogate {
         /// The distance relative to both errors.
@@ -129,8 +129,8 @@ pub enum Warning {
     },
     /// Surrogates claim more variance than the rows show; the plain indices are reported.
     #[error(
-        "the surrogates claim {times:.1} times the variance that the rows show of a factor: the rows do not represent it, and \
-         the plain indices are the result"
+        "the surrogates give a factor {times:.1} times the variance that the rows show: the rows do not represent it, so \
+         the plain indices are reported"
     )]
     InflatedSurrogate {
         /// The variance claimed over that of the rows.
@@ -141,8 +141,8 @@ pub enum Warning {
     RareLevel(RareLevel),
     /// Rows for surrogates that explain little.
     #[error(
-        "the surrogates explain {:.0} % of the variance of runs that they were not fitted to, so that plain rows, which only \
-         they learn from, are of little use: all runs as base samples are better for this output, and errors and intervals may \
+        "the surrogates explain {:.0} % of the variance of runs that they were not fitted to, so plain rows, which only \
+         surrogates use, help little: use all runs as base samples for this output; errors and intervals may \
          be too small here",
         (100.0 * explained).max(0.0)
     )]
@@ -152,9 +152,9 @@ pub enum Warning {
     },
     /// Discrete factors depend on others.
     #[error(
-        "{}: single values that depend on other factors: to fix the factor here is to fix the normal score behind its value, \
-         which says more of the others than the value does; its own indices are too large by that, and those of its partners \
-         too small",
+        "{}: discrete values that depend on other factors: fixing the factor means fixing the normal score behind its value, \
+         which determines the others more closely than the value does; its own indices are therefore too large, and those of its \
+         partners too small",
         factors.join(", ")
     )]
     DependentSteps {
@@ -162,17 +162,15 @@ pub enum Warning {
         factors: Vec<String>,
     },
     /// The noise has no effect.
-    #[error(
-        "{factor}: no run changed with its seed: the model is not stochastic, or draws its random numbers without it"
-    )]
+    #[error("{factor}: no run changed with its seed: the model is not stochastic, or does not use the seed")]
     NoNoise {
         /// The seed.
         factor: String,
     },
     /// The noise may have the whole effect.
     #[error(
-        "{factor}: all variance may be noise, so that the indices of the mean over it may be anything: more base samples are \
-         needed, or several runs of each row (repetitions in [noise])"
+        "{factor}: all variance may be noise, so the indices of the mean over it may be far off: use more base samples, \
+         or several runs of each row (repetitions in [noise])"
     )]
     AllNoise {
         /// The seed.
@@ -194,7 +192,7 @@ pub enum Warning {
     },
     /// The same by the intervals of both.
     #[error(
-        "{name}: the interval of the first-order index {} lay above that of the total index {}, and both were lengthened until \
+        "{name}: the interval of the first-order index {} was above that of the total index {}, and both were extended until \
          they met: too few samples",
         decimals(*first_order),
         decimals(*total)
@@ -210,7 +208,7 @@ pub enum Warning {
     /// Two formulas disagree.
     #[error(
         "{name}: two formulas for the first-order index differ by {gap:.2e}, beyond the error of their difference: too few \
-         samples, or a heavy-tailed output (its logarithm may serve better)"
+         samples, or a heavy-tailed output (its logarithm may work better)"
     )]
     FormulasDiffer {
         /// Factor, group or subset.
@@ -221,7 +219,7 @@ pub enum Warning {
     /// A requested estimator disagrees with the default one.
     #[error(
         "{name}: the {index} index by `{estimator}` differs from the default one by {gap:.2e}, beyond the error of their \
-         difference: one of the two is not to be trusted on this output"
+         difference: one of the two is wrong for this output"
     )]
     EstimatorsDiffer {
         /// Factor, group or subset.
@@ -236,7 +234,7 @@ pub enum Warning {
     /// First-order indices that may sum to 0.
     #[error(
         "the sum of the first-order indices may be 0: the output comes from interactions, or the samples are too few; shares \
-         of the first-order indices mean nothing"
+         of the first-order indices are meaningless"
     )]
     NoFirstOrder,
     /// First-order indices sum to more than 1.
@@ -253,8 +251,8 @@ pub enum Warning {
     },
     /// A total index above 1.
     #[error(
-        "{name}: the total index {total:.4} is above 1 by more than its error: too few samples, or rows that do not belong \
-         together"
+        "{name}: the total index {total:.4} is above 1 by more than its error: too few samples, or rows in the wrong \
+         order"
     )]
     TotalAboveOne {
         /// Factor, group or subset.
@@ -264,8 +262,8 @@ pub enum Warning {
     },
     /// Rows of a table that may be in the wrong order.
     #[error(
-        "every total index is near 1 and every first-order index near 0, as rows in another order than that of the design \
-         give; if the order is right, the output is all interaction"
+        "every total index is near 1 and every first-order index near 0, as if the rows were not in the order of the \
+         design; if the order is right, the output is interaction only"
     )]
     Shuffled,
     /// A value that may be a code for a missing one.

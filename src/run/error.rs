@@ -21,7 +21,7 @@ pub enum RunError {
         source: Box<dyn std::error::Error + Send + Sync>,
     },
     /// A row failed, and the run was to stop at the first failure.
-    #[error("a run failed, and the study says to stop then: {reason}")]
+    #[error("a run failed, and the study stops at the first failure: {reason}")]
     RowFailed {
         /// The row.
         row: Place,
@@ -30,8 +30,8 @@ pub enum RunError {
     },
     /// The outputs of all runs were to be kept, and there are too many.
     #[error(
-        "the outputs of {runs} runs, which are to be kept all at once, take {bytes} bytes of memory, more than the \
-         {MAX_STORED_BYTES} that they may: take fewer base samples or fewer outputs, intervals = \"batches\", or begin anew without \
+        "the outputs of {runs} runs must be in memory at once and take {bytes} bytes, more than the limit of \
+         {MAX_STORED_BYTES}: use fewer base samples or outputs, intervals = \"batches\", or start again without \
          saved outputs (--restart)"
     )]
     TooManyOutputs {
@@ -49,13 +49,13 @@ pub enum RunError {
         total: u64,
     },
     /// A part of the run has no valid design.
-    #[error("a trial run, or that of a cheaper model, has no design: {0}")]
+    #[error("cannot make a design for a trial run or a cheaper model: {0}")]
     Design(DesignError),
     /// The model cannot continue.
-    #[error("the model cannot go on: {0}")]
+    #[error("the model cannot continue: {0}")]
     GaveUp(GiveUp),
     /// A worker in another process is lost, or sent a malformed reply.
-    #[error("the worker number {worker} in another process is lost: {source}")]
+    #[error("worker {worker} in another process was lost: {source}")]
     LostWorker {
         /// Its number among the remote workers, from 0.
         worker: usize,
@@ -74,13 +74,13 @@ pub enum RunError {
         reason: String,
     },
     /// A feature that needs a journal was used without one.
-    #[error("{what} needs a journal: name one by Runner::journal")]
+    #[error("{what} needs a journal: set one with Runner::journal")]
     NoJournal {
         /// The feature.
         what: &'static str,
     },
     /// A run that chooses its own size has no parts.
-    #[error("a study with an accuracy, a target, a budget or max_runs has no size that could be shared out beforehand")]
+    #[error("a study with an accuracy, a target, a budget or max_runs has no fixed size to divide into shards")]
     NoSize,
     /// Parts of a run are missing.
     #[error("{missing} of {total} runs are missing: {places}")]

@@ -171,7 +171,7 @@ impl Talk<'_> {
                 self.remote.workers.stop();
             }
         };
-        let nonsense = || io::Error::new(io::ErrorKind::InvalidData, "its reply is not to what was requested");
+        let nonsense = || io::Error::new(io::ErrorKind::InvalidData, "its reply does not match the request");
         Reply::read(&reply, range, outputs).ok_or_else(nonsense)
     }
 }

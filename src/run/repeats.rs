@@ -40,21 +40,21 @@ impl Repeats {
         let cause = self.cause.filter(|_| differing > 0)?;
         let why = match (cause, has_noise) {
             (Irreproducible::Random, false) => {
-                "the model draws random numbers, and the indices of the factors hold their noise too, the total indices most of \
-                 all; give the model a seed with every row (noise = \"seed\"), so that the noise has indices of its own"
+                "the model draws random numbers, and the indices of the factors include their noise, the total indices most of \
+                 all; give the model a seed with every row (noise = \"seed\"), so that the noise gets its own indices"
             }
             (Irreproducible::Random, true) => {
-                "the model draws random numbers without its seed, and the indices of the factors hold their noise too"
+                "the model draws random numbers without its seed, and the indices of the factors include their noise"
             }
             (Irreproducible::Remembers, _) => {
-                "the answer depends on the rows before (on what the model keeps in variables or files, or on random numbers from \
-                 one seed at its start), and the indices of the factors hold this as noise; answer each row by its own values \
-                 alone, random numbers from a seed of its row (noise = \"seed\")"
+                "the outputs depend on earlier rows (through variables or files that the model keeps, or random numbers from \
+                 one seed at its start), and the indices of the factors include this as noise; compute each row from its own \
+                 values only, with random numbers from a seed of its row (noise = \"seed\")"
             }
         };
         let rows = if self.rows == 1 { "row that was" } else { "rows that were" };
         Some(format!(
-            "{differing} of {} {rows} run again had another answer: {why} (docs/stochastic-models.md)",
+            "{differing} of {} {rows} run again gave other outputs: {why} (docs/stochastic-models.md)",
             self.rows
         ))
     }
@@ -189,7 +189,7 @@ mod tests {
     }
 
     #[test]
-    fn random_models_are_told_from_those_that_remember_and_from_pure_ones() {
+    fn random_models_are_distinguished_from_models_with_state_and_pure_ones() {
         let settings = DesignSettings { sampler: Sampler::Sobol, base_samples: 64, replicates: 4, seed: 1 };
         let design = Design::new(settings, 1, Rows::default()).unwrap();
         let law = Distribution::uniform(0.0, 1.0).unwrap();

@@ -33,13 +33,13 @@ impl<'a> RemoteServer<'a> {
     /// Evaluates the rows of a request, of a design that differs from `design` by its key.
     pub fn reply(&mut self, design: &Design, request: &Request) -> Reply {
         if self.current.as_ref().is_none_or(|(key, ..)| *key != request.design) {
-            let Some(design) = request.design.design(design) else { return refusal("a design that the study has not") };
+            let Some(design) = request.design.design(design) else { return refusal("an unknown design") };
             self.current = Some((request.design, design, RowValues::default()));
         }
         let Some((_, design, values)) = &mut self.current else { return refusal("no design") };
         let (Request { range, .. }, rows) = (request, design.points_per_replicate() * design.rows_per_point());
         if range.replicate >= design.settings().replicates || range.rows.is_empty() || range.rows.end > rows {
-            return refusal("rows that the design has not");
+            return refusal("rows that are not in the design");
         }
         let begun = Instant::now();
         let inputs = values.values(self.space, design, range.replicate, range.rows.clone());

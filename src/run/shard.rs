@@ -28,7 +28,7 @@ pub struct Shard {
 
 /// The error for a text that is not a valid part `k/n`.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error("expected a part as in 3/8, the third of eight (from 1/8 to 8/8; at most {MAX_SHARDS} parts), not {found:?}")]
+#[error("expected a shard such as 3/8, the third of eight (1/8 to 8/8; at most {MAX_SHARDS} shards), not {found:?}")]
 pub struct ShardError {
     found: String,
 }

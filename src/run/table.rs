@@ -15,7 +15,7 @@ use crate::model::{Batch, GiveUp, Model, RunContext};
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum Halt {
     /// The model cannot continue.
-    #[error("the model cannot go on: {0}")]
+    #[error("the model cannot continue: {0}")]
     GaveUp(GiveUp),
     /// The run was interrupted.
     #[error("interrupted")]

@@ -112,7 +112,7 @@ fn a_run_can_be_given_up_at_the_first_failure() {
 }
 
 #[test]
-fn every_row_is_run_once_and_progress_tells_so() {
+fn every_row_is_run_once_and_counted_by_progress() {
     let design = design(Sampler::Sobol, 2 * 1000, 2);
     let last = Mutex::new((0, 0));
     let on_progress = |progress: Progress| {

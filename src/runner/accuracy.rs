@@ -51,7 +51,7 @@ pub(super) fn run_accurately(runner: &Runner<'_>, context: &RunContext<'_>) -> R
     if !reason.is_some_and(is_ours) {
         return Ok(first);
     }
-    attempt.say(format!("corrected indices of {MAX_CORRECTED_RUNS} runs would not get there: no surrogates"));
+    attempt.say(format!("corrected indices of {MAX_CORRECTED_RUNS} runs would not reach the accuracy: no surrogates"));
     Ok(attempt.plain()?.0)
 }
 
@@ -179,7 +179,7 @@ fn lines(attempt: &Study, lows: usize, result: &StudyResult) -> String {
         lines.push_str(&match lows {
             0 => format!("low = [\"{}\"]\n", low.name),
             1 => String::new(),
-            _ => format!("# of `low` keep `{}` alone\n", low.name),
+            _ => format!("# keep only `{}` in `low`\n", low.name),
         });
         lines.push_str(&format!("base_samples = {}\n", low.own_base_samples));
     }

@@ -81,7 +81,7 @@ impl RunJournal {
             Ok(journal) => {
                 let megabytes = (total * outputs as u64 * 8).div_ceil(1_000_000);
                 messages.send(&format!(
-                    "note: the run is expected to take longer than {} s: from here on finished runs are kept in {}, about \
+                    "note: the run is expected to take longer than {} s: completed runs are now saved in {}, about \
                      {megabytes} MB in the end",
                     LONG_RUN.as_secs(),
                     path.display()
@@ -148,7 +148,7 @@ pub(super) fn open(study: &Study, request: JournalRequest<'_>, messages: &Messag
     }
     let changed = another_model(&contents.header, &files);
     if let Some(changed) = changed.as_ref().filter(|_| resume != Resume::Restart && !contents.pieces.is_empty()) {
-        let advice = "its runs are of the program as it was. Undo the change, or begin again with --restart";
+        let advice = "its runs are from the earlier version. Undo the change, or start again with --restart";
         return Err(refused(path, format!("{changed}: {advice}")));
     }
     let why = if resume == Resume::Restart { Some("--restart".to_owned()) } else { other.or(changed) };
@@ -162,13 +162,13 @@ pub(super) fn open(study: &Study, request: JournalRequest<'_>, messages: &Messag
         return fresh();
     }
     if contents.cut_off > 0 {
-        let what = "behind its last whole record, of runs that are evaluated again";
+        let what = "after its last complete record; their runs are evaluated again";
         messages.send(&format!("note: {}: {} bytes were cut off {what}", path.display(), contents.cut_off));
     }
     let store = recorded(study, &contents);
     if resume == Resume::RetryFailed {
         match store.forget_failures() {
-            0 => messages.send(&format!("note: no run on record in {} has failed", path.display())),
+            0 => messages.send(&format!("note: no run in {} has failed", path.display())),
             1 => messages.send("note: the run that failed is evaluated again"),
             failed => messages.send(&format!("note: the {failed} runs that failed are evaluated again")),
         }
@@ -176,7 +176,7 @@ pub(super) fn open(study: &Study, request: JournalRequest<'_>, messages: &Messag
     let rows = rows_on_record(study, &store);
     if rows > 0 {
         let total = study.design.rows();
-        messages.send(&format!("note: {rows} of {total} runs are on record in {}", path.display()));
+        messages.send(&format!("note: {rows} of {total} runs are already saved in {}", path.display()));
     }
     Ok(RunJournal::resumed(study, journal, store))
 }

@@ -220,7 +220,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn journals_of_different_names_have_others_beside_them_of_different_names() {
+    fn journals_of_different_names_have_different_sibling_journals() {
         let of = |name: &str| sibling_path(Path::new(name), "split").display().to_string();
         assert_eq!(of("results/s.journal"), "results/s-split.journal");
         assert_eq!((of("jr/j_0.1"), of("jr/j_0.2")), ("jr/j_0.1-split".to_owned(), "jr/j_0.2-split".to_owned()));

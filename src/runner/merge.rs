@@ -39,8 +39,8 @@ pub(super) fn merged(
             }
             // Counts over a piece cannot be divided.
             if piece.is_counted() && !gaps.is_empty() {
-                let why = "holds some of the runs that are there already, and some that are not: merge the parts of one \
-                           division only, into a folder without a journal (--out)";
+                let why = "holds some runs that are already merged and some that are not: merge the shards of one \
+                           run only, into a folder without a journal (--out)";
                 return Err(refused(journal, why.to_owned()));
             }
             for gap in gaps {
@@ -56,7 +56,7 @@ pub(super) fn merged(
     Err(RunError::Incomplete {
         missing: total - present,
         total,
-        places: shards.in_words().unwrap_or_else(|| "the journals are not the parts of one division".to_owned()),
+        places: shards.in_words().unwrap_or_else(|| "the journals are not the shards of one run".to_owned()),
     })
 }
 
@@ -72,7 +72,7 @@ fn files_of_all(study: &Study, journals: &[PathBuf]) -> Result<Value, RunError> 
         };
         if let Some(names) = differing(known, &files) {
             let other = other.display();
-            let reason = format!("evaluated with another {names} than {other}: evaluate one of the two parts again");
+            let reason = format!("evaluated with another {names} than {other}: evaluate one of the two shards again");
             return Err(refused(journal, reason));
         }
     }

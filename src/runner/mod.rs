@@ -230,7 +230,7 @@ impl<'a> Runner<'a> {
     /// [`RunError::Incomplete`] if runs are missing.
     pub fn merge(self, journals: &[PathBuf]) -> Result<StudyResult, RunError> {
         let context = self.context();
-        let path = self.journal_for("a run that is merged of its parts")?;
+        let path = self.journal_for("a run that is merged from shards")?;
         let journal = merge::merged(self.study, path, journals, context.messages())?;
         Ok(self.analyse(&context, journal)?.0)
     }

@@ -36,7 +36,7 @@ impl WorkerStudy {
         let mut servers: BTreeMap<u64, RemoteServer<'_>> = BTreeMap::new();
         while let Some(bytes) = requests.next() {
             let reply = match Request::read(&bytes).and_then(|request| Some((self.model(request.subject)?, request))) {
-                None => refusal("a model that the study has not"),
+                None => refusal("a model that is not in the study"),
                 Some((model, request)) => {
                     let new = || RemoteServer::new(&self.study.space, model, context);
                     servers.entry(request.subject).or_insert_with(new).reply(&self.study.design, &request)

@@ -74,7 +74,7 @@ pub fn recognise(
             let words = |layout: &SalibLayout| format!("{} rows each {}", layout.rows_per_point(d), layout.words());
             let expected = candidates.iter().map(words).collect::<Vec<_>>().join(", ");
             let there_are = format!("for {d} inputs or groups there are {expected}");
-            Err(SalibError(format!("{rows} rows are no whole number of base points: {there_are}")))
+            Err(SalibError(format!("{rows} rows are not a whole number of base points: {there_are}")))
         }
         ([], Some(first)) => fits(*first).map(|()| *first),
         ([layout], _) if rows == layout.rows_per_point(d) => {
@@ -86,7 +86,7 @@ pub fn recognise(
                 |layout: SalibLayout| format!("{} base points {}", rows / layout.rows_per_point(d), layout.words());
             let ways = SalibLayout::ALL.map(words).join(" or ");
             let options = SalibLayout::ALL.map(SalibLayout::option).join(" or ");
-            Err(SalibError(format!("{rows} rows can be read in two ways: {ways}: say which it is, by {options}")))
+            Err(SalibError(format!("{rows} rows can be read in two ways: {ways}: choose one by {options}")))
         }
     }
 }

@@ -39,7 +39,7 @@ fn both_layouts_are_recognised_by_their_points() {
         assert_eq!(recognise(48, &members, Some(layout), None), Ok(layout));
     }
     assert_eq!(recognise(18, &members, None, None), Ok(SalibLayout::SecondOrder));
-    assert!(refused(7).starts_with("7 rows are no whole number of base points"));
+    assert!(refused(7).starts_with("7 rows are not a whole number of base points"));
     assert!(refused(4).starts_with("4 rows are a single base point"));
 }
 
@@ -131,7 +131,7 @@ fn codes_for_missing_values_are_found() {
 }
 
 #[test]
-fn a_problem_says_its_groups() {
+fn groups_of_a_problem_are_read() {
     let parse = |text: &str| SalibProblem::parse(text).map_err(|error| error.to_string());
     assert_eq!(parse(r#"{"names": ["a", "b"], "groups": null}"#).unwrap().members.len(), 2);
     assert!(

@@ -243,9 +243,9 @@ fn warnings(factors: &[ScreenedFactor], missed: Option<f64>) -> impl Iterator<It
     });
     let missed = missed.map(|sum| {
         format!(
-            "what total indices are at most sums to {sum:.2}, but total indices of independent factors sum to at least 1: the derivatives \
-             have missed what the output varies by, a step or a steep place between the base points, so that no bound holds and no \
-             factor is said to be one that could be fixed. Screen with the radial design, or run the study"
+            "the upper bounds of the total indices sum to {sum:.2}, but total indices of independent factors sum to 1 or more: derivatives \
+             have missed variation of the output, such as a step or a steep slope between the base points, so no bound holds and no \
+             factor is marked as one that could be fixed. Screen with the radial design, or run the study"
         )
     });
     dropped.into_iter().chain(missed)

@@ -149,13 +149,13 @@ pub enum ScreeningError {
     },
     /// Factors that depend on each other.
     #[error(
-        "elementary effects are those of one factor while all others stay, and factors of this study depend on each other: a run \
-         with Shapley effects tells what matters"
+        "elementary effects change one factor and keep all others, but factors of this study depend on each other: run the \
+         study with Shapley effects instead"
     )]
     Dependent,
     /// A factor without derivatives.
     #[error(
-        "factor `{factor}` takes separate values, so that there is no derivative by it: screen by the radial design, or fix the factor at one of them"
+        "factor `{factor}` takes discrete values, so it has no derivative: screen by the radial design, or fix the factor at one of them"
     )]
     Separate {
         /// Its name.

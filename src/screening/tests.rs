@@ -315,7 +315,7 @@ fn failed_runs_drop_their_effects_and_are_counted() {
 }
 
 #[test]
-fn a_constant_output_has_no_factor_to_keep_or_fix() {
+fn no_factor_of_a_constant_output_is_kept_or_fixed() {
     for factor in &screened(&unit_cube(2), settings(SOBOL, 16), |_| Some(1e300)).outputs[0].factors {
         let m = measures_of(factor).unwrap();
         assert_eq!((m.mu_star.estimate, m.sigma.estimate, m.ratio), (0.0, 0.0, None));

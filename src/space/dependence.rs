@@ -112,7 +112,7 @@ impl Dependence {
     fn checked(&self, space: &Space) -> Result<Vec<usize>, DependenceError> {
         let number = |name: &String| {
             let place = space.factors().iter().position(|factor| factor.name == *name);
-            place.map_or_else(|| refused(format!("dependence of `{name}`, which is no factor of the study")), Ok)
+            place.map_or_else(|| refused(format!("dependence of `{name}`, which is not a factor of the study")), Ok)
         };
         let numbers = self.factors.iter().map(number).collect::<Result<Vec<usize>, _>>()?;
         let n = numbers.len();
@@ -120,7 +120,7 @@ impl Dependence {
         distinct.sort_unstable();
         distinct.dedup();
         if n < 2 || distinct.len() < n {
-            return refused("a dependence is one of two factors or more, each named once");
+            return refused("a dependence needs two or more factors, each named once");
         }
         if self.correlation.len() != n || self.correlation.iter().any(|row| row.len() != n) {
             return refused(format!("the correlations of {n} factors are a matrix of {n} rows with {n} numbers each"));
@@ -128,8 +128,8 @@ impl Dependence {
         if let Some(number) = (0..n).find(|&i| self.is_measured && self.correlation[i][i].is_nan()) {
             let factor = &self.factors[number];
             return refused(format!(
-                "the joint measurements of `{factor}` are all the same, so that they say of no other factor how it goes with \
-                 this one: leave it out of the dependence"
+                "the joint measurements of `{factor}` are all the same, so they have no correlation with other \
+                 factors: leave it out of the dependence"
             ));
         }
         for (i, j) in (0..n).flat_map(|i| (0..n).map(move |j| (i, j))) {
@@ -137,8 +137,8 @@ impl Dependence {
             if self.is_measured && i != j && found.abs() > 1.0 - EQUAL_RANKS {
                 let order = if found > 0.0 { "same" } else { "opposite" };
                 return refused(format!(
-                    "the joint measurements of `{a}` and `{b}` have the {order} order, so that each is a function of the other: no \
-                     factors that vary by themselves. Leave one of them out of the study, and let the model compute it from the \
+                    "the joint measurements of `{a}` and `{b}` have the {order} order, so each is a function of the \
+                     other, not a separate factor. Leave one of them out of the study, and let the model compute it from the \
                      other"
                 ));
             }
@@ -189,7 +189,7 @@ pub(super) fn copula(space: &Space, dependences: &[Dependence]) -> Result<Option
         let names: Vec<&String> = tied.iter().map(|&i| &factors[i].name).collect();
         let nearest: Vec<Vec<f64>> = tied.iter().map(row).collect();
         DependenceError(format!(
-            "the correlations are not positive definite, so that no factors can have them all. The nearest that can be, of normal \
+            "the correlations are not positive definite, so no factors can have all of them. The nearest possible ones, of normal \
              scores (measure = \"normal\"): factors = {names:?}, correlation = {nearest:?}"
         ))
     })

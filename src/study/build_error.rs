@@ -29,7 +29,7 @@ pub enum BuildError {
         expected: String,
     },
     /// A duplicate name.
-    #[error("{what} `{name}` is there twice")]
+    #[error("{what} `{name}` is listed twice")]
     Repeated {
         /// What the name is of.
         what: &'static str,

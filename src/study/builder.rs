@@ -212,7 +212,7 @@ impl StudyBuilder {
         let settings = DesignSettings { sampler, base_samples, replicates, seed: self.seed };
         let design = Design::new(settings, space.factors().len(), rows(&analysis, &space, plain_rows))?;
         let design = length.target.within_max_runs(design).or_else(|least| {
-            let expected = format!("{least} or more, which 2 base samples in each of {replicates} replicates take");
+            let expected = format!("{least} or more, for 2 base samples in each of {replicates} replicates");
             wrong("max_runs", expected, length.target.max_runs.unwrap_or_default())
         })?;
         for (number, low) in self.lows.iter().enumerate() {
@@ -223,7 +223,7 @@ impl StudyBuilder {
                 return Err(BuildError::LowFidelity { name: low.name.clone(), problem });
             }
             if low.base_samples.is_some() && length.target.accuracy.is_some() {
-                return wrong("base_samples", "left out with `accuracy`, with which the run chooses it", "there");
+                return wrong("base_samples", "left out with `accuracy`, which chooses it", "given");
             }
         }
         let mut notes = Vec::new();
@@ -237,7 +237,7 @@ impl StudyBuilder {
             notes.push(format!("`surrogate` has no effect with fewer than {MIN_NETS} replicates"));
         }
         if analysis.resamples != DEFAULT_RESAMPLES && analysis.intervals != IntervalMethod::Percentile {
-            notes.push("`resamples` has no effect but with intervals = \"percentile\"".to_owned());
+            notes.push("`resamples` has an effect only with intervals = \"percentile\"".to_owned());
         }
         if analysis.aggregate && outputs < 2 {
             notes.push("`aggregate` has no effect with a single output".to_owned());

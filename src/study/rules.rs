@@ -42,7 +42,7 @@ pub(super) fn check_outputs(model: &dyn Model) -> Result<(), BuildError> {
     let is_wrong = |series: &&OutputSeries| series.places().any(|place| place >= outputs.len() || !taken.insert(place));
     if let Some(series) = model.series().iter().find(is_wrong) {
         let (name, places, count) = (&series.name, series.places(), outputs.len());
-        let expected = format!("{count}, of which the series `{name}` has some that belong to no other series");
+        let expected = format!("{count}, and those of the series `{name}` must belong to no other series");
         return wrong("outputs", expected, format!("{} to {}, counted from 0", places.start, places.end - 1));
     }
     Ok(())
@@ -74,10 +74,8 @@ pub(super) fn check_factors(factors: &[Factor], model: &dyn Model) -> Result<(),
     match noises {
         0 => Ok(()),
         1 if factors.len() > 1 => Ok(()),
-        1 => wrong("noise", "with factors", "alone"),
-        _ => {
-            wrong("noise", "one seed, from which the model draws all that is random in it", format!("{noises} of them"))
-        }
+        1 => wrong("noise", "used with factors", "alone"),
+        _ => wrong("noise", "one seed for all random numbers of the model", format!("{noises} of them")),
     }
 }
 
@@ -138,23 +136,22 @@ fn check_shapley(options: &AnalysisOptions, space: &Space) -> Result<(), BuildEr
     let (players, factors) = (options.players(space).len(), space.factors().len());
     let of_groups = options.shapley_players == Some(ShapleyPlayers::Groups);
     if options.shapley == Some(false) && (options.shapley_method.is_some() || options.shapley_players.is_some()) {
-        return wrong("shapley", "true with a choice of how Shapley effects are found", "false");
+        return wrong("shapley", "true with `shapley_method` or `shapley_players`", "false");
     }
     if of_groups && space.groups().is_empty() {
-        return wrong("shapley_players", "\"groups\" only where factors have a group", "it in a study without groups");
+        return wrong("shapley_players", "left out or \"factors\" in a study without groups", "\"groups\"");
     }
     if options.shapley_method == Some(ShapleyMethod::Subsets) && players > MAX_SHAPLEY_FACTORS {
         let expected = format!("\"permutations\": all subsets are those of at most {MAX_SHAPLEY_FACTORS} players");
         return wrong("shapley_method", expected, format!("\"subsets\" with {players}"));
     }
     if options.wants_shapley() && players > MAX_SHAPLEY_FACTORS && !has_room_for_orders(players, factors) {
-        let expected = format!(
-            "false of more than {MAX_ORDERED_FACTORS} players; fewer are groups, with shapley_players = \"groups\""
-        );
+        let expected =
+            format!("false with more than {MAX_ORDERED_FACTORS} players; use groups, shapley_players = \"groups\"");
         return wrong("shapley", expected, format!("true with {players}"));
     }
     if options.wants_shapley() && space.noise().is_some() {
-        return wrong("shapley", "false with the noise of a stochastic model, which can have no share", "true");
+        return wrong("shapley", "false with [noise], which cannot have a share", "true");
     }
     Ok(())
 }
@@ -172,7 +169,7 @@ pub(super) fn check_dependent(
     ];
     match refused.into_iter().find(|(_, asked)| *asked) {
         Some((key, _)) if space.copula().is_some() => {
-            wrong(key, "left out where factors depend on each other: it needs independent ones", "there")
+            wrong(key, "left out where factors depend on each other: it needs independent ones", "given")
         }
         _ => Ok(()),
     }
@@ -196,13 +193,13 @@ impl Length {
         let mut said = sizes.into_iter().filter(|(_, said)| *said).map(|(key, _)| key);
         let (size, second) = (said.next(), said.next());
         if let Some((size, second)) = size.zip(second) {
-            return wrong(second, "alone: the length of a run is said in one way", format!("with `{size}`"));
+            return wrong(second, "the only key for the length of a run", format!("together with `{size}`"));
         }
         let limits = [("max_runs", max_runs.is_some()), ("max_time", max_time.is_some())];
         if let Some((limit, _)) = limits.into_iter().find(|(_, said)| *said)
             && let Some(size) = size.filter(|size| *size != "accuracy")
         {
-            return wrong(limit, "with `accuracy`, or alone", format!("with `{size}`"));
+            return wrong(limit, "used with `accuracy` or alone", format!("with `{size}`"));
         }
         for (key, value) in [("accuracy", accuracy), ("max_time", max_time)] {
             if let Some(value) = value.filter(|value| !(*value > 0.0 && value.is_finite())) {
@@ -210,7 +207,7 @@ impl Length {
             }
         }
         if self.target.grows() && sampler == Sampler::LatinHypercube {
-            return wrong("sampler", "\"sobol\" or \"random\" for a run that grows", "a Latin hypercube, which cannot");
+            return wrong("sampler", "\"sobol\" or \"random\" for a run that grows", "a Latin hypercube");
         }
         Ok(())
     }
@@ -228,7 +225,7 @@ impl Length {
         };
         sizes_within(runs, options, space, sampler, replicates).or_else(|least| {
             let expected = format!(
-                "{least} or more, the runs of 2 base samples in each of {replicates} replicates (fewer runs tell most as \
+                "{least} or more, the runs of 2 base samples in each of {replicates} replicates (with fewer runs, use \
                  random points: `apportion sample STUDY --random {}`, then `apportion given-data`)",
                 runs.max(10)
             );

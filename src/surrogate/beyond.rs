@@ -242,7 +242,7 @@ mod tests {
     }
 
     #[test]
-    fn a_square_departs_from_its_tangents_as_integrals_say() {
+    fn deviations_of_a_square_from_its_tangents_agree_with_integrals() {
         // p = (z^2 - 1)/sqrt 2 minus its tangent is (z - c)^2/sqrt 2; mean in both tails by parts, c at 1/100.
         let found = beyond(Family::Hermite, vec![vec![], vec![(0, 2)]], vec![5.0, 1.0], 1.0);
         let c = -normal_quantile(0.01);

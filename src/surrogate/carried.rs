@@ -110,7 +110,7 @@ mod tests {
     }
 
     #[test]
-    fn a_level_that_no_row_has_gives_no_polynomial() {
+    fn a_level_without_rows_gives_no_polynomial() {
         let families = [boolean(0.001), boolean(0.5), Family::Legendre];
         let rows = [even(64), even(64), even(64)];
         let nets = [net(&families, &rows)];

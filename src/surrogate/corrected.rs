@@ -253,7 +253,7 @@ mod tests {
     use crate::surrogate::basis::{Family, polynomials};
 
     #[test]
-    fn rows_that_do_not_stand_for_a_factor_show_less_than_an_expansion_claims() {
+    fn rows_that_misrepresent_a_factor_have_less_variance_than_the_expansion() {
         // The second factor stays within a twentieth of its range: its polynomial hardly varies.
         let u: Vec<f64> = (0..100).map(|i| (f64::from(i) + 0.5) / 100.0).collect();
         let narrow: Vec<f64> = u.iter().map(|u| 0.95 + 0.05 * u).collect();

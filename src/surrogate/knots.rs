@@ -328,7 +328,7 @@ mod tests {
     }
 
     #[test]
-    fn a_small_step_beside_a_hinge_is_a_kink_elsewhere() {
+    fn a_small_step_next_to_a_hinge_shifts_the_kink() {
         // u - .8| minus its part in 1 and u, for a step and a hinge at .79: 2 (u - .8) beyond .8.
         let knot = Knot { u: 0.79, width: 0.02, is_step: false };
         let own = Knotted::new(&Family::Legendre, &[knot], 4);

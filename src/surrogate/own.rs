@@ -187,7 +187,7 @@ mod tests {
     use crate::sum::product;
 
     #[test]
-    fn they_are_orthonormal_under_their_distribution() {
+    fn polynomials_are_orthonormal_under_their_distribution() {
         let cases = [
             Distribution::truncated_normal(0.1, 0.016, 0.05, 0.15).unwrap(),
             Distribution::triangular(1.0, 2.0, 5.0).unwrap(),
@@ -213,7 +213,7 @@ mod tests {
     }
 
     #[test]
-    fn those_of_uniform_factors_are_legendres() {
+    fn polynomials_of_uniform_factors_are_legendres() {
         let own = OwnPolynomials::new(&Distribution::uniform(2.0, 5.0).unwrap(), 14).unwrap();
         for (k, (a, b)) in own.recurrence.coefficients.iter().enumerate() {
             let n = k as f64 + 1.0;

@@ -309,7 +309,7 @@ mod tests {
     }
 
     #[test]
-    fn steps_and_kinks_are_found_where_they_lie() {
+    fn steps_and_kinks_are_located() {
         let settings = DesignSettings { base_samples: 512, ..DesignSettings::default() };
         let design = Design::new(settings, 3, Rows::plain((0..3).map(|factor| vec![factor]).collect())).unwrap();
         let (layout, families) = (Layout::plain(3), vec![Family::Legendre; 3]);

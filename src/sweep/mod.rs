@@ -108,7 +108,7 @@ pub enum SweepError {
         known: Vec<String>,
     },
     /// A factor was requested twice.
-    #[error("factor `{0}` is asked for twice")]
+    #[error("factor `{0}` is listed twice")]
     Repeated(String),
     /// Too few or too many points.
     #[error("{0} points: a sweep needs from 2 to {MAX_POINTS}")]

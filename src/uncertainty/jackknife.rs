@@ -41,7 +41,7 @@ mod tests {
     }
 
     #[test]
-    fn one_replicate_carries_no_interval() {
+    fn one_replicate_has_no_interval() {
         assert_eq!(jackknife(&[0.5], &[vec![f64::NAN]])[0], Estimate::alone(0.5));
     }
 }

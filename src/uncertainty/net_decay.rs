@@ -290,7 +290,7 @@ mod tests {
     }
 
     #[test]
-    fn one_net_rests_on_the_trend_alone_and_one_part_on_the_spread_alone() {
+    fn one_net_uses_only_the_trend_and_one_part_only_the_spread() {
         let single = net_errors(&[vec![noise(64, 3)]], &[true])[0];
         assert!(single.error > 0.0 && single.freedom > 1.0 && single.freedom < 8.0);
         let spread = net_errors(&[vec![vec![-1.0], vec![1.0]]], &[true])[0];

@@ -129,7 +129,7 @@ mod tests {
     }
 
     #[test]
-    fn a_common_error_does_not_shake_the_order() {
+    fn a_common_error_does_not_change_the_order() {
         let parts = vec![vec![1.0, -1.0]];
         let got = probability_first(&[1.0, 0.9], &[error(1.0, 5.0); 2], &[&parts, &parts], 1).unwrap();
         assert_eq!(got, [1.0, 0.0]);
@@ -160,7 +160,7 @@ mod tests {
     }
 
     #[test]
-    fn a_wide_interval_is_no_certainty() {
+    fn a_wide_interval_gives_no_certainty() {
         let estimate = Estimate { estimate: 0.2, interval: Some(Interval { low: 0.0, high: 0.21 }) };
         for freedom in [3.0, 50.0, 1e9] {
             let above = |threshold: f64| probability_above(estimate, error(0.005, freedom), threshold).unwrap();

@@ -123,7 +123,7 @@ mod tests {
     }
 
     #[test]
-    fn only_a_factor_that_changes_no_row_is_known_to_do_nothing() {
+    fn only_a_factor_that_changes_no_row_is_without_effect() {
         let (a, b) = ([0.0, 1.0, 0.0, 1.0], [1.0, 1.0, 0.0, 0.0]);
         let moments = moments(&a, &b, &[&b, &a]);
         let layout = Layout::plain(2);

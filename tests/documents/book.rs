@@ -1,29 +1,29 @@
-//! What the README and the book show, runs: their commands, the files they name, the outputs they print.
+//! Runs what the README and the book show: their commands, the files that they name, the outputs that they print.
 //!
 //! A page is read for its fenced blocks, which are taken in order in one folder of the page's own, with the `studies` of
 //! the sources in it:
 //!
-//! | block | what becomes of it |
+//! | block | use |
 //! |---|---|
-//! | `sh` | runs with `sh -eu`, and must end well |
+//! | `sh` | runs with `sh -eu`, and must succeed |
 //! | `toml` | is a part of a study, whose keys must be known |
-//! | `rust` | must stand, line by line, in a program of `examples`, which the tests run |
+//! | `rust` | must be, line by line, in a program of `examples`, which the tests run |
 //! | `python` | runs in `python/tests/test_documentation.py`, where the Python package is |
-//! | `text`, `json`, `csv` | is left alone |
+//! | `text`, `json`, `csv` | is ignored |
 //!
-//! A comment in the line above a block says otherwise:
+//! A comment in the line above a block changes this:
 //!
-//! | comment | what it means |
+//! | comment | meaning |
 //! |---|---|
 //! | `<!-- file: NAME -->` | the block is the file NAME, for the blocks that follow |
 //! | `<!-- output -->` | the block before it printed this; a line `...` stands for any lines, `[..]` for anything in a line |
 //! | `<!-- exit: 2 -->` | the block ends with this exit code |
 //! | `<!-- not run: REASON -->` | the block is not for this machine |
-//! | `<!-- setup: COMMAND -->` | by itself: runs, and no reader sees it |
+//! | `<!-- setup: COMMAND -->` | without a block: runs, and is not shown |
 //!
-//! Code by indentation alone would pass unseen and is refused, but for the two commands of the README. `BOOK_PAGE=first`
-//! in the environment tries the pages with `first` in their names alone. Where the program says something else than it did,
-//! `BOOK=update` writes it into the pages, elisions kept, to be looked at.
+//! Indented code is refused, since it would not be checked; except for the two commands of the README. `BOOK_PAGE=first`
+//! in the environment tries only the pages with `first` in their names. Where the program prints something else than before,
+//! `BOOK=update` writes it into the pages, keeps elisions, and leaves the review to you.
 
 mod page;
 mod play;
@@ -57,7 +57,7 @@ fn read(path: &Path) -> Page {
 
 /// Every page is tried before the test fails, two at a time.
 #[test]
-fn what_the_pages_show_comes_out() {
+fn outputs_of_the_pages_are_reproduced() {
     let (waiting, faults) = (Mutex::new(pages()), Mutex::new(Vec::new()));
     let work = || {
         while let Some(path) = { waiting.lock().unwrap().pop() } {
@@ -73,7 +73,7 @@ fn what_the_pages_show_comes_out() {
     assert!(faults.is_empty(), "{}", faults.join("\n\n"));
 }
 
-/// A command in a sentence, or in a block that is not run here, names a command and options that there are.
+/// A command in a sentence, or in a block that is not run here, names an existing command and existing options.
 #[test]
 fn commands_in_sentences_are_there() {
     let mut known = words::Known::new();
@@ -81,14 +81,14 @@ fn commands_in_sentences_are_there() {
     assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
 
-/// The first look at the README: these lines are read by others.
+/// Other programs read these lines of the README.
 #[test]
-fn the_two_commands_stand_in_the_readme() {
+fn the_two_commands_are_in_the_readme() {
     let readme = include_str!("../../README.md");
     assert!(readme.contains("\n    cargo run --release -- reproduce\n    cargo test --release\n"));
 }
 
-/// What is cited is this version.
+/// The citation is of this version.
 #[test]
 fn the_citation_is_of_this_version() {
     let citation = include_str!("../../CITATION.cff");

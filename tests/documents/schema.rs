@@ -1,4 +1,4 @@
-//! The schemas accept what the program reads and writes, and refuse what it refuses.
+//! The schemas accept the files that the program reads and writes, and refuse those that it refuses.
 
 use std::path::PathBuf;
 
@@ -67,7 +67,7 @@ fn new_studies_of_all_models_fit_the_schema() {
     }
 }
 
-/// What the program refuses by its keys and names, the schema refuses too.
+/// The schema refuses the keys and names that the program refuses.
 #[test]
 fn wrong_keys_names_and_types_are_refused() {
     let validator = validator("study");

@@ -1,4 +1,4 @@
-//! How fast the errors fall: the promise of Sobol' points, in short (`benches/accuracy.rs` has it at length).
+//! The convergence rate of the errors with Sobol' points (`benches/accuracy.rs` measures it in detail).
 
 #[path = "../../benches/outputs/mod.rs"]
 mod outputs;
@@ -26,7 +26,7 @@ fn mean_squares(name: &str, sampler: Sampler, n: u64) -> [f64; 2] {
     squares
 }
 
-/// Slopes of the errors over log N, from 2^9 to 2^14 base points: with fewer, errors of higher order have not died out
+/// Slopes of the errors over log N, from 2^9 to 2^14 base points: with fewer, errors of higher order are not negligible
 /// (Ishigami's first-order indices from 2^7 to 2^12: -0.80 over the same seeds).
 fn slopes(name: &str, sampler: Sampler) -> [f64; 2] {
     let (coarse, fine) = (mean_squares(name, sampler, 1 << 9), mean_squares(name, sampler, 1 << 14));
@@ -35,13 +35,13 @@ fn slopes(name: &str, sampler: Sampler) -> [f64; 2] {
 
 #[test]
 fn errors_fall_as_the_points_promise() {
-    // Measured over 200 seeds: -0.92 or steeper. 64 seeds know each of the two errors to some 10 to 15 %, which is 0.04
+    // Measured over 200 seeds: -0.92 or steeper. 64 seeds determine each of the two errors to about 10 to 15 %, which is 0.04
     // to 0.06 of the slope.
     for name in ["linear", "product", "ishigami"] {
         let slopes = slopes(name, Sampler::Sobol);
         assert!(slopes.iter().all(|slope| *slope < -0.8), "{name}: {slopes:?}");
     }
-    // Independent points: -1/2 whatever the function, with the same uncertainty.
+    // Independent points: -1/2 for every function, with the same uncertainty.
     for name in ["product", "steps"] {
         let slopes = slopes(name, Sampler::Random);
         assert!(slopes.iter().all(|slope| (slope + 0.5).abs() < 0.15), "{name}: {slopes:?}");

@@ -20,12 +20,12 @@ struct Ramp {
     lateral_force: f64,
     #[serde(default)]
     normal_force: f64,
-    /// When the force is at 99.9 % of it.
+    /// The time at which the force is 99.9 % of it.
     #[serde(default)]
     critical_time: f64,
 }
 
-/// The tip that swings: the first time at which F_Y reaches F_Y*.
+/// A swinging tip: the first time at which F_Y reaches F_Y*.
 #[derive(Deserialize)]
 struct Swing {
     factors: [f64; 8],
@@ -67,8 +67,8 @@ fn off(found: f64, expected: f64) -> f64 {
     (found / expected - 1.0).abs()
 }
 
-/// Over box and corners, at the viscosity of the reference and at 0.3 N s/m, where the force goes on rising long after the
-/// bristles have given way: each rung within the error it states, the integrated ones within the tolerance, and the
+/// Over box and corners, at the viscosity of the reference and at 0.3 N s/m, where the force keeps rising long after the
+/// saturation of the bristles: each rung within the error that it states, the integrated ones within the tolerance, and the
 /// quasi-static one the cheaper of the two.
 #[test]
 fn every_rung_finds_the_largest_force_of_lugre_friction() {
@@ -103,7 +103,7 @@ fn every_rung_finds_the_largest_force_of_lugre_friction() {
                     assert!(tolerance < 1e-6 || critical.cost.evaluations <= 10, "{critical:?}");
                 }
                 if fidelity == Fidelity::Dynamic {
-                    // The swing, which it does not follow and states, is not in the oracle.
+                    // The oracle does not include the swing, which this rung does not follow but includes in its error.
                     assert!(error < tolerance.max(1e-7), "{tolerance:e} {error:e} {critical:?}");
                     assert!(tolerance < 1e-6 || critical.cost.evaluations < 8_000, "{critical:?}");
                 }
@@ -127,10 +127,10 @@ fn every_rung_finds_the_time_of_slip_on_bristles() {
             let options = Options { friction: FrictionLaw::LuGre, fidelity, accurate_time: true, ..Options::default() };
             let critical = critical_force(&scene, &options).unwrap();
             let error = off(critical.critical_time.unwrap(), ramp.critical_time);
-            // The oracle's peak is missed by OF_ORACLE, which the slow rise there makes more of in the time.
+            // The peak differs from the oracle by OF_ORACLE; since the force rises slowly there, the time differs by more.
             let allowed = critical.error_estimate + 100.0 * OF_ORACLE;
             assert!(error < allowed, "{fidelity:?} {error:e} {critical:?}\n{scene:?}");
-            // Where viscosity is large the last 0.1 % take so long that the twist goes on meanwhile.
+            // With large viscosity the last 0.1 % take so long that the twist increases meanwhile.
             let is_exact = fidelity == Fidelity::QuasiStatic && ramp.sigma2 < 0.1;
             assert!(!is_exact || error < 1e-6, "{error:e} {critical:?}\n{scene:?}");
             worst[number] = worst[number].max(error);

@@ -1,4 +1,4 @@
-//! Indices against exact answers. Seeds are fixed; the tolerances are those the project promises.
+//! Indices against exact answers. Seeds are fixed; the tolerances are those stated by the project.
 
 use apportion::model::KnownAnswer;
 use apportion::result::StudyResult;
@@ -18,7 +18,7 @@ fn relative_variance_of_power(a: f64, b: f64, k: i32) -> f64 {
 }
 
 /// Exact first-order and total indices of F_cr = c E w t^3 L^-2 over the papers' box, in the order of the general
-/// study; the factors that do not act have 0.
+/// study; the factors without effect have 0.
 fn product_form() -> (Vec<f64>, Vec<f64>) {
     let v = [
         relative_variance_of_power(200.0, 700.0, -2),
@@ -139,7 +139,7 @@ fn ishigami_and_sobol_g_are_within_1e_3_and_3e_3() {
 
 #[test]
 fn every_sampler_finds_the_same_indices() {
-    // Random points err like N^-1/2: with 2^16 base samples some 5e-3 here, five of which are allowed.
+    // The error of random points is of order N^-1/2: about 5e-3 for 2^16 base samples; five of these are allowed.
     let exact = exact("ishigami");
     for sampler in ["random", "latin-hypercube"] {
         let result = analysed("ishigami", &[&format!("design.sampler={sampler}")]);
@@ -166,7 +166,7 @@ fn the_critical_time_at_velocity_zero_is_null_with_a_counted_reason() {
 
 #[test]
 fn height_and_velocity_do_not_act_on_the_closed_form() {
-    // H never enters the critical force, V only through LuGre: exact zeros, far inside the promised 1e-12.
+    // H never enters the critical force, V only through LuGre: exact zeros, far within the stated 1e-12.
     for friction in ["coulomb", "hk", "lugre"] {
         let result = analysed("coulomb-general", &[&format!("afm.friction={friction}"), "design.base_samples=1024"]);
         let inert: &[&str] = if friction == "lugre" { &["height"] } else { &["height", "velocity"] };

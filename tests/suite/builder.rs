@@ -36,7 +36,7 @@ fn a_built_study_gives_the_bits_of_the_file() {
     let typed = typed.runner().threads(1).run().unwrap();
     assert_eq!(built.outputs[0].indices, typed.outputs[0].indices);
     assert_eq!((built.study.model.as_str(), built.provenance.study_sha256.len()), ("custom", 64));
-    // What is written of it is read back like any result.
+    // Its files can be read like any result.
     let json = built.json();
     assert_eq!(parse_result(json.as_bytes()).unwrap(), built);
 }
@@ -58,13 +58,13 @@ fn factors_reach_the_function_in_si_and_in_order() {
     let study = study.with_factor(share).base_samples(256).build().unwrap();
     let result = study.runner().threads(1).run().unwrap();
     let output = &result.outputs[0];
-    // Evenly spread points: the mean of 256 is known to 1e-3 of the range.
+    // Evenly spread points: the mean of 256 has an error of 1e-3 of the range.
     assert!((output.mean.unwrap() - 3.0).abs() < 2e-3 && output.unit == "um");
     assert_eq!(output.groups.as_ref().unwrap()[0].factors, ["share"]);
 }
 
 #[test]
-fn what_the_function_leaves_out_is_a_failed_run() {
+fn rows_that_the_function_leaves_out_fail() {
     let outputs = || ["set", "unset"].map(|name| Output::new(name, Unit::dimensionless(), "")).to_vec();
     let model = FunctionModel::new(outputs(), |x: &[f64], y: &mut [f64]| {
         y[0] = x[0];
@@ -103,11 +103,11 @@ fn a_number_of_runs_makes_the_design_of_the_file() {
 }
 
 #[test]
-fn what_cannot_be_built_says_why() {
+fn errors_of_the_builder_state_the_reason() {
     let two = || sum().factor("a", unit()).factor("b", unit());
     let reason = |builder: StudyBuilder| builder.build().unwrap_err().to_string();
     assert_eq!(reason(sum()), "a design needs at least one factor");
-    assert_eq!(reason(two().factor("a", unit())), "factor or output `a` is there twice");
+    assert_eq!(reason(two().factor("a", unit())), "factor or output `a` is listed twice");
     assert!(reason(two().base_samples(2)).contains("base_samples = 2 is too few for 4 replicates"));
     assert!(reason(two().replicates(0)).contains("replicates = 0"));
     let key = |builder: StudyBuilder| match builder.build() {
@@ -144,7 +144,7 @@ fn what_cannot_be_built_says_why() {
 }
 
 #[test]
-fn what_needs_a_journal_or_a_size_is_refused_without_one() {
+fn options_that_need_a_journal_or_a_size_are_refused_without_one() {
     let study = sum().factor("a", unit()).factor("b", unit()).base_samples(64).build().unwrap();
     let shard = || "1/2".parse::<Shard>().unwrap();
     let none = |error: RunError| matches!(error, RunError::NoJournal { .. });
@@ -160,7 +160,7 @@ fn what_needs_a_journal_or_a_size_is_refused_without_one() {
 }
 
 #[test]
-fn a_version_tells_functions_apart_in_a_journal() {
+fn a_journal_distinguishes_functions_by_version() {
     let folder = tempfile::tempdir().unwrap();
     let journal = folder.path().join("j");
     let mean = |slope: f64, version: &str| {
@@ -173,7 +173,7 @@ fn a_version_tells_functions_apart_in_a_journal() {
     assert!((mean(2.0, "2") - 1.0).abs() < 1e-9);
 }
 
-/// Runs on the threads of somebody's pool do not run inside each other, which would use up the stack.
+/// Runs on the threads of a caller's pool are not nested, which would exhaust the stack.
 #[test]
 fn many_runs_go_side_by_side_on_the_threads_of_another_pool() {
     use rayon::prelude::*;

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use crate::common::{all_files, apportion, stderr, study_path, succeed, text};
 
-/// What it says on standard error when the input is wrong.
+/// The standard error for wrong input.
 #[track_caller]
 fn refused(arguments: &[&str]) -> String {
     let output = apportion(arguments);
@@ -59,7 +59,7 @@ fn report_overwrites_no_other_result_and_keeps_unknown_keys() {
     let message = refused(&["report", text(&json), "--out", text(&b)]);
     assert!(message.contains("is another result") && message.contains("--out"), "{message}");
     assert_eq!(contents(&b), before);
-    // A key of a later version comes along, since the result is copied word for word.
+    // A key of a later version is kept, since the result is copied unchanged.
     let later = std::fs::read_to_string(&json).unwrap().replacen('{', "{\n  \"later\": 1,", 1);
     std::fs::write(&json, &later).unwrap();
     let c = folder.path().join("c");
@@ -68,7 +68,7 @@ fn report_overwrites_no_other_result_and_keeps_unknown_keys() {
 }
 
 #[test]
-fn what_is_no_result_is_refused_with_file_and_place() {
+fn invalid_result_files_are_refused_with_file_and_place() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("x.json");
     let missing = refused(&["report", text(&path)]);
@@ -80,7 +80,7 @@ fn what_is_no_result_is_refused_with_file_and_place() {
             "{\"format\": \"apportion-screening\", \"version\": 1}",
             "\"apportion-screening\", expected \"apportion-result\"",
         ),
-        ("{\"format\": \"apportion-result\", \"version\": 9}", "version 9 of the format is not known"),
+        ("{\"format\": \"apportion-result\", \"version\": 9}", "format version 9 is unknown"),
     ] {
         std::fs::write(&path, content).unwrap();
         for command in [vec!["report", text(&path)], vec!["compare", text(&path), text(&path)]] {
@@ -92,7 +92,7 @@ fn what_is_no_result_is_refused_with_file_and_place() {
     let json = std::fs::read_to_string(folder.path().join("ishigami.json")).unwrap();
     std::fs::write(&path, json.replacen("\"name\": \"ishigami\"", "\"name\": \"../escaped\"", 1)).unwrap();
     assert!(refused(&["report", text(&path)]).contains("`study.name`: files are named after it"));
-    // At the end of a line: half of a number, or of a letter, is told in other words.
+    // At the end of a line: half of a number or of a letter has another message.
     let half = json[..json.floor_char_boundary(json.len() / 2)].rfind('\n').unwrap();
     std::fs::write(&path, &json.as_bytes()[..half]).unwrap();
     let cut = refused(&["report", text(&path)]);
@@ -102,7 +102,7 @@ fn what_is_no_result_is_refused_with_file_and_place() {
 }
 
 #[test]
-fn compare_tells_what_differs_and_by_how_much() {
+fn compare_shows_differences_and_their_sizes() {
     let folder = tempfile::tempdir().unwrap();
     let (a, b, out) = (folder.path().join("a"), folder.path().join("b"), folder.path().join("out"));
     run("soft-cantilever", &a, &[]);
@@ -110,11 +110,11 @@ fn compare_tells_what_differs_and_by_how_much() {
     let (a, b) = (a.join("soft-cantilever.json"), b.join("soft-cantilever.json"));
     let said = succeed(&["compare", text(&a), text(&b), "--out", text(&out)]);
     for expected in
-        ["friction", "coulomb", "hk", "factor thickness", "max 2.8", "seed", "leaves out 0", "critical time (s)"]
+        ["friction", "coulomb", "hk", "factor thickness", "max 2.8", "seed", "excludes 0", "critical time (s)"]
     {
         assert!(said.contains(expected), "{expected}: {said}");
     }
-    // The studies have one name and the files too: their folders tell them apart.
+    // The studies have one name and the files too: their folders distinguish them.
     let written = contents(&out);
     let charts = ["critical_force", "critical_force-differences", "critical_time", "critical_time-differences"];
     for chart in
@@ -134,7 +134,7 @@ fn compare_tells_what_differs_and_by_how_much() {
     let line = csv.lines().find(|line| line.starts_with("critical_force,factor,thickness,total,")).unwrap();
     let cells: Vec<f64> = line.split(',').skip(4).take(9).map(|cell| cell.parse().unwrap()).collect();
     assert_eq!((cells[0], cells[3], cells[6]), (index(&a), index(&b), index(&b) - index(&a)));
-    // Labels of the user's own.
+    // Labels of the user.
     let said = succeed(&["compare", text(&a), text(&b), "--out", text(&out), "--label-a", "dry", "--label-b", "humid"]);
     assert!(said.contains("A: dry") && said.contains("B: humid"), "{said}");
 }
@@ -147,7 +147,7 @@ fn compare_refuses_other_outputs_and_writes_nothing() {
     let (a, b) = (folder.path().join("ishigami.json"), folder.path().join("coulomb-dimensional.json"));
     let out = folder.path().join("out");
     let message = refused(&["compare", text(&a), text(&b), "--out", text(&out)]);
-    assert!(message.contains("no output in common: A has y, B has critical_force"), "{message}");
+    assert!(message.contains("no output in common; A has y, B has critical_force"), "{message}");
     assert!(message.contains("ishigami.json") && !out.exists());
 }
 
@@ -161,7 +161,7 @@ fn commands() -> Vec<String> {
 }
 
 #[test]
-fn completions_know_every_command() {
+fn completions_contain_every_command() {
     let commands = commands();
     assert!(commands.len() > 10, "{commands:?}");
     for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
@@ -173,7 +173,7 @@ fn completions_know_every_command() {
     assert!(refused(&["completions", "tcsh"]).contains("possible values: bash"));
 }
 
-/// The script is one that bash takes, and it completes.
+/// bash accepts the script, and it completes.
 #[test]
 #[cfg(unix)]
 fn bash_completes_with_the_script() {
@@ -210,7 +210,7 @@ fn a_new_study_runs_as_it_is() {
 }
 
 #[test]
-fn new_overwrites_nothing_and_names_what_it_does_not_know() {
+fn new_overwrites_no_file_and_names_unknown_inputs() {
     let folder = tempfile::tempdir().unwrap();
     let study = folder.path().join("study.toml");
     std::fs::write(&study, "mine").unwrap();
@@ -224,10 +224,8 @@ fn new_overwrites_nothing_and_names_what_it_does_not_know() {
     let message = refused(&["new", text(&other), "--factors", "thicknes"]);
     assert!(message.contains("--factors: unknown factor `thicknes`: did you mean `thickness`?"), "{message}");
     let message = refused(&["new", text(&other), "--outputs", "critical_force,critical_force"]);
-    assert!(message.contains("--outputs: output `critical_force` stands here twice"), "{message}");
-    assert!(
-        refused(&["new", text(&other), "--factors", "length,length"]).contains("factor `length` stands here twice")
-    );
+    assert!(message.contains("--outputs: output `critical_force` is listed twice"), "{message}");
+    assert!(refused(&["new", text(&other), "--factors", "length,length"]).contains("factor `length` is listed twice"));
     assert!(refused(&["new", text(&other), "--outputs", "force"]).contains("--outputs: unknown output `force`"));
     assert!(refused(&["new", text(&other), "--model", "ishigam"]).contains("did you mean `ishigami`?"));
     let message = refused(&["new", text(&other), "--model", "command", "--factors", "a,"]);
@@ -237,7 +235,7 @@ fn new_overwrites_nothing_and_names_what_it_does_not_know() {
     assert_eq!(nowhere.status.code(), Some(2));
     let message = stderr(&nowhere);
     assert!(message.contains("cannot write") && message.ends_with("none does not exist\n"), "{message}");
-    // What is said to be typed next can be typed.
+    // The suggested next commands work.
     let spaced = folder.path().join("my own.toml");
     let said = stderr(&apportion(&["new", text(&spaced), "--model", "expression"]));
     assert!(said.contains("apportion run '") && said.contains("/my own.toml'`"), "{said}");

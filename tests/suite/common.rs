@@ -14,7 +14,7 @@ pub const HOLES: &str = "model = \"expression\"\n\
     outputs.y = \"sin(x1) + 7*sin(x2)^2 + 0.1*x3^4*sin(x1) + 0*sqrt(3 - abs(x3))\"\n[factors]\n\
     x1 = { min = -3.14159, max = 3.14159 }\nx2 = { min = -3.14159, max = 3.14159 }\nx3 = { min = -3.14159, max = 3.14159 }\n";
 
-/// A study with a factor of every family that people asked for, among them truncated ones; its model is their sum.
+/// A study with a factor of every requested family, some of them truncated; its model is their sum.
 pub const FAMILIES: &str = r#"model = "expression"
 [outputs]
 y = "g + e + p + t + l + a + h + q + n"
@@ -59,7 +59,7 @@ sd = 1
 truncate = [-inf, 0]
 "#;
 
-/// A folder of its own for a test, with files in it.
+/// A separate folder for a test, with files in it.
 pub struct Folder(tempfile::TempDir);
 
 impl Folder {
@@ -81,12 +81,12 @@ impl Folder {
     }
 }
 
-/// Runs the program and returns what it printed and how it ended.
+/// Runs the program and returns its output and exit status.
 pub fn apportion(arguments: &[&str]) -> Output {
     assert_cmd::Command::cargo_bin("apportion").unwrap().args(arguments).output().unwrap()
 }
 
-/// Where programs are looked for: as ever, but the interpreter itself before a script that stands for it, such as pyenv's, which
+/// The search path of programs: the usual one, but the interpreter before a script that wraps it, such as pyenv's, which
 /// takes five times as long to start it, some hundred times a test.
 pub fn search_path() -> &'static OsStr {
     static PATH: LazyLock<OsString> = LazyLock::new(|| {
@@ -118,7 +118,7 @@ pub fn text(path: &Path) -> &str {
     path.to_str().unwrap()
 }
 
-/// What a run of the program printed that ends well.
+/// The standard output of a successful run of the program.
 #[track_caller]
 pub fn succeed(arguments: &[&str]) -> String {
     let output = apportion(arguments);
@@ -191,7 +191,7 @@ pub fn gap(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
 }
 
-/// What is known of every factor of an output.
+/// The indices of every factor of an output.
 pub fn effects(output: &OutputResult) -> Vec<EffectEstimates> {
     output.indices.iter().flatten().map(|index| index.effect).collect()
 }

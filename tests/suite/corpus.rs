@@ -7,7 +7,7 @@ use crate::fuzz::{Dictionary, Random, TARGETS, Target, mutated, mutated_bytes, t
 /// Texts made at random from every one of the corpus, unless the environment has another number in `CORPUS_CHANGES`.
 const CHANGES: u64 = 40;
 
-/// The longest that a text may take: a fuzzer counts it as one that hangs far earlier, but machines are busy.
+/// Time limit of a text: a fuzzer reports a hang far earlier, but machines may be busy.
 const LONGEST: Duration = Duration::from_secs(60);
 
 /// The files of a target's corpus, by name; none in the published crate, which has no corpus.
@@ -38,7 +38,7 @@ fn all_of(name: &str) {
     let files = corpus(target);
     let asked = std::env::var("CORPUS_CHANGES").ok().map(|text| text.parse().expect("CORPUS_CHANGES: a whole number"));
     let changes = asked.unwrap_or(CHANGES);
-    // Another number of changes also makes others.
+    // Another number of changes also gives other changes.
     let mut random = Random(changes);
     for (file, bytes) in &files {
         run(target, file, bytes);
@@ -54,7 +54,7 @@ fn all_of(name: &str) {
             run(target, &format!("{file}, changed for the {}. time", number + 1), text.as_bytes());
         }
     }
-    // From nothing, by the words of the language alone.
+    // From an empty text, with the words of the language only.
     let mut text = String::new();
     for number in 0..50 * changes {
         text = if text.len() < 200 { mutated(&text, &dictionary, &mut random) } else { String::new() };

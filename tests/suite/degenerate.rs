@@ -1,4 +1,4 @@
-//! Studies at the edge of what can be studied: each has an answer or a reason, and none a number that only looks like one.
+//! Degenerate studies: each has a result or a reason, and none has a meaningless number.
 
 use std::path::Path;
 
@@ -27,14 +27,14 @@ fn a_constant_output_has_a_reason_and_no_indices() {
 }
 
 #[test]
-fn failures_by_several_factors_are_told_from_those_by_one() {
+fn failures_by_several_factors_are_distinguished_from_those_by_one() {
     let codes = |formula: &str| -> Vec<String> {
         let factors = "[factors]\nx = { min = 0, max = 1 }\ny = { min = 0, max = 1 }\n";
         let output =
             format!("model = \"expression\"\noutputs.z.formula = \"{formula}\"\n[design]\nbase_samples = 16384\n");
         analysed(&format!("{output}{factors}")).outputs[0].warnings.iter().map(|w| w.code().to_owned()).collect()
     };
-    // The samples are many: the advice to take more would be wrong.
+    // There are many samples: advice to use more would be wrong.
     assert_eq!(codes("if(x/y > 10, sqrt(-1), x + y)"), ["runs-failed", "joint-failures"]);
     assert_eq!(codes("if((x > 0.5) + (y > 0.9) > 1, sqrt(-1), x*y)"), ["runs-failed", "joint-failures"]);
     // Where runs succeed the factors are independent, of smaller ranges.

@@ -158,7 +158,7 @@ fn linear_outputs_of_correlated_normal_factors_have_closed_forms() {
 /// Of a product of correlated factors nothing is linear; the Shapley effects by Owen and Prieur (2017), section 5, are the same for
 /// both by symmetry.
 #[test]
-fn what_is_symmetric_stays_so() {
+fn symmetric_models_have_symmetric_indices() {
     let pair = |r: f64| {
         let study = Study::builder("product", function_model("y", |x: &[f64]| x[0] * x[1]))
             .factor("a", Distribution::normal(0.0, 1.0).unwrap())
@@ -180,7 +180,7 @@ fn what_is_symmetric_stays_so() {
     }
 }
 
-/// Where correlations are 0 all is as without them; a factor that is tied to none keeps its indices apart from the others.
+/// With correlations of 0 everything is as without them; an uncorrelated factor keeps its indices.
 #[test]
 fn independent_factors_are_a_special_case() {
     let ishigami = |x: &[f64]| x[0].sin() + 7.0 * x[1].sin().powi(2) + 0.1 * x[2].powi(4) * x[0].sin();
@@ -206,7 +206,7 @@ fn independent_factors_are_a_special_case() {
     let pairs = effects(plain.output("y").unwrap());
     let zero = effects(zero.output("y").unwrap());
     for (plain, zero) in pairs.iter().zip(&zero) {
-        // Their intervals differ by the indices that are there beside.
+        // Their intervals depend on the other indices in the result.
         let estimates = |effect: &EffectEstimates| [effect.first_order.estimate, effect.total.estimate];
         assert_eq!(estimates(plain), estimates(zero));
         let dependent = zero.dependent.unwrap();
@@ -266,7 +266,7 @@ fn ishigami_with_correlated_factors_has_the_indices_of_quadrature() {
     assert_eq!(tied.total, tied.dependent.unwrap().full_total);
 }
 
-/// 95 % intervals hold the truth in 92 to 98 % of the seeds: `cargo test --release -- --ignored intervals_of_dependent` prints the
+/// 95 % intervals contain the exact value in 92 to 98 % of the seeds: `cargo test --release -- --ignored intervals_of_dependent` prints the
 /// table; few seeds here.
 #[test]
 fn intervals_of_dependent_factors_hold_the_truth() {

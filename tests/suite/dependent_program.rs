@@ -1,9 +1,9 @@
-//! Factors that depend on each other, through the program: what it tells of them, and what it refuses.
+//! Factors that depend on each other, through the program: what it prints and what it refuses.
 
 use crate::common::{Folder, apportion, stderr, study_path, succeed, text};
 
 #[test]
-fn the_program_tells_of_dependent_factors() {
+fn the_program_describes_dependent_factors() {
     let folder = Folder::new();
     let study = study_path("portfolio");
     let out = folder.path("out");
@@ -27,7 +27,7 @@ fn the_program_tells_of_dependent_factors() {
 }
 
 #[test]
-fn what_dependent_factors_do_not_have_is_refused_with_what_they_do() {
+fn options_for_independent_factors_are_refused_with_alternatives() {
     let study = text(&study_path("portfolio")).to_owned();
     let refused = |arguments: &[&str], expected: &str| {
         let output = apportion(arguments);
@@ -83,7 +83,7 @@ fn joint_measurements_and_matrices_state_the_same() {
 
 /// Groups, subsets, a dummy factor and all outputs together have no Shapley effects, and their lines are as long as the others.
 #[test]
-fn whatever_else_is_asked_of_dependent_factors_has_its_lines() {
+fn other_requests_for_dependent_factors_have_their_lines() {
     let folder = Folder::new();
     let factor = |name: &str, group: &str| format!("[[factor]]\nname = \"{name}\"\nmin = 0\nmax = 1\n{group}\n");
     let factors = [factor("a", "group = \"g\""), factor("b", "group = \"g\""), factor("c", "")].concat();
@@ -103,7 +103,7 @@ fn whatever_else_is_asked_of_dependent_factors_has_its_lines() {
         for kind in [",factor,", ",group,", ",subset,", ",dummy,", ",aggregate,"] {
             assert!(lines.contains(kind), "{kind}: {lines}");
         }
-        // From the result alone, the same page.
+        // The same page from the result only.
         let again = folder.path(&format!("again-{shapley}"));
         succeed(&["report", text(&out.join("study.json")), "--out", text(&again)]);
         let page = |of: &std::path::Path| std::fs::read_to_string(of.join("study.html")).unwrap();

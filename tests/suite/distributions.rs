@@ -1,4 +1,4 @@
-//! Quantile functions against frozen references, distribution functions written down independently, symmetries and
+//! Quantile functions against frozen references, independent distribution functions, symmetries and
 //! numerical integration. `tests/oracle/distributions.py` made the references.
 
 use apportion::space::distribution::{Distribution, DistributionError, LARGEST_U, SMALLEST_U};
@@ -27,7 +27,7 @@ fn from_json(case: &Value) -> Distribution {
         "gamma" => Distribution::gamma(p("shape"), p("scale"), p("location")),
         "exponential" => Distribution::exponential(p("scale"), p("location")),
         "poisson" => Distribution::poisson(p("mean")),
-        // Of 1 degree of freedom there is no variance before it is truncated.
+        // With 1 degree of freedom there is no variance without truncation.
         "student-t" if p("df") == 1.0 => return truncated_cauchy(case),
         "student-t" => Distribution::student_t(p("df"), p("location"), p("scale")),
         "logistic" => Distribution::logistic(p("location"), p("scale")),
@@ -51,7 +51,7 @@ fn from_json(case: &Value) -> Distribution {
     }
 }
 
-/// Families without a variance of their own are truncated in study files alone.
+/// Families without a variance are truncated only in study files.
 fn by_study(keys: &str) -> Distribution {
     let text = format!("model = 'expression'\n[outputs]\ny = 'x'\n[factors.x]\n{keys}");
     let study = apportion_files::parse_study(&text, std::path::Path::new("s.toml"), &[]);
@@ -84,7 +84,7 @@ fn quantiles_and_moments_are_those_of_scipy_and_mpmath() {
         for (u, expected) in numbers(&case["u"]).into_iter().zip(numbers(&case["quantile"])) {
             let value = distribution.quantile(u);
             // A few ulp; far out in the tail of a beta of tiny shape a few hundred, and near 0 those of the sd and of the mean,
-            // from which it is counted.
+            // from which it is measured.
             let from_mean = 5e-16 * case["mean"].as_f64().expect("a number").abs();
             let tolerance = 2e-13 * expected.abs() + 2e-15 * expected_sd + from_mean;
             assert!((value - expected).abs() <= tolerance, "{distribution:?} at {u:e}: {value:e}, not {expected:e}");
@@ -100,7 +100,7 @@ fn quantiles_and_moments_are_those_of_scipy_and_mpmath() {
     }
 }
 
-/// Whoever adds a family owes it a reference: all that study files may name have one.
+/// Every family of study files has a reference.
 #[test]
 fn every_family_has_its_reference() {
     let schema: Value = serde_json::from_str(&crate::common::succeed(&["schema", "study"])).expect("json");
@@ -110,12 +110,12 @@ fn every_family_has_its_reference() {
     let [families, kinds] = [include_str!("../oracle/distributions.json"), include_str!("../oracle/factor_kinds.json")];
     for name in names {
         let case = format!("{{\"distribution\": \"{name}\", \"parameters\"");
-        // The seeds of a stochastic model are no numbers that could be compared.
+        // The seeds of a stochastic model cannot be compared.
         assert!(name == "seed" || families.contains(&case) || kinds.contains(&case), "{name}");
     }
 }
 
-/// P(X <= x) and P(X > x), each written down so that it keeps its digits where it is small.
+/// P(X <= x) and P(X > x), each in a form that keeps its digits where it is small.
 type Tails = fn(f64) -> (f64, f64);
 
 fn normal_tails(z: f64) -> (f64, f64) {
@@ -152,7 +152,7 @@ fn distribution_function_of_quantile_is_the_probability() {
         (Distribution::gamma(3.0, 2.0, 0.0), |x| {
             let z = x / 2.0;
             let above = (-z).exp() * (1.0 + z + 0.5 * z * z);
-            // The series of what the difference loses.
+            // The series of the difference, without cancellation.
             let term = |n: i32| (0..n).fold((-z).exp(), |term, k| term * z / f64::from(k + 1));
             (if z < 2.0 { (3..60).map(term).sum() } else { 1.0 - above }, above)
         }),
@@ -179,7 +179,7 @@ fn distribution_function_of_quantile_is_the_probability() {
     for (distribution, tails) in cases {
         let distribution = made(distribution);
         for &u in &u {
-            // The true quantile lies within a few ulp of the value, as the distribution function tells (itself good to
+            // The true quantile lies within a few ulp of the value, according to the distribution function (accurate to
             // 1e-12 by beta_reg): both tails are looked at, each keeps the digits of its own side.
             let value = distribution.quantile(u);
             let slack = 4.0 * f64::EPSILON * (value.abs() + 0.1 * distribution.sd());
@@ -337,7 +337,7 @@ fn any_distribution() -> impl Strategy<Value = Distribution> {
     )
 }
 
-/// The whole range of `u`, its ends above all.
+/// The whole range of `u`, in particular its ends.
 fn any_u() -> impl Strategy<Value = f64> {
     prop_oneof![
         4 => SMALLEST_U..=LARGEST_U,

@@ -7,7 +7,7 @@ use crate::common::{Folder, apportion, stderr, text};
 
 const STUDY: &str = "model = \"ishigami\"\n[design]\nbase_samples = 64\n";
 
-/// Ends with exit code 2, and says that the file has no end.
+/// Fails with exit code 2, with the message that the file has no end.
 #[track_caller]
 fn is_refused(arguments: &[&str], expected: &str) {
     let output = apportion(arguments);
@@ -19,7 +19,7 @@ fn is_refused(arguments: &[&str], expected: &str) {
 #[cfg(target_os = "linux")]
 #[test]
 fn files_without_an_end_are_refused() {
-    const NO_END: &str = "it is no regular file and has more than 256 MiB, or no end";
+    const NO_END: &str = "it is not a regular file and exceeds 256 MiB or has no end";
     let folder = Folder::new();
     let study = folder.with("study.toml", STUDY);
     is_refused(&["check", "/dev/zero"], &format!("/dev/zero: cannot read the study file: {NO_END}"));
@@ -49,7 +49,11 @@ fn a_journal_without_an_end_is_refused() {
     std::os::unix::fs::symlink("/dev/zero", out.join("study.journal")).unwrap();
     let output = apportion(&["run", text(&study), "--out", text(&out), "--resume"]);
     assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
-    assert!(stderr(&output).contains("but a pipe, a device or a folder is there"), "{}", stderr(&output));
+    assert!(
+        stderr(&output).contains("a pipe, a device or a folder has the name of the journal"),
+        "{}",
+        stderr(&output)
+    );
 }
 
 #[cfg(unix)]

@@ -1,4 +1,4 @@
-//! The examples run, and what they assert holds.
+//! The examples run, and their assertions hold.
 
 #[path = "../../examples/function_model.rs"]
 mod function_model;
@@ -17,7 +17,7 @@ mod units_and_failures;
 
 #[test]
 fn examples_run() {
-    // Users start them in the folder of the sources; no other test looks where it stands.
+    // Users start them in the folder of the sources; no other test depends on the working directory.
     std::env::set_current_dir(crate::common::root()).unwrap();
     function_model::main().unwrap();
     pendulum::main().unwrap();
@@ -26,7 +26,7 @@ fn examples_run() {
 }
 
 #[test]
-fn an_interrupted_run_goes_on() {
+fn an_interrupted_run_is_resumed() {
     interrupted::main().unwrap();
 }
 

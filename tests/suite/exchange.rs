@@ -1,4 +1,4 @@
-//! The three steps joined by files, through the program: `sample`, a model outside, `analyze`.
+//! The three steps joined by files, through the program: `sample`, an external model, `analyze`.
 
 use std::path::{Path, PathBuf};
 
@@ -56,7 +56,7 @@ impl Sampled {
     }
 }
 
-/// A model outside of two factors: 2 base points in each of 4 replicates, 4 rows each.
+/// An external model of two factors: 2 base points in each of 4 replicates, 4 rows each.
 const OUTSIDE: &str = r#"
     model = "external"
     outputs.force = "nN"
@@ -120,7 +120,7 @@ fn three_steps_give_the_bits_of_one_run_in_every_format() {
         let (design, outputs) = (at(&format!("d.{ending}")), at(&format!("outputs.{ending}")));
         succeed(&["sample", text(&study), "--base-samples", "512", "-o", text(&design)]);
         assert_eq!(columns(&design), points, "{format:?}");
-        // Outputs alone, then the design with the outputs in it.
+        // Only outputs, then the design with the outputs in it.
         write_columns(&outputs, &["y"], &y);
         let out = at("analyzed");
         succeed(&["analyze", text(&outputs), "--design", text(&design), "--out", text(&out)]);
@@ -141,7 +141,7 @@ fn a_model_outside_is_sampled_and_analyzed_but_not_run() {
     assert!(stderr(&output).contains("the points in the file are those of the design"), "{}", stderr(&output));
     let result = sampled.result("s");
     assert_eq!(result.outputs[0].name, "force");
-    // The same model inside.
+    // The same model, run by the program.
     let formula = "outputs.force = { formula = \"1e-9*(1e6*a + 2*b + probe)\", unit = \"nN\" }";
     let inside = OUTSIDE.replace("outputs.force = \"nN\"", formula).replace("external", "expression");
     std::fs::write(sampled.path("inside.toml"), inside).unwrap();
@@ -154,9 +154,9 @@ fn a_model_outside_is_sampled_and_analyzed_but_not_run() {
         let points: &[&str] = if command == "evaluate" { &["points.csv", "-o", "y.csv"] } else { &[] };
         let output = apportion(&[&[command, &study], points].concat());
         assert_eq!(output.status.code(), Some(2));
-        assert!(stderr(&output).contains("its model runs outside of this program"), "{}", stderr(&output));
+        assert!(stderr(&output).contains("its model runs outside this program"), "{}", stderr(&output));
     }
-    assert!(succeed(&["check", &sampled.name("s.toml")]).contains("model runs, outside of this program"));
+    assert!(succeed(&["check", &sampled.name("s.toml")]).contains("model runs, outside this program"));
 }
 
 #[test]
@@ -172,8 +172,8 @@ fn names_and_units_of_outputs_can_be_chosen() {
         sampled.result("s").outputs.iter().map(|o| (o.name.clone(), o.unit.clone())).collect();
     assert_eq!(found, [("energy".to_owned(), "nJ".to_owned()), ("force".to_owned(), "nN".to_owned())]);
     sampled.refused("data.csv", &["--outputs", "energi"], "no column is called `energi`: did you mean `energy`?");
-    sampled.refused("data.csv", &["--outputs", "a"], "`a` is asked for as an output, but is a factor");
-    sampled.refused("data.csv", &["--units", "energy=nJ"], "a unit is given for `energy`, which is no output");
+    sampled.refused("data.csv", &["--outputs", "a"], "`a` is a factor, not an output");
+    sampled.refused("data.csv", &["--units", "energy=nJ"], "a unit is given for `energy`, which is not an output");
 }
 
 #[test]
@@ -190,8 +190,8 @@ fn a_file_that_does_not_belong_to_the_design_is_refused_with_the_reason() {
         lines
     };
     let rest = |row: usize| good[row].split_once(',').unwrap().1.to_owned();
-    refused(&changed(5, &format!("2.0,{}", rest(5))), "row 5, column `a`: 2 stands where the design has");
-    refused(&changed(5, &format!(",{}", rest(5))), "row 5, column `a`: nothing stands where the design has");
+    refused(&changed(5, &format!("2.0,{}", rest(5))), "row 5, column `a`: found 2, but the design has");
+    refused(&changed(5, &format!(",{}", rest(5))), "row 5, column `a`: found nothing, but the design has");
     let other = if good[7].contains("nitride") {
         good[7].replace("\"nitride, doped\"", "silicon")
     } else {
@@ -208,12 +208,12 @@ fn a_file_that_does_not_belong_to_the_design_is_refused_with_the_reason() {
     let mut missing = good.clone();
     missing.remove(5);
     refused(&missing, "row 5, column `a`: ");
-    refused(&good[..good.len() - 2], "the file has 318 rows, and the design 320");
+    refused(&good[..good.len() - 2], "the file has 318 rows, but the design has 320");
     let mut repeated = good.clone();
     repeated.insert(9, good[4].clone());
     refused(&repeated, "rows are missing, repeated or in another order");
     let more = [&good[..], &[good[1].clone(), good[2].clone()]].concat();
-    refused(&more, "the file has 322 rows, and the design 320");
+    refused(&more, "the file has 322 rows, but the design has 320");
     refused(
         &good.iter().map(|line| line.rsplit_once(',').unwrap().0.to_owned()).collect::<Vec<_>>(),
         "no column is called `force`",
@@ -256,10 +256,10 @@ fn a_manifest_that_does_not_fit_is_refused() {
         std::fs::write(sampled.path("data.csv.manifest.json"), text).unwrap();
         sampled.refused("data.csv", &[], expected);
     };
-    refused(&manifest.replace("max = 3,", "max = 4,"), "the study in the manifest has been changed");
+    refused(&manifest.replace("max = 3,", "max = 4,"), "the study in the manifest was changed");
     refused(&manifest.replace("\"seed\": 3", "\"seed\": 4"), "the design of the manifest is not that of its study");
     refused(&manifest.replace("apportion-design", "else"), "its format is \"else\"");
-    refused(&manifest.replace("\"version\": 1", "\"version\": 2"), "version 2 of the manifest's format is not known");
+    refused(&manifest.replace("\"version\": 1", "\"version\": 2"), "format version 2 of the manifest is unknown");
     refused("{", "not a manifest of a design");
     let digest = manifest.rsplit_once("\"sha256\": \"").unwrap().1[..8].to_owned();
     refused(&manifest.replace(&digest, "00000000"), "the points of this manifest are not those that version");
@@ -288,10 +288,10 @@ fn a_file_without_a_header_is_found_out() {
     let numbers: Vec<String> = sampled.lines("data.csv")[1..].iter().map(|line| line.replace(' ', "")).collect();
     let forces: Vec<String> = numbers.iter().map(|line| line.rsplit_once(',').unwrap().1.to_owned()).collect();
     sampled.write("data.csv", &forces);
-    sampled.refused("data.csv", &[], "line 1 holds numbers");
+    sampled.refused("data.csv", &[], "line 1 has numbers");
     assert_eq!(sampled.analyze("data.csv", &["--no-header"]).status.code(), Some(0));
     sampled.write("y.csv", &forces[..48]);
-    sampled.refused("y.csv", &["--layout", "salib", "--names", "x1,x2"], "line 1 holds numbers");
+    sampled.refused("y.csv", &["--layout", "salib", "--names", "x1,x2"], "line 1 has numbers");
 }
 
 #[test]
@@ -301,7 +301,7 @@ fn an_output_has_a_name_that_no_factor_has() {
     std::fs::write(sampled.path("s.toml"), study).unwrap();
     let output = apportion(&["check", &sampled.name("s.toml")]);
     assert_eq!(output.status.code(), Some(2));
-    assert!(stderr(&output).contains("s.toml:7:18: factor or output `b` is there twice"), "{}", stderr(&output));
+    assert!(stderr(&output).contains("s.toml:7:18: factor or output `b` is listed twice"), "{}", stderr(&output));
 }
 
 #[test]

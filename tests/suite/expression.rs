@@ -98,9 +98,9 @@ fn faults_are_named_with_line_and_column() {
     refused("constants.a = 7\n", "", &["study.toml:3:16:", "there is no `a`"]);
     refused("constants.a = 7", "constants.a = \"7 parsecs\"", &["study.toml:5:15:", "parsecs"]);
     refused("constants.a = 7", "constants.a = [7]", &["study.toml:5:15:", "a finite number or a quantity"]);
-    refused("constants.a", "constants.x1", &["study.toml:5:11:", "`x1` stands here twice"]);
-    refused("constants.a", "constants.sin", &["study.toml:5:11:", "no function or number of the formula language"]);
-    refused("name = \"x3\"", "name = \"x 3\"", &["study.toml:18:8:", "it stands in formulas"]);
+    refused("constants.a", "constants.x1", &["study.toml:5:11:", "`x1` is listed twice"]);
+    refused("constants.a", "constants.sin", &["study.toml:5:11:", "not a function or number of the formula language"]);
+    refused("name = \"x3\"", "name = \"x 3\"", &["study.toml:18:8:", "formulas use it"]);
     refused("name = \"x3\"", "name = \"x1\"", &["study.toml:3:32:", "there is no `x3`"]);
     refused("[outputs]", "[afm]\n[outputs]", &["study.toml:2:1:", "unknown key `afm`"]);
     refused("model = \"expression\"", "model = \"ishigami\"", &["unknown key `expression`"]);
@@ -115,10 +115,10 @@ fn faults_are_named_with_line_and_column() {
 }
 
 #[test]
-fn what_stands_in_no_formula_is_said() {
+fn unused_factors_and_constants_are_noted() {
     let study =
         apportion_files::parse_study(&ISHIGAMI.replace("b*x3^4*sin(x1)", "1"), Path::new("s.toml"), &[]).unwrap();
-    assert_eq!(study.notes(), ["factor `x3` stands in no formula", "constant `b` stands in no formula"]);
+    assert_eq!(study.notes(), ["factor `x3` is used in no formula", "constant `b` is used in no formula"]);
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! Every friction law with every contact theory at every fidelity, at the edges of what a user can ask for: a finite
+//! Every friction law with every contact theory at every fidelity, at the limits of valid input: a finite
 //! answer or a named reason, never NaN, a panic or an endless loop.
 
 use apportion_afm::{
@@ -45,12 +45,12 @@ fn beyond() -> Vec<Scene> {
     scenes
 }
 
-/// Checks one answer and tells whether there was one.
+/// Checks one answer and returns whether there was one.
 #[track_caller]
 fn assert_sound(scene: &Scene, options: &Options) -> bool {
     match critical_force(scene, options) {
         Err(failure) => {
-            // A glassy layer (Lemaitre-Carlson) has no limit at rest; nothing else in the box may be without an answer.
+            // A glassy layer (Lemaitre-Carlson) has no limit at rest; everything else in the box has a result.
             let at_rest = options.friction == FrictionLaw::LemaitreCarlson && scene.velocity == 0.0;
             assert!(!at_rest || failure == Failure::VelocityZero, "{failure}");
             false
@@ -80,7 +80,7 @@ fn all_options() -> impl Iterator<Item = Options> {
                 friction,
                 contact,
                 fidelity,
-                // Coarse marches: what is asked is whether they end, not how well.
+                // Coarse steps: the test is whether they end, not their accuracy.
                 tolerance: 1e-4,
                 ..Options::default()
             })
@@ -100,7 +100,7 @@ fn every_corner_of_the_box_has_an_answer_by_every_law_theory_and_fidelity() {
 }
 
 #[test]
-fn what_lies_beyond_the_box_ends_in_an_answer_or_a_name() {
+fn scenes_beyond_the_box_have_a_result_or_a_named_failure() {
     let (mut answers, mut asked) = (0, 0);
     for options in all_options() {
         answers += beyond().iter().filter(|scene| assert_sound(scene, &options)).count();

@@ -1,4 +1,4 @@
-//! Whole numbers, booleans, categories, measured values, and families by what is stated of them, against scipy.
+//! Whole numbers, booleans, categories, measured values, and families by their stated parameters, against scipy.
 //! `tests/oracle/factor_kinds.py` made the references.
 
 use apportion::space::Distribution;
@@ -60,7 +60,7 @@ fn whole_numbers_categories_and_lists_are_those_of_scipy() {
 }
 
 #[test]
-fn what_is_stated_determines_the_distribution_that_scipy_has() {
+fn stated_parameters_give_the_distribution_of_scipy() {
     let cases = oracle("stated");
     assert_eq!(cases.len(), 10);
     for case in cases {
@@ -75,5 +75,5 @@ fn what_is_stated_determines_the_distribution_that_scipy_has() {
     }
 }
 
-/// Parameters are solved for to 1e-12 or so; those of shape magnify what is left of the error far out in a tail.
+/// Parameters are solved for to about 1e-12; those of shape magnify the remaining error far out in a tail.
 const TOLERANCE: f64 = 1e-9;

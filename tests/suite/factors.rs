@@ -1,4 +1,4 @@
-//! Factors as people have them, through the program: named statistics, whole numbers, categories, measured values.
+//! Factors in the forms that users have, through the program: named statistics, whole numbers, categories, measured values.
 
 use std::path::PathBuf;
 
@@ -6,7 +6,7 @@ use serde_json::Value;
 
 use crate::common::{FAMILIES, Folder, apportion, stderr, succeed, text};
 
-/// A study with a factor of every kind; its model gives what it gets.
+/// A study with a factor of every kind; its model returns its inputs.
 const STUDY: &str = r#"model = "expression"
 [outputs]
 y = "d + n + wet + 10*material + r"
@@ -86,7 +86,7 @@ fn labels_are_kept_in_results_points_and_sweeps() {
     let points = folder.with("points.csv", "material,d,wet\nbrass,0,true\n\"soft, pure copper\",0,false\n0,0,0\n");
     let values = folder.path("values.csv");
     succeed(&["evaluate", text(&study), text(&points), "-o", text(&values)]);
-    // n and r are left out: they stand at 4 and 51.
+    // n and r are left out: they are 4 and 51.
     assert_eq!(std::fs::read_to_string(&values).unwrap(), "y\n66.0\n75.0\n55.0\n");
 
     succeed(&["sweep", text(&study), "--factor", "material", "--out", text(&out)]);
@@ -142,7 +142,7 @@ fn refused(from: &str, to: &str, expected: &[&str]) {
 }
 
 #[test]
-fn what_determines_nothing_is_refused_with_its_place() {
+fn incomplete_parameters_are_refused_with_their_place() {
     refused("p95 = 5\n", "", &["study.toml:8:8:", "needs two quantiles", "it takes min and mode and max; or mode"]);
     refused("p95 = 5", "p95 = 5\nmean = 3", &["study.toml:13:8:", "the triangular distribution has no `mean`"]);
     refused("p95 = 5", "p95 = 0.5", &["study.toml:11:7:", "`p05` is 1 and `p95` is 0.5"]);
@@ -161,14 +161,10 @@ fn what_determines_nothing_is_refused_with_its_place() {
         "values = [0, 1]",
         &["study.toml:21:10:", "the boolean distribution has no `values`"],
     );
-    refused("\"brass\"", "\"steel\"", &["study.toml:25:10:", "the label \"steel\" stands in `labels` twice"]);
+    refused("\"brass\"", "\"steel\"", &["study.toml:25:10:", "the label \"steel\" is listed twice in `labels`"]);
     refused("\"brass\"", "\" \"", &["study.toml:25:10:", "`labels[1]` is empty"]);
     refused("[5, 2, 1]", "[5, 2]", &["study.toml:26:11:", "2 `weights` for 3 `values`"]);
-    refused(
-        "weights = [5, 2, 1]",
-        "values = [5, 2, 5]",
-        &["study.toml:26:10:", "every label needs a value of its own"],
-    );
+    refused("weights = [5, 2, 1]", "values = [5, 2, 5]", &["study.toml:26:10:", "every label needs its own value"]);
     refused("labels = [\"steel\", \"brass\", \"soft, pure copper\"]\n", "", &["study.toml:23:8:", "needs `labels`"]);
     let nominal = |value: &str| format!("weights = [5, 2, 1]\nnominal = {value}");
     refused("weights = [5, 2, 1]", &nominal("\"gold\""), &["study.toml:27:11:", "is \"gold\"", "steel (0), brass (1)"]);
@@ -246,7 +242,7 @@ fn every_family_has_its_share_of_a_sum() {
     for (index, variance) in indices.iter().zip(variances) {
         for kind in ["first_order", "total"] {
             let estimate = index[kind]["estimate"].as_f64().expect("a number");
-            // The long tails are felt at 4096 base samples.
+            // The long tails matter at 4096 base samples.
             assert!((estimate - variance / total).abs() < 0.01, "{index} {}", variance / total);
         }
     }
@@ -273,7 +269,7 @@ fn refused_family(from: &str, to: &str, expected: &[&str]) {
 }
 
 #[test]
-fn what_makes_no_family_is_refused_with_its_place() {
+fn invalid_parameters_of_families_are_refused_with_their_place() {
     refused_family("truncate = [-inf, 0]", "truncate = [2, -1]", &["study.toml:42:12:", "the lower one first"]);
     refused_family("truncate = [-inf, 0]", "truncate = [1]", &["study.toml:42:12:", "must be two numbers"]);
     refused_family(
@@ -281,8 +277,8 @@ fn what_makes_no_family_is_refused_with_its_place() {
         "truncate = [50, 60]",
         &["study.toml:42:12:", "leaves nothing of this normal"],
     );
-    refused_family("truncate = [-inf, 4]", "", &["study.toml:28:9:", "has no finite variance", "greater than 2.0"]);
-    refused_family("df = 5", "df = 2", &["study.toml:19:6:", "has no finite variance"]);
+    refused_family("truncate = [-inf, 4]", "", &["study.toml:28:9:", "variance is infinite", "greater than 2.0"]);
+    refused_family("df = 5", "df = 2", &["study.toml:19:6:", "variance is infinite"]);
     refused_family("\"0.5\" = 2", "\"x\" = 2", &["study.toml:33:24:", "must be values by probabilities from 0 to 1"]);
     refused_family("\"0.5\" = 2", "0.5 = 2", &["study.toml:33:24:", "dotted key"]);
     refused_family("\"1\" = 5", "\"0.9\" = 5", &["study.toml:33:13:", "no value for the probability 1"]);
@@ -291,7 +287,7 @@ fn what_makes_no_family_is_refused_with_its_place() {
 }
 
 #[test]
-fn a_bound_that_is_another_factor_is_refused_with_a_way_out() {
+fn a_bound_that_depends_on_another_factor_is_refused_with_advice() {
     refused_family("truncate = [-inf, 0]", "max = \"g\"", &["study.toml:42:7:", "expected a number"]);
     refused_family("truncate = [-inf, 0]", "truncate = [0, \"g\"]", &["study.toml:42:16:", "expected a number"]);
 }

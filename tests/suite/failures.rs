@@ -1,8 +1,8 @@
-//! Bad input through the program: each has its clear error, the place of the fault, and exit code 2.
+//! Invalid input through the program: each case has a clear error, its place, and exit code 2.
 
 use crate::common::{Folder, HOLES, apportion, stderr, study_path, text};
 
-/// A study that is right, to be spoilt line by line.
+/// A valid study, to be made invalid line by line.
 const GOOD: &str = r#"outputs = ["critical_force"]
 [afm]
 friction = "coulomb"
@@ -20,7 +20,7 @@ max = 800
 unit = "nm/s"
 "#;
 
-/// Runs `check` on a spoilt study and expects exit code 2 with every one of `expected` in the message.
+/// Runs `check` on an invalid study and expects exit code 2 with every one of `expected` in the message.
 #[track_caller]
 fn assert_refused(study: &str, expected: &[&str]) {
     let folder = Folder::new();
@@ -62,7 +62,7 @@ fn a_missing_file() {
 }
 
 #[test]
-fn a_folder_and_bytes_that_are_no_text() {
+fn a_folder_and_bytes_that_are_not_text_are_refused() {
     let folder = Folder::new();
     for path in [folder.path("."), folder.with("binary.toml", [0xff, 0xfe, 0x00, 0x9f])] {
         let output = apportion(&["check", text(&path)]);
@@ -71,7 +71,7 @@ fn a_folder_and_bytes_that_are_no_text() {
 }
 
 #[test]
-fn not_toml_and_nothing_at_all() {
+fn not_toml_and_empty_files() {
     assert_refused("this is no study", &["study.toml:1:", "^"]);
     assert_refused("", &["study.toml:1:1:", "no factor", "[factors]"]);
     assert_refused("\u{0}\u{1b}[31m", &["study.toml:1:", "\u{fffd}"]);
@@ -112,7 +112,7 @@ fn units_of_the_wrong_kind_and_no_unit() {
 }
 
 #[test]
-fn ranges_that_are_none() {
+fn invalid_ranges_are_refused() {
     assert_spoilt(
         "min = 200",
         "min = 700",
@@ -160,7 +160,7 @@ fn parameters_of_functions() {
     let refused = |table: &str, expected: &[&str]| {
         assert_refused(&format!("model = \"sobol-g\"\n[function]\n{table}\n"), expected)
     };
-    refused("b = 3", &["study.toml:3:1:", "unknown key `b`", "keys that can stand here: a, dimension"]);
+    refused("b = 3", &["study.toml:3:1:", "unknown key `b`", "keys allowed here: a, dimension"]);
     refused("dimensions = 3", &["study.toml:3:1:", "did you mean `dimension`?"]);
     refused("a = \"1\"", &["study.toml:3:5:", "`a` must be a number or a list of numbers, not string"]);
     refused("a = [1, true]", &["study.toml:3:5:", "a list of numbers"]);
@@ -231,7 +231,10 @@ fn keys_that_end_a_run() {
     refused("max_time = \"-1 s\"", &["study.toml:5:12:", "a time above 0"]);
     refused("max_time = 30", &["study.toml:5:12:"]);
     refused("base_samples = 64\nruns = 300", &["`base_samples` must be alone"]);
-    refused("base_samples = 64\nmax_runs = 300", &["study.toml:6:12:", "`max_runs` must be with `accuracy`, or alone"]);
+    refused(
+        "base_samples = 64\nmax_runs = 300",
+        &["study.toml:6:12:", "`max_runs` must be used with `accuracy` or alone"],
+    );
     refused("max_runs = -1", &["study.toml:5:12:", "whole number"]);
     refused("max_runs = 15", &["study.toml:5:12:", "32 or more"]);
     refused("sampler = \"latin-hypercube\"\nmax_runs = 1000", &["study.toml:5:11:", "`sampler` must be"]);
@@ -258,11 +261,11 @@ fn an_output_lost_to_failed_runs_is_a_failed_run() {
     assert!(result.outputs[0].reason.as_ref().unwrap().contains("max_failed = 0"), "{json}");
     assert!(result.outputs[0].distribution.is_some(), "the values that there are");
     assert!(out.join("charts/holes-distribution.png").exists());
-    // What was allowed to fail is no failure.
+    // An allowed failure is not an error.
     let study = folder.with("holes.toml", holes("max_failed = 1"));
     let output = apportion(&["run", text(&study), "--out", text(&out)]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    // No run at all has a value: the time to slip at velocity 0.
+    // No run has a value: the time to slip at velocity 0.
     let none = GOOD
         .replace("critical_force", "critical_time")
         .replace("friction =", "velocity = \"0 nm/s\"\nfriction =")
@@ -281,7 +284,7 @@ fn an_output_lost_to_failed_runs_is_a_failed_run() {
 }
 
 #[test]
-fn the_first_failed_run_ends_a_run_that_says_so() {
+fn the_first_failed_run_stops_a_study_that_stops_at_failures() {
     let folder = Folder::new();
     for size in ["base_samples = 256", "max_runs = 100000"] {
         let text_of = holes("failures = \"fail\"").replace("base_samples = 256", size);
@@ -290,7 +293,7 @@ fn the_first_failed_run_ends_a_run_that_says_so() {
         let message = stderr(&output);
         assert_eq!(output.status.code(), Some(1), "{message}");
         assert!(
-            message.contains("the study says to stop then") && message.contains("the run's inputs: x1 = "),
+            message.contains("the study stops at the first failure") && message.contains("the run's inputs: x1 = "),
             "{message}"
         );
         let files = crate::common::files(&out);

@@ -1,4 +1,4 @@
-//! Cheaper models and runs that choose: right, unbiased, the same bits again, and refused with reasons.
+//! Cheaper models and runs with `accuracy`: correct, unbiased, reproducible to the bit, and refused with reasons.
 
 use std::path::Path;
 
@@ -28,7 +28,7 @@ fn numbers(study: &Study, threads: usize) -> Vec<f64> {
 }
 
 #[test]
-fn a_cheaper_model_of_steps_takes_most_of_the_error_away_without_bias() {
+fn a_cheaper_step_model_removes_most_of_the_error_without_bias() {
     // Products of steps, which no polynomial explains: V_i = (2/3) c^2/(1 + c)^2 of 1 + c floor(3 x).
     let c = [0.8, 0.5, 0.3];
     let product =
@@ -64,7 +64,7 @@ fn a_cheaper_model_of_steps_takes_most_of_the_error_away_without_bias() {
 }
 
 #[test]
-fn the_truth_lies_within_and_the_bits_are_those_of_any_threads() {
+fn intervals_contain_the_exact_values_and_bits_do_not_depend_on_threads() {
     let (a, b, pi) = (5.0, 0.1, std::f64::consts::PI);
     let v1 = 0.5 * (1.0 + b * pi.powi(4) / 5.0_f64).powi(2);
     let (v2, v13) = (a * a / 8.0, b * b * pi.powi(8) * (1.0 / 18.0 - 1.0 / 50.0));
@@ -85,7 +85,7 @@ fn the_truth_lies_within_and_the_bits_are_those_of_any_threads() {
 }
 
 #[test]
-fn a_cheaper_model_that_is_the_model_leaves_nothing_to_it() {
+fn a_cheaper_model_equal_to_the_model_explains_all_variance() {
     let model = || function_model("y", |x| (3.0 * x[0]).floor() * (1.0 + x[1]) + f64::from(u8::from(x[1] > 0.37)));
     let builder = |low: bool| {
         let builder = Study::builder("same", model())
@@ -94,7 +94,7 @@ fn a_cheaper_model_that_is_the_model_leaves_nothing_to_it() {
             .base_samples(if low { 16 } else { 1 << 14 });
         if low { builder.low_fidelity("the same", model(), Some(1 << 14)) } else { builder }.build().unwrap()
     };
-    // The points of the cheaper model are others, with errors of their own.
+    // The cheaper model has other points, with other errors.
     for (found, other) in numbers(&builder(true), 1).iter().zip(numbers(&builder(false), 1)) {
         assert!((found - other).abs() < 2e-3, "{found} {other}");
     }
@@ -144,7 +144,7 @@ fn an_accuracy_is_kept_and_its_lines_make_the_same_run_again() {
 }
 
 #[test]
-fn an_accurate_run_of_a_program_goes_on_where_it_was() {
+fn an_interrupted_run_with_accuracy_of_a_program_resumes() {
     let folder = Folder::new();
     let program = folder.with(
         "wing.py",
@@ -194,7 +194,7 @@ fn quick_models_are_doubled_without_surrogates() {
 }
 
 #[test]
-fn what_cannot_be_is_refused_with_its_reason() {
+fn invalid_settings_are_refused_with_the_reason() {
     let folder = Folder::new();
     let refused = |text_of_study: &str, more: &[&str], words: &str| {
         let file = folder.with("refused.toml", text_of_study);

@@ -1,6 +1,6 @@
-//! Numbers of today, held as files: changes of structure must not change what a user gets.
+//! Current numbers, stored in files: refactoring must not change the results.
 //!
-//! `FREEZE=1 cargo test --release frozen` writes the files anew; do so only where a change of numbers is meant.
+//! `FREEZE=1 cargo test --release frozen` writes the files again; do so only for an intended change of numbers.
 
 use std::path::PathBuf;
 
@@ -14,13 +14,13 @@ const RELATIVE: f64 = 1e-12;
 /// Largest difference of dimensionless numbers of order one (indices, shares, probabilities), which may lie near zero.
 const ABSOLUTE: f64 = 1e-13;
 
-/// Keys of an output that are pictures of the values, or repeat what stands elsewhere.
+/// Keys of an output that only show values, or repeat other keys.
 const LEFT_OUT: [&str; 3] = ["convergence", "distribution", "scatter"];
 
 /// Keys with the unit of the output, which may have any size.
 const WITH_UNIT: [&str; 5] = ["mean", "variance", "mean_interval", "variance_interval", "effort"];
 
-/// Estimates from the runs alone, as they were before surrogates corrected them.
+/// Estimates from the runs only, without the correction by surrogates.
 const PLAIN: &str = "analysis.surrogate=\"off\"";
 
 fn folder() -> PathBuf {
@@ -33,10 +33,10 @@ fn places(series: &Value) -> std::ops::Range<usize> {
     first..first + series["positions"].as_array().unwrap().len()
 }
 
-/// What is held of a result: all numbers of its outputs, how often flags were raised, and the effort.
+/// The stored part of a result: all numbers of its outputs, the counts of flags, and the effort.
 fn essence(result: &Value) -> Value {
     let mut outputs = result["outputs"].clone();
-    // Of the values of a series every fifth one: the others are made in the same way.
+    // Every fifth value of a series: the others are computed in the same way.
     let series: Vec<std::ops::Range<usize>> = result["series"].as_array().into_iter().flatten().map(places).collect();
     let mut number = 0;
     outputs.as_array_mut().unwrap().retain(|_| {
@@ -57,7 +57,7 @@ fn essence(result: &Value) -> Value {
     })
 }
 
-/// Where `found` lacks a number or text of `held`, or has another. What `found` has beyond that is no fault.
+/// Where `found` lacks a number or text of `held`, or differs from it. Additional entries of `found` are allowed.
 fn differences(held: &Value, found: &Value, at: &str, has_unit: bool, into: &mut Vec<String>) {
     match (held, found) {
         (Value::Object(held), Value::Object(_)) => {
@@ -79,7 +79,7 @@ fn differences(held: &Value, found: &Value, at: &str, has_unit: bool, into: &mut
             }
         }
         _ if held == found => (),
-        // Words may be bettered; numbers may not go.
+        // Words may change; numbers must stay.
         (Value::String(_), Value::String(_)) if at.contains("warnings") || at.contains("reason") => (),
         _ => into.push(format!("{at}: {held} before, {found} now")),
     }
@@ -125,7 +125,7 @@ fn studies_give_the_numbers_they_gave() {
 
 /// The journal was written by the program before rows of programs had numbers.
 #[test]
-fn a_journal_of_before_is_gone_on_with() {
+fn a_journal_of_an_earlier_version_is_resumed() {
     let folder_of_run = Folder::new();
     std::fs::copy(folder().join("ishigami.journal"), folder_of_run.path("ishigami.journal")).unwrap();
     let study = crate::common::study_path("ishigami");
@@ -138,9 +138,9 @@ fn a_journal_of_before_is_gone_on_with() {
     assert!(journal == before, "runs on record were evaluated again");
 }
 
-/// The points of a design, and what `analyze` makes of outputs computed at them elsewhere.
+/// The points of a design, and the result of `analyze` for outputs computed elsewhere.
 #[test]
-fn a_design_of_before_is_analysed() {
+fn a_design_of_an_earlier_version_is_analysed() {
     let folder_of_run = Folder::new();
     let design = folder_of_run.path("design.csv");
     let study = study_path("ishigami");

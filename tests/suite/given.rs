@@ -1,4 +1,4 @@
-//! Indices from given data: exact answers, honest intervals, and every table that must be refused.
+//! Indices from given data: exact indices, coverage of intervals, and every table that must be refused.
 
 use apportion::design::Sampler;
 use apportion::given::{Column, GivenError, GivenIndices, InputIndices, NoVariance, PointSet, analyse};
@@ -107,8 +107,8 @@ fn one_input_that_decides_everything_has_index_one() {
         let result = analysed(columns, y).unwrap();
         let rank = indices(&result)[0].rank.unwrap();
         let interval = rank.interval.unwrap();
-        // The pair that closes the circle of ranks costs (e - 1)^2/2 of the variance 0.242, over N: 6.1/N, and the bound
-        // knows; what is left is the change within a step.
+        // The pair of the last and the first rank costs (e - 1)^2/2 of the variance 0.242, over N: 6.1/N, and the bound
+        // includes it; the rest is the change within a step.
         assert!((rank.estimate - 1.0).abs() < 8.0 / rows as f64);
         assert!(
             interval.high > 1.0 - 20.0 / (rows as f64).powi(2) && interval.high < 1.0 + 3.0 / rows as f64,
@@ -188,7 +188,7 @@ fn independent_rows_are_not_refused() {
             }
         }
     }
-    // Sorted rows, and a coarse table of coins, are independent draws all the same.
+    // Sorted rows, and a coarse table of coins, are still independent draws.
     let mut sorted = random(2, 300, 5);
     sorted[0].sort_by(f64::total_cmp);
     assert_eq!(points_of(sorted), Ok(PointSet::Independent));

@@ -78,7 +78,7 @@ fn a_table_becomes_a_result() {
     for chart in ["table.svg", "table.png"] {
         assert!(run.out().join("charts").join(chart).is_file());
     }
-    // The same again gives the same bytes, whatever the threads and the time.
+    // A repetition gives the same bytes, for any threads and time.
     let again = Run::of(&content, &["--outputs", "y"]);
     let bytes = |run: &Run, name: &str| std::fs::read(run.out().join(name)).unwrap();
     assert_eq!(bytes(&run, "charts/table.svg"), bytes(&again, "charts/table.svg"));
@@ -175,8 +175,11 @@ fn a_surrogate_adds_total_indices() {
     for part in ["S_1, by surrogate", "S_T, by surrogate", "explains more than 99.9 %"] {
         assert!(printed.contains(part), "no {part:?} in {printed}");
     }
-    // What is left is nothing.
-    assert!(!printed.contains("is not assigned to inputs") && !printed.contains("what it leaves"), "{printed}");
+    // Nothing is left unexplained.
+    assert!(
+        !printed.contains("is not assigned to inputs") && !printed.contains("include the unexplained"),
+        "{printed}"
+    );
     let csv = std::fs::read_to_string(run.out().join("table-indices.csv")).unwrap();
     assert!(
         csv.starts_with("output,input,rank,") && csv.lines().next().unwrap().ends_with("surrogate_unknown"),
@@ -187,7 +190,7 @@ fn a_surrogate_adds_total_indices() {
 }
 
 #[test]
-fn a_study_tells_the_distributions() {
+fn distributions_come_from_the_study() {
     let study = |max: f64| {
         let factors: String = (1..=3).map(|j| format!("[[factor]]\nname = \"x{j}\"\nmin = 0\nmax = {max}\n")).collect();
         format!("model = \"expression\"\n[outputs]\ny = \"3*x1 + 2*x2 + x3\"\n{factors}")
@@ -211,24 +214,24 @@ fn a_study_tells_the_distributions() {
     );
     assert!(result.outputs[0].surrogate.is_none() && result.outputs[0].indices.is_some());
     std::fs::write(&path, study(1.0).replace("x3", "x4")).unwrap();
-    Run::of(&content, &with_study).refused("the input `x3` is no factor of the study");
+    Run::of(&content, &with_study).refused("the input `x3` is not a factor of the study");
 }
 
 #[test]
-fn a_surrogate_that_does_not_serve_says_so() {
+fn a_useless_surrogate_gives_a_warning() {
     let columns = random(4, 200, 4);
     let mut content = "x1,x2,y\n".to_owned();
     (0..200).for_each(|k| content.push_str(&format!("{},{},{}\n", columns[0][k], columns[1][k], columns[3][k])));
     let run = Run::of(&content, &["--outputs", "y", "--surrogate"]);
     let result = run.result();
     assert!(!result.outputs[0].surrogate.as_ref().unwrap().serves);
-    assert!(result.outputs[0].warnings[0].contains("the surrogate does not serve"), "{:?}", result.outputs[0].warnings);
+    assert!(result.outputs[0].warnings[0].contains("the surrogate is not used"), "{:?}", result.outputs[0].warnings);
     assert!(result.notes[0].contains("no total index") && !stdout(&run.output).contains("S_T, by surrogate"));
 }
 
 #[test]
-fn other_measures_stand_beside_the_indices() {
-    // x3 counts least, and x4 for nothing.
+fn other_measures_are_listed_with_the_indices() {
+    // x3 has the smallest effect, and x4 none.
     let columns = random(4, 600, 12);
     let content = table(&columns);
     let weightless = content.lines().enumerate().map(|(row, line)| match row {
@@ -254,7 +257,7 @@ fn other_measures_stand_beside_the_indices() {
     }
     let csv = std::fs::read_to_string(run.out().join("table-measures.csv")).unwrap();
     assert!(csv.starts_with("output,input,fourier,fourier_low,fourier_high,fourier_p,delta,"), "{csv}");
-    // The rows of a net are no independent draws.
+    // The rows of a net are not independent draws.
     let even = Run::of(&table(&sobol(3, 512, 0)), &["--outputs", "y", "--measures"]);
     let result: GivenFile =
         serde_json::from_str(&std::fs::read_to_string(even.out().join("table.json")).unwrap()).unwrap();

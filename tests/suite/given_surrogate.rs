@@ -1,4 +1,4 @@
-//! Indices from given data by surrogates: exact answers, intervals that hold the truth of rough functions too, and every table
+//! Indices from given data by surrogates: exact answers, intervals that contain the exact indices also for rough functions, and every table
 //! that must be refused.
 
 use apportion::Distribution;
@@ -104,7 +104,7 @@ fn ishigami_from_a_table() {
 }
 
 #[test]
-fn the_truth_of_a_rough_function_lies_within() {
+fn intervals_contain_the_exact_values_of_a_rough_function() {
     let function = KnownAnswer::from_name("steps").unwrap().default_function();
     let exact = function.exact().indices.unwrap();
     for seed in 0..4 {
@@ -122,7 +122,7 @@ fn the_truth_of_a_rough_function_lies_within() {
 }
 
 #[test]
-fn noise_is_not_served() {
+fn noise_is_refused() {
     let columns = random(4, 300, 5);
     let y = Column { name: "y".to_owned(), values: columns[3].clone() };
     let of = output(&columns[..3].to_vec(), y, None);
@@ -145,7 +145,7 @@ fn scales_and_offsets_change_nothing() {
             assert!((a.total.estimate - b.total.estimate).abs() < 1e-6, "{a:?} {b:?}");
         }
     }
-    // Here the output has some three digits.
+    // Here the output has about three digits.
     let far = output(&columns, evaluated(&columns, |x| function(x) + 1e13), None);
     for (a, b) in far.indices.iter().zip(&reference.indices) {
         assert!((a.total.estimate - b.total.estimate).abs() < 1e-2, "{a:?} {b:?}");

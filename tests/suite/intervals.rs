@@ -1,4 +1,4 @@
-//! Intervals and sentences on outputs that are hard to judge: rare events, values of 0 and 1, ties, failed rows.
+//! Intervals and sentences for difficult outputs: rare events, values of 0 and 1, ties, failed rows.
 
 use std::path::Path;
 
@@ -58,7 +58,7 @@ fn an_output_of_0_and_1_has_no_interval_of_width_0() {
 }
 
 #[test]
-fn a_factor_that_does_nothing_keeps_a_width_of_0() {
+fn a_factor_without_effect_has_an_interval_of_width_0() {
     let result = analysed("if(a+b > 1, 1, 0)", UNIFORM, "base_samples = 256\n[analysis]\nsecond_order = true");
     assert_eq!(bounds(&result, 2), [(0.0, 0.0, 0.0); 2]);
     // A half-plane of one factor is integrated exactly by every net; its indices are 1, which 256 rows do not prove.
@@ -82,7 +82,7 @@ fn a_rare_event_has_indices_and_a_warning() {
         let (first, total) = (indices[0].effect.first_order, indices[0].effect.total);
         assert!((total.estimate - 1.0).abs() < 0.01 && indices[1].effect.total.estimate == 0.0, "seed {seed}");
         let warned = |code: &str| output.warnings.iter().any(|warning| warning.code() == code);
-        // Without an interval the reason is said; with one, S1 = 1 is in it.
+        // Without an interval there is a reason; with one, S1 = 1 is in it.
         match first.interval {
             Some(interval) => assert!(interval.high > 0.9, "seed {seed}: S1 = 1, but {first:?}"),
             None => assert!(warned("no-intervals"), "seed {seed}: {:?}", output.warnings),
@@ -125,7 +125,7 @@ fn mean_and_variance_are_those_of_all_rows_that_succeeded() {
     let bounds = output.mean_interval.unwrap();
     let mean = Estimate { estimate: mean, interval: Some(bounds) };
     let text = run_document(&result).text();
-    // The polynomials know the variance so well that the divisor n - 1 would leave its interval.
+    // The polynomials determine the variance so well that a divisor n - 1 would be outside its interval.
     let sd = significant((1e5 * variance.sqrt()).round() / 1e5);
     let heading = format!("Mean {}, standard deviation {sd}", give_or_take(mean));
     assert!(text.contains(&heading), "{heading} in {text}");

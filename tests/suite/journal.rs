@@ -1,4 +1,4 @@
-//! Interrupted is not lost: journals, resuming, doubling, shards, through the program.
+//! Interrupted runs through the program: journals, resuming, doubling, shards.
 
 mod parts;
 
@@ -12,7 +12,7 @@ use crate::common::{HOLES, apportion, stderr, study_path, succeed, text};
 /// Some 1500 runs of a millisecond: long enough to be interrupted, short enough to be run to its end.
 const SLOW: [&str; 4] = ["--set", "afm.fidelity=dynamic", "--base-samples", "256"];
 
-/// Outputs that are saved are put on record too.
+/// Saved outputs are recorded in the journal too.
 fn slow(out: &Path, more: &[&str]) -> Vec<String> {
     let study = study_path("lugre-environmental");
     std::fs::create_dir_all(out).unwrap();
@@ -30,14 +30,14 @@ fn spawn(arguments: &[String]) -> Child {
     command.args(arguments).stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap()
 }
 
-/// The result of a study in a folder, but for what tells about the computer.
+/// The result of a study in a folder, without the fields about the computer.
 fn result(folder: &Path, study: &str) -> Vec<String> {
     let json = std::fs::read_to_string(folder.join(format!("{study}.json"))).unwrap();
     let telling = |line: &&str| !line.contains("\"threads\"") && !line.contains("\"wall_seconds\"");
     json.lines().filter(telling).map(str::to_owned).collect()
 }
 
-/// The same without what was asked on the command line.
+/// The same without the command line.
 fn numbers(folder: &Path, study: &str) -> serde_json::Value {
     let json = std::fs::read_to_string(folder.join(format!("{study}.json"))).unwrap();
     let mut json: serde_json::Value = serde_json::from_str(&json).unwrap();
@@ -46,13 +46,13 @@ fn numbers(folder: &Path, study: &str) -> serde_json::Value {
     json
 }
 
-/// Runs on record when a run began, by what it said.
+/// Recorded runs at the start of a run, from its note.
 fn on_record(messages: &str) -> u64 {
     let said = messages.lines().find_map(|line| line.strip_prefix("note: ")?.split(" of ").next()?.parse().ok());
     said.unwrap_or(0)
 }
 
-/// Numbers that look random and are the same every time (Knuth's MMIX generator).
+/// Pseudo-random numbers with a fixed seed (Knuth's MMIX generator).
 fn random(state: &mut u64) -> u64 {
     *state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
     *state >> 33
@@ -70,7 +70,7 @@ fn ended(mut child: Child) -> (Option<i32>, String) {
 }
 
 #[test]
-fn a_run_killed_at_fifty_moments_ends_in_the_same_bits_and_repeats_nothing() {
+fn a_run_killed_fifty_times_has_the_same_bits_and_repeats_no_run() {
     let folder = tempfile::tempdir().unwrap();
     let (whole, killed) = (folder.path().join("whole"), folder.path().join("killed"));
     succeed(&words(&slow(&whole, &["--no-journal"])));
@@ -98,7 +98,7 @@ fn a_run_killed_at_fifty_moments_ends_in_the_same_bits_and_repeats_nothing() {
 
 #[test]
 #[cfg(unix)]
-fn a_signal_ends_a_run_in_order_and_resume_goes_on() {
+fn a_signal_stops_a_run_cleanly_and_resume_continues_it() {
     let folder = tempfile::tempdir().unwrap();
     let (whole, stopped) = (folder.path().join("whole"), folder.path().join("stopped"));
     succeed(&words(&slow(&whole, &[])));
@@ -111,7 +111,7 @@ fn a_signal_ends_a_run_in_order_and_resume_goes_on() {
         let (code, messages) = ended(child);
         assert_eq!(code, Some(1), "{messages}");
         assert!(messages.contains("error: interrupted after ") && messages.contains(" of 1536 runs"), "{messages}");
-        assert!(messages.contains("lugre-environmental.journal: the same command with --resume goes on"), "{messages}");
+        assert!(messages.contains("lugre-environmental.journal: repeat the command with --resume"), "{messages}");
         let resumed = apportion(&words(&slow(&stopped, &["--resume"])));
         assert_eq!(resumed.status.code(), Some(0), "{}", stderr(&resumed));
         assert!(on_record(&stderr(&resumed)) > 100, "{}", stderr(&resumed));
@@ -130,7 +130,7 @@ fn wait_for_bytes(path: &Path, bytes: u64) {
     panic!("{} does not grow to {bytes} bytes", path.display());
 }
 
-/// A quick run, which keeps a journal only if it is asked to.
+/// A quick run, which keeps a journal only with --journal.
 fn ishigami(out: &Path, more: &[&str]) -> Output {
     let study = study_path("ishigami");
     apportion(&[&["run", text(&study), "--out", text(out), "--journal"], more].concat())
@@ -150,7 +150,7 @@ fn refused(output: &Output, code: i32, expected: &str) {
 }
 
 #[test]
-fn a_journal_that_was_cut_short_or_damaged_is_used_as_far_as_it_goes() {
+fn a_truncated_or_damaged_journal_is_used_up_to_the_damage() {
     let folder = tempfile::tempdir().unwrap();
     let (whole, cut) = (folder.path().join("whole"), folder.path().join("cut"));
     ishigami_runs(&whole, &["--base-samples", "4096"]);
@@ -167,10 +167,10 @@ fn a_journal_that_was_cut_short_or_damaged_is_used_as_far_as_it_goes() {
         std::fs::write(&journal, torn).unwrap();
         let output = ishigami(&cut, &["--base-samples", "4096", "--resume"]);
         assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-        assert!(stderr(&output).contains("bytes were cut off behind its last whole record"), "{}", stderr(&output));
+        assert!(stderr(&output).contains("bytes were cut off after its last complete record"), "{}", stderr(&output));
         assert!((0..20480).contains(&on_record(&stderr(&output))), "{}", stderr(&output));
         assert!(numbers(&cut, "ishigami") == expected);
-        // What was cut off has been made good.
+        // The missing records were written again.
         assert_eq!(ishigami_runs(&cut, &["--base-samples", "4096", "--resume"]), 20480);
     }
 }
@@ -188,18 +188,18 @@ fn a_journal_of_another_study_is_refused_with_the_reason_or_moved_aside() {
     refused(&changed, 2, "factors.x2.distribution.max was 3.14");
     refused(&other(&["--resume", "--set", "function.a=6"]), 2, "settings.a was 7 and is now 6");
     refused(&other(&["--retry-failed", "--set", "analysis.second_order=true"]), 2, "design.rows_per_point was 5");
-    // What changes no output is no other study.
+    // Changes that affect no output do not make another study.
     let same = ["--resume", "--set", "analysis.threshold=0.1", "--set", "title=\"Other words\""];
     assert_eq!(ishigami_runs(out, &[&small[..], &same].concat()), 5120);
-    // Without --resume the journal makes way.
+    // Without --resume the journal is renamed.
     let output = other(&["--seed", "9"]);
     assert_eq!((output.status.code(), on_record(&stderr(&output))), (Some(0), 0));
     assert!(stderr(&output).contains(": the journal was moved to ") && out.join("ishigami.journal.old").is_file());
     std::fs::write(out.join("ishigami.journal"), "x1,x2\n").unwrap();
-    refused(&other(&["--resume"]), 2, "this is no journal of a run: it does not begin as one");
+    refused(&other(&["--resume"]), 2, "this is not a journal of a run: it does not begin like a journal");
     let before = std::fs::read(out.join("ishigami.journal.old")).unwrap();
     assert_eq!(other(&[]).status.code(), Some(0));
-    // Nothing that was moved aside is lost.
+    // Renamed journals are kept.
     assert_eq!(std::fs::read(out.join("ishigami.journal.old2")).unwrap(), b"x1,x2\n");
     assert_eq!(std::fs::read(out.join("ishigami.journal.old")).unwrap(), before);
 }
@@ -240,7 +240,7 @@ fn a_study_may_be_called_by_any_path_and_moved_but_a_changed_program_is_noticed(
     refused(&merge(), 2, "sum-shard-1-of-2.journal: evaluated with another sum.py than ");
     std::fs::remove_file(out.join("sum-shard-1-of-2.journal")).unwrap();
     assert_eq!(merge().status.code(), Some(0));
-    // What was merged is still of the program before.
+    // The merged runs are still of the earlier program.
     let again = apportion(&["run", text(&there.join("sum.toml")), "--out", text(&out)]);
     refused(&again, 2, "sum.py changed since the journal was written");
     assert_eq!(on_record(&run(&there.join("sum.toml"), &["--restart"])), 0);
@@ -266,7 +266,7 @@ fn failures_that_come_back_leave_the_result_as_it_was() {
 }
 
 #[test]
-fn what_is_counted_is_counted_once_however_often_failures_are_tried_again() {
+fn retried_failures_are_counted_once() {
     let folder = tempfile::tempdir().unwrap();
     let study = "name = \"still\"\nmodel = \"afm\"\noutputs = [\"critical_force\"]\n[afm]\nfriction = \"lugre\"\n[design]\n\
                  base_samples = 64\n[analysis]\nmax_failed = 0.9\n[[factor]]\nname = \"velocity\"\ndistribution = \"discrete\"\n\
@@ -297,13 +297,13 @@ fn a_full_disk_ends_a_run_without_loss() {
     let (whole, full) = (folder.path().join("whole"), folder.path().join("full"));
     succeed(&words(&slow(&whole, &["--no-journal"])));
     std::fs::create_dir(&full).unwrap();
-    // No file may become longer than 8 KiB, and the program is told so by an error, as on a full disk.
+    // No file may exceed 8 KiB; beyond it the program gets an error, as on a full disk.
     let program = assert_cmd::cargo::cargo_bin!("apportion");
     let mut limited = Command::new("bash");
     limited.args(["-c", "trap '' XFSZ; ulimit -f 8; exec \"$@\"", "bash", text(program)]).args(slow(&full, &[]));
     let output = limited.output().unwrap();
     refused(&output, 1, "cannot keep the outputs of finished runs: File too large");
-    assert!(stderr(&output).contains("the same command with --resume goes on with them"), "{}", stderr(&output));
+    assert!(stderr(&output).contains("repeat the command with --resume to continue"), "{}", stderr(&output));
     let resumed = apportion(&words(&slow(&full, &["--resume"])));
     assert_eq!(resumed.status.code(), Some(0), "{}", stderr(&resumed));
     assert!(on_record(&stderr(&resumed)) > 100, "{}", stderr(&resumed));
@@ -313,7 +313,7 @@ fn a_full_disk_ends_a_run_without_loss() {
 #[test]
 fn two_runs_do_not_write_one_journal() {
     let folder = tempfile::tempdir().unwrap();
-    // Long enough to be at work still when the second one begins, on any machine.
+    // Long enough to be still running when the second one starts, on any machine.
     let longer = |argument: String| if argument == SLOW[3] { "262144".to_owned() } else { argument };
     let long: Vec<String> = slow(folder.path(), &[]).into_iter().map(longer).collect();
     let mut first = spawn(&long);

@@ -1,4 +1,4 @@
-//! Runs and files that must not be lost: what a command keeps, or refuses before it touches anything.
+//! Runs and files that must not be lost: what a command keeps, or refuses before it changes any file.
 
 use std::path::Path;
 
@@ -40,12 +40,12 @@ fn a_split_design_is_doubled_as_it_is() {
             apportion(&["run", study, "--set", "design.runs=100", "--double", "--out", out, "--charts", "none"]);
         assert_eq!(doubled.status.code(), Some(0), "{}", stderr(&doubled));
         let (now, recorded) =
-            (design(), format!("note: {} of {} runs are on record", before.model_runs, 2 * before.model_runs));
+            (design(), format!("note: {} of {} runs are already saved", before.model_runs, 2 * before.model_runs));
         assert!(stderr(&doubled).contains(&recorded), "{}", stderr(&doubled));
         assert_eq!((now.base_samples, now.plain_rows), (2 * before.base_samples, first.plain_rows));
     }
     assert!(!files(Path::new(out)).contains("s.journal.old"));
-    // Another design cannot go on, and nothing is touched.
+    // Another design cannot resume, and no file changes.
     let before = std::fs::read(Path::new(out).join("s.journal")).unwrap();
     refused(
         &["run", study, "--set", "design.runs=100", "--double", "--seed", "7", "--out", out],
@@ -60,16 +60,10 @@ fn a_run_that_chose_its_design_is_not_doubled_but_made_more_accurate() {
     let (study, out) = (folder.with("s.toml", SUM), folder.path("out"));
     let [study, out] = [text(&study), text(&out)];
     let said = succeed(&["run", study, "--accuracy", "0.05", "--out", out, "--charts", "none"]);
-    assert!(said.contains("make the same run again, to the bit.\n    [design]\n    runs = "), "{said}");
+    assert!(said.contains("repeat the same run exactly.\n    [design]\n    runs = "), "{said}");
     let before = files(Path::new(out));
-    refused(
-        &["run", study, "--double", "--out", out],
-        "ask for one again, which goes on with its runs: --accuracy 0.025",
-    );
-    refused(
-        &["run", study, "--retry-failed", "--out", out],
-        "ask for one again, which goes on with its runs: --accuracy 0.05",
-    );
+    refused(&["run", study, "--double", "--out", out], "use --accuracy 0.025 instead");
+    refused(&["run", study, "--retry-failed", "--out", out], "use --accuracy 0.05 instead");
     assert_eq!(files(Path::new(out)), before);
     succeed(&["run", study, "--accuracy", "0.025", "--out", out, "--charts", "none"]);
     assert_eq!(files(Path::new(out)), before);
@@ -86,7 +80,7 @@ fn rows_behind_the_last_one_are_not_passed_over() {
     for (rest, expected) in [
         (outputs.as_str(), "row 33: column `y`: expected a number"),
         ("abc\n", "row 33: column `y`: expected a number"),
-        ("1\n2\n", "the file has 34 rows, and the design 32"),
+        ("1\n2\n", "the file has 34 rows, but the design has 32"),
     ] {
         let data = folder.with("z.csv", format!("{outputs}{rest}"));
         refused(&["analyze", text(&data), "--design", design, "--out", out], expected);
@@ -103,7 +97,7 @@ fn a_file_that_is_read_is_not_written() {
     for output in [&points, &same, &study] {
         refused(
             &["evaluate", text(&study), text(&points), "-o", text(output)],
-            "this file is read, and would be overwritten",
+            "this is the input file, and it would be overwritten",
         );
     }
     assert_eq!(std::fs::read_to_string(points).unwrap(), "a,b\n0.5,1\n");
@@ -111,12 +105,12 @@ fn a_file_that_is_read_is_not_written() {
 }
 
 #[test]
-fn sample_overwrites_its_own_designs_alone() {
+fn sample_overwrites_only_its_own_designs() {
     let folder = Folder::new();
     let (study, table) = (folder.with("s.toml", SUM), folder.with("t.csv", "a,b\n0.5,1\n"));
     let sample = |more: &[&str]| apportion(&[&["sample", text(&study), "-o", text(&table)], more].concat());
     let expected =
-        "exists already, and is no design that `sample` wrote of this study: give another name, or add --force";
+        "exists already, and is not a design that `sample` wrote of this study: give another name, or add --force";
     for more in [&[][..], &["--random", "10"]] {
         let output = sample(more);
         assert!(output.status.code() == Some(2) && stderr(&output).contains(expected), "{}", stderr(&output));
@@ -126,18 +120,18 @@ fn sample_overwrites_its_own_designs_alone() {
         let output = sample(more);
         assert_eq!(output.status.code(), Some(0), "{more:?}: {}", stderr(&output));
     }
-    // Outputs that somebody has put in are no points.
+    // A file with outputs is not a file of points.
     std::fs::write(&table, std::fs::read_to_string(&table).unwrap().replace('\n', ",1\n")).unwrap();
     assert_eq!(sample(&[]).status.code(), Some(2));
 }
 
 #[test]
-fn factors_without_a_column_are_told_with_their_values() {
+fn factors_without_a_column_are_listed_with_their_values() {
     let folder = Folder::new();
     let (study, points, out) = (folder.with("s.toml", SUM), folder.with("p.csv", "b\n1\n"), folder.path("o.csv"));
     let output = apportion(&["evaluate", text(&study), text(&points), "-o", text(&out)]);
     let said = stderr(&output);
-    let expected = "p.csv: factors without a column stand at their nominal values: a = 0.25 mm\n";
+    let expected = "p.csv: factors without a column are at their nominal values: a = 0.25 mm\n";
     assert!(output.status.code() == Some(0) && said.contains(expected), "{said}");
 }
 
@@ -152,7 +146,7 @@ fn outputs_keep_the_kind_of_unit_that_the_study_says() {
         ["analyze", text(&outputs), "--design", text(&design), "--out", text(&out), "--charts", "none", "--units"];
     for (unit, expected) in [
         ("y=kg", "the unit `kg` is given for `y`, and measures a mass: the study says `mm`"),
-        ("y=mmm", "and is not known"),
+        ("y=mmm", "and is unknown"),
     ] {
         refused(&[&analyze[..], &[unit]].concat(), expected);
     }
@@ -160,7 +154,7 @@ fn outputs_keep_the_kind_of_unit_that_the_study_says() {
 }
 
 #[test]
-fn a_file_is_no_folder_and_a_folder_that_is_missing_is_named() {
+fn a_file_in_place_of_a_folder_and_a_missing_folder_are_named() {
     let folder = Folder::new();
     let (study, file) = (folder.with("s.toml", SUM), folder.with("afile", ""));
     let [table, new] = ["nodir/x.csv", "nodir/x.toml"].map(|name| folder.path(name));
@@ -174,17 +168,17 @@ fn a_file_is_no_folder_and_a_folder_that_is_missing_is_named() {
 }
 
 #[test]
-fn nothing_is_said_to_be_kept_where_nothing_is() {
+fn a_run_without_saved_rows_does_not_offer_to_resume() {
     let folder = Folder::new();
     let study = folder.with("s.toml", SLOW.replace("python3", "no-such-program"));
     let output = apportion(&["run", text(&study), "--out", text(&folder.path("out"))]);
     assert_eq!(output.status.code(), Some(1));
     let said = stderr(&output);
-    assert!(said.contains("cannot start the program `no-such-program`") && !said.contains("are kept"), "{said}");
+    assert!(said.contains("cannot start the program `no-such-program`") && !said.contains("are saved"), "{said}");
 }
 
 #[test]
-fn numbers_and_places_that_serve_no_option_are_told_as_such() {
+fn invalid_numbers_and_paths_of_options_are_refused() {
     let folder = Folder::new();
     let study = folder.with("s.toml", SUM);
     refused(&["run", text(&study), "--seed", "-1"], "expected a whole number from 0 to");
@@ -199,13 +193,10 @@ fn numbers_and_places_that_serve_no_option_are_told_as_such() {
 }
 
 #[test]
-fn text_that_is_not_utf_8_is_told_with_its_line() {
+fn text_that_is_not_utf_8_is_reported_with_its_line() {
     let folder = Folder::new();
     let latin = folder.with("latin.toml", b"model = \"ishigami\"\n# caf\xe9\n");
     refused(&["check", text(&latin)], "cannot read the study file: line 2 is not text in UTF-8: save it as UTF-8");
     let (study, points) = (folder.with("s.toml", SUM), folder.with("p.csv", b"a,b\n0.5,\xe9\n"));
-    refused(
-        &["evaluate", text(&study), text(&points), "-o", text(&folder.path("o.csv"))],
-        "line 2: it is not text in UTF-8",
-    );
+    refused(&["evaluate", text(&study), text(&points), "-o", text(&folder.path("o.csv"))], "line 2: not text in UTF-8");
 }

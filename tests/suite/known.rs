@@ -15,7 +15,7 @@ fn analysed(text: &str, overrides: &[String]) -> StudyResult {
 
 const SEEDS: u64 = 32;
 
-/// What a study of one function says of mean, variance, first-order and total indices, one list per seed.
+/// Mean, variance, first-order and total indices from a study of one function, one list per seed.
 fn estimates(name: &str, base_samples: u64) -> Vec<Vec<f64>> {
     let of_seed = |seed| {
         let design = [format!("base_samples={base_samples}"), "replicates=1".to_owned(), format!("seed={seed}")];
@@ -52,7 +52,7 @@ fn every_function_has_its_indices() {
                 let column: Vec<f64> = all.iter().map(|estimates| estimates[place]).collect();
                 let (mean, sd) = spread(&column);
                 spreads.push(sd);
-                // Rounding, where nothing is left to chance: inert inputs have the index 0 in every sample.
+                // Rounding errors, where there is no randomness: inert inputs have the index 0 in every sample.
                 let rounding = known_to * expected.abs().max(1.0);
                 let gap = |x: f64| ((x - expected).abs() - rounding).max(0.0);
                 let what = || format!("{answer:?}, N = {base_samples}, {place}: {mean} +- {sd}, not {expected}");
@@ -84,7 +84,7 @@ fn only(result: &StudyResult) -> &OutputResult {
 }
 
 #[test]
-fn a_constant_has_no_indices_and_says_why() {
+fn a_constant_output_has_a_reason_instead_of_indices() {
     let result = analysed("model = \"linear\"\n[function]\nc = 0\ndimension = 3\n", &[]);
     let output = only(&result);
     assert_eq!((output.mean, output.variance), (Some(0.0), Some(0.0)));
@@ -92,7 +92,7 @@ fn a_constant_has_no_indices_and_says_why() {
 }
 
 #[test]
-fn factors_take_their_own_distributions_and_others_stand_still() {
+fn factors_have_their_own_distributions_and_other_inputs_are_fixed() {
     let some =
         analysed("model = \"flood\"\n[[factor]]\nname = \"Hd\"\n[[factor]]\nname = \"Q\"\ngroup = \"river\"\n", &[]);
     let names: Vec<_> =

@@ -1,10 +1,10 @@
-//! `apportion live`: pages that compute. What they compute is tried in a browser (`tests/browser/live.py`).
+//! `apportion live`: interactive pages. Their computations are tested in a browser (`tests/browser/live.py`).
 
 use serde_json::Value;
 
 use crate::common::{Folder, apportion, stderr, study_path, succeed, text};
 
-/// What stands in the element `id` of a page.
+/// The text of the element `id` of a page.
 fn element<'a>(page: &'a str, id: &str) -> &'a str {
     let begin = page.find(&format!("id=\"{id}\">")).expect("the element is there") + id.len() + 6;
     &page[begin..begin + page[begin..].find("</").expect("the element ends")]
@@ -34,7 +34,7 @@ fn a_page_has_the_engine_the_study_as_it_was_changed_and_its_result() {
     assert_eq!(title, "Soft cantilever in humid air");
     assert!(own.contains("min = 1.5") && own.contains("velocity = \"60 nm/s\"") && own.contains("base_samples = 256"));
     assert!(!own.contains("name = \"velocity\""));
-    assert!(page.contains("matters most") || page.contains("cannot be told apart"));
+    assert!(page.contains("matters most") || page.contains("cannot be distinguished"));
     assert!(page.contains("runs of the model by the program."));
     for id in ["indices", "shares", "distribution", "validity"] {
         assert!(page.contains(&format!("<section id=\"{id}\"")), "{id}");
@@ -59,7 +59,7 @@ fn the_page_of_a_run_links_to_its_own() {
     let to = folder.path("out");
     let out = ["--charts", "none", "--base-samples", "256", "--out", text(&to)];
     let done = stderr(&apportion(&[&["run", text(&study_path("ishigami"))], &out[..]].concat()));
-    assert!(done.contains("ishigami.html, and ishigami-live.html to try other ranges in"), "{done}");
+    assert!(done.contains("ishigami.html, and the interactive page ishigami-live.html"), "{done}");
     let page = std::fs::read_to_string(to.join("ishigami.html")).unwrap();
     assert!(page.contains("href=\"ishigami-live.html\"") && page.contains("Try your own ranges"));
     assert_eq!(presets(&std::fs::read_to_string(to.join("ishigami-live.html")).unwrap()).len(), 1);
@@ -69,7 +69,7 @@ fn the_page_of_a_run_links_to_its_own() {
     assert!(!to.join("command-python-live.html").exists(), "a program cannot be asked from a page");
 }
 
-/// What a stranger's result says of its study makes the program read no file.
+/// The study in an untrusted result does not make the program read a file.
 #[test]
 fn the_live_page_of_a_result_reads_no_files() {
     let folder = Folder::new();
@@ -127,7 +127,7 @@ fn a_title_does_not_break_out_of_the_page() {
 }
 
 #[test]
-fn what_a_page_cannot_run_is_refused() {
+fn studies_that_a_page_cannot_run_are_refused() {
     let folder = Folder::new();
     let page = folder.path("live.html");
     for study in ["command-python/command-python", "epidemic/epidemic"] {

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use crate::common::{Folder, all_files, apportion, stderr, stdout, succeed, text};
 
-/// A wave that three factors shape and one hardly does, at so many times; the output `flat` does not vary.
+/// A wave with three influential factors and one with little effect, at so many times; the output `flat` does not vary.
 fn study(outputs: usize, more: &str) -> String {
     let output = |k: usize| {
         let time = k as f64 / outputs as f64;
@@ -52,7 +52,7 @@ fn a_thousand_outputs_are_a_few_files_and_a_page_of_a_few_megabytes() {
     let csv = std::fs::read_to_string(out.join("s.csv")).unwrap();
     assert_eq!(csv.lines().count(), 1 + 4 * 1000 + 4);
     assert!(csv.lines().last().unwrap().starts_with("all outputs,aggregate,d,"), "{csv}");
-    // The same page can be drawn from the result alone.
+    // The same page can be drawn from the result only.
     succeed(&["report", text(&out.join("s.json")), "--out", text(&folder.path("again"))]);
     assert!(std::fs::read_to_string(folder.path("again/s.html")).unwrap() == page);
 }
@@ -88,7 +88,7 @@ fn the_same_numbers_on_any_number_of_threads() {
 
 #[cfg(unix)]
 #[test]
-fn a_signal_is_heard_once_the_result_is_written() {
+fn a_signal_takes_effect_after_the_result_is_written() {
     use std::io::Read;
     use std::process::{Command, Stdio};
     use std::time::{Duration, Instant};
@@ -102,7 +102,7 @@ fn a_signal_is_heard_once_the_result_is_written() {
     while !out.join("s.json").exists() {
         assert!(begun.elapsed() < Duration::from_secs(240));
         if let Some(code) = run.try_wait().unwrap() {
-            // On a busy machine all may be over between two looks.
+            // On a busy machine the run may end between two checks.
             assert!(code.success());
             return;
         }
@@ -117,7 +117,7 @@ fn a_signal_is_heard_once_the_result_is_written() {
     // A busy machine may have drawn the page before the signal came.
     if !out.join("s.html").exists() {
         assert_eq!(code, Some(1), "{said}");
-        assert!(said.contains("error: interrupted while files were written: those that are there are whole"), "{said}");
+        assert!(said.contains("error: interrupted while writing files: existing files are complete"), "{said}");
     }
     let json: serde_json::Value = serde_json::from_slice(&std::fs::read(out.join("s.json")).unwrap()).unwrap();
     assert_eq!(json["outputs"].as_array().unwrap().len(), 1500);
@@ -125,7 +125,7 @@ fn a_signal_is_heard_once_the_result_is_written() {
 }
 
 #[test]
-fn outputs_that_are_told_apart_by_names_alone_have_rows() {
+fn outputs_that_differ_only_by_name_have_rows() {
     let folder = Folder::new();
     let names =
         ["mass", "cost", "stress", "drag", "lift", "range", "noise", "fuel", "speed", "climb", "load", "heat", "flat"];
@@ -145,7 +145,7 @@ fn outputs_that_are_told_apart_by_names_alone_have_rows() {
 }
 
 #[test]
-fn failures_of_many_outputs_are_told_once() {
+fn failures_of_many_outputs_are_reported_once() {
     let folder = Folder::new();
     let outputs: String = (0..20).map(|k| format!("y{k} = \"sqrt(a - 0.01) + {k} * b\"\n")).collect();
     let factors: String = ["a", "b"].map(|name| format!("[[factor]]\nname = \"{name}\"\nmin = 0\nmax = 1\n")).concat();

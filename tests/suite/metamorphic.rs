@@ -1,4 +1,4 @@
-//! What must not matter: the output's offset and scale, the order of the factors, the number of threads.
+//! Invariance: offset and scale of the output, order of the factors, number of threads.
 
 use apportion::design::{Design, DesignSettings, Rows};
 use apportion::model::{Batch, KnownAnswer, KnownFunction, Model, Output, RunContext, Worker};
@@ -135,7 +135,7 @@ proptest! {
 }
 
 #[test]
-fn threads_and_repetition_give_the_same_file_apart_from_what_tells_of_them() {
+fn files_of_repeated_runs_differ_only_in_time_and_threads() {
     let folder = tempfile::tempdir().unwrap();
     let run = |threads: &str| {
         let out = folder.path().join(threads);

@@ -1,4 +1,4 @@
-//! Names of any kind, through the program: none leads out of the folder, none takes another's file, none is too long.
+//! Names of any kind, through the program: no file outside the folder, no file of another study, no name too long.
 
 use std::time::{Duration, Instant};
 
@@ -133,7 +133,7 @@ fn a_hundred_thousand_factors_are_refused_at_once() {
 /// measured values may lie anywhere: nothing but numbers is read from them.
 #[cfg(unix)]
 #[test]
-fn no_path_leads_out_of_the_studys_folder_unless_it_says_so() {
+fn paths_outside_the_study_folder_need_files_outside() {
     const TEMPLATE: &str = "template = \"own.in\"\n";
     const KEYS: [(&str, &str, bool); 16] = [
         ("template = \"../secret.in\"", "", true),

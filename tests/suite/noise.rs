@@ -85,7 +85,7 @@ fn the_intervals_hold() {
     }
 }
 
-/// Without noise it does nothing, and everything else is that of a study with a factor that does nothing in its place.
+/// Without noise the seed has no effect, and all else is that of a study with an inert factor instead.
 #[test]
 fn without_noise_all_is_as_without_it() {
     let of = |last: Distribution| {
@@ -118,7 +118,7 @@ fn without_noise_all_is_as_without_it() {
     assert_eq!(noise.of_mean.len(), 3);
 }
 
-/// Rows that differ in a factor share the seed: where the noise is all, factors do nothing in any row.
+/// Rows that differ in a factor share the seed: if there is only noise, factors have no effect in any row.
 #[test]
 fn rows_of_a_factor_share_the_noise_of_their_point() {
     let model = function_model("y", |x| normal(x[3]));
@@ -161,7 +161,7 @@ fn parsed(text: &str) -> Result<Study, apportion_files::StudyError> {
 }
 
 #[test]
-fn a_file_says_it_in_two_ways() {
+fn noise_can_be_written_in_three_equivalent_forms() {
     let short = parsed(&format!("{FORMULA}[factors.x]\nmin = 0\nmax = 1")).unwrap();
     let long = FORMULA.replace("noise = \"seed\"\n", "")
         + "[noise]\nname = \"seed\"\n[[factor]]\nname = \"x\"\nmin = 0\nmax = 1";
@@ -172,7 +172,7 @@ fn a_file_says_it_in_two_ways() {
     assert_eq!(short.identity(), long.identity());
     assert_eq!(short.identity(), as_factor.identity());
     assert_eq!(short.space().noise(), Some(1));
-    // The noise is none of the factors of a result.
+    // The noise is not one of the factors of a result.
     let result = short.run().unwrap();
     let output = &result.outputs[0];
     assert_eq!((result.factors.len(), output.indices.as_ref().unwrap().len()), (1, 1));
@@ -180,7 +180,7 @@ fn a_file_says_it_in_two_ways() {
 }
 
 #[test]
-fn what_makes_no_sense_is_refused() {
+fn senseless_input_is_refused() {
     let x = "[factors.x]\nmin = 0\nmax = 1\n";
     let refused = |text: &str| parsed(text).map(|_| ()).unwrap_err().to_string();
     for (text, expected) in [
@@ -193,10 +193,7 @@ fn what_makes_no_sense_is_refused() {
         (format!("{FORMULA}{x}[factors.s]\ndistribution = \"seed\"\ntruncate = [0, 5]"), "no order"),
         (format!("{FORMULA}{x}[factors.s]\ndistribution = \"seed\"\nunit = \"um\""), "a seed is a pure number"),
         (format!("{FORMULA}{x}[factors.s]\ndistribution = \"seed\"\nmin = 0"), "has no `min`"),
-        (
-            "model = \"external\"\noutputs = [\"y\"]\n[noise]\nrepetitions = 4\n".to_owned() + x,
-            "outside of this program",
-        ),
+        ("model = \"external\"\noutputs = [\"y\"]\n[noise]\nrepetitions = 4\n".to_owned() + x, "outside this program"),
         ("model = \"ishigami\"\nnoise = \"seed\"\n".to_owned() + &x.replace(".x]", ".x1]"), "seed"),
     ] {
         let found = refused(&text);
@@ -231,13 +228,13 @@ fn check_finds_programs_that_draw_without_their_seed() {
 }
 
 #[test]
-fn a_run_tells_random_programs_from_those_that_remember() {
+fn a_run_distinguishes_random_programs_from_programs_with_state() {
     let folder = Folder::new();
     for (draws, expected) in [
         ("y = x", None),
         ("y = x + random.random()", Some("the model draws random numbers")),
         // From one seed at its start.
-        ("n = globals().get('n') or random.Random(1); y = x + n.random()", Some("depends on the rows before")),
+        ("n = globals().get('n') or random.Random(1); y = x + n.random()", Some("depend on earlier rows")),
     ] {
         let study = program(&folder, draws);
         let study = folder.with("s.toml", std::fs::read_to_string(study).unwrap().replace("noise = \"seed\"\n", ""));
@@ -251,7 +248,7 @@ fn a_run_tells_random_programs_from_those_that_remember() {
     }
 }
 
-/// The seed is a part of the row: a journal gives the same result, and so does a table that somebody else has filled.
+/// The seed is a part of the row: a journal gives the same result, and so does a table filled by another program.
 #[test]
 fn the_example_says_which_question_each_number_answers() {
     let folder = Folder::new();
@@ -279,7 +276,7 @@ fn the_example_says_which_question_each_number_answers() {
     assert!(noise.effect.total.estimate > 0.1 && noise.of_mean.iter().all(|of_mean| of_mean.total.is_some()));
     let csv = std::fs::read_to_string(folder.path("one").join("stochastic.csv")).unwrap();
     assert!(csv.lines().any(|line| line.starts_with("wait,noise,seed,")), "{csv}");
-    // Sampled, evaluated and analysed apart.
+    // Sampled, evaluated and analysed in separate steps.
     let (design, answers) = (out("design.csv"), out("answers.csv"));
     succeed(&["sample", text(&study), runs[0], runs[1], "-o", &design]);
     let first = std::fs::read_to_string(&design).unwrap();
@@ -296,7 +293,7 @@ fn the_example_says_which_question_each_number_answers() {
     assert!(one.len() == 6 && one.iter().zip(&two).all(|(a, b)| (a - b).abs() < 1e-12), "{one:?} {two:?}");
 }
 
-/// The noise has a line among the indices over all outputs together: it is none of the factors, and their total indices sum to 1 with it.
+/// The noise has a line among the indices over all outputs together: it is not a factor, and the total indices of all sum to 1 with it.
 #[test]
 fn indices_over_all_outputs_have_a_line_of_the_noise() {
     let folder = Folder::new();

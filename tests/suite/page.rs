@@ -4,7 +4,7 @@ use std::path::Path;
 
 use crate::common::{Folder, all_files, apportion, stderr, study_path, succeed, text};
 
-/// The page that `apportion run` writes for a study file, and the folder it stands in.
+/// The page that `apportion run` writes for a study file, and its folder.
 fn page_of(study: &Path, settings: &[&str]) -> (String, tempfile::TempDir) {
     let folder = tempfile::tempdir().unwrap();
     let mut arguments = vec!["run", study.to_str().unwrap(), "--out", folder.path().to_str().unwrap()];
@@ -51,7 +51,7 @@ fn every_output_has_its_section_and_pairs_their_table() {
 }
 
 #[test]
-fn an_evil_title_stays_a_title() {
+fn a_malicious_title_is_escaped() {
     let folder = tempfile::tempdir().unwrap();
     let study = folder.path().join("evil.toml");
     let title = "</title></script><script>alert('1')</script><img src=x onerror=alert(2)> & \\\"quoted\\\"";
@@ -83,7 +83,7 @@ fn results_without_indices_have_pages() {
     assert!(page.contains("There are no indices of y") && page.contains("zero variance"));
 }
 
-/// Checks that the page of a folder stands by itself and leads only to files that are there; gives it.
+/// Checks that the page of a folder needs no other files and links only to existing ones; returns it.
 #[track_caller]
 fn whole(folder: &Path, name: &str) -> String {
     let page = std::fs::read_to_string(folder.join(format!("{name}.html"))).unwrap();

@@ -1,4 +1,4 @@
-//! Points of many kinds in the unit cube, as columns: independent ones, and all that only look so.
+//! Points of many kinds in the unit cube, as columns: independent ones, and others that only look independent.
 
 use apportion::design::{Design, DesignSettings, LatinHypercube, RandomPoints, Rows, Sampler, SobolSequence};
 

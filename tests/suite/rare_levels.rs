@@ -1,4 +1,4 @@
-//! Rare levels and thin tails: surrogates do not claim what rows cannot carry, and what rows never met is said to be unknown.
+//! Rare levels and thin tails: surrogates claim nothing that the rows do not contain, and effects of missing levels are unknown.
 
 use apportion::model::{Model, Output, RunContext, Worker};
 use apportion::{
@@ -8,7 +8,7 @@ use apportion::{
 
 use crate::common::effects;
 
-/// A model that says that it takes its time, as a program does.
+/// A model that reports long run times, as a program does.
 struct Program<M>(M);
 
 impl<M: Model> Model for Program<M> {
@@ -86,7 +86,7 @@ fn intervals_hold_where_levels_are_rare() {
 }
 
 #[test]
-fn a_level_that_no_row_met_is_not_nothing() {
+fn a_level_without_rows_does_not_count_as_without_effect() {
     let factors = [uniform(), uniform(), boolean(1e-4)];
     let function = |x: &[f64]| x[0] * x[1] + 100.0 * x[2];
     for target in [Target::accuracy(0.01), Target::default()] {
@@ -105,7 +105,7 @@ fn a_level_that_no_row_met_is_not_nothing() {
 }
 
 #[test]
-fn an_accuracy_goes_on_until_rare_levels_are_met() {
+fn a_run_with_accuracy_continues_until_rare_levels_occur() {
     let factors = [uniform(), uniform(), boolean(0.03), boolean(0.03)];
     let variance = 7.0 / 144.0 + 2.0 * 0.03 * 0.97;
     let exact = [1.0 / 48.0 / variance, 0.03 * 0.97 / variance];
@@ -123,7 +123,7 @@ fn an_accuracy_goes_on_until_rare_levels_are_met() {
 
 /// The rows of a net at equal distances near a power of two hardly have a rare level: half of such runs lost their surrogates.
 #[test]
-fn many_rows_know_rare_levels_no_less_than_few() {
+fn more_rows_know_rare_levels_at_least_as_well() {
     let exact = 0.03 * 0.97 / (7.0 / 144.0 + 2.0 * 0.03 * 0.97);
     for seed in 5..9 {
         let builder = builder(&[uniform(), uniform(), boolean(0.03), boolean(0.03)], |x| x[0] * x[1] + x[2] + x[3]);
@@ -136,7 +136,7 @@ fn many_rows_know_rare_levels_no_less_than_few() {
 }
 
 #[test]
-fn a_trial_says_why_indices_are_plain() {
+fn a_trial_explains_why_indices_are_plain() {
     let steps = |x: &[f64]| f64::from(u8::from(x[0] + x[1] > 0.7)) + f64::from(u8::from(x[1] * x[2] > 0.2));
     let smooth = |x: &[f64]| x[0] * x[1] + x[2];
     for (function, is_corrected) in [(steps as fn(&[f64]) -> f64, false), (smooth, true)] {
@@ -151,7 +151,7 @@ fn a_trial_says_why_indices_are_plain() {
     }
 }
 
-/// What is refused has no intervals that hold the plain ones too.
+/// Rejected surrogates do not extend the intervals of the plain indices.
 #[test]
 fn surrogates_that_are_refused_are_warned_of_once() {
     let text = "model = \"expression\"\noutputs.y = \"a*b + 100*d\"\naccuracy = 0.01\n[factors]\na = { min = 0, max = 1 }\n\

@@ -1,4 +1,4 @@
-//! Workers elsewhere, here threads behind channels: the same bits, and an end in order.
+//! Remote workers, here threads behind channels: the same bits, and a clean end.
 
 use std::io;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -44,7 +44,7 @@ impl RemoteWorkers for Elsewhere {
     }
 }
 
-/// The requests to one worker, and how many it answers before it is lost.
+/// The requests to one worker, and the number that it answers before it is lost.
 struct Queue(Receiver<Vec<u8>>, Sender<Vec<u8>>, usize);
 
 impl Requests for Queue {
@@ -58,7 +58,7 @@ impl Requests for Queue {
     }
 }
 
-/// What `run` returns with so many workers elsewhere, each of which answers so many requests.
+/// The result of `run` with this number of remote workers, each of which answers this number of requests.
 fn with_workers<R>(study: &Study, workers: usize, answers: usize, run: impl FnOnce(&Elsewhere) -> R) -> R {
     let far = WorkerStudy::new(study.clone());
     let stop = AtomicBool::new(false);
@@ -87,7 +87,7 @@ fn json(result: &StudyResult) -> serde_json::Value {
 }
 
 #[test]
-fn workers_elsewhere_change_no_bit() {
+fn remote_workers_change_no_bit() {
     let dynamic = "afm.fidelity=dynamic";
     for (name, overrides) in [
         ("ishigami", &["design.base_samples=70000"][..]),
@@ -134,10 +134,10 @@ fn a_lost_worker_ends_the_run() {
     let study = load("ishigami", &["design.base_samples=65536"]);
     let lost = with_workers(&study, 2, 3, |far| study.runner().threads(1).remote_workers(far).run());
     let message = lost.unwrap_err().to_string();
-    assert!(message.starts_with("the worker number ") && message.contains("in another process is lost"), "{message}");
+    assert!(message.starts_with("worker ") && message.contains("in another process was lost"), "{message}");
 }
 
-/// The exit code of a run that sees these variables, and what it said.
+/// The exit code of a run with these variables, and its standard error.
 #[cfg(not(feature = "mpi"))]
 fn started_with(variables: &[(&str, &str)]) -> (Option<i32>, String) {
     let folder = tempfile::tempdir().unwrap();
@@ -163,7 +163,7 @@ fn a_program_without_mpi_refuses_to_run_on_ranks() {
         let (code, said) = started_with(&[(size, "3"), (rank, "0")]);
         assert_eq!(code, Some(2), "{said}");
         assert!(said.contains("started as 3 ranks of an MPI job") && said.contains("--features mpi"), "{said}");
-        // The first rank speaks for all.
+        // The first rank prints the messages of all.
         assert_eq!(started_with(&[(size, "3"), (rank, "2")]), (Some(2), String::new()));
         assert_eq!(started_with(&[(size, "1"), (rank, "0")]).0, Some(0));
         assert_eq!(started_with(&[(size, "3"), (rank, "0"), ("APPORTION_MPI", "off")]).0, Some(0));

@@ -13,7 +13,7 @@ fn claims_of(folder: &Path) -> Vec<csv::StringRecord> {
 }
 
 #[test]
-fn the_orders_of_the_papers_come_out_or_do_not() {
+fn the_orders_of_the_papers_are_confirmed_or_refuted() {
     let folder = tempfile::tempdir().unwrap();
     let said = succeed(&["reproduce", "--quick", "--only", "claims", "--out", text(folder.path())]);
     let names = files(folder.path());
@@ -24,12 +24,12 @@ fn the_orders_of_the_papers_come_out_or_do_not() {
     }
     assert_eq!(std::fs::read_to_string(folder.path().join("shares.csv")).unwrap().lines().count(), 1 + 3 * 16);
     assert!(names.contains("percentages.csv") && !names.contains("charts"), "{names:?}");
-    // The rankings of the papers' claims 17, 19 and 20 come out, that of 18 does not under Hurtado-Kim friction, and the
-    // velocity has no share anywhere: the verdicts say so.
+    // The rankings of the papers' claims 17, 19 and 20 are confirmed, that of 18 is not under Hurtado-Kim friction, and the
+    // velocity has no share anywhere: the verdicts state this.
     let claims = claims_of(folder.path());
     let range = |number: &str| &claims.iter().find(|claim| &claim[0] == number).unwrap()[5];
     assert_eq!(range("17"), "Coulomb, Hurtado-Kim, LuGre: the whole order");
-    let beginning = "the order as far as there are visible shares, which velocity and adhesion lack";
+    let beginning = "the order of the visible shares, which velocity and adhesion do not have";
     let other = "another order: not velocity before adhesion, a visible share of equivalent modulus, which the paper does \
                  not rank";
     assert_eq!(range("18"), format!("Coulomb, LuGre: {beginning}; Hurtado-Kim: {other}"));
@@ -40,7 +40,7 @@ fn the_orders_of_the_papers_come_out_or_do_not() {
     {
         assert!(said.contains(expected), "{expected}: {said}");
     }
-    // What the README says of the verdicts is what they are.
+    // The README states the current verdicts.
     let count = |verdict: &str| claims.iter().filter(|claim| &claim[3] == verdict).count();
     let said = format!(
         "Of {} answers to the papers' 20 claims, {} are reproduced, {} are not reproduced, and {} are contradicted",
@@ -55,11 +55,11 @@ fn the_orders_of_the_papers_come_out_or_do_not() {
     }
 }
 
-/// Intervals that overlap decide nothing: only what is the other way round is called so.
+/// Overlapping intervals are undecided: only a reversed order is reported as reversed.
 #[test]
 fn reproduce_at_few_points_leaves_open_what_they_do_not_decide() {
     let folder = tempfile::tempdir().unwrap();
-    // With 64 all is decided.
+    // With 64 every order is decided.
     let few = ["--base-samples", "32"];
     succeed(&[&["reproduce", "--quick", "--only", "claims", "--out", text(folder.path())], &few[..]].concat());
     let claims = claims_of(folder.path());
@@ -70,8 +70,8 @@ fn reproduce_at_few_points_leaves_open_what_they_do_not_decide() {
     assert_eq!(others.map(|claim| &claim[0]).collect::<Vec<_>>(), ["18"], "{claims:?}");
 }
 
-/// Every file of the reproduction that is the same on every run: but for the page, which tells times, and with the fields
-/// of the results that tell about time and threads taken out.
+/// Every file of the reproduction that is the same on every run: without the page, which shows times, and without the fields
+/// of the results about time and threads.
 fn lasting(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     let names = all_files(folder).into_iter();
     let read = |name: String| {
@@ -117,7 +117,7 @@ fn the_whole_is_the_same_on_any_number_of_threads_and_its_page_leads_nowhere_els
     for part in page.split("href=\"").skip(1) {
         let target = part.split('"').next().unwrap();
         let file = !target.starts_with('#') && !target.starts_with("data:");
-        // The framed animation has links of its own, escaped.
+        // The framed animation has its own links, escaped.
         assert!(!file || one.path().join(target).is_file(), "{target}");
     }
     assert!(page.contains("href=\"charts/ts04-14-animation.csv\""));
@@ -133,7 +133,7 @@ fn the_whole_is_the_same_on_any_number_of_threads_and_its_page_leads_nowhere_els
     ] {
         assert!(page.contains(expected), "{expected}");
     }
-    // The answer, its chart and its table come first, the papers in full last; what all captions would say is said once.
+    // The result, its chart and its table come first, the papers in full last; common text of the captions is printed once.
     let places = [
         "of the variance of the critical force alone",
         "id=\"overview\"",

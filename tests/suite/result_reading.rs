@@ -1,4 +1,4 @@
-//! What is read back from a result file, and what is refused.
+//! Reading of result files, and refused files.
 
 use std::path::Path;
 
@@ -28,14 +28,14 @@ fn parsed(value: &Value) -> Result<StudyResult, ReadProblem> {
 }
 
 #[test]
-fn what_was_written_is_read() {
+fn a_written_result_is_read_back() {
     let result = result();
     let text = result.json();
     assert_eq!(parse_result(text.as_bytes()).unwrap(), result);
 }
 
 #[test]
-fn what_is_no_result_is_refused_with_the_reason() {
+fn invalid_results_are_refused_with_the_reason() {
     let reason = |text: &str| parse_result(text.as_bytes()).unwrap_err().to_string();
     assert!(reason("{\n  \"format\": ,").contains("line 2 column 13"), "{}", reason("{\n  \"format\": ,"));
     assert!(reason("").contains("EOF"));
@@ -67,10 +67,10 @@ fn parts_that_do_not_fit_together_are_named() {
     let mut twice = whole;
     let output = twice["outputs"][0].clone();
     twice["outputs"].as_array_mut().unwrap().push(output);
-    assert!(parsed(&twice).unwrap_err().to_string().contains("`outputs[1].name`: the output \"y\" is there twice"));
+    assert!(parsed(&twice).unwrap_err().to_string().contains("`outputs[1].name`: the output \"y\" is listed twice"));
 }
 
-/// Every leaf of a result replaced by rubbish of its kind: it is refused, or all of it is drawn without a panic.
+/// Every leaf of a result replaced by an invalid value: the result is refused, or drawn without a panic.
 #[test]
 fn rubbish_is_refused_or_drawn() {
     let whole = serde_json::to_value(result()).unwrap();
@@ -94,7 +94,7 @@ fn rubbish_is_refused_or_drawn() {
     assert!(refused > 100 && accepted > 100, "{refused} refused, {accepted} accepted");
 }
 
-/// Where the leaves are; of a long list the first and the last entry stand for all.
+/// The positions of the leaves; of a long list only the first and the last entry.
 fn leaves(value: &Value, at: String, pointers: &mut Vec<String>) {
     match value {
         Value::Object(map) => {

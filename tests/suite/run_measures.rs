@@ -6,7 +6,7 @@ use ::apportion::{AnalysisOptions, Distribution, Sampler, Study, SurrogateChoice
 
 use crate::common::{Folder, apportion, run_in_parts, stderr, succeed, text};
 
-/// A sum of three normal factors with slopes 3, 2 and 1, and one that does nothing; rows with a large first factor fail if asked.
+/// A sum of three normal factors with slopes 3, 2 and 1, and one without effect; rows with a large first factor fail if requested.
 fn linear(sampler: Sampler, base_samples: u64, wanted: &[Measure], fails: bool) -> Study {
     let value = move |x: &[f64]| if fails && x[0] > 1.0 { f64::NAN } else { 3.0 * x[0] + 2.0 * x[1] + x[2] };
     let options = AnalysisOptions {
@@ -24,7 +24,7 @@ fn linear(sampler: Sampler, base_samples: u64, wanted: &[Measure], fails: bool) 
 
 /// The deltas of a sum of normals by quadrature, and the squares of the correlations, which the spectrum finds.
 #[test]
-fn what_is_known_exactly_is_found_from_nets_and_random_rows() {
+fn exact_measures_are_found_from_nets_and_random_rows() {
     for sampler in [Sampler::Sobol, Sampler::Random, Sampler::LatinHypercube] {
         let analysis = linear(sampler, 1 << 13, &[Measure::Delta, Measure::Fourier], false).run().unwrap();
         let found = analysis.outputs[0].measures.as_ref().unwrap();
@@ -38,7 +38,7 @@ fn what_is_known_exactly_is_found_from_nets_and_random_rows() {
             assert!(interval.low < delta && delta < interval.high, "{sampler:?} {}: {found:?}", factor.input);
             assert!(interval.high - interval.low < 0.08, "{sampler:?} {}: {found:?}", factor.input);
             assert!((s1 - first / 14.0).abs() < 0.04, "{sampler:?} {}: {s1}", factor.input);
-            // Rows that are spread evenly are no independent draws, to which permutations could be compared.
+            // Evenly spread rows are not independent draws, so permutations do not apply.
             assert_eq!(found.p_value.map(|p| p < 0.01), (sampler == Sampler::Random).then_some(true), "{sampler:?}");
             assert!(factor.get(Measure::Hsic).is_none());
         }
@@ -76,7 +76,7 @@ fn rows_of_a_run_are_given_data() {
 }
 
 #[test]
-fn nothing_is_made_up_where_nothing_can_be_told() {
+fn measures_are_missing_for_constant_outputs_and_few_rows() {
     let of = |value: fn(&[f64]) -> f64, base_samples: u64| {
         let options =
             AnalysisOptions { measures: vec![Measure::Delta], ..AnalysisOptions::for_sampler(Sampler::Sobol) };
@@ -96,7 +96,7 @@ fn study() -> String {
 }
 
 #[test]
-fn the_program_states_them_beside_the_indices() {
+fn the_program_lists_them_with_the_indices() {
     let folder = Folder::new();
     let file = folder.with("study.toml", study());
     let told = succeed(&["check", text(&file)]);
@@ -126,7 +126,7 @@ fn the_program_states_them_beside_the_indices() {
     let json: serde_json::Value = serde_json::from_slice(&std::fs::read(drawn.join("study.json")).unwrap()).unwrap();
     let idle = &json["outputs"][1]["measures"]["factors"][0]["measures"]["pawn_median"]["p_value"];
     assert!(idle.as_f64().unwrap() > 0.05, "z is b alone");
-    // Threads, and parts that are joined, make no difference.
+    // Threads and merged shards make no difference.
     let measured = |folder: &std::path::Path| std::fs::read(folder.join("study-measures.csv")).unwrap();
     let alone = folder.path("alone");
     succeed(&["run", text(&file), "--threads", "1", "--out", text(&alone)]);
@@ -137,7 +137,7 @@ fn the_program_states_them_beside_the_indices() {
 }
 
 #[test]
-fn what_is_no_measure_is_refused() {
+fn unknown_measures_are_refused() {
     let folder = Folder::new();
     let file = folder.with("study.toml", study());
     for (change, expected) in

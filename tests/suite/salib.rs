@@ -34,7 +34,7 @@ fn tables_of_salib_are_recognised_checked_and_analysed() {
         assert!(result.outputs[0].scatter.is_none());
         let index = result.outputs[0].indices.as_ref().unwrap()[1].effect.first_order;
         assert!(index.interval.unwrap().low < index.estimate && index.estimate < index.interval.unwrap().high);
-        // The outputs alone: 48 rows are both 12 times 4 and 8 times 6.
+        // Only the outputs: 48 rows are both 12 times 4 and 8 times 6.
         let alone: Vec<String> = lines.iter().map(|line| line.rsplit_once(',').unwrap().1.to_owned()).collect();
         sampled.write("y.csv", &alone);
         let names = ["--layout", "salib", "--names", "x1,x2", "--resamples", "100"];
@@ -57,7 +57,7 @@ fn tables_of_salib_are_recognised_checked_and_analysed() {
     sampled.refused(
         "t.csv",
         &salib,
-        "47 rows are no whole number of base points: for 2 inputs or groups there are 6 rows each",
+        "47 rows are not a whole number of base points: for 2 inputs or groups there are 6 rows each",
     );
     let mut missing = salib_table(true);
     let (inputs, _) = missing[1].rsplit_once(',').unwrap();
@@ -67,7 +67,7 @@ fn tables_of_salib_are_recognised_checked_and_analysed() {
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let result = read_result(&sampled.path("out").join("t.json")).unwrap();
     assert_eq!((result.outputs[0].runs_failed, result.outputs[0].base_points_used), (1, 7));
-    sampled.refused("t.csv", &["--layout", "salib"], "which columns are outputs?");
+    sampled.refused("t.csv", &["--layout", "salib"], "the outputs are unknown");
     std::fs::write(sampled.path("p.json"), "{\"names\": [\"x1\"], \"num_vars\": 2}").unwrap();
     let problem = sampled.name("p.json");
     sampled.refused("t.csv", &["--layout", "salib", "--problem", &problem], "`num_vars` is 2, but `names` has 1");

@@ -99,7 +99,7 @@ fn at_most_six_factors_of_many_and_none_without_indices() {
 
 #[test]
 fn outputs_of_any_size_have_means() {
-    // Squares of 1e200 are no doubles.
+    // Squares of 1e200 exceed doubles.
     let factor = "[[factor]]\nname = \"x1\"\nmin = 1e200\nmax = 2e200\n[[factor]]\nname = \"x2\"\n";
     let text = format!("model = \"linear\"\n{factor}[function]\nc = [1, 1]\n[design]\nbase_samples = 256\n");
     let result = analysed(&text);

@@ -1,9 +1,9 @@
-//! The nanoparticle model through the program: scenes in time, and every choice of its physics.
+//! The nanoparticle model through the program: scenes in time, and every choice of the physics.
 
 use crate::common::{apportion, files, stderr, study_path, succeed, text};
 
 #[test]
-fn simulate_tells_a_scene_from_sticking_to_slipping() {
+fn simulate_shows_a_scene_from_sticking_to_slipping() {
     let folder = tempfile::tempdir().unwrap();
     let study = study_path("coulomb-general");
     let out = ["--out", text(folder.path()), "--set", "afm.shear_modulus=40.5 GPa"];
@@ -32,7 +32,7 @@ fn simulate_tells_a_scene_from_sticking_to_slipping() {
 }
 
 #[test]
-fn scenes_that_cannot_be_told_say_why() {
+fn scenes_without_a_story_give_the_reason() {
     let folder = tempfile::tempdir().unwrap();
     let refused = |study: &str, arguments: &[&str], (code, expected): (i32, &str)| {
         let path = study_path(study);
@@ -106,7 +106,7 @@ fn the_parameters_of_a_friction_law_can_be_factors() {
 }
 
 #[test]
-fn settings_that_cannot_act_are_said_so() {
+fn settings_without_effect_are_noted() {
     let study = study_path("coulomb-general");
     let output = apportion(&["check", text(&study), "--set", "afm.step=1 ms", "--set", "afm.tolerance=1e-9"]);
     let message = stderr(&output);

@@ -93,9 +93,9 @@ fn derivatives_bound_total_indices() {
         csv.lines().next().unwrap().contains(",ratio_high,nu,nu_low,nu_high,total_bound,total_bound_low,"),
         "{csv}"
     );
-    // The bend of a distribution has no part in derivatives; what has no bound is said.
+    // The curvature of a distribution does not affect derivatives; factors without a bound are noted.
     let (_folder, file, _) = screened("soft-cantilever", &["--design", "derivative"]);
-    assert!(file.notes[0].contains("a model with jumps has no bounds"));
+    assert!(file.notes[0].contains("for a model with jumps there are no bounds"));
     assert!(file.notes[1].contains("no bound on the total index by derivatives is known for the distribution of"));
     assert!(file.notes[1].contains("velocity (log-uniform)"));
     assert!(screened("soft-cantilever", &[]).1.outputs[0].factors.iter().all(|factor| factor.nu.is_none()));
@@ -120,7 +120,7 @@ fn designs_seeds_and_threads_do_what_they_say() {
 }
 
 #[test]
-fn failed_runs_are_told_with_their_factors() {
+fn failed_runs_are_reported_with_their_factors() {
     let more = ["--design", "trajectory", "--set", "outputs=['critical_force', 'critical_time']"];
     let (_folder, file, table) = screened("coulomb-environmental", &more);
     let [force, time] = &file.outputs[..] else { panic!("two outputs") };
@@ -140,7 +140,7 @@ fn a_sweep_shows_curves_and_ranges() {
     assert_eq!(file.sweeps.len(), 8);
     let thickness = &file.sweeps[2];
     assert_eq!((thickness.values[0], thickness.values[10], thickness.values.len()), (0.25, 2.5, 11));
-    // F goes with the stiffness, E w t^3 / (4 L^2 ..), but for the load on the contact: tenfold width, nearly tenfold force.
+    // F is proportional to the stiffness, E w t^3 / (4 L^2 ..), except for the load on the contact: tenfold width, nearly tenfold force.
     let ends = |name: &str| {
         let sweep = file.sweeps.iter().find(|sweep| sweep.factor == name).unwrap();
         let y = &sweep.outputs[0];
@@ -189,9 +189,9 @@ fn bad_requests_are_refused_before_anything_is_written() {
         &["--design", "trajectory", "--levels", "5"],
         "5 levels: the trajectory design needs an even number",
     );
-    refused("screen", &["--levels", "4"], "--levels is of no account to the radial design");
+    refused("screen", &["--levels", "4"], "--levels has no effect on the radial design");
     refused("screen", &["--design", "star"], "radial, trajectory, derivative");
-    refused("screen", &["--design", "derivative", "--levels", "4"], "of no account to the derivative design");
+    refused("screen", &["--design", "derivative", "--levels", "4"], "has no effect on the derivative design");
     refused("screen", &["--seed", "-1"], "-1");
     refused("screen", &["--set", "factor.length.max=100"], "must be below");
     refused(
@@ -200,7 +200,7 @@ fn bad_requests_are_refused_before_anything_is_written() {
         "the study has no factor `thicknes`: did you mean `thickness`?; its factors are length,",
     );
     refused("sweep", &["--points", "1"], "expected a whole number from 2 to 100000");
-    refused("sweep", &["--factor", "length", "--factor", "length"], "factor `length` is asked for twice");
+    refused("sweep", &["--factor", "length", "--factor", "length"], "factor `length` is listed twice");
 }
 
 #[test]

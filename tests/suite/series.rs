@@ -1,4 +1,4 @@
-//! Outputs that are series: indices of single values and of the whole, where they are known.
+//! Outputs that are series: known indices of single values and of the whole series.
 
 use std::f64::consts::TAU;
 
@@ -146,9 +146,9 @@ fn surrogates_of_the_values_correct_the_whole() {
     assert!(width(&on) < 1e-3 * width(&off), "{} {}", width(&on), width(&off));
 }
 
-/// The noise of a stochastic model stands first here, and is none of the factors of the result.
+/// The noise of a stochastic model is first here, and is not one of the factors of the result.
 #[test]
-fn a_series_beside_noise_names_its_factors_right() {
+fn a_series_of_a_stochastic_model_names_its_factors_correctly() {
     let wave = |x: &[f64], t: f64| Some(2.0 * x[1] * t.sin() + x[2] * t.cos() + 1e-12 * x[0]);
     let mut builder = study(&[], turn(8), wave).factor("seed", Distribution::seed()).base_samples(256);
     for name in ["x1", "x2"] {

@@ -56,14 +56,14 @@ fn a_program_gives_a_series_by_cells_or_as_a_list() {
     let indices = series.indices.as_ref().unwrap();
     assert!((indices[0].total.estimate - 14.0 / 18.0).abs() < 0.02, "{indices:?}");
     assert!(printed.contains("a matters most: its total index S_T is"), "{printed}");
-    // The other output has its section and files, as ever.
+    // The other output has its section and files, as before.
     assert!(
         page(&folder.path("out")).contains("id=\"output-1\"") || page(&folder.path("out")).contains("Shares of sum")
     );
 }
 
 #[test]
-fn a_list_of_another_length_is_no_answer() {
+fn a_list_of_the_wrong_length_is_not_an_answer() {
     let folder = Folder::new();
     folder.with("model.py", "import json, sys\nfor line in sys.stdin:\n    print(json.dumps({'id': json.loads(line)['id'], 'y': [1, 2, 3]}), flush=True)\n");
     let study = format!(
@@ -165,7 +165,7 @@ fn a_thousand_values_are_a_few_files_and_a_page_of_a_few_megabytes() {
     let csv = std::fs::read_to_string(out.join("s.csv")).unwrap();
     assert_eq!(csv.lines().count(), 1 + 2 * 1000 + 2);
     assert!(csv.lines().last().unwrap().starts_with("y,aggregate,b,"), "{csv}");
-    // The same page can be drawn from the result alone.
+    // The same page can be drawn from the result only.
     succeed(&["report", text(&out.join("s.json")), "--out", text(&folder.path("again"))]);
     assert!(std::fs::read_to_string(folder.path("again/s.html")).unwrap() == html);
 }
@@ -192,7 +192,7 @@ fn the_epidemic_runs() {
 }
 
 #[test]
-fn what_is_wrong_with_a_series_is_said_at_its_place() {
+fn errors_of_a_series_have_a_place() {
     let refused = |model: &str, outputs: &str, expected: &str| {
         let folder = Folder::new();
         let program = if model == "command" { "command.program = [\"true\"]\n" } else { "" };
@@ -212,5 +212,5 @@ fn what_is_wrong_with_a_series_is_said_at_its_place() {
         refused(model, "outputs.y = { length = 3 }\noutputs.\"y[1]\" = \"1\"", "y[1]");
     }
     let pick = "command.template = \"s.toml\"\noutputs.y = { length = 3, column = \"y\", match = \"last\" }";
-    refused("command", pick, "only of a single number");
+    refused("command", pick, "only for a single number");
 }

@@ -53,7 +53,7 @@ fn linear_outputs_of_normal_factors_have_closed_forms() {
         let sum: f64 = found.iter().map(|effect| effect.estimate).sum();
         assert!((sum - 1.0).abs() < 1e-12, "Shapley effects share out all of the variance: {sum}");
     }
-    // b^2 sd^2 over their sum where factors are independent: exactly linear outputs leave orders without noise.
+    // b^2 sd^2 over their sum where factors are independent: for exactly linear outputs the orders add no error.
     let case = Linear { b: vec![1.0, 2.0, 2.0], sd: vec![1.0; 3], r: correlations(3, &[0.0; 3]) };
     assert!(exact(&case).iter().zip([1.0, 4.0, 4.0]).all(|(found, part)| (found - part / 9.0).abs() < 1e-14));
 }
@@ -85,7 +85,7 @@ fn ishigami_and_the_portfolio_have_their_effects() {
     }
 }
 
-/// Share of 95 % intervals that hold the truth, as for all subsets; more seeds with `SEEDS=200 cargo test --release --test suite --
+/// Share of 95 % intervals with the exact value, as for all subsets; more seeds with `SEEDS=200 cargo test --release --test suite --
 /// --nocapture intervals_along`.
 #[test]
 fn intervals_along_permutations_hold_the_truth() {
@@ -109,7 +109,7 @@ fn intervals_along_permutations_hold_the_truth() {
     }
 }
 
-/// Every interval of random points, and failed runs: a base point without one of its runs has no part in the effects.
+/// Every interval of random points, and failed runs: a base point without one of its runs is left out of the effects.
 #[test]
 fn random_points_and_failed_runs_have_their_intervals() {
     use ::apportion::uncertainty::IntervalMethod;
@@ -159,7 +159,7 @@ fn shards_journals_threads_and_files_give_the_bits_of_one_run() {
         assert!(one["indices"][0]["shapley"]["low"].is_number() && one["indices"][6]["shapley"]["estimate"] == 0.0);
         succeed(&["run", text(&file), "--threads", "1", "--out", text(&path("alone"))]);
         assert_eq!(one, numbers("alone"));
-        // Grown from a shorter run on record.
+        // Continued from a shorter recorded run.
         let longer = ["run", text(&file), "--out", text(&path("grown")), "--base-samples"].map(str::to_owned);
         for samples in ["256", "512"] {
             let words: Vec<&str> = longer.iter().map(String::as_str).chain([samples]).collect();
@@ -179,7 +179,7 @@ fn shards_journals_threads_and_files_give_the_bits_of_one_run() {
 }
 
 #[test]
-fn the_program_tells_how_effects_were_found() {
+fn the_program_states_the_method_of_shapley_effects() {
     let folder = Folder::new();
     let file = folder.with("twelve.toml", twelve());
     let told = succeed(&["check", text(&file)]);
@@ -198,13 +198,13 @@ fn the_program_tells_how_effects_were_found() {
 }
 
 #[test]
-fn what_cannot_be_is_refused() {
+fn invalid_settings_are_refused() {
     let folder = Folder::new();
     let file = folder.with("twelve.toml", twelve());
     for (change, expected) in [
         ("analysis.shapley_method=\"subsets\"", "at most 8 players"),
         ("analysis.shapley_method=\"orders\"", "permutations"),
-        ("analysis={shapley=false, shapley_method=\"permutations\"}", "true with a choice of how"),
+        ("analysis={shapley=false, shapley_method=\"permutations\"}", "true with `shapley_method`"),
     ] {
         let output = apportion(&["check", text(&file), "--set", change]);
         assert_eq!(output.status.code(), Some(2), "{change}");

@@ -137,7 +137,7 @@ fn linear_outputs_have_closed_forms() {
     }
 }
 
-/// Two groups share out what they do only together, whatever the number of their factors; single factors would not.
+/// Two groups divide their interaction equally, for any number of factors in them; single factors would not.
 #[test]
 fn a_group_counts_once() {
     let product = |x: &[f64]| x[0] * x[1] * x[2];
@@ -187,7 +187,7 @@ fn groups_of_one_are_their_factors() {
     }
 }
 
-/// Share of 95 % intervals that hold the truth; more seeds with `SEEDS=200 cargo test --release --test suite -- --nocapture
+/// Share of 95 % intervals that contain the exact value; more seeds with `SEEDS=200 cargo test --release --test suite -- --nocapture
 /// intervals_of_groups`.
 #[test]
 fn intervals_of_groups_hold_the_truth() {
@@ -212,7 +212,7 @@ fn intervals_of_groups_hold_the_truth() {
     }
 }
 
-/// Twelve factors in groups of four, three and four, and one by itself.
+/// Twelve factors in groups of four, three and four, and one without a group.
 fn twelve() -> String {
     let group = |k: usize| match k {
         1..=4 => "group = \"load\"\n",
@@ -228,7 +228,7 @@ fn twelve() -> String {
 }
 
 #[test]
-fn the_program_tells_of_groups() {
+fn the_program_describes_groups() {
     let folder = Folder::new();
     for (kind, dependence) in
         [("plain", ""), ("tied", "[[dependence]]\nfactors = [\"x1\", \"x5\", \"x12\"]\ncorrelation = 0.4\n")]
@@ -270,7 +270,7 @@ fn the_program_tells_of_groups() {
 }
 
 #[test]
-fn groups_serve_where_factors_are_too_many_and_what_cannot_be_is_refused() {
+fn groups_work_for_many_factors_and_invalid_settings_are_refused() {
     let folder = Folder::new();
     let file = folder.with("twelve.toml", twelve());
     let alone: Vec<String> = twelve().lines().filter(|line| !line.starts_with("group")).map(str::to_owned).collect();
@@ -278,7 +278,7 @@ fn groups_serve_where_factors_are_too_many_and_what_cannot_be_is_refused() {
     for (file, change, expected) in [
         (&file, "analysis.shapley_players=\"teams\"", "groups"),
         (&file, "analysis={shapley=false, shapley_players=\"groups\"}", "`shapley` must be true"),
-        (&lone, "analysis.shapley=true", "where factors have a group"),
+        (&lone, "analysis.shapley=true", "in a study without groups"),
     ] {
         let output = apportion(&["check", text(file), "--set", change]);
         assert_eq!(output.status.code(), Some(2), "{change}");

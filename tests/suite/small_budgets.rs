@@ -1,4 +1,4 @@
-//! Few runs: random points as a table for `given-data`.
+//! Small budgets: random points as a table for `given-data`.
 
 use apportion_report::given::GivenFile;
 
@@ -9,7 +9,7 @@ const STUDY: &str = "model = \"expression\"\noutputs.y = \"a + 2 * b + a * b\"\n
 
 /// Formulas are in SI, so b is between -1 and 1: the parts of y have the variances 1/3, 4/3 and 1/9.
 #[test]
-fn random_points_of_a_study_tell_its_indices() {
+fn random_points_of_a_study_give_its_indices() {
     let folder = Folder::new();
     let study = folder.with("s.toml", STUDY);
     let (rows, table) = (folder.path("rows.csv"), folder.path("table.csv"));

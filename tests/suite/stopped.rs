@@ -1,4 +1,4 @@
-//! Signals while files are written, and what may stand in the place of a file.
+//! Signals while files are written, and other objects in place of a file.
 #![cfg(unix)]
 
 use std::io::Read;
@@ -17,7 +17,7 @@ fn many_charts() -> String {
     )
 }
 
-/// Every picture is whole, and nothing is left half written.
+/// Every picture is complete, and no file is partly written.
 fn assert_whole(folder: &Path) {
     for name in all_files(folder) {
         let bytes = std::fs::read(folder.join(&name)).unwrap();
@@ -34,7 +34,7 @@ fn assert_whole(folder: &Path) {
 }
 
 #[test]
-fn a_signal_is_heard_while_charts_are_drawn() {
+fn a_signal_takes_effect_while_charts_are_drawn() {
     let folder = Folder::new();
     let study = folder.with("s.toml", many_charts());
     for (signal, moment) in [("-INT", 1), ("-TERM", 8), ("-INT", 20), ("-HUP", 30), ("-TERM", 45)] {
@@ -54,12 +54,12 @@ fn a_signal_is_heard_while_charts_are_drawn() {
         assert!(Command::new("kill").args([signal, &run.id().to_string()]).status().unwrap().success());
         let heard = Instant::now();
         let code = run.wait().unwrap().code();
-        // A second is promised; a machine that does much else takes its time to end anything.
+        // One second is the specification; a busy machine needs longer.
         assert!(heard.elapsed() < Duration::from_secs(30), "{:?}", heard.elapsed());
         let mut said = String::new();
         run.stderr.take().unwrap().read_to_string(&mut said).unwrap();
         assert_eq!(code, Some(1), "{said}");
-        assert!(said.contains("error: interrupted while files were written: those that are there are whole"), "{said}");
+        assert!(said.contains("error: interrupted while writing files: existing files are complete"), "{said}");
         assert!(drawn() < 66, "it was stopped before its end");
         assert_whole(&out);
     }
@@ -90,7 +90,11 @@ fn a_journal_or_result_is_a_file() {
             }
             let output = run(more);
             assert_eq!(output.status.code(), Some(2), "{more:?}: {}", stderr(&output));
-            assert!(stderr(&output).contains("a pipe, a device or a folder is there"), "{}", stderr(&output));
+            assert!(
+                stderr(&output).contains("a pipe, a device or a folder has the name of the journal"),
+                "{}",
+                stderr(&output)
+            );
         }
         let merged = apportion(&["merge", text(&study), "--out", text(&out)]);
         assert_eq!(merged.status.code(), Some(2), "{}", stderr(&merged));
@@ -102,7 +106,7 @@ fn a_journal_or_result_is_a_file() {
     }
 }
 
-/// By default the system ends a program that writes beyond the limit without a word.
+/// By default the system stops a program that writes beyond the limit without a message.
 #[test]
 fn a_file_beyond_the_limit_of_sizes_is_an_error_with_its_reason() {
     let folder = Folder::new();
@@ -116,7 +120,7 @@ fn a_file_beyond_the_limit_of_sizes_is_an_error_with_its_reason() {
         assert!(stderr(&output).contains("File too large"), "{more}: {}", stderr(&output));
     }
     assert_whole(&out);
-    // With room enough it goes on.
+    // With enough space it resumes.
     let output = apportion(&["run", text(&study), "--out", text(&out)]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
 }

@@ -1,4 +1,4 @@
-//! What people type first: studies in the forms they expect, and what they are told where those do not serve.
+//! First attempts of users: studies in the forms that they expect, and the messages where those are invalid.
 
 use std::path::Path;
 
@@ -66,19 +66,19 @@ fn other_forms_are_refused_with_todays_lines() {
         "[factor.a]\nmin = 0\nmax = 1\n",
         "factors = [{ name = \"a\", min = 0, max = 1 }]\n",
     ] {
-        refused(&format!("{head}{old}"), &["s.toml:3:", "another way today", "[factors]\nx1 = { min = 0, max = 1 }"]);
+        refused(&format!("{head}{old}"), &["s.toml:3:", "no longer read", "[factors]\nx1 = { min = 0, max = 1 }"]);
     }
     let outputs = "[expression]\noutputs.z = \"a\"\n";
     refused(
         &format!("model = \"expression\"\n{outputs}{list}"),
-        &["s.toml:3:1:", "another way today", "outputs.y = ...\nabove the first table"],
+        &["s.toml:3:1:", "no longer read", "outputs.y = ...\nabove the first table"],
     );
-    refused(&format!("{head}[factors.a]\nname = \"b\"\nmin = 0\n"), &["stands before its table"]);
+    refused(&format!("{head}[factors.a]\nname = \"b\"\nmin = 0\n"), &["the key before its table"]);
     refused(&format!("{head}[factors.a]\nmin = 0\n"), &["s.toml:3:10:", "factor `a`", "needs `max`"]);
 }
 
 #[test]
-fn outputs_stand_above_the_tables_of_models() {
+fn outputs_are_written_above_the_tables_of_models() {
     let factor = "[factors.x1]\nmin = 0\nmax = 1\n";
     let outputs = |study: &str| -> Vec<String> {
         parsed(study).model().outputs().iter().map(|output| format!("{} [{}]", output.name, output.unit)).collect()
@@ -107,7 +107,7 @@ fn outputs_stand_above_the_tables_of_models() {
 }
 
 #[test]
-fn what_stands_in_the_wrong_table_is_told_where_it_belongs() {
+fn keys_in_the_wrong_table_are_reported_with_the_right_one() {
     let factor = "[[factor]]\nname = \"x1\"\nmin = 0\nmax = 1\n";
     refused(
         &format!("model = \"expression\"\noutputs.y = \"x1\"\n[expression]\na = 7\n{factor}"),
@@ -119,7 +119,7 @@ fn what_stands_in_the_wrong_table_is_told_where_it_belongs() {
         &["s.toml:1:1:", "unknown key `seed` here: it stands in the table [design]"],
     );
     refused(&format!("{factor}outputs = [\"y\"]\n"), &["s.toml:5:1:", "above the first table"]);
-    refused(&format!("N = 1024\n{factor}"), &["did you mean `base_samples`, which stands in the table [design]?"]);
+    refused(&format!("N = 1024\n{factor}"), &["did you mean `base_samples`, which belongs in the table [design]?"]);
     refused(
         &format!("model = \"my_model.py\"\n{factor}"),
         &["s.toml:1:9:", "a program of your own is a `command`", "command = [\"python3\", \"my_model.py\"]"],
@@ -127,7 +127,7 @@ fn what_stands_in_the_wrong_table_is_told_where_it_belongs() {
     refused(&format!("model = \"ishigam\"\n{factor}"), &["did you mean `ishigami`?"]);
 }
 
-/// Before any of them is worked on.
+/// Before any of them is processed.
 #[test]
 fn more_factors_than_any_study_can_have_are_refused_while_they_are_read() {
     let lines = |count: usize| (0..count).map(|number| format!("x{number} = {{}}\n")).collect::<String>();
@@ -143,7 +143,7 @@ fn more_factors_than_any_study_can_have_are_refused_while_they_are_read() {
 }
 
 #[test]
-fn words_of_other_programs_are_answered_by_ours() {
+fn words_of_other_programs_are_answered_with_the_keywords_of_this_one() {
     let factor = |line: &str| {
         format!("model = \"expression\"\noutputs.y = \"x1\"\n[[factor]]\nname = \"x1\"\n{line}\n[design]\nseed = 1\n")
     };
@@ -176,7 +176,7 @@ fn functions_of_python_are_refused_with_those_that_there_are() {
 }
 
 #[test]
-fn a_key_mistyped_is_not_mistaken_for_a_fault_of_another() {
+fn mistyped_keys_and_values_are_reported_at_their_place() {
     let rest = "outputs.y = \"x1\"\n[factors.x1]\nmin = 0\nmax = 1\n";
     for typed in ["modle", "Model", "models"] {
         let study = format!("{typed} = \"expression\"\n{rest}");
@@ -184,7 +184,7 @@ fn a_key_mistyped_is_not_mistaken_for_a_fault_of_another() {
     }
     let factors = |line: &str| format!("model = \"expression\"\noutputs.y = \"a\"\n[factors]\n{line}\n");
     refused(&factors("a = [0, 1.5]"), &["s.toml:4:5:", "expected a table, as in { min = 0, max = 1 }"]);
-    refused(&factors("größe = { min = 0, max = 1 }"), &["s.toml:4:", "stands in quotes, as in \"größe\" = 2"]);
+    refused(&factors("größe = { min = 0, max = 1 }"), &["s.toml:4:", "in quotes, as in \"größe\" = 2"]);
 }
 
 #[test]

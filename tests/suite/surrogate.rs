@@ -1,5 +1,5 @@
 //! Indices corrected by surrogates: exact where the model is a polynomial, more accurate elsewhere, the same bits on any
-//! number of threads and from a journal, and told of in the result.
+//! number of threads and from a journal, and described in the result.
 
 use std::path::Path;
 
@@ -140,7 +140,7 @@ fn the_bits_are_the_same_on_any_number_of_threads_and_from_a_journal() {
     assert!(first.outputs[0].surrogate.as_ref().unwrap().gain_total.unwrap() > 100.0);
 }
 
-/// The stages cost fits of their own, and change nothing of the result.
+/// The stages need additional fits, and do not change the result.
 #[test]
 fn stages_can_be_left_out() {
     let result = |more: &str| {
@@ -155,7 +155,7 @@ fn stages_can_be_left_out() {
 }
 
 #[test]
-fn where_there_is_nothing_to_fit_the_plain_indices_stand() {
+fn without_a_fit_the_plain_indices_are_reported() {
     let with = |text: &str, more: &[&str]| {
         let result = study(text, &[more, &[ON]].concat()).run().unwrap();
         result.outputs[0].surrogate.is_some()
@@ -260,7 +260,7 @@ fn the_stages_of_a_run_are_what_shorter_runs_give() {
 }
 
 #[test]
-fn the_program_tells_what_the_surrogate_did() {
+fn the_program_describes_the_surrogate() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("mine.toml");
     std::fs::write(&file, "model = \"ishigami\"\n[design]\nbase_samples = 256\n[analysis]\nsurrogate = \"auto\"\n")
@@ -272,7 +272,7 @@ fn the_program_tells_what_the_surrogate_did() {
     let record = &value["outputs"][0]["surrogate"];
     assert!(record["explained"].as_f64().unwrap() > 0.999_999 && record["plain"].as_array().unwrap().len() == 3);
     assert!(record["leading_terms"][0]["degrees"].is_object());
-    // From the file alone, the same.
+    // The same from the file only.
     succeed(&["report", text(&folder.path().join("mine.json")), "--out", text(&folder.path().join("again"))]);
     let refusal = apportion(&["run", text(&file), "--set", "analysis.intervals=replicates", "--set", ON]);
     refused(&refusal, "only with intervals = \"nets\"");
@@ -305,14 +305,14 @@ fn intervals_hold_where_polynomials_blow_up_in_the_tails() {
                 }
             }
         }
-        // Without what polynomials say of the tails: 30 and 45 of 80, and errors of 0.08.
+        // Without the terms of the polynomials for the tails: 30 and 45 of 80, and errors of 0.08.
         assert!(held >= all * 3 / 4, "{wave}: {held} of {all}");
         let error = (squares / all as f64).sqrt();
         assert!(error < 0.005, "{wave}: {error}");
     }
 }
 
-/// Polynomials go on where the model fails, which no number is of.
+/// Polynomials also have values where the model fails and has none.
 #[test]
 fn outputs_with_failed_runs_are_not_corrected_unless_asked() {
     let text = "model = \"expression\"\noutputs.y = \"x1 + 2*x2 + 10*x1*x2 + 0*sqrt(0.3 - x1*x2)\"\noutputs.z = \"x1*x2\"\n\

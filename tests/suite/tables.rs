@@ -1,4 +1,4 @@
-//! Tables in every format that `evaluate` and `given-data` read, and what of them is skipped or doubted.
+//! Tables in every format that `evaluate` and `given-data` read, with skipped columns and warnings.
 
 use apportion_files::exchange::{ColumnKind, Format, row_writer};
 use apportion_report::given::GivenFile;
@@ -43,20 +43,20 @@ fn points_of_every_format_give_the_same_outputs() {
     }
     let (code, said, outputs) = evaluate("labelled.csv", &[]);
     assert!(code == Some(0) && outputs == expected && said.contains("columns of text are skipped: id, when"), "{said}");
-    // What is missing is asked for.
+    // The message requests the missing names.
     for (points, more, reason) in [
         ("p.npy", &[][..], "its 3 columns have no names"),
-        ("bare.csv", &[], "line 1 holds numbers where the names of the columns are expected"),
+        ("bare.csv", &[], "line 1 has numbers where the names of the columns are expected"),
         ("bare.csv", &["--names", "x1,x2"], "2 names are given, but it has 3 columns"),
-        ("p.csv", &names, "it names its columns itself (x1, x2, x3): leave --names out"),
+        ("p.csv", &names, "its header names the columns (x1, x2, x3): leave --names out"),
     ] {
         let (code, said, _) = evaluate(points, more);
         assert!(code == Some(2) && said.contains(reason), "{points}: {said}");
     }
-    // A number may have lost its end.
+    // A number may be truncated.
     folder.with("cut.csv", &plain[..plain.len() - 3]);
     let (code, said, _) = evaluate("cut.csv", &[]);
-    assert!(code == Some(0) && said.contains("warning") && said.contains("the last line has no end"), "{said}");
+    assert!(code == Some(0) && said.contains("warning") && said.contains("the last line has no line end"), "{said}");
 }
 
 #[test]
@@ -104,7 +104,7 @@ fn tables_of_every_format_give_the_same_indices() {
         "{said}"
     );
     let (code, said, _) = given("bare.csv", &[]);
-    assert!(code == Some(2) && said.contains("line 1 holds numbers"), "{said}");
+    assert!(code == Some(2) && said.contains("line 1 has numbers"), "{said}");
 }
 
 #[test]
@@ -128,11 +128,11 @@ fn outputs_that_may_have_been_cut_short_are_doubted() {
     for (end, expected) in [
         (
             whole.len() - 4,
-            (Some(0), "the last line has no end: if the file was cut short, its last number may be wrong"),
+            (Some(0), "the last line has no line end: if the file was cut short, its last number may be wrong"),
         ),
-        (last + 1, (Some(2), "and the design 320")),
-        (last - 2, (Some(2), "and the design 320")),
-        (whole.len() / 2, (Some(2), "and the design 320")),
+        (last + 1, (Some(2), "but the design has 320")),
+        (last - 2, (Some(2), "but the design has 320")),
+        (whole.len() / 2, (Some(2), "but the design has 320")),
     ] {
         let (code, said) = analyze(&whole[..end]);
         assert!(code == expected.0 && said.contains(expected.1), "{end}: {said}");
@@ -177,7 +177,7 @@ fn codes_for_missing_values_are_warned_of_and_left_out_if_asked() {
     folder.with("codes.csv", format!("a,b,y\n{}", (0..300).map(row).collect::<String>()));
     let result = given(&folder, "codes.csv", &[]);
     let warning = &result.outputs[0].warnings[0];
-    assert!(warning.contains("-999.0 stands in 5 of 300 rows (the first is row 8)"), "{warning}");
+    assert!(warning.contains("-999.0 occurs in 5 of 300 rows (the first is row 8)"), "{warning}");
     let result = given(&folder, "codes.csv", &["--missing-value=-999", "--drop-missing"]);
     assert_eq!((result.table.rows, result.table.rows_dropped), (295, 5));
     assert!(!result.outputs[0].warnings.iter().any(|warning| warning.contains("-999")));

@@ -1,4 +1,4 @@
-//! `apportion trade`: settings against each other.
+//! `apportion trade`: comparison of settings.
 
 use apportion_cli::trade::settings::SettingsFile;
 
@@ -20,7 +20,7 @@ fn a_function_with_exact_indices_is_compared_with_these() {
     let curve = |name: &str| file.settings.iter().filter(|of| of.curve == name).collect::<Vec<_>>();
     let (plain, fitted) = (curve("the model"), curve("the model, surrogates"));
     assert!(plain.len() >= 2 && !fitted.is_empty() && !curve("random").is_empty() && !curve("jansen").is_empty());
-    // 16 base samples tell nothing of Ishigami's function, a thousand do.
+    // 16 base samples do not determine the indices of Ishigami's function, a thousand do.
     assert!(plain[0].error.unwrap() > 0.1 && plain[0].runs == 16 * 5);
     let cheapest = file.advice[0].setting.unwrap();
     assert!(file.settings[cheapest].error.unwrap() <= 0.1 && file.settings[cheapest].is_on_front);

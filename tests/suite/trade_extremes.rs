@@ -21,7 +21,7 @@ fn studies() -> Vec<PathBuf> {
     all
 }
 
-/// Few enough steps that a hopeless march far outside of any laboratory ends soon.
+/// A small number of steps, so that hopeless integrations of extreme scenes end soon.
 const STEPS: &str = "afm.step_budget=20000";
 
 fn loaded(path: &Path) -> Study {
@@ -69,7 +69,7 @@ fn no_study_is_silently_wrong() {
 }
 
 #[test]
-fn other_seeds_find_nothing_either() {
+fn other_seeds_find_no_wrong_numbers() {
     for name in ["lugre-general", "coulomb-general", "hk-environmental", "soft-cantilever", "cantilever-formula"] {
         let study = loaded(&study_path(name));
         for seed in 1..=2 {
@@ -84,7 +84,7 @@ fn the_map_is_the_same_in_every_bit_on_any_threads() {
     let study = apportion_files::load_study(&study_path("hk-general"), &[]).unwrap();
     let settings = ExtremesSettings { points: 60, seed: 5 };
     let on = |threads| extremes(&ExtremesJob { settings, threads, ..ExtremesJob::new(&study) }).unwrap();
-    // Values that are not numbers are none here, so that maps that are alike are equal.
+    // NaN is replaced by `None` here, so that equal maps compare equal.
     assert_eq!(on(1), on(3));
 }
 
@@ -119,7 +119,7 @@ fn cancellation_and_underflow_are_flagged() {
 }
 
 #[test]
-fn a_code_model_that_is_off_by_itself_is_not_called_right() {
+fn numbers_of_a_model_in_code_are_flagged_and_not_called_right() {
     let source = apportion::function_model("y", |x| x[0] * 2.0);
     let study = Study::builder("code", source)
         .factor("x", apportion::Distribution::uniform(0.0, 1.0).unwrap())

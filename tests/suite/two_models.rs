@@ -1,4 +1,4 @@
-//! A program that changes under its journal: no result mixes two models.
+//! A program that changes after its journal was written: no result mixes two models.
 
 use std::path::PathBuf;
 use std::process::Output;
@@ -76,13 +76,13 @@ fn a_journal_of_another_program_is_refused_until_it_is_restarted() {
     // Undone.
     case.model("a + b");
     let (_, said) = case.result(&["--resume"]);
-    assert!(said.contains(&format!("note: {RUNS} of {RUNS} runs are on record")), "{said}");
+    assert!(said.contains(&format!("note: {RUNS} of {RUNS} runs are already saved")), "{said}");
     case.model("a - b");
     let (restarted, _) = case.result(&["--restart"]);
     assert_eq!(restarted.outputs, Case::new("a - b").result(&[]).0.outputs);
 }
 
-/// Parts of a mixture are not merged.
+/// Shards of different programs are not merged.
 #[test]
 fn parts_of_two_programs_are_not_merged() {
     let case = Case::new("a + b");

@@ -1,4 +1,4 @@
-//! Units of factors and outputs, through the binary: what a model gets, and what is printed of it.
+//! Units of factors and outputs, through the binary: the inputs of a model, and the printed values.
 
 use std::path::Path;
 
@@ -6,7 +6,7 @@ use apportion::result::read_result;
 
 use crate::common::{Folder, apportion, stderr, stdout, succeed, text};
 
-/// A program of one temperature in degC and one time in h, which answers in units of its own.
+/// A program of one temperature in degC and one time in h, which answers in its own units.
 const PROGRAM: &str = "import sys\nsys.stdin.readline()\nfor line in sys.stdin:\n    n, *x = [float(c) for c in line.split(',')]\n    \
                        print(f'{n},{x[0]!r},{x[0] * x[1]!r},{x[1]!r}', flush=True)\n";
 
@@ -91,7 +91,7 @@ fn sweeps_and_screenings_are_in_the_declared_units() {
     let screening = succeed(&["screen", text(&study), "--trajectories", "8", "--out", text(&folder.path("screen"))]);
     // The full range: 18 degF are 10 degC, without the zero of either.
     assert!(screening.contains("of its effects is 10 "), "{screening}");
-    // What stands at the edge of a points file is what was typed.
+    // The bounds in a file of points are the typed numbers.
     let points = folder.with("points.csv", "T,k\n68,1\n50.5,1\n");
     succeed(&["evaluate", text(&study), text(&points), "-o", text(&folder.path("answers.csv"))]);
     let answers = std::fs::read_to_string(folder.path("answers.csv")).unwrap();

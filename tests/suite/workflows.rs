@@ -71,7 +71,7 @@ fn the_format_of_a_result_is_what_it_was() {
             histogram.counts.truncate(2);
         }
     }
-    // Four digits: the format is at stake here, not the last bits of another processor's logarithm.
+    // Four digits: this tests the format, not the last bits of another processor's logarithm.
     let text = result.json();
     let mut value: serde_json::Value = serde_json::from_str(&text).unwrap();
     round(&mut value);
@@ -105,7 +105,7 @@ fn evaluate_answers_in_the_units_of_the_study_and_names_what_fails() {
     let written = std::fs::read_to_string(&out).unwrap();
     let lines: Vec<Vec<&str>> = written.lines().map(|line| line.split(',').collect()).collect();
     assert_eq!(lines[0], ["critical_force", "normal_force", "critical_time"]);
-    // The length has no column: it stands at the nominal 225 um, where the reference gives 631.3 and 489.404 nN.
+    // The length has no column: it is the nominal 225 um, where the reference gives 631.3 and 489.404 nN.
     let number = |row: usize, column: usize| lines[row][column].parse::<f64>().unwrap();
     assert!((number(1, 0) - 631.3).abs() < 0.05 && (number(1, 1) - 489.404).abs() < 5e-4);
     assert_eq!(lines[2][..2], lines[1][..2]);
@@ -185,7 +185,7 @@ fn models_lists_every_model_and_shows_each_in_full() {
 }
 
 #[test]
-fn a_reader_that_goes_away_is_no_failure() {
+fn a_closed_output_pipe_is_not_a_failure() {
     let binary = assert_cmd::cargo::cargo_bin!("apportion");
     let mut child = std::process::Command::new(binary)
         .arg("models")
@@ -208,7 +208,7 @@ fn round_sample_sizes_are_made_whole_and_said_so() {
     assert!(stdout(&output).contains("not a power of two"));
 }
 
-/// Runs `study` with settings into a folder of its own and returns its result, what was printed, and the folder.
+/// Runs `study` with settings into a separate folder and returns its result, its output, and the folder.
 #[track_caller]
 fn run_with(study: &str, settings: &[&str]) -> (StudyResult, String, tempfile::TempDir) {
     let folder = tempfile::tempdir().unwrap();
@@ -240,8 +240,7 @@ fn pairs_other_estimators_and_a_dummy_are_in_every_result_that_asks_for_them() {
     );
     assert_eq!(output.dummy.unwrap().total.estimate, 0.0);
     assert_eq!(result.provenance.model_runs, 4096 * (2 + 2 * 4));
-    for expected in
-        ["x1 × x3", "S_1 by estimator", "martinez", "dummy, which does nothing", "Intervals (", "P(S_T > 0.05)"]
+    for expected in ["x1 × x3", "S_1 by estimator", "martinez", "dummy, without effect", "Intervals (", "P(S_T > 0.05)"]
     {
         assert!(printed.contains(expected), "{expected}: {printed}");
     }
@@ -264,7 +263,7 @@ fn subsets_and_outputs_together() {
     let (result, printed, folder) = run_with("soft-cantilever-subsets", &["design.base_samples=2048"]);
     let subsets = result.outputs[0].subsets.as_ref().unwrap();
     assert_eq!(subsets[0].factors, ["particle_radius", "adhesion"]);
-    // Thickness and friction make the force but for adhesion and radius, which add 0.1 %.
+    // Thickness and friction determine the force, except for adhesion and radius, which add 0.1 %.
     assert!((subsets[1].effect.total.estimate - 0.9987).abs() < 5e-3, "{:?}", subsets[1]);
     let aggregate = result.aggregate.as_ref().unwrap();
     assert_eq!(aggregate.outputs, ["critical_force", "critical_time"]);
@@ -292,7 +291,7 @@ fn runs_that_grow_say_why_they_ended() {
     let (unmet, runs, _) = stopping(&["accuracy=1e-6", "design.max_runs=50000"]);
     assert_eq!((unmet.target_met, unmet.max_runs), (Some(false), Some(50_000)));
     assert!(unmet.reason.contains("more than max_runs = 50000") && (25_000..=50_000).contains(&runs), "{unmet:?}");
-    // Ten runs a base sample: the first stage of 1024 has to give way.
+    // Ten runs per base sample: the first stage of 1024 must be smaller.
     let (few, runs, _) = stopping(&["design.max_runs=100"]);
     assert_eq!((few.target_met, runs), (None, 80));
     let (spent, _, _) = stopping(&["design.max_time=0.05 s"]);
@@ -301,7 +300,7 @@ fn runs_that_grow_say_why_they_ended() {
 }
 
 #[test]
-fn a_run_does_not_end_where_more_runs_bring_intervals() {
+fn a_run_continues_while_more_runs_give_intervals() {
     // The output is 1 in a tenth of the square: of nets of four points some do not vary.
     let folder = Folder::new();
     let study = "model = \"expression\"\noutputs.y = \"(a > 0.6837722339831621)*(b > 0.6837722339831621)\"\naccuracy = 0.1\n[design]\nseed = 1\n\
@@ -324,7 +323,7 @@ fn a_run_ends_soon_where_most_runs_fail() {
 }
 
 #[test]
-fn check_says_what_is_asked_and_what_it_takes() {
+fn check_shows_the_request_and_its_cost() {
     let check = |study: &str, settings: &[&str]| {
         let path = study_path(study);
         let set: Vec<&str> = settings.iter().flat_map(|setting| ["--set", setting]).collect();

@@ -27,13 +27,13 @@ pub enum Failure {
         quantity: &'static str,
     },
     /// The preload would twist the cantilever over without any lateral force: F_Z0 H >= K_theta.
-    #[error("the preload tips the probe over: normal force times tip height must be below the torsional stiffness")]
+    #[error("the preload is too large: normal force times tip height must be below the torsional stiffness")]
     ProbeTips,
     /// An integration needed more steps than allowed.
-    #[error("the integration did not end within its step budget: allow more steps or a larger tolerance")]
+    #[error("the integration exceeded its step budget: allow more steps or a larger tolerance")]
     StepBudget,
     /// An integration needed steps too small to change the time.
-    #[error("the integration came to a point that no step passes at the tolerance asked for: ask for a larger one")]
+    #[error("the integration cannot meet the tolerance at any step size: choose a larger tolerance")]
     StepTooSmall,
 }
 

@@ -94,7 +94,7 @@ mod tests {
     }
 
     #[test]
-    fn a_set_gives_back_what_was_put_in() {
+    fn flags_of_a_set_are_listed() {
         let set = Flags::NONE.with(Flag::TaborOutOfRange, true).with(Flag::LargeContact, true);
         assert_eq!(set.iter().collect::<Vec<_>>(), [Flag::LargeContact, Flag::TaborOutOfRange]);
         assert_eq!(set.with(Flag::LargeContact, false), set, "with adds, it never removes");

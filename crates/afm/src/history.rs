@@ -390,7 +390,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_run_is_named() {
+    fn models_that_cannot_run_are_named() {
         let resting = Scene { velocity: 0.0, ..Scene::default() };
         assert_eq!(history(&resting, &Options::default(), 0.4), Err(Failure::VelocityZero));
         for duration in [0.0, -1.0, f64::NAN, f64::INFINITY] {

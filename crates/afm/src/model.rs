@@ -304,7 +304,7 @@ mod tests {
 
     /// One bad row among many fails with its reason, and does not change the others in any bit.
     #[test]
-    fn rows_are_the_same_in_any_company() {
+    fn rows_do_not_depend_on_the_other_rows_of_a_batch() {
         let outputs = AfmOutput::ALL.to_vec();
         let factors = ["length", "velocity"].map(|name| Parameter::from_name(name).unwrap());
         let model = AfmModel::new(Scene::default(), Options::default(), factors.to_vec(), outputs);
@@ -333,7 +333,7 @@ mod tests {
     }
 
     #[test]
-    fn still_substrate_fails_in_time_alone() {
+    fn a_substrate_at_rest_fails_only_the_time() {
         let outputs = vec![AfmOutput::CriticalForce, AfmOutput::CriticalTime];
         let velocity = Parameter::from_name("velocity").unwrap();
         let model = AfmModel::new(Scene::default(), Options::default(), vec![velocity], outputs);

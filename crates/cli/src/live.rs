@@ -128,8 +128,8 @@ pub fn file_name(name: &str) -> String {
 /// one on how to make a live page.
 pub fn place_next_to(document: &mut Document, name: &str, page: String) {
     const TITLE: &str = "Try your own ranges";
-    let text = "What if your own factors vary less, or more? A page next to this one computes it while a \
-                range is dragged, with the engine of this program inside; it needs no network.";
+    let text = "How do the indices change if the factors vary less, or more? A page next to this one recomputes them while a \
+                range is dragged; it contains the engine of this program and needs no network.";
     let parts = vec![Part::Text(text.to_owned()), Part::Links(vec![Link::new(TITLE, name)])];
     document.sections.retain(|section| section.id != TRY);
     // Before the section on how it was made.

@@ -37,13 +37,13 @@ impl ModelKind {
         choices: afm_choices,
     };
     /// Formulas of the study's own factors.
-    pub const EXPRESSION: Self = Self::users_own("expression", "formulas in the study file, of factors of its own");
+    pub const EXPRESSION: Self = Self::users_own("expression", "formulas in the study file, with your own factors");
     /// A program of the user's own.
     pub const COMMAND: Self = Self::users_own("command", "a program of your own, in any language");
     /// A model that is run outside this program.
     pub const EXTERNAL: Self = Self::users_own(
         "external",
-        "any model outside of this program: `sample` writes the points, `analyze` reads its outputs",
+        "any model outside this program: `sample` writes the points, `analyze` reads its outputs",
     );
     /// The model of a study that names none.
     pub const DEFAULT: Self = Self::AFM;

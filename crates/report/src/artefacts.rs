@@ -31,13 +31,13 @@ pub enum ArtefactError {
         source: Box<dyn std::error::Error + Send + Sync>,
     },
     /// A file would replace one that must be kept.
-    #[error("{path}: this is the input itself; choose another folder", path = path.display())]
+    #[error("{path}: this is the input file; choose another folder", path = path.display())]
     Input {
         /// The file.
         path: PathBuf,
     },
     /// The flag to stop was set.
-    #[error("interrupted while files were written: those that are there are whole, others are missing")]
+    #[error("interrupted while writing files: existing files are complete, others are missing")]
     Stopped,
 }
 

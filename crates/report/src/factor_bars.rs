@@ -179,7 +179,7 @@ pub fn study_chart(result: &StudyResult, output: &OutputResult) -> Chart {
     }
     let caption = match indices().any(|index| index.effect.dependent.is_some()) {
         true => {
-            "Indices of dependent factors share out nothing; Shapley effects would, and were not asked for.".to_owned()
+            "Indices of dependent factors do not sum to 1; Shapley effects would, but were not requested.".to_owned()
         }
         false => leader_of(output),
     };
@@ -218,7 +218,7 @@ mod tests {
     }
 
     #[test]
-    fn an_index_of_which_nothing_is_known_has_no_bar() {
+    fn an_index_without_estimate_has_no_bar() {
         let keys = [1.0, 0.5, 0.4, 0.3];
         let names: Vec<String> = ["a", "b", "c", "d"].map(str::to_owned).to_vec();
         let alone = Some(Estimate::alone(2.73));

@@ -111,7 +111,7 @@ pub(super) fn leader(contenders: &[Contender], of: &str, measure: &str, unit: &s
     let verdict = Verdict::new(contenders);
     let largest = &contenders[*verdict.leaders().first()?];
     if largest.total.estimate <= 0.0 {
-        return Some(format!("{of}, no {measure} is above 0."));
+        return Some(format!("{of}, no {measure} is greater than 0."));
     }
     Some(match verdict {
         Verdict::None | Verdict::Leads(_) => {
@@ -125,7 +125,7 @@ pub(super) fn leader(contenders: &[Contender], of: &str, measure: &str, unit: &s
             let shown = tied.iter().take(NAMES).map(|&k| &contenders[k]);
             let mut all: Vec<String> = shown.map(|one| format!("{} ({})", one.label, size(one))).collect();
             all.extend((tied.len() > NAMES).then(|| format!("{} more", tied.len() - NAMES)));
-            format!("{of}, what matters most cannot be told apart, by the {measure}: {}.", listed(&all))
+            format!("{of}, the most important factors cannot be distinguished by the {measure}: {}.", listed(&all))
         }
     })
 }
@@ -146,7 +146,7 @@ pub(super) fn leader_of_all(indices: &[PlainIndexRecord], of: &str) -> Option<St
 
 /// Says why an output has no indices.
 pub(super) fn no_indices(output: &OutputResult) -> String {
-    let reason = output.reason.as_deref().unwrap_or("the result holds none");
+    let reason = output.reason.as_deref().unwrap_or("the result has none");
     format!("There are no indices of {}: {reason}.", name(&output.name))
 }
 

@@ -18,12 +18,12 @@ pub(super) fn validity_section(validity: &[ValidityRecord]) -> Option<Section> {
         (_, share) if flag.share < 0.5 => Cell::marked(share, Mark::Mixed),
         (_, share) => Cell::marked(share, Mark::Bad),
     };
-    let text = "Runs on which an assumption of the model does not hold count all the same; their share says how much of the \
-                result rests on them.";
-    let table = Table::from_rows("Flags that the model raises, with the share of the runs on which it does.", validity)
+    let text = "Runs that violate an assumption of the model are included; their share shows how much of the \
+                result depends on them.";
+    let table = Table::from_rows("Flags that the model raises, with the share of the runs that have them.", validity)
         .text("flag", |flag| flag.flag.replace('-', " "))
         .text("raised on", share)
-        .text("what it means", |flag| &flag.description);
+        .text("meaning", |flag| &flag.description);
     let parts = vec![Part::Text(text.to_owned()), table.into()];
     let is_raised = validity.iter().any(|flag| flag.runs > 0);
     let parts = if is_raised { parts } else { vec![Part::OnPage(parts)] };
@@ -134,7 +134,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn distributions_are_said_with_their_units() {
+    fn distributions_are_described_with_their_units() {
         let uniform = serde_json::json!({"name": "uniform", "min": 0.25, "max": 2.5});
         assert_eq!(distribution(&uniform, "um"), "uniform, min 0.25, max 2.5 (µm)");
         assert_eq!(distribution(&uniform, "1"), "uniform, min 0.25, max 2.5");

@@ -1,4 +1,4 @@
-"""Sobol' global sensitivity analysis: which input of a model decides its output, and by how many percent.
+"""Sobol' global sensitivity analysis: which inputs of a model drive its output, and by how many percent.
 
     import apportion as ap
 

@@ -11,7 +11,7 @@ from ._tables import named, numbers
 
 
 class AnswerError(TypeError):
-    """A function returned what cannot be its outputs."""
+    """A function returned invalid outputs."""
 
 
 class NoAnswer(AnswerError):
@@ -19,8 +19,8 @@ class NoAnswer(AnswerError):
 
 
 class Answer(NamedTuple):
-    """What a function returned: (rows, values), the names of the outputs if it said them, and if it returned them one by one
-    how many values each has, None for a single number."""
+    """The values that a function returned, as (rows, values); the names of the outputs if there are any; and, for separate outputs,
+    the number of values of each, None for a single number."""
 
     values: np.ndarray
     names: list[str] | None
@@ -42,7 +42,7 @@ def expanded(names: Sequence[str], lengths: Mapping[str, int | None]) -> list[st
 
 def read(answer: Any, rows: int, vectorised: bool, expected: Sequence[str] | None, hint: bool) -> Answer:
     """What a function returned for `rows` rows, or an `AnswerError`. Outputs by name come in the order of `expected`, if they are
-    the same ones; with `hint` the words about a wrong shape say what a function of one row has to say."""
+    the same ones; with `hint` the message about a wrong shape names the keyword for functions of one row."""
     if answer is None:
         if not vectorised:
             raise NoAnswer("the function returned None")
@@ -71,7 +71,7 @@ def read(answer: Any, rows: int, vectorised: bool, expected: Sequence[str] | Non
 
 
 def _stacked(parts: list[np.ndarray], names: list[str], rows: int, vectorised: bool) -> Answer:
-    """Outputs one by one, each a number a row or a series: (rows,) or (rows, values), and of one row () or (values,)."""
+    """Separate outputs, each with one number per row or a series: (rows,) or (rows, values), and for one row () or (values,)."""
     shape = (rows,) if vectorised else ()
     columns, lengths = [], []
     for name, part in zip(names, parts):

@@ -1,4 +1,4 @@
-"""Numbers that are asked for, checked."""
+"""Checks of numbers."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ MAX_SEED = 2**64 - 1
 
 
 def whole(name: str, value: Any, least: int, most: int) -> int:
-    """`value` as an `int` from `least` to `most`; a `StudyError` says what was expected of `name`."""
+    """`value` as an `int` from `least` to `most`; otherwise a `StudyError` states the expected range of `name`."""
     is_whole = isinstance(value, numbers.Integral) and not isinstance(value, bool)
     if not is_whole or not least <= int(value) <= most:
         end = "2**64 - 1" if most == MAX_SEED else str(most)

@@ -16,7 +16,7 @@ _LEAST, _MOST = 2.0**-54, 1.0 - 2.0**-53  # nearest numbers to 0 and 1 at which 
 
 
 class Factor:
-    """An input whose influence is asked for: how it varies, and in which unit.
+    """An input of the model: its distribution and its unit.
 
     Made by `Uniform`, `Normal` and the others. `keys` are those of a factor in a study file.
     """
@@ -29,14 +29,14 @@ class Factor:
         return f"Factor({', '.join(f'{key}={value!r}' for key, value in self.keys.items())})"
 
     def truncated(self, min: float = -math.inf, max: float = math.inf) -> "Factor":
-        """The same on the condition that it lies between `min` and `max`; parameters are those before that."""
+        """The same distribution, truncated to values between `min` and `max`; parameters are those before truncation."""
         if self.quantile is not None or "truncate" in self.keys:
             raise StudyError(f"{self!r} cannot be truncated: it is {'known by its quantiles' if self.quantile else 'truncated'}")
         return Factor({**self.keys, "truncate": [float(min), float(max)]})
 
     @classmethod
     def of(cls, value: Any) -> "Factor":
-        """A factor from what stands for one: itself, a mapping of keys, a pair (min, max), a frozen distribution of SciPy."""
+        """A factor from a factor, a mapping of keys, a pair (min, max) or a frozen distribution of SciPy."""
         if isinstance(value, Factor):
             return value
         if isinstance(value, Mapping):
@@ -45,7 +45,7 @@ class Factor:
             return from_scipy(value)
         if isinstance(value, (tuple, list)) and len(value) == 2:
             return Uniform(*value)
-        raise StudyError(f"{value!r} is no factor: expected a distribution such as ap.Normal(0, 1), or a pair (min, max)")
+        raise StudyError(f"{value!r} is not a factor: expected a distribution such as ap.Normal(0, 1), or a pair (min, max)")
 
 
 def _plain(values: Sequence[float] | np.ndarray | None) -> list | None:
@@ -60,7 +60,7 @@ _REMARKS = {
     "exponential": "`scale` is the standard deviation, one over the rate.",
     "student-t": "More than 2 degrees of freedom, unless it is truncated on both sides.",
     "pareto": "`shape` is above 2, unless it is truncated above.",
-    "seed": "A whole number from 0 to 2**31 - 1: the noise, which is none of the factors.",
+    "seed": "A whole number from 0 to 2**31 - 1: the noise, which is not one of the factors.",
 }
 _READ: dict[str, tuple[str, Callable[[Any], Any]]] = {
     "number": ("float", lambda value: value),
@@ -70,8 +70,8 @@ _READ: dict[str, tuple[str, Callable[[Any], Any]]] = {
 
 
 def _constructor(family: str, summary: str, parameters: Sequence[tuple[str, str, str, bool, float | None]]) -> Callable[..., Factor]:
-    """The function that makes a factor of a family of the engine; of its parameters the table has the key, the kind of value,
-    what it says, whether it may be left out, and what it is then."""
+    """The constructor of a factor of a family of the engine; for each parameter the table has the key, the kind of value,
+    the description, whether it is optional, and the default."""
     kinds = inspect.Parameter
     arguments, reads = [], {}
     for key, kind, _, is_optional, default in parameters:
@@ -119,7 +119,7 @@ def LogNormal(
     group: str | None = None,
     nominal: Any = None,
 ) -> Factor:
-    """Log-normal: by mean and standard deviation of the factor itself, or by those of its natural logarithm."""
+    """Log-normal: by mean and standard deviation of the factor, or by those of its natural logarithm."""
     keys = {"mean": mean, "sd": sd, "log_mean": log_mean, "log_sd": log_sd}
     return Factor({"distribution": "log-normal", **keys, "unit": unit, "group": group, "nominal": nominal})
 
@@ -154,7 +154,7 @@ def from_scipy(distribution: Any, *, group: str | None = None) -> Factor:
     """
     name = getattr(getattr(distribution, "dist", None), "name", None)
     if not hasattr(distribution, "ppf") or name is None:
-        raise StudyError(f"{distribution!r} is no frozen distribution of scipy.stats, as stats.gamma(2) is one")
+        raise StudyError(f"{distribution!r} is not a frozen distribution of scipy.stats, such as stats.gamma(2)")
     same = _of_engine(name, distribution) or _of_values(distribution)
     if same is not None:
         return Factor({**same.keys, "group": group})
@@ -162,7 +162,7 @@ def from_scipy(distribution: Any, *, group: str | None = None) -> Factor:
 
 
 def _of_engine(name: str, frozen: Any) -> Factor | None:
-    """The engine's own distribution that is the frozen one, if there is one."""
+    """The engine's distribution that equals the frozen one, if there is one."""
     try:
         # The shapes by their names, whichever way they were given.
         shapes, location, scale = frozen.dist._parse_args(*frozen.args, **frozen.kwds)
@@ -205,7 +205,7 @@ def _of_engine(name: str, frozen: Any) -> Factor | None:
 
 
 def _of_values(frozen: Any) -> Factor | None:
-    """The values of a discrete distribution with their probabilities, if they are not many."""
+    """The values of a discrete distribution with their probabilities, if there are not too many."""
     if not hasattr(frozen.dist, "pmf"):
         return None
     values = getattr(frozen.dist, "xk", None)
@@ -224,13 +224,13 @@ def _of_values(frozen: Any) -> Factor | None:
 
 
 class _Quantile:
-    """A quantile function; a class, so that it goes to other processes."""
+    """A quantile function; a class, so that it can be sent to other processes."""
 
     def __init__(self, distribution: Any):
         self.distribution = distribution
 
     def identity(self) -> tuple[Any, ...]:
-        """What tells it from others in journals: its parameters, the data of a histogram, the functions of a class of one's own."""
+        """Its identity in journals: its parameters, the data of a histogram, the functions of a user's class."""
         dist, of = self.distribution.dist, type(self.distribution.dist)
         parameters: dict[str, Any] = getattr(dist, "_updated_ctor_param", dict)()
         made = {key: value for key, value in parameters.items() if key not in ("seed", "longname", "extradoc")}

@@ -1,4 +1,4 @@
-"""Functions that are called elsewhere: any executor of `concurrent.futures` or of its kind."""
+"""Functions that run in other processes: any executor of `concurrent.futures` or of its kind."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ MAX_IN_FLIGHT = 8192
 
 
 def workers_of(executor: Any, in_flight: int | None) -> int:
-    """How many blocks are handed to an executor at a time: `in_flight`, or as many as it tells of its workers.
+    """The number of blocks that an executor gets at a time: `in_flight`, or one according to its number of workers.
 
     A `StudyError` says what was expected if it is no executor.
     """
@@ -51,11 +51,11 @@ def workers_of(executor: Any, in_flight: int | None) -> int:
 
 
 class _Closed(Exception):
-    """The executor is broken or shut down: asking again is of no use."""
+    """The executor is broken or shut down: a retry is useless."""
 
 
 class Blocks:
-    """Hands blocks of rows to an executor and waits for their outputs; called from several threads at once."""
+    """Submits blocks of rows to an executor and waits for their outputs; called from several threads at once."""
 
     def __init__(self, executor: Any, call: Call | RepeatedCall, stop: Stop):
         self.executor = executor
@@ -87,7 +87,7 @@ class Blocks:
         try:
             future = self.executor.submit(_evaluate, self.call, x)
         except RuntimeError as error:
-            raise _Closed(f"it takes no more work: {error}") from error
+            raise _Closed(f"it accepts no more work: {error}") from error
         while True:
             try:
                 return future.result(timeout=0.2)
@@ -100,13 +100,13 @@ class Blocks:
 
 
 def _evaluate(call: Any, x: np.ndarray) -> tuple[np.ndarray, list[tuple[int, str]]]:
-    """In the worker."""
+    """Runs in the worker."""
     call = call.load() if isinstance(call, _ByValue) else call
     return call.evaluate(call.rows(x))
 
 
 class _ByValue:
-    """A call whose function goes along with its code, as those of notebooks must."""
+    """A call that is sent with the code of its function, as functions of notebooks must be."""
 
     def __init__(self, data: bytes):
         self.data = data
@@ -126,12 +126,12 @@ class _ByValue:
 
 
 def _portable(call: Call | RepeatedCall) -> Any:
-    """The call as it goes to another process: by reference where that finds all of it there, else with its code."""
+    """The call as sent to another process: by reference if the function can be imported there, otherwise with its code."""
     try:
         data, reason = pickle.dumps(call), None
     except Exception as error:
         data, reason = b"", error
-    # What refers to the script or notebook, wherever in the function it stands, is not found by workers that begin anew.
+    # What refers to the script or notebook, at any place in the function, is not found by workers that start again.
     if reason is None and b"__main__" not in data:
         return call
     try:
@@ -148,9 +148,9 @@ def _portable(call: Call | RepeatedCall) -> Any:
 
 
 def _words(error: Exception) -> str:
-    return f"the function cannot go to another process ({type(error).__name__}: {error})"
+    return f"the function cannot be sent to another process ({type(error).__name__}: {error})"
 
 
 def called_elsewhere(executor: Any, call: Call | RepeatedCall, stop: Stop) -> Callable[..., Any]:
-    """What the engine calls."""
+    """The function that the engine calls."""
     return Blocks(executor, call, stop)

@@ -1,4 +1,4 @@
-"""What tells a function from an edited one, or from the same one with other values: its code, and what it holds."""
+"""The identity of a function, to detect changes: its code, and the values that it holds."""
 
 from __future__ import annotations
 
@@ -47,13 +47,13 @@ def holdings(function: Callable[..., Any], quantiles: Iterable[tuple[str, Any]] 
 
 
 def constant(held: Mapping[str, str], changing: set[str]) -> dict[str, str]:
-    """The holdings that calls do not change: those at other places than `changing`, and in containers that do not grow or shrink."""
+    """The held values that calls do not change: those at other places than `changing`, and in containers that do not grow or shrink."""
     grown = tuple(path[:-1] for path in changing if path.endswith("[]"))
     return {path: of for path, of in held.items() if path not in changing and not path.startswith(grown)}
 
 
 def _inner(function: Any) -> Any:
-    """What is called in the end, behind decorators and a `functools.partial`."""
+    """The innermost function, without decorators and a `functools.partial`."""
     return inspect.unwrap(getattr(function, "func", function))
 
 
@@ -62,7 +62,7 @@ def _code_of(function: Any) -> Any:
 
 
 def _words(value: Any) -> str:
-    """The value in words that are the same in every process."""
+    """The value as text that is the same in every process."""
     if isinstance(value, (tuple, list)):
         return "(" + ",".join(_words(part) for part in value) + ")"
     if isinstance(value, (set, frozenset)):
@@ -71,7 +71,7 @@ def _words(value: Any) -> str:
 
 
 def _are_words(value: Any) -> bool:
-    """Whether `_words` says all of a value."""
+    """Whether `_words` describes a value completely."""
     if isinstance(value, (tuple, list, set, frozenset)):
         return all(map(_are_words, value))
     return type(value) in (bool, int, float, complex, str, bytes, type(None))
@@ -100,7 +100,7 @@ class _Walk:
         self.left = [_MOST] if left is None else left
 
     def split(self, value: Any, path: str, above: tuple[int, ...]) -> None:
-        """Adds the parts of `value`, which stands at `path` inside of the objects `above` (by `id`)."""
+        """Adds the parts of `value`, which is at `path` inside the objects `above` (by `id`)."""
         inside = (*above, id(value))
         is_data = not callable(value) and isinstance(value, (*_PLAIN, *_CONTAINERS))
         if id(value) in above or len(above) > _DEEPEST or is_data and not _is_split(value):
@@ -159,7 +159,7 @@ class _Walk:
             self.split(attribute, f"{path}.{name}", inside)
 
     def _object(self, value: Any, path: str, inside: tuple[int, ...]) -> None:
-        """An object of a class: what pickle would store of it, or else its attributes, or else its type."""
+        """An object of a class: the data that pickle would store, otherwise its attributes, otherwise its type."""
         call = getattr(type(value), "__call__", None)
         if isinstance(call, types.FunctionType) and value is not self.known:
             self._code(call, path)
@@ -253,14 +253,14 @@ _CONTAINERS = (
 
 
 def _is_split(value: Any) -> bool:
-    """Whether the entries of a container count one by one: one of them may be what calls change."""
+    """Whether the entries of a container count separately: calls may change one of them."""
     if isinstance(value, dict):
         return 0 < len(value) <= _SPLIT and all(type(key) is str for key in value)
     return isinstance(value, (list, tuple)) and len(value) <= _SPLIT and any(type(part) not in _PLAIN for part in value)
 
 
 def _stored(value: Any) -> Any:
-    """What pickle would store of an object: how it is made, or its name; None if it cannot be stored."""
+    """The data that pickle would store of an object: its construction, or its name; None if it cannot be stored."""
     try:
         reduce = copyreg.dispatch_table.get(type(value))
         return reduce(value) if reduce is not None else value.__reduce_ex__(4)

@@ -1,4 +1,4 @@
-"""Functions of Python as models: how they are called, and which rows fail."""
+"""Functions of Python as models: calls and failed rows."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ class Call:
         quantiles: Mapping[int, Callable[[np.ndarray], np.ndarray]],
     ):
         if not callable(function):
-            raise StudyError(f"{function!r} is no function")
+            raise StudyError(f"{function!r} is not a function")
         if style is not None and style not in STYLES:
             raise StudyError(f"call={style!r}: expected one of {', '.join(map(repr, STYLES))}")
         self.function = function
@@ -48,7 +48,7 @@ class Call:
         self._changing: set[str] = set()
 
     def rows(self, x: np.ndarray) -> np.ndarray:
-        """What the function gets for rows of the engine: the same, but for factors by their quantile functions."""
+        """The values that the function gets for rows of the engine: the same, except for factors by their quantile functions."""
         if self.quantiles:
             x = x.copy()
             for place, quantile in self.quantiles.items():
@@ -71,7 +71,7 @@ class Call:
         return answer.values
 
     def _learn_lengths(self, answer: Answer) -> None:
-        """Which outputs are series, and of how many values: those of several columns, where that can be told."""
+        """The outputs that are series, with their numbers of values if known: those with several columns."""
         outputs = self.outputs or []
         found = answer.lengths
         if found is None:
@@ -83,7 +83,7 @@ class Call:
             if len(open_ones) == 1:
                 self.lengths[open_ones[0]] = left
             elif open_ones:
-                raise AnswerError(f"it cannot be told how many values {' and '.join(open_ones)} have: say their `length`")
+                raise AnswerError(f"the number of values of {' and '.join(open_ones)} is unknown: state their `length`")
             return
         for name, length in zip(outputs, found):
             if length is not None or name in self.lengths:
@@ -156,24 +156,24 @@ class Call:
         return holdings(self.function, [(self.names[place], quantile) for place, quantile in self.quantiles.items()])
 
     def fingerprint(self) -> str:
-        """Tells this function from an edited one, and from the same one that holds other values; not what it calls by name."""
+        """Identifies this function by its code and the values that it holds, without the functions that it calls by name."""
         return fingerprint(self.function, constant(self._held(), self._changing))
 
 
 def reason_of(error: BaseException) -> str:
-    """The last line of an exception, as a row has it that failed."""
+    """The last line of an exception, the reason of a failed row."""
     if isinstance(error, NoAnswer):
         return str(error)
     return traceback.format_exception_only(type(error), error)[-1].strip()
 
 
 def with_hint(error: Exception, vectorised: bool) -> Exception:
-    """What to raise for an exception at every row: one that speaks of a function of numbers that got arrays says so."""
+    """The error for an exception at every row, with a hint if a function of numbers got arrays."""
     of_arrays = isinstance(error, IndexError) or isinstance(error, (TypeError, ValueError)) and "array" in str(error)
     if not vectorised or not of_arrays:
         return error
     words = f"the function failed with arrays of several rows: {reason_of(error)}"
-    hinted = StudyError(f"{words}: if it is a function of one row, say vectorised=False")
+    hinted = StudyError(f"{words}: if it is a function of one row, pass vectorised=False")
     hinted.__cause__ = error
     return hinted
 

@@ -1,4 +1,4 @@
-"""Indices from a table that exists already."""
+"""Indices from an existing table."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def given_data(
     seed: int = 0,
     name: str = "given-data",
 ) -> Document:
-    """Indices from rows that are independent draws, whoever made them: no design, and no further runs.
+    """Indices from rows that are independent draws, from any source: no design, and no further runs.
 
     `inputs` and `outputs` are mappings from names to (rows,), `pandas.DataFrame`s, or arrays of (rows, columns). With
     `surrogate` there are total indices too; `factors` tells it the distributions. `measures`

@@ -24,7 +24,7 @@ class Index(NamedTuple):
 
 
 class Indices(Mapping[str, Index]):
-    """An index for each factor or group, by name. As an array it is the estimates, in the order of the factors."""
+    """An index for each factor or group, by name. As an array: the estimates, in the order of the factors."""
 
     def __init__(self, entries: dict[Any, Index]):
         self._entries = entries
@@ -33,8 +33,8 @@ class Indices(Mapping[str, Index]):
         try:
             return self._entries[name if name in self._entries else _turned(name)]
         except (KeyError, TypeError):
-            there = ", ".join(map(repr, self._entries)) or "none at all"
-            raise KeyError(f"{name!r}: the indices are those of {there}") from None
+            there = ", ".join(map(repr, self._entries)) or "none"
+            raise KeyError(f"no index of {name!r}: there are {there}") from None
 
     def __contains__(self, name: Any) -> bool:
         return name in self._entries or _turned(name) in self._entries
@@ -119,12 +119,12 @@ class OutputResult:
 
     @property
     def warnings(self) -> list[str]:
-        """What a careful reader should know."""
+        """Warnings about the indices."""
         return self.record["warnings"]
 
     @property
     def reason(self) -> str | None:
-        """Why there are no indices, if there are none."""
+        """The reason if there are no indices."""
         return self.record["reason"]
 
     @property
@@ -158,7 +158,7 @@ class OutputResult:
 
     @property
     def second_order(self) -> Indices:
-        """Second-order indices by pairs of factors; empty if they were not asked for."""
+        """Second-order indices by pairs of factors; empty if they were not requested."""
         records = self.record["second_order"] or []
         return Indices({tuple(record["factors"]): Index.of(record["index"]) for record in records})
 
@@ -167,7 +167,7 @@ class OutputResult:
         return self._indices("groups", kind)
 
     def subsets(self, kind: str = "first_order") -> Indices:
-        """Joint indices of the subsets asked for; first-order ones are closed indices."""
+        """Joint indices of the requested subsets; first-order ones are closed indices."""
         return self._indices("subsets", kind)
 
     @property
@@ -178,7 +178,7 @@ class OutputResult:
         return record and {key: Index.of(record[key]) for key in ("first_order", "total", "mean_share")}
 
     def of_mean(self, kind: str = "first_order") -> Indices:
-        """Indices of the mean over the noise, of its own variance; total ones where they were asked for (`noise={"mean_totals": True}`), or the
+        """Indices of the mean over the noise, of its own variance; total ones if requested (`noise={"mean_totals": True}`), or the
         joint index with the noise (`subsets=[["x1", "seed"], ...]`)."""
         if kind not in ("first_order", "total"):
             raise ValueError(f'kind={kind!r}: expected "first_order" or "total"')
@@ -236,12 +236,12 @@ class SeriesResult:
 
     @property
     def axis(self) -> str:
-        """What the axis is called."""
+        """The name of the axis."""
         return self.record["axis"]
 
     @property
     def positions(self) -> np.ndarray:
-        """Where the values stand on the axis, in `axis_unit`."""
+        """The positions of the values on the axis, in `axis_unit`."""
         return np.array(self.record["positions"])
 
     @property

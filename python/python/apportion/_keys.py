@@ -55,7 +55,7 @@ _OTHERS = {
 
 
 def refuse_unknown(keywords: Iterable[str], known: Iterable[str]) -> None:
-    """A `StudyError` for the first keyword that is not known, with what was probably meant."""
+    """A `StudyError` for the first unknown keyword, with the probable one."""
     known = list(known)
     for keyword in keywords:
         if keyword in known:
@@ -69,7 +69,7 @@ def refuse_unknown(keywords: Iterable[str], known: Iterable[str]) -> None:
 
 
 def of_arguments(message: str) -> str:
-    """A message about the text of a study as one about the arguments that it was made of: without places and lines of the text."""
+    """A message about the text of a study as a message about the arguments: without places and lines of the text."""
     first, *others = message.split("\n")
     first = re.sub(r"^[^:\n]*\.toml:\d+:\d+: ", "", first)
     shown = next((line.split("|", 1)[1].strip() for line in others if re.match(r"\d+ +\|", line)), "")
@@ -80,19 +80,19 @@ def of_arguments(message: str) -> str:
 
 
 def factors_of(factors: Any) -> dict[str, Factor]:
-    """The factors by their names, whatever stands for each."""
+    """The factors by their names, from any form of a factor."""
     if factors is None:
         return {}
     if not isinstance(factors, Mapping):
-        raise StudyError(f'factors: {factors!r:.80} is no mapping from names to distributions, as {{"x1": (0, 1)}} is one')
+        raise StudyError(f'factors: {factors!r:.80} is not a mapping from names to distributions, such as {{"x1": (0, 1)}}')
     for name in factors:
         if not isinstance(name, str):
-            raise StudyError(f"factors: the name {name!r} is no text: expected one such as {str(name)!r}")
+            raise StudyError(f"factors: the name {name!r} is not a text: expected a name such as {str(name)!r}")
     return {str(name): Factor.of(value) for name, value in factors.items()}
 
 
 def lengths_of(outputs: Mapping[str, Any]) -> dict[str, int | None]:
-    """Of the outputs that are series how many values they have, as far as that is said."""
+    """The number of values of every output that is a series, as far as it is stated."""
     lengths: dict[str, int | None] = {}
     for name, of in outputs.items():
         if isinstance(of, Mapping) and set(of) - {"unit"}:

@@ -1,4 +1,4 @@
-"""How far a run has come, and what it has to say."""
+"""Progress and messages of a run."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ def say(line: str) -> None:
 
 
 class Progress:
-    """Tells how far a run has come."""
+    """Reports the progress of a run."""
 
     def __init__(self, asked: bool | Callable[[int, int], None] | None, name: str):
         self.asked, self.name = asked, name

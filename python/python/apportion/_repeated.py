@@ -22,7 +22,7 @@ def taken_out(noise: Mapping[str, Any]) -> tuple[dict[str, Any], int]:
 
 
 def outputs_of(outputs: Any) -> Any:
-    """The mean and the variance over the noise in the place of every output: names, or names with their units and axes."""
+    """The mean and the variance over the noise instead of every output: names, or names with their units and axes."""
     if isinstance(outputs, Mapping):
         return {f"{name}_{part}": _of(stated, part) for name, stated in outputs.items() for part in _PARTS}
     return None if outputs is None else [f"{name}_{part}" for name in outputs for part in _PARTS]
@@ -45,7 +45,7 @@ def _square(unit: str) -> str:
 
 class RepeatedCall:
     """A stochastic function whose values for a row are mean and variance (with the divisor n - 1) over `repetitions` calls, each
-    with a seed of its own: the same seeds as those of the engine's models."""
+    with another seed: the same seeds as those of the engine's models."""
 
     def __init__(self, call: Call, seed: int, repetitions: int):
         self.call = call
@@ -78,7 +78,7 @@ class RepeatedCall:
         return expanded(self.outputs or [], self.lengths)
 
     def rows(self, x: np.ndarray) -> np.ndarray:
-        """What the function gets at the first of its calls for the rows `x`."""
+        """The values that the function gets at the first of its calls for the rows `x`."""
         return self.call.rows(x)
 
     def probe(self, rows: np.ndarray) -> np.ndarray:
@@ -115,7 +115,7 @@ class RepeatedCall:
         return np.column_stack(own), sorted(first.items())
 
     def fingerprint(self) -> str:
-        """Tells this from another function, or number of calls."""
+        """Identifies this function and the number of calls."""
         return f"{self.call.fingerprint()} {self.repetitions} times"
 
 

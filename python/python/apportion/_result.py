@@ -1,4 +1,4 @@
-"""Results: what was found, in words, as a page, as tables and charts."""
+"""Results: as text, as a page, as tables and charts."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from ._indices import Index, Indices, OutputResult, SeriesResult, needed
 
 
 class Document:
-    """What was found: in words, as a page, as charts and as the JSON that holds every number."""
+    """A result: as text, as a page, as charts and as the JSON with all numbers."""
 
     def __init__(self, document: _engine.Document):
         self._document = document
@@ -33,7 +33,7 @@ class Document:
         return f"<div>{lead}{self._table_html()}{charts[0][1] if charts else ''}</div>"
 
     def __reduce__(self) -> Any:
-        raise TypeError("only results of runs can be pickled: keep the to_json(), or what save() writes, of this one")
+        raise TypeError("only results of runs can be pickled: use to_json() or save() for this one")
 
     def __copy__(self) -> "Document":
         return type(self)(self._document)
@@ -50,7 +50,7 @@ class Document:
 
     @property
     def lead(self) -> list[str]:
-        """What decides, in sentences."""
+        """The main result, in sentences."""
         return self._document.lead
 
     def to_json(self) -> str:
@@ -64,7 +64,7 @@ class Document:
         return self._parsed
 
     def to_html(self) -> str:
-        """The whole page, with nothing to load from anywhere."""
+        """The whole page, without external files."""
         return self._document.html()
 
     def charts(self) -> dict[str, str]:
@@ -91,7 +91,7 @@ def _words(index: Index) -> str:
 
 
 class Result(Document):
-    """The indices of a study, and how well they are known.
+    """The indices of a study, with their intervals.
 
     `first_order`, `total` and so on are those of the only output; with several, `result["name"]` is one of them.
     """
@@ -120,7 +120,7 @@ class Result(Document):
         return iter(self.outputs)
 
     def __len__(self) -> int:
-        """How many outputs there are."""
+        """The number of outputs."""
         return len(self.outputs)
 
     def __contains__(self, output: object) -> bool:

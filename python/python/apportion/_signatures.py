@@ -25,7 +25,7 @@ def style_of(function: Callable[..., Any], names: list[str]) -> str:
     try:
         parameters = inspect.signature(function).parameters.values()
     except (TypeError, ValueError):
-        raise StudyError(f"it cannot be seen which arguments the function takes: {_SAY}") from None
+        raise StudyError(f"the arguments of the function are unknown: {_SAY}") from None
     kinds = inspect.Parameter
     required = [p for p in parameters if p.default is p.empty and p.kind not in (kinds.VAR_POSITIONAL, kinds.VAR_KEYWORD)]
     by_name = {p.name for p in parameters if p.kind in (kinds.POSITIONAL_OR_KEYWORD, kinds.KEYWORD_ONLY)}
@@ -44,8 +44,8 @@ def style_of(function: Callable[..., Any], names: list[str]) -> str:
     if len(required) < len(names) == len(positional):
         options = [p.name for p in positional[len(required) :]]
         raise StudyError(
-            f"the function takes {', '.join(p.name for p in positional)}, and the factors are {', '.join(names)}: it cannot be told "
-            f"whether {' and '.join(options)}, with a value of its own, is to get a factor: {_SAY}"
+            f"the function takes {', '.join(p.name for p in positional)}, and the factors are {', '.join(names)}: it is unknown "
+            f"whether {' and '.join(options)}, with a default value, should get a factor: {_SAY}"
         )
     if len(required) == 1 or not required and positional:
         return "matrix"
@@ -60,7 +60,7 @@ def _by_place(positional: list[inspect.Parameter], names: list[str]) -> str:
     for parameter, name in zip(positional, names):
         if parameter.name != name and parameter.name in names:
             raise StudyError(
-                f"the function takes {', '.join(p.name for p in positional)}, and the factors are {', '.join(names)}: by their places "
+                f"the function takes {', '.join(p.name for p in positional)}, and the factors are {', '.join(names)}: by position "
                 f"its argument {parameter.name} would get the factor {name}: {_SAY}"
             )
     return "columns"

@@ -43,37 +43,37 @@ _MAX_TRAJECTORIES, _MAX_LEVELS, _MAX_POINTS = 2**32, 2**16, 10**6
 
 
 class Study:
-    """A model, the factors whose influence is asked for, and how many runs answer it.
+    """A model, the factors to compare, and the number of model runs.
 
     `model` is a function of Python, the name of a model of the engine ("ishigami", "afm", ...), or None if the outputs are
     computed elsewhere: see `sample` and `analyse`. `factors` maps names to distributions; a pair (min, max) is uniform.
 
     `outputs` are names, or a mapping from names to units. An output may be a series, with several values a row: an array of
     (rows, values), or of (values,) where `vectorised=False`, in a dict or tuple of outputs or as the only one that `outputs`
-    names. The mapping says of its axis what is to be known: `outputs={"infected": {"axis": "day", "unit": "%"}}`, with
+    names. The mapping describes its axis: `outputs={"infected": {"axis": "day", "unit": "%"}}`, with
     `axis_unit`, and `positions` (all, or the first one and the step).
 
     `noise="seed"` gives a stochastic model a seed with every row, as its last argument or by that name;
     `noise={"mean_totals": True}` adds the total indices of the mean over it, one more run of each base sample for each factor,
-    and `noise={"repetitions": 8}` calls the function so often for each row: its outputs are then `y_mean` and `y_variance`.
+    and `noise={"repetitions": 8}` calls the function 8 times for each row: its outputs are then `y_mean` and `y_variance`.
 
-    How long a run is: `base_samples` (N of the matrices A and B), or `runs` in all, or the `accuracy` that every index must reach,
+    The length of a run: `base_samples` (N of the matrices A and B), or `runs` in all, or the `accuracy` that every index must reach,
     within `max_runs` and `max_time` (seconds). By default 16,384 base samples.
 
     The design: `sampler` ("sobol", "random", "latin-hypercube"), `replicates` (independent scrambles, 4), `seed` (a whole number or
-    a NumPy generator, of which one is drawn).
+    a NumPy generator, from which a seed is drawn).
 
     What is estimated: `second_order` indices, closed indices of `subsets` of factors, `shapley` effects (`shapley_method`,
     `shapley_players`), `measures` ("delta", "pawn_median", ...), `aggregate` indices of all outputs, further `estimators`
     ("janon-monod", ...), `intervals` ("nets", "percentile", "delta", with `resamples`), `surrogate` ("auto", "on", "off"),
     a `dummy` factor, `convergence`, and the `threshold` of the total index that a factor is compared with.
 
-    Runs without an answer: `failures` ("drop-block" or "fail") and `max_failed`, the largest share of failed runs.
+    Failed runs: `failures` ("drop-block" or "fail") and `max_failed`, the largest share of failed runs.
 
     Tables of a study file: `afm={...}`, `function={...}`, `expression={...}` (constants), `fidelity={...}` (cheaper models).
     Factors that depend on each other, by a Gaussian copula: `dependence={("a", "b"): 0.6}`, Pearson's correlations, or a list of
-    tables as in a study file, as in `[{"factors": ["a", "b"], "correlation": 0.6, "measure": "spearman"}]`; as an array of joint
-    measurements has them, a row each: `[{"factors": ["a", "b"], "measurements": array}]`.
+    tables as in a study file, as in `[{"factors": ["a", "b"], "correlation": 0.6, "measure": "spearman"}]`; or from
+    joint measurements, one in each row: `[{"factors": ["a", "b"], "measurements": array}]`.
     """
 
     def __init__(
@@ -156,7 +156,7 @@ class Study:
                 self._call = RepeatedCall(self._call, list(made).index(noise["name"]), repetitions)
                 outputs = outputs_of(outputs)
         elif any(factor.quantile is not None for factor in made.values()):
-            raise StudyError("factors by their quantile functions serve functions of Python alone")
+            raise StudyError("factors by their quantile functions work only with functions of Python")
         table["model"] = "external" if callable(model) or model is None else model
         if isinstance(outputs, Mapping):
             table["outputs"] = stated_outputs(outputs, {})
@@ -213,7 +213,7 @@ class Study:
 
     @property
     def name(self) -> str:
-        """Its name, after which files are called."""
+        """Its name, which is also that of its files."""
         return self._study.name
 
     @property
@@ -243,11 +243,11 @@ class Study:
 
     def analyse(self, outputs: Any) -> Result:
         """The result from outputs at the points of `sample`, in their order: (rows,) or (rows, outputs), or a mapping or frame of
-        (rows,) by the names of the outputs, in any order, in a mapping also of (rows, values) of a series. NaN, and what is masked or
-        missing, says that a run failed."""
+        (rows,) by the names of the outputs, in any order, in a mapping also of (rows, values) of a series. NaN, masked and
+        missing values mean a failed run."""
         if self._study.grows:
-            raise StudyError("a study with an accuracy or limits chooses its runs as they go on: give it base_samples")
-        # Nobody has said what the outputs are.
+            raise StudyError("a study with an accuracy or limits chooses its rows during the run: set base_samples instead")
+        # The names of the outputs are unknown.
         is_unnamed = self._study.is_external and self._table.get("outputs") == ["y"]
         columns = named(outputs, "the outputs have")
         if columns is None:
@@ -312,13 +312,13 @@ class Study:
         resume: str = "if-there",
         progress: bool | Callable[[int, int], None] | None = None,
     ) -> Result:
-        """Runs the study and estimates its indices. Warnings of the result are warned of; where no output has an index, because all
-        runs failed or it does not vary, a `RunError` says why, and its `result` has the rest.
+        """Runs the study and estimates its indices. Warnings of the result are Python warnings; if no output has an index, because all
+        runs failed or it does not vary, a `RunError` states the reason, and its `result` has the rest.
 
         `threads`: of the engine; 0 for one per core. `executor`: any executor of `concurrent.futures` or of its kind, which
-        gets blocks of rows, `in_flight` at a time. `journal`: a file that keeps what is evaluated; the same call goes on
-        where it was interrupted (`resume` may also be "require", "retry-failed" or "never"). `progress`: True for a bar by
-        tqdm, a function of (done, total), False for nothing; by default a bar, if tqdm is there and somebody looks.
+        gets blocks of rows, `in_flight` at a time. `journal`: a file that keeps evaluated runs; the same call resumes
+        an interrupted run (`resume` may also be "require", "retry-failed" or "never"). `progress`: True for a bar by
+        tqdm, a function of (done, total), False for nothing; by default a bar, if tqdm is installed and the output is interactive.
         """
         threads = whole("threads", threads, 0, MAX_THREADS)
         stop = _engine.Stop()
@@ -341,11 +341,11 @@ class Study:
         seed: int | None = None,
         threads: int = 0,
     ) -> Document:
-        """Elementary effects: which of many factors matter, for a few runs each. Radial (Campolongo et al. 2011), or with
+        """Elementary effects: screening of many factors, with a few runs each. Radial (Campolongo et al. 2011), or with
         `levels` the trajectories of Morris (1991) on a grid; with `derivatives` short steps, for the mean squares of derivatives and
-        what total indices are at most (Sobol' and Kucherenko 2009)."""
+        upper bounds of total indices (Sobol' and Kucherenko 2009)."""
         if derivatives and levels is not None:
-            raise StudyError("levels are of no account to derivatives: leave out one of them")
+            raise StudyError("levels have no effect on derivatives: leave out one of them")
         trajectories = whole("trajectories", trajectories, 1, _MAX_TRAJECTORIES)
         levels = None if levels is None else whole("levels", levels, 2, _MAX_LEVELS)
         seed = None if seed is None else whole("seed", seed, 0, MAX_SEED)
@@ -365,7 +365,7 @@ class Study:
         return Document(document)
 
     def sweep(self, *factors: str, points: int = 101) -> Document:
-        """One factor at a time over its range, every other at its nominal value; all of them if none is named."""
+        """Sweeps one factor at a time over its range, with all others at nominal values; every factor if none is named."""
         points = whole("points", points, 2, _MAX_POINTS)
         stop = _engine.Stop()
         return Document(self._study.sweep(self._function(stop, None, None), stop, list(factors), points))
@@ -374,7 +374,7 @@ class Study:
         """What the engine calls."""
         if self._call is None:
             if executor is not None:
-                raise StudyError("executors serve functions of Python; models of the engine run on its own threads")
+                raise StudyError("executors work only with functions of Python; models of the engine run on its own threads")
             if self._study.is_external:
                 raise StudyError("the study has no model: evaluate its sample() and pass the outputs to analyse()")
             return None

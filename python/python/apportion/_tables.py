@@ -37,7 +37,7 @@ def _number(value: Any) -> float:
         return np.nan
     if isinstance(value, (kinds.Real, np.bool_)):
         return float(value)
-    raise TypeError(f"{value!r} is no real number")
+    raise TypeError(f"{value!r} is not a real number")
 
 
 def named(data: Any, what: str, error: type[Exception] = StudyError) -> dict[str, np.ndarray] | None:
@@ -58,7 +58,7 @@ def named(data: Any, what: str, error: type[Exception] = StudyError) -> dict[str
     texts = [str(name) for name in names]
     again = [name for place, name in enumerate(texts) if name in texts[:place]]
     if again:
-        raise error(f"{what} two columns of the name {again[0]!r}: their names must differ")
+        raise error(f"{what} two columns with the name {again[0]!r}: their names must differ")
     return {text: numbers(data[name], f"{what} in the column {text!r}", error) for text, name in zip(texts, names)}
 
 

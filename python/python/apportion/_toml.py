@@ -36,7 +36,7 @@ def _key(key: str) -> str:
 
 
 def value_of(value: Any) -> str:
-    """A value as it stands in a study file."""
+    """A value as written in a study file."""
     if isinstance(value, np.ndarray) and value.ndim == 0:
         value = value.item()
     if isinstance(value, (bool, np.bool_)):

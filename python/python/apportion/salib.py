@@ -40,8 +40,8 @@ def from_problem(problem: Mapping[str, Any]) -> dict[str, Factor]:
     if not len(names) == len(bounds) == len(dists) == len(groups):
         raise StudyError("the problem has lists of different lengths: names, bounds, dists and groups go together")
     if problem.get("num_vars", len(names)) != len(names):
-        raise StudyError(f"num_vars is {problem['num_vars']}, and there are {len(names)} names")
-    # A factor that is a group of its own needs none.
+        raise StudyError(f"num_vars is {problem['num_vars']}, but there are {len(names)} names")
+    # A factor that forms a group alone needs none.
     groups = [None if group == name or groups.count(group) == 1 else group for name, group in zip(names, groups)]
     return {name: _factor(dist, list(bound), group) for name, dist, bound, group in zip(names, dists, bounds, groups)}
 
@@ -61,7 +61,7 @@ def _factor(dist: str, bound: list[float], group: str | None) -> Factor:
         return TruncatedNormal(bound[2], bound[3], bound[0], bound[1], group=group)
     if dist == "lognorm":
         return LogNormal(log_mean=bound[0], log_sd=bound[1], group=group)
-    raise StudyError(f"dists: {dist!r} is not known: expected unif, logunif, triang, norm, truncnorm or lognorm")
+    raise StudyError(f"dists: {dist!r} is unknown: expected unif, logunif, triang, norm, truncnorm or lognorm")
 
 
 def _members(problem: Mapping[str, Any]) -> list[tuple[str, list[int]]]:
@@ -136,7 +136,7 @@ def analyze(
     num_resamples = whole("num_resamples", num_resamples, 0, _MAX_RESAMPLES)
     seed = whole("seed", seed, 0, MAX_SEED)
     if conf_level != 0.95:
-        raise StudyError("conf_level: the intervals are those of 95 %")
+        raise StudyError("conf_level: only intervals of 95 % are available")
     names = [member for member, _ in _members(problem)]
     y = numbers(Y, "the outputs are").ravel()
     resamples = max(num_resamples, _MIN_RESAMPLES) if num_resamples else 0

@@ -262,7 +262,7 @@ fn low_dimensions_are_not_correlated() {
                     pairs += 1;
                 }
             }
-            // On the whole far closer to 0 than the squares 1/N of random points.
+            // Together far closer to 0 than the squares 1/N of random points.
             assert!(squares / f64::from(pairs) < 0.25 / n as f64, "2^{m} points: {squares}");
         }
     }
@@ -282,8 +282,8 @@ fn a_factor_is_not_correlated_with_itself_across_a_and_b() {
 #[test]
 fn dimensions_that_share_digits_are_correlated_until_their_next_column() {
     // The first digit of a dimension's first 2^m points is one of 2^(m-1) functions of the index, so that among more
-    // dimensions two must share it, whatever the direction numbers; likewise for the second digit of one and the first of
-    // another, which dimensions 7 and 3808 share up to 2^12 points: t is m - 2 there. Their next columns part them.
+    // dimensions two must share it, for any direction numbers; likewise for the second digit of one and the first of
+    // another, which dimensions 7 and 3808 share up to 2^12 points: t is m - 2 there. Their next columns differ.
     assert_eq!([8, 10, 12, 14, 16].map(|m| net_parameter(&[6, 3807], m)), [6, 8, 10, 4, 3]);
     let sequence = |replicate| SobolSequence::scrambled(3808, 41, replicate);
     let at = |replicate, m: u32| {

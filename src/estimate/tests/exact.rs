@@ -50,7 +50,7 @@ fn every_estimator_is_exact_on_a_full_factorial() {
 }
 
 #[test]
-fn a_factor_that_does_everything_has_index_one_and_the_other_one_zero() {
+fn the_only_influential_factor_has_index_one_and_others_zero() {
     let moments = factorial(|x, _| x).moments();
     for estimator in FirstOrder::ALL {
         assert!((estimator.estimate(&moments, 0) - 1.0).abs() < 1e-13, "{estimator:?}");

@@ -1,4 +1,4 @@
-//! What failed runs cost: their own swap a base point, and the others none.
+//! The effect of failed runs: their own swap loses a base point, and the others none.
 
 use super::textbook::textbook;
 use super::*;
@@ -39,7 +39,7 @@ fn an_index_is_estimated_from_the_base_points_at_which_its_rows_succeeded() {
         for column in kept.columns() {
             *column = column.iter().enumerate().filter(|(row, _)| !lost.contains(row)).map(|(_, y)| *y).collect();
         }
-        // The rows of the other swap that failed are elsewhere, but for those that the textbook would trip over.
+        // The rows of the other swap that failed are elsewhere, except for those that the textbook formula cannot handle.
         let kept = kept.map(|y| if y.is_finite() { y } else { 0.0 });
         let mut expected = textbook(&kept);
         for ((name, _), own) in everything(&moments).iter().zip(&mut expected) {

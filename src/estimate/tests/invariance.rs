@@ -1,10 +1,10 @@
-//! What must not matter: offset, scale, and where a sample is cut into blocks.
+//! Invariance: offset, scale, and the division of a sample into blocks.
 
 use proptest::prelude::*;
 
 use super::*;
 
-/// The estimators that no offset may touch.
+/// The estimators that do not depend on an offset.
 fn centred(all: Vec<(String, f64)>) -> Vec<(String, f64)> {
     let by_name = ["sobol-1993", "homma-saltelli-1996", "saltelli-2002", "sobol-2007"];
     all.into_iter().filter(|(name, _)| !by_name.iter().any(|uncentred| name.ends_with(uncentred))).collect()

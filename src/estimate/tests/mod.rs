@@ -17,7 +17,7 @@ struct Sample {
 }
 
 impl Sample {
-    /// `n` base points of columns that are correlated somehow, with `offset`.
+    /// `n` base points of columns with arbitrary correlations, with `offset`.
     fn noise(n: usize, offset: f64) -> Self {
         let raw: Vec<Vec<f64>> = (1..=6).map(|salt| noise(n, salt)).collect();
         let column = |own: usize, shared: &[usize]| -> Vec<f64> {
@@ -104,7 +104,7 @@ fn names_are_unique_and_sources_are_given() {
 }
 
 #[test]
-fn a_design_that_serves_the_name_in_a_study_serves_its_estimators() {
+fn estimators_of_a_name_run_on_the_design_of_that_name() {
     for estimator in Estimator::ALL {
         for has_ba in [estimator.needs_ba(), true] {
             let (first_order, total) = estimator.formulas();
@@ -139,7 +139,7 @@ fn an_estimator_gives_an_index_exactly_if_it_has_the_rows_that_it_needs() {
 }
 
 #[test]
-fn runs_are_those_of_a_design_that_serves_the_estimator() {
+fn runs_are_those_of_a_design_for_the_estimator() {
     use crate::design::{Design, DesignSettings, Rows};
     let runs = |ba, d: usize| {
         let rows = Rows { swaps: (0..d).map(|j| vec![j]).collect(), ba, ..Rows::default() };

@@ -148,7 +148,7 @@ fn every_estimator_is_its_published_formula() {
 }
 
 #[test]
-fn rows_that_vary_together_have_indices_all_the_same() {
+fn rows_that_vary_together_still_have_indices() {
     // An event in one and the same base point of A, B and AB: their covariance is their variance.
     let mut event = vec![0.0; 16];
     event[5] = 1.0;
@@ -164,7 +164,7 @@ fn rows_that_vary_together_have_indices_all_the_same() {
 }
 
 #[test]
-fn a_factor_that_does_everything_has_indices_of_1_whatever_the_rows() {
+fn the_only_influential_factor_has_indices_of_1_on_any_rows() {
     // AB is B: the numerators are variances of y_B and y_AB less the covariance, and of y_A and y_AB less it.
     let (a, b) = ([0.0, 1.0, 5.0, -2.0, 0.5, 0.25, 3.0, -1.0], [2.0, 0.0, 1.5, -3.0, 2.5, 0.75, -7.0, 1.0]);
     let block = BlockOutputs { a: &a, b: &b, ab: &[&b], ..BlockOutputs::default() };

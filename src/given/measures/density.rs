@@ -201,7 +201,7 @@ mod tests {
     }
 
     #[test]
-    fn values_are_counted_where_they_stand_out() {
+    fn unusual_values_are_counted() {
         let atoms = |values: &[f64]| OutputDistribution::new(values).atoms;
         let rows = |of: fn(u32) -> f64| (0..1000u32).map(of).collect::<Vec<f64>>();
         assert_eq!(atoms(&rows(f64::from)), 0);

@@ -33,7 +33,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn they_are_what_both_functions_differ_by_at_any_value(
+        fn distances_are_differences_of_distribution_functions(
             rows in prop::collection::vec((0..12i32, 0..4usize), 2..60)
         ) {
             let z: Vec<f64> = rows.iter().map(|row| f64::from(row.0)).collect();

@@ -72,7 +72,7 @@ mod tests {
     }
 
     #[test]
-    fn a_wave_of_the_input_is_all_of_its_variance_and_noise_none() {
+    fn a_sine_of_the_input_explains_all_variance_and_noise_none() {
         let rows = 1000;
         // A cosine of one period in the order up and down.
         let sorted: Vec<f64> = (0..rows).map(|k| libm::cos(TAU * (k as f64) / (2.0 * rows as f64))).collect();

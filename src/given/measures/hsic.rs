@@ -114,7 +114,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_column_depends_on_itself_alone() {
+    fn a_column_does_not_depend_on_other_columns() {
         let x: Vec<f64> = (0..200).map(|k| f64::from(k * 37 % 200)).collect();
         let y: Vec<f64> = (0..200).map(|k| f64::from(k * k % 193)).collect();
         let outputs = Outputs::new(&x, 0).unwrap();
@@ -128,7 +128,7 @@ mod tests {
     }
 
     #[test]
-    fn a_sorted_table_says_what_it_says_in_any_order() {
+    fn sorted_rows_give_the_same_measures_as_random_order() {
         let rows = 3 * MAX_ROWS;
         let a: Vec<f64> = (0..rows).map(|k| k as f64 / rows as f64).collect();
         let b: Vec<f64> = (0..rows).map(|k| (k * 7919 % rows) as f64 / rows as f64).collect();
@@ -142,7 +142,7 @@ mod tests {
     }
 
     #[test]
-    fn one_value_in_the_rows_that_are_looked_at_gives_no_number() {
+    fn one_value_in_the_sampled_rows_gives_no_number() {
         let rows = 2 * MAX_ROWS;
         let x: Vec<f64> = (0..rows).map(|k| k as f64).collect();
         let mut one = vec![1.0; rows];

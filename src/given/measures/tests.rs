@@ -66,7 +66,7 @@ fn delta_of_a_sum_of_normals_is_that_of_the_integral() {
     for (found, exact) in found.iter().zip([0.505_497_139, 0.160_393_820]) {
         let delta = found.get(Measure::Delta).unwrap().estimate;
         let interval = delta.interval.unwrap();
-        // Nineteen classes know the input no better than to within one of them.
+        // Nineteen classes resolve the input only to the width of a class.
         assert!((-0.03..0.01).contains(&(delta.estimate - exact)), "{delta:?} {exact}");
         assert!(interval.high - interval.low < 0.06 && interval.low < interval.high);
     }
@@ -119,7 +119,7 @@ fn neither_scale_nor_offset_of_the_output_nor_a_growing_function_of_the_input_co
 }
 
 #[test]
-fn an_input_without_influence_is_told_from_chance_in_five_of_a_hundred_tables() {
+fn an_input_without_influence_is_significant_in_five_of_a_hundred_tables() {
     let mut seen = [0; Measure::ALL.len()];
     const TABLES: u64 = 100;
     for table in 0..TABLES {
@@ -135,7 +135,7 @@ fn an_input_without_influence_is_told_from_chance_in_five_of_a_hundred_tables() 
 }
 
 #[test]
-fn inputs_of_one_value_and_even_points_claim_nothing() {
+fn constant_inputs_and_even_points_have_no_p_values() {
     let mut inputs = uniform(64, 2, 5);
     inputs[1].values.fill(3.0);
     let found = measured(&inputs, output(&inputs, |x| x[0]), 0);
@@ -156,7 +156,7 @@ fn inputs_of_one_value_and_even_points_claim_nothing() {
 fn delta_of_outputs_with_values_that_many_rows_share() {
     type Case = (&'static str, fn(&[f64]) -> f64, [f64; 2]);
     let cases: [Case; 8] = [
-        // Of an input whose value decides the output itself, classes see a part: not compared.
+        // For an input that determines the output, classes resolve only a part: not compared.
         ("a switch over a density", |x| if x[0] < 0.5 { 0.0 } else { x[1] }, [0.5, f64::NAN]),
         ("a switch over two values", |x| if x[0] < 0.5 { 0.0 } else { (2.0 * x[1]).floor() }, [0.25, 0.25]),
         ("two values", |x| f64::from(x[0] < 0.5), [0.5, 0.0]),

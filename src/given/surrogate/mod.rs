@@ -43,8 +43,8 @@ const MAX_VALUES: usize = 100_000_000;
 pub enum SurrogateRefusal {
     /// Inputs depend on each other.
     #[error(
-        "the inputs `{}` and `{}` depend on each other; a surrogate yields indices of independent inputs only, and no total \
-         index has a meaning here", .inputs.0, .inputs.1
+        "the inputs `{}` and `{}` depend on each other; a surrogate gives indices of independent inputs only, and total \
+         indices are undefined here", .inputs.0, .inputs.1
     )]
     Dependent {
         /// The pair.
@@ -59,9 +59,7 @@ pub enum SurrogateRefusal {
         inputs: usize,
     },
     /// A column has not been drawn from its stated distribution.
-    #[error(
-        "the values of `{input}` do not follow the distribution that is stated for it: check its unit and its bounds"
-    )]
+    #[error("the values of `{input}` do not follow its stated distribution: check its unit and its bounds")]
     OtherDistribution {
         /// The input.
         input: String,

@@ -22,7 +22,7 @@ pub enum ExpressionProblem {
     #[error("`{0}` has no meaning in a formula")]
     Character(char),
     /// A number that cannot be read, or is beyond double precision.
-    #[error("`{0}` is no number that double precision can hold")]
+    #[error("`{0}` is not a number that double precision can hold")]
     Number(String),
     /// An unknown name.
     #[error("there is no `{0}`")]
@@ -42,7 +42,7 @@ pub enum ExpressionProblem {
         arguments: &'static str,
     },
     /// A call of a name that is not a function.
-    #[error("`{0}` is no function: write {0}*(...) to multiply")]
+    #[error("`{0}` is not a function: write {0}*(...) to multiply")]
     NotAFunction(String),
     /// Too few or too many arguments.
     #[error("`{name}` takes {expected}, not {found}")]

@@ -52,12 +52,12 @@ fn operators_bind_as_in_mathematics() {
 }
 
 #[test]
-fn names_with_points_are_nothing() {
+fn names_with_points_are_unknown() {
     for (text, message, place) in [
         ("np.sin(x)", "there is no function `np.sin`", "np.sin"),
         ("1 + scipy.special.erf(x)", "there is no function `scipy.special.erf`", "scipy.special.erf"),
         ("np.x1", "there is no `np.x1`", "np.x1"),
-        ("np.", "`.` is no number", "."),
+        ("np.", "`.` is not a number", "."),
     ] {
         let error = Expression::parse(text, &symbol).expect_err(text);
         assert!(error.to_string().contains(message), "{text}: {error}");
@@ -94,16 +94,16 @@ fn columns_of_any_length_are_their_rows() {
         assert_eq!(batch.column(0)[row].to_bits(), if alone.is_finite() { alone } else { f64::NAN }.to_bits());
     }
     let reasons: Vec<String> = batch.failures().iter().map(|(_, _, reason)| reason.to_string()).collect();
-    // Of ln(0), which is met more than once.
+    // From ln(0), which occurs more than once.
     assert!(!reasons.is_empty() && reasons.iter().all(|reason| reason == "the formula is infinite"), "{reasons:?}");
 }
 
 #[test]
-fn what_has_no_value_is_never_hidden() {
+fn nan_is_never_hidden() {
     for text in ["min(0/0, x)", "max(x, 0/0)", "0/0 < x", "if(0/0, 1, 2)", "(0/0)*0"] {
         assert!(value(text, &[1.0]).is_nan(), "{text}");
     }
-    // The branch that is not taken has no say.
+    // The branch that is not taken does not matter.
     assert_eq!(value("if(x > 0, x, 0/0)", &[1.0]), 1.0);
 }
 
@@ -120,7 +120,7 @@ fn faults_are_named_with_their_place() {
         ("sin()", "`sin` takes one argument, not 0", "sin()"),
         ("max(x)", "`max` takes two arguments or more, not 1", "max(x)"),
         ("log(x)", "`log` has two meanings", "log"),
-        ("a(x)", "`a` is no function: write a*(...) to multiply", "a"),
+        ("a(x)", "`a` is not a function: write a*(...) to multiply", "a"),
         ("2x", "expected an operator or the end of the formula, not `x`", "x"),
         ("x +", "expected a number, a name or `(`, not the end of the formula", ""),
         ("(x + 1", "expected an operator or `)`, not the end of the formula", ""),
@@ -130,8 +130,8 @@ fn faults_are_named_with_their_place() {
         ("x; y", "`;` has no meaning in a formula", ";"),
         ("y = x", "`=` has no meaning in a formula: `==` compares", "="),
         ("1 < x < 2", "a second comparison has no meaning", "<"),
-        ("1.2.3*x", "`1.2.3` is no number", "1.2.3"),
-        ("1e999", "`1e999` is no number that double precision can hold", "1e999"),
+        ("1.2.3*x", "`1.2.3` is not a number", "1.2.3"),
+        ("1e999", "`1e999` is not a number that double precision can hold", "1e999"),
     ];
     for (text, message, place) in cases {
         let error = Expression::parse(text, &symbol).expect_err(text);

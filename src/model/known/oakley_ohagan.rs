@@ -10,7 +10,7 @@ use crate::space::Distribution;
 
 pub(super) const ENTRY: Entry = Entry {
     name: "oakley-ohagan",
-    summary: "fifteen normal inputs: five that matter little, five more, five most; many weak interactions",
+    summary: "fifteen normal inputs: five of small, five of medium, five of large effect; many weak interactions",
     formula: "a1'x + a2' sin x + a3' cos x + x'M x, with the published vectors a1, a2, a3 and matrix M",
     source: "Oakley and O'Hagan 2004, J. R. Statist. Soc. B 66, 751-769",
     parameters: &[],

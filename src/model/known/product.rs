@@ -6,7 +6,7 @@ use crate::space::Distribution;
 
 pub(super) const ENTRY: Entry = Entry {
     name: "product",
-    summary: "product of normal inputs; with mu = 0 nothing but interactions",
+    summary: "product of normal inputs; with mu = 0 only interactions",
     formula: "prod_i x_i, x_i normal of mean mu_i and standard deviation sigma_i",
     source: "textbook: moments of a product of independent inputs",
     parameters: &[

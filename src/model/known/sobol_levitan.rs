@@ -7,7 +7,7 @@ use super::{Entry, Exact, Function, Made, ParameterError, ParameterInfo};
 
 pub(super) const ENTRY: Entry = Entry {
     name: "sobol-levitan",
-    summary: "exponential of a sum, with a mean of choice: what centring is for",
+    summary: "exponential of a sum, with a chosen mean: a test of centring",
     formula: "exp(sum_i b_i x_i) - prod_i (e^b_i - 1)/b_i + c0",
     source: "Sobol' and Levitan 1999, Comput. Phys. Commun. 117, 52-61",
     parameters: &[

@@ -150,7 +150,7 @@ fn indices_of_every_function_are_consistent() {
         for name in &named {
             assert!(answer.parameters().iter().any(|parameter| parameter.name == *name), "{answer:?} {name}");
         }
-        // The parameters in force make the same function.
+        // The current parameters give the same function.
         let given: Vec<_> =
             function.parameters().iter().map(|(name, value)| ((*name).to_owned(), value.clone())).collect();
         assert_eq!(answer.with(&given).unwrap(), function);
@@ -221,7 +221,7 @@ fn a_thousand_inputs_and_more() {
         }
         let hard = known("sobol-g", &[("a", &[0.0]), ("dimension", &[dimension])]).unwrap().exact();
         let indices = hard.indices.unwrap();
-        // ST = r / (1 + r) / (1 - (1 + r)^-d), r = 1/3, though the variance itself overflows.
+        // ST = r / (1 + r) / (1 - (1 + r)^-d), r = 1/3, although the variance overflows.
         let total = 0.25 / (1.0 - libm::pow(0.75f64, dimension));
         assert!(indices.total.iter().all(|st| (st - total).abs() < 1e-14));
     }

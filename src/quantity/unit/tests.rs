@@ -106,7 +106,7 @@ fn every_usual_unit_has_its_factor_and_dimension() {
         (Dimension::ENERGY, 3.6e6, "kWh"),
         (Dimension::ENERGY, 1.602176634e-19, "eV"),
         (Dimension::ENERGY, 1.602176634e-22, "meV"),
-        // Beside other symbols a degree is a step, without a zero.
+        // In a product of units a degree is a difference, without an offset.
         (Dimension::TEMPERATURE, 1.0, "degC m/m"),
     ];
     for (dimension, factor, text) in expected {
@@ -121,7 +121,7 @@ fn every_usual_unit_has_its_factor_and_dimension() {
 
 /// The values by definition: 0 degC = 273.15 K = 32 degF, 100 degC = 212 degF.
 #[test]
-fn degrees_have_a_zero_of_their_own_and_their_differences_none() {
+fn degrees_celsius_have_an_offset_but_their_differences_do_not() {
     for (symbol, cases) in [
         ("degC", [(0.0, 273.15), (20.0, 293.15), (-273.15, 0.0), (20.1, 293.25), (100.0, 373.15)]),
         ("\u{b0}F", [(32.0, 273.15), (212.0, 373.15), (-459.67, 0.0), (68.0, 293.15), (-40.0, 233.15)]),
@@ -154,13 +154,13 @@ fn a_label_is_any_text_and_a_known_unit_stays_one() {
 }
 
 #[test]
-fn what_is_no_unit_is_named_and_corrected() {
+fn unknown_units_are_named_and_corrected() {
     let text = |input: &str| Unit::parse(input).expect_err(input).to_string();
     assert!(text("gpa").contains("did you mean \"GPa\"?"), "{}", text("gpa"));
     assert!(text("nm/fortnight").contains("\"fortnight\" is not understood;"), "{}", text("nm/fortnight"));
     assert!(text("Mpa").contains("did you mean \"MPa\"?"), "{}", text("Mpa"));
     assert!(text("furlong/s").contains("units look like"));
-    assert!(text("EUR").ends_with("may have none: their numbers are then passed on as they are"), "{}", text("EUR"));
+    assert!(text("EUR").ends_with("may have none: their numbers are then passed unchanged"), "{}", text("EUR"));
     assert!(text("N/m s").contains("two ways"));
     let odd = [
         "/",
@@ -237,7 +237,7 @@ proptest! {
 
     /// Two results rounded to half an ulp, and the decimal number that the first is taken for is as far from it.
     #[test]
-    fn there_and_back(value in -1e12f64..1e12) {
+    fn conversion_to_si_and_back_is_exact_to_rounding(value in -1e12f64..1e12) {
         for symbol in ["pm", "um", "GPa", "g/cm3", "%", "deg", "mdeg/s"] {
             let unit = unit(symbol);
             let back = unit.from_si(unit.to_si(value));

@@ -14,7 +14,7 @@ fn codes_and_slips_are_found() {
     let mut one = with(0.5);
     one[77] = 2e4;
     assert_eq!(Unlikely::find(&one).map(|found| (found.count, found.first)), Some((1, 77)));
-    // Within the range of others a code that is repeated stands out all the same.
+    // A repeated code within the range of the other values is also found.
     let wide: Vec<f64> = with(0.5).iter().map(|y| if *y == 0.5 { -999.0 } else { 1998.0 * y - 998.0 }).collect();
     assert_eq!(Unlikely::find(&wide).map(|found| found.count), Some(10));
 }

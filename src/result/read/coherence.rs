@@ -15,7 +15,7 @@ pub(super) fn check(result: &StudyResult) -> Result<(), Fault> {
         let key = format!("outputs[{place}]");
         file_name(&format!("{key}.name"), &output.name, LONGEST_NAME)?;
         if result.outputs[..place].iter().any(|other| other.name == output.name) {
-            return Err((format!("{key}.name"), format!("the output {:?} is there twice", output.name)));
+            return Err((format!("{key}.name"), format!("the output {:?} is listed twice", output.name)));
         }
         indices(&key, result, output)?;
     }

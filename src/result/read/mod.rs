@@ -42,7 +42,7 @@ pub enum ReadProblem {
         found: String,
     },
     /// It comes from a later version of the program.
-    #[error("version {found} of the format is not known to this program, which reads version {VERSION}")]
+    #[error("format version {found} is unknown: this program reads version {VERSION}")]
     Version {
         /// The version that it states.
         found: u32,

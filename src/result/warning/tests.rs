@@ -46,7 +46,7 @@ fn examples() -> Vec<Warning> {
         Warning::TotalsBelowOne { sum: 0.8 },
         Warning::TotalAboveOne { name: text("a"), total: 1.1 },
         Warning::Shuffled,
-        Warning::Unlikely { text: text("the value -9999 stands in 14 of 640 runs") },
+        Warning::Unlikely { text: text("the value -9999 occurs in 14 of 640 runs") },
         Warning::Irreproducible { text: text("4 of 6 runs had another value when they were run again") },
     ]
 }

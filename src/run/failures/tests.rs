@@ -26,7 +26,7 @@ fn reasons_with_numbers_in_them_are_one() {
 }
 
 #[test]
-fn of_more_words_than_that_the_first_are_told_apart() {
+fn only_the_first_reasons_are_counted_separately() {
     let word = |k: u32| [k / 26 % 26, k % 26].map(|place| char::from(b'a' + place as u8)).iter().collect::<String>();
     let all = counted(&(0..300).rev().map(|k| (u64::from(k), word(k))).collect::<Vec<_>>());
     let found: Vec<_> = all.iter().collect();
@@ -36,7 +36,7 @@ fn of_more_words_than_that_the_first_are_told_apart() {
 }
 
 proptest! {
-    /// Whatever is counted where, and in which order it is merged, the same is left.
+    /// The result does not depend on where failures are counted, or on the order of merging.
     #[test]
     fn the_order_does_not_count(
         reasons in prop::collection::vec("[ab\u{1}#-]{0,2}[0-9]{1,2}[cd]{0,3}", 0..400),

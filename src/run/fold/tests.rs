@@ -26,7 +26,7 @@ fn fold(job: Job<'_>, points: Range<u64>) -> Vec<Totals> {
     Fold { job, context: &context, failures, keeps_outputs, store, sink, tracker: &tracker, idle }.run(points).unwrap()
 }
 
-/// The tree as it has been from the first version on, written another way: neighbours of equal size are merged as blocks
+/// The tree of the first version in another form: neighbours of equal size are merged as blocks
 /// come in, and what is left from the right.
 fn counted(mut blocks: Vec<Totals>) -> Totals {
     let mut open: Vec<(usize, Totals)> = Vec::new();

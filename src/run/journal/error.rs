@@ -24,7 +24,7 @@ pub enum JournalError {
         source: std::io::Error,
     },
     /// The path is a pipe, a device or a folder.
-    #[error("{}: a journal is a file, but a pipe, a device or a folder is there: remove it, or give another folder", .path.display())]
+    #[error("{}: a pipe, a device or a folder has the name of the journal: remove it, or choose another folder", .path.display())]
     NoFile {
         /// The path.
         path: PathBuf,
@@ -36,7 +36,7 @@ pub enum JournalError {
         path: PathBuf,
     },
     /// The file is not a journal, or its header is damaged.
-    #[error("{}: this is no journal of a run: {found}", .path.display())]
+    #[error("{}: this is not a journal of a run: {found}", .path.display())]
     NotAJournal {
         /// The file.
         path: PathBuf,

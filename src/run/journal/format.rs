@@ -81,7 +81,7 @@ pub fn read_journal(path: &Path, bytes: &[u8]) -> Result<Contents, JournalError>
     let wrong = |found: &str| JournalError::NotAJournal { path: path.to_owned(), found: found.to_owned() };
     let mut reader = Reader { bytes };
     if reader.take(MAGIC.len()) != Some(MAGIC) {
-        return Err(wrong(if bytes.is_empty() { "the file is empty" } else { "it does not begin as one" }));
+        return Err(wrong(if bytes.is_empty() { "the file is empty" } else { "it does not begin like a journal" }));
     }
     let short = || wrong("its header is cut short");
     let version = reader.u32().ok_or_else(short)?;

@@ -27,7 +27,7 @@ fn written(pieces: &[Piece]) -> (tempfile::TempDir, PathBuf) {
 }
 
 #[test]
-fn what_was_appended_comes_back() {
+fn appended_records_are_read_back() {
     let pieces = [piece(0, 5), piece(5, 1), piece(6, 300)];
     let (_folder, path) = written(&pieces[..2]);
     let (journal, contents) = Journal::resume(&path).unwrap();
@@ -36,14 +36,14 @@ fn what_was_appended_comes_back() {
     journal.append(&pieces[2]).unwrap();
     drop(journal);
     assert_same(&read_journal(&path, &std::fs::read(&path).unwrap()).unwrap().pieces, &pieces);
-    // A new one takes the place of the old.
+    // A new one replaces the old one.
     drop(Journal::create(&path, &json!({ "study": "b" })).unwrap());
     let contents = read_journal(&path, &std::fs::read(&path).unwrap()).unwrap();
     assert_eq!((contents.header, contents.pieces.len()), (json!({ "study": "b" }), 0));
 }
 
 #[test]
-fn a_journal_cut_short_anywhere_keeps_every_whole_record_and_goes_on() {
+fn a_truncated_journal_keeps_every_complete_record_and_resumes() {
     let pieces = [piece(0, 5), piece(5, 1), piece(6, 4)];
     let (_folder, path) = written(&pieces);
     let bytes = std::fs::read(&path).unwrap();
@@ -83,7 +83,7 @@ fn damage_is_cut_off_and_never_read_as_outputs() {
             }
         }
     }
-    // What some file systems leave behind a file whose end had not reached the disk.
+    // The content that some file systems leave at the end of a file that was not completely written to the disk.
     let zeros = [&bytes[..], &[0; 4096]].concat();
     let contents = read_journal(&path, &zeros).unwrap();
     assert_eq!((contents.pieces.len(), contents.cut_off), (3, 4096));
@@ -92,15 +92,15 @@ fn damage_is_cut_off_and_never_read_as_outputs() {
 #[test]
 fn other_files_are_refused_with_the_reason() {
     let refused = |bytes: &[u8]| read_journal(Path::new("x"), bytes).unwrap_err().to_string();
-    assert!(refused(b"").contains("x: this is no journal of a run: the file is empty"));
-    assert!(refused(b"y\n1.0\n").contains("it does not begin as one"));
+    assert!(refused(b"").contains("x: this is not a journal of a run: the file is empty"));
+    assert!(refused(b"y\n1.0\n").contains("it does not begin like a journal"));
     assert!(refused(b"apportion journal\x03\0\0\0").contains("is of format 3"));
     assert!(refused(b"apportion journal\x01\0\0\0\xff\xff\xff\xff\0\0\0\0").contains("cut short"));
 }
 
 #[cfg(unix)]
 #[test]
-fn what_is_no_file_is_refused_at_once() {
+fn paths_that_are_not_files_are_refused_at_once() {
     let folder = tempfile::tempdir().unwrap();
     let pipe = folder.path().join("pipe");
     assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
@@ -124,7 +124,7 @@ fn two_runs_cannot_write_one_journal() {
 }
 
 #[test]
-fn differences_are_told_in_sentences() {
+fn differences_are_described_in_sentences() {
     let a = json!({ "model": "afm", "factors": [{ "name": "x", "max": 1.0 }], "design": { "seed": 1 } });
     let b = json!({ "model": "afm", "factors": [{ "name": "x", "max": 2.0 }], "design": { "seed": 1, "sampler": "sobol" } });
     let expected =
@@ -152,7 +152,7 @@ proptest! {
 }
 
 #[test]
-fn what_is_beside_a_journal_is_told_from_what_is_beside_another() {
+fn sibling_files_of_journals_have_distinct_names() {
     let of = |name: &str, ending: &str| with_ending(Path::new(name), ending).display().to_string();
     assert_eq!(of("results/s.journal", ".new"), "results/s.journal.new");
     assert_eq!(

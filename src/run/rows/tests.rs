@@ -168,12 +168,12 @@ impl Worker for TiredWorker<'_> {
 }
 
 #[test]
-fn a_model_that_gives_up_ends_the_run_but_loses_no_answer() {
+fn a_model_that_gives_up_ends_the_run_without_losing_answers() {
     let model = Tired([Output::new("y", Unit::dimensionless(), "")], AtomicU64::new(0));
     let design = design(4 * BLOCK, 1);
     let store = Store::new(&design, &model);
     let error = with_store(&design, &model, &store, u64::MAX).unwrap_err();
-    assert_eq!(error.to_string(), "the model cannot go on: no more");
+    assert_eq!(error.to_string(), "the model cannot continue: no more");
     let (present, failed) = store.count(0, 0..design.rows());
     assert_eq!((present, failed), (500, 0));
     let space = space();
@@ -199,7 +199,7 @@ fn outputs_that_cannot_be_kept_end_the_run() {
 }
 
 #[test]
-fn a_failed_row_ends_a_run_that_says_so() {
+fn a_failed_row_stops_a_run_that_stops_at_failures() {
     let rows = AtomicU64::new(0);
     let model = counted(&rows);
     let design = design(4 * BLOCK, 1);

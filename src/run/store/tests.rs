@@ -34,7 +34,7 @@ fn design() -> Design {
     Design::new(settings, 3, Rows::plain(vec![vec![0], vec![1], vec![2]])).unwrap()
 }
 
-/// Outputs that tell their row; every 7th row fails in its second output, with a flag for every row.
+/// Outputs that identify their row; every 7th row fails in its second output, with a flag for every row.
 fn piece(rows: Range<u64>) -> Piece {
     let values = |row: u64| [row as f64, if row.is_multiple_of(7) { f64::NAN } else { -(row as f64) }];
     let failed = rows.clone().filter(|row| row.is_multiple_of(7));
@@ -51,7 +51,7 @@ fn assert_same(found: &Piece, expected: &Piece) {
 }
 
 proptest! {
-    /// Whatever the pieces, what comes back is what was put in; what was not is missing.
+    /// For any pieces the stored rows are returned, and the others are missing.
     #[test]
     fn pieces_of_any_size_come_back(cuts in prop::collection::btree_set(1_u64..4000, 0..12), lost in 0_usize..13) {
         let store = Store::new(&design(), &described());
@@ -118,12 +118,12 @@ fn failures_can_be_forgotten_and_rows_replaced() {
         assert_eq!(store.insert(&Piece { first: *row, values, flags: vec![0], ..Piece::default() }), 1);
     }
     assert_eq!(store.count(0, 1270..1300), (30, 0));
-    // A row that is there is replaced, with its failure.
+    // An existing row is replaced, with its failure.
     assert_eq!(store.insert(&piece(1274..1276)), 0);
     assert_eq!(store.count(0, 1270..1300), (30, 1));
 }
 
-/// What was counted over a piece cannot be divided: it goes with the first of its rows that is replaced or forgotten.
+/// Counts of a piece cannot be divided: they are dropped with the first of its rows that is replaced or removed.
 #[test]
 fn every_row_is_counted_once() {
     let raised = |store: &Store| store.pieces().iter().flat_map(|piece| piece.flags.clone()).sum::<u64>();
@@ -141,7 +141,7 @@ fn every_row_is_counted_once() {
         }
         assert_eq!((store.rows(), raised(&store)), (300, 300));
     }
-    // As journals of before have it: the rows that failed, one by one behind the pieces that they were in.
+    // As in journals of earlier versions: the failed rows, one by one, after the pieces that contain them.
     store.insert(&piece(0..300));
     (0..300).step_by(7).for_each(|row| _ = store.insert(&piece(row..row + 1)));
     assert_eq!((store.rows(), raised(&store), store.count(0, 0..300).1), (43, 43, 43));

@@ -5,7 +5,7 @@ use super::*;
 use crate::model::{FunctionModel, Model, Output, RowFailure, RunContext, Worker};
 use crate::quantity::Unit;
 
-/// A function of which several workers are asked for, until it gives up at a value.
+/// A function evaluated by several workers, until it gives up at a value.
 struct Slow<M> {
     inner: M,
     workers: usize,

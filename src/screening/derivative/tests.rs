@@ -62,7 +62,7 @@ fn a_linear_function_has_the_squares_of_its_slopes() {
         // That of the variance of 4096 points.
         let slack = if sampler == Sampler::Sobol { 0.02 } else { 0.1 };
         for (number, ([nu, bound], slope)) in found(&screened).into_iter().zip(slopes).enumerate() {
-            // A constant has no derivative that could be measured.
+            // A constant has no measurable derivative.
             near(nu, if number == 5 { 0.0 } else { slope * slope }, 1e-6);
             match number {
                 // Exactly the total index of a normal factor; 12/pi^2 of it of a uniform one, 4 times of an exponential one.
@@ -122,7 +122,7 @@ fn intervals_hold_the_truth() {
                     held.iter_mut().zip([(nu, 1.0 / 3.0), (total_bound.unwrap(), 12.0 / PI.powi(2))])
                 {
                     let interval = estimate.interval.unwrap();
-                    // Finite differences are off by some thousandths of themselves.
+                    // Finite differences have a relative error of a few thousandths.
                     *held += i32::from(interval.low <= exact * 1.002 && exact * 0.998 <= interval.high);
                 }
             }
@@ -165,8 +165,8 @@ fn constants_of_poincare_are_those_that_are_known() {
 }
 
 #[test]
-fn a_step_between_the_base_points_frees_no_factor() {
-    // x2 has a total index of 0.98, at a step that no difference of 0.001 meets.
+fn a_step_between_the_base_points_marks_no_factor_as_fixable() {
+    // x2 has a total index of 0.98, from a step that no difference of 0.001 contains.
     let step = |x: &[f64]| x[0] + 2.0 * libm::tanh(2000.0 * (x[1] - 0.3));
     let settings = ScreeningSettings {
         design: ScreeningDesign::Derivative { sampler: Sampler::Sobol },
@@ -178,7 +178,7 @@ fn a_step_between_the_base_points_frees_no_factor() {
         screen(ScreeningJob { space: &space, model: &model, settings }, 0, &|_| ()).unwrap().outputs.remove(0)
     };
     let found = screening(step);
-    assert!(found.warnings[0].contains("at most sums to 0.0"), "{:?}", found.warnings);
+    assert!(found.warnings[0].contains("total indices sum to 0.0"), "{:?}", found.warnings);
     assert!(found.factors.iter().all(|factor| factor.could_be_fixed.is_none()));
     let smooth = screening(|x| x[0] + 1e-3 * x[1]);
     assert!(smooth.warnings.is_empty() && smooth.factors[1].could_be_fixed == Some(true));
@@ -188,5 +188,5 @@ fn a_step_between_the_base_points_frees_no_factor() {
 fn separate_values_have_no_derivative() {
     let factors = [uniform(0.0, 1.0), Distribution::discrete(&[1.0, 2.0], None).unwrap()];
     let error = screened(&factors, Sampler::Sobol, 16, 0, |x| x[0]).unwrap_err().to_string();
-    assert!(error.contains("factor `x2` takes separate values"), "{error}");
+    assert!(error.contains("factor `x2` takes discrete values"), "{error}");
 }

@@ -197,7 +197,7 @@ mod tests {
     }
 
     #[test]
-    fn a_matrix_that_cannot_be_is_answered_by_the_nearest_that_can() {
+    fn an_impossible_correlation_matrix_is_refused_with_the_nearest_possible_one() {
         // Higham's example: the nearest matrix is known to four digits.
         let proposed = GaussianCopula::new(matrix(3, &[1.0, 0.0, 1.0])).unwrap_err();
         assert!((proposed[(0, 1)] - 0.7607).abs() < 5e-3 && (proposed[(0, 2)] - 0.1573).abs() < 5e-3, "{proposed}");

@@ -63,11 +63,11 @@ fn discrete_factors_have_pearson_correlations_too() {
 }
 
 #[test]
-fn what_cannot_be_is_refused_with_what_would_be_right() {
+fn invalid_settings_are_refused_with_advice() {
     let space = space(vec![uniform(), uniform(), uniform(), Distribution::constant(1.0).unwrap()]);
     let message = |dependences: &[Dependence]| copula(&space, dependences).unwrap_err().to_string();
     let pair = |a: &str, b: &str| Dependence::pair(a, b, 0.5);
-    assert!(message(&[pair("a", "x")]).contains("`x`, which is no factor"));
+    assert!(message(&[pair("a", "x")]).contains("`x`, which is not a factor"));
     assert!(message(&[pair("a", "a")]).contains("each named once"));
     assert!(message(&[pair("a", "b"), pair("b", "a")]).contains("`b` and `a` is stated twice"));
     assert!(message(&[pair("a", "d")]).contains("`d` is a constant"));
@@ -87,7 +87,7 @@ fn what_cannot_be_is_refused_with_what_would_be_right() {
 }
 
 #[test]
-fn joint_measurements_that_say_nothing_are_refused_by_name() {
+fn useless_joint_measurements_are_refused_by_name() {
     let space = space(vec![uniform(), uniform(), Distribution::discrete(&[1.0], None).unwrap()]);
     let rising: Vec<f64> = (0..20).map(f64::from).collect();
     let columns = |other: fn(f64) -> f64| vec![rising.clone(), rising.iter().map(|x| other(*x)).collect()];
@@ -110,7 +110,7 @@ fn joint_measurements_give_the_correlation_of_their_scores() {
     let mut columns = vec![vec![0.0; 4096]; 2];
     columns.iter_mut().enumerate().for_each(|(j, column)| points.fill(j, 0, column));
     copula.correlate(&mut columns);
-    // Whatever the distributions.
+    // For any distributions.
     columns[0].iter_mut().for_each(|x| *x = x.powi(5));
     columns[1].iter_mut().for_each(|x| *x = libm::exp(3.0 * *x));
     let measured = Dependence::from_measurements(&["a", "b"], &columns);

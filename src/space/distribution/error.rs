@@ -27,7 +27,7 @@ pub enum DistributionError {
     },
     /// Next to no probability is left by a truncation.
     #[error(
-        "truncation leaves nothing of this {distribution} distribution: next to none of its values lie between {min} and {max}"
+        "truncation leaves nothing of this {distribution} distribution: almost none of its values lie between {min} and {max}"
     )]
     NothingLeft {
         /// The name of the family.
@@ -136,8 +136,8 @@ pub(super) fn within(key: &'static str, value: f64, (min, max): (f64, f64)) -> R
 /// Checks that a parameter of a power law is large enough for a finite variance.
 pub(super) fn of_finite_variance(key: &'static str, value: f64, least: f64) -> Result<(), DistributionError> {
     let must = format!(
-        "be greater than {least:?}, or both tails be cut off, as in truncate = [a, b]: else it has no finite variance, of which \
-         indices are shares"
+        "be greater than {least:?}, or both tails be cut off, as in truncate = [a, b]: otherwise its variance is infinite and \
+         indices are undefined"
     );
     number(key, value, value > least, &must).map(|_| ())
 }

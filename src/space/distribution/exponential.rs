@@ -40,7 +40,7 @@ impl Distribution {
 
 pub(super) const ENTRIES: &[Entry] = &[Entry {
     name: "exponential",
-    summary: "Waiting times between events that come by chance.",
+    summary: "Waiting times between random events.",
     ways: &[
         keys(&["scale"]).perhaps(&["location"]),
         solved_keys(&["mean"]).perhaps(&["location"]),

@@ -84,7 +84,7 @@ impl Distribution {
     pub fn histogram_of_quantiles(quantiles: &[(f64, f64)]) -> Result<Self, DistributionError> {
         let wrong = |found: String| {
             let example = r#"{ "0" = 1, "0.5" = 2, "1" = 5 }"#;
-            let must = "must have rising values for probabilities from 0 to 1, the lowest and highest value among them";
+            let must = "must have increasing values for probabilities from 0 to 1, including 0 and 1";
             Err(refused("quantiles", format!("`quantiles` has {found}, but {must}, as in {example}")))
         };
         let mut quantiles = quantiles.to_vec();

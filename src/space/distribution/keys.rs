@@ -77,7 +77,7 @@ pub static KEYS: [Key; 32] = {
             "location",
             Number,
             Value,
-            "Location parameter; where a Weibull, gamma or exponential distribution begins.",
+            "Location parameter; the lower end of a Weibull, gamma or exponential distribution.",
         ),
         key("df", Number, Pure, "Degrees of freedom of a Student t distribution."),
         quantile("p01", "Quantile: 1 % of the values lie below it."),
@@ -92,7 +92,7 @@ pub static KEYS: [Key; 32] = {
         key("probability", Number, Pure, "Probability of true, of a boolean; 0.5 by default."),
         key("value", Number, Value, "The one value of a constant."),
         key("values", Numbers, Value, "The values of a discrete distribution, measured ones, or those of labels."),
-        key("weights", Numbers, Pure, "The weights of values or bins; equal by default (but of bins)."),
+        key("weights", Numbers, Pure, "The weights of values or bins; equal by default (except for bins)."),
         key("edges", Numbers, Value, "The edges of the bins of a histogram, one more than weights."),
         key(
             "quantiles",
@@ -104,8 +104,8 @@ pub static KEYS: [Key; 32] = {
             "truncate",
             Bounds,
             Value,
-            "What is cut off: only values between these two occur, inf and -inf cut nothing off. All other keys say what the \
-             distribution is before that.",
+            "Truncation: only values between these two occur; inf and -inf cut nothing off. All other keys describe the \
+             distribution before truncation.",
         ),
         key("labels", Texts, Pure, "The labels of the categories."),
         key("file", Text, Pure, "A file of measured values, relative to the study."),

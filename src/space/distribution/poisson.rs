@@ -143,7 +143,7 @@ impl Table {
 
 pub(super) const ENTRIES: &[Entry] = &[Entry {
     name: "poisson",
-    summary: "Numbers of events that come by chance.",
+    summary: "Numbers of random events.",
     ways: &[keys(&["mean"])],
     build: |given| Distribution::poisson(given.number("mean")?),
     ..PLAIN

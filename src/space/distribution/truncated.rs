@@ -89,7 +89,7 @@ impl Distribution {
             Self::Discrete(_) | Self::Empirical(_) | Self::Integer(_) | Self::Poisson(_) | Self::Histogram(_)
         ) {
             let message =
-                format!("`truncate` cuts no {distribution} distribution off: leave out of it what lies outside");
+                format!("`truncate` does not apply to the {distribution} distribution: leave out values outside");
             return Err(refused("truncate", message));
         }
         let (min, max) = (min.max(low), max.min(high));

@@ -126,7 +126,7 @@ impl Distribution {
                 return Err(refused("labels", format!("`labels[{index}]` is empty, but every category needs a label")));
             }
             if !seen.insert(label) {
-                return Err(refused("labels", format!("the label \"{label}\" stands in `labels` twice")));
+                return Err(refused("labels", format!("the label \"{label}\" is listed twice in `labels`")));
             }
         }
         let places = || (0..labels.len()).map(|place| place as f64).collect();
@@ -140,7 +140,7 @@ impl Distribution {
         let mut seen = BTreeSet::new();
         let is_repeated = |value: &f64| value.is_finite() && !seen.insert((value + 0.0).to_bits());
         if let Some(index) = values.iter().position(is_repeated) {
-            let must = "differ from those before it: every label needs a value of its own";
+            let must = "differ from those before it: every label needs its own value";
             return Err(entry("values", index, values[index], must));
         }
         Values::new(&values, weights, Origin::Labels { labels, truth: None })?.distribution().finite()
@@ -278,7 +278,7 @@ impl Values {
 
 pub(super) const DISCRETE: &[Entry] = &[Entry {
     name: "discrete",
-    summary: "One of some values, with weights.",
+    summary: "One of several values, with weights.",
     ways: &[keys(&["values"]).perhaps(&["weights"])],
     build: |given| Distribution::discrete(given.list("values")?, given.list_if("weights")),
     ..PLAIN

@@ -13,7 +13,7 @@ struct Sample {
 }
 
 impl Sample {
-    /// x0 + 2 x1 + 3 x0 x1 + `offset`: the last factor does nothing.
+    /// x0 + 2 x1 + 3 x0 x1 + `offset`: the last factor has no effect.
     fn new(points: u64, ba: bool, offset: f64) -> Self {
         Self::from_rows(points, Rows { ba, second_order: ba, ..Rows::default() }, offset)
     }
@@ -59,7 +59,7 @@ impl Sample {
         kept
     }
 
-    /// Moments of the points, each as often as `counts` says, by the way of the run.
+    /// Moments of the points, each repeated according to `counts`, computed as in a run.
     fn moments(&self, counts: &[u8]) -> Moments {
         let repeated = |column: &Vec<f64>| -> Vec<f64> {
             column.iter().zip(counts).flat_map(|(y, count)| std::iter::repeat_n(*y, usize::from(*count))).collect()
@@ -103,7 +103,7 @@ fn assert_near(got: &[f64], expected: &[f64], tolerance: f64) {
 
 #[test]
 fn resampled_moments_are_those_of_resampled_rows() {
-    // 10,000 points: two chunks, the second shorter. An offset costs the digits that the means of the outputs have not.
+    // 10,000 points: two chunks, the second shorter. An offset costs the digits that the means of the outputs do not have.
     let samples = [
         (Sample::new(700, false, 0.0), 1e-11),
         (Sample::new(700, true, 0.0), 1e-11),
@@ -166,7 +166,7 @@ fn influences_are_what_another_copy_of_the_point_does() {
 
 #[test]
 fn the_error_of_a_mean_is_the_textbook_one() {
-    // Mean over A and B of independent columns: sd of (y_A + y_B)/2 over sqrt(n), whatever the offset.
+    // Mean over A and B of independent columns: sd of (y_A + y_B)/2 over sqrt(n), for any offset.
     for offset in [0.0, 1e6] {
         let sample = Sample::new(1000, false, offset);
         let kept = sample.kept();
@@ -286,7 +286,7 @@ fn coverage(function: &str, method: IntervalMethod) -> f64 {
         let study = inputs.fold(study, |study, input| study.factor(&input.name, input.distribution)).build().unwrap();
         let analysis = study.run().unwrap();
         let exact = exact.first_order.iter().zip(&exact.total);
-        // A factor that does nothing has intervals of no width, which always hold.
+        // An inert factor has intervals of width 0, which always contain the exact value.
         let effects = analysis.outputs[0].indices.iter().flatten().map(|index| index.effect).zip(exact);
         for (effect, (first, total)) in effects.filter(|(_, (_, total))| **total > 0.0) {
             for (estimate, exact) in [(effect.first_order, *first), (effect.total, *total)] {

@@ -1,9 +1,9 @@
-//! The fenced blocks of a Markdown page, with the comments that stand above them.
+//! The fenced blocks of a Markdown page, with the comments above them.
 
-/// What becomes of a block.
+/// The use of a block.
 #[derive(Debug, PartialEq)]
 pub enum Role {
-    /// What its language says.
+    /// As its language determines.
     Plain,
     /// It is the file of this name.
     File(String),
@@ -32,7 +32,7 @@ pub struct Page {
     pub blocks: Vec<Block>,
     /// Its sentences: all lines outside of blocks and comments.
     pub prose: String,
-    /// What is wrong with how it is written.
+    /// Errors of its format.
     pub faults: Vec<String>,
 }
 

@@ -11,7 +11,7 @@ use super::page::{Block, Page, Role};
 use super::update;
 use crate::common::{Folder, search_path, succeed, text};
 
-/// What is wrong with a page, each with its place. `BOOK=update` in the environment puts outputs that differ into the page.
+/// Errors of a page, each with its place. `BOOK=update` in the environment puts outputs that differ into the page.
 pub fn faults(page: &Page) -> Vec<String> {
     let is_update = std::env::var("BOOK").is_ok_and(|wish| wish == "update");
     let mut corrections = Vec::new();
@@ -90,7 +90,7 @@ fn compare(shown: &str, printed: &str) -> Option<String> {
     })
 }
 
-/// `left` becomes how many lines were left at the furthest place that was reached.
+/// `left` is set to the number of lines left at the last matching line.
 fn are_alike(shown: &[String], printed: &[String], left: &mut usize) -> bool {
     *left = shown.len().min(*left);
     match shown.split_first() {
@@ -140,7 +140,7 @@ fn fragment(text: &str) -> Option<String> {
     (!complaints.is_empty()).then(|| complaints.join("\n"))
 }
 
-/// The lines stand one after the other in a program of `examples`, whatever their indentation.
+/// The lines follow each other in a program of `examples`, with any indentation.
 fn in_an_example(shown: &str) -> Option<String> {
     let lines = |text: &str| -> Vec<String> {
         text.lines().map(str::trim).filter(|line| !line.is_empty()).map(str::to_owned).collect()
@@ -156,7 +156,7 @@ fn in_an_example(shown: &str) -> Option<String> {
 }
 
 #[test]
-fn what_is_left_out_may_be_anything() {
+fn elisions_match_any_text() {
     for (shown, printed, expected) in [
         ("a\n...\nc\n", "a\nb\nb\nc\n", true),
         ("a\n...\n", "a\n", true),

@@ -1,14 +1,14 @@
-//! Puts what came out into the page: `BOOK=update`.
+//! Writes current outputs into the page: `BOOK=update`.
 
 use std::collections::BTreeSet;
 
 use super::page::{Block, Page};
 use super::play::is_alike;
 
-/// Least likeness of two lines of which one can stand for the other: the words they share, of all that they have.
+/// Smallest similarity of two lines of which one can replace the other: the share of their words that they have in common.
 const ALIKE: f64 = 0.35;
 
-/// `shown` with the lines that `printed` has today, and what is left out of it left out again.
+/// `shown` with the current lines of `printed`, and the same elisions.
 pub fn corrected(shown: &str, printed: &str) -> String {
     let lines: Vec<&str> = printed.lines().map(str::trim_end).collect();
     let (mut next, mut corrected) = (0, Vec::<String>::new());
@@ -58,7 +58,7 @@ fn most_alike(line: &str, printed: &[&str]) -> Option<usize> {
     (best.1 >= ALIKE).then_some(best.0)
 }
 
-/// As many words of `printed` as stand before the first `[..]` of `line`; all of them where it has none.
+/// As many words of `printed` as there are before the first `[..]` of `line`; all of them if it has none.
 fn cut_like(line: &str, printed: &str) -> String {
     let Some((kept, _)) = line.split_once("[..]") else { return printed.to_owned() };
     let count = kept.split_whitespace().count();
@@ -81,7 +81,7 @@ pub fn write(page: &Page, corrections: &[(&Block, String)]) {
 }
 
 #[test]
-fn what_is_shown_follows_what_is_printed() {
+fn shown_output_is_updated_from_printed_output() {
     let printed =
         "run: 12 runs in 3 s\nFor y, x1 matters most: its index is 0.6, 60 %.\n\ntable\n  x1  0.60\n  x2  0.40\nend\n";
     let shown = "...\nX1 matters most for y: its index is 0.5, [..]\n...\n  x1  0.50\n...\n";

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use super::page::{Page, Role};
 use crate::common::succeed;
 
-/// The program's own account of its commands.
+/// The commands according to the help of the program.
 pub struct Known {
     commands: Vec<String>,
     help: HashMap<String, String>,
@@ -20,7 +20,7 @@ impl Known {
         Self { commands: list.lines().filter(is_start).map(first).collect(), help: HashMap::new() }
     }
 
-    /// What a page names and is not there.
+    /// The names on a page that do not exist.
     pub fn faults(&mut self, page: &Page) -> Vec<String> {
         let spans = page.prose.split('`').skip(1).step_by(2).map(|span| span.replace('\n', " "));
         let scripts = page.blocks.iter().filter(|block| block.language == "sh" || block.role == Role::NotRun);
@@ -37,7 +37,7 @@ impl Known {
                 && word.starts_with(char::is_alphabetic)
         };
         let mut words = code.split_whitespace().map(|word| word.trim_matches(['\'', '"', ')', ';', ',']));
-        // Not what Python calls the package, nor the first bytes of a journal.
+        // Neither the name of the Python package nor the first bytes of a journal.
         if code.contains("import ") || code == "apportion journal" {
             return None;
         }

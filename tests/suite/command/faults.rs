@@ -1,4 +1,4 @@
-//! Programs that do something wrong: every good row is used, every bad one has its reason.
+//! Faulty programs: every good row is used, every bad one has its reason.
 
 use super::{Case, FORMULA, by_formula, contains, failures, rows_where};
 use crate::common::{apportion, numbers, stderr, stdout, succeed, text};
@@ -45,7 +45,7 @@ fn a_program_may_answer_in_blocks() {
 }
 
 #[test]
-fn the_program_says_which_rows_failed() {
+fn the_program_reports_failed_rows() {
     let errors = "    answer('error: no root' if x[0] > 0.9 else y)\n";
     some_fail(&Case::each_row("", errors), "no root");
     let missing = "    answer('nan' if x[0] > 0.9 else y)\n";
@@ -55,7 +55,7 @@ fn the_program_says_which_rows_failed() {
 }
 
 #[test]
-fn a_row_on_which_the_program_dies_fails_alone() {
+fn only_the_row_that_crashes_the_program_fails() {
     let dies = "    if x[0] > 0.9:\n        print('no convergence at', x[0], file=sys.stderr, flush=True)\n        os._exit(3)\n    answer(y)\n";
     let said = some_fail(&Case::each_row("", dies), "the program ended with exit status 3: no convergence at #");
     contains(&said, &["the program: no convergence at 0.9", "more lines on standard error left out"]);
@@ -63,9 +63,9 @@ fn a_row_on_which_the_program_dies_fails_alone() {
     some_fail(&Case::each_row("retries = 0", by_signal), "the program ended with signal 11 (SIGSEGV)");
 }
 
-/// The one guilty row is found though the program had read others.
+/// The row that causes the failure is found although the program had read others.
 #[test]
-fn a_row_on_which_a_program_of_blocks_dies_fails_alone() {
+fn only_the_row_that_crashes_a_program_of_blocks_fails() {
     let blocks = "import os, sys\nsys.stdin.buffer.readline()\nrest = b''\nwhile block := sys.stdin.buffer.read1(65536):\n    \
                   lines, _, rest = (rest + block).rpartition(b'\\n')\n    answers = ''\n    for line in lines.splitlines():\n        \
                   n, *x = [float(cell) for cell in line.split(b',')]\n        if x[0] > 0.9: os._exit(3)\n        \
@@ -74,7 +74,7 @@ fn a_row_on_which_a_program_of_blocks_dies_fails_alone() {
 }
 
 #[test]
-fn one_in_a_hundred_rows_that_crash_cost_no_other() {
+fn crashing_rows_do_not_fail_other_rows() {
     let dies = "    if x[0] > 0.99:\n        os._exit(1)\n    answer(y)\n";
     let case = Case::each_row("", dies);
     let output = case.run_with(&["--base-samples", "512"]);
@@ -126,7 +126,7 @@ fn a_banner_on_standard_output_is_named() {
 
 #[test]
 fn a_hanging_program_is_ended_and_started_again() {
-    // A child of it would hold the pipes, were it not ended too.
+    // A child process would keep the pipes open if it were not stopped too.
     let hangs = "    if 0.997 < x[0]:\n        import subprocess; subprocess.run(['sleep', '1000'])\n    answer(y)\n";
     // Long enough for a very busy machine to start Python.
     let case = Case::each_row("timeout = \"3 s\"\nretries = 0", hangs).replace("workers = 2", "workers = 4");
@@ -137,7 +137,7 @@ fn a_hanging_program_is_ended_and_started_again() {
 }
 
 #[test]
-fn a_program_that_does_not_flush_is_told_to() {
+fn a_program_that_does_not_flush_gets_a_hint() {
     let buffered =
         "    kept = globals().setdefault('kept', open(1, 'w', buffering=65536))\n    kept.write(f'{number},{y}\\n')\n";
     let case = Case::each_row("timeout = \"300 ms\"\nretries = 0", buffered);
@@ -168,11 +168,8 @@ fn floods_take_little_memory() {
 fn a_program_that_never_works_is_given_up() {
     let broken = Case::new("", "import no_such_module\n");
     let message = broken.gives_up(&["exit status 1", "ModuleNotFoundError: No module named 'no_such_module'"]);
-    // A program that has been mended is asked for what failed, too.
-    contains(
-        &message,
-        &["the same command with --retry-failed goes on with them, and evaluates those that failed again"],
-    );
+    // A repaired program gets the failed rows again.
+    contains(&message, &["repeat the command with --retry-failed to continue and to evaluate the failed runs again"]);
     let silent = Case::new("", "import sys\nsys.exit(7)\n");
     silent.gives_up(&["answered none of its first 5 rows: the program ended with exit status 7"]);
     let closed = Case::new("retries = 0", "import os, time\nos.close(1)\ntime.sleep(1000)\n");
@@ -180,7 +177,7 @@ fn a_program_that_never_works_is_given_up() {
 }
 
 #[test]
-fn check_tells_of_rows_that_fail() {
+fn check_reports_failing_rows() {
     let all = Case::each_row("", "    answer('error: no root')\n");
     let output = apportion(&["check", text(&all.path("study.toml"))]);
     assert_eq!(output.status.code(), Some(1), "{}", stdout(&output));
@@ -191,7 +188,7 @@ fn check_tells_of_rows_that_fail() {
 }
 
 #[test]
-fn check_tells_the_start_of_a_program_from_its_runs() {
+fn check_separates_the_start_time_of_a_program_from_its_runs() {
     let slow = Case::new("", &format!("import time\ntime.sleep(1.2)\n{}    answer(y)\n", super::LOOP));
     let told = succeed(&["check", text(&slow.path("study.toml"))]);
     let cost = told.lines().find(|line| line.starts_with("cost: ")).unwrap();

@@ -1,4 +1,4 @@
-//! Programs that print more or fewer lines than they should, at several speeds: no row ever gets another number than its own.
+//! Programs that print more or fewer lines than they should, at several speeds: no row gets the answer of another row.
 
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -35,14 +35,14 @@ n = 0
 const EACH: &str =
     "for number, x in rows():\n    n += 1\n    y = x[0] + 2*x[1] + x[0]*x[2]\n    a = answer(number, y)\n";
 
-/// What becomes of a study of a program.
+/// The outcome of a study of a program.
 #[derive(Clone, Copy, PartialEq, Debug)]
 enum End {
     /// All rows have their numbers.
     Whole,
     /// Some rows may have failed.
     Failures,
-    /// That, or the run is given up.
+    /// Some rows may have failed, or the run is given up.
     Any,
     /// The program has to be changed.
     Refused,
@@ -98,7 +98,7 @@ const PROGRAMS: [Program; 19] = [
     ),
 ];
 
-/// One program, asked in one way.
+/// One program with one protocol.
 #[derive(Clone, Copy)]
 struct Trial {
     program: &'static Program,
@@ -134,7 +134,7 @@ impl Trial {
             .replace("base_samples = 32", "base_samples = 4")
     }
 
-    /// Rows with a number of their own; why there is more to say, if there is.
+    /// Rows with their numbers; the reason for a message, if there is one.
     fn fault(self) -> Result<usize, String> {
         let case = self.case();
         let output = case.run();
@@ -176,7 +176,7 @@ fn no_program_makes_a_wrong_number() {
     let (trials, next) = (Trial::all(), AtomicUsize::new(0));
     let (faults, answered) = (Mutex::new(Vec::new()), AtomicUsize::new(0));
     std::thread::scope(|scope| {
-        // They wait more than they compute.
+        // The programs wait more than they compute.
         for _ in 0..16 {
             scope.spawn(|| {
                 while let Some(trial) = trials.get(next.fetch_add(1, Ordering::Relaxed)) {
@@ -194,7 +194,7 @@ fn no_program_makes_a_wrong_number() {
 }
 
 #[test]
-fn a_row_without_an_answer_fails_alone() {
+fn only_the_row_without_an_answer_fails() {
     let case =
         Case::each_row("", "    if x[0] > 0.97: continue\n    answer(y)\n").replace("workers = 2", "workers = 8");
     let (result, _) = case.result();
@@ -214,7 +214,7 @@ fn answers_may_come_in_any_order() {
     assert_eq!(on_record(&case), (160, 160, 0));
 }
 
-/// From another thread, each after a time of its own: without numbers nobody could tell whose answers they are.
+/// From other threads, each after another time: without numbers the answers could not be assigned to rows.
 #[test]
 fn answers_may_come_from_threads() {
     let threads = "import sys, threading, time\nlock = threading.Lock()\nsys.stdin.readline()\ndef work(line):\n    \
@@ -239,5 +239,5 @@ fn a_program_that_leaves_out_the_numbers_gets_the_line_to_change() {
 #[test]
 fn a_row_answered_twice_ends_the_run() {
     let case = Case::each_row("", "    answer(y)\n    answer(y)\n");
-    case.gives_up(&["answered the row with the number", "twice"]);
+    case.gives_up(&["answered row", "twice"]);
 }

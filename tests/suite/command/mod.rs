@@ -1,4 +1,4 @@
-//! Programs as models, through the binary: what they answer, and whatever they can do wrong.
+//! Programs as models, through the binary: their answers, and their possible errors.
 
 mod examples;
 mod faults;
@@ -18,7 +18,7 @@ use tempfile::TempDir;
 
 use crate::common::{search_path, stderr, text};
 
-/// A study of a program in a folder of its own.
+/// A study of a program in a separate folder.
 pub struct Case {
     folder: TempDir,
 }
@@ -44,7 +44,7 @@ min = 0
 max = 1
 "#;
 
-/// The beginning of a worker that answers by a function of its own.
+/// The beginning of a worker with its own function.
 const LOOP: &str = "import os, sys, time\ndef answer(y): print(number, y, sep=',', flush=True)\n\
                     sys.stdin.readline()\nfor line in sys.stdin:\n    number, line = line.split(',', 1)\n    \
                     x = [float(cell) for cell in line.split(',')]\n    y = x[0] + 2*x[1] + x[0]*x[2]\n";
@@ -53,7 +53,7 @@ impl Case {
     /// A study with the keys `command` of `[command]` and the program `model.py`.
     pub fn new(command: &str, program: &str) -> Self {
         let folder = tempfile::tempdir().unwrap();
-        // Those of outputs stand above the table.
+        // The lines of outputs are above the table.
         let (outputs, keys): (Vec<&str>, Vec<&str>) = command.lines().partition(|line| line.starts_with("outputs."));
         let outputs = if outputs.is_empty() { "outputs = [\"y\"]".to_owned() } else { outputs.join("\n") };
         let study = format!(
@@ -65,7 +65,7 @@ impl Case {
         Self { folder }
     }
 
-    /// One whose program does `what`, indented, with every row: its values are in `x`, without its number in `line`, and
+    /// One whose program runs `what`, indented, for every row: its values are in `x` and, without its number, in `line`, and
     /// `answer(y)` is the answer.
     pub fn each_row(command: &str, what: &str) -> Self {
         Self::new(command, &format!("{LOOP}{what}"))
@@ -97,7 +97,7 @@ impl Case {
             .unwrap()
     }
 
-    /// The result of a run that ends well, and what it said on standard error.
+    /// The result of a successful run, and its standard error.
     #[track_caller]
     pub fn result(&self) -> (StudyResult, String) {
         let output = self.run();

@@ -1,4 +1,4 @@
-//! Programs in the commands other than `run`: a program that does not work ends them, and slow ones are asked in several
+//! Programs in the commands other than `run`: a program that does not work stops them, and slow ones run in several
 //! processes at once.
 
 use std::io::Read;
@@ -52,7 +52,7 @@ fn a_missing_program_ends_every_command_with_the_reason() {
         assert_eq!(output.status.code(), Some(1), "{command}: {}", stderr(&output));
         contains(
             &stderr(&output),
-            &["error: the model cannot go on", "no-such-program", "is it installed, and in PATH?"],
+            &["error: the model cannot continue", "no-such-program", "is it installed, and in PATH?"],
         );
     }
     assert!(

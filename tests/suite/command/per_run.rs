@@ -1,9 +1,9 @@
-//! Programs that run once for each row, in directories of their own.
+//! Programs that run once for each row, in separate directories.
 
 use super::{Case, contains, failures, rows_where};
 use crate::common::{files, stderr};
 
-/// A simulator in Python's place that is quick to start: it reads `model.in` and writes what `more` says.
+/// A simulator that starts faster than Python: it reads `model.in` and writes according to `more`.
 fn simulator(command: &str, outputs: &str, more: &str) -> Case {
     let keys = format!("template = \"model.in\"\nfiles = [\"model.awk\"]\n{command}\n{outputs}");
     let case = Case::new(&keys, "");
@@ -39,14 +39,14 @@ fn outputs_are_picked_from_files() {
 }
 
 #[test]
-fn what_a_run_does_not_leave_is_named() {
+fn missing_output_of_a_run_is_named() {
     let bad = rows_where(|x| x > 0.9);
     for (more, reason) in [
-        ("if (x1 <= 0.9) print \"y = \" y > \"out.txt\"", "the run left no file `out.txt`"),
+        ("if (x1 <= 0.9) print \"y = \" y > \"out.txt\"", "the run wrote no file `out.txt`"),
         ("print (x1 > 0.9 ? \"nothing\" : \"y = \" y) > \"out.txt\"", "nothing in `out.txt` matches the regex"),
         (
             "print \"y = \" (x1 > 0.9 ? \"*****\" : y) > \"out.txt\"",
-            "what was found in `out.txt` is not a number: `*****`",
+            "the text found in `out.txt` is not a number: `*****`",
         ),
         (
             "print \"y = \" (x1 > 0.9 ? \"nan\" : y) > \"out.txt\"",
@@ -63,14 +63,14 @@ fn what_a_run_does_not_leave_is_named() {
     }
 }
 
-/// A result of an earlier run of the simulator, copied along, is not taken for that of a row.
+/// A copied result of an earlier run of the simulator is not used as that of a row.
 #[test]
-fn a_file_that_was_there_before_is_no_output() {
+fn a_file_from_before_the_run_is_not_an_output() {
     let more = "if (x1 <= 0.9) print \"y = \" y > \"out.txt\"";
     let case = simulator("", REPORT, more).replace("[\"model.awk\"]", "[\"model.awk\", \"out.txt\"]");
     case.write("out.txt", "y = 7\n");
     let (result, _) = case.result();
-    let reason = "the run left `out.txt` as it was before";
+    let reason = "the run did not change `out.txt`";
     assert_eq!(failures(&result.outputs[0]), [(reason, rows_where(|x| x > 0.9))]);
 }
 
@@ -97,7 +97,7 @@ fn directories_are_kept_if_asked_for() {
     let case = simulator("keep = \"runs\"", REPORT, "print \"y = \" y > \"out.txt\"");
     case.result();
     let runs: Vec<_> = files(&case.path("runs")).into_iter().collect();
-    // Identical points share theirs.
+    // Identical points share their directory.
     assert!(runs.len() > 100 && runs.len() <= 160, "{}", runs.len());
     let one = case.path("runs").join(&runs[0]);
     let expected = ["factors.csv", "model.awk", "model.in", "out.txt", "stderr.txt", "stdout.txt"];
@@ -113,7 +113,7 @@ fn a_simulator_that_never_works_is_given_up() {
     let broken = simulator("", REPORT, "print \"no licence\" > \"/dev/stderr\"; exit 9");
     broken.gives_up(&["answered none of its first 5 rows", "exit status 9: no licence"]);
     let elsewhere = simulator("", REPORT, "print \"y = \" y");
-    elsewhere.gives_up(&["answered none of its first 5 rows: the run left no file `out.txt`"]);
+    elsewhere.gives_up(&["answered none of its first 5 rows: the run wrote no file `out.txt`"]);
 }
 
 #[test]
@@ -121,7 +121,7 @@ fn templates_are_checked_when_the_study_is_read() {
     let case = simulator("", REPORT, "print \"y = \" y > \"out.txt\"");
     case.write("model.in", "x1 = {{x1}}\nx3 = {{x3}}\n");
     let output = case.run();
-    contains(&stderr(&output), &["factor `x2` does not stand in the template"]);
+    contains(&stderr(&output), &["factor `x2` is not in the template"]);
     case.write("model.in", "x1 = {{x1}}\ny = {{x4}}\n");
     let output = case.run();
     assert_eq!(output.status.code(), Some(2));

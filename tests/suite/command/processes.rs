@@ -22,7 +22,7 @@ fn started(case: &Case) -> Child {
     spawn(&["run", text(&case.path("study.toml")), "--out", text(&case.path("out"))])
 }
 
-/// The program on its way.
+/// The running program.
 pub fn spawn(arguments: &[&str]) -> Child {
     let mut command = Command::new(assert_cmd::cargo::cargo_bin("apportion"));
     command.env("PATH", search_path()).args(arguments).stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap()
@@ -58,7 +58,7 @@ pub fn signal(name: &str, child: &Child) {
 const HANGS: &str = "    if n > 3: time.sleep(1000)\n";
 
 #[test]
-fn a_run_that_ends_leaves_no_process() {
+fn a_finished_run_leaves_no_process() {
     let case = worker("");
     case.result();
     let all = processes(&case);
@@ -81,7 +81,7 @@ fn an_interrupted_run_ends_hanging_programs() {
     within(60, "all have ended", || !processes(&case).iter().any(is_alive));
 }
 
-/// The engine has no time to say goodbye: the system ends its children, which do not read their input here.
+/// The engine is killed: the system stops its child processes, which do not read their input here.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_killed_engine_takes_its_programs_along() {

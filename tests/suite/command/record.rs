@@ -1,4 +1,4 @@
-//! What is on record of the answers of programs is not asked again.
+//! Recorded answers of programs are not requested again.
 
 use std::collections::BTreeSet;
 
@@ -12,14 +12,14 @@ use crate::common::{numbers, stderr, text};
 /// Writes every row that the program gets to the file `asked`.
 const NOTES: &str = "    with open('asked', 'a') as log: log.write(line)\n";
 
-/// The rows that were asked since this was called last.
+/// The rows requested since the last call.
 fn asked(case: &Case) -> Vec<String> {
     let rows = std::fs::read_to_string(case.path("asked")).unwrap_or_default();
     let _ = std::fs::remove_file(case.path("asked"));
     rows.lines().map(str::to_owned).collect()
 }
 
-/// A result without what tells about the computer.
+/// A result without the fields about the computer.
 fn without_times(mut result: StudyResult) -> StudyResult {
     (result.provenance.threads, result.provenance.wall_seconds) = (0, 0.0);
     result
@@ -33,7 +33,7 @@ fn only_rows_that_failed_are_asked_again_and_the_result_is_that_of_a_run_without
     let (case, sound) = (new(), new());
     let bad = rows_where(|x| x > 0.9);
     let (first, _) = case.result();
-    // One of them is asked again at the end, to see whether the program is random.
+    // One of them is repeated at the end, to detect a random program.
     assert_eq!((first.outputs[0].runs_failed, asked(&case).len()), (bad, 161));
     case.write("licence", "");
     let retried = case.run_with(&["--retry-failed"]);
@@ -49,7 +49,7 @@ fn only_rows_that_failed_are_asked_again_and_the_result_is_that_of_a_run_without
 
 #[cfg(target_os = "linux")]
 #[test]
-fn an_engine_that_is_killed_asks_no_row_on_record_again_and_leaves_no_process() {
+fn a_killed_engine_repeats_no_recorded_row_and_leaves_no_process() {
     // With 4 ms a row, pieces that take 0.2 s have at most 50 rows.
     const IN_FLIGHT: usize = 2 * 50;
     const ROWS: usize = 512 * 5;
@@ -79,9 +79,9 @@ fn an_engine_that_is_killed_asks_no_row_on_record_again_and_leaves_no_process() 
     }
     let resumed = case.run_with(&["--resume"]);
     assert_eq!(resumed.status.code(), Some(0), "{}", stderr(&resumed));
-    contains(&stderr(&resumed), &[&format!("{before} of {ROWS} runs are on record")]);
+    contains(&stderr(&resumed), &[&format!("{before} of {ROWS} runs are already saved")]);
     let rows = asked(&case);
-    // Those that are not on record, each once; and at the end some of all rows again, to see whether the program is random.
+    // Each unrecorded row once; and at the end some of all rows again, to detect a random program.
     let (evaluated, again) = rows.split_at(ROWS - before);
     assert_eq!(again.len(), (evaluated.len() / 100).clamp(1, 16));
     assert_eq!(evaluated.iter().collect::<BTreeSet<_>>().len(), evaluated.len());

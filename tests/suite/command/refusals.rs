@@ -1,4 +1,4 @@
-//! Studies of programs that make no sense, and programs that cannot be started.
+//! Invalid studies of programs, and programs that cannot be started.
 
 use super::{Case, contains};
 use crate::common::{apportion, stderr, stdout, succeed, text};
@@ -34,7 +34,7 @@ fn keys_are_checked_with_their_places() {
     refused("outputs.y = \"a\\u0007b\"", &["study.toml:2:13:", "without control characters"]);
     refused("outputs.y = { units = \"N\" }", &["unknown key `units`: did you mean `unit`?"]);
     refused("template = \"no.in\"", &["study.toml:6:12:", "no.in: cannot read the template"]);
-    refused("template = \"model.py\"", &["`outputs.y` must be a table that says where the number stands"]);
+    refused("template = \"model.py\"", &["`outputs.y` must be a table that locates the number"]);
     refused("template = \"model.py\"\nprotocol = \"csv\"", &["study.toml:7:12:", "without `template`"]);
     refused("template = \"model.py\"\ninput = \"../x\"", &["study.toml:7:9:", "the name of a file, without a folder"]);
     refused("template = \"model.py\"\nfiles = [\"no.dat\"]", &["study.toml:7:10:", "there is no such file"]);
@@ -62,7 +62,7 @@ fn a_study_without_program_or_outputs_is_refused() {
     refused("model = \"command\"\ncommand = [\"x\"]", &["the study has no outputs"]);
     refused("model = \"command\"\ncommand = \"x y\"", &["s.toml:2:11:", "a list in square brackets"]);
     refused("command = [\"x\"]", &["unknown key `command`"]);
-    refused("model = \"command\"\ncommand = [\"x\"]\noutputs = [\"y\", \"y\"]", &["`y` stands here twice"]);
+    refused("model = \"command\"\ncommand = [\"x\"]\noutputs = [\"y\", \"y\"]", &["`y` is listed twice"]);
 }
 
 #[test]
@@ -91,7 +91,7 @@ fn a_new_study_comes_with_its_program() {
     assert!(program.contains("row.pop(\"id\")"), "{program}");
     std::fs::write(folder.path().join("my_model.py"), "mine").unwrap();
     let again = apportion(&["new", text(&study), "--model", "command", "--force"]);
-    contains(&stderr(&again), &["my_model.py is there already and stays as it is"]);
+    contains(&stderr(&again), &["my_model.py exists already and is not changed"]);
     assert_eq!(std::fs::read_to_string(folder.path().join("my_model.py")).unwrap(), "mine");
     contains(&stdout(&apportion(&["models", "command"])), &["flush=True", "{{name}}", "worker-protocol.md"]);
 }

@@ -1,4 +1,4 @@
-//! What a program prints that is a model.
+//! Output of a program that is a model.
 
 use apportion_files::{Protocol, parse_answer};
 

@@ -34,7 +34,7 @@ pub fn run(bytes: &[u8]) {
     model.worker(&RunContext::default()).run(&inputs, &mut batch);
     for (row, point) in POINTS.iter().enumerate() {
         let (alone, among) = (formula.value(point), batch.column(0)[row]);
-        // A value that is not finite has failed in the batch, which knows no infinities.
+        // In a batch a value that is not finite is a failure.
         assert!(alone.to_bits() == among.to_bits() || !(alone.is_finite() || among.is_finite()), "{alone} {among}");
     }
     assert_eq!(Expression::parse(formula.text(), &symbol).as_ref(), Ok(&formula));

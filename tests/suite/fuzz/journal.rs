@@ -7,8 +7,8 @@ use apportion::run::journal::{JournalError, differences, read_journal};
 /// The header of a journal without anything in it.
 const HEADER: &[u8] = b"apportion journal\x01\0\0\0\x02\0\0\0\x43\xbf\xa6\xa3{}";
 
-/// Bytes are refused with the file and a reason, or every piece that is read is whole. They are taken as a journal, and as
-/// the body of a record whose checksum is right, which no fuzzer would hit upon.
+/// Bytes are refused with the file and a reason, or every piece that is read is complete. They are read as a journal, and as
+/// the body of a record with the right checksum, which no fuzzer would find.
 pub fn run(bytes: &[u8]) {
     read(bytes);
     let length = (bytes.len() as u32).to_le_bytes();

@@ -1,5 +1,5 @@
-//! What a stranger can feed the program, as targets of fuzzing: each takes any bytes and must end, without a panic, and
-//! keep what it promises. The fuzzers in `fuzz/` and the tests in `corpus.rs` run the same targets.
+//! Untrusted input of the program, as targets of fuzzing: each accepts any bytes and must end, without a panic, and
+//! have its properties. The fuzzers in `fuzz/` and the tests in `corpus.rs` run the same targets.
 
 mod answers;
 mod expression;
@@ -12,11 +12,11 @@ mod tables;
 
 pub use mutation::{Dictionary, Random, mutated, mutated_bytes};
 
-/// One way into the program.
+/// One input of the program.
 pub struct Target {
     /// Its name: that of its fuzzer, and of its folder in `fuzz/corpus`.
     pub name: &'static str,
-    /// Does with the bytes what the program would.
+    /// Processes the bytes as the program would.
     pub run: fn(&[u8]),
     /// The words of its language, in the format of libFuzzer.
     pub dictionary: &'static str,

@@ -1,8 +1,8 @@
-//! Small changes to texts that keep most of their sense: words, numbers, lines and brackets move, go and come.
+//! Small changes to texts that keep most of their structure: words, numbers, lines and brackets are moved, removed or added.
 
 use std::ops::Range;
 
-/// Random numbers that are the same on every machine: Steele, Lea and Flood's SplitMix64 (OOPSLA 2014).
+/// Reproducible random numbers: Steele, Lea and Flood's SplitMix64 (OOPSLA 2014).
 pub struct Random(pub u64);
 
 impl Random {
@@ -57,7 +57,7 @@ fn unescaped(word: &str) -> String {
     String::from_utf8_lossy(&bytes).into_owned()
 }
 
-/// Numbers at which programs break.
+/// Numbers that often break programs.
 const NUMBERS: [&str; 32] = [
     "0",
     "-0.0",
@@ -219,7 +219,7 @@ fn bracket(tokens: &[String], random: &mut Random) -> Option<Range<usize>> {
     None
 }
 
-/// Words and numbers, runs of spaces, and every other character by itself.
+/// Words and numbers, runs of spaces, and every other single character.
 fn tokens(text: &str) -> Vec<String> {
     let kind = |c: char| match c {
         c if c.is_alphanumeric() || "_.-".contains(c) => 0,

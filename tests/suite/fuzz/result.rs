@@ -1,11 +1,11 @@
-//! Result files: whatever is read as one can be drawn.
+//! Result files: every accepted file can be drawn.
 
 use apportion::result::{StudyResult, parse_result};
 use apportion_report::comparison::{NamedResult, compare_results, comparison_document};
 use apportion_report::document::Document;
 use apportion_report::run_document;
 
-/// A result is refused, or drawn in every way there is; written again it is the same.
+/// A result is refused, or drawn in every form; written again it is the same.
 pub fn run(bytes: &[u8]) {
     let Ok(result) = parse_result(bytes) else { return };
     drawn(&result);
@@ -23,9 +23,9 @@ pub fn drawn(result: &StudyResult) {
     }
 }
 
-/// Makes everything that is written of a document.
+/// Makes all files of a document.
 pub fn written(document: &Document) {
-    // Every chart is on the page or among the charts that are files alone.
+    // Every chart is on the page or among the charts that are only files.
     document.html();
     for figure in &document.charts {
         figure.chart.svg();

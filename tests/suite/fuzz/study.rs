@@ -8,23 +8,23 @@ use apportion::study::Study;
 use apportion_afm::AfmSubject;
 use apportion_files::{StudyError, TemplateRequest, template};
 
-/// What stands between the file and the changes, one a line.
+/// The separator of the file and the changes, which have one line each.
 const CHANGES: &str = "\n--set\n";
 
 /// Runs up to which a study is run as a whole.
 const RUNS: u64 = 128;
 
-/// Drawing takes ten times as long as all the rest: one text in so many, by its length, is drawn.
+/// Drawing takes ten times as long as all the rest: only one text in this number, by its length, is drawn.
 const DRAWN: usize = 16;
 
-/// Steps of one run of the nanoparticle model: a fuzzer has no patience for more.
+/// Steps of one run of the nanoparticle model: more would be too slow for a fuzzer.
 const STEPS: u64 = 2000;
 
-/// A study is refused with a place and a reason, or means something: its model answers, a study to begin with of the same
+/// A study is refused with a place and a reason, or is valid: its model runs, a new study of the same
 /// model can be written and read, and the result of a small one can be read back.
 pub fn run(bytes: &[u8]) {
     let Ok(text) = std::str::from_utf8(bytes) else { return };
-    // A study can name a file of measured values; devices that never end are not what is looked for.
+    // A study can name a file of measured values; endless devices are not the subject of this test.
     if text.contains("/dev") || text.contains("/proc") || text.contains("\\u") || text.contains("\\U") {
         return;
     }
@@ -41,7 +41,7 @@ pub fn run(bytes: &[u8]) {
         study = patient;
     }
     begun(&study);
-    // A fuzzer must never start what it has made up.
+    // A fuzzer must never start a program.
     if matches!(study.subject().name(), "command" | "external") {
         return;
     }
@@ -95,7 +95,7 @@ fn begun(study: &Study) {
     let outputs = study.model().outputs().iter().map(|output| output.name.to_string()).collect();
     let request =
         TemplateRequest { model, title: study.title().map(str::to_owned), factors: names.take(8).collect(), outputs };
-    // Inputs that a function has only by its parameters are not inputs of the function as it comes.
+    // Inputs that depend on the parameters of a function are not inputs of the default function.
     let Ok(text) = template(&request) else { return };
     let begun = apportion_files::parse_study(&text, Path::new("new.toml"), &[])
         .unwrap_or_else(|error| panic!("{error}\n{text}"));
@@ -103,7 +103,7 @@ fn begun(study: &Study) {
     assert_eq!(names(&begun), names(study));
 }
 
-/// The whole way; what is written can be read back.
+/// Runs, writes and reads back.
 fn ran(study: &Study, draw: bool) {
     let Ok(analysis) = study.runner().threads(1).run() else { return };
     let result = analysis;

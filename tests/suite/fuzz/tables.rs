@@ -34,7 +34,7 @@ pub fn run(bytes: &[u8]) {
     };
     let head = String::from_utf8_lossy(head);
     let (outputs, inputs) = head.split_once('|').unwrap_or((&head, ""));
-    // As the command line has them.
+    // As on the command line.
     let names = |text: &str| -> Vec<String> {
         text.split(',').map(str::trim).filter(|name| !name.is_empty()).map(str::to_owned).collect()
     };

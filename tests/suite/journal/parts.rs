@@ -1,4 +1,4 @@
-//! Parts of a run, and what becomes of them together.
+//! Shards of a run, and their merged result.
 
 use std::path::PathBuf;
 use std::process::Command;
@@ -7,7 +7,7 @@ use super::{ishigami, ishigami_runs, numbers, refused};
 use crate::common::{apportion, stderr, study_path, succeed, text};
 
 #[test]
-fn a_merge_that_is_refused_leaves_the_runs_on_record_alone() {
+fn a_refused_merge_does_not_change_recorded_runs() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path();
     let small = ["--base-samples", "256"];
@@ -38,7 +38,7 @@ fn parts_add_to_what_an_interrupted_run_and_other_parts_have_done() {
     let (out, whole) = (folder.path().join("out"), folder.path().join("whole"));
     let size = ["--base-samples", "4096"];
     ishigami_runs(&whole, &size);
-    // A journal that was cut short is that of a run that was interrupted.
+    // A truncated journal is that of an interrupted run.
     ishigami_runs(&out, &size);
     let journal = out.join("ishigami.journal");
     let bytes = std::fs::read(&journal).unwrap();
@@ -66,12 +66,12 @@ fn shards_of_any_machine_merge_to_the_bits_of_one_run() {
     }
     refused(&merge(&[]), 1, "1705 of 5120 runs are missing: there is no journal of shard 2/3");
     ishigami_runs(&parts, &[&small[..], &["--shard", "2/3"]].concat());
-    // A shard that is there is not evaluated again.
+    // An existing shard is not evaluated again.
     assert!(ishigami_runs(&parts, &[&small[..], &["--shard", "2/3", "--resume"]].concat()) > 0);
     let merged = merge(&[]);
     assert_eq!(merged.status.code(), Some(0), "{}", stderr(&merged));
     assert!(numbers(&parts, "ishigami") == numbers(&whole, "ishigami"));
-    // Merging again changes nothing; the merged journal is one to go on with.
+    // Merging again changes nothing; the merged journal can be resumed.
     assert_eq!(merge(&[]).status.code(), Some(0));
     assert_eq!(ishigami_runs(&parts, &["--double"]), 5120);
 
@@ -79,13 +79,13 @@ fn shards_of_any_machine_merge_to_the_bits_of_one_run() {
     refused(&other, 2, "design.seed was 0 and is now 2");
     assert!(!parts.join("ishigami.journal.old").exists(), "nothing is touched before all is known to fit");
     let empty = folder.path().join("empty");
-    refused(&apportion(&["merge", text(&study), "--out", text(&empty)]), 2, "no ishigami-shard-I-of-N.journal is here");
-    refused(&ishigami(&parts, &["--shard", "4/3"]), 2, "expected a part as in 3/8");
+    refused(&apportion(&["merge", text(&study), "--out", text(&empty)]), 2, "found no ishigami-shard-I-of-N.journal");
+    refused(&ishigami(&parts, &["--shard", "4/3"]), 2, "expected a shard such as 3/8");
     let growing = ["--shard", "1/2", "--set", "design.max_runs=100000"];
-    refused(&ishigami(&parts, &growing), 2, "has no size that could be shared out beforehand");
+    refused(&ishigami(&parts, &growing), 2, "has no fixed size to divide into shards");
 }
 
-/// The commands of `docs/clusters.md` for GNU parallel, with whatever stands for it here.
+/// The commands of `docs/clusters.md` for GNU parallel, with its replacement on this machine.
 #[test]
 #[cfg(unix)]
 fn a_job_array_on_one_machine() {

@@ -1,4 +1,4 @@
-//! What every theory owes: Hertz without adhesion, its limits, its scaling, and an answer or a reason everywhere.
+//! Requirements of every theory: Hertz without adhesion, limits, scaling, and a result or a named failure for all input.
 
 use proptest::prelude::*;
 
@@ -132,7 +132,7 @@ fn cos_is_close_to_maugis_dugdale() {
     }
 }
 
-/// Nothing jumps as the load passes from far to near pull-off, where methods change.
+/// Results are continuous where the method changes near pull-off.
 #[test]
 fn continuous_in_the_load() {
     for theory in [ContactTheory::MaugisDugdale, ContactTheory::Cos] {
@@ -189,7 +189,7 @@ proptest! {
     /// Radii grow with the load, and so do indentations.
     #[test]
     fn radius_and_indentation_grow_with_the_load(theory in theory(), pair in pair(), multiple in -0.99..100.0_f64) {
-        // Fainter adhesion would have loads that underflow.
+        // With weaker adhesion loads would underflow.
         let pair = Pair { adhesion: pair.adhesion.max(1e-200), ..pair };
         let unit = pair.unit_load();
         let load = if multiple < 0.0 { multiple * theory.pull_off(&pair) } else { multiple * unit };
@@ -199,14 +199,14 @@ proptest! {
         prop_assert!(upper.indentation > lower.indentation);
     }
 
-    /// Lengths scaled by r, moduli by k, adhesion by r k and loads by r^2 k leave every shape as it was. 1e-12 for the
+    /// Lengths scaled by r, moduli by k, adhesion by r k and loads by r^2 k leave dimensionless shapes unchanged. 1e-12 for the
     /// 16 digits through the condition number of loads no nearer to pull-off than 1e-3.
     #[test]
     fn dimensionless_laws(theory in theory(), log_lambda in -3.0..3.0_f64, log_r in -2.0..2.0_f64, log_k in -3.0..3.0_f64,
                           multiple in -0.999..50.0_f64) {
         let (r, k) = (libm::pow(10.0, log_r), libm::pow(10.0, log_k));
         let pair = with_transition(libm::pow(10.0, log_lambda));
-        // Away from the two Tabor parameters where `auto` changes its mind.
+        // Away from the two Tabor parameters at which `auto` changes the theory.
         prop_assume!((pair.tabor() - 0.1).abs() > 1e-9 && (pair.tabor() - 5.0).abs() > 1e-9);
         let scaled = Pair { radius: pair.radius * r, modulus: pair.modulus * k, adhesion: pair.adhesion * r * k,
                             separation: pair.separation * r };

@@ -1,4 +1,4 @@
-//! Motion of the tip with a particle with mass on LuGre bristles.
+//! Motion of the tip together with a particle that has mass and slides on LuGre bristles.
 
 use super::motion::{Motion, Twist, local_tolerance};
 use super::presliding::REACHED;
@@ -8,18 +8,23 @@ use crate::Failure;
 use crate::friction::{LuGre, particle_mass};
 use crate::ode::{Control, End, March, Outcome, Problem, Rodas};
 
-/// The tip of [`Motion`] whose apex follows the particle, m_p x'' = F_Y - F, F = sigma0 z + sigma1 z' + sigma2 x',
-/// where x is the creep of the particle relative to the moving substrate. Unknowns, in the units of `Motion`: K_y y_P,
-/// theta', x, x' and sigma0 z.
+/// The equations of [`Motion`], with the apex fixed to a particle that moves by
 ///
-/// The reaction of the tip's mass to x'' is left out, as in the tip's own equations, which let the apex move steadily.
+///   m_p x'' = F_Y - F,  F = sigma0 z + sigma1 z' + sigma2 x',  z' = x' - sigma0 |x'| z/Fss(x')
+///
+/// (Canudas de Wit et al. 1995), where x is the displacement of the particle relative to the substrate, against the
+/// motion of the substrate. The apex is at s = V t - x. Unknowns, in the units of `Motion`: K_y y_P, theta', x, x' and
+/// sigma0 z.
+///
+/// The inertia force of the tip's mass due to x'' is neglected, as in the equations of the tip, which are those of an
+/// apex at constant velocity.
 pub(super) struct Bristles<'a> {
     motion: &'a Motion<'a>,
     substrate: &'a Substrate<'a>,
     limit: &'a Slip,
     law: LuGre,
     velocity: f64,
-    /// Acceleration of the particle per unit of force, in units of V per unit of time.
+    /// Acceleration of the particle per unit of force, 1/m_p, in units of V per unit of time.
     agility: f64,
     /// sigma0, sigma1 and sigma2 in units of force, length and velocity.
     stiffness: f64,
@@ -28,7 +33,7 @@ pub(super) struct Bristles<'a> {
 }
 
 impl<'a> Bristles<'a> {
-    /// Creates the bristles of the contact whose quasi-static slip is `limit`.
+    /// Creates the bristles of the contact with the quasi-static slip `limit`.
     pub fn new(motion: &'a Motion<'a>, substrate: &'a Substrate<'a>, limit: &'a Slip) -> Self {
         let scene = substrate.scene;
         let law = LuGre::with(scene, substrate.options.lugre, limit.contact.radius);
@@ -46,20 +51,21 @@ impl<'a> Bristles<'a> {
         }
     }
 
-    /// Integrates to the largest force, or so close that the remaining rise is below the tolerance; then again from a
-    /// step before the force reaches the slip.
+    /// Integrates to the maximum of F, or until the remaining rise is below the tolerance; then again from a step before
+    /// the force reaches the slip, for the time of the slip.
     ///
-    /// dF/dt vanishes with 1 - x'. This alone does not show the maximum: the swing of the tip lets x' exceed V for
-    /// moments from the start. But at the maximum F is the force of steady sliding at V, or has passed it: before,
-    /// either the bristles still stretch or the dashpots have not yet reached V. With viscous friction this is long
-    /// after the bristles have given way, a few sigma2/k_lat.
+    /// Without the swing dF/dt = k_lat (V - x'), so F is largest where x' = V. This condition is not sufficient: from the
+    /// start the swing of the tip makes x' exceed V for short times. At the maximum F has also reached the force of
+    /// steady sliding, Fss(V) + sigma2 V; before it, either the bristles still stretch or the viscous forces are below
+    /// those at V. With viscous friction the maximum follows the saturation of the bristles (sigma0 z = Fss) by a few
+    /// times sigma2/k_lat.
     pub fn slip(&self) -> Result<(Slip, u64), Failure> {
         let followed = self.motion.swing().is_followed(self.motion.length, self.velocity);
         let swing = if followed { 0.0 } else { self.motion.swing().spring / self.motion.force };
-        // No finer than a tenth of the swing that is not followed, since that would not help. And not coarse: if the
-        // bristles give way at once, a long step misses it.
+        // Not below a tenth of a swing that is not followed, since a smaller one would not help. And not coarse: a long
+        // step would miss a sudden saturation of the bristles.
         let tolerance = local_tolerance(self.substrate.options).max(0.1 * swing).min(1e-7);
-        // Of the particle on its bristles and the spring of the probe.
+        // Angular frequency of the particle on its bristles and the spring of the probe, sqrt((sigma0 + k_lat)/m_p).
         let shaking = (self.agility * (1.0 + self.stiffness)).sqrt();
         let control = Control {
             tolerance,
@@ -68,7 +74,7 @@ impl<'a> Bristles<'a> {
             longest_step: 0.1,
             step_budget: self.substrate.options.step_budget,
         };
-        // Where the bristles limit the approach, 1 - x'/V is sigma0/k_lat times the remaining rise.
+        // Where the bristles limit the approach, 1 - x'/V is sigma0/k_lat times the relative remaining rise.
         let near = (10.0 * tolerance * self.stiffness).clamp(1e-3, 0.5);
         let start = [0.0, if followed { 1.0 } else { self.slow_turning() }, 0.0, 0.0, 0.0];
         let mut largest = End { t: 0.0, y: start };
@@ -85,10 +91,10 @@ impl<'a> Bristles<'a> {
             let steady = self.strength(self.load(t - x, q), 1.0) + self.viscosity;
             Ok((q / steady - 1.0 + tolerance).min(u - 1.0 + near))
         };
-        // Bristles and dashpots each approach their end exponentially, by 1e-12 in 28 of their times.
+        // Bristles and dashpots each approach their limit exponentially: to 1e-12 in 28 time constants.
         let horizon = 10.0 + 30.0 * (1.0 + 3.0 / self.stiffness);
-        // While the bristles stretch, the velocity of the particle is weighted by its effect on them. Where they give
-        // way, it determines by itself when the force is largest.
+        // While the bristles stretch, the error of the particle's velocity is weighted by its effect on them. When they
+        // saturate, this velocity alone determines the time of the maximum.
         let mut stretching = March::<Rodas, _, 5>::new(self, (0.0, start), control);
         let halfway = |t: f64, y: &[f64; 5]| Ok(y[0] / self.strength(self.load(t - y[2], y[0]), 1.0) - 0.5);
         let (Outcome::Event(half) | Outcome::Horizon(half)) = stretching.until(horizon, halfway)?;
@@ -98,7 +104,7 @@ impl<'a> Bristles<'a> {
         let outcome = march.until(horizon, event)?;
         let end = match outcome {
             Outcome::Event(end) => end,
-            // It passed below the force of steady sliding: use the largest force so far.
+            // The force stayed below that of steady sliding: use the largest one.
             Outcome::Horizon(_) => largest,
         };
         let level = REACHED * end.y[0];
@@ -114,7 +120,7 @@ impl<'a> Bristles<'a> {
         let tip = self.motion.tip(end.t - creep, &[q, w]);
         let slip = Slip {
             normal_force: tip.normal_force,
-            // The force on the particle: the reaction of the tip's mass is left out here too.
+            // The force on the particle: the inertia force of the tip's mass is neglected here too.
             lateral_force: q * self.motion.force,
             travel: (end.t - creep) * self.motion.length,
             twist: tip.twist,
@@ -125,8 +131,8 @@ impl<'a> Bristles<'a> {
         Ok((slip, stretching.evaluations() + march.evaluations() + again.evaluations()))
     }
 
-    /// Returns theta' of the tip in equilibrium at the start, the apex moving at V minus the yield of the bristles: a
-    /// start without a swing.
+    /// Returns theta' for a start without a swing: that of a tip in equilibrium whose apex moves at V less the velocity
+    /// of the stretching bristles, V sigma0/(sigma0 + k_lat).
     fn slow_turning(&self) -> f64 {
         self.motion.turning(0.0) * self.stiffness / (1.0 + self.stiffness)
     }
@@ -154,7 +160,8 @@ impl Problem<5> for Bristles<'_> {
         [rise, turn, u, self.agility * (q - friction), self.stiffness * sprung]
     }
 
-    /// Neglects the change of the load by the twist, which is of second order; the error estimate covers it.
+    /// Neglects the change of the load with the twist, which is of second order; the error estimate of the integration
+    /// covers it.
     fn jacobian(&self, t: f64, &[q, w, x, u, p]: &[f64; 5]) -> [[f64; 5]; 5] {
         let twist = self.motion.twist(t - x, q);
         let [[rise_q, rise_w, rise_s], [turn_q, turn_w, turn_s]] = self.motion.slopes(&twist, &[q, w]);

@@ -1,9 +1,10 @@
-//! The swing of a stuck tip, extrapolated over its many turns to just before the slip.
+//! The oscillation (swing) of a tip that sticks to the particle, extrapolated over its many periods to just before the
+//! slip.
 //!
-//! Between start and slip the tip swings 1e3 to 1e7 times, all alike: about the equilibrium theta_e of the substrate's
-//! position, theta = theta_e + a sin(phi) with phi' = omega(theta_e), and a^2 omega is constant (the adiabatic
-//! invariant of an oscillator). The error is of the order of a times the change of omega in one turn. So the equations
-//! of motion must be integrated only over the last few turns.
+//! Between start and slip the tip swings 1e3 to 1e7 times about the equilibrium theta_e at the position of the
+//! substrate: theta = theta_e + a sin(phi) with phi' = omega(theta_e). a^2 omega is constant, the adiabatic invariant of
+//! an oscillator with constant inertia (Landau & Lifshitz, Mechanics, section 49). The error is of the order of a times
+//! the relative change of omega in one period. So the equations of motion are integrated only over the last few periods.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -21,8 +22,8 @@ pub(super) struct Eve {
 }
 
 impl Motion<'_> {
-    /// Returns the relative change of the frequency of the swing from start to the twist `theta`, and the other terms
-    /// of theta^2 make the swing differ from a sine.
+    /// Returns the relative change of omega from the start to the twist `theta`, plus theta^2 for the other terms of
+    /// second order, by which the swing differs from a sine.
     pub fn drift(&self, theta: f64) -> f64 {
         (self.local_frequency(theta) / self.local_frequency(0.0) - 1.0).abs() + theta * theta
     }
@@ -30,7 +31,7 @@ impl Motion<'_> {
     /// Returns the motion at the time `t`, before the slip at the twist `last`.
     ///
     /// # Errors
-    /// None of its own; the search for the equilibrium cannot fail.
+    /// None: the search for the equilibrium cannot fail.
     pub fn carried_to(&self, t: f64, last: f64) -> Result<Eve, Failure> {
         let statics = self.statics;
         let travel = |theta: f64| statics.travel(theta, statics.lateral_force(theta)) - t * self.length;
@@ -39,13 +40,14 @@ impl Motion<'_> {
         Ok(Eve { t, y: self.swung(theta, self.phase(theta)) })
     }
 
-    /// Returns the turns of the swing since the start, up to the equilibrium at the twist `theta` (rad).
+    /// Returns phi at the equilibrium at the twist `theta` (rad), the integral of omega dt from the start.
     fn phase(&self, theta: f64) -> f64 {
         let &Self { statics, scene, .. } = self;
         integral(theta, |theta| self.local_frequency(theta) * travel_slope(statics, theta) / scene.velocity)
     }
 
-    /// Returns the unknowns about the equilibrium at the twist `theta` at a phase of the swing.
+    /// Returns the unknowns about the equilibrium at the twist `theta` for the phase phi of the swing. theta' at the start
+    /// is V/H, so a(0) = (V/H - theta_e')/omega(0).
     fn swung(&self, theta: f64, phase: f64) -> [f64; 2] {
         let &Self { statics, scene, .. } = self;
         let (first, here) = (self.local_frequency(0.0), self.local_frequency(theta));
@@ -53,15 +55,15 @@ impl Motion<'_> {
         let kick = mean * (1.0 - self.turning(0.0));
         let away = kick / (first * here).sqrt() * libm::sin(phase);
         let rate = mean * self.turning(theta) + kick * (here / first).sqrt() * libm::cos(phase);
-        // K_y y_P = K_y (s - H sin theta), s unchanged.
+        // The change of K_y y_P = K_y (s - H sin theta) at the same s.
         let stretch =
             -2.0 * statics.probe.lateral * scene.height * libm::cos(theta + 0.5 * away) * libm::sin(0.5 * away);
         let lateral = statics.lateral_force(theta) + stretch;
         [lateral / self.force, rate / mean]
     }
 
-    /// Returns the first time at which the swing takes F_Y to F_Y*(F_Z), by its linear response: about the quasi-static
-    /// slip F_Y - F_Y* grows steadily and swings as a sine, whose phase and amplitude are those of
+    /// Returns the first time at which F_Y with the swing reaches F_Y*(F_Z), linearised about the quasi-static slip: there
+    /// F_Y - F_Y* is a linear function of time plus a sine, whose phase and amplitude are those of
     /// [`swung`](Self::swung).
     ///
     /// # Errors
@@ -88,7 +90,7 @@ impl Motion<'_> {
         let phase = turns + libm::atan2(cosine, sine);
         let crossing = |offset: f64| first_crossing(slope / frequency / amplitude, offset, phase);
         let offset = mean / amplitude;
-        // The error of the adiabatic swing is of the order of its change in one turn.
+        // The error of the adiabatic approximation is of the order of the change in one period.
         let doubt = overtone / amplitude + self.drift(theta) / turns + 1e-14 * turns + 1e-6;
         let (here, early, late) = (crossing(offset)?, crossing(offset + doubt)?, crossing(offset - doubt)?);
         let share = 1.0 / (frequency * self.time);
@@ -104,7 +106,8 @@ impl Motion<'_> {
         self.scene.height / travel_slope(self.statics, theta)
     }
 
-    /// Returns omega (rad/s) about the equilibrium at the twist `theta`, with the apex fixed.
+    /// Returns omega (rad/s) about the equilibrium at the twist `theta`, with the apex fixed: I_T omega^2 is the derivative
+    /// by theta of K_theta theta - H (K_y y_P cos theta + K_z z_P sin theta) at constant s.
     fn local_frequency(&self, theta: f64) -> f64 {
         let &Self { statics, scene, .. } = self;
         let (sin, cos) = libm::sincos(theta);
@@ -124,13 +127,13 @@ pub(super) struct FirstSlip {
     pub evaluations: u64,
 }
 
-/// Returns the least root x of `slope` x + `offset` + sin(`phase` + x), which is negative far on the left; `slope` > 0.
+/// Returns the smallest root x of `slope` x + `offset` + sin(`phase` + x); `slope` > 0.
 fn first_crossing(slope: f64, offset: f64, phase: f64) -> Result<f64, Failure> {
     let value = |x: f64| slope * x + offset + libm::sin(phase + x);
     let (low, high) = if slope >= 1.0 {
         ((-offset - 1.0) / slope, (-offset + 1.0) / slope)
     } else {
-        // Between the first maximum above zero and the minimum before it.
+        // Between the first positive maximum and the minimum before it.
         let top = libm::acos(-slope);
         let least = -(offset + libm::sin(top)) / slope;
         let turn = TAU * ((least + phase - top) / TAU).ceil();

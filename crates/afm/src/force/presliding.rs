@@ -1,14 +1,17 @@
-//! The creep of a particle on its bristles before it slips, and the time at which the force counts as at its peak.
+//! The presliding displacement of a particle on bristles (its creep before it slips), and the time of the slip.
 //!
-//! The force of the bristles only approaches its peak F*, so the slip is timed by a fixed share of it, [`REACHED`].
-//! Meanwhile the particle creeps by u, and the substrate travels by V t = s + u, s being the travel of the apex. With p
-//! the force of the bristles alone, p* = F* - sigma2 V its peak and rho = 1 - p/p*,
+//! On bristles the force only approaches its peak F*, so the slip is defined as the time at which it reaches a fixed
+//! share of it, [`REACHED`]. By then the particle has crept by u, and the substrate has travelled by V t = s + u, where s
+//! is the travel of the apex. With p = sigma0 z, the force of the bristles, p* = F* - sigma2 V, its peak, and rho = 1 -
+//! p/p*,
 //!
 //!   dp = sigma0 rho^alpha du,  v = V/(1 + kappa rho^alpha),  F = p + (sigma1 rho + sigma2) v,  kappa = sigma0/k_lat,
 //!
-//! where alpha is 1 for LuGre friction, Dahl's exponent, and 0 for Armstrong's spring. v neglects the rate at which the
-//! dashpots give way, and the Stribeck curve between v and V; [`Presliding::error`] bounds the error of this. Without
-//! dashpots and at constant load u = z ln(1/rho) with z = p*/sigma0 for alpha = 1.
+//! where v = du/dt. alpha is 1 for LuGre friction (Canudas de Wit et al. 1995, with Fss = p*), the exponent of Dahl's law
+//! (Dahl 1968), and 0 for the linear spring of Armstrong-Helouvry, Dupont & Canudas de Wit 1994. v follows from the
+//! balance dF/dt = k_lat (V - v) without the change of the viscous forces, and p* from Fss(V) instead of Fss(v);
+//! [`Presliding::error`] bounds both errors. Without dashpots and at constant load, alpha = 1 gives
+//! u = (p*/sigma0) ln(1/rho).
 
 use super::slip::Slip;
 use super::substrate::Substrate;
@@ -22,7 +25,7 @@ pub(crate) const REACHED: f64 = 0.999;
 /// The creep of a particle before it slips.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Presliding {
-    /// z = p*/sigma0 (m).
+    /// p*/sigma0 (m), the deflection of the bristles at the peak.
     length: f64,
     /// alpha.
     exponent: f64,
@@ -31,15 +34,15 @@ pub(crate) struct Presliding {
     /// sigma1 V/p* and sigma2 V/p*.
     damping: f64,
     viscosity: f64,
-    /// Reduction of the load by the twist until the slip, relative to that of the slip.
+    /// Decrease of the load by the twist until the slip, relative to the load at the slip.
     drop: f64,
-    /// Relative weakening of friction between rest and V.
+    /// |Fss(0) - Fss(V)|/Fss(V).
     weakening: f64,
 }
 
 impl Presliding {
-    /// Creates the creep before `slip` on a `probe` whose apex has the stiffness `spring` (N/m); `None` for laws that
-    /// hold the particle at rest until then, and if nothing holds it.
+    /// Creates the creep before `slip` on a `probe` whose apex has the stiffness `spring` (N/m); `None` for laws without
+    /// presliding displacement, and if no friction holds the particle.
     ///
     /// # Errors
     /// Those of the integration of a Lemaitre-Carlson layer.
@@ -72,7 +75,7 @@ impl Presliding {
             }
             FrictionLaw::Dahl => (scene.bristle_stiffness, Self { exponent: scene.dahl_exponent, ..none }),
             FrictionLaw::Armstrong => (scene.bristle_stiffness, none),
-            // Like a spring that is stretched as far as the layer is sheared.
+            // A linear spring with the shear stiffness of the layer.
             FrictionLaw::LemaitreCarlson => (substrate.layer_stiffness(slip)?, none),
         };
         let drop = (probe.preload_force - slip.normal_force) / load;
@@ -81,8 +84,8 @@ impl Presliding {
         Ok((strength > 0.0 && way.length.is_finite() && drop.is_finite()).then_some(way))
     }
 
-    /// Returns rho where the force is below its peak by the share `missing`: the root of kappa rho^2 + b rho = c, alpha
-    /// = 1 with dashpots.
+    /// Returns rho where the force is below its peak by the share `missing`. With dashpots and alpha = 1 this is the
+    /// positive root of kappa rho^2 + b rho = c, where c is the missing force over p*.
     fn reserve(&self, missing: f64) -> f64 {
         if self.damping + self.viscosity == 0.0 {
             return missing;
@@ -94,7 +97,7 @@ impl Presliding {
         rho.min(1.0)
     }
 
-    /// Returns u (m) where the force is below its peak by the share `missing`, to first order in the drop of the load.
+    /// Returns u (m) where the force is below its peak by the share `missing`, to first order in the decrease of the load.
     pub fn creep(&self, missing: f64) -> f64 {
         let rho = self.reserve(missing);
         // The integral of rho^(k - alpha) from rho to 1.
@@ -108,11 +111,12 @@ impl Presliding {
         } else {
             self.exponent * self.drop * (2.0 * whole - 3.0 * power(1.0) + power(2.0))
         };
-        // Not below zero, for any drop of the load.
+        // Not below zero, for any decrease of the load.
         if dropped > 0.0 { self.length * whole * (whole / (whole + dropped)) } else { self.length * (whole - dropped) }
     }
 
-    /// Returns V/(V - v) at the slip: how many times more slowly the force rises than on a spring with a fixed end.
+    /// Returns V/(V - v) at the slip: the factor by which the force rises more slowly than for a particle at rest on the
+    /// substrate.
     fn slowdown(&self) -> f64 {
         let slowdown = 1.0 + 1.0 / (self.stiffness * libm::pow(self.reserve(1.0 - REACHED), self.exponent));
         // Above 1 even on very stiff bristles, unlike on a rigid contact.
@@ -122,13 +126,13 @@ impl Presliding {
     /// Returns `slip` with its time, on an apex of `spring` stiffness (N/m).
     pub fn timed(&self, slip: &Slip, spring: f64) -> Slip {
         let missing = 1.0 - REACHED;
-        // Far outside any laboratory the slope at the slip is lost in rounding; the rest is at most the past travel.
+        // For extreme inputs the slope at the slip is lost in rounding; the rest is at most the travel so far.
         let advance = self.creep(missing) - (missing * slip.lateral_force / spring).min(slip.travel);
-        // Dahl's law with a large exponent takes infinitely long.
+        // With a large exponent of Dahl's law the creep may overflow.
         Slip { advance: advance.min(f64::MAX), slowdown: self.slowdown(), ..*slip }
     }
 
-    /// Returns the relative error of the time of `slip` from the dashpots and the Stribeck curve.
+    /// Returns the relative error of the time of `slip` due to the dashpots and the Stribeck curve.
     pub fn error(&self, slip: &Slip) -> f64 {
         let way = (slip.travel + slip.advance) / self.length;
         let dashpots = self.stiffness * (self.damping + self.viscosity);
@@ -137,9 +141,9 @@ impl Presliding {
         if self.exponent == 1.0 { (dashpots * dashpots + curve + load) / way } else { load / way }
     }
 
-    /// Returns by how much later the force of LuGre friction reaches the slip with dashpots and Stribeck curve (m), by
-    /// a ramp at the load and on the `spring` (N/m) of the slip; the remaining relative error of the time, and the
-    /// evaluations.
+    /// Returns the additional travel of the substrate (m) until the slip under LuGre friction with dashpots and Stribeck
+    /// curve, from an integrated ramp at the load and on the `spring` (N/m) of the slip; the remaining relative error of
+    /// the time; and the number of evaluations.
     ///
     /// # Errors
     /// Those of the integration.

@@ -1,15 +1,18 @@
 //! Exact geometry, no inertia.
 //!
-//! The tip is in equilibrium at every twist theta: F_Z = K_z z_P with z_P = z_P0 - H (1 - cos theta), and F_Y cos theta
-//! = K_theta theta/H - F_Z sin theta. The particle slips at the first theta with F_Y = F_Y*(F_Z).
+//! The equations of motion of the tip (see [`Motion`]) without inertia: it is in equilibrium at every twist theta, with
+//!
+//!   F_Z = K_z z_P,  z_P = z_P0 - H (1 - cos theta),  F_Y cos theta = K_theta theta/H - F_Z sin theta,  F_Y = K_y y_P.
+//!
+//! The particle slips at the first theta with F_Y = F_Y*(F_Z), the friction force that the contact can hold.
 //!
 //! There is at most one such theta. With c = K_theta/H,
 //!
 //!   cos^2(theta) dF_Y/dtheta = c (cos theta + theta sin theta) - K_z (z_P0 - H) - K_z H cos^3 theta
 //!
-//! never falls on [0, pi/2], and starts at c - F_Z0. So if c > F_Z0, F_Y is convex and rises without bound towards
-//! pi/2, while F_Y* falls with F_Z. And F_Y >= (c - F_Z0) theta makes F_Y*(F_Z0)/(c - F_Z0) an upper bound of the root,
-//! too large by order theta^2 only.
+//! does not decrease on [0, pi/2], and is c - F_Z0 at theta = 0. So if c > F_Z0, F_Y is convex and rises without bound
+//! towards pi/2, while F_Z and thus F_Y* decrease. Since F_Y >= (c - F_Z0) theta, F_Y*(F_Z0)/(c - F_Z0) is an upper bound
+//! of the root, with a relative excess of order theta^2.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -24,14 +27,14 @@ use crate::probe::Probe;
 use crate::root::{self, Point};
 use crate::{Failure, Fidelity, FrictionLaw, Scene};
 
-/// Computes the critical force, LuGre friction by the peak of its ramp.
+/// Computes the critical force; under LuGre friction from the peak of its ramp.
 pub(super) fn critical_force(scene: &Scene, options: &Options) -> Result<Critical, Failure> {
     Ok(solve(scene, options, false)?.0)
 }
 
-/// Computes the same, with the time at which the swing of a stuck tip slips if that matters; and the error in common
-/// with the dynamic rung: on bristles neither follows the swing, unless it is slow, or the slip that it triggers, and
-/// the bristles of laws other than LuGre's are the same on both.
+/// Computes the same, with the effect of the swing on the time of the slip if it matters. Also returns the error that is
+/// common to this rung and the dynamic one: on bristles, neither follows a fast swing or the slip that it triggers, and
+/// both treat the bristles of laws other than LuGre's in the same way.
 pub(super) fn with_swing(scene: &Scene, options: &Options) -> Result<(Critical, f64), Failure> {
     solve(scene, options, options.accurate_time)
 }
@@ -76,14 +79,14 @@ pub(super) fn left_out(slip: &Slip, scene: &Scene, substrate: &Substrate, probe:
     let mut error = Swing::new(scene, probe).left_out(slip, substrate);
     error.lateral += slip.lateral_force * substrate.error();
     if substrate.options.friction == FrictionLaw::LuGre {
-        // The overshoot of a particle that breaks loose depends on how fast the tip can follow.
+        // The overshoot at breakaway depends on the response time of the tip.
         error.lateral += overshoot(slip, substrate);
     }
     error
 }
 
-/// Returns the difference of the peak on LuGre bristles and the force of steady sliding (N). If friction weakens as the
-/// particle speeds up, the swing of the tip, however small, may break it loose anywhere between the two.
+/// Returns the difference of the peak on LuGre bristles and the force of steady sliding (N). If friction weakens with
+/// velocity, even a small swing of the tip may cause breakaway at any force between the two.
 pub(super) fn overshoot(slip: &Slip, substrate: &Substrate) -> f64 {
     let law = LuGre::with(substrate.scene, substrate.options.lugre, slip.contact.radius);
     let steady = law.steady_force(slip.normal_force + substrate.adhesive_load, substrate.scene.velocity);
@@ -103,7 +106,7 @@ pub(crate) struct Statics<'a> {
 
 impl<'a> Statics<'a> {
     /// # Errors
-    /// [`Failure::ProbeTips`] if the preload twists the cantilever over by itself.
+    /// [`Failure::ProbeTips`] if the preload alone makes the twist unstable, F_Z0 H >= K_theta.
     pub fn new(scene: &'a Scene, probe: &Probe) -> Result<Self, Failure> {
         let restoring = probe.torsional / scene.height;
         if restoring <= probe.preload_force {
@@ -112,13 +115,13 @@ impl<'a> Statics<'a> {
         Ok(Self { scene, probe: *probe, height: scene.height, restoring })
     }
 
-    /// Returns F_Z (N) at the twist `theta`. 1 - cos theta as 2 sin^2(theta/2), which does not cancel.
+    /// Returns F_Z (N) at the twist `theta`; 1 - cos theta is computed as 2 sin^2(theta/2), without cancellation.
     pub fn normal_force(&self, theta: f64) -> f64 {
         let half = libm::sin(0.5 * theta);
         self.probe.normal * (self.probe.preload_deflection - 2.0 * self.height * half * half)
     }
 
-    /// Returns F_Y cos theta (N) at the twist `theta`.
+    /// Returns F_Y cos theta (N) at the twist `theta`, the moment of the tip over H.
     pub fn lateral_moment(&self, theta: f64) -> f64 {
         self.restoring * theta - self.normal_force(theta) * libm::sin(theta)
     }
@@ -181,15 +184,15 @@ impl<'a> Statics<'a> {
     /// Returns the slip, and the number of evaluations of friction.
     ///
     /// # Errors
-    /// [`Failure::BeyondPullOff`] if the twist lifts the tip until nothing holds the particle down, before friction
-    /// gives way; those of the law of friction.
+    /// [`Failure::BeyondPullOff`] if the twist lifts the tip until neither its force nor the adhesion holds the particle
+    /// down, before the particle slips; those of the law of friction.
     pub(super) fn slip(&self, substrate: &Substrate) -> Result<(Slip, u64), Failure> {
         let mut evaluations = 0;
         let least = substrate.least_normal_force();
         let rounding = 16.0 * f64::EPSILON * self.probe.preload_force;
         let mut hold = |theta: f64| -> Result<(Hold, f64), Failure> {
             let force = self.normal_force(theta);
-            // At the last twist itself rounding may exceed the least force.
+            // At the last twist, rounding may give a force below the smallest one.
             let force = if force < least && force > least - rounding { least } else { force };
             let hold = substrate.hold(force)?;
             evaluations += hold.evaluations;
@@ -226,8 +229,8 @@ impl<'a> Statics<'a> {
             root::between(low, high, residual)?
         };
         let (hold, normal_force) = hold(theta)?;
-        // The two agree at the root, each within its own conditioning: that of the geometry is poor near a right angle,
-        // that of friction if its coefficient is so large that one rounding of the twist changes it.
+        // F_Y and F_Y* agree at the root within their conditioning: that of the geometry is poor near a right angle, that
+        // of friction if its coefficient is so large that one rounding error of the twist changes it.
         let of_geometry = self.lateral_force(theta);
         let agree = (hold.capacity - of_geometry).abs() < 1e-6 * of_geometry;
         let lateral_force = if agree || libm::cos(theta) < 1e-6 { hold.capacity } else { of_geometry };

@@ -1,4 +1,4 @@
-//! The instant of slip on every rung, converted to the common result.
+//! The state at the slip, which every rung computes, and its conversion to the common result.
 
 use std::f64::consts::PI;
 use std::ops::{Add, RangeInclusive};
@@ -15,10 +15,11 @@ pub(crate) struct Slip {
     pub lateral_force: f64,
     /// Travel of the apex (m).
     pub travel: f64,
-    /// Additional travel of the substrate at the time of the slip (m): by the creep of the particle on its bristles,
-    /// minus the remaining travel of the apex.
+    /// Additional travel of the substrate at the time of the slip (m): the creep of the particle on its bristles, minus
+    /// the travel of the apex that is left at that time.
     pub advance: f64,
-    /// Factor by which its force rises more slowly there than that of a particle at rest; 1 without bristles.
+    /// V/(V - v): the factor by which the force rises more slowly at the slip than for a particle at rest on the
+    /// substrate; 1 without bristles.
     pub slowdown: f64,
     pub twist: f64,
     pub contact: Contact,
@@ -44,7 +45,8 @@ impl Add for Error {
 }
 
 impl Error {
-    /// Returns the relative error of F_cr: |dF_cr| <= (F_Z |dF_Z| + F_Y |dF_Y|)/F_cr. At most 1, which claims nothing.
+    /// Returns the relative error of F_cr = hypot(F_Y, F_Z): |dF_cr| <= (F_Z |dF_Z| + F_Y |dF_Y|)/F_cr. At most 1, which
+    /// means that no accuracy is stated.
     #[inline(always)]
     pub fn value(self, slip: &Slip) -> f64 {
         if slip.squared().is_normal() { self.of_ordinary(slip) } else { self.of_extreme(slip) }
@@ -54,15 +56,15 @@ impl Error {
     #[inline(always)]
     pub fn of_ordinary(self, slip: &Slip) -> f64 {
         let shift = slip.normal_force.abs() * self.normal + slip.lateral_force * self.lateral;
-        // Errors far above the forces themselves are of second order: dF_cr <= hypot(dF_Z, dF_Y).
+        // For errors far larger than the forces: dF_cr <= hypot(dF_Z, dF_Y).
         let second = self.normal * self.normal + self.lateral * self.lateral;
         let shift = if second > shift { shift + second } else { shift };
         let relative = (ROUNDING + shift / slip.squared()).min(1.0);
-        // An error of NaN claims nothing.
+        // An error of NaN counts as 1.
         if shift > 0.0 || shift.is_nan() { relative } else { ROUNDING }
     }
 
-    /// Returns the same if squares over- or underflow. An error of NaN claims nothing.
+    /// Returns the same if squares over- or underflow. An error of NaN counts as 1.
     #[cold]
     fn of_extreme(self, slip: &Slip) -> f64 {
         let size = libm::hypot(slip.normal_force, slip.lateral_force);
@@ -89,16 +91,16 @@ impl Slip {
         }
     }
 
-    /// Returns this slip, if friction held the tip back.
+    /// Returns this slip, if F_Y and the twist have the direction of the friction force.
     ///
     /// # Errors
-    /// [`Failure::StepTooSmall`] for an integration that ended in rounding: far outside any laboratory one force may be
+    /// [`Failure::StepTooSmall`] for an integration that ended in rounding errors: for extreme inputs one force may be
     /// negligible compared with another.
     pub fn held_back(self) -> Result<Self, Failure> {
         if self.lateral_force < 0.0 || self.twist < 0.0 { Err(Failure::StepTooSmall) } else { Ok(self) }
     }
 
-    /// Returns the relative change of the critical time for a relative change of the force alone.
+    /// Returns the relative change of the critical time per relative change of the force.
     pub fn sensitivity(&self) -> f64 {
         self.slowdown * self.travel / (self.travel + self.advance)
     }

@@ -1,4 +1,4 @@
-//! Exact answers, edges and named failures.
+//! Exact results, limits and named failures.
 
 mod closed_forms;
 mod dynamic;
@@ -29,7 +29,7 @@ fn scaled(scene: &Scene, name: &str, factor: f64) -> Scene {
     scaled
 }
 
-/// The laws that hold the same whatever pulls: neither stiffness nor rest nor age act.
+/// Laws whose capacity depends neither on the spring nor on the time at rest nor on age.
 const RIGID: [FrictionLaw; 5] =
     [FrictionLaw::Coulomb, FrictionLaw::HurtadoKim, FrictionLaw::LuGre, FrictionLaw::Dahl, FrictionLaw::Stribeck];
 
@@ -113,7 +113,7 @@ fn without_adhesion_the_contact_is_hertz() {
     assert!(critical.flags.is_empty(), "without adhesion the Tabor parameter does not matter");
 }
 
-/// Nothing presses and nothing sticks: all forces are zero, nothing is undefined.
+/// Without load and adhesion all forces are zero, and none is undefined.
 #[test]
 fn no_load_and_no_adhesion_is_no_force() {
     let scene = Scene { adhesion: 0.0, preload_angle: 0.0, viscous_friction: 0.0, ..Scene::default() };
@@ -158,10 +158,10 @@ fn other_laws_may_be_as_fast_as_they_like() {
     }
 }
 
-/// For each law the default parameters that it must not feel, besides the height, which no law
+/// For each law the default parameters that must not affect it, in addition to the height, which affects no law
 /// feels.
 #[test]
-fn parameters_a_law_does_not_know_do_not_act() {
+fn parameters_of_other_friction_laws_have_no_effect() {
     let deaf: [(FrictionLaw, &[&str]); 3] = [
         (FrictionLaw::Coulomb, &["height", "velocity", "dynamic_friction", "burgers_vector", "poisson_ratio"]),
         (FrictionLaw::HurtadoKim, &["height", "velocity", "static_friction", "shear_strength", "poisson_ratio"]),

@@ -1,4 +1,4 @@
-//! The textbook behaviours of the laws, on the bench.
+//! The textbook properties of the friction laws, on a test bench.
 
 mod bench;
 
@@ -40,7 +40,7 @@ fn presliding_stiffness_is_sigma0() {
     }
 }
 
-/// Friction of sliding steadily at 100 nm/s by the printed formulas, worked out apart from this program (N). Coulomb
+/// Friction of sliding steadily at 100 nm/s by the printed formulas, computed independently of this program (N). Coulomb
 /// 0.8 N + 28 MPa pi a^2; Hurtado-Kim with G* = 28.9485 GPa at a/b = 31.25; Fss + sigma2 v; mu_d N; Armstrong after a
 /// rest of 5.1 ms, the rest before its break-away; Lemaitre-Carlson from ageing and plastic work in balance, 28.0518 MPa.
 fn sliding_by_hand(law: FrictionLaw) -> f64 {
@@ -54,7 +54,7 @@ fn sliding_by_hand(law: FrictionLaw) -> f64 {
     }
 }
 
-/// Pulled along, each law holds until its break-away force and then slides.
+/// Pulled along, each law sticks up to its breakaway force and then slides.
 #[test]
 fn every_law_breaks_away_to_steady_sliding() {
     let scene = Scene { frictional_lag: 0.0, ..Scene::default() };
@@ -67,12 +67,12 @@ fn every_law_breaks_away_to_steady_sliding() {
         let expected = sliding_by_hand(law);
         // The ten digits written down.
         assert!((steady / expected - 1.0).abs() < 2e-10, "{law:?} {steady} {expected}");
-        // Armstrong remembers the rest before break-away, found to one sample of 0.5 ms of gamma = 1 s.
+        // Armstrong's law depends on the time at rest before breakaway, which is known to one sample of 0.5 ms; gamma = 1 s.
         assert!((end.force / expected - 1.0).abs() < 1e-4, "{law:?} {end:?} {expected}");
     }
 }
 
-/// A loop of +-2 nm: after the first turn it repeats itself, and turns work into heat.
+/// A loop of +-2 nm: after the first cycle it is periodic, and dissipates work.
 #[test]
 fn hysteresis_loops_close_and_dissipate() {
     for law in [FrictionLaw::LuGre, FrictionLaw::Dahl, FrictionLaw::Armstrong, FrictionLaw::Coulomb] {
@@ -116,7 +116,7 @@ fn dahl_approaches_coulomb_exponentially() {
     }
 }
 
-/// Dahl's force depends on the path, not on how fast it is run.
+/// Dahl's force depends on the path, not on the velocity.
 #[test]
 fn dahl_does_not_feel_the_rate() {
     let scene = Scene::default();
@@ -190,7 +190,7 @@ fn capacity_is_the_break_away_force() {
 }
 
 #[test]
-fn laws_that_live_on_load_hold_nothing_without_it() {
+fn friction_that_depends_on_load_vanishes_without_load() {
     let scene = Scene { viscous_friction: 0.0, ..Scene::default() };
     for &law in FrictionLaw::ALL.iter().filter(|law| !law.lives_on_area()) {
         for form in [LuGreForm::Fast, LuGreForm::Ramp] {

@@ -162,7 +162,7 @@ mod tests {
 
     /// Values come after the outputs; a bad row fails in all of them, once each, and does not affect the others.
     #[test]
-    fn histories_stand_beside_the_outputs() {
+    fn histories_are_listed_next_to_the_outputs() {
         let factors = ["velocity", "length"].map(|name| Parameter::from_name(name).unwrap());
         let moments = AfmMoments::new(0.4, 3).unwrap();
         let options = Options { fidelity: Fidelity::QuasiStatic, ..Options::default() };

@@ -1,4 +1,4 @@
-//! Limits in which a mode has a closed form, and an answer or a reason everywhere.
+//! Limits in which a mode has a closed form, and a result or a named failure for all input.
 
 use proptest::prelude::*;
 
@@ -20,7 +20,7 @@ fn sliding_sets_in_at_the_critical_lateral_force() {
     close(lateral, critical.lateral_force, 1e-15);
 }
 
-/// What these criteria say of the claim that sliding precedes rolling: it does not, nor does it precede a slip of the
+/// These criteria contradict the claim that sliding precedes rolling; sliding does not precede a slip of the
 /// tip, whose preload pushes 60 degrees off the contact's normal. At the critical force the tip holds.
 #[test]
 fn order_at_the_nominal_scene() {
@@ -58,7 +58,7 @@ fn mode_diagram_without_shear_strength() {
     let angle = 1.2_f64;
     let expected = 0.8 * 1.5 * PI * 0.2 * 50e-9 / (libm::sin(angle) - 0.8 * libm::cos(angle));
     close(sticky.critical_tip_force(Mode::Slide, angle).unwrap().unwrap(), expected, 1e-14);
-    // Without either there is nothing but a cone of friction.
+    // Without both, only the friction cone remains.
     let dry = Pushing::new(scene);
     assert_eq!(dry.critical_tip_force(Mode::Slide, libm::atan(0.8) + 1e-9), Ok(Some(0.0)));
     assert_eq!(dry.critical_tip_force(Mode::Slide, libm::atan(0.8) - 1e-9), Ok(None));
@@ -78,7 +78,7 @@ fn tip_slip_in_line_and_on_top() {
     close(balance.resistance, resistance, 1e-15);
 }
 
-/// M = 4 F_ad xi at either contact where it carries no load; nothing resists without adhesion.
+/// M = 4 F_ad xi at either contact without load; there is no resistance without adhesion.
 #[test]
 fn rolling_limits() {
     let none = TipForce { normal: 0.0, lateral: 0.0 };
@@ -99,7 +99,7 @@ fn rolling_limits() {
     close(drive(0.0), 1e-7 * 50e-9 * libm::sin(60_f64.to_radians()), 1e-7);
 }
 
-/// F_Y x0 = (2 pi/3) tau a^3; a push through the centre never spins.
+/// F_Y x0 = (2 pi/3) tau a^3; a push through the centre causes no spin.
 #[test]
 fn spin_limits() {
     let radius = ContactTheory::Jkr.contact(&Pair::substrate(&Scene::default()), 5e-7).unwrap().radius;
@@ -111,7 +111,7 @@ fn spin_limits() {
 }
 
 #[test]
-fn what_is_not_physical_is_named() {
+fn unphysical_values_are_named() {
     let constants = ModeConstants { tip_friction: -1.0, ..ModeConstants::default() };
     let force = TipForce { normal: 1e-7, lateral: 0.0 };
     let failure = Pushing { constants, ..nominal() }.balance(Mode::Slide, force).unwrap_err();
@@ -158,7 +158,7 @@ proptest! {
         }
     }
 
-    /// The onset parts what holds from what moves.
+    /// The onset separates sticking from motion.
     #[test]
     fn onsets_part_rest_from_motion(pushing in pushing(), log_normal in -9.0..-5.0_f64) {
         let normal = libm::pow(10.0, log_normal);

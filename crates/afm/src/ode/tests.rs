@@ -1,4 +1,4 @@
-//! Orders of convergence, stability, events, and the ways to stop short.
+//! Orders of convergence, stability, events, and early ends.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 

@@ -74,7 +74,7 @@ fn subject(study: &Study) -> String {
     let files = study.subject().files();
     if study.subject().name() == ModelKind::COMMAND.name {
         let names = if files.is_empty() { "none".to_owned() } else { file_names_of(&files) };
-        text.push_str(&format!("files that a journal knows it by: {names}\n"));
+        text.push_str(&format!("files that a journal depends on: {names}\n"));
     }
     for (name, value) in study.settings() {
         match value.as_object() {
@@ -183,9 +183,9 @@ fn past_runs(study: &Study, folder: &Path) -> String {
         text.push_str(&match runner.recorded_runs() {
             Ok(rows) => {
                 let total = study.design().rows();
-                format!("on record: {} of {total} runs, which a run does not repeat\n", rows.min(total))
+                format!("already saved: {} of {total} runs, which are not repeated\n", rows.min(total))
             }
-            Err(error) => format!("on record: nothing of use: {error}\n"),
+            Err(error) => format!("already saved: no usable runs: {error}\n"),
         });
     }
     text

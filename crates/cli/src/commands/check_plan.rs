@@ -40,10 +40,10 @@ pub(super) fn plan(study: &Study, file: &Path, pilot: Option<&Pilot>) -> String 
     let analysis = study.analysis();
     lines.push(format!("intervals: {}", analysis.intervals.words(settings.replicates, analysis.resamples)));
     lines.push(match analysis.failures {
-        FailurePolicy::Fail => "failed runs: the first one ends the run".to_owned(),
+        FailurePolicy::Fail => "failed runs: the first one stops the run".to_owned(),
         FailurePolicy::DropBlock => {
             let share = significant(100.0 * analysis.max_failed);
-            format!("failed runs: left out, up to {share} % of all; beyond that there are no indices")
+            format!("failed runs: left out, up to {share} % of all runs; beyond that no indices are estimated")
         }
     });
     lines.push(format!("rows of a base sample: {}", rows(study).join(" + ")));
@@ -58,7 +58,7 @@ pub(super) fn plan(study: &Study, file: &Path, pilot: Option<&Pilot>) -> String 
     if pilot.is_none_or(|pilot| pilot.seconds > SLOW_RUN * design.rows() as f64) {
         let file = file.display();
         lines.push(format!(
-            "fewer runs: --runs N, or apportion screen {file} (docs/which-method.md says which serves at how many)"
+            "fewer runs: --runs N, or apportion screen {file} (docs/which-method.md compares the methods by the number of runs)"
         ));
     }
     let warnings = pilot.into_iter().flat_map(|pilot| pilot_warnings(study, pilot));
@@ -74,10 +74,10 @@ const SLOW_RUN: f64 = 1e-3;
 
 fn time(pilot: Option<&Pilot>) -> String {
     match pilot {
-        None => "outside of this program".to_owned(),
+        None => "outside this program".to_owned(),
         Some(pilot) if pilot.failed == pilot.runs => "in an unknown time (every pilot run failed)".to_owned(),
         Some(pilot) => {
-            format!("about {} on this machine (by {} of it)", duration(pilot.seconds), counted(pilot.runs, "run"))
+            format!("about {} on this machine (from {})", duration(pilot.seconds), counted(pilot.runs, "run"))
         }
     }
 }
@@ -125,7 +125,7 @@ fn rows(study: &Study) -> Vec<String> {
         Some("A and B".to_owned()),
         row(swaps, "AB"),
         row(if design.has_ba() { swaps } else { 0 }, "BA"),
-        row(design.plain_rows().into(), "for surrogates alone"),
+        row(design.plain_rows().into(), "only for surrogates"),
         row(design.step_runs().len() as u64, "along a random order, for Shapley effects"),
     ];
     parts.into_iter().flatten().collect()
@@ -140,7 +140,7 @@ fn stopping(study: &Study) -> Option<String> {
         max_runs.map(|runs| format!("twice the runs would be more than {runs}")),
     ];
     let ends: Vec<String> = ends.into_iter().flatten().collect();
-    (!ends.is_empty()).then(|| format!("growth: runs are added, none of them lost, until {}", ends.join(", or ")))
+    (!ends.is_empty()).then(|| format!("growth: runs are added, and all are used, until {}", ends.join(", or ")))
 }
 
 /// Columns of the factors (unit cube and SI, A and B) and of every output of every row kind; and outputs that are kept.
@@ -148,7 +148,7 @@ fn memory(study: &Study) -> Vec<String> {
     let (design, outputs) = (study.design(), study.model().outputs().len() as u64);
     let columns = 2 * design.columns() as u64 + design.rows_per_point() * (outputs + 1);
     let kilobytes = (columns * BLOCK * 8) as f64 / 1e3;
-    let mut lines = vec![format!("memory: about {kilobytes:.0} kB a thread, whatever the number of samples")];
+    let mut lines = vec![format!("memory: about {kilobytes:.0} kB per thread, for any number of samples")];
     if study.needs_outputs() {
         let bytes = design.rows() as f64 * outputs as f64 * 8.0;
         lines.push(format!("        and {:.1} MB for the outputs of all runs", bytes / 1e6));

@@ -18,10 +18,10 @@ pub struct Arguments {
     /// The result of another run
     #[arg(value_name = "B.json")]
     b: PathBuf,
-    /// What A is called in tables and charts [default: its study, or what tells the two files apart]
+    /// Name of A in tables and charts [default: its study, or the part in which the file names differ]
     #[arg(long, value_name = "TEXT")]
     label_a: Option<String>,
-    /// What B is called in tables and charts
+    /// Name of B in tables and charts
     #[arg(long, value_name = "TEXT")]
     label_b: Option<String>,
     #[command(flatten)]

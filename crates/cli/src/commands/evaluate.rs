@@ -20,12 +20,12 @@ pub struct Arguments {
     /// The points: columns named after factors, values in the study's units, as CSV (cells separated by commas, semicolons,
     /// tabs or blanks) or NPY
     points: PathBuf,
-    /// Names of the columns, separated by commas, of a file that has none: NPY, or text without a header
+    /// Names of the columns, separated by commas, for a file without them: NPY, or text without a header
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     names: Vec<String>,
     #[command(flatten)]
     table: TableArguments,
-    /// The points too, before their outputs: a table for `apportion given-data`
+    /// Also write the points, before their outputs: a table for `apportion given-data`
     #[arg(long)]
     with_points: bool,
     /// The CSV file for the outputs
@@ -43,7 +43,7 @@ pub fn evaluate(arguments: &Arguments) -> Result<(), Failure> {
         if same_file(input, &arguments.output) {
             let output = arguments.output.display();
             return Err(Failure::Input(anyhow!(
-                "--output {output}: this file is read, and would be overwritten: give another name"
+                "--output {output}: this is the input file, and it would be overwritten: give another name"
             )));
         }
     }
@@ -86,13 +86,13 @@ fn report(evaluated: &Evaluated, arguments: &Arguments, space: &Space) {
         };
         let values: Vec<String> = evaluated.nominal.iter().map(value).collect();
         let points = arguments.points.display();
-        say(&format!("note: {points}: factors without a column stand at their nominal values: {}", values.join(", ")));
+        say(&format!("note: {points}: factors without a column are at their nominal values: {}", values.join(", ")));
     }
     for ((output, failure), (count, first)) in &evaluated.failures {
         say(&format!("warning: {output} is empty at {count} points: {failure} (first at point {first})"));
     }
     if evaluated.points == 0 {
-        say("warning: the file holds a header but no points");
+        say("warning: the file has a header but no points");
     }
     say(&format!("wrote {} points to {}", evaluated.points, arguments.output.display()));
 }

@@ -19,7 +19,7 @@ pub struct Arguments {
     /// The table: columns by name, a row of numbers per run, as CSV (cells separated by commas, semicolons, tabs or
     /// blanks) or NPY
     table: PathBuf,
-    /// Names of the columns, separated by commas, of a table that has none: NPY, or text without a header
+    /// Names of the columns, separated by commas, for a table without them: NPY, or text without a header
     #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = column_name)]
     names: Vec<String>,
     #[command(flatten)]
@@ -27,18 +27,18 @@ pub struct Arguments {
     /// Columns that are outputs, separated by commas
     #[arg(long, value_name = "NAMES", required = true, value_delimiter = ',', value_parser = column_name)]
     outputs: Vec<String>,
-    /// Columns that are inputs, separated by commas [default: all of numbers that are no outputs]
+    /// Columns that are inputs, separated by commas [default: all columns of numbers that are not outputs]
     #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = column_name)]
     inputs: Vec<String>,
-    /// Total indices too, and first-order ones that are far more accurate where the model is smooth: by a surrogate, fitted to
-    /// the rows and corrected by those that it has not seen
+    /// Also estimate total indices, and first-order indices that are far more accurate for smooth models: with a surrogate, fitted to
+    /// the rows and corrected by the rows that it was not fitted to
     #[arg(long)]
     surrogate: bool,
-    /// Study whose factors the inputs are, by name and in their units: it knows the labels of categories, and a surrogate that
-    /// knows the distributions is more accurate
+    /// Study that has the inputs as factors, with the same names and units: it gives the labels of categories, and a surrogate that
+    /// uses its distributions is more accurate
     #[arg(long, value_name = "STUDY")]
     study: Option<PathBuf>,
-    /// Other measures too: Borgonovo's delta, PAWN, R2-HSIC, and S_1 by the spectrum
+    /// Also estimate other measures: Borgonovo's delta, PAWN, R2-HSIC, and S_1 from the spectrum
     #[arg(long)]
     measures: bool,
     /// Leave out rows without a value in one of these columns, and count them
@@ -99,7 +99,7 @@ fn distributions(study: &Study, inputs: &[Column]) -> Result<Vec<Distribution>, 
         factor.map(|factor| factor.distribution().clone()).ok_or_else(|| {
             let known: Vec<&str> = study.space().factors().iter().map(|factor| factor.name.as_str()).collect();
             Failure::Input(anyhow!(
-                "--study: the input `{}` is no factor of the study, which are {}; choose the inputs by --inputs",
+                "--study: the input `{}` is not a factor of the study; its factors are {}; choose the inputs with --inputs",
                 input.name,
                 known.join(", ")
             ))

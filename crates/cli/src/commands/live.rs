@@ -27,7 +27,7 @@ pub struct Arguments {
 /// The live page next to the page of a result, which links to it.
 #[derive(Default, clap::Args)]
 pub struct LiveArguments {
-    /// Leave out the page in which other ranges can be tried (NAME-live.html, 2 MB), written where a page can run the study
+    /// Do not write the interactive page (NAME-live.html, 2 MB), which is written if a page can run the study
     #[arg(long)]
     no_live: bool,
 }
@@ -41,7 +41,7 @@ impl LiveArguments {
         match page_of_result(document, result) {
             Ok(Some(page)) => place_next_to(document, &file_name(&result.study.name), page),
             Ok(None) => (),
-            Err(error) => say(&format!("note: no page to try other ranges in: {error}")),
+            Err(error) => say(&format!("note: no interactive page: {error}")),
         }
     }
 }

@@ -14,7 +14,7 @@ use super::{DesignChanges, Failure, StudyArguments, Threads, counted, say};
 pub struct Arguments {
     #[command(flatten)]
     study: StudyArguments,
-    /// The journals of the parts [default: all NAME-shard-I-of-N.journal in the folder for the results]
+    /// The journals of the shards [default: all NAME-shard-I-of-N.journal in the folder for the results]
     journals: Vec<PathBuf>,
     #[command(flatten)]
     design: DesignChanges,
@@ -37,8 +37,8 @@ pub fn merge(arguments: &Arguments) -> Result<(), Failure> {
     let runner = study.runner().threads(arguments.threads.number()).on_message(say).journal(&path);
     let result = runner.merge(&journals).map_err(|error| match error {
         RunError::Incomplete { .. } => Failure::Run(anyhow!(
-            "{error}\nthose that are there are kept in {}: merge again with the missing parts, or evaluate them here by the same \
-             arguments after `apportion run` and --resume",
+            "{error}\nthe merged runs are saved in {}: merge again with the missing shards, or evaluate the others here with the same \
+             arguments for `apportion run` and --resume",
             path.display(),
         )),
         error => error.into(),
@@ -64,7 +64,7 @@ fn in_folder(folder: &Path, name: &str) -> Result<Vec<PathBuf>, Failure> {
     let mut found: Vec<PathBuf> = entries.map(|entry| entry.path()).filter(is_part).collect();
     found.sort();
     if found.is_empty() {
-        let what = format!("no {begin}I-of-N.journal is here: `apportion run STUDY --shard I/N` writes them");
+        let what = format!("found no {begin}I-of-N.journal: `apportion run STUDY --shard I/N` writes these files");
         return Err(Failure::Input(anyhow!("{}: {what}", folder.display())));
     }
     Ok(found)

@@ -41,9 +41,9 @@ use apportion_report::WriteError;
 use clap::{Args, CommandFactory, Parser, Subcommand};
 use ranks::Ranks;
 
-/// Sobol' global sensitivity analysis: which factor decides an output, and by how many percent.
+/// Sobol' global sensitivity analysis: which factors drive an output, and by how many percent.
 ///
-/// Exit codes: 0 done, 1 the run failed, 2 the input was wrong.
+/// Exit codes: 0 success, 1 the run failed, 2 the input was wrong.
 #[derive(Parser)]
 #[command(name = "apportion", version, about, long_about, max_term_width = 110)]
 struct Cli {
@@ -53,47 +53,47 @@ struct Cli {
 
 #[derive(Subcommand)]
 enum Command {
-    /// Write a study file to begin with, whose comments explain it
+    /// Write a new study file, with comments that explain it
     New(new::Arguments),
-    /// Reproduce the papers: figures, a verdict on every claim, what their percentages could mean, on one page
+    /// Reproduce the papers on one page: figures, a verdict on every claim, possible meanings of their percentages
     Reproduce(reproduce::Arguments),
     /// Run a study: design, model runs, indices, charts
     Run(run::Arguments),
-    /// Join the parts of a run (run --shard I/N) into its result
+    /// Merge the shards of a run (run --shard I/N) into its result
     Merge(merge::Arguments),
-    /// Draw the page, tables and charts of a result again, from its JSON file alone
+    /// Write the page, tables and charts of a result again, from its JSON file only
     Report(report::Arguments),
-    /// Set two results side by side: by how much the indices differ, and whether that is more than their errors
+    /// Compare two results: differences of the indices, and whether they exceed the errors
     Compare(compare::Arguments),
-    /// Screen many factors for those that matter, by elementary effects: a few runs for each factor
+    /// Screen many factors by elementary effects: a few runs for each factor
     Screen(screen::Arguments),
-    /// Move one factor at a time around the nominal point: curves, ranges and slopes of every output
+    /// Vary one factor at a time around the nominal point: curves, ranges and slopes of every output
     Sweep(sweep::Arguments),
-    /// Accuracy against time: which settings give which accuracy at the least cost; or what becomes of a study at its extremes
+    /// Accuracy against time: the cheapest settings for each accuracy; or the behaviour of a study at its extremes
     Trade(trade::Arguments),
-    /// Write the points of a study to a file, for a model outside
+    /// Write the points of a study to a file, for an external model
     Sample(sample::Arguments),
-    /// Indices from the outputs that a model outside computed at the points of `sample`, or of SALib
+    /// Estimate indices from the outputs of an external model at the points of `sample`, or of SALib
     Analyze(analyze::Arguments),
     /// Evaluate a study's model at points from a CSV file
     Evaluate(evaluate::Arguments),
-    /// Indices from a table of inputs and outputs that exists already
+    /// Estimate indices from an existing table of inputs and outputs
     GivenData(given_data::Arguments),
-    /// Explain a study before running it: factors, cost (by a short pilot), memory, files
+    /// Explain a study before running it: factors, cost (from a short pilot run), memory, files
     Check(check::Arguments),
-    /// Follow one scene of a study in time, every factor at its nominal value: forces, positions, contacts
+    /// Simulate one scene of a study in time, with every factor at its nominal value: forces, positions, contacts
     Simulate(simulate::Arguments),
-    /// Write a page in which a study can be tried: drag a range, and the percentages follow
+    /// Write an interactive page of a study: drag a range, and the percentages change
     Live(live::Arguments),
-    /// List what can be studied, or show one model in full: formula, factors, outputs, exact indices
+    /// List the models, or show one in full: formula, factors, outputs, exact indices
     Models(models::Arguments),
     /// Print the JSON Schema of study or result files, for editors and programs
     Schema(schema::Arguments),
-    /// Print the script with which a shell completes commands and options
+    /// Print the script that completes commands and options in a shell
     Completions(completions::Arguments),
 }
 
-/// A study file and the changes to it that the command line makes.
+/// A study file and its changes on the command line.
 #[derive(Args)]
 struct StudyArguments {
     /// The study file (TOML)
@@ -103,17 +103,17 @@ struct StudyArguments {
     set: Vec<String>,
 }
 
-/// Changes to the design of a study that the command line makes.
+/// Changes of the design on the command line.
 #[derive(Args)]
 struct DesignChanges {
-    /// Base samples in all, over the replicates (the same as --set design.base_samples=N)
+    /// Total number of base samples, over all replicates (the same as --set design.base_samples=N)
     #[arg(long, value_name = "N", value_parser = whole_number)]
     base_samples: Option<u64>,
-    /// Half width that the 95 % interval of every index must reach; the run chooses what gets there at the least cost (the same
+    /// Half width that the 95 % interval of every index must reach; the run chooses the cheapest settings for it (the same
     /// as --set accuracy=A)
     #[arg(long, value_name = "A", conflicts_with_all = ["base_samples", "runs"])]
     accuracy: Option<f64>,
-    /// Model runs in all: the best design for at most so many (the same as --set design.runs=N)
+    /// Largest number of model runs; the design is the best one within it (the same as --set design.runs=N)
     #[arg(long, value_name = "N", value_parser = whole_number, conflicts_with = "base_samples")]
     runs: Option<u64>,
     /// Seed of the design (the same as --set design.seed=S)
@@ -138,7 +138,7 @@ impl DesignChanges {
 }
 
 impl StudyArguments {
-    /// The study as it stands in its file, with the changes of `--set`.
+    /// The study as in its file, with the changes of `--set`.
     fn load(&self) -> Result<Study, Failure> {
         self.load_with(&[])
     }
@@ -148,8 +148,8 @@ impl StudyArguments {
         let study = self.load_any(more)?;
         if study.subject().is_external() {
             return Err(Failure::Input(anyhow::anyhow!(
-                "{}: its model runs outside of this program: write the points by `apportion sample`, and read its outputs \
-                 by `apportion analyze`",
+                "{}: its model runs outside this program: write the points with `apportion sample`, and read its outputs \
+                 with `apportion analyze`",
                 self.study.display()
             )));
         }
@@ -172,7 +172,7 @@ fn say_notes(study: &Study) {
 /// Number of worker threads.
 #[derive(Args)]
 struct Threads {
-    /// Worker threads, and processes of a program at most; one per core if not given. The result does not depend on it
+    /// Number of worker threads, and largest number of processes of a program [default: one per core]. The result does not depend on it
     #[arg(long, value_name = "T", value_parser = |text: &str| number_in(text, 1..=1024))]
     threads: Option<usize>,
 }
@@ -190,13 +190,13 @@ fn number_in(text: &str, range: RangeInclusive<usize>) -> Result<usize, String> 
     number.ok_or_else(|| format!("expected a whole number from {} to {}", range.start(), range.end()))
 }
 
-/// Why a command did not do what was asked, with its exit code.
+/// Why a command failed, with its exit code.
 enum Failure {
     /// The input was wrong: exit code 2.
     Input(anyhow::Error),
     /// The run failed: exit code 1.
     Run(anyhow::Error),
-    /// The input was wrong, which another process has said: exit code 2.
+    /// The input was wrong, and another process has reported it: exit code 2.
     Silent,
 }
 
@@ -258,7 +258,7 @@ pub fn main() -> ExitCode {
     command_line(None)
 }
 
-/// Does what the command line says, in the company of other ranks if there are any.
+/// Parses the command line and runs the command, with `others` as the other ranks of an MPI job.
 fn command_line(others: Option<&dyn Ranks>) -> ExitCode {
     let cli = match Cli::try_parse() {
         Ok(cli) => cli,
@@ -291,7 +291,7 @@ fn command_line(others: Option<&dyn Ranks>) -> ExitCode {
     })
 }
 
-/// The exit code of what came out; what went wrong is said.
+/// Returns the exit code of `outcome`, and prints its error.
 fn exit_code(outcome: Result<(), Failure>) -> ExitCode {
     match outcome {
         Ok(()) => ExitCode::SUCCESS,

@@ -10,9 +10,9 @@ use super::{Failure, print};
 
 #[derive(clap::Args)]
 pub struct Arguments {
-    /// Show this model in full: inputs, outputs, choices; of a function its formula, source and exact indices
+    /// Show this model in full: inputs, outputs, choices; for a function its formula, source and exact indices
     name: Option<String>,
-    /// List the estimators of indices instead: what they estimate, what they cost, where they come from
+    /// List the estimators of indices instead: quantity, cost, source
     #[arg(long, conflicts_with = "name")]
     estimators: bool,
 }
@@ -52,7 +52,7 @@ fn estimators() -> String {
             (None, None) => {
                 let (first, total) = (FirstOrder::default_for(true), Total::default_for(true));
                 format!(
-                    "{}; {}. Where second order or another estimator brings rows BA along: {} and {}",
+                    "{}; {}. With rows BA, which second order and some estimators need: {} and {}",
                     FirstOrder::SaltelliPooled.source(),
                     Total::JansenPooled.source(),
                     first.name(),
@@ -63,8 +63,8 @@ fn estimators() -> String {
         sources.push_str(&format!("{}: {named}\n", estimator.name()));
     }
     format!(
-        "{rows}\nd counts factors, groups, subsets and the dummy. Ask for them in a study by [analysis] estimators = \
-         [\"azzini\", \"jansen\"]; the default ones are always there.\n\n{sources}"
+        "{rows}\nd is the number of factors, groups, subsets and the dummy. Request estimators in a study with [analysis] estimators = \
+         [\"azzini\", \"jansen\"]; the default ones are always included.\n\n{sources}"
     )
 }
 
@@ -91,7 +91,7 @@ fn list() -> String {
         let inputs = if kind.is_users_own() { "any".to_owned() } else { kind.inputs().len().to_string() };
         models.add_row([kind.name, &inputs, kind.description]);
     }
-    format!("{models}\n\n`apportion models NAME` shows one of them in full.\n")
+    format!("{models}\n\n`apportion models NAME` shows one in full.\n")
 }
 
 fn inputs_and_outputs(kind: ModelKind) -> String {

@@ -14,10 +14,10 @@ use super::{Failure, quoted, say};
 pub struct Arguments {
     /// The study file to write (TOML)
     study: PathBuf,
-    /// The model: afm, expression, command (a program of your own), or a function of `apportion models`
+    /// The model: afm, expression, command (your own program), or a function of `apportion models`
     #[arg(long, value_name = "NAME", default_value = "afm")]
     model: String,
-    /// Inputs that become factors, separated by commas [default: the main ones; of a function all]
+    /// Inputs that become factors, separated by commas [default: the main ones; for a function all]
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     factors: Vec<String>,
     /// Outputs, separated by commas [default: the main one]
@@ -26,7 +26,7 @@ pub struct Arguments {
     /// Title of the study
     #[arg(long, value_name = "TEXT")]
     title: Option<String>,
-    /// Overwrite a file that exists
+    /// Overwrite an existing file
     #[arg(long)]
     force: bool,
 }
@@ -69,11 +69,11 @@ pub fn new(arguments: &Arguments) -> Result<(), Failure> {
 /// Writes the program next to its study, unless there is one: it may be somebody's work.
 fn write_program(path: &Path, text: &str) -> Result<(), Failure> {
     if path.exists() {
-        say(&format!("{} is there already and stays as it is", path.display()));
+        say(&format!("{} exists already and is not changed", path.display()));
         return Ok(());
     }
     write_atomically(path, text.as_bytes())?;
-    say(&format!("wrote {}: the model, a sum to be replaced", path.display()));
+    say(&format!("wrote {}: the model, a sum for you to replace", path.display()));
     Ok(())
 }
 

@@ -11,11 +11,11 @@ use super::{Failure, counted, print, say};
 
 #[derive(clap::Args)]
 pub struct ChartArguments {
-    /// Formats of the charts in the folder `charts`, separated by commas: svg, png, pdf; or none. The page has its charts inside
+    /// Formats of the charts in the folder `charts`, separated by commas: svg, png, pdf; or none. The page contains its own charts
     #[arg(long, value_name = "FORMATS", default_value = "svg,png", value_parser = formats)]
     charts: Formats,
-    /// Width of the charts in the folder `charts` on paper, such as 88mm or 180mm: without title and caption, which the text of
-    /// a paper has, letters of 7 to 9 pt at that width, PNG with 600 dpi, PDF in that size [default: a page column, with title and caption]
+    /// Width of the charts in the folder `charts` for print, such as 88mm or 180mm: without title and caption, which belong into the
+    /// text of a paper; letters of 7 to 9 pt, PNG with 600 dpi, PDF in this size [default: a page column, with title and caption]
     #[arg(long, value_name = "WIDTH")]
     chart_width: Option<PaperWidth>,
 }
@@ -95,7 +95,7 @@ pub fn deliver(artefacts: &Artefacts, document: &Document) -> Result<(), Failure
     let ends_with = |path: &Path, ending: &str| path.extension().is_some_and(|of| of == ending);
     let (live, data): (Vec<&PathBuf>, Vec<&PathBuf>) = written.data.iter().partition(|path| is_live(path));
     let names = live.iter().filter_map(|path| path.file_name()).map(|name| name.to_string_lossy());
-    let live: String = names.map(|name| format!(", and {name} to try other ranges in")).collect();
+    let live: String = names.map(|name| format!(", and the interactive page {name}")).collect();
     say(&format!("wrote {}{live}", written.page.display()));
     let (json, others): (Vec<&PathBuf>, Vec<&PathBuf>) = data.into_iter().partition(|path| ends_with(path, "json"));
     match (&json[..], others.len()) {
@@ -123,7 +123,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn live_pages_are_told_from_animations() {
+    fn live_pages_are_distinguished_from_animations() {
         assert!(is_live(Path::new("out/ishigami-live.html")) && is_live(Path::new("live.html")));
         assert!(!is_live(Path::new("charts/ts04-14-animation.html")) && !is_live(Path::new("alive.json")));
     }

@@ -15,7 +15,7 @@ use super::{Failure, same_file, say};
 pub struct Arguments {
     /// The result of a run (NAME.json)
     result: PathBuf,
-    /// Folder for what is drawn [default: that of the result]
+    /// Folder for the page, tables and charts [default: that of the result]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     #[command(flatten)]
@@ -43,7 +43,7 @@ pub fn report(arguments: &Arguments) -> Result<(), Failure> {
     arguments.live.place_next_to(&mut document, &result);
     if result.provenance.apportion_version != env!("CARGO_PKG_VERSION") {
         let version = &result.provenance.apportion_version;
-        say(&format!("note: the numbers are those of apportion {version}; only the drawing is this version's"));
+        say(&format!("note: the numbers are from apportion {version}; only the page and charts are from this version"));
     }
     deliver(&arguments.charts.artefacts(folder), &document)
 }
@@ -53,7 +53,7 @@ fn refuse_another(json: &Path, bytes: &[u8]) -> Result<(), Failure> {
     match read_whole(json) {
         Ok(there) if there != bytes => {
             let message =
-                "is another result, whose page and charts would be overwritten: give another folder with --out";
+                "is another result, and its page and charts would be overwritten: give another folder with --out";
             Err(Failure::Input(anyhow!("{} {message}", json.display())))
         }
         _ => Ok(()),

@@ -20,10 +20,10 @@ pub struct Arguments {
     /// Folder for the results
     #[arg(long, value_name = "DIR", default_value = "results/reproduce")]
     out: PathBuf,
-    /// Fewer points and repetitions: a look within seconds
+    /// Fewer points and repetitions, for results within seconds
     #[arg(long)]
     quick: bool,
-    /// A single part of the page: the figures, or the verdicts on the claims with the percentages
+    /// Only one part of the page: the figures, or the verdicts on the claims with the percentages
     #[arg(long, value_name = "PART")]
     only: Option<Topic>,
     #[command(flatten)]

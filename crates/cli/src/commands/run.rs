@@ -41,26 +41,26 @@ pub struct Arguments {
 /// What becomes of runs that are on record.
 #[derive(clap::Args)]
 struct RecordArguments {
-    /// Resume an interrupted run; refused if its journal is missing or of another study. (Without this option a journal
-    /// of the same study is used if there is one)
+    /// Resume an interrupted run; an error if its journal is missing or of another study. (Without this option a journal
+    /// of the same study is used if it exists)
     #[arg(long, conflicts_with_all = ["restart", "no_journal"])]
     resume: bool,
     /// Evaluate the runs that failed again, and keep all others
     #[arg(long, conflicts_with_all = ["restart", "no_journal"])]
     retry_failed: bool,
-    /// Evaluate every run again; a journal that is there is moved aside
+    /// Evaluate every run again; an existing journal is renamed
     #[arg(long)]
     restart: bool,
-    /// Keep a journal however quick the runs are (without this option: if they take longer than 10 s, or the model is a program)
+    /// Always keep a journal (without this option: if the runs take longer than 10 s, or the model is a program)
     #[arg(long, conflicts_with = "no_journal")]
     journal: bool,
     /// Neither use nor write a journal
     #[arg(long)]
     no_journal: bool,
-    /// Twice the base samples of the result in the folder, whose runs are kept
+    /// Double the base samples of the result in the folder, and keep its runs
     #[arg(long, conflicts_with_all = ["base_samples", "accuracy", "runs", "shard"])]
     double: bool,
-    /// Evaluate one of N parts of the runs into a journal of its own, for `apportion merge`
+    /// Evaluate one of N shards of the runs and write its own journal, for `apportion merge`
     #[arg(long, value_name = "I/N", conflicts_with_all = ["no_journal", "retry_failed"])]
     shard: Option<Shard>,
 }
@@ -93,7 +93,7 @@ pub fn run(arguments: &Arguments, others: Option<&dyn Ranks>) -> Result<(), Fail
     let saved = match &arguments.save_outputs {
         None => None,
         Some(_) if study.target().accuracy.is_some() => {
-            let why = "with `accuracy` the run chooses its rows: run once more with the lines that the result shows";
+            let why = "with `accuracy` the run chooses its rows: run again with the lines that the result shows";
             return Err(Failure::Input(anyhow!("--save-outputs: {why}")));
         }
         Some(path) => {
@@ -191,8 +191,8 @@ fn study_of(arguments: &Arguments) -> Result<Study, Failure> {
             let (option, accuracy) =
                 if double { ("--double", spending.accuracy / 2.0) } else { ("--retry-failed", spending.accuracy) };
             return Err(Failure::Input(anyhow!(
-                "{option}: {} is of a run that was asked for an accuracy, and chose its design by itself: ask for one again, \
-                 which goes on with its runs: --accuracy {accuracy}",
+                "{option}: {} is from a run with an accuracy, which chose its own design: use \
+                 --accuracy {accuracy} instead, which continues with its runs",
                 json.display()
             )));
         }
@@ -200,7 +200,7 @@ fn study_of(arguments: &Arguments) -> Result<Study, Failure> {
     }
     if plain_rows != study.design().plain_rows() {
         return Err(Failure::Input(anyhow!(
-            "{}: the result is of another design than the study: run it again",
+            "{}: the result has another design than the study: run the study again",
             json.display()
         )));
     }
@@ -221,7 +221,7 @@ pub fn deliver(
     let Some(first) = lost.first() else { return Ok(()) };
     let others = if lost.len() > 1 { format!(" and of {} more outputs", lost.len() - 1) } else { String::new() };
     Err(Failure::Run(anyhow!(
-        "no indices of {}{others}: too many runs failed (max_failed = {} in [analysis]; the result says which and why)",
+        "no indices of {}{others}: too many runs failed (max_failed = {} in [analysis]; the result lists them with their reasons)",
         first.name,
         study.analysis().max_failed
     )))
@@ -238,11 +238,11 @@ fn with_journal(study: &Study, error: RunError, journal: Option<&Path>) -> Failu
         (RunError::Interrupted { .. } | RunError::GaveUp(_) | RunError::NotKept { .. }, Some(journal)) => {
             // Rows that failed before the model gave up must be retried once the model is repaired.
             let (option, again) = match error {
-                RunError::GaveUp(_) => ("--retry-failed", ", and evaluates those that failed again"),
+                RunError::GaveUp(_) => ("--retry-failed", " and to evaluate the failed runs again"),
                 _ => ("--resume", ""),
             };
             let path = journal.display();
-            format!("\nfinished runs are kept in {path}: the same command with {option} goes on with them{again}")
+            format!("\ncompleted runs are saved in {path}: repeat the command with {option} to continue{again}")
         }
         (RunError::Interrupted { .. }, _) => "\nno journal was kept: the runs are lost".to_owned(),
         _ => return with_inputs(study, error),

@@ -16,19 +16,17 @@ use super::{DesignChanges, Failure, StudyArguments, counted, say, say_notes};
 const MAX_RANDOM: u64 = 2 * apportion::design::MAX_POINTS;
 
 #[derive(clap::Args)]
-#[command(
-    after_help = "Beside FILE, FILE.manifest.json says whose points they are: keep them together. When the outputs \
-                        are there: apportion analyze OUTPUTS --design FILE"
-)]
+#[command(after_help = "FILE.manifest.json next to FILE describes the points: keep them together. When the outputs \
+                        are computed: apportion analyze OUTPUTS --design FILE")]
 pub struct Arguments {
     #[command(flatten)]
     study: StudyArguments,
     #[command(flatten)]
     design: DesignChanges,
-    /// Random points instead of those of the design, so many: for few runs, whose table `apportion given-data` reads
+    /// Write N random points instead of those of the design: for few runs, analysed with `apportion given-data`
     #[arg(long, value_name = "N", conflicts_with_all = ["base_samples", "accuracy", "runs"], value_parser = clap::value_parser!(u64).range(1..=MAX_RANDOM))]
     random: Option<u64>,
-    /// Overwrite a file that exists and is no design of this study
+    /// Overwrite an existing file that is not a design of this study
     #[arg(long)]
     force: bool,
     /// The file for the points, .csv or .npy [default: NAME-design.csv, or NAME-random.csv]
@@ -45,13 +43,13 @@ pub fn sample(arguments: &Arguments) -> Result<(), Failure> {
     let format = Format::from_path(&path).map_err(|error| Failure::Input(anyhow!("{}: {error}", path.display())))?;
     let beside = Manifest::path_for(&path);
     if !arguments.force && path.is_file() && !is_own(&path, study.name()) {
-        let what = "exists already, and is no design that `sample` wrote of this study";
+        let what = "exists already, and is not a design that `sample` wrote of this study";
         return Err(Failure::Input(anyhow!("{} {what}: give another name, or add --force", path.display())));
     }
     prepare_file(&path)?;
     prepare_file(&beside)?;
     if arguments.random.is_none() && study.target().grows() {
-        say("note: the study grows until it knows enough, but a file does not: these are the points it begins with");
+        say("note: a run of this study adds points until its target is met: these are its first points");
     }
     // A manifest of other points must not stay after they are replaced.
     match std::fs::remove_file(&beside) {

@@ -13,7 +13,7 @@ whose first line names the schema:
   #:schema ./study.schema.json"
 )]
 pub struct Arguments {
-    /// Of which files
+    /// The kind of file
     kind: Kind,
 }
 

@@ -21,10 +21,10 @@ use super::{Failure, StudyArguments, Threads, say, whole_number};
 pub struct Arguments {
     #[command(flatten)]
     study: StudyArguments,
-    /// Trajectories; each costs one run more than there are factors
+    /// Number of trajectories; each costs (1 + factors) runs
     #[arg(long, value_name = "R", default_value_t = 32, value_parser = trajectories, allow_negative_numbers = true)]
     trajectories: u64,
-    /// How the points are laid out: radial (Campolongo et al. 2011, by the study's sampler), trajectory (Morris 1991), or derivative
+    /// Design of the points: radial (Campolongo et al. 2011, by the study's sampler), trajectory (Morris 1991), or derivative
     /// (Sobol' and Kucherenko 2009: short steps, with bounds on total indices)
     #[arg(long, default_value = "radial", value_parser = ["radial", "trajectory", "derivative"])]
     design: String,
@@ -58,7 +58,7 @@ impl Arguments {
         let design = match (&*self.design, self.levels) {
             ("trajectory", levels) => ScreeningDesign::Trajectory { levels: levels.unwrap_or(4) },
             (name, Some(levels)) => {
-                let message = format!("--levels is of no account to the {name} design: add --design trajectory");
+                let message = format!("--levels has no effect on the {name} design: add --design trajectory");
                 return Err(Failure::Input(anyhow!("--levels {levels}: {message}")));
             }
             ("derivative", None) => ScreeningDesign::Derivative { sampler },

@@ -13,7 +13,7 @@ pub struct Arguments {
     study: StudyArguments,
     #[command(flatten)]
     output: OutputArguments,
-    /// How long to simulate, as in "0.4 s" [default: twice the critical time]
+    /// Simulated time, as in "0.4 s" [default: twice the critical time]
     #[arg(long, value_name = "TIME", value_parser = parse_time, allow_hyphen_values = true)]
     duration: Option<f64>,
     /// Draw the mode diagram instead: the force at which the particle slides, slips at the tip, rolls or spins

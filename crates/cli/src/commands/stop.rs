@@ -14,10 +14,10 @@ pub fn on_signal() -> &'static AtomicBool {
             if STOP.swap(true, Ordering::SeqCst) {
                 std::process::exit(1);
             }
-            super::say("stopping: what is under way is brought to an end (once more ends the program at once)");
+            super::say("stopping after the runs in progress (press Ctrl-C again to stop at once)");
         };
         if let Err(error) = ctrlc::set_handler(handler) {
-            super::say(&format!("warning: Ctrl-C will end the program at once: {error}"));
+            super::say(&format!("warning: Ctrl-C will stop the program at once: {error}"));
         }
     });
     &STOP
@@ -27,7 +27,7 @@ pub fn on_signal() -> &'static AtomicBool {
 #[cfg(feature = "mpi")]
 pub fn leave_to_another() {
     if let Err(error) = ctrlc::set_handler(|| ()) {
-        super::say(&format!("warning: Ctrl-C will end this rank at once: {error}"));
+        super::say(&format!("warning: Ctrl-C will stop this rank at once: {error}"));
     }
 }
 

@@ -12,7 +12,7 @@ pub struct TableArguments {
     /// The first line of the table is a row, not a header
     #[arg(long)]
     no_header: bool,
-    /// Numbers that stand for a missing value, such as -9999, separated by commas
+    /// Numbers that mean a missing value, such as -9999, separated by commas
     #[arg(long, value_name = "X", value_delimiter = ',', allow_hyphen_values = true)]
     missing_value: Vec<f64>,
 }
@@ -33,7 +33,7 @@ pub fn say_of_table(path: &Path, skipped: &[String], unended: bool) {
     }
     if unended {
         say(&format!(
-            "warning: {path}: the last line has no end: if the file was cut short, its last number may be wrong"
+            "warning: {path}: the last line has no line end: if the file was cut short, its last number may be wrong"
         ));
     }
 }

@@ -22,22 +22,22 @@ const QUICK_SECONDS: f64 = 40.0;
 pub struct Arguments {
     #[command(flatten)]
     study: StudyArguments,
-    /// Map what becomes of the study at its extremes instead: numbers that are right, flagged, or refused with a reason
+    /// Map the study at its extremes instead: numbers that are right, flagged, or refused with a reason
     #[arg(long)]
     extremes: bool,
-    /// About how many points the model is evaluated at, besides the steps past its bounds [default: 600; of a program, 160]
+    /// Approximate number of points, in addition to the steps past the bounds [default: 600; for a program 160]
     #[arg(long, value_name = "N", requires = "extremes", value_parser = clap::value_parser!(u64).range(1..=10_000_000))]
     cells: Option<u64>,
     /// Seed of the points that are chosen at random [default: the study's]
     #[arg(long, value_name = "S", requires = "extremes", value_parser = whole_number)]
     seed: Option<u64>,
-    /// Compare settings for less than a minute, not for five
+    /// Compare settings for less than a minute instead of five
     #[arg(long, conflicts_with_all = ["extremes", "seconds"])]
     quick: bool,
-    /// Compare settings for about so many seconds [default: 300]
+    /// Approximate time of the comparison in seconds [default: 300]
     #[arg(long, value_name = "S", conflicts_with = "extremes", value_parser = parse_seconds)]
     seconds: Option<f64>,
-    /// Seeds of every setting; the largest of their errors counts
+    /// Number of seeds for every setting; the largest of their errors counts
     #[arg(long, value_name = "N", default_value_t = 3, conflicts_with = "extremes", value_parser = clap::value_parser!(u64).range(1..=1000))]
     seeds: u64,
     #[command(flatten)]
@@ -55,8 +55,8 @@ pub fn trade(arguments: &Arguments) -> Result<(), Failure> {
     let study = arguments.study.load()?;
     if !study.space().dependences().is_empty() {
         return Err(Failure::Input(anyhow!(
-            "factors of this study depend on each other, and what is compared here, surrogates, cheaper models and other samplers, \
-             serves independent ones: expected a study without [[dependence]]"
+            "factors of this study depend on each other, but this command compares surrogates, cheaper models and samplers, \
+             which need independent factors: expected a study without [[dependence]]"
         )));
     }
     let artefacts = arguments.output.artefacts(study.name());
@@ -104,6 +104,6 @@ fn trade_extremes(study: &Study, arguments: &Arguments, artefacts: &Artefacts) -
     deliver(artefacts, &extremes_document(&build_extremes(study, settings.seed, &map)))?;
     match map.counts.wrong {
         0 => Ok(()),
-        wrong => Err(Failure::Run(anyhow!("{wrong} numbers are silently wrong: see the reasons"))),
+        wrong => Err(Failure::Run(anyhow!("{wrong} numbers are silently wrong: see the table of reasons"))),
     }
 }

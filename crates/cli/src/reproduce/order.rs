@@ -155,7 +155,7 @@ mod tests {
     }
 
     #[test]
-    fn an_order_holds_where_neighbours_are_apart() {
+    fn an_order_holds_if_neighbours_differ() {
         let shares = [share("length", 34.0, 1.0), share("width", 19.0, 1.0), share("thickness", 47.0, 1.0)];
         let with = |height| [&shares[..], &[height]].concat();
         assert_eq!(agreement(&with(share("height", 3.0, 1.0))), Agreement::Same);
@@ -167,7 +167,7 @@ mod tests {
 
     /// With few points the intervals of length and thickness overlap: that decides nothing.
     #[test]
-    fn overlapping_neighbours_decide_nothing() {
+    fn overlapping_neighbours_are_undecided() {
         let shares = [
             share("length", 42.3, 3.9),
             share("width", 17.5, 3.4),
@@ -182,7 +182,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_be_seen_has_no_order_and_what_is_not_published_must_not_be_seen() {
+    fn invisible_shares_have_no_order_and_unpublished_ones_must_be_invisible() {
         let tail = [share("thickness", 99.0, 0.5), share("length", 0.1, 0.01), share("width", 0.3, 0.01)];
         let verdict = order_verdict(&tail, &PUBLISHED[..3]);
         assert_eq!((verdict.agreement(), verdict.unseen), (Agreement::Beginning, vec!["length", "width"]));

@@ -109,7 +109,7 @@ pub(crate) fn pushing(story: &SceneStory) -> Chart {
     let (largest, at) = (force(largest), force(story.critical.critical_force));
     let caption = match story.slip().map(time) {
         Some(slip) => format!("The pushing force reaches the critical force of {at} after {slip}."),
-        None => format!("The pushing force is {largest} at most in the time shown; the critical force is {at}."),
+        None => format!("The pushing force is at most {largest} in the time shown; the critical force is {at}."),
     };
     chart(story, ["Pushing force against critical force", &caption], ["Force", "nN"], &curves)
 }
@@ -130,14 +130,14 @@ fn positions_caption(story: &SceneStory) -> String {
     let at_slip = story.slip().and_then(|slip| story.nearest(slip));
     match at_slip {
         Some(slip) => format!(
-            "Substrate and particle travel together for {}; at {} the particle stands {} from where it was on the \
+            "Substrate and particle travel together for {}; at {} the particle is {} from its start on the \
              substrate.",
             length(slip.substrate),
             time(last.time),
             length(last.relative)
         ),
         None => format!(
-            "At {} the substrate has travelled {}, and the particle stands {} from where it was on it.",
+            "At {} the substrate has travelled {}, and the particle is {} from its start on it.",
             time(last.time),
             length(last.substrate),
             length(last.relative)
@@ -190,7 +190,7 @@ fn contacts_caption(story: &SceneStory) -> String {
     )
 }
 
-const NO_SAMPLES: &str = "The story holds no sample.";
+const NO_SAMPLES: &str = "There are no samples.";
 
 /// Formats a relative size.
 fn bound(spread: f64) -> String {
@@ -230,8 +230,8 @@ mod tests {
         );
         assert_eq!(
             positions(&story).caption(),
-            "Substrate and particle travel together for 13.1 nm; at 0.400 s the particle stands \u{2212}26.9 nm from \
-             where it was on the substrate."
+            "Substrate and particle travel together for 13.1 nm; at 0.400 s the particle is \u{2212}26.9 nm from \
+             its start on the substrate."
         );
         assert!(contacts(&story).caption().contains("+27.0 % at the tip and less than 0.001 % (down)"));
         let mut early = story;

@@ -150,7 +150,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_finite_is_empty_or_null() {
+    fn values_that_are_not_finite_are_empty_or_null() {
         let mut story = nominal_story();
         story.samples.truncate(1);
         story.samples[0].state.force_angle = f64::NAN;

@@ -47,7 +47,7 @@ fn mode_line(diagram: &ModeDiagram, line: &ModeLine) -> Mark {
 /// Says which modes begin at the scene's own angle, the one of the smallest force first.
 fn caption(diagram: &ModeDiagram) -> String {
     let (angle, scene_force) = diagram.current;
-    let Some(place) = nearest(&diagram.angle, angle) else { return "The diagram holds no angle.".to_owned() };
+    let Some(place) = nearest(&diagram.angle, angle) else { return "The diagram has no angles.".to_owned() };
     let mut modes: Vec<(&str, f64)> = diagram.forces.iter().filter_map(|line| at(line, place)).collect();
     modes.sort_by(|a, b| a.1.total_cmp(&b.1));
     let said: Vec<String> = modes.iter().map(|(mode, least)| format!("{mode} at {}", force(*least))).collect();
@@ -93,7 +93,7 @@ mod tests {
     }
 
     #[test]
-    fn the_diagram_is_drawn_and_says_what_it_shows() {
+    fn the_diagram_is_drawn_with_a_caption() {
         let svg = mode_diagram_chart(&diagram()).svg();
         Document::parse(&svg).unwrap();
         assert!(!svg.contains("NaN") && !svg.contains("inf"));

@@ -85,7 +85,7 @@ mod tests {
     }
 
     #[test]
-    fn the_page_needs_nothing_else() {
+    fn the_page_needs_no_other_files() {
         let page = page(&nominal_story());
         let own = page.replace("http://www.w3.org/2000/svg", "");
         for outside in ["http:", "https:", "src=", "@import", "url(", "//cdn", "fetch("] {

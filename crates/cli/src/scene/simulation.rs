@@ -14,7 +14,7 @@ use crate::scene::{ModeDiagram, ModeLine, SceneSample, SceneStory, law_colour};
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum SimulationError {
     /// The study has another model.
-    #[error("only the nanoparticle model (model = \"afm\") has a scene in time, and this study is about `{0}`")]
+    #[error("only the nanoparticle model (model = \"afm\") has a scene in time, but the model of this study is `{0}`")]
     NoScene(&'static str),
     /// The scene has no solution.
     #[error("the scene cannot be simulated: {0}")]

@@ -67,7 +67,7 @@ const follow = async () => {
     if (description && JSON.stringify(found) !== JSON.stringify(state)) remember();
     state = { preset, factors, choices, output };
   } catch (error) {
-    notice = "The link is damaged, or of another page: this is the study as it was.";
+    notice = "The link is damaged or from another page: this is the original study.";
   }
   return fresh();
 };
@@ -121,7 +121,7 @@ const tabulate = () => {
     return row(factor.name, said(current(factor)), said(factor));
   });
   const choices = description.choices.map(({ name, value }) => row(name, state.choices[name] || String(value), String(value)));
-  const head = make("thead", {}, make("tr", {}, ...["factor or choice", "as it is here", ""].map((text) => make("th", { scope: "col" }, text))));
+  const head = make("thead", {}, make("tr", {}, ...["factor or choice", "current value", ""].map((text) => make("th", { scope: "col" }, text))));
   const caption = make("caption", {}, "The factors with their distributions, and the choices of the model.");
   const table = make("table", {}, caption, head, make("tbody", {}, ...factors, ...choices));
   at("ranges").replaceChildren(at("ranges-heading"), make("div", { className: "table" }, table));
@@ -438,7 +438,7 @@ at("toml").onclick = async () => {
 at("link").onclick = () => offer("Link", location.href);
 (async () => {
   if (!engineThread) {
-    at("state").textContent = "This browser has no WebAssembly: what you see is the result for the ranges of the study file.";
+    at("state").textContent = "This browser has no WebAssembly: this is the result for the ranges of the study file.";
     return;
   }
   try {
@@ -453,6 +453,6 @@ at("link").onclick = () => offer("Link", location.href);
     // For those who measure.
     window.apportion = { ask: (request) => tell(request).then(({ answer }) => answer) };
   } catch (error) {
-    at("state").textContent = `The engine could not be started (${error}): what you see is the result for the ranges of the study file.`;
+    at("state").textContent = `The engine could not be started (${error}): this is the result for the ranges of the study file.`;
   }
 })();

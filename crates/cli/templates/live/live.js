@@ -143,7 +143,7 @@ const refuse = (problem, isOld = true) => {
   document.body.classList.toggle("old", Boolean(problem) && isOld);
   const said = beside ? `${words(factor)}: ${plain(rest)}` : plain(problem || "");
   const sentence = /[.!?]$/.test(said) ? said : `${said}.`;
-  place.textContent = problem && isOld ? `No new result: ${sentence} The numbers below are old: those before this change.` : said;
+  place.textContent = problem && isOld ? `No new result: ${sentence} The numbers below are from before this change.` : said;
   refused = { settings: problem && isOld ? JSON.stringify(state) : null, problem };
   for (const hear of hearers.splice(0)) hear();
 };

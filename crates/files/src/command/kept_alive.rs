@@ -146,13 +146,13 @@ impl<'a> KeptAliveWorker<'a> {
                 Lookup::Answered => {
                     return Err(Fault::GiveUp(
                         RowFailure::new(&format!(
-                            "the program answered the row with the number {number} twice: which of the answers is right is \
-                             unknown; print one line for each row"
+                            "the program answered row {number} twice, so the right answer is unknown: print one line \
+                             for each row"
                         ))
                         .into(),
                     ));
                 }
-                Lookup::Unknown => format!("{number} as the number of a row, which is not one of those asked"),
+                Lookup::Unknown => format!("{number}, which is not the number of a requested row"),
             },
         };
         if !model.state.has_answered() || is_answer_without_number(protocol, &model.names, line) {
@@ -161,16 +161,16 @@ impl<'a> KeptAliveWorker<'a> {
                 Protocol::JsonLines => r#"print(json.dumps({"id": row["id"], "y": y}), flush=True)"#,
             };
             let reason = format!(
-                "the program printed a line without the number of its row: {words}. Each row begins with its number, `id`, and each \
-                 answer with that of its row, in Python as in `{change}` (other languages: docs/worker-protocol.md). All other output \
-                 belongs on standard error"
+                "the program printed a line without the number of its row: {words}. Each row begins with its number, `id`; begin each \
+                 answer with the same number, in Python with `{change}` (other languages: docs/worker-protocol.md). Print all other output \
+                 on standard error"
             );
             return Err(Fault::GiveUp(GiveUp { reason: RowFailure::new(&reason), is_bad_input: true }));
         }
         State::send_once(
             &model.state.strayed,
             self.context.messages(),
-            &format!("warning: the program printed a line that is no answer, which is left out: {words}"),
+            &format!("warning: the program printed a line that is not an answer and is ignored: {words}"),
         );
         session.note_stray(words, line.len());
         if session.strayed > LONGEST { Err(Fault::LongLine) } else { Ok(()) }
@@ -191,8 +191,8 @@ impl<'a> KeptAliveWorker<'a> {
             State::send_once(
                 &state.hinted,
                 self.context.messages(),
-                "still waiting for the program's first answer: it may still be starting (imports), be long over its \
-                 first row, or not flush what it prints, as print(..., flush=True) does",
+                "still waiting for the program's first answer: it may still be starting (imports), need long for its \
+                 first row, or not flush its output, as print(..., flush=True) does",
             );
         }
         if silent_for > quiet {

@@ -175,7 +175,7 @@ impl<'a> PerRunWorker<'a> {
             let Some(pick) = &output.pick else { continue };
             let number = match &pick.source {
                 Source::File(name) if is_from_before(&directory.join(name)) => {
-                    Err(format!("the run left `{name}` as it was before"))
+                    Err(format!("the run did not change `{name}`"))
                 }
                 _ => pick.number(&mut texts),
             };

@@ -109,7 +109,7 @@ impl Source {
         let unreadable = |reason: String| format!("`{file}` cannot be read: {reason}");
         match std::fs::metadata(&path) {
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
-                return Err(format!("the run left no file `{file}`"));
+                return Err(format!("the run wrote no file `{file}`"));
             }
             Err(error) => return Err(unreadable(error.to_string())),
             Ok(data) if data.len() > MAX_BYTES => return Err(unreadable("it has more than 256 MiB".to_owned())),
@@ -197,7 +197,7 @@ impl Way {
                 }
             }
         };
-        number(&found).ok_or_else(|| format!("what was found in {of} is not a number: `{}`", masked(&found)))
+        number(&found).ok_or_else(|| format!("the text found in {of} is not a number: `{}`", masked(&found)))
     }
 }
 
@@ -244,7 +244,7 @@ mod tests {
         assert_eq!(found(regex(r"\d+\.\d+", Match::First), text), Ok(1.5));
         assert_eq!(found(regex("time", Match::Last), text).unwrap_err(), "nothing in it matches the regex");
         let rubbish = found(regex("(force.*)", Match::Last), text).unwrap_err();
-        assert!(rubbish.starts_with("what was found in it is not a number: `force = #"), "{rubbish}");
+        assert!(rubbish.starts_with("the text found in it is not a number: `force = #"), "{rubbish}");
     }
 
     #[test]
@@ -268,7 +268,7 @@ mod tests {
         assert_eq!(found(pointer("/a~1b/1/s"), text), Ok(7.0));
         assert!(found(pointer("/a~1b/1/n"), text).unwrap().is_nan());
         assert_eq!(found(pointer("/a/b"), text).unwrap_err(), "it has no value at `/a/b`");
-        assert_eq!(found(pointer("/a~1b/1/l"), text).unwrap_err(), "what was found in it is not a number: `[#]`");
+        assert_eq!(found(pointer("/a~1b/1/l"), text).unwrap_err(), "the text found in it is not a number: `[#]`");
         assert_eq!(found(pointer("/a"), "{").unwrap_err(), "it is not JSON");
     }
 
@@ -289,10 +289,10 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_there_is_named() {
+    fn a_missing_file_is_named() {
         let folder = tempfile::tempdir().unwrap();
         let pick = Pick { source: Source::File("out.txt".to_owned()), way: regex("1", Match::First) };
         let error = pick.number(&mut Texts::new(folder.path(), Path::new("stdout"))).unwrap_err();
-        assert_eq!(error.to_string(), "the run left no file `out.txt`");
+        assert_eq!(error.to_string(), "the run wrote no file `out.txt`");
     }
 }

@@ -52,10 +52,10 @@ impl Program {
                 format!("a path with a slash is relative to {}", self.directory.display())
             }
             io::ErrorKind::PermissionDenied => {
-                "make it executable, or name what runs it first, as in [\"python3\", \"my_model.py\"]".to_owned()
+                "make it executable, or name its interpreter first, as in [\"python3\", \"my_model.py\"]".to_owned()
             }
             _ if error.to_string().contains("format") => {
-                "begin it with a line such as #!/bin/sh, or name what runs it first".to_owned()
+                "begin it with a line such as #!/bin/sh, or name its interpreter first".to_owned()
             }
             _ => "try it by hand".to_owned(),
         };

@@ -153,7 +153,7 @@ mod tests {
     }
 
     #[test]
-    fn what_has_no_value_is_not_a_number() {
+    fn missing_values_are_nan() {
         for line in ["7,nan", "7,NaN", "7,-nan", "7,"] {
             assert!(read(Protocol::Csv, 1, line).unwrap().1.unwrap()[0].is_nan(), "{line}");
         }
@@ -175,7 +175,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_answer_behind_a_number_is_said() {
+    fn invalid_answers_after_a_row_number_are_reported() {
         let words = |protocol, line: &str| read(protocol, 2, line).unwrap().1.unwrap_err();
         let cells = "not an answer: expected the row's number and 2 numbers, separated by commas, found";
         assert_eq!(words(Protocol::Csv, "7,1.5"), format!("{cells} 1 cell: `#`"));

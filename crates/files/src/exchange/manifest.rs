@@ -173,7 +173,7 @@ impl Manifest {
         }
         if version > VERSION {
             return refused(format!(
-                "version {version} of the manifest's format is not known here (up to {VERSION} is)"
+                "format version {version} of the manifest is unknown: this program reads versions up to {VERSION}"
             ));
         }
         serde_json::from_str(text).map_err(not_one)
@@ -196,12 +196,12 @@ impl Manifest {
         if study.sha256() != *sha256 {
             let found = study.sha256();
             return refused(format!(
-                "the study in the manifest has been changed since `sample` wrote it: its SHA-256 is {found}, not {sha256}"
+                "the study in the manifest was changed after `sample` wrote it: its SHA-256 is {found}, not {sha256}"
             ));
         }
         if self.design != Self::new(&study, Path::new(file), self.design.sha256.clone()).design {
             return refused(
-                "the design of the manifest is not that of its study: it was changed since `sample` wrote it",
+                "the design of the manifest is not that of its study: it was changed after `sample` wrote it",
             );
         }
         Ok(study.with_target(Target::default()))

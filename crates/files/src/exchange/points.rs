@@ -44,7 +44,7 @@ impl<'a> PointsReader<'a> {
             } else {
                 let (column, hint) = (place + 1, did_you_mean(&nearest(&name, known())));
                 return refused(format!(
-                    "column {column}: `{name}` is no factor of the study{hint}; its factors are {}",
+                    "column {column}: `{name}` is not a factor of the study{hint}; its factors are {}",
                     known_text()
                 ));
             }

@@ -90,7 +90,7 @@ pub fn read_table(reader: &mut dyn RowReader, selection: &Selection<'_>) -> Resu
         chosen.iter().map(|&place| Column { name: names[place].clone(), values: Vec::new() }).collect();
     let not_a_number = |place: String, at: usize, found: String| {
         let is_chosen = !selection.inputs.is_empty() || outputs.contains(&at);
-        let advice = if is_chosen { "" } else { "; if the column is no input, name the inputs (--inputs)" };
+        let advice = if is_chosen { "" } else { "; if the column is not an input, name the inputs (--inputs)" };
         let (column, name) = (at + 1, &names[at]);
         TableError::Refused(format!(
             "{place}: column {column} (`{name}`): expected a finite number, not {found:?}{advice}; {remedy}"
@@ -149,7 +149,7 @@ fn places(names: &[String], selection: &Selection<'_>) -> Result<(Vec<usize>, Ve
     let place = |name: &String| column_of(names, name);
     let asked: Vec<&String> = selection.outputs.iter().chain(selection.inputs).collect();
     if let Some(k) = (1..asked.len()).find(|&k| asked[..k].contains(&asked[k])) {
-        return refused(format!("`{}` is asked for twice: each column can be one input or one output", asked[k]));
+        return refused(format!("`{}` is listed twice: each column can be one input or one output", asked[k]));
     }
     let outputs = selection.outputs.iter().map(place).collect::<Result<Vec<_>, _>>()?;
     let mut inputs = selection.inputs.iter().map(place).collect::<Result<Vec<_>, _>>()?;

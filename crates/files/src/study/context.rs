@@ -51,7 +51,7 @@ pub(super) fn unknown_name<'a>(
 /// Returns the error for a key that the table does not have.
 pub(super) fn unknown_key<'a>(name: &str, known: impl Iterator<Item = &'a str> + Clone) -> Problem {
     let hint = did_you_mean(&meant(name, known.clone()));
-    let help = format!("keys that can stand here: {}", known.collect::<Vec<_>>().join(", "));
+    let help = format!("keys allowed here: {}", known.collect::<Vec<_>>().join(", "));
     Problem::with_help(format!("unknown key `{name}`{hint}"), help)
 }
 

@@ -19,7 +19,7 @@ fn dependence(context: &Context<'_>, section: &At<DependenceSection>, space: &Sp
     let measure = match measure {
         None => CorrelationMeasure::default(),
         Some(measure) if measured.is_some() => {
-            let expected = "nothing else with joint measurements, whose correlations are those of the normal scores of their ranks";
+            let expected = "\"normal\" with joint measurements: their correlations are those of normal scores";
             return context.refuse(measure, "measure", expected, format!("{:?}", measure.get_ref()));
         }
         Some(name) => choice(context, name, "measure of correlation")?,
@@ -37,8 +37,7 @@ fn dependence(context: &Context<'_>, section: &At<DependenceSection>, space: &Sp
         }
         (None, Some(columns)) => Ok(Dependence::from_measurements(&names, &columns)),
         (_, measured) => {
-            let expected =
-                "a table with `factors` and one of `correlation`, as in correlation = 0.6, `file` and `measurements`";
+            let expected = "a table with `factors` and exactly one of `correlation` (as in correlation = 0.6), `file` and `measurements`";
             let found = if measured.is_some() { "one with both" } else { "one with neither" };
             context.refuse(section, "dependence", expected, found.to_owned())
         }

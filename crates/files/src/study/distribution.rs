@@ -69,7 +69,7 @@ fn parameter(context: &Context<'_>, fields: &FactorSection, kind: Kind, typed: &
         TypedValue::Bounds(list) => match list[..] {
             [min, max] => Parameter::Bounds(min, max),
             _ => {
-                let expected = "two numbers, as in truncate = [1, 5]; inf or -inf cuts nothing off";
+                let expected = "two numbers, as in truncate = [1, 5]; inf or -inf for no bound";
                 let found = format!("a list of {}", list.len());
                 return Err(context.fault(typed.span.clone(), wrong("truncate", expected, found)));
             }

@@ -25,10 +25,8 @@ pub fn inputs(context: &Context<'_>, factors: &[At<FactorSection>]) -> Result<Ve
 
 fn refuse_name(context: &Context<'_>, what: &'static str, name: &At<String>) -> Result<(), Fault> {
     let reason = match name.get_ref() {
-        name if !Expression::is_name(name) => {
-            "letters, digits and '_', not beginning with a digit (it stands in formulas)"
-        }
-        name if Expression::is_reserved(name) => "no function or number of the formula language",
+        name if !Expression::is_name(name) => "letters, digits and '_', not beginning with a digit (formulas use it)",
+        name if Expression::is_reserved(name) => "not a function or number of the formula language",
         _ => return Ok(()),
     };
     let (key, found) = (format!("name of a {what}"), format!("{:?}", name.get_ref()));
@@ -100,7 +98,7 @@ fn formula(
         return refused("a table without a formula");
     };
     if table != (OutputTable { formula: Some(text.clone()), unit: unit.clone(), ..OutputTable::default() }) {
-        return refused("a table with other keys, which are those of programs");
+        return refused("a table with keys for programs");
     }
     let unit = context.at(value, Unit::parse(unit.as_deref().unwrap_or("1")))?;
     let symbol = |name: &str| {
@@ -148,6 +146,6 @@ fn notes(formulas: &[Formula], constants: &Choices, space: &Space) -> Vec<String
         formulas.iter().any(|formula| words(formula.expression.text()))
     };
     let constants = constants.keys().map(At::get_ref).filter(|name| !stands(name));
-    let note = |(what, name): (&str, &String)| format!("{what} `{name}` stands in no formula");
+    let note = |(what, name): (&str, &String)| format!("{what} `{name}` is used in no formula");
     factors.map(|name| note(("factor", name))).chain(constants.map(|name| note(("constant", name)))).collect()
 }

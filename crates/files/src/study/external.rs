@@ -24,12 +24,12 @@ pub fn inputs(context: &Context<'_>, factors: &[At<FactorSection>]) -> Result<Ve
 pub(super) fn subject(context: &Context<'_>, outputs: Option<&At<Outputs>>) -> Result<ExternalSubject, Fault> {
     let own = own_outputs(context, outputs)?;
     if let Some(place) = own.first_pick {
-        let expected = "only of a program that runs here";
-        return Err(
-            context.fault(place, wrong("regex, column, pointer, file, match", expected, "of one outside".to_owned()))
-        );
+        let expected = "used only with a program that this program starts";
+        return Err(context.fault(
+            place,
+            wrong("regex, column, pointer, file, match", expected, "with an external model".to_owned()),
+        ));
     }
-    let output =
-        |output: crate::CommandOutput| Output::new(output.name, output.unit, "computed outside of this program");
+    let output = |output: crate::CommandOutput| Output::new(output.name, output.unit, "computed outside this program");
     Ok(ExternalSubject { outputs: own.outputs.into_iter().map(output).collect(), series: own.series })
 }

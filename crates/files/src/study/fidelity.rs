@@ -24,7 +24,7 @@ pub(super) fn lows(
 ) -> Result<Vec<LowFidelity>, Fault> {
     let Some(section) = &file.fidelity else { return Ok(Vec::new()) };
     if subject.is_external() {
-        let right = "the model of this study runs outside of this program, and so would the cheaper one";
+        let right = "the model of this study runs outside this program, so its cheaper models cannot be run";
         return Err(context.fault(section.span(), Problem::misplaced("fidelity", right)));
     }
     let section = section.get_ref();
@@ -46,7 +46,7 @@ fn named(subject: &dyn Subject, name: &str) -> Result<LowFidelity, Problem> {
     own.iter().find(|low| low.name == name).cloned().ok_or_else(|| match own.is_empty() {
         true => wrong(
             "low",
-            "a table with what stands in the place of the model's own, as in { name = \"coarse\", command = \"./coarse\" }",
+            "a table of the keys that replace those of the model, as in { name = \"coarse\", command = \"./coarse\" }",
             format!("\"{name}\""),
         ),
         false => unknown_name("cheaper model", name, own.iter().map(|low| low.name.as_str())),

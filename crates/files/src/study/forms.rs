@@ -40,7 +40,7 @@ fn refuse_old_forms(context: &Context<'_>, root: &DeTable<'_>) -> Result<(), Fau
         }
     }
     let Some((key, form, lines)) = old.into_iter().next() else { return Ok(()) };
-    let message = format!("{form}: factors and outputs are written in another way today");
+    let message = format!("{form}: this form of factors and outputs is no longer read");
     Err(context.fault(key.span(), Problem::with_help(message, format!("write\n{lines}"))))
 }
 
@@ -54,14 +54,14 @@ pub(super) fn join_factors(context: &Context<'_>, file: &mut StudyFile) -> Resul
     let mut lines: Vec<_> = std::mem::take(&mut file.factors).into_iter().collect();
     lines.sort_by_key(|(name, _)| name.span().start);
     if let (Some((name, _)), false) = (lines.first(), file.factor.is_empty()) {
-        let right = "factors stand in `[[factor]]` too: keep one of the two";
+        let right = "factors are also listed in `[[factor]]`: keep one of the two";
         return Err(context.fault(name.span(), Problem::misplaced("factors", right)));
     }
     for (name, line) in lines {
         let span = line.span();
         let LineSection(fields) = line.into_inner();
         if !fields.name.span().is_empty() {
-            let right = "the name of this factor stands before its table";
+            let right = "the name of this factor is the key before its table";
             return Err(context.fault(fields.name.span(), Problem::misplaced("name", right)));
         }
         file.factor.push(At::new(span, FactorSection { name, ..fields }));

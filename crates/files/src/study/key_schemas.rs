@@ -43,7 +43,7 @@ pub(super) fn afm(_: &mut SchemaGenerator) -> Schema {
         "step_budget" => json!({ "type": "integer", "minimum": 1 }),
         "history" => json!({
             "type": "object",
-            "description": "Over which time the outputs that are histories run, and at how many moments.",
+            "description": "Duration of the outputs that are histories, and their number of points in time.",
             "properties": { "duration": { "type": "string" }, "points": { "type": "integer", "minimum": 2 } },
             "additionalProperties": false,
         }),

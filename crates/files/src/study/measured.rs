@@ -19,7 +19,7 @@ pub(super) fn read(
     let path = resolve(context, file, Reach::Anywhere)?;
     let wrong = |line: Option<usize>, reason: String| {
         let place = line.map_or_else(|| path.display().to_string(), |line| format!("{}:{line}", path.display()));
-        let help = "the file is a table in CSV, or one number a line; its path is relative to the study";
+        let help = "the file must be a CSV table, or have one number per line; its path is relative to the study";
         context.fault(file.span(), Problem::with_help(format!("{place}: {reason}"), help))
     };
     let bytes = read_whole(&path).map_err(|error| wrong(None, format!("cannot read the measured values: {error}")))?;
@@ -36,7 +36,7 @@ pub(super) fn read(
             context.fault(column.span(), unknown_name("column", column.get_ref(), names))
         })?,
         None if header.len() > 1 => {
-            let reason = format!("there are several columns: say which, as in column = \"{}\"", header[0]);
+            let reason = format!("there are several columns: name one, as in column = \"{}\"", header[0]);
             return Err(wrong(Some(first), reason));
         }
         None => 0,

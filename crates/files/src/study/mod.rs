@@ -103,7 +103,7 @@ pub fn edited(text: &str, overrides: &[String]) -> Result<String, StudyError> {
 }
 
 fn not_editable(overrides: &[String]) -> StudyError {
-    let problem = "the study cannot be changed, because it holds a whole number beyond 2^63 - 1, which is not TOML";
+    let problem = "the study cannot be changed, because it has an integer above 2^63 - 1, which TOML does not allow";
     StudyError::Override { text: overrides.join(" "), problem: problem.to_owned() }
 }
 

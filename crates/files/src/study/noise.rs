@@ -31,7 +31,7 @@ pub(super) fn repeated(
         return Ok(subject);
     }
     if subject.is_external() {
-        let expected = "1 for a model outside of this program, which can give mean and variance as outputs of its own";
+        let expected = "1 for a model outside this program, which can return mean and variance as outputs";
         return refused(expected, repetitions.to_string());
     }
     if file.fidelity.is_some() {

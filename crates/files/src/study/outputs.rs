@@ -28,7 +28,7 @@ pub(super) struct OutputTable {
     pub formula: Option<String>,
     /// Unit of the output's numbers.
     pub unit: Option<String>,
-    /// File that a run leaves in its directory; its standard output if not said.
+    /// File that a run writes in its directory; standard output by default.
     pub file: Option<String>,
     /// Regular expression, whose first group is the number.
     pub regex: Option<String>,
@@ -36,19 +36,19 @@ pub(super) struct OutputTable {
     pub column: Option<String>,
     /// JSON pointer (RFC 6901), as in "/result/force".
     pub pointer: Option<String>,
-    /// Which match of the regex, or row of the table, is taken; of a series every one.
+    /// Which match of the regex, or row of the table, to use; a series uses all.
     #[serde(rename = "match")]
     #[schemars(extend("enum" = names(&Match::ALL, Match::name), "default" = "last"))]
     pub which: Option<String>,
-    /// The output is a series of so many values along an axis.
+    /// The number of values, if the output is a series along an axis.
     #[schemars(range(min = 2, max = 10000))]
     pub length: Option<u64>,
-    /// What the axis is called.
+    /// Name of the axis.
     #[schemars(extend("default" = "index"))]
     pub axis: Option<String>,
     /// Unit of the positions.
     pub axis_unit: Option<String>,
-    /// The first position and the step, or the position of every value; 0, 1, 2, ... if not said.
+    /// The first position and the step, or the position of every value; 0, 1, 2, ... by default.
     pub positions: Option<Vec<f64>>,
 }
 
@@ -150,7 +150,7 @@ fn output(
     let axis = context.at(value, series::axis(&key, &table))?;
     let pick = context.at(value, pick(&key, &table))?;
     if axis.is_some() && table.which.is_some() {
-        let expected = "only of a single number: a series takes every match or row, from the first on";
+        let expected = "used only for a single number: a series takes every match or row, from the first on";
         return context.refuse(value, &format!("{key}.match"), expected, "with `length`".to_owned());
     }
     let unit = output_unit(context, value, table.unit.as_deref().unwrap_or_default())?;

@@ -35,7 +35,7 @@ fn set(root: &mut Table, text: &str) -> Result<(), String> {
     }
     if names.len() > MAX_PARTS {
         let count = names.len();
-        return Err(format!("the key has {count} parts, more than any key of a study: expected {NAMES}"));
+        return Err(format!("the key has {count} parts, too many for a study: expected {NAMES}"));
     }
     let value = value.trim();
     let value: Value = value.parse().unwrap_or_else(|_| Value::from(value));
@@ -52,7 +52,7 @@ fn set(root: &mut Table, text: &str) -> Result<(), String> {
             value => fix(root, factor, value),
         },
         ["outputs"] if root.get("outputs").is_some_and(Item::is_table_like) => Err(
-            "`outputs` is a table in this study, whose formulas or units a list of names would replace: change one by \
+            "`outputs` is a table of formulas or units in this study, and a list of names would replace it: change one with \
              outputs.NAME=..."
                 .to_owned(),
         ),
@@ -147,7 +147,7 @@ fn set_in(table: &mut dyn TableLike, names: &[&str], value: Value) -> Result<(),
     let mut table = table;
     for name in path {
         let next = table.entry(name).or_insert_with(|| Item::Table(Table::new()));
-        let refusal = || format!("`{name}` is not a table of the study, so nothing can be set inside it");
+        let refusal = || format!("`{name}` is not a table of the study, so it has no keys to set");
         table = next.as_table_like_mut().ok_or_else(refusal)?;
     }
     table.insert(last, Item::Value(value));
@@ -191,7 +191,7 @@ mod tests {
     }
 
     #[test]
-    fn the_length_of_a_run_is_said_in_one_way() {
+    fn only_one_key_sets_the_length_of_a_run() {
         let text = "accuracy = 0.1\n[design]\nmax_runs = 9\n";
         let applied = |set: &str| apply(text, &[set.to_owned()]).unwrap().unwrap();
         assert_eq!(applied("design.runs=300"), "[design]\nruns = 300\n");
@@ -199,7 +199,7 @@ mod tests {
     }
 
     #[test]
-    fn what_makes_no_sense_is_named() {
+    fn invalid_overrides_are_named() {
         let refused = |text: &str, expected: &str| {
             let problem = applied(text).unwrap_err();
             assert!(problem.contains(expected), "{text}: {problem}");
@@ -209,6 +209,6 @@ mod tests {
         // 30,000 parts used to take more than a minute.
         refused(&format!("{}=1", ["a"; 30_000].join(".")), "the key has 30000 parts");
         let formulas = apply("outputs.y = 'x1'\n", &["outputs=['y']".to_owned()]);
-        assert!(formulas.unwrap_err().1.contains("`outputs` is a table in this study"));
+        assert!(formulas.unwrap_err().1.contains("`outputs` is a table of formulas or units in this study"));
     }
 }

@@ -38,7 +38,7 @@ pub(super) fn resolve(context: &Context<'_>, typed: &At<String>, reach: Reach) -
     if reach == Reach::Anywhere || is_inside().unwrap_or(false) {
         return Ok(path);
     }
-    Err(outside(context, typed.span(), &path, "out of the study's folder"))
+    Err(outside(context, typed.span(), &path, "outside the study's folder"))
 }
 
 /// Refuses the name of a file that a run writes if it is outside the directory of the run.
@@ -55,7 +55,7 @@ pub(super) fn refuse_outside_of_run(
     if reach == Reach::Anywhere || Path::new(file).components().all(is_below) {
         return Ok(());
     }
-    Err(outside(context, span, Path::new(file), "out of the directory of a run"))
+    Err(outside(context, span, Path::new(file), "outside the directory of a run"))
 }
 
 fn outside(context: &Context<'_>, span: Range<usize>, path: &Path, place: &str) -> Fault {

@@ -36,7 +36,7 @@ pub(super) fn problem(error: &toml::de::Error) -> Problem {
     match &quoted[..] {
         [name, expected @ ..] if message.starts_with("unknown field") => unknown_key(name, expected),
         _ if message.contains("unquoted key") => {
-            Problem::new(format!("{message}: a key of other letters stands in quotes, as in \"größe\" = 2"))
+            Problem::new(format!("{message}: put a key with other letters in quotes, as in \"größe\" = 2"))
         }
         _ => Problem::new(in_words(message)),
     }
@@ -50,8 +50,8 @@ fn unknown_key(name: &str, expected: &[&str]) -> Problem {
         let ours = meant(name, all.clone().map(|(_, key)| key));
         if let Some((place, key)) = ours.and_then(|ours| all.clone().find(|(_, key)| *key == ours)) {
             let right = match key == name {
-                true => format!("it stands {place}"),
-                false => format!("did you mean `{key}`, which stands {place}?"),
+                true => format!("it belongs {place}"),
+                false => format!("did you mean `{key}`, which belongs {place}?"),
             };
             return Problem::misplaced(name, &right);
         }

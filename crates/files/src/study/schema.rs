@@ -29,7 +29,7 @@ pub fn study_schema() -> Value {
     schema["properties"]["factors"] = json!({
         "type": "object",
         "additionalProperties": line,
-        "description": "The factors, a line for each: its name, and how it varies."
+        "description": "The factors, one line for each: its name and its distribution."
     });
     schema
 }

@@ -24,20 +24,20 @@ pub(super) use super::at::{At, Choices};
 use super::command::file::CommandKey;
 use super::key_schemas::{self, names};
 
-/// A study of apportion: a model, the factors whose influence is asked for, and how many runs answer it.
+/// A study of apportion: a model, the factors to compare, and the number of model runs.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(title = "apportion study")]
 pub(super) struct StudyFile {
-    /// Name after which result files are called; by default that of the file without its ending.
+    /// Name of the result files; by default the name of the study file without its ending.
     pub name: Option<At<String>>,
-    /// Title for people.
+    /// Title of the report.
     pub title: Option<At<String>>,
-    /// What is studied; `apportion models` lists what there is.
+    /// The model; `apportion models` lists all of them.
     #[schemars(extend("enum" = key_schemas::models(), "default" = "afm"))]
     pub model: Option<At<String>>,
-    /// Outputs: a list of names, by default the model's first. Of formulas a table of these, outputs.y = "x1 + x2"; of programs
-    /// and models outside also a table of their units, outputs.y = "nN".
+    /// Outputs: a list of names, by default the model's first. For formulas, a table: outputs.y = "x1 + x2". For programs
+    /// and external models, also a table of units: outputs.y = "nN".
     #[serde(default)]
     #[schemars(schema_with = "key_schemas::outputs")]
     pub outputs: Option<At<Outputs>>,
@@ -49,49 +49,49 @@ pub(super) struct StudyFile {
     #[serde(default)]
     #[schemars(schema_with = "key_schemas::function")]
     pub function: Option<At<Choices>>,
-    /// What formulas may name besides the factors.
+    /// Constants of formulas.
     #[serde(default)]
     pub expression: Option<At<ExpressionSection>>,
-    /// The program that is the model: itself with its arguments, or a table of these and more.
+    /// The program that is the model: a list of the program and its arguments, or a table.
     #[serde(default)]
     pub command: Option<At<CommandKey>>,
-    /// The noise of a stochastic model: the name under which it gets a seed with every row, or a table.
+    /// The noise of a stochastic model: the name of the seed that it gets with every row, or a table.
     #[serde(default)]
     #[schemars(schema_with = "key_schemas::name_or_table::<NoiseSection>")]
     pub noise: Option<At<NoiseSection>>,
-    /// How well the indices must be known: the half width that the 95 % interval of every first-order and total index must
-    /// reach. The run chooses its design, surrogates and cheaper models by itself.
+    /// Required accuracy: the half width that the 95 % interval of every first-order and total index must
+    /// reach. The run then chooses its design, surrogates and cheaper models.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub accuracy: Option<At<f64>>,
     /// Factors that depend on each other, by a Gaussian copula: tables [[dependence]].
     #[serde(default)]
     pub dependence: Vec<At<DependenceSection>>,
-    /// Cheaper models of the same outputs, which stand in for the model where they help.
+    /// Cheaper models of the same outputs, used in place of the model where they help.
     #[serde(default)]
     pub fidelity: Option<At<FidelitySection>>,
     /// The points at which the model runs.
     #[serde(default)]
     pub design: DesignSection,
-    /// What is asked of the runs besides first-order and total indices.
+    /// Results in addition to first-order and total indices, and how they are estimated.
     #[serde(default)]
     pub analysis: AnalysisSection,
-    /// The inputs whose influence is asked for: tables [[factor]], whose order in the file assigns the dimensions of the sequence.
+    /// The inputs to compare: tables [[factor]]. Their order in the file assigns the dimensions of the sequence.
     #[serde(default)]
     pub factor: Vec<At<FactorSection>>,
-    /// The same, a line for each.
+    /// The same, one line for each factor.
     #[serde(default)]
     #[schemars(skip)]
     pub factors: BTreeMap<At<String>, At<LineSection>>,
 }
 
-/// Names of outputs, or a table of what each is.
+/// Names of outputs, or a table with one entry for each.
 pub(super) type Outputs = ListOrTable<Choices>;
 
-/// What formulas may name besides the factors.
+/// Constants of formulas.
 #[derive(Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table [expression]")]
 pub(super) struct ExpressionSection {
-    /// Numbers, or quantities with their units, that formulas may name.
+    /// Numbers, or quantities with units, that formulas may use.
     #[serde(default)]
     #[schemars(schema_with = "key_schemas::expression_constants")]
     pub constants: Choices,
@@ -101,11 +101,11 @@ pub(super) struct ExpressionSection {
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table [fidelity]")]
 pub(super) struct FidelitySection {
-    /// The cheaper models: by name those that come with the model, as in "closed-form"; or tables with what they have in the
-    /// place of the model's own, as in { name = "coarse", command = ["./coarse"] }.
+    /// The cheaper models: names of those that come with the model, as in "closed-form"; or tables of the keys that replace
+    /// those of the model, as in { name = "coarse", command = ["./coarse"] }.
     #[schemars(schema_with = "key_schemas::lows")]
     pub low: At<Vec<At<toml::Value>>>,
-    /// Base samples of the points of their own; by default 16384, and with `accuracy` as many as pay.
+    /// Base samples of their additional points; 16384 by default; with `accuracy` the run chooses.
     #[schemars(range(min = 1))]
     pub base_samples: Option<At<u64>>,
 }
@@ -116,16 +116,16 @@ pub(super) struct FidelitySection {
 pub(super) struct DependenceSection {
     /// The factors: two or more.
     pub factors: NameList,
-    /// Their correlation: one number for every pair of them, or the whole symmetric matrix with ones on its diagonal.
+    /// Their correlation: one number for all pairs, or the symmetric matrix with ones on its diagonal.
     pub correlation: Option<At<Correlation>>,
-    /// What the numbers are correlations of: of the values ("pearson"), of the ranks ("spearman", "kendall"), or of the normal scores
+    /// Measure of correlation: of the values ("pearson"), of the ranks ("spearman", "kendall"), or of the normal scores
     /// ("normal"), which are the parameters of the copula.
     #[schemars(extend("enum" = names(&CorrelationMeasure::ALL, CorrelationMeasure::name), "default" = "pearson"))]
     pub measure: Option<At<String>>,
-    /// In the place of `correlation`: a CSV file of joint measurements, relative to the study, with a column of the name of each
-    /// factor. The correlations are those of the normal scores of its ranks.
+    /// Instead of `correlation`: a CSV file of joint measurements, relative to the study, with a column named after each
+    /// factor. The correlations are those of the normal scores of their ranks.
     pub file: Option<At<String>>,
-    /// In the place of `file`: the joint measurements themselves, each a list of one number for every factor.
+    /// Instead of `file`: the joint measurements, each a list of one number for every factor.
     pub measurements: Option<At<Vec<Vec<f64>>>>,
 }
 
@@ -143,12 +143,12 @@ pub(super) enum Correlation {
 #[derive(Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "the name under which the model gets its seed, or a table [noise]")]
 pub(super) struct NoiseSection {
-    /// The name under which the model gets its seed, a whole number from 0 to 2^31 - 1; "seed" by default.
+    /// The name of the seed that the model gets, a whole number from 0 to 2^31 - 1; "seed" by default.
     pub name: Option<At<String>>,
-    /// Runs of each row with seeds of their own: the outputs are then the mean and the variance over them.
+    /// Runs of each row, each with its own seed: the outputs are then the mean and the variance over them.
     #[schemars(range(min = 1, max = 1000), extend("default" = 1))]
     pub repetitions: Option<At<u64>>,
-    /// Whether total indices of the mean over the noise are asked for: one more run for each factor.
+    /// Whether to estimate total indices of the mean over the noise: one more run for each factor.
     #[schemars(extend("default" = false))]
     pub mean_totals: Option<At<bool>>,
 }
@@ -157,88 +157,88 @@ pub(super) struct NoiseSection {
 #[derive(Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table [design]")]
 pub(super) struct DesignSection {
-    /// How points are chosen.
+    /// Kind of points: Sobol', random, or a Latin hypercube.
     #[schemars(extend("enum" = names(&Sampler::ALL, Sampler::name), "default" = "sobol"))]
     pub sampler: Option<At<String>>,
-    /// Base samples in all, best a power of two for each replicate; a run costs base_samples x (2 + factors).
+    /// Total number of base samples, preferably a power of two for each replicate; the study costs base_samples x (2 + factors) runs.
     pub base_samples: Option<At<u64>>,
-    /// Model runs in all, in the place of `base_samples`: the best design for at most so many.
+    /// Instead of `base_samples`: the largest number of model runs; the design is the best one within it.
     #[schemars(range(min = 1))]
     pub runs: Option<At<u64>>,
-    /// Independent randomisations that share the base samples.
+    /// Number of independent randomisations that share the base samples.
     pub replicates: Option<At<u64>>,
-    /// Seed of the design; 0 is one like any other.
+    /// Seed of the design; 0 is a valid seed.
     pub seed: Option<At<u64>>,
-    /// Model runs that a run with `accuracy` does not exceed; alone, the run is doubled up to here.
+    /// Limit of model runs for a run with `accuracy`; alone, the number of runs is doubled up to this limit.
     pub max_runs: Option<At<u64>>,
-    /// Time that a run with `accuracy` does not exceed, as in "30 s"; alone, the run is doubled up to here.
+    /// Time limit for a run with `accuracy`, as in "30 s"; alone, the number of runs is doubled up to this limit.
     pub max_time: Option<At<String>>,
 }
 
 /// Names, each with its place.
 pub(super) type NameList = At<Vec<At<String>>>;
 
-/// What is asked of the runs besides first-order and total indices.
+/// Results in addition to first-order and total indices, and how they are estimated.
 #[derive(Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table [analysis]")]
 pub(super) struct AnalysisSection {
-    /// Estimators whose indices are given besides those of the default ones.
+    /// Further estimators, in addition to the default ones.
     #[schemars(extend("items" = json!({ "enum": names(&Estimator::ALL, Estimator::name) })))]
     pub estimators: Option<At<Vec<At<String>>>>,
     /// Second-order indices of all pairs; nearly twice the runs.
     pub second_order: Option<At<bool>>,
-    /// Sets of factors whose joint indices are asked for.
+    /// Sets of factors whose joint indices are estimated.
     pub subsets: Option<At<Vec<NameList>>>,
     /// Shapley effects: shares of the variance that sum to 1 even where factors depend on each other. 2^d runs for each base sample
-    /// of up to 8 factors, d - 1 more of up to 100. By default those of up to 4 factors that depend on each other.
+    /// for up to 8 factors, d - 1 more runs for up to 100. By default for up to 4 factors that depend on each other.
     pub shapley: Option<At<bool>>,
-    /// How Shapley effects are found: from all subsets of up to 8 factors, or along random permutations, with fewer runs for each
+    /// How Shapley effects are estimated: from all subsets of up to 8 factors, or along random permutations, with fewer runs for each
     /// base sample and larger errors.
     #[schemars(extend("enum" = names(&ShapleyMethod::ALL, ShapleyMethod::name)))]
     pub shapley_method: Option<At<String>>,
-    /// Who shares out the variance in Shapley effects: every factor, or the groups with the factors that have none. The counts of
-    /// factors and runs above are then those of the groups.
+    /// The players of Shapley effects: every factor, or the groups and the factors without a group. The numbers of
+    /// factors and runs above are then those of the players.
     #[schemars(extend("enum" = names(&ShapleyPlayers::ALL, ShapleyPlayers::name), "default" = "factors"))]
     pub shapley_players: Option<At<String>>,
-    /// Other measures of the influence of every factor besides Sobol' indices, from the first 4096 rows A and B; of at most 100 outputs.
+    /// Other measures of the influence of every factor, from the first 4096 rows A and B; for at most 100 outputs.
     #[schemars(extend("items" = json!({ "enum": names(&Measure::ALL, Measure::name) })))]
     pub measures: Option<At<Vec<At<String>>>>,
     /// Indices over all outputs together.
     pub aggregate: Option<At<bool>>,
-    /// A factor that does nothing is run along: its indices are the noise of the model.
+    /// Adds a factor without effect: its indices show the numerical error.
     pub dummy: Option<At<bool>>,
-    /// The indices at each half of the runs after it, too. Where surrogates correct them, each stage takes fits of its own: without
-    /// them an analysis takes a third of the time.
+    /// Also estimates the indices from half of the runs, a quarter, and so on. With surrogates each stage needs its own fits: without
+    /// these stages an analysis takes a third of the time.
     #[schemars(extend("default" = true))]
     pub convergence: Option<At<bool>>,
-    /// How intervals are found; by default as the sampler allows.
+    /// How intervals are estimated; the default depends on the sampler.
     #[schemars(extend("enum" = names(&IntervalMethod::ALL, IntervalMethod::name)))]
     pub intervals: Option<At<String>>,
-    /// Whether indices are corrected by surrogates: polynomials fitted to the runs. More accurate, by orders of magnitude for
-    /// smooth models; takes time, and memory for all outputs.
+    /// Whether surrogates (polynomials fitted to the runs) correct the indices. More accurate, by orders of magnitude for
+    /// smooth models; needs time, and memory for all outputs.
     #[schemars(extend("enum" = names(&SurrogateChoice::ALL, SurrogateChoice::name), "default" = "off"))]
     pub surrogate: Option<At<String>>,
-    /// Resamples of a bootstrap.
+    /// Number of resamples of a bootstrap.
     #[schemars(range(min = 100, max = 1_000_000))]
     pub resamples: Option<At<u64>>,
-    /// Total index above which a factor counts as one that matters.
+    /// Total index above which a factor counts as influential.
     #[schemars(extend("minimum" = 0, "maximum" = 1))]
     pub threshold: Option<At<f64>>,
-    /// What happens when a run fails.
+    /// What to do when a run fails.
     #[schemars(extend("enum" = names(&FailurePolicy::ALL, FailurePolicy::name)))]
     pub failures: Option<At<String>>,
-    /// Largest share of the runs that may fail before there are no indices.
+    /// Largest share of runs that may fail; beyond it no indices are estimated.
     #[schemars(extend("minimum" = 0, "maximum" = 1))]
     pub max_failed: Option<At<f64>>,
 }
 
-/// An input whose influence is asked for, and how it varies.
+/// An input of the model, and its distribution.
 #[derive(Debug, Default, JsonSchema)]
 #[schemars(deny_unknown_fields)]
 pub(super) struct FactorSection {
     /// The input of the model.
     pub name: At<String>,
-    /// How it varies.
+    /// Its distribution.
     #[schemars(extend("enum" = key_schemas::distributions(), "default" = "uniform"))]
     #[schemars(extend("enumDescriptions" = Kind::all().map(Kind::summary).collect::<Vec<_>>()))]
     pub distribution: Option<At<String>>,
@@ -246,7 +246,7 @@ pub(super) struct FactorSection {
     pub unit: Option<At<String>>,
     /// Factors of one group also get joint indices.
     pub group: Option<At<String>>,
-    /// Value at which it stands in scenes and sweeps of other factors; of a category its label.
+    /// Its value in scenes and in sweeps of other factors; for a category, its label.
     pub nominal: Option<At<Nominal>>,
     /// The keys of its distribution.
     #[schemars(skip)]
@@ -257,7 +257,7 @@ pub(super) struct FactorSection {
 #[derive(Debug)]
 pub(super) struct TypedKey {
     pub key: &'static Key,
-    /// Where its value stands.
+    /// The position of its value.
     pub span: Range<usize>,
     pub value: TypedValue,
 }
@@ -285,7 +285,7 @@ impl<'de> Deserialize<'de> for FactorSection {
     }
 }
 
-/// A factor whose name stands before its table.
+/// A factor whose name is the key before its table.
 #[derive(Debug)]
 pub(super) struct LineSection(pub FactorSection);
 
@@ -360,7 +360,7 @@ impl<'de> Deserialize<'de> for FactorKey {
     }
 }
 
-/// Where a factor stands when it does not vary: a number, a category, or true or false.
+/// The value of a factor that does not vary: a number, a category, or true or false.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub(super) enum Nominal {

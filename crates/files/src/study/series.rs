@@ -41,7 +41,7 @@ pub(super) fn axis(key: &str, table: &OutputTable) -> Result<Option<SeriesAxis>,
         }
         (_, None) => {
             let found = format!("`{first}` without one");
-            return Err(wrong(&format!("{key}.length"), "how many values the series has, as in length = 365", found));
+            return Err(wrong(&format!("{key}.length"), "the number of values, as in length = 365", found));
         }
     };
     axis.map(Some).map_err(refused)
@@ -68,7 +68,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_series_is_refused_with_what_would_be() {
+    fn invalid_series_are_refused_with_advice() {
         for (text, expected) in [
             ("length = 1", "2 to 10000 values"),
             ("length = 10000000", "2 to 10000 values"),

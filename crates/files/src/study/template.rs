@@ -59,13 +59,13 @@ pub fn template(request: &TemplateRequest) -> Result<String, Problem> {
     Ok(format!(
         "# A study of apportion: which inputs of a model decide its output, and by how many percent.\n\
          # `apportion check FILE` explains it and its cost, `apportion run FILE` runs it,\n\
-         # `apportion models {name}` lists everything that can stand here.\n\n\
+         # `apportion models {name}` lists all keys and values.\n\n\
          {title}\nmodel = \"{name}\"\n{model_lines}\n\
          # The cost is base_samples x (2 + factors) runs: {runs} here. With more of them the intervals are narrower.\n\
          [design]\n\
          base_samples = {base_samples}    # or runs = 300 where runs take minutes; or accuracy = 0.01 above all tables\n\
          seed = {seed}    # the same seed gives the same numbers, on any machine and any number of threads\n\n\
-         # The inputs whose influence is asked for: uniform from min to max, or distribution = \"normal\" with mean and sd,\n\
+         # The inputs to compare: uniform from min to max, or distribution = \"normal\" with mean and sd,\n\
          # and many others (docs/factors.md). Factors that name the same `group` also get joint indices.\n\
          [factors]\n{lines}",
         name = model.name,
@@ -121,7 +121,7 @@ fn of_user(request: &TemplateRequest) -> (String, Vec<String>) {
         ),
         kind if kind == ModelKind::COMMAND => format!(
             "# What the program prints, in its order, with units.\n{}\n\
-             # It is started once for each core and kept alive: it reads a line for each row and prints one.\n\
+             # It is started once for each core and kept alive: it reads one line for each row and prints one.\n\
              [command]\nprogram = [\"python3\", \"{NEW_PROGRAM}\"]    # relative to this file; no shell reads it\n\
              # timeout = \"60 s\"    # for a row, after which the program is started again [default: none]\n",
             lines("\"1\"")
@@ -169,7 +169,7 @@ fn of_model(request: &TemplateRequest) -> Result<(String, Vec<String>), Problem>
 /// Lists the current choices, and explains how to fix a constant.
 fn afm_table() -> String {
     let options = Options::default();
-    let mut text = "\n# The physics. Each choice stands as it would be if it were left out.\n[afm]\n".to_owned();
+    let mut text = "\n# The physics. Each choice is the default.\n[afm]\n".to_owned();
     for (key, names) in ModelKind::AFM.choices() {
         let in_force = match key {
             "friction" => options.friction.name(),
@@ -179,7 +179,7 @@ fn afm_table() -> String {
         };
         text.push_str(&format!("{key} = \"{in_force}\"    # {}\n", names.join(", ")));
     }
-    text + "# An input that is no factor can be fixed, with its unit:\n# width = \"40 um\"\n"
+    text + "# An input that is not a factor can be fixed, with its unit:\n# width = \"40 um\"\n"
 }
 
 /// Lists the current parameters of a function, as comments.

@@ -61,9 +61,8 @@ pub(super) fn refuse_unit_of_own(
     match &fields.unit {
         Some(typed) if [0.0, 1.0].iter().any(|&x| unit.to_si(x) != input.unit.to_si(x)) => {
             let (factor, unit) = (&input.name, typed.get_ref());
-            let problem =
-                format!("factor `{factor}` has the function's own distribution here, which is not in `{unit}`");
-            let help = "remove the unit, or give the distribution too";
+            let problem = format!("factor `{factor}` has the function's own distribution, which is not in `{unit}`");
+            let help = "remove the unit, or give a distribution";
             Err(context.fault(typed.span(), Problem::with_help(problem, help)))
         }
         _ => Ok(()),

@@ -124,7 +124,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn flags_whose_poles_stand_apart_never_collide(steps in prop::collection::vec(1.0..30.0, 1..8)) {
+        fn distant_flags_never_collide(steps in prop::collection::vec(1.0..30.0, 1..8)) {
             let mut at = -1.0;
             let markers: Vec<_> = steps
                 .iter()

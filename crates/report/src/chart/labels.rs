@@ -130,7 +130,7 @@ mod tests {
     }
 
     #[test]
-    fn a_lone_label_stands_to_the_right_and_turns_at_the_edge() {
+    fn a_single_label_is_right_of_its_point_or_left_at_the_edge() {
         let places = place(&[wanted(100.0, 100.0)], BOUNDS);
         let area = places[0].unwrap().area;
         assert_eq!((area.left, area.top, area.bottom), (106.0 - AIR, 96.0 - AIR, 104.0 + AIR));
@@ -140,7 +140,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn labels_touch_nothing(points in prop::collection::vec((5.0..295.0, 5.0..195.0), 1..40)) {
+        fn labels_do_not_overlap(points in prop::collection::vec((5.0..295.0, 5.0..195.0), 1..40)) {
             let labels: Vec<_> = points.iter().map(|&(x, y)| wanted(x, y)).collect();
             let places: Vec<Place> = place(&labels, BOUNDS).into_iter().flatten().collect();
             for (i, placed) in places.iter().enumerate() {

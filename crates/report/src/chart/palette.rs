@@ -105,7 +105,7 @@ mod tests {
     }
 
     #[test]
-    fn marks_stand_out_from_the_paper() {
+    fn marks_have_enough_contrast() {
         let contrast = |hex: &str, opacity| 1.05 / (luminance(hex, opacity) + 0.05);
         let marks = COLOURS.iter().chain([&INK, &MUTED]);
         for hex in marks {

@@ -193,7 +193,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_picture_is_refused() {
+    fn invalid_pictures_are_refused() {
         assert!(matches!(png("<svg"), Err(PngError::Xml(_))));
         assert!(matches!(png("<html/>"), Err(PngError::Svg(_))));
         let huge = r#"<svg xmlns="http://www.w3.org/2000/svg" width="9000" height="9000"/>"#;

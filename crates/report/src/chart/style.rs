@@ -63,7 +63,7 @@ impl std::str::FromStr for PaperWidth {
     /// Parses a length with its unit, such as `88mm`, `8.8 cm` or `3.5 in`.
     fn from_str(text: &str) -> Result<Self, String> {
         let refused =
-            || format!("{text:?} is no width of a chart: expected 60mm to 300mm, such as 88mm, 18cm or 3.5in");
+            || format!("{text:?} is not a width of a chart: expected 60mm to 300mm, such as 88mm, 18cm or 3.5in");
         let text = text.trim();
         let end = text.find(|c: char| c.is_alphabetic()).ok_or_else(refused)?;
         let number: f64 = text[..end].trim().parse().map_err(|_| refused())?;

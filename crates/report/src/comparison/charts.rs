@@ -24,7 +24,7 @@ pub(super) fn side_by_side(file: &ComparisonFile, output: &ComparedOutput) -> Ch
 /// Draws the differences.
 pub(super) fn differences(file: &ComparisonFile, output: &ComparedOutput) -> Chart {
     let factors = single_factors(output);
-    let shared = if file.shared_points { " Both use the same points: the intervals are rather too wide." } else { "" };
+    let shared = if file.shared_points { " Both use the same points: the intervals may be too wide." } else { "" };
     let first_order = factors.iter().map(|factor| factor.first_order.difference).collect();
     let total = factors.iter().map(|factor| factor.total.difference).collect();
     let label = "difference: parts of the variance";

@@ -42,7 +42,7 @@ fn sides(file: &ComparisonFile) -> Vec<Part> {
     };
     let mut parts = vec![side("A", &file.a), side("B", &file.b)];
     if !file.settings.is_empty() {
-        let settings = Table::from_rows("In what the studies differ.", &file.settings)
+        let settings = Table::from_rows("Differences between the studies.", &file.settings)
             .text("what differs", |setting| &setting.what)
             .text("A", |setting| setting.a.as_deref().unwrap_or("–"))
             .text("B", |setting| setting.b.as_deref().unwrap_or("–"));
@@ -50,7 +50,7 @@ fn sides(file: &ComparisonFile) -> Vec<Part> {
     }
     for (what, sided) in [("outputs", &file.outputs_left_out), ("factors", &file.factors_left_out)] {
         for (side, names) in [("A", &sided.a), ("B", &sided.b)].into_iter().filter(|(_, names)| !names.is_empty()) {
-            parts.push(Part::Text(format!("{what} of {side} alone: {}", names.join(", "))));
+            parts.push(Part::Text(format!("{what} only in {side}: {}", names.join(", "))));
         }
     }
     parts
@@ -79,8 +79,8 @@ fn output_parts(output: &ComparedOutput) -> Vec<Part> {
 
 fn index_table(output: &ComparedOutput, what: &str, symbol: &str, of: fn(&ComparedFactor) -> &ComparedIndex) -> Part {
     let caption = format!(
-        "{what} in both, with the half width of its 95 % interval, and the difference; a star marks those whose interval \
-         leaves out 0."
+        "{what} in both, with the half width of its 95 % interval, and the difference; a star marks differences whose interval \
+         excludes 0."
     );
     let star = |index: &ComparedIndex| if index.differs == Some(true) { " *" } else { "" };
     Table::from_rows(caption, &output.factors)
@@ -101,7 +101,7 @@ fn leaders(output: &ComparedOutput) -> String {
         match &names[..] {
             [] => None,
             [one] => Some(format!("{one} has the largest total index")),
-            several => Some(format!("{} cannot be told apart by their total indices", listed(several))),
+            several => Some(format!("{} cannot be distinguished by their total indices", listed(several))),
         }
     };
     match (leaders(|f| f.total.a), leaders(|f| f.total.b)) {
@@ -116,18 +116,18 @@ fn legend(file: &ComparisonFile) -> String {
     let indices = || file.outputs.iter().flat_map(|o| &o.factors).flat_map(|f| [&f.first_order, &f.total]);
     let compared = indices().filter(|index| index.differs.is_some()).count();
     if compared == 0 {
-        return "There are no intervals: nothing can be said about the errors of the differences.".to_owned();
+        return "There are no intervals: the errors of the differences are unknown.".to_owned();
     }
     let differing = indices().filter(|index| index.differs == Some(true)).count();
     let mut text = format!(
-        "A star marks a difference whose 95 % interval leaves out 0: {differing} of {compared}, where chance alone makes \
+        "A star marks a difference whose 95 % interval excludes 0: {differing} of {compared}; chance alone gives \
          about one in twenty."
     );
     if indices().all(|index| index.a == index.b) {
         text.push_str(" All indices are the same, to the last bit.");
     } else if file.shared_points {
         text.push_str(
-            " Both use the same points, so their errors have much in common: the intervals of differences are rather too \
+            " Both use the same points, so their errors are correlated: the intervals of differences may be too \
              wide.",
         );
     }

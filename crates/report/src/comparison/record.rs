@@ -122,7 +122,7 @@ impl ComparedIndex {
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum CompareError {
     /// They have no common output or no common factor.
-    #[error("there is nothing to compare, the results have no {what} in common: A has {a}, B has {b}")]
+    #[error("nothing to compare: the results have no {what} in common; A has {a}, B has {b}")]
     NothingInCommon {
         /// `output` or `factor`.
         what: &'static str,
@@ -283,7 +283,7 @@ fn compared(names: &[String], a: &OutputResult, b: &OutputResult) -> Result<Comp
 }
 
 fn reason(output: &OutputResult) -> String {
-    output.reason.clone().unwrap_or_else(|| "the result holds none".to_owned())
+    output.reason.clone().unwrap_or_else(|| "the result has none".to_owned())
 }
 
 fn factor(name: &str, group: bool, a: Option<EffectEstimates>, b: Option<EffectEstimates>) -> ComparedFactor {

@@ -73,12 +73,12 @@ fn the_other_way_round_is_the_same_with_the_other_sign() {
 }
 
 #[test]
-fn what_cannot_be_compared_is_refused_with_the_reason() {
+fn results_that_cannot_be_compared_are_refused_with_the_reason() {
     let a = linear("[1.0, 2.0]", "");
     let mut b = a.clone();
     b.outputs[0].name = "force".to_owned();
     let message = compared(&a, &b).unwrap_err().to_string();
-    assert!(message.ends_with("no output in common: A has y, B has force"), "{message}");
+    assert!(message.ends_with("no output in common; A has y, B has force"), "{message}");
     let mut b = a.clone();
     b.outputs[0].unit = "nN".to_owned();
     let message = compared(&a, &b).unwrap_err().to_string();
@@ -99,7 +99,7 @@ fn one_sided_factors_and_missing_indices_have_their_place() {
     assert_eq!((&file.factors_left_out.a, &file.factors_left_out.b), (&vec![], &vec!["x3".to_owned()]));
     let x3 = &file.outputs[0].factors[2];
     assert!(x3.total.a.is_none() && x3.total.b.is_some() && x3.total.difference.is_none());
-    assert!(comparison_document(&file, "a-vs-b").text().contains("factors of B alone: x3"));
+    assert!(comparison_document(&file, "a-vs-b").text().contains("factors only in B: x3"));
 
     let mut none = a.clone();
     none.outputs[0].indices = None;
@@ -120,7 +120,7 @@ fn one_sided_factors_and_missing_indices_have_their_place() {
 fn moments_are_compared_in_one_unit() {
     let a = result("[design]\nbase_samples = 64\n[[factor]]\nname = \"thickness\"\nmin = 1\nmax = 2\nunit = \"um\"");
     let mut b = a.clone();
-    // The same forces, said in micronewtons.
+    // The same forces in micronewtons.
     b.outputs[0].unit = "uN".to_owned();
     b.outputs[0].mean = a.outputs[0].mean.map(|mean| mean * 1e-3);
     b.outputs[0].variance = a.outputs[0].variance.map(|variance| variance * 1e-6);
@@ -144,7 +144,7 @@ fn a_table_has_no_more_columns_than_a_page_has_room_for() {
 }
 
 #[test]
-fn rounding_is_no_difference() {
+fn rounding_does_not_count_as_a_difference() {
     let record = |estimate: f64| Some(Estimate { estimate, interval: Some(Interval::about(estimate, 0.0)) });
     assert_eq!(ComparedIndex::new(record(0.0), record(5e-15)).differs, Some(false));
     assert_eq!(ComparedIndex::new(record(0.0), record(5e-9)).differs, Some(true));

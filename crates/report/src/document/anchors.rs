@@ -30,7 +30,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn links_stay_beside_the_page() {
+    fn links_stay_within_the_folder_of_the_page() {
         assert_eq!(href("shares.csv"), "shares.csv");
         assert_eq!(href("a b/µ.svg"), "a%20b/%C2%B5.svg");
         assert_eq!(href("#claims"), "#claims");

@@ -84,7 +84,7 @@ impl Report<'_> {
         if !self.provenance.is_empty() {
             let program = [("program", format!("apportion {version}"))].into_iter();
             let digest = self.study.map(|study| ("study file, SHA-256", format!("`{}`", study.sha256)));
-            let table = Table::pairs("How the answer came about.", program.chain(self.provenance).chain(digest));
+            let table = Table::pairs("How the result was computed.", program.chain(self.provenance).chain(digest));
             sections.push(Section::new("provenance", "Provenance", vec![Part::OnPage(vec![table.into()])]));
         }
         sections.retain(|section| !section.parts.is_empty());

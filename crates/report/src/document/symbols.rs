@@ -196,7 +196,7 @@ mod tests {
     }
 
     #[test]
-    fn code_is_left_alone() {
+    fn code_is_not_changed() {
         assert_eq!(symbols("set `F_cr = 5 nN`, `<b>`"), "set <code>F_cr = 5 nN</code>, <code>&lt;b&gt;</code>");
         assert_eq!(symbols("a lone ` and ``"), "a lone ` and ``");
     }

@@ -200,7 +200,7 @@ mod tests {
     }
 
     #[test]
-    fn bounds_stand_where_they_are_not_symmetric() {
+    fn asymmetric_intervals_are_shown_by_their_bounds() {
         assert_eq!(give_or_take(record(0.5217, 0.6789, 1.0301)), "0.68 [0.52, 1.03]");
         assert_eq!(give_or_take(record(0.4, 0.5, 0.52)), "0.50 [0.40, 0.52]");
         assert_eq!(give_or_take(record(0.3282, 0.328_45, 0.3287)), "0.3285 ± 0.0003");
@@ -250,7 +250,7 @@ mod tests {
     proptest::proptest! {
         /// The text is within half of the last place of the value, and never shows a place beyond the error.
         #[test]
-        fn what_is_written_is_what_is_meant(estimate in -10.0..10.0, power in -9.0..0.5_f64) {
+        fn rounded_numbers_are_within_their_error(estimate in -10.0..10.0, power in -9.0..0.5_f64) {
             let half = libm::pow(10.0, power);
             let text = about(estimate, half);
             let (value, error) = text.split_once(" ± ").expect("symmetric");

@@ -63,7 +63,7 @@ fn not_read(result: &GivenFile) -> Option<String> {
     let (columns, hold, are) = if names.len() == 1 { ("column", "holds", "is") } else { ("columns", "hold", "are") };
     (!names.is_empty()).then(|| {
         format!(
-            "The {columns} {} {hold} no plain numbers and {are} not among the inputs: mind the warning.",
+            "The {columns} {} {hold} no plain numbers and {are} not among the inputs: see the warning.",
             listed(&names)
         )
     })
@@ -109,10 +109,10 @@ fn index_table(result: &GivenFile, output: &GivenOutputRecord) -> Table {
     let first_order =
         "First-order index of each input, the part of the variance that knowing it removes, with its 95 % interval.";
     let left = served.filter(|of| of.unknown >= sentences::VISIBLE).map(|of| sentences::percent(of.unknown));
-    let left = left.map(|left| format!(" Upper ends by the surrogate contain what it leaves, {left} of the variance."));
+    let left = left.map(|left| format!(" Upper ends by the surrogate include the unexplained {left} of the variance."));
     let caption = match served {
         Some(_) => {
-            format!("{first_order} S_T, the total index, has the interactions as well.{}", left.unwrap_or_default())
+            format!("{first_order} S_T, the total index, includes interactions.{}", left.unwrap_or_default())
         }
         None => first_order.to_owned(),
     };

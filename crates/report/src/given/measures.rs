@@ -57,7 +57,7 @@ pub(crate) fn agreement(output: &str, inputs: &[InputMeasures], measures: &[Meas
         leads => {
             let one = |(lead, by): &(usize, Vec<&str>)| format!("{} by {}", inputs[*lead].input, by.join(", "));
             let all: Vec<String> = leads.iter().map(one).collect();
-            format!("The measures do not agree on what comes first for {output}: {}.", all.join("; "))
+            format!("The measures disagree on the most important input for {output}: {}.", all.join("; "))
         }
     };
     let no_influence = |of: &&InputMeasures| measures.iter().all(|measure| of.may_be_chance(*measure));
@@ -80,17 +80,17 @@ pub(crate) fn table(output: &str, (what, inputs): (&'static str, &[InputMeasures
     let found = || inputs.iter().flat_map(|of| of.measures.values());
     let mut caption = if found().any(|found| found.p_value.is_some()) {
         format!(
-            "In brackets is what {article} {what} without influence reaches in more than {:.0} of 100 tables: {chance}.",
+            "In brackets: the value that {article} {what} without influence reaches in more than {:.0} of 100 tables, {chance}.",
             100.0 * SIGNIFICANT
         )
     } else {
-        "The rows are no independent draws, so that nothing is said of chance: there are no p-values.".to_owned()
+        "The rows are not independent draws, so there are no p-values.".to_owned()
     };
     if found().any(|found| found.estimate.interval.is_some()) {
         caption.push_str(" Delta has its 95 % interval.");
     }
     if has(Measure::Hsic) {
-        caption.push_str(&format!(" R2-HSIC is of {MAX_ROWS_OF_KERNELS} rows at most, drawn at random from more."));
+        caption.push_str(&format!(" R2-HSIC uses at most {MAX_ROWS_OF_KERNELS} rows, drawn at random."));
         if inputs.iter().any(|of| of.get(Measure::Hsic).is_none()) {
             caption.push_str(" It is empty where these rows have one value only.");
         }

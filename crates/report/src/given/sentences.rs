@@ -46,17 +46,17 @@ pub(super) fn interval(indices: &GivenIndices, by_surrogate: bool) -> Option<Str
 pub(super) fn notes(by_surrogate: bool) -> Vec<String> {
     let orders = if by_surrogate {
         "by ranks and bins, given data yield first-order indices only; those by the surrogate, with the total indices, lack a \
-         part of the variance that no rows of a table assign to inputs (noise, inputs that are not in the table, fine \
-         structure): up to all of it may belong to any of them, and the upper ends of the intervals contain it"
+         part of the variance that the rows cannot assign to inputs (noise, inputs that are not in the table, fine \
+         structure): all of it may belong to any input, so the upper ends of the intervals include it"
     } else {
-        "given data yield first-order indices only: no total index, and nothing on interactions; what the sum of the \
-         indices lacks of 1 may be interactions, noise, or inputs that are not in the table"
+        "given data yield first-order indices only: no total index, and no interactions; if the sum of the indices is below 1, the \
+         rest may be interactions, noise, or inputs that are not in the table"
     };
     [
         orders,
         "if inputs depend on each other, S_j is the share of the variance that knowing input j alone removes: it contains \
-         effects of the inputs that go with it, and the sum may exceed 1",
-        "the indices describe the distribution of the inputs in the table; they say nothing of values outside it",
+         effects of inputs correlated with it, and the sum may exceed 1",
+        "the indices describe the distribution of the inputs in the table; they do not apply to values outside it",
     ]
     .map(str::to_owned)
     .to_vec()
@@ -83,7 +83,7 @@ pub(super) fn warnings(
     }
     if surrogates.is_some_and(Result::is_ok) && indices.points != PointSet::Independent {
         warnings.push(
-            "the intervals by the surrogate are those of random rows, and too wide for these, which are more even"
+            "the intervals by the surrogate are for random rows, and too wide for these rows, which are more even"
                 .to_owned(),
         );
     }
@@ -91,23 +91,23 @@ pub(super) fn warnings(
         let were = if rows == 1 { "row was" } else { "rows were" };
         warnings.push(format!(
             "{rows} {were} left out for missing values (the first on line {line}); if runs fail in a part of the space, the \
-             indices hold for the rest of it only"
+             indices hold only for the rest of it"
         ));
     }
     if let Some(reason) = indices.points.reason() {
         warnings.push(format!(
-            "no estimate by ranks, which does not converge here, and no intervals: {reason}. The estimates by bins stand"
+            "no estimate by ranks, which does not converge here, and no intervals: {reason}. The estimates by bins are valid"
         ));
     }
     if indices.points == PointSet::Independent && indices.rows < MIN_ROWS_FOR_BINS {
         warnings.push(format!(
-            "fewer than {MIN_ROWS_FOR_BINS} rows: the intervals by bins do not know of dependence finer than a bin, and may be too \
+            "fewer than {MIN_ROWS_FOR_BINS} rows: the intervals by bins ignore dependence finer than a bin, and may be too \
              narrow; those by ranks are safer"
         ));
     }
     if let Some(dependence) = &indices.dependence {
         let (a, b) = &dependence.strongest.inputs;
-        let meaning = "first-order indices then contain effects of the inputs that go with each other";
+        let meaning = "first-order indices then contain effects of both";
         if dependence.correlated() {
             let spearman = dependence.strongest.spearman;
             warnings
@@ -124,7 +124,7 @@ pub(super) fn output_warnings(output: &OutputIndices, surrogate: Option<&Surroga
     let mut warnings = Vec::new();
     if let Some(surrogate) = surrogate.filter(|surrogate| !surrogate.serves) {
         warnings.push(format!(
-            "the surrogate does not serve: of rows that it was not fitted to it explains {} of the variance, and {} are \
+            "the surrogate is not used: it explains only {} of the variance of rows that it was not fitted to, and {} are \
              needed. Read the first-order indices by ranks and bins; there are no total indices",
             percent(surrogate.explained.max(0.0)),
             percent(MIN_EXPLAINED)
@@ -157,8 +157,8 @@ pub(super) const VISIBLE: f64 = 5e-4;
 pub(super) fn of_surrogate(explained: f64, unknown: f64, terms: f64, polynomials_of: &str) -> String {
     let left = match unknown >= VISIBLE {
         true => format!(
-            " The rest, {} %, is not assigned to inputs: an index may be larger than its estimate by so much, and the upper ends \
-             of the intervals contain it.",
+            " The rest, {} %, is not assigned to inputs: an index may be larger than its estimate by this amount, and the upper ends \
+             of the intervals include it.",
             fixed(100.0 * unknown, 1)
         ),
         false => String::new(),

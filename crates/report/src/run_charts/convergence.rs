@@ -72,7 +72,7 @@ fn caption(result: &StudyResult, output: &OutputResult) -> String {
         (Some(last), None) => {
             format!("After {} model runs there are indices without an interval.", grouped(last.model_runs))
         }
-        (None, _) => "There are too few base samples to be looked at in parts.".to_owned(),
+        (None, _) => "There are too few base samples to estimate the indices from parts of them.".to_owned(),
     };
     known + &not_drawn(result.factors.len(), LINES)
 }

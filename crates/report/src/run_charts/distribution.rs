@@ -15,7 +15,7 @@ pub fn distribution_chart(result: &StudyResult, output: &OutputResult) -> Chart 
         let sample = &distribution.sample;
         let mut chart = histogram_chart(sample, &title, &output_words);
         if sample.count < distribution.values {
-            let caption = format!("{} These were kept of all {}.", chart.caption(), grouped(distribution.values));
+            let caption = format!("{} They were kept of all {}.", chart.caption(), grouped(distribution.values));
             chart.set_caption(caption);
         }
         return chart;

@@ -20,7 +20,7 @@ pub fn indices_chart(result: &StudyResult, output: &OutputResult) -> Chart {
     let panel = match indices.iter().any(|index| index.effect.dependent.is_some()) {
         true => {
             let mut series = both_orders(first_order, total);
-            let names = ["S_1, first order: with all that it tells of others", "S_T, total: what it has on its own"];
+            let names = ["S_1, first order: with dependence on others", "S_T, total: without dependence on others"];
             series.iter_mut().zip(names).for_each(|((series, _), name)| series.name = name.to_owned());
             index_panel(INDEX, factors, series, INDICES, &keys)
         }

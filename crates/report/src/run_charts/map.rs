@@ -110,7 +110,7 @@ pub(crate) fn together_chart(result: &StudyResult) -> Chart {
         }
         aggregate => {
             let reason = aggregate.as_ref().and_then(|aggregate| aggregate.reason.as_deref());
-            format!("No indices of all outputs together: {}.", reason.unwrap_or("the result holds none"))
+            format!("No indices of all outputs together: {}.", reason.unwrap_or("the result has none"))
         }
     };
     Chart::new(format!("{}: all outputs together", result.study.headline()), caption).panels([panel])

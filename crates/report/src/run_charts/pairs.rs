@@ -17,7 +17,7 @@ const NOTHING: &str = "below 0.01, or may be 0";
 /// Draws second-order indices of all pairs of factors as shades and figures, with the first-order indices on the
 /// diagonal; the factor with the largest total index is the first. Of more than 15 factors, the first 15.
 pub fn pairs_chart(result: &StudyResult, output: &OutputResult) -> Chart {
-    let title = format!("{}: what acts on {} two by two", result.study.headline(), name(&output.name));
+    let title = format!("{}: interactions of pairs of factors, for {}", result.study.headline(), name(&output.name));
     let order = by_total(output).unwrap_or_default();
     let factors = &order[..order.len().min(MAX_PAIRS)];
     let sure = surely_interact(output.second_order.as_deref().unwrap_or_default());
@@ -46,7 +46,7 @@ pub fn pairs_chart(result: &StudyResult, output: &OutputResult) -> Chart {
     let columns =
         Axis::from_names("the factors by their numbers", (1..=factors.len()).map(|n| n.to_string()).collect());
     let caption = format!(
-        "Below the diagonal, what two factors do together beyond what each does alone (S_ij); on it, what each does alone \
+        "Below the diagonal, the interaction of two factors (second-order index S_ij); on it, the effect of each alone \
          (S_i).{}",
         not_drawn(order.len(), MAX_PAIRS)
     );

@@ -86,8 +86,8 @@ fn spacing(scatter: &ScatterRecord) -> Spacing {
 /// Describes the marks, and names the factors that are not drawn.
 fn caption(result: &StudyResult, scatter: &ScatterRecord) -> String {
     format!(
-        "Dots: {} of the model runs; line: mean over a slice of the factor, with 1.96 standard errors to both sides. The more \
-         of the dots' spread the line follows, the larger is the first-order index S_1.{}",
+        "Dots: {} of the model runs; line: mean over a slice of the factor, with 1.96 standard errors on both sides. The more \
+         the line varies compared with the dots, the larger the first-order index S_1.{}",
         scatter.points.len(),
         not_drawn(result.factors.len(), scatter.factors.len())
     )

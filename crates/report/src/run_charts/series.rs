@@ -67,10 +67,8 @@ pub(crate) fn along_chart(of: SeriesOf<'_>) -> Chart {
         panel("Total indices S_T: with all interactions", |index| index.effect.total),
         panel("First-order indices S_1: alone", |index| index.effect.first_order),
     ];
-    let caption = format!(
-        "Bands are the 95 % intervals of each value by itself, drawn from −0.1 to 1.1.{}",
-        not_drawn(order.len(), LINES)
-    );
+    let caption =
+        format!("Bands are the 95 % intervals of each value, drawn from −0.1 to 1.1.{}", not_drawn(order.len(), LINES));
     let title = format!("{}: indices along the axis of {}", of.result.study.headline(), name(&of.series.name));
     Chart::new(title, caption).panels(panels)
 }

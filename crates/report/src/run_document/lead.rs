@@ -75,6 +75,6 @@ fn settled(result: &StudyResult) -> String {
             let which = indices_measured(&result.outputs);
             format!("After {runs} model runs {which} is known to ± {} or better{target}.", two_digits(widest))
         }
-        Some(_) => format!("After {runs} model runs the intervals are too wide to tell the indices{target}."),
+        Some(_) => format!("After {runs} model runs the intervals are too wide to determine the indices{target}."),
     }
 }

@@ -13,7 +13,7 @@ pub(super) fn measures(output: &OutputResult) -> Vec<Part> {
     let Some(record) = &output.measures else { return Vec::new() };
     let wanted = wanted([record]);
     let text = format!(
-        "{} They are taken from {} rows A and B, the first of the run, as from given data.",
+        "{} They are estimated from the first {} rows A and B of the run, as from given data.",
         agreement(&output.name, &record.factors, &wanted),
         grouped(record.rows as u64)
     );

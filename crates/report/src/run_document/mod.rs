@@ -145,7 +145,7 @@ fn cost(result: &StudyResult) -> Vec<Part> {
         let rate = (provenance.model_runs as f64 / seconds).round() as u64;
         rows.push(("runs per second", grouped(rate)));
     }
-    let mut parts = vec![Part::OnPage(vec![Table::pairs("What the run took.", rows).into()])];
+    let mut parts = vec![Part::OnPage(vec![Table::pairs("Cost of the run.", rows).into()])];
     if let Some(effort) = &result.effort {
         let rungs: Vec<String> = effort.rungs.iter().map(|r| format!("{} {}", r.rung, grouped(r.runs))).collect();
         let rows = [
@@ -153,11 +153,11 @@ fn cost(result: &StudyResult) -> Vec<Part> {
             ("evaluations", grouped(effort.evaluations)),
             ("largest error estimate", format!("{:.1e} (relative)", effort.largest_error_estimate)),
         ];
-        parts.push(Table::pairs("Which fidelities answered.", rows).into());
+        parts.push(Table::pairs("Fidelities used.", rows).into());
     }
     let low = |low: &LowRuns| {
         format!(
-            "{} ({} at the rows of the model, {} of its own)",
+            "{} ({} at the rows of the model, {} at additional points)",
             low.name,
             grouped(low.shared_runs),
             grouped(low.own_runs)
@@ -200,7 +200,7 @@ fn chosen(result: &StudyResult, spending: &SpendingRecord) -> Vec<String> {
         ),
         None => format!("An accuracy of {} took {spent} runs of the model, trials included.", significant(spending.accuracy)),
     });
-    texts.push("These lines in the place of `accuracy` make the same run again, to the bit.".to_owned());
+    texts.push("These lines instead of `accuracy` repeat the same run exactly.".to_owned());
     texts
 }
 
@@ -217,8 +217,8 @@ fn own_ranges(study: &StudyRecord) -> Option<Section> {
     }
     let changes = if study.overrides.is_empty() { "" } else { ", with the changes of this run," };
     let text = format!(
-        "What if your own factors vary less, or more? `apportion live {}.toml`{changes} makes a page that computes it while a \
-         range is dragged, with the engine of this program inside; it needs no network.",
+        "How do the indices change if the factors vary less, or more? `apportion live {}.toml`{changes} makes a page that recomputes them \
+         while a range is dragged; it contains the engine of this program and needs no network.",
         study.name
     );
     Some(Section::new(TRY, "Try your own ranges", vec![Part::OnPage(vec![Part::Text(text)])]))
@@ -240,11 +240,11 @@ fn provenance(result: &StudyResult) -> Vec<Part> {
         ("study file, SHA-256", format!("`{}`", provenance.study_sha256)),
     ];
     let files = &provenance.model_files;
-    let files = (!files.is_empty()).then(|| ("files of the model that a journal knows", files.join(", ")));
+    let files = (!files.is_empty()).then(|| ("files of the model that a journal depends on", files.join(", ")));
     let rows = rows.into_iter().chain(files);
     let text = "The same study file, seed and version give the same numbers, on any number of threads. Cite the result by these three, \
                 with the digest (SHA-256) for the study file; CITATION.cff in the sources of the program says how to cite the program.";
-    vec![Part::Text(text.to_owned()), Table::pairs("How the answer came about.", rows).into()]
+    vec![Part::Text(text.to_owned()), Table::pairs("How the result was computed.", rows).into()]
 }
 
 #[cfg(test)]

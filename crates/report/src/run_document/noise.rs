@@ -20,10 +20,10 @@ pub(super) fn noise(output: &OutputResult) -> Vec<Part> {
     let mut text = sentence(output).unwrap_or_default();
     if noise.mean_share.estimate > 0.0 {
         let rest = percent(complement(noise.effect.total));
-        text.push_str(&format!(" The mean over the noise has {rest}: its indices are of that variance alone."));
+        text.push_str(&format!(" The mean over the noise has {rest}: its indices refer to that variance only."));
     }
     if noise.of_mean.iter().all(|of_mean| of_mean.total.is_none()) {
-        text.push_str(" Its total indices take one more run for each factor: `mean_totals = true` in [noise].");
+        text.push_str(" Its total indices need one more run for each factor: `mean_totals = true` in [noise].");
     }
     let table = (noise.mean_share.estimate > 0.0).then(|| table(output, noise).into());
     [Part::Text(text)].into_iter().chain(table).collect()

@@ -68,7 +68,7 @@ fn surrogate(output: &OutputResult) -> Vec<Part> {
         let declined = |trial: SurrogateTrial| {
             format!(
                 "The indices are plain ones: in a trial on {} runs, surrogates made errors {} times smaller, and all runs are \
-                 corrected from {} times on (`surrogate = \"on\"` corrects them all the same).",
+                 corrected only from {} times smaller on (`surrogate = \"on\"` always corrects them).",
                 grouped(trial.runs),
                 significant((trial.gain * 10.0).floor() / 10.0),
                 trial.needed
@@ -78,7 +78,7 @@ fn surrogate(output: &OutputResult) -> Vec<Part> {
     };
     let percent = |share: f64| significant((share * 1e4).floor() / 1e2);
     let gain = |what: &str, corrected: bool, gain: Option<f64>| match gain.filter(|_| corrected) {
-        Some(gain) => format!("the {what} indices are as accurate as by {} times the runs", two_digits(gain)),
+        Some(gain) => format!("the {what} indices are as accurate as with {} times the runs", two_digits(gain)),
         None if corrected => format!("the {what} indices are corrected by them"),
         None => format!("the {what} indices are the plain ones, which are no less accurate"),
     };
@@ -92,7 +92,7 @@ fn surrogate(output: &OutputResult) -> Vec<Part> {
     if let Some(low) = &record.low {
         let explained = percent(low.explained.clamp(0.0, 1.0));
         text.push_str(&format!(
-            " The low-fidelity model `{}` by itself explains {explained} %; the polynomials are those of the rest.",
+            " The low-fidelity model `{}` alone explains {explained} %; the polynomials are fitted to the rest.",
             low.name
         ));
     }
@@ -104,11 +104,11 @@ fn shares(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
     let has_shapley = of.output.shapley_groups.is_some() || any(|index| index.effect.shapley.is_some());
     let text = match has_shapley {
         true => {
-            "Shapley effects share out the variance of the output whether or not factors depend on each other: each is the mean, \
-             over the orders of all, of what one adds to what those before it explain. They sum to 100 %."
+            "Shapley effects divide the variance of the output among the factors, even if they depend on each other: each is the mean, \
+             over all orders of the factors, of the variance that a factor adds to that of the factors before it. They sum to 100 %."
         }
         false if any(|index| index.effect.dependent.is_some()) => {
-            let text = "The indices of factors that depend on each other share out nothing. Shapley effects do: shapley = true \
+            let text = "The indices of factors that depend on each other do not divide the variance. Shapley effects do: shapley = true \
                         in [analysis].";
             return vec![Part::Text(text.to_owned())];
         }

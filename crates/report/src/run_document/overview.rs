@@ -73,7 +73,7 @@ pub(super) fn factors(result: &StudyResult) -> Table {
         totals.sort_by(|a, b| a.0.estimate.total_cmp(&b.0.estimate));
         (factor, totals.get(totals.len() / 2).map(|median| median.0), totals.last().copied())
     };
-    let caption = "Indices of all together, for how many a factor surely matters most, and the median and largest of its \
+    let caption = "Indices of all outputs together, number of outputs for which a factor surely matters most, median and largest of its \
                    total indices.";
     Table::from_rows(caption, overall_order(result).iter().map(totals))
         .text("factor", |(factor, ..)| name(&result.factors[factor].name))
@@ -94,7 +94,7 @@ pub(super) fn mind(result: &StudyResult) -> Vec<Part> {
     let places: Vec<usize> = (0..result.outputs.len()).filter(|&place| without(&result.outputs[place])).collect();
     if let Some(&first) = places.first() {
         let names: Vec<&str> = result.outputs.iter().map(|output| output.name.as_str()).collect();
-        let reason = result.outputs[first].reason.as_deref().unwrap_or("the result holds none");
+        let reason = result.outputs[first].reason.as_deref().unwrap_or("the result has none");
         parts.push(Part::no_indices(format!("There are no indices of {}: {reason}.", of_which(&names, &places))));
     }
     let mut warnings = grouped_warnings(&result.outputs);
@@ -139,7 +139,7 @@ pub(super) fn answers(result: &StudyResult) -> Vec<String> {
     let counted: Vec<String> = counted.collect();
     let all = result.outputs.len();
     let mut answers = vec![match counted.is_empty() {
-        true => format!("For none of {all} outputs a factor is sure to matter most."),
+        true => format!("No factor is sure to matter most for any of {all} outputs."),
         false => format!("Matters most of {all} outputs, by the total index S_T: {}.", listed(&counted)),
     }];
     let together = result.aggregate.as_ref().and_then(|aggregate| aggregate.indices.as_deref());

@@ -112,7 +112,7 @@ fn in_full(
     let mut chart = together_chart(alone);
     chart.set_title(chart.title().replace("all outputs together", &format!("{} as a whole", name(&of.series.name))));
     parts.push(figures.add(chart, "together", together));
-    let caption = "Indices of the whole series, for how many of its values a factor surely matters most, and the median and \
+    let caption = "Indices of the whole series, the number of its values for which a factor surely matters most, and the median and \
                    largest of its total indices.";
     parts.push(Table { caption: caption.to_owned(), ..overview::factors(alone) }.into());
     parts.push(overview::every_output(alone));
@@ -124,6 +124,6 @@ pub(super) fn answer(result: &StudyResult, series: &SeriesRecord) -> String {
     let label = name(&series.name);
     let whole = format!("For {label} as a whole ({} values)", SeriesOf { result, series }.values().len());
     let sentence = series.indices.as_ref().and_then(|indices| leader_of_all(indices, &whole));
-    let reason = || series.reason.as_deref().unwrap_or("the result holds none");
+    let reason = || series.reason.as_deref().unwrap_or("the result has none");
     sentence.unwrap_or_else(|| format!("There are no indices of {label} as a whole: {}.", reason()))
 }

@@ -31,7 +31,7 @@ pub(super) fn definitions(result: &StudyResult) -> [Part; 2] {
     };
     let intervals = match &result.provenance.interval {
         Some(words) => format!("Intervals (±): {words}."),
-        None => "There are no intervals: a single replicate says nothing about its error.".to_owned(),
+        None => "There are no intervals: one replicate gives no estimate of its error.".to_owned(),
     };
     [Part::OnPage(vec![Part::Text(indices)]), Part::Text(intervals)]
 }

@@ -187,10 +187,10 @@ pub(super) fn subsets(result: &StudyResult, output: &OutputResult) -> Option<Tab
     let subsets = output.subsets.iter().flatten();
     let lines =
         subsets.map(|subset| Line::new("subset", joined(&subset.factors), subset.factors.join(" + "), &subset.effect));
-    let label = || "dummy, which does nothing".to_owned();
+    let label = || "dummy, without effect".to_owned();
     let dummy = output.dummy.iter().map(|effect| Line::new("dummy", label(), "dummy", effect));
     let caption = match output.dummy {
-        Some(_) => "Joint indices of subsets, and of a factor that does nothing: what is not 0 there is error.",
+        Some(_) => "Joint indices of subsets, and of a dummy factor: its indices are 0 except for errors.",
         None => "Joint indices of subsets of the factors: S_1 includes the interactions inside them.",
     };
     joint(result, output, caption, lines.chain(dummy).collect())
@@ -228,7 +228,7 @@ pub(super) fn pairs(output: &OutputResult) -> Option<Table> {
 
 /// Tabulates pairs, and whether their interaction is certain.
 fn pairs_table<'a>(output: &str, pairs: Vec<(&'a PairRecord, bool)>) -> Rows<(&'a PairRecord, bool)> {
-    let caption = "Second-order indices: what two factors do together beyond what each does alone.";
+    let caption = "Second-order indices: interactions of two factors.";
     Table::from_rows(caption, pairs)
         .text("pair", |(pair, _)| pair.factors.each_ref().map(|factor| name(factor)).join(" × "))
         .text("interaction seen", |(pair, is_sure)| match pair.index.interval {
@@ -279,7 +279,7 @@ pub(super) fn aggregate_of(result: &StudyResult, record: &AggregateRecord, indic
     let outputs = match record.outputs.len() {
         ..MIN_OUTPUTS_TOGETHER => record.outputs.join(" + "),
         all if all == result.outputs.len() => "all outputs".to_owned(),
-        _ => "all outputs that are no series".to_owned(),
+        _ => "all outputs that are not series".to_owned(),
     };
     let rows = effects(result, &outputs, "Aggregated indices of all outputs.", "factor", &lines);
     rows.largest(order, FACTORS, IN_CSV).into()

@@ -21,7 +21,7 @@ fn titles(page: &Document) -> Vec<&str> {
 const SMALL: &str = "\n[design]\nbase_samples = 256\n";
 
 #[test]
-fn the_leading_factor_stands_at_the_top() {
+fn the_leading_factor_is_at_the_top() {
     let result = result(&format!("model = \"linear\"\n[function]\nc = [1.0, 4.0, 2.0]{SMALL}"));
     let page = page(&result);
     assert!(page.lead[0].starts_with("For y, x2 matters most"), "{}", page.lead[0]);
@@ -91,7 +91,7 @@ fn names_and_titles_cannot_break_out() {
     assert_eq!(html.matches("</script>").count(), 1);
 }
 
-/// A surrogate may know the variance so much better that the values' own is outside of its interval.
+/// A surrogate may determine the variance so much better that the variance of the values is outside its interval.
 #[test]
 fn a_standard_deviation_has_its_error() {
     let mut result = result(&format!("model = \"ishigami\"{SMALL}"));
@@ -127,7 +127,7 @@ fn few_values_have_a_range_and_no_quantiles_of_it() {
 }
 
 #[test]
-fn no_index_of_the_table_is_known_worse_than_the_lead_says() {
+fn no_index_of_the_table_has_a_larger_error_than_the_lead() {
     for model in ["linear", "ishigami"] {
         for samples in [64, 256, 1024] {
             let result = result(&format!("model = \"{model}\"\n[design]\nbase_samples = {samples}\n"));
@@ -177,7 +177,8 @@ fn warnings_of_a_kind_are_one() {
     let few_rows = |place: usize| result.outputs[place].warnings.iter().any(|warning| warning.code() == "few-rows");
     assert!(few_rows(0) && few_rows(1) && result.outputs[2].warnings.is_empty());
     let grouped = super::warnings::grouped_warnings(&result.outputs);
-    let of_few_rows: Vec<&String> = grouped.iter().filter(|text| text.contains("rests on few rows")).collect();
+    let of_few_rows: Vec<&String> =
+        grouped.iter().filter(|text| text.contains("few rows determine the variance")).collect();
     assert!(of_few_rows.len() == 1 && of_few_rows[0].contains("(2 outputs: y and z)"), "{grouped:?}");
 }
 

@@ -37,8 +37,8 @@ pub(super) fn moments(output: &OutputResult) -> Option<Part> {
         }
     }
     add("largest", Some(number(sample.max)));
-    let caption = "Moments and range are those of all values where nothing else is said, mean and standard deviation with their \
-                   95 % intervals; quantiles are those of the values that were kept.";
+    let caption = "Moments and range are those of all values unless stated otherwise, mean and standard deviation with their \
+                   95 % intervals; quantiles are those of the kept values.";
     let rows = Table::from_rows(caption, &rows).text("", |(label, _)| label).number("", |(_, text)| text);
     Some(rows.into())
 }
@@ -76,7 +76,7 @@ pub(super) fn surrogate(output: &OutputResult, record: &SurrogateRecord) -> Vec<
         term.degrees.iter().map(factor).collect::<Vec<_>>().join(" × ")
     };
     let terms = record.leading_terms.iter().filter(|term| term.share >= MIN_TERM_SHARE);
-    let caption = "The terms that carry most of the variance, by the degree in each factor: steps and kinks count as degrees too.";
+    let caption = "The terms with most of the variance, by the degree in each factor (steps and kinks count too).";
     let terms = Table::from_rows(caption, terms)
         .text("term", label)
         .number("of the variance", |term| format!("{} %", significant(rounded(term.share))));

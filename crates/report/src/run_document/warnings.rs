@@ -26,7 +26,7 @@ pub(super) fn grouped_warnings(outputs: &[OutputResult]) -> Vec<String> {
             text.push_str(&format!(" ({})", of_which(&names, &places)));
         }
         if all.len() > places.len() {
-            text.push_str(&format!("; {} more like it in the JSON file", all.len() - places.len()));
+            text.push_str(&format!("; {} similar warnings in the JSON file", all.len() - places.len()));
         }
         text
     };

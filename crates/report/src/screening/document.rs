@@ -62,7 +62,7 @@ fn effects(file: &ScreeningFile, output: &ScreenedOutput) -> Table {
     let plain = |estimate: Option<Estimate>| or_dash(estimate, |estimate| short(estimate.estimate));
     let with_error = |estimate: Option<Estimate>| or_dash(estimate, index);
     let measures = "mean size μ* with its 95 % interval, mean μ, standard deviation σ";
-    let bound = "; ν, the mean square of the derivative per unit of the factor, and what the total index S_T is at most by \
+    let bound = "; ν, the mean square of the derivative per unit of the factor, and the upper bound of the total index S_T from \
                  Poincaré's inequality";
     let (output_name, is_derivative) = (name(&output.name), file.provenance.derivative_step.is_some());
     let caption = match is_derivative {

@@ -125,15 +125,15 @@ fn notes(study: &Study, design: ScreeningDesign) -> Vec<String> {
     let mut notes = Vec::new();
     if matches!(design, ScreeningDesign::Derivative { .. }) {
         notes.push(
-            "derivatives see the base points and nothing between them: a model with jumps has no bounds, and a steep place that is \
-             narrower than the points are apart is missed"
+            "derivatives are known at the base points only: for a model with jumps there are no bounds, and a steep slope that is \
+             narrower than the distance of the points is missed"
                 .to_owned(),
         );
         let text = "no bound on the total index by derivatives is known for the distribution of";
         notes.extend(about(text, &|law| poincare_constant(law).is_none(), &with_law));
     } else {
-        let text = "effects are per step in probability, so that sigma of factors that are not uniform holds the bend of their \
-                    distribution too:";
+        let text = "effects are per step in probability, so sigma of factors that are not uniform includes the curvature of their \
+                    distribution:";
         let is_bent = |law: &Distribution| {
             let is_continuous = law.levels().is_none() && !law.is_whole();
             is_continuous && !matches!(law, Distribution::Uniform(_) | Distribution::Constant(_))

@@ -105,7 +105,7 @@ fn caption(sweep: &Sweep) -> String {
     for output in &sweep.outputs {
         if let Some(percent) = output.percent {
             let (output, percent) = (name(&output.name), printed(percent));
-            text.push_str(&format!(" It moves {output} by {percent} % of the nominal value in all."));
+            text.push_str(&format!(" It changes {output} by {percent} % of the nominal value in total."));
         }
     }
     for line in gap_lines(sweep) {
@@ -132,7 +132,7 @@ fn ranges(file: &SweepFile, number: usize, nominal: &NominalOutput) -> Chart {
     let sweeps = || file.sweeps.iter().filter_map(|sweep| Some((sweep, sweep.outputs.get(number)?)));
     let output = name(&nominal.output);
     let caption = format!(
-        "Values of {output} with one factor at either end of its range and every other at its nominal value; the percentages are \
+        "Values of {output} with one factor at either end of its range and all others at nominal values; the percentages are \
          of the nominal value.{}",
         not_drawn(file.sweeps.len(), MAX_BARS)
     );
@@ -147,7 +147,7 @@ fn ranges(file: &SweepFile, number: usize, nominal: &NominalOutput) -> Chart {
     let marks = marks.flat_map(|(row, (sweep, effect))| row_marks(row, sweep, effect, nominal.value));
     let keys: Vec<f64> = sweeps().map(|(_, effect)| width(effect)).collect();
     let panel = Panel::new(x, rows).with(nominal.value.map(|value| Mark::rule(value, label(value)))).with(marks);
-    let title = format!("{}: how far each factor moves {output}", file.study.headline());
+    let title = format!("{}: effect of each factor on {output}", file.study.headline());
     Chart::new(title, caption).panels([panel.ranked(&keys, MAX_BARS)])
 }
 

@@ -33,7 +33,7 @@ pub fn sweep_document(file: &SweepFile) -> Document {
         kicker: "One factor at a time",
         title: file.study.headline().to_owned(),
         outputs: outputs.collect(),
-        then: vec![Section::new("curves", "The outputs over each factor", parts)],
+        then: vec![Section::new("curves", "Outputs against each factor", parts)],
         validity: &file.validity,
         study: Some(&file.study),
         version: &file.provenance.apportion_version,
@@ -50,12 +50,12 @@ fn widest(file: &SweepFile, nominal: &NominalOutput, number: usize) -> String {
     let output = name(&nominal.output);
     match by_width(file, number).first() {
         Some((sweep, SweptOutput { low: Some(low), high: Some(high), .. })) if high > low => format!(
-            "Over its range, with all others nominal, {} moves {output} most: between {} and {}.",
+            "With all other factors nominal, {} changes {output} most: between {} and {}.",
             name(&sweep.factor),
             value(*low, ""),
             value(*high, &nominal.unit)
         ),
-        Some(_) => format!("No factor alone moves {output}, as far as it has values."),
+        Some(_) => format!("No factor alone changes {output}, where it has values."),
         None => format!("No factor was swept for {output}."),
     }
 }
@@ -92,7 +92,7 @@ fn effects(file: &SweepFile, nominal: &NominalOutput, number: usize) -> Part {
         unit => format!("{what} ({unit})"),
     };
     let caption = format!(
-        "How far each factor alone moves {}, all others nominal, the widest range first.",
+        "Effect of each factor alone on {}, with all others nominal, the widest range first.",
         name(&nominal.output)
     );
     let said = |value: Option<f64>| or_dash(value, short);

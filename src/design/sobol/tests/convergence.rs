@@ -95,7 +95,7 @@ fn replicates_and_seeds_are_independent() {
         let r = e.iter().zip(&e[lag..]).map(|(a, b)| a * b).sum::<f64>() / (512 - lag) as f64 / rms(&e).powi(2);
         assert!(r.abs() < 0.18, "lag {lag}: {r}");
     }
-    // The first point of every replicate and seed is a random number of its own.
+    // The first points of all replicates and seeds are independent random numbers.
     let mut firsts: Vec<f64> = Vec::new();
     for seed in 0..64 {
         for replicate in 0..64 {

@@ -1,9 +1,9 @@
-//! Parameters that make no distribution, each with what is said of them.
+//! Invalid parameters of distributions, each with its message.
 
 use super::*;
 
 #[test]
-fn what_cannot_be_is_refused_by_name() {
+fn invalid_settings_are_refused_by_name() {
     let (nan, infinite) = (f64::NAN, f64::INFINITY);
     let refused = |result: Result<Distribution, Error>| result.expect_err("must be refused");
     let cases = [
@@ -57,7 +57,7 @@ fn what_cannot_be_is_refused_by_name() {
         (Distribution::boolean(1.5), "`probability` is 1.5, but must lie between 0.0 and 1.0"),
         (Distribution::categorical::<&str>(&[], None, None), "`values` is empty"),
         (Distribution::categorical(&["a", ""], None, None), "`labels[1]` is empty"),
-        (Distribution::categorical(&["a", "a"], None, None), "the label \"a\" stands in `labels` twice"),
+        (Distribution::categorical(&["a", "a"], None, None), "the label \"a\" is listed twice in `labels`"),
         (Distribution::categorical(&["a"], Some(&[1.0, 2.0]), None), "there are 2 `values` for 1 `labels`"),
         (
             Distribution::categorical(&["a", "b"], Some(&[1.0, 1.0]), None),
@@ -104,12 +104,12 @@ fn what_cannot_be_is_refused_by_name() {
 }
 
 #[test]
-fn truncation_where_nothing_is_left_is_refused() {
+fn truncation_without_remaining_values_is_refused() {
     let refused =
         |min, max| matches!(Distribution::truncated_normal(0.0, 1.0, min, max), Err(Error::NothingLeft { .. }));
     assert!(refused(36.0, 37.0) && refused(-50.0, -36.0) && refused(1e300, 1.5e300));
     assert!(!refused(35.0, 37.0) && !refused(-50.0, -35.0) && !refused(-1e300, 1e-300));
-    // Bounds that are one number as seen from the mean.
+    // Bounds that are equal within the rounding of the mean.
     assert!(matches!(Distribution::truncated_normal(1e20, 1e20, 0.0, 1.0), Err(Error::NothingLeft { .. })));
     let refused =
         |min, max| matches!(Distribution::truncated_gumbel(0.0, 1.0, min, max), Err(Error::NothingLeft { .. }));

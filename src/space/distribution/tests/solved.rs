@@ -29,7 +29,7 @@ fn closed_forms_are_met() {
     let log_normal = made("log-normal", &[("p05", 1.0), ("p95", 4.0)]);
     close(log_normal.median(), 2.0, 1e-13);
     close(log_normal.quantile(0.95), 4.0, 1e-12);
-    // Exponential: standard deviation and mean are one.
+    // Exponential: standard deviation and mean are equal.
     let weibull = made("weibull", &[("mean", 3.0), ("sd", 3.0)]);
     close(weibull.median(), 3.0 * libm::log(2f64), 1e-11);
     close(made("exponential", &[("mean", 3.0)]).median(), 3.0 * libm::log(2f64), 1e-14);
@@ -83,7 +83,7 @@ fn every_way_leads_back() {
 }
 
 #[test]
-fn what_cannot_be_is_refused_by_name() {
+fn invalid_settings_are_refused_by_name() {
     type Case<'a> = (&'a str, &'a [(&'static str, f64)], &'a str);
     let cases: [Case<'_>; 12] = [
         ("normal", &[("p05", 3.0), ("p95", 3.0)], "`p05` is 3 and `p95` is 3, but `p05` must be below `p95`"),

@@ -1,4 +1,4 @@
-//! Many scenes at once against one by one.
+//! Many scenes at once, compared with single scenes.
 
 use proptest::prelude::*;
 
@@ -19,7 +19,7 @@ fn factors() -> Vec<&'static Parameter> {
     Parameter::ALL[..8].iter().collect()
 }
 
-/// Sets and solves `scenes`; whether they are to be taken.
+/// Sets and solves `scenes`; returns whether the results are valid.
 fn solve(forms: &mut ClosedForms, scenes: &[Scene]) -> bool {
     for parameter in factors() {
         let values: Vec<f64> = scenes.iter().map(parameter.get).collect();
@@ -32,7 +32,7 @@ fn solve(forms: &mut ClosedForms, scenes: &[Scene]) -> bool {
 }
 
 proptest! {
-    /// The same bits, whatever the other columns of a scene hold.
+    /// The same bits for any other columns of a scene.
     #[test]
     fn many_scenes_have_the_bits_of_each(
         scenes in prop::collection::vec(within_ranges(), 1..=AT_ONCE),
@@ -64,9 +64,9 @@ proptest! {
         prop_assert_eq!(counted, raised);
     }
 
-    /// What is taken is finite, at every magnitude, and has the bits of the scene alone.
+    /// Accepted scenes give finite results at every magnitude, with the bits of the same scene alone.
     #[test]
-    fn what_is_not_ordinary_is_left_to_the_other_way(exponents in prop::collection::vec(-300.0..300.0_f64, 8)) {
+    fn extreme_scenes_are_left_to_the_scalar_code(exponents in prop::collection::vec(-300.0..300.0_f64, 8)) {
         let mut scene = Scene::default();
         for (parameter, exponent) in factors().into_iter().zip(exponents) {
             (parameter.set)(&mut scene, 10_f64.powf(exponent));
@@ -90,7 +90,7 @@ fn values_outside_of_their_domain_are_left_to_the_other_way() {
 }
 
 #[test]
-fn what_has_no_columns_is_computed_one_by_one() {
+fn parameters_without_columns_are_computed_one_by_one() {
     let none = |scene: Scene, options: Options, name: &str| {
         ClosedForms::new(&scene, &options, &[Parameter::from_name(name).unwrap()]).is_none()
     };

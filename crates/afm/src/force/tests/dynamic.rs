@@ -1,4 +1,4 @@
-//! The marched rungs against the quasi-static one, and `auto` between them.
+//! The integrated rungs against the quasi-static one, and `auto`.
 
 use proptest::prelude::*;
 
@@ -32,8 +32,8 @@ fn moving() -> impl Strategy<Value = Scene> {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(50))]
 
-    /// The promise of this rung, at its default tolerance. Where the twist is large and the probe swings, the
-    /// quasi-static estimate says how far the two may part.
+    /// The accuracy of this rung at its default tolerance. Where the twist is large and the probe swings, the
+    /// quasi-static estimate bounds the difference.
     #[test]
     fn dynamic_agrees_with_quasi_static(scene in moving(), law in prop::sample::select(&STUCK[..])) {
         let dynamic = critical_force(&scene, &at(Fidelity::Dynamic, law)).unwrap();
@@ -52,21 +52,21 @@ proptest! {
         prop_assert!(error < 1e-6 + 2.0 * limit.error_estimate, "{error} {}", limit.error_estimate);
     }
 
-    /// Where the substrate is fast, the swing of the tip brings the slip forward, up to a fifth of the time and more.
+    /// On a fast substrate the swing of the tip makes the slip earlier, by up to a fifth of the time and more.
     #[test]
-    fn errors_tell_of_the_critical_time_where_it_is_asked_for(
+    fn errors_include_the_critical_time_if_requested(
         scene in within_ranges(), velocity in -8.0..-2.7_f64, law in prop::sample::select(&STUCK[..2])
     ) {
         let scene = Scene { velocity: libm::exp10(velocity), ..scene };
         let time = |critical: &Critical| critical.critical_time.unwrap();
         let exact = critical_force(&scene, &Options { tolerance: 1e-9, ..at(Fidelity::Dynamic, law) });
-        // Some points of the fastest take more steps than there may be.
+        // Some of the fastest scenes take more steps than allowed.
         prop_assume!(exact.is_ok());
         let exact = time(&exact.unwrap());
         for fidelity in [Fidelity::ClosedForm, Fidelity::QuasiStatic, Fidelity::Auto] {
             let found = critical_force(&scene, &Options { accurate_time: true, ..at(fidelity, law) }).unwrap();
             let late = time(&found) / exact - 1.0;
-            // The march may step over the top of a swing that just reaches the slip, and takes a later one.
+            // The integration may step over the maximum of a swing that just reaches the slip, and then finds a later one.
             let stepped_over = fidelity == Fidelity::Auto && found.rung == Fidelity::QuasiStatic && late < 0.0;
             let error = if stepped_over && late > -1e-5 { 0.0 } else { late.abs() };
             let claimed = found.error_estimate;
@@ -86,7 +86,7 @@ proptest! {
         prop_assert!(excess > -1e-5 * exact.lateral_force && excess < step * (1.01 + 10.0 * fixed.twist.powi(2)));
     }
 
-    /// `auto` is as accurate as it was asked to be, by the rung above the one it took.
+    /// `auto` meets its tolerance, compared with the rung above the one that it used.
     #[test]
     fn auto_meets_its_tolerance(scene in moving(), decade in -8.0..-2.0_f64, law in prop::sample::select(&STUCK[..3])) {
         let tolerance = 10_f64.powf(decade);
@@ -98,7 +98,7 @@ proptest! {
                 prop_assert!(error < tolerance + exact.error_estimate, "{:?} {error} {tolerance}", found.rung);
                 prop_assert!(found.error_estimate <= tolerance * 1.01 || found.rung == Fidelity::Dynamic);
             }
-            // Following every swing takes more steps than these.
+            // Following every period of the swing takes more steps.
             Err(failure) => prop_assert_eq!(failure, Failure::StepBudget),
         }
     }
@@ -134,7 +134,7 @@ fn nominal_rungs() {
 }
 
 #[test]
-fn auto_takes_the_lowest_rung_that_will_do() {
+fn auto_uses_the_lowest_sufficient_rung() {
     let rung = |scene: &Scene, tolerance| {
         let options = Options { tolerance, ..at(Fidelity::Auto, FrictionLaw::Coulomb) };
         critical_force(scene, &options).unwrap().rung
@@ -145,7 +145,7 @@ fn auto_takes_the_lowest_rung_that_will_do() {
     assert_eq!(rung(&heavy, 1e-7), Fidelity::Dynamic);
 }
 
-/// At rest, and without any friction, the marched rungs are the quasi-static limit.
+/// At rest, and without any friction, the integrated rungs agree with the quasi-static limit.
 #[test]
 fn without_motion_there_is_the_limit() {
     let resting = Scene { velocity: 0.0, ..Scene::default() };
@@ -167,7 +167,7 @@ fn a_budget_too_small_is_named() {
     }
 }
 
-/// A probe with so heavy a tip that an explicit method can follow its swings: both methods find the same slip, which the
+/// A probe with a tip so heavy that an explicit method can follow its swing: both methods find the same slip, which the
 /// swing moves visibly. The tolerance of the stiff method is set to follow it too.
 #[test]
 fn both_methods_follow_a_heavy_tip() {
@@ -197,10 +197,10 @@ fn both_methods_follow_a_heavy_tip() {
     assert!((found.travel / limit.travel - 1.0).abs() > 1e-3, "the swing is visible");
 }
 
-/// Where friction weakens as the particle speeds up, the swing of the tip shakes it loose before the peak of a motion without it:
+/// If friction weakens with velocity, the swing of the tip causes breakaway before the peak of a motion without it:
 /// steps so fine that they keep part of the swing gave 6.185056e-7 N here, 1.6e-4 less than any rung finds.
 #[test]
-fn what_the_swing_may_shake_loose_is_in_the_estimate() {
+fn the_error_estimate_includes_breakaway_by_the_swing() {
     let scene = Scene {
         bristle_stiffness: 294.585_744_801_317_6,
         bristle_damping: 1.6e-6,

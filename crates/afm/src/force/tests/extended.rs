@@ -1,4 +1,4 @@
-//! Arithmetic of twice the precision, to check the rest against: a number is the unevaluated sum of two (Dekker 1971).
+//! Arithmetic of twice the precision, as a reference: a number is the unevaluated sum of two (Dekker 1971).
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 

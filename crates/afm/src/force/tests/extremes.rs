@@ -1,11 +1,11 @@
-//! Every law at every rung, at the edges of every range and beyond: a finite answer or a named failure, never a NaN, a
+//! Every law at every rung, at the limits of every range and beyond: a finite result or a named failure, never a NaN, a
 //! panic or an endless loop.
 
 use proptest::prelude::*;
 
 use super::*;
 
-/// Every law at every rung, with few enough steps that a hopeless march ends soon.
+/// Every law at every rung, with so few steps that hopeless integrations end soon.
 fn every_run() -> Vec<Options> {
     let mut all = Vec::new();
     for friction in FrictionLaw::ALL {
@@ -47,7 +47,7 @@ pub(super) fn corners() -> Vec<Scene> {
     (0..256).map(corner).collect()
 }
 
-/// Inside the papers' box there is always an answer, but for Lemaitre-Carlson at rest.
+/// In the papers' box there is always a result, except for Lemaitre-Carlson at rest.
 #[test]
 fn every_corner_has_an_answer() {
     for options in every_run() {
@@ -93,7 +93,7 @@ fn named_extremes_are_finite_or_named() {
 }
 
 proptest! {
-    /// Any number at all in one place, the rest nominal: a finite answer or a named failure.
+    /// Any number for one parameter, the others nominal: a finite answer or a named failure.
     #[test]
     fn one_wild_number_is_finite_or_named(
         parameter in prop::sample::select(Parameter::ALL),
@@ -105,7 +105,7 @@ proptest! {
         is_finite_or_named(&scene, &options)?;
     }
 
-    /// Physical numbers of every magnitude in every place: a finite answer or a named failure.
+    /// Physical numbers of every magnitude for every parameter: a finite answer or a named failure.
     #[test]
     fn any_magnitude_is_finite_or_named(
         exponents in prop::collection::vec(-30.0..30.0_f64, Parameter::ALL.len()),
@@ -145,15 +145,15 @@ fn is_finite_or_named(scene: &Scene, options: &Options) -> Result<(), TestCaseEr
     Ok(())
 }
 
-/// Numbers that the map of extremes (`apportion trade --extremes`) found wrong without a word.
+/// Numbers that the map of extremes (`apportion trade --extremes`) found silently wrong.
 #[test]
 fn errors_far_outside_of_any_laboratory_are_stated_or_refused() {
     let lugre = Options { friction: FrictionLaw::LuGre, ..Options::default() };
     let by = |fidelity, options: Options, scene: &Scene| critical_force(scene, &Options { fidelity, ..options });
-    // K_y overflows: an error that is not a number claims nothing.
+    // K_y overflows: an error of NaN counts as 100 %.
     let wide = Scene { width: 8e95, ..Scene::default() };
     assert_eq!(critical_force(&wide, &Options::default()).unwrap().error_estimate, 1.0);
-    // The ramp stepped over the bristles giving way: 21 times the static friction.
+    // The ramp stepped over the saturation of the bristles: 21 times the static friction.
     let stiff = Scene {
         bristle_stiffness: 6e15,
         bristle_damping: 1.6e-8,
@@ -165,13 +165,13 @@ fn errors_far_outside_of_any_laboratory_are_stated_or_refused() {
         ..Scene::default()
     };
     assert_eq!(by(Fidelity::QuasiStatic, lugre, &stiff), Err(Failure::StepTooSmall));
-    // The march stepped over them by 4 %: its error says so.
+    // The integration stepped over them by 4 %: its error estimate includes this.
     let stiff = Scene { bristle_stiffness: 1e9, ..Scene::default() };
     let (exact, marched) =
         (by(Fidelity::QuasiStatic, lugre, &stiff).unwrap(), by(Fidelity::Dynamic, lugre, &stiff).unwrap());
     let off = (marched.critical_force / exact.critical_force - 1.0).abs();
     assert!(marched.error_estimate >= 0.9 * off && exact.error_estimate < 1e-4, "{off} {marched:?}");
-    // A cantilever so thick that F_Z is 1e33 F_Y, and the march loses 2.7e-6 of it.
+    // A cantilever so thick that F_Z is 1e33 F_Y, and the integration loses 2.7e-6 of it.
     let hk = Options { friction: FrictionLaw::HurtadoKim, ..Options::default() };
     let mut farthest = 0.0_f64;
     for step in 0..40 {

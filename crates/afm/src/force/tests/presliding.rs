@@ -61,7 +61,7 @@ fn dahl_is_lugre_without_dashpots() {
     }
 }
 
-/// The rungs within the errors that they state, by every law; and nothing of it touches F_cr.
+/// The rungs within the errors that they state, by every law; F_cr does not depend on them.
 #[test]
 fn rungs_agree_on_the_time_at_the_corners() {
     for (number, scene) in corners().into_iter().enumerate().filter(|(_, scene)| scene.velocity > 0.0).step_by(7) {
@@ -105,7 +105,7 @@ fn a_history_on_bristles_reaches_the_slip_at_its_time() {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(60))]
 
-    /// `auto` finds the first slip of a swinging tip by its linear response, as the march does.
+    /// `auto` finds the first slip of a swinging tip by its linear response, as the integration does.
     #[test]
     fn the_linear_response_slips_when_the_march_does(
         scene in within_ranges(), velocity in 1e-9..800e-9_f64, law in prop::sample::select(vec![FrictionLaw::Coulomb, FrictionLaw::HurtadoKim])
@@ -114,16 +114,16 @@ proptest! {
         let found = critical_force(&scene, &timed(law, Fidelity::Auto)).unwrap();
         let marched = time(&scene, &Options { tolerance: 1e-9, ..timed(law, Fidelity::Dynamic) });
         let late = found.critical_time.unwrap() / marched - 1.0;
-        // The march may step over the top of a swing that just reaches the slip, and takes a later one.
+        // The integration may step over the maximum of a swing that just reaches the slip, and then finds a later one.
         let allowed = if late < 0.0 { 1e-5 } else { found.error_estimate + 1e-9 };
         prop_assert!(late.abs() <= allowed, "{late:e} {found:?}");
         prop_assert!(found.error_estimate <= 1e-6 || found.rung == Fidelity::Dynamic, "{found:?}");
     }
 }
 
-/// Nine in ten of the runs that the swing used to send to the march do without it.
+/// Nine in ten of the runs that needed integration because of the swing no longer need it.
 #[test]
-fn the_march_is_for_few() {
+fn the_march_is_used_for_few_scenes() {
     let mut random = 1_u64;
     let mut uniform = move |low: f64, high: f64| {
         random = random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);

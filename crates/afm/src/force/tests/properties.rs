@@ -76,7 +76,7 @@ proptest! {
         }
     }
 
-    /// Every parameter far beyond any laboratory, all at once: still an answer.
+    /// Every parameter at extreme values, all at once: still a result.
     #[test]
     fn three_decades_each_way_have_an_answer(
         decades in prop::collection::vec(-3.0..3.0_f64, Parameter::ALL.len()),
@@ -91,7 +91,7 @@ proptest! {
         }
         let critical = critical_force(&scene, &options);
         prop_assert!(critical.is_ok(), "{critical:?}");
-        // Dahl's law with a large exponent takes longer than any number.
+        // The time of Dahl's law with a large exponent overflows.
         prop_assert!(critical.unwrap().critical_time.is_ok() || options.friction == FrictionLaw::Dahl);
     }
 }

@@ -13,7 +13,7 @@ fn by_geometry(friction: FrictionLaw) -> Options {
     Options { fidelity: Fidelity::QuasiStatic, ..by(friction) }
 }
 
-/// F_Y*, F_Z and theta at the slip from the equations as printed, 1 - cos theta and all, by halving in twice the
+/// F_Y*, F_Z and theta at the slip from the equations as printed, including 1 - cos theta, by bisection in twice the
 /// precision. JKR contact.
 struct Printed {
     lateral: f64,
@@ -77,7 +77,7 @@ fn agrees(scene: &Scene, friction: FrictionLaw) {
         (found.normal_force, printed.normal),
         (found.critical_force, printed.normal.hypot(printed.lateral)),
         (found.twist, printed.twist),
-        // Dahl's bristles creep, of which the printed equations know nothing.
+        // Dahl's bristles creep, which the printed equations do not include.
         (if friction == FrictionLaw::Dahl { printed.travel } else { found.travel }, printed.travel),
     ];
     for (found, printed) in pairs {
@@ -87,7 +87,7 @@ fn agrees(scene: &Scene, friction: FrictionLaw) {
 
 const LAWS: [FrictionLaw; 3] = [FrictionLaw::Coulomb, FrictionLaw::HurtadoKim, FrictionLaw::Dahl];
 
-/// 1e-12, well below the 1e-10 promised: some thousand roundings.
+/// 1e-12, well below the stated 1e-10: about a thousand rounding errors.
 #[test]
 fn agrees_with_twice_the_precision_at_every_corner() {
     for scene in corners() {
@@ -97,7 +97,7 @@ fn agrees_with_twice_the_precision_at_every_corner() {
     }
 }
 
-/// Twists up to a right angle: friction that holds whatever pulls, and a preload of 60 degrees that keeps pressing.
+/// Twists up to a right angle: friction without limit, and a preload of 60 degrees, which keeps pressing.
 #[test]
 fn agrees_up_to_a_right_angle() {
     for static_friction in [0.8, 10.0, 100.0, 1e3, 1e4, 1e6] {
@@ -117,7 +117,7 @@ proptest! {
         agrees(&scene, law);
     }
 
-    /// As friction vanishes so does the twist, and with it all that the closed form leaves out.
+    /// Without friction there is no twist, and the closed form is exact.
     #[test]
     fn tends_to_the_closed_form(scene in within_ranges(), decade in -9.0..-3.0_f64) {
         let weak = 10_f64.powf(decade);
@@ -131,9 +131,9 @@ proptest! {
         prop_assert!((exact.critical_force / closed.critical_force - 1.0).abs() < bound);
     }
 
-    /// The closed form's estimate bounds its error, and is not idle: within a factor 20.
+    /// The closed form's estimate bounds its error, and overestimates it by at most a factor 20.
     #[test]
-    fn the_closed_form_knows_its_error(scene in within_ranges(), law in prop::sample::select(&LAWS[..])) {
+    fn the_closed_form_states_its_error(scene in within_ranges(), law in prop::sample::select(&LAWS[..])) {
         let exact = critical_force(&scene, &by_geometry(law)).unwrap();
         let closed = critical_force(&scene, &by(law)).unwrap();
         let error = (closed.critical_force / exact.critical_force - 1.0).abs();
@@ -154,19 +154,19 @@ fn the_ramp_and_the_fast_form_agree_within_the_estimate() {
     }
 }
 
-/// The preload alone twists a soft cantilever over.
+/// The preload alone makes the twist of a soft cantilever unstable.
 #[test]
 fn a_probe_that_tips_over_is_named() {
     let scene = Scene { preload_angle: 1.5, shear_modulus: Some(1e9), ..Scene::default() };
     assert_eq!(critical_force(&scene, &by_geometry(FrictionLaw::Coulomb)), Err(Failure::ProbeTips));
 }
 
-/// Friction that never gives way lifts the tip until the particle comes off.
+/// With unlimited friction the tip lifts until the particle detaches.
 #[test]
 fn friction_too_strong_ends_in_pull_off() {
     let scene = Scene { static_friction: 0.0, shear_strength: 1e15, ..Scene::default() };
     assert_eq!(critical_force(&scene, &by_geometry(FrictionLaw::Coulomb)), Err(Failure::BeyondPullOff));
-    // Friction that lives on the load gives way before.
+    // Friction that depends on the load is exceeded before.
     let scene = Scene { dynamic_friction: 1e9, ..Scene::default() };
     let critical = critical_force(&scene, &by_geometry(FrictionLaw::Dahl)).unwrap();
     assert!(critical.normal_force > 0.0 && critical.normal_force < 1e-3 * critical.lateral_force);

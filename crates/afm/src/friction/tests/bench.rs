@@ -1,4 +1,4 @@
-//! A law of friction by itself: against velocity, and along a given motion.
+//! A friction law without a probe: against velocity, and along a given motion.
 
 use std::f64::consts::PI;
 
@@ -27,9 +27,9 @@ pub(super) struct Specimen<'a> {
 pub(super) struct Motion<'a> {
     /// Velocity (m/s) at a time (s); also asked for times before the start, by laws with a lag.
     pub velocity: &'a dyn Fn(f64) -> f64,
-    /// How long it lasts (s), > 0.
+    /// Its duration (s), > 0.
     pub duration: f64,
-    /// In how many equal steps it is looked at, > 0.
+    /// Number of equal sampling steps, > 0.
     pub samples: u32,
 }
 
@@ -46,7 +46,7 @@ pub(super) struct Sample {
     pub force: f64,
 }
 
-/// Friction of steady sliding at `velocity` (m/s), >= 0 (N). Where a law lets friction at rest take any value up to a
+/// Friction of steady sliding at `velocity` (m/s), >= 0 (N). If friction at rest may have any value up to a
 /// largest one, that one at 0.
 ///
 /// # Errors
@@ -114,7 +114,7 @@ fn rates_of_layer(scene: &Scene, velocity: f64, &[s, disorder]: &[f64; 2]) -> [f
 }
 
 impl Motion<'_> {
-    /// The instants to look at, without their forces; displacement by Simpson's rule between them.
+    /// The sampled instants, without their forces; displacement by Simpson's rule between them.
     fn instants(&self) -> impl Iterator<Item = Sample> + '_ {
         let step = self.duration / f64::from(self.samples);
         let mut displacement = 0.0;
@@ -179,7 +179,7 @@ fn follow<const N: usize>(
 }
 
 enum Mode {
-    /// At this displacement the spring of the sticking contact is slack; it sticks since then.
+    /// The displacement at which the spring of the sticking contact is unloaded; since then it sticks.
     Sticking { slack: f64, since: f64 },
     /// In this direction, after this rest.
     Sliding { direction: f64, rest: f64 },
@@ -196,7 +196,7 @@ fn armstrong(scene: &Scene, load: f64, motion: &Motion) -> Vec<Sample> {
         }
         if let Mode::Sticking { slack, since } = mode {
             let held = scene.bristle_stiffness * (at.displacement - slack);
-            // A spring that the motion slackens holds, however strained.
+            // A spring that the motion unloads sticks at any strain.
             if held * at.velocity <= 0.0 || held.abs() <= Armstrong(scene).static_force(load, at.time - since) {
                 last = held;
                 return at.with(held);

@@ -24,7 +24,7 @@ use super::{Failure, Threads, say, say_notes};
                         apportion analyze design.csv --outputs y      (the design file with a column y added)\n  \
                         apportion analyze y.npy --layout salib --names x1,x2,x3")]
 pub struct Arguments {
-    /// The outputs, a row for each point in the order of the points, with or without the points themselves (CSV or NPY)
+    /// The outputs: one row for each point, in the order of the points, with or without the points (CSV or NPY)
     data: PathBuf,
     #[command(flatten)]
     table: TableArguments,
@@ -34,10 +34,10 @@ pub struct Arguments {
     /// The manifest, if it is not next to the points
     #[arg(long, value_name = "FILE", conflicts_with_all = ["design", "layout"])]
     manifest: Option<PathBuf>,
-    /// Columns that are outputs, separated by commas [default: those of the study, or all that are no factors]
+    /// Columns that are outputs, separated by commas [default: those of the study, or all that are not factors]
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     outputs: Vec<String>,
-    /// Unit of an output, where it is not the one that the study says: force=nN
+    /// Unit of an output, if it differs from the study: force=nN
     #[arg(long, value_name = "NAME=UNIT", value_delimiter = ',', value_parser = output_unit, conflicts_with = "layout")]
     units: Vec<(String, Unit)>,
     /// Count rows without a finite output as runs that failed, instead of refusing the file
@@ -97,7 +97,7 @@ fn of_design(arguments: &Arguments) -> Result<Read, Failure> {
     let answers = read_answers(reader.as_mut(), &request).map_err(|error| wrong(&error))?;
     say_of_table(&arguments.data, &[], reader.is_unended());
     match answers.compared.len() {
-        0 => say("note: the file holds no points: its rows are taken in the order of the design"),
+        0 => say("note: the file has no points: its rows are assumed to be in the order of the design"),
         _ => say("the points in the file are those of the design, in its order"),
     }
     let unlikely = unlikely_outputs(&answers.study, &answers.store);
@@ -115,7 +115,7 @@ fn manifest_path(arguments: &Arguments) -> Result<PathBuf, Failure> {
         return Ok(beside);
     }
     Err(Failure::Input(anyhow!(
-        "{}: there is no {} that would say whose points these are: name the file that `apportion sample` wrote (--design) \
+        "{}: there is no {} that describes these points: give the file that `apportion sample` wrote (--design) \
          or its manifest (--manifest); for points made by SALib, --layout salib",
         arguments.data.display(),
         beside.display()

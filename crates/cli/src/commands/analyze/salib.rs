@@ -18,7 +18,7 @@ pub struct SalibArguments {
     /// SALib's problem as JSON (names, groups), or a study (.toml) with the same inputs in the same order
     #[arg(long, value_name = "FILE", requires = "layout", conflicts_with = "names")]
     problem: Option<PathBuf>,
-    /// Names of the inputs in SALib's order, separated by commas [default: all columns that are no outputs]
+    /// Names of the inputs in SALib's order, separated by commas [default: all columns that are not outputs]
     #[arg(long, value_name = "NAMES", requires = "layout", value_delimiter = ',')]
     names: Vec<String>,
     /// The points were made with second order (calc_second_order=True, SALib's default)
@@ -27,7 +27,7 @@ pub struct SalibArguments {
     /// The points were made without second order (calc_second_order=False)
     #[arg(long, requires = "layout")]
     first_order_only: bool,
-    /// Resamples of the bootstrap that gives the intervals; 0 for the delta method instead
+    /// Number of resamples of the bootstrap for the intervals; 0 for the delta method instead
     #[arg(long, value_name = "N", requires = "layout", default_value_t = 1000, value_parser = resamples)]
     resamples: usize,
     /// Seed of the bootstrap
@@ -60,8 +60,8 @@ pub fn study(arguments: &super::Arguments) -> Result<super::Read, Failure> {
     };
     let layout = recognise(rows, &problem.members, asked, inputs.as_deref()).map_err(|error| wrong(&error))?;
     match inputs {
-        Some(_) => say("the points in the file are laid out as SALib makes them"),
-        None => say("note: the file holds no points: its rows are taken in the order in which SALib makes them"),
+        Some(_) => say("the points in the file have the layout of SALib"),
+        None => say("note: the file has no points: its rows are assumed to be in the order of SALib"),
     }
     let made = salib_study(&stem(&arguments.data), &problem, &outputs, layout, (resamples, seed));
     let (study, store) = made.map_err(|error| wrong(&error))?;
@@ -142,14 +142,14 @@ fn columns(
     let asked: Vec<String> = match (outputs, &inputs) {
         ([], Some(_)) => names.iter().filter(|name| !is_input(name)).cloned().collect(),
         ([], None) => {
-            anyhow::bail!("which columns are outputs? name them (--outputs), or the inputs (--names, --problem)")
+            anyhow::bail!("the outputs are unknown: name them (--outputs), or the inputs (--names, --problem)")
         }
         (asked, _) => asked.to_vec(),
     };
     let outputs = output_columns(names, &asked, &is_input)?;
     let inputs = inputs.unwrap_or_else(|| names.iter().filter(|name| !asked.contains(name)).cloned().collect());
     if inputs.is_empty() {
-        anyhow::bail!("how many inputs are there? the file holds outputs only: name the inputs (--names, --problem)");
+        anyhow::bail!("the file has only outputs: name the inputs, to give their number (--names, --problem)");
     }
     let place = |name: &String| Some((names.iter().position(|known| known == name)?, name.clone()));
     let there: Option<Places> = inputs.iter().map(place).collect();

@@ -49,9 +49,9 @@ pub fn refuse_copies() -> Result<(), Failure> {
     match job().filter(|_| cfg!(not(feature = "mpi"))) {
         None => Ok(()),
         Some((size, 0)) => Err(Failure::Input(anyhow!(
-            "started as {size} ranks of an MPI job, but this program was built without MPI: every rank would run the whole study by \
-             itself, into the same files. Build it by `cargo install --path . --features mpi` (needs an MPI library and \
-             libclang), or share the run out by `--shard I/N`. ({SWITCH}=off lets every rank run by itself)"
+            "started as {size} ranks of an MPI job, but this program was built without MPI: every rank would run the whole study \
+             and write the same files. Build it with `cargo install --path . --features mpi` (needs an MPI library and \
+             libclang), or divide the run with `--shard I/N`. ({SWITCH}=off lets every rank run the whole study)"
         ))),
         Some(_) => Err(Failure::Silent),
     }

@@ -59,7 +59,7 @@ pub fn main(size: usize, command: impl FnOnce(&dyn Ranks) -> ExitCode + Send) ->
     if world.size() as usize != size {
         let found = world.size();
         let why = format!(
-            "started as one of {size} ranks, but its MPI finds {found}: mpirun is of another MPI than the program"
+            "started as one of {size} ranks, but its MPI finds {found}: mpirun and the program use different MPI libraries"
         );
         return exit_code(Err(Failure::Run(anyhow!(why))));
     }
@@ -263,7 +263,7 @@ fn work(world: &SimpleCommunicator) -> ExitCode {
 fn study(setup: &[u8]) -> anyhow::Result<(Study, usize)> {
     let Setup { version, source, path, overrides, threads } = serde_json::from_slice(setup)?;
     if version != env!("CARGO_PKG_VERSION") {
-        return Err(anyhow!("this is version {}, and rank 0 is {version}", env!("CARGO_PKG_VERSION")));
+        return Err(anyhow!("this rank is version {}, but rank 0 is version {version}", env!("CARGO_PKG_VERSION")));
     }
     Ok((apportion_files::parse_study(&source, &path, &overrides)?, threads))
 }

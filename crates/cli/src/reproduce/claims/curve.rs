@@ -81,7 +81,7 @@ mod tests {
     }
 
     #[test]
-    fn shapes_are_told_apart() {
+    fn shapes_are_distinguishable() {
         let line = curve((1.0, 3.0), |x| 2.0 * x + 1.0);
         assert!(line.rises() && !line.falls());
         // Rounding alone bends a straight line.

@@ -90,7 +90,7 @@ mod tests {
     }
 
     #[test]
-    fn the_scene_of_the_paper_decides_and_the_box_says_how_far() {
+    fn verdicts_use_the_scene_of_the_paper_and_ranges_the_box() {
         let (all, half) = (holding("Coulomb", true, 1.0), holding("LuGre", true, 0.5));
         assert_eq!(judge(&[all.clone(), half.clone()]), Verdict::Reproduced);
         assert_eq!(over_ranges(&[all.clone(), all.clone()]), "all of the box");

@@ -94,7 +94,7 @@ pub(super) fn rolling(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
     };
     Ok(Answer {
         verdict: judge(&holdings[..1]),
-        range: format!("by a criterion of ours; {}", over_ranges(&holdings)),
+        range: format!("by our criterion; {}", over_ranges(&holdings)),
         words: vec![
             ("roll", at(roll)),
             ("slide", at(slide)),

@@ -77,7 +77,7 @@ fn stands(order: &OrderVerdict<'_>) -> String {
     let phrase = match order.agreement() {
         Agreement::Same => "the whole order".to_owned(),
         Agreement::Beginning => {
-            format!("the order as far as there are visible shares, which {} lack", order.unseen.join(" and "))
+            format!("the order of the visible shares, which {} do not have", order.unseen.join(" and "))
         }
         Agreement::Undecided => format!("not decided at this sample size: {}", pairs(Standing::Undecided)),
         Agreement::Other => {

@@ -1,4 +1,4 @@
-//! The verdicts as they stand, and that they change with the physics.
+//! The current verdicts, and that they change with the physics.
 
 use std::sync::LazyLock;
 
@@ -10,7 +10,7 @@ use super::bench::{Bench, ForceOf, HistoryOf, Physics};
 use super::*;
 use crate::reproduce::studies;
 
-/// The nine studies at 4096 base points: enough to decide every order, and soon done.
+/// The nine studies at 4096 base points: enough to decide every order, and quick.
 static NINE_STUDIES: LazyLock<Vec<Reproduced>> = LazyLock::new(|| {
     let studies = studies(&["design.base_samples=4096".to_owned()]).unwrap();
     let run = |(group, friction, study): (_, _, apportion::Study)| Reproduced {
@@ -26,7 +26,7 @@ fn in_words(claims: &[Claim]) -> String {
     claims.iter().map(line).collect::<Vec<_>>().join("\n")
 }
 
-/// Every claim with its verdict. A change of the physics that changes what is true of the papers changes this.
+/// Every claim with its verdict. A change of the physics that affects the claims changes this.
 #[test]
 fn the_verdicts_are_those_reviewed() {
     let claims = super::claims(&NINE_STUDIES, Effort::Quick).unwrap();
@@ -50,7 +50,7 @@ fn the_verdicts_are_those_reviewed() {
     }
 }
 
-/// More points sharpen the shares of the box; no verdict hangs on them.
+/// More points reduce the errors of the shares of the box; no verdict depends on them.
 #[test]
 fn a_quick_look_gives_the_verdicts_of_the_full_answer() {
     let full = claims(&NINE_STUDIES, Effort::Full).unwrap();
@@ -76,7 +76,7 @@ fn times(factor: impl Fn(&Scene, &Options) -> f64) -> impl Fn(&Scene, &Options) 
 }
 
 #[test]
-fn a_force_that_knows_the_tip_height_or_grows_with_length_changes_verdicts() {
+fn verdicts_change_if_the_force_depends_on_tip_height_or_grows_with_length() {
     let bent = times(|scene, _| scene.height / 12e-6 * (scene.length / 225e-6).powi(4));
     assert_eq!(
         verdicts(with_force(&bent), 8..=11),
@@ -85,14 +85,14 @@ fn a_force_that_knows_the_tip_height_or_grows_with_length_changes_verdicts() {
 }
 
 #[test]
-fn a_force_that_knows_the_thickness_less_or_the_width_squared_changes_verdicts() {
+fn verdicts_change_if_the_force_depends_on_less_thickness_or_squared_width() {
     let bent = times(|scene, _| (1e-6 / scene.thickness).powi(4) * (scene.width / 48e-6).powi(2));
     let found = verdicts(with_force(&bent), 8..=11);
     assert_eq!((found[1], found[2]), ((9, "not reproduced"), (10, "not reproduced")));
 }
 
 #[test]
-fn a_force_that_knows_the_velocity_or_the_contact_changes_verdicts() {
+fn verdicts_change_if_the_force_depends_on_velocity_or_contact() {
     let bent = times(|scene, _| {
         let contact = (scene.equivalent_modulus / 60e9).powi(3) * (1.0 + scene.adhesion).powi(-9);
         (1.0 + scene.velocity / 800e-9) * contact * (scene.elastic_modulus / 169e9).powi(-4)
@@ -117,7 +117,7 @@ fn friction_models_in_each_other_s_place_change_the_seventh() {
     assert_eq!(verdicts(with_force(&times(factor)), 7..=7), [(7, "reproduced")]);
 }
 
-/// A particle that resists rolling slides first, and one whose force depends on the contact angle answers the fourth.
+/// A particle that resists rolling slides first, and a force that depends on the contact angle changes the fourth verdict.
 #[test]
 fn a_particle_that_cannot_roll_slides_first() {
     let stuck = |scene| {
@@ -155,7 +155,7 @@ fn a_history_that_runs_the_other_way_changes_verdicts() {
     assert_eq!(verdicts(physics, 5..=5), [(5, expected)]);
 }
 
-/// LG's percentages contradict each other only where the force is a product; and a physics without one says so.
+/// LG's percentages contradict each other only where the force is a product; a force that is not a product has another verdict.
 #[test]
 fn percentages_contradict_each_other_only_under_a_product() {
     let last_half = |physics: Physics<'_>| {
@@ -168,7 +168,7 @@ fn percentages_contradict_each_other_only_under_a_product() {
     assert_eq!(last_half(with_force(&bent)), Verdict::NotReproduced);
 }
 
-/// What the claims on shares say follows the studies: with thickness and length in each other's place the orders are not
+/// The verdicts on shares follow the studies: with thickness and length exchanged the orders are not
 /// the published ones, and without intervals nothing is decided.
 #[test]
 fn other_shares_give_other_verdicts() {

@@ -78,7 +78,7 @@ fn where_it_holds(studies: &[Reproduced]) -> Option<String> {
         (least, most) => format!("{least} to {most} %"),
     };
     let what = worst.description.replacen("The ", "the ", 1);
-    Some(format!("On {runs} of the runs of a study, {what}"))
+    Some(format!("In {runs} of the runs of a study, {what}"))
 }
 
 /// Formats the result of the general study in one sentence: `Thickness explains 33 % of the variance of the critical
@@ -124,7 +124,7 @@ pub fn validity(studies: &[Reproduced]) -> Option<Part> {
     }
     let means: Vec<&str> = places.iter().map(|&place| flags[place].description.as_str()).collect();
     let caption = format!(
-        "Runs outside the range of a theory, as a share of all runs; they count all the same. {}",
+        "Runs outside the range of a theory, as a share of all runs; they are included in the indices. {}",
         means.join(" ")
     );
     let mut rows = Table::from_rows(caption, studies)

@@ -28,7 +28,7 @@ fn used() -> Words {
 
 /// Builds the section: constants, then the ranges of the general study.
 pub(super) fn section() -> Section {
-    let caption = "Constants that a paper prints in another way than it is used, or that no paper prints. All others are \
+    let caption = "Constants whose printed and used values differ, or that no paper prints. All others are \
                    used as printed.";
     let words = used();
     let rows = Table::from_rows(caption, &papers().constants)

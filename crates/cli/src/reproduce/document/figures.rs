@@ -8,7 +8,7 @@ use crate::reproduce::papers::papers;
 use crate::reproduce::{GROUPS, Reproduction};
 
 /// The common sentences of the captions of all sweeps.
-const RUNGS: &str = "The curves of CHK and LG are those of the closed formulas. Where a caption says nothing of it, the quasi-static \
+const RUNGS: &str = "The curves of CHK and LG are those of the closed formulas. Unless a caption states otherwise, the quasi-static \
                      rung, which solves the equilibrium with exact geometry, differs by less than 0.01 %.";
 
 /// Returns the anchor of the figure with a stem: those of shares are in the chart of all friction models.
@@ -90,7 +90,7 @@ fn moving(animation: &Animation) -> Part {
     let frame = Part::Frame { title: "TS04 fig. 14 as an animation".to_owned(), html };
     let file = |ending: &str| chart_file(ANIMATION_STEM, ending);
     let links = Part::Links(vec![
-        Link::new("the animation as a page of its own", file("html")),
+        Link::new("the animation as a separate page", file("html")),
         Link::new("every state as CSV", file("csv")),
         Link::new("as JSON", file("json")),
     ]);

@@ -48,13 +48,13 @@ pub(super) fn details(claims: &[Claim], figures: &[PaperFigure]) -> Part {
         let shown = claim.figures.iter().filter_map(|stem| Some((label(figures, stem)?, anchor(stem))));
         shown.map(|(label, anchor)| Link::new(label, format!("#{anchor}"))).collect()
     };
-    let rows = Table::from_rows("What the verdicts rest on.", claims)
+    let rows = Table::from_rows("Basis of the verdicts.", claims)
         .text("claim", |claim| Cell { links: links(claim), ..Cell::from(claim.number.to_string()) })
-        .text("our figures, and the setting they hold in", |claim| Cell {
+        .text("our values, and their setting", |claim| Cell {
             note: claim.setting.clone(),
             ..Cell::from(&claim.finding)
         });
-    let summary = "Our figures for every claim, and the settings they hold in".to_owned();
+    let summary = "Our values for every claim, and their settings".to_owned();
     let table = Table { on_phone: OnPhone::Stack, ..rows.into() };
     Part::OnPage(vec![Part::Details { summary, parts: vec![table.into()] }])
 }

@@ -89,7 +89,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_laws_are_told() {
+    fn curves_are_described_by_their_course() {
         assert_eq!(course(|x| 100.0 * x), "rises from 100 to 200 nN (in a straight line)");
         // Half of the change: x^3 from 1 to 8 at 4.5^(1/3) = 1.651; x^-2 from 1 to 1/4 at 1/sqrt(0.625) = 1.265.
         assert_eq!(course(|x| x.powi(3)), "rises from 1.00 to 8.00 nN (half of the way by 1.65 um)");

@@ -1,4 +1,4 @@
-//! The figures as a whole: all are there, all can be drawn, and what they say agrees with what they show.
+//! All figures: all exist, all can be drawn, and their captions agree with their data.
 
 use std::collections::HashSet;
 use std::sync::LazyLock;
@@ -75,7 +75,7 @@ fn drawn_soundly(figure: &PaperFigure) {
 }
 
 #[test]
-fn every_figure_is_there_once_and_in_order() {
+fn every_figure_occurs_once_and_in_order() {
     let labels: Vec<&str> = QUICK.iter().map(|figure| figure.label.as_str()).collect();
     assert_eq!(labels, COMPUTED);
     let all = figures(&reproduced(), Effort::Quick).unwrap();
@@ -109,7 +109,7 @@ fn a_second_time_gives_the_same() {
     assert!(animation().unwrap() == animation().unwrap());
 }
 
-/// Under LuGre friction F_cr is c E w t^3 L^-2; Coulomb friction has its shear term tau pi a^2 besides.
+/// Under LuGre friction F_cr is c E w t^3 L^-2; Coulomb friction also has the shear term tau pi a^2.
 #[test]
 fn sweeps_follow_the_exact_laws() {
     let (header, rows) = data("lg-2b");
@@ -120,7 +120,7 @@ fn sweeps_follow_the_exact_laws() {
         let (_, rows) = data(stem);
         for row in &rows {
             let law = libm::pow(row[0] / rows[0][0], exponent);
-            // LuGre friction at this velocity is a constant share of F_Z, but for sigma2 V, which is 1e-14 N: 1e-6 of
+            // LuGre friction at this velocity is a constant share of F_Z, except for sigma2 V, which is 1e-14 N: 1e-6 of
             // the least force here.
             assert!((row[1] / rows[0][1] / law - 1.0).abs() < 2e-6, "{stem} at {}", row[0]);
         }
@@ -141,7 +141,7 @@ fn sweeps_follow_the_exact_laws() {
 }
 
 #[test]
-fn captions_say_what_the_data_hold() {
+fn captions_describe_the_data() {
     let caption = |stem| figure(stem).chart.caption();
     // (2.5/0.25)^3 = 1000, and half of the way of t^3 lies at 2.5 (1.001/2)^(1/3) = 1.985 um.
     let thickness = caption("lg-2c");
@@ -175,7 +175,7 @@ fn data_have_a_row_for_every_point_drawn() {
 }
 
 #[test]
-fn the_animation_is_one_page_beside_its_data() {
+fn the_animation_is_one_page_next_to_its_data() {
     let animation = animation().unwrap();
     assert!(!animation.html.contains("<h2>Charts</h2>"));
     assert!(animation.csv.starts_with("time_s,"));

@@ -19,7 +19,7 @@ const STEPS: u64 = 2000;
 /// The error estimates are of first order; higher orders may add this factor.
 const HIGHER_ORDER: f64 = 1.5;
 /// Why two rungs may differ.
-const COVERED: &str = "the error estimate exceeds 0.1 %, and holds: another rung differs by less than it";
+const COVERED: &str = "the error estimate exceeds 0.1 %, and is confirmed: another rung differs by less";
 
 /// Other calculations of the outputs of an [`AfmModel`](apportion_afm::model::AfmModel).
 pub(crate) struct AfmSecond {
@@ -49,7 +49,7 @@ impl AfmSecond {
 impl SecondCalculation for AfmSecond {
     fn name(&self) -> String {
         let rungs: Vec<&str> = self.rungs().iter().map(|rung| rung.name()).collect();
-        let least = if rungs.len() > 1 { ", whichever states the smaller error" } else { "" };
+        let least = if rungs.len() > 1 { ", the one with the smaller stated error" } else { "" };
         let formula = if self.formulas.iter().any(Option::is_some) { "; and by its formula in 320 bits" } else { "" };
         format!("the rung {}{least}{formula}", rungs.join(" or "))
     }
@@ -99,7 +99,7 @@ fn by_rung(
     let absolute = HIGHER_ORDER * (own_error * own.abs() + other.error_estimate * value.abs());
     let (stated, covered) = match output {
         _ if own_error >= 1.0 || other.error_estimate >= 1.0 => {
-            (Some(f64::INFINITY), "the error estimate is 100 %, which claims nothing")
+            (Some(f64::INFINITY), "the error estimate is 100 %, so nothing is claimed")
         }
         AfmOutput::CriticalForce | AfmOutput::CriticalTime => (Some(absolute), COVERED),
         AfmOutput::LogCriticalForce => (Some(relative), COVERED),

@@ -52,7 +52,7 @@ pub fn extremes_document(file: &ExtremesFile) -> Document {
     let by = match (&map.second_calculation, &map.unchecked) {
         (Some(second), _) => format!("Checked by {second}."),
         (None, why) => {
-            format!("Checked by nothing: {}. Finite numbers count as flagged.", why.as_deref().unwrap_or("-"))
+            format!("Not checked: {}. Finite numbers count as flagged.", why.as_deref().unwrap_or("-"))
         }
     };
     let meanings = Outcome::ALL.map(|outcome| {
@@ -120,7 +120,7 @@ fn reasons(file: &ExtremesFile) -> Table {
         let numbers: String = numbers.iter().filter_map(|(what, x)| Some(format!("{what}{}", short((*x)?)))).collect();
         format!("{} {numbers}; {}", reason.output, inputs(&reason.inputs))
     };
-    let caption = "Why numbers are silently wrong, flagged or refused, and the first of each.";
+    let caption = "Reasons for silently wrong, flagged or refused numbers, with the first number of each.";
     let rows = Table::from_rows(caption, &file.map.reasons)
         .text("what", |reason| Cell::marked(reason.outcome.words().1, mark(reason.outcome, reason.count)))
         .named("outcome")

@@ -31,14 +31,14 @@ impl Outcome {
         match self {
             Self::Right => ("R", "right", "a second calculation agrees"),
             Self::FlaggedConfirmed => {
-                ("f", "flagged, confirmed", "the model raises a flag, and a second calculation agrees all the same")
+                ("f", "flagged, confirmed", "the model raises a flag, but a second calculation agrees")
             }
             Self::Flagged => (
                 "F",
                 "flagged",
                 "the model raises a flag, or its stated error is large, or nothing can check the number",
             ),
-            Self::Refused => ("N", "refused", "there is no number, and the model says why"),
+            Self::Refused => ("N", "refused", "there is no number, and the model states the reason"),
             Self::Wrong => ("W", "silently wrong", "a second calculation disagrees by more than the model states"),
         }
     }

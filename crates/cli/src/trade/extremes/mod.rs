@@ -203,14 +203,14 @@ fn judge(value: Result<f64, RowFailure>, flags: &[&str], second: &Result<Referen
         Err(Unchecked::NotAvailable(why)) => {
             Finding::new(Outcome::Flagged, flagged.unwrap_or_else(|| format!("not checked: {why}")))
         }
-        Err(Unchecked::NoValue(why)) => Finding::new(Outcome::Wrong, format!("a number where there is none: {why}")),
+        Err(Unchecked::NoValue(why)) => Finding::new(Outcome::Wrong, format!("a number where none exists: {why}")),
         Ok(reference) => match (reference.agrees(value), flagged) {
             (Some(true), None) => Finding::new(Outcome::Right, ""),
             (Some(true), Some(flags)) => Finding::new(Outcome::FlaggedConfirmed, flags),
             (Some(false), flags) => {
                 Finding::new(Outcome::Flagged, flags.unwrap_or_else(|| reference.covered.to_owned()))
             }
-            (None, _) => Finding::new(Outcome::Wrong, "the second calculation differs by more than is stated"),
+            (None, _) => Finding::new(Outcome::Wrong, "the second calculation differs by more than the stated error"),
         },
     };
     Finding { value: Some(value), reference: second.as_ref().ok().map(|reference| reference.value), ..finding }
@@ -226,7 +226,7 @@ fn second_calculation(subject: &dyn Subject, space: &Space) -> Result<Box<dyn Se
         let formulas = formulas.formulas.iter().map(|formula| formula.expression.clone());
         return Ok(Box::new(PreciseFormulas(formulas.collect())));
     }
-    let afm = subject.downcast_ref::<AfmSubject>().ok_or("nothing else computes what the model does")?;
+    let afm = subject.downcast_ref::<AfmSubject>().ok_or("there is no second calculation of this model")?;
     if !afm.histories.is_empty() {
         return Err("there is no second calculation of a history");
     }

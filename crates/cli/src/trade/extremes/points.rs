@@ -192,7 +192,7 @@ mod tests {
     }
 
     #[test]
-    fn bounds_and_what_lies_past_them_are_in_the_units_of_the_factors() {
+    fn bounds_and_values_past_them_are_in_the_units_of_the_factors() {
         let points = points(&space(&[(1.0, 2.0), (0.0, 5.0), (-1.0, 1.0)]), 500, 0);
         assert_eq!(points.iter().filter(|point| point.kind == Kind::Corners).count(), 8);
         let at = |grid, row, column| {

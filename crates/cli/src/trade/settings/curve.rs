@@ -116,7 +116,7 @@ pub(super) fn rungs(study: &Study) -> Vec<Rung> {
     let of_low = |low: &LowFidelity| Rung {
         name: low.name.clone(),
         subject: low.subject.clone(),
-        lines: format!("# the cheaper model `{}` in the place of the model\n", low.name),
+        lines: format!("# the cheaper model `{}` instead of the model\n", low.name),
         is_finest: false,
     };
     let (name, subject) = (study.subject().rung_name(), study.subject().clone());

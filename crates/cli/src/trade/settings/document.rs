@@ -36,8 +36,8 @@ pub fn settings_document(file: &SettingsFile) -> Document {
         version: &file.apportion_version,
         provenance: vec![
             ("threads", file.threads.to_string()),
-            ("truth", truth.words.clone()),
-            ("time and runs of the truth", format!("{}, {}", seconds(truth.seconds), grouped(truth.runs))),
+            ("reference", truth.words.clone()),
+            ("time and runs of the reference", format!("{}, {}", seconds(truth.seconds), grouped(truth.runs))),
         ],
         json: json(file),
         name,
@@ -72,7 +72,7 @@ fn lead(file: &SettingsFile) -> Vec<String> {
     let truth = match file.truth.error {
         Some(0.0) => format!("Errors are distances from {}.", file.truth.words),
         error => format!(
-            "Errors are distances from {}, which itself is known to ± {}; that is added where a setting is chosen.",
+            "Errors are distances from {}, which is known to ± {}; this error is added when a setting is chosen.",
             file.truth.words,
             short_error(error)
         ),
@@ -81,7 +81,7 @@ fn lead(file: &SettingsFile) -> Vec<String> {
         file.advice.iter().filter_map(|advice| Some((advice, setting(file, advice)?))).collect();
     let cheapest = match found.iter().find(|(advice, _)| advice.accuracy <= 0.01).or(found.last()) {
         Some((advice, of)) => format!(
-            "For an accuracy of {} the cheapest setting is {}: {} in {} runs.",
+            "For an accuracy of {}, the cheapest setting is {}: {} in {} runs.",
             significant(advice.accuracy),
             describe_setting(of),
             seconds(of.seconds),
@@ -124,8 +124,8 @@ fn lines(file: &SettingsFile) -> Vec<Part> {
         }
         before = advice.setting;
     }
-    let text = "In any case the line `accuracy = 0.01` lets a run choose by itself, and it goes on until its own intervals say that \
-                the accuracy is reached.";
+    let text = "Alternatively, with the line `accuracy = 0.01` a run chooses its settings and continues until its intervals reach \
+                the accuracy.";
     parts.push(Part::Text(text.to_owned()));
     parts
 }
@@ -167,7 +167,7 @@ fn rung_table(file: &SettingsFile) -> Option<Part> {
     let curves = curves(file, Varied::Fidelity).into_iter().filter(|curve| !curve[0].has_surrogate);
     let rungs: Vec<_> = curves.filter_map(|curve| Some((seconds_of_run(&curve)?, curve))).collect();
     let cheapest = rungs.iter().map(|(seconds, _)| *seconds).fold(f64::INFINITY, f64::min);
-    let caption = "The time of one model run on all threads, and the least error that any number of runs reached.";
+    let caption = "The time of one model run on all threads, and the smallest error for any number of runs.";
     let times = |seconds: f64| format!("{:.1e}", seconds / cheapest).parse().unwrap_or(f64::INFINITY);
     let table = Table::from_rows(caption, &rungs)
         .text("rung", |(_, curve)| &curve[0].curve)
@@ -187,7 +187,7 @@ fn panel() -> Panel {
 fn floor(file: &SettingsFile) -> Option<apportion_report::chart::Mark> {
     let error = file.truth.error.filter(|error| *error > MIN_ERROR)?;
     let (least, most) = times(file);
-    let series = Series::new("not known of the truth", Colour::Reference).stroke(Stroke::Dotted);
+    let series = Series::new("error of the reference", Colour::Reference).stroke(Stroke::Dotted);
     Some(series.line(vec![(least, error), (most, error)]))
 }
 
@@ -205,14 +205,14 @@ fn chart(file: &SettingsFile, headline: &str) -> Chart {
     }
     let mut front: Vec<&Measured> = file.settings.iter().filter(|of| of.is_on_front).collect();
     front.sort_by(|a, b| a.seconds.total_cmp(&b.seconds));
-    let best = Series::new("nothing is both quicker and better", Colour::Reference);
+    let best = Series::new("no other setting is faster and better", Colour::Reference);
     for panel in &mut panels {
         panel.marks.push(best.line(points(file, &front)));
         panel.marks.extend(floor(file));
     }
     let caption = format!(
-        "Every curve grows from 16 base samples by factors of 4. Where it levels off, the model is what errs, not the number of \
-         its runs. Errors below {:.0e} are drawn there.",
+        "Every curve grows from 16 base samples by factors of 4. Where it levels off, the error is that of the model, not of the number of \
+         runs. Errors below {:.0e} are drawn there.",
         least_drawn(file)
     );
     Chart::new(format!("{headline}: error against time"), caption).panels(panels)
@@ -229,7 +229,7 @@ fn formulas_chart(file: &SettingsFile, headline: &str) -> Chart {
         });
         panel().titled(title).with(lines)
     };
-    let caption = "The same model and no surrogates throughout; the study's own sampler and formulas are among the curves of the \
+    let caption = "All with the same model and without surrogates; the sampler and estimators of the study are in the \
                    other figure.";
     Chart::new(format!("{headline}: samplers and estimators"), caption)
         .panels([of_axis(Varied::Sampler, "Samplers"), of_axis(Varied::Estimator, "Estimators")])

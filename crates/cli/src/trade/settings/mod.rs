@@ -147,7 +147,7 @@ impl Comparison {
 /// [`RunError`] if the finest model fails, or the comparison is stopped. Settings that cannot be run are omitted.
 pub fn compare_settings(job: &SettingsJob<'_>) -> Result<Comparison, RunError> {
     let start = Instant::now();
-    (job.on_progress)("the truth", 0.0);
+    (job.on_progress)("the reference", 0.0);
     let truth = Truth::new(job, SHARE_OF_TRUTH * job.seconds)?;
     let curves = Curve::all(job.study);
     let mut settings = Vec::new();
@@ -253,7 +253,7 @@ mod tests {
     }
 
     #[test]
-    fn on_the_front_is_what_nothing_beats_in_both() {
+    fn the_front_is_not_beaten_in_both_time_and_error() {
         let all = [(3.0, 0.01), (1.0, 0.5), (2.0, 0.6), (2.5, 0.2), (4.0, f64::INFINITY), (5.0, 1e-9), (6.0, 1e-12)];
         assert_eq!(comparison(0.0, &all).front(), [1, 3, 0, 5, 6]);
         // Differences below the error of the reference count as equal.
@@ -261,7 +261,7 @@ mod tests {
     }
 
     #[test]
-    fn the_cheapest_setting_is_accurate_with_what_is_not_known_of_the_truth() {
+    fn the_cheapest_setting_includes_the_error_of_the_reference() {
         let all = [(1.0, 0.09), (2.0, 0.02), (3.0, 0.001)];
         assert_eq!(comparison(0.0, &all).cheapest(0.1), Some(0));
         assert_eq!(comparison(0.02, &all).cheapest(0.1), Some(1));

@@ -1,4 +1,4 @@
-//! What takes too long, or too much luck, to be seen through the program.
+//! Cases that take too long, or occur too rarely, to be tested through the program.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex};
@@ -31,7 +31,7 @@ fn model(script: &str) -> CommandModel {
     CommandModel::new(settings, vec![Factor::new("x", Unit::dimensionless(), law).unwrap()])
 }
 
-/// What the model answers to `x`; no row may fail.
+/// The outputs of the model for `x`; no row may fail.
 #[track_caller]
 fn answers(model: &CommandModel, x: &[f64]) -> Vec<f64> {
     let mut batch = Batch::new(model);
@@ -45,7 +45,7 @@ fn answers(model: &CommandModel, x: &[f64]) -> Vec<f64> {
 const ECHO: &str = "while read -r x; do echo \"$x\"; done";
 
 #[test]
-fn a_program_that_is_long_silent_at_its_first_row_is_asked_whether_it_flushes() {
+fn a_program_silent_at_its_first_row_gets_a_hint_to_flush() {
     let slow = format!("read -r header; read -r x; sleep 0.6; echo \"$x\"; {ECHO}");
     for (silence, hinted) in [(Duration::from_millis(50), true), (super::super::SILENCE, false)] {
         let mut model = model(&slow);
@@ -56,12 +56,12 @@ fn a_program_that_is_long_silent_at_its_first_row_is_asked_whether_it_flushes() 
 }
 
 #[test]
-fn a_program_that_has_answered_is_not_asked_that() {
+fn a_program_that_has_answered_gets_no_hint_to_flush() {
     // Slow over every row of a process but its first.
     let slow = "read -r header; n=0; while read -r x; do test $n -eq 0 || sleep 0.2; n=1; echo \"$x\"; done";
     let mut model = model(slow);
     assert_eq!(answers(&model, &[1.0]), [1.0]);
-    // However long the start of a process takes, it is not the first.
+    // A process with any start time, which is not the first.
     model.silence = Duration::ZERO;
     assert_eq!(answers(&model, &[1.0, 2.0, 3.0]), [1.0, 2.0, 3.0]);
     assert!(!model.state.hinted.load(Ordering::Relaxed));
@@ -87,12 +87,12 @@ fn a_model_can_be_run_again_after_it_was_interrupted_and_messages_go_to_the_run(
     assert_eq!(answers(&model, &[1.5, 2.5]), [1.5, 2.5]);
 }
 
-/// Each process answers one row: all rows are answered, each by a process of its own.
+/// Each process answers one row: all rows are answered, each by another process.
 #[test]
 fn a_program_that_closes_its_output_after_its_first_answer_is_started_for_every_row() {
     let once = "read -r header; read -r x; echo \"$x\"; exec 1>&-";
     let x = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0];
     assert_eq!(answers(&model(&format!("{once}; exit 0")), &x), x);
-    // This one stays, and has to be ended.
+    // This process does not end, and must be stopped.
     assert_eq!(answers(&model(&format!("{once}; cat > /dev/null")), &x[..3]), x[..3]);
 }

@@ -63,12 +63,12 @@ pub fn output_columns(
 ) -> Result<Vec<(usize, String)>, TableError> {
     if asked.is_empty() {
         let known = names.join(", ");
-        return refused(format!("the file holds no outputs: its columns are the factors {known}"));
+        return refused(format!("the file has no outputs: its columns are the factors {known}"));
     }
     let column = |(number, name): (usize, &String)| {
         if is_input(name) || asked[..number].contains(name) {
-            let what = if is_input(name) { ", but is a factor" } else { " twice" };
-            return refused(format!("`{name}` is asked for as an output{what}"));
+            let what = if is_input(name) { "is a factor, not an output" } else { "is listed twice as an output" };
+            return refused(format!("`{name}` {what}"));
         }
         Ok((column_of(names, name)?, name.clone()))
     };
@@ -100,7 +100,7 @@ pub(super) fn subject(
     let own = model.outputs();
     if let Some((name, _)) = request.units.iter().find(|(name, _)| columns.iter().all(|(_, column)| column != name)) {
         let known = columns.iter().map(|(_, name)| name.as_str()).collect::<Vec<_>>().join(", ");
-        return refused(format!("a unit is given for `{name}`, which is no output; the outputs are {known}"));
+        return refused(format!("a unit is given for `{name}`, which is not an output; the outputs are {known}"));
     }
     let wrong = |name: &String| Some((shown(name), refused_output_name(name)?));
     if let Some((name, expected)) = columns.iter().find_map(|(_, name)| wrong(name)) {
@@ -113,8 +113,7 @@ pub(super) fn subject(
     for (name, unit) in request.units {
         let stated = own.iter().find(|output| output.name == *name).map(|output| &output.unit);
         if let Some(own) = stated.filter(|own| own.is_of_kind() && !own.compatible(unit)) {
-            let kind =
-                if unit.is_label() { "is not known".to_owned() } else { format!("measures {}", unit.dimension()) };
+            let kind = if unit.is_label() { "is unknown".to_owned() } else { format!("measures {}", unit.dimension()) };
             let own_kind = own.dimension();
             return refused(format!(
                 "the unit `{unit}` is given for `{name}`, and {kind}: the study says `{own}`, so expected a unit of the same \

@@ -70,7 +70,7 @@ pub fn read_answers(reader: &mut dyn RowReader, request: &AnswersRequest<'_>) ->
     // Values that agree to ten digits may still belong to another version: those of the study are used.
     request.manifest.check_points(&sha256)?;
     if model.flags().iter().any(|flag| !flag.warns) && !study.subject().is_external() {
-        let note = "the file holds no validity flags of the model: none are counted".to_owned();
+        let note = "the file has no validity flags of the model: none are counted".to_owned();
         study.note(note);
     }
     drop(model);
@@ -128,7 +128,7 @@ impl Reading<'_> {
                     if missing == MissingOutputs::Refuse {
                         let what = match column[row] {
                             found if found.is_nan() => "the value is missing".to_owned(),
-                            found => format!("{found} is no finite number"),
+                            found => format!("{found} is not a finite number"),
                         };
                         let (row, name) = (self.row + row as u64 + 1, &output.name);
                         return refused(format!(
@@ -161,13 +161,13 @@ impl Reading<'_> {
         let (found, expected) = (words(column[row]), words(points[number][row]));
         let (row, name) = (self.row + row as u64 + 1, &factor.name);
         refused(format!(
-            "row {row}, column `{name}`: {found} stands where the design has {expected}: rows are missing, repeated or in another \
-             order, or the points have been changed, printed with less than ten digits, or belong to another design"
+            "row {row}, column `{name}`: found {found}, but the design has {expected}: rows are missing, repeated or in another \
+             order, or the points were changed, were printed with less than ten digits, or belong to another design"
         ))
     }
 
     fn refuse_row_count<T>(&self, found: u64) -> Result<T, TableError> {
-        refused(format!("the file has {found} rows, and the design {}", self.study.design().rows()))
+        refused(format!("the file has {found} rows, but the design has {}", self.study.design().rows()))
     }
 
     /// Counts the rows of the file that have not been read.

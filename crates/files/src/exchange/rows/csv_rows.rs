@@ -77,7 +77,7 @@ impl CsvRows {
             // Whole numbers may be names among others, such as years.
             if of_numbers || numbers.iter().any(|value| value.fract() != 0.0) {
                 return refused(format!(
-                    "line {line} holds numbers where the names of the columns are expected: if the file has no header, add \
+                    "line {line} has numbers where the names of the columns are expected: if the file has no header, add \
                      --no-header (and --names for the names of the columns in their order)"
                 ));
             }
@@ -85,7 +85,7 @@ impl CsvRows {
             if !options.names.is_empty() {
                 let known = cells.join(", ");
                 return refused(format!(
-                    "it names its columns itself ({known}): leave --names out, or add --no-header if the first line is a row"
+                    "its header names the columns ({known}): leave --names out, or add --no-header if the first line is a row"
                 ));
             }
             let names = expanded(&cells);
@@ -207,7 +207,7 @@ fn wrong_record(source: csv::Error, line: u64) -> TableError {
     // The reader counts records and bytes from its own start, which do not help the user.
     match source.kind() {
         csv::ErrorKind::Utf8 { .. } => {
-            TableError::Refused(format!("line {line}: it is not text in UTF-8: save the file as UTF-8"))
+            TableError::Refused(format!("line {line}: not text in UTF-8: save the file as UTF-8"))
         }
         _ => TableError::Refused(format!("line {line}: {source}")),
     }

@@ -149,5 +149,5 @@ fn utf16(begin: Vec<u8>, rest: Box<dyn Read>) -> Result<Vec<u8>> {
     let units: Vec<u16> = bytes[2..].chunks_exact(2).map(|pair| of_pair([pair[0], pair[1]])).collect();
     String::from_utf16(&units)
         .map(String::into_bytes)
-        .map_err(|_| invalid("it is no text in UTF-16, as its first bytes say: save it as UTF-8".to_owned()))
+        .map_err(|_| invalid("its first bytes say UTF-16, but it is not text in UTF-16: save it as UTF-8".to_owned()))
 }

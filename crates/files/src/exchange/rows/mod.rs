@@ -59,7 +59,7 @@ impl Format {
             }
             Some(ending) => format!(", not .{ending}"),
         };
-        refused(format!("the ending of the name tells the format: expected .csv or .npy{found}"))
+        refused(format!("the ending of the name gives the format: expected .csv or .npy{found}"))
     }
 }
 

@@ -97,7 +97,7 @@ impl<R: Read + Seek> NpyRows<R> {
             return Err(refused(format!("its version is {version}, and its header has {size} bytes")));
         }
         let start = (MAGIC.len() + 2 + bytes.len() + size) as u64;
-        let header = String::from_utf8(exactly(size)?).map_err(|_| refused("its header is no text"))?;
+        let header = String::from_utf8(exactly(size)?).map_err(|_| refused("its header is not text"))?;
         let (element, fortran, shape) = parse_header(&header)?;
         let (rows, width) = match shape[..] {
             [rows] => (rows, 1),
@@ -130,7 +130,7 @@ fn parse_header(header: &str) -> Result<(Element, bool, Vec<u64>), TableError> {
     let header = header.replace('"', "'");
     let after = |key: &str| {
         let rest = header.split_once(&format!("'{key}':")).map(|(_, rest)| rest.trim_start());
-        rest.ok_or_else(|| refused(format!("its header says no {key}")))
+        rest.ok_or_else(|| refused(format!("its header has no `{key}`")))
     };
     let described = after("descr")?.strip_prefix('\'').and_then(|text| text.split('\'').next()).unwrap_or_default();
     let element = Element::parse(described).ok_or_else(|| {
@@ -141,7 +141,7 @@ fn parse_header(header: &str) -> Result<(Element, bool, Vec<u64>), TableError> {
     let shape = after("shape")?.strip_prefix('(').and_then(|rest| rest.split_once(')')).map(|(inside, _)| inside);
     let numbers = shape.unwrap_or_default().split(',').map(str::trim).filter(|n| !n.is_empty());
     let shape: Result<Vec<u64>, _> = numbers.map(str::parse).collect();
-    Ok((element, fortran, shape.map_err(|_| refused("its header says no shape"))?))
+    Ok((element, fortran, shape.map_err(|_| refused("its header has no `shape`"))?))
 }
 
 impl<R: Read + Seek> RowReader for NpyRows<R> {

@@ -28,7 +28,7 @@ fn read(bytes: &[u8], kinds: &[ColumnKind], block: usize) -> Result<Vec<Vec<f64>
 }
 
 fn bits(columns: &[Vec<f64>]) -> Vec<Vec<u64>> {
-    // A NaN is a missing value, whatever its bits.
+    // A NaN of any bits is a missing value.
     let bits = |value: &f64| if value.is_nan() { f64::NAN.to_bits() } else { value.to_bits() };
     columns.iter().map(|column| column.iter().map(bits).collect()).collect()
 }
@@ -92,8 +92,8 @@ fn faults_are_named_with_their_place() {
         (b"a,b\n1,0\n\n2\n", "line 4: expected 2 cells as in the header, not 1"),
         (b"PAR1,b\n1,3\n", "it is a Parquet file"),
         (b"PK\x03\x04\x14", "it is a workbook"),
-        (b"1,2\n3,4\n", "line 1 holds numbers"),
-        (b"# a comment\na,1.5\n3,4\n", "line 2 holds numbers"),
+        (b"1,2\n3,4\n", "line 1 has numbers"),
+        (b"# a comment\na,1.5\n3,4\n", "line 2 has numbers"),
     ] {
         let message = refused(bytes).to_string();
         assert!(message.starts_with(reason), "{message}");
@@ -143,7 +143,7 @@ fn other_separators_and_tables_without_names_are_read() {
     }
     assert!(table_of_bytes(numbers, &ReadOptions::default()).unwrap().names().is_none());
     let refused = table_of_bytes(b"a,b\n1,2\n".to_vec(), &named(&["a", "b"])).err().unwrap();
-    assert!(refused.to_string().starts_with("it names its columns itself (a, b)"));
+    assert!(refused.to_string().starts_with("its header names the columns (a, b)"));
     let without = ReadOptions { no_header: true, ..ReadOptions::default() };
     let rows = table_of_bytes(b"steel,2\n".to_vec(), &without).unwrap();
     assert_eq!((rows.names(), rows.width()), (None, 2));
@@ -202,11 +202,11 @@ fn missing_values_and_words_of_yes_and_no_are_numbers() {
 }
 
 #[test]
-fn columns_of_text_are_told_from_those_of_numbers() {
+fn text_columns_are_distinguished_from_number_columns() {
     let csv = b"id,a,b,c\n,1,nan,x\nr2,2,red,\n".to_vec();
     let mut rows = table_of_bytes(csv, &ReadOptions::default()).unwrap();
     assert_eq!(rows.text_columns().unwrap(), [0, 2, 3]);
-    // Nothing is lost by looking.
+    // Detecting the format loses no rows.
     let mut columns = vec![Vec::new()];
     assert_eq!(rows.read(&[(1, ColumnKind::numbers("a"))], 9, &mut columns).unwrap(), 2);
     assert_eq!((&columns[0][..], rows.line(1), rows.is_unended()), (&[1.0, 2.0][..], Some(3), false));

@@ -27,7 +27,7 @@ fn faults_are_named_with_their_place() {
     for (text, inputs, reason) in [
         ("\n\n", &[][..], "the file is empty"),
         ("y\n1\n", &[], "no column of numbers is left as an input; the columns are y"),
-        ("a,y\n", &["y"], "`y` is asked for twice"),
+        ("a,y\n", &["y"], "`y` is listed twice"),
         ("a,force\n", &[], "no column is called `y`"),
         ("a,y\n1,2\n3,nan\n", &[], "line 3: column 2 (`y`): the value is missing"),
         ("a,y\n1,2\n,2\n", &[], "line 3: column 1 (`a`): the value is missing"),
@@ -50,7 +50,7 @@ fn columns_of_text_are_skipped_and_named() {
     let skipped: Vec<_> = table.skipped.iter().map(|column| (&*column.name, column.example.as_deref())).collect();
     assert_eq!((table.inputs.len(), &table.inputs[0].values), (1, &vec![0.5]));
     assert_eq!(skipped, [("id", Some("r1")), ("when", Some("2026-01-01"))]);
-    // One that is asked for is not.
+    // A requested column is not skipped.
     assert!(read(text, &["y"], &["id"], Missing::Drop).is_err());
     let tabs = read("a\ty\n1\t2\n", &["y"], &[], Missing::Refuse).unwrap();
     assert_eq!((tabs.inputs[0].values[0], tabs.outputs[0].values[0]), (1.0, 2.0));
@@ -62,7 +62,7 @@ fn rows_without_a_value_are_dropped_and_counted_if_asked() {
     let table = read(text, &["y"], &["a"], Missing::Drop).unwrap();
     assert_eq!(table.inputs[0].values, [1.0, 4.0]);
     assert_eq!(table.dropped, Some(DroppedRows { rows: 2, first_line: 3 }));
-    // Text and infinities are no missing values.
+    // Text and infinities are not missing values.
     assert!(read("a,y\n1,1\nred,1\n", &["y"], &[], Missing::Drop).is_err());
     assert!(read("a,y\n1,inf\n", &["y"], &[], Missing::Drop).is_err());
 }

@@ -124,7 +124,7 @@ fn existing(
         return Ok(path);
     }
     let problem = format!("{}: there is no such {what}", path.display());
-    let help = format!("the path is relative to the study, and that of a {what}");
+    let help = format!("the path must be that of a {what}, relative to the study");
     Err(context.fault(typed.span(), Problem::with_help(problem, help)))
 }
 
@@ -134,7 +134,7 @@ fn protocol(
     section: &CommandSection,
     first_pick: Option<&Range<usize>>,
 ) -> Result<Protocol, Fault> {
-    const RUNS: &str = "only with `template`, of a program that runs once for each row";
+    const RUNS: &str = "used only with `template`, for a program that runs once for each row";
     let spans = [
         ("input", section.input.as_ref().map(At::span)),
         ("files", section.files.first().map(At::span)),
@@ -142,7 +142,7 @@ fn protocol(
         ("regex, column, pointer, file, match", first_pick.cloned()),
     ];
     if let Some((key, span)) = spans.into_iter().find_map(|(key, span)| Some((key, span?))) {
-        return Err(context.fault(span, wrong(key, RUNS, "without one".to_owned())));
+        return Err(context.fault(span, wrong(key, RUNS, "without it".to_owned())));
     }
     Ok(choice_if_said(context, &section.protocol, "protocol")?.unwrap_or(Protocol::Csv))
 }
@@ -159,7 +159,7 @@ fn refuse_number(
     let is_output = protocol == Protocol::JsonLines && outputs.iter().any(|output| output.name == "id");
     let what = if is_factor { "factor" } else { "output" };
     if is_factor || is_output {
-        let expected = "another than `id`, which the program gets as the number of a row";
+        let expected = "different from `id`, which is the number of the row";
         return context.refuse(key, &format!("name of the {what}"), expected, "`id`".to_owned());
     }
     Ok(())

@@ -26,8 +26,8 @@ pub(super) fn form(
     space: &Space,
 ) -> Result<(PerRun, Vec<String>), Fault> {
     if let Some(protocol) = &section.protocol {
-        let expected = "only of a program that is kept alive, without `template`";
-        return Err(context.fault(protocol.span(), wrong("protocol", expected, "with one".to_owned())));
+        let expected = "used only without `template`, for a program that is kept alive";
+        return Err(context.fault(protocol.span(), wrong("protocol", expected, "with it".to_owned())));
     }
     let template_file = resolve(context, template, reach(section))?;
     let file_name = template_file.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
@@ -36,7 +36,7 @@ pub(super) fn form(
     refuse_place("input", &input).map_err(|problem| context.fault(span(), problem))?;
     let read = context.at(template, read_template(&template_file, space))?;
     let unused = space.factors().iter().enumerate().filter(|(number, _)| !read.uses(*number));
-    let notes = unused.map(|(_, factor)| format!("factor `{}` does not stand in the template", factor.name)).collect();
+    let notes = unused.map(|(_, factor)| format!("factor `{}` is not in the template", factor.name)).collect();
     let files = files(context, section, &input)?;
     let keep = section.keep.as_ref().map(|keep| resolve(context, keep, reach(section))).transpose()?;
     Ok((PerRun { template_file, template: read, input, files, keep }, notes))
@@ -49,14 +49,14 @@ pub(super) fn refuse_without_pick(
     outputs: &[CommandOutput],
 ) -> Result<(), Fault> {
     let Some(output) = outputs.iter().find(|output| output.pick.is_none()) else { return Ok(()) };
-    let expected = "a table that says where the number stands, as in { file = \"out.txt\", regex = \"force = (\\\\S+)\" }, \
+    let expected = "a table that locates the number, as in { file = \"out.txt\", regex = \"force = (\\\\S+)\" }, \
                     { file = \"out.csv\", column = \"y\" } or { file = \"out.json\", pointer = \"/result/y\" }";
-    context.refuse(key, &format!("outputs.{}", output.name), expected, "without that, with `template`".to_owned())
+    context.refuse(key, &format!("outputs.{}", output.name), expected, "only a unit, with `template`".to_owned())
 }
 
 fn read_template(path: &Path, space: &Space) -> Result<InputTemplate, Problem> {
     let text = read_text(path).map_err(|error| {
-        let help = "it is a text in UTF-8; its path is relative to the study";
+        let help = "it must be text in UTF-8; its path is relative to the study";
         Problem::with_help(format!("{}: cannot read the template: {error}", path.display()), help)
     })?;
     let names = || space.factors().iter().map(|factor| factor.name.as_str());
@@ -67,7 +67,7 @@ fn read_template(path: &Path, space: &Space) -> Result<InputTemplate, Problem> {
         };
         let place = format!("{}:{}:{}", path.display(), error.line, error.column);
         let names = names().collect::<Vec<_>>().join(", ");
-        let help = format!("factors: {names}; write `{{{{{{{{` for two braces of the text");
+        let help = format!("factors: {names}; write `{{{{{{{{` for two literal braces");
         Problem::with_help(format!("{place}: {error}{}", did_you_mean(&near)), help)
     })
 }
@@ -80,7 +80,7 @@ fn refuse_place(key: &str, name: &str) -> Result<(), Problem> {
         return Err(wrong(key, "the name of a file, without a folder", format!("{name:?}")));
     }
     if TAKEN.contains(&name) {
-        return Err(wrong(key, "another name: the directory of a run has a file of that one", format!("{name:?}")));
+        return Err(wrong(key, "another name: the directory of a run already has this file", format!("{name:?}")));
     }
     Ok(())
 }

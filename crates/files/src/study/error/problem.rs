@@ -20,7 +20,7 @@ pub enum Problem {
         expected: Vec<String>,
     },
     /// A repeated name.
-    #[error("{what} `{name}` stands here twice")]
+    #[error("{what} `{name}` is listed twice")]
     Repeated {
         /// The kind of name.
         what: &'static str,
@@ -68,7 +68,7 @@ impl Problem {
     /// Creates the problem of a study without a factor.
     pub(in crate::study) fn no_factors() -> Self {
         let help = "add a table [factors] with a line for each, as in x1 = { min = 0, max = 1 }";
-        Self::with_help("the study has no factor: there is nothing to vary", help)
+        Self::with_help("the study has no factors", help)
     }
 
     /// Returns what is expected, if the message does not say it.

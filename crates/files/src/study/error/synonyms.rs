@@ -72,7 +72,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn words_of_other_programs_are_known_where_ours_can_stand() {
+    fn words_of_other_programs_are_known_where_the_keyword_is_allowed() {
         let factor = ["name", "distribution", "min", "max", "mean", "sd"];
         assert_eq!(meant("dist", factor).as_deref(), Some("distribution"));
         assert_eq!(meant("sigma", factor).as_deref(), Some("sd"));

@@ -70,7 +70,7 @@ fn marks_stand_at_their_values(bars: &[Bar], svg: &str) {
 }
 
 #[test]
-fn bars_whiskers_and_diamonds_stand_at_their_values() {
+fn bars_whiskers_and_diamonds_are_at_their_values() {
     let svg = sample().svg();
     let all: Vec<Bar> = sample().all_panels()[0].bars().map(|(_, bar)| bar.clone()).collect();
     // Row by row.
@@ -122,7 +122,7 @@ fn panels_with_the_same_rows_name_them_once() {
 
 proptest! {
     #[test]
-    fn marks_stand_at_any_usual_values(values in prop::collection::vec((-20.0..120.0, 0.0..20.0), 1..12)) {
+    fn marks_are_at_their_values_for_any_values(values in prop::collection::vec((-20.0..120.0, 0.0..20.0), 1..12)) {
         let bar = |(row, &(value, half)): (usize, &(f64, f64))| Bar {
             published: Some(value + 0.3 * half),
             ..Bar::percent(row, Some(value), Some((value - half, value + half / 2.0)))

@@ -19,14 +19,14 @@ fn paths(document: &Document, class: &str) -> Vec<Vec<f64>> {
 }
 
 #[test]
-fn points_stand_at_their_values_and_gaps_stay_open() {
+fn points_are_at_their_values_and_gaps_stay_open() {
     let points =
         vec![(0.0, 10.0), (1.0, 30.0), (2.0, f64::NAN), (3.0, 20.0), (4.0, f64::INFINITY), (5.0, 5.0), (6.0, 40.0)];
     let svg = svg(vec![panel(vec![series(0).line(points)])]);
     let document = Document::parse(&svg).expect("well-formed");
     let (zero, scale) = y_axis(&groups(&document, "y-axis")[0]);
     let drawn = paths(&document, "series");
-    // Two lines and, between two gaps, a point of its own.
+    // Two lines and, between two gaps, a separate point.
     assert_eq!(drawn.len(), 3);
     // 0.02 px: two coordinates of two decimals.
     let near = |y: f64, value: f64| (zero - y - value * scale).abs() < 0.02 + 1e-3 * value * scale;

@@ -27,7 +27,7 @@ fn spacing(is_logarithmic: bool) -> Spacing {
     if is_logarithmic { Spacing::Logarithmic } else { Spacing::Linear }
 }
 
-/// A number, now and then one that cannot be drawn.
+/// A number, sometimes one that cannot be drawn.
 fn any_number() -> impl Strategy<Value = f64> {
     prop_oneof![4 => -20.0..120.0, 1 => prop::num::f64::ANY]
 }
@@ -86,7 +86,7 @@ proptest! {
 }
 
 #[test]
-fn nothing_to_show_is_said() {
+fn an_empty_output_is_explained() {
     let gap = vec![(f64::NAN, 1.0)];
     let empty = Panel::new(Axis::new("x", ""), Axis::new("y", ""));
     let rows = Axis::from_names("", vec!["a".to_owned()]);
@@ -105,7 +105,7 @@ fn nothing_to_show_is_said() {
 }
 
 #[test]
-fn title_and_caption_are_drawn_and_told() {
+fn title_and_caption_are_drawn_and_described() {
     let panel = Panel::new(Axis::new("Time", "ms"), Axis::new("Pressure", "bar"));
     let svg = svg(vec![panel.with([series(0).line(vec![(0.0, 0.0), (1.0, 1.0)])])]);
     let document = Document::parse(&svg).expect("well-formed");

@@ -47,7 +47,7 @@ fn point(x: f64, y: f64, label: &str) -> Point {
 }
 
 #[test]
-fn points_stand_at_their_values() {
+fn points_are_at_their_values() {
     let points = vec![point(40.0, 20.0, "first"), point(10.0, 20.0, "second"), point(f64::NAN, 1.0, "none")];
     let svg = svg(vec![labelled(points)]);
     let document = Document::parse(&svg).expect("well-formed");

@@ -17,7 +17,7 @@ pub(super) fn number(node: &Node, name: &str) -> f64 {
     node.attribute(name).and_then(|value| value.parse().ok()).unwrap_or_else(|| panic!("no {name} in {node:?}"))
 }
 
-/// The numbers of path data, whatever its commands.
+/// The numbers of path data, for any commands.
 pub(super) fn path_numbers(node: &Node) -> Vec<f64> {
     let data = node.attribute("d").expect("a path");
     data.split(|c: char| c.is_ascii_alphabetic() || c == ' ').filter_map(|part| part.parse().ok()).collect()

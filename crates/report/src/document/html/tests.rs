@@ -37,7 +37,7 @@ fn page(parts: Vec<Part>) -> Document {
     }
 }
 
-/// A part of every kind, with `text` wherever a text can stand.
+/// A part of every kind, with `text` at every place for text.
 fn every_part(text: &str) -> Vec<Part> {
     let t = || text.to_owned();
     vec![
@@ -67,13 +67,13 @@ fn every_part(text: &str) -> Vec<Part> {
     ]
 }
 
-/// The start tags of a document, as they stand.
+/// The start tags of a document, unchanged.
 fn tags(html: &str) -> Vec<&str> {
     html.split('<').skip(1).filter_map(|rest| rest.split_once('>')).map(|(tag, _)| tag).collect()
 }
 
 #[test]
-fn the_page_needs_nothing_else() {
+fn the_page_needs_no_other_files() {
     let html = page(every_part("words")).html();
     let own = html.replace("http://www.w3.org/2000/svg", "");
     for outside in ["http:", "https:", " src=", "@import", "url(", "//cdn", "fetch("] {
@@ -82,7 +82,7 @@ fn the_page_needs_nothing_else() {
     assert_eq!(html.matches("<svg").count(), 3, "one chart drawn twice, and a small one once");
     assert!(!html.contains("f2-wide") && html.contains("aria-labelledby=\"f2-narrow-title\""));
     assert!(
-        html.contains("</div>\n<p class=\"on-paper\">On the screen, an animation stands here: words.</p>"),
+        html.contains("</div>\n<p class=\"on-paper\">On the screen, there is an animation here: words.</p>"),
         "{html}"
     );
     assert!(html.contains("aria-labelledby=\"f1-wide-title\"") && html.contains("id=\"f1-narrow-desc\""));
@@ -91,7 +91,7 @@ fn the_page_needs_nothing_else() {
 }
 
 #[test]
-fn what_follows_a_number_does_not_run_into_it() {
+fn links_are_separated_from_numbers() {
     let cell = Cell { links: vec![Link::new("fig. 8", "#two")], ..Cell::from("1") };
     let table = Table::from_rows("Claims.", [&cell]).text("claim", Cell::clone);
     let html = page(vec![table.into()]).html();
@@ -112,7 +112,7 @@ fn texts_cannot_break_out() {
     let names = |html: &str| -> Vec<String> {
         tags(html).iter().map(|tag| tag.split([' ', '\n']).next().unwrap_or_default().to_owned()).collect()
     };
-    // The chart breaks its texts into lines as they are long: its elements are its own affair.
+    // The chart breaks its texts into lines by their length: its elements are not tested here.
     let drawn = ["text", "/text", "g", "/g", "line", "rect"];
     let frame = |names: Vec<String>| names.into_iter().filter(|n| !drawn.contains(&n.as_str())).collect::<Vec<_>>();
     assert_eq!(frame(names(&html)), frame(names(&tame)));
@@ -127,7 +127,7 @@ fn the_same_page_gives_the_same_bytes() {
 }
 
 #[test]
-fn a_page_links_to_the_files_that_lie_in_its_folder_alone() {
+fn a_page_links_only_to_files_in_its_folder() {
     let document = page(vec![figure("f1", scatter("a"))]);
     let alone = document.html();
     assert!(!alone.contains(".svg\"") && !alone.contains(".csv\""));

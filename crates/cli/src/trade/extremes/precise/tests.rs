@@ -15,7 +15,7 @@ fn symbol(name: &str) -> Option<Symbol> {
 }
 
 proptest! {
-    /// What doubles make of a formula lies within the bound of rounding, and the bound is of use: some hundred units.
+    /// A formula in doubles is within the bound of rounding errors, and the bound is useful: about a hundred units.
     #[test]
     fn rounding_stays_within_its_bound(x in -3.0..3.0_f64, y in 0.1..20.0_f64, a in -1e3..1e3_f64) {
         let formulas = [
@@ -27,7 +27,7 @@ proptest! {
             let formula = Expression::parse(text, &symbol).unwrap();
             let (value, precise) = (formula.value(&[x, y, a]), precise(&formula, &[x, y, a]).unwrap());
             let (off, rounding) = ((value - precise).abs(), rounding(&formula, &[x, y, a]));
-            // The truth itself is rounded to a double here.
+            // The exact value is rounded to a double here.
             prop_assert!(off <= rounding + value.abs() * f64::EPSILON, "{text}: {value} is off by {off:e}, beyond {rounding:e}");
             prop_assert!(rounding < 1e-9 * (1.0 + precise.abs() + libm::pow(y, x.abs())), "{text}");
         }
@@ -42,7 +42,7 @@ fn functions_that_have_no_more_digits_say_so() {
     }
 }
 
-/// Whatever the size of the argument, to a unit in the last place.
+/// For any size of the argument, to a unit in the last place.
 #[test]
 fn precise_values_are_those_of_mathematics() {
     let cases = [
