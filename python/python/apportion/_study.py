@@ -33,7 +33,7 @@ from ._keys import (
 from ._progress import Progress, say
 from ._repeated import RepeatedCall, outputs_of, taken_out
 from ._result import Document, Result
-from ._tables import named, numbers, placed
+from ._tables import named, numbers, placed, series_name
 
 # Base points at which a function is tried, until it answers.
 _TRIED = 8
@@ -243,8 +243,8 @@ class Study:
 
     def analyse(self, outputs: Any) -> Result:
         """The result from outputs at the points of `sample`, in their order: (rows,) or (rows, outputs), or a mapping or frame of
-        (rows,) by the names of the outputs, in any order, in a mapping also of (rows, values) of a series. NaN, and what is masked or
-        missing, says that a run failed."""
+        (rows,) by the names of the outputs, in any order, in a mapping also of (rows, values) of a series. Names that the study does
+        not state are those of the frame, or of a `pandas.Series`. NaN, and what is masked or missing, says that a run failed."""
         if self._study.grows:
             raise StudyError("a study with an accuracy or limits chooses its runs as they go on: give it base_samples")
         # Nobody has said what the outputs are.
@@ -258,6 +258,7 @@ class Study:
             if y.shape[1] != len(self.outputs) and not is_unnamed:
                 raise StudyError(f"outputs of shape {y.shape}: expected ({self.runs}, {len(self.outputs)}), of {', '.join(self.outputs)}")
             names = self.outputs if y.shape[1] == len(self.outputs) else [f"y{k + 1}" for k in range(y.shape[1])]
+            names = [series_name(outputs) or names[0]] if is_unnamed and len(names) == 1 else names
             columns = dict(zip(names, y.T))
         else:
             columns = self._split(columns)
