@@ -61,7 +61,7 @@ def read(answer: Any, rows: int, vectorised: bool, expected: Sequence[str] | Non
             raise AnswerError(f"the function returned an array of shape {values.shape} for one row")
         return Answer(values.reshape(1, -1), None, None)
     if values.ndim == 1 and len(values) == rows:
-        return Answer(values.reshape(rows, 1), name and [name], None)
+        return Answer(values.reshape(rows, 1), [name] if name else None, None)
     if values.ndim == 2 and len(values) == rows:
         return Answer(values, None, None)
     words = ": if it is a function of one row, say vectorised=False" if hint or values.ndim == 0 else ""

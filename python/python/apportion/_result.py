@@ -232,7 +232,7 @@ class Result(Document):
         that have none."""
         return dataset(list(self.outputs.values()), "output", list(self.outputs))
 
-    def plot(self, output: str | None = None, ax: Any = None) -> Any:
+    def plot(self, output: str | None = None, ax: Any = None) -> Any:  # type: ignore[override]
         """Bars of the indices of an output with their intervals, on `ax` of matplotlib; returns the axes."""
         return self[_chosen(output, self.outputs)].plot(ax)
 

@@ -134,8 +134,9 @@ class Study:
             if callable(model):
                 noise, repetitions = taken_out(noise)
             # The engine makes a factor of it, behind all others.
-            options["noise"] = noise = {"name": "seed", **noise}
-            stated, made = dict(made), {**made, noise["name"]: Seed()}
+            options["noise"] = {"name": "seed", **noise}
+            noise = str(options["noise"]["name"])
+            stated, made = dict(made), {**made, noise: Seed()}
         else:
             made |= {} if noise is None else {noise: Seed()}
             stated = made
@@ -153,7 +154,7 @@ class Study:
                 model, list(made), vectorised=vectorised, style=call, outputs=names, lengths=lengths, quantiles=quantiles
             )
             if repetitions > 1:
-                self._call = RepeatedCall(self._call, list(made).index(noise["name"]), repetitions)
+                self._call = RepeatedCall(self._call, list(made).index(str(noise)), repetitions)
                 outputs = outputs_of(outputs)
         elif any(factor.quantile is not None for factor in made.values()):
             raise StudyError("factors by their quantile functions serve functions of Python alone")

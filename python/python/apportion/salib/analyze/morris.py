@@ -39,7 +39,7 @@ def analyze(
     if x.shape != (len(y), d) or not len(y) or len(y) % points:
         expected = f"expected (rows, {d}) and (rows,), and a multiple of {points} rows"
         raise StudyError(f"points of shape {x.shape} and {len(y)} outputs: {expected}")
-    x, y = x.reshape(-1, points, d), y.reshape(-1, points)
+    x, y = x.reshape(-1, points, d), y.reshape((-1, points))
     effects = np.einsum("tsk,ts->kt", np.sign(np.diff(x, axis=1)), np.diff(y, axis=1))
     if scaled:
         spread = y.std(axis=1)
