@@ -91,9 +91,11 @@ def test_a_run_that_failed_leaves_its_base_point_out():
 def test_what_is_not_served_says_what_is():
     with pytest.raises(ImportError, match="analyze.delta is not there: use ap.given_data"):
         from apportion.salib.analyze import delta  # noqa: F401
+    with pytest.raises(ImportError, match="analyze.fast is not there: use sample.sobol"):
+        from apportion.salib.analyze.fast import analyze  # noqa: F401
     with pytest.raises(ImportError, match="fast_sampler is not there: use sample.sobol"):
         salib.ProblemSpec(PROBLEM).sample_fast(100)
-    with pytest.raises(AttributeError, match="sample_nothing|nothing"):
+    with pytest.raises(AttributeError, match="sample_nothing: there is no apportion.salib.sample.nothing"):
         salib.ProblemSpec(PROBLEM).sample_nothing(100)
     refusals = {
         "scramble=False": lambda: salib.sample.sobol.sample(PROBLEM, 8, scramble=False),

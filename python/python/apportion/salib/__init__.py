@@ -11,7 +11,7 @@ There are `sample.sobol`, `saltelli`, `morris` and `latin`, `analyze.sobol`, `mo
 turns a problem into the factors of `apportion.analyse`, which needs fewer runs for the same accuracy.
 """
 
-from . import analyze, plotting, sample, test_functions, util
+from . import _others, analyze, plotting, sample, test_functions, util  # noqa: F401
 from ._problem import from_problem
 from .util import ProblemSpec
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -75,14 +75,3 @@ def points(problem: Mapping[str, Any], N: int, seed: Seed, halves: int = 1, skip
     # The first row of a base point has its coordinates in all columns.
     rows = study._study.rows_per_point
     return study._study.sample(skipped * rows, study.runs, rows)
-
-
-def refused(package: str, instead: Mapping[str, str]) -> Callable[[str], Any]:
-    """The `__getattr__` of a package, which says of SALib's modules that it has not what does their work."""
-
-    def missing(name: str) -> Any:
-        if name in instead:
-            raise ImportError(f"{package}.{name} is not there: use {instead[name]}")
-        raise AttributeError(f"module {package!r} has no attribute {name!r}")
-
-    return missing

@@ -74,9 +74,12 @@ class ProblemSpec(dict[str, Any]):
         kind, _, method = name.partition("_")
         if kind not in ("sample", "analyze") or not method:
             raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
-        package = importlib.import_module(f"{_PACKAGE}.{kind}")
         method = "fast_sampler" if name == "sample_fast" else method
-        return partial(getattr(self, kind), getattr(getattr(package, method), kind))
+        try:
+            module = importlib.import_module(f"{_PACKAGE}.{kind}.{method}")
+        except ModuleNotFoundError as error:
+            raise AttributeError(f"{name}: there is no {error.name}") from None
+        return partial(getattr(self, kind), getattr(module, kind))
 
     @property
     def samples(self) -> Any:
