@@ -47,8 +47,8 @@ def analyze(
             effects *= np.where(spread > 0, x.std(axis=1).T / spread, 0.0) / np.ptp(x, axis=1).T
     else:
         effects /= num_levels / (2 * (num_levels - 1))
-    sizes = np.abs(effects)
-    means = [size[rng.integers(len(size), size=(num_resamples, len(size)))].mean(axis=1) for size in sizes]
+    sizes = np.ascontiguousarray(np.abs(effects))
+    means = [size[rng.integers(len(y), size=(num_resamples, len(y)))].mean(axis=1) for size in sizes]
     conf = z * np.std(means, axis=1, ddof=1) if num_resamples > 1 else np.full(d, np.nan)
 
     def joint(of: np.ndarray) -> np.ndarray:

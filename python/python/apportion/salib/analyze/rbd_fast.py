@@ -38,9 +38,11 @@ def analyze(
         raise StudyError(f"points of shape {x.shape} and {len(y)} outputs: {expected}")
     first, conf = [], []
     for column in x.T:
-        first.append(_index(column, y, M))
-        drawn = (rng.choice(len(y), half) for _ in range(num_resamples))
-        resamples = [_index(column[rows], y[rows], M) for rows in drawn]
+        order = np.argsort(column)
+        first.append(_index(y[order], M))
+        # In the order of the input without sorting it again: rows as often as they are drawn.
+        drawn = (np.bincount(rng.choice(len(y), half), minlength=len(y))[order] for _ in range(num_resamples))
+        resamples = [_index(y[np.repeat(order, counts)], M) for counts in drawn]
         conf.append(z * np.std(resamples, ddof=1) if num_resamples > 1 else np.nan)
     found = ResultDict(S1=first, S1_conf=conf, names=list(problem["names"]))
     if print_to_console:
@@ -48,12 +50,12 @@ def analyze(
     return found
 
 
-def _index(x: np.ndarray, y: np.ndarray, harmonics: int) -> float:
-    order = np.argsort(x)
-    wave = y[np.concatenate([order[::2], order[1::2][::-1]])]
-    wave = wave - wave.mean()
+def _index(y: np.ndarray, harmonics: int) -> float:
+    """The index from outputs in the order of the input."""
+    wave = np.concatenate([y[::2], y[1::2][::-1]])
+    wave -= wave.mean()
     power = np.abs(np.fft.rfft(wave)[1 : harmonics + 1]) ** 2
     # By Parseval's theorem the sum over all frequencies.
-    share = 2 * power.sum() / (len(wave) * (wave @ wave))
+    share = 2 * power.sum() / (len(wave) * np.square(wave).sum())
     noise = 2 * harmonics / len(wave)
     return float(share - noise / (1 - noise) * (1 - share))
