@@ -10,6 +10,7 @@ import numpy as np
 
 from ... import _engine
 from ..._checks import whole
+from ..._indices import needed
 from ..._tables import numbers
 from .._problem import Seed, generator, members_of
 from ..util import ResultDict, confidence
@@ -26,8 +27,7 @@ class Sensitivities(ResultDict):
 
     def to_df(self) -> list[Any]:
         """Frames of total, first-order and second-order indices, as SALib's."""
-        import pandas as pd
-
+        pd = needed("pandas", "to_df")
         frames = [
             pd.DataFrame({key: self[key], f"{key}_conf": self[f"{key}_conf"]}, index=self.members) for key in ("ST", "S1")
         ]
