@@ -5,6 +5,9 @@ use std::path::PathBuf;
 
 use apportion::result::parse_result;
 use apportion_report::document::Part;
+use apportion_report::given::given_document;
+use apportion_report::screening::screening_document;
+use apportion_report::sweep::sweep_document;
 use apportion_report::{Artefacts, ChartFormat, run_document};
 use pyo3::prelude::*;
 
@@ -87,8 +90,15 @@ fn collect(parts: &[Part], charts: &mut Vec<(String, String)>) -> PyResult<()> {
     Ok(())
 }
 
-/// The result of the JSON file that a run has written.
+/// The document of a JSON file that was written, called `name` where the file does not say it.
 #[pyfunction]
-pub fn read_result(json: &str) -> PyResult<Document> {
-    Ok(Document::new(run_document(&parse_result(json.as_bytes()).map_err(input)?)))
+pub fn read_document(json: &str, name: &str) -> PyResult<Document> {
+    let of = |error: serde_json::Error| input(error.to_string());
+    let format = serde_json::from_str::<serde_json::Value>(json).map_err(of)?["format"].take();
+    Ok(Document::new(match format.as_str() {
+        Some("apportion-screening") => screening_document(&serde_json::from_str(json).map_err(of)?),
+        Some("apportion-sweep") => sweep_document(&serde_json::from_str(json).map_err(of)?),
+        Some("apportion-given-data") => given_document(&serde_json::from_str(json).map_err(of)?, name),
+        _ => run_document(&parse_result(json.as_bytes()).map_err(input)?),
+    }))
 }

@@ -22,6 +22,6 @@ fn _engine(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(distributions::distributions, module)?)?;
     module.add_function(wrap_pyfunction!(points::given_data, module)?)?;
     module.add_function(wrap_pyfunction!(points::salib_indices, module)?)?;
-    module.add_function(wrap_pyfunction!(document::read_result, module)?)?;
+    module.add_function(wrap_pyfunction!(document::read_document, module)?)?;
     Ok(())
 }

@@ -1,5 +1,6 @@
 //! Arrays of points and outputs that exist already.
 
+use apportion::AnalysisOptions;
 use apportion::given::{Column, analyse, measures as measured, surrogate_indices};
 use apportion::salib::{SalibLayout, SalibProblem, salib_study};
 use apportion_report::given::{GivenFacts, build_given, given_document};
@@ -57,22 +58,17 @@ pub fn given_data(
     watched(py, work)?.map_err(|reason: String| input(reason))
 }
 
-/// An estimate with the ends of its interval.
-type Triple = (f64, f64, f64);
-
-/// Indices by SALib's formulas: first-order, total and second-order ones, the last ones as (first, second, index), and warnings.
-type SalibIndices = (Vec<Triple>, Vec<Triple>, Vec<(usize, usize, Triple)>, Vec<String>);
+/// Indices by SALib's formulas: first-order, total and second-order ones of the pairs in order, and warnings.
+type SalibIndices = (Vec<f64>, Vec<f64>, Vec<f64>, Vec<String>);
 
 /// First-order, total and second-order indices of outputs in SALib's layout, with what is to be known of them.
 #[pyfunction]
-#[pyo3(signature = (y, d, *, second_order, resamples, seed))]
+#[pyo3(signature = (y, d, *, second_order))]
 pub fn salib_indices(
     py: Python<'_>,
     y: PyReadonlyArray1<'_, f64>,
     d: usize,
     second_order: bool,
-    resamples: usize,
-    seed: u64,
 ) -> PyResult<SalibIndices> {
     let y = y.as_array().to_vec();
     let layout = if second_order { SalibLayout::SecondOrder } else { SalibLayout::FirstOrder };
@@ -85,24 +81,22 @@ pub fn salib_indices(
         let outputs = [Column { name: "y".to_owned(), values: y }];
         let unlikely = apportion::Unlikely::find(&outputs[0].values).map(|found| found.in_table(found.first + 1));
         let problem = problem.map_err(|error| error.to_string())?;
-        let made = salib_study("salib", &problem, &outputs, layout, (resamples, seed));
+        let made = salib_study("salib", &problem, &outputs, layout, (0, 0));
         let (study, store) = made.map_err(|error| error.to_string())?;
+        // Nothing but the indices is shown.
+        let analysis = AnalysisOptions { convergence: false, pictures: false, ..study.analysis().clone() };
+        let settings = study.design().settings().clone();
+        let study = study.with_design(settings, analysis).map_err(|error| error.to_string())?;
         let result = study.runner().store(&store).run().map_err(|error| error.to_string())?;
-        Ok((result, study.layout().pair_list(), unlikely))
+        Ok((result, unlikely))
     };
-    let (mut result, pairs, unlikely) = watched(py, work)?.map_err(input)?;
+    let (mut result, unlikely) = watched(py, work)?.map_err(input)?;
     let output = result.outputs.remove(0);
     let Some(indices) = output.indices else { return Err(input(output.reason.unwrap_or_default())) };
-    let triple = |of: apportion::Estimate| {
-        let interval = of.interval.map_or((f64::NAN, f64::NAN), |interval| (interval.low, interval.high));
-        (of.estimate, interval.0, interval.1)
-    };
-    let second_order = output.second_order.unwrap_or_default();
-    let pairs = pairs.into_iter().zip(second_order).map(|((j, k), pair)| (j, k, triple(pair.index)));
     Ok((
-        indices.iter().map(|index| triple(index.effect.first_order)).collect(),
-        indices.iter().map(|index| triple(index.effect.total)).collect(),
-        pairs.collect(),
+        indices.iter().map(|index| index.effect.first_order.estimate).collect(),
+        indices.iter().map(|index| index.effect.total.estimate).collect(),
+        output.second_order.unwrap_or_default().iter().map(|pair| pair.index.estimate).collect(),
         unlikely.into_iter().chain(output.warnings.iter().map(ToString::to_string)).collect(),
     ))
 }

@@ -1,5 +1,6 @@
 import json
 import math
+import pickle
 import subprocess
 import sys
 import threading
@@ -179,8 +180,10 @@ def test_scipy_distributions_by_their_quantile_functions():
     assert abs(result["y"].mean - (2 + 1 + 5)) < 0.01
     with pytest.raises(ap.StudyError, match="work only with functions of Python"):
         ap.Study("ishigami", {"x1": stats.rayleigh(2)})
-    with pytest.raises(ap.StudyError, match="not a frozen distribution"):
+    with pytest.raises(ap.StudyError, match="not a distribution of scipy.stats"):
         ap.from_scipy(stats.gamma)
+    with pytest.raises(ap.StudyError, match="is not one distribution"):
+        ap.from_scipy(stats.norm([0, 1]))
 
 
 def test_scipy_distributions_that_the_engine_has():
@@ -220,7 +223,33 @@ def test_scipy_distributions_that_the_engine_has():
     assert ap.from_scipy(stats.t(1)).quantile is not None and ap.from_scipy(stats.gamma(2), group="g").keys["group"] == "g"
 
 
-def test_distributions_that_cannot_be_truncated():
+def test_scipy_distributions_as_objects():
+    stats = pytest.importorskip("scipy.stats")
+    if not hasattr(stats, "make_distribution"):
+        pytest.skip("SciPy has no distributions as objects before 1.15")
+    gamma = stats.make_distribution(stats.gamma)(a=2.0)
+    factors = {"a": stats.Normal(mu=1, sigma=2), "b": stats.Uniform(a=1, b=4), "c": 3 * gamma + 1, "d": 2 * stats.Normal()}
+    made = {name: ap.from_scipy(law) for name, law in factors.items()}
+    assert made["a"].keys == ap.Normal(1.0, 2.0).keys and made["b"].keys == ap.Uniform(1.0, 4.0).keys
+    study = ap.Study(lambda a, b, c, d: a + b + c + d, factors, base_samples=64)
+    cube = ap.Study(None, {name: (0, 1) for name in factors}, base_samples=64).sample()
+    expected = [law.icdf(u) for law, u in zip(factors.values(), cube.T)]
+    assert np.allclose(study.sample(), np.transpose(expected), rtol=1e-9)
+    again = pickle.loads(pickle.dumps(made["d"]))
+    assert again.quantile.identity() == made["d"].quantile.identity() != ap.from_scipy(3 * stats.Normal()).quantile.identity()
+    if hasattr(stats, "Binomial"):
+        assert ap.from_scipy(stats.Binomial(n=5, p=0.2)).keys["values"] == [0, 1, 2, 3, 4, 5]
+
+
+def test_bounds_are_numbers_and_arrays_of_numpy():
+    made = ap.Study(None, {"a": (np.float32(0), np.int64(2)), "b": np.array([1, 3]), "c": ap.Normal(np.array(1.0), np.float64(2))})
+    same = ap.Study(None, {"a": (0.0, 2.0), "b": (1.0, 3.0), "c": ap.Normal(1.0, 2.0)})
+    assert np.array_equal(made.sample(), same.sample())
+    with pytest.raises(ap.StudyError, match="is no factor"):
+        ap.Study(None, {"a": np.array([0, 1, 2])})
+
+
+def test_what_cannot_be_truncated():
     with pytest.raises(ap.StudyError, match="it is truncated"):
         ap.Normal(0, 1).truncated(max=2).truncated(min=0)
     with pytest.raises(ap.StudyError, match="variance is infinite"):

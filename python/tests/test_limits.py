@@ -10,6 +10,9 @@ import apportion as ap
 import numpy as np
 import pytest
 
+from apportion.salib.analyze import sobol
+from apportion.salib.sample import sobol as sobol_sample
+
 UNIT = {"x1": (0, 1), "x2": (0, 1)}
 PROBLEM = {"names": ["a"], "bounds": [[0, 1]]}
 
@@ -37,11 +40,11 @@ def test_invalid_numbers_are_refused():
         (lambda: study.sweep("x1", points=-1), "points must"),
         (lambda: study.sweep("x1", points=2**40), "points must"),
         (lambda: ap.given_data(np.ones((30, 1)), np.ones(30), seed=-1), "seed must"),
-        (lambda: ap.salib.analyze(PROBLEM, y, num_resamples=2**40), "num_resamples must be a whole number from 0 to 1000000"),
-        (lambda: ap.salib.analyze(PROBLEM, y, num_resamples=-1), "num_resamples must"),
-        (lambda: ap.salib.analyze(PROBLEM, y, seed=-1), "seed must"),
-        (lambda: ap.salib.sample(PROBLEM, -8), "N must"),
-        (lambda: ap.salib.sample(PROBLEM, 8, seed=-1), "seed must"),
+        (lambda: sobol.analyze(PROBLEM, y, num_resamples=2**40), "num_resamples must be a whole number from 0 to 1000000"),
+        (lambda: sobol.analyze(PROBLEM, y, num_resamples=-1), "num_resamples must"),
+        (lambda: sobol.analyze(PROBLEM, y, seed=-1), "seed must"),
+        (lambda: sobol_sample.sample(PROBLEM, -8), "N must"),
+        (lambda: sobol_sample.sample(PROBLEM, 8, seed=-1), "seed must"),
         (lambda: study.run(executor=3), r"executor=3: expected an executor of concurrent\.futures"),
     ]
     for wrong, words in cases:

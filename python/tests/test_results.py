@@ -26,10 +26,62 @@ def test_results_are_copied_and_pickled(result):
         assert repr(again) == repr(result) and again.to_html() == result.to_html()
     output = pickle.loads(pickle.dumps(result["a"]))
     assert dict(output.total) == dict(result["a"].total)
-    screening = ap.Study(two, UNIT, outputs=["a", "b"]).screen(4)
-    assert copy.deepcopy(screening).to_json() == screening.to_json()
-    with pytest.raises(TypeError, match="only results of runs can be pickled"):
-        pickle.dumps(screening)
+
+
+def shown():
+    """One of each kind of result, with the output that is drawn."""
+    study = ap.Study(two, UNIT, outputs=["a", "b"], base_samples=64, second_order=True)
+    result, rng = study.run(), np.random.default_rng(1)
+    inputs = {"x1": rng.random(100), "x2": rng.random(100)}
+    waves = {"w": {"axis": "day"}}
+    wave = ap.analyse(lambda x1, x2: np.outer(x1, [1, 2, 3]) + x2[:, None], UNIT, outputs=waves, base_samples=64)
+    return {
+        "result": (result, {"output": "a"}),
+        "screening": (study.screen(8), {"output": "a"}),
+        "derivatives": (study.screen(8, derivatives=True), {"output": "a"}),
+        "sweep": (study.sweep(points=5), {"output": "a"}),
+        "given data": (ap.given_data(inputs, inputs["x1"], surrogate=True, measures=True, name="table"), {}),
+        "output": (result["a"], {}),
+        "indices": (result["a"].total, {}),
+        "pairs": (result["a"].second_order, {}),
+        "series": (wave.series["w"], {}),
+    }
+
+
+@pytest.mark.parametrize("kind", shown())
+def test_every_kind_of_result_is_pickled_and_shown(kind):
+    pandas, xarray = pytest.importorskip("pandas"), pytest.importorskip("xarray")
+    pytest.importorskip("matplotlib").use("Agg")
+    found, of = shown()[kind]
+    again = pickle.loads(pickle.dumps(found))
+    assert type(again) is type(found) and repr(again) == repr(found) and again._repr_html_() == found._repr_html_()
+    if isinstance(found, ap.Document):
+        assert again.to_json() == found.to_json() and again.to_html() == found.to_html() and again.tables() == found.tables()
+        assert copy.deepcopy(found).to_json() == found.to_json()
+    frame = found.to_frame()
+    assert (
+        isinstance(frame, pandas.DataFrame) and frame.to_csv() == again.to_frame().to_csv() and None not in frame.index.names
+    )
+    assert isinstance(found.to_xarray(), xarray.Dataset)
+    assert "x1" in found._repr_html_()
+    axes = found.plot(**of)
+    assert axes.patches or axes.lines
+
+
+def test_columns_and_series_keep_their_names():
+    pandas = pytest.importorskip("pandas")
+    study = ap.Study(None, UNIT, base_samples=64)
+    points = pandas.DataFrame(study.sample(), columns=study.factors)
+    height = (points["x1"] + points["x2"]).rename("height")
+    assert list(study.analyse(height)) == ["height"]
+    drawn = pandas.DataFrame(np.random.default_rng(1).random((100, 2)), columns=["x1", "x2"])
+    table = ap.given_data(drawn, (drawn["x1"] - drawn["x2"]).rename("slope"))
+    assert list(table.to_frame().index) == [("slope", "x1"), ("slope", "x2")]
+    assert list(ap.analyse(lambda x1, x2: pandas.Series(x1 + x2, name="height"), UNIT, base_samples=64)) == ["height"]
+    screening = ap.Study("ishigami").screen(8)
+    assert screening.to_frame().loc[("y", "x1"), "mu_star"] == float(screening.tables()["study-screen"][0]["mu_star"])
+    with pytest.raises(KeyError, match="'b': the outputs are y"):
+        screening.plot("b")
 
 
 def test_studies_are_copied_and_pickled(cube, studies):
@@ -86,7 +138,9 @@ def test_outputs_and_series_are_drawn():
     pytest.importorskip("matplotlib").use("Agg")
     result = ap.analyse(lambda x1, x2: x1 + x2, UNIT, base_samples=64)
     assert len(result["y"].plot().patches) == 4
-    wave = ap.analyse(lambda x1, x2: np.outer(x1, [1, 2, 3]) + x2[:, None], UNIT, outputs={"w": {"axis": "day"}}, base_samples=64)
+    wave = ap.analyse(
+        lambda x1, x2: np.outer(x1, [1, 2, 3]) + x2[:, None], UNIT, outputs={"w": {"axis": "day"}}, base_samples=64
+    )
     series = wave.series["w"]
     assert len(series.plot().lines) == 2 and series.plot("first_order").get_xlabel() == "day"
 

@@ -1,36 +1,115 @@
-import apportion as ap
+import importlib
+import io
+import pickle
+from contextlib import redirect_stdout
+from pathlib import Path
+
 import numpy as np
 import pytest
 from conftest import ishigami
 
+import apportion as ap
+from apportion import salib
+
 PROBLEM = {"num_vars": 3, "names": ["x1", "x2", "x3"], "bounds": [[-np.pi, np.pi]] * 3}
 EXACT = np.array([0.3139, 0.4424, 0.0]), np.array([0.5576, 0.4424, 0.2437])
+SCRIPTS = sorted((Path(__file__).parent / "salib_scripts").glob("*.py"))
 
 
 @pytest.mark.parametrize("second_order", [True, False])
-def test_a_script_for_salib_runs(second_order):
-    x = ap.salib.sample(PROBLEM, 4096, calc_second_order=second_order)
+def test_indices_of_a_known_function(second_order):
+    x = salib.sample.sobol.sample(PROBLEM, 4096, calc_second_order=second_order)
     assert x.shape == (4096 * (8 if second_order else 5), 3)
-    found = ap.salib.analyze(PROBLEM, ishigami(*x.T), calc_second_order=second_order)
+    found = salib.analyze.sobol.analyze(PROBLEM, ishigami(*x.T), calc_second_order=second_order)
     assert np.abs(found["S1"] - EXACT[0]).max() < 0.02 and np.abs(found["ST"] - EXACT[1]).max() < 0.02
     if second_order:
         assert abs(found["S2"][0, 2] - 0.2437) < 0.02 and np.isnan(found["S2"][2, 0])
 
 
-def test_the_layout_and_the_estimates_are_those_of_salib():
-    sobol = pytest.importorskip("SALib.analyze.sobol")
-    for problem in (PROBLEM, {**PROBLEM, "groups": ["a", "b", "a"]}):
-        x = ap.salib.sample(problem, 512)
-        y = ishigami(*x.T)
-        theirs = sobol.analyze(problem, y, print_to_console=False, seed=1)
-        ours = ap.salib.analyze(problem, y)
-        for key in ("S1", "ST", "S2"):
-            assert np.allclose(ours[key], theirs[key], atol=1e-12, equal_nan=True), key
-        frames, expected = ours.to_df(), theirs.to_df()
-        for ours_frame, theirs_frame in zip(frames, expected):
-            assert list(ours_frame.columns) == list(theirs_frame.columns)
-            members = [row if isinstance(row, str) else tuple(map(str, row)) for row in theirs_frame.index]
-            assert list(ours_frame.index) == members
+def run(script, package):
+    """What a script prints with `package` in the place of SALib, and its names."""
+    text, names, printed = script.read_text(encoding="utf-8").replace("from SALib", f"from {package}"), {}, io.StringIO()
+    with redirect_stdout(printed):
+        exec(compile(text, script.name, "exec"), names)
+    return printed.getvalue(), names
+
+
+@pytest.mark.filterwarnings("ignore")
+@pytest.mark.parametrize("script", SCRIPTS, ids=lambda script: script.stem)
+def test_a_script_for_salib_says_the_same_of_the_same_points(script, monkeypatch, tmp_path):
+    pytest.importorskip("SALib")
+    pytest.importorskip("matplotlib").use("Agg")
+    monkeypatch.chdir(tmp_path)
+    for method in salib.sample.__all__:
+        sampler = importlib.import_module(f"SALib.sample.{method}")
+        theirs, ours = sampler.sample, getattr(salib.sample, method).sample
+
+        def sample(problem, *args, theirs=theirs, ours=ours, **keywords):
+            of_salib, points = theirs(problem, *args, **keywords), ours(problem, *args, **keywords)
+            assert points.shape == of_salib.shape
+            spread = of_salib.std(axis=0)
+            assert (np.abs(points.mean(axis=0) - of_salib.mean(axis=0)) < 0.5 * spread).all()
+            assert (np.abs(points.std(axis=0) - spread) < 0.3 * spread).all()
+            return points
+
+        monkeypatch.setattr(sampler, "sample", sample)
+    printed, names = run(script, "apportion.salib")
+    expected, theirs = run(script, "SALib")
+    assert printed == expected
+    assert set(names["Si"]) == set(theirs["Si"])
+    for key, values in theirs["Si"].items():
+        if key == "names":
+            assert list(names["Si"][key]) == list(values)
+        else:
+            assert np.allclose(names["Si"][key], np.ma.filled(values, np.nan), rtol=0, atol=1e-12, equal_nan=True), key
+    again = pickle.loads(pickle.dumps(names["Si"]))
+    assert again.to_df()[0].equals(names["Si"].to_df()[0]) if "ST" in again else again.to_df().equals(names["Si"].to_df())
+
+
+def test_a_problem_with_its_results_is_pickled_and_evaluated_in_processes():
+    sp = ap.salib.ProblemSpec(PROBLEM).sample_latin(100, seed=1).evaluate(salib.test_functions.Ishigami.evaluate, nprocs=2)
+    sp.analyze_rbd_fast(seed=1)
+    again = pickle.loads(pickle.dumps(sp))
+    assert np.array_equal(again.results, ishigami(*sp.samples.T)) and str(again) == str(sp)
+
+
+def test_without_a_seed_points_differ():
+    x = [salib.sample.sobol.sample(PROBLEM, 8, seed=seed) for seed in (None, None, 1, 1)]
+    assert not np.array_equal(x[0], x[1]) and np.array_equal(x[2], x[3])
+    assert np.array_equal(salib.sample.sobol.sample(PROBLEM, 4, skip_values=4, seed=1), x[2][32:])
+
+
+def test_a_run_that_failed_leaves_its_base_point_out():
+    y = ishigami(*salib.sample.sobol.sample(PROBLEM, 64, seed=1).T)
+    whole = salib.analyze.sobol.analyze(PROBLEM, y[8:], seed=1)
+    y[0] = np.nan
+    with pytest.warns(UserWarning):
+        found = salib.analyze.sobol.analyze(PROBLEM, y, seed=1)
+    assert np.allclose(found["ST"], whole["ST"], atol=1e-12) and np.array_equal(found["ST_conf"], whole["ST_conf"])
+
+
+def test_what_is_not_served_says_what_is():
+    with pytest.raises(ImportError, match="analyze.delta is not there: use ap.given_data"):
+        from apportion.salib.analyze import delta  # noqa: F401
+    with pytest.raises(ImportError, match="analyze.fast is not there: use sample.sobol"):
+        from apportion.salib.analyze.fast import analyze  # noqa: F401
+    with pytest.raises(ImportError, match="fast_sampler is not there: use sample.sobol"):
+        salib.ProblemSpec(PROBLEM).sample_fast(100)
+    with pytest.raises(AttributeError, match="sample_nothing: there is no apportion.salib.sample.nothing"):
+        salib.ProblemSpec(PROBLEM).sample_nothing(100)
+    refusals = {
+        "scramble=False": lambda: salib.sample.sobol.sample(PROBLEM, 8, scramble=False),
+        "optimal_trajectories=4": lambda: salib.sample.morris.sample(PROBLEM, 8, optimal_trajectories=4),
+        "dists": lambda: salib.sample.morris.sample({**PROBLEM, "dists": ["norm"] * 3}, 8),
+        "groups": lambda: salib.sample.latin.sample({**PROBLEM, "groups": ["a", "b", "a"]}, 8),
+        "conf_level": lambda: salib.analyze.sobol.analyze(PROBLEM, np.arange(16.0), conf_level=95),
+        "there are no points": lambda: salib.ProblemSpec(PROBLEM).evaluate(ishigami),
+        "there are no outputs": lambda: salib.ProblemSpec(PROBLEM).analyze_sobol(),
+        "there is no result": lambda: salib.ProblemSpec(PROBLEM).to_df(),
+    }
+    for words, refused in refusals.items():
+        with pytest.raises(ap.StudyError, match=words):
+            refused()
 
 
 def test_problems_become_factors():
@@ -42,11 +121,5 @@ def test_problems_become_factors():
     }
     result = ap.analyse(lambda a, b, c, d, e, f: a + b, ap.from_salib(problem), base_samples=256)
     assert abs(result.groups()["g"].estimate - 1) < 1e-6
-    salib_sample = pytest.importorskip("SALib.sample.sobol")
-    theirs = salib_sample.sample({**problem, "num_vars": 6, "groups": None}, 4096, calc_second_order=False, seed=1)
-    ours = ap.salib.sample({**problem, "groups": None}, 4096, calc_second_order=False)
-    assert np.allclose(
-        np.quantile(ours, [0.1, 0.5, 0.9], axis=0), np.quantile(theirs, [0.1, 0.5, 0.9], axis=0), rtol=0.02, atol=0.02
-    )
     with pytest.raises(ap.StudyError, match="unif"):
         ap.from_salib({"names": ["a"], "bounds": [[0, 1]], "dists": ["cauchy"]})

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ._tables import named, numbers
+from ._tables import named, numbers, series_name
 
 
 class AnswerError(TypeError):
@@ -55,12 +55,13 @@ def read(answer: Any, rows: int, vectorised: bool, expected: Sequence[str] | Non
         parts = [numbers(part, "the function returned", AnswerError) for part in answer]
         return _stacked(parts, [str(place) for place in range(len(parts))], rows, vectorised)
     values = numbers(answer, "the function returned", AnswerError)
+    name = series_name(answer) if expected is None else None
     if not vectorised:
         if values.ndim > 1:
             raise AnswerError(f"the function returned an array of shape {values.shape} for one row")
         return Answer(values.reshape(1, -1), None, None)
     if values.ndim == 1 and len(values) == rows:
-        return Answer(values.reshape(rows, 1), None, None)
+        return Answer(values.reshape(rows, 1), [name] if name else None, None)
     if values.ndim == 2 and len(values) == rows:
         return Answer(values, None, None)
     words = ": if it is a function of one row, say vectorised=False" if hint or values.ndim == 0 else ""

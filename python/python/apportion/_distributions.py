@@ -36,14 +36,14 @@ class Factor:
 
     @classmethod
     def of(cls, value: Any) -> "Factor":
-        """A factor from a factor, a mapping of keys, a pair (min, max) or a frozen distribution of SciPy."""
+        """A factor from a factor, a mapping of keys, a pair (min, max) or a distribution of SciPy."""
         if isinstance(value, Factor):
             return value
         if isinstance(value, Mapping):
             return cls(value)
-        if hasattr(value, "ppf"):
+        if hasattr(value, "ppf") or hasattr(value, "icdf"):
             return from_scipy(value)
-        if isinstance(value, (tuple, list)) and len(value) == 2:
+        if isinstance(value, (tuple, list, np.ndarray)) and np.shape(value) == (2,):
             return Uniform(*value)
         raise StudyError(f"{value!r} is not a factor: expected a distribution such as ap.Normal(0, 1), or a pair (min, max)")
 
@@ -144,21 +144,36 @@ def Histogram(
 
 
 def from_scipy(distribution: Any, *, group: str | None = None) -> Factor:
-    """A frozen distribution of `scipy.stats`, such as `stats.gamma(2)`, as a factor.
+    """A distribution of `scipy.stats`, frozen as `stats.gamma(2)` or an object as `stats.Normal(mu=1)`, as a factor.
 
     Where the engine has the same one it becomes that: uniform, norm, loguniform, lognorm, triang, beta, weibull_min, gumbel_r,
     gamma, expon, logistic, t (more than 2 degrees of freedom), pareto (of a shape above 2), truncnorm, poisson and
     randint, moved and stretched where that stays of the family; one of up to 1024 whole numbers, or of values with probabilities,
-    becomes `Discrete`. Any other one becomes a number u between 0 and 1 to the
-    engine, and the function gets `distribution.ppf(u)`: so it serves functions of Python, and no models of the engine.
+    becomes `Discrete`; the objects `Normal`, `Uniform` and discrete ones are converted likewise. Any other one becomes a number u between 0 and 1 to
+    the engine, and the function gets its quantile of u: so it serves functions of Python, and no models of the engine. A `StudyError`
+    is raised for other objects and for arrays of distributions.
     """
     name = getattr(getattr(distribution, "dist", None), "name", None)
-    if not hasattr(distribution, "ppf") or name is None:
-        raise StudyError(f"{distribution!r} is not a frozen distribution of scipy.stats, such as stats.gamma(2)")
-    same = _of_engine(name, distribution) or _of_values(distribution)
+    if not hasattr(distribution, "icdf") and (not hasattr(distribution, "ppf") or name is None):
+        raise StudyError(f"{distribution!r} is not a distribution of scipy.stats, such as stats.gamma(2) or stats.Normal(mu=1)")
+    quantile = _Quantile(distribution)
+    if quantile(np.array(0.5)).ndim or not np.isfinite(quantile(np.array(0.5))):
+        raise StudyError(f"{distribution!r} is not one distribution: its parameters must be single numbers")
+    same = _of_object(distribution) if name is None else _of_engine(name, distribution)
+    same = same or _of_values(distribution, quantile)
     if same is not None:
         return Factor({**same.keys, "group": group})
-    return Factor({"distribution": "uniform", "min": 0.0, "max": 1.0, "group": group}, _Quantile(distribution))
+    return Factor({"distribution": "uniform", "min": 0.0, "max": 1.0, "group": group}, quantile)
+
+
+def _of_object(distribution: Any) -> Factor | None:
+    """The engine's own distribution that an object of SciPy 1.15 or newer is, if there is one."""
+    kind = type(distribution).__name__ if type(distribution).__module__.startswith("scipy.") else None
+    if kind in ("Normal", "StandardNormal"):
+        return Normal(float(distribution.mean()), float(distribution.standard_deviation()))
+    if kind == "Uniform":
+        return Uniform(*(float(end) for end in distribution.support()))
+    return None
 
 
 def _of_engine(name: str, frozen: Any) -> Factor | None:
@@ -204,19 +219,21 @@ def _of_engine(name: str, frozen: Any) -> Factor | None:
     return None
 
 
-def _of_values(frozen: Any) -> Factor | None:
+def _of_values(distribution: Any, quantile: _Quantile) -> Factor | None:
     """The values of a discrete distribution with their probabilities, if there are not too many."""
-    if not hasattr(frozen.dist, "pmf"):
+    dist = getattr(distribution, "dist", None)
+    is_object = any(of.__name__ == "DiscreteDistribution" for of in type(distribution).__mro__)
+    if not is_object and not hasattr(dist, "pmf"):
         return None
-    values = getattr(frozen.dist, "xk", None)
+    values = getattr(dist, "xk", None)
     if values is None:
-        low, high = frozen.ppf(1e-13), frozen.ppf(1.0 - 1e-13)
+        low, high = quantile(np.array([1e-13, 1.0 - 1e-13]))
         if not high - low < 1024.0:
             return None
         values = np.arange(low, high + 1.0)
     else:
-        values = np.asarray(values, dtype=float) + frozen.support()[0] - np.min(values)
-    weights = np.asarray(frozen.pmf(values), dtype=float)
+        values = np.asarray(values, dtype=float) + distribution.support()[0] - np.min(values)
+    weights = np.asarray(distribution.pmf(values), dtype=float)
     occurring = weights > 0.0
     if not occurring.any():
         return None
@@ -231,6 +248,8 @@ class _Quantile:
 
     def identity(self) -> tuple[Any, ...]:
         """Its identity in journals: its parameters, the data of a histogram, the functions of a user's class."""
+        if not hasattr(self.distribution, "dist"):
+            return type(self.distribution).__module__, type(self.distribution).__qualname__, repr(self.distribution)
         dist, of = self.distribution.dist, type(self.distribution.dist)
         parameters: dict[str, Any] = getattr(dist, "_updated_ctor_param", dict)()
         made = {key: value for key, value in parameters.items() if key not in ("seed", "longname", "extradoc")}
@@ -238,4 +257,5 @@ class _Quantile:
         return of.__module__, of.__qualname__, dist.name, self.distribution.args, self.distribution.kwds, made, own
 
     def __call__(self, u: np.ndarray) -> np.ndarray:
-        return np.asarray(self.distribution.ppf(np.clip(u, _LEAST, _MOST)), dtype=float)
+        quantile = self.distribution.icdf if hasattr(self.distribution, "icdf") else self.distribution.ppf
+        return np.asarray(quantile(np.clip(u, _LEAST, _MOST)), dtype=float)

@@ -5,6 +5,8 @@ from typing import Any
 
 import numpy as np
 
+__all__: list[str]
+
 class Factor:
     keys: dict[str, Any]
     quantile: Callable[[np.ndarray], np.ndarray] | None

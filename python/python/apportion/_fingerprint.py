@@ -167,7 +167,8 @@ class _Walk:
         if wrapped is not None:
             self.split(wrapped, f"{path}.wrapped", inside)
         # Compilers of functions store what differs between processes, beside the function that counts.
-        is_own = type(value).__reduce__ is object.__reduce__ and type(value).__reduce_ex__ is object.__reduce_ex__
+        of: Any = type(value)
+        is_own = of.__reduce__ is object.__reduce__ and of.__reduce_ex__ is object.__reduce_ex__
         stored = _stored(value) if wrapped is None or is_own else type(value).__qualname__
         digest = hashlib.sha256(f"{type(value).__module__}.{type(value).__qualname__}".encode())
         if isinstance(stored, tuple):

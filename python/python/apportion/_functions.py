@@ -134,7 +134,7 @@ class Call:
             answer = self._spread([float(x) for x in rows[0]])
         return read(answer, len(rows), self.vectorised, self.outputs, self.style == "matrix")
 
-    def _spread(self, arguments: list) -> Any:
+    def _spread(self, arguments: list[Any]) -> Any:
         if self.style == "keywords":
             return self.function(**dict(zip(self.names, arguments)))
         return self.function(*arguments)

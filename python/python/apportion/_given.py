@@ -13,7 +13,7 @@ from ._checks import MAX_SEED, whole
 from ._engine import StudyError
 from ._result import Document
 from ._study import Study
-from ._tables import named, numbers
+from ._tables import named, numbers, series_name
 
 
 def given_data(
@@ -28,8 +28,8 @@ def given_data(
 ) -> Document:
     """Indices from rows that are independent draws, from any source: no design, and no further runs.
 
-    `inputs` and `outputs` are mappings from names to (rows,), `pandas.DataFrame`s, or arrays of (rows, columns). With
-    `surrogate` there are total indices too; `factors` tells it the distributions. `measures`
+    `inputs` and `outputs` are mappings from names to (rows,), `pandas.DataFrame`s or named `Series`, or arrays of
+    (rows, columns). With `surrogate` there are total indices too; `factors` tells it the distributions. `measures`
     adds Borgonovo's delta, PAWN, R2-HSIC and S_1 by the spectrum, with p-values.
     A `StudyError` names the column that holds no numbers, or entries that are NaN, infinite, masked or missing.
     """
@@ -50,6 +50,7 @@ def _table(data: Any, letter: str, what: str) -> tuple[list[str], np.ndarray]:
         values = values.reshape(len(values), -1) if values.size and values.ndim else np.empty((0, 0))
         count = values.shape[1]
         names = [letter] if count == 1 and letter == "y" else [f"{letter}{k + 1}" for k in range(count)]
+        names = [series_name(data) or names[0]] if count == 1 else names
         columns = dict(zip(names, values.T))
     for name, column in columns.items():
         if column.ndim != 1:

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+import html
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
+
+# Rows of a table that stand in a notebook.
+_ROWS = 30
 
 
 class Index(NamedTuple):
@@ -23,8 +27,53 @@ class Index(NamedTuple):
         return cls(*(np.nan if number is None else float(number) for number in numbers))
 
 
-class Indices(Mapping[str, Index]):
-    """An index for each factor or group, by name. As an array: the estimates, in the order of the factors."""
+class Shown:
+    """Something with indices: its tables and charts, in notebooks too."""
+
+    def _tables(self) -> dict[str, dict[str, "Indices"]]:
+        """Indices by their labels, of each table by its caption."""
+        raise NotImplementedError
+
+    def to_frame(self) -> Any:
+        """The indices as a `pandas.DataFrame`."""
+        raise NotImplementedError
+
+    def to_xarray(self) -> Any:
+        """The columns of `to_frame` over its rows, as an `xarray.Dataset`."""
+        needed("xarray", "to_xarray")
+        return self.to_frame().to_xarray()
+
+    def plot(self, ax: Any = None) -> Any:
+        """Bars of the indices with their intervals, on `ax` of matplotlib; returns the axes."""
+        return bars(ax, *next(iter(self._tables().items())))
+
+    def _repr_html_(self) -> str:
+        tables = []
+        for caption, shown in self._tables().items():
+            of = list(shown.values())
+            first = shown.get("total", of[0] if of else Indices({}))
+            names = sorted(first, key=lambda name: -first[name].estimate)[:_ROWS]
+            head = "".join(f"<th>{html.escape(label)}</th>" for label in shown)
+            rows = (
+                f"<tr><th>{html.escape(_label(name))}</th>{''.join(f'<td>{_words(indices[name])}</td>' for indices in of)}</tr>"
+                for name in names
+            )
+            caption = f"<caption>{html.escape(caption)}, with 95 % intervals</caption>"
+            tables.append(f"<table>{caption}<tr><th></th>{head}</tr>{''.join(rows)}</table>" if names else "")
+        return "".join(tables)
+
+
+def _label(name: Any) -> str:
+    return ", ".join(name) if isinstance(name, tuple) else str(name)
+
+
+def _words(index: Index) -> str:
+    bounds = "" if np.isnan(index.low) else f" [{index.low:.4f}, {index.high:.4f}]"
+    return f"{index.estimate:.4f}{bounds}"
+
+
+class Indices(Shown, Mapping[str, Index]):
+    """An index for each factor or group, by name. As an array it is the estimates, in the order of the factors."""
 
     def __init__(self, entries: dict[Any, Index]):
         self._entries = entries
@@ -75,9 +124,17 @@ class Indices(Mapping[str, Index]):
         """A row for each with `estimate`, `low` and `high`, as a `pandas.DataFrame`; of pairs under both names."""
         pandas = needed("pandas", "to_frame")
         names = list(self._entries)
-        is_of_pairs = bool(names) and all(isinstance(name, tuple) for name in names)
-        index = pandas.MultiIndex.from_tuples(names) if is_of_pairs else pandas.Index(names)
+        is_of_pairs = bool(names) and all(isinstance(name, tuple) and len(name) == 2 for name in names)
+        pairs = ["factor", "second factor"]
+        index = (
+            pandas.MultiIndex.from_tuples(names, names=pairs)
+            if is_of_pairs
+            else pandas.Index(names, name="factor", tupleize_cols=False)
+        )
         return pandas.DataFrame({"estimate": self.estimates, "low": self.low, "high": self.high}, index=index)
+
+    def _tables(self) -> dict[str, dict[str, Indices]]:
+        return {"index": {"": self}}
 
     def _column(self, place: int) -> np.ndarray:
         return np.array([index[place] for index in self._entries.values()], dtype=float)
@@ -88,7 +145,7 @@ def _turned(name: Any) -> Any:
     return name[::-1] if isinstance(name, tuple) and len(name) == 2 else name
 
 
-class OutputResult:
+class OutputResult(Shown):
     """The indices of one output."""
 
     def __init__(self, record: Mapping[str, Any]):
@@ -204,23 +261,16 @@ class OutputResult:
             columns |= {kind: np.asarray(indices), f"{kind}_low": indices.low, f"{kind}_high": indices.high}
         return pandas.DataFrame(columns, index=pandas.Index(self.first_order.names, name="factor"))
 
+    def to_xarray(self) -> Any:
+        """The indices as an `xarray.Dataset` over factor and bound (estimate, low, high)."""
+        return dataset([self], "output", [self.name]).isel(output=0)
 
-    def plot(self, ax: Any = None) -> Any:
-        """Bars of first-order and total indices with their intervals, on `ax` of matplotlib; returns the axes."""
-        ax = axes(ax, (6.0, 0.45 * len(self.total) + 1.2))
-        places = np.arange(len(self.total))
-        for indices, shift, label in ((self.first_order, -0.19, "first-order"), (self.total, 0.19, "total")):
-            values = np.asarray(indices)
-            errors = np.nan_to_num(np.abs([values - indices.low, indices.high - values]))
-            ax.barh(places + shift, values, 0.36, xerr=errors, label=label, error_kw={"elinewidth": 1, "capsize": 2})
-        ax.set_yticks(places, [str(name) for name in self.total])
-        ax.invert_yaxis()
-        ax.set_xlabel(f"Sobol' indices of {self.name}")
-        ax.legend()
-        return ax
+    def _tables(self) -> dict[str, dict[str, Indices]]:
+        shown = {"first-order": self.first_order, "total": self.total, "Shapley effect": self.shapley}
+        return {f"Sobol' indices of {self.name}": {label: indices for label, indices in shown.items() if len(indices)}}
 
 
-class SeriesResult:
+class SeriesResult(Shown):
     """The indices of an output that is a series of values along an axis."""
 
     def __init__(self, record: Mapping[str, Any], values: list[OutputResult]):
@@ -275,7 +325,16 @@ class SeriesResult:
         frames = {position: value.to_frame() for position, value in zip(self.positions, self.values)}
         return pandas.concat(frames, names=[self.axis])
 
-    def plot(self, kind: str = "total", ax: Any = None) -> Any:
+    def to_xarray(self) -> Any:
+        """The indices as an `xarray.Dataset` over the axis, factor and bound (estimate, low, high)."""
+        return dataset(self.values, self.axis, self.positions)
+
+    def _tables(self) -> dict[str, dict[str, Indices]]:
+        return {
+            f"Sobol' indices of {self.name} as a whole": {"first-order": self.first_order_of_all, "total": self.total_of_all}
+        }
+
+    def plot(self, kind: str = "total", ax: Any = None) -> Any:  # type: ignore[override]
         """Lines of the "first_order" or "total" indices against the axis with their intervals; returns the axes of matplotlib."""
         ax = axes(ax, (6.0, 3.6))
         for name, values in self._against(kind).items():
@@ -293,8 +352,37 @@ class SeriesResult:
         return {name: np.array([of.get(name, none) for of in indices], dtype=float) for name in names}
 
 
+def dataset(outputs: Sequence[OutputResult], dimension: str, coordinate: Any) -> Any:
+    """First-order and total indices over `dimension`, factor and bound, as an `xarray.Dataset`; NaN for outputs that have none."""
+    factors = next((output.first_order.names for output in outputs if len(output.first_order)), [])
+    none, data = Index.of(None), {}
+    for kind in ("first_order", "total"):
+        rows = [[getattr(output, kind).get(name, none) for name in factors] for output in outputs]
+        data[kind] = (dimension, "factor", "bound"), np.array(rows, dtype=float).reshape(len(outputs), len(factors), 3)
+    coordinates = {dimension: coordinate, "factor": factors, "bound": ["estimate", "low", "high"]}
+    return needed("xarray", "to_xarray").Dataset(data, coordinates)
+
+
 def _of_factors(records: Any, kind: str) -> Indices:
     return Indices({record["factor"]: Index.of(record[kind]) for record in records or []})
+
+
+def bars(ax: Any, caption: str, shown: Mapping[str, Indices]) -> Any:
+    """Bars of indices by their labels, on the axes or new ones."""
+    names = next((indices.names for indices in shown.values()), [])
+    ax = axes(ax, (6.0, 0.45 * len(names) + 1.2))
+    places, height = np.arange(len(names)), 0.76 / max(len(shown), 1)
+    for number, (label, indices) in enumerate(shown.items()):
+        values = indices.estimates
+        errors = np.nan_to_num(np.abs([values - indices.low, indices.high - values]))
+        shift = (number - (len(shown) - 1) / 2) * height
+        ax.barh(places + shift, values, 0.95 * height, xerr=errors, label=label, error_kw={"elinewidth": 1, "capsize": 2})
+    ax.set_yticks(places, [_label(name) for name in names])
+    ax.invert_yaxis()
+    ax.set_xlabel(caption)
+    if len(shown) > 1:
+        ax.legend()
+    return ax
 
 
 def axes(ax: Any, size: tuple[float, float]) -> Any:

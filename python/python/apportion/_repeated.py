@@ -122,7 +122,7 @@ class RepeatedCall:
 def _seeds(seeds: np.ndarray, numbers: np.ndarray) -> np.ndarray:
     """The seed of each repetition of a row with its seed: of the first the row's own, then mixed numbers (the finaliser of SplitMix64:
     Steele, Lea and Flood 2014)."""
-    z = seeds.astype(np.uint64) + numbers * np.uint64(0x9E37_79B9_7F4A_7C15)
+    z: np.ndarray = seeds.astype(np.uint64) + numbers * np.uint64(0x9E37_79B9_7F4A_7C15)
     z = (z ^ (z >> np.uint64(30))) * np.uint64(0xBF58_476D_1CE4_E5B9)
     z = (z ^ (z >> np.uint64(27))) * np.uint64(0x94D0_49BB_1331_11EB)
     z ^= z >> np.uint64(31)

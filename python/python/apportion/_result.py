@@ -7,17 +7,25 @@ import html
 import io
 import json
 import os
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
 from . import _engine
-from ._indices import Index, Indices, OutputResult, SeriesResult, needed
+from ._indices import Index, Indices, OutputResult, SeriesResult, Shown, axes, bars, dataset, needed
+
+_Document = TypeVar("_Document", bound="Document")
+# Outputs whose indices stand in a notebook.
+_OUTPUTS = 4
+# Columns of text, whatever stands in them.
+_TEXTS = ("output", "factor", "input", "unit", "output_unit", "failure")
+# What is shown of screenings and of given data, by the columns of their tables.
+_SHOWN = {"mu_star": "mu*", "sigma": "sigma", "rank": "first-order", "surrogate_total": "total"}
 
 
-class Document:
+class Document(Shown):
     """A result: as text, as a page, as charts and as the JSON with all numbers."""
 
     def __init__(self, document: _engine.Document):
@@ -30,20 +38,16 @@ class Document:
     def _repr_html_(self) -> str:
         lead = "".join(f"<p>{html.escape(line)}</p>" for line in self._document.lead)
         charts = self._document.charts()
-        return f"<div>{lead}{self._table_html()}{charts[0][1] if charts else ''}</div>"
+        return f"<div>{lead}{super()._repr_html_()}{charts[0][1] if charts else ''}</div>"
 
     def __reduce__(self) -> Any:
-        raise TypeError("only results of runs can be pickled: use to_json() or save() for this one")
+        return _of_json, (type(self), self.to_json(), self._document.name)
 
     def __copy__(self) -> "Document":
         return type(self)(self._document)
 
     def __deepcopy__(self, memo: Any) -> "Document":
         return type(self)(self._document)
-
-    def _table_html(self) -> str:
-        """The indices as a table; only results of runs have one."""
-        return ""
 
     def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, str]:
         return {"text/plain": repr(self), "text/html": self._repr_html_()}
@@ -76,18 +80,47 @@ class Document:
         files = self._document.tables()
         return {Path(name).stem: list(csv.DictReader(io.StringIO(text))) for name, text in files if name.endswith(".csv")}
 
+    def to_frame(self) -> Any:
+        """The tables as one `pandas.DataFrame`: a row per output and factor, or of a sweep per factor, value and output."""
+        pandas = needed("pandas", "to_frame")
+        frames = []
+        for rows in self.tables().values():
+            columns = {"factor" if key == "input" else key: _typed(key, [row[key] for row in rows]) for key in rows[0]}
+            frame = pandas.DataFrame(columns)
+            frames.append(frame.set_index(["factor", "value", "output"] if "value" in frame else ["output", "factor"]))
+        return pandas.concat(frames, axis=1)
+
+    def plot(self, output: str | None = None, ax: Any = None) -> Any:  # type: ignore[override]
+        """Bars of the indices of an output with their intervals, or of a sweep lines of it from the least to the greatest value of
+        each factor, on `ax` of matplotlib; returns the axes."""
+        tables = self._tables()
+        output = _chosen(output, tables)
+        if tables[output]:
+            return bars(ax, output, tables[output])
+        curves: dict[str, list[float]] = {}
+        for row in next(iter(self.tables().values())):
+            if row["output"] == output:
+                curves.setdefault(row["factor"], []).append(float(row["output_value"] or "nan"))
+        ax = axes(ax, (6.0, 3.6))
+        for factor, curve in curves.items():
+            ax.plot(np.linspace(0, 1, len(curve)), curve, label=factor)
+        ax.set(xlabel="factors, from the least value to the greatest", ylabel=output)
+        ax.legend()
+        return ax
+
+    def _tables(self) -> dict[str, dict[str, Indices]]:
+        tables: dict[str, dict[str, dict[str, Index]]] = {}
+        for row in (row for rows in self.tables().values() for row in rows):
+            of = tables.setdefault(row["output"], {})
+            for key, label in _SHOWN.items():
+                if f"{key}_low" in row:
+                    index = Index(*(float(row[column] or "nan") for column in (key, f"{key}_low", f"{key}_high")))
+                    of.setdefault(label, {})[row.get("factor") or row["input"]] = index
+        return {output: {label: Indices(of) for label, of in shown.items()} for output, shown in tables.items()}
+
     def save(self, folder: str | os.PathLike[str]) -> Path:
         """Writes the page, JSON, CSV and charts to `folder`, and returns the path of the page."""
         return Path(self._document.save(os.fspath(folder)))
-
-
-# Tables, and rows of each, that stand in a notebook.
-_TABLES, _ROWS = 4, 30
-
-
-def _words(index: Index) -> str:
-    bounds = "" if np.isnan(index.low) else f" [{index.low:.4f}, {index.high:.4f}]"
-    return f"{index.estimate:.4f}{bounds}"
 
 
 class Result(Document):
@@ -111,9 +144,7 @@ class Result(Document):
 
     def __getitem__(self, output: str) -> OutputResult:
         outputs = self.outputs
-        if output not in outputs:
-            raise KeyError(f"{output!r}: the outputs are {', '.join(outputs)}")
-        return outputs[output]
+        return outputs[_chosen(output, outputs)]
 
     def __iter__(self) -> Iterator[str]:
         """The names of the outputs."""
@@ -126,31 +157,12 @@ class Result(Document):
     def __contains__(self, output: object) -> bool:
         return output in self.outputs
 
-    def __reduce__(self) -> Any:
-        return _from_json, (self.to_json(),)
-
-    def _table_html(self) -> str:
-        columns = {"first-order": "first_order", "total": "total", "Shapley effect": "shapley"}
-        tables = []
-        for output in list(self.outputs.values())[:_TABLES]:
-            shown = {label: getattr(output, kind) for label, kind in columns.items() if len(getattr(output, kind))}
-            if not shown:
-                continue
-            names = sorted(output.total, key=lambda name: -output.total[name].estimate)[:_ROWS]
-            head = "".join(f"<th>{label}</th>" for label in shown)
-            rows = (
-                f"<tr><th>{html.escape(name)}</th>{''.join(f'<td>{_words(of[name])}</td>' for of in shown.values())}</tr>"
-                for name in names
-            )
-            caption = f"<caption>{html.escape(output.name)}, with 95 % intervals</caption>"
-            tables.append(f"<table>{caption}<tr><th></th>{head}</tr>{''.join(rows)}</table>")
-        return "".join(tables)
+    def _tables(self) -> dict[str, dict[str, Indices]]:
+        outputs = list(self.outputs.values())[:_OUTPUTS]
+        return {caption: shown for output in outputs for caption, shown in output._tables().items()}
 
     def _only(self) -> OutputResult:
-        outputs = self.outputs
-        if len(outputs) != 1:
-            raise ValueError(f"there are several outputs: choose one, as in result[{next(iter(outputs))!r}]")
-        return next(iter(outputs.values()))
+        return self[_chosen(None, self.outputs)]
 
     @property
     def first_order(self) -> Indices:
@@ -218,30 +230,41 @@ class Result(Document):
     def to_xarray(self) -> Any:
         """The indices as an `xarray.Dataset` over output, factor and bound (estimate, low, high), NaN for outputs
         that have none."""
-        xarray = needed("xarray", "to_xarray")
-        outputs = list(self.outputs.values())
-        factors = next((output.first_order.names for output in outputs if len(output.first_order)), [])
-        none = Index.of(None)
-        data = {}
-        for kind in ("first_order", "total"):
-            rows = [[getattr(output, kind).get(name, none) for name in factors] for output in outputs]
-            data[kind] = ("output", "factor", "bound"), np.array(rows, dtype=float).reshape(len(outputs), len(factors), 3)
-        coordinates = {
-            "output": [output.name for output in outputs],
-            "factor": factors,
-            "bound": ["estimate", "low", "high"],
-        }
-        return xarray.Dataset(data, coordinates)
+        return dataset(list(self.outputs.values()), "output", list(self.outputs))
 
-    def plot(self, output: str | None = None, ax: Any = None) -> Any:
-        """Bars of first-order and total indices with their intervals, on `ax` of matplotlib; returns the axes."""
-        return (self._only() if output is None else self[output]).plot(ax)
+    def plot(self, output: str | None = None, ax: Any = None) -> Any:  # type: ignore[override]
+        """Bars of the indices of an output with their intervals, on `ax` of matplotlib; returns the axes."""
+        return self[_chosen(output, self.outputs)].plot(ax)
 
 
 def load_result(path: str | os.PathLike[str]) -> Result:
     """The result of a JSON file that `save` or the program has written."""
-    return _from_json(Path(path).read_text(encoding="utf-8"))
+    return _of_json(Result, Path(path).read_text(encoding="utf-8"), "")
 
 
-def _from_json(text: str) -> Result:
-    return Result(_engine.read_result(text))
+def _of_json(of: type[_Document], text: str, name: str) -> _Document:
+    return of(_engine.read_document(text, name))
+
+
+def _typed(key: str, cells: list[str]) -> list[Any]:
+    """Cells of a column of CSV as numbers or truth values, if all are."""
+    if key in _TEXTS:
+        return cells
+    if set(cells) <= {"true", "false"}:
+        return [cell == "true" for cell in cells]
+    for read in (int, lambda cell: float(cell or "nan")):
+        try:
+            return [read(cell) for cell in cells]
+        except ValueError:
+            pass
+    return cells
+
+
+def _chosen(output: str | None, outputs: Collection[str]) -> str:
+    """The output, or the only one there is."""
+    if output is None and len(outputs) != 1:
+        raise ValueError(f"there are several outputs: choose one, such as {next(iter(outputs))!r}")
+    output = next(iter(outputs)) if output is None else output
+    if output not in outputs:
+        raise KeyError(f"{output!r}: the outputs are {', '.join(outputs)}")
+    return output

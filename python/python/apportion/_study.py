@@ -33,7 +33,7 @@ from ._keys import (
 from ._progress import Progress, say
 from ._repeated import RepeatedCall, outputs_of, taken_out
 from ._result import Document, Result
-from ._tables import named, numbers, placed
+from ._tables import named, numbers, placed, series_name
 
 # Base points at which a function is tried, until it answers.
 _TRIED = 8
@@ -134,8 +134,9 @@ class Study:
             if callable(model):
                 noise, repetitions = taken_out(noise)
             # The engine makes a factor of it, behind all others.
-            options["noise"] = noise = {"name": "seed", **noise}
-            stated, made = dict(made), {**made, noise["name"]: Seed()}
+            options["noise"] = {"name": "seed", **noise}
+            noise = str(options["noise"]["name"])
+            stated, made = dict(made), {**made, noise: Seed()}
         else:
             made |= {} if noise is None else {noise: Seed()}
             stated = made
@@ -153,7 +154,7 @@ class Study:
                 model, list(made), vectorised=vectorised, style=call, outputs=names, lengths=lengths, quantiles=quantiles
             )
             if repetitions > 1:
-                self._call = RepeatedCall(self._call, list(made).index(noise["name"]), repetitions)
+                self._call = RepeatedCall(self._call, list(made).index(str(noise)), repetitions)
                 outputs = outputs_of(outputs)
         elif any(factor.quantile is not None for factor in made.values()):
             raise StudyError("factors by their quantile functions work only with functions of Python")
@@ -243,8 +244,8 @@ class Study:
 
     def analyse(self, outputs: Any) -> Result:
         """The result from outputs at the points of `sample`, in their order: (rows,) or (rows, outputs), or a mapping or frame of
-        (rows,) by the names of the outputs, in any order, in a mapping also of (rows, values) of a series. NaN, masked and
-        missing values mean a failed run."""
+        (rows,) by the names of the outputs, in any order, in a mapping also of (rows, values) of a series. Names that the study does
+        not state are those of the frame, or of a `pandas.Series`. NaN, masked and missing values mean a failed run."""
         if self._study.grows:
             raise StudyError("a study with an accuracy or limits chooses its rows during the run: set base_samples instead")
         # The names of the outputs are unknown.
@@ -258,6 +259,7 @@ class Study:
             if y.shape[1] != len(self.outputs) and not is_unnamed:
                 raise StudyError(f"outputs of shape {y.shape}: expected ({self.runs}, {len(self.outputs)}), of {', '.join(self.outputs)}")
             names = self.outputs if y.shape[1] == len(self.outputs) else [f"y{k + 1}" for k in range(y.shape[1])]
+            names = [series_name(outputs) or names[0]] if is_unnamed and len(names) == 1 else names
             columns = dict(zip(names, y.T))
         else:
             columns = self._split(columns)

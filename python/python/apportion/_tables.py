@@ -62,6 +62,12 @@ def named(data: Any, what: str, error: type[Exception] = StudyError) -> dict[str
     return {text: numbers(data[name], f"{what} in the column {text!r}", error) for text, name in zip(texts, names)}
 
 
+def series_name(data: Any) -> str | None:
+    """The name of a series of pandas or polars."""
+    name = getattr(data, "name", None) if hasattr(data, "to_frame") and not hasattr(data, "columns") else None
+    return name if isinstance(name, str) and name else None
+
+
 def placed(columns: Mapping[str, Any], expected: Sequence[str], what: str) -> list[Any]:
     """The `columns` in the order of `expected`; a `StudyError` says of `what` which are missing and which are none of them."""
     missing = [name for name in expected if name not in columns]

@@ -1,0 +1,16 @@
+"""The g function of Sobol' (1998), with shifts and curvatures (Saltelli et al. 2010)."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+_A = (0, 1, 4.5, 9, 99, 99, 99, 99)
+
+
+def evaluate(values: np.ndarray, a: Any = None, delta: Any = 0.0, alpha: Any = 1.0) -> np.ndarray:
+    """The outputs, (rows,), of points between 0 and 1, (rows, factors); a factor with a small `a` has much effect."""
+    a, alpha = np.asarray(_A if a is None else a, dtype=float), np.asarray(1.0 if alpha is None else alpha)
+    shifted = (values + (0.0 if delta is None else delta)) % 1
+    return np.prod(((1 + alpha) * np.abs(2 * shifted - 1) ** alpha + a) / (1 + a), axis=1)
