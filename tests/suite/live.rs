@@ -3,6 +3,7 @@
 use serde_json::Value;
 
 use crate::common::{Folder, apportion, stderr, study_path, succeed, text};
+use crate::messages::messages;
 
 /// What stands in the element `id` of a page.
 fn element<'a>(page: &'a str, id: &str) -> &'a str {
@@ -130,11 +131,9 @@ fn a_title_does_not_break_out_of_the_page() {
 fn what_a_page_cannot_run_is_refused() {
     let folder = Folder::new();
     let page = folder.path("live.html");
+    let mut messages = messages!();
     for study in ["command-python/command-python", "epidemic/epidemic"] {
-        let refused = apportion(&["live", text(&study_path(study)), "-o", text(&page)]);
-        assert_eq!(refused.status.code(), Some(2), "{study}: {}", stderr(&refused));
-        let why = "its model is neither afm nor a formula nor a known function";
-        assert!(stderr(&refused).contains(why), "{}", stderr(&refused));
+        messages.refused(&["live", text(&study_path(study)), "-o", text(&page)]);
         assert!(!page.exists());
     }
 }
