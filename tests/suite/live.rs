@@ -35,8 +35,6 @@ fn a_page_has_the_engine_the_study_as_it_was_changed_and_its_result() {
     assert_eq!(title, "Soft cantilever in humid air");
     assert!(own.contains("min = 1.5") && own.contains("velocity = \"60 nm/s\"") && own.contains("base_samples = 256"));
     assert!(!own.contains("name = \"velocity\""));
-    assert!(page.contains("matters most") || page.contains("cannot be told apart"));
-    assert!(page.contains("runs of the model by the program."));
     for id in ["indices", "shares", "distribution", "validity"] {
         assert!(page.contains(&format!("<section id=\"{id}\"")), "{id}");
     }
@@ -50,8 +48,7 @@ fn a_study_of_series_has_a_page() {
     let out = ["--base-samples", "64", "-o", text(&page)];
     succeed(&[&["live", text(&study_path("push-history"))], &outputs[..], &out[..]].concat());
     let page = std::fs::read_to_string(page).unwrap();
-    assert!(page.contains("<section id=\"series-1\"") && page.contains("force history as a whole (20 values)"));
-    assert!(!page.contains("position history as a whole"));
+    assert!(page.contains("<section id=\"series-1\"") && !page.contains("<section id=\"series-2\""));
 }
 
 #[test]
@@ -60,9 +57,9 @@ fn the_page_of_a_run_links_to_its_own() {
     let to = folder.path("out");
     let out = ["--charts", "none", "--base-samples", "256", "--out", text(&to)];
     let done = stderr(&apportion(&[&["run", text(&study_path("ishigami"))], &out[..]].concat()));
-    assert!(done.contains("ishigami.html, and ishigami-live.html to try other ranges in"), "{done}");
+    assert!(done.contains("ishigami-live.html"), "{done}");
     let page = std::fs::read_to_string(to.join("ishigami.html")).unwrap();
-    assert!(page.contains("href=\"ishigami-live.html\"") && page.contains("Try your own ranges"));
+    assert!(page.contains("href=\"ishigami-live.html\""));
     assert_eq!(presets(&std::fs::read_to_string(to.join("ishigami-live.html")).unwrap()).len(), 1);
     let of_a_program = study_path("command-python/command-python");
     let program = [&["run", text(&of_a_program)], &out[..]].concat();
@@ -98,7 +95,7 @@ fn the_page_of_a_run_names_the_command_that_makes_its_own() {
     succeed(&[&["run", text(&study_path("ishigami"))], &out[..]].concat());
     assert!(!to.join("ishigami-live.html").exists());
     let page = std::fs::read_to_string(to.join("ishigami.html")).unwrap();
-    assert!(page.contains("<code>apportion live ishigami.toml</code>, with the changes of this run, makes"));
+    assert!(page.contains("<code>apportion live ishigami.toml</code>"));
     succeed(&[&["run", text(&study_path("command-python/command-python"))], &out[..]].concat());
     let page = std::fs::read_to_string(to.join("command-python.html")).unwrap();
     assert!(!page.contains("apportion live"));
