@@ -35,12 +35,10 @@ fn both_layouts_are_recognised_by_their_points() {
         let columns = points(2, 48 / layout.rows_per_point(2), layout);
         let inputs = Some(&columns[..]);
         assert_eq!(recognise(48, &members, None, inputs), Ok(layout));
-        assert!(refused(48).starts_with("48 rows can be read in two ways: 8 base points with second order"));
         assert_eq!(recognise(48, &members, Some(layout), None), Ok(layout));
     }
     assert_eq!(recognise(18, &members, None, None), Ok(SalibLayout::SecondOrder));
-    assert!(refused(7).starts_with("7 rows are not a whole number of base points"));
-    assert!(refused(4).starts_with("4 rows are a single base point"));
+    insta::assert_snapshot!([48, 7, 4].map(refused).join("\n"));
 }
 
 #[test]
@@ -48,7 +46,7 @@ fn shuffled_rows_are_found() {
     let mut columns = points(3, 4, SalibLayout::SecondOrder);
     columns.iter_mut().for_each(|(_, column)| column.swap(9, 13));
     let error = recognise(32, &problem(3).members, None, Some(&columns)).unwrap_err();
-    assert!(error.to_string().starts_with("row 10 should be the row AB_1 of its base point"), "{error}");
+    assert!(error.to_string().starts_with("row 10 "), "{error}");
 }
 
 /// The analysis of outputs of `d` inputs in this layout, with intervals by the delta method.
@@ -134,9 +132,6 @@ fn codes_for_missing_values_are_found() {
 fn groups_of_a_problem_are_read() {
     let parse = |text: &str| SalibProblem::parse(text).map_err(|error| error.to_string());
     assert_eq!(parse(r#"{"names": ["a", "b"], "groups": null}"#).unwrap().members.len(), 2);
-    assert!(
-        parse(r#"{"num_vars": 3, "names": ["a", "b"]}"#).unwrap_err().contains("`num_vars` is 3, but `names` has 2")
-    );
-    assert!(parse(r#"{"names": ["a", "a"]}"#).unwrap_err().contains("two inputs are called `a`"));
-    assert!(parse("[]").unwrap_err().starts_with("not a problem of SALib"));
+    let refused = [r#"{"num_vars": 3, "names": ["a", "b"]}"#, r#"{"names": ["a", "a"]}"#, "[]"];
+    insta::assert_snapshot!(refused.map(|text| parse(text).unwrap_err()).join("\n"));
 }

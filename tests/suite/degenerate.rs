@@ -5,6 +5,7 @@ use std::path::Path;
 use apportion::result::{OutputResult, StudyResult, parse_result};
 
 use crate::common::HOLES;
+use crate::messages::messages;
 
 fn analysed(text: &str) -> StudyResult {
     let study =
@@ -22,7 +23,7 @@ fn a_constant_output_has_a_reason_and_no_indices() {
     let result = analysed("model = \"linear\"\n[function]\nc = [0, 0]");
     let output = &result.outputs[0];
     assert_eq!((&output.indices, output.variance), (&None, Some(0.0)));
-    assert!(output.reason.as_ref().unwrap().contains("zero variance"));
+    messages!().add("the reason", output.reason.as_ref().unwrap());
     assert!(output.convergence.is_empty());
 }
 
@@ -107,7 +108,7 @@ fn failed_rows_cost_their_own_indices_and_too_many_of_them_all() {
     assert!(output.warnings.iter().any(|warning| warning.code() == "runs-failed"), "{:?}", output.warnings);
     let result = analysed(&format!("{HOLES}[design]\nbase_samples = 4096\n[analysis]\nmax_failed = 0.0001"));
     assert_eq!(result.outputs[0].indices, None);
-    assert!(result.outputs[0].reason.as_ref().unwrap().contains("more than max_failed = 0.0001 allows"));
+    messages!().add("the reason", result.outputs[0].reason.as_ref().unwrap());
 }
 
 #[test]
@@ -124,11 +125,12 @@ fn outputs_of_any_size_that_doubles_hold_have_the_same_indices() {
         }
     }
     // The squares of 1e300 and of 1e-300 leave the range of doubles: a reason, not a zero.
+    let mut messages = messages!();
     for c in ["2e300, 1e300", "2e-300, 1e-300"] {
         let result = analysed(&format!("model = \"linear\"\n[function]\nc = [{c}]\n[design]\nbase_samples = 64"));
         let output = &result.outputs[0];
         assert_eq!(output.indices, None);
-        assert!(output.reason.as_ref().unwrap().contains("over- or underflows"), "{:?}", output.reason);
+        messages.add(c, output.reason.as_ref().unwrap());
     }
 }
 

@@ -1,15 +1,15 @@
 //! Factors that depend on each other, through the program: what it prints and what it refuses.
 
-use crate::common::{Folder, apportion, stderr, study_path, succeed, text};
+use crate::common::{Folder, study_path, succeed, text};
+use crate::messages::messages;
 
 #[test]
 fn the_program_describes_dependent_factors() {
     let folder = Folder::new();
     let study = study_path("portfolio");
     let out = folder.path("out");
-    let told = succeed(&["run", text(&study), "--base-samples", "1024", "--out", text(&out)]);
-    assert!(told.contains("Shapley effect") && told.contains("S_1 given the others"), "{told}");
-    assert!(told.contains("For value, x1 matters most: its Shapley effect is"), "{told}");
+    let printed = succeed(&["run", text(&study), "--base-samples", "1024", "--out", text(&out)]);
+    messages!().add_printed("run", &printed);
     let json: serde_json::Value = serde_json::from_slice(&std::fs::read(out.join("portfolio.json")).unwrap()).unwrap();
     assert_eq!(json["study"]["dependences"][1]["correlation"][0][1], -0.3);
     let x1 = &json["outputs"][0]["indices"][0];
@@ -29,28 +29,22 @@ fn the_program_describes_dependent_factors() {
 #[test]
 fn options_for_independent_factors_are_refused_with_alternatives() {
     let study = text(&study_path("portfolio")).to_owned();
-    let refused = |arguments: &[&str], expected: &str| {
-        let output = apportion(arguments);
-        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {}", stderr(&output));
-        assert!(stderr(&output).contains(expected), "{arguments:?}: {}", stderr(&output));
-    };
-    let set = |change: &'static str| ["check", study.as_str(), "--set", change].map(str::to_owned).to_vec();
-    for (change, expected) in [
-        ("analysis.second_order=true", "Shapley effects"),
-        ("analysis.surrogate=\"on\"", "it needs independent ones"),
-        ("analysis.shapley=1", "boolean"),
-        ("dependence=[{factors=[\"x1\",\"x2\"]}]", "`correlation`"),
-        ("dependence=[{factors=[\"x1\",\"x9\"], correlation=0.5}]", "unknown factor `x9`"),
-        ("dependence=[{factors=[\"x1\",\"x2\",\"x3\"], correlation=-0.9}]", "nearest"),
-        ("dependence=[{factors=[\"x1\",\"x2\"], correlation=1.5}]", "between -1 and 1"),
-        ("dependence=[{factors=[\"x1\",\"x2\"], correlation=0.5, measure=\"rank\"}]", "spearman"),
-        ("dependence=[{factors=[\"x1\",\"x2\"], correlation=\"much\"}]", "a number, or a matrix"),
+    let mut messages = messages!();
+    for change in [
+        "analysis.second_order=true",
+        "analysis.surrogate=\"on\"",
+        "analysis.shapley=1",
+        "dependence=[{factors=[\"x1\",\"x2\"]}]",
+        "dependence=[{factors=[\"x1\",\"x9\"], correlation=0.5}]",
+        "dependence=[{factors=[\"x1\",\"x2\",\"x3\"], correlation=-0.9}]",
+        "dependence=[{factors=[\"x1\",\"x2\"], correlation=1.5}]",
+        "dependence=[{factors=[\"x1\",\"x2\"], correlation=0.5, measure=\"rank\"}]",
+        "dependence=[{factors=[\"x1\",\"x2\"], correlation=\"much\"}]",
     ] {
-        let arguments = set(change);
-        refused(&arguments.iter().map(String::as_str).collect::<Vec<_>>(), expected);
+        messages.refused_as(change, &["check", &study, "--set", change]);
     }
-    refused(&["screen", &study], "Shapley effects");
-    refused(&["trade", &study, "--quick"], "without [[dependence]]");
+    messages.refused(&["screen", &study]);
+    messages.refused(&["trade", &study, "--quick"]);
 }
 
 #[test]
@@ -66,8 +60,8 @@ fn joint_measurements_and_matrices_state_the_same() {
         "study.toml",
         format!("{model}{factors}[[dependence]]\nfactors = [\"x1\", \"x2\"]\nfile = \"joint.csv\"\n"),
     );
-    let told = succeed(&["run", text(&study), "--out", text(&folder.path("out"))]);
-    assert!(told.contains("Shapley effect"), "{told}");
+    let mut messages = messages!();
+    messages.add_printed("joint", &succeed(&["run", text(&study), "--out", text(&folder.path("out"))]));
     for wrong in [
         "measurements = [[1, 2], [3]]",
         "measurements = [[1, 2], [3, 1]]",
@@ -76,8 +70,8 @@ fn joint_measurements_and_matrices_state_the_same() {
         "file = \"joint.csv\"\ncopula = \"kernel\"",
     ] {
         let study =
-            folder.with("wrong.toml", format!("{model}{factors}[dependence]\nfactors = [\"x1\", \"x2\"]\n{wrong}\n"));
-        assert_eq!(apportion(&["check", text(&study)]).status.code(), Some(2), "{wrong}");
+            folder.with("wrong.toml", format!("{model}{factors}[[dependence]]\nfactors = [\"x1\", \"x2\"]\n{wrong}\n"));
+        messages.refused_as(wrong, &["check", text(&study)]);
     }
 }
 

@@ -3,40 +3,31 @@
 use std::io::Write;
 use std::process::{Command, Stdio};
 
-use crate::common::{Folder, apportion, stderr, text};
+use crate::common::{Folder, text};
+use crate::messages::messages;
 
 const STUDY: &str = "model = \"ishigami\"\n[design]\nbase_samples = 64\n";
-
-/// Fails with exit code 2, with the message that the file has no end.
-#[track_caller]
-fn is_refused(arguments: &[&str], expected: &str) {
-    let output = apportion(arguments);
-    let message = stderr(&output);
-    assert_eq!(output.status.code(), Some(2), "{arguments:?}: {message}");
-    assert!(message.contains(expected), "{arguments:?}: {message}");
-}
 
 #[cfg(target_os = "linux")]
 #[test]
 fn files_without_an_end_are_refused() {
-    const NO_END: &str = "it is not a regular file and exceeds 256 MiB or has no end";
     let folder = Folder::new();
-    let study = folder.with("study.toml", STUDY);
-    is_refused(&["check", "/dev/zero"], &format!("/dev/zero: cannot read the study file: {NO_END}"));
-    is_refused(&["report", "/dev/zero"], NO_END);
-    is_refused(&["given-data", "/dev/zero", "--outputs", "y"], NO_END);
+    let (study, mut messages) = (folder.with("study.toml", STUDY), messages!());
+    messages.refused(&["check", "/dev/zero"]);
+    messages.refused(&["report", "/dev/zero"]);
+    messages.refused(&["given-data", "/dev/zero", "--outputs", "y"]);
     let measured =
         "model = \"ishigami\"\n[[factor]]\nname = \"x1\"\ndistribution = \"empirical\"\nfile = \"/dev/zero\"\n";
-    is_refused(&["check", text(&folder.with("measured.toml", measured))], NO_END);
+    messages.refused(&["check", text(&folder.with("measured.toml", measured))]);
     let outputs = folder.path("outputs.csv");
-    is_refused(&["evaluate", text(&study), "/dev/zero", "-o", text(&outputs)], "a line of more than 16 MiB");
+    messages.refused(&["evaluate", text(&study), "/dev/zero", "-o", text(&outputs)]);
     assert!(!outputs.exists());
     let endless = folder.path("endless.csv");
     std::os::unix::fs::symlink("/dev/zero", &endless).unwrap();
     let manifest = folder.path("endless.csv.manifest.json");
     std::os::unix::fs::symlink("/dev/zero", &manifest).unwrap();
-    is_refused(&["analyze", text(&endless)], NO_END);
-    is_refused(&["analyze", text(&endless), "--layout", "salib", "--names", "a,b"], "a line of more than 16 MiB");
+    messages.refused(&["analyze", text(&endless)]);
+    messages.refused(&["analyze", text(&endless), "--layout", "salib", "--names", "a,b"]);
 }
 
 #[cfg(target_os = "linux")]
@@ -47,13 +38,7 @@ fn a_journal_without_an_end_is_refused() {
     let out = folder.path("out");
     std::fs::create_dir(&out).unwrap();
     std::os::unix::fs::symlink("/dev/zero", out.join("study.journal")).unwrap();
-    let output = apportion(&["run", text(&study), "--out", text(&out), "--resume"]);
-    assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
-    assert!(
-        stderr(&output).contains("a pipe, a device or a folder has the name of the journal"),
-        "{}",
-        stderr(&output)
-    );
+    messages!().refused(&["run", text(&study), "--out", text(&out), "--resume"]);
 }
 
 #[cfg(unix)]

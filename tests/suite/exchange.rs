@@ -6,6 +6,7 @@ use apportion::result::{StudyResult, read_result};
 use apportion_files::exchange::{ColumnKind, Format, ReadOptions, open_table, row_writer};
 
 use crate::common::{apportion, files, gap, numbers, stderr, study_path, succeed, text};
+use crate::messages::{Messages, messages};
 
 /// A folder with the design of a small study.
 pub struct Sampled {
@@ -38,12 +39,12 @@ impl Sampled {
         read_result(&self.path("out").join(format!("{name}.json"))).unwrap()
     }
 
+    /// `analyze` refuses `data`, at this place.
     #[track_caller]
-    pub fn refused(&self, data: &str, more: &[&str], expected: &str) {
+    pub fn refused(&self, messages: &mut Messages, case: &str, (data, more): (&str, &[&str]), place: &str) {
         let output = self.analyze(data, more);
-        let message = stderr(&output);
-        assert_eq!(output.status.code(), Some(2), "{message}");
-        assert!(message.contains(expected), "no {expected:?} in {message:?}");
+        messages.ended(case, 2, &output);
+        assert!(stderr(&output).contains(place), "{case}: not at {place}: {}", stderr(&output));
     }
 
     /// The lines of a CSV file.
@@ -137,8 +138,8 @@ fn three_steps_give_the_bits_of_one_run_in_every_format() {
 fn a_model_outside_is_sampled_and_analyzed_but_not_run() {
     let sampled = answered();
     let output = sampled.analyze("data.csv", &[]);
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    assert!(stderr(&output).contains("the points in the file are those of the design"), "{}", stderr(&output));
+    let mut messages = messages!();
+    messages.ended("analyze", 0, &output);
     let result = sampled.result("s");
     assert_eq!(result.outputs[0].name, "force");
     // The same model, run by the program.
@@ -152,11 +153,9 @@ fn a_model_outside_is_sampled_and_analyzed_but_not_run() {
     for command in ["run", "screen", "evaluate"] {
         let study = sampled.name("s.toml");
         let points: &[&str] = if command == "evaluate" { &["points.csv", "-o", "y.csv"] } else { &[] };
-        let output = apportion(&[&[command, &study], points].concat());
-        assert_eq!(output.status.code(), Some(2));
-        assert!(stderr(&output).contains("its model runs outside this program"), "{}", stderr(&output));
+        messages.refused(&[&[command, &study], points].concat());
     }
-    assert!(succeed(&["check", &sampled.name("s.toml")]).contains("model runs, outside this program"));
+    succeed(&["check", &sampled.name("s.toml")]);
 }
 
 #[test]
@@ -171,18 +170,20 @@ fn names_and_units_of_outputs_can_be_chosen() {
     let found: Vec<(String, String)> =
         sampled.result("s").outputs.iter().map(|o| (o.name.clone(), o.unit.clone())).collect();
     assert_eq!(found, [("energy".to_owned(), "nJ".to_owned()), ("force".to_owned(), "nN".to_owned())]);
-    sampled.refused("data.csv", &["--outputs", "energi"], "no column is called `energi`: did you mean `energy`?");
-    sampled.refused("data.csv", &["--outputs", "a"], "`a` is a factor, not an output");
-    sampled.refused("data.csv", &["--units", "energy=nJ"], "a unit is given for `energy`, which is not an output");
+    let mut messages = messages!();
+    for more in [["--outputs", "energi"], ["--outputs", "a"], ["--units", "energy=nJ"]] {
+        sampled.refused(&mut messages, &more.join(" "), ("data.csv", &more), "");
+    }
 }
 
 #[test]
 fn a_file_that_does_not_belong_to_the_design_is_refused_with_the_reason() {
     let sampled = answered();
     let good = sampled.lines("data.csv");
-    let refused = |lines: &[String], expected: &str| {
+    let mut messages = messages!();
+    let mut refused = |case: &str, lines: &[String], place: &str| {
         sampled.write("data.csv", lines);
-        sampled.refused("data.csv", &[], expected);
+        sampled.refused(&mut messages, case, ("data.csv", &[]), place);
     };
     let changed = |row: usize, text: &str| {
         let mut lines = good.clone();
@@ -190,34 +191,28 @@ fn a_file_that_does_not_belong_to_the_design_is_refused_with_the_reason() {
         lines
     };
     let rest = |row: usize| good[row].split_once(',').unwrap().1.to_owned();
-    refused(&changed(5, &format!("2.0,{}", rest(5))), "row 5, column `a`: found 2, but the design has");
-    refused(&changed(5, &format!(",{}", rest(5))), "row 5, column `a`: found nothing, but the design has");
+    refused("another number", &changed(5, &format!("2.0,{}", rest(5))), "row 5, column `a`: ");
+    refused("no number", &changed(5, &format!(",{}", rest(5))), "row 5, column `a`: ");
     let other = if good[7].contains("nitride") {
         good[7].replace("\"nitride, doped\"", "silicon")
     } else {
         good[7].replace("silicon", "\"nitride, doped\"")
     };
-    refused(&changed(7, &other), "row 7, column `probe`: ");
-    refused(
-        &changed(7, &good[7].replace("silicon", "steel").replace("nitride", "steel")),
-        "expected one of silicon, nitride, doped, not",
-    );
+    refused("another label", &changed(7, &other), "row 7, column `probe`: ");
+    refused("no label", &changed(7, &good[7].replace("silicon", "steel").replace("nitride", "steel")), "`probe`");
     let mut swapped = good.clone();
     swapped.swap(5, 17);
-    refused(&swapped, "rows are missing, repeated or in another order");
+    refused("rows in another order", &swapped, "");
     let mut missing = good.clone();
     missing.remove(5);
-    refused(&missing, "row 5, column `a`: ");
-    refused(&good[..good.len() - 2], "the file has 318 rows, but the design has 320");
+    refused("a row is missing", &missing, "row 5, column `a`: ");
+    refused("the last rows are missing", &good[..good.len() - 2], "");
     let mut repeated = good.clone();
     repeated.insert(9, good[4].clone());
-    refused(&repeated, "rows are missing, repeated or in another order");
-    let more = [&good[..], &[good[1].clone(), good[2].clone()]].concat();
-    refused(&more, "the file has 322 rows, but the design has 320");
-    refused(
-        &good.iter().map(|line| line.rsplit_once(',').unwrap().0.to_owned()).collect::<Vec<_>>(),
-        "no column is called `force`",
-    );
+    refused("a row is repeated", &repeated, "");
+    refused("more rows", &[&good[..], &[good[1].clone(), good[2].clone()]].concat(), "");
+    let without: Vec<String> = good.iter().map(|line| line.rsplit_once(',').unwrap().0.to_owned()).collect();
+    refused("no output", &without, "");
 }
 
 #[test]
@@ -241,7 +236,7 @@ fn rows_without_an_output_are_refused_or_counted_as_failed() {
         lines[row] = format!("{},{word}", lines[row].rsplit_once(',').unwrap().0);
     }
     sampled.write("data.csv", &lines);
-    sampled.refused("data.csv", &[], "row 3, column `force`: the value is missing; --missing-as-failed");
+    sampled.refused(&mut messages!(), "missing", ("data.csv", &[]), "row 3, column `force`: ");
     let output = sampled.analyze("data.csv", &["--missing-as-failed"]);
     assert!(matches!(output.status.code(), Some(0 | 1)), "{}", stderr(&output));
     let result = sampled.result("s");
@@ -252,34 +247,33 @@ fn rows_without_an_output_are_refused_or_counted_as_failed() {
 fn a_manifest_that_does_not_fit_is_refused() {
     let sampled = answered();
     let manifest = std::fs::read_to_string(sampled.path("data.csv.manifest.json")).unwrap();
-    let refused = |text: &str, expected: &str| {
-        std::fs::write(sampled.path("data.csv.manifest.json"), text).unwrap();
-        sampled.refused("data.csv", &[], expected);
-    };
-    refused(&manifest.replace("max = 3,", "max = 4,"), "the study in the manifest was changed");
-    refused(&manifest.replace("\"seed\": 3", "\"seed\": 4"), "the design of the manifest is not that of its study");
-    refused(&manifest.replace("apportion-design", "else"), "its format is \"else\"");
-    refused(&manifest.replace("\"version\": 1", "\"version\": 2"), "format version 2 of the manifest is unknown");
-    refused("{", "not a manifest of a design");
     let digest = manifest.rsplit_once("\"sha256\": \"").unwrap().1[..8].to_owned();
-    refused(&manifest.replace(&digest, "00000000"), "the points of this manifest are not those that version");
+    let mut messages = messages!();
+    for (from, to) in [
+        ("max = 3,", "max = 4,"),
+        ("\"seed\": 3", "\"seed\": 4"),
+        ("apportion-design", "else"),
+        ("\"version\": 1", "\"version\": 2"),
+        (&manifest, "{"),
+        (&digest, "00000000"),
+    ] {
+        std::fs::write(sampled.path("data.csv.manifest.json"), manifest.replace(from, to)).unwrap();
+        sampled.refused(&mut messages, to, ("data.csv", &[]), "data.csv");
+    }
     std::fs::remove_file(sampled.path("data.csv.manifest.json")).unwrap();
-    sampled.refused("data.csv", &[], "there is no ");
-    sampled.refused("data.csv", &["--manifest", &sampled.name("none.json")], "cannot read the manifest");
+    sampled.refused(&mut messages, "no manifest", ("data.csv", &[]), "");
+    sampled.refused(&mut messages, "no such manifest", ("data.csv", &["--manifest", &sampled.name("none.json")]), "");
 }
 
 #[test]
 fn formats_are_known_by_their_endings() {
     let sampled = answered();
-    let output = apportion(&["sample", &sampled.name("s.toml"), "-o", &sampled.name("d.xlsx")]);
-    assert_eq!(output.status.code(), Some(2));
-    assert!(stderr(&output).contains("expected .csv or .npy"), "{}", stderr(&output));
+    let (mut messages, design) = (messages!(), sampled.name("design.csv"));
+    messages.refused(&["sample", &sampled.name("s.toml"), "-o", &sampled.name("d.xlsx")]);
     std::fs::write(sampled.path("data.parquet"), b"PAR1,b\n").unwrap();
-    sampled.refused("data.parquet", &["--design", &sampled.name("design.csv")], "it is a Parquet file");
+    sampled.refused(&mut messages, "a Parquet file", ("data.parquet", &["--design", &design]), "data.parquet");
     write_columns(&sampled.path("data.npy"), &["p", "q"], &[vec![1.0; 320], vec![2.0; 320]]);
-    let expected =
-        "the file has 2 columns, without names: expected 1 (the outputs) or 4 (the 3 factors, then the outputs)";
-    sampled.refused("data.npy", &["--design", &sampled.name("design.csv")], expected);
+    sampled.refused(&mut messages, "two columns of four", ("data.npy", &["--design", &design]), "data.npy");
 }
 
 #[test]
@@ -288,10 +282,12 @@ fn a_file_without_a_header_is_found_out() {
     let numbers: Vec<String> = sampled.lines("data.csv")[1..].iter().map(|line| line.replace(' ', "")).collect();
     let forces: Vec<String> = numbers.iter().map(|line| line.rsplit_once(',').unwrap().1.to_owned()).collect();
     sampled.write("data.csv", &forces);
-    sampled.refused("data.csv", &[], "line 1 has numbers");
+    let mut messages = messages!();
+    sampled.refused(&mut messages, "outputs", ("data.csv", &[]), "line 1 ");
     assert_eq!(sampled.analyze("data.csv", &["--no-header"]).status.code(), Some(0));
     sampled.write("y.csv", &forces[..48]);
-    sampled.refused("y.csv", &["--layout", "salib", "--names", "x1,x2"], "line 1 has numbers");
+    let salib = ["--layout", "salib", "--names", "x1,x2"];
+    sampled.refused(&mut messages, "of SALib", ("y.csv", &salib), "line 1 ");
 }
 
 #[test]
@@ -299,9 +295,8 @@ fn an_output_has_a_name_that_no_factor_has() {
     let sampled = Sampled::new(OUTSIDE, "design.csv");
     let study = OUTSIDE.replace("outputs.force", "outputs.b");
     std::fs::write(sampled.path("s.toml"), study).unwrap();
-    let output = apportion(&["check", &sampled.name("s.toml")]);
-    assert_eq!(output.status.code(), Some(2));
-    assert!(stderr(&output).contains("s.toml:7:18: factor or output `b` is listed twice"), "{}", stderr(&output));
+    let message = messages!().refused(&["check", &sampled.name("s.toml")]);
+    assert!(message.contains("s.toml:7:18: "), "{message}");
 }
 
 #[test]

@@ -7,6 +7,7 @@ use apportion::run::{GrowingRun, Job, Store, run};
 use apportion::{Distribution, RunContext, Study, Target, function_model};
 
 use crate::common::{Folder, apportion, effects, stderr, study_path, succeed, text};
+use crate::messages::messages;
 
 /// Ishigami's function with a = 5 and the cheaper one of Qian et al. (2018), section 4.1.
 const PAIR: &str = "model = \"expression\"\n[outputs]\ny = \"sin(x1) + 5*sin(x2)^2 + 0.1*x3^4*sin(x1)\"\n\
@@ -195,32 +196,24 @@ fn quick_models_are_doubled_without_surrogates() {
 
 #[test]
 fn invalid_settings_are_refused_with_the_reason() {
-    let folder = Folder::new();
-    let refused = |text_of_study: &str, more: &[&str], words: &str| {
-        let file = folder.with("refused.toml", text_of_study);
-        let said = apportion(&[&["check", text(&file)], more].concat());
-        assert_eq!(said.status.code(), Some(2), "{words}: {}", stderr(&said));
-        assert!(stderr(&said).contains(words), "{}", stderr(&said));
-    };
+    let (folder, mut messages) = (Folder::new(), messages!());
     let ishigami = "model = \"ishigami\"\n";
-    refused(&format!("accuracy = -1\n{ishigami}"), &[], "a finite number above 0");
-    refused(&format!("accuracy = 0.1\n{ishigami}[design]\nbase_samples = 64\n"), &[], "must be alone");
-    refused(
+    for study in [
+        &format!("accuracy = -1\n{ishigami}")[..],
+        &format!("accuracy = 0.1\n{ishigami}[design]\nbase_samples = 64\n"),
         &format!("accuracy = 0.1\n{ishigami}[design]\nsampler = \"latin-hypercube\"\n"),
-        &[],
-        "for a run that grows",
-    );
-    refused(&format!("{ishigami}[fidelity]\nlow = [\"coarse\"]\n"), &[], "a table");
-    refused(
-        "[fidelity]\nlow = [\"closed\"]\n[afm]\nfidelity = \"dynamic\"\n[[factor]]\nname = \"length\"\nmin = 200\nmax = 700\nunit = \"um\"\n",
-        &[],
-        "closed-form",
-    );
-    refused(&PAIR.replace("{ y = \"sin(x1) + 3", "{ z = \"sin(x1) + 3"), &[], "must be those of the model");
-    let nameless = "a table with a name, as in { name = \"coarse\", .. }";
-    refused(&PAIR.replace("name = \"coarse\", ", ""), &[], nameless);
-    refused(&PAIR.replace("name = \"coarse\"", "name = \"\""), &[], "name of a cheaper model");
-    refused(&PAIR.replace("3*sin(x2)^2 +", "3*sin(x2^2 +"), &[], "cheaper model `coarse`");
+        &format!("{ishigami}[fidelity]\nlow = [\"coarse\"]\n"),
+        "afm.fidelity = \"dynamic\"\n[fidelity]\nlow = [\"closed\"]\n[factors.length]\nmin = 200\nmax = 700\nunit = \"um\"\n",
+    ] {
+        messages.refused_as(study, &["check", text(&folder.with("refused.toml", study))]);
+    }
+    let changes = [
+        ("{ y = \"sin(x1) + 3", "{ z = \"sin(x1) + 3", "17:7"),
+        ("name = \"coarse\", ", "", "17:8"),
+        ("name = \"coarse\"", "name = \"\"", "17:8"),
+        ("3*sin(x2)^2 +", "3*sin(x2^2 +", "17:8"),
+    ];
+    messages.spoilt(&folder, PAIR, &changes);
 }
 
 #[test]

@@ -6,6 +6,7 @@ use apportion::given::Measure;
 use apportion_report::given::GivenFile;
 
 use crate::common::{apportion, stderr, stdout, text};
+use crate::messages::{Messages, messages};
 use crate::points::{Columns, random, saltelli, sobol};
 
 /// A table of the columns and of their linear combination 3, 2, 1, ... as `y`.
@@ -40,10 +41,8 @@ impl Run {
     }
 
     #[track_caller]
-    fn refused(&self, expected: &str) {
-        let message = stderr(&self.output);
-        assert_eq!(self.output.status.code(), Some(2), "{message}");
-        assert!(message.contains(expected), "no {expected:?} in {message}");
+    fn refused(&self, messages: &mut Messages, case: &str) {
+        messages.ended(case, 2, &self.output);
         assert!(!self.out().exists(), "a refused table leaves nothing behind");
     }
 
@@ -69,10 +68,7 @@ fn a_table_becomes_a_result() {
         let width = rank.interval.unwrap().high - rank.interval.unwrap().low;
         assert!((rank.estimate - exact / 14.0).abs() < width && width < 0.2, "{index:?}");
     }
-    let printed = stdout(&run.output);
-    for part in ["500 rows, 3 inputs", "by ranks", "by bins", "note: Given data yield first-order indices only"] {
-        assert!(printed.contains(part), "no {part:?} in {printed}");
-    }
+    messages!().add_printed("given-data", &stdout(&run.output));
     let csv = std::fs::read_to_string(run.out().join("table-indices.csv")).unwrap();
     assert_eq!(csv.lines().count(), 4);
     for chart in ["table.svg", "table.png"] {
@@ -94,9 +90,10 @@ fn columns_are_chosen() {
     assert_eq!(output.name, "x3");
     let index = &output.indices.as_ref().unwrap()[0];
     assert!(index.rank.is_some() && index.binned.bins == 6);
-    Run::of(&content, &["--outputs", "z"]).refused("no column is called `z`");
-    Run::of(&content, &["--outputs", "y,,"]).refused("expected names of columns");
-    Run::of(&content, &[]).refused("--outputs");
+    let mut messages = messages!();
+    for more in [&["--outputs", "z"][..], &["--outputs", "y,,"], &[]] {
+        Run::of(&content, more).refused(&mut messages, &more.join(" "));
+    }
 }
 
 #[test]
@@ -106,14 +103,20 @@ fn faults_are_refused_with_their_place() {
         let lines = content.lines().enumerate();
         lines.map(|(k, text)| format!("{}\n", if k + 1 == line { cells } else { text })).collect::<String>()
     };
-    Run::of(&spoilt(7, "0.5,,1"), &["--outputs", "y"])
-        .refused("table.csv: line 7: column 2 (`x2`): the value is missing");
-    Run::of(&spoilt(9, "0.5,red,1"), &["--outputs", "y"]).refused("line 9: column 2 (`x2`): expected a finite number");
-    Run::of(&spoilt(9, "0.5,1"), &["--outputs", "y"]).refused("line 9: expected 3 cells");
-    Run::of("x,y\n1,2\n", &["--outputs", "y"]).refused("at least 30 are needed");
+    let mut messages = messages!();
+    for (table, place) in [
+        (spoilt(7, "0.5,,1"), "table.csv: line 7: column 2 (`x2`): "),
+        (spoilt(9, "0.5,red,1"), "line 9: column 2 (`x2`): "),
+        (spoilt(9, "0.5,1"), "line 9: "),
+        ("x,y\n1,2\n".to_owned(), ""),
+    ] {
+        let run = Run::of(&table, &["--outputs", "y"]);
+        run.refused(&mut messages, place);
+        assert!(stderr(&run.output).contains(place), "not at {place}");
+    }
     let result = Run::of(&spoilt(7, "0.5,NaN,1"), &["--outputs", "y", "--drop-missing"]).result();
     assert_eq!((result.table.rows, result.table.rows_dropped, result.table.first_dropped_line), (39, 1, Some(7)));
-    assert!(result.warnings[0].contains("1 row was left out"), "{:?}", result.warnings);
+    messages.add("--drop-missing", &result.warnings[0]);
 }
 
 #[test]
@@ -121,14 +124,15 @@ fn rows_that_are_no_independent_draws_are_refused_or_warned_of() {
     let content = table(&sobol(3, 256, 1));
     let result = Run::of(&content, &["--outputs", "y"]).result();
     assert_eq!(result.table.points, "too-even");
-    assert!(result.warnings[0].contains("no estimate by ranks"), "{:?}", result.warnings);
+    let mut messages = messages!();
+    messages.add("a net", &result.warnings[0]);
     let index = &result.outputs[0].indices.as_ref().unwrap()[0];
     let binned = index.binned.estimate;
     assert!(index.rank.is_none() && binned.interval.is_none());
     // 16 bins lose 1/256 of a linear effect; means over a net are exact to 1e-3.
     assert!((binned.estimate - 9.0 / 14.0).abs() < 0.006, "{binned:?}");
     let design = table(&saltelli(3, 64, apportion::design::Sampler::Sobol, 1));
-    Run::of(&design, &["--outputs", "y"]).refused("pick-freeze (Saltelli) design");
+    Run::of(&design, &["--outputs", "y"]).refused(&mut messages, "a design of Saltelli");
 }
 
 #[test]
@@ -138,11 +142,8 @@ fn an_output_that_does_not_vary_has_no_indices_but_a_reason() {
     let run = Run::of(&plain.lines().map(extended).collect::<String>(), &["--outputs", "y,c"]);
     let result = run.result();
     assert!(result.outputs[0].indices.is_some());
-    assert_eq!(
-        (&result.outputs[1].indices, result.outputs[1].reason.as_deref()),
-        (&None, Some("the output is constant"))
-    );
-    assert!(stdout(&run.output).contains("no indices: There are no indices of c: the output is constant"));
+    assert!(result.outputs[1].indices.is_none());
+    messages!().add("a constant", result.outputs[1].reason.as_ref().unwrap());
 }
 
 #[cfg(unix)]
@@ -171,22 +172,13 @@ fn a_surrogate_adds_total_indices() {
         let (low, high) = (index.total.interval.unwrap().low, index.total.interval.unwrap().high);
         assert!(low <= exact / 14.0 && exact / 14.0 <= high && high - low < 0.15, "{index:?}");
     }
-    let printed = stdout(&run.output);
-    for part in ["S_1, by surrogate", "S_T, by surrogate", "explains more than 99.9 %"] {
-        assert!(printed.contains(part), "no {part:?} in {printed}");
-    }
-    // Nothing is left unexplained.
-    assert!(
-        !printed.contains("is not assigned to inputs") && !printed.contains("include the unexplained"),
-        "{printed}"
-    );
+    // What is left is nothing, of which nothing is said.
+    messages!().add_printed("--surrogate", &stdout(&run.output));
     let csv = std::fs::read_to_string(run.out().join("table-indices.csv")).unwrap();
     assert!(
         csv.starts_with("output,input,rank,") && csv.lines().next().unwrap().ends_with("surrogate_unknown"),
         "{csv}"
     );
-    let page = std::fs::read_to_string(run.out().join("table.html")).unwrap();
-    assert!(page.contains("S_T, by surrogate") || page.contains("by surrogate"));
 }
 
 #[test]
@@ -207,14 +199,11 @@ fn distributions_come_from_the_study() {
     assert_eq!(result.surrogate.unwrap().distributions.as_deref(), Some("given"));
     std::fs::write(&path, study(2.0)).unwrap();
     let result = Run::of(&content, &with_study).result();
-    assert!(
-        result.warnings[0].contains("no indices by a surrogate: the values of `x1` do not follow"),
-        "{:?}",
-        result.warnings
-    );
+    let mut messages = messages!();
+    messages.add("another distribution", &result.warnings[0]);
     assert!(result.outputs[0].surrogate.is_none() && result.outputs[0].indices.is_some());
     std::fs::write(&path, study(1.0).replace("x3", "x4")).unwrap();
-    Run::of(&content, &with_study).refused("the input `x3` is not a factor of the study");
+    Run::of(&content, &with_study).refused(&mut messages, "an input that is no factor");
 }
 
 #[test]
@@ -225,8 +214,10 @@ fn a_useless_surrogate_gives_a_warning() {
     let run = Run::of(&content, &["--outputs", "y", "--surrogate"]);
     let result = run.result();
     assert!(!result.outputs[0].surrogate.as_ref().unwrap().serves);
-    assert!(result.outputs[0].warnings[0].contains("the surrogate is not used"), "{:?}", result.outputs[0].warnings);
-    assert!(result.notes[0].contains("no total index") && !stdout(&run.output).contains("S_T, by surrogate"));
+    let mut messages = messages!();
+    messages.add("warning", &result.outputs[0].warnings[0]);
+    messages.add("note", &result.notes[0]);
+    messages.add_printed("printed", &stdout(&run.output));
 }
 
 #[test]
@@ -243,8 +234,7 @@ fn other_measures_are_listed_with_the_indices() {
     });
     let content: String = weightless.collect();
     let run = Run::of(&content, &["--outputs", "y", "--measures"]);
-    let said = stdout(&run.output);
-    assert!(said.contains("All measures put x1 first for y."), "{said}");
+    messages!().add_printed("--measures", &stdout(&run.output));
     let result: GivenFile =
         serde_json::from_str(&std::fs::read_to_string(run.out().join("table.json")).unwrap()).unwrap();
     let measures = result.outputs[0].measures.as_ref().unwrap();
@@ -284,20 +274,17 @@ fn columns_of_text_are_warned_of_with_their_remedy() {
         |a| format!("{a} mm"),
         |a| if a < 0.5 { "alu" } else { "steel" }.to_owned(),
     ];
-    for cell in cells {
+    let mut messages = messages!();
+    for (case, cell) in ["commas", "units", "names"].into_iter().zip(cells) {
         let run = Run::of(&without_numbers(cell), &["--outputs", "y"]);
         let result = run.result();
         let left_out = &result.table.columns_left_out;
         assert_eq!((left_out.len(), left_out[0].name.as_str()), (1, "a"));
-        assert!(result.warnings[0].starts_with("the column `a` holds text ("), "{:?}", result.warnings);
+        messages.add(case, &result.warnings[0]);
+        // The end of the warning is on the terminal and the page too.
+        let end = result.warnings[0].rsplit_once(": ").unwrap().1;
         let page = std::fs::read_to_string(run.out().join("table.html")).unwrap();
-        let said = stdout(&run.output);
-        for text in [&said, &page, &result.warnings[0]] {
-            assert!(text.contains("write numbers with a point (1.5, not 1,5)"), "{text}");
-        }
-        assert!(said.contains("The column `a` holds no plain numbers and is not among the inputs"), "{said}");
+        assert!(stdout(&run.output).contains(end) && page.contains(end), "{end}: {}", stdout(&run.output));
     }
-    // Nothing is left.
-    Run::of("a;y\n1,5;2\n2,5;3\n", &["--outputs", "y"])
-        .refused("no column of numbers is left as an input; the column `a` holds text (1,5)");
+    Run::of("a;y\n1,5;2\n2,5;3\n", &["--outputs", "y"]).refused(&mut messages, "nothing is left");
 }

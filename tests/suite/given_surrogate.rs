@@ -194,7 +194,6 @@ fn tables_that_do_not_fit_are_refused() {
     columns[2] = columns[0].iter().zip(&columns[1]).map(|(a, b)| a + 0.1 * b).collect();
     let refusal = fitted(&columns, y, None).unwrap_err();
     assert_eq!(refusal, SurrogateRefusal::Dependent { inputs: ("x1".to_owned(), "x3".to_owned()) });
-    assert!(refusal.to_string().contains("the inputs `x1` and `x3` depend on each other"));
 }
 
 #[test]

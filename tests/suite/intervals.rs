@@ -75,7 +75,7 @@ fn a_rare_event_has_indices_and_a_warning() {
         let result = analysed("if(a > 0.999, 1, 0)", UNIFORM, &format!("base_samples = 1024\nseed = {seed}"));
         let output = output(&result);
         if output.variance == Some(0.0) {
-            assert!(output.reason.as_ref().unwrap().contains("zero variance"));
+            assert!(output.reason.is_some() && output.indices.is_none());
             continue;
         }
         let indices = output.indices.as_ref().unwrap_or_else(|| panic!("seed {seed}: {:?}", output.reason));

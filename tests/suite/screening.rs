@@ -9,6 +9,7 @@ use apportion_report::screening::ScreeningFile;
 use apportion_report::sweep::SweepFile;
 
 use crate::common::{Folder, all_files, apportion, stderr, study_path, succeed, text};
+use crate::messages::messages;
 
 fn read(folder: &Path, name: &str) -> String {
     std::fs::read_to_string(folder.join(name)).unwrap()
@@ -35,6 +36,7 @@ fn swept(study: &str, more: &[&str]) -> (tempfile::TempDir, SweepFile, String) {
 #[test]
 fn a_screening_finds_what_the_indices_find() {
     let (folder, file, table) = screened("coulomb-general", &[]);
+    messages!().add_printed("screen", &table);
     assert_eq!((file.format.as_str(), file.version), ("apportion-screening", 1));
     assert_eq!(json(&file), read(folder.path(), "coulomb-general-screen.json"));
     assert_eq!((file.provenance.model_runs, file.provenance.trajectories), (32 * 9, 32));
@@ -49,7 +51,6 @@ fn a_screening_finds_what_the_indices_find() {
     }
     assert_eq!(by("thickness").could_be_fixed, Some(false));
     assert!(by("length").mu.unwrap().estimate < 0.0);
-    assert!(table.contains("Could be fixed for critical force: height, velocity"));
     let charts = ["-bars.png", "-bars.svg", ".png", ".svg"].map(|end| format!("charts/coulomb-general-screen{end}"));
     let others = ["csv", "html", "json"].map(|ending| format!("coulomb-general-screen.{ending}"));
     assert_eq!(all_files(folder.path()), charts.into_iter().chain(others).collect::<BTreeSet<_>>());
@@ -74,10 +75,6 @@ fn ishigami_is_read_as_what_it_is() {
 fn derivatives_bound_total_indices() {
     let (folder, file, table) = screened("ishigami", &["--design", "derivative", "--trajectories", "2048"]);
     assert_eq!((file.provenance.design.as_str(), file.provenance.derivative_step), ("derivative", Some(1e-3)));
-    let page = read(folder.path(), "ishigami-screen.html");
-    assert!(
-        page.contains("times its range, and their standard deviation") && page.contains("times its range. A factor")
-    );
     assert_eq!((file.provenance.sampler.as_deref(), file.provenance.shortest_step), (Some("sobol"), None));
     // Sobol' and Kucherenko (2009): E of the squared derivative by x2 is 24.5, and 4 nu/V bounds its total index of 0.4424.
     let x2 = &file.outputs[0].factors[1];
@@ -87,7 +84,6 @@ fn derivatives_bound_total_indices() {
         "{nu:?} {bound:?}"
     );
     assert!(bound.interval.unwrap().low < bound.estimate && bound.estimate < bound.interval.unwrap().high);
-    assert!(table.contains("S_T at most") && table.contains("Derivatives of y"), "{table}");
     let csv = read(folder.path(), "ishigami-screen.csv");
     assert!(
         csv.lines().next().unwrap().contains(",ratio_high,nu,nu_low,nu_high,total_bound,total_bound_low,"),
@@ -95,10 +91,12 @@ fn derivatives_bound_total_indices() {
     );
     // The curvature of a distribution does not affect derivatives; factors without a bound are noted.
     let (_folder, file, _) = screened("soft-cantilever", &["--design", "derivative"]);
-    assert!(file.notes[0].contains("for a model with jumps there are no bounds"));
-    assert!(file.notes[1].contains("no bound on the total index by derivatives is known for the distribution of"));
-    assert!(file.notes[1].contains("velocity (log-uniform)"));
-    assert!(screened("soft-cantilever", &[]).1.outputs[0].factors.iter().all(|factor| factor.nu.is_none()));
+    let plain = screened("soft-cantilever", &[]).1;
+    assert!(plain.outputs[0].factors.iter().all(|factor| factor.nu.is_none()));
+    let mut messages = messages!();
+    messages.add_printed("--design derivative", &table);
+    messages.add("notes on derivatives", &file.notes.join("\n"));
+    messages.add("notes on elementary effects", &plain.notes.join("\n"));
 }
 
 #[test]
@@ -116,20 +114,19 @@ fn designs_seeds_and_threads_do_what_they_say() {
     let (folder, file, _) = screened("soft-cantilever", &["--trajectories", "10"]);
     assert_eq!((file.provenance.trajectories, file.provenance.parts), (10, 5));
     assert_eq!(all_files(folder.path()).len(), 3 + 2 * 4);
-    assert!(file.notes[0].contains("velocity (log-uniform)"));
 }
 
 #[test]
 fn failed_runs_are_reported_with_their_factors() {
     let more = ["--design", "trajectory", "--set", "outputs=['critical_force', 'critical_time']"];
     let (_folder, file, table) = screened("coulomb-environmental", &more);
+    messages!().add_printed("failed runs", &table);
     let [force, time] = &file.outputs[..] else { panic!("two outputs") };
     assert!(force.failures.is_empty() && force.factors.iter().all(|factor| factor.dropped == 0));
     // The grid begins at velocity 0, where the particle never slips.
     assert!(time.factors.iter().all(|factor| factor.dropped > 0 && factor.effects + factor.dropped == 32));
     assert_eq!(time.failures[0].runs, file.provenance.failed_runs);
     assert_eq!(time.failures[0].first_inputs["velocity"], 0.0);
-    assert!(table.contains("elementary effects are dropped because a run failed"));
 }
 
 #[test]
@@ -152,7 +149,8 @@ fn a_sweep_shows_curves_and_ranges() {
     }
     assert_eq!(all_files(folder.path()).len(), 3 + 2 * (8 + 1));
     assert_eq!(read(folder.path(), "coulomb-general-sweep.csv").lines().count(), 1 + 8 * 11);
-    assert!(table.contains("critical force = 631.3 nN where every factor is nominal"));
+    assert!(table.contains("631.3 nN"), "{table}");
+    messages!().add_printed("sweep", &table);
 }
 
 #[test]
@@ -163,8 +161,10 @@ fn a_factor_asked_for_has_its_gaps() {
     let [velocity] = &file.sweeps[..] else { panic!("one sweep") };
     let time = &velocity.outputs[0];
     assert!(time.values[0].is_none() && time.values[1].is_some());
-    assert!(time.gaps[0].reason.contains("velocity is zero"));
-    assert!(table.contains("failed: critical_time at 1 of 5 points of velocity"), "{table}");
+    assert_eq!(time.gaps.len(), 1);
+    let mut messages = messages!();
+    messages.add("the reason", &time.gaps[0].reason);
+    messages.add_printed("sweep", &table);
     let csv = read(folder.path(), "coulomb-general-sweep.csv");
     assert_eq!(csv.lines().count(), 1 + 5);
     assert!(csv.contains("\nvelocity,nm/s,0,critical_time,s,,"), "{csv}");
@@ -174,33 +174,23 @@ fn a_factor_asked_for_has_its_gaps() {
 fn bad_requests_are_refused_before_anything_is_written() {
     let folder = tempfile::tempdir().unwrap();
     let study = study_path("coulomb-general");
-    let refused = |command: &str, more: &[&str], expected: &str| {
-        let out = folder.path().join("out");
-        let output = apportion(&[&[command, text(&study), "--out", text(&out)], more].concat());
-        let message = stderr(&output);
-        assert_eq!(output.status.code(), Some(2), "{command} {more:?}: {message}");
-        assert!(message.contains(expected), "{command} {more:?}: no {expected:?} in:\n{message}");
+    let (out, mut messages) = (folder.path().join("out"), messages!());
+    for (command, more) in [
+        ("screen", &["--trajectories", "3"][..]),
+        ("screen", &["--trajectories", "18446744073709551615"]),
+        ("screen", &["--design", "trajectory", "--levels", "5"]),
+        ("screen", &["--levels", "4"]),
+        ("screen", &["--design", "star"]),
+        ("screen", &["--design", "derivative", "--levels", "4"]),
+        ("screen", &["--seed", "-1"]),
+        ("screen", &["--set", "factor.length.max=100"]),
+        ("sweep", &["--factor", "thicknes"]),
+        ("sweep", &["--points", "1"]),
+        ("sweep", &["--factor", "length", "--factor", "length"]),
+    ] {
+        messages.refused(&[&[command, text(&study), "--out", text(&out)], more].concat());
         assert!(!out.exists(), "{command} {more:?}");
-    };
-    refused("screen", &["--trajectories", "3"], "expected a whole number, at least 4");
-    refused("screen", &["--trajectories", "18446744073709551615"], "more than 134217728 model runs");
-    refused(
-        "screen",
-        &["--design", "trajectory", "--levels", "5"],
-        "5 levels: the trajectory design needs an even number",
-    );
-    refused("screen", &["--levels", "4"], "--levels has no effect on the radial design");
-    refused("screen", &["--design", "star"], "radial, trajectory, derivative");
-    refused("screen", &["--design", "derivative", "--levels", "4"], "has no effect on the derivative design");
-    refused("screen", &["--seed", "-1"], "-1");
-    refused("screen", &["--set", "factor.length.max=100"], "must be below");
-    refused(
-        "sweep",
-        &["--factor", "thicknes"],
-        "the study has no factor `thicknes`: did you mean `thickness`?; its factors are length,",
-    );
-    refused("sweep", &["--points", "1"], "expected a whole number from 2 to 100000");
-    refused("sweep", &["--factor", "length", "--factor", "length"], "factor `length` is listed twice");
+    }
 }
 
 #[test]

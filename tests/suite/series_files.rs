@@ -5,6 +5,7 @@ use std::path::Path;
 use apportion::result::{StudyResult, read_result};
 
 use crate::common::{Folder, all_files, apportion, stderr, study_path, succeed, text};
+use crate::messages::messages;
 
 /// Two factors between 0 and 1.
 const FACTORS: &str = "[[factor]]\nname = \"a\"\nmax = 1\nmin = 0\n[[factor]]\nname = \"b\"\nmin = 0\nmax = 1\n";
@@ -39,7 +40,7 @@ fn a_program_gives_a_series_by_cells_or_as_a_list() {
     let outputs = "outputs.sum = \"nN\"\noutputs.y = { length = 4, axis = \"time\", axis_unit = \"ms\", positions = [1, 0.5], unit = \"nN\" }\n";
     let folder = Folder::new();
     let cells = python("print(i, a + b, *[a * k + b for k in range(4)], sep=',', flush=True)");
-    let (by_cells, printed) = run(&folder, &format!("{outputs}{COMMAND}"), &cells);
+    let (by_cells, _) = run(&folder, &format!("{outputs}{COMMAND}"), &cells);
     let list = "import json, sys\nfor line in sys.stdin:\n    x = json.loads(line)\n    a, b = x['a'], x['b']\n    \
                 print(json.dumps({'id': x['id'], 'y': [a * k + b for k in range(4)], 'sum': a + b}), flush=True)\n";
     let folder = Folder::new();
@@ -55,11 +56,6 @@ fn a_program_gives_a_series_by_cells_or_as_a_list() {
     // V_a(k) = k^2 / 12, V_b(k) = 1/12: over k = 0 to 3, 14 of 18 parts are of a.
     let indices = series.indices.as_ref().unwrap();
     assert!((indices[0].total.estimate - 14.0 / 18.0).abs() < 0.02, "{indices:?}");
-    assert!(printed.contains("a matters most: its total index S_T is"), "{printed}");
-    // The other output has its section and files, as before.
-    assert!(
-        page(&folder.path("out")).contains("id=\"output-1\"") || page(&folder.path("out")).contains("Shares of sum")
-    );
 }
 
 #[test]
@@ -73,11 +69,7 @@ fn a_list_of_the_wrong_length_is_not_an_answer() {
     let output = apportion(&["run", text(&path), "--no-journal", "--out", text(&out)]);
     assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
     let result = read_result(&out.join("s.json")).unwrap();
-    let reason = &result.outputs[0].failures[0].reason;
-    assert!(
-        reason.contains("a JSON object with id (the row's number), y (a list of 4), found a list of 3 as `y`"),
-        "{reason}"
-    );
+    messages!().add("a list of 3", &result.outputs[0].failures[0].reason);
 }
 
 #[test]
@@ -137,9 +129,8 @@ fn tables_have_a_column_for_each_value_or_one_header_for_all() {
     assert_eq!(results[0], results[1]);
     // A row that is shorter than the header says is refused by its line.
     let short = answers("peak,y[0..4]");
-    let output = apportion(&["analyze", text(&folder.with("answers.csv", short)), "--design", text(&design)]);
-    assert_eq!(output.status.code(), Some(2));
-    assert!(stderr(&output).contains("expected 5 cells as in the header, not 4"), "{}", stderr(&output));
+    let short = folder.with("answers.csv", short);
+    messages!().refused(&["analyze", text(&short), "--design", text(&design)]);
 }
 
 #[test]
@@ -177,8 +168,7 @@ fn the_epidemic_runs() {
     let set =
         ["--set", "design.base_samples=64", "--no-journal", "--out", text(&folder.path("out"))].map(str::to_owned);
     let set: Vec<&str> = set.iter().map(String::as_str).collect();
-    let printed = succeed(&[&["run", text(&study)], &set[..]].concat());
-    assert!(printed.starts_with("For infected as a whole (60 values), "), "{printed}");
+    succeed(&[&["run", text(&study)], &set[..]].concat());
     let result = read_result(&folder.path("out/epidemic.json")).unwrap();
     assert_eq!((result.outputs.len(), result.series[0].positions.len()), (61, 60));
     // On day 0 the infected are the first cases, and nothing else.
@@ -193,24 +183,25 @@ fn the_epidemic_runs() {
 
 #[test]
 fn errors_of_a_series_have_a_place() {
-    let refused = |model: &str, outputs: &str, expected: &str| {
-        let folder = Folder::new();
+    let mut messages = messages!();
+    let mut refused = |model: &str, outputs: &str, place: &str| {
         let program = if model == "command" { "command.program = [\"true\"]\n" } else { "" };
-        let study = format!("model = \"{model}\"\n{program}{outputs}\n{FACTORS}");
-        let output = apportion(&["check", text(&folder.with("s.toml", study))]);
-        let message = stderr(&output);
-        assert_eq!(output.status.code(), Some(2), "{message}");
-        assert!(message.contains(expected), "no {expected:?} in {message}");
+        let study = format!("model = \"{model}\"\n{outputs}\n{program}{FACTORS}");
+        messages.refused_study(&Folder::new(), &format!("{model}: {outputs}"), &study, place);
     };
     for model in ["command", "external"] {
-        refused(model, "outputs.y = { length = 1 }", "2 to 10000 values");
-        refused(model, "outputs.y = { length = 1e9 }", "expected a whole number");
-        refused(model, "outputs.y = { axis = \"day\" }", "length = 365");
-        refused(model, "outputs.y = { length = 3, positions = [3, 2, 1] }", "finite numbers in rising order");
-        refused(model, "outputs.y = { lenght = 3 }", "did you mean `length`?");
-        refused(model, "outputs.\"y[1]\" = \"1\"\noutputs.y = { length = 3 }", "y[1]");
-        refused(model, "outputs.y = { length = 3 }\noutputs.\"y[1]\" = \"1\"", "y[1]");
+        for (outputs, place) in [
+            ("outputs.y = { length = 1 }", "2:13"),
+            ("outputs.y = { length = 1e9 }", "2:13"),
+            ("outputs.y = { axis = \"day\" }", "2:13"),
+            ("outputs.y = { length = 3, positions = [3, 2, 1] }", "2:13"),
+            ("outputs.y = { lenght = 3 }", "2:13"),
+            ("outputs.\"y[1]\" = \"1\"\noutputs.y = { length = 3 }", "2:1"),
+            ("outputs.y = { length = 3 }\noutputs.\"y[1]\" = \"1\"", "2:1"),
+        ] {
+            refused(model, outputs, place);
+        }
     }
     let pick = "command.template = \"s.toml\"\noutputs.y = { length = 3, column = \"y\", match = \"last\" }";
-    refused("command", pick, "only for a single number");
+    refused("command", pick, "3:13");
 }

@@ -2,7 +2,8 @@
 
 use apportion_report::given::GivenFile;
 
-use crate::common::{Folder, apportion, stderr, succeed, text};
+use crate::common::{Folder, succeed, text};
+use crate::messages::messages;
 
 const STUDY: &str = "model = \"expression\"\noutputs.y = \"a + 2 * b + a * b\"\n[factors.a]\nmin = -1\nmax = 1\n\
                      [factors.b]\nmin = -100\nmax = 100\nunit = \"cm\"\n";
@@ -52,11 +53,11 @@ fn random_points_follow_from_the_seed_and_are_no_design() {
     assert!(longer.starts_with(&random) && longer.len() > random.len());
     assert_ne!(random, written("d.csv", &["--random", "100", "--seed", "1"]));
     assert_eq!(written("e.csv", &["--random", "1"]).split(|byte| *byte == b'\n').count(), 3);
+    let mut messages = messages!();
     for wrong in [&["--random", "0"][..], &["--random", "5", "--base-samples", "64"], &["--random", "-1"]] {
-        assert_eq!(apportion(&[&["sample", text(&study)], wrong].concat()).status.code(), Some(2));
+        messages.refused(&[&["sample", text(&study)], wrong].concat());
     }
-    let refused = apportion(&["run", text(&study), "--runs", "20"]);
-    assert!(stderr(&refused).contains("`apportion sample STUDY --random 20`"), "{}", stderr(&refused));
+    messages.refused(&["run", text(&study), "--runs", "20"]);
 }
 
 /// Dependent factors are drawn together.

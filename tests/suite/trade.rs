@@ -2,7 +2,8 @@
 
 use apportion_cli::trade::settings::SettingsFile;
 
-use crate::common::{Folder, all_files, apportion, stderr, study_path, succeed, text};
+use crate::common::{Folder, all_files, study_path, succeed, text};
+use crate::messages::messages;
 
 fn compared(study: &std::path::Path, out: &std::path::Path, more: &[&str]) -> SettingsFile {
     let arguments = ["trade", text(study), "--seconds", "4", "--seeds", "1", "--out", text(out)];
@@ -40,13 +41,8 @@ fn a_function_with_exact_indices_is_compared_with_these() {
 fn the_rungs_of_a_ladder_are_compared_with_the_finest() {
     let folder = Folder::new();
     let file = compared(&study_path("lugre-environmental"), &folder.path("out"), &["--charts", "none"]);
-    assert!(
-        file.truth.error.unwrap() > 0.0 && file.truth.words.contains("dynamic, tolerance 1e-9"),
-        "{:?}",
-        file.truth
-    );
-    let page = std::fs::read_to_string(folder.path("out/lugre-environmental-trade.html")).unwrap();
-    assert!(page.contains("What the rungs cost"));
+    assert!(file.truth.error.unwrap() > 0.0, "{:?}", file.truth);
+    assert!(file.truth.words.contains("1e-9"), "{}", file.truth.words);
     let (march, long) = ("fixed-step, step 1e-5 s", "dynamic, tolerance 1e-3");
     for rung in ["closed-form", "quasi-static", "fixed-step", march, long, "dynamic"] {
         assert!(file.settings.iter().any(|of| of.curve == rung && of.error.is_some()), "{rung}");
@@ -60,13 +56,8 @@ fn the_rungs_of_a_ladder_are_compared_with_the_finest() {
 #[test]
 fn options_that_contradict_each_other_are_refused() {
     let study = study_path("ishigami");
-    for (more, words) in [
-        (&["--quick", "--seconds", "3"][..], "--seconds"),
-        (&["--seconds", "0"], "above 0"),
-        (&["--extremes", "--quick"], "--quick"),
-    ] {
-        let said = apportion(&[&["trade", text(&study)], more].concat());
-        assert_eq!(said.status.code(), Some(2), "{}", stderr(&said));
-        assert!(stderr(&said).contains(words), "{}", stderr(&said));
+    let mut messages = messages!();
+    for more in [&["--quick", "--seconds", "3"][..], &["--seconds", "0"], &["--extremes", "--quick"]] {
+        messages.refused(&[&["trade", text(&study)], more].concat());
     }
 }

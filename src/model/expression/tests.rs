@@ -51,18 +51,19 @@ fn operators_bind_as_in_mathematics() {
     }
 }
 
+/// What is said of a formula that is none, whose fault is at `place`.
+#[track_caller]
+fn refused(text: &str, place: &str) -> String {
+    let error = Expression::parse(text, &symbol).expect_err(text);
+    assert_eq!(&text[error.place.clone()], place, "{text}");
+    format!("{text}: {error}")
+}
+
 #[test]
 fn names_with_points_are_unknown() {
-    for (text, message, place) in [
-        ("np.sin(x)", "there is no function `np.sin`", "np.sin"),
-        ("1 + scipy.special.erf(x)", "there is no function `scipy.special.erf`", "scipy.special.erf"),
-        ("np.x1", "there is no `np.x1`", "np.x1"),
-        ("np.", "`.` is not a number", "."),
-    ] {
-        let error = Expression::parse(text, &symbol).expect_err(text);
-        assert!(error.to_string().contains(message), "{text}: {error}");
-        assert_eq!(&text[error.place.clone()], place, "{text}");
-    }
+    let cases =
+        [("np.sin(x)", "np.sin"), ("1 + scipy.special.erf(x)", "scipy.special.erf"), ("np.x1", "np.x1"), ("np.", ".")];
+    insta::assert_snapshot!(cases.map(|(text, place)| refused(text, place)).join("\n"));
 }
 
 #[test]
@@ -109,35 +110,31 @@ fn nan_is_never_hidden() {
 
 #[test]
 fn faults_are_named_with_their_place() {
-    let cases: [(&str, &str, &str); 22] = [
-        ("", "the formula is empty", ""),
-        ("  ", "the formula is empty", "  "),
-        ("a*z", "there is no `z`", "z"),
-        ("a*sinn(x)", "there is no function `sinn`", "sinn"),
-        ("sin", "`sin` is a function: write sin(x)", "sin"),
-        ("sin x", "`sin` is a function: write sin(x)", "sin"),
-        ("sin(x, y)", "`sin` takes one argument, not 2", "sin(x, y)"),
-        ("sin()", "`sin` takes one argument, not 0", "sin()"),
-        ("max(x)", "`max` takes two arguments or more, not 1", "max(x)"),
-        ("log(x)", "`log` has two meanings", "log"),
-        ("a(x)", "`a` is not a function: write a*(...) to multiply", "a"),
-        ("2x", "expected an operator or the end of the formula, not `x`", "x"),
-        ("x +", "expected a number, a name or `(`, not the end of the formula", ""),
-        ("(x + 1", "expected an operator or `)`, not the end of the formula", ""),
-        ("x + 1)", "expected an operator or the end of the formula, not `)`", ")"),
-        ("sin(x", "expected an operator, `,` or `)`, not the end", ""),
-        ("x * / y", "expected a number, a name or `(`, not `/`", "/"),
-        ("x; y", "`;` has no meaning in a formula", ";"),
-        ("y = x", "`=` has no meaning in a formula: `==` compares", "="),
-        ("1 < x < 2", "a second comparison has no meaning", "<"),
-        ("1.2.3*x", "`1.2.3` is not a number", "1.2.3"),
-        ("1e999", "`1e999` is not a number that double precision can hold", "1e999"),
+    let cases = [
+        ("", ""),
+        ("  ", "  "),
+        ("a*z", "z"),
+        ("a*sinn(x)", "sinn"),
+        ("sin", "sin"),
+        ("sin x", "sin"),
+        ("sin(x, y)", "sin(x, y)"),
+        ("sin()", "sin()"),
+        ("max(x)", "max(x)"),
+        ("log(x)", "log"),
+        ("a(x)", "a"),
+        ("2x", "x"),
+        ("x +", ""),
+        ("(x + 1", ""),
+        ("x + 1)", ")"),
+        ("sin(x", ""),
+        ("x * / y", "/"),
+        ("x; y", ";"),
+        ("y = x", "="),
+        ("1 < x < 2", "<"),
+        ("1.2.3*x", "1.2.3"),
+        ("1e999", "1e999"),
     ];
-    for (text, message, place) in cases {
-        let error = Expression::parse(text, &symbol).expect_err(text);
-        assert!(error.to_string().contains(message), "{text}: {error}");
-        assert_eq!(&text[error.place.clone()], place, "{text}");
-    }
+    insta::assert_snapshot!(cases.map(|(text, place)| refused(text, place)).join("\n"));
     let deep = format!("{}x{}", "(".repeat(100_000), ")".repeat(100_000));
     assert_eq!(Expression::parse(&deep, &symbol).expect_err("deep").problem, ExpressionProblem::TooDeep);
     let signs = "-".repeat(100_000) + "x";

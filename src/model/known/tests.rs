@@ -252,22 +252,22 @@ fn outside_their_domain_functions_have_a_reason_and_no_value() {
 
 #[test]
 fn parameters_that_make_no_sense_are_refused() {
-    let refused = |name: &str, parameters: Parameters<'_>| known(name, parameters).unwrap_err().to_string();
-    assert_eq!(refused("flood", &[("a", &[1.0])]), "the function has no parameter `a`");
-    assert_eq!(refused("sobol-g", &[("a", &[0.0, -1.0])]), "`a` must be 0 or greater, not -1");
-    assert_eq!(refused("sobol-g", &[("a", &[])]), "`a` has 0 entries, but must have 1 to 4096");
-    assert_eq!(
-        refused("sobol-g", &[("a", &[0.0, 1.0]), ("dimension", &[3.0])]),
-        "`a` has 2 entries, but the function has 3 inputs"
-    );
-    assert!(refused("sobol-g", &[("dimension", &[2.5])]).contains("a whole number from 1 to 4096, not 2.5"));
-    assert!(refused("sobol-g", &[("dimension", &[1e9])]).contains("4096"));
-    assert!(refused("ishigami", &[("a", &[1.0, 2.0])]).contains("one number, not a list"));
-    assert!(refused("ishigami", &[("b", &[f64::NAN])]).contains("finite"));
-    assert!(refused("minimum", &[("dimension", &[1.0])]).contains("from 2"));
-    assert!(refused("simplex", &[("dimension", &[13.0])]).contains("2 to 12"));
-    assert!(refused("sobol-levitan", &[("b", &[300.0]), ("dimension", &[2.0])]).contains("350"));
-    assert!(refused("product", &[("sigma", &[0.0])]).contains("greater than 0"));
-    assert!(refused("product", &[("sigma", &[1e308])]).contains("sigma"));
-    assert!(refused("g-star", &[("delta", &[1.5])]).contains("between 0 and 1"));
+    let cases: [(&str, Parameters<'_>); 14] = [
+        ("flood", &[("a", &[1.0])]),
+        ("sobol-g", &[("a", &[0.0, -1.0])]),
+        ("sobol-g", &[("a", &[])]),
+        ("sobol-g", &[("a", &[0.0, 1.0]), ("dimension", &[3.0])]),
+        ("sobol-g", &[("dimension", &[2.5])]),
+        ("sobol-g", &[("dimension", &[1e9])]),
+        ("ishigami", &[("a", &[1.0, 2.0])]),
+        ("ishigami", &[("b", &[f64::NAN])]),
+        ("minimum", &[("dimension", &[1.0])]),
+        ("simplex", &[("dimension", &[13.0])]),
+        ("sobol-levitan", &[("b", &[300.0]), ("dimension", &[2.0])]),
+        ("product", &[("sigma", &[0.0])]),
+        ("product", &[("sigma", &[1e308])]),
+        ("g-star", &[("delta", &[1.5])]),
+    ];
+    let messages = cases.map(|(name, parameters)| format!("{name}: {}", known(name, parameters).unwrap_err()));
+    insta::assert_snapshot!(messages.join("\n"));
 }

@@ -155,13 +155,9 @@ fn a_label_is_any_text_and_a_known_unit_stays_one() {
 
 #[test]
 fn unknown_units_are_named_and_corrected() {
-    let text = |input: &str| Unit::parse(input).expect_err(input).to_string();
-    assert!(text("gpa").contains("did you mean \"GPa\"?"), "{}", text("gpa"));
-    assert!(text("nm/fortnight").contains("\"fortnight\" is not understood;"), "{}", text("nm/fortnight"));
-    assert!(text("Mpa").contains("did you mean \"MPa\"?"), "{}", text("Mpa"));
-    assert!(text("furlong/s").contains("units look like"));
-    assert!(text("EUR").ends_with("may have none: their numbers are then passed unchanged"), "{}", text("EUR"));
-    assert!(text("N/m s").contains("two ways"));
+    let messages = ["gpa", "nm/fortnight", "Mpa", "furlong/s", "EUR", "N/m s"]
+        .map(|input| Unit::parse(input).expect_err(input).to_string());
+    insta::assert_snapshot!(messages.join("\n"));
     let odd = [
         "/",
         "m/",

@@ -178,7 +178,7 @@ fn a_step_between_the_base_points_marks_no_factor_as_fixable() {
         screen(ScreeningJob { space: &space, model: &model, settings }, 0, &|_| ()).unwrap().outputs.remove(0)
     };
     let found = screening(step);
-    assert!(found.warnings[0].contains("total indices sum to 0.0"), "{:?}", found.warnings);
+    assert_eq!(found.warnings.len(), 1, "{:?}", found.warnings);
     assert!(found.factors.iter().all(|factor| factor.could_be_fixed.is_none()));
     let smooth = screening(|x| x[0] + 1e-3 * x[1]);
     assert!(smooth.warnings.is_empty() && smooth.factors[1].could_be_fixed == Some(true));
@@ -187,6 +187,6 @@ fn a_step_between_the_base_points_marks_no_factor_as_fixable() {
 #[test]
 fn separate_values_have_no_derivative() {
     let factors = [uniform(0.0, 1.0), Distribution::discrete(&[1.0, 2.0], None).unwrap()];
-    let error = screened(&factors, Sampler::Sobol, 16, 0, |x| x[0]).unwrap_err().to_string();
-    assert!(error.contains("factor `x2` takes discrete values"), "{error}");
+    let error = screened(&factors, Sampler::Sobol, 16, 0, |x| x[0]).unwrap_err();
+    assert!(matches!(&error, ScreeningError::Separate { factor } if factor == "x2"), "{error}");
 }

@@ -49,9 +49,7 @@ fn pearson_correlations_of_log_normal_factors_have_a_closed_form() {
     }
     let error = copula(&space, &[Dependence::pair("a", "b", -0.9)]).unwrap_err();
     let [low, high] = [-s1, s1].map(|s1| libm::expm1(s1 * s2) / size);
-    let expected =
-        format!("cannot have a Pearson correlation of -0.9: their distributions allow {low:.4} to {high:.4}");
-    assert!(error.to_string().ends_with(&expected), "{error}");
+    assert!(error.to_string().ends_with(&format!("{low:.4} to {high:.4}")), "{error}");
 }
 
 #[test]
@@ -65,22 +63,22 @@ fn discrete_factors_have_pearson_correlations_too() {
 #[test]
 fn invalid_settings_are_refused_with_advice() {
     let space = space(vec![uniform(), uniform(), uniform(), Distribution::constant(1.0).unwrap()]);
-    let message = |dependences: &[Dependence]| copula(&space, dependences).unwrap_err().to_string();
     let pair = |a: &str, b: &str| Dependence::pair(a, b, 0.5);
-    assert!(message(&[pair("a", "x")]).contains("`x`, which is not a factor"));
-    assert!(message(&[pair("a", "a")]).contains("each named once"));
-    assert!(message(&[pair("a", "b"), pair("b", "a")]).contains("`b` and `a` is stated twice"));
-    assert!(message(&[pair("a", "d")]).contains("`d` is a constant"));
-    assert!(message(&[Dependence::pair("a", "b", 1.0)]).contains("between -1 and 1"));
-    assert!(message(&[Dependence::pair("a", "b", f64::NAN)]).contains("between -1 and 1"));
-    assert!(message(&[Dependence::new(&["a", "b"], vec![vec![1.0]])]).contains("2 rows with 2 numbers"));
-    let skewed = vec![vec![1.0, 0.5], vec![0.4, 1.0]];
-    assert!(message(&[Dependence::new(&["a", "b"], skewed)]).contains("other side of the diagonal"));
-    let error =
-        message(&[Dependence::pair("a", "b", 0.9), Dependence::pair("b", "c", 0.9), Dependence::pair("a", "c", -0.9)]);
-    assert!(error.contains("not positive definite") && error.contains("[\"a\", \"b\", \"c\"]"), "{error}");
+    let messages = [
+        &[pair("a", "x")][..],
+        &[pair("a", "a")],
+        &[pair("a", "b"), pair("b", "a")],
+        &[pair("a", "d")],
+        &[Dependence::pair("a", "b", 1.0)],
+        &[Dependence::pair("a", "b", f64::NAN)],
+        &[Dependence::new(&["a", "b"], vec![vec![1.0]])],
+        &[Dependence::new(&["a", "b"], vec![vec![1.0, 0.5], vec![0.4, 1.0]])],
+        &[Dependence::pair("a", "b", 0.9), Dependence::pair("b", "c", 0.9), Dependence::pair("a", "c", -0.9)],
+    ]
+    .map(|dependences| copula(&space, dependences).unwrap_err().to_string());
+    insta::assert_snapshot!(messages.join("\n"));
     // The proposal is accepted.
-    let nearest = error.split("correlation = ").nth(1).unwrap();
+    let nearest = messages[8].split("correlation = ").nth(1).unwrap();
     let nearest: Vec<Vec<f64>> = serde_json::from_str(nearest).unwrap();
     let proposed = Dependence::new(&["a", "b", "c"], nearest).measure(CorrelationMeasure::Normal);
     assert!(copula(&space, &[proposed]).is_ok());
@@ -92,14 +90,11 @@ fn useless_joint_measurements_are_refused_by_name() {
     let rising: Vec<f64> = (0..20).map(f64::from).collect();
     let columns = |other: fn(f64) -> f64| vec![rising.clone(), rising.iter().map(|x| other(*x)).collect()];
     let error = |other| copula(&space, &[Dependence::from_measurements(&["a", "b"], &columns(other))]).unwrap_err();
-    assert!(error(|_| 3.0).to_string().starts_with("the joint measurements of `b` are all the same"));
-    let in_order = |order| format!("the joint measurements of `a` and `b` have the {order} order");
-    assert!(error(|x| x * x).to_string().starts_with(&in_order("same")));
-    assert!(error(|x| -x).to_string().starts_with(&in_order("opposite")));
+    let mut errors = vec![error(|_| 3.0), error(|x| x * x), error(|x| -x)];
     for measure in CorrelationMeasure::ALL {
-        let error = copula(&space, &[Dependence::pair("a", "c", 0.5).measure(measure)]).unwrap_err().to_string();
-        assert!(error.contains("`c` is of one value"), "{error}");
+        errors.push(copula(&space, &[Dependence::pair("a", "c", 0.5).measure(measure)]).unwrap_err());
     }
+    insta::assert_snapshot!(errors.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"));
 }
 
 #[test]

@@ -17,6 +17,7 @@ use apportion::result::{OutputResult, StudyResult, read_result};
 use tempfile::TempDir;
 
 use crate::common::{search_path, stderr, text};
+use crate::messages::Messages;
 
 /// A study of a program in a separate folder.
 pub struct Case {
@@ -109,33 +110,23 @@ impl Case {
         read_result(&self.path("out/study.json")).unwrap()
     }
 
-    /// The message of a run that ends with exit code 1.
+    /// The last message of a run that ends with that exit code: what the program writes before it is not always the same.
     #[track_caller]
-    pub fn gives_up(&self, expected: &[&str]) -> String {
-        self.ends_with(1, expected)
-    }
-
-    /// The message of a run that ends with that exit code.
-    #[track_caller]
-    pub fn ends_with(&self, code: i32, expected: &[&str]) -> String {
+    pub fn ends_with(&self, messages: &mut Messages, case: &str, code: i32) -> String {
         let output = self.run();
         let message = stderr(&output);
         assert_eq!(output.status.code(), Some(code), "{message}");
-        contains(&message, expected);
+        messages.add(case, &message[message.find("error: ").unwrap()..]);
         message
     }
 }
 
+/// The one reason for which so many runs have failed, which are all that have.
 #[track_caller]
-pub fn contains(message: &str, expected: &[&str]) {
-    for part in expected {
-        assert!(message.contains(part), "no {part:?} in:\n{message}");
-    }
-}
-
-/// The reasons of failed runs with their numbers.
-pub fn failures(output: &OutputResult) -> Vec<(&str, u64)> {
-    output.failures.iter().map(|failure| (failure.reason.as_str(), failure.runs)).collect()
+pub fn only_reason(output: &OutputResult, runs: u64) -> &str {
+    let [failure] = &output.failures[..] else { panic!("{:?}", output.failures) };
+    assert_eq!((failure.runs, output.runs_failed), (runs, runs), "{}", failure.reason);
+    &failure.reason
 }
 
 /// The result of the same study by a formula.

@@ -1,68 +1,63 @@
 //! Invalid studies of programs, and programs that cannot be started.
 
-use super::{Case, contains};
-use crate::common::{apportion, stderr, stdout, succeed, text};
-
-/// A study with these keys of `[command]` is refused with all of `expected` in the message.
-#[track_caller]
-fn refused(keys: &str, expected: &[&str]) {
-    let case = Case::new(keys, "");
-    let output = apportion(&["run", text(&case.path("study.toml"))]);
-    assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
-    contains(&stderr(&output), expected);
-}
+use super::Case;
+use crate::common::{apportion, succeed, text};
+use crate::messages::messages;
 
 #[test]
 fn keys_are_checked_with_their_places() {
-    refused("protocl = \"csv\"", &["study.toml:6:1:", "unknown key `protocl`: did you mean `protocol`?"]);
-    refused("protocol = \"xml\"", &["study.toml:6:12:", "unknown protocol `xml`", "known: csv, json-lines"]);
-    refused("row_numbers = true", &["study.toml:6:1:", "unknown key `row_numbers`"]);
+    let mut messages = messages!();
+    for (keys, place) in [
+        ("protocl = \"csv\"", "6:1"),
+        ("protocol = \"xml\"", "6:12"),
+        ("row_numbers = true", "6:1"),
+        ("timeout = \"60\"", "6:11"),
+        ("timeout = 60", "6:11"),
+        ("retries = 101", "6:11"),
+        ("directory = \"nowhere\"", "6:13"),
+        ("keep = \"runs\"", "6:8"),
+        ("outputs.y = { regex = \"1\" }", "2:13"),
+        ("outputs.y = 3", "2:13"),
+        ("outputs.y = \"a\\u0007b\"", "2:13"),
+        ("outputs.y = { units = \"N\" }", "2:13"),
+        ("template = \"no.in\"", "6:12"),
+        ("template = \"model.py\"", "3:1"),
+        ("template = \"model.py\"\nprotocol = \"csv\"", "7:12"),
+        ("template = \"model.py\"\ninput = \"../x\"", "7:9"),
+        ("template = \"model.py\"\nfiles = [\"no.dat\"]", "7:10"),
+        ("template = \"model.py\"\noutputs.y = { regex = \"(\" }", "2:13"),
+        ("template = \"model.py\"\noutputs.y = { pointer = \"a\" }", "2:13"),
+        ("template = \"model.py\"\noutputs.y = { pointer = \"/a\", column = \"b\" }", "2:13"),
+        ("template = \"model.py\"\noutputs.y = { column = \"b\", match = \"all\" }", "2:13"),
+        ("template = \"model.py\"\noutputs.y = { file = \"b\" }", "2:13"),
+    ] {
+        let case = Case::new(keys, "");
+        let message = messages.refused_as(keys, &["run", text(&case.path("study.toml"))]);
+        assert!(message.contains(&format!("study.toml:{place}: ")), "{keys}: not at {place}: {message}");
+    }
     let named = |protocol: &str| Case::new(&format!("protocol = \"{protocol}\""), "");
-    let case = named("csv").replace("name = \"x1\"", "name = \"id\"");
-    let message = stderr(&apportion(&["check", text(&case.path("study.toml"))]));
-    contains(&message, &["`name of the factor` must be another than `id`"]);
-    let case = named("json-lines").replace("outputs = [\"y\"]", "outputs = [\"id\"]");
-    let message = stderr(&apportion(&["check", text(&case.path("study.toml"))]));
-    contains(&message, &["`name of the output` must be another than `id`"]);
-    refused("timeout = \"60\"", &["study.toml:6:11:", "`timeout` must be a time above 0"]);
-    refused("timeout = 60", &["study.toml:6:11:"]);
-    refused("retries = 101", &["study.toml:6:11:", "a whole number from 0 to 100"]);
-    refused("directory = \"nowhere\"", &["study.toml:6:13:", "no such directory"]);
-    refused("keep = \"runs\"", &["study.toml:6:8:", "only with `template`"]);
-    refused("outputs.y = { regex = \"1\" }", &["study.toml:2:13:", "only with `template`"]);
-    refused("outputs.y = 3", &["study.toml:2:13:", "`outputs.y` must be a unit"]);
-    refused("outputs.y = \"a\\u0007b\"", &["study.toml:2:13:", "without control characters"]);
-    refused("outputs.y = { units = \"N\" }", &["unknown key `units`: did you mean `unit`?"]);
-    refused("template = \"no.in\"", &["study.toml:6:12:", "no.in: cannot read the template"]);
-    refused("template = \"model.py\"", &["`outputs.y` must be a table that locates the number"]);
-    refused("template = \"model.py\"\nprotocol = \"csv\"", &["study.toml:7:12:", "without `template`"]);
-    refused("template = \"model.py\"\ninput = \"../x\"", &["study.toml:7:9:", "the name of a file, without a folder"]);
-    refused("template = \"model.py\"\nfiles = [\"no.dat\"]", &["study.toml:7:10:", "there is no such file"]);
-    let pick = "template = \"model.py\"\noutputs.y = ";
-    refused(
-        &format!("{pick}{{ regex = \"(\" }}"),
-        &["study.toml:2:13:", "a regular expression", "must be a regular expression"],
-    );
-    refused(&format!("{pick}{{ pointer = \"a\" }}"), &["which begins with a slash"]);
-    refused(&format!("{pick}{{ pointer = \"/a\", column = \"b\" }}"), &["one of `regex`, `column`, `pointer`"]);
-    refused(&format!("{pick}{{ column = \"b\", match = \"all\" }}"), &["\"first\" or \"last\""]);
-    refused(&format!("{pick}{{ file = \"b\" }}"), &["only with `regex`, `column` or `pointer`"]);
+    for (case, study) in [
+        ("a factor id", named("csv").replace("name = \"x1\"", "name = \"id\"")),
+        ("an output id", named("json-lines").replace("outputs = [\"y\"]", "outputs = [\"id\"]")),
+    ] {
+        messages.refused_as(case, &["check", text(&study.path("study.toml"))]);
+    }
 }
 
 #[test]
 fn a_study_without_program_or_outputs_is_refused() {
-    let refused = |text: &str, expected: &[&str]| {
-        let text = format!("{text}\n[[factor]]\nname = \"x\"\nmin = 0\nmax = 1\n");
-        let error = apportion_files::parse_study(&text, "s.toml".as_ref(), &[]).unwrap_err().to_string();
-        contains(&error, expected);
-    };
-    refused("model = \"command\"", &["the study has no program", "command = [\"python3\", \"my_model.py\"]"]);
-    refused("model = \"command\"\ncommand = []", &["s.toml:2:11:", "the study has no program"]);
-    refused("model = \"command\"\n[command]\nworkers = 2", &["the study has no program"]);
-    refused("model = \"command\"\ncommand = [\"x\"]", &["the study has no outputs"]);
-    refused("model = \"command\"\ncommand = \"x y\"", &["s.toml:2:11:", "a list in square brackets"]);
-    refused("command = [\"x\"]", &["unknown key `command`"]);
-    refused("model = \"command\"\ncommand = [\"x\"]\noutputs = [\"y\", \"y\"]", &["`y` is listed twice"]);
+    let mut messages = messages!();
+    for (lines, place) in [
+        ("model = \"command\"", "1:1"),
+        ("model = \"command\"\ncommand = []", "2:11"),
+        ("model = \"command\"\n[command]\nworkers = 2", "2:1"),
+        ("model = \"command\"\ncommand = [\"x\"]", "1:1"),
+        ("model = \"command\"\ncommand = \"x y\"", "2:11"),
+        ("command = [\"x\"]", "1:11"),
+        ("model = \"command\"\ncommand = [\"x\"]\noutputs = [\"y\", \"y\"]", "3:11"),
+    ] {
+        messages.unparsed(lines, &format!("{lines}\n[[factor]]\nname = \"x\"\nmin = 0\nmax = 1\n"), place);
+    }
 }
 
 #[test]
@@ -73,10 +68,10 @@ fn programs_that_cannot_be_started_are_named_with_what_to_do() {
         case.write("study.toml", &study.replace("[\"python3\", \"model.py\"]", program));
         case
     };
-    with("[\"no-such-program\"]")
-        .gives_up(&["cannot start the program `no-such-program`", "is it installed, and in PATH?"]);
-    with("[\"./no-such\"]").gives_up(&["cannot start the program `./no-such`", "is relative to"]);
-    with("[\"./model.py\"]").gives_up(&["cannot start the program `./model.py`", "make it executable"]);
+    let mut messages = messages!();
+    for program in ["no-such-program", "./no-such", "./model.py"] {
+        messages.ended(program, 1, &with(&format!("[\"{program}\"]")).run());
+    }
 }
 
 #[test]
@@ -87,13 +82,14 @@ fn a_new_study_comes_with_its_program() {
     let program = std::fs::read_to_string(folder.path().join("my_model.py")).unwrap();
     let out = folder.path().join("out");
     let shown = succeed(&["run", text(&study), "--base-samples", "64", "--out", text(&out)]);
-    contains(&shown, &["the \"b\"", "\ny\n", "\nz\n"]);
+    assert!(shown.contains("the \"b\"") && shown.contains("\ny\n") && shown.contains("\nz\n"), "{shown}");
     assert!(program.contains("row.pop(\"id\")"), "{program}");
     std::fs::write(folder.path().join("my_model.py"), "mine").unwrap();
     let again = apportion(&["new", text(&study), "--model", "command", "--force"]);
-    contains(&stderr(&again), &["my_model.py exists already and is not changed"]);
+    let mut messages = messages!();
+    messages.ended("new --force", 0, &again);
     assert_eq!(std::fs::read_to_string(folder.path().join("my_model.py")).unwrap(), "mine");
-    contains(&stdout(&apportion(&["models", "command"])), &["flush=True", "{{name}}", "worker-protocol.md"]);
+    messages.add("models command", &succeed(&["models", "command"]));
 }
 
 #[test]

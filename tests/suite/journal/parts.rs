@@ -3,8 +3,9 @@
 use std::path::PathBuf;
 use std::process::Command;
 
-use super::{ishigami, ishigami_runs, numbers, refused};
+use super::{ishigami, ishigami_runs, numbers};
 use crate::common::{apportion, stderr, study_path, succeed, text};
+use crate::messages::messages;
 
 #[test]
 fn a_refused_merge_does_not_change_recorded_runs() {
@@ -20,12 +21,9 @@ fn a_refused_merge_does_not_change_recorded_runs() {
     let merge = |more: &[&str]| {
         apportion(&[&["merge", text(&study), "--out", text(out), "--base-samples", "256"], more].concat())
     };
-    for _ in 0..2 {
-        refused(
-            &merge(&["--set", "factor.x2.max=3"]),
-            2,
-            "ishigami-shard-1-of-2.journal: the journal is of another study",
-        );
+    let mut messages = messages!();
+    for case in ["once", "again"] {
+        messages.ended(case, 2, &merge(&["--set", "factor.x2.max=3"]));
     }
     assert_eq!(std::fs::read(out.join("ishigami.journal")).unwrap(), journal);
     assert!(!out.join("ishigami.journal.old").exists());
@@ -64,7 +62,8 @@ fn shards_of_any_machine_merge_to_the_bits_of_one_run() {
     for shard in ["3/3", "1/3"] {
         ishigami_runs(&parts, &[&small[..], &["--shard", shard]].concat());
     }
-    refused(&merge(&[]), 1, "1705 of 5120 runs are missing: there is no journal of shard 2/3");
+    let mut messages = messages!();
+    messages.ended("a part is missing", 1, &merge(&[]));
     ishigami_runs(&parts, &[&small[..], &["--shard", "2/3"]].concat());
     // An existing shard is not evaluated again.
     assert!(ishigami_runs(&parts, &[&small[..], &["--shard", "2/3", "--resume"]].concat()) > 0);
@@ -76,13 +75,13 @@ fn shards_of_any_machine_merge_to_the_bits_of_one_run() {
     assert_eq!(ishigami_runs(&parts, &["--double"]), 5120);
 
     let other = apportion(&[&["merge", text(&study), "--out", text(&parts), "--seed", "2"], &small[..]].concat());
-    refused(&other, 2, "design.seed was 0 and is now 2");
+    messages.ended("another seed", 2, &other);
     assert!(!parts.join("ishigami.journal.old").exists(), "nothing is touched before all is known to fit");
     let empty = folder.path().join("empty");
-    refused(&apportion(&["merge", text(&study), "--out", text(&empty)]), 2, "found no ishigami-shard-I-of-N.journal");
-    refused(&ishigami(&parts, &["--shard", "4/3"]), 2, "expected a shard such as 3/8");
-    let growing = ["--shard", "1/2", "--set", "design.max_runs=100000"];
-    refused(&ishigami(&parts, &growing), 2, "has no fixed size to divide into shards");
+    messages.refused(&["merge", text(&study), "--out", text(&empty)]);
+    for more in [&["--shard", "4/3"][..], &["--shard", "1/2", "--set", "design.max_runs=100000"]] {
+        messages.ended(&more.join(" "), 2, &ishigami(&parts, more));
+    }
 }
 
 /// The commands of `docs/clusters.md` for GNU parallel, with its replacement on this machine.

