@@ -91,7 +91,7 @@ fn every_figure_is_there_once_and_in_order() {
     let dimensional = all.iter().find(|figure| figure.stem == "lg-4a").unwrap();
     let caption = dimensional.chart.caption();
     assert!(
-        caption.starts_with("The largest share of the total indices is that of thickness under LuGre friction (")
+        caption.starts_with("The largest total index S_T is that of thickness under LuGre friction (")
             && caption.ends_with("; printed for LuGre (diamonds) are 76 % for thickness."),
         "{caption}"
     );
