@@ -155,7 +155,7 @@ fn threads_and_repetition_give_the_same_file_apart_from_what_tells_of_them() {
         let text = std::fs::read_to_string(out.join("hk-general.json")).unwrap();
         let telling = |line: &&str| !line.contains("\"threads\"") && !line.contains("\"wall_seconds\"");
         let lines: Vec<String> = text.lines().filter(telling).map(str::to_owned).collect();
-        let chart = std::fs::read(out.join("charts/hk-general.svg")).unwrap();
+        let chart = std::fs::read(out.join("charts/hk-general-indices.svg")).unwrap();
         (lines, chart)
     };
     let one = run("1");
