@@ -36,7 +36,7 @@ fn a_page_has_the_engine_the_study_as_it_was_changed_and_its_result() {
     assert!(!own.contains("name = \"velocity\""));
     assert!(page.contains("matters most") || page.contains("cannot be told apart"));
     assert!(page.contains("runs of the model by the program."));
-    for id in ["indices", "shares", "distribution", "validity"] {
+    for id in ["indices", "distribution", "validity"] {
         assert!(page.contains(&format!("<section id=\"{id}\"")), "{id}");
     }
 }
