@@ -18,8 +18,8 @@ pub(super) fn sentence(validity: &[ValidityRecord]) -> Option<String> {
 /// Sets off both sentences on a run.
 pub(super) fn callout(result: &StudyResult) -> Option<Part> {
     let failed = result.outputs.iter().map(|output| output.runs_failed).max().unwrap_or(0);
-    let sentences = [sentence(&result.validity), of_failures(failed, result.provenance.model_runs)];
-    let texts: Vec<String> = sentences.into_iter().flatten().collect();
+    let of_failures = of_failures(failed, result.provenance.model_runs);
+    let texts: Vec<String> = sentence(&result.validity).into_iter().chain(of_failures).collect();
     (!texts.is_empty()).then(|| Part::Notice { mark: Mark::Mixed, kind: "Model validity".to_owned(), texts })
 }
 

@@ -27,7 +27,9 @@ pub fn give_or_take(record: Estimate) -> String {
         return rounded(record.estimate, WITHOUT_ERROR);
     };
     let half = (high - low) / 2.0;
-    if !(half > ROUNDING * estimate.abs() && half.is_finite() && estimate.is_finite()) {
+    // An error of rounding is none of a number that six digits hold.
+    let cut = significant(estimate).parse().map_or(0.0, |shown: f64| (shown - estimate).abs());
+    if !(half.max(cut) > ROUNDING * estimate.abs() && half > 0.0 && half.is_finite() && estimate.is_finite()) {
         return significant(estimate);
     }
     let (nearer, farther) = (f64::min(estimate - low, high - estimate), f64::max(estimate - low, high - estimate));
@@ -186,7 +188,7 @@ mod tests {
             (-0.041_2, 0.005, "-0.041 ± 0.005"),
             (3.506e-7, 2e-9, "(3.51 ± 0.02)e-7"),
             (0.975_501_2, 4.1e-8, "0.975501 ± 0.000001"),
-            (1.000_500_166_9, 1e-12, "1.0005"),
+            (1.000_500_166_9, 1e-12, "1.00050 ± 0.00001"),
             (1344.08, 23.0, "1340 ± 20"),
             (0.0, 3e-7, "0 ± 3e-7"),
             (1.0, 1e-12, "1"),

@@ -18,8 +18,7 @@ pub(super) fn lead(result: &StudyResult, single: &StudyResult) -> Vec<String> {
         ..MIN_OUTPUTS_TOGETHER => first_answers(single.outputs.iter().map(answer).collect()),
         _ => overview::answers(single),
     });
-    lead.push(settled(result));
-    lead
+    lead.into_iter().chain([settled(result)]).collect()
 }
 
 /// Says which factor matters most for an output, and how much is noise, or which factors follow.

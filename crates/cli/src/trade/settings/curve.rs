@@ -6,6 +6,9 @@ use apportion::study::{AnalysisOptions, LowFidelity, Rung, Study, SurrogateChoic
 use apportion::uncertainty::IntervalMethod;
 use serde::{Deserialize, Serialize};
 
+/// Suffix of the names of curves with surrogates.
+pub(super) const SURROGATES: &str = ", surrogates";
+
 named! {
 /// What varies along a curve.
 #[derive(Serialize, Deserialize)]
@@ -50,7 +53,7 @@ impl Curve {
     pub fn name(&self) -> String {
         let rung = &self.rung.name;
         match self.axis {
-            Axis::Fidelity if self.has_surrogate => format!("{rung}, surrogates"),
+            Axis::Fidelity if self.has_surrogate => format!("{rung}{SURROGATES}"),
             Axis::Fidelity => rung.to_owned(),
             Axis::Sampler => self.sampler.name().to_owned(),
         }

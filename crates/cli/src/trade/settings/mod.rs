@@ -16,7 +16,7 @@ use apportion::result::StudyResult;
 use apportion::run::RunError;
 use apportion::study::Study;
 pub use curve::Axis;
-use curve::Curve;
+use curve::{Curve, SURROGATES};
 pub use document::settings_document;
 pub use record::{SettingsFile, build_settings};
 use serde::{Deserialize, Serialize};
@@ -149,13 +149,15 @@ impl Comparison {
     }
 
     /// Returns the cheapest setting with an error of at most `accuracy`, including the error of the reference; the
-    /// study's own instead, if it differs from that by no more than the noise of time and error.
+    /// study's own model and sampler instead, if that differs from that by no more than the noise of time and error.
     pub fn cheapest(&self, accuracy: f64) -> Option<usize> {
         let reaches = |error: Option<f64>| error.is_some_and(|error| error + self.truth_error() <= accuracy);
         let quickest = self.front().into_iter().find(|&k| reaches(self.settings[k].error))?;
-        let usual = self.settings[quickest].usual_seconds;
-        let is_alike = |of: &Measured| of.curve == self.own && of.seconds <= usual && reaches(of.least_error);
-        self.settings.iter().position(is_alike).or(Some(quickest))
+        let best = &self.settings[quickest];
+        let is_alike = |of: &Measured| of.seconds <= best.usual_seconds && reaches(of.least_error);
+        let is_own = |of: &Measured| of.curve.trim_end_matches(SURROGATES) == self.own;
+        let own = self.settings.iter().position(|of| !is_own(best) && is_own(of) && is_alike(of));
+        own.or(Some(quickest))
     }
 }
 
