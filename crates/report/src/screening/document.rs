@@ -111,7 +111,7 @@ fn fixable(output: &ScreenedOutput) -> String {
     let fixable: Vec<String> = fixable.collect();
     let names = match fixable.len() {
         0 => "none".to_owned(),
-        ..=NAMES => listed(&fixable),
+        1..=NAMES => listed(&fixable),
         many => format!("{many} of {} factors", output.factors.len()),
     };
     format!(
