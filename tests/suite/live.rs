@@ -35,7 +35,7 @@ fn a_page_has_the_engine_the_study_as_it_was_changed_and_its_result() {
     assert_eq!(title, "Soft cantilever in humid air");
     assert!(own.contains("min = 1.5") && own.contains("velocity = \"60 nm/s\"") && own.contains("base_samples = 256"));
     assert!(!own.contains("name = \"velocity\""));
-    for id in ["indices", "shares", "distribution", "validity"] {
+    for id in ["indices", "distribution", "validity"] {
         assert!(page.contains(&format!("<section id=\"{id}\"")), "{id}");
     }
 }

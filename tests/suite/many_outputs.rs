@@ -65,7 +65,7 @@ fn up_to_eleven_outputs_have_files_and_sections_of_their_own() {
         |out: &Path| all_files(out).into_iter().filter(|name| name.starts_with("charts/")).collect::<BTreeSet<_>>();
     let folder = Folder::new();
     let (out, printed) = run(&folder, &study(11, design), &[]);
-    assert_eq!(charts(&out).len(), 11 * 5 * 2);
+    assert_eq!(charts(&out).len(), 11 * 4 * 2);
     assert!(page(&out).contains("id=\"output-11\""));
     messages!().add_printed("11 outputs", &printed);
     assert!(!std::fs::read_to_string(out.join("s.csv")).unwrap().contains("aggregate"));

@@ -37,9 +37,12 @@ fn a_run_writes_a_page_that_needs_nothing_else() {
             None => assert!(folder.path().join(link).is_file(), "{link}"),
         }
     }
-    for file in
-        ["coulomb-general.json", "coulomb-general.csv", "charts/coulomb-general.svg", "coulomb-general-convergence.csv"]
-    {
+    for file in [
+        "coulomb-general.json",
+        "coulomb-general.csv",
+        "charts/coulomb-general-indices.svg",
+        "coulomb-general-convergence.csv",
+    ] {
         assert!(links.contains(&file), "{file}");
     }
 }
@@ -152,7 +155,7 @@ fn charts_have_the_formats_that_are_asked_for() {
     let told: Vec<String> = stderr(&output).lines().rev().take(3).map(str::to_owned).collect();
     assert!(told.iter().all(|line| line.starts_with("wrote ")), "{told:?}");
     let charts = |out: &Path, ending: &str| all_files(out).iter().filter(|name| name.ends_with(ending)).count();
-    assert_eq!((charts(&out, ".png"), charts(&out, ".svg")), (5, 0));
+    assert_eq!((charts(&out, ".png"), charts(&out, ".svg")), (4, 0));
     assert!(!whole(&out, "ishigami").contains(".svg\""));
     let (_, out) = run("none");
     assert!(!out.join("charts").exists());

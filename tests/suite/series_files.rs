@@ -56,6 +56,7 @@ fn a_program_gives_a_series_by_cells_or_as_a_list() {
     // V_a(k) = k^2 / 12, V_b(k) = 1/12: over k = 0 to 3, 14 of 18 parts are of a.
     let indices = series.indices.as_ref().unwrap();
     assert!((indices[0].total.estimate - 14.0 / 18.0).abs() < 0.02, "{indices:?}");
+    assert!(page(&folder.path("out")).contains("id=\"output-1\""));
 }
 
 #[test]
@@ -176,7 +177,7 @@ fn the_epidemic_runs() {
     assert!((first[3].effect.first_order.estimate - 1.0).abs() < 1e-3 && first[0].effect.total.estimate.abs() < 1e-9);
     let names = all_files(&folder.path("out"));
     assert!(
-        names.contains("charts/epidemic-infected-along.svg") && names.contains("charts/epidemic-peak.svg"),
+        names.contains("charts/epidemic-infected-along.svg") && names.contains("charts/epidemic-peak-indices.svg"),
         "{names:?}"
     );
 }

@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 use crate::common::{Folder, all_files, apportion, stderr, text};
 use crate::messages::messages;
 
-/// A study whose charts take a while: six of each of 11 outputs, twice.
+/// A study whose charts take a while: four of each of 11 outputs, twice.
 fn many_charts() -> String {
     let outputs: String = (0..11).map(|k| format!("y{k} = \"a + {k} * b\"\n")).collect();
     format!(
@@ -38,7 +38,7 @@ fn assert_whole(folder: &Path) {
 fn a_signal_takes_effect_while_charts_are_drawn() {
     let folder = Folder::new();
     let (study, mut messages) = (folder.with("s.toml", many_charts()), messages!());
-    for (signal, moment) in [("-INT", 1), ("-TERM", 8), ("-INT", 20), ("-HUP", 30), ("-TERM", 45)] {
+    for (signal, moment) in [("-INT", 1), ("-TERM", 8), ("-INT", 16), ("-HUP", 24), ("-TERM", 32)] {
         let out = folder.path(&format!("out{moment}"));
         let mut command = Command::new(assert_cmd::cargo::cargo_bin!("apportion"));
         command.args(["run", text(&study), "--out", text(&out), "--no-journal"]);
@@ -61,7 +61,7 @@ fn a_signal_takes_effect_while_charts_are_drawn() {
         run.stderr.take().unwrap().read_to_string(&mut said).unwrap();
         assert_eq!(code, Some(1), "{said}");
         messages.add(signal, said.lines().rfind(|line| line.starts_with("error: ")).unwrap());
-        assert!(drawn() < 66, "it was stopped before its end");
+        assert!(drawn() < 44, "it was stopped before its end");
         assert_whole(&out);
     }
 }

@@ -5,7 +5,6 @@ use apportion::uncertainty::{EffectEstimates, Estimate, Interval};
 
 use super::chart::{Axis, Bar, Chart, Colour, Mark, Panel, Series, Shape};
 use super::format::{fixed, index as of_error, minus, name, two_digits};
-use super::leading::leader_of;
 
 /// Maximum number of factors in a chart.
 pub(super) const MAX_BARS: usize = 20;
@@ -85,7 +84,7 @@ fn index_bar(row: usize, value: Option<Estimate>, possible: (f64, f64)) -> Bar {
     let said = of_error(index);
     let printed = said.split(' ').next().unwrap_or_default();
     let decimals = printed.split_once('.').map_or(0, |(_, decimals)| decimals.len());
-    let label = match decimals > DECIMALS {
+    let label = match decimals > DECIMALS || said.starts_with('(') {
         true if index.estimate.abs() < SMALL => minus(&two_digits(index.estimate)),
         true => minus(&fixed(index.estimate, DECIMALS)),
         false => printed.to_owned(),
@@ -99,92 +98,73 @@ pub(super) fn not_drawn(all: usize, most: usize) -> String {
     if all > most { format!(" The {most} largest of {all} factors are drawn.") } else { String::new() }
 }
 
-/// One study in a chart of shares.
+/// One study in a chart of percentages.
 #[derive(Debug, Clone)]
 pub struct SharesSeries<'a> {
-    /// Its name in the legend, and its colour.
+    /// Its name in the legend, and its appearance.
     pub series: Series,
-    /// The output whose shares are drawn.
+    /// The output whose indices are drawn.
     pub output: &'a OutputResult,
     /// Published percentages by factor; they are drawn in both panels, since their definition is not published.
     pub published: Vec<(&'a str, f64)>,
 }
 
-/// Draws the shares of `factors` in each of `series`: first order on the left, total on the right, the factor with the
-/// largest total share on top. Of more than 20 factors, the first 20.
+/// Draws the indices of `factors` in each of `series`, in percent of the variance: first order on the left, total on the
+/// right, the factor with the largest total index on top. Of more than 20 factors, the first 20.
 pub fn shares_chart(title: &str, caption: &str, factors: &[&str], series: &[SharesSeries<'_>]) -> Chart {
     let largest = |factor: &&str| {
-        let shares = series.iter().filter_map(|series| share(series, factor, EffectEstimates::total_percent));
-        shares.map(|share| share.estimate).fold(f64::NEG_INFINITY, f64::max)
+        let indices = series.iter().filter_map(|series| index(series, factor, |effect| effect.total));
+        indices.map(|index| index.estimate).fold(f64::NEG_INFINITY, f64::max)
     };
     let keys: Vec<f64> = factors.iter().map(largest).collect();
-    let panel = |title: &str, of: ShareOf| {
+    let panel = |title: &str, of: fn(&EffectEstimates) -> Estimate| {
         let names = Axis::from_names("", factors.iter().map(|factor| name(factor)).collect());
         let bars = series.iter().flat_map(|series| {
             factors.iter().enumerate().map(move |(row, factor)| {
-                let share = share(series, factor, of);
+                let index = index(series, factor, of);
                 let published = series.published.iter().find(|(name, _)| name == factor).map(|(_, share)| *share);
-                series.series.mark(Shape::Bar(Bar { published, ..share_bar(row, share) }))
+                series.series.mark(Shape::Bar(Bar { published, ..percent_bar(row, index) }))
             })
         });
-        let panel = Panel::new(Axis::new("share of the sum of indices (%)", ""), names).titled(title).with(bars);
-        panel.ranked(&keys, MAX_BARS)
+        Panel::new(Axis::new("% of the variance", ""), names).titled(title).with(bars).ranked(&keys, MAX_BARS)
     };
     let panels = [
-        panel("First-order indices", EffectEstimates::first_order_percent),
-        panel("Total indices", EffectEstimates::total_percent),
+        panel("S_1: the factor alone", |effect| effect.first_order),
+        panel("S_T: with its interactions", |effect| effect.total),
     ];
     Chart::new(title, format!("{caption}{}", not_drawn(factors.len(), MAX_BARS))).side_by_side().panels(panels)
 }
 
-/// Possible shares, in percent; shares beyond these bounds, and longer intervals, mean nothing.
-const POSSIBLE_SHARE: std::ops::RangeInclusive<f64> = -10.0..=110.0;
-const LONGEST_SHARE: f64 = 100.0;
-
-/// Builds the bar of a share in percent; a meaningless share gets only a text.
-fn share_bar(row: usize, share: Option<Estimate>) -> Bar {
-    let interval = share.and_then(|share| share.interval);
-    let is_short = interval.is_none_or(|interval| interval.width() <= LONGEST_SHARE);
-    match share.map(|share| share.estimate) {
-        Some(share) if !(is_short && POSSIBLE_SHARE.contains(&share)) => {
-            Bar { row, to: f64::NAN, label: UNKNOWN.to_owned(), ..Bar::default() }
+/// Builds the bar of an index in percent; a meaningless one gets only a text.
+fn percent_bar(row: usize, index: Option<Estimate>) -> Bar {
+    let bar = index_bar(row, index, INDICES);
+    match index.filter(|_| bar.to.is_finite()) {
+        Some(Estimate { estimate, interval }) => {
+            Bar::percent(row, Some(100.0 * estimate), interval.map(|i| (100.0 * i.low, 100.0 * i.high)))
         }
-        share => Bar::percent(row, share, interval.map(|i| (i.low, i.high))),
+        None => bar,
     }
 }
 
-type ShareOf = fn(&EffectEstimates) -> Option<Estimate>;
-
-fn share(series: &SharesSeries<'_>, factor: &str, of: ShareOf) -> Option<Estimate> {
-    let index = series.output.indices.iter().flatten().find(|index| index.factor == *factor);
-    index.and_then(|index| of(&index.effect))
+/// Returns an index of a factor.
+fn index(series: &SharesSeries<'_>, factor: &str, of: fn(&EffectEstimates) -> Estimate) -> Option<Estimate> {
+    let mut indices = series.output.indices.iter().flatten();
+    indices.find(|index| index.factor == *factor).map(|index| of(&index.effect))
 }
 
-/// Draws the chart of one output of a single study.
-pub fn study_chart(result: &StudyResult, output: &OutputResult) -> Chart {
-    let factors: Vec<&str> = result.factors.iter().map(|factor| factor.name.as_str()).collect();
-    let title = result.study.headline();
-    let indices = || output.indices.iter().flatten();
-    let of_factors = indices().filter_map(|index| Some((name(&index.factor), index.effect.shapley?)));
-    let of_players = output.shapley_groups.iter().flatten().map(|player| (name(&player.player), player.shapley));
-    let shapley: Vec<(String, Estimate)> = of_factors.chain(of_players).collect();
-    if !shapley.is_empty() {
-        let (names, effects): (_, Vec<Estimate>) = shapley.into_iter().unzip();
-        let effects: Vec<Option<Estimate>> = effects.into_iter().map(Some).collect();
-        let keys: Vec<f64> = effects.iter().map(|effect| effect.map_or(f64::NAN, |effect| effect.estimate)).collect();
-        let series = (Series::new("Shapley effect", Colour::Series(0)), effects);
-        let panel = index_panel("Shapley effect: part of the variance", names, [series], INDICES, &keys);
-        let caption = format!("Shapley effects on {}: they sum to 100 % of the variance.", name(&output.name));
-        return Chart::new(title, caption).panels([panel]);
-    }
-    let caption = match indices().any(|index| index.effect.dependent.is_some()) {
-        true => {
-            "Indices of dependent factors do not sum to 1; Shapley effects would, but were not requested.".to_owned()
-        }
-        false => leader_of(output),
-    };
-    let series = Series::new(name(&output.name), Colour::Series(0));
-    shares_chart(title, &caption, &factors, &[SharesSeries { series, output, published: Vec::new() }])
+/// Draws the Shapley effects on one output.
+pub fn shapley_chart(result: &StudyResult, output: &OutputResult) -> Chart {
+    let of_factors = output.indices.iter().flatten();
+    let of_factors = of_factors.filter_map(|index| Some((name(&index.factor), Some(index.effect.shapley?))));
+    let of_players = output.shapley_groups.iter().flatten();
+    let of_players = of_players.map(|player| (name(&player.player), Some(player.shapley)));
+    let (names, effects): (_, Vec<Option<Estimate>>) = of_factors.chain(of_players).unzip();
+    let keys: Vec<f64> = effects.iter().map(|effect| effect.map_or(f64::NAN, |effect| effect.estimate)).collect();
+    let series = (Series::new("Shapley effect", Colour::Series(0)), effects);
+    let panel = index_panel("Shapley effect: part of the variance", names, [series], INDICES, &keys);
+    let caption = format!("Shapley effects on {}: they sum to 100 % of the variance.", name(&output.name));
+    let title = format!("{}: Shapley effects on {}", result.study.headline(), name(&output.name));
+    Chart::new(title, caption).panels([panel])
 }
 
 #[cfg(test)]

@@ -10,7 +10,7 @@ use super::format::{chance, count, index, name};
 /// Probability from which on a lead counts as certain.
 const SURE: f64 = 0.95;
 /// Maximum number of names in a sentence.
-const NAMES: usize = 6;
+pub(super) const NAMES: usize = 6;
 
 /// A factor or input that may lead.
 #[derive(Debug, Clone)]

@@ -27,7 +27,7 @@ pub use artefacts::{ArtefactError, Artefacts, Written};
 pub use atomic_write::{WriteError, prepare_file, prepare_folder, stream_atomically, write_atomically};
 pub use chart::Chart;
 pub use document::Document;
-pub use factor_bars::{SharesSeries, shares_chart, study_chart};
+pub use factor_bars::{SharesSeries, shapley_chart, shares_chart};
 pub use file_names::{ChartFormat, file_stems};
 pub use format::{fixed, give_or_take, grouped, share, share_of_runs, significant, two_digits, with_unit};
 pub use histogram_chart::histogram_chart;

@@ -1,8 +1,9 @@
 //! Sentences on whether the model is valid where it was run.
 
-use apportion::result::ValidityRecord;
+use apportion::result::{StudyResult, ValidityRecord};
 use apportion::text::listed;
 
+use super::document::{Mark, Part};
 use super::format::{count, grouped, share_of_runs};
 
 /// Says on how many runs which validity flags are raised; `None` if none is.
@@ -12,6 +13,14 @@ pub(super) fn sentence(validity: &[ValidityRecord]) -> Option<String> {
     let flags = raised.iter().map(|flag| format!("{} on {}", flag.flag.replace('-', " "), share_of_runs(flag.share)));
     let flags: Vec<String> = flags.collect();
     (!flags.is_empty()).then(|| format!("The model leaves its range of validity: {} of the runs.", listed(&flags)))
+}
+
+/// Sets off both sentences on a run.
+pub(super) fn callout(result: &StudyResult) -> Option<Part> {
+    let failed = result.outputs.iter().map(|output| output.runs_failed).max().unwrap_or(0);
+    let of_failures = of_failures(failed, result.provenance.model_runs);
+    let texts: Vec<String> = sentence(&result.validity).into_iter().chain(of_failures).collect();
+    (!texts.is_empty()).then(|| Part::Notice { mark: Mark::Mixed, kind: "Model validity".to_owned(), texts })
 }
 
 /// Says how many runs failed and what that means; `None` if none or all failed.

@@ -38,7 +38,7 @@ pub struct Arguments {
     #[arg(long, value_name = "S", conflicts_with = "extremes", value_parser = parse_seconds)]
     seconds: Option<f64>,
     /// Number of seeds for every setting; the largest of their errors counts
-    #[arg(long, value_name = "N", default_value_t = 3, conflicts_with = "extremes", value_parser = clap::value_parser!(u64).range(1..=1000))]
+    #[arg(long, value_name = "N", default_value_t = 10, conflicts_with = "extremes", value_parser = clap::value_parser!(u64).range(1..=1000))]
     seeds: u64,
     #[command(flatten)]
     output: OutputArguments,

@@ -17,7 +17,7 @@ use apportion::study::Study;
 use apportion::sweep::SweepError;
 use apportion_afm::{Failure, FrictionLaw};
 use apportion_files::StudyError;
-use apportion_report::chart::Colour;
+use apportion_report::chart::{Colour, Stroke};
 pub use document::document;
 pub use papers::{Published, published};
 pub use reproduction::{Event, Reproduction, Request, Topic, reproduce};
@@ -46,19 +46,21 @@ pub struct Friction {
     pub name: &'static str,
     /// Its colour in charts.
     pub colour: Colour,
+    /// Its lines, and the hatches of its bars.
+    pub stroke: Stroke,
 }
 
 impl Friction {
-    const fn new(law: FrictionLaw, name: &'static str) -> Self {
-        Self { law, key: law.name(), name, colour: law_colour(law) }
+    const fn new(law: FrictionLaw, name: &'static str, stroke: Stroke) -> Self {
+        Self { law, key: law.name(), name, colour: law_colour(law), stroke }
     }
 }
 
 /// The friction models, in the order of the papers' charts.
 pub const FRICTIONS: [Friction; 3] = [
-    Friction::new(FrictionLaw::Coulomb, "Coulomb"),
-    Friction::new(FrictionLaw::HurtadoKim, "Hurtado-Kim"),
-    Friction::new(FrictionLaw::LuGre, "LuGre"),
+    Friction::new(FrictionLaw::Coulomb, "Coulomb", Stroke::Solid),
+    Friction::new(FrictionLaw::HurtadoKim, "Hurtado-Kim", Stroke::Dashed),
+    Friction::new(FrictionLaw::LuGre, "LuGre", Stroke::Dotted),
 ];
 
 /// A group of studies: the same factors under each friction model.

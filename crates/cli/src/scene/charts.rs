@@ -62,7 +62,7 @@ fn clear_rule_labels(panels: &mut [Panel]) {
 pub const fn law_colour(law: FrictionLaw) -> Colour {
     match law {
         FrictionLaw::Coulomb => Colour::Series(0),
-        FrictionLaw::HurtadoKim => Colour::Series(3),
+        FrictionLaw::HurtadoKim => Colour::Series(8),
         FrictionLaw::LuGre => Colour::Series(2),
         _ => Colour::Series(1),
     }

@@ -207,7 +207,7 @@ const slider = (factor, distribution, [ends, moved]) => {
   const isLog = from > 0 && most / least >= 100;
   const place = (x) => STEPS * (isLog ? Math.log(x / from) / Math.log(to / from) : (x - from) / (to - from));
   const value = (p) => (isLog ? rounded(from * (to / from) ** (p / STEPS)) : rounded(from + (p / STEPS) * (to - from), to - from));
-  const span = make("div", { className: "span" });
+  const [span, range] = ["span", "range"].map((className) => make("div", { className }));
   const unit = factor.unit === "1" ? "" : ` ${unitIn(factor.unit)}`;
   const handle = (which, x) => {
     const input = make("input", { type: "range", min: 0, max: STEPS, step: 1, value: place(x) });
@@ -219,6 +219,7 @@ const slider = (factor, distribution, [ends, moved]) => {
   const paint = (a, b) => {
     span.style.left = `${Math.max(0, place(a) / STEPS) * 100}%`;
     span.style.right = `${100 - Math.min(1, place(b) / STEPS) * 100}%`;
+    range.textContent = [a, b].map((x) => brief(x, b - a)).join(" – ");
     first.setAttribute("aria-valuetext", `${brief(a, b - a)}${unit}`);
     last.setAttribute("aria-valuetext", `${brief(b, b - a)}${unit}`);
   };
@@ -243,19 +244,14 @@ const slider = (factor, distribution, [ends, moved]) => {
     drag();
   };
   for (const input of [first, last]) {
-    input.oninput = () => {
-      document.body.classList.add("dragging");
-      move(input);
-    };
-    input.onpointercancel = () => document.body.classList.remove("dragging");
+    input.oninput = () => move(input);
     input.onchange = () => {
-      document.body.classList.remove("dragging");
       saved = false;
       changed();
     };
   }
   paint(low, high);
-  box.append(make("div", { className: "track" }), span, first, last);
+  box.append(make("div", { className: "track" }), span, range, first, last);
   return box;
 };
 
@@ -420,17 +416,17 @@ const asked = async (wanted) => {
   refuse(broken || (answer && answer.refused), false);
   return null;
 };
-const file = (ending, type) => async () => {
+const file = (type, ...endings) => async () => {
   const files = await asked("files");
   // Of several outputs each has its charts.
-  const chosen = ending === "svg" && description.outputs.length > 1 ? `-${state.output || description.outputs[0].name}` : "";
+  const chosen = endings[0].endsWith("svg") && description.outputs.length > 1 ? `-${state.output || description.outputs[0].name}` : "";
   // The engine calls every study the same.
-  const name = [`${chosen}.${ending}`, `.${ending}`].find((end) => files && `${description.name}${end}` in files);
+  const name = endings.flatMap((ending) => [`${chosen}${ending}`, ending]).find((end) => files && `${description.name}${end}` in files);
   if (name) save(`${given.presets[state.preset].name}${name}`, type, files[`${description.name}${name}`]);
 };
-at("json").onclick = file("json", "application/json");
-at("csv").onclick = file("csv", "text/csv");
-at("svg").onclick = file("svg", "image/svg+xml");
+at("json").onclick = file("application/json", ".json");
+at("csv").onclick = file("text/csv", ".csv");
+at("svg").onclick = file("image/svg+xml", "-indices.svg", "-along.svg");
 at("toml").onclick = async () => {
   const text = await asked("text");
   if (text !== null) offer("study.toml", text);

@@ -149,7 +149,6 @@ const refuse = (problem, isOld = true) => {
 };
 const show = (view, settings, seconds, whole) => {
   shown = { settings, samples: view.base_samples, lead: view.plain_lead };
-  at("glance").innerHTML = view.lead[0];
   at("lead").innerHTML = view.lead.map((text) => `<p class="lead">${text}</p>`).join("");
   const main = at("content");
   const kept = new Set();

@@ -14,11 +14,13 @@ impl Chart {
             let key = match shape {
                 Shape::Line(_) => Key::Line(series.colour, series.stroke),
                 Shape::Dots(_) | Shape::Point(_) => Key::Line(series.colour, Stroke::Points),
-                Shape::Bar(_) | Shape::Tile(_) => Key::Swatch(series.colour),
+                Shape::Bar(_) | Shape::Tile(_) => Key::Swatch(series.colour, series.stroke),
                 _ => continue,
             };
             let other = match shape {
-                Shape::Bar(bar) => bar.of_other().map(|(.., series)| (series, Key::Swatch(series.colour))),
+                Shape::Bar(bar) => {
+                    bar.of_other().map(|(.., series)| (series, Key::Swatch(series.colour, series.stroke)))
+                }
                 _ => None,
             };
             for (series, key) in std::iter::once((series, key)).chain(other) {
@@ -37,7 +39,7 @@ impl Chart {
             entries.push(Entry { name: "95 % interval".to_owned(), key: Key::Whisker });
         }
         if any(|shape| matches!(shape, Shape::Bar(bar) if bar.diamond().is_some())) {
-            entries.push(Entry { name: self.published_name.clone(), key: Key::Diamond });
+            entries.push(Entry { name: "published".to_owned(), key: Key::Diamond });
         }
         entries
     }
@@ -68,7 +70,7 @@ impl Chart {
                 value.push_str(&format!(" ({} to {})", number(low), number(high)));
             }
         }
-        let published = bar.diamond().map(|value| format!(", {} {}", self.published_name, number(value)));
+        let published = bar.diamond().map(|value| format!(", published {}", number(value)));
         let row = panel.y.names.get(bar.row).map_or("", String::as_str);
         format!("{row}, {series}: {value}{}", published.unwrap_or_default())
     }

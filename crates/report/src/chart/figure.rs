@@ -8,6 +8,7 @@ use super::palette::Colour;
 use super::series::Stroke;
 use super::style::{BODY, INK, MARGIN, MUTED, Medium, PAPER, PaperWidth, TITLE};
 use super::svg::{Attributes, Canvas, Px, Text};
+use super::symbols::stripes;
 use super::text::{wrap, wrap_within};
 
 /// Gap between a key and its name, px.
@@ -20,7 +21,7 @@ const ROW: f64 = 17.0;
 /// The symbol before a name in the legend.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Key {
-    Swatch(Colour),
+    Swatch(Colour, Stroke),
     Line(Colour, Stroke),
     Diamond,
     Whisker,
@@ -29,7 +30,7 @@ pub(super) enum Key {
 impl Key {
     fn width(self) -> f64 {
         match self {
-            Key::Swatch(_) => 12.0,
+            Key::Swatch(..) => 12.0,
             Key::Line(_, stroke) if stroke.has_line() => 24.0,
             Key::Whisker => 16.0,
             Key::Line(..) | Key::Diamond => 9.0,
@@ -149,7 +150,7 @@ impl<'a> Figure<'a> {
         let middle = ((x + right) / 2.0, y);
         let canvas = &mut self.canvas;
         match key {
-            Key::Swatch(colour) => {
+            Key::Swatch(colour, stroke) => {
                 let (left, top, fill) = (Px(x), Px(y - 5.0), colour.hex());
                 let area: Attributes =
                     &[("x", &left), ("y", &top), ("width", &"12"), ("height", &"10"), ("fill", &fill)];
@@ -158,7 +159,10 @@ impl<'a> Figure<'a> {
                     Colour::Shade(_) => &[("stroke", &MUTED), ("stroke-width", &"0.6")],
                     _ => &[],
                 };
-                canvas.leaf("rect", &[area, rim].concat());
+                match stripes((x, right), (y - 5.0, y + 5.0), stroke) {
+                    Some(d) => canvas.leaf("path", &[("d", &d), ("fill", &fill)]),
+                    None => canvas.leaf("rect", &[area, rim].concat()),
+                }
             }
             Key::Line(colour, stroke) => {
                 if stroke.has_line() {

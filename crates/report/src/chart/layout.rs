@@ -90,7 +90,7 @@ impl<'a> Layout<'a> {
         let width = width((left, right, gap));
         let cells = panels.iter().zip(x_scales(chart, width)).zip(y).zip(heights);
         let cells = cells.map(|(((panel, x), y), height)| Cell { panel, x, y, height }).collect();
-        Self { page, columns, cells, left, width, gap, y_title: left - ticks - TICK_GAP, rows }
+        Self { page, columns, cells, left, width, gap, y_title: left - ticks - TICK_GAP - 4.0, rows }
     }
 }
 
@@ -257,7 +257,7 @@ fn room_for_labels(panels: &[Panel], values: &[f64], width: f64) -> Option<f64> 
         let bar = bar.drawn().filter(|bar| !bar.label.is_empty())?;
         // The label may be behind the published value.
         let (right, diamond) = (bar.right(), bar.diamond().unwrap_or(f64::NEG_INFINITY));
-        let behind = beyond(right, room);
+        let behind = beyond(right, room + LABEL_ROOM);
         let right = if diamond < behind { right.max(diamond) } else { right };
         drawable(beyond(right, room))
     });

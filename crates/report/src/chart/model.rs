@@ -24,7 +24,6 @@ pub struct Chart {
     pub(super) caption: String,
     pub(super) panels: Vec<Panel>,
     pub(super) arrangement: Arrangement,
-    pub(super) published_name: String,
 }
 
 /// How the panels of a chart are arranged.
@@ -119,13 +118,7 @@ pub struct Tile {
 impl Chart {
     /// Creates a chart without panels.
     pub fn new(title: impl Into<String>, caption: impl Into<String>) -> Self {
-        Self {
-            title: title.into(),
-            caption: caption.into(),
-            panels: Vec::new(),
-            arrangement: Arrangement::Stacked,
-            published_name: "published".to_owned(),
-        }
+        Self { title: title.into(), caption: caption.into(), panels: Vec::new(), arrangement: Arrangement::Stacked }
     }
 
     /// Adds panels.
@@ -137,11 +130,6 @@ impl Chart {
     /// Arranges the panels side by side.
     pub fn side_by_side(self) -> Self {
         Self { arrangement: Arrangement::SideBySide, ..self }
-    }
-
-    /// Sets a name for published values in the legend.
-    pub fn published_name(self, name: impl Into<String>) -> Self {
-        Self { published_name: name.into(), ..self }
     }
 
     /// Returns the headline of the chart.

@@ -6,7 +6,7 @@ use super::style::INK;
 /// for marks on white (contrast 3 or more, WCAG 2.2, 1.4.11). Their lightness differs too, mostly among the first four,
 /// for print in grey.
 const COLOURS: [&str; 11] = [
-    "#00527f", "#e8710a", "#00785a", "#571a48", "#5b85b0", "#a03f00", "#757575", "#3b2a00", "#c2588f", "#4c6a00",
+    "#00527f", "#e8710a", "#00785a", "#571a48", "#5b85b0", "#a03f00", "#757575", "#3b2a00", "#cc659b", "#4c6a00",
     "#929292",
 ];
 
@@ -18,11 +18,15 @@ const SHADES: [&str; 9] =
 pub(super) const DOTS_OPACITY: &str = "0.6";
 
 /// Outlines of points as path data about the origin, of about equal area.
-const SYMBOLS: [&str; 4] = [
+const SYMBOLS: [&str; 8] = [
     "m-2.8 0a2.8 2.8 0 1 0 5.6 0a2.8 2.8 0 1 0 -5.6 0z",
     "m-2.5 -2.5h5v5h-5z",
     "m0 -3.6l3.4 6h-6.8z",
     "m0 -3.6l3.6 3.6l-3.6 3.6l-3.6 -3.6z",
+    "m0 3.6l-3.4 -6h6.8z",
+    "m-1.1 -3.3h2.2v2.2h2.2v2.2h-2.2v2.2h-2.2v-2.2h-2.2v-2.2h2.2z",
+    "m-3.6 0l6 -3.4v6.8z",
+    "m3.6 0l-6 -3.4v6.8z",
 ];
 
 /// A colour of the palette with its point symbol.

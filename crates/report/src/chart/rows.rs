@@ -7,7 +7,7 @@ use super::model::{Mark, Panel, Shape};
 use super::series::Series;
 use super::style::{INK, MARGIN, MUTED, PAPER, TICK, VALUE};
 use super::svg::{Anchor, Canvas, Px, Text};
-use super::symbols::HALF_DIAMOND;
+use super::symbols::{HALF_DIAMOND, stripes};
 use super::text::shorten;
 
 /// Gap between two cells of a map, px.
@@ -38,7 +38,12 @@ impl<'a> Sheet<'a> {
         self.tiles(canvas);
         if let Some(x) = self.x(panel.base()).filter(|_| !panel.is_map()) {
             canvas.open("g", &[("class", &"baseline"), ("stroke", &INK), ("stroke-width", &"1")]);
-            canvas.line((x, self.plot.top), (x, self.plot.bottom()));
+            // On a phone the names of the rows stand above their bars, in gaps of the line.
+            let half = self.layout.rows.bars / 2.0 + 1.0;
+            let of_row = |row| (self.middle(row) - half, self.middle(row) + half);
+            let whole = vec![(self.plot.top, self.plot.bottom())];
+            let ends = self.layout.page.choose(whole, rows.clone().map(of_row).collect());
+            ends.into_iter().for_each(|(from, to)| canvas.line((x, from), (x, to)));
             canvas.close("g");
         }
         self.published(canvas, &lanes);
@@ -85,12 +90,17 @@ impl<'a> Sheet<'a> {
                 let Some((left, right)) = self.x(from).zip(self.x(to)) else { continue };
                 let fill = series.colour.hex();
                 let words = self.chart.bar_in_words(self.cell.panel, &lane.series.name, &bar);
+                let (left, right) = (left.min(right), left.max(right));
+                if let Some(d) = stripes((left, right), (lane.top, lane.top + lane.height), series.stroke) {
+                    canvas.tipped("path", &[("d", &d), ("fill", &fill)], &words);
+                    continue;
+                }
                 canvas.tipped(
                     "rect",
                     &[
-                        ("x", &Px(left.min(right))),
+                        ("x", &Px(left)),
                         ("y", &Px(lane.top)),
-                        ("width", &Px((right - left).abs())),
+                        ("width", &Px(right - left)),
                         ("height", &Px(lane.height)),
                         ("fill", &fill),
                     ],

@@ -9,7 +9,7 @@ pub struct Series {
     pub name: String,
     /// Colour, and symbol of points.
     pub colour: Colour,
-    /// How its lines are drawn.
+    /// How its lines are drawn, and its bars hatched.
     pub stroke: Stroke,
 }
 

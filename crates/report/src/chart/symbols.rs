@@ -1,11 +1,28 @@
 //! The small symbols of data, equal in a plot and in its legend.
 
 use super::palette::{Colour, DOTS_OPACITY};
+use super::series::Stroke;
 use super::style::{INK, PAPER};
 use super::svg::{Canvas, Px};
 
 /// Half the diagonal of a diamond, px.
 pub(super) const HALF_DIAMOND: f64 = 4.2;
+
+/// Returns the stripes of a bar of a dashed or dotted series as path data, for print in grey; `None` for a full bar.
+pub(super) fn stripes((left, right): (f64, f64), (top, bottom): (f64, f64), stroke: Stroke) -> Option<String> {
+    const STEP: f64 = 4.5;
+    let area = |(left, right): (f64, f64), (top, bottom): (f64, f64)| {
+        format!("M{} {}H{}V{}H{}z", Px(left), Px(top), Px(right), Px(bottom), Px(left))
+    };
+    let third = (bottom - top) / 3.0;
+    let level = [(top, bottom - 2.0 * third), (top + 2.0 * third, bottom)];
+    let upright = (0..).map(|stripe| right - STEP * f64::from(stripe)).take_while(|x| *x > left);
+    match stroke {
+        Stroke::Dashed => Some(upright.map(|x| area(((x - 0.6 * STEP).max(left), x), (top, bottom))).collect()),
+        Stroke::Dotted => Some(level.map(|y| area((left, right), y)).concat()),
+        _ => None,
+    }
+}
 
 impl Canvas {
     /// Draws a hollow diamond: a published value.

@@ -45,7 +45,8 @@ fn differences_of_known_indices_are_found() {
     assert!(text.contains("A: before (a.json)") && text.contains("x2 has the largest total index in both"), "{text}");
     assert!(text.contains("4 of 6"), "{text}");
     let mean = text.lines().find(|line| line.contains("Mean: A")).unwrap();
-    assert_eq!(mean.matches('±').count(), 2, "{mean}");
+    // Sobol' points know the mean of a linear function but for rounding.
+    assert!(mean.contains("A 3.5, B 3.5"), "{mean}");
 }
 
 #[test]

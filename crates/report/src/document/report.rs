@@ -118,7 +118,7 @@ impl Report<'_> {
         document
     }
 
-    /// Builds a section for each output, with its warnings first and its charts last; many outputs share one section,
+    /// Builds a section for each output, with its warnings first, then its charts; many outputs share one section,
     /// in which each is folded.
     fn of_outputs(&mut self) -> Vec<Section> {
         let names: Vec<&str> = self.outputs.iter().map(|output| output.name).collect();
@@ -130,8 +130,8 @@ impl Report<'_> {
         let are_many = names.len() >= MIN_OUTPUTS_TOGETHER;
         let section = |(number, (output, stem)): (usize, (OutputReport<'_>, String))| {
             let figure = |(ending, chart)| Figure::unnumbered(chart, format!("{stem}{ending}")).into();
-            let parts = Part::warnings(output.warnings).into_iter().chain(output.parts);
-            let parts = parts.chain(output.charts.into_iter().map(figure)).collect();
+            let parts = Part::warnings(output.warnings).into_iter().chain(output.charts.into_iter().map(figure));
+            let parts = parts.chain(output.parts).collect();
             Section::new(&format!("output-{number}"), &heading(output.name, output.unit), parts)
         };
         let sections = (1..).zip(std::mem::take(&mut self.outputs).into_iter().zip(stems)).map(section);

@@ -8,13 +8,16 @@ use super::{SIGNIFICANT, minus, significant, significant_to};
 const EVEN: f64 = 1.5;
 /// Part of the estimate below which both ends of an interval are not needed.
 const MIN_SHOWN: f64 = 0.01;
+/// Part of the estimate up to which an error is that of rounding.
+const ROUNDING: f64 = 1e-11;
 /// Significant digits of an estimate whose error is unknown.
 const WITHOUT_ERROR: usize = 3;
 /// Magnitude below which numbers are written with a power of ten.
 pub(super) const SMALL: f64 = 1e-5;
 
 /// Formats an estimate and the half width of its interval, `0.02487 ± 0.00003`, or both bounds if they are not
-/// symmetric about it to within half and longer than 1 % of it, `0.68 [0.52, 1.03]`.
+/// symmetric about it to within half and longer than 1 % of it, `0.68 [0.52, 1.03]`. Very small and very large ones
+/// share a power of ten: `(1.557 ± 0.005)e-5`.
 ///
 /// The half width (the longer one if the two differ) has one digit, two if it begins with 1, and the estimate ends at
 /// the same place, after six digits at the latest; the rounding is included in the error. Bounds have the digits of the
@@ -24,26 +27,19 @@ pub fn give_or_take(record: Estimate) -> String {
         return rounded(record.estimate, WITHOUT_ERROR);
     };
     let half = (high - low) / 2.0;
-    if !(half > 0.0 && half.is_finite() && estimate.is_finite()) {
+    // An error of rounding is none of a number that six digits hold.
+    let cut = significant(estimate).parse().map_or(0.0, |shown: f64| (shown - estimate).abs());
+    if !(half.max(cut) > ROUNDING * estimate.abs() && half > 0.0 && half.is_finite() && estimate.is_finite()) {
         return significant(estimate);
     }
-    let most = most_decimals(estimate);
     let (nearer, farther) = (f64::min(estimate - low, high - estimate), f64::max(estimate - low, high - estimate));
-    if nearer * EVEN >= farther || half < MIN_SHOWN * estimate.abs() {
-        return match decimals(farther) > most {
-            // Its digits are beyond those of the estimate, which then needs no trailing zeros.
-            true => {
-                let shown = significant(estimate);
-                let cut = shown.parse().map_or(0.0, |shown: f64| (shown - estimate).abs());
-                format!(
-                    "{shown} ± {}",
-                    if cut > farther / 10.0 { rounded_up(farther + cut) } else { rounded(farther, 1) }
-                )
-            }
-            false => format!("{} ± {}", at(estimate, decimals(farther)), at(farther, decimals(farther))),
-        };
+    if nearer * EVEN < farther && half >= MIN_SHOWN * estimate.abs() {
+        return with_bounds(estimate, low, high, most_decimals(estimate));
     }
-    with_bounds(estimate, low, high, most)
+    let places = decimals(farther).min(most_decimals(estimate));
+    let unit = libm::pow(10.0, f64::from(-places));
+    let error = if places < decimals(farther) { unit * (farther / unit + 0.5).ceil() } else { farther };
+    with_power(estimate, error, |power| format!("{} ± {}", at(estimate, places, power), at(error, places, power)))
 }
 
 /// Formats an estimate and both its bounds, with so many decimals at most.
@@ -52,19 +48,31 @@ fn with_bounds(estimate: f64, low: f64, high: f64, most: i32) -> String {
     let nearer = f64::min(estimate - low, high - estimate).max((high - low) / 4.0);
     let digits = if format!("{nearer:.1e}").starts_with(['1', '2']) { 2 } else { 1 };
     let places = decimals_of(nearer, digits).min(most);
-    format!("{} [{}, {}]", at(estimate, places), at(low, places), at(high, places))
+    let at = |number, power| at(number, places, power);
+    with_power(estimate, nearer, |power| format!("{} [{}, {}]", at(estimate, power), at(low, power), at(high, power)))
+}
+
+/// Formats an estimate with its error by `text`, which gets the power of ten that both share.
+fn with_power(estimate: f64, error: f64, text: impl Fn(i32) -> String) -> String {
+    let power = exponent(if estimate == 0.0 { error } else { f64::max(estimate.abs(), error) });
+    if power <= SIGNIFICANT as i32 + 2 && (power >= -2 || error >= SMALL) {
+        return text(0);
+    }
+    let text = text(power);
+    if text.starts_with("0 ±") { format!("{text}e{power}") } else { format!("({text})e{power}") }
 }
 
 /// Returns the half width that [`give_or_take`] prints; `None` if it prints none.
 pub fn printed_half_width(record: Estimate) -> Option<f64> {
-    give_or_take(record).split_once(" ± ")?.1.parse().ok()
+    give_or_take(record).split_once(" ± ")?.1.replace(')', "").parse().ok()
 }
 
 /// Returns whether an interval excludes 0 from below, also as printed.
 pub fn is_above_zero(record: Estimate) -> bool {
     let printed = give_or_take(record);
+    let number = |text: &str| text.trim_start_matches('(').split(')').next()?.parse::<f64>().ok();
     let is_left_out = match printed.split_once(" ± ") {
-        Some((estimate, half)) => estimate.parse::<f64>().ok() > half.parse::<f64>().ok(),
+        Some((estimate, half)) => number(estimate) > number(half),
         None => !printed.contains("[0, "),
     };
     record.interval.is_some_and(|interval| interval.low > 0.0) && is_left_out
@@ -128,12 +136,6 @@ pub(super) fn rounded(value: f64, digits: usize) -> String {
     significant_to(shown, digits.max(SIGNIFICANT))
 }
 
-/// Formats an error with one digit, rounded up.
-fn rounded_up(error: f64) -> String {
-    let unit = libm::pow(10.0, f64::from(exponent(error)));
-    rounded((error / unit).ceil() * unit, 1)
-}
-
 /// Returns the number of decimal places of a number with this error, which may be negative.
 fn decimals(error: f64) -> i32 {
     decimals_of(error, if format!("{error:.1e}").starts_with('1') { 2 } else { 1 })
@@ -149,20 +151,15 @@ pub(super) fn exponent(value: f64) -> i32 {
     text.split_once('e').and_then(|(_, exponent)| exponent.parse().ok()).unwrap_or(0)
 }
 
-/// Formats `value` with so many decimal places; a zero is `0`, and a small number has a power of ten.
-fn at(value: f64, decimals: i32) -> String {
-    let scale = 10_f64.powi(decimals.abs());
+/// Formats `value`, with so many decimal places, in units of a power of ten; a zero is `0`.
+fn at(value: f64, decimals: i32, power: i32) -> String {
+    let (value, decimals) = (value * libm::pow(10.0, f64::from(-power)), decimals + power);
     if decimals < 0 {
-        return significant((value / scale).round() * scale);
+        let unit = libm::pow(10.0, f64::from(-decimals));
+        return significant((value / unit).round() * unit);
     }
     let text = format!("{value:.*}", decimals as usize);
-    if text.chars().all(|c| matches!(c, '-' | '0' | '.')) {
-        return "0".to_owned();
-    }
-    if value.abs() < SMALL {
-        return format!("{value:.*e}", (decimals + exponent(value)).max(0) as usize);
-    }
-    text
+    if text.chars().all(|c| matches!(c, '-' | '0' | '.')) { "0".to_owned() } else { text }
 }
 
 #[cfg(test)]
@@ -185,14 +182,16 @@ mod tests {
             (0.5, 0.123, "0.50 ± 0.12"),
             (0.5, 0.097, "0.50 ± 0.10"),
             (5e-5, 9e-5, "0.00005 ± 0.00009"),
+            (1.5572e-5, 5e-8, "(1.557 ± 0.005)e-5"),
+            (-1.234e12, 3e9, "(-1.234 ± 0.003)e12"),
             (0.000_05, 0.3, "0 ± 0.3"),
             (-0.041_2, 0.005, "-0.041 ± 0.005"),
-            (3.506e-7, 2e-9, "3.51e-7 ± 2e-9"),
-            (0.975_501_2, 4.1e-8, "0.975501 ± 3e-7"),
-            (1.000_500_166_9, 1e-12, "1.0005 ± 2e-7"),
+            (3.506e-7, 2e-9, "(3.51 ± 0.02)e-7"),
+            (0.975_501_2, 4.1e-8, "0.975501 ± 0.000001"),
+            (1.000_500_166_9, 1e-12, "1.00050 ± 0.00001"),
             (1344.08, 23.0, "1340 ± 20"),
             (0.0, 3e-7, "0 ± 3e-7"),
-            (1.0, 1e-12, "1 ± 1e-12"),
+            (1.0, 1e-12, "1"),
         ];
         for (estimate, half, text) in cases {
             assert_eq!(about(estimate, half), text);
@@ -205,8 +204,9 @@ mod tests {
         assert_eq!(give_or_take(record(0.4, 0.5, 0.52)), "0.50 [0.40, 0.52]");
         assert_eq!(give_or_take(record(0.3282, 0.328_45, 0.3287)), "0.3285 ± 0.0003");
         assert_eq!(give_or_take(record(0.0, 0.0, 1.0)), "0 [0, 1.00]");
+        assert_eq!(give_or_take(record(0.8e-5, 1.2e-5, 3e-5)), "(1.2 [0.8, 3.0])e-5");
         assert_eq!(give_or_take(record(0.4886, 0.4889, 0.4893)), "0.4889 ± 0.0004");
-        assert_eq!(give_or_take(record(0.9755011, 0.97550118, 0.9755012)), "0.975501 ± 3e-7");
+        assert_eq!(give_or_take(record(0.9755011, 0.97550118, 0.9755012)), "0.975501 ± 0.000001");
         assert_eq!(index(record(-0.03, -0.01, 0.05)), "−0.010 [−0.030, 0.050]");
         let cases = [record(1e-19, 0.998, 1.0), record(0.001, 0.5, 1.0), record(-0.1, 0.3, 0.7)];
         assert_eq!(cases.map(is_above_zero), [false; 3]);
@@ -254,7 +254,9 @@ mod tests {
             let half = libm::pow(10.0, power);
             let text = about(estimate, half);
             let (value, error) = text.split_once(" ± ").expect("symmetric");
-            let (value, error): (f64, f64) = (value.parse().unwrap(), error.parse().unwrap());
+            let power = error.split_once('e').map_or("0", |(_, power)| power);
+            let number = |text: &str| format!("{}e{power}", text.split('e').next().unwrap().trim_matches(['(', ')'])).parse::<f64>().unwrap();
+            let (value, error) = (number(value), number(error));
             proptest::prop_assert!((value - estimate).abs() <= 1.34 * error, "{}", text);
             proptest::prop_assert!(error > 0.66 * half && error < 1.34 * half + 1.5e-5, "{} of {}", text, half);
         }

@@ -5,9 +5,8 @@ use apportion::result::{OutputResult, StudyResult};
 
 use crate::chart::Chart;
 use crate::document::{Figure, Part};
-use crate::format::name as words;
 use crate::{
-    convergence_chart, distribution_chart, file_stems, indices_chart, pairs_chart, scatter_chart, study_chart,
+    convergence_chart, distribution_chart, file_stems, indices_chart, pairs_chart, scatter_chart, shapley_chart,
 };
 
 /// A chart of an output.
@@ -22,7 +21,7 @@ pub(super) struct Kind {
     data: &'static str,
 }
 
-pub(super) const SHARES: Kind = Kind { suffix: "", name: "shares", draw: study_chart, data: ".csv" };
+pub(super) const SHARES: Kind = Kind { suffix: "", name: "shares", draw: shapley_chart, data: ".csv" };
 pub(super) const INDICES: Kind = Kind { suffix: "-indices", name: "indices", draw: indices_chart, data: ".csv" };
 pub(super) const SCATTER: Kind = Kind { suffix: "-scatter", name: "scatter", draw: scatter_chart, data: "" };
 pub(super) const DISTRIBUTION: Kind =
@@ -114,11 +113,7 @@ impl<'a> Figures<'a> {
         let stem = self.stems.get(of.number - 1).map_or_else(String::new, |stem| format!("{stem}{suffix}"));
         let data = if data.is_empty() { String::new() } else { format!("{}{data}", self.result.study.name) };
         let chart = draw(self.result, of.output);
-        let figure = self.numbered(chart, &format!("{}-{name}", of.number), (&stem, data));
-        match name {
-            "shares" => Figure { title: Some(format!("Shares of {}", words(&of.output.name))), ..figure }.into(),
-            _ => figure.into(),
-        }
+        self.numbered(chart, &format!("{}-{name}", of.number), (&stem, data)).into()
     }
 
     fn numbered(&mut self, chart: Chart, name: &str, (stem, data): (&str, String)) -> Figure {

@@ -1,4 +1,4 @@
-//! The summary: which factor matters most, with which certainty, and the warnings.
+//! The summary: which factor matters most, with which certainty.
 
 use apportion::model::MIN_OUTPUTS_TOGETHER;
 use apportion::result::{OutputResult, StudyResult};
@@ -6,11 +6,9 @@ use apportion::text::listed;
 
 use super::overview;
 use super::shared::complement;
-use super::warnings::grouped_warnings;
 use crate::format::{grouped, index, is_above_zero, name, percent, two_digits};
 use crate::interval_widths::{WIDE, indices_measured, widest_interval};
 use crate::leading::{Contender, Verdict, by_total, first_answers, leader_of};
-use crate::validity;
 
 /// Returns the paragraphs at the top of the page: on every series, then on the `single` outputs outside series.
 pub(super) fn lead(result: &StudyResult, single: &StudyResult) -> Vec<String> {
@@ -20,20 +18,10 @@ pub(super) fn lead(result: &StudyResult, single: &StudyResult) -> Vec<String> {
         ..MIN_OUTPUTS_TOGETHER => first_answers(single.outputs.iter().map(answer).collect()),
         _ => overview::answers(single),
     });
-    let failed = result.outputs.iter().map(|output| output.runs_failed).max().unwrap_or(0);
-    let warnings = grouped_warnings(&result.outputs).len();
-    let rest = [
-        Some(settled(result)),
-        validity::sentence(&result.validity),
-        validity::of_failures(failed, result.provenance.model_runs),
-        (warnings > 0)
-            .then(|| if warnings == 1 { "See the warning.".into() } else { format!("See {warnings} warnings.") }),
-    ];
-    lead.push(rest.into_iter().flatten().collect::<Vec<_>>().join(" "));
-    lead
+    lead.into_iter().chain([settled(result)]).collect()
 }
 
-/// Says which factor matters most for an output, which ones follow, and how much is due to interactions.
+/// Says which factor matters most for an output, and how much is noise, or which factors follow.
 pub(super) fn answer(output: &OutputResult) -> String {
     let order = by_total(output).unwrap_or_default();
     let contenders: Vec<Contender> = order.iter().map(|(_, index)| Contender::from_index(index)).collect();
@@ -41,12 +29,9 @@ pub(super) fn answer(output: &OutputResult) -> String {
     let next = order.iter().skip(leaders).take(2);
     let next: Vec<String> =
         next.map(|(_, next)| format!("{} ({})", name(&next.factor), index(next.effect.weight()))).collect();
-    let next = match next.len() {
-        0 => None,
-        1 => Some(format!("Next comes {}.", listed(&next))),
-        _ => Some(format!("Next come {}.", listed(&next))),
-    };
-    let sentences = [Some(leader_of(output)), next, super::noise::sentence(output), interactions(output)];
+    let verb = if next.len() == 1 { "comes" } else { "come" };
+    let next = (!next.is_empty()).then(|| format!("Next {verb} {}.", listed(&next)));
+    let sentences = [Some(leader_of(output)), super::noise::sentence(output).or(next)];
     sentences.into_iter().flatten().collect::<Vec<_>>().join(" ")
 }
 

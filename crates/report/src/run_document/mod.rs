@@ -18,11 +18,13 @@ use apportion::text::{capitalised, listed};
 use figures::{Figures, Numbered, Stems};
 use output::Topic;
 pub use series::one_output;
+pub(crate) use tables::{FACTORS, IN_CSV};
 use warnings::grouped_warnings;
 
 use super::document::{DataFile, Document, Mark, Part, Section, Table};
 use super::format::{grouped, name, significant};
 use super::study_sections::{study_section, validity_section};
+use super::validity;
 
 /// Builds the document of a result. All of it comes from the result, so that it can be rebuilt from the JSON file. With
 /// one output every topic is a section; with several every output is; with 12 or more there is an overview, and the
@@ -51,6 +53,11 @@ pub fn run_document(result: &StudyResult) -> Document {
     let mut figures = Figures::new(single, stems, drawn);
     let is_many = single.outputs.len() >= MIN_OUTPUTS_TOGETHER;
     sections.extend(if is_many { overview::sections(&mut figures) } else { of_outputs(&mut figures) });
+    let figure = |of: &Section| of.parts.iter().position(|part| matches!(part, Part::Figure(_)));
+    let first = sections.iter_mut().find_map(|of| Some((figure(of)?, of)));
+    if let (Some(callout), Some((figure, of))) = (validity::callout(result), first) {
+        of.parts.insert(figure + 1, callout);
+    }
     sections.extend(validity_section(&result.validity));
     sections.extend(own_ranges(&result.study));
     sections.push(Section::new("cost", "Run time", cost(result)));

@@ -112,27 +112,18 @@ fn shares(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
                         in [analysis].";
             return vec![Part::Text(text.to_owned())];
         }
-        false => {
-            "A factor's share is its index in percent of the sum of the indices of all factors: of the first-order indices \
-             S_1, or of the total indices S_T."
-        }
+        false => return Vec::new(),
     };
     let text = of.is_first().then(|| Part::OnPage(vec![Part::Text(text.to_owned())]));
-    let table = match has_shapley {
-        true => tables::players(of.output),
-        false => tables::shares(of.output)
-            .map(|table| Part::Details { summary: "The shares as numbers".to_owned(), parts: vec![table] }),
-    };
-    text.into_iter().chain([figures.draw(of, SHARES)]).chain(table).collect()
+    text.into_iter().chain([figures.draw(of, SHARES)]).chain(tables::players(of.output)).collect()
 }
 
 fn indices(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
     let result = figures.result;
-    let mut parts = Vec::new();
+    let mut parts = vec![figures.draw(of, INDICES)];
     if of.is_first() {
         parts.extend(definitions(result));
     }
-    parts.push(figures.draw(of, INDICES));
     let tables =
         [tables::indices(result, of.output), tables::groups(result, of.output), tables::subsets(result, of.output)];
     parts.extend(tables.into_iter().flatten().map(Part::Table));

@@ -30,10 +30,13 @@ pub(super) fn definitions(result: &StudyResult) -> [Part; 2] {
         }
     };
     let intervals = match &result.provenance.interval {
-        Some(words) => format!("Intervals (±): {words}."),
-        None => "There are no intervals: one replicate gives no estimate of its error.".to_owned(),
+        Some(words) => Part::Details {
+            summary: "How the intervals are computed".to_owned(),
+            parts: vec![Part::Text(format!("Intervals (±): {words}."))],
+        },
+        None => Part::Text("There are no intervals: one replicate gives no estimate of its error.".to_owned()),
     };
-    [Part::OnPage(vec![Part::Text(indices)]), Part::Text(intervals)]
+    [Part::OnPage(vec![Part::Text(indices)]), intervals]
 }
 
 /// Returns 1 minus a part, with the interval that follows from its own.

@@ -4,16 +4,16 @@ use apportion::model::MIN_OUTPUTS_TOGETHER;
 use apportion::result::{
     AggregateRecord, OtherIndexRecord, OutputResult, PairRecord, PlainIndexRecord, PlayerRecord, StudyResult,
 };
-use apportion::uncertainty::{EffectEstimates, Estimate};
+use apportion::uncertainty::{EffectEstimates, Estimate, Interval};
 
 use crate::document::{Cell, Part, Rows, Table, csv};
-use crate::format::{chance, name, share};
+use crate::format::{chance, name};
 use crate::leading::{by_total, surely_interact};
 
 /// Maximum number of factors in a table; the files have all of them.
-pub(super) const FACTORS: usize = 50;
+pub(crate) const FACTORS: usize = 50;
 /// The caption's note on the others.
-pub(super) const IN_CSV: &str = "factors, all in the CSV file";
+pub(crate) const IN_CSV: &str = "factors, all in the CSV file";
 /// Maximum number of pairs of factors in a table.
 const PAIRS: usize = 20;
 /// Maximum number of factors in a table of estimators.
@@ -80,7 +80,13 @@ fn effects<'a>(
         .text(what, |line| &line.label)
         .value("name", |line| &line.name)
         .index("S_1", "first_order", |line| Some(line.first_order))
-        .index("S_T", "total", |line| Some(line.total))
+        .number("S_T", |line| match line.total {
+            Estimate { estimate: 0.0, interval: Some(Interval { low: 0.0, high: 0.0 }) } => {
+                "no effect in any run".into()
+            }
+            total => Cell::from(total),
+        })
+        .estimate("total", |line| Some(line.total))
         .file_estimate("share_first_order", |line| line.estimate(EffectEstimates::first_order_percent))
         .file_estimate("share_total", |line| line.estimate(EffectEstimates::total_percent))
         .index("S_T − S_1", "interaction", |line| line.estimate(|effect| effect.interaction))
@@ -160,16 +166,6 @@ pub(super) fn indices_csv(result: &StudyResult) -> String {
 pub(super) fn pairs_csv(result: &StudyResult) -> String {
     let header = std::iter::once(pairs_table("", Vec::new()).into());
     csv(header.chain(result.outputs.iter().filter_map(pairs)))
-}
-
-/// Tabulates shares in percent, the largest share of the total indices first.
-pub(super) fn shares(output: &OutputResult) -> Option<Part> {
-    let caption = "Shares in percent of the sums of the indices of all factors, with their 95 % intervals.";
-    let table = Table::from_rows(caption, by_total(output)?)
-        .text("factor", |(_, index)| name(&index.factor))
-        .number("of the sum of S_1", |(_, index)| share(index.effect.first_order_percent()))
-        .number("of the sum of S_T", |(_, index)| share(index.effect.total_percent()));
-    Some(table.first(FACTORS, IN_CSV).into())
 }
 
 /// Tabulates joint indices of groups of factors.

@@ -28,7 +28,6 @@ fn the_leading_factor_is_at_the_top() {
     assert!(page.lead[1].starts_with("After 1280 model runs"), "{}", page.lead[1]);
     let expected = [
         "Indices",
-        "Shares",
         "Interactions",
         "Convergence",
         "Distribution of the output",
@@ -37,7 +36,7 @@ fn the_leading_factor_is_at_the_top() {
         "Try your own ranges",
         "Run time",
     ];
-    assert_eq!(titles(&page)[..9], expected);
+    assert_eq!(titles(&page)[..8], expected);
 }
 
 #[test]

@@ -9,6 +9,8 @@ use super::ScreeningFile;
 use super::charts::{bars, leader, scatter};
 use crate::document::{Document, OutputReport, Report, Table};
 use crate::format::{grouped, index, name, or_dash, short, words};
+use crate::leading::NAMES;
+use crate::run_document::{FACTORS, IN_CSV};
 use crate::study_sections::{failures, inputs};
 
 /// Builds the document of a screening.
@@ -21,7 +23,7 @@ pub fn screening_document(file: &ScreeningFile) -> Document {
             warnings: &output.warnings,
             answer: format!("{} {}", leader(output), fixable(output)),
             parts: failures(failed).into_iter().chain([effects(file, output).into()]).collect(),
-            charts: vec![("", scatter(file, output)), ("-bars", bars(file, output))],
+            charts: vec![("-bars", bars(file, output)), ("", scatter(file, output))],
         }
     });
     let provenance = &file.provenance;
@@ -100,14 +102,18 @@ fn effects(file: &ScreeningFile, output: &ScreenedOutput) -> Table {
         .value("could_be_fixed", |factor| factor.could_be_fixed)
         .file("effects", |factor| factor.effects)
         .file("dropped", |factor| factor.dropped);
-    Table { printed: Some(ranked), ..rows.into() }
+    rows.largest(ranked, FACTORS, IN_CSV).into()
 }
 
 /// Says which factors could be fixed, and by which rule.
 fn fixable(output: &ScreenedOutput) -> String {
     let fixable = output.factors.iter().filter(|f| f.could_be_fixed == Some(true)).map(|f| words(&f.factor));
     let fixable: Vec<String> = fixable.collect();
-    let names = if fixable.is_empty() { "none".to_owned() } else { listed(&fixable) };
+    let names = match fixable.len() {
+        0 => "none".to_owned(),
+        1..=NAMES => listed(&fixable),
+        many => format!("{many} of {} factors", output.factors.len()),
+    };
     format!(
         "Could be fixed for {}: {names} (the upper bound of μ* below {} % of the largest μ*, by at least half of the effects).",
         name(&output.name),

@@ -4,7 +4,7 @@ use apportion::EffectEstimates;
 use apportion::result::IndexRecord;
 use apportion::text::{capitalised, listed};
 use apportion_report::document::{Cell, Mark, OnPhone, Part, Table};
-use apportion_report::format::words;
+use apportion_report::format::{chance, words};
 use apportion_report::{fixed, share_of_runs};
 
 use crate::reproduce::order::VISIBLE;
@@ -12,7 +12,7 @@ use crate::reproduce::shares::{indices, ranked};
 use crate::reproduce::{FRICTIONS, GROUPS, Reproduced, named_together};
 
 /// Formats an index in percent of the variance, to a whole percent; one decimal below 10 % and near 100 %.
-fn percent(index: f64) -> String {
+pub(in crate::reproduce) fn percent(index: f64) -> String {
     let is_near_an_end = !(0.0995..=0.985).contains(&index);
     format!("{} %", fixed(100.0 * index, usize::from(is_near_an_end)))
 }
@@ -25,8 +25,7 @@ fn explained(effect: &EffectEstimates) -> (String, String) {
 /// Says with which certainty the leading factor leads.
 fn certainty(effect: &EffectEstimates) -> String {
     match effect.probability_first {
-        Some(p) if p > 0.999 => "largest with probability > 0.999".to_owned(),
-        Some(p) => format!("largest with probability {}", fixed(p, 3)),
+        Some(_) => format!("largest with probability {}", chance(effect.probability_first)),
         None => "one replicate gives no probability".to_owned(),
     }
 }

@@ -22,11 +22,11 @@ pub(super) fn label<'a>(figures: &'a [PaperFigure], stem: &str) -> Option<&'a st
     figures.iter().find(|figure| figure.stem == stem).map(|figure| figure.label.as_str())
 }
 
-/// Builds the section of the shares under every friction model: of all factors together, then of each group.
+/// Builds the section of the indices under every friction model: of all factors together, then of each group.
 pub(super) fn overview(figures: &[PaperFigure]) -> Section {
     let groups = [GROUPS[2], GROUPS[0], GROUPS[1]];
     let together = groups.iter().filter_map(|group| shown_together(figures, group.key));
-    Section::new("overview", "Shares under every friction model", together.map(Part::from).collect())
+    Section::new("overview", "Indices under every friction model", together.map(Part::from).collect())
 }
 
 /// Builds a section of figures for each paper.

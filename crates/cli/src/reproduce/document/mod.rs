@@ -5,6 +5,7 @@ mod constants;
 mod figures;
 mod verdicts;
 
+pub(super) use answers::percent;
 use apportion_report::document::{DataFile, Document, Part, Report, Section, Table};
 use apportion_report::grouped;
 

@@ -16,6 +16,13 @@ fn badge(verdict: &Verdict) -> Cell {
     Cell::marked(verdict.word(), mark)
 }
 
+/// Returns the number of a claim, with a letter if it has several parts: `17a`.
+fn part(claims: &[Claim], claim: &Claim) -> String {
+    let parts: Vec<&Claim> = claims.iter().filter(|other| other.number == claim.number).collect();
+    let place = parts.iter().position(|other| std::ptr::eq(*other, claim)).filter(|_| parts.len() > 1);
+    format!("{}{}", claim.number, place.map_or("", |place| ["a", "b", "c", "d"][place]))
+}
+
 /// Builds the table of verdicts, a line or two each; the CSV file has all of every claim.
 pub(super) fn table(claims: &[Claim]) -> Part {
     let verdict = |claim: &Claim| {
@@ -26,8 +33,8 @@ pub(super) fn table(claims: &[Claim]) -> Part {
     let caption = "Each claim of the papers, and our answer, as the paper shows it (at its figure's scene, with its \
                    constants) and over the whole ranges of the general study.";
     let rows = Table::from_rows(caption, claims)
-        .text("", |claim| claim.number.to_string())
-        .named("number")
+        .text("", |claim| part(claims, claim))
+        .value("number", |claim| claim.number as u64)
         .file("source", |claim| claim.source)
         .text("claim", |claim| format!("{} ({})", claim.statement, claim.source))
         .value("statement", |claim| claim.statement)
@@ -49,7 +56,7 @@ pub(super) fn details(claims: &[Claim], figures: &[PaperFigure]) -> Part {
         shown.map(|(label, anchor)| Link::new(label, format!("#{anchor}"))).collect()
     };
     let rows = Table::from_rows("Basis of the verdicts.", claims)
-        .text("claim", |claim| Cell { links: links(claim), ..Cell::from(claim.number.to_string()) })
+        .text("claim", |claim| Cell { links: links(claim), ..Cell::from(part(claims, claim)) })
         .text("our values, and their setting", |claim| Cell {
             note: claim.setting.clone(),
             ..Cell::from(&claim.finding)

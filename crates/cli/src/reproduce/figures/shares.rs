@@ -7,6 +7,7 @@ use apportion_report::format::words;
 use apportion_report::{SharesSeries, shares_chart};
 
 use super::Drawn;
+use crate::reproduce::document::percent;
 use crate::reproduce::papers::PRINTED;
 use crate::reproduce::shares::{indices, ranked, shares_table};
 use crate::reproduce::{Reproduced, StudyGroup, published};
@@ -31,25 +32,26 @@ fn group_chart(group: StudyGroup, members: &[&Reproduced]) -> Chart {
     let series: Vec<SharesSeries<'_>> = members
         .iter()
         .map(|member| SharesSeries {
-            series: Series::new(member.friction.name, member.friction.colour),
+            series: Series::new(member.friction.name, member.friction.colour).stroke(member.friction.stroke),
             output: &member.result.outputs[0],
             published: published(group.key, member.friction.key).shares.to_vec(),
         })
         .collect();
     let title = format!("Which factor decides the critical force: {} study", group.key);
-    shares_chart(&title, &caption(group, members), &factors, &series).published_name("published (LuGre)")
+    shares_chart(&title, &caption(group, members), &factors, &series)
 }
 
 /// Says in one sentence which factor leads under each friction model, and the printed values.
 fn caption(group: StudyGroup, members: &[&Reproduced]) -> String {
     let leader = |member: &&Reproduced| {
         let IndexRecord { factor, effect } = &indices(member)[*ranked(member).first()?];
-        Some(format!("{} under {} friction ({:.0} %)", words(factor), member.friction.name, effect.share_total?))
+        let total = percent(effect.total.estimate);
+        Some(format!("{} under {} friction ({total})", words(factor), member.friction.name))
     };
     let leaders: Vec<String> = members.iter().filter_map(leader).collect();
     let seen = match leaders.is_empty() {
-        true => "No factor has a share".to_owned(),
-        false => format!("The largest share of the total indices is that of {}", listed(&leaders)),
+        true => "No factor has an index".to_owned(),
+        false => format!("The largest total index S_T is that of {}", listed(&leaders)),
     };
     let printed = |member: &&Reproduced| {
         let shares = published(group.key, member.friction.key).shares;

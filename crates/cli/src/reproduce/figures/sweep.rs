@@ -3,7 +3,7 @@
 use apportion::space::{Factor, Space};
 use apportion::sweep::{find, values_over_range};
 use apportion::text::{capitalised, listed};
-use apportion_afm::{Fidelity, Options, Parameter, Scene, critical_force};
+use apportion_afm::{Fidelity, FrictionLaw, Options, Parameter, Scene, critical_force};
 use apportion_report::chart::{Axis, Chart, Colour, Mark, Panel, Series, Stroke};
 use apportion_report::document::Table;
 use apportion_report::format::{three_digits as short, unit};
@@ -42,11 +42,12 @@ impl Line {
 
 /// Returns the line `key` of `papers.toml`.
 fn line(key: &'static str) -> Line {
-    let [coulomb, hk, lugre] = FRICTIONS.map(|Friction { law, name, colour, .. }| Line {
+    let [coulomb, hk, lugre] = FRICTIONS.map(|Friction { law, name, colour, stroke, .. }| Line {
         key,
         name: name.to_owned(),
         said: format!(" under {name} friction"),
-        look: (colour, Stroke::Solid),
+        // LuGre's other lines are dotted.
+        look: (colour, if law == FrictionLaw::LuGre { Stroke::Solid } else { stroke }),
         scene: Scene::default(),
         options: Options { friction: law, ..Options::default() },
     });
@@ -166,7 +167,7 @@ impl Swept<'_> {
             all.push(Series::new(&drawn.line.name, colour).stroke(stroke).line(points(&drawn.force)));
             if let Some(force) = drawn.quasi_static.as_ref().filter(|_| drawn.difference() > VISIBLE * range) {
                 let name = format!("{}, quasi-static", drawn.line.name);
-                all.push(Series::new(name, colour).stroke(Stroke::Dashed).line(points(force)));
+                all.push(Series::new(name, colour).stroke(Stroke::Dotted).line(points(force)));
             }
         }
         let symbol = self.parameter.symbol.replace("omega", "ω");
@@ -259,6 +260,6 @@ fn agreement(lines: &[Drawn], range: f64) -> String {
     if most < 1e-4 {
         return String::new();
     }
-    let drawn = if lines.iter().any(|line| line.difference() > VISIBLE * range) { " (dashed)" } else { "" };
+    let drawn = if lines.iter().any(|line| line.difference() > VISIBLE * range) { " (dotted)" } else { "" };
     format!("; the quasi-static rung{drawn} differs from the closed forms by at most {} %", short(100.0 * most))
 }

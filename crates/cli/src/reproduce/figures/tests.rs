@@ -89,7 +89,8 @@ fn every_figure_occurs_once_and_in_order() {
         drawn_soundly(figure);
     }
     let dimensional = all.iter().find(|figure| figure.stem == "lg-4a").unwrap();
-    assert!(dimensional.chart.caption().contains("76 %"), "{}", dimensional.chart.caption());
+    let caption = dimensional.chart.caption();
+    assert!(caption.contains("thickness") && caption.contains("76 %"), "{caption}");
     let environmental = all.iter().find(|figure| figure.stem == "lg-4b").unwrap().chart.caption();
     assert!(environmental.contains("74 %") && environmental.contains("26 %"), "{environmental}");
     assert_eq!(dimensional.csv.lines().count(), 5);

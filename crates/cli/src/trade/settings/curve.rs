@@ -1,11 +1,13 @@
 //! The compared curves: a study's settings, each at a growing number of base samples.
 
 use apportion::design::{DesignError, DesignSettings, Sampler};
-use apportion::estimate::Estimator;
 use apportion::names::named;
 use apportion::study::{AnalysisOptions, LowFidelity, Rung, Study, SurrogateChoice, Target};
 use apportion::uncertainty::IntervalMethod;
 use serde::{Deserialize, Serialize};
+
+/// Suffix of the names of curves with surrogates.
+pub(super) const SURROGATES: &str = ", surrogates";
 
 named! {
 /// What varies along a curve.
@@ -16,8 +18,6 @@ pub enum Axis {
     Fidelity = "fidelity",
     /// The sampler.
     Sampler = "sampler",
-    /// The formulas of the indices.
-    Estimator = "estimator",
 }
 }
 
@@ -29,33 +29,23 @@ pub(super) struct Curve {
     /// The model.
     pub rung: Rung,
     pub sampler: Sampler,
-    pub estimator: Estimator,
     pub has_surrogate: bool,
 }
 
 impl Curve {
     /// Returns all curves of `study`: every rung with and without surrogates, and at its own rung, without surrogates,
-    /// the other samplers and estimators.
+    /// the other samplers.
     pub fn all(study: &Study) -> Vec<Self> {
         let settings = study.design().settings();
         let rungs = rungs(study);
         let name = study.subject().rung_name();
         let rung = rungs.iter().find(|rung| rung.name == name).unwrap_or(&rungs[0]).clone();
-        let own = Self {
-            axis: Axis::Fidelity,
-            rung,
-            sampler: settings.sampler,
-            estimator: Estimator::Default,
-            has_surrogate: false,
-        };
+        let own = Self { axis: Axis::Fidelity, rung, sampler: settings.sampler, has_surrogate: false };
         let of_rung =
             |rung: Rung| [false, true].map(|has_surrogate| Self { rung: rung.clone(), has_surrogate, ..own.clone() });
         let mut curves: Vec<Self> = rungs.into_iter().flat_map(of_rung).collect();
         let samplers = Sampler::ALL.into_iter().filter(|sampler| *sampler != settings.sampler);
         curves.extend(samplers.map(|sampler| Self { axis: Axis::Sampler, sampler, ..own.clone() }));
-        let both = |estimator: &Estimator| matches!(estimator.formulas(), (Some(_), Some(_)));
-        let estimators = Estimator::ALL.into_iter().filter(|e| *e != Estimator::Default && both(e));
-        curves.extend(estimators.map(|estimator| Self { axis: Axis::Estimator, estimator, ..own.clone() }));
         curves
     }
 
@@ -63,10 +53,9 @@ impl Curve {
     pub fn name(&self) -> String {
         let rung = &self.rung.name;
         match self.axis {
-            Axis::Fidelity if self.has_surrogate => format!("{rung}, surrogates"),
+            Axis::Fidelity if self.has_surrogate => format!("{rung}{SURROGATES}"),
             Axis::Fidelity => rung.to_owned(),
             Axis::Sampler => self.sampler.name().to_owned(),
-            Axis::Estimator => self.estimator.name().to_owned(),
         }
     }
 
@@ -76,11 +65,10 @@ impl Curve {
         let own = study.analysis().intervals;
         let intervals = if own.serves(self.sampler) { own } else { usual };
         let surrogate = if self.has_surrogate { SurrogateChoice::On } else { SurrogateChoice::Off };
-        let estimators = if self.estimator == Estimator::Default { Vec::new() } else { vec![self.estimator] };
         let analysis = AnalysisOptions {
             intervals,
             surrogate,
-            estimators,
+            estimators: Vec::new(),
             second_order: false,
             pictures: false,
             ..study.analysis().clone()
@@ -100,9 +88,6 @@ impl Curve {
         lines.push_str(&format!("[design]\nsampler = \"{}\"\nbase_samples = {base_samples}\n", self.sampler.name()));
         let surrogate = if self.has_surrogate { SurrogateChoice::On } else { SurrogateChoice::Off };
         lines.push_str(&format!("[analysis]\nsurrogate = \"{}\"\n", surrogate.name()));
-        if self.estimator != Estimator::Default {
-            lines.push_str(&format!("estimators = [\"{}\"]\n", self.estimator.name()));
-        }
         lines
     }
 }

@@ -1,9 +1,9 @@
 //! A comparison of settings as a document.
 
 use apportion::result::json;
-use apportion_report::chart::{Axis, Chart, Colour, Panel, Series, Spacing, Stroke};
+use apportion_report::chart::{Axis, Chart, Colour, Panel, Point, Series, Shape, Spacing, Stroke};
 use apportion_report::document::{Document, Figure, Part, Report, Section, Table};
-use apportion_report::format::{grouped, significant};
+use apportion_report::format::{count, grouped, significant};
 
 use super::Measured;
 use super::curve::Axis as Varied;
@@ -12,15 +12,13 @@ use super::record::{AdviceRecord, SettingsFile};
 /// Errors below this are drawn at this value.
 const MIN_ERROR: f64 = 1e-6;
 
-/// Suffix of the names of curves with surrogates.
-const SURROGATES: &str = ", surrogates";
+/// Maximum number of curves that are drawn: the study's own and the chosen ones, then the other rungs.
+const CURVES: usize = 6;
 
 /// Builds the document of a comparison.
 pub fn settings_document(file: &SettingsFile) -> Document {
     let (headline, name) = (file.study.headline(), format!("{}-trade", file.study.name));
-    let figure = |chart, ending: &str| Figure::unnumbered(chart, format!("{name}{ending}")).into();
-    let advice = vec![advice_table(file), figure(chart(file, headline), "")];
-    let others = vec![figure(formulas_chart(file, headline), "-formulas"), all(file)];
+    let advice = vec![Figure::unnumbered(chart(file, headline), name.clone()).into(), advice_table(file)];
     let truth = &file.truth;
     Report {
         kicker: "Accuracy against time",
@@ -30,7 +28,7 @@ pub fn settings_document(file: &SettingsFile) -> Document {
             Section::new("advice", "The cheapest setting for an accuracy", advice),
             Section::new("lines", "Lines to paste", lines(file)),
             Section::new("rungs", "What the rungs cost", rung_table(file).into_iter().collect()),
-            Section::new("all", "Every setting", others),
+            Section::new("all", "Every setting", vec![all(file)]),
         ],
         study: Some(&file.study),
         version: &file.apportion_version,
@@ -89,13 +87,12 @@ fn lead(file: &SettingsFile) -> Vec<String> {
         ),
         None => "No setting that was measured reaches an accuracy of 0.1.".to_owned(),
     };
-    let (least, most) = times(file);
-    let span = format!("{} settings took from {} to {} each.", file.settings.len(), seconds(least), seconds(most));
-    vec![format!("{cheapest} {span}"), truth]
+    vec![cheapest, truth]
 }
 
 fn advice_table(file: &SettingsFile) -> Part {
-    let caption = "The cheapest setting whose largest error, over all indices and seeds, is no more than the accuracy.";
+    let caption = "The cheapest setting whose largest error, over all indices and seeds, is no more than the accuracy; the study's \
+                   own where it differs from that by no more than the noise of time and error.";
     let of = |said: fn(&Measured) -> String, none: &'static str| {
         move |advice: &AdviceRecord| setting(file, advice).map_or_else(|| none.to_owned(), said)
     };
@@ -131,14 +128,13 @@ fn lines(file: &SettingsFile) -> Vec<Part> {
 }
 
 /// Returns the settings curve by curve.
-fn curves(file: &SettingsFile, axis: Varied) -> Vec<Vec<&Measured>> {
-    let of_axis: Vec<&Measured> = file.settings.iter().filter(|of| of.axis == axis).collect();
-    of_axis.chunk_by(|a, b| a.curve == b.curve).map(<[_]>::to_vec).collect()
+fn curves(file: &SettingsFile) -> Vec<&[Measured]> {
+    file.settings.chunk_by(|a, b| a.curve == b.curve).collect()
 }
 
-/// Returns the shortest and the longest time of a setting.
-fn times(file: &SettingsFile) -> (f64, f64) {
-    file.settings.iter().fold((f64::INFINITY, 0.0), |(low, high), of| (low.min(of.seconds), high.max(of.seconds)))
+/// Returns whether a curve is that of a rung without surrogates.
+fn is_rung(curve: &[Measured]) -> bool {
+    curve[0].axis == Varied::Fidelity && !curve[0].has_surrogate
 }
 
 /// Returns the smallest error that is drawn: that of the reference, below which errors cannot be distinguished.
@@ -146,14 +142,14 @@ fn least_drawn(file: &SettingsFile) -> f64 {
     file.truth.error.unwrap_or(0.0).max(MIN_ERROR)
 }
 
-fn points(file: &SettingsFile, curve: &[&Measured]) -> Vec<(f64, f64)> {
+fn points(file: &SettingsFile, curve: &[Measured]) -> Vec<(f64, f64)> {
     let least = least_drawn(file);
     curve.iter().filter_map(|of| Some((of.seconds, of.error?.max(least)))).collect()
 }
 
 /// Returns the seconds of a run on a curve: the time per additional run, without the estimates; the whole time if the
 /// rung is so slow that it was measured only once.
-fn seconds_of_run(curve: &[&Measured]) -> Option<f64> {
+fn seconds_of_run(curve: &[Measured]) -> Option<f64> {
     let (first, last) = (curve.first()?, curve.last()?);
     let (seconds, runs) = match curve.len() {
         1 => (last.seconds, last.runs),
@@ -164,8 +160,8 @@ fn seconds_of_run(curve: &[&Measured]) -> Option<f64> {
 
 /// Tabulates the rungs without surrogates; `None` if there is only one.
 fn rung_table(file: &SettingsFile) -> Option<Part> {
-    let curves = curves(file, Varied::Fidelity).into_iter().filter(|curve| !curve[0].has_surrogate);
-    let rungs: Vec<_> = curves.filter_map(|curve| Some((seconds_of_run(&curve)?, curve))).collect();
+    let curves = curves(file).into_iter().filter(|curve| is_rung(curve));
+    let rungs: Vec<_> = curves.filter_map(|curve| Some((seconds_of_run(curve)?, curve))).collect();
     let cheapest = rungs.iter().map(|(seconds, _)| *seconds).fold(f64::INFINITY, f64::min);
     let caption = "The time of one model run on all threads, and the smallest error for any number of runs.";
     let times = |seconds: f64| format!("{:.1e}", seconds / cheapest).parse().unwrap_or(f64::INFINITY);
@@ -177,62 +173,48 @@ fn rung_table(file: &SettingsFile) -> Option<Part> {
     (rungs.len() > 1).then(|| table.into())
 }
 
-fn panel() -> Panel {
-    let x = Axis::new("Time of a run", "s").spaced(Spacing::Logarithmic);
-    let y = Axis::new("Largest error of an index", "").spaced(Spacing::Logarithmic);
-    Panel::new(x, y)
-}
-
 /// Draws the error of the reference over the range of times.
 fn floor(file: &SettingsFile) -> Option<apportion_report::chart::Mark> {
     let error = file.truth.error.filter(|error| *error > MIN_ERROR)?;
-    let (least, most) = times(file);
+    let times = file.settings.iter().map(|of| of.seconds);
+    let (least, most) = (times.clone().reduce(f64::min)?, times.reduce(f64::max)?);
     let series = Series::new("error of the reference", Colour::Reference).stroke(Stroke::Dotted);
     Some(series.line(vec![(least, error), (most, error)]))
 }
 
 fn chart(file: &SettingsFile, headline: &str) -> Chart {
-    let mut rungs: Vec<String> = Vec::new();
-    let mut panels = [panel().titled("Without surrogates"), panel().titled("With surrogates")];
-    for curve in curves(file, Varied::Fidelity) {
-        let rung = curve[0].curve.strip_suffix(SURROGATES).unwrap_or(&curve[0].curve).to_owned();
-        let place = rungs.iter().position(|other| *other == rung).unwrap_or_else(|| {
-            rungs.push(rung.clone());
-            rungs.len() - 1
-        });
-        let series = Series::new(rung, Colour::Series(place)).stroke(Stroke::SolidWithPoints);
-        panels[usize::from(curve[0].has_surrogate)].marks.push(series.line(points(file, &curve)));
-    }
-    let mut front: Vec<&Measured> = file.settings.iter().filter(|of| of.is_on_front).collect();
-    front.sort_by(|a, b| a.seconds.total_cmp(&b.seconds));
-    let best = Series::new("no other setting is faster and better", Colour::Reference);
-    for panel in &mut panels {
-        panel.marks.push(best.line(points(file, &front)));
-        panel.marks.extend(floor(file));
-    }
+    let mut drawn = curves(file);
+    let is_chosen = |curve: &str| file.advice.iter().filter_map(|one| setting(file, one)).any(|of| of.curve == curve);
+    let is_first = |of: &Measured| of.curve == file.own || is_chosen(&of.curve);
+    drawn.sort_by_key(|curve| (!is_first(&curve[0]), !is_rung(curve)));
+    let more = drawn.len().saturating_sub(CURVES);
+    drawn.truncate(CURVES);
+    let lines = drawn.into_iter().enumerate().map(|(place, curve)| {
+        let series = Series::new(&curve[0].curve, Colour::Series(place)).stroke(Stroke::SolidWithPoints);
+        series.line(points(file, curve))
+    });
+    let choices = file.advice.chunk_by(|a, b| a.setting == b.setting).filter_map(|alike| {
+        let of = setting(file, &alike[0])?;
+        let accuracies: Vec<String> = alike.iter().map(|one| significant(one.accuracy)).collect();
+        let label = format!("{}: {}, {}", accuracies.join(", "), of.curve, grouped(of.base_samples));
+        let (x, y) = (of.seconds, of.error?.max(least_drawn(file)));
+        let series = Series::new("the setting to choose for an accuracy", Colour::Reference);
+        Some(series.mark(Shape::Point(Point { x, y, label })))
+    });
     let caption = format!(
-        "Every curve grows from 16 base samples by factors of 4. Where it levels off, the error is that of the model, not of the number of \
-         runs. Errors below {:.0e} are drawn there.",
-        least_drawn(file)
+        "Every curve grows from 16 base samples by factors of 4. Where it levels off, the model is what errs, not the number of \
+         its runs. Errors below {:.0e} are drawn there.{}",
+        least_drawn(file),
+        if more > 0 {
+            format!(" {} in the table.", count(more as u64, "more curve is", "more curves are"))
+        } else {
+            String::new()
+        }
     );
-    Chart::new(format!("{headline}: error against time"), caption).panels(panels)
-}
-
-fn formulas_chart(file: &SettingsFile, headline: &str) -> Chart {
-    let of_axis = |axis, title: &str| {
-        let lines = curves(file, axis).into_iter().enumerate();
-        let lines = lines.map(|(place, curve)| {
-            let series = Series::new(curve[0].curve.clone(), Colour::Series(place));
-            series
-                .stroke(if place % 2 == 0 { Stroke::SolidWithPoints } else { Stroke::Dashed })
-                .line(points(file, &curve))
-        });
-        panel().titled(title).with(lines)
-    };
-    let caption = "All with the same model and without surrogates; the sampler and estimators of the study are in the \
-                   other figure.";
-    Chart::new(format!("{headline}: samplers and estimators"), caption)
-        .panels([of_axis(Varied::Sampler, "Samplers"), of_axis(Varied::Estimator, "Estimators")])
+    let x = Axis::new("Time of a run", "s").spaced(Spacing::Logarithmic);
+    let y = Axis::new("Largest error of an index", "").spaced(Spacing::Logarithmic);
+    let panel = Panel::new(x, y).with(lines).with(floor(file)).with(choices);
+    Chart::new(format!("{headline}: error against time"), caption).panels([panel])
 }
 
 fn all(file: &SettingsFile) -> Part {
@@ -246,6 +228,7 @@ fn all(file: &SettingsFile) -> Part {
         .value("model_runs", |of| of.runs)
         .number("time", |of| seconds(of.seconds))
         .value("seconds", |of| of.seconds)
+        .file("seeds", |of| of.seeds as u64)
         .number("largest error", |of| short_error(of.error))
         .value("largest_error", |of| of.error)
         .text("on the front", |of| if of.is_on_front { "yes" } else { "" })

@@ -12,12 +12,11 @@ mod truth;
 use std::sync::atomic::AtomicBool;
 
 use apportion::clock::Instant;
-use apportion::estimate::Estimator;
 use apportion::result::StudyResult;
 use apportion::run::RunError;
 use apportion::study::Study;
 pub use curve::Axis;
-use curve::Curve;
+use curve::{Curve, SURROGATES};
 pub use document::settings_document;
 pub use record::{SettingsFile, build_settings};
 use serde::{Deserialize, Serialize};
@@ -32,6 +31,12 @@ const MAX_BASE_SAMPLES: u64 = 1 << 22;
 
 /// Part of the time for the reference.
 const SHARE_OF_TRUTH: f64 = 0.25;
+
+/// Seconds that the runs of a setting last together at least, so that their times mean something.
+const MIN_SECONDS: f64 = 0.05;
+
+/// Number of seeds that a setting has even if they take more than its part of the time.
+const MIN_SEEDS: usize = 3;
 
 /// Half widths for which the cheapest setting is reported.
 pub const ACCURACIES: [f64; 5] = [0.1, 0.03, 0.01, 0.003, 0.001];
@@ -66,6 +71,8 @@ impl SettingsJob<'_> {
 pub struct Comparison {
     /// The reference for the errors.
     pub truth: TruthFound,
+    /// The curve of the study's own model and sampler, without surrogates.
+    pub own: String,
     /// All measured settings.
     pub settings: Vec<Measured>,
 }
@@ -97,10 +104,16 @@ pub struct Measured {
     pub base_samples: u64,
     /// Model runs.
     pub runs: u64,
-    /// Seconds, fits and estimates included: the minimum over all seeds.
+    /// Seconds, fits and estimates included: the minimum over all seeds, which are run again until they last 50 ms.
     pub seconds: f64,
+    /// The median of these seconds.
+    pub usual_seconds: f64,
+    /// Number of seeds.
+    pub seeds: usize,
     /// Largest error of a first-order or total index of any output, over all seeds; `None` without indices.
     pub error: Option<f64>,
+    /// The smaller of the largest errors of every other seed and of the rest: how small it may be by chance.
+    pub least_error: Option<f64>,
     /// Whether no other setting is both quicker and more accurate.
     pub is_on_front: bool,
     /// The lines of a study with this setting.
@@ -108,8 +121,8 @@ pub struct Measured {
 }
 
 impl Comparison {
-    fn new(truth: TruthFound, settings: Vec<Measured>) -> Self {
-        let mut comparison = Self { truth, settings };
+    fn new(truth: TruthFound, own: String, settings: Vec<Measured>) -> Self {
+        let mut comparison = Self { truth, own, settings };
         for place in comparison.front() {
             comparison.settings[place].is_on_front = true;
         }
@@ -135,9 +148,16 @@ impl Comparison {
         self.truth.error.unwrap_or(f64::INFINITY)
     }
 
-    /// Returns the cheapest setting with an error of at most `accuracy`, including the error of the reference.
+    /// Returns the cheapest setting with an error of at most `accuracy`, including the error of the reference; the
+    /// study's own model and sampler instead, if that differs from that by no more than the noise of time and error.
     pub fn cheapest(&self, accuracy: f64) -> Option<usize> {
-        self.front().into_iter().find(|&k| self.settings[k].error.is_some_and(|e| e + self.truth_error() <= accuracy))
+        let reaches = |error: Option<f64>| error.is_some_and(|error| error + self.truth_error() <= accuracy);
+        let quickest = self.front().into_iter().find(|&k| reaches(self.settings[k].error))?;
+        let best = &self.settings[quickest];
+        let is_alike = |of: &Measured| of.seconds <= best.usual_seconds && reaches(of.least_error);
+        let is_own = |of: &Measured| of.curve.trim_end_matches(SURROGATES) == self.own;
+        let own = self.settings.iter().position(|of| !is_own(best) && is_own(of) && is_alike(of));
+        own.or(Some(quickest))
     }
 }
 
@@ -157,7 +177,7 @@ pub fn compare_settings(job: &SettingsJob<'_>) -> Result<Comparison, RunError> {
         let share = (job.seconds - done).max(0.0) / (curves.len() - number) as f64;
         settings.extend(measured(job, curve, &truth, share)?);
     }
-    Ok(Comparison::new(truth.found, settings))
+    Ok(Comparison::new(truth.found, job.study.subject().rung_name(), settings))
 }
 
 /// Measures the points of `curve` that fit into so many seconds, at least the first.
@@ -167,34 +187,46 @@ fn measured(job: &SettingsJob<'_>, curve: &Curve, truth: &Truth, seconds: f64) -
     let mut base_samples = FIRST_BASE_SAMPLES;
     while base_samples <= MAX_BASE_SAMPLES {
         let began = start.elapsed().as_secs_f64();
-        let mut point: Option<Measured> = None;
-        for seed in 0..job.seeds.max(1) {
-            let own = job.study.design().settings().seed.wrapping_add(seed);
-            let Ok(study) = curve.study(job.study, base_samples, own) else { return Ok(all) };
+        let (mut errors, mut times, mut last) = (Vec::new(), Vec::new(), None);
+        let seeds = job.seeds.max(1) as usize;
+        let is_late = || start.elapsed().as_secs_f64() > seconds;
+        while errors.len() < seeds || times.iter().sum::<f64>() < MIN_SECONDS {
+            let seed = job.study.design().settings().seed.wrapping_add((times.len() % seeds) as u64);
+            let Ok(study) = curve.study(job.study, base_samples, seed) else { return Ok(all) };
             let began = Instant::now();
             let result = match job.run(&study) {
                 Ok(result) => result,
                 Err(error @ RunError::Interrupted { .. }) => return Err(error),
                 Err(_) => return Ok(all),
             };
-            let seconds = began.elapsed().as_secs_f64();
-            let error = error(&result, curve.estimator, truth);
-            let (runs, settings) = (result.provenance.model_runs, result.provenance.base_samples);
-            let point = point.get_or_insert_with(|| Measured {
-                curve: curve.name(),
-                axis: curve.axis,
-                has_surrogate: curve.has_surrogate,
-                base_samples: settings,
-                runs,
-                seconds,
-                error,
-                is_on_front: false,
-                lines: curve.lines(settings),
-            });
-            point.seconds = point.seconds.min(seconds);
-            point.error = point.error.zip(error).map(|(one, other)| one.max(other));
+            times.push(began.elapsed().as_secs_f64());
+            if errors.len() < seeds {
+                errors.push(error(&result, truth));
+            }
+            last = Some(result.provenance);
+            if errors.len() >= MIN_SEEDS && is_late() {
+                break;
+            }
         }
-        all.extend(point);
+        times.sort_by(f64::total_cmp);
+        let largest = |first: usize, step: usize| {
+            let errors = errors.iter().skip(first % errors.len()).step_by(step);
+            errors.copied().try_fold(0.0, |largest: f64, error: Option<f64>| Some(largest.max(error?)))
+        };
+        all.extend(last.map(|of| Measured {
+            curve: curve.name(),
+            axis: curve.axis,
+            has_surrogate: curve.has_surrogate,
+            base_samples: of.base_samples,
+            runs: of.model_runs,
+            seconds: times[0],
+            usual_seconds: times[times.len() / 2],
+            seeds: errors.len(),
+            error: largest(0, 1),
+            least_error: largest(0, 2).zip(largest(1, 2)).map(|(one, other)| one.min(other)),
+            is_on_front: false,
+            lines: curve.lines(of.base_samples),
+        }));
         let spent = start.elapsed().as_secs_f64();
         if spent + STEP as f64 * (spent - began) > seconds {
             break;
@@ -205,27 +237,18 @@ fn measured(job: &SettingsJob<'_>, curve: &Curve, truth: &Truth, seconds: f64) -
 }
 
 /// Returns the largest error of an index; `None` if one is missing, or all are.
-fn error(result: &StudyResult, estimator: Estimator, truth: &Truth) -> Option<f64> {
-    let mut largest = 0.0_f64;
+fn error(result: &StudyResult, truth: &Truth) -> Option<f64> {
+    let mut largest = None;
     for (output, truth) in result.outputs.iter().zip(&truth.outputs) {
         let (Some(indices), Some(truth)) = (&output.indices, truth) else { continue };
-        let others = output.estimators.first().filter(|_| estimator != Estimator::Default);
-        for (place, (index, [first, total])) in indices.iter().zip(truth).enumerate() {
-            let (found_first, found_total) = match others {
-                Some(others) => {
-                    let other = &others.indices[place];
-                    (other.first_order.map(|e| e.estimate), other.total.map(|e| e.estimate))
-                }
-                None => (Some(index.effect.first_order.estimate), Some(index.effect.total.estimate)),
-            };
-            for (found, truth) in [(found_first, first), (found_total, total)] {
-                let error = found.map_or(f64::INFINITY, |found| (found - truth).abs());
-                largest = if error.is_nan() { f64::INFINITY } else { largest.max(error) };
+        for (index, [first, total]) in indices.iter().zip(truth) {
+            for (found, truth) in [(index.effect.first_order, first), (index.effect.total, total)] {
+                let error = (found.estimate - truth).abs();
+                largest = Some(if error.is_nan() { f64::INFINITY } else { error.max(largest.unwrap_or(0.0)) });
             }
         }
     }
-    let has_any = result.outputs.iter().any(|output| output.indices.is_some());
-    Some(largest).filter(|error| has_any && error.is_finite())
+    largest.filter(|error| error.is_finite())
 }
 
 #[cfg(test)]
@@ -240,7 +263,10 @@ mod tests {
             base_samples: 16,
             runs: 96,
             seconds,
+            usual_seconds: 1.5 * seconds,
+            seeds: 10,
             error,
+            least_error: error.map(|error| error / 2.0),
             is_on_front: false,
             lines: String::new(),
         }
@@ -249,7 +275,11 @@ mod tests {
     fn comparison(error_of_truth: f64, settings: &[(f64, f64)]) -> Comparison {
         let truth = TruthFound { words: String::new(), error: Some(error_of_truth), runs: 0, seconds: 0.0 };
         let known = |error: f64| Some(error).filter(|error| error.is_finite());
-        Comparison::new(truth, settings.iter().map(|&(seconds, error)| measured(seconds, known(error))).collect())
+        Comparison::new(
+            truth,
+            "own".to_owned(),
+            settings.iter().map(|&(seconds, error)| measured(seconds, known(error))).collect(),
+        )
     }
 
     #[test]
@@ -266,5 +296,9 @@ mod tests {
         assert_eq!(comparison(0.0, &all).cheapest(0.1), Some(0));
         assert_eq!(comparison(0.02, &all).cheapest(0.1), Some(1));
         assert_eq!(comparison(0.02, &all).cheapest(0.02), None);
+        // The study's own counts as equal to what is quicker and better by less than the noise.
+        let mut own = comparison(0.0, &[(1.0, 0.09), (1.4, 0.15), (1.6, 0.01)]);
+        own.settings[1..].iter_mut().for_each(|of| of.curve.push_str("own"));
+        assert_eq!([0.1, 0.08, 0.07].map(|accuracy| own.cheapest(accuracy)), [Some(1), Some(2), Some(2)]);
     }
 }
