@@ -1,6 +1,5 @@
 //! Takes the blocks of a page in order.
 
-use std::path::Path;
 use std::process::Command;
 use std::sync::OnceLock;
 
@@ -66,8 +65,9 @@ fn write(folder: &Folder, name: &str, content: &str) -> Option<String> {
 }
 
 fn run(folder: &Folder, block: &Block, code: i32, printed: &mut Option<String>) -> Option<String> {
-    let program = Path::new(assert_cmd::cargo::cargo_bin!("apportion")).parent().unwrap().to_owned();
-    let path = format!("{}:{}", text(&program), search_path().to_str().unwrap());
+    // The program is two folders above the tests, which are in `deps`.
+    let tests = std::env::current_exe().unwrap();
+    let path = format!("{}:{}", text(tests.ancestors().nth(2).unwrap()), search_path().to_str().unwrap());
     let script = format!("exec 2>&1\n{}", block.text);
     let mut shell = Command::new("sh");
     let output = shell.args(["-euc", &script]).env("PATH", path).current_dir(folder.path("")).output().unwrap();
