@@ -233,7 +233,7 @@ def behaviour(arguments, browser, page_file, folder):
         expect("min must be below max" in said and not any(word in said for word in ("--set", "study.toml", "^^")), f"refused: {said}")
     expect(page.locator(".wrong:visible").count() == 1, "a refusal at several factors")
     in_sight = page.evaluate("(() => { const box = document.getElementById('refused').getBoundingClientRect(); return box.top >= 0 && box.bottom <= innerHeight; })()")
-    expect(in_sight and "old" in page.locator("#refused").inner_text(), "old numbers are not said to be old")
+    expect(in_sight and "from before" in page.locator("#refused").inner_text(), "old numbers are not said to be old")
     expect(float(page.evaluate("getComputedStyle(document.getElementById('indices')).opacity")) < 1, "old numbers look like new ones")
     page.locator("#undo").click()
     settled(page)
