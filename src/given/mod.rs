@@ -67,7 +67,9 @@ pub enum GivenError {
         row: usize,
     },
     /// Too few rows.
-    #[error("the table has {rows} usable rows; at least {MIN_ROWS} are needed, and some hundreds for narrow intervals")]
+    #[error(
+        "the table has too few usable rows ({rows}): at least {MIN_ROWS} are needed, and some hundreds for narrow intervals"
+    )]
     TooFewRows {
         /// Rows found.
         rows: usize,

@@ -158,8 +158,7 @@ fn other_laws_may_be_as_fast_as_they_like() {
     }
 }
 
-/// For each law the default parameters that must not affect it, in addition to the height, which affects no law
-/// feels.
+/// For each law the default parameters that must not affect it; the height affects no law.
 #[test]
 fn parameters_of_other_friction_laws_have_no_effect() {
     let deaf: [(FrictionLaw, &[&str]); 3] = [

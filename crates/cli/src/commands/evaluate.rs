@@ -7,6 +7,7 @@ use apportion::model::{GiveUp, RunContext};
 use apportion::run::Halt;
 use apportion::space::Space;
 use apportion_files::exchange::{EvaluateError, Evaluated, evaluate_in, open_table};
+use apportion_report::format::count;
 use apportion_report::{prepare_file, significant, stream_atomically};
 
 use super::stop::{Stoppable, on_signal};
@@ -88,11 +89,14 @@ fn report(evaluated: &Evaluated, arguments: &Arguments, space: &Space) {
         let points = arguments.points.display();
         say(&format!("note: {points}: factors without a column are at their nominal values: {}", values.join(", ")));
     }
-    for ((output, failure), (count, first)) in &evaluated.failures {
-        say(&format!("warning: {output} is empty at {count} points: {failure} (first at point {first})"));
+    for ((output, failure), (points, first)) in &evaluated.failures {
+        say(&format!(
+            "warning: {output} is empty at {}: {failure} (first at point {first})",
+            count(*points, "point", "points")
+        ));
     }
     if evaluated.points == 0 {
         say("warning: the file has a header but no points");
     }
-    say(&format!("wrote {} points to {}", evaluated.points, arguments.output.display()));
+    say(&format!("wrote {} to {}", count(evaluated.points, "point", "points"), arguments.output.display()));
 }

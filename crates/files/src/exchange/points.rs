@@ -87,7 +87,7 @@ impl<'a> PointsReader<'a> {
         }
         for ((cells, (place, _)), factor) in self.cells.iter().zip(&self.wanted).zip(&self.factors) {
             if let Some(row) = cells.iter().position(|value| !value.is_finite()) {
-                let found = if cells[row].is_nan() { "nothing".to_owned() } else { cells[row].to_string() };
+                let found = if cells[row].is_nan() { "an empty cell".to_owned() } else { cells[row].to_string() };
                 let at = place_in_words(self.rows.line(row), self.read + row as u64 + 1);
                 return Err(wrong_cell(&factors[*factor], at, place + 1, found));
             }

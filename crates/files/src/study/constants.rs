@@ -8,7 +8,7 @@ use apportion::quantity::{Dimension, Quantity, Unit};
 use apportion_afm::{AfmMoments, Fidelity, FrictionLaw, Options, Parameter, Scene, edge_unit};
 use toml::Value;
 
-use super::context::{Context, Fault, named, number, unknown_key, wrong};
+use super::context::{Context, Fault, named, number, shown, unknown_key, wrong};
 use super::error::Problem;
 use super::key_schemas::afm_choices;
 use super::sections::At;
@@ -25,7 +25,7 @@ pub(super) fn afm(
     for (key, value) in table {
         let name = key.get_ref().as_str();
         let fault = |problem| context.fault(value.span(), problem);
-        let found = || value.get_ref().type_str().to_owned();
+        let found = || shown(value.get_ref());
         match name {
             "friction" => options.friction = choice(value, name, "friction law").map_err(fault)?,
             "contact" => options.contact = choice(value, name, "contact theory").map_err(fault)?,
@@ -77,7 +77,7 @@ pub(super) fn moments(context: &Context<'_>, table: &BTreeMap<At<String>, At<Val
     if let Some(value) = entry {
         let expected = "a table such as { duration = \"0.4 s\", points = 40 }";
         let table = value.get_ref().as_table();
-        let table = table.ok_or_else(|| fault(wrong("history", expected, value.get_ref().type_str().to_owned())))?;
+        let table = table.ok_or_else(|| fault(wrong("history", expected, shown(value.get_ref()))))?;
         for (key, typed) in table {
             match key.as_str() {
                 "duration" => duration = positive("history.duration", "\"0.4 s\"", typed).map_err(fault)?,
@@ -119,7 +119,7 @@ fn choice<T: Named>(value: &At<Value>, key: &str, what: &'static str) -> Result<
         Value::String(text) => named(text, what),
         other => {
             let names: Vec<String> = T::CHOICES.iter().map(|(name, _)| format!("{name:?}")).collect();
-            Err(wrong(key, &format!("one of {}", names.join(", ")), other.type_str().to_owned()))
+            Err(wrong(key, &format!("one of {}", names.join(", ")), shown(other)))
         }
     }
 }
@@ -136,7 +136,7 @@ fn constant(parameter: &Parameter, value: &At<Value>) -> Result<f64, Problem> {
         Value::String(text) => Quantity::parse(text)?,
         other => {
             let expected = format!("a quantity, as in {}", example());
-            let refusal = || wrong(parameter.name, &expected, other.type_str().to_owned());
+            let refusal = || wrong(parameter.name, &expected, shown(other));
             Quantity { value: number(other).ok_or_else(refusal)?, unit: Unit::dimensionless() }
         }
     };

@@ -80,6 +80,14 @@ pub(super) fn number(value: &Value) -> Option<f64> {
     value.as_float().or_else(|| value.as_integer().map(|whole| whole as f64))
 }
 
+/// Returns a value as a message shows it.
+pub(super) fn shown(value: &Value) -> String {
+    match value {
+        Value::Table(_) => "a table".to_owned(),
+        other => other.to_string(),
+    }
+}
+
 pub(super) fn wrong(key: &str, expected: &str, found: String) -> Problem {
     Problem::new(format!("`{key}` must be {expected}, not {found}"))
 }

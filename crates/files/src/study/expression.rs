@@ -10,7 +10,7 @@ use apportion::study::did_you_mean;
 use toml::Value;
 
 use super::at::{At, Choices, ListOrTable, in_order};
-use super::context::{Context, Fault, number};
+use super::context::{Context, Fault, number, shown};
 use super::error::Problem;
 use super::outputs::OutputTable;
 use super::sections::{ExpressionSection, FactorSection, Outputs};
@@ -92,7 +92,7 @@ fn formula(
     let table = match value.get_ref() {
         Value::String(text) => OutputTable { formula: Some(text.clone()), ..OutputTable::default() },
         Value::Table(typed) => OutputTable::read(context, value, typed)?,
-        other => return refused(other.type_str()),
+        other => return refused(&shown(other)),
     };
     let OutputTable { formula: Some(text), unit, .. } = &table else {
         return refused("a table without a formula");

@@ -3,7 +3,7 @@
 use apportion::model::{KnownAnswer, KnownFunction, ParameterError, ParameterValue};
 use toml::Value;
 
-use super::context::{Context, Fault, number, wrong};
+use super::context::{Context, Fault, number, shown, wrong};
 use super::error::Problem;
 use super::sections::{At, Choices};
 
@@ -20,7 +20,7 @@ pub(super) fn known(
         if answer.parameters().iter().all(|parameter| parameter.name != name) {
             return Err(context.fault(key.span(), unknown_key(answer, name)));
         }
-        let found = || wrong(name, "a number or a list of numbers", value.get_ref().type_str().to_owned());
+        let found = || wrong(name, "a number or a list of numbers", shown(value.get_ref()));
         parameters.push((name.clone(), context.at(value, number_or_list(value.get_ref()).ok_or_else(found))?));
     }
     answer.with(&parameters).map_err(|error| {

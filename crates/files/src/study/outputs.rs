@@ -12,7 +12,7 @@ use serde_json::{Map, Value as Json, json};
 use toml::Value;
 
 use super::at::{At, ListOrTable, in_order};
-use super::context::{Context, Fault, wrong};
+use super::context::{Context, Fault, shown, wrong};
 use super::error::Problem;
 use super::key_schemas::names;
 use super::sections::Outputs;
@@ -140,7 +140,7 @@ fn output(
         Value::Table(typed) => OutputTable::read(context, value, typed)?,
         other => {
             let expected = "a unit, as in \"nN\" or \"1\", or a table such as { unit = \"nN\" }";
-            return context.refuse(value, &key, expected, other.type_str().to_owned());
+            return context.refuse(value, &key, expected, shown(other));
         }
     };
     if table.formula.is_some() {

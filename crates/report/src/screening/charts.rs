@@ -129,7 +129,7 @@ pub(super) fn leader(output: &ScreenedOutput) -> String {
     };
     let moving: Vec<Contender> = output.factors.iter().filter_map(contender).collect();
     let output_name = name(&output.name);
-    let measure = "mean size μ* of its effects";
+    let measure = "mean effect size μ*";
     let found = leading::leader(&moving, &format!("For {output_name}"), measure, &axis_unit(&output.unit));
     found.unwrap_or_else(|| format!("No factor has any effect on {output_name}."))
 }

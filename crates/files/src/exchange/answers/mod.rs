@@ -155,7 +155,7 @@ impl Reading<'_> {
         let number = *factor;
         let factor = &self.study.space().factors()[number];
         let words = |value: f64| match value.is_nan() {
-            true => "nothing".to_owned(),
+            true => "an empty cell".to_owned(),
             false => factor.in_words(value, |number| number.to_string()),
         };
         let (found, expected) = (words(column[row]), words(points[number][row]));
