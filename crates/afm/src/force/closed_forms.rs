@@ -280,14 +280,9 @@ fn slide(scene: &Scene, options: &Options, drive: &Drive, columns: &Columns, pro
         ($($law:ident)+) => {
             match options.friction {
                 $(FrictionLaw::$law => {
-                    let options = Options { friction: FrictionLaw::$law, ..*options };
-                    hold(scene, &options, drive, columns, probes, slips);
-                    finish(scene, &options, drive, columns, probes, slips);
+                    hold(scene, &Options { friction: FrictionLaw::$law, ..*options }, drive, columns, probes, slips);
                 })+
-                _ => {
-                    hold(scene, options, drive, columns, probes, slips);
-                    finish(scene, options, drive, columns, probes, slips);
-                }
+                _ => hold(scene, options, drive, columns, probes, slips),
             }
         };
     }
@@ -307,10 +302,7 @@ fn hold(rest: &Scene, options: &Options, drive: &Drive, columns: &Columns, probe
         slips.lateral_force[i] = force;
         probes.of_law[i] = closed_form::of_law(&substrate, probes.preload_force[i], force);
     }
-}
-
-#[inline(always)]
-fn finish(rest: &Scene, options: &Options, drive: &Drive, columns: &Columns, probes: &Probes, slips: &mut Slips) {
+    // A separate loop, which has no calls and is vectorised.
     for i in 0..AT_ONCE {
         let scene = columns.scene(i, rest);
         let (probe, substrate) = (probes.probe(i), probes.substrate(i, &scene, options, *drive));
