@@ -245,7 +245,7 @@ def test_bounds_are_numbers_and_arrays_of_numpy():
     made = ap.Study(None, {"a": (np.float32(0), np.int64(2)), "b": np.array([1, 3]), "c": ap.Normal(np.array(1.0), np.float64(2))})
     same = ap.Study(None, {"a": (0.0, 2.0), "b": (1.0, 3.0), "c": ap.Normal(1.0, 2.0)})
     assert np.array_equal(made.sample(), same.sample())
-    with pytest.raises(ap.StudyError, match="is no factor"):
+    with pytest.raises(ap.StudyError, match="is not a factor"):
         ap.Study(None, {"a": np.array([0, 1, 2])})
 
 

@@ -95,7 +95,7 @@ def test_both_spellings_of_vectorised_are_honoured():
 
 def test_only_one_key_sets_the_length_of_a_run():
     assert ap.Study(add, UNIT, runs=100).runs <= 100
-    with pytest.raises(ap.StudyError, match="`base_samples` must be alone"):
+    with pytest.raises(ap.StudyError, match="`base_samples` must be the only key"):
         ap.Study(add, UNIT, runs=100, base_samples=16)
     with pytest.raises(ap.StudyError, match="`max_time` must be a time above 0"):
         ap.Study(add, UNIT, accuracy=0.01, max_time=0)
@@ -104,8 +104,8 @@ def test_only_one_key_sets_the_length_of_a_run():
 def test_invalid_factors_are_reported_with_an_example():
     for factors, words in [
         ({1: (0, 1)}, "the name 1 is not a text: expected a name such as '1'"),
-        ([(0, 1), (0, 1)], "no mapping from names to distributions"),
-        ("x1", "no mapping from names"),
+        ([(0, 1), (0, 1)], "is not a mapping from names to distributions"),
+        ("x1", "is not a mapping from names"),
     ]:
         with pytest.raises(ap.StudyError, match=words):
             ap.Study(None, factors)
