@@ -110,8 +110,8 @@ impl SwapMoments {
 
     /// Returns whether no row of the swap differs from its original row: the swapped columns have no effect.
     pub fn inert(&self) -> bool {
-        let still = |mean: f64, squares: f64| mean == 0.0 && squares == 0.0;
-        still(self.mean_d, self.dd) && self.ba.is_none_or(|ba| still(ba.mean_e, ba.ee))
+        let is_zero = |mean: f64, squares: f64| mean == 0.0 && squares == 0.0;
+        is_zero(self.mean_d, self.dd) && self.ba.is_none_or(|ba| is_zero(ba.mean_e, ba.ee))
     }
 
     /// Returns the number of base points, as a divisor.

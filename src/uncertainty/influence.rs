@@ -19,14 +19,14 @@ pub struct Influenced {
 impl Influenced {
     /// Returns the exact number `estimate`, independent of the rows.
     pub(super) fn settled(&self, estimate: f64) -> Self {
-        Self { estimate, parts: still(&self.parts), low: still(&self.low), beyond: 0.0 }
+        Self { estimate, parts: zeros(&self.parts), low: zeros(&self.low), beyond: 0.0 }
     }
 
     /// Returns a weighted sum of numbers.
     pub fn combined(list: &[(f64, &Self)]) -> Self {
         let estimate = list.iter().map(|(weight, of)| weight * of.estimate).sum();
         let of = |parts: fn(&Self) -> &PartInfluences| {
-            let mut sums = list.first().map_or_else(Vec::new, |(_, of)| still(parts(of)));
+            let mut sums = list.first().map_or_else(Vec::new, |(_, of)| zeros(parts(of)));
             for (weight, of) in list {
                 for (sums, more) in sums.iter_mut().zip(parts(of)) {
                     sums.iter_mut().zip(more).for_each(|(sum, more)| *sum += weight * more);
@@ -41,7 +41,7 @@ impl Influenced {
 }
 
 /// Returns parts of the same sizes without influence.
-fn still(parts: &PartInfluences) -> PartInfluences {
+fn zeros(parts: &PartInfluences) -> PartInfluences {
     parts.iter().map(|net| vec![0.0; net.len()]).collect()
 }
 

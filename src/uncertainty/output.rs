@@ -97,7 +97,7 @@ pub fn output_indices(
     let unseen = unseen(layout, &whole, &influences.whole);
     let half_seen: Vec<bool> = (0..layout.swaps()).map(|swap| half_seen(&whole, swap)).collect();
     let inert: Vec<bool> = (0..layout.swaps()).map(|swap| whole.swap(swap).inert()).collect();
-    let still: Vec<bool> = unseen.iter().zip(&influences.parts).map(|(unseen, parts)| unseen.applies(parts)).collect();
+    let equal: Vec<bool> = unseen.iter().zip(&influences.parts).map(|(unseen, parts)| unseen.applies(parts)).collect();
     let mut judged = match options.by_points() {
         Some(by_points) => {
             let bounds = by_points.bounds(whole, &influences.whole, &|moments| quantities(layout, moments));
@@ -105,11 +105,11 @@ pub fn output_indices(
         }
         None => {
             // Rounding says nothing about the decay of errors.
-            let pooled: Vec<bool> = pooled.iter().zip(&still).map(|(pooled, still)| *pooled && !still).collect();
+            let pooled: Vec<bool> = pooled.iter().zip(&equal).map(|(pooled, equal)| *pooled && !equal).collect();
             Judged::from_nets(influences, options.method, &pooled, layout.random(), &|place| layout.side(place))
         }
     };
-    let allowed = judged.allow_for_unseen(&unseen, &still);
+    let allowed = judged.allow_for_unseen(&unseen, &equal);
     judged.allow_for_half_seen(layout, &half_seen);
     if !layout.dependent {
         judged.allow_for_correlated(layout, options.correlations);
@@ -198,14 +198,14 @@ impl Judged {
         Self { estimates, errors, parts }
     }
 
-    /// Sets the errors that the rows cannot show for the quantities that are `still`, and those whose nets agree to
+    /// Sets the errors that the rows cannot show for the quantities with `equal` parts, and those whose nets agree to
     /// rounding; returns which.
-    fn allow_for_unseen(&mut self, unseen: &[Unseen], still: &[bool]) -> Vec<bool> {
+    fn allow_for_unseen(&mut self, unseen: &[Unseen], equal: &[bool]) -> Vec<bool> {
         let mut allowed = vec![false; self.estimates.len()];
         for (place, unseen) in unseen.iter().enumerate().filter(|(_, unseen)| unseen.half_width > 0.0) {
             let Estimate { estimate, interval } = &mut self.estimates[place];
             let error = &mut self.errors[place].error;
-            if !estimate.is_finite() || !error.is_finite() || !(still[place] || *error <= unseen.rounding) {
+            if !estimate.is_finite() || !error.is_finite() || !(equal[place] || *error <= unseen.rounding) {
                 continue;
             }
             *interval = Some(Interval::about(*estimate, unseen.half_width));

@@ -80,10 +80,10 @@ def _constructor(family: str, summary: str, parameters: Sequence[tuple[str, str,
             annotation += " | None"
         default = default if is_optional else kinds.empty
         arguments.append(kinds(key, kinds.POSITIONAL_OR_KEYWORD, default=default, annotation=annotation))
-    beside = {"unit": "str | None", "group": "str | None", "nominal": "Any"}
-    for key in beside.keys() - _WITHOUT.get(family, set()):
-        arguments.append(kinds(key, kinds.KEYWORD_ONLY, default=None, annotation=beside[key]))
-    order = [*reads, *beside]
+    common = {"unit": "str | None", "group": "str | None", "nominal": "Any"}
+    for key in common.keys() - _WITHOUT.get(family, set()):
+        arguments.append(kinds(key, kinds.KEYWORD_ONLY, default=None, annotation=common[key]))
+    order = [*reads, *common]
     signature = inspect.Signature(sorted(arguments, key=lambda argument: order.index(argument.name)), return_annotation="Factor")
 
     def made(*positional: Any, **named: Any) -> Factor:

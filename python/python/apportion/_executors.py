@@ -43,9 +43,9 @@ def workers_of(executor: Any, in_flight: int | None) -> int:
         count = max(1, sum(client.nthreads().values()))
     else:
         for name in ("_max_workers", "num_workers", "max_workers"):
-            told = getattr(executor, name, None)
-            if isinstance(told, int) and told > 0:
-                count = told
+            stated = getattr(executor, name, None)
+            if isinstance(stated, int) and stated > 0:
+                count = stated
                 break
     return min(AHEAD * count, MAX_IN_FLIGHT)
 

@@ -166,7 +166,7 @@ class _Walk:
         wrapped = getattr(value, "__wrapped__", None)
         if wrapped is not None:
             self.split(wrapped, f"{path}.wrapped", inside)
-        # Compilers of functions store what differs between processes, beside the function that counts.
+        # Compilers of functions store what differs between processes, in addition to the function itself.
         of: Any = type(value)
         is_own = of.__reduce__ is object.__reduce__ and of.__reduce_ex__ is object.__reduce_ex__
         stored = _stored(value) if wrapped is None or is_own else type(value).__qualname__

@@ -19,7 +19,7 @@ from ._indices import Index, Indices, OutputResult, SeriesResult, Shown, axes, b
 _Document = TypeVar("_Document", bound="Document")
 # Outputs whose indices stand in a notebook.
 _OUTPUTS = 4
-# Columns of text, whatever stands in them.
+# Columns of text, whatever their content.
 _TEXTS = ("output", "factor", "input", "unit", "output_unit", "failure")
 # What is shown of screenings and of given data, by the columns of their tables.
 _SHOWN = {"mu_star": "mu*", "sigma": "sigma", "rank": "first-order", "surrogate_total": "total"}

@@ -18,7 +18,7 @@ _SAY = (
 
 
 def style_of(function: Callable[..., Any], names: list[str]) -> str:
-    """One of `STYLES` for a function of the factors `names`; a `StudyError` where it cannot be told, or where it can be told that
+    """One of `STYLES` for a function of the factors `names`; a `StudyError` where it cannot be determined, or where it is certain that
     an argument would get another factor than its name says, or an option a factor."""
     if isinstance(function, np.ufunc):
         return "columns" if function.nin == len(names) else "matrix"

@@ -161,12 +161,12 @@ fn other_laws_may_be_as_fast_as_they_like() {
 /// For each law the default parameters that must not affect it; the height affects no law.
 #[test]
 fn parameters_of_other_friction_laws_have_no_effect() {
-    let deaf: [(FrictionLaw, &[&str]); 3] = [
+    let independent: [(FrictionLaw, &[&str]); 3] = [
         (FrictionLaw::Coulomb, &["height", "velocity", "dynamic_friction", "burgers_vector", "poisson_ratio"]),
         (FrictionLaw::HurtadoKim, &["height", "velocity", "static_friction", "shear_strength", "poisson_ratio"]),
         (FrictionLaw::LuGre, &["height", "equivalent_modulus", "adhesion", "shear_strength", "particle_radius"]),
     ];
-    for (friction, names) in deaf {
+    for (friction, names) in independent {
         let nominal = force(&Scene::default(), &by(friction));
         for name in names {
             let scene = scaled(&Scene::default(), name, 1.3);

@@ -178,7 +178,7 @@ struct Threads {
 }
 
 impl Threads {
-    /// The number for the library, where 0 stands for one per core.
+    /// The number for the library, where 0 means one per core.
     fn number(&self) -> usize {
         self.threads.unwrap_or(0)
     }

@@ -35,7 +35,7 @@ impl From<SimulationError> for Failure {
     }
 }
 
-/// Simulates the scene in which every factor stands at its nominal value.
+/// Simulates the scene with every factor at its nominal value.
 pub fn simulate(arguments: &Arguments) -> Result<(), Failure> {
     let study = arguments.study.load()?;
     let artefacts = arguments.output.artefacts(study.name());

@@ -127,21 +127,21 @@ let hearers = [];
 
 // A word about the page itself, until something is changed.
 let notice = null;
-// What is wrong stands beside the factor that it is about, and above the numbers, which are those of before.
+// An error is shown next to its factor, and above the numbers, which are from before the change.
 const refuse = (problem, isOld = true) => {
   const [, factor, rest] = /^factor `([^`]+)`:? ([^]*)/.exec(problem || "") || [];
   const plain = (text) => text.replaceAll("`", "").replaceAll(">=", "≥").replaceAll("<=", "≤");
-  let beside = false;
+  let isAtFactor = false;
   for (const note of document.querySelectorAll(".factor .wrong")) {
     const isIts = note.closest("fieldset").dataset.factor === factor;
     note.hidden = !isIts;
     note.textContent = isIts ? plain(rest) : "";
-    beside = beside || isIts;
+    isAtFactor = isAtFactor || isIts;
   }
   const place = at("refused");
   place.hidden = !problem;
   document.body.classList.toggle("old", Boolean(problem) && isOld);
-  const said = beside ? `${words(factor)}: ${plain(rest)}` : plain(problem || "");
+  const said = isAtFactor ? `${words(factor)}: ${plain(rest)}` : plain(problem || "");
   const sentence = /[.!?]$/.test(said) ? said : `${said}.`;
   place.textContent = problem && isOld ? `No new result: ${sentence} The numbers below are from before this change.` : said;
   refused = { settings: problem && isOld ? JSON.stringify(state) : null, problem };

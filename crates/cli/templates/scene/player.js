@@ -84,7 +84,7 @@ function force() {
   return (t) => draw(t);
 }
 
-// ---- Numbers beside the pictures. ----
+// ---- Numbers next to the pictures. ----
 
 function readings(t) {
   for (const name of ["tip_force_nN", "lateral_force_nN", "normal_force_nN"]) {
@@ -175,7 +175,7 @@ speed.addEventListener("change", pace);
 toSlip.disabled = slip === null;
 play.disabled = slider.disabled = speed.disabled = !(last > first);
 
-// On paper the scene stands still at the slip.
+// On paper the scene is shown at the slip.
 let kept = null;
 addEventListener("beforeprint", () => { kept = { now, playing }; pause(); show(slip ?? last); });
 addEventListener("afterprint", () => { if (kept) { show(kept.now); if (kept.playing) run(); } kept = null; });

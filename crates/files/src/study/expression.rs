@@ -141,11 +141,11 @@ fn place(context: &Context<'_>, value: &At<Value>, formula: &str, part: Range<us
 fn notes(formulas: &[Formula], constants: &Choices, space: &Space) -> Vec<String> {
     let unused = |number: &usize| formulas.iter().all(|formula| !formula.expression.uses(*number));
     let factors = (0..space.factors().len()).filter(unused).map(|number| &space.factors()[number].name);
-    let stands = |name: &str| {
+    let is_used = |name: &str| {
         let words = |text: &str| text.split(|c: char| !c.is_alphanumeric() && c != '_').any(|word| word == name);
         formulas.iter().any(|formula| words(formula.expression.text()))
     };
-    let constants = constants.keys().map(At::get_ref).filter(|name| !stands(name));
+    let constants = constants.keys().map(At::get_ref).filter(|name| !is_used(name));
     let note = |(what, name): (&str, &String)| format!("{what} `{name}` is used in no formula");
     factors.map(|name| note(("factor", name))).chain(constants.map(|name| note(("constant", name)))).collect()
 }

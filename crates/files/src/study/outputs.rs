@@ -20,7 +20,7 @@ use super::units::output_unit;
 use super::{read, series};
 use crate::{CommandOutput, Match, Pick, Source, Way};
 
-/// What a table says of an output: its formula, where its number stands after a run, along which axis it is a series.
+/// The table of an output: its formula, the place of its number after a run, the axis of a series.
 #[derive(Debug, Clone, Default, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct OutputTable {

@@ -56,7 +56,7 @@ pub(super) fn order(bench: &Bench<'_>, group: &'static str) -> Result<Answer, Re
         let (study, indices) = study(bench, group, friction)?;
         let order = order_of(study);
         is_same &= order.agreement() == Agreement::Same;
-        phrases.push((stands(&order), friction.name));
+        phrases.push((verdict_of_order(&order), friction.name));
         shares.push(format!("under {} friction {}", friction.name, shares_in_words(indices, &order)));
     }
     let each = named_together(phrases).into_iter();
@@ -69,7 +69,7 @@ pub(super) fn order(bench: &Bench<'_>, group: &'static str) -> Result<Answer, Re
 }
 
 /// Says in a phrase how an order agrees with the published one.
-fn stands(order: &OrderVerdict<'_>) -> String {
+fn verdict_of_order(order: &OrderVerdict<'_>) -> String {
     let pairs = |wanted| {
         let words = order.pairs_that_are(wanted).into_iter().map(|(one, other)| format!("{one} before {other}"));
         words.collect::<Vec<_>>().join(" and ")
