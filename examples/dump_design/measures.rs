@@ -1,11 +1,11 @@
-//! Measures of a table, Shapley effects along random orders and measures of derivatives, with the rows that they come from.
+//! Measures of a table and measures of derivatives, with the rows that they come from.
 
 use std::path::Path;
 use std::sync::{Arc, Mutex};
 
 use apportion::given::{Column, Measure, analyse, measures};
 use apportion::screening::{ScreenedFactor, ScreeningDesign, ScreeningJob, ScreeningSettings, screen};
-use apportion::{AnalysisOptions, Estimate, Sampler, ShapleyMethod, Study, SurrogateChoice, function_model};
+use apportion::{AnalysisOptions, Estimate, Sampler, Study, SurrogateChoice, function_model};
 use apportion_report::write_atomically;
 use serde_json::{Map, Value, json};
 
@@ -28,11 +28,7 @@ fn study(sampler: Sampler, base_samples: u64) -> anyhow::Result<(Study, Noted)> 
         }
         y
     });
-    let options = AnalysisOptions {
-        shapley_method: Some(ShapleyMethod::Permutations),
-        surrogate: SurrogateChoice::Off,
-        ..AnalysisOptions::for_sampler(sampler)
-    };
+    let options = AnalysisOptions { surrogate: SurrogateChoice::Off, ..AnalysisOptions::for_sampler(sampler) };
     let builder = Study::builder(NAME, model).sampler(sampler).base_samples(base_samples).replicates(1);
     let builder = inputs.into_iter().fold(builder, |builder, input| builder.factor(&input.name, input.distribution));
     Ok((builder.analysis(options).build()?, rows))
@@ -79,22 +75,6 @@ fn given(folder: &Path) -> anyhow::Result<Value> {
     Ok(Value::Object(Measure::ALL.into_iter().map(of).collect()))
 }
 
-/// Base points with A, the steps of their order and B, one after the other, and the Shapley effects.
-fn shapley(folder: &Path) -> anyhow::Result<Value> {
-    let (study, _) = study(Sampler::Sobol, 512)?;
-    let design = study.design();
-    let of_point = |point: u64| {
-        let steps = design.step_runs().iter().map(|run| *run as u64);
-        std::iter::once(0).chain(steps).chain([1]).map(move |run| point * design.rows_per_point() + run)
-    };
-    let rows = rows(&study, (0..512).flat_map(of_point));
-    write(folder, "shapley", &rows)?;
-    let analysis = study.run()?;
-    let indices = analysis.output("y")?.indices.iter().flatten();
-    let effects: Vec<Option<f64>> = indices.map(|index| index.effect.shapley.map(|effect| effect.estimate)).collect();
-    Ok(json!(effects))
-}
-
 /// Base points, each followed by its steps, and the measures of the derivatives.
 fn derivatives(folder: &Path) -> anyhow::Result<Value> {
     let (study, noted) = study(Sampler::Sobol, 64)?;
@@ -111,12 +91,7 @@ fn derivatives(folder: &Path) -> anyhow::Result<Value> {
 
 /// Writes the tables and `measures.json`.
 pub fn dump(folder: &Path) -> anyhow::Result<()> {
-    let all: Map<String, Value> = [
-        ("given".to_owned(), given(folder)?),
-        ("shapley".to_owned(), shapley(folder)?),
-        ("derivatives".to_owned(), derivatives(folder)?),
-    ]
-    .into_iter()
-    .collect();
+    let all: Map<String, Value> =
+        [("given".to_owned(), given(folder)?), ("derivatives".to_owned(), derivatives(folder)?)].into_iter().collect();
     Ok(write_atomically(&folder.join("measures.json"), serde_json::to_string_pretty(&all)?.as_bytes())?)
 }

@@ -95,7 +95,6 @@ fn provenance(run: &FinishedRun<'_>) -> Provenance {
         study_sha256: study.sha256.clone(),
         first_order_estimator: first_order.source().to_owned(),
         total_estimator: total.source().to_owned(),
-        shapley_method: options.shapley_of(&study.space).map(|method| method.name().to_owned()),
         interval: (!alone).then(|| options.intervals.words(settings.replicates, options.resamples)),
         interval_method: options.intervals.name().to_owned(),
         threshold: options.threshold,

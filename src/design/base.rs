@@ -3,7 +3,6 @@
 use std::sync::Arc;
 
 use super::mixed::MixedColumns;
-use super::orders::{OrderColumns, Orders};
 use super::{DesignSettings, LatinHypercube, RandomPoints, Rows, Sampler, SobolSequence};
 
 /// Plain rows have a random stream of their own, for every sampler: replicates count below 2^12, and the permutations
@@ -20,8 +19,6 @@ pub struct BasePoints {
     factors: usize,
     /// The columns of dependent factors.
     mixed: Option<Arc<MixedColumns>>,
-    /// The columns of steps along random orders of the factors, and the orders.
-    steps: Option<(Arc<OrderColumns>, Orders)>,
 }
 
 #[derive(Debug, Clone)]
@@ -32,8 +29,15 @@ enum Points {
 }
 
 impl BasePoints {
-    /// Creates the points of `replicate` in `factors` columns for each of A and B and the plain rows of `rows`.
-    pub(super) fn new(settings: &DesignSettings, replicate: u64, factors: usize, rows: &Rows) -> Self {
+    /// Creates the points of `replicate` in `factors` columns for each of A and B and the plain rows of `rows`, and the
+    /// columns of dependent factors.
+    pub(super) fn new(
+        settings: &DesignSettings,
+        replicate: u64,
+        factors: usize,
+        rows: &Rows,
+        mixed: Option<Arc<MixedColumns>>,
+    ) -> Self {
         let DesignSettings { sampler, seed, .. } = *settings;
         let plain_rows = rows.plain_rows as usize;
         let length = settings.base_samples / settings.replicates;
@@ -45,17 +49,7 @@ impl BasePoints {
         let plain_points = || of(factors, length * plain_rows as u64, replicate | PLAIN_STREAM);
         let plain = (plain_rows > 0).then(|| (plain_points(), plain_rows));
         let points = of(2 * factors, length, replicate);
-        Self { points, plain, factors, mixed: None, steps: None }
-    }
-
-    /// Adds the columns of dependent factors.
-    pub(super) fn with_mixed(self, mixed: Option<Arc<MixedColumns>>) -> Self {
-        Self { mixed, ..self }
-    }
-
-    /// Adds the columns of steps along random orders.
-    pub(super) fn with_steps(self, steps: Option<(Arc<OrderColumns>, Orders)>) -> Self {
-        Self { steps, ..self }
+        Self { points, plain, factors, mixed }
     }
 
     /// Writes the points `first`, `first + 1`, ... to `columns`, all of one length: one per dimension, or those of A
@@ -64,9 +58,6 @@ impl BasePoints {
         self.fill_independent(first, columns);
         if let Some(mixed) = &self.mixed {
             mixed.fill(columns, self.factors);
-        }
-        if let Some((steps, orders)) = &self.steps {
-            steps.fill(orders, first, columns);
         }
     }
 

@@ -2,9 +2,7 @@
 
 use thiserror::Error;
 
-use super::{
-    MAX_DIMENSIONS, MAX_FACTORS, MAX_ORDERED_FACTORS, MAX_PAIRED_FACTORS, MAX_PLAIN_ROWS, MAX_POINTS, MAX_REPLICATES,
-};
+use super::{MAX_DIMENSIONS, MAX_FACTORS, MAX_PAIRED_FACTORS, MAX_PLAIN_ROWS, MAX_POINTS, MAX_REPLICATES};
 
 /// Why a design cannot be created.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
@@ -106,23 +104,6 @@ pub enum DesignError {
     /// Plain rows of dependent factors.
     #[error("plain rows serve only surrogates, which need independent factors, and these factors depend on each other")]
     PlainRowsOfDependentFactors,
-    /// Random orders of more factors than fit in the memory of a block of base points.
-    #[error(
-        "{factors} factors are too many for Shapley effects along random orders of {players} players: at most {MAX_ORDERED_FACTORS} \
-         single factors are possible; leave out factors with small total indices, or put them into fewer groups"
-    )]
-    TooManyOrderedFactors {
-        /// Players of the orders.
-        players: usize,
-        /// Total number of factors.
-        factors: usize,
-    },
-    /// The players do not partition the factors.
-    #[error("the players of random orders must be disjoint sets that together contain all {factors} factors")]
-    NotPlayers {
-        /// Number of factors.
-        factors: usize,
-    },
     /// A copula with a different number of factors.
     #[error("the copula has {copula} factors, but the design has {factors}")]
     OtherFactors {

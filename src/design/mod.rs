@@ -13,7 +13,6 @@ mod error;
 mod joe_kuo;
 mod latin;
 mod mixed;
-mod orders;
 mod random;
 mod rows;
 mod settings;
@@ -23,7 +22,6 @@ pub use base::BasePoints;
 pub use error::DesignError;
 pub use joe_kuo::MAX_DIMENSIONS;
 pub use latin::LatinHypercube;
-use orders::Orders;
 pub use random::RandomPoints;
 use rows::Runs;
 pub use rows::{Matrix, RowKind, Rows, Run, Swap};
@@ -38,15 +36,6 @@ pub const MAX_REPLICATES: u64 = 4096;
 
 /// Maximum number of factors for second-order indices: their sums take d (d - 1) numbers for every output.
 pub const MAX_PAIRED_FACTORS: usize = 256;
-
-/// Maximum number of factors of a design with rows along random orders of single factors: its base points have a column
-/// for each factor in each of these rows. With fewer players, more factors are possible for as many columns.
-pub const MAX_ORDERED_FACTORS: usize = 100;
-
-/// Returns whether base points have room for the rows along random orders of `players` players of `factors` factors.
-pub fn has_room_for_orders(players: usize, factors: usize) -> bool {
-    players.saturating_sub(1).saturating_mul(factors) <= (MAX_ORDERED_FACTORS - 1) * MAX_ORDERED_FACTORS
-}
 
 /// Maximum number of plain rows of a base point.
 pub const MAX_PLAIN_ROWS: u32 = 1000;
@@ -139,16 +128,6 @@ impl Design {
                 return Err(DesignError::OtherFactors { copula: copula.factors(), factors });
             }
         }
-        if !rows.players.is_empty() {
-            if !has_room_for_orders(rows.players.len(), factors) {
-                return Err(DesignError::TooManyOrderedFactors { players: rows.players.len(), factors });
-            }
-            let mut players = rows.players.concat();
-            players.sort_unstable();
-            if rows.players.iter().any(Vec::is_empty) || players.into_iter().ne(0..factors) {
-                return Err(DesignError::NotPlayers { factors });
-            }
-        }
         let runs = Runs::new(&rows, factors);
         let rows_per_point = runs.runs.len() as u64;
         let all = u128::from(points) * u128::from(replicates);
@@ -218,19 +197,14 @@ impl Design {
     }
 
     /// Returns the number of columns of the base points: d for each of the matrices A, B and the plain ones; then those
-    /// of dependent factors that follow others, and those of the steps along random orders.
+    /// of dependent factors that follow others.
     pub fn columns(&self) -> usize {
         let mixed = self.runs.mixed.as_ref().map_or(0, |mixed| mixed.columns.len());
-        let steps = self.runs.orders.as_ref().map_or(0, |orders| orders.count());
-        self.factors * (2 + self.asked.plain_rows as usize) + mixed + steps
+        self.factors * (2 + self.asked.plain_rows as usize) + mixed
     }
 
     /// Returns the factor of a column.
     pub fn factor_of(&self, column: usize) -> usize {
-        let step = self.runs.orders.as_ref().and_then(|orders| column.checked_sub(orders.first));
-        if let Some(column) = step {
-            return column % self.factors;
-        }
         let mixed = self.runs.mixed.as_ref().and_then(|mixed| mixed.columns.get(column.checked_sub(mixed.first)?));
         mixed.map_or(column % self.factors, |mixed| mixed.factor)
     }
@@ -274,22 +248,6 @@ impl Design {
         &self.runs.ba
     }
 
-    /// Returns the indices in [`Design::runs`] of the steps along random orders of [players](Rows::players), in order.
-    pub fn step_runs(&self) -> &[usize] {
-        &self.runs.steps
-    }
-
-    /// Returns the players in their order at each of `count` base points of `replicate`, from number `first` on: player
-    /// `k` of an order comes from B in step `k` and all later ones.
-    pub fn orders(&self, replicate: u64, first: u64, count: usize) -> Vec<Vec<usize>> {
-        let mut orders = self.orders_of(replicate).at(first);
-        (0..count).map(|_| orders.next_order()).collect()
-    }
-
-    fn orders_of(&self, replicate: u64) -> Orders {
-        Orders::new(self.asked.players.len(), self.settings.seed, replicate)
-    }
-
     /// Returns the number of rows of one base point: A, B and the requested ones, each distinct point once.
     pub fn rows_per_point(&self) -> u64 {
         self.runs.runs.len() as u64
@@ -307,9 +265,7 @@ impl Design {
 
     /// Returns the base points of one replicate, in [`Design::columns`] columns.
     pub fn replicate(&self, replicate: u64) -> BasePoints {
-        let steps = self.runs.orders.clone().map(|orders| (orders, self.orders_of(replicate)));
-        let points = BasePoints::new(&self.settings, replicate, self.factors, &self.asked);
-        points.with_mixed(self.runs.mixed.clone()).with_steps(steps)
+        BasePoints::new(&self.settings, replicate, self.factors, &self.asked, self.runs.mixed.clone())
     }
 
     /// Returns the replicate, base point within it, and kind of a row, in the order in which rows are counted. A row of

@@ -4,7 +4,6 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::mixed::MixedColumns;
-use super::orders::OrderColumns;
 use crate::space::GaussianCopula;
 
 /// The columns that one row AB_s takes from B: those of one factor, or of a group of factors. An empty swap is a dummy
@@ -26,9 +25,6 @@ pub struct Rows {
     pub copula: Option<Arc<GaussianCopula>>,
     /// The swaps, by index, whose factors are drawn again given all others; the same for independent factors.
     pub redrawn: Vec<usize>,
-    /// The players whose Shapley effects are estimated along random orders: disjoint sets of factors, in rising order,
-    /// that contain all factors. They take one row less than there are players, in addition to A and B. Empty for none.
-    pub players: Vec<Swap>,
 }
 
 impl Rows {
@@ -51,8 +47,6 @@ pub enum RowKind {
     Ba(usize),
     /// A point that shares no column with any other row of the design; the number counts those of a base point.
     Plain(u32),
-    /// A with the columns of the first players in its base point's order from B: of one player in step 0, and so on.
-    Step(usize),
 }
 
 /// One of the independent matrices of a design.
@@ -107,17 +101,13 @@ pub(super) struct Runs {
     pub ab: Vec<usize>,
     /// Likewise BA_s; empty without these rows.
     pub ba: Vec<usize>,
-    /// The steps along random orders, in their order.
-    pub steps: Vec<usize>,
     /// The columns of dependent factors that come from no matrix.
     pub mixed: Option<Arc<MixedColumns>>,
-    /// The columns of the steps.
-    pub orders: Option<Arc<OrderColumns>>,
 }
 
 impl Runs {
     /// Returns the runs for `rows` over `factors` factors, in the order A, B, AB_s, BA_s of their first rows, then the
-    /// plain ones and the steps along random orders.
+    /// plain ones.
     pub fn new(rows: &Rows, factors: usize) -> Self {
         let first = factors * (2 + rows.plain_rows as usize);
         let mixed = rows.copula.clone().map(|copula| MixedColumns::new(copula, first));
@@ -136,17 +126,8 @@ impl Runs {
             Run::new(RowKind::Plain(number), matrix, Vec::new(), matrix)
         };
         unique.runs.extend((0..rows.plain_rows).map(plain));
-        let Unique { mut runs, mixed, .. } = unique;
-        let orders = (!rows.players.is_empty()).then(|| {
-            let first = first + mixed.as_ref().map_or(0, |mixed| mixed.columns.len());
-            OrderColumns { players: rows.players.clone(), first, factors, copula: rows.copula.clone() }
-        });
-        let of_orders = orders.iter().flat_map(|orders| (0..orders.steps()).map(|step| (step, orders.of_step(step))));
-        let step = |(step, mixed)| Run { mixed, ..Run::new(RowKind::Step(step), Matrix::A, Vec::new(), Matrix::B) };
-        let before = runs.len();
-        runs.extend(of_orders.map(step));
-        let steps = (before..runs.len()).collect();
-        Self { runs, ab, ba, steps, mixed: mixed.map(Arc::new), orders: orders.map(Arc::new) }
+        let Unique { runs, mixed, .. } = unique;
+        Self { runs, ab, ba, mixed: mixed.map(Arc::new) }
     }
 }
 
@@ -233,7 +214,6 @@ mod tests {
             RowKind::Ab(s) => mixed(A, s, B),
             RowKind::Ba(s) => mixed(B, s, A),
             RowKind::Plain(number) => vec![Matrix::Plain(number); factors],
-            RowKind::Step(_) => unreachable!("steps answer for no row of a swap"),
         }
     }
 

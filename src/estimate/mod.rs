@@ -19,7 +19,6 @@ mod products;
 mod salib;
 mod second_order;
 mod shapley;
-mod shapley_moments;
 mod swap_moments;
 mod workspace;
 
@@ -36,8 +35,7 @@ pub use point_outputs::PointOutputs;
 pub use products::{ProductWork, Products};
 pub(crate) use salib::second_order_of_salib;
 pub use second_order::SecondOrder;
-pub use shapley::{MAX_SHAPLEY_FACTORS, ShapleyMethod, ShapleyPlayers, proper_subsets, shapley_effects};
-pub use shapley_moments::{ShapleyMoments, contributions};
+pub use shapley::{MAX_SHAPLEY_FACTORS, ShapleyPlayers, proper_subsets, shapley_effects};
 pub use swap_moments::{BaMoments, SwapMoments};
 use thiserror::Error;
 pub use workspace::Workspace;

@@ -2,7 +2,6 @@
 
 use super::base_moments::BaseMoments;
 use super::pair_moments::PairMoments;
-use super::shapley_moments::ShapleyMoments;
 use super::swap_moments::{Columns, SwapMoments};
 use super::workspace::Workspace;
 use crate::sum;
@@ -18,7 +17,6 @@ pub struct Moments {
     range: Option<(f64, f64)>,
     swaps: Vec<SwapMoments>,
     pairs: Option<PairMoments>,
-    shapley: Option<ShapleyMoments>,
 }
 
 /// The outputs of a block of base points, columns of one length. An output that is not finite is a failed run.
@@ -34,8 +32,6 @@ pub struct BlockOutputs<'a> {
     pub ba: &'a [&'a [f64]],
     /// The swaps whose pairs are counted for second-order indices, in rising order; none without `ba`.
     pub paired: &'a [usize],
-    /// The [`contributions`](super::contributions) of the players, one slice for each; empty without random orders.
-    pub shapley: &'a [&'a [f64]],
 }
 
 impl Moments {
@@ -57,7 +53,7 @@ impl Moments {
     /// # Ok::<(), apportion::Undefined>(())
     /// ```
     pub fn of_block(outputs: BlockOutputs<'_>, work: &mut Workspace) -> Self {
-        let BlockOutputs { a, b, ab, ba, paired, shapley } = outputs;
+        let BlockOutputs { a, b, ab, ba, paired } = outputs;
         let all = BaseMoments::from_columns(a, b);
         let complete = Some(all).filter(|all| all.mean_a.is_finite() && all.mean_b.is_finite());
         let swaps = (0..ab.len())
@@ -67,27 +63,21 @@ impl Moments {
             })
             .collect();
         let pairs = (!paired.is_empty()).then(|| PairMoments::from_columns(paired, (a, b), (ab, ba), work));
-        let shapley = (!shapley.is_empty()).then(|| ShapleyMoments::from_contributions(shapley));
         match complete {
-            Some(base) => Self { base, range: range(a, b), swaps, pairs, shapley },
+            Some(base) => Self { base, range: range(a, b), swaps, pairs },
             None => {
                 let (a, b) = work.without_failures(a, b);
-                Self { base: BaseMoments::from_columns(a, b), range: range(a, b), swaps, pairs, shapley }
+                Self { base: BaseMoments::from_columns(a, b), range: range(a, b), swaps, pairs }
             }
         }
     }
 
     /// Creates moments of weighted base points from their sums, without the range of the output.
-    pub(super) fn from_sums(
-        base: BaseMoments,
-        swaps: Vec<SwapMoments>,
-        pairs: Option<PairMoments>,
-        shapley: Option<ShapleyMoments>,
-    ) -> Self {
+    pub(super) fn from_sums(base: BaseMoments, swaps: Vec<SwapMoments>, pairs: Option<PairMoments>) -> Self {
         let constant = base.aa == 0.0 && base.bb == 0.0 && base.mean_a == base.mean_b;
         let spread = if constant { 0.0 } else { base.half_gap().abs() + (base.aa + base.bb).sqrt() };
         let range = (base.n > 0).then(|| (base.mean() - spread, base.mean() + spread));
-        Self { base, range, swaps, pairs, shapley }
+        Self { base, range, swaps, pairs }
     }
 
     /// Adds the base points of `other`, which has the same swaps.
@@ -110,15 +100,12 @@ impl Moments {
         if let (Some(mine), Some(theirs)) = (&mut self.pairs, &other.pairs) {
             mine.merge(theirs);
         }
-        if let (Some(mine), Some(theirs)) = (&mut self.shapley, &other.shapley) {
-            mine.merge(theirs);
-        }
     }
 
     /// Returns only the sums of y_A and y_B.
     #[must_use]
     pub fn without_swaps(self) -> Self {
-        Self { swaps: Vec::new(), pairs: None, shapley: None, ..self }
+        Self { swaps: Vec::new(), pairs: None, ..self }
     }
 
     /// Returns the number of base points at which A and B have an output.
@@ -128,16 +115,13 @@ impl Moments {
 
     /// Returns the smallest number of base points of any index.
     pub fn fewest(&self) -> u64 {
-        let shapley = self.shapley.iter().map(|shapley| shapley.n);
-        self.swaps.iter().map(|swap| swap.base.n).chain(shapley).fold(self.base.n, u64::min)
+        self.swaps.iter().map(|swap| swap.base.n).fold(self.base.n, u64::min)
     }
 
     /// Returns the approximate number of stored numbers.
     pub(super) fn numbers(&self) -> usize {
         let pairs = self.pairs.as_ref().map_or(0, |pairs| 2 * pairs.swaps().len().pow(2));
-        self.swaps.len() * (size_of::<SwapMoments>() / size_of::<f64>())
-            + pairs
-            + self.shapley.as_ref().map_or(0, |shapley| shapley.sums.len())
+        self.swaps.len() * (size_of::<SwapMoments>() / size_of::<f64>()) + pairs
     }
 
     /// Returns the number of rows AB_s.
@@ -166,11 +150,6 @@ impl Moments {
     /// Returns the moments for second-order indices, if requested.
     pub fn pairs(&self) -> Option<&PairMoments> {
         self.pairs.as_ref()
-    }
-
-    /// Returns the sums for Shapley effects, if they are estimated along random orders.
-    pub fn shapley(&self) -> Option<&ShapleyMoments> {
-        self.shapley.as_ref()
     }
 
     /// Returns the smallest and largest output among the rows A and B; `None` if there are none.

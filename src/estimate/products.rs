@@ -4,7 +4,6 @@
 //! as a bootstrap does, weights the sums: the moments of a resample follow by a matrix product.
 
 use super::pair_moments::PairMoments;
-use super::shapley_moments::ShapleyMoments;
 use super::swap_moments::BaMoments;
 use super::{BaseMoments, BlockOutputs, Moments, SwapMoments};
 
@@ -38,8 +37,6 @@ pub struct Products {
     of_swap: Vec<Product>,
     /// Ordered pairs of swaps whose sums are kept, and whether each counts its own points.
     pairs: Vec<(usize, usize, bool)>,
-    /// Players whose contributions are kept, after a count of their base points.
-    players: usize,
     columns: usize,
 }
 
@@ -68,9 +65,7 @@ impl Products {
         let columns = BASE.len()
             + own.iter().map(|own| of_swap.len() + if *own { BASE.len() } else { 0 }).sum::<usize>()
             + pairs.iter().map(|(_, _, own)| 1 + usize::from(*own)).sum::<usize>();
-        let players = whole.shapley().map_or(0, |shapley| shapley.sums.len());
-        let columns = columns + if players > 0 { 1 + players } else { 0 };
-        Self { whole, own, of_swap, pairs, players, columns }
+        Self { whole, own, of_swap, pairs, columns }
     }
 
     /// Returns the number of products at each base point.
@@ -90,7 +85,6 @@ impl Products {
             let first = counts.len();
             counts.extend(if *own { vec![first; 2] } else { vec![0] });
         }
-        counts.resize(self.columns, counts.len());
         counts
     }
 
@@ -132,14 +126,6 @@ impl Products {
             put(letters, &self.of_swap);
         }
         self.fill_pairs(block, &letters[ONE], differences, &mut columns);
-        // A base point counts for all players or none.
-        let adds = |player: usize, i: usize| Some(block.shapley[player][i]).filter(|added| added.is_finite());
-        if let Some(column) = columns.next().filter(|_| self.players > 0) {
-            column.iter_mut().enumerate().for_each(|(i, out)| *out = f64::from(u8::from(adds(0, i).is_some())));
-        }
-        for (player, column) in columns.enumerate().take(self.players) {
-            column.iter_mut().enumerate().for_each(|(i, out)| *out = adds(player, i).unwrap_or(0.0));
-        }
     }
 
     /// Writes the products of pairs to the next columns.
@@ -174,8 +160,7 @@ impl Products {
 
     /// Computes the moments of weighted base points from the weighted sums of their products.
     pub fn moments(&self, sums: &[f64]) -> Moments {
-        let (of_rows, of_players) = sums.split_at(self.columns - if self.players > 0 { 1 + self.players } else { 0 });
-        let mut sums = of_rows.iter().copied();
+        let mut sums = sums.iter().copied();
         let mut next = move || sums.next().unwrap_or(f64::NAN);
         let base = base_moments(&mut next, self.whole.base());
         let swaps = self.own.iter().enumerate().map(|(swap, own)| {
@@ -191,10 +176,7 @@ impl Products {
             };
             PairMoments::from_means(whole.swaps(), self.pairs.iter().map(of_pair))
         });
-        let shapley = of_players
-            .split_first()
-            .map(|(points, sums)| ShapleyMoments { n: points.round().max(0.0) as u64, sums: sums.to_vec() });
-        Moments::from_sums(base.0, swaps, pairs, shapley)
+        Moments::from_sums(base.0, swaps, pairs)
     }
 }
 

@@ -7,16 +7,6 @@ use crate::names::named;
 pub const MAX_SHAPLEY_FACTORS: usize = 8;
 
 named! {
-/// How Shapley effects are estimated.
-pub enum ShapleyMethod {
-    /// From all subsets of the players, at most [`MAX_SHAPLEY_FACTORS`]: 2^p runs per base sample, smaller errors.
-    Subsets = "subsets",
-    /// Along a random order of the players at each base sample: p - 1 more runs for each.
-    Permutations = "permutations",
-}
-}
-
-named! {
 /// The players of Shapley effects.
 #[derive(Default)]
 pub enum ShapleyPlayers {

@@ -186,9 +186,6 @@ pub struct Provenance {
     pub first_order_estimator: String,
     /// Formula of the total indices.
     pub total_estimator: String,
-    /// The method for Shapley effects, as in study files; absent if there are none.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub shapley_method: Option<String>,
     /// A description of the intervals; `null` if there are none.
     pub interval: Option<String>,
     /// The kind of interval by its name in study files.

@@ -4,7 +4,7 @@ use super::failures::{Place, Tally};
 use super::totals::{OutputTotals, Totals};
 use super::{Job, Store};
 use crate::design::{Design, Matrix};
-use crate::estimate::{BlockOutputs, CentralMoments, MomentParts, Moments, PointOutputs, Workspace, contributions};
+use crate::estimate::{BlockOutputs, CentralMoments, MomentParts, Moments, PointOutputs, Workspace};
 use crate::model::{Batch, GiveUp, RowFailure, RunContext, Worker};
 
 /// Buffers for the evaluation of blocks, reused from block to block.
@@ -131,20 +131,18 @@ impl OutputTotals {
         let columns = |of: &[usize]| of.iter().map(|run| runs[*run]).collect::<Vec<&[f64]>>();
         let (a, b) = (runs[0], runs[1]);
         let (ab, ba) = (columns(design.ab_runs()), columns(design.ba_runs()));
-        let shapley = contributions(design, place.first.replicate, place.first.point, runs);
-        let shapley: Vec<&[f64]> = shapley.iter().map(Vec::as_slice).collect();
         let length = place.part_length as usize;
         let mut parts = Vec::with_capacity(a.len().div_ceil(length));
-        let mut cut: [Vec<&[f64]>; 3] = Default::default();
+        let mut cut: [Vec<&[f64]>; 2] = Default::default();
         for first in (0..a.len()).step_by(length) {
             let part = first..(first + length).min(a.len());
-            for (cut, whole) in cut.iter_mut().zip([&ab, &ba, &shapley]) {
+            for (cut, whole) in cut.iter_mut().zip([&ab, &ba]) {
                 cut.clear();
                 cut.extend(whole.iter().map(|column| &column[part.clone()]));
             }
-            let [ab, ba, shapley] = cut.each_ref().map(Vec::as_slice);
+            let [ab, ba] = cut.each_ref().map(Vec::as_slice);
             let (a, b, paired) = (&a[part.clone()], &b[part.clone()], design.paired());
-            let outputs = BlockOutputs { a, b, ab, ba, paired, shapley };
+            let outputs = BlockOutputs { a, b, ab, ba, paired };
             parts.push(Moments::of_block(outputs, work));
         }
         if place.keeps_outputs {

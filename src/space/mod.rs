@@ -9,7 +9,7 @@ pub mod distribution;
 use std::sync::Arc;
 
 pub use copula::GaussianCopula;
-pub(crate) use copula::{CholeskyFactor, from_score, normal_scores};
+pub(crate) use copula::{from_score, normal_scores};
 pub use dependence::{CorrelationMeasure, Dependence, DependenceError};
 pub use distribution::{Distribution, DistributionError, LARGEST_U, SMALLEST_U};
 

@@ -48,10 +48,6 @@ impl Study {
             points["copula"] = json!(digest(&format!("{:?}", copula)));
             points["redrawn"] = json!(design.asked().redrawn);
         }
-        if !design.asked().players.is_empty() {
-            points["players"] =
-                json!(design.asked().players.iter().map(|player| names(player).join("+")).collect::<Vec<_>>());
-        }
         if settings_of_design.sampler == Sampler::LatinHypercube {
             points["base_samples"] = json!(settings_of_design.base_samples);
         }

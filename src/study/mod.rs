@@ -242,7 +242,7 @@ impl Study {
             salib: self.analysis.salib,
             second_order: self.analysis.second_order,
             dependent: self.space.copula().is_some(),
-            shapley: self.analysis.shapley_of(&self.space),
+            shapley: self.analysis.has_shapley(&self.space),
             players: self.analysis.players(&self.space).into_iter().map(|(place, _)| place).collect(),
             noise: self.space.noise().map(|noise| NoiseLayout::new(noise, self.design.swaps())),
         }

@@ -3,7 +3,7 @@
 use std::ops::RangeInclusive;
 
 use crate::design::{Design, DesignSettings, MAX_PLAIN_ROWS, Rows, Sampler, Swap};
-use crate::estimate::{Estimator, MAX_SHAPLEY_FACTORS, ShapleyMethod, ShapleyPlayers, proper_subsets};
+use crate::estimate::{Estimator, ShapleyPlayers, proper_subsets};
 use crate::given::Measure;
 use crate::names::named;
 use crate::result::Warning;
@@ -23,11 +23,9 @@ pub struct AnalysisOptions {
     pub second_order: bool,
     /// Sets of factors, by number, for which joint indices are estimated.
     pub subsets: Vec<Vec<usize>>,
-    /// Whether Shapley effects are estimated, of at most a hundred factors. `None` estimates them for up to four
-    /// dependent factors, and if `shapley_method` or `shapley_players` is set.
+    /// Whether Shapley effects are estimated, of at most [`MAX_SHAPLEY_FACTORS`](crate::estimate::MAX_SHAPLEY_FACTORS)
+    /// players. `None` estimates them for up to four dependent factors, and if `shapley_players` is set.
     pub shapley: Option<bool>,
-    /// The method. `None` for all subsets of up to [`MAX_SHAPLEY_FACTORS`] players, and random permutations of more.
-    pub shapley_method: Option<ShapleyMethod>,
     /// The players. `None` for the factors.
     pub shapley_players: Option<ShapleyPlayers>,
     /// Other measures to report in addition to Sobol' indices, from the first
@@ -65,7 +63,6 @@ impl AnalysisOptions {
             second_order: false,
             subsets: Vec::new(),
             shapley: None,
-            shapley_method: None,
             shapley_players: None,
             measures: Vec::new(),
             aggregate: false,
@@ -89,16 +86,7 @@ impl AnalysisOptions {
 
     /// Returns whether they are requested explicitly.
     pub(super) fn wants_shapley(&self) -> bool {
-        self.shapley.unwrap_or(self.shapley_method.is_some() || self.shapley_players.is_some())
-    }
-
-    /// Returns how they will be estimated, if there will be any.
-    pub fn shapley_of(&self, space: &Space) -> Option<ShapleyMethod> {
-        let by_number = match self.players(space).len() <= MAX_SHAPLEY_FACTORS {
-            true => ShapleyMethod::Subsets,
-            false => ShapleyMethod::Permutations,
-        };
-        self.has_shapley(space).then(|| self.shapley_method.unwrap_or(by_number))
+        self.shapley.unwrap_or(self.shapley_players.is_some())
     }
 
     /// Returns the players of Shapley effects, if there will be any: the index of each among the factors and groups in
@@ -289,7 +277,7 @@ fn split(runs: u64, runs_per_point: u64, replicates: u64, for_surrogates: bool) 
 }
 
 /// Returns the rows for the analysis: the factors, the groups, the subsets; for dependent factors these once more,
-/// redrawn; the dummy; and the subsets or the random orders that Shapley effects need.
+/// redrawn; the dummy; and the subsets that Shapley effects need.
 pub(super) fn rows(analysis: &AnalysisOptions, space: &Space, plain_rows: u32) -> Rows {
     let factors = space.factors().len();
     let single = (0..factors).map(|number| vec![number]);
@@ -301,9 +289,8 @@ pub(super) fn rows(analysis: &AnalysisOptions, space: &Space, plain_rows: u32) -
         swaps.extend_from_within(..);
     }
     swaps.extend(analysis.dummy.then(Vec::new));
-    let shapley = analysis.shapley_of(space);
-    let players: Vec<Swap> = analysis.players(space).into_iter().map(|(_, factors)| factors).collect();
-    if shapley == Some(ShapleyMethod::Subsets) {
+    if analysis.has_shapley(space) {
+        let players: Vec<Swap> = analysis.players(space).into_iter().map(|(_, factors)| factors).collect();
         let first = swaps.len();
         let joined = |subset: Vec<usize>| {
             let mut factors: Swap = subset.into_iter().flat_map(|player| players[player].clone()).collect();
@@ -315,11 +302,7 @@ pub(super) fn rows(analysis: &AnalysisOptions, space: &Space, plain_rows: u32) -
     }
     let ba = analysis.second_order || analysis.estimators.iter().any(|estimator| estimator.needs_ba());
     let (second_order, copula) = (analysis.second_order, space.copula().cloned());
-    let players = match shapley {
-        Some(ShapleyMethod::Permutations) => players,
-        _ => Vec::new(),
-    };
-    Rows { swaps, ba, second_order, plain_rows, copula, redrawn, players }
+    Rows { swaps, ba, second_order, plain_rows, copula, redrawn }
 }
 
 /// Returns the players of `space`: the index of each among the factors and groups in their order, and its factors.

@@ -4,8 +4,8 @@ use std::collections::BTreeSet;
 
 use super::options::{MAX_OUTPUTS_OF_MEASURES, RESAMPLES, sizes_within};
 use super::{AnalysisOptions, BuildError, LowFidelity, SurrogateChoice, Target};
-use crate::design::{MAX_ORDERED_FACTORS, Sampler, has_room_for_orders};
-use crate::estimate::{Estimator, MAX_SHAPLEY_FACTORS, ShapleyMethod, ShapleyPlayers};
+use crate::design::Sampler;
+use crate::estimate::{Estimator, MAX_SHAPLEY_FACTORS, ShapleyPlayers};
 use crate::model::{Model, OutputSeries};
 use crate::names::{NAME_RULE, names_files, refused_name, refused_output_name, refused_title, shown};
 use crate::space::{Factor, Space};
@@ -133,22 +133,20 @@ pub(super) fn checked_options(
 }
 
 fn check_shapley(options: &AnalysisOptions, space: &Space) -> Result<(), BuildError> {
-    let (players, factors) = (options.players(space).len(), space.factors().len());
+    let players = options.players(space).len();
     let of_groups = options.shapley_players == Some(ShapleyPlayers::Groups);
-    if options.shapley == Some(false) && (options.shapley_method.is_some() || options.shapley_players.is_some()) {
-        return wrong("shapley", "true with `shapley_method` or `shapley_players`", "false");
+    if options.shapley == Some(false) && options.shapley_players.is_some() {
+        return wrong("shapley", "true with `shapley_players`", "false");
     }
     if of_groups && space.groups().is_empty() {
         return wrong("shapley_players", "left out or \"factors\" in a study without groups", "\"groups\"");
     }
-    if options.shapley_method == Some(ShapleyMethod::Subsets) && players > MAX_SHAPLEY_FACTORS {
-        let expected = format!("\"permutations\": all subsets are those of at most {MAX_SHAPLEY_FACTORS} players");
-        return wrong("shapley_method", expected, format!("\"subsets\" with {players}"));
-    }
-    if options.wants_shapley() && players > MAX_SHAPLEY_FACTORS && !has_room_for_orders(players, factors) {
-        let expected =
-            format!("false with more than {MAX_ORDERED_FACTORS} players; use groups, shapley_players = \"groups\"");
-        return wrong("shapley", expected, format!("true with {players}"));
+    if options.wants_shapley() && players > MAX_SHAPLEY_FACTORS {
+        let expected = format!(
+            "false with more than {MAX_SHAPLEY_FACTORS} factors: put them into at most {MAX_SHAPLEY_FACTORS} groups, with \
+             shapley_players = \"groups\""
+        );
+        return wrong("shapley", expected, format!("true with {players} factors and groups"));
     }
     if options.wants_shapley() && space.noise().is_some() {
         return wrong("shapley", "false with [noise], which cannot have a share", "true");

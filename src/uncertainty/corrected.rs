@@ -1,6 +1,6 @@
 //! Replacement of plain indices by corrected ones, if their errors are smaller.
 
-use super::estimates::{Layout, Number};
+use super::estimates::{Layout, Number, Quantity};
 use super::influence::Influenced;
 use super::net_decay::StandardError;
 use super::noise::{Noise, Replacement};
@@ -92,13 +92,18 @@ impl SurrogateEstimates {
         let real = layout.swaps() - usize::from(layout.dummy);
         let kind = |index: Number, list: &[Influenced]| {
             let known = |(swap, of): (usize, &Influenced)| {
-                if settled[swap] { of.settled(plain[layout.place(swap, index)].estimate) } else { of.clone() }
+                if settled[swap] {
+                    of.settled(plain[layout.place(Quantity::Swap(swap, index))].estimate)
+                } else {
+                    of.clone()
+                }
             };
             let list: Vec<Influenced> = list.iter().enumerate().map(known).collect();
             let moving: Vec<usize> = (0..real).filter(|swap| !settled[*swap]).collect();
             let noise =
                 Noise::new(&moving.iter().map(|swap| &list[*swap].parts).collect::<Vec<_>>(), index == Number::Total);
-            let plain: f64 = moving.iter().map(|swap| errors[layout.place(*swap, index)].error.powi(2)).sum();
+            let plain: f64 =
+                moving.iter().map(|swap| errors[layout.place(Quantity::Swap(*swap, index))].error.powi(2)).sum();
             let prudent = noise.prudent();
             let corrected: f64 = moving.iter().map(|swap| prudent.error(&list[*swap]).error.powi(2)).sum();
             let is_known = !moving.is_empty() && plain.is_finite() && corrected.is_finite();
@@ -108,7 +113,9 @@ impl SurrogateEstimates {
         let (all_total, total, gain_total) = kind(Number::Total, &self.total);
         let gaps = |number: Number, list: &[Influenced], noise: Noise| -> Vec<f64> {
             let moving = (0..real).filter(|swap| !settled[*swap]);
-            moving.map(|swap| gap(plain[layout.place(swap, number)], noise.estimate(&list[swap]))).collect()
+            moving
+                .map(|swap| gap(plain[layout.place(Quantity::Swap(swap, number))], noise.estimate(&list[swap])))
+                .collect()
         };
         let gaps = Gaps::new(&[gaps(Number::FirstOrder, &first_order, first), gaps(Number::Total, &all_total, total)]);
         let refusal = self.refusal().or_else(|| gaps.refusal());
@@ -123,7 +130,7 @@ impl SurrogateEstimates {
             });
             let pairs = layout.pair_list().into_iter().zip(&self.second_order).enumerate();
             for (pair, (_, index)) in pairs.filter(|(_, ((j, k), _))| !settled[*j] && !settled[*k]) {
-                put(layout.pairs() + pair, first, index);
+                put(layout.place(Quantity::Pair(pair)), first, index);
             }
         }
         if corrects_total {
@@ -133,10 +140,10 @@ impl SurrogateEstimates {
             });
         }
         for swap in (0..layout.swaps()).filter(|swap| !settled[*swap]) {
-            let place = layout.place(swap, Number::Interaction);
+            let place = layout.place(Quantity::Swap(swap, Number::Interaction));
             let (of_first, of_total) = (&first_order[swap], &all_total[swap]);
             let [plain_first, plain_total] =
-                [Number::FirstOrder, Number::Total].map(|number| plain[layout.place(swap, number)]);
+                [Number::FirstOrder, Number::Total].map(|number| plain[layout.place(Quantity::Swap(swap, number))]);
             match (corrects_first_order, corrects_total) {
                 (true, true) => {
                     let interaction = Influenced::combined(&[(1.0, of_total), (-1.0, of_first)]);
@@ -158,7 +165,7 @@ impl SurrogateEstimates {
             first_order: corrects_first_order.then_some((&first_order, first)),
             total: corrects_total.then_some((&all_total, total)),
         };
-        let plain_first = |swap| plain[layout.place(swap, Number::FirstOrder)];
+        let plain_first = |swap| plain[layout.place(Quantity::Swap(swap, Number::FirstOrder))];
         mean::corrected(layout, &kinds, plain, errors, &plain_first, &mut |place, of| replacements.push((place, of)));
         if self.is_heavy_tailed || self.misses_levels || gaps.is_doubt() {
             for (place, (estimate, error, parts)) in &mut replacements {
@@ -166,7 +173,8 @@ impl SurrogateEstimates {
                 (*error, *parts) = (errors[*place], Vec::new());
             }
         }
-        let plain_of = |number| (0..layout.swaps()).map(|swap| plain[layout.place(swap, number)]).collect();
+        let plain_of =
+            |number| (0..layout.swaps()).map(|swap| plain[layout.place(Quantity::Swap(swap, number))]).collect();
         let used = SurrogateUse {
             explained: self.explained,
             term_count: self.term_count,
@@ -212,10 +220,10 @@ fn indices(
     put: &mut dyn FnMut(usize, bool, &Influenced),
 ) {
     let factors = 0..layout.factors;
-    // The sums of both kinds precede the swaps, in the order of the kinds.
-    put(index as usize, false, &sum(&list[factors.clone()]));
+    let sum_of = if index == Number::Total { Quantity::SumTotal } else { Quantity::SumFirstOrder };
+    put(layout.place(sum_of), false, &sum(&list[factors.clone()]));
     for (swap, of) in list.iter().enumerate().filter(|(swap, _)| !settled[*swap]) {
-        put(layout.place(swap, index), false, of);
+        put(layout.place(Quantity::Swap(swap, index)), false, of);
     }
     for range in [factors, layout.factors..layout.factors + layout.groups] {
         // The noise of a stochastic model has no share.
@@ -224,7 +232,7 @@ fn indices(
         let all = Influenced::combined(&sharing.clone().map(|swap| (1.0, &list[swap])).collect::<Vec<_>>());
         if all.estimate > 0.0 {
             let moving = sharing.filter(|swap| !settled[*swap]);
-            moving.for_each(|swap| put(layout.place(swap, share_of), true, &share(&list[swap], &all)));
+            moving.for_each(|swap| put(layout.place(Quantity::Swap(swap, share_of)), true, &share(&list[swap], &all)));
         }
     }
 }

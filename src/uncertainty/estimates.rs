@@ -3,10 +3,7 @@
 //! Intervals work on lists of numbers: [`quantities`] computes the list, [`Layout`] defines the places in it.
 
 use super::concentration::Side;
-use crate::estimate::{
-    Estimator, Indices, Moments, SecondOrder, ShapleyMethod, ShapleyMoments, second_order_of_salib, shapley_effects,
-    shares,
-};
+use crate::estimate::{Estimator, Indices, Moments, SecondOrder, second_order_of_salib, shapley_effects, shares};
 
 /// The quantities estimated from the swaps of a design, in the order of the swaps. For dependent factors the swaps of
 /// factors, groups and subsets are repeated before the dummy factor, redrawn given all others, followed by redrawn
@@ -29,8 +26,8 @@ pub struct Layout {
     pub second_order: bool,
     /// Whether factors depend on each other.
     pub dependent: bool,
-    /// How the Shapley effects of the players are estimated, if requested.
-    pub shapley: Option<ShapleyMethod>,
+    /// Whether there are Shapley effects of the players.
+    pub shapley: bool,
     /// The players, by their indices among the factors and groups in their order.
     pub players: Vec<usize>,
     /// The noise of a stochastic model, if it has one; there are no Shapley effects then, nor dependent factors.
@@ -74,7 +71,30 @@ impl NoiseLayout {
     }
 }
 
-/// The numbers of one swap, in this order.
+/// A reported quantity by its name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Quantity {
+    /// The sum of the first-order indices of the factors.
+    SumFirstOrder,
+    /// The sum of their total indices.
+    SumTotal,
+    /// A number of a swap.
+    Swap(usize, Number),
+    /// A number of another estimator for a swap: estimator, swap, number.
+    Other(usize, usize, OtherNumber),
+    /// The second-order index of a pair, by its place in [`Layout::pair_list`].
+    Pair(usize),
+    /// The share of the variance of the mean over the noise.
+    MeanShare,
+    /// The first-order index of a swap of that mean.
+    MeanFirstOrder(usize),
+    /// Its total index.
+    MeanTotal(usize),
+    /// The Shapley effect of a player.
+    Shapley(usize),
+}
+
+/// The numbers of one swap.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Number {
     FirstOrder,
@@ -87,11 +107,34 @@ pub(super) enum Number {
     Interaction,
 }
 
-/// Number of variants.
-const PER_SWAP: usize = Number::Interaction as usize + 1;
+/// The numbers of one swap for another estimator.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum OtherNumber {
+    FirstOrder,
+    Total,
+    /// First-order index minus the default one.
+    FirstOrderGap,
+    /// Total index minus the default one.
+    TotalGap,
+}
 
-/// Numbers of one swap for one other estimator: first order and total, and their differences from the default ones.
-const PER_ESTIMATOR: usize = 4;
+impl Number {
+    pub(super) const ALL: [Self; 6] =
+        [Self::FirstOrder, Self::Total, Self::ShareFirstOrder, Self::ShareTotal, Self::CheckGap, Self::Interaction];
+}
+
+impl OtherNumber {
+    pub(super) const ALL: [Self; 4] = [Self::FirstOrder, Self::Total, Self::FirstOrderGap, Self::TotalGap];
+}
+
+/// The behaviour of the errors of a quantity.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct ErrorKind {
+    /// Where the true value may be outside an interval if few rows dominate the quantity.
+    pub side: Side,
+    /// Whether it helps to determine how fast all errors decrease with the number of points.
+    pub is_pooled: bool,
+}
 
 impl Layout {
     /// Returns the layout of factors only.
@@ -114,46 +157,58 @@ impl Layout {
         if self.dependent { self.listed() + swap } else { swap }
     }
 
-    /// Returns the place of the numbers of swap `swap`.
-    pub(super) fn swap(&self, swap: usize) -> usize {
-        2 + swap * PER_SWAP
+    /// Returns the place of `quantity` in the list.
+    pub(super) fn place(&self, quantity: Quantity) -> usize {
+        match quantity {
+            Quantity::SumFirstOrder => 0,
+            Quantity::SumTotal => 1,
+            Quantity::Swap(swap, number) => 2 + swap * Number::ALL.len() + number as usize,
+            Quantity::Other(estimator, swap, number) => {
+                let first = self.place(Quantity::Swap(self.swaps(), Number::FirstOrder));
+                first + (estimator * self.swaps() + swap) * OtherNumber::ALL.len() + number as usize
+            }
+            Quantity::Pair(pair) => {
+                pair + self.place(Quantity::Other(self.estimators.len(), 0, OtherNumber::FirstOrder))
+            }
+            Quantity::MeanShare => {
+                let pairs = self.factors * self.factors.saturating_sub(1) / 2;
+                self.place(Quantity::Pair(if self.second_order { pairs } else { 0 }))
+            }
+            Quantity::MeanFirstOrder(swap) => self.place(Quantity::MeanShare) + 1 + 2 * swap,
+            Quantity::MeanTotal(swap) => self.place(Quantity::MeanFirstOrder(swap)) + 1,
+            Quantity::Shapley(player) => {
+                let of_mean = self.noise.as_ref().map_or(0, |noise| 1 + 2 * noise.swaps.len());
+                self.place(Quantity::MeanShare) + of_mean + player
+            }
+        }
     }
 
-    /// Returns the place of one of them.
-    pub(super) fn place(&self, swap: usize, number: Number) -> usize {
-        self.swap(swap) + number as usize
-    }
-
-    /// Returns the place of the numbers of swap `swap` for the estimator number `estimator`.
-    pub(super) fn other(&self, estimator: usize, swap: usize) -> usize {
-        self.swap(self.swaps()) + (estimator * self.swaps() + swap) * PER_ESTIMATOR
-    }
-
-    /// Returns the place of the second-order index of the first pair.
-    pub(super) fn pairs(&self) -> usize {
-        self.other(self.estimators.len(), 0)
-    }
-
-    /// Returns the place of the share of the variance of the mean over the noise; for the mean's indices after it see
-    /// [`of_mean`](Self::of_mean).
-    pub(super) fn mean_share(&self) -> usize {
-        let pairs = self.factors * self.factors.saturating_sub(1) / 2;
-        self.pairs() + if self.second_order { pairs } else { 0 }
-    }
-
-    /// Returns the place of the first-order index of swap `swap` of the mean over the noise; its total index is next.
-    pub(super) fn of_mean(&self, swap: usize) -> usize {
-        self.mean_share() + 1 + 2 * swap
-    }
-
-    /// Returns the place of the Shapley effect of the first player.
-    pub(super) fn shapley(&self) -> usize {
-        self.mean_share() + self.noise.as_ref().map_or(0, |noise| 1 + 2 * noise.swaps.len())
+    /// Returns the names of all quantities, in the order of the list.
+    fn names(&self) -> Vec<Quantity> {
+        let swaps = 0..self.swaps();
+        let mut names = vec![Quantity::SumFirstOrder, Quantity::SumTotal];
+        names.extend(swaps.clone().flat_map(|swap| Number::ALL.map(|number| Quantity::Swap(swap, number))));
+        for estimator in 0..self.estimators.len() {
+            let of_swap = |swap| OtherNumber::ALL.map(|number| Quantity::Other(estimator, swap, number));
+            names.extend(swaps.clone().flat_map(of_swap));
+        }
+        if self.second_order {
+            names.extend((0..self.pair_list().len()).map(Quantity::Pair));
+        }
+        if let Some(noise) = &self.noise {
+            names.push(Quantity::MeanShare);
+            let of_swap = |swap| [Quantity::MeanFirstOrder(swap), Quantity::MeanTotal(swap)];
+            names.extend((0..noise.swaps.len()).flat_map(of_swap));
+        }
+        if self.shapley {
+            names.extend((0..self.players.len()).map(Quantity::Shapley));
+        }
+        names
     }
 
     /// Returns whether every factor is a player, so that Shapley effects are those of factors.
     pub(super) fn has_shapley_of_factors(&self) -> bool {
-        self.shapley.is_some() && self.players.iter().copied().eq(0..self.factors)
+        self.shapley && self.players.iter().copied().eq(0..self.factors)
     }
 
     /// Returns the pairs of factors, in the order of their second-order indices.
@@ -161,30 +216,21 @@ impl Layout {
         (0..self.factors).flat_map(|j| (j + 1..self.factors).map(move |k| (j, k))).collect()
     }
 
-    /// Returns where the true value may be outside an interval if few rows dominate the quantity number `place`:
-    /// indices and their sums are sums of contributions of one sign, shares and gaps are not.
-    pub(super) fn side(&self, place: usize) -> Side {
-        let (of_swaps, of_others) = (self.swap(0)..self.other(0, 0), self.other(0, 0)..self.pairs());
-        let difference = if of_swaps.contains(&place) {
-            let (first, last) = (Number::ShareFirstOrder as usize, Number::CheckGap as usize);
-            (first..=last).contains(&((place - of_swaps.start) % PER_SWAP))
-        } else {
-            of_others.contains(&place) && (place - of_others.start) % PER_ESTIMATOR >= 2 || place >= self.mean_share()
+    /// Returns the behaviour of the errors of all quantities, in the order of the list: indices and their sums are sums
+    /// of contributions of one sign, shares and gaps are not.
+    pub(super) fn error_kinds(&self) -> Vec<ErrorKind> {
+        let real = self.swaps() - usize::from(self.dummy);
+        let kind = |name| match name {
+            Quantity::Swap(swap, Number::FirstOrder | Number::Total) if swap < real => (Side::Above, true),
+            Quantity::Swap(_, Number::ShareFirstOrder | Number::ShareTotal | Number::CheckGap)
+            | Quantity::Other(_, _, OtherNumber::FirstOrderGap | OtherNumber::TotalGap)
+            | Quantity::MeanShare
+            | Quantity::MeanFirstOrder(_)
+            | Quantity::MeanTotal(_)
+            | Quantity::Shapley(_) => (Side::Both, false),
+            _ => (Side::Above, false),
         };
-        if difference { Side::Both } else { Side::Above }
-    }
-
-    /// Returns the places of the quantities whose errors decay at a separate rate: orders are random, and the errors
-    /// that depend on them fall no faster with the number of points than those of random points.
-    pub(super) fn random(&self) -> std::ops::Range<usize> {
-        let is_random = self.shapley == Some(ShapleyMethod::Permutations);
-        self.shapley()..self.shapley() + if is_random { self.players.len() } else { 0 }
-    }
-
-    /// Returns the quantities that determine the decay of errors: default first-order and total indices, no dummy.
-    pub(super) fn pooled(&self, length: usize) -> Vec<bool> {
-        let real = self.swap(self.swaps() - usize::from(self.dummy));
-        (0..length).map(|place| (2..real).contains(&place) && (place - 2) % PER_SWAP < 2).collect()
+        self.names().into_iter().map(kind).map(|(side, is_pooled)| ErrorKind { side, is_pooled }).collect()
     }
 }
 
@@ -195,50 +241,47 @@ pub(super) fn quantities(layout: &Layout, moments: &Moments) -> Option<Vec<f64>>
     let share_first_order = all_shares(layout, &first_order);
     let share_total = all_shares(layout, &total);
     let factors = 0..layout.factors;
-    let mut list = vec![first_order[factors.clone()].iter().sum(), total[factors].iter().sum()];
-    for s in 0..layout.swaps() {
-        let (first, total) = (first_order[s], total[s]);
-        list.extend([first, total, share_first_order[s], share_total[s], first - check[s], total - first]);
-    }
-    for estimator in &layout.estimators {
-        let (first_formula, total_formula) = estimator.formulas();
-        for s in 0..layout.swaps() {
-            let first = first_formula.map_or(f64::NAN, |formula| formula.estimate(moments, s));
-            let other = total_formula.map_or(f64::NAN, |formula| formula.estimate(moments, s));
-            list.extend([first, other, first - first_order[s], other - total[s]]);
-        }
-    }
-    if layout.second_order {
-        let of_pair = |(j, k)| match layout.salib {
-            true => second_order_of_salib(moments, j, k),
-            false => SecondOrder::Difference.estimate(moments, j, k),
-        };
-        list.extend(layout.pair_list().into_iter().map(of_pair));
-    }
-    match layout.shapley {
-        None => (),
-        Some(ShapleyMethod::Subsets) => {
-            let single: Vec<f64> = layout.players.iter().map(|player| total[layout.redrawn(*player)]).collect();
-            list.extend(shapley_effects(&single, &total[layout.swaps()..]));
-        }
-        Some(ShapleyMethod::Permutations) => {
-            list.extend(moments.shapley().map_or(vec![f64::NAN; layout.players.len()], ShapleyMoments::effects));
-        }
-    }
-    if let Some(noise) = &layout.noise {
-        // The mean has the variance V(E[y|x]) = V (1 - ST_noise), and all effects of the factors without the noise.
-        let share = 1.0 - total[noise.factor];
-        let index = |part: f64| if share > 0.0 { part / share } else { f64::NAN };
-        list.push(share);
-        for (s, beside) in noise.swaps.iter().enumerate() {
-            list.extend(match *beside {
-                SwapNoise::Holds => [f64::NAN; 2],
-                SwapNoise::Alone => [index(first_order[s]), f64::NAN],
-                SwapNoise::With(joined) => [index(first_order[s]), index(total[joined] - total[noise.factor])],
-            });
-        }
-    }
-    Some(list)
+    let formulas: Vec<_> = layout.estimators.iter().map(|estimator| estimator.formulas()).collect();
+    let first_by = |estimator: usize, swap| formulas[estimator].0.map_or(f64::NAN, |f| f.estimate(moments, swap));
+    let total_by = |estimator: usize, swap| formulas[estimator].1.map_or(f64::NAN, |f| f.estimate(moments, swap));
+    let pairs = layout.pair_list();
+    let shapley = if layout.shapley {
+        let single: Vec<f64> = layout.players.iter().map(|player| total[layout.redrawn(*player)]).collect();
+        shapley_effects(&single, &total[layout.swaps()..])
+    } else {
+        Vec::new()
+    };
+    // The mean has the variance V(E[y|x]) = V (1 - ST_noise), and all effects of the factors without the noise.
+    let of_noise = layout.noise.as_ref().map_or(f64::NAN, |noise| total[noise.factor]);
+    let of_mean = |part: f64| if 1.0 - of_noise > 0.0 { part / (1.0 - of_noise) } else { f64::NAN };
+    let relation = |swap: usize| layout.noise.as_ref().map_or(SwapNoise::Holds, |noise| noise.swaps[swap]);
+    let value = |name| match name {
+        Quantity::SumFirstOrder => first_order[factors.clone()].iter().sum(),
+        Quantity::SumTotal => total[factors.clone()].iter().sum(),
+        Quantity::Swap(swap, Number::FirstOrder) => first_order[swap],
+        Quantity::Swap(swap, Number::Total) => total[swap],
+        Quantity::Swap(swap, Number::ShareFirstOrder) => share_first_order[swap],
+        Quantity::Swap(swap, Number::ShareTotal) => share_total[swap],
+        Quantity::Swap(swap, Number::CheckGap) => first_order[swap] - check[swap],
+        Quantity::Swap(swap, Number::Interaction) => total[swap] - first_order[swap],
+        Quantity::Other(estimator, swap, OtherNumber::FirstOrder) => first_by(estimator, swap),
+        Quantity::Other(estimator, swap, OtherNumber::Total) => total_by(estimator, swap),
+        Quantity::Other(estimator, swap, OtherNumber::FirstOrderGap) => first_by(estimator, swap) - first_order[swap],
+        Quantity::Other(estimator, swap, OtherNumber::TotalGap) => total_by(estimator, swap) - total[swap],
+        Quantity::Pair(pair) if layout.salib => second_order_of_salib(moments, pairs[pair].0, pairs[pair].1),
+        Quantity::Pair(pair) => SecondOrder::Difference.estimate(moments, pairs[pair].0, pairs[pair].1),
+        Quantity::Shapley(player) => shapley[player],
+        Quantity::MeanShare => 1.0 - of_noise,
+        Quantity::MeanFirstOrder(swap) => match relation(swap) {
+            SwapNoise::Holds => f64::NAN,
+            SwapNoise::Alone | SwapNoise::With(_) => of_mean(first_order[swap]),
+        },
+        Quantity::MeanTotal(swap) => match relation(swap) {
+            SwapNoise::With(joined) => of_mean(total[joined] - of_noise),
+            SwapNoise::Holds | SwapNoise::Alone => f64::NAN,
+        },
+    };
+    Some(layout.names().into_iter().map(value).collect())
 }
 
 /// Computes shares in percent among the factors, and among the groups; NaN for subsets, which may overlap, for the
@@ -259,4 +302,28 @@ fn all_shares(layout: &Layout, indices: &[f64]) -> Vec<f64> {
         of_factors.insert(noise.factor, f64::NAN);
     }
     [of_factors, of(groups), vec![f64::NAN; others.len()]].concat()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_name_has_its_place() {
+        let noise = NoiseLayout::new(0, &[vec![0], vec![1], vec![0, 1]]);
+        let layout = Layout {
+            dummy: true,
+            estimators: vec![Estimator::Jansen, Estimator::Azzini],
+            second_order: true,
+            noise: Some(noise),
+            shapley: true,
+            ..Layout::plain(3)
+        };
+        let all = [&layout, &Layout::plain(2), &Layout { noise: None, ..layout.clone() }];
+        for layout in all {
+            for (place, name) in layout.names().into_iter().enumerate() {
+                assert_eq!(layout.place(name), place, "{name:?}");
+            }
+        }
+    }
 }

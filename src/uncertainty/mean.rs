@@ -4,7 +4,7 @@
 //! since the noise adds nothing to the variance of E[y|x_s]; its total indices are (ST_sn - ST_n)/(1 - ST_n), since all
 //! effects of the other factors without s and the noise have the variance V (1 - ST_sn).
 
-use super::estimates::{Layout, SwapNoise};
+use super::estimates::{Layout, Quantity, SwapNoise};
 use super::influence::Influenced;
 use super::noise::{Noise, Replacement};
 use super::{Estimate, Interval, StandardError};
@@ -50,7 +50,7 @@ pub(super) fn corrected(
     put: &mut dyn FnMut(usize, Replacement),
 ) {
     let Some(noise) = &layout.noise else { return };
-    let share_place = layout.mean_share();
+    let share_place = layout.place(Quantity::MeanShare);
     let of_noise = corrected.total.as_ref().map(|(list, of_kind)| (&list[noise.factor], of_kind.even()));
     let share = match &of_noise {
         None => plain[share_place],
@@ -64,7 +64,8 @@ pub(super) fn corrected(
     };
     let exists = share.estimate > 0.0;
     for (swap, beside) in noise.swaps.iter().enumerate().filter(|(_, beside)| **beside != SwapNoise::Holds) {
-        let place = layout.of_mean(swap);
+        let [place, total_place] =
+            [Quantity::MeanFirstOrder(swap), Quantity::MeanTotal(swap)].map(|name| layout.place(name));
         let nothing = || (Estimate::alone(f64::NAN), errors[place], Vec::new());
         // Errors of unknown correlation may be larger than those of the plain index, whose correlation is known.
         let width = |of: Estimate| of.interval.map_or(f64::INFINITY, Interval::width);
@@ -93,12 +94,12 @@ pub(super) fn corrected(
             continue;
         };
         if !exists {
-            put(place + 1, nothing());
+            put(total_place, nothing());
             continue;
         }
         let index = (total[joined].estimate - of_noise.estimate) / share.estimate;
         let terms = [(1.0 / share.estimate, &total[joined]), ((index - 1.0) / share.estimate, *of_noise)];
-        put(place + 1, of_kind.replacement(&Influenced { estimate: index, ..Influenced::combined(&terms) }));
+        put(total_place, of_kind.replacement(&Influenced { estimate: index, ..Influenced::combined(&terms) }));
     }
 }
 

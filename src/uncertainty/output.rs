@@ -1,12 +1,10 @@
 //! Indices of one output with their intervals, probabilities and checks.
 
-use std::ops::Range;
-
 use super::by_points::{Bounds, ByPoints};
 use super::concentration::{Side, interval};
 use super::corrected::{Corrections, SurrogateEstimates};
 use super::effects::{EffectChecks, EffectEstimates, OtherEstimates, OutputIndices, OutputMoments};
-use super::estimates::{Layout, Number, SwapNoise, quantities};
+use super::estimates::{ErrorKind, Layout, Number, OtherNumber, Quantity, SwapNoise, quantities};
 use super::influence::Influences;
 use super::mean::{MeanEstimates, NoiseIndices};
 use super::method::IntervalMethod;
@@ -62,8 +60,8 @@ pub fn output_moments(replicates: &[MomentParts], options: &IntervalOptions<'_>)
         Some(bounds) => Judged::with(influences, bounds),
         // The mean may be missed on both sides, the variance above.
         None => {
-            let sides = |place| if place == 0 { Side::Both } else { Side::Above };
-            Judged::from_nets(influences, options.method, &[true, true], 0..0, &sides)
+            let kinds = [Side::Both, Side::Above].map(|side| ErrorKind { side, is_pooled: true });
+            Judged::from_nets(influences, options.method, &kinds)
         }
     };
     let mut estimates = [judged.estimates[0], judged.estimates[1]];
@@ -93,7 +91,6 @@ pub fn output_indices(
     Indices::from_moments(&whole)?;
     let influences =
         Influences::from_moments(replicates, &|moments| quantities(layout, moments)).ok_or(Undefined::NoRuns)?;
-    let pooled = layout.pooled(influences.whole.len());
     let unseen = unseen(layout, &whole, &influences.whole);
     let half_seen: Vec<bool> = (0..layout.swaps()).map(|swap| half_seen(&whole, swap)).collect();
     let inert: Vec<bool> = (0..layout.swaps()).map(|swap| whole.swap(swap).inert()).collect();
@@ -105,8 +102,9 @@ pub fn output_indices(
         }
         None => {
             // Rounding says nothing about the decay of errors.
-            let pooled: Vec<bool> = pooled.iter().zip(&equal).map(|(pooled, equal)| *pooled && !equal).collect();
-            Judged::from_nets(influences, options.method, &pooled, layout.random(), &|place| layout.side(place))
+            let mut kinds = layout.error_kinds();
+            kinds.iter_mut().zip(&equal).for_each(|(kind, equal)| kind.is_pooled &= !equal);
+            Judged::from_nets(influences, options.method, &kinds)
         }
     };
     let allowed = judged.allow_for_unseen(&unseen, &equal);
@@ -117,8 +115,8 @@ pub fn output_indices(
     // If all rows agree, the plain indices have no noise that a surrogate could reduce.
     let settled: Vec<bool> = (0..layout.swaps())
         .map(|swap| {
-            let places = [Number::FirstOrder, Number::Total].map(|number| layout.place(swap, number));
-            inert[swap] || places.into_iter().any(|place| allowed[place])
+            let indices = [Number::FirstOrder, Number::Total].map(|number| Quantity::Swap(swap, number));
+            inert[swap] || indices.into_iter().any(|index| allowed[layout.place(index)])
         })
         .collect();
     let surrogate = options.surrogate.map(|surrogate| judged.correct(layout, surrogate, &settled));
@@ -148,12 +146,12 @@ pub fn output_indices(
     });
     let subsets = effects.split_off(layout.factors + layout.groups);
     // Only factors and groups are players.
-    for (player, shapley) in layout.players.iter().zip(&judged.estimates[layout.shapley()..]) {
+    for (player, shapley) in layout.players.iter().zip(&judged.estimates[layout.place(Quantity::Shapley(0))..]) {
         effects[*player].shapley = Some(*shapley);
     }
     let groups = effects.split_off(layout.factors);
     let [sum_first_order, sum_total, ..] = judged.estimates[..] else { return Err(Undefined::NoRuns) };
-    let second_order = judged.estimates[layout.pairs()..layout.mean_share()].to_vec();
+    let second_order = judged.estimates[layout.place(Quantity::Pair(0))..layout.place(Quantity::MeanShare)].to_vec();
     let (factors, noise) = (effects, judged.noise(layout));
     Ok(OutputIndices {
         factors,
@@ -177,21 +175,13 @@ pub(super) struct Judged {
 }
 
 impl Judged {
-    /// Computes errors from the nets. `side` returns where the interval of a quantity must reach further if few rows
-    /// dominate it. The errors of those in the range of places `random` decay at a separate rate.
-    pub fn from_nets(
-        influences: Influences,
-        method: IntervalMethod,
-        pooled: &[bool],
-        random: Range<usize>,
-        side: &dyn Fn(usize) -> Side,
-    ) -> Self {
+    /// Computes errors of these kinds from the nets.
+    pub fn from_nets(influences: Influences, method: IntervalMethod, kinds: &[ErrorKind]) -> Self {
         let Influences { whole, parts } = influences;
-        let mut errors = method.errors(&parts, pooled);
-        let of_random = method.errors(&parts[random.clone()], &vec![true; random.len()]);
-        errors.splice(random, of_random);
+        let pooled: Vec<bool> = kinds.iter().map(|kind| kind.is_pooled).collect();
+        let errors = method.errors(&parts, &pooled);
         let of_quantity = |(place, &estimate): (usize, &f64)| {
-            let interval = interval(estimate, errors[place], &parts[place], side(place));
+            let interval = interval(estimate, errors[place], &parts[place], kinds[place].side);
             Estimate { estimate, interval }
         };
         let estimates = whole.iter().enumerate().map(of_quantity).collect();
@@ -241,8 +231,8 @@ impl Judged {
     /// derived quantities accordingly.
     fn allow_for_half_seen(&mut self, layout: &Layout, half_seen: &[bool]) {
         for swap in (0..layout.swaps()).filter(|swap| half_seen[*swap]) {
-            let [first, total, interaction] =
-                [Number::FirstOrder, Number::Total, Number::Interaction].map(|number| layout.place(swap, number));
+            let [first, total, interaction] = [Number::FirstOrder, Number::Total, Number::Interaction]
+                .map(|number| layout.place(Quantity::Swap(swap, number)));
             let (Some(total), Some(first)) = (self.estimates[total].interval, &mut self.estimates[first].interval)
             else {
                 continue;
@@ -255,8 +245,8 @@ impl Judged {
             if let Some(interaction) = &mut self.estimates[interaction].interval {
                 interaction.low -= more;
             }
-            // The sum of the first-order indices.
-            if let (Some(sum), true) = (&mut self.estimates[0].interval, swap < layout.factors) {
+            let sum = layout.place(Quantity::SumFirstOrder);
+            if let (Some(sum), true) = (&mut self.estimates[sum].interval, swap < layout.factors) {
                 sum.high += more;
             }
         }
@@ -268,7 +258,7 @@ impl Judged {
         use Number::{FirstOrder, Interaction, ShareFirstOrder, ShareTotal, Total};
         for (factor, r) in correlations.iter().enumerate().filter(|(_, r)| r.abs() > MAX_CORRELATION) {
             for number in [FirstOrder, Total, ShareFirstOrder, ShareTotal, Interaction] {
-                let place = layout.place(factor, number);
+                let place = layout.place(Quantity::Swap(factor, number));
                 let estimate = self.estimates[place].estimate;
                 let full = estimate / (1.0 - r).max(f64::EPSILON);
                 if let Some(interval) = &mut self.estimates[place].interval {
@@ -284,11 +274,11 @@ impl Judged {
         // The noise is no factor that could be the first.
         let noise = layout.noise.as_ref().map(|noise| noise.factor);
         let factors = (0..layout.factors).filter(|factor| Some(*factor) != noise);
-        let place = |factor: usize| match layout.has_shapley_of_factors() {
-            true => layout.shapley() + factor,
-            false => layout.place(layout.redrawn(factor), Number::Total),
+        let ranked = |factor: usize| match layout.has_shapley_of_factors() {
+            true => Quantity::Shapley(factor),
+            false => Quantity::Swap(layout.redrawn(factor), Number::Total),
         };
-        let places: Vec<usize> = factors.map(place).collect();
+        let places: Vec<usize> = factors.map(|factor| layout.place(ranked(factor))).collect();
         let estimates: Vec<f64> = places.iter().map(|&place| self.estimates[place].estimate).collect();
         let errors: Vec<StandardError> = places.iter().map(|&place| self.errors[place]).collect();
         let parts: Vec<&PartInfluences> = places.iter().map(|&place| &self.parts[place]).collect();
@@ -298,24 +288,24 @@ impl Judged {
     fn noise(&self, layout: &Layout) -> Option<NoiseIndices> {
         let noise = layout.noise.as_ref()?;
         let of_mean = |(swap, beside): (usize, &SwapNoise)| {
-            let place = layout.of_mean(swap);
-            let [first_order, total] = [place, place + 1].map(|place| defined(self.estimates[place]));
+            let [first_order, total] = [Quantity::MeanFirstOrder(swap), Quantity::MeanTotal(swap)]
+                .map(|name| defined(self.estimates[layout.place(name)]));
             (*beside != SwapNoise::Holds).then_some(MeanEstimates { first_order, total })
         };
         let of_mean = noise.swaps.iter().enumerate().map(of_mean).collect();
-        Some(NoiseIndices { factor: noise.factor, mean_share: self.estimates[layout.mean_share()], of_mean })
+        let mean_share = self.estimates[layout.place(Quantity::MeanShare)];
+        Some(NoiseIndices { factor: noise.factor, mean_share, of_mean })
     }
 
     fn effect(&self, layout: &Layout, swap: usize, threshold: f64) -> (EffectEstimates, EffectChecks) {
-        let (place, total_place) = (layout.swap(swap), layout.place(swap, Number::Total));
-        let [first_order, total, share_first_order, share_total, gap, interaction] =
-            std::array::from_fn(|k| self.estimates[place + k]);
+        let number = |number| self.estimates[layout.place(Quantity::Swap(swap, number))];
+        let [first_order, total, share_first_order, share_total, gap, interaction] = Number::ALL.map(number);
         let (first_order, total, is_contradictory) = agreeing(first_order, total);
         let [share_first_order, share_total] = [share_first_order, share_total].map(defined);
+        let total_error = self.errors[layout.place(Quantity::Swap(swap, Number::Total))];
         let others = (0..layout.estimators.len()).map(|estimator| {
-            let place = layout.other(estimator, swap);
-            let [first_order, total, first_order_gap, total_gap] =
-                std::array::from_fn(|k| defined(self.estimates[place + k]));
+            let [first_order, total, first_order_gap, total_gap] = OtherNumber::ALL
+                .map(|number| defined(self.estimates[layout.place(Quantity::Other(estimator, swap, number))]));
             OtherEstimates { first_order, total, first_order_gap, total_gap }
         });
         let checks = EffectChecks { gap, interaction, is_contradictory, others: others.collect() };
@@ -328,7 +318,7 @@ impl Judged {
             share_total_interval: share_total.and_then(|share| share.interval?.finite()),
             interaction: Some(interaction),
             probability_first: None,
-            probability_above_threshold: probability_above(total, self.errors[total_place], threshold),
+            probability_above_threshold: probability_above(total, total_error, threshold),
             shapley: None,
             dependent: None,
         };

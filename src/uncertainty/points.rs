@@ -5,7 +5,7 @@ use std::ops::Range;
 use nalgebra::DMatrix;
 
 use crate::design::Design;
-use crate::estimate::{BlockOutputs, PointOutputs, ProductWork, Products, contributions};
+use crate::estimate::{BlockOutputs, PointOutputs, ProductWork, Products};
 
 /// Maximum number of base points whose products are in memory at a time: some megabytes.
 const CHUNK: usize = 1 << 13;
@@ -41,24 +41,17 @@ impl<'a> KeptPoints<'a> {
 
     /// Splits the points into chunks of blocks, in order; their sizes depend only on the number of points.
     pub(super) fn chunks(&self) -> Vec<Chunk<'a>> {
-        let blocks = self.replicates.iter().zip(0..).flat_map(|(kept, replicate)| {
-            let mut first = 0;
-            kept.blocks(self.per_replicate).map(move |columns| {
-                let place = (replicate, first);
-                first += columns.first().map_or(0, |column| column.len() as u64);
-                (place, columns)
-            })
-        });
+        let blocks = self.replicates.iter().flat_map(|kept| kept.blocks(self.per_replicate));
         let mut chunks: Vec<Chunk<'a>> = Vec::new();
         let mut first = 0;
-        for (place, columns) in blocks {
+        for columns in blocks {
             let points = columns.first().map_or(0, |column| column.len());
             match chunks.last_mut() {
                 Some(chunk) if chunk.points.len() + points <= CHUNK => {
                     chunk.points.end += points;
-                    chunk.blocks.push((place, columns));
+                    chunk.blocks.push(columns);
                 }
-                _ => chunks.push(Chunk { points: first..first + points, blocks: vec![(place, columns)] }),
+                _ => chunks.push(Chunk { points: first..first + points, blocks: vec![columns] }),
             }
             first += points;
         }
@@ -66,15 +59,12 @@ impl<'a> KeptPoints<'a> {
     }
 }
 
-/// The replicate and the first base point of a block, and the columns of its runs.
-type Placed<'a> = ((u64, u64), Vec<&'a [f64]>);
-
 /// Some consecutive base points.
 pub(super) struct Chunk<'a> {
     /// Their indices.
     pub points: Range<usize>,
-    /// Their blocks.
-    blocks: Vec<Placed<'a>>,
+    /// The columns of the runs of each of their blocks.
+    blocks: Vec<Vec<&'a [f64]>>,
 }
 
 impl Chunk<'_> {
@@ -84,19 +74,10 @@ impl Chunk<'_> {
         let mut matrix = DMatrix::zeros(points, products.columns());
         let mut work = ProductWork::default();
         let mut first = 0;
-        for (place, columns) in &self.blocks {
+        for columns in &self.blocks {
             let rows = |runs: &[usize]| runs.iter().map(|run| columns[*run]).collect::<Vec<&[f64]>>();
             let (ab, ba) = (rows(design.ab_runs()), rows(design.ba_runs()));
-            let shapley = contributions(design, place.0, place.1, columns);
-            let shapley: Vec<&[f64]> = shapley.iter().map(Vec::as_slice).collect();
-            let block = BlockOutputs {
-                a: columns[0],
-                b: columns[1],
-                ab: &ab,
-                ba: &ba,
-                paired: design.paired(),
-                shapley: &shapley,
-            };
+            let block = BlockOutputs { a: columns[0], b: columns[1], ab: &ab, ba: &ba, paired: design.paired() };
             products.fill(&block, &mut matrix.as_mut_slice()[first..], points, &mut work);
             first += columns[0].len();
         }

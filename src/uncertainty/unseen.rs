@@ -7,7 +7,7 @@
 //! 95 %. Each moves the index by at most what the range of the output allows. Only a factor that leaves the output
 //! unchanged in every row keeps an error of 0.
 
-use super::estimates::{Layout, Number, SwapNoise};
+use super::estimates::{Layout, Number, OtherNumber, Quantity, SwapNoise};
 use super::net_decay::PartInfluences;
 use crate::estimate::Moments;
 
@@ -57,56 +57,58 @@ pub(super) fn unseen(layout: &Layout, moments: &Moments, values: &[f64]) -> Vec<
     let bound = |n: u64, part: f64| (RULE_OF_THREE / n as f64 * spread * part).min(1.0);
     let acts: Vec<bool> = (0..layout.swaps()).map(|swap| !moments.swap(swap).inert()).collect();
     let active = acts[..layout.factors].iter().filter(|acts| **acts).count();
+    let place = |swap: usize, number: Number| layout.place(Quantity::Swap(swap, number));
     let mut most = 0.0f64;
     for swap in (0..layout.swaps()).filter(|swap| acts[*swap]) {
         let sums = moments.swap(swap);
-        let total = values[layout.place(swap, Number::Total)].abs().min(1.0);
+        let total = values[place(swap, Number::Total)].abs().min(1.0);
         // A row adds at most R^2/V to a first-order index by Saltelli's formula, and half of that to the others.
         let first = bound(sums.base.n, if sums.ba.is_some() { 0.5 } else { 1.0 });
         let half = bound(sums.base.n, 0.5);
         let of_first = Unseen { half_width: first, rounding: ROUNDING * total.sqrt() };
         let of_total = Unseen { half_width: half, rounding: ROUNDING * total };
         for (number, unseen) in [(Number::FirstOrder, of_first), (Number::Total, of_total)] {
-            list[layout.place(swap, number)] = unseen;
+            list[place(swap, number)] = unseen;
         }
         // The share of the only factor with an effect is exactly 100 %.
         if active > 1 || swap >= layout.factors {
             let percent =
                 |unseen: Unseen| Unseen { half_width: 100.0 * unseen.half_width, rounding: 100.0 * unseen.rounding };
             for (number, unseen) in [(Number::ShareFirstOrder, of_first), (Number::ShareTotal, of_total)] {
-                list[layout.place(swap, number)] = percent(unseen);
+                list[place(swap, number)] = percent(unseen);
             }
         }
         for estimator in 0..layout.estimators.len() {
-            let place = layout.other(estimator, swap);
-            (list[place], list[place + 1]) = (of_first, of_total);
+            for (number, unseen) in [(OtherNumber::FirstOrder, of_first), (OtherNumber::Total, of_total)] {
+                list[layout.place(Quantity::Other(estimator, swap, number))] = unseen;
+            }
         }
         if swap < layout.factors {
             most = most.max(first);
         }
     }
-    for sum in &mut list[..2] {
-        *sum = Unseen { half_width: most, rounding: ROUNDING };
+    for sum in [Quantity::SumFirstOrder, Quantity::SumTotal] {
+        list[layout.place(sum)] = Unseen { half_width: most, rounding: ROUNDING };
     }
     if layout.second_order {
         for (pair, (j, k)) in layout.pair_list().into_iter().enumerate().filter(|(_, (j, k))| acts[*j] && acts[*k]) {
-            let total = |swap: usize| values[layout.place(swap, Number::Total)].abs().min(1.0);
+            let total = |swap: usize| values[place(swap, Number::Total)].abs().min(1.0);
             let n = moments.swap(j).base.n.min(moments.swap(k).base.n);
             let rounding = ROUNDING * (total(j) * total(k)).sqrt();
-            list[layout.pairs() + pair] = Unseen { half_width: bound(n, 1.0), rounding };
+            list[layout.place(Quantity::Pair(pair))] = Unseen { half_width: bound(n, 1.0), rounding };
         }
     }
     if let Some(noise) = &layout.noise {
-        let place = |swap: usize, number: Number| layout.place(swap, number);
-        let share = values[layout.mean_share()];
+        let share_place = layout.place(Quantity::MeanShare);
+        let share = values[share_place];
         let over_share = |of: Unseen| Unseen { half_width: of.half_width / share, rounding: of.rounding / share };
-        list[layout.mean_share()] = list[place(noise.factor, Number::Total)];
+        list[share_place] = list[place(noise.factor, Number::Total)];
         for (swap, beside) in noise.swaps.iter().enumerate().filter(|_| share > 0.0) {
             if *beside != SwapNoise::Holds {
-                list[layout.of_mean(swap)] = over_share(list[place(swap, Number::FirstOrder)]);
+                list[layout.place(Quantity::MeanFirstOrder(swap))] = over_share(list[place(swap, Number::FirstOrder)]);
             }
             if let SwapNoise::With(joined) = *beside {
-                list[layout.of_mean(swap) + 1] = over_share(list[place(joined, Number::Total)]);
+                list[layout.place(Quantity::MeanTotal(swap))] = over_share(list[place(joined, Number::Total)]);
             }
         }
     }
@@ -129,14 +131,14 @@ mod tests {
         let layout = Layout::plain(2);
         let values = super::super::estimates::quantities(&layout, &moments).unwrap();
         let unseen = unseen(&layout, &moments, &values);
-        let of = |swap: usize| unseen[layout.swap(swap)];
+        let of = |swap: usize| unseen[layout.place(Quantity::Swap(swap, Number::FirstOrder))];
         // R^2/V = 4, and fewer than 3 of 4 rows: no bound but that of an index.
         assert_eq!(of(0).half_width, 1.0);
         assert_eq!(of(1), Unseen::NONE);
         assert!(of(0).applies(&vec![vec![1e-16, -1e-16]; 2]) && !of(0).applies(&vec![vec![1e-3, 0.0]; 2]));
         assert!(!of(1).applies(&vec![vec![0.0; 2]; 2]));
         // The only factor with an effect has all of the share.
-        assert_eq!(unseen[layout.place(0, Number::ShareFirstOrder)], Unseen::NONE);
+        assert_eq!(unseen[layout.place(Quantity::Swap(0, Number::ShareFirstOrder))], Unseen::NONE);
     }
 
     #[test]

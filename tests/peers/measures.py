@@ -1,4 +1,4 @@
-"""Our measures of a table, Shapley effects along random orders and measures of derivatives against SALib, OpenTURNS and formulas.
+"""Our measures of a table and measures of derivatives against SALib, OpenTURNS and formulas.
 
 OpenTURNS is asked where it is installed; all of its measures that are compared have a formula here too.
 """
@@ -91,29 +91,6 @@ def check_given(checks, ours, table):
     checks.close("given data: p of HSIC, OpenTURNS", ours["r2_hsic"]["p"], np.array(hsic.getPValuesAsymptotic()), 1e-8)
 
 
-def check_shapley(checks, ours, table):
-    """The mean of a walk from A to B and of the same walk back, over their common sum."""
-    x, y = columns(table)
-    rows = 4
-    steps, outputs = x.reshape(-1, rows, 3), y.reshape(-1, rows)
-    before, after = outputs[:, :-1], outputs[:, 1:]
-    factor = np.argmax(steps[:, 1:] != steps[:, :-1], axis=2)
-    sums = [
-        np.sum((factor == j) * ((after - outputs[:, :1]) ** 2 - (before - outputs[:, :1]) ** 2)) for j in range(3)
-    ]
-    back = [
-        np.sum((factor == j) * ((before - outputs[:, -1:]) ** 2 - (after - outputs[:, -1:]) ** 2)) for j in range(3)
-    ]
-    both = np.array(sums) + np.array(back)
-    checks.close("Shapley effects, Goda's formula both ways", ours, both / np.sum(both))
-    if shapley is None:
-        print("this SALib has no Shapley effects: nothing compared with it")
-        return
-    reverse = steps[:, ::-1].reshape(-1, 3), outputs[:, ::-1].ravel()
-    theirs = sum(shapley.analyze(PROBLEM, *walk)["shapley"] for walk in ((x, y), reverse))
-    checks.close("Shapley effects, SALib's both ways", ours, theirs / np.sum(theirs))
-
-
 def check_derivatives(checks, ours, table):
     x, y = columns(table)
     theirs = dgsm.analyze(PROBLEM, x, y, num_resamples=2)
@@ -125,5 +102,4 @@ def check_derivatives(checks, ours, table):
 def check(checks, ours, read):
     """`read` gives the table of a name."""
     check_given(checks, ours["given"], read("given"))
-    check_shapley(checks, ours["shapley"], read("shapley"))
     check_derivatives(checks, ours["derivatives"], read("derivatives"))

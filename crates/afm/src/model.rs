@@ -117,6 +117,26 @@ impl AfmModel {
         Self { scene, options, factors, outputs, which, histories: Histories::none(), flags, counters }
     }
 
+    /// Adds to the flag of the Tabor parameter what a suitable contact theory would change at the point `nominal`.
+    #[must_use]
+    pub fn with_nominal(mut self, nominal: &Scene) -> Self {
+        let force = |contact| {
+            let options = Options { contact, fidelity: Fidelity::ClosedForm, ..self.options };
+            critical_force(nominal, &options).ok().map(|critical| critical.critical_force)
+        };
+        let change =
+            force(ContactTheory::Auto).zip(force(self.options.contact)).map(|(suited, own)| suited / own - 1.0);
+        let flag = self.flags.iter_mut().find(|flag| flag.name == crate::Flag::TaborOutOfRange.name());
+        if let (Some(change), Some(flag)) = (change.filter(|change| *change != 0.0), flag) {
+            flag.description.to_mut().push_str(&format!(
+                " With the theory that suits it (contact = \"auto\") the critical force at the nominal point changes by \
+                 {:+.1} %.",
+                100.0 * change
+            ));
+        }
+        self
+    }
+
     /// Adds these histories after the outputs, each a series of values at `moments`.
     #[must_use]
     pub fn with_histories(self, which: &[AfmHistory], moments: &AfmMoments) -> Self {

@@ -40,8 +40,13 @@ impl Subject for AfmSubject {
     }
 
     fn model(&self, space: &Space) -> Box<dyn Model> {
-        let factors = space.factors().iter().filter_map(|factor| Parameter::from_name(&factor.name)).collect();
-        let model = AfmModel::new(self.scene, self.options, factors, self.outputs.clone());
+        let of_space = space.factors().iter().filter_map(|factor| Some((Parameter::from_name(&factor.name)?, factor)));
+        let mut nominal = self.scene;
+        of_space
+            .clone()
+            .for_each(|(parameter, factor)| (parameter.set)(&mut nominal, factor.unit().to_si(factor.nominal)));
+        let factors = of_space.map(|(parameter, _)| parameter).collect();
+        let model = AfmModel::new(self.scene, self.options, factors, self.outputs.clone()).with_nominal(&nominal);
         Box::new(model.with_histories(&self.histories, &self.moments))
     }
 

@@ -15,11 +15,15 @@ pub(super) fn sentence(validity: &[ValidityRecord]) -> Option<String> {
     (!flags.is_empty()).then(|| format!("The model leaves its range of validity: {} of the runs.", listed(&flags)))
 }
 
-/// Sets off both sentences on a run.
+/// Sets off what is said of a run: flags with the meaning of the most frequent one, and failures.
 pub(super) fn callout(result: &StudyResult) -> Option<Part> {
     let failed = result.outputs.iter().map(|output| output.runs_failed).max().unwrap_or(0);
     let of_failures = of_failures(failed, result.provenance.model_runs);
-    let texts: Vec<String> = sentence(&result.validity).into_iter().chain(of_failures).collect();
+    let flags = sentence(&result.validity).map(|sentence| {
+        let most = result.validity.iter().max_by(|a, b| a.share.total_cmp(&b.share));
+        format!("{sentence} {}", most.map_or("", |flag| &flag.description))
+    });
+    let texts: Vec<String> = flags.into_iter().chain(of_failures).collect();
     (!texts.is_empty()).then(|| Part::Notice { mark: Mark::Mixed, kind: "Model validity".to_owned(), texts })
 }
 

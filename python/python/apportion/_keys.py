@@ -20,7 +20,6 @@ ANALYSIS = (
     "second_order",
     "subsets",
     "shapley",
-    "shapley_method",
     "shapley_players",
     "measures",
     "aggregate",

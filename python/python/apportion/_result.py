@@ -177,8 +177,7 @@ class Result(Document):
     @property
     def shapley(self) -> Indices:
         """Shapley effects of the factors: shares of the variance that sum to 1 even where factors depend on each other. There are
-        some with `shapley=True` (of up to 8 factors from all subsets, of up to 100 along random permutations), and by default of up
-        to 4 factors that depend on each other."""
+        some of up to 8 factors with `shapley=True`, and by default of up to 4 factors that depend on each other."""
         return self._only().shapley
 
     @property

@@ -63,8 +63,8 @@ class Study:
     The design: `sampler` ("sobol", "random", "latin-hypercube"), `replicates` (independent scrambles, 4), `seed` (a whole number or
     a NumPy generator, from which a seed is drawn).
 
-    What is estimated: `second_order` indices, closed indices of `subsets` of factors, `shapley` effects (`shapley_method`,
-    `shapley_players`), `measures` ("delta", "pawn_median", ...), `aggregate` indices of all outputs, further `estimators`
+    What is estimated: `second_order` indices, closed indices of `subsets` of factors, `shapley` effects
+    (`shapley_players`), `measures` ("delta", "pawn_median", ...), `aggregate` indices of all outputs, further `estimators`
     ("janon-monod", ...), `intervals` ("nets", "percentile", "delta", with `resamples`), `surrogate` ("auto", "on", "off"),
     a `dummy` factor, `convergence`, and the `threshold` of the total index that a factor is compared with.
 
@@ -101,7 +101,6 @@ class Study:
         intervals: str | None = None,
         surrogate: str | None = None,
         shapley: bool | None = None,
-        shapley_method: str | None = None,
         shapley_players: str | None = None,
         measures: Sequence[str] | None = None,
         threshold: float | None = None,
@@ -489,7 +488,6 @@ def analyse(
     intervals: str | None = None,
     surrogate: str | None = None,
     shapley: bool | None = None,
-    shapley_method: str | None = None,
     shapley_players: str | None = None,
     measures: Sequence[str] | None = None,
     threshold: float | None = None,

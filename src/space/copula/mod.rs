@@ -1,9 +1,7 @@
 //! Dependence of factors by a Gaussian copula.
 
-mod cholesky;
 mod gaussian;
 
-pub(crate) use cholesky::CholeskyFactor;
 pub use gaussian::GaussianCopula;
 
 use super::distribution::{LARGEST_U, SMALLEST_U};

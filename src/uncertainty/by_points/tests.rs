@@ -1,8 +1,8 @@
 use super::*;
 use crate::design::{Design, DesignSettings, Rows, Sampler};
-use crate::estimate::{BlockOutputs, Estimator, PointOutputs, ShapleyMethod, Workspace, contributions};
+use crate::estimate::{BlockOutputs, Estimator, PointOutputs, Workspace};
 use crate::uncertainty::bootstrap::counts_of;
-use crate::uncertainty::estimates::{Layout, quantities};
+use crate::uncertainty::estimates::{Layout, Number, Quantity, quantities};
 
 /// Outputs of a made-up model at the rows of a design of three factors.
 struct Sample {
@@ -18,14 +18,8 @@ impl Sample {
         Self::from_rows(points, Rows { ba, second_order: ba, ..Rows::default() }, offset)
     }
 
-    /// The same along random orders of the factors.
-    fn with_orders(points: u64) -> Self {
-        Self::from_rows(points, Rows { players: vec![vec![0], vec![1], vec![2]], ..Rows::default() }, 0.0)
-    }
-
     fn from_rows(points: u64, rows: Rows, offset: f64) -> Self {
         let (has_ba, second_order) = (rows.ba, rows.second_order);
-        let shapley = (!rows.players.is_empty()).then_some(ShapleyMethod::Permutations);
         let settings = DesignSettings { sampler: Sampler::Random, base_samples: points, replicates: 1, seed: 5 };
         let design = Design::new(settings, 3, Rows { swaps: vec![vec![0], vec![1], vec![2]], ..rows }).unwrap();
         let runs = design.rows_per_point();
@@ -36,7 +30,7 @@ impl Sample {
         };
         let columns = (0..runs).map(|run| (0..points).map(|point| output(point, run)).collect()).collect();
         let estimators = Estimator::ALL.into_iter().filter(|estimator| has_ba || !estimator.needs_ba()).collect();
-        let layout = Layout { estimators, second_order, shapley, ..Layout::plain(3) };
+        let layout = Layout { estimators, second_order, ..Layout::plain(3) };
         Self { design, columns, layout }
     }
 
@@ -69,10 +63,7 @@ impl Sample {
         let design = &self.design;
         let (ab, ba) = (rows(design.ab_runs()), rows(design.ba_runs()));
         let (a, b) = (&columns[0], &columns[1]);
-        let whole: Vec<&[f64]> = self.columns.iter().map(Vec::as_slice).collect();
-        let added: Vec<Vec<f64>> = contributions(design, 0, 0, &whole).iter().map(repeated).collect();
-        let added: Vec<&[f64]> = added.iter().map(Vec::as_slice).collect();
-        let block = BlockOutputs { a, b, ab: &ab, ba: &ba, paired: design.paired(), shapley: &added };
+        let block = BlockOutputs { a, b, ab: &ab, ba: &ba, paired: design.paired() };
         Moments::of_block(block, &mut Workspace::default())
     }
 
@@ -109,8 +100,6 @@ fn resampled_moments_are_those_of_resampled_rows() {
         (Sample::new(700, true, 0.0), 1e-11),
         (Sample::new(700, true, 0.0).with_failures(), 1e-11),
         (Sample::new(10_000, false, 0.0).with_failures(), 1e-11),
-        (Sample::with_orders(700), 1e-11),
-        (Sample::with_orders(10_000).with_failures(), 1e-11),
         (Sample::new(700, true, 0.0), 1e-11),
     ];
     for (sample, tolerance) in samples {
@@ -135,7 +124,7 @@ fn influences_are_what_another_copy_of_the_point_does() {
     // The influence of a point is the slope of the estimate in its weight: power sums against those from the jackknife,
     // which agree to first order in 1/n.
     let plain = || Sample::new(2000, true, 0.0);
-    for sample in [plain(), plain().with_failures(), Sample::with_orders(2000)] {
+    for sample in [plain(), plain().with_failures()] {
         let kept = sample.kept();
         let replicates = [&kept];
         let points = KeptPoints::all(&sample.design, &replicates).unwrap();
@@ -190,13 +179,14 @@ fn the_inert_factor_has_intervals_of_no_width() {
     let sample = Sample::new(300, false, 0.0);
     for method in [IntervalMethod::Delta, IntervalMethod::Percentile] {
         let (estimates, bounds) = sample.bounds(method);
-        let inert = sample.layout.swap(2);
-        for place in [inert, inert + 1] {
+        let indices = |factor| {
+            [Number::FirstOrder, Number::Total].map(|number| sample.layout.place(Quantity::Swap(factor, number)))
+        };
+        for place in indices(2) {
             assert_eq!(estimates[place], 0.0);
             assert_eq!(bounds[place].1, Some(Interval { low: 0.0, high: 0.0 }), "{method:?}");
         }
-        let live = sample.layout.swap(0);
-        for place in [live, live + 1] {
+        for place in indices(0) {
             let Interval { low, high } = bounds[place].1.unwrap();
             assert!(low < estimates[place] && estimates[place] < high && high - low < 0.5, "{method:?}: {low} {high}");
         }

@@ -126,7 +126,6 @@ fn rows(study: &Study) -> Vec<String> {
         row(swaps, "AB"),
         row(if design.has_ba() { swaps } else { 0 }, "BA"),
         row(design.plain_rows().into(), "only for surrogates"),
-        row(design.step_runs().len() as u64, "along a random order, for Shapley effects"),
     ];
     parts.into_iter().flatten().collect()
 }

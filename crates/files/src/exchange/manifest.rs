@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use apportion::design::{Matrix, RowKind, Run};
+use apportion::design::{Matrix, Run};
 use apportion::study::{Study, Target};
 use serde::{Deserialize, Serialize};
 
@@ -75,10 +75,6 @@ pub struct ManifestRun {
     /// Names of dependent factors that come from neither matrix, and follow the others.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub following: Vec<String>,
-    /// For a row along a random order: the number of players before the last one that comes from `from`; the order is
-    /// that of the base sample, and `columns` is empty.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub step: Option<usize>,
 }
 
 /// A column of a design file.
@@ -105,11 +101,7 @@ impl Manifest {
             base: matrix(run.base),
             columns: run.columns.iter().map(column).collect(),
             from: matrix(run.from),
-            following: match run.kind {
-                RowKind::Step(_) => Vec::new(),
-                _ => run.mixed.iter().map(|(factor, _)| column(factor)).collect(),
-            },
-            step: if let RowKind::Step(step) = run.kind { Some(step) } else { None },
+            following: run.mixed.iter().map(|(factor, _)| column(factor)).collect(),
         };
         let factors = study.space().factors().iter().map(|factor| ManifestFactor {
             name: factor.name.clone(),

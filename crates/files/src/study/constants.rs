@@ -156,6 +156,7 @@ fn constant(parameter: &Parameter, value: &At<Value>) -> Result<f64, Problem> {
 /// Parses a number greater than 0: bare if it has no dimension, as `example` shows, or a time with its unit.
 fn positive(key: &str, example: &str, value: &Value) -> Result<f64, Problem> {
     let is_time = example.starts_with('"');
+    let kind = if is_time { "time" } else { "number" };
     let found = match value {
         Value::String(text) if is_time => {
             let quantity = Quantity::parse(text)?;
@@ -165,5 +166,5 @@ fn positive(key: &str, example: &str, value: &Value) -> Result<f64, Problem> {
     };
     found
         .filter(|number| *number > 0.0 && number.is_finite())
-        .ok_or_else(|| wrong(key, &format!("greater than 0, as in {key} = {example}"), value.to_string()))
+        .ok_or_else(|| wrong(key, &format!("a {kind} greater than 0, as in {key} = {example}"), value.to_string()))
 }

@@ -7,7 +7,7 @@ use std::ops::Range;
 use std::sync::LazyLock;
 
 use apportion::design::Sampler;
-use apportion::estimate::{Estimator, ShapleyMethod, ShapleyPlayers};
+use apportion::estimate::{Estimator, ShapleyPlayers};
 use apportion::given::Measure;
 use apportion::run::FailurePolicy;
 use apportion::space::CorrelationMeasure;
@@ -190,12 +190,8 @@ pub(super) struct AnalysisSection {
     /// Sets of factors whose joint indices are estimated.
     pub subsets: Option<At<Vec<NameList>>>,
     /// Shapley effects: shares of the variance that sum to 1 even where factors depend on each other. 2^d runs for each base sample
-    /// for up to 8 factors, d - 1 more runs for up to 100. By default for up to 4 factors that depend on each other.
+    /// for up to 8 factors. By default for up to 4 factors that depend on each other.
     pub shapley: Option<At<bool>>,
-    /// How Shapley effects are estimated: from all subsets of up to 8 factors, or along random permutations, with fewer runs for each
-    /// base sample and larger errors.
-    #[schemars(extend("enum" = names(&ShapleyMethod::ALL, ShapleyMethod::name)))]
-    pub shapley_method: Option<At<String>>,
     /// The players of Shapley effects: every factor, or the groups and the factors without a group. The numbers of
     /// factors and runs above are then those of the players.
     #[schemars(extend("enum" = names(&ShapleyPlayers::ALL, ShapleyPlayers::name), "default" = "factors"))]

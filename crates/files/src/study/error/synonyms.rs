@@ -3,7 +3,7 @@
 use apportion::names::nearest;
 
 /// Our word, or two of them, and the terms of SciPy, SALib, UQLab and everyday language.
-const SYNONYMS: [(&[&str], &[&str]); 46] = [
+const SYNONYMS: [(&[&str], &[&str]); 47] = [
     // Keys of a factor.
     (&["distribution"], &["dist", "distr", "law", "type", "pdf"]),
     (&["min", "max"], &["bounds", "bound", "range", "limits", "interval"]),
@@ -32,6 +32,7 @@ const SYNONYMS: [(&[&str], &[&str]); 46] = [
     (&["max_runs"], &["max_evaluations", "max_evals"]),
     (&["max_time"], &["budget", "time_limit"]),
     (&["accuracy"], &["target", "half_width"]),
+    (&["repetitions"], &["repeats", "repeat"]),
     (&["second_order"], &["calc_second_order", "interactions"]),
     // Samplers.
     (&["sobol"], &["saltelli", "qmc", "quasi-random"]),
