@@ -1,33 +1,22 @@
-//! Measures of a table, Shapley effects along random orders and measures of derivatives, with the rows that they come from.
+//! Measures of a table and Shapley effects along random orders, with the rows that they come from.
 
 use std::path::Path;
-use std::sync::{Arc, Mutex};
 
 use apportion::given::{Column, Measure, analyse, measures};
-use apportion::screening::{ScreenedFactor, ScreeningDesign, ScreeningJob, ScreeningSettings, screen};
-use apportion::{AnalysisOptions, Estimate, Sampler, ShapleyMethod, Study, SurrogateChoice, function_model};
+use apportion::{AnalysisOptions, Sampler, ShapleyMethod, Study, SurrogateChoice, function_model};
 use apportion_report::write_atomically;
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
 use super::outputs::function;
 use super::table;
 
 const NAME: &str = "ishigami";
 
-/// Rows, as they were run.
-type Noted = Arc<Mutex<Vec<Vec<f64>>>>;
-
-/// A study of Ishigami's function, and the rows that it runs: the values of the factors, then the output.
-fn study(sampler: Sampler, base_samples: u64) -> anyhow::Result<(Study, Noted)> {
-    let (ishigami, rows) = (function(NAME), Noted::default());
-    let (inputs, noted) = (ishigami.inputs().to_vec(), rows.clone());
-    let model = function_model("y", move |x: &[f64]| {
-        let y = ishigami.value(x);
-        if let Ok(mut rows) = noted.lock() {
-            rows.push([x, &[y]].concat());
-        }
-        y
-    });
+/// A study of Ishigami's function.
+fn study(sampler: Sampler, base_samples: u64) -> anyhow::Result<Study> {
+    let ishigami = function(NAME);
+    let inputs = ishigami.inputs().to_vec();
+    let model = function_model("y", move |x: &[f64]| ishigami.value(x));
     let options = AnalysisOptions {
         shapley_method: Some(ShapleyMethod::Permutations),
         surrogate: SurrogateChoice::Off,
@@ -35,7 +24,7 @@ fn study(sampler: Sampler, base_samples: u64) -> anyhow::Result<(Study, Noted)> 
     };
     let builder = Study::builder(NAME, model).sampler(sampler).base_samples(base_samples).replicates(1);
     let builder = inputs.into_iter().fold(builder, |builder, input| builder.factor(&input.name, input.distribution));
-    Ok((builder.analysis(options).build()?, rows))
+    Ok(builder.analysis(options).build()?)
 }
 
 /// Some rows of the design of `study`, by their numbers.
@@ -60,7 +49,7 @@ fn write(folder: &Path, name: &str, rows: &[Vec<f64>]) -> anyhow::Result<()> {
 
 /// Rows of random points and what `given-data --measures` makes of them.
 fn given(folder: &Path) -> anyhow::Result<Value> {
-    let (study, _) = study(Sampler::Random, 500)?;
+    let study = study(Sampler::Random, 500)?;
     let per_point = study.design().rows_per_point();
     // A and B, which are independent of each other.
     let rows = rows(&study, (0..500).flat_map(|point| [point * per_point, point * per_point + 1]));
@@ -81,7 +70,7 @@ fn given(folder: &Path) -> anyhow::Result<Value> {
 
 /// Base points with A, the steps of their order and B, one after the other, and the Shapley effects.
 fn shapley(folder: &Path) -> anyhow::Result<Value> {
-    let (study, _) = study(Sampler::Sobol, 512)?;
+    let study = study(Sampler::Sobol, 512)?;
     let design = study.design();
     let of_point = |point: u64| {
         let steps = design.step_runs().iter().map(|run| *run as u64);
@@ -95,28 +84,8 @@ fn shapley(folder: &Path) -> anyhow::Result<Value> {
     Ok(json!(effects))
 }
 
-/// Base points, each followed by its steps, and the measures of the derivatives.
-fn derivatives(folder: &Path) -> anyhow::Result<Value> {
-    let (study, noted) = study(Sampler::Sobol, 64)?;
-    let model = study.model();
-    let design = ScreeningDesign::Derivative { sampler: Sampler::Sobol };
-    let settings = ScreeningSettings { design, trajectories: 256, seed: 3 };
-    let screening = screen(ScreeningJob { space: study.space(), model: model.as_ref(), settings }, 1, &|_| ())?;
-    write(folder, "derivatives", &noted.lock().map_or_else(|_| Vec::new(), |rows| rows.clone()))?;
-    let of = |measure: fn(&ScreenedFactor) -> Option<Estimate>| -> Vec<Option<f64>> {
-        screening.outputs[0].factors.iter().map(|factor| measure(factor).map(|found| found.estimate)).collect()
-    };
-    Ok(json!({ "nu": of(|factor| factor.nu), "total_bound": of(|factor| factor.total_bound) }))
-}
-
 /// Writes the tables and `measures.json`.
 pub fn dump(folder: &Path) -> anyhow::Result<()> {
-    let all: Map<String, Value> = [
-        ("given".to_owned(), given(folder)?),
-        ("shapley".to_owned(), shapley(folder)?),
-        ("derivatives".to_owned(), derivatives(folder)?),
-    ]
-    .into_iter()
-    .collect();
+    let all = json!({ "given": given(folder)?, "shapley": shapley(folder)? });
     Ok(write_atomically(&folder.join("measures.json"), serde_json::to_string_pretty(&all)?.as_bytes())?)
 }
