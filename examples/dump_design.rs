@@ -3,7 +3,7 @@
 //! `cargo run --release --example dump_design -- FOLDER` writes, for each case, the inputs at A and B and the outputs of
 //! all rows (`CASE.csv`, doubles in full), the indices by every estimator (`indices.json`), and points of the Sobol'
 //! sequence without scrambling (`sobol-FIRST.csv`); and tables with the measures made of them (`given.csv`, `shapley.csv`,
-//! `derivatives.csv`, `measures.json`). `tests/peers/check.py` reads them.
+//! `measures.json`). `tests/peers/check.py` reads them.
 
 #[path = "../benches/outputs/mod.rs"]
 mod outputs;

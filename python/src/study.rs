@@ -258,8 +258,8 @@ impl Study {
         })
     }
 
-    /// Elementary effects; `levels` is `None` for the radial design, and for that of `derivatives`.
-    #[pyo3(signature = (function, stop, *, trajectories, levels, derivatives, seed, threads, progress))]
+    /// Elementary effects; `levels` is `None` for the radial design.
+    #[pyo3(signature = (function, stop, *, trajectories, levels, seed, threads, progress))]
     #[expect(clippy::too_many_arguments, reason = "by name")]
     fn screen(
         &self,
@@ -268,7 +268,6 @@ impl Study {
         stop: &Stop,
         trajectories: u64,
         levels: Option<u32>,
-        derivatives: bool,
         seed: Option<u64>,
         threads: usize,
         progress: Option<Py<PyAny>>,
@@ -277,7 +276,6 @@ impl Study {
         self.with_function(py, function, stop, &listeners, |study, told| {
             let in_study = study.design().settings();
             let design = match levels {
-                None if derivatives => ScreeningDesign::Derivative { sampler: in_study.sampler },
                 None => ScreeningDesign::Radial { sampler: in_study.sampler },
                 Some(levels) => ScreeningDesign::Trajectory { levels },
             };

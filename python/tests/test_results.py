@@ -38,7 +38,6 @@ def shown():
     return {
         "result": (result, {"output": "a"}),
         "screening": (study.screen(8), {"output": "a"}),
-        "derivatives": (study.screen(8, derivatives=True), {"output": "a"}),
         "sweep": (study.sweep(points=5), {"output": "a"}),
         "given data": (ap.given_data(inputs, inputs["x1"], surrogate=True, measures=True, name="table"), {}),
         "output": (result["a"], {}),

@@ -7,16 +7,12 @@
 //! function, even if the model is linear in it. A discrete factor steps by its rank among its values, between two
 //! different ones drawn by their probabilities: one rank is 1 / (number of values - 1) of its range.
 //!
-//! In the derivative design the steps are short, and effects are derivatives times the range of the factor: further
-//! measures are the mean square of the derivative, and the bound on the total index that follows from it.
-//!
 //! r trajectories of d + 1 runs give r effects of each of d factors; [`ScreenedFactor`] summarises them, [`Reading`]
 //! interprets them. A factor could be fixed if its upper bound of mu* is below [`FIXABLE`] times the largest.
 //!
 //! In the radial design a step shorter than [`MIN_STEP`] is replaced by one to the auxiliary coordinate half a range
 //! further on, modulo the range: tiny steps would divide the noise and the jumps of the output by nearly 0.
 
-mod derivative;
 mod measures;
 mod points;
 mod run;
@@ -25,17 +21,13 @@ mod settings;
 #[cfg(test)]
 mod tests;
 
-pub use derivative::poincare_constant;
-use derivative::{derivative_measures, range, sum_of_bounds};
 pub use measures::{FIXABLE, Reading};
-pub use points::TAIL;
 use points::Trajectories;
 use run::Outcome;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 pub use settings::{
-    DERIVATIVE_STEP, MAX_LEVELS, MAX_RUNS, MIN_STEP, MIN_TRAJECTORIES, ScreeningDesign, ScreeningError,
-    ScreeningSettings,
+    MAX_LEVELS, MAX_RUNS, MIN_STEP, MIN_TRAJECTORIES, ScreeningDesign, ScreeningError, ScreeningSettings,
 };
 
 use crate::analysis::named_inputs;
@@ -107,17 +99,8 @@ pub struct ScreenedFactor {
     /// The interpretation of the ratio; `None` without measures, or if every effect is 0.
     pub reading: Option<Reading>,
     /// Whether the upper bound of mu* is below [`FIXABLE`] times the largest mu*, by at least half of the effects.
-    /// `None` if this is unknown: without measures or an interval, if no factor has any effect, or if the derivatives
-    /// have missed a cause of the variation of the output.
+    /// `None` if this is unknown: without measures or an interval, or if no factor has any effect.
     pub could_be_fixed: Option<bool>,
-    /// nu: the mean square of the derivative (Sobol' and Kucherenko 2009, Math. Comput. Simul. 79, 3009-3017), in the
-    /// square of the output's unit per unit of the factor; only for a derivative design.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub nu: Option<Estimate>,
-    /// C nu/V, an upper bound of the total index, with the variance V of the output and the constant C of
-    /// [`poincare_constant`]; `None` if there is no such constant, or no variance.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub total_bound: Option<Estimate>,
     /// Number of elementary effects used.
     pub effects: u64,
     /// Number of effects dropped because a run at either end failed.
@@ -188,11 +171,6 @@ pub fn screen_in(
     if job.space.copula().is_some() {
         return Err(ScreeningError::Dependent);
     }
-    let is_derivative = matches!(job.settings.design, ScreeningDesign::Derivative { .. });
-    let separate = |factor: &&Factor| factor.distribution().levels().is_some() || factor.distribution().is_noise();
-    if let Some(factor) = factors.iter().find(separate).filter(|_| is_derivative) {
-        return Err(ScreeningError::Separate { factor: factor.name.clone() });
-    }
     let (settings, parts) = job.settings.in_force(factors.len())?;
     let points = Trajectories::new(job.space, &settings, parts)?;
     let outcome = run::run(job, &points, settings.trajectories, threads, context, on_progress)?;
@@ -205,17 +183,13 @@ pub fn screen_in(
         })
     };
     let outputs = job.model.outputs().iter().enumerate().map(|(number, output)| {
-        let mut screened = screened(output, number, &outcome, factors, (parts as usize, is_derivative));
+        let screened = screened(output, number, &outcome, factors, parts as usize);
         let values: Vec<f64> = outcome.values[number].iter().map(|y| output.unit.from_si(*y)).collect();
         let unlikely = Unlikely::find(&values).map(|found| found.in_runs(found.first + 1));
-        let missed = sum_of_bounds(&screened).filter(|sum| *sum < 1.0);
-        if missed.is_some() {
-            screened.iter_mut().for_each(|factor| factor.could_be_fixed = None);
-        }
         ScreenedOutput {
             name: output.name.to_string(),
             unit: output.unit.to_string(),
-            warnings: unlikely.into_iter().chain(warnings(&screened, missed)).collect(),
+            warnings: unlikely.into_iter().chain(dropped_effects(&screened)).collect(),
             factors: screened,
             failures: failures(number).collect(),
         }
@@ -230,49 +204,28 @@ pub fn screen_in(
     })
 }
 
-/// Returns the warnings for an output, of which the derivatives have `missed` something if the sum of the bounds of
-/// total indices is less than 1.
-fn warnings(factors: &[ScreenedFactor], missed: Option<f64>) -> impl Iterator<Item = String> {
+/// Warns of the dropped effects of an output, if there are any.
+fn dropped_effects(factors: &[ScreenedFactor]) -> Option<String> {
     let dropped: u64 = factors.iter().map(|factor| factor.dropped).sum();
     let all = dropped + factors.iter().map(|factor| factor.effects).sum::<u64>();
-    let dropped = (dropped > 0).then(|| {
+    (dropped > 0).then(|| {
         format!(
             "{dropped} of {all} elementary effects are dropped because a run failed: the measures describe the part of the \
              factor space where runs succeed"
         )
-    });
-    let missed = missed.map(|sum| {
-        format!(
-            "the upper bounds of the total indices sum to {sum:.2}, but total indices of independent factors sum to 1 or more: derivatives \
-             have missed variation of the output, such as a step or a steep slope between the base points, so no bound holds and no \
-             factor is marked as one that could be fixed. Screen with the radial design, or run the study"
-        )
-    });
-    dropped.into_iter().chain(missed)
+    })
 }
 
 /// Returns the results for the factors and output number `number`, from its effects in SI units, factor by factor
 /// within each trajectory, in `parts` independent parts.
-fn screened(
-    output: &Output,
-    number: usize,
-    outcome: &Outcome,
-    space: &[Factor],
-    (parts, is_derivative): (usize, bool),
-) -> Vec<ScreenedFactor> {
+fn screened(output: &Output, number: usize, outcome: &Outcome, space: &[Factor], parts: usize) -> Vec<ScreenedFactor> {
     let factors = space.len();
-    let first_rows = outcome.values[number].iter().step_by(factors + 1);
-    let base: Vec<f64> = first_rows.map(|y| output.unit.span_from_si(*y)).collect();
     let of_factor = |(j, factor): (usize, &Factor)| {
         let effects = outcome.effects[number].iter().skip(j).step_by(factors);
         let own: Vec<f64> = effects.map(|effect| output.unit.span_from_si(*effect)).collect();
         let effects = own.iter().filter(|effect| effect.is_finite()).count() as u64;
         let measures = measures::measures(&own, parts);
         let ratio = measures.and_then(|m| m.ratio);
-        let distribution = factor.distribution();
-        let of_effects =
-            || derivative_measures(&own, &base, parts, range(distribution), poincare_constant(distribution));
-        let derivative = if is_derivative { of_effects() } else { None };
         ScreenedFactor {
             factor: factor.name.clone(),
             rank: 0,
@@ -282,8 +235,6 @@ fn screened(
             ratio,
             reading: ratio.map(|ratio| Reading::from_ratio(ratio.estimate)),
             could_be_fixed: None,
-            nu: derivative.map(|d| d.nu),
-            total_bound: derivative.and_then(|d| d.total_bound),
             effects,
             dropped: own.len() as u64 - effects,
             idle_steps: outcome.idle[j],

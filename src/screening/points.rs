@@ -3,13 +3,13 @@
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use super::settings::{DERIVATIVE_STEP, MIN_STEP, ScreeningDesign, ScreeningError, ScreeningSettings};
+use super::settings::{MIN_STEP, ScreeningDesign, ScreeningError, ScreeningSettings};
 use crate::design::{BasePoints, Design, DesignSettings, Rows, Sampler};
 use crate::space::distribution::{LARGEST_U, SMALLEST_U};
 use crate::space::{Distribution, Factor, Space};
 
 /// End of the grid on a side on which the factor's distribution is unbounded: this quantile, or 1 minus it.
-pub const TAIL: f64 = 1e-3;
+const TAIL: f64 = 1e-3;
 
 /// The move of one factor in one trajectory.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -47,8 +47,6 @@ enum Grid {
     Levels(Vec<f64>),
     /// At the levels of a discrete factor, each as often as its probability, at equal distances in the effects.
     Discrete(Vec<Level>),
-    /// Anywhere in the unit interval, with short steps towards its middle.
-    Derivative,
     /// Anywhere, for seeds: these have no distance, and every step counts as one.
     Seeds,
 }
@@ -70,7 +68,7 @@ impl Trajectories {
     pub fn new(space: &Space, settings: &ScreeningSettings, parts: u64) -> Result<Self, ScreeningError> {
         let ScreeningSettings { design, trajectories, seed } = *settings;
         let shape = match design {
-            ScreeningDesign::Radial { sampler } | ScreeningDesign::Derivative { sampler } => {
+            ScreeningDesign::Radial { sampler } => {
                 let replicates = if sampler == Sampler::Random { 1 } else { parts };
                 let settings = DesignSettings { sampler, base_samples: trajectories, replicates, seed };
                 let design = Design::new(settings, space.factors().len(), Rows::default())?;
@@ -119,10 +117,6 @@ impl Trajectories {
                     let b = if (b - a).abs() < MIN_STEP { half_way_round(b) } else { b };
                     ([a, b], b - a)
                 }
-                Grid::Derivative => {
-                    let step = if a < 0.5 { DERIVATIVE_STEP } else { -DERIVATIVE_STEP };
-                    ([a, a + step], step)
-                }
                 Grid::Seeds => ([a, b], 1.0),
                 Grid::Discrete(levels) => two_levels(levels, a, b),
                 // Only walks have grids.
@@ -146,7 +140,7 @@ impl Trajectories {
         let place = |(grid, row): (&Grid, usize)| {
             let (u, step) = match grid {
                 // A factor that cannot move: its coordinate is irrelevant.
-                Grid::Continuous | Grid::Derivative => ([0.5, 0.5], 1.0),
+                Grid::Continuous => ([0.5, 0.5], 1.0),
                 Grid::Seeds => ([0; 2].map(|_| rng.random_range(SMALLEST_U..=LARGEST_U)), 1.0),
                 Grid::Discrete(levels) => two_levels(levels, rng.random(), rng.random()),
                 Grid::Levels(levels) => {
@@ -207,7 +201,6 @@ impl Grid {
         }
         match (factor.distribution(), design) {
             (Distribution::Constant(_), _) | (_, ScreeningDesign::Radial { .. }) => Self::Continuous,
-            (_, ScreeningDesign::Derivative { .. }) => Self::Derivative,
             (distribution, ScreeningDesign::Trajectory { levels }) => {
                 let (low, high) = distribution.support();
                 let from = if low.is_finite() { 0.0 } else { TAIL };

@@ -2,10 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use super::derivative::range;
 use super::points::{Move, Trajectories};
-use super::settings::DERIVATIVE_STEP;
-use super::{ScreeningDesign, ScreeningError, ScreeningJob};
+use super::{ScreeningError, ScreeningJob};
 use crate::clock::Instant;
 use crate::model::{Batch, RowFailure, RunContext};
 use crate::run::{Halt, Progress, RunError, TableRun};
@@ -82,17 +80,12 @@ impl Bench<'_> {
         numbers: std::ops::Range<u64>,
     ) -> Result<(), Halt> {
         let outcome = &mut self.outcome;
-        let mut moves: Vec<Vec<Move>> = numbers.map(|number| points.moves(number)).collect();
+        let moves: Vec<Vec<Move>> = numbers.map(|number| points.moves(number)).collect();
         let rows = self.rows * moves.len();
-        let is_derivative = matches!(job.settings.design, ScreeningDesign::Derivative { .. });
         for (j, (column, factor)) in self.columns.iter_mut().zip(job.space.factors()).enumerate() {
             column.resize(rows, 0.0);
-            let range = is_derivative.then(|| factor.unit().span_to_si(range(factor.distribution())));
-            for (moves, column) in moves.iter_mut().zip(column.chunks_exact_mut(self.rows)) {
-                let mut values = values_at(factor, &moves[j].u);
-                if let Some(range) = range.filter(|range| *range > 0.0) {
-                    shorten(&mut moves[j], &mut values, range);
-                }
+            for (moves, column) in moves.iter().zip(column.chunks_exact_mut(self.rows)) {
+                let values = values_at(factor, &moves[j].u);
                 outcome.idle[j] += u64::from(values[0] == values[1]);
                 points.fill(&moves[j], values, column);
             }
@@ -127,13 +120,6 @@ fn values_at(factor: &Factor, u: &[f64; 2]) -> [f64; 2] {
         }
     }
     values
-}
-
-/// Limits the step between two values to [`DERIVATIVE_STEP`] of `range`, and stores its length in the move.
-fn shorten(step: &mut Move, values: &mut [f64; 2], range: f64) {
-    let longest = DERIVATIVE_STEP * range;
-    values[1] = values[0] + (values[1] - values[0]).clamp(-longest, longest);
-    step.step = (values[1] - values[0]) / range;
 }
 
 /// Returns the difference of the output over the step; NaN if a run failed or the quotient overflows.

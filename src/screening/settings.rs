@@ -19,10 +19,6 @@ pub const MAX_LEVELS: u32 = 1000;
 /// integral of 1/s diverges. The price is a small shift of sigma: for x^2, -3 %.
 pub const MIN_STEP: f64 = 0.02;
 
-/// Step of the finite differences of the derivative design, as a part of the factor's range, and of the unit interval:
-/// short enough for derivatives of smooth models, and a thousand times the noise of outputs with six digits or more.
-pub const DERIVATIVE_STEP: f64 = 1e-3;
-
 /// Independent randomisations of quasi-random points, whose spread gives the intervals.
 const REPLICATES: u64 = 8;
 /// Maximum number of parts into which independent trajectories are divided for their intervals.
@@ -45,13 +41,6 @@ pub enum ScreeningDesign {
         /// Levels p of the grid, even; 4 is usual.
         levels: u32,
     },
-    /// Derivatives by finite differences (Kucherenko, Rodriguez-Fernandez, Pantelides and Shah 2009, Reliab. Eng. Syst.
-    /// Saf. 94, 1135-1148): from a base point every factor by itself makes a step of [`DERIVATIVE_STEP`] of its range,
-    /// or less where its distribution is dense. The effects are then derivatives, times the range of the factor.
-    Derivative {
-        /// The sampler of the base points.
-        sampler: Sampler,
-    },
 }
 
 impl ScreeningDesign {
@@ -60,14 +49,13 @@ impl ScreeningDesign {
         match self {
             Self::Radial { .. } => "radial",
             Self::Trajectory { .. } => "trajectory",
-            Self::Derivative { .. } => "derivative",
         }
     }
 
     /// Returns its sampler, if it has one.
     pub fn sampler(self) -> Option<Sampler> {
         match self {
-            Self::Radial { sampler } | Self::Derivative { sampler } => Some(sampler),
+            Self::Radial { sampler } => Some(sampler),
             Self::Trajectory { .. } => None,
         }
     }
@@ -153,14 +141,6 @@ pub enum ScreeningError {
          study with Shapley effects instead"
     )]
     Dependent,
-    /// A factor without derivatives.
-    #[error(
-        "factor `{factor}` takes discrete values, so it has no derivative: screen by the radial design, or fix the factor at one of them"
-    )]
-    Separate {
-        /// Its name.
-        factor: String,
-    },
     /// The points cannot be generated.
     #[error(transparent)]
     Design(#[from] DesignError),

@@ -1,16 +1,12 @@
-"""Our measures of a table and measures of derivatives against SALib, OpenTURNS and formulas.
+"""Our measures of a table against SALib, OpenTURNS and formulas.
 
 OpenTURNS is asked where it is installed; all of its measures that are compared have a formula here too.
 """
 
 import numpy as np
-from SALib.analyze import delta, dgsm, pawn, rbd_fast
+from SALib.analyze import delta, pawn, rbd_fast
 from scipy import stats
 
-try:
-    from SALib.analyze import shapley
-except ImportError:  # before SALib 1.6
-    shapley = None
 try:
     import openturns
 except ImportError:
@@ -91,15 +87,6 @@ def check_given(checks, ours, table):
     checks.close("given data: p of HSIC, OpenTURNS", ours["r2_hsic"]["p"], np.array(hsic.getPValuesAsymptotic()), 1e-8)
 
 
-def check_derivatives(checks, ours, table):
-    x, y = columns(table)
-    theirs = dgsm.analyze(PROBLEM, x, y, num_resamples=2)
-    # Differences of outputs of size 10 over steps of 0.006: the size of nu is 10.
-    checks.close("derivatives: nu, SALib", ours["nu"], theirs["vi"], 1e-9)
-    checks.close("derivatives: bound, SALib", ours["total_bound"], theirs["dgsm"], 1e-9)
-
-
 def check(checks, ours, read):
     """`read` gives the table of a name."""
     check_given(checks, ours["given"], read("given"))
-    check_derivatives(checks, ours["derivatives"], read("derivatives"))

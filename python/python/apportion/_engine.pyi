@@ -75,7 +75,6 @@ class Study:
         *,
         trajectories: int,
         levels: int | None,
-        derivatives: bool,
         seed: int | None,
         threads: int,
         progress: Callable[[int, int, int, int], None] | None,

@@ -338,15 +338,11 @@ class Study:
         trajectories: int = 32,
         *,
         levels: int | None = None,
-        derivatives: bool = False,
         seed: int | None = None,
         threads: int = 0,
     ) -> Document:
         """Elementary effects: screening of many factors, with a few runs each. Radial (Campolongo et al. 2011), or with
-        `levels` the trajectories of Morris (1991) on a grid; with `derivatives` short steps, for the mean squares of derivatives and
-        upper bounds of total indices (Sobol' and Kucherenko 2009)."""
-        if derivatives and levels is not None:
-            raise StudyError("levels have no effect on derivatives: leave out one of them")
+        `levels` the trajectories of Morris (1991) on a grid."""
         trajectories = whole("trajectories", trajectories, 1, _MAX_TRAJECTORIES)
         levels = None if levels is None else whole("levels", levels, 2, _MAX_LEVELS)
         seed = None if seed is None else whole("seed", seed, 0, MAX_SEED)
@@ -358,7 +354,6 @@ class Study:
             stop,
             trajectories=trajectories,
             levels=levels,
-            derivatives=derivatives,
             seed=seed,
             threads=threads,
             progress=None,

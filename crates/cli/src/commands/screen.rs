@@ -24,9 +24,8 @@ pub struct Arguments {
     /// Number of trajectories; each costs (1 + factors) runs
     #[arg(long, value_name = "R", default_value_t = 32, value_parser = trajectories, allow_negative_numbers = true)]
     trajectories: u64,
-    /// Design of the points: radial (Campolongo et al. 2011, by the study's sampler), trajectory (Morris 1991), or derivative
-    /// (Sobol' and Kucherenko 2009: short steps, with bounds on total indices)
-    #[arg(long, default_value = "radial", value_parser = ["radial", "trajectory", "derivative"])]
+    /// Design of the points: radial (Campolongo et al. 2011, by the study's sampler), or trajectory (Morris 1991)
+    #[arg(long, default_value = "radial", value_parser = ["radial", "trajectory"])]
     design: String,
     /// Levels of the trajectory design's grid, an even number [default: 4]
     #[arg(long, value_name = "P", value_parser = clap::value_parser!(u32).range(2..=i64::from(MAX_LEVELS)))]
@@ -54,15 +53,13 @@ fn trajectories(text: &str) -> Result<u64, String> {
 impl Arguments {
     fn settings(&self, study: &Study) -> Result<ScreeningSettings, Failure> {
         let in_study = study.design().settings();
-        let sampler = in_study.sampler;
         let design = match (&*self.design, self.levels) {
             ("trajectory", levels) => ScreeningDesign::Trajectory { levels: levels.unwrap_or(4) },
-            (name, Some(levels)) => {
-                let message = format!("--levels has no effect on the {name} design: add --design trajectory");
+            (_, Some(levels)) => {
+                let message = "--levels has no effect on the radial design: add --design trajectory";
                 return Err(Failure::Input(anyhow!("--levels {levels}: {message}")));
             }
-            ("derivative", None) => ScreeningDesign::Derivative { sampler },
-            _ => ScreeningDesign::Radial { sampler },
+            _ => ScreeningDesign::Radial { sampler: in_study.sampler },
         };
         let seed = self.seed.unwrap_or(in_study.seed);
         Ok(ScreeningSettings { design, trajectories: self.trajectories, seed })

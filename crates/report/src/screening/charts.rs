@@ -45,8 +45,8 @@ pub(super) fn scatter(file: &ScreeningFile, output: &ScreenedOutput) -> Chart {
         })
     });
     let caption = format!(
-        "Mean size μ* of the {}, and their standard deviation σ, from {} trajectories. {}",
-        effects_of(file),
+        "Mean size μ* of the elementary effects per full range of each factor, and their standard deviation σ, from {} \
+         trajectories. {}",
         file.provenance.trajectories,
         leader(output)
     );
@@ -57,9 +57,7 @@ pub(super) fn scatter(file: &ScreeningFile, output: &ScreenedOutput) -> Chart {
         let end = f64::min(right, top / slope);
         Series::new(name, Colour::Reference).stroke(stroke).line(vec![(0.0, 0.0), (end, slope * end)])
     });
-    let of = if is_derivative(file) { "derivatives" } else { "effects" };
-    let x = axis(&format!("μ*, mean size of the {of}"), output);
-    let y = axis(&format!("σ, standard deviation of the {of}"), output);
+    let (x, y) = (axis("μ*, mean size of the effects", output), axis("σ, standard deviation of the effects", output));
     Chart::new(title(file, output), caption).panels([Panel::new(x, y).with(points).with(slopes)])
 }
 
@@ -84,21 +82,13 @@ pub(super) fn bars(file: &ScreeningFile, output: &ScreenedOutput) -> Chart {
         })
     });
     let caption = format!(
-        "Mean size μ* of the {}. A factor could be fixed where the upper bound of μ* lies below {} % of the largest μ*. \
-         {}{}",
-        effects_of(file),
+        "Mean size μ* of the elementary effects per full range of each factor. A factor could be fixed where the upper \
+         bound of μ* lies below {} % of the largest μ*. {}{}",
         100.0 * FIXABLE,
         leader(output),
         not_drawn(output.factors.len(), MAX_BARS)
     );
-    let x = axis(
-        if is_derivative(file) {
-            "μ*, mean size of the derivatives, times the range of the factor"
-        } else {
-            "μ*, mean size of the effects per full range of the factor"
-        },
-        output,
-    );
+    let x = axis("μ*, mean size of the effects per full range of the factor", output);
     let rows = Axis::from_names("", output.factors.iter().map(|factor| words(&factor.factor)).collect());
     let keys: Vec<f64> = output.factors.iter().map(|factor| -(factor.rank as f64)).collect();
     Chart::new(title(file, output), caption).panels([Panel::new(x, rows).with(bars).ranked(&keys, MAX_BARS)])
@@ -107,18 +97,6 @@ pub(super) fn bars(file: &ScreeningFile, output: &ScreenedOutput) -> Chart {
 /// Formats an effect with its error and unit.
 fn of_unit(effect: Estimate, unit: &str) -> String {
     format!("{} {}", index(effect), axis_unit(unit)).trim_end().to_owned()
-}
-
-/// Names the quantity whose mean size is taken.
-fn effects_of(file: &ScreeningFile) -> &'static str {
-    match is_derivative(file) {
-        true => "derivatives by each factor times its range",
-        false => "elementary effects per full range of each factor",
-    }
-}
-
-fn is_derivative(file: &ScreeningFile) -> bool {
-    file.provenance.derivative_step.is_some()
 }
 
 /// Says which factor matters most.

@@ -22,16 +22,13 @@ pub fn screening_document(file: &ScreeningFile) -> Document {
             unit: &output.unit,
             warnings: &output.warnings,
             answer: format!("{} {}", leader(output), fixable(output)),
-            parts: failures(failed).into_iter().chain([effects(file, output).into()]).collect(),
+            parts: failures(failed).into_iter().chain([effects(output).into()]).collect(),
             charts: vec![("-bars", bars(file, output)), ("", scatter(file, output))],
         }
     });
     let provenance = &file.provenance;
     let mut rows = vec![("design", provenance.design.clone())];
     rows.extend(provenance.sampler.iter().map(|sampler| ("sampler", sampler.clone())));
-    rows.extend(
-        provenance.derivative_step.iter().map(|step| ("step", format!("{} of the range, or less", short(*step)))),
-    );
     rows.extend(provenance.levels.iter().map(|levels| ("levels", levels.to_string())));
     rows.extend([
         ("trajectories", grouped(provenance.trajectories)),
@@ -60,42 +57,30 @@ pub fn screening_document(file: &ScreeningFile) -> Document {
 }
 
 /// Tabulates the factors of an output by rank.
-fn effects(file: &ScreeningFile, output: &ScreenedOutput) -> Table {
+fn effects(output: &ScreenedOutput) -> Table {
     let plain = |estimate: Option<Estimate>| or_dash(estimate, |estimate| short(estimate.estimate));
-    let with_error = |estimate: Option<Estimate>| or_dash(estimate, index);
-    let measures = "mean size μ* with its 95 % interval, mean μ, standard deviation σ";
-    let bound = "; ν, the mean square of the derivative per unit of the factor, and the upper bound of the total index S_T from \
-                 Poincaré's inequality";
-    let (output_name, is_derivative) = (name(&output.name), file.provenance.derivative_step.is_some());
-    let caption = match is_derivative {
-        true => format!("Derivatives of {output_name}, times the range of each factor: {measures}{bound}."),
-        false => format!("Elementary effects on {output_name} per full range of each factor: {measures}."),
-    };
-    let mut rows = Table::from_rows(caption, &output.factors)
+    let caption = format!(
+        "Elementary effects on {} per full range of each factor: mean size μ* with its 95 % interval, mean μ, standard \
+         deviation σ.",
+        name(&output.name)
+    );
+    let mut ranked: Vec<usize> = (0..output.factors.len()).collect();
+    ranked.sort_by_key(|&place| output.factors[place].rank);
+    let reading = |factor: &ScreenedFactor| factor.reading.map(|reading| reading.words());
+    let rows = Table::from_rows(caption, &output.factors)
         .file("output", |_| &output.name)
         .file("unit", |_| &output.unit)
         .text("factor", |factor| name(&factor.factor))
         .value("factor", |factor| &factor.factor)
         .file("rank", |factor| factor.rank as u64)
-        .number("μ*", |factor| with_error(factor.mu_star))
+        .number("μ*", |factor| or_dash(factor.mu_star, index))
         .estimate("mu_star", |factor| factor.mu_star)
         .number("μ", |factor| plain(factor.mu))
         .estimate("mu", |factor| factor.mu)
         .number("σ", |factor| plain(factor.sigma))
         .estimate("sigma", |factor| factor.sigma)
         .number("σ/μ*", |factor| plain(factor.ratio))
-        .estimate("ratio", |factor| factor.ratio);
-    if is_derivative {
-        rows = rows
-            .number("ν", |factor| plain(factor.nu))
-            .estimate("nu", |factor| factor.nu)
-            .number("S_T at most", |factor| with_error(factor.total_bound))
-            .estimate("total_bound", |factor| factor.total_bound);
-    }
-    let mut ranked: Vec<usize> = (0..output.factors.len()).collect();
-    ranked.sort_by_key(|&place| output.factors[place].rank);
-    let reading = |factor: &ScreenedFactor| factor.reading.map(|reading| reading.words());
-    let rows = rows
+        .estimate("ratio", |factor| factor.ratio)
         .text("reading", |factor| reading(factor).unwrap_or("–"))
         .value("reading", reading)
         .text("could be fixed", |factor| factor.could_be_fixed.map_or("–", |fixed| if fixed { "yes" } else { "no" }))

@@ -7,9 +7,7 @@ use apportion::analysis::{study_setup, validity};
 use apportion::design::Sampler;
 use apportion::model::Model;
 use apportion::result::{RunFacts, StudySetup, ValidityRecord};
-use apportion::screening::{
-    DERIVATIVE_STEP, FIXABLE, MIN_STEP, ScreenedOutput, Screening, ScreeningDesign, poincare_constant,
-};
+use apportion::screening::{FIXABLE, MIN_STEP, ScreenedOutput, Screening, ScreeningDesign};
 use apportion::space::{Distribution, Factor};
 use apportion::study::Study;
 use serde::{Deserialize, Serialize};
@@ -40,17 +38,14 @@ pub struct ScreeningFile {
 pub struct ScreeningProvenance {
     /// Version of the program.
     pub apportion_version: String,
-    /// `radial`, `trajectory` or `derivative`.
+    /// `radial` or `trajectory`.
     pub design: String,
-    /// Where the points of a radial or derivative design come from; `null` for trajectories.
+    /// Where the points of a radial design come from; `null` for trajectories.
     pub sampler: Option<String>,
     /// Levels of the grid of a trajectory design; `null` for others.
     pub levels: Option<u32>,
     /// Shortest step of a radial design, as a part of the range; `null` for others.
     pub shortest_step: Option<f64>,
-    /// Longest step of a derivative design, as a part of the range; absent for others.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub derivative_step: Option<f64>,
     /// Trajectories r.
     pub trajectories: u64,
     /// Number of independent parts on which the intervals are based.
@@ -80,13 +75,13 @@ pub fn build_screening(study: &Study, model: &dyn Model, screening: &Screening, 
         provenance: provenance(screening, facts),
         outputs: screening.outputs.clone(),
         validity: validity(model.flags().iter().zip(screening.flags.iter().copied()), screening.runs),
-        notes: notes(study, screening.settings.design),
+        notes: notes(study),
     }
 }
 
 fn provenance(screening: &Screening, facts: RunFacts) -> ScreeningProvenance {
     let Screening { settings, parts, .. } = *screening;
-    let (sampler, is_radial) = (settings.design.sampler(), matches!(settings.design, ScreeningDesign::Radial { .. }));
+    let sampler = settings.design.sampler();
     let levels = if let ScreeningDesign::Trajectory { levels } = settings.design { Some(levels) } else { None };
     let what = match sampler {
         Some(Sampler::Sobol | Sampler::LatinHypercube) => "randomisations of the design",
@@ -98,8 +93,7 @@ fn provenance(screening: &Screening, facts: RunFacts) -> ScreeningProvenance {
         design: settings.design.name().to_owned(),
         sampler: sampler.map(|sampler| sampler.name().to_owned()),
         levels,
-        shortest_step: is_radial.then_some(MIN_STEP),
-        derivative_step: (sampler.is_some() && !is_radial).then_some(DERIVATIVE_STEP),
+        shortest_step: sampler.map(|_| MIN_STEP),
         trajectories: settings.trajectories,
         parts,
         seed: settings.seed,
@@ -112,7 +106,7 @@ fn provenance(screening: &Screening, facts: RunFacts) -> ScreeningProvenance {
     }
 }
 
-fn notes(study: &Study, design: ScreeningDesign) -> Vec<String> {
+fn notes(study: &Study) -> Vec<String> {
     let with_law = |factor: &Factor| format!("{} ({})", factor.name, factor.distribution().name());
     let with_value =
         |factor: &Factor| format!("{} = {}", factor.name, with_unit(factor.nominal, factor.unit().symbol()));
@@ -122,25 +116,13 @@ fn notes(study: &Study, design: ScreeningDesign) -> Vec<String> {
         let factors: Vec<String> = factors.map(said).collect();
         (!factors.is_empty()).then(|| format!("{text} {}", factors.join(", ")))
     };
-    let mut notes = Vec::new();
-    if matches!(design, ScreeningDesign::Derivative { .. }) {
-        notes.push(
-            "derivatives are known at the base points only: for a model with jumps there are no bounds, and a steep slope that is \
-             narrower than the distance of the points is missed"
-                .to_owned(),
-        );
-        let text = "no bound on the total index by derivatives is known for the distribution of";
-        notes.extend(about(text, &|law| poincare_constant(law).is_none(), &with_law));
-    } else {
-        let text = "effects are per step in probability, so sigma of factors that are not uniform includes the curvature of their \
-                    distribution:";
-        let is_bent = |law: &Distribution| {
-            let is_continuous = law.levels().is_none() && !law.is_whole();
-            is_continuous && !matches!(law, Distribution::Uniform(_) | Distribution::Constant(_))
-        };
-        notes.extend(about(text, &is_bent, &with_law));
-    }
+    let text = "effects are per step in probability, so sigma of factors that are not uniform includes the curvature of their \
+                distribution:";
+    let is_bent = |law: &Distribution| {
+        let is_continuous = law.levels().is_none() && !law.is_whole();
+        is_continuous && !matches!(law, Distribution::Uniform(_) | Distribution::Constant(_))
+    };
     let is_constant = |law: &Distribution| matches!(law, Distribution::Constant(_));
-    notes.extend(about("constant, hence without effect:", &is_constant, &with_value));
-    notes
+    let bent = about(text, &is_bent, &with_law);
+    bent.into_iter().chain(about("constant, hence without effect:", &is_constant, &with_value)).collect()
 }

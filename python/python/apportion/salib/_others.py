@@ -13,16 +13,15 @@ _SURROGATE = "ap.given_data(X, Y, surrogate=True)"
 _FAST = "sample.sobol with analyze.sobol, or sample.latin with analyze.rbd_fast"
 _SHAPLEY = "ap.analyse(f, ap.from_salib(problem), shapley=True)"
 _SCREEN = "ap.Study(f, ap.from_salib(problem)).screen()"
-_DERIVATIVES = "ap.Study(f, ap.from_salib(problem)).screen(derivatives=True)"
 _CHARTS = "plot() and charts() of what ap.analyse(...) and ap.Study(...).screen() return"
 _INSTEAD = {
     "sample.fast_sampler": _FAST,
     "sample.ff": "sample.morris with analyze.morris",
-    "sample.finite_diff": _DERIVATIVES,
+    "sample.finite_diff": _SCREEN,
     "sample.radial": _SCREEN,
     "sample.shapley": _SHAPLEY,
     "analyze.delta": _GIVEN,
-    "analyze.dgsm": _DERIVATIVES,
+    "analyze.dgsm": _SCREEN,
     "analyze.discrepancy": _GIVEN,
     "analyze.enhanced_hdmr": _SURROGATE,
     "analyze.fast": _FAST,
