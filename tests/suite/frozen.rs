@@ -80,7 +80,11 @@ fn differences(held: &Value, found: &Value, at: &str, has_unit: bool, into: &mut
         }
         _ if held == found => (),
         // Words may change; numbers must stay.
-        (Value::String(_), Value::String(_)) if at.contains("warnings") || at.contains("reason") => (),
+        (Value::String(_), Value::String(_))
+            if ["warnings", "reason", "description"].iter().any(|key| at.contains(key)) =>
+        {
+            ()
+        }
         _ => into.push(format!("{at}: {held} before, {found} now")),
     }
 }

@@ -129,8 +129,7 @@ impl AfmModel {
         let flag = self.flags.iter_mut().find(|flag| flag.name == crate::Flag::TaborOutOfRange.name());
         if let (Some(change), Some(flag)) = (change.filter(|change| *change != 0.0), flag) {
             flag.description.to_mut().push_str(&format!(
-                " With the theory that suits it (contact = \"auto\") the critical force at the nominal point changes by \
-                 {:+.1} %.",
+                " The one that suits it (contact = \"auto\") changes the critical force at the nominal point by {:+.1} %.",
                 100.0 * change
             ));
         }
