@@ -55,7 +55,7 @@ fn no_study_is_silently_wrong() {
             continue;
         }
         let own = ExtremesSettings::for_study(&study);
-        let settings = ExtremesSettings { points: own.points / 24, ..own };
+        let settings = ExtremesSettings { points: own.points / 48, ..own };
         let map = match extremes(&ExtremesJob { settings, ..ExtremesJob::new(&study) }) {
             Ok(map) => map,
             // Not every machine has numpy.

@@ -87,7 +87,7 @@ impl Case {
 
     pub fn run_with(&self, more: &[&str]) -> Output {
         let (study, out) = (self.path("study.toml"), self.path("out"));
-        let arguments = ["run", text(&study), "--out", text(&out)];
+        let arguments = ["run", text(&study), "--charts", "none", "--out", text(&out)];
         let mut command = assert_cmd::Command::cargo_bin("apportion").unwrap();
         command
             .env("PATH", search_path())
