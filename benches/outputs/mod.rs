@@ -65,7 +65,6 @@ impl<'a> Outputs<'a> {
             ab: &of(design.ab_runs()),
             ba: &of(design.ba_runs()),
             paired: design.paired(),
-            ..BlockOutputs::default()
         };
         Moments::of_block(outputs, work)
     }

@@ -20,6 +20,9 @@ const LEFT_OUT: [&str; 3] = ["convergence", "distribution", "scatter"];
 /// Keys with the unit of the output, which may have any size.
 const WITH_UNIT: [&str; 5] = ["mean", "variance", "mean_interval", "variance_interval", "effort"];
 
+/// Texts for people, which may change.
+const WORDS: [&str; 3] = ["warnings", "reason", "description"];
+
 /// Estimates from the runs only, without the correction by surrogates.
 const PLAIN: &str = "analysis.surrogate=\"off\"";
 
@@ -80,11 +83,7 @@ fn differences(held: &Value, found: &Value, at: &str, has_unit: bool, into: &mut
         }
         _ if held == found => (),
         // Words may change; numbers must stay.
-        (Value::String(_), Value::String(_))
-            if ["warnings", "reason", "description"].iter().any(|key| at.contains(key)) =>
-        {
-            ()
-        }
+        (Value::String(_), Value::String(_)) if WORDS.iter().any(|key| at.contains(key)) => (),
         _ => into.push(format!("{at}: {held} before, {found} now")),
     }
 }

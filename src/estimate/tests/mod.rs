@@ -50,8 +50,7 @@ impl Sample {
 
     fn moments(&self) -> Moments {
         let [ab, ba] = [&self.ab, &self.ba].map(|s| [&s[0][..], &s[1][..]]);
-        let block =
-            BlockOutputs { a: &self.a, b: &self.b, ab: &ab, ba: &ba, paired: &[0, 1], ..BlockOutputs::default() };
+        let block = BlockOutputs { a: &self.a, b: &self.b, ab: &ab, ba: &ba, paired: &[0, 1] };
         Moments::of_block(block, &mut Workspace::default())
     }
 }
