@@ -148,7 +148,7 @@ function contact(id, { at: place, radius, top, bottom }) {
   const a0 = start(names.a) * scale;
   for (const x of [half - a0, half + a0]) add(svg, "line", { class: "ghost", x1: px(x), y1: level - 24, x2: px(x), y2: level + 30 });
   const touch = add(svg, "path", { class: "grip", fill: "none" });
-  add(svg, "rect", { x: -2, y: 86, width: width + 4, height: 24, fill: "#ffffff" });
+  add(svg, "rect", { x: -2, y: 86, width: width + 4, height: 24, fill: "var(--paper)" });
   const text = add(svg, "text", { class: "small", x: half, y: 101, "text-anchor": "middle", "font-size": 11 });
   add(svg, "text", { class: "halo", x: width - 5, y: 12, "text-anchor": "end", "font-size": 9.5 }, `heights × ${short(stretch, 1)}`);
 

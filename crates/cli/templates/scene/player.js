@@ -58,7 +58,7 @@ function force() {
       sooner: add(svg, "path", { class: `curve ${kind}` }),
     }));
     const cursor = add(svg, "line", { class: "thin", y1: top - 4, y2: bottom });
-    const dots = CURVES.map(([, kind]) => add(svg, "circle", { class: `dot ${kind}`, r: 4.5, stroke: "#ffffff" }));
+    const dots = CURVES.map(([, kind]) => add(svg, "circle", { class: `dot ${kind}`, r: 4.5, stroke: "var(--paper)" }));
     draw = (t) => {
       for (const { name, sooner, later } of parts) {
         set(sooner, { d: line(name, first, t) });
