@@ -66,11 +66,11 @@ pub struct ManifestDesign {
 /// A row of a base sample: that of the matrix `base`, with `columns` from the matrix `from`.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ManifestRun {
-    /// A, B or C.
+    /// A, B, or "plain 1" and so on for rows that serve only surrogates.
     pub base: String,
     /// Names of factors.
     pub columns: Vec<String>,
-    /// A, B or C.
+    /// Likewise.
     pub from: String,
     /// Names of dependent factors that come from neither matrix, and follow the others.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
