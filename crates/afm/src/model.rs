@@ -127,7 +127,7 @@ impl AfmModel {
         let change =
             force(ContactTheory::Auto).zip(force(self.options.contact)).map(|(suited, own)| suited / own - 1.0);
         let flag = self.flags.iter_mut().find(|flag| flag.name == crate::Flag::TaborOutOfRange.name());
-        if let (Some(change), Some(flag)) = (change.filter(|change| *change != 0.0), flag) {
+        if let (Some(change), Some(flag)) = (change.filter(|change| change.is_finite() && *change != 0.0), flag) {
             flag.description.to_mut().push_str(&format!(
                 " The one that suits it (contact = \"auto\") changes the critical force at the nominal point by {:+.1} %.",
                 100.0 * change
@@ -312,6 +312,20 @@ impl AfmWorker<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_change_by_a_suitable_theory_is_a_finite_number_or_left_out() {
+        let description = |scene: &Scene, contact| {
+            let options = Options { contact, ..Options::default() };
+            let model = AfmModel::new(*scene, options, Vec::new(), vec![AfmOutput::CriticalForce]).with_nominal(scene);
+            model.flags.iter().find(|flag| flag.name == "tabor-out-of-range").unwrap().description.to_string()
+        };
+        let usual = Scene::default();
+        assert!(description(&usual, ContactTheory::Hertz).contains(" %."));
+        assert!(!description(&usual, ContactTheory::Auto).contains('%'));
+        let invalid = Scene { particle_radius: -1.0, ..usual };
+        assert!(!description(&invalid, ContactTheory::Hertz).contains('%'));
+    }
 
     #[test]
     fn every_edge_unit_is_known_and_of_the_right_kind() {
