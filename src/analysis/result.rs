@@ -38,7 +38,7 @@ pub(crate) fn result(run: &FinishedRun<'_>, stopped: Option<&Stopped>) -> StudyR
         version: 1,
         study: study_record(study),
         provenance: provenance(run),
-        factors: factors.map(factor_record).collect(),
+        factors: factors.map(|factor| factor_record(study, factor)).collect(),
         outputs: outputs
             .map(|(number, output)| output_result(run, output, number, &whole, &corrected, &rows))
             .collect(),

@@ -11,7 +11,7 @@ use crate::study::Study;
 pub fn study_setup(study: &Study) -> StudySetup {
     StudySetup {
         asked: study_record(study),
-        factors: study.space.factors().iter().map(factor_record).collect(),
+        factors: study.space.factors().iter().map(|factor| factor_record(study, factor)).collect(),
         sha256: study.sha256.clone(),
     }
 }
@@ -30,9 +30,10 @@ pub(super) fn study_record(study: &Study) -> StudyRecord {
     }
 }
 
-pub(crate) fn factor_record(factor: &Factor) -> FactorRecord {
+pub(super) fn factor_record(study: &Study, factor: &Factor) -> FactorRecord {
     FactorRecord {
         name: factor.name.clone(),
+        description: study.subject.meaning(&factor.name),
         unit: factor.unit().to_string(),
         group: factor.group.clone(),
         // Serialisation fails only on maps without text keys, of which there are none.

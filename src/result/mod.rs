@@ -205,6 +205,9 @@ pub struct Provenance {
 pub struct FactorRecord {
     /// Its name.
     pub name: String,
+    /// What it is, if the model says so.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub description: Option<String>,
     /// The unit of its values.
     pub unit: String,
     /// Its group, if any.

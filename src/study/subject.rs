@@ -28,6 +28,12 @@ pub trait Subject: fmt::Debug + Send + Sync + Any {
         Vec::new()
     }
 
+    /// Returns what an input is, with its unit if the study has none, such as "width of the river, m"; `None` if its
+    /// name is all there is.
+    fn meaning(&self, _input: &str) -> Option<String> {
+        None
+    }
+
     /// Returns inputs that are not factors of `space`, but whose extremes are worth examining.
     fn further_inputs(&self, _space: &Space) -> Vec<Factor> {
         Vec::new()
@@ -139,6 +145,10 @@ impl Subject for RepeatedSubject {
 
     fn constants(&self, space: &Space) -> Vec<(String, f64, String)> {
         self.subject.constants(space)
+    }
+
+    fn meaning(&self, input: &str) -> Option<String> {
+        self.subject.meaning(input)
     }
 
     fn files(&self) -> Vec<PathBuf> {

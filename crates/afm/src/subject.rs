@@ -138,6 +138,10 @@ impl Subject for AfmSubject {
         constants.map(constant).collect()
     }
 
+    fn meaning(&self, input: &str) -> Option<String> {
+        Parameter::from_name(input).map(|parameter| parameter.description.to_owned())
+    }
+
     /// Adds velocity and adhesion, which may be zero.
     fn further_inputs(&self, space: &Space) -> Vec<Factor> {
         let further = ["velocity", "adhesion"].into_iter().filter(|name| !is_factor(space, name));

@@ -63,7 +63,11 @@ pub(crate) fn study_section(study: &StudyRecord, factors: &[FactorRecord]) -> Se
     if shown.iter().any(|factor| factor.group.is_some()) {
         rows = rows.text("group", |factor| factor.group.as_deref().unwrap_or("–"));
     }
-    parts.push(rows.number("nominal value", |factor| value(factor.nominal, &factor.unit)).into());
+    rows = rows.number("nominal value", |factor| value(factor.nominal, &factor.unit));
+    if shown.iter().any(|factor| factor.description.is_some()) {
+        rows = rows.text("meaning", |factor| factor.description.as_deref().unwrap_or("–"));
+    }
+    parts.push(rows.into());
     if !study.dependences.is_empty() {
         let measure = |record: &CorrelationRecord| match &*record.measure {
             "pearson" => "of the values (Pearson)",

@@ -140,6 +140,12 @@ impl Subject for KnownSubject {
         self.function.parameters().iter().map(|(name, value)| (*name, in_json(value))).collect()
     }
 
+    /// Inputs with a domain are quantities; the description of the others is their distribution.
+    fn meaning(&self, input: &str) -> Option<String> {
+        let own = self.function.inputs().iter().find(|own| own.name == input && own.domain.is_some());
+        own.map(|own| own.description.clone())
+    }
+
     fn constants(&self, space: &Space) -> Vec<(String, f64, String)> {
         let inputs = known_inputs(&self.function).into_iter().filter(|input| !is_factor(space, &input.name));
         inputs.map(|input| (input.name, input.nominal, input.unit.to_string())).collect()
