@@ -78,7 +78,7 @@ pub mod text;
 pub mod uncertainty;
 
 pub use design::{Design, DesignError, DesignSettings, Rows, Sampler, SobolSequence};
-pub use estimate::{CentralMoments, Estimator, FirstOrder, Scaling, ShapleyPlayers, Total, Undefined};
+pub use estimate::{CentralMoments, Estimator, FirstOrder, Scaling, Total, Undefined};
 pub use model::{
     Batch, Counter, CounterKind, ExactIndices, Expression, ExpressionError, ExpressionModel, Flag, FunctionModel,
     GiveUp, KnownAnswer, KnownFunction, Messages, Model, Output, OutputSeries, RepeatedModel, RowFailure, RunContext,

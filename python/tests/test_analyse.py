@@ -439,14 +439,15 @@ def test_dependent_factors_have_shapley_effects():
         lambda a, b, c: 2 * a + b + c,
         {"a": ap.Normal(0, 1, group="g"), "b": ap.Normal(0, 2, group="g"), "c": ap.Normal(0, 1)},
         base_samples=4096,
-        shapley_players="groups",
+        indices_of="groups",
+        shapley=True,
         measures=["delta", "r2_hsic"],
     )
     assert list(grouped.measures) == ["delta", "r2_hsic"]
     delta = grouped.measures["delta"]["c"]
     assert delta.low < delta.estimate < delta.high < grouped.measures["delta"]["a"].low
-    assert list(grouped.shapley_groups) == ["c", "g"] and len(grouped.shapley) == 0
-    assert abs(grouped.shapley_groups["g"].estimate - 8 / 9) < 0.01
+    assert list(grouped.shapley) == list(grouped.total) == ["g", "c"] and grouped.runs == 4096 * (2 + 2)
+    assert abs(grouped.shapley["g"].estimate - 8 / 9) < 0.01 and abs(grouped.total["g"].estimate - 8 / 9) < 0.01
     rng = np.random.default_rng(1)
     first = rng.normal(size=100)
     measured = np.column_stack([first, first**2 + 0.1 * rng.normal(size=100)])

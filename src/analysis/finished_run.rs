@@ -58,8 +58,8 @@ pub fn names_of_swaps(study: &Study) -> Vec<String> {
     let subset = |numbers: &Vec<usize>| {
         numbers.iter().map(|&number| factors[number].name.as_str()).collect::<Vec<_>>().join(" + ")
     };
-    let names = factors.iter().map(|factor| factor.name.clone());
-    let names = names.chain(study.space.groups().into_iter().map(|group| group.name));
+    let (members, groups) = (study.analysis.members(&study.space), study.analysis.further_groups(&study.space));
+    let names = members.into_iter().chain(groups).map(|member| member.name);
     let names = names.chain(study.analysis.subsets.iter().map(subset));
     names.chain(study.analysis.dummy.then(|| "dummy".to_owned())).collect()
 }

@@ -1,12 +1,12 @@
 //! Conversion of the estimates of an output, by index, to its indices by name.
 
 use super::finished_run::names_of_swaps;
-use crate::estimate::{Estimator, FirstOrder, ShapleyPlayers, Total};
+use crate::estimate::{Estimator, FirstOrder, Total};
 use crate::result::{
     EstimatorRecord, GroupRecord, IndexRecord, NoiseRecord, OtherIndexRecord, OutputResult, PairRecord,
-    PlainIndexRecord, PlayerRecord, StageRecord, SubsetRecord, SurrogateRecord,
+    PlainIndexRecord, StageRecord, SubsetRecord, SurrogateRecord,
 };
-use crate::space::Factor;
+use crate::space::Group;
 use crate::study::Study;
 use crate::uncertainty::{
     EffectChecks, EffectEstimates, Estimate, MeanEstimates, NoiseIndices, OtherEstimates, OutputIndices, Stage,
@@ -21,22 +21,20 @@ pub(super) fn add_indices(record: &mut OutputResult, study: &Study, indices: &Ou
         record.sum_first_order = Some(indices.sum_first_order);
         record.sum_total = Some(indices.sum_total);
     }
-    let known = factors.iter().zip(&indices.factors).filter(|(factor, _)| !factor.distribution().is_noise());
-    record.indices = Some(known.map(|(factor, &effect)| IndexRecord { factor: factor.name.clone(), effect }).collect());
+    let members = study.analysis.members(&study.space);
+    let of_member = |(member, &effect): (&Group, _)| IndexRecord { factor: member.name.clone(), effect };
+    record.indices = Some(without_noise(study, members.iter().zip(&indices.factors).map(of_member)));
     record.noise = indices.noise.as_ref().map(|noise| noise_record(study, indices, noise));
-    let groups = study.space.groups().into_iter().zip(&indices.groups);
+    let groups = study.analysis.further_groups(&study.space).into_iter().zip(&indices.groups);
     let of_group =
         groups.map(|(group, &effect)| GroupRecord { factors: names(&group.factors), group: group.name, effect });
     record.groups = Some(of_group.collect());
     let subsets = study.analysis.subsets.iter().zip(&indices.subsets);
     record.subsets = Some(subsets.map(|(numbers, &effect)| SubsetRecord { factors: names(numbers), effect }).collect());
     record.dummy = indices.dummy;
-    if study.analysis.shapley_players == Some(ShapleyPlayers::Groups) {
-        add_players(record, indices);
-    }
     if study.analysis.second_order {
         let of_pair = |((j, k), index): ((usize, usize), &Estimate)| PairRecord {
-            factors: [j, k].map(|number| factors[number].name.clone()),
+            factors: [j, k].map(|number| members[number].name.clone()),
             index: *index,
         };
         let pairs = study.layout().pair_list();
@@ -44,24 +42,6 @@ pub(super) fn add_indices(record: &mut OutputResult, study: &Study, indices: &Ou
     }
     record.estimators = estimator_records(study, indices);
     record.surrogate = indices.surrogate.as_ref().map(|used| surrogate_record(study, used));
-}
-
-/// Adds a separate list of the Shapley effects of groups, and of factors without one, if groups are the players.
-fn add_players(record: &mut OutputResult, indices: &OutputIndices) {
-    let of_factors = record.indices.iter_mut().flatten().zip(&indices.factors);
-    let of_factors = of_factors.map(|(index, effect)| {
-        index.effect.shapley = None;
-        (index.factor.clone(), vec![index.factor.clone()], effect)
-    });
-    let of_groups = record.groups.iter_mut().flatten().zip(&indices.groups);
-    let of_groups = of_groups.map(|(group, effect)| {
-        group.effect.shapley = None;
-        (group.group.clone(), group.factors.clone(), effect)
-    });
-    let player = |(player, factors, effect): (String, Vec<String>, &EffectEstimates)| {
-        effect.shapley.map(|shapley| PlayerRecord { player, factors, shapley })
-    };
-    record.shapley_groups = Some(of_factors.chain(of_groups).filter_map(player).collect());
 }
 
 fn noise_record(study: &Study, indices: &OutputIndices, noise: &NoiseIndices) -> NoiseRecord {
@@ -127,8 +107,9 @@ fn estimator_records(study: &Study, indices: &OutputIndices) -> Vec<EstimatorRec
 
 /// Returns the indices at a stage of the run.
 pub(super) fn stage_record(study: &Study, stage: &Stage, runs_per_point: u64) -> StageRecord {
-    let of_factor = |(factor, effect): (&Factor, &EffectEstimates)| PlainIndexRecord {
-        factor: factor.name.clone(),
+    let members = study.analysis.members(&study.space);
+    let of_member = |(member, effect): (Group, &EffectEstimates)| PlainIndexRecord {
+        factor: member.name,
         first_order: effect.first_order,
         total: effect.total,
     };
@@ -136,6 +117,6 @@ pub(super) fn stage_record(study: &Study, stage: &Stage, runs_per_point: u64) ->
         base_samples: stage.base_samples,
         model_runs: stage.base_samples * runs_per_point,
         largest_half_width: stage.indices.largest_half_width(),
-        indices: without_noise(study, study.space.factors().iter().zip(&stage.indices.factors).map(of_factor)),
+        indices: without_noise(study, members.into_iter().zip(&stage.indices.factors).map(of_member)),
     }
 }

@@ -16,6 +16,7 @@ use crate::model::{Output, RowFailure};
 use crate::quantity::Unit;
 use crate::result::{DistributionRecord, FailureCount, OutputDistribution, OutputResult, Warning, Warnings};
 use crate::run::{Tally, Totals};
+use crate::space::IndicesOf;
 use crate::uncertainty::{
     Estimate, IntervalOptions, KeptPoints, OutputMoments, output_indices, output_moments, stages,
 };
@@ -77,7 +78,7 @@ pub(super) fn output_result(
     warnings.extend(warnings::of_flags(run.model, whole));
     warnings.extend(corrected.rare.iter().cloned().map(Warning::RareLevel));
     if let Ok(indices) = &mut indices {
-        withdraw(indices, &corrected.rare);
+        withdraw(indices, &corrected.rare, &study.analysis.members(&study.space));
         warnings.extend(warnings::of_digits(&totals.values));
         warnings.extend(warnings::of_values(&totals.values));
         warnings.extend(warnings::of_indices(study, indices));
@@ -118,7 +119,8 @@ pub(super) fn output_result(
     if let Some(rows) = &rows.scatter {
         result.distribution = distribution_record(&totals.values, &samples, unit, is_item);
         // The inputs at points of SALib are unknown; a series has pictures as a whole.
-        let indices = result.indices.as_deref().filter(|_| !study.analysis.salib && !is_item);
+        let is_of_factors = !study.analysis.salib && study.analysis.indices_of == IndicesOf::Factors;
+        let indices = result.indices.as_deref().filter(|_| is_of_factors && !is_item);
         result.scatter = indices.and_then(|indices| scatter_record(rows, &study.space, (unit, &samples), indices));
     }
     result

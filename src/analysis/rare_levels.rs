@@ -2,7 +2,7 @@
 
 use crate::design::Design;
 use crate::result::{PAIRS_OF_POINT, RareLevel};
-use crate::space::{Distribution, Space};
+use crate::space::{Distribution, Group, Space};
 use crate::uncertainty::{Interval, OutputIndices};
 
 /// Expected number of joint draws of two rare levels for their joint effect to be seen: one of 150 designs has none.
@@ -103,14 +103,16 @@ pub(crate) fn enough_base_samples(rare: &[RareLevel]) -> f64 {
 
 /// Removes results from `indices` that are not valid without the levels: probabilities, and that a factor with a single
 /// value in all rows has no effect.
-pub(super) fn withdraw(indices: &mut OutputIndices, rare: &[RareLevel]) {
+pub(super) fn withdraw(indices: &mut OutputIndices, rare: &[RareLevel], members: &[Group]) {
+    let place = |factor: usize| members.iter().position(|member| member.factors.contains(&factor));
     for level in rare {
         for number in level.partner.into_iter().chain([level.number]) {
-            if let Some(effect) = indices.factors.get_mut(number) {
+            if let Some(effect) = place(number).and_then(|place| indices.factors.get_mut(place)) {
                 effect.probability_above_threshold = None;
             }
         }
-        let Some(effect) = indices.factors.get_mut(level.number).filter(|_| level.partner.is_none()) else { continue };
+        let of_level = place(level.number).and_then(|place| indices.factors.get_mut(place));
+        let Some(effect) = of_level.filter(|_| level.partner.is_none()) else { continue };
         if level.draws == 0 && effect.total.estimate == 0.0 {
             let anything = Some(Interval { low: 0.0, high: 1.0 });
             (effect.first_order.interval, effect.total.interval) = (anything, anything);

@@ -38,6 +38,7 @@ pub(crate) fn result(run: &FinishedRun<'_>, stopped: Option<&Stopped>) -> StudyR
         version: 1,
         study: study_record(study),
         provenance: provenance(run),
+        indices_of: study.analysis.indices_of,
         factors: factors.map(|factor| factor_record(study, factor)).collect(),
         outputs: outputs
             .map(|(number, output)| output_result(run, output, number, &whole, &corrected, &rows))
@@ -127,7 +128,11 @@ fn aggregate(run: &FinishedRun<'_>) -> Option<AggregateRecord> {
         outputs: names,
         weighting: weighting.to_owned(),
         indices: indices.as_ref().ok().map(|all| together_records(study, all)),
-        noise: study.space.noise().zip(indices.as_ref().ok()).map(|(noise, all)| together_record(study, all, noise)),
+        noise: study
+            .space
+            .noise()
+            .zip(indices.as_ref().ok())
+            .map(|(noise, all)| together_record(study.space.factors()[noise].name.clone(), all, noise)),
         reason: indices.err().map(|undefined| undefined.to_string()),
     })
 }

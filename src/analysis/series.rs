@@ -53,16 +53,14 @@ pub(super) fn together(
 
 /// Returns the indices over several outputs together, of every factor but a noise.
 pub(super) fn together_records(study: &Study, all: &AggregateIndices) -> Vec<PlainIndexRecord> {
-    let known = (0..study.space.factors().len()).filter(|factor| Some(*factor) != study.space.noise());
-    known.map(|factor| together_record(study, all, factor)).collect()
+    let members = study.analysis.members(&study.space).into_iter().enumerate();
+    let known = members.filter(|(place, _)| Some(*place) != study.space.noise());
+    known.map(|(place, member)| together_record(member.name, all, place)).collect()
 }
 
-pub(super) fn together_record(study: &Study, all: &AggregateIndices, factor: usize) -> PlainIndexRecord {
-    PlainIndexRecord {
-        factor: study.space.factors()[factor].name.clone(),
-        first_order: all.first_order[factor],
-        total: all.total[factor],
-    }
+/// Returns those of `factor` at `place`.
+pub(super) fn together_record(factor: String, all: &AggregateIndices, place: usize) -> PlainIndexRecord {
+    PlainIndexRecord { factor, first_order: all.first_order[place], total: all.total[place] }
 }
 
 /// Returns the places of the outputs that belong to no series.

@@ -18,6 +18,8 @@ mod rows;
 mod settings;
 mod sobol;
 
+use std::collections::BTreeSet;
+
 pub use base::BasePoints;
 pub use error::DesignError;
 pub use joe_kuo::MAX_DIMENSIONS;
@@ -66,8 +68,8 @@ pub struct Design {
     factors: usize,
     asked: Rows,
     runs: Runs,
-    /// The swaps of a single factor.
-    single: Vec<usize>,
+    /// The swaps without a common column, whose pairs have second-order indices.
+    disjoint: Vec<usize>,
 }
 
 impl Design {
@@ -110,12 +112,12 @@ impl Design {
         if points.saturating_mul(u64::from(rows.plain_rows.max(1))) > MAX_POINTS {
             return Err(DesignError::TooManySamples { base_samples, replicates });
         }
-        let single = single_factors(&rows.swaps, factors);
+        let disjoint = disjoint_swaps(&rows.swaps);
         if rows.second_order && !rows.ba {
             return Err(DesignError::SecondOrderWithoutBa);
         }
-        if rows.second_order && single.len() > MAX_PAIRED_FACTORS {
-            return Err(DesignError::TooManyPairs { factors: single.len() });
+        if rows.second_order && disjoint.len() > MAX_PAIRED_FACTORS {
+            return Err(DesignError::TooManyPairs { factors: disjoint.len() });
         }
         if let Some(copula) = &rows.copula {
             if rows.second_order {
@@ -135,7 +137,7 @@ impl Design {
             return Err(DesignError::TooManyRuns { base_samples: all, rows_per_point });
         }
         settings.base_samples = points * replicates;
-        Ok(Self { settings, factors, asked: rows, runs, single })
+        Ok(Self { settings, factors, asked: rows, runs, disjoint })
     }
 
     /// Returns the settings, with `base_samples` rounded up.
@@ -190,10 +192,9 @@ impl Design {
         self.asked.ba
     }
 
-    /// Returns the swaps whose pairs have second-order indices: those of one factor each, the first one of every
-    /// factor. Empty if second-order indices were not requested.
+    /// Returns the swaps whose pairs have second-order indices: those that share no column with an earlier one. Empty if second-order indices were not requested.
     pub fn paired(&self) -> &[usize] {
-        if self.asked.second_order { &self.single } else { &[] }
+        if self.asked.second_order { &self.disjoint } else { &[] }
     }
 
     /// Returns the number of columns of the base points: d for each of the matrices A, B and the plain ones; then those
@@ -282,8 +283,8 @@ impl Design {
         columns
     }
 
-    /// Returns the correlation over all base points of the columns of each factor in A and in B, both uniform on (0,
-    /// 1). Among many factors some pairs share leading digits over the first points: the outputs of rows that differ
+    /// Returns for each swap the correlation over all base points of its columns in A and in B, both uniform on (0, 1),
+    /// and of several columns the largest. Among many factors some pairs share leading digits over the first points: the outputs of rows that differ
     /// only in such a factor then differ too little or too much. Empty above 1024 points a replicate: this is rare
     /// there.
     pub fn column_correlations(&self) -> Vec<f64> {
@@ -300,7 +301,9 @@ impl Design {
             }
         }
         // The variance of a uniform number is 1/12.
-        sums.into_iter().map(|sum| 12.0 * sum / self.settings.base_samples as f64).collect()
+        let of_column = |column: &usize| 12.0 * sums[*column] / self.settings.base_samples as f64;
+        let largest = |swap: &Swap| swap.iter().map(of_column).max_by(|a, b| a.abs().total_cmp(&b.abs()));
+        self.swaps().iter().map(|swap| largest(swap).unwrap_or(0.0)).collect()
     }
 
     /// Writes row number `row` of the design as a point of the unit cube to `u`, which has one entry per factor.
@@ -315,14 +318,17 @@ impl Design {
     }
 }
 
-/// Returns the indices of the swaps of a single factor, the first of every factor, in the order of the swaps.
-fn single_factors(swaps: &[Swap], factors: usize) -> Vec<usize> {
-    let mut seen = vec![false; factors];
-    let first = |swap: &Swap| match swap[..] {
-        [column] => !std::mem::replace(&mut seen[column], true),
-        _ => false,
-    };
-    swaps.iter().map(first).enumerate().filter(|(_, single)| *single).map(|(number, _)| number).collect()
+/// Returns the indices of the swaps that share no column with an earlier one of them.
+fn disjoint_swaps(swaps: &[Swap]) -> Vec<usize> {
+    let mut seen: BTreeSet<usize> = BTreeSet::new();
+    let mut disjoint = Vec::new();
+    for (number, swap) in swaps.iter().enumerate() {
+        if !swap.is_empty() && swap.iter().all(|column| !seen.contains(column)) {
+            seen.extend(swap);
+            disjoint.push(number);
+        }
+    }
+    disjoint
 }
 
 #[cfg(test)]

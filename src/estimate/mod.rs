@@ -35,7 +35,7 @@ pub use point_outputs::PointOutputs;
 pub use products::{ProductWork, Products};
 pub(crate) use salib::second_order_of_salib;
 pub use second_order::SecondOrder;
-pub use shapley::{MAX_SHAPLEY_FACTORS, ShapleyPlayers, proper_subsets, shapley_effects};
+pub use shapley::{MAX_SHAPLEY_FACTORS, proper_subsets, shapley_effects};
 pub use swap_moments::{BaMoments, SwapMoments};
 use thiserror::Error;
 pub use workspace::Workspace;

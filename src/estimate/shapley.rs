@@ -1,24 +1,10 @@
-//! Shapley effects: the share of the variance due to each player, for dependent factors as well; they sum to 1. The
-//! players are the factors, or groups of them.
+//! Shapley effects: the share of the variance due to each factor, for dependent factors as well; they sum to 1. In place
+//! of factors there may be groups of them: the effect of a group is the joint contribution of its factors in addition to
+//! the groups before it, the value of the game between unions (Owen 1977, in Mathematical Economics and Game Theory,
+//! Springer, 76-88).
 
-use crate::names::named;
-
-/// Maximum number of players for Shapley effects from all subsets: every base point costs 2^p runs of p players.
+/// Maximum number of factors or groups for Shapley effects from all subsets: every base point costs 2^d runs.
 pub const MAX_SHAPLEY_FACTORS: usize = 8;
-
-named! {
-/// The players of Shapley effects.
-#[derive(Default)]
-pub enum ShapleyPlayers {
-    /// Every factor by itself.
-    #[default]
-    Factors = "factors",
-    /// The groups of factors, and each factor without a group by itself: the effect of a group is the joint
-    /// contribution of its factors in addition to the players before it, the value of the game between unions (Owen
-    /// 1977, in Mathematical Economics and Game Theory, Springer, 76-88).
-    Groups = "groups",
-}
-}
 
 /// Returns the proper subsets of `factors` factors with at least two elements, in rising order of their bit mask.
 pub fn proper_subsets(factors: usize) -> Vec<Vec<usize>> {

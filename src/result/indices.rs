@@ -4,11 +4,11 @@ use serde::{Deserialize, Serialize};
 
 use crate::uncertainty::{EffectEstimates, Estimate, LowFidelityUse, NamedTerm};
 
-/// The indices of one factor.
+/// The indices of one factor, or of a group in place of its factors.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct IndexRecord {
-    /// The factor.
+    /// The factor or group.
     pub factor: String,
     /// The indices.
     #[serde(flatten)]
@@ -38,18 +38,6 @@ pub struct GroupRecord {
     /// The indices: the first-order one is closed, so it includes interactions inside the group.
     #[serde(flatten)]
     pub effect: EffectEstimates,
-}
-
-/// The Shapley effect of a group, or of a factor without a group, if groups are the players.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct PlayerRecord {
-    /// The name of the group, or of the factor.
-    pub player: String,
-    /// Its factors.
-    pub factors: Vec<String>,
-    /// Its share of the variance; those of all players sum to 1.
-    pub shapley: Estimate,
 }
 
 /// The joint indices of a subset of the factors that the study lists.

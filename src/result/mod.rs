@@ -28,6 +28,8 @@ use serde::{Deserialize, Serialize};
 pub use setup::{RunFacts, StudySetup, json};
 pub use warning::{Warning, Warnings};
 
+use crate::space::IndicesOf;
+
 /// The result of a run of a [`Study`](crate::Study).
 ///
 /// ```
@@ -59,6 +61,9 @@ pub struct StudyResult {
     pub study: StudyRecord,
     /// How the result was computed.
     pub provenance: Provenance,
+    /// What has indices of its own in the outputs.
+    #[serde(default)]
+    pub indices_of: IndicesOf,
     /// The factors in the order of the study.
     pub factors: Vec<FactorRecord>,
     /// The outputs in the order of the study.
@@ -86,6 +91,22 @@ pub struct StudyResult {
 }
 
 impl StudyResult {
+    /// Returns the names of what has indices, in their order: the factors, or the groups in place of their factors.
+    pub fn indexed_names(&self) -> Vec<&str> {
+        let mut names: Vec<&str> = Vec::new();
+        for factor in &self.factors {
+            match &factor.group {
+                Some(group) if self.indices_of == IndicesOf::Groups => {
+                    if !names.contains(&group.as_str()) {
+                        names.push(group);
+                    }
+                }
+                _ => names.push(&factor.name),
+            }
+        }
+        names
+    }
+
     /// Returns the output called `name`.
     ///
     /// # Errors

@@ -6,7 +6,7 @@ use thiserror::Error;
 
 use super::{
     EstimatorRecord, GroupRecord, IndexRecord, NoiseRecord, OutputDistribution, PairRecord, PlainIndexRecord,
-    PlayerRecord, SubsetRecord, SurrogateRecord, Warnings,
+    SubsetRecord, SurrogateRecord, Warnings,
 };
 use crate::given::InputMeasures;
 use crate::uncertainty::{EffectEstimates, Estimate, Interval, largest_half_width};
@@ -39,7 +39,7 @@ pub struct OutputResult {
     pub sum_first_order: Option<Estimate>,
     /// Sum of the total indices.
     pub sum_total: Option<Estimate>,
-    /// One entry per factor; `null` if indices are undefined.
+    /// One entry per factor, or per group and factor without one (`indices_of`); `null` if indices are undefined.
     pub indices: Option<Vec<IndexRecord>>,
     /// One entry per group; `null` if indices are undefined.
     pub groups: Option<Vec<GroupRecord>>,
@@ -52,9 +52,6 @@ pub struct OutputResult {
     /// The noise of a stochastic model, which is not a factor, and the indices of the mean over it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub noise: Option<NoiseRecord>,
-    /// Shapley effects of the groups and of the factors that have none, if these are the players: they sum to 1.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub shapley_groups: Option<Vec<PlayerRecord>>,
     /// Other measures of influence, if requested; absent if the output does not vary, or too few runs succeeded.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub measures: Option<RunMeasures>,
@@ -112,10 +109,9 @@ impl OutputResult {
         let noise = self.noise.iter().map(|noise| &noise.effect);
         let groups = self.groups.iter().flatten().map(|group| &group.effect);
         let subsets = self.subsets.iter().flatten().map(|subset| &subset.effect);
-        let players = self.shapley_groups.iter().flatten().map(|player| player.shapley);
         let of_effect = |effect: &EffectEstimates| [Some(effect.first_order), Some(effect.total), effect.shapley];
         let effects = factors.chain(noise).chain(groups).chain(subsets);
-        largest_half_width(effects.flat_map(of_effect).flatten().chain(players))
+        largest_half_width(effects.flat_map(of_effect).flatten())
     }
 
     fn existing<'a, T>(&self, indices: Option<&'a [T]>) -> Result<&'a [T], LookupError> {

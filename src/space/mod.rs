@@ -13,7 +13,25 @@ pub(crate) use copula::{from_score, normal_scores};
 pub use dependence::{CorrelationMeasure, Dependence, DependenceError};
 pub use distribution::{Distribution, DistributionError, LARGEST_U, SMALLEST_U};
 
+use serde::{Deserialize, Serialize};
+
+use crate::names::named;
 use crate::quantity::Unit;
+
+named! {
+/// What has indices of its own.
+#[derive(Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum IndicesOf {
+    /// Every factor, and the groups in addition.
+    #[default]
+    Factors = "factors",
+    /// The groups in place of their factors, and each factor without a group: a base point then has the runs of so many
+    /// factors.
+    Groups = "groups",
+}
+}
 
 /// One factor.
 #[derive(Debug, Clone, PartialEq)]
@@ -147,6 +165,21 @@ impl Space {
             }
         }
         groups
+    }
+
+    /// Returns what has indices of its own: factors as groups of one, and groups in place of their factors if so asked.
+    /// In order of first appearance.
+    pub fn members(&self, of: IndicesOf) -> Vec<Group> {
+        let mut members: Vec<Group> = Vec::new();
+        let groups = if of == IndicesOf::Groups { self.groups() } else { Vec::new() };
+        for (number, factor) in self.factors.iter().enumerate() {
+            match groups.iter().find(|group| group.factors.contains(&number)) {
+                Some(group) if group.factors[0] == number => members.push(group.clone()),
+                Some(_) => (),
+                None => members.push(Group { name: factor.name.clone(), factors: vec![number] }),
+            }
+        }
+        members
     }
 
     /// Returns a point of the unit cube as values in the factors' own units.

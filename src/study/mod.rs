@@ -234,8 +234,8 @@ impl Study {
     /// Returns what is estimated from the swaps of the design.
     pub fn layout(&self) -> Layout {
         Layout {
-            factors: self.space.factors().len(),
-            groups: self.space.groups().len(),
+            factors: self.analysis.members(&self.space).len(),
+            groups: self.analysis.further_groups(&self.space).len(),
             subsets: self.analysis.subsets.len(),
             dummy: self.analysis.dummy,
             estimators: self.analysis.estimators.clone(),
@@ -243,7 +243,6 @@ impl Study {
             second_order: self.analysis.second_order,
             dependent: self.space.copula().is_some(),
             shapley: self.analysis.has_shapley(&self.space),
-            players: self.analysis.players(&self.space).into_iter().map(|(place, _)| place).collect(),
             noise: self.space.noise().map(|noise| NoiseLayout::new(noise, self.design.swaps())),
         }
     }

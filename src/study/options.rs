@@ -3,12 +3,12 @@
 use std::ops::RangeInclusive;
 
 use crate::design::{Design, DesignSettings, MAX_PLAIN_ROWS, Rows, Sampler, Swap};
-use crate::estimate::{Estimator, ShapleyPlayers, proper_subsets};
+use crate::estimate::{Estimator, proper_subsets};
 use crate::given::Measure;
 use crate::names::named;
 use crate::result::Warning;
 use crate::run::FailurePolicy;
-use crate::space::Space;
+use crate::space::{Group, IndicesOf, Space};
 use crate::surrogate::MIN_NETS;
 use crate::uncertainty::IntervalMethod;
 
@@ -23,11 +23,11 @@ pub struct AnalysisOptions {
     pub second_order: bool,
     /// Sets of factors, by number, for which joint indices are estimated.
     pub subsets: Vec<Vec<usize>>,
+    /// What has indices of its own: the factors, or the groups in place of their factors.
+    pub indices_of: IndicesOf,
     /// Whether Shapley effects are estimated, of at most [`MAX_SHAPLEY_FACTORS`](crate::estimate::MAX_SHAPLEY_FACTORS)
-    /// players. `None` estimates them for up to four dependent factors, and if `shapley_players` is set.
+    /// factors or groups. `None` estimates them for up to four if factors depend on each other.
     pub shapley: Option<bool>,
-    /// The players. `None` for the factors.
-    pub shapley_players: Option<ShapleyPlayers>,
     /// Other measures to report in addition to Sobol' indices, from the first
     /// [`MAX_ROWS_OF_MEASURES`](crate::analysis::MAX_ROWS_OF_MEASURES) rows A and B; of at most
     /// [`MAX_OUTPUTS_OF_MEASURES`](crate::study::MAX_OUTPUTS_OF_MEASURES) outputs.
@@ -62,8 +62,8 @@ impl AnalysisOptions {
             salib: false,
             second_order: false,
             subsets: Vec::new(),
+            indices_of: IndicesOf::default(),
             shapley: None,
-            shapley_players: None,
             measures: Vec::new(),
             aggregate: false,
             dummy: false,
@@ -80,19 +80,18 @@ impl AnalysisOptions {
 
     /// Returns whether there will be Shapley effects of the factors of `space`, or of their groups.
     pub fn has_shapley(&self, space: &Space) -> bool {
-        let is_free = space.copula().is_some() && space.factors().len() <= FREE_SHAPLEY_FACTORS;
-        self.wants_shapley() || is_free && self.shapley.is_none()
+        let is_free = || space.copula().is_some() && self.members(space).len() <= FREE_SHAPLEY_FACTORS;
+        self.shapley.unwrap_or_else(is_free)
     }
 
-    /// Returns whether they are requested explicitly.
-    pub(super) fn wants_shapley(&self) -> bool {
-        self.shapley.unwrap_or(self.shapley_players.is_some())
+    /// Returns what has indices of its own.
+    pub(crate) fn members(&self, space: &Space) -> Vec<Group> {
+        space.members(self.indices_of)
     }
 
-    /// Returns the players of Shapley effects, if there will be any: the index of each among the factors and groups in
-    /// their order, and its factors.
-    pub(super) fn players(&self, space: &Space) -> Vec<(usize, Swap)> {
-        shapley_players(self.shapley_players.unwrap_or_default(), space)
+    /// Returns the groups that have indices in addition.
+    pub(crate) fn further_groups(&self, space: &Space) -> Vec<Group> {
+        if self.indices_of == IndicesOf::Factors { space.groups() } else { Vec::new() }
     }
 
     /// Returns warnings about a design and the intervals that depend on it.
@@ -276,13 +275,12 @@ fn split(runs: u64, runs_per_point: u64, replicates: u64, for_surrogates: bool) 
     Ok((base_samples, plain))
 }
 
-/// Returns the rows for the analysis: the factors, the groups, the subsets; for dependent factors these once more,
+/// Returns the rows for the analysis: what has indices, the further groups, the subsets; for dependent factors these once more,
 /// redrawn; the dummy; and the subsets that Shapley effects need.
 pub(super) fn rows(analysis: &AnalysisOptions, space: &Space, plain_rows: u32) -> Rows {
-    let factors = space.factors().len();
-    let single = (0..factors).map(|number| vec![number]);
-    let groups = space.groups().into_iter().map(|group| group.factors);
-    let mut swaps: Vec<Swap> = single.chain(groups).chain(analysis.subsets.iter().cloned()).collect();
+    let players: Vec<Swap> = analysis.members(space).into_iter().map(|member| member.factors).collect();
+    let groups = analysis.further_groups(space).into_iter().map(|group| group.factors);
+    let mut swaps: Vec<Swap> = players.iter().cloned().chain(groups).chain(analysis.subsets.iter().cloned()).collect();
     let mut redrawn = Vec::new();
     if space.copula().is_some() {
         redrawn.extend(swaps.len()..2 * swaps.len());
@@ -290,7 +288,6 @@ pub(super) fn rows(analysis: &AnalysisOptions, space: &Space, plain_rows: u32) -
     }
     swaps.extend(analysis.dummy.then(Vec::new));
     if analysis.has_shapley(space) {
-        let players: Vec<Swap> = analysis.players(space).into_iter().map(|(_, factors)| factors).collect();
         let first = swaps.len();
         let joined = |subset: Vec<usize>| {
             let mut factors: Swap = subset.into_iter().flat_map(|player| players[player].clone()).collect();
@@ -303,17 +300,6 @@ pub(super) fn rows(analysis: &AnalysisOptions, space: &Space, plain_rows: u32) -
     let ba = analysis.second_order || analysis.estimators.iter().any(|estimator| estimator.needs_ba());
     let (second_order, copula) = (analysis.second_order, space.copula().cloned());
     Rows { swaps, ba, second_order, plain_rows, copula, redrawn }
-}
-
-/// Returns the players of `space`: the index of each among the factors and groups in their order, and its factors.
-pub(super) fn shapley_players(players: ShapleyPlayers, space: &Space) -> Vec<(usize, Swap)> {
-    let factors = space.factors();
-    let alone = |number: &usize| players == ShapleyPlayers::Factors || factors[*number].group.is_none();
-    let single = (0..factors.len()).filter(alone).map(|number| (number, vec![number]));
-    let groups = space.groups().into_iter().enumerate();
-    let groups = groups.map(|(number, group)| (factors.len() + number, group.factors));
-    let groups = groups.filter(|_| players == ShapleyPlayers::Groups);
-    single.chain(groups).collect()
 }
 
 #[cfg(test)]

@@ -5,10 +5,10 @@ use std::collections::BTreeSet;
 use super::options::{MAX_OUTPUTS_OF_MEASURES, RESAMPLES, sizes_within};
 use super::{AnalysisOptions, BuildError, LowFidelity, SurrogateChoice, Target};
 use crate::design::Sampler;
-use crate::estimate::{Estimator, MAX_SHAPLEY_FACTORS, ShapleyPlayers};
+use crate::estimate::{Estimator, MAX_SHAPLEY_FACTORS};
 use crate::model::{Model, OutputSeries};
 use crate::names::{NAME_RULE, names_files, refused_name, refused_output_name, refused_title, shown};
-use crate::space::{Factor, Space};
+use crate::space::{Factor, Group, IndicesOf, Space};
 use crate::uncertainty::IntervalMethod;
 
 /// Returns an error for a value that `key` cannot have.
@@ -121,7 +121,7 @@ pub(super) fn checked_options(
     }
     let mut seen = BTreeSet::new();
     options.subsets.retain(|subset| seen.insert(subset.clone()));
-    check_shapley(&options, space)?;
+    check_groups(&options, space)?;
     options.measures.sort_unstable();
     options.measures.dedup();
     // Every result contains the default ones.
@@ -132,23 +132,28 @@ pub(super) fn checked_options(
     Ok(options)
 }
 
-fn check_shapley(options: &AnalysisOptions, space: &Space) -> Result<(), BuildError> {
-    let players = options.players(space).len();
-    let of_groups = options.shapley_players == Some(ShapleyPlayers::Groups);
-    if options.shapley == Some(false) && options.shapley_players.is_some() {
-        return wrong("shapley", "true with `shapley_players`", "false");
+fn check_groups(options: &AnalysisOptions, space: &Space) -> Result<(), BuildError> {
+    let members = options.members(space);
+    if options.indices_of == IndicesOf::Groups {
+        let is_taken = |group: &Group| space.factors().iter().any(|factor| factor.name == group.name);
+        let obstacle = match space.groups() {
+            groups if groups.is_empty() => "in a study without groups",
+            groups if groups.iter().any(is_taken) => "where a group has the name of a factor",
+            _ if space.noise().is_some() => "with [noise]",
+            _ => "",
+        };
+        if !obstacle.is_empty() {
+            return wrong("indices_of", format!("\"factors\" {obstacle}"), "\"groups\"");
+        }
     }
-    if of_groups && space.groups().is_empty() {
-        return wrong("shapley_players", "left out or \"factors\" in a study without groups", "\"groups\"");
-    }
-    if options.wants_shapley() && players > MAX_SHAPLEY_FACTORS {
+    if options.shapley == Some(true) && members.len() > MAX_SHAPLEY_FACTORS {
         let expected = format!(
             "false with more than {MAX_SHAPLEY_FACTORS} factors: put them into at most {MAX_SHAPLEY_FACTORS} groups, with \
-             shapley_players = \"groups\""
+             indices_of = \"groups\""
         );
-        return wrong("shapley", expected, format!("true with {players} factors and groups"));
+        return wrong("shapley", expected, format!("true with {} factors and groups", members.len()));
     }
-    if options.wants_shapley() && space.noise().is_some() {
+    if options.shapley == Some(true) && space.noise().is_some() {
         return wrong("shapley", "false with [noise], which cannot have a share", "true");
     }
     Ok(())

@@ -12,7 +12,7 @@
 use std::collections::BTreeMap;
 
 use super::basis::{Family, Term, polynomials};
-use super::corrected::{touches, within};
+use super::corrected::{is_interaction, touches, within};
 use super::fit::Expansion;
 use crate::uncertainty::Knot;
 
@@ -183,7 +183,7 @@ impl Beyond {
             self.total[number] += if touches(term, swap) { error } else { 0.0 };
         }
         for (of_pair, &(j, k)) in self.pairs.iter_mut().zip(pairs) {
-            *of_pair += if matches!(*term, [(a, _), (b, _)] if a == j && b == k) { error } else { 0.0 };
+            *of_pair += if is_interaction(term, &swaps[j], &swaps[k]) { error } else { 0.0 };
         }
     }
 }

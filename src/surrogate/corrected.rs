@@ -46,6 +46,12 @@ pub(super) fn touches(term: &[(usize, usize)], swap: &[usize]) -> bool {
     term.iter().any(|(factor, _)| swap.binary_search(factor).is_ok())
 }
 
+/// Returns whether a term has factors of two swaps, and none of others.
+pub(super) fn is_interaction(term: &[(usize, usize)], first: &[usize], second: &[usize]) -> bool {
+    let is_theirs = |(factor, _): &(usize, usize)| first.contains(factor) || second.contains(factor);
+    touches(term, first) && touches(term, second) && term.iter().all(is_theirs)
+}
+
 /// Returns the mean of a power over all columns.
 pub(super) fn mean_power(columns: &[Vec<f64>], power: i32) -> f64 {
     let count: usize = columns.iter().map(Vec::len).sum();
@@ -178,7 +184,7 @@ impl Contributions {
             }
         }
         for (column, &(j, k)) in self.pairs.iter_mut().zip(pairs) {
-            if matches!(*term, [(a, _), (b, _)] if a == j && b == k) {
+            if is_interaction(term, &swaps[j], &swaps[k]) {
                 add(column, first);
             }
         }
@@ -236,7 +242,7 @@ impl Contributions {
                 self.total[1][swap][p] += half_square(&net.outputs, ab, p) - half_square(surrogate, ab, p);
             }
         }
-        // The swaps of single factors come first, in the order of the factors.
+        // The swaps with pairs come first.
         for (column, &(j, k)) in self.pairs.iter_mut().zip(pairs) {
             let (ab, ba) = (design.ab_runs(), design.ba_runs());
             let product = |j: usize, k: usize, p: usize| (e[ba[j]][p] - e[1][p]) * (e[ab[k]][p] - e[0][p]);

@@ -75,7 +75,7 @@ pub struct EffectEstimates {
     /// Probability that the total index is above the threshold.
     #[serde(default)]
     pub probability_above_threshold: Option<f64>,
-    /// Shapley effect of a player, if requested: its share of the variance, for dependent factors too. Players are the
+    /// Shapley effect of a factor, if requested: its share of the variance, for dependent factors too. Players are the
     /// factors, or the groups and the factors that have none; the effects of all players sum to 1 (Owen 2014; Song,
     /// Nelson and Staum 2016).
     #[serde(default, skip_serializing_if = "Option::is_none")]

@@ -10,7 +10,7 @@ use crate::estimate::{Estimator, Indices, Moments, SecondOrder, second_order_of_
 /// subsets for Shapley effects.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Layout {
-    /// Number of factors.
+    /// Number of factors, or of groups in their place.
     pub factors: usize,
     /// Number of groups.
     pub groups: usize,
@@ -26,10 +26,8 @@ pub struct Layout {
     pub second_order: bool,
     /// Whether factors depend on each other.
     pub dependent: bool,
-    /// Whether there are Shapley effects of the players.
+    /// Whether there are Shapley effects of the factors.
     pub shapley: bool,
-    /// The players, by their indices among the factors and groups in their order.
-    pub players: Vec<usize>,
     /// The noise of a stochastic model, if it has one; there are no Shapley effects then, nor dependent factors.
     pub noise: Option<NoiseLayout>,
 }
@@ -90,7 +88,7 @@ pub(super) enum Quantity {
     MeanFirstOrder(usize),
     /// Its total index.
     MeanTotal(usize),
-    /// The Shapley effect of a player.
+    /// The Shapley effect of a factor.
     Shapley(usize),
 }
 
@@ -139,7 +137,7 @@ pub(super) struct ErrorKind {
 impl Layout {
     /// Returns the layout of factors only.
     pub fn plain(factors: usize) -> Self {
-        Self { factors, players: (0..factors).collect(), ..Self::default() }
+        Self { factors, ..Self::default() }
     }
 
     /// Returns the number of factors, groups and subsets.
@@ -176,9 +174,9 @@ impl Layout {
             }
             Quantity::MeanFirstOrder(swap) => self.place(Quantity::MeanShare) + 1 + 2 * swap,
             Quantity::MeanTotal(swap) => self.place(Quantity::MeanFirstOrder(swap)) + 1,
-            Quantity::Shapley(player) => {
+            Quantity::Shapley(factor) => {
                 let of_mean = self.noise.as_ref().map_or(0, |noise| 1 + 2 * noise.swaps.len());
-                self.place(Quantity::MeanShare) + of_mean + player
+                self.place(Quantity::MeanShare) + of_mean + factor
             }
         }
     }
@@ -201,14 +199,9 @@ impl Layout {
             names.extend((0..noise.swaps.len()).flat_map(of_swap));
         }
         if self.shapley {
-            names.extend((0..self.players.len()).map(Quantity::Shapley));
+            names.extend((0..self.factors).map(Quantity::Shapley));
         }
         names
-    }
-
-    /// Returns whether every factor is a player, so that Shapley effects are those of factors.
-    pub(super) fn has_shapley_of_factors(&self) -> bool {
-        self.shapley && self.players.iter().copied().eq(0..self.factors)
     }
 
     /// Returns the pairs of factors, in the order of their second-order indices.
@@ -246,7 +239,7 @@ pub(super) fn quantities(layout: &Layout, moments: &Moments) -> Option<Vec<f64>>
     let total_by = |estimator: usize, swap| formulas[estimator].1.map_or(f64::NAN, |f| f.estimate(moments, swap));
     let pairs = layout.pair_list();
     let shapley = if layout.shapley {
-        let single: Vec<f64> = layout.players.iter().map(|player| total[layout.redrawn(*player)]).collect();
+        let single: Vec<f64> = factors.clone().map(|factor| total[layout.redrawn(factor)]).collect();
         shapley_effects(&single, &total[layout.swaps()..])
     } else {
         Vec::new()
@@ -270,7 +263,7 @@ pub(super) fn quantities(layout: &Layout, moments: &Moments) -> Option<Vec<f64>>
         Quantity::Other(estimator, swap, OtherNumber::TotalGap) => total_by(estimator, swap) - total[swap],
         Quantity::Pair(pair) if layout.salib => second_order_of_salib(moments, pairs[pair].0, pairs[pair].1),
         Quantity::Pair(pair) => SecondOrder::Difference.estimate(moments, pairs[pair].0, pairs[pair].1),
-        Quantity::Shapley(player) => shapley[player],
+        Quantity::Shapley(factor) => shapley[factor],
         Quantity::MeanShare => 1.0 - of_noise,
         Quantity::MeanFirstOrder(swap) => match relation(swap) {
             SwapNoise::Holds => f64::NAN,

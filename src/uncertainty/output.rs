@@ -35,7 +35,7 @@ pub struct IntervalOptions<'a> {
     pub points: Option<KeptPoints<'a>>,
     /// Whether the probabilities of being first are computed: they take most of the time of a small design.
     pub ranks: bool,
-    /// The [correlations](crate::design::Design::column_correlations) of both samples, by factor; empty if irrelevant.
+    /// The [correlations](crate::design::Design::column_correlations) of both samples, by swap; empty if irrelevant.
     pub correlations: &'a [f64],
     /// The surrogate estimates of the outputs, which replace the plain estimates where they are more accurate.
     pub surrogate: Option<&'a SurrogateEstimates>,
@@ -145,9 +145,8 @@ pub fn output_indices(
         effect
     });
     let subsets = effects.split_off(layout.factors + layout.groups);
-    // Only factors and groups are players.
-    for (player, shapley) in layout.players.iter().zip(&judged.estimates[layout.place(Quantity::Shapley(0))..]) {
-        effects[*player].shapley = Some(*shapley);
+    for (effect, shapley) in effects.iter_mut().zip(&judged.estimates[layout.place(Quantity::Shapley(0))..]) {
+        effect.shapley = Some(*shapley);
     }
     let groups = effects.split_off(layout.factors);
     let [sum_first_order, sum_total, ..] = judged.estimates[..] else { return Err(Undefined::NoRuns) };
@@ -256,7 +255,9 @@ impl Judged {
     /// the factor, rows that differ only in it show a part 1 - r, in all nets alike if r is.
     fn allow_for_correlated(&mut self, layout: &Layout, correlations: &[f64]) {
         use Number::{FirstOrder, Interaction, ShareFirstOrder, ShareTotal, Total};
-        for (factor, r) in correlations.iter().enumerate().filter(|(_, r)| r.abs() > MAX_CORRELATION) {
+        for (factor, r) in
+            correlations.iter().take(layout.factors).enumerate().filter(|(_, r)| r.abs() > MAX_CORRELATION)
+        {
             for number in [FirstOrder, Total, ShareFirstOrder, ShareTotal, Interaction] {
                 let place = layout.place(Quantity::Swap(factor, number));
                 let estimate = self.estimates[place].estimate;
@@ -274,7 +275,7 @@ impl Judged {
         // The noise is no factor that could be the first.
         let noise = layout.noise.as_ref().map(|noise| noise.factor);
         let factors = (0..layout.factors).filter(|factor| Some(*factor) != noise);
-        let ranked = |factor: usize| match layout.has_shapley_of_factors() {
+        let ranked = |factor: usize| match layout.shapley {
             true => Quantity::Shapley(factor),
             false => Quantity::Swap(layout.redrawn(factor), Number::Total),
         };

@@ -1,4 +1,4 @@
-//! Shapley effects of independent factors; those of dependent factors are in `dependent.rs`, of groups in `shapley_groups.rs`.
+//! Shapley effects of independent factors; those of dependent factors are in `dependent.rs`, of groups in `indices_of_groups.rs`.
 
 use ::apportion::uncertainty::IntervalMethod;
 use ::apportion::{AnalysisOptions, BuildError, Distribution, Sampler, Study, function_model};

@@ -154,11 +154,9 @@ fn index(series: &SharesSeries<'_>, factor: &str, of: fn(&EffectEstimates) -> Es
 
 /// Draws the Shapley effects on one output.
 pub fn shapley_chart(result: &StudyResult, output: &OutputResult) -> Chart {
-    let of_factors = output.indices.iter().flatten();
-    let of_factors = of_factors.filter_map(|index| Some((name(&index.factor), Some(index.effect.shapley?))));
-    let of_players = output.shapley_groups.iter().flatten();
-    let of_players = of_players.map(|player| (name(&player.player), Some(player.shapley)));
-    let (names, effects): (_, Vec<Option<Estimate>>) = of_factors.chain(of_players).unzip();
+    let known = output.indices.iter().flatten();
+    let known = known.filter_map(|index| Some((name(&index.factor), Some(index.effect.shapley?))));
+    let (names, effects): (_, Vec<Option<Estimate>>) = known.unzip();
     let keys: Vec<f64> = effects.iter().map(|effect| effect.map_or(f64::NAN, |effect| effect.estimate)).collect();
     let series = (Series::new("Shapley effect", Colour::Series(0)), effects);
     let panel = index_panel("Shapley effect: part of the variance", names, [series], INDICES, &keys);

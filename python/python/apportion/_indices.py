@@ -196,7 +196,7 @@ class OutputResult(Shown):
 
     @property
     def shapley(self) -> Indices:
-        """Shapley effects of the factors, which sum to 1; empty if there are none."""
+        """Shapley effects of the factors or groups, which sum to 1; empty if there are none."""
         records = [record for record in self.record["indices"] or [] if "shapley" in record]
         return Indices({record["factor"]: Index.of(record["shapley"]) for record in records})
 
@@ -206,12 +206,6 @@ class OutputResult(Shown):
         factors = (self.record.get("measures") or {"factors": []})["factors"]
         names = factors[0]["measures"] if factors else []
         return {name: Indices({of["input"]: Index.of(of["measures"][name]) for of in factors}) for name in names}
-
-    @property
-    def shapley_groups(self) -> Indices:
-        """Shapley effects of the groups and of the factors that have none, which sum to 1; empty without `shapley_players="groups"`."""
-        records = self.record.get("shapley_groups") or []
-        return Indices({record["player"]: Index.of(record["shapley"]) for record in records})
 
     @property
     def second_order(self) -> Indices:

@@ -186,11 +186,6 @@ class Result(Document):
         return self._only().measures
 
     @property
-    def shapley_groups(self) -> Indices:
-        """Shapley effects of the groups, and of the factors that have none, with `shapley_players="groups"`: they sum to 1."""
-        return self._only().shapley_groups
-
-    @property
     def second_order(self) -> Indices:
         """Second-order indices by pairs of factors."""
         return self._only().second_order

@@ -63,8 +63,8 @@ class Study:
     The design: `sampler` ("sobol", "random", "latin-hypercube"), `replicates` (independent scrambles, 4), `seed` (a whole number or
     a NumPy generator, from which a seed is drawn).
 
-    What is estimated: `second_order` indices, closed indices of `subsets` of factors, `shapley` effects
-    (`shapley_players`), `measures` ("delta", "pawn_median", ...), `aggregate` indices of all outputs, further `estimators`
+    What is estimated: indices of the factors, or with `indices_of="groups"` of their groups only (`Uniform(0, 1, group="soil")`), which
+    takes N (G + 2) runs for G groups; `second_order` indices, closed indices of `subsets` of factors, `shapley` effects, `measures` ("delta", "pawn_median", ...), `aggregate` indices of all outputs, further `estimators`
     ("janon-monod", ...), `intervals` ("nets", "percentile", "delta", with `resamples`), `surrogate` ("auto", "on", "off"),
     a `dummy` factor, `convergence`, and the `threshold` of the total index that a factor is compared with.
 
@@ -95,13 +95,13 @@ class Study:
         sampler: str | None = None,
         replicates: int | None = None,
         seed: int | np.random.Generator | None = None,
+        indices_of: str | None = None,
         second_order: bool | None = None,
         subsets: Sequence[Sequence[str]] | None = None,
         estimators: Sequence[str] | None = None,
         intervals: str | None = None,
         surrogate: str | None = None,
         shapley: bool | None = None,
-        shapley_players: str | None = None,
         measures: Sequence[str] | None = None,
         threshold: float | None = None,
         dummy: bool | None = None,
@@ -477,13 +477,13 @@ def analyse(
     sampler: str | None = None,
     replicates: int | None = None,
     seed: int | np.random.Generator | None = None,
+    indices_of: str | None = None,
     second_order: bool | None = None,
     subsets: Sequence[Sequence[str]] | None = None,
     estimators: Sequence[str] | None = None,
     intervals: str | None = None,
     surrogate: str | None = None,
     shapley: bool | None = None,
-    shapley_players: str | None = None,
     measures: Sequence[str] | None = None,
     threshold: float | None = None,
     dummy: bool | None = None,

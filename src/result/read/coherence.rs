@@ -31,9 +31,7 @@ fn series(key: &str, result: &StudyResult, series: &SeriesRecord) -> Result<(), 
         let problem = "expected rising numbers, one for each output from number `first_output` on";
         return Err((format!("{key}.positions"), problem.to_owned()));
     }
-    let factors = |of: &[PlainIndexRecord]| {
-        of.iter().map(|index| &index.factor).eq(result.factors.iter().map(|factor| &factor.name))
-    };
+    let factors = |of: &[PlainIndexRecord]| of.iter().map(|index| index.factor.as_str()).eq(result.indexed_names());
     if !series.indices.as_ref().is_none_or(|indices| factors(indices)) {
         let problem = "expected one entry for each of the factors, in their order, or null";
         return Err((format!("{key}.indices"), problem.to_owned()));
@@ -85,8 +83,8 @@ fn joined(key: &str, name: &str) -> String {
 /// Checks that there is an index for each factor, or none at all.
 fn indices(key: &str, result: &StudyResult, output: &OutputResult) -> Result<(), Fault> {
     let Some(indices) = &output.indices else { return Ok(()) };
-    let names = || indices.iter().map(|index| &index.factor);
-    if indices.is_empty() || !names().eq(result.factors.iter().map(|factor| &factor.name)) {
+    let names = indices.iter().map(|index| index.factor.as_str());
+    if indices.is_empty() || !names.eq(result.indexed_names()) {
         let problem = "expected one entry for each of the factors, in their order, or null";
         return Err((format!("{key}.indices"), problem.to_owned()));
     }

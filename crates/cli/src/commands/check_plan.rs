@@ -5,6 +5,7 @@ use std::path::Path;
 use apportion::design::Design;
 use apportion::estimate::{FirstOrder, Total};
 use apportion::run::{BLOCK, FailurePolicy, Pilot};
+use apportion::space::IndicesOf;
 use apportion::study::{Study, Target};
 use apportion_report::{grouped, significant};
 
@@ -99,9 +100,13 @@ fn asked(study: &Study) -> Vec<String> {
     let (analysis, space) = (study.analysis(), study.space());
     let several = |number: usize, what: &str| (number > 0).then(|| counted(number as u64, what));
     let names = |what: &str, names: Vec<&str>| (!names.is_empty()).then(|| format!("{what} {}", names.join(", ")));
+    let of = match analysis.indices_of {
+        IndicesOf::Factors => "the factors",
+        IndicesOf::Groups => "the groups, and of the factors without one",
+    };
     let parts = [
-        Some("first-order and total indices of the factors".to_owned()),
-        several(space.groups().len(), "group"),
+        Some(format!("first-order and total indices of {of}")),
+        several(study.layout().groups, "group"),
         several(analysis.subsets.len(), "subset"),
         analysis.dummy.then(|| "a dummy factor".to_owned()),
         analysis.second_order.then(|| format!("second order of {} pairs", study.layout().pair_list().len())),

@@ -63,7 +63,7 @@ fn options(context: &Context<'_>, file: &StudyFile, sampler: Sampler, space: &Sp
     }
     options.subsets.extend(super::noise::subsets_of_mean(file, space));
     options.shapley = section.shapley.as_ref().map(|asked| *asked.get_ref());
-    options.shapley_players = choice_if_said(context, &section.shapley_players, "kind of players")?;
+    options.indices_of = choice_if_said(context, &section.indices_of, "choice of indices")?.unwrap_or_default();
     Ok(options)
 }
 

@@ -7,11 +7,11 @@ use std::ops::Range;
 use std::sync::LazyLock;
 
 use apportion::design::Sampler;
-use apportion::estimate::{Estimator, ShapleyPlayers};
+use apportion::estimate::Estimator;
 use apportion::given::Measure;
 use apportion::run::FailurePolicy;
-use apportion::space::CorrelationMeasure;
 use apportion::space::distribution::{KEYS, Key, KeyKind, Kind, Parameter};
+use apportion::space::{CorrelationMeasure, IndicesOf};
 use apportion::study::SurrogateChoice;
 use apportion::uncertainty::IntervalMethod;
 use schemars::JsonSchema;
@@ -185,6 +185,10 @@ pub(super) struct AnalysisSection {
     /// Further estimators, in addition to the default ones.
     #[schemars(extend("items" = json!({ "enum": names(&Estimator::ALL, Estimator::name) })))]
     pub estimators: Option<At<Vec<At<String>>>>,
+    /// What has indices: every factor, and the groups in addition; or the groups in place of their factors, which takes the runs
+    /// of so many factors.
+    #[schemars(extend("enum" = names(&IndicesOf::ALL, IndicesOf::name), "default" = "factors"))]
+    pub indices_of: Option<At<String>>,
     /// Second-order indices of all pairs; nearly twice the runs.
     pub second_order: Option<At<bool>>,
     /// Sets of factors whose joint indices are estimated.
@@ -192,10 +196,6 @@ pub(super) struct AnalysisSection {
     /// Shapley effects: shares of the variance that sum to 1 even where factors depend on each other. 2^d runs for each base sample
     /// for up to 8 factors. By default for up to 4 factors that depend on each other.
     pub shapley: Option<At<bool>>,
-    /// The players of Shapley effects: every factor, or the groups and the factors without a group. The numbers of
-    /// factors and runs above are then those of the players.
-    #[schemars(extend("enum" = names(&ShapleyPlayers::ALL, ShapleyPlayers::name), "default" = "factors"))]
-    pub shapley_players: Option<At<String>>,
     /// Other measures of the influence of every factor, from the first 4096 rows A and B; for at most 100 outputs.
     #[schemars(extend("items" = json!({ "enum": names(&Measure::ALL, Measure::name) })))]
     pub measures: Option<At<Vec<At<String>>>>,

@@ -74,5 +74,5 @@ fn caption(result: &StudyResult, output: &OutputResult) -> String {
         }
         (None, _) => "There are too few base samples to estimate the indices from parts of them.".to_owned(),
     };
-    known + &not_drawn(result.factors.len(), LINES)
+    known + &not_drawn(result.indexed_names().len(), LINES)
 }

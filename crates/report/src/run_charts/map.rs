@@ -17,7 +17,7 @@ const CLASSES: [f64; 8] = [0.01, 0.05, 0.1, 0.2, 0.3, 0.5, 0.7, 0.9];
 /// Draws total and first-order indices of factors for every output, as shades: a row for each output (of more than 40,
 /// an even selection), a column for each factor in the order of the overall total indices (of more than 12, the first).
 pub(crate) fn map_chart(result: &StudyResult) -> Chart {
-    let mut factors = overall_order(result);
+    let (names, mut factors) = (result.indexed_names(), overall_order(result));
     factors.truncate(COLUMNS);
     let all = result.outputs.len();
     let step = all.div_ceil(ROWS).max(1);
@@ -35,7 +35,7 @@ pub(crate) fn map_chart(result: &StudyResult) -> Chart {
         }
         // The legend is in the order of the marks.
         tiles.sort_by_key(|(class, tile)| (class.unwrap_or(usize::MAX), tile.row, tile.column));
-        let x = Axis::from_names("", factors.iter().map(|&factor| name(&result.factors[factor].name)).collect());
+        let x = Axis::from_names("", factors.iter().map(|&factor| name(names[factor])).collect());
         let y = Axis::from_names("", outputs.iter().map(|output| name(&output.name)).collect());
         let marks = tiles.into_iter().map(|(class, tile)| series(class).mark(Shape::Tile(tile)));
         Panel::new(x, y).titled(title).with(marks)
@@ -46,7 +46,7 @@ pub(crate) fn map_chart(result: &StudyResult) -> Chart {
         panel("First-order indices S_1: alone", |index| index.effect.first_order),
     ];
     let shown = if step > 1 { format!(" One of {step} outputs is drawn.") } else { String::new() };
-    let caption = format!("Indices of {all} outputs.{shown}{}", not_drawn(result.factors.len(), COLUMNS));
+    let caption = format!("Indices of {all} outputs.{shown}{}", not_drawn(names.len(), COLUMNS));
     Chart::new(format!("{}: all outputs at a glance", result.study.headline()), caption).panels(panels)
 }
 
@@ -56,11 +56,11 @@ pub(crate) fn overall_order(result: &StudyResult) -> Vec<usize> {
     let together = result.aggregate.as_ref().and_then(|aggregate| aggregate.indices.as_deref()).unwrap_or_default();
     let known = result.outputs.iter().filter_map(|output| output.indices.as_ref());
     let sum = |factor: usize| known.clone().filter_map(|all| Some(all.get(factor)?.effect.total.estimate)).sum::<f64>();
-    let key = |factor: usize| {
-        let own = together.iter().find(|index| index.factor == result.factors[factor].name);
+    let key = |(factor, name): (usize, &str)| {
+        let own = together.iter().find(|index| index.factor == name);
         own.map_or_else(|| sum(factor), |index| index.total.estimate)
     };
-    let keys: Vec<f64> = (0..result.factors.len()).map(key).collect();
+    let keys: Vec<f64> = result.indexed_names().into_iter().enumerate().map(key).collect();
     let mut order: Vec<usize> = (0..keys.len()).collect();
     order.sort_by(|&a, &b| keys[b].total_cmp(&keys[a]));
     order
@@ -95,10 +95,11 @@ pub(super) fn short(index: f64) -> String {
 /// factors, the first 20.
 pub(crate) fn together_chart(result: &StudyResult) -> Chart {
     let indices = result.aggregate.as_ref().and_then(|aggregate| aggregate.indices.as_deref()).unwrap_or_default();
-    let factors: Vec<String> = result.factors.iter().map(|factor| name(&factor.name)).collect();
+    let names = result.indexed_names();
+    let factors: Vec<String> = names.iter().map(|of| name(of)).collect();
     let of = |which: fn(&PlainIndexRecord) -> Estimate| -> Vec<Option<Estimate>> {
         let find = |name: &str| indices.iter().find(|index| index.factor == name).map(which);
-        result.factors.iter().map(|factor| find(&factor.name)).collect()
+        names.iter().map(|name| find(name)).collect()
     };
     let (first_order, total) = (of(|index| index.first_order), of(|index| index.total));
     let keys: Vec<f64> = total.iter().map(|total| total.map_or(f64::NEG_INFINITY, |total| total.estimate)).collect();
@@ -106,7 +107,7 @@ pub(crate) fn together_chart(result: &StudyResult) -> Chart {
     let caption = match &result.aggregate {
         Some(aggregate) if aggregate.indices.is_some() => {
             let count = aggregate.outputs.len();
-            format!("Over {count} outputs: {}.{}", aggregate.weighting, not_drawn(result.factors.len(), MAX_BARS))
+            format!("Over {count} outputs: {}.{}", aggregate.weighting, not_drawn(names.len(), MAX_BARS))
         }
         aggregate => {
             let reason = aggregate.as_ref().and_then(|aggregate| aggregate.reason.as_deref());

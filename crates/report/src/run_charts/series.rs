@@ -36,7 +36,7 @@ impl<'a> SeriesOf<'a> {
             Some(indices) => indices.get(factor).map_or(0.0, |index| index.total.estimate),
             None => self.values().iter().map(|value| total(value, factor)).sum(),
         };
-        let keys: Vec<f64> = (0..self.result.factors.len()).map(key).collect();
+        let keys: Vec<f64> = (0..self.result.indexed_names().len()).map(key).collect();
         let mut order: Vec<usize> = (0..keys.len()).collect();
         order.sort_by(|&a, &b| keys[b].total_cmp(&keys[a]));
         order
@@ -45,11 +45,11 @@ impl<'a> SeriesOf<'a> {
 
 /// Draws total and first-order index of every factor against the axis, with their intervals as bands.
 pub(crate) fn along_chart(of: SeriesOf<'_>) -> Chart {
-    let order = of.order();
+    let (order, names) = (of.order(), of.result.indexed_names());
     let positions = &of.series.positions;
     let panel = |title: &str, read: fn(&IndexRecord) -> Estimate| {
         let marks = order.iter().take(LINES).enumerate().flat_map(|(rank, &factor)| -> [Mark; 2] {
-            let series = Series::new(name(&of.result.factors[factor].name), Colour::Series(rank));
+            let series = Series::new(name(names[factor]), Colour::Series(rank));
             let index = |value: &OutputResult| value.indices.as_ref()?.get(factor).map(read);
             let drawn = |x: Option<f64>| x.map_or(f64::NAN, |x| x.clamp(DRAWN.0, DRAWN.1));
             let curve = || positions.iter().zip(of.values()).map(|(x, value)| (*x, index(value)));

@@ -101,8 +101,7 @@ fn surrogate(output: &OutputResult) -> Vec<Part> {
 
 fn shares(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
     let any = |asked: fn(&IndexRecord) -> bool| of.output.indices.iter().flatten().any(asked);
-    let has_shapley = of.output.shapley_groups.is_some() || any(|index| index.effect.shapley.is_some());
-    let text = match has_shapley {
+    let text = match any(|index| index.effect.shapley.is_some()) {
         true => {
             "Shapley effects divide the variance of the output among the factors, even if they depend on each other: each is the mean, \
              over all orders of the factors, of the variance that a factor adds to that of the factors before it. They sum to 100 %."
@@ -115,7 +114,7 @@ fn shares(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
         false => return Vec::new(),
     };
     let text = of.is_first().then(|| Part::OnPage(vec![Part::Text(text.to_owned())]));
-    text.into_iter().chain([figures.draw(of, SHARES)]).chain(tables::players(of.output)).collect()
+    text.into_iter().chain([figures.draw(of, SHARES)]).collect()
 }
 
 fn indices(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Part> {

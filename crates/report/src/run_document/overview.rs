@@ -56,16 +56,16 @@ fn sure_leader(output: &OutputResult) -> Option<usize> {
 
 /// Counts for how many outputs each factor matters most with certainty.
 fn leads(result: &StudyResult) -> Vec<usize> {
-    let mut leads = vec![0; result.factors.len()];
+    let mut leads = vec![0; result.indexed_names().len()];
     result.outputs.iter().filter_map(sure_leader).for_each(|factor| leads[factor] += 1);
     leads
 }
 
 /// Tabulates the effect of each factor on all outputs.
 pub(super) fn factors(result: &StudyResult) -> Table {
-    let leads = leads(result);
+    let (leads, names) = (leads(result), result.indexed_names());
     let together = result.aggregate.as_ref().and_then(|aggregate| aggregate.indices.as_deref()).unwrap_or_default();
-    let all = |factor: usize| together.iter().find(|index| index.factor == result.factors[factor].name);
+    let all = |factor: usize| together.iter().find(|index| index.factor == names[factor]);
     let totals = |&factor: &usize| {
         let total = |output: &'_ OutputResult| Some(output.indices.as_ref()?.get(factor)?.effect.total);
         let mut totals: Vec<_> =
@@ -76,7 +76,7 @@ pub(super) fn factors(result: &StudyResult) -> Table {
     let caption = "Indices of all outputs together, number of outputs for which a factor surely matters most, median and largest of its \
                    total indices.";
     Table::from_rows(caption, overall_order(result).iter().map(totals))
-        .text("factor", |(factor, ..)| name(&result.factors[factor].name))
+        .text("factor", |(factor, ..)| name(names[factor]))
         .number("S_1 together", |(factor, ..)| all(factor).map(|all| all.first_order))
         .number("S_T together", |(factor, ..)| all(factor).map(|all| all.total))
         .number("first of", |(factor, ..)| leads[factor].to_string())
@@ -109,13 +109,13 @@ pub(super) fn mind(result: &StudyResult) -> Vec<Part> {
 
 /// Tabulates mean, standard deviation and total indices of every output, as far as a page has room.
 pub(super) fn every_output(result: &StudyResult) -> Part {
-    let mut factors = overall_order(result);
+    let (names, mut factors) = (result.indexed_names(), overall_order(result));
     factors.truncate(COLUMNS);
     let number = |output: &OutputResult, x: Option<f64>| or_dash(x, |x| value(x, &output.unit));
     let all = result.outputs.len();
     let caption = format!(
         "Mean, standard deviation and total indices S_T of every output.{}{}",
-        largest(factors.len(), result.factors.len(), IN_CSV),
+        largest(factors.len(), names.len(), IN_CSV),
         if all > OUTPUTS { format!(" The first {OUTPUTS} of {all} outputs.") } else { String::new() }
     );
     let rows = Table::from_rows(caption, result.outputs.iter().take(OUTPUTS))
@@ -123,19 +123,17 @@ pub(super) fn every_output(result: &StudyResult) -> Part {
         .number("mean", |output| number(output, output.mean))
         .number("standard deviation", |output| number(output, output.variance.map(f64::sqrt)));
     let table = factors.iter().fold(rows, |rows, &factor| {
-        rows.number(name(&result.factors[factor].name), |output| {
-            Some(output.indices.as_ref()?.get(factor)?.effect.total)
-        })
+        rows.number(name(names[factor]), |output| Some(output.indices.as_ref()?.get(factor)?.effect.total))
     });
     Part::OnPage(vec![Part::Details { summary: "Every output".to_owned(), parts: vec![table.into()] }])
 }
 
 /// Returns the paragraphs at the top: the leading factors of each output and over all together.
 pub(super) fn answers(result: &StudyResult) -> Vec<String> {
-    let leads = leads(result);
+    let (leads, names) = (leads(result), result.indexed_names());
     let mut order: Vec<usize> = (0..leads.len()).filter(|&factor| leads[factor] > 0).collect();
     order.sort_by_key(|&factor| std::cmp::Reverse(leads[factor]));
-    let counted = order.iter().map(|&factor| format!("{} for {}", name(&result.factors[factor].name), leads[factor]));
+    let counted = order.iter().map(|&factor| format!("{} for {}", name(names[factor]), leads[factor]));
     let counted: Vec<String> = counted.collect();
     let all = result.outputs.len();
     let mut answers = vec![match counted.is_empty() {

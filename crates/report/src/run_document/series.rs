@@ -63,6 +63,7 @@ fn with_outputs(result: &StudyResult, outputs: Vec<OutputResult>, aggregate: Opt
         version: result.version,
         study: result.study.clone(),
         provenance: result.provenance.clone(),
+        indices_of: result.indices_of,
         factors: result.factors.clone(),
         outputs,
         validity: result.validity.clone(),

@@ -1,9 +1,7 @@
 //! The tables of one output, and the CSV files, which hold more.
 
 use apportion::model::MIN_OUTPUTS_TOGETHER;
-use apportion::result::{
-    AggregateRecord, OtherIndexRecord, OutputResult, PairRecord, PlainIndexRecord, PlayerRecord, StudyResult,
-};
+use apportion::result::{AggregateRecord, OtherIndexRecord, OutputResult, PairRecord, PlainIndexRecord, StudyResult};
 use apportion::uncertainty::{EffectEstimates, Estimate, Interval};
 
 use crate::document::{Cell, Part, Rows, Table, csv};
@@ -28,26 +26,18 @@ struct Line<'a> {
     total: Estimate,
     /// All indices; over several outputs together there are only these two.
     effect: Option<&'a EffectEstimates>,
-    shapley: Option<Estimate>,
 }
 
 impl<'a> Line<'a> {
     fn new(kind: &'static str, label: String, name: impl Into<String>, effect: &'a EffectEstimates) -> Self {
-        let EffectEstimates { first_order, total, shapley, .. } = *effect;
-        Self { kind, label, name: name.into(), first_order, total, effect: Some(effect), shapley }
-    }
-
-    /// Adds the Shapley effect of a group, or of a factor in no group, if these are the players.
-    fn with_player(self, output: &OutputResult, factors: &[String]) -> Self {
-        let mut players = output.shapley_groups.iter().flatten();
-        let found = players.find(|record| record.player == self.name && record.factors == factors);
-        Self { shapley: found.map(|record| record.shapley).or(self.shapley), ..self }
+        let EffectEstimates { first_order, total, .. } = *effect;
+        Self { kind, label, name: name.into(), first_order, total, effect: Some(effect) }
     }
 
     /// Creates a line of indices over several outputs together.
     fn plain(label: String, index: &PlainIndexRecord) -> Self {
         let PlainIndexRecord { ref factor, first_order, total } = *index;
-        Self { kind: "aggregate", label, name: factor.clone(), first_order, total, effect: None, shapley: None }
+        Self { kind: "aggregate", label, name: factor.clone(), first_order, total, effect: None }
     }
 
     fn estimate(&self, of: fn(&EffectEstimates) -> Option<Estimate>) -> Option<Estimate> {
@@ -110,9 +100,8 @@ fn effects<'a>(
             })
             .shown(is_of_one);
     }
-    let has_players = result.outputs.iter().any(|output| output.shapley_groups.is_some());
-    if has_players || index.is_some_and(|index| index.effect.shapley.is_some()) {
-        rows = rows.index("Shapley effect", "shapley", |line| line.shapley).shown(is_of_one);
+    if index.is_some_and(|index| index.effect.shapley.is_some()) {
+        rows = rows.index("Shapley effect", "shapley", |line| line.estimate(|effect| effect.shapley)).shown(is_of_one);
     }
     rows
 }
@@ -125,10 +114,8 @@ fn of_noise(noise: &str) -> String {
 /// Tabulates first-order and total indices of the factors, the largest total index first.
 pub(super) fn indices(result: &StudyResult, output: &OutputResult) -> Option<Table> {
     let order = by_total(output)?;
-    let factors = output.indices.iter().flatten().map(|index| {
-        let line = Line::new("factor", name(&index.factor), &index.factor, &index.effect);
-        line.with_player(output, std::slice::from_ref(&index.factor))
-    });
+    let factors = output.indices.iter().flatten();
+    let factors = factors.map(|index| Line::new("factor", name(&index.factor), &index.factor, &index.effect));
     let noise = output.noise.iter();
     let noise = noise.map(|noise| Line::new("noise", of_noise(&noise.name), &noise.name, &noise.effect));
     let lines: Vec<Line<'_>> = factors.chain(noise).collect();
@@ -172,7 +159,7 @@ pub(super) fn pairs_csv(result: &StudyResult) -> String {
 pub(super) fn groups(result: &StudyResult, output: &OutputResult) -> Option<Table> {
     let lines = output.groups.iter().flatten().map(|group| {
         let label = format!("{}: {}", name(&group.group), joined(&group.factors));
-        Line::new("group", label, &group.group, &group.effect).with_player(output, &group.factors)
+        Line::new("group", label, &group.group, &group.effect)
     });
     let caption = "Joint indices of groups of the factors: S_1 includes the interactions inside them.";
     joint(result, output, caption, lines.collect())
@@ -199,18 +186,6 @@ fn joined(factors: &[String]) -> String {
 fn joint(result: &StudyResult, output: &OutputResult, caption: &str, lines: Vec<Line<'_>>) -> Option<Table> {
     let table: Table = effects(result, &output.name, caption, "factors", &lines).into();
     (!lines.is_empty()).then_some(Table { printed: Some((0..lines.len().min(FACTORS)).collect()), ..table })
-}
-
-/// Tabulates the Shapley effects of groups, the largest first.
-pub(super) fn players(output: &OutputResult) -> Option<Part> {
-    let players = output.shapley_groups.as_ref().filter(|players| !players.is_empty())?;
-    let mut order: Vec<&PlayerRecord> = players.iter().collect();
-    order.sort_by(|a, b| b.shapley.estimate.total_cmp(&a.shapley.estimate));
-    let table = Table::from_rows("Shapley effects of groups of factors.", order)
-        .text("group", |player| name(&player.player))
-        .text("factors", |player| joined(&player.factors))
-        .number("Shapley effect", |player| player.shapley);
-    Some(table.first(FACTORS, "groups, all in the CSV file").into())
 }
 
 /// Tabulates the largest second-order indices.

@@ -1,9 +1,10 @@
-//! Shapley effects of groups of factors: the players of the game are the groups, and the factors that have none.
+//! Indices and Shapley effects of groups in place of their factors.
 
-use ::apportion::estimate::{ShapleyPlayers, proper_subsets, shapley_effects};
+use ::apportion::estimate::{proper_subsets, shapley_effects};
+use ::apportion::space::IndicesOf;
 use ::apportion::{
-    AnalysisOptions, BuildError, Dependence, Distribution, Estimate, Factor, OutputResult, Sampler, Study,
-    SurrogateChoice, Unit, function_model,
+    AnalysisOptions, BuildError, Dependence, Distribution, Estimate, Factor, Sampler, Study, SurrogateChoice, Unit,
+    function_model,
 };
 
 use crate::common::{Folder, effects, succeed, text};
@@ -24,29 +25,27 @@ struct Grouped {
 }
 
 impl Grouped {
-    /// The players as they are listed: factors without a group, then groups in the order of their first factors.
-    fn players(&self) -> Vec<(String, Vec<usize>)> {
-        let lone = self.linear.all().into_iter().filter(|j| self.groups[*j].is_none());
-        let mut players: Vec<(String, Vec<usize>)> = lone.map(|j| (format!("x{}", j + 1), vec![j])).collect();
+    /// The groups, and the factors without one, in the order of their first factors.
+    fn members(&self) -> Vec<Vec<usize>> {
+        let mut members: Vec<Vec<usize>> = Vec::new();
         for (j, group) in self.groups.iter().enumerate() {
-            let Some(group) = group else { continue };
-            match players.iter_mut().find(|(name, _)| name == group) {
-                Some((_, factors)) => factors.push(j),
-                None => players.push(((*group).to_owned(), vec![j])),
+            match members.iter_mut().find(|member| group.is_some() && self.groups[member[0]] == *group) {
+                Some(member) => member.push(j),
+                None => members.push(vec![j]),
             }
         }
-        players
+        members
     }
 
-    /// From c(u) = E Var(Y | all factors outside the players u)/V of all sets u of players, which normal factors have in closed form.
+    /// From c(u) = E Var(Y | all factors outside the groups u)/V of all sets u of groups, which normal factors have in closed form.
     fn exact(&self) -> Vec<f64> {
-        let players = self.players();
+        let members = self.members();
         let cost = |set: &[usize]| {
-            let factors: Vec<usize> = set.iter().flat_map(|player| players[*player].1.clone()).collect();
+            let factors: Vec<usize> = set.iter().flat_map(|member| members[*member].clone()).collect();
             self.linear.total(&factors)
         };
-        let single: Vec<f64> = (0..players.len()).map(|player| cost(&[player])).collect();
-        let proper: Vec<f64> = proper_subsets(players.len()).iter().map(|set| cost(set)).collect();
+        let single: Vec<f64> = (0..members.len()).map(|member| cost(&[member])).collect();
+        let proper: Vec<f64> = proper_subsets(members.len()).iter().map(|set| cost(set)).collect();
         shapley_effects(&single, &proper)
     }
 
@@ -54,7 +53,8 @@ impl Grouped {
         let b = self.linear.b.clone();
         let model = function_model("y", move |x: &[f64]| x.iter().zip(&b).map(|(x, b)| b * x).sum());
         let options = AnalysisOptions {
-            shapley_players: Some(ShapleyPlayers::Groups),
+            indices_of: IndicesOf::Groups,
+            shapley: Some(true),
             surrogate: SurrogateChoice::Off,
             ..AnalysisOptions::for_sampler(Sampler::Sobol)
         };
@@ -74,23 +74,15 @@ impl Grouped {
         builder.build().unwrap()
     }
 
-    /// The effects of the players as they are listed, from a run.
+    /// The effects of the groups, from a run.
     fn found(&self, base_samples: u64, seed: u64) -> Vec<Estimate> {
-        let analysis = self.study(base_samples, seed).run().unwrap();
-        let output = analysis.output("y").unwrap();
-        let grouped = self.groups.iter().position(Option::is_some).unwrap();
-        assert!(output.factor(&format!("x{}", grouped + 1)).unwrap().shapley.is_none(), "its group is the player");
-        self.players().iter().map(|(name, _)| effect_of(output, name)).collect()
+        let result = self.study(base_samples, seed).run().unwrap();
+        effects(result.output("y").unwrap()).iter().map(|effect| effect.shapley.unwrap()).collect()
     }
 }
 
-/// The Shapley effect of a player, where groups are players.
-fn effect_of(output: &OutputResult, player: &str) -> Estimate {
-    output.shapley_groups.iter().flatten().find(|of| of.player == player).unwrap().shapley
-}
-
-/// Independent factors; tied within a group; tied across groups; both, with a factor that has no group; more players than subsets
-/// serve by default.
+/// Independent factors; tied within a group; tied across groups; both, with a factor that has no group; more of them than
+/// have effects by default.
 fn cases() -> Vec<Grouped> {
     let (g, h) = (Some("g"), Some("h"));
     let five = |upper: &[f64]| Linear {
@@ -130,39 +122,76 @@ fn linear_outputs_have_closed_forms() {
     // Of independent factors and an additive output, the effect of a group is the sum of those of its factors.
     let (exact, parts) = (cases()[0].exact(), [1.0, 4.0, 2.25, 0.0, 0.5625]);
     let all: f64 = parts.iter().sum();
-    for (exact, part) in exact.iter().zip([parts[4], parts[0] + parts[2], parts[1] + parts[3]]) {
+    for (exact, part) in exact.iter().zip([parts[0] + parts[2], parts[1] + parts[3], parts[4]]) {
         assert!((exact - part / all).abs() < 1e-14);
+    }
+}
+
+/// The product of a, b and c, of which a and b are a group, with indices of factors or groups.
+fn product(indices_of: IndicesOf, options: AnalysisOptions) -> Study {
+    let model = function_model("y", |x: &[f64]| x[0] * x[1] * x[2]);
+    let mut builder = Study::builder("product", model).base_samples(1 << 12);
+    for (name, group) in [("a", Some("g")), ("b", Some("g")), ("c", None)] {
+        builder = builder.with_factor(factor(name, Distribution::uniform(-1.0, 2.0).unwrap(), group));
+    }
+    builder.analysis(AnalysisOptions { indices_of, ..options }).build().unwrap()
+}
+
+/// The plain indices of a group are the same numbers as in addition to those of its factors, from fewer runs.
+#[test]
+fn groups_in_place_of_factors_have_their_joint_indices() {
+    let options = AnalysisOptions { surrogate: SurrogateChoice::Off, ..AnalysisOptions::for_sampler(Sampler::Sobol) };
+    let [alone, all] = [IndicesOf::Groups, IndicesOf::Factors].map(|of| product(of, options.clone()));
+    assert_eq!([&alone, &all].map(|study| study.design().rows_per_point()), [2 + 2, 2 + 3 + 1]);
+    let [alone, all] = [alone, all].map(|study| study.run().unwrap());
+    let [alone, all] = [&alone, &all].map(|result| result.output("y").unwrap());
+    assert_eq!(effects(alone).len(), 2);
+    let pairs =
+        [(alone.factor("g").unwrap(), all.group("g").unwrap()), (alone.factor("c").unwrap(), all.factor("c").unwrap())];
+    for (alone, all) in pairs {
+        assert_eq!(
+            [alone.first_order.estimate, alone.total.estimate],
+            [all.first_order, all.total].map(|of| of.estimate)
+        );
+    }
+}
+
+/// With m = 1/2 and v = 3/4 of every factor, E x^2 = 1: V(a b) = 1 - m^4, and the interaction of g and c is V(a b) v.
+#[test]
+fn interactions_of_groups_are_known_exactly() {
+    let [m, v] = [0.5f64, 0.75];
+    let of_g = 1.0 - m.powi(4);
+    let (first, joint) = ([of_g * m * m, v * m.powi(4)], of_g * v);
+    let variance = 1.0 - m.powi(6);
+    for (surrogate, bound) in [(SurrogateChoice::Off, 0.01), (SurrogateChoice::On, 1e-6)] {
+        let options = AnalysisOptions { second_order: true, surrogate, ..AnalysisOptions::for_sampler(Sampler::Sobol) };
+        let result = product(IndicesOf::Groups, options).run().unwrap();
+        let output = result.output("y").unwrap();
+        for (effect, first) in effects(output).iter().zip(first) {
+            assert!((effect.first_order.estimate - first / variance).abs() < bound, "{effect:?}");
+            assert!((effect.total.estimate - (first + joint) / variance).abs() < bound, "{effect:?}");
+        }
+        let [pair] = &output.second_order.as_ref().unwrap()[..] else { panic!("one pair of two") };
+        assert_eq!(pair.factors, ["g", "c"]);
+        assert!((pair.index.estimate - joint / variance).abs() < bound, "{pair:?}");
     }
 }
 
 /// Two groups divide their interaction equally, for any number of factors in them; single factors would not.
 #[test]
 fn a_group_counts_once() {
-    let product = |x: &[f64]| x[0] * x[1] * x[2];
-    let study = |players| {
-        let mut builder = Study::builder("product", function_model("y", product)).base_samples(1 << 12);
-        for (name, group) in [("a", "g"), ("b", "g"), ("c", "h")] {
-            builder = builder.with_factor(factor(name, Distribution::uniform(-1.0, 1.0).unwrap(), Some(group)));
-        }
-        let options = AnalysisOptions {
-            shapley: Some(true),
-            shapley_players: Some(players),
-            ..AnalysisOptions::for_sampler(Sampler::Sobol)
-        };
-        builder.analysis(options).build().unwrap()
+    let options = AnalysisOptions { shapley: Some(true), ..AnalysisOptions::for_sampler(Sampler::Sobol) };
+    let result = product(IndicesOf::Groups, options.clone()).run().unwrap();
+    let [g, c] =
+        effects(result.output("y").unwrap()).iter().map(|effect| effect.shapley.unwrap()).collect::<Vec<_>>()[..]
+    else {
+        panic!("two groups")
     };
-    let analysis = study(ShapleyPlayers::Groups).run().unwrap();
-    let output = analysis.output("y").unwrap();
-    for group in ["g", "h"] {
-        let found = effect_of(output, group);
-        assert!((found.estimate - 0.5).abs() < 0.01, "{group}: {found:?}");
-    }
-    assert_eq!(study(ShapleyPlayers::Groups).design().rows_per_point(), 2 + 3 + 1, "h is c");
-    let analysis = study(ShapleyPlayers::Factors).run().unwrap();
-    let output = analysis.output("y").unwrap();
-    assert!(output.group("g").unwrap().shapley.is_none());
-    let found = output.factor("c").unwrap().shapley.unwrap();
-    assert!((found.estimate - 1.0 / 3.0).abs() < 0.01, "{found:?}");
+    // S_g + S_gc/2 and S_c + S_gc/2.
+    assert!((g.estimate - (0.234_375 + 0.703_125 / 2.0) / 0.984_375).abs() < 0.01, "{g:?}");
+    assert!((g.estimate + c.estimate - 1.0).abs() < 1e-12);
+    let result = product(IndicesOf::Factors, options).run().unwrap();
+    assert!(result.output("y").unwrap().group("g").unwrap().shapley.is_none());
 }
 
 /// Groups of one factor each are those factors, to the last bit.
@@ -216,7 +245,7 @@ fn twelve() -> String {
     };
     let factor = |k: usize| format!("[[factor]]\nname = \"x{k}\"\nmin = -1\nmax = 2\n{}", group(k));
     "model = \"expression\"\noutputs.y = \"x1 + 2*x2*x6 + x4^2 - x12*x5\"\n[design]\nbase_samples = 512\n\
-     [analysis]\nshapley_players = \"groups\"\n"
+     [analysis]\nindices_of = \"groups\"\nshapley = true\n"
         .to_owned()
         + &(1..=12).map(factor).collect::<String>()
 }
@@ -234,25 +263,17 @@ fn the_program_describes_groups() {
         let json: serde_json::Value =
             serde_json::from_slice(&std::fs::read(out.join(format!("{kind}.json"))).unwrap()).unwrap();
         let output = &json["outputs"][0];
-        assert!(output["indices"][0].get("shapley").is_none() && output["groups"][0].get("shapley").is_none());
-        let players = output["shapley_groups"].as_array().unwrap();
-        let names: Vec<&str> = players.iter().map(|player| player["player"].as_str().unwrap()).collect();
-        assert_eq!(names, ["x12", "load", "soil", "shape"]);
-        assert_eq!(players[2]["factors"], serde_json::json!(["x5", "x6", "x7"]));
-        let sum: f64 = players.iter().map(|player| player["shapley"]["estimate"].as_f64().unwrap()).sum();
-        assert!((sum - 1.0).abs() < 1e-12 && players[1]["shapley"]["low"].is_number());
-        let idle = &players[3]["shapley"];
+        let indices = output["indices"].as_array().unwrap();
+        let names: Vec<&str> = indices.iter().map(|index| index["factor"].as_str().unwrap()).collect();
+        assert_eq!(names, ["load", "soil", "shape", "x12"]);
+        let sum: f64 = indices.iter().map(|index| index["shapley"]["estimate"].as_f64().unwrap()).sum();
+        assert!((sum - 1.0).abs() < 1e-12 && indices[1]["shapley"]["low"].is_number());
+        let idle = &indices[2]["shapley"];
         assert!(idle["estimate"].as_f64().unwrap().abs() < 0.05, "nothing of the shape is in the formula: {idle}");
         let lines = std::fs::read_to_string(out.join(format!("{kind}.csv"))).unwrap();
         let commas = |line: &str| line.matches(',').count();
         let first = lines.lines().next().unwrap();
         assert!(first.contains("shapley") && lines.lines().all(|line| commas(line) == commas(first)), "{lines}");
-        let last = |start: &str| {
-            let line = lines.lines().find(|line| line.starts_with(start)).unwrap();
-            line.rsplit(',').nth(2).unwrap().to_owned()
-        };
-        assert!(last("y,factor,x1,").is_empty() && !last("y,factor,x12,").is_empty(), "{lines}");
-        assert!(!last("y,group,load,").is_empty(), "{lines}");
         let page = std::fs::read_to_string(out.join(format!("{kind}.html"))).unwrap();
         let again = folder.path(&format!("again-{kind}"));
         succeed(&["report", text(&out.join(format!("{kind}.json"))), "--out", text(&again)]);
@@ -267,11 +288,9 @@ fn groups_work_for_many_factors_and_invalid_settings_are_refused() {
     let alone: Vec<String> = twelve().lines().filter(|line| !line.starts_with("group")).map(str::to_owned).collect();
     let lone = folder.with("lone.toml", alone.join("\n"));
     let mut messages = messages!();
-    for (file, change) in [
-        (&file, "analysis.shapley_players=\"teams\""),
-        (&file, "analysis={shapley=false, shapley_players=\"groups\"}"),
-        (&lone, "analysis.shapley=true"),
-    ] {
+    for (file, change) in
+        [(&file, "analysis.indices_of=\"teams\""), (&file, "noise=\"x13\""), (&lone, "analysis.shapley=true")]
+    {
         messages.refused(&["check", text(file), "--set", change]);
     }
     let many = |asked: &str| {
@@ -282,12 +301,11 @@ fn groups_work_for_many_factors_and_invalid_settings_are_refused() {
         folder.with("many.toml", text + &factors)
     };
     messages.refused_as("200 factors", &["check", text(&many("shapley = true"))]);
-    messages.add_printed("8 groups", &succeed(&["check", text(&many("shapley_players = \"groups\""))]));
+    messages.add_printed("8 groups", &succeed(&["check", text(&many("indices_of = \"groups\"\nshapley = true"))]));
     let build = |options: AnalysisOptions| {
         let builder = Study::builder("sum", function_model("y", |x: &[f64]| x.iter().sum()));
         builder.factor("x", Distribution::uniform(0.0, 1.0).unwrap()).analysis(options).build().map(|_| ())
     };
-    let shapley_players = Some(ShapleyPlayers::Groups);
-    let options = AnalysisOptions { shapley_players, ..AnalysisOptions::for_sampler(Sampler::Sobol) };
-    assert!(matches!(build(options), Err(BuildError::Wrong { key: "shapley_players", .. })));
+    let options = AnalysisOptions { indices_of: IndicesOf::Groups, ..AnalysisOptions::for_sampler(Sampler::Sobol) };
+    assert!(matches!(build(options), Err(BuildError::Wrong { key: "indices_of", .. })));
 }
