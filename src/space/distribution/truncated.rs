@@ -93,7 +93,15 @@ impl Distribution {
             return Err(refused("truncate", message));
         }
         let (min, max) = (min.max(low), max.min(high));
-        let nothing = || DistributionError::NothingLeft { distribution, min, max };
+        let nothing = || {
+            refused(
+                "truncate",
+                format!(
+                    "truncation leaves nothing of this {distribution} distribution: almost none of its values lie between {min} \
+                     and {max}"
+                ),
+            )
+        };
         if min >= max {
             return Err(nothing());
         }

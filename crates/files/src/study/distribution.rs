@@ -29,9 +29,9 @@ pub(super) fn of_factor(context: &Context<'_>, section: &At<FactorSection>) -> R
     let values = values.collect::<Result<Vec<_>, Fault>>()?;
     kind.make(&values).map_err(|source| {
         let first = || fields.keys.first().map(|typed| typed.span.clone());
-        let of_key = match source {
-            DistributionError::Missing { .. } => None,
-            _ => source.key().and_then(|key| fields.place(key)).or_else(first),
+        let of_key = match source.is_incomplete {
+            true => None,
+            false => source.key.and_then(|key| fields.place(key)).or_else(first),
         };
         context.fault(of_key.unwrap_or(fields.name.span()), refused(factor, &source))
     })
@@ -39,7 +39,7 @@ pub(super) fn of_factor(context: &Context<'_>, section: &At<FactorSection>) -> R
 
 /// Returns the problem of a factor with an invalid distribution.
 pub(super) fn refused(factor: &str, error: &DistributionError) -> Problem {
-    Problem::Refused { message: format!("factor `{factor}`: {error}"), help: error.help() }
+    Problem::Refused { message: format!("factor `{factor}`: {error}"), help: error.help.clone() }
 }
 
 /// Returns the family, by default the first.
