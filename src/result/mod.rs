@@ -8,7 +8,6 @@ mod indices;
 mod output;
 mod rare_level;
 mod read;
-#[cfg(feature = "schema")]
 mod schema;
 mod setup;
 mod warning;
@@ -22,7 +21,6 @@ pub use output::*;
 pub(crate) use rare_level::PAIRS_OF_POINT;
 pub use rare_level::RareLevel;
 pub use read::{ReadError, ReadProblem, parse_result, read_result};
-#[cfg(feature = "schema")]
 pub use schema::result_schema;
 use serde::{Deserialize, Serialize};
 pub use setup::{RunFacts, StudySetup, json};
@@ -45,15 +43,14 @@ pub use warning::{Warning, Warnings};
 /// assert!(total.interval.is_some_and(|interval| interval.low < total.estimate));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[cfg_attr(feature = "schema", schemars(title = "apportion result"))]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[schemars(title = "apportion result")]
 pub struct StudyResult {
     /// Always `apportion-result`.
-    #[cfg_attr(feature = "schema", schemars(extend("const" = "apportion-result")))]
+    #[schemars(extend("const" = "apportion-result"))]
     pub format: String,
     /// Version of the format.
-    #[cfg_attr(feature = "schema", schemars(extend("const" = 1)))]
+    #[schemars(extend("const" = 1))]
     pub version: u32,
     /// The question.
     pub study: StudyRecord,
@@ -109,8 +106,7 @@ impl StudyResult {
 }
 
 /// The question.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 pub struct StudyRecord {
     /// Name of the study.
     pub name: String,
@@ -132,8 +128,7 @@ pub struct StudyRecord {
 }
 
 /// Factors that depend on each other, by a Gaussian copula.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 pub struct CorrelationRecord {
     /// The factors.
     pub factors: Vec<String>,
@@ -144,8 +139,7 @@ pub struct CorrelationRecord {
 }
 
 /// An input fixed in the study.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 pub struct ConstantRecord {
     /// The input.
     pub name: String,
@@ -158,8 +152,7 @@ pub struct ConstantRecord {
 /// How the result was computed. A result is cited by `apportion_version`, `seed` and `study_sha256`, and by the
 /// `overrides` of its study if there are any: they give the same numbers again. `CITATION.cff` in the sources of the
 /// program describes how to cite the program itself.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 pub struct Provenance {
     /// Version of the program.
     pub apportion_version: String,
@@ -200,8 +193,7 @@ pub struct Provenance {
 }
 
 /// A factor.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 pub struct FactorRecord {
     /// Its name.
     pub name: String,
@@ -216,8 +208,7 @@ pub struct FactorRecord {
 }
 
 /// Indices over several outputs together.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 pub struct AggregateRecord {
     /// The outputs.
     pub outputs: Vec<String>,
@@ -233,8 +224,7 @@ pub struct AggregateRecord {
 }
 
 /// A validity flag.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 pub struct ValidityRecord {
     /// Its name.
     pub flag: String,
@@ -247,8 +237,7 @@ pub struct ValidityRecord {
 }
 
 /// Consecutive outputs that are the values of one quantity along an axis.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 pub struct SeriesRecord {
     /// Its name.
     pub name: String,
@@ -276,8 +265,7 @@ impl SeriesRecord {
 }
 
 /// The choices of a run with a target accuracy, and their reasons.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 pub struct SpendingRecord {
     /// The requested half width.
     pub accuracy: f64,
@@ -293,8 +281,7 @@ pub struct SpendingRecord {
 }
 
 /// Why a growing run ended.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 pub struct StoppingRecord {
     /// The reason in words.
     pub reason: String,
@@ -309,8 +296,7 @@ pub struct StoppingRecord {
 }
 
 /// The effort of a model with a ladder of fidelities.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 pub struct EffortRecord {
     /// The rungs used, and the number of runs of each.
     pub rungs: Vec<RungRecord>,
@@ -321,8 +307,7 @@ pub struct EffortRecord {
 }
 
 /// The number of runs evaluated by a rung.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 pub struct RungRecord {
     /// The rung.
     pub rung: String,
@@ -331,8 +316,8 @@ pub struct RungRecord {
 }
 
 /// The runs of a low-fidelity model in addition to those of the model.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(rename = "LowRecord"))]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
+#[schemars(rename = "LowRecord")]
 #[non_exhaustive]
 pub struct LowRuns {
     /// Its name.

@@ -296,14 +296,13 @@ impl PartialEq for Warning {
 }
 
 /// The warnings of an output: in JSON their sentences, and in the same order their codes.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(with = "WarningKeys"))]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[schemars(with = "WarningKeys")]
 #[serde(from = "WarningKeys", into = "WarningKeys")]
 pub struct Warnings(pub Vec<Warning>);
 
 /// The keys of warnings in JSON.
-#[derive(Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Serialize, Deserialize, schemars::JsonSchema)]
 struct WarningKeys {
     /// The warnings in sentences.
     warnings: Vec<String>,
