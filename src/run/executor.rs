@@ -7,6 +7,8 @@ use std::collections::VecDeque;
 use std::ops::Range;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
+use serde::{Deserialize, Serialize};
+
 use super::remote::{Remote, Reply, Talk};
 use super::rows::{MissingRows, RowValues};
 use super::tracker::Tracker;
@@ -31,7 +33,7 @@ const BATCHES_AHEAD: usize = 2;
 const STACK: usize = 1 << 19;
 
 /// Consecutive rows of one replicate, or of a table.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct RowRange {
     pub replicate: u64,
     pub rows: Range<u64>,

@@ -19,7 +19,7 @@ use std::time::Duration;
 
 pub use error::JournalError;
 pub use format::{Contents, read_journal};
-pub(super) use format::{record, write_record};
+pub(super) use format::{Reader, record, write_record};
 pub use identity::differences;
 use serde_json::Value;
 
