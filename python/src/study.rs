@@ -233,7 +233,7 @@ impl Study {
                 "a study with an accuracy or limits chooses its rows during the run: set base_samples instead",
             ));
         }
-        let store = Store::new(design, model.as_ref());
+        let store = Store::new(model.as_ref());
         let replicates = design.settings().replicates;
         let rows = design.rows() / replicates;
         let missing = RowFailure::new("there is no output");

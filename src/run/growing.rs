@@ -143,7 +143,7 @@ impl<'a> GrowingRun<'a> {
         }
         self.room_for(points)?;
         if self.store.is_none() && self.own_store.is_none() && self.needs_store() {
-            self.own_store = Some(Store::new(design, self.job.model));
+            self.own_store = Some(Store::new(self.job.model));
         }
         let store = self.store.or(self.own_store.as_ref());
         let replicates = design.settings().replicates;

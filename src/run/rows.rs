@@ -70,10 +70,8 @@ impl<'a> MissingRows<'a> {
         for piece in pieces {
             self.sink.map_or(Ok(()), |sink| sink.append(piece)).map_err(|source| RunError::NotKept { source })?;
             self.store.insert(piece);
-            let mut failed_rows: Vec<u32> = piece.failures.iter().map(|(row, ..)| *row).collect();
-            failed_rows.dedup();
             rows += piece.rows(self.store.outputs());
-            failed += failed_rows.len() as u64;
+            failed += piece.failed_rows().len() as u64;
             if let (FailurePolicy::Fail, Some((row, _, reason))) = (self.failures, piece.failures.first()) {
                 let (row, per_point) = (piece.first + u64::from(*row), self.job.design.rows_per_point());
                 let row = Place { replicate: piece.replicate, point: row / per_point, run: row % per_point };

@@ -47,7 +47,7 @@ impl RunJournal {
     /// Returns a run without a journal.
     pub fn none(study: &Study) -> Self {
         Self {
-            store: Store::new(&study.design, study.model().as_ref()),
+            store: Store::new(study.model().as_ref()),
             open: OnceLock::new(),
             waiting: Mutex::new(None),
             began: Mutex::default(),

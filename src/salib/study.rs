@@ -83,7 +83,7 @@ pub fn salib_study(
             piece.values.push(if value.is_finite() { value } else { f64::NAN });
         }
     }
-    let store = Store::new(&study.design, study.model().as_ref());
+    let store = Store::new(study.model().as_ref());
     store.insert(&piece);
     Ok((study, store))
 }

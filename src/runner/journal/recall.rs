@@ -6,7 +6,7 @@ use crate::study::Study;
 
 /// Returns a store of the runs of `study` in a journal; of duplicates, the later one counts.
 pub(in crate::runner) fn recorded(study: &Study, contents: &Contents) -> Store {
-    let store = Store::new(&study.design, study.model().as_ref());
+    let store = Store::new(study.model().as_ref());
     let outputs = store.outputs();
     for piece in &contents.pieces {
         let rows = piece.rows(outputs);
