@@ -350,7 +350,7 @@ impl Study {
                     caller,
                     takes_its_time,
                 });
-                (self.study.clone().with_model(Arc::clone(&model), &version).map_err(input)?, Some(model))
+                (self.study.clone().with_model(model.clone(), &version).map_err(input)?, Some(model))
             }
         };
         let duty = Duty { events, finished, model, stop: stop.clone() };

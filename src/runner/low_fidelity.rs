@@ -1,6 +1,7 @@
 //! The runs of low-fidelity models: at the rows of the model, and at points of their own.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use super::journal::{self, RunJournal};
 use super::{Resume, Runner};
@@ -41,7 +42,7 @@ pub(super) struct LowStudy {
 
 struct LowPart {
     study: Study,
-    model: Box<dyn Model>,
+    model: Arc<dyn Model>,
     longest: Design,
     journal: RunJournal,
 }

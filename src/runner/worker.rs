@@ -1,7 +1,7 @@
 //! A study in a worker process.
 
 use std::collections::BTreeMap;
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 use crate::model::{Model, RunContext};
 use crate::run::{RemoteServer, Request, Requests, refusal};
@@ -12,7 +12,7 @@ use crate::study::Study;
 pub struct WorkerStudy {
     study: Study,
     /// The model of the study, then its low-fidelity models, each created on first use.
-    models: Vec<OnceLock<Box<dyn Model>>>,
+    models: Vec<OnceLock<Arc<dyn Model>>>,
 }
 
 impl std::fmt::Debug for WorkerStudy {

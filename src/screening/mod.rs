@@ -225,13 +225,14 @@ fn screened(output: &Output, number: usize, outcome: &Outcome, space: &[Factor],
         let own: Vec<f64> = effects.map(|effect| output.unit.span_from_si(*effect)).collect();
         let effects = own.iter().filter(|effect| effect.is_finite()).count() as u64;
         let measures = measures::measures(&own, parts);
-        let ratio = measures.and_then(|m| m.ratio);
+        let [mu, mu_star, sigma, ratio] = std::array::from_fn(|place| measures.map(|measures| measures[place]));
+        let ratio = ratio.filter(|ratio: &Estimate| ratio.estimate.is_finite());
         ScreenedFactor {
             factor: factor.name.clone(),
             rank: 0,
-            mu_star: measures.map(|m| m.mu_star),
-            mu: measures.map(|m| m.mu),
-            sigma: measures.map(|m| m.sigma),
+            mu_star,
+            mu,
+            sigma,
             ratio,
             reading: ratio.map(|ratio| Reading::from_ratio(ratio.estimate)),
             could_be_fixed: None,

@@ -103,16 +103,16 @@ impl Study {
     ///
     /// # Errors
     /// [`BuildError`] if its outputs, by name and unit, differ from those of the study.
-    pub fn with_model(self, model: impl Model + 'static, version: &str) -> Result<Self, BuildError> {
+    pub fn with_model(self, model: Arc<dyn Model>, version: &str) -> Result<Self, BuildError> {
         let words = |model: &dyn Model| {
             let outputs = model.outputs().iter().map(|output| format!("{} ({})", output.name, output.unit));
             outputs.collect::<Vec<_>>().join(", ")
         };
-        let (found, expected) = (words(&model), words(&*self.model()));
+        let (found, expected) = (words(&*model), words(&*self.model()));
         if found != expected {
             return rules::wrong("outputs", format!("those of the study, {expected}"), found);
         }
-        let subject = CustomSubject { model: Arc::new(model), version: Some(version.to_owned()) };
+        let subject = CustomSubject { model, version: Some(version.to_owned()) };
         Ok(Self { subject: Arc::new(subject), ..self })
     }
 
@@ -227,7 +227,7 @@ impl Study {
     }
 
     /// Creates the model, ready to run on this study's factors.
-    pub fn model(&self) -> Box<dyn Model> {
+    pub fn model(&self) -> Arc<dyn Model> {
         self.subject.model(&self.space)
     }
 
