@@ -210,12 +210,4 @@ mod tests {
             assert_eq!(bins_for(rows), bins);
         }
     }
-
-    #[test]
-    fn degenerate_columns_have_a_name() {
-        let x: Vec<f64> = (0..40).map(f64::from).collect();
-        assert_eq!(binned_first_order(&x, &[3.0; 40]), Err(NoVariance::Constant));
-        let constant = binned_first_order(&[3.0; 40], &x).unwrap();
-        assert_eq!((constant.estimate.estimate, constant.estimate.interval, constant.bins), (0.0, None, 1));
-    }
 }

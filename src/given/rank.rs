@@ -139,14 +139,6 @@ mod tests {
         assert!((got - sum / 12.0).abs() < 1e-14);
     }
 
-    #[test]
-    fn degenerate_columns_have_a_name() {
-        let x: Vec<f64> = (0..40).map(f64::from).collect();
-        assert_eq!(rank_first_order(&x, &[3.0; 40], 0), Err(NoVariance::Constant));
-        let constant = rank_first_order(&[3.0; 40], &x, 0).unwrap();
-        assert_eq!(constant, Estimate::alone(0.0));
-    }
-
     proptest! {
         #[test]
         fn shift_scale_and_monotone_inputs_change_nothing(

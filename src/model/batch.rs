@@ -223,15 +223,4 @@ mod tests {
         batch.settle();
         assert_eq!(batch.failures(), [(0, 1, RowFailure::not_finite()), (1, 2, reason)]);
     }
-
-    #[test]
-    fn a_row_that_was_never_set_is_a_failure() {
-        let mut batch = Batch { columns: vec![Vec::new()], ..Batch::default() };
-        batch.reset(2);
-        batch.set(0, 0, 1.0);
-        batch.settle();
-        assert_eq!(batch.failures(), [(0, 1, RowFailure::not_finite())]);
-        batch.reset(1);
-        assert!(batch.failures().is_empty());
-    }
 }

@@ -87,7 +87,8 @@ impl LowPart {
             None => RunJournal::none(&study),
             Some(path) => {
                 let resume = if runner.resume == Resume::Require { Resume::IfThere } else { runner.resume };
-                journal::open(&study, runner.request(&sibling_path(path, kind), resume, None), context.messages())?
+                let part = Runner { study: &study, resume, ..runner.clone() };
+                journal::open(&part, &sibling_path(path, kind), None, context.messages())?
             }
         };
         Ok(Self { study, model, longest, journal })
