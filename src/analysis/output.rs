@@ -14,7 +14,7 @@ use super::{unlikely, warnings};
 use crate::estimate::{CentralMoments, MomentParts, Undefined, merged};
 use crate::model::{Output, RowFailure};
 use crate::quantity::Unit;
-use crate::result::{DistributionRecord, FailureCount, OutputDistribution, OutputResult, Warning, Warnings};
+use crate::result::{DistributionRecord, FailureCount, OutputDistribution, OutputResult, Warning};
 use crate::run::{Tally, Totals};
 use crate::uncertainty::{
     Estimate, IntervalOptions, KeptPoints, OutputMoments, output_indices, output_moments, stages,
@@ -109,7 +109,7 @@ pub(super) fn output_result(
         surrogate_trial: corrected.trials.get(number).copied().flatten(),
         convergence: convergence.iter().map(|stage| stage_record(study, stage, run.design.rows_per_point())).collect(),
         reason: indices.as_ref().err().map(ToString::to_string),
-        warnings: Warnings(warnings),
+        warnings,
         ..OutputResult::default()
     };
     if let Ok(indices) = &indices {

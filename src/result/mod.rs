@@ -24,7 +24,7 @@ pub use read::{ReadError, ReadProblem, parse_result, read_result};
 pub use schema::result_schema;
 use serde::{Deserialize, Serialize};
 pub use setup::{RunFacts, StudySetup, json};
-pub use warning::{Warning, Warnings};
+pub use warning::Warning;
 
 /// The result of a run of a [`Study`](crate::Study).
 ///

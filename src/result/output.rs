@@ -6,7 +6,7 @@ use thiserror::Error;
 
 use super::{
     EstimatorRecord, GroupRecord, IndexRecord, NoiseRecord, OutputDistribution, PairRecord, PlainIndexRecord,
-    PlayerRecord, SubsetRecord, SurrogateRecord, Warnings,
+    PlayerRecord, SubsetRecord, SurrogateRecord, Warning,
 };
 use crate::given::InputMeasures;
 use crate::uncertainty::{EffectEstimates, Estimate, Interval, largest_half_width};
@@ -81,8 +81,9 @@ pub struct OutputResult {
     /// Why there are no indices, if there are none.
     pub reason: Option<String>,
     /// Warnings: in JSON the sentences in `warnings`, and their codes in `warning_codes`.
-    #[serde(flatten)]
-    pub warnings: Warnings,
+    #[serde(flatten, with = "super::warning")]
+    #[schemars(with = "super::warning::WarningKeys")]
+    pub warnings: Vec<Warning>,
 }
 
 impl OutputResult {

@@ -76,6 +76,15 @@ impl Piece {
         rows
     }
 
+    /// Returns all rows except `failed`, which are counted from the first one and rise, without flags and counts.
+    pub(super) fn without(&self, failed: impl IntoIterator<Item = u32>, outputs: usize) -> Vec<Self> {
+        let failed = failed.into_iter().map(|row| self.first + u64::from(row));
+        let mut next = self.first;
+        let between = failed.chain([self.first + self.rows(outputs)]);
+        let between = between.map(|row| std::mem::replace(&mut next, row + 1)..row).filter(|rows| !rows.is_empty());
+        between.map(|rows| self.part(rows, outputs)).collect()
+    }
+
     /// Returns the rows `rows`, all of them its own, without flags and counts.
     fn part(&self, rows: Range<u64>, outputs: usize) -> Self {
         let (from, end) = ((rows.start - self.first) as usize, (rows.end - self.first) as usize);
@@ -136,8 +145,8 @@ impl Store {
         let replaced: Vec<Piece> = replaced.into_iter().map(|(old, _)| old.clone()).collect();
         for old in replaced {
             held.remove(&(old.replicate, old.first));
-            let end = old.first + old.rows(self.outputs);
-            self.keep_parts(&mut held, &old, [old.first..rows.start, rows.end..end]);
+            let is_replaced = |row: &u32| rows.contains(&(old.first + u64::from(*row)));
+            self.keep_without(&mut held, &old, (0..old.rows(self.outputs) as u32).filter(is_replaced));
         }
         if !rows.is_empty() {
             held.insert((piece.replicate, piece.first), piece.clone());
@@ -145,10 +154,11 @@ impl Store {
         rows.end - rows.start - existing
     }
 
-    /// Keeps some rows of a piece that was removed, unless counts over it, which cannot be divided, go with the others.
-    fn keep_parts(&self, held: &mut Pieces, piece: &Piece, parts: impl IntoIterator<Item = Range<u64>>) {
-        for rows in parts.into_iter().filter(|rows| !rows.is_empty() && !piece.is_counted()) {
-            held.insert((piece.replicate, rows.start), piece.part(rows, self.outputs));
+    /// Keeps the rows of a removed piece except `failed`, unless counts over it, which cannot be divided, go with these.
+    fn keep_without(&self, held: &mut Pieces, piece: &Piece, failed: impl IntoIterator<Item = u32>) {
+        if !piece.is_counted() {
+            let parts = piece.without(failed, self.outputs).into_iter();
+            held.extend(parts.map(|part| ((part.replicate, part.first), part)));
         }
     }
 
@@ -188,10 +198,7 @@ impl Store {
         for piece in failing {
             let failed = piece.failed_rows();
             count += failed.len() as u64;
-            let mut next = piece.first;
-            let failed = failed.into_iter().map(|row| piece.first + u64::from(row));
-            let between = failed.chain([piece.first + piece.rows(self.outputs)]);
-            self.keep_parts(&mut held, &piece, between.map(|row| std::mem::replace(&mut next, row + 1)..row));
+            self.keep_without(&mut held, &piece, failed);
         }
         count
     }

@@ -71,7 +71,7 @@ const DESIGNS: [ScreeningDesign; 4] = [SOBOL, RANDOM, LATIN, WALK];
 
 fn screened<F: Fn(&[f64]) -> Option<f64> + Send + Sync>(space: &Space, settings: ScreeningSettings, f: F) -> Screening {
     let model = function(f);
-    screen(ScreeningJob { space, model: &model, settings }, 0, &|_| ()).unwrap()
+    screen(ScreeningJob { space, model: &model, settings }, 0, &|_| (), &RunContext::default()).unwrap()
 }
 
 /// The measures of a factor that has them.
@@ -360,9 +360,9 @@ fn the_result_is_the_same_on_any_number_of_threads() {
     let space = unit_cube(20);
     for design in DESIGNS {
         let job = ScreeningJob { space: &space, model: &model, settings: settings(design, 256) };
-        let one = screen(job, 1, &|_| ()).unwrap();
+        let one = screen(job, 1, &|_| (), &RunContext::default()).unwrap();
         for threads in [2, 5] {
-            assert_eq!(screen(job, threads, &|_| ()).unwrap(), one);
+            assert_eq!(screen(job, threads, &|_| (), &RunContext::default()).unwrap(), one);
         }
     }
 }
@@ -404,7 +404,7 @@ fn settings_are_checked_and_rounded() {
     let model = function(|_| Some(0.0));
     let space = unit_cube(3000);
     let job = ScreeningJob { space: &space, model: &model, settings: ScreeningSettings::default() };
-    let error = screen(job, 1, &|_| ()).unwrap_err();
+    let error = screen(job, 1, &|_| (), &RunContext::default()).unwrap_err();
     assert!(matches!(error, ScreeningError::Design(DesignError::TooManyFactors { factors: 3000 })), "{error}");
 }
 
