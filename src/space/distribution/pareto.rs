@@ -76,12 +76,11 @@ impl Family for Pareto {
         (-libm::expm1(log), libm::exp(log))
     }
 
-    fn mean(&self) -> f64 {
-        self.min * (self.shape / (self.shape - 1.0))
-    }
-
-    fn sd(&self) -> f64 {
-        self.min / (self.shape - 1.0) * (self.shape / (self.shape - 2.0)).sqrt()
+    fn moments(&self) -> (f64, f64) {
+        (
+            self.min * (self.shape / (self.shape - 1.0)),
+            self.min / (self.shape - 1.0) * (self.shape / (self.shape - 2.0)).sqrt(),
+        )
     }
 
     fn support(&self) -> (f64, f64) {

@@ -163,12 +163,8 @@ impl Family for Poisson {
         count.checked_sub(1).map_or((0.0, 1.0), |place| (below[place], above[place]))
     }
 
-    fn mean(&self) -> f64 {
-        self.mean
-    }
-
-    fn sd(&self) -> f64 {
-        self.mean.sqrt()
+    fn moments(&self) -> (f64, f64) {
+        (self.mean, self.mean.sqrt())
     }
 
     fn support(&self) -> (f64, f64) {

@@ -62,12 +62,8 @@ impl Family for Seed {
         (below, 1.0 - below)
     }
 
-    fn mean(&self) -> f64 {
-        LARGEST / 2.0
-    }
-
-    fn sd(&self) -> f64 {
-        (LARGEST * (LARGEST + 2.0) / 12.0).sqrt()
+    fn moments(&self) -> (f64, f64) {
+        (LARGEST / 2.0, (LARGEST * (LARGEST + 2.0) / 12.0).sqrt())
     }
 
     fn support(&self) -> (f64, f64) {

@@ -220,7 +220,7 @@ impl Truncated {
         let (below, above) = (law.tails(min).0, law.tails(max).1);
         let law = Box::new(law.clone());
         let mut truncated = Self { law, min, max, below, above, mass, quantiles, mean: 0.0, sd: 0.0 };
-        (truncated.mean, truncated.sd) = truncated.moments();
+        (truncated.mean, truncated.sd) = truncated.integrated();
         Some(truncated)
     }
 
@@ -230,7 +230,7 @@ impl Truncated {
     }
 
     /// Computes mean and standard deviation by quadrature: formulas cancel if the bounds are far out or close together.
-    fn moments(&self) -> (f64, f64) {
+    fn integrated(&self) -> (f64, f64) {
         let Self { min, max, mass, .. } = *self;
         match &*self.law {
             Distribution::Triangular(triangular) => {
@@ -370,12 +370,8 @@ impl Family for Truncated {
         }
     }
 
-    fn mean(&self) -> f64 {
-        self.mean
-    }
-
-    fn sd(&self) -> f64 {
-        self.sd
+    fn moments(&self) -> (f64, f64) {
+        (self.mean, self.sd)
     }
 
     fn support(&self) -> (f64, f64) {
