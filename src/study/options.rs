@@ -92,7 +92,12 @@ impl AnalysisOptions {
     /// Returns the players of Shapley effects, if there will be any: the index of each among the factors and groups in
     /// their order, and its factors.
     pub(super) fn players(&self, space: &Space) -> Vec<(usize, Swap)> {
-        shapley_players(self.shapley_players.unwrap_or_default(), space)
+        let of_groups = self.shapley_players == Some(ShapleyPlayers::Groups);
+        let factors = space.factors();
+        let alone = |number: &usize| !of_groups || factors[*number].group.is_none();
+        let single = (0..factors.len()).filter(alone).map(|number| (number, vec![number]));
+        let groups = space.groups().into_iter().filter(|_| of_groups).enumerate();
+        single.chain(groups.map(|(number, group)| (factors.len() + number, group.factors))).collect()
     }
 
     /// Returns warnings about a design and the intervals that depend on it.
@@ -303,17 +308,6 @@ pub(super) fn rows(analysis: &AnalysisOptions, space: &Space, plain_rows: u32) -
     let ba = analysis.second_order || analysis.estimators.iter().any(|estimator| estimator.needs_ba());
     let (second_order, copula) = (analysis.second_order, space.copula().cloned());
     Rows { swaps, ba, second_order, plain_rows, copula, redrawn }
-}
-
-/// Returns the players of `space`: the index of each among the factors and groups in their order, and its factors.
-pub(super) fn shapley_players(players: ShapleyPlayers, space: &Space) -> Vec<(usize, Swap)> {
-    let factors = space.factors();
-    let alone = |number: &usize| players == ShapleyPlayers::Factors || factors[*number].group.is_none();
-    let single = (0..factors.len()).filter(alone).map(|number| (number, vec![number]));
-    let groups = space.groups().into_iter().enumerate();
-    let groups = groups.map(|(number, group)| (factors.len() + number, group.factors));
-    let groups = groups.filter(|_| players == ShapleyPlayers::Groups);
-    single.chain(groups).collect()
 }
 
 #[cfg(test)]

@@ -189,7 +189,7 @@ impl Parser<'_> {
                 return Ok(());
             }
             (None, Some(function)) => {
-                ExpressionProblem::NoArguments { name: name.to_owned(), arguments: function.arguments() }
+                ExpressionProblem::NoArguments { name: name.to_owned(), arguments: function.arguments().2 }
             }
             (None, None) => ExpressionProblem::UnknownName(name.to_owned()),
         };
@@ -228,8 +228,9 @@ impl Parser<'_> {
                 }
             }
         }
-        if !function.takes(count) {
-            let (name, expected) = (name.to_owned(), function.arity());
+        let (counts, expected, _) = function.arguments();
+        if !counts.contains(&count) {
+            let name = name.to_owned();
             return Err(ExpressionError {
                 problem: ExpressionProblem::Arity { name, expected, found: count },
                 place: place.start..self.tokens[self.at - 1].1.end,

@@ -46,7 +46,6 @@ struct Writer {
     /// Number of bytes in complete records.
     length: u64,
     synced: Instant,
-    buffer: Vec<u8>,
 }
 
 impl Journal {
@@ -82,7 +81,7 @@ impl Journal {
     }
 
     fn writing(path: &Path, file: File, length: u64) -> Self {
-        let writer = Writer { file, length, synced: Instant::now(), buffer: Vec::new() };
+        let writer = Writer { file, length, synced: Instant::now() };
         Self { path: path.to_owned(), writer: Mutex::new(writer) }
     }
 
@@ -96,13 +95,9 @@ impl Journal {
     /// # Errors
     /// The error of the operating system; the journal then ends with the previous record.
     pub fn append(&self, piece: &Piece) -> std::io::Result<()> {
-        let mut writer = self.writer.lock().unwrap_or_else(PoisonError::into_inner);
-        let mut buffer = std::mem::take(&mut writer.buffer);
-        buffer.clear();
-        format::write_record(&mut buffer, piece);
-        let written = writer.append(&buffer);
-        writer.buffer = buffer;
-        written
+        let mut record = Vec::new();
+        format::write_record(&mut record, piece);
+        self.write(&record)
     }
 
     fn write(&self, bytes: &[u8]) -> std::io::Result<()> {
