@@ -2,7 +2,8 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::{from_score, normal_scores};
+use super::distribution::{LARGEST_U, SMALLEST_U};
+use crate::special::{normal_below, normal_quantile};
 
 /// A Gaussian copula of all factors of a space: the normal scores Phi^-1(u) of the factors have a joint normal distribution.
 ///
@@ -107,6 +108,16 @@ impl GaussianCopula {
         };
         given.iter().map(|j| coefficient(j).unwrap_or(0.0)).collect()
     }
+}
+
+/// Returns the normal scores of coordinates of the unit cube.
+pub(crate) fn normal_scores(u: &[f64]) -> Vec<f64> {
+    u.iter().map(|&u| normal_quantile(u)).collect()
+}
+
+/// Returns the coordinate of the unit cube with this normal score, inside the range of all coordinates.
+pub(crate) fn from_score(score: f64) -> f64 {
+    normal_below(score).clamp(SMALLEST_U, LARGEST_U)
 }
 
 fn part(matrix: &DMatrix<f64>, rows: &[usize], columns: &[usize]) -> DMatrix<f64> {
