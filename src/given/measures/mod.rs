@@ -133,11 +133,10 @@ pub fn measures(
     indices: &GivenIndices,
     seed: u64,
 ) -> Vec<Result<Vec<InputMeasures>, NoVariance>> {
-    let orders: Vec<Order> = inputs.iter().map(|input| Order::from_values(&input.values)).collect();
     let is_random = indices.points == PointSet::Independent;
+    let known = Known { has_p_values: is_random, has_intervals: is_random };
     let of_output = |(number, output): (usize, &Column)| {
-        let job = Job::new(&output.values, &Measure::ALL, [seed, number as u64])?;
-        Ok(job.measures(inputs, &orders, Known { has_p_values: is_random, has_intervals: is_random }))
+        Ok(Job::new(&output.values, &Measure::ALL, [seed, number as u64])?.measures(inputs, known))
     };
     outputs.iter().enumerate().map(of_output).collect()
 }
@@ -152,10 +151,8 @@ pub(crate) fn measures_of_rows(
     seed: [u64; 2],
     independent: bool,
 ) -> Result<Vec<InputMeasures>, NoVariance> {
-    let job = Job::new(output, wanted, seed)?;
-    let orders: Vec<Order> = inputs.iter().map(|input| Order::from_values(&input.values)).collect();
     let known = Known { has_p_values: independent, has_intervals: true };
-    Ok(job.measures(inputs, &orders, known))
+    Ok(Job::new(output, wanted, seed)?.measures(inputs, known))
 }
 
 /// Known properties of the rows.
@@ -233,7 +230,8 @@ impl<'a> Job<'a> {
         random
     }
 
-    fn measures(&self, inputs: &[Column], orders: &[Order], known: Known) -> Vec<InputMeasures> {
+    fn measures(&self, inputs: &[Column], known: Known) -> Vec<InputMeasures> {
+        let orders: Vec<Order> = inputs.iter().map(|input| Order::from_values(&input.values)).collect();
         let has_atoms = self.distribution.has_atoms();
         let classes: Vec<Classes> = orders.iter().map(|order| Classes::new(order, self.z.len(), has_atoms)).collect();
         let has_interval = known.has_intervals && self.wants(Measure::Delta);
