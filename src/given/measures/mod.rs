@@ -20,7 +20,7 @@ use serde::{Deserialize, Serialize};
 
 use super::column::{Column, NoVariance};
 use super::order::{Order, Partition};
-use super::{GivenIndices, PointSet, centred};
+use super::{GivenIndices, PointSet, centred, shuffle};
 use crate::names::named;
 use crate::uncertainty::{Estimate, Interval, NORMAL_QUANTILE};
 
@@ -302,9 +302,7 @@ impl<'a> Job<'a> {
         let permutation = |number: usize| {
             let mut random = self.random(1 << 16 | number as u64);
             let mut rows: Vec<usize> = (0..self.z.len()).collect();
-            for k in (1..rows.len()).rev() {
-                rows.swap(k, random.random_range(0..=k as u64) as usize);
-            }
+            shuffle(&mut rows, &mut random);
             let classes = classes.permuted(&rows);
             let finer = number < FINER_PERMUTATIONS && self.wants(Measure::Delta);
             let finer = finer.then(|| self.plain_delta(&classes.delta[1], NARROWER));
