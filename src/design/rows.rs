@@ -240,15 +240,6 @@ mod tests {
     }
 
     #[test]
-    fn runs_are_counted_by_hand() {
-        let count = |factors, swaps: &[&[usize]], ba| runs(factors, swaps, ba).runs.len();
-        assert_eq!(count(1, &[&[0]], false), 2, "AB is B");
-        assert_eq!(count(2, &[&[0], &[1]], true), 4, "BA_1 is AB_2");
-        assert_eq!(count(3, &[&[0], &[1], &[2]], true), 8);
-        assert_eq!(count(3, &[&[0], &[1], &[2], &[0, 1, 2], &[0], &[1, 2]], true), 8, "complements and repeats");
-    }
-
-    #[test]
     fn a_dummy_factor_is_run_again() {
         let runs = runs(2, &[&[0], &[1], &[], &[]], true);
         // A, B; AB_0, AB_1, two dummies; BA_0 is AB_1 and BA_1 is AB_0, two dummies.

@@ -22,8 +22,8 @@ use crate::design::{Design, DesignError, DesignSettings};
 use crate::model::Model;
 pub use crate::names::nearest;
 use crate::space::Space;
-use crate::surrogate::{MIN_NETS, fewest_points};
-use crate::uncertainty::{IntervalMethod, Layout, NoiseLayout};
+use crate::surrogate::fewest_points;
+use crate::uncertainty::{Layout, NoiseLayout};
 
 /// A checked study: a subject, the space of its factors, and the design that explores it.
 #[derive(Debug, Clone)]
@@ -251,12 +251,8 @@ impl Study {
     /// Returns whether surrogates correct the indices of a run of `design`, which may be longer than that of the study.
     pub fn uses_surrogate(&self, design: &Design) -> bool {
         let has_points = self.target.grows() || design.points_per_replicate() >= fewest_points(design) as u64;
-        // Their polynomials are orthogonal only for independent factors, and do not give Shapley effects.
-        let is_plain = self.space.copula().is_none() && !self.analysis.has_shapley(&self.space);
-        let fits = has_points
-            && is_plain
-            && self.analysis.intervals == IntervalMethod::Nets
-            && design.settings().replicates >= MIN_NETS as u64;
+        let DesignSettings { sampler, replicates, .. } = *design.settings();
+        let fits = has_points && self.analysis.takes_surrogates(sampler, replicates, &self.space);
         fits && match self.analysis.surrogate {
             SurrogateChoice::Off => false,
             SurrogateChoice::On => true,
