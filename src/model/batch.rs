@@ -133,11 +133,6 @@ impl Batch {
         self.given_up.as_ref()
     }
 
-    /// Counts one raised validity flag.
-    pub fn raise(&mut self, flag: usize) {
-        self.raise_by(flag, 1);
-    }
-
     /// Counts a validity flag raised by `rows` rows.
     pub fn raise_by(&mut self, flag: usize, rows: u64) {
         self.flags[flag] += rows;

@@ -143,8 +143,8 @@ impl Parser<'_> {
             return Ok(());
         }
         self.deeper(Self::signed)?;
-        match self.program.last_number() {
-            Some(power) if power.fract() == 0.0 && (2.0..=LARGEST_POWER).contains(&power.abs()) => {
+        match self.program.steps().last() {
+            Some(&Step::Number(power)) if power.fract() == 0.0 && (2.0..=LARGEST_POWER).contains(&power.abs()) => {
                 self.program.pop();
                 self.program.push(Step::Power(power as i32));
             }

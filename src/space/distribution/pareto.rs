@@ -5,7 +5,7 @@ use super::prelude::*;
 /// A power law above a minimum: sizes, incomes, losses.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pareto {
-    shape: f64,
+    pub(super) shape: f64,
     min: f64,
 }
 
@@ -39,11 +39,6 @@ impl Pareto {
     /// Allows any shape above 0; one of at most 2 needs an upper bound.
     pub(crate) fn new(shape: f64, min: f64) -> Result<Self, DistributionError> {
         Ok(Self { shape: positive("shape", shape)?, min: positive("min", min)? })
-    }
-
-    /// Returns the part from `min` on, which is Pareto too.
-    pub(super) fn beginning_at(&self, min: f64) -> Result<Distribution, DistributionError> {
-        Distribution::pareto(self.shape, min)
     }
 }
 

@@ -109,7 +109,7 @@ impl Distribution {
             Self::Uniform(_) => Self::uniform(min, max),
             Self::LogUniform(_) => Self::log_uniform(min, max),
             Self::Truncated(truncated) => truncated.law.truncated(min, max),
-            Self::Pareto(pareto) if max == f64::INFINITY => pareto.beginning_at(min),
+            Self::Pareto(pareto) if max == f64::INFINITY => Self::pareto(pareto.shape, min),
             law => {
                 if let Self::StudentT(student) = law {
                     student.refuse_one_long_tail((min, max))?;
