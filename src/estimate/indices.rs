@@ -101,12 +101,6 @@ mod tests {
     }
 
     #[test]
-    fn too_few_points_have_a_name() {
-        assert_eq!(indices(&[], &[], &[]), Err(Undefined::NoRuns));
-        assert_eq!(indices(&[1.0], &[2.0], &[3.0]), Err(Undefined::NoRuns));
-    }
-
-    #[test]
     fn a_rare_event_in_only_one_sample_has_indices_without_a_check() {
         // y is 1 in a single row of A, and B has no such row: B and AB, with the factor from B, are 0 everywhere.
         let zero = [0.0; 16];

@@ -170,30 +170,6 @@ mod tests {
     }
 
     #[test]
-    fn coordinates_get_their_correlations_and_keep_their_uniform_law() {
-        let correlation = matrix(4, &[0.5, 0.0, -0.3, 0.0, 0.6, 0.0]);
-        let copula = GaussianCopula::new(correlation.clone()).unwrap();
-        assert_eq!(copula.dependent(), [0, 1, 3]);
-        let n = 1 << 14;
-        let points = crate::design::SobolSequence::scrambled(4, 1, 0);
-        let mut columns = vec![vec![0.0; n]; 4];
-        columns.iter_mut().enumerate().for_each(|(j, column)| points.fill(j, 0, column));
-        let before = columns.clone();
-        copula.correlate(&mut columns);
-        // The first one and the independent one keep their bits.
-        assert_eq!((&columns[0], &columns[2]), (&before[0], &before[2]));
-        let scores: Vec<Vec<f64>> = columns.iter().map(|column| normal_scores(column)).collect();
-        for i in 0..4 {
-            let mean: f64 = columns[i].iter().sum::<f64>() / n as f64;
-            assert!((mean - 0.5).abs() < 1e-3, "{mean}");
-            for j in 0..4 {
-                let found = scores[i].iter().zip(&scores[j]).map(|(a, b)| a * b).sum::<f64>() / n as f64;
-                assert!((found - correlation[(i, j)]).abs() < 3e-3, "{i} {j}: {found}");
-            }
-        }
-    }
-
-    #[test]
     fn regressions_are_those_of_the_normal_distribution() {
         let copula = GaussianCopula::new(matrix(3, &[0.5, 0.2, -0.4])).unwrap();
         // By hand: (r02 - r01 r12, r12 - r01 r02) / (1 - r01^2).

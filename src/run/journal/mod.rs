@@ -36,7 +36,6 @@ const LOCK_PATIENCE: Duration = Duration::from_millis(500);
 /// A journal open for appending, by one process at a time.
 #[derive(Debug)]
 pub struct Journal {
-    path: PathBuf,
     writer: Mutex<Writer>,
 }
 
@@ -57,7 +56,7 @@ impl Journal {
         refuse_no_file(path)?;
         // Truncate only once the lock is held: the file may belong to another run.
         let file = open_locked(path, true)?;
-        let journal = Self::writing(path, file, 0);
+        let journal = Self::writing(file, 0);
         let mut buffer = Vec::new();
         format::write_header(&mut buffer, header);
         journal
@@ -77,17 +76,12 @@ impl Journal {
         let mut file = open_locked(path, false)?;
         let bytes = read_opened(&mut file).map_err(|source| JournalError::unreadable(path, source))?;
         let contents = read_journal(path, &bytes)?;
-        Ok((Self::writing(path, file, contents.length), contents))
+        Ok((Self::writing(file, contents.length), contents))
     }
 
-    fn writing(path: &Path, file: File, length: u64) -> Self {
+    fn writing(file: File, length: u64) -> Self {
         let writer = Writer { file, length, synced: Instant::now() };
-        Self { path: path.to_owned(), writer: Mutex::new(writer) }
-    }
-
-    /// Returns the path of the file.
-    pub fn path(&self) -> &Path {
-        &self.path
+        Self { writer: Mutex::new(writer) }
     }
 
     /// Appends a piece, by one write: when this returns, the piece survives the death of the program.
