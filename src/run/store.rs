@@ -167,8 +167,9 @@ impl Store {
         let held = self.held();
         let existing = self.overlapping(&held, replicate, &rows).into_iter().map(|(_, common)| common);
         let mut next = rows.start;
-        let gaps =
-            existing.chain([rows.end..rows.end]).map(|common| std::mem::replace(&mut next, common.end)..common.start);
+        let gaps = existing
+            .chain(std::iter::once(rows.end..rows.end))
+            .map(|common| std::mem::replace(&mut next, common.end)..common.start);
         gaps.filter(|gap| !gap.is_empty()).collect()
     }
 

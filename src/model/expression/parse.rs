@@ -108,15 +108,15 @@ impl Parser<'_> {
     }
 
     fn sum(&mut self) -> Parsed {
-        self.from_left(Self::product, [("+", Step::Add), ("-", Step::Subtract)])
+        self.left_to_right(Self::product, [("+", Step::Add), ("-", Step::Subtract)])
     }
 
     fn product(&mut self) -> Parsed {
-        self.from_left(Self::signed, [("*", Step::Multiply), ("/", Step::Divide)])
+        self.left_to_right(Self::signed, [("*", Step::Multiply), ("/", Step::Divide)])
     }
 
     /// Parses operands joined by the signs of `steps`, which are evaluated from left to right.
-    fn from_left(&mut self, operand: fn(&mut Self) -> Parsed, steps: [(&str, Step); 2]) -> Parsed {
+    fn left_to_right(&mut self, operand: fn(&mut Self) -> Parsed, steps: [(&str, Step); 2]) -> Parsed {
         operand(self)?;
         while let Some((_, step)) = steps.into_iter().find(|(sign, _)| self.take(sign)) {
             operand(self)?;
