@@ -29,10 +29,7 @@ pub(super) fn of_factor(context: &Context<'_>, section: &At<FactorSection>) -> R
     let values = values.collect::<Result<Vec<_>, Fault>>()?;
     kind.make(&values).map_err(|source| {
         let first = || fields.keys.first().map(|typed| typed.span.clone());
-        let of_key = match source.is_incomplete {
-            true => None,
-            false => source.key.and_then(|key| fields.place(key)).or_else(first),
-        };
+        let of_key = source.key.and_then(|key| fields.place(key)).or_else(first).filter(|_| !source.is_incomplete);
         context.fault(of_key.unwrap_or(fields.name.span()), refused(factor, &source))
     })
 }
