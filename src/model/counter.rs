@@ -56,8 +56,10 @@ impl Counts {
         };
     }
 
-    /// Adds the counts of other rows.
+    /// Adds the counts of other rows; no counts are as many zeros as the others.
     pub fn merge(&mut self, other: &Self) {
+        let zeros = other.0.iter().skip(self.0.len()).map(|(kind, _)| (*kind, 0.0));
+        self.0.extend(zeros);
         (0..self.0.len()).zip(other.values()).for_each(|(counter, amount)| self.add(counter, amount));
     }
 

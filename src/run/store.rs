@@ -51,12 +51,9 @@ impl Piece {
 
     /// Adds flags and counts of more rows.
     fn add_counts(&mut self, flags: &[u64], counts: &Counts) {
-        if self.flags.is_empty() {
-            (self.flags, self.counts) = (flags.to_vec(), counts.clone());
-        } else {
-            self.flags.iter_mut().zip(flags).for_each(|(mine, theirs)| *mine += theirs);
-            self.counts.merge(counts);
-        }
+        self.flags.resize(self.flags.len().max(flags.len()), 0);
+        self.flags.iter_mut().zip(flags).for_each(|(mine, theirs)| *mine += theirs);
+        self.counts.merge(counts);
     }
 
     /// Returns whether flags were raised or anything counted over its rows: such a piece cannot be divided.

@@ -1,7 +1,7 @@
 use proptest::prelude::*;
 
 use super::*;
-use crate::model::{Output, RunContext};
+use crate::model::{CounterKind, Output, RunContext};
 use crate::quantity::Unit;
 
 /// Two outputs, one validity flag; never run.
@@ -144,4 +144,15 @@ fn every_row_is_counted_once() {
     let alone = Piece { first: 1390, values: vec![1.0, 2.0], ..Piece::default() };
     store.insert(&alone);
     assert_eq!((store.rows(), raised(&store), store.count(0, 1200..1400)), (1, 0, (1, 0)));
+}
+
+#[test]
+fn counts_of_pieces_without_flags_are_added() {
+    let store = Store::new(&described());
+    for first in [0, 2] {
+        let counts = Counts(vec![(CounterKind::Sum, 2.0), (CounterKind::Maximum, first as f64)]);
+        store.insert(&Piece { first, values: vec![0.0; 4], counts, ..Piece::default() });
+    }
+    let counts = store.piece(0, 0..4).unwrap().counts;
+    assert_eq!(counts, Counts(vec![(CounterKind::Sum, 4.0), (CounterKind::Maximum, 2.0)]));
 }
