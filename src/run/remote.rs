@@ -116,7 +116,9 @@ impl Reply {
         while !from.bytes.is_empty() {
             let piece = record(&mut from)?;
             let end = piece.first.checked_add(piece.rows(outputs))?;
-            if piece.replicate != range.replicate || piece.first < range.rows.start || end > range.rows.end {
+            let is_asked =
+                piece.replicate == range.replicate && range.rows.start <= piece.first && end <= range.rows.end;
+            if !is_asked || !piece.is_whole(outputs) {
                 return None;
             }
             pieces.push(piece);

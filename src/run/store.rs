@@ -66,6 +66,13 @@ impl Piece {
         (self.values.len() / outputs.max(1)) as u64
     }
 
+    /// Returns whether its values are those of whole rows, and its failures among them.
+    pub(crate) fn is_whole(&self, outputs: usize) -> bool {
+        let rows = self.rows(outputs);
+        let fits = |(row, output, _): &(u32, u32, _)| u64::from(*row) < rows && (*output as usize) < outputs;
+        rows as usize * outputs == self.values.len() && self.failures.iter().all(fits)
+    }
+
     /// Returns the rows that failed in an output, counted from the first one.
     pub(super) fn failed_rows(&self) -> Vec<u32> {
         let mut rows: Vec<u32> = self.failures.iter().map(|(row, ..)| *row).collect();

@@ -260,11 +260,7 @@ pub(super) fn recorded(study: &Study, contents: &Contents) -> Store {
     let store = Store::new(study.model().as_ref());
     let outputs = store.outputs();
     for piece in &contents.pieces {
-        let rows = piece.rows(outputs);
-        let mut failures = piece.failures.iter();
-        let fits = failures.all(|(row, output, _)| u64::from(*row) < rows && (*output as usize) < outputs);
-        let is_whole = rows as usize * outputs == piece.values.len();
-        if piece.replicate < study.design.settings().replicates && fits && is_whole {
+        if piece.replicate < study.design.settings().replicates && piece.is_whole(outputs) {
             store.insert(piece);
         }
     }
