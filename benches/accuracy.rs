@@ -63,10 +63,11 @@ impl Formula {
     }
 
     fn runs_per_point(self, d: u64) -> u64 {
-        match self {
-            Self::First(estimator) => estimator.runs_per_point(d),
-            Self::Total(estimator) => estimator.runs_per_point(d),
-        }
+        let needs_ba = match self {
+            Self::First(estimator) => estimator.needs_ba(),
+            Self::Total(estimator) => estimator.needs_ba(),
+        };
+        2 + d * if needs_ba { 2 } else { 1 }
     }
 
     fn estimate(self, moments: &Moments, swap: usize) -> f64 {

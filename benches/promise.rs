@@ -16,7 +16,7 @@ use apportion::model::{Batch, KnownAnswer, Model, Output, RunContext, Worker};
 use apportion::{AnalysisOptions, Sampler, Study, StudyResult, SurrogateChoice, Target};
 
 /// A model that says that it takes its time, so that its runs are what counts.
-struct Slow(Box<dyn Model>);
+struct Slow(Arc<dyn Model>);
 
 impl Model for Slow {
     fn outputs(&self) -> &[Output] {
@@ -56,7 +56,7 @@ fn study(name: &str, seed: u64, way: &Way) -> Study {
         .factors()
         .iter()
         .cloned()
-        .fold(Study::builder(name, Arc::new(Slow(known.model()))), |builder, factor| builder.with_factor(factor));
+        .fold(Study::builder(name, Slow(known.model())), |builder, factor| builder.with_factor(factor));
     let analysis = |surrogate| AnalysisOptions { surrogate, ..AnalysisOptions::for_sampler(Sampler::Sobol) };
     builder = match *way {
         Way::Accurate(accuracy) => builder.until(Target::accuracy(accuracy)),

@@ -195,7 +195,7 @@ fn one(known: &Known, method: usize, budget: u64, seed: u64, errors: &mut Errors
             let settings = ScreeningSettings { design, trajectories, seed };
             let job = ScreeningJob { space: study.space(), model: model.as_ref(), settings };
             errors.seeds += 1;
-            match screen(job, 1, &|_| ()) {
+            match screen(job, 1, &|_| (), &RunContext::default()) {
                 Err(_) => errors.without += 1,
                 Ok(found) => {
                     let weights: Vec<f64> = found.outputs[0]

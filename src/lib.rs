@@ -53,7 +53,6 @@
 #![cfg_attr(not(test), deny(clippy::disallowed_methods))]
 
 pub mod analysis;
-mod binary;
 pub mod clock;
 pub mod design;
 pub mod digest;

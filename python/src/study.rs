@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use apportion::given::Column;
 use apportion::result::{RunFacts, StudyResult};
 use apportion::run::{Piece, Store, threads_in_force};
-use apportion::screening::{ScreeningDesign, ScreeningJob, ScreeningSettings, screen_in};
+use apportion::screening::{ScreeningDesign, ScreeningJob, ScreeningSettings, screen};
 use apportion::sweep::{find, sweep};
 use apportion::{Batch, Distribution, Resume, RowFailure, RunContext, Runner};
 use apportion_report::run_document;
@@ -233,7 +233,7 @@ impl Study {
                 "a study with an accuracy or limits chooses its rows during the run: set base_samples instead",
             ));
         }
-        let store = Store::new(design, model.as_ref());
+        let store = Store::new(model.as_ref());
         let replicates = design.settings().replicates;
         let rows = design.rows() / replicates;
         let missing = RowFailure::new("there is no output");
@@ -284,7 +284,7 @@ impl Study {
             let job = ScreeningJob { space: study.space(), model: model.as_ref(), settings };
             let context = RunContext::new(Some(stop.flag()), |_| ());
             let begun = std::time::Instant::now();
-            let screening = screen_in(job, threads, &|now| told.progress(now), &context).map_err(failed)?;
+            let screening = screen(job, threads, &|now| told.progress(now), &context).map_err(failed)?;
             let facts = RunFacts { threads: threads_in_force(threads), wall_seconds: begun.elapsed().as_secs_f64() };
             let file = build_screening(study, model.as_ref(), &screening, facts);
             Ok(Document::new(screening_document(&file)))
@@ -350,7 +350,7 @@ impl Study {
                     caller,
                     takes_its_time,
                 });
-                (self.study.clone().with_model(Arc::clone(&model), &version).map_err(input)?, Some(model))
+                (self.study.clone().with_model(model.clone(), &version).map_err(input)?, Some(model))
             }
         };
         let duty = Duty { events, finished, model, stop: stop.clone() };

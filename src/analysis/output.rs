@@ -14,7 +14,7 @@ use super::{unlikely, warnings};
 use crate::estimate::{CentralMoments, MomentParts, Undefined, merged};
 use crate::model::{Output, RowFailure};
 use crate::quantity::Unit;
-use crate::result::{DistributionRecord, FailureCount, OutputDistribution, OutputResult, Warning, Warnings};
+use crate::result::{DistributionRecord, FailureCount, OutputDistribution, OutputResult, Warning};
 use crate::run::{Tally, Totals};
 use crate::space::IndicesOf;
 use crate::uncertainty::{
@@ -110,7 +110,7 @@ pub(super) fn output_result(
         surrogate_trial: corrected.trials.get(number).copied().flatten(),
         convergence: convergence.iter().map(|stage| stage_record(study, stage, run.design.rows_per_point())).collect(),
         reason: indices.as_ref().err().map(ToString::to_string),
-        warnings: Warnings(warnings),
+        warnings,
         ..OutputResult::default()
     };
     if let Ok(indices) = &indices {

@@ -59,7 +59,12 @@ pub(crate) fn rare_levels(space: &Space, design: &Design) -> Vec<RareLevel> {
     let name = |factor: usize| space.factors()[factor].name.clone();
     let laws = || space.factors().iter().map(|factor| factor.distribution()).enumerate();
     let parts: Vec<(usize, Part)> = laws().flat_map(thin).collect();
-    let draws = if space.copula().is_none() { counts(design, &parts) } else { expected(all, &parts) };
+    let draws = if space.copula().is_none() {
+        counts(design, &parts)
+    } else {
+        // The expected numbers.
+        parts.iter().map(|(_, part)| (part.probability() * all as f64) as u64).collect()
+    };
     let pair = rarest_pair(laws().filter_map(rarest).collect()).filter(|_| space.copula().is_none());
     let pair = pair.and_then(|[(number, part), (other, and)]| {
         let (probability, values) = (part.probability() * and.probability(), PAIRS_OF_POINT * settings.base_samples);
@@ -181,11 +186,6 @@ fn counts(design: &Design, parts: &[(usize, Part)]) -> Vec<u64> {
         }
     }
     counts
-}
-
-/// Returns the expected numbers.
-fn expected(all: u64, parts: &[(usize, Part)]) -> Vec<u64> {
-    parts.iter().map(|(_, part)| (part.probability() * all as f64) as u64).collect()
 }
 
 #[cfg(test)]

@@ -71,48 +71,41 @@ fn largest(indices: &[IndexRecord]) -> Vec<usize> {
     order
 }
 
-/// The slices of the values of a factor.
-enum Slices<'a> {
-    /// Of equal probability, with their medians.
-    Equal(Vec<f64>),
-    /// One for each value of a distribution.
-    Values(&'a Distribution, Vec<f64>),
+/// The slices of the values of a factor: of equal probability, or one for each value.
+struct Slices<'a> {
+    distribution: &'a Distribution,
+    /// The medians of the slices.
+    middles: Vec<f64>,
+    is_by_value: bool,
 }
 
 impl<'a> Slices<'a> {
     fn new(distribution: &'a Distribution) -> Self {
-        let values = match distribution {
+        let values: Vec<f64> = match distribution {
             Distribution::Constant(_) => vec![distribution.median()],
             other => other.levels().unwrap_or_default().into_iter().map(|(value, _)| value).collect(),
         };
-        if (1..=MAX_VALUES).contains(&values.len()) {
-            return Self::Values(distribution, values);
-        }
-        Self::Equal((0..SLICES).map(|k| distribution.quantile((k as f64 + 0.5) / SLICES as f64)).collect())
-    }
-
-    fn middles(&self) -> &[f64] {
-        match self {
-            Self::Equal(middles) | Self::Values(_, middles) => middles,
-        }
+        let is_by_value = (1..=MAX_VALUES).contains(&values.len());
+        let equal = || (0..SLICES).map(|k| distribution.quantile((k as f64 + 0.5) / SLICES as f64)).collect();
+        Self { distribution, middles: if is_by_value { values } else { equal() }, is_by_value }
     }
 
     /// Returns the slice of a point of the unit interval.
     fn number(&self, u: f64) -> usize {
-        match self {
-            Self::Equal(_) => ((u * SLICES as f64) as usize).min(SLICES - 1),
-            Self::Values(distribution, values) => {
-                let value = distribution.quantile(u);
-                values.partition_point(|v| *v < value).min(values.len() - 1)
-            }
-        }
+        let number = if self.is_by_value {
+            let value = self.distribution.quantile(u);
+            self.middles.partition_point(|v| *v < value)
+        } else {
+            (u * SLICES as f64) as usize
+        };
+        number.min(self.middles.len() - 1)
     }
 }
 
 /// Computes means over slices; `rows` are (coordinate, output times 2^-exponent), for outputs with a value.
 fn conditional_means(factor: &Factor, unit: &Unit, rows: &[(f64, f64)], exponent: i32) -> ConditionalMeansRecord {
     let slices = Slices::new(factor.distribution());
-    let mut values = vec![Vec::new(); slices.middles().len()];
+    let mut values = vec![Vec::new(); slices.middles.len()];
     for (u, y) in rows {
         values[slices.number(*u)].push(*y);
     }
@@ -124,7 +117,7 @@ fn conditional_means(factor: &Factor, unit: &Unit, rows: &[(f64, f64)], exponent
     };
     ConditionalMeansRecord {
         factor: factor.name.clone(),
-        x: slices.middles().to_vec(),
+        x: slices.middles.to_vec(),
         mean: values.iter().map(|values| (!values.is_empty()).then(|| in_unit(mean(values)))).collect(),
         low: values.iter().map(|values| bound(values, -1.0)).collect(),
         high: values.iter().map(|values| bound(values, 1.0)).collect(),

@@ -30,25 +30,15 @@ pub(super) fn of_runs(run: &FinishedRun<'_>, failed: u64, used: &Moments) -> Vec
     warnings
 }
 
+/// The codes of warnings that joint failures may cause.
+const CONSEQUENCES: [&str; 6] =
+    ["above-total", "contradictory", "formulas-differ", "first-order-above-one", "totals-below-one", "total-above-one"];
+
 /// Removes the advice to take more samples if indices contradict each other because of joint failures.
 pub(super) fn without_consequences(warnings: &mut Vec<Warning>) {
     let is_cause = |warning: &Warning| matches!(warning, Warning::JointFailures { points, base_samples } if 1000 * points >= *base_samples);
     if warnings.iter().any(is_cause) {
-        let is_consequence = |warning: &Warning| {
-            use Warning::{
-                AboveTotal, Contradictory, FirstOrderAboveOne, FormulasDiffer, TotalAboveOne, TotalsBelowOne,
-            };
-            matches!(
-                warning,
-                AboveTotal { .. }
-                    | Contradictory { .. }
-                    | FormulasDiffer { .. }
-                    | FirstOrderAboveOne { .. }
-                    | TotalsBelowOne { .. }
-                    | TotalAboveOne { .. }
-            )
-        };
-        warnings.retain(|warning| !is_consequence(warning));
+        warnings.retain(|warning| !CONSEQUENCES.contains(&warning.code()));
     }
 }
 

@@ -84,52 +84,33 @@ impl Design {
     /// second-order indices or plain rows of dependent factors.
     pub fn new(mut settings: DesignSettings, factors: usize, rows: Rows) -> Result<Self, DesignError> {
         let DesignSettings { sampler, base_samples, replicates, .. } = settings;
-        if factors == 0 {
-            return Err(DesignError::NoFactors);
-        }
-        if factors > MAX_FACTORS {
-            return Err(DesignError::FarTooManyFactors { factors });
-        }
-        if sampler == Sampler::Sobol && factors > MAX_DIMENSIONS / 2 {
-            return Err(DesignError::TooManyFactors { factors });
-        }
-        if rows.plain_rows > MAX_PLAIN_ROWS {
-            return Err(DesignError::TooManyPlainRows { plain_rows: rows.plain_rows });
-        }
-        if replicates == 0 {
-            return Err(DesignError::NoReplicates);
-        }
-        if replicates > MAX_REPLICATES {
-            return Err(DesignError::TooManyReplicates { replicates });
-        }
+        let points = base_samples.div_ceil(replicates.max(1));
+        let is_too_long = points.saturating_mul(u64::from(rows.plain_rows.max(1))) > MAX_POINTS;
+        refuse([
+            (factors == 0, DesignError::NoFactors),
+            (factors > MAX_FACTORS, DesignError::FarTooManyFactors { factors }),
+            (sampler == Sampler::Sobol && factors > MAX_DIMENSIONS / 2, DesignError::TooManyFactors { factors }),
+            (rows.plain_rows > MAX_PLAIN_ROWS, DesignError::TooManyPlainRows { plain_rows: rows.plain_rows }),
+            (replicates == 0, DesignError::NoReplicates),
+            (replicates > MAX_REPLICATES, DesignError::TooManyReplicates { replicates }),
+        ])?;
         if let Some(&column) = rows.swaps.iter().flatten().find(|&&column| column >= factors) {
             return Err(DesignError::NoSuchColumn { column, factors });
         }
-        if base_samples / 2 < replicates {
-            return Err(DesignError::TooFewSamples { base_samples, replicates });
-        }
-        let points = base_samples.div_ceil(replicates);
-        if points.saturating_mul(u64::from(rows.plain_rows.max(1))) > MAX_POINTS {
-            return Err(DesignError::TooManySamples { base_samples, replicates });
-        }
-        let disjoint = disjoint_swaps(&rows.swaps);
-        if rows.second_order && !rows.ba {
-            return Err(DesignError::SecondOrderWithoutBa);
-        }
-        if rows.second_order && disjoint.len() > MAX_PAIRED_FACTORS {
-            return Err(DesignError::TooManyPairs { factors: disjoint.len() });
-        }
-        if let Some(copula) = &rows.copula {
-            if rows.second_order {
-                return Err(DesignError::PairsOfDependentFactors);
-            }
-            if rows.plain_rows > 0 {
-                return Err(DesignError::PlainRowsOfDependentFactors);
-            }
-            if copula.factors() != factors {
-                return Err(DesignError::OtherFactors { copula: copula.factors(), factors });
-            }
-        }
+        let (disjoint, is_dependent) = (disjoint_swaps(&rows.swaps), rows.copula.is_some());
+        let of_copula = rows.copula.as_ref().map_or(factors, |copula| copula.factors());
+        refuse([
+            (base_samples / 2 < replicates, DesignError::TooFewSamples { base_samples, replicates }),
+            (is_too_long, DesignError::TooManySamples { base_samples, replicates }),
+            (rows.second_order && !rows.ba, DesignError::SecondOrderWithoutBa),
+            (
+                rows.second_order && disjoint.len() > MAX_PAIRED_FACTORS,
+                DesignError::TooManyPairs { factors: disjoint.len() },
+            ),
+            (is_dependent && rows.second_order, DesignError::PairsOfDependentFactors),
+            (is_dependent && rows.plain_rows > 0, DesignError::PlainRowsOfDependentFactors),
+            (of_copula != factors, DesignError::OtherFactors { copula: of_copula, factors }),
+        ])?;
         let runs = Runs::new(&rows, factors);
         let rows_per_point = runs.runs.len() as u64;
         let all = u128::from(points) * u128::from(replicates);
@@ -316,6 +297,11 @@ impl Design {
             *u = columns[self.column(run, factor)][0];
         }
     }
+}
+
+/// Returns the first error whose condition is met.
+fn refuse<const N: usize>(errors: [(bool, DesignError); N]) -> Result<(), DesignError> {
+    errors.into_iter().find(|(is_met, _)| *is_met).map_or(Ok(()), |(_, error)| Err(error))
 }
 
 /// Returns the indices of the swaps that share no column with an earlier one of them.

@@ -111,9 +111,11 @@ impl Runs {
     pub fn new(rows: &Rows, factors: usize) -> Self {
         let first = factors * (2 + rows.plain_rows as usize);
         let mixed = rows.copula.clone().map(|copula| MixedColumns::new(copula, first));
-        let mut unique = Unique { factors, runs: Vec::new(), numbers: BTreeMap::new(), mixed };
-        unique.number(RowKind::A, Matrix::A, &[], Matrix::B);
-        unique.number(RowKind::B, Matrix::B, &[], Matrix::A);
+        let [a, b] = [(RowKind::A, Matrix::A, Matrix::B), (RowKind::B, Matrix::B, Matrix::A)]
+            .map(|(kind, base, from)| Run::new(kind, base, Vec::new(), from));
+        let numbers = [&a, &b].map(|run| (key(factors, run.base, &[], run.from), Vec::new()));
+        let numbers = numbers.into_iter().zip(0..).collect();
+        let mut unique = Unique { factors, runs: vec![a, b], numbers, mixed };
         let mut series = |asked: bool, kind: fn(usize) -> RowKind, base, from| -> Vec<usize> {
             let swaps = rows.swaps.iter().enumerate().filter(|_| asked);
             let redrawn = |number: usize| rows.redrawn.contains(&number);
@@ -155,24 +157,12 @@ impl Unique {
         let firsts = [base, from].map(|matrix| self.factors * matrix.place());
         let of_row = |mixed: &mut MixedColumns| mixed.of_row(&columns, redrawn, firsts[0], firsts[1]);
         let mixed = self.mixed.as_mut().map(of_row).unwrap_or_default();
-        let number = self.numbered((key(self.factors, base, &columns, from), mixed.clone()));
+        let key = (key(self.factors, base, &columns, from), mixed.clone());
+        let number = *self.numbers.entry(key).or_insert(self.runs.len());
         if number == self.runs.len() {
             self.runs.push(Run { mixed, ..Run::new(kind, base, columns, from) });
         }
         number
-    }
-
-    /// Returns the index of the run at this point, adding a run if there is none yet.
-    fn number(&mut self, kind: RowKind, base: Matrix, columns: &[usize], from: Matrix) -> usize {
-        let number = self.numbered((key(self.factors, base, columns, from), Vec::new()));
-        if number == self.runs.len() {
-            self.runs.push(Run::new(kind, base, columns.to_vec(), from));
-        }
-        number
-    }
-
-    fn numbered(&mut self, key: (Key, Vec<(usize, usize)>)) -> usize {
-        *self.numbers.entry(key).or_insert(self.runs.len())
     }
 }
 
@@ -247,15 +237,6 @@ mod tests {
                 }
             }
         }
-    }
-
-    #[test]
-    fn runs_are_counted_by_hand() {
-        let count = |factors, swaps: &[&[usize]], ba| runs(factors, swaps, ba).runs.len();
-        assert_eq!(count(1, &[&[0]], false), 2, "AB is B");
-        assert_eq!(count(2, &[&[0], &[1]], true), 4, "BA_1 is AB_2");
-        assert_eq!(count(3, &[&[0], &[1], &[2]], true), 8);
-        assert_eq!(count(3, &[&[0], &[1], &[2], &[0, 1, 2], &[0], &[1, 2]], true), 8, "complements and repeats");
     }
 
     #[test]

@@ -1,12 +1,12 @@
 //! The settings of a design: its sampler, size and seed.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::names::named;
 
 named! {
 /// Where the points of a design come from.
-#[derive(Serialize)]
+#[derive(Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Sampler {
     /// Owen-scrambled Sobol' points: the default, and the most accurate one for most models.
@@ -26,7 +26,7 @@ impl Sampler {
 }
 
 /// The settings of a design, checked by [`Design::new`](super::Design::new).
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct DesignSettings {
     /// The sampler.
     pub sampler: Sampler,

@@ -25,11 +25,6 @@ macro_rules! estimators {
                 matches!(self, Self::GlenIsaacs2012 | Self::Azzini2021)
             }
 
-            /// Returns the model runs of a base point for `d` factors, if no two rows are the same point.
-            pub fn runs_per_point(self, d: u64) -> u64 {
-                2 + d * if self.needs_ba() { 2 } else { 1 }
-            }
-
             /// Returns the index of swap `swap`, not clamped; NaN without variance, or without rows BA if
             /// [needed](Self::needs_ba).
             ///

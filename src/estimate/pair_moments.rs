@@ -1,7 +1,7 @@
 //! The means used to compute second-order indices.
 
-use super::workspace::{Difference, PairedColumns, Workspace};
-use crate::sum::{centred_product, mean};
+use super::workspace::{Workspace, difference};
+use crate::sum::centred_product;
 
 /// Means of E_j D_k over the ordered pairs j != k of the paired swaps, with D = y_AB - y_A and E = y_BA - y_B.
 #[derive(Debug, Clone, PartialEq)]
@@ -19,24 +19,6 @@ struct PairMean {
     mean: f64,
 }
 
-impl Difference {
-    fn set(&mut self, y: &[f64], origin: &[f64]) {
-        self.succeeded.clear();
-        self.values.clear();
-        self.values.extend(y.iter().zip(origin).map(|(y, origin)| y - origin));
-        if mean(&self.values).is_finite() {
-            return;
-        }
-        let succeeded = |(y, origin): (&f64, &f64)| y.is_finite() && origin.is_finite();
-        self.succeeded.extend(y.iter().zip(origin).map(|row| f64::from(u8::from(succeeded(row)))));
-        for (value, succeeded) in self.values.iter_mut().zip(&self.succeeded) {
-            if *succeeded == 0.0 {
-                *value = 0.0;
-            }
-        }
-    }
-}
-
 impl PairMoments {
     /// Computes the means of one block for `swaps`: `a` and `b` are the outputs of A and B, `ab` and `ba` those of all
     /// swaps.
@@ -46,18 +28,15 @@ impl PairMoments {
         (ab, ba): (&[&[f64]], &[&[f64]]),
         work: &mut Workspace,
     ) -> Self {
-        work.paired.resize_with(swaps.len(), PairedColumns::default);
-        for (columns, &swap) in work.paired.iter_mut().zip(swaps) {
-            columns.d.set(ab[swap], a);
-            columns.e.set(ba[swap], b);
+        work.paired.resize_with(swaps.len(), Default::default);
+        for ([d, e], &swap) in work.paired.iter_mut().zip(swaps) {
+            difference(ab[swap], a, d);
+            difference(ba[swap], b, e);
         }
         let mut means = Vec::with_capacity(swaps.len() * swaps.len().saturating_sub(1));
-        for (j, of_j) in work.paired.iter().enumerate() {
-            for (k, of_k) in work.paired.iter().enumerate() {
-                if j != k {
-                    means.push(PairMean::new(&of_j.e, &of_k.d));
-                }
-            }
+        for (j, [_, e]) in work.paired.iter().enumerate() {
+            let others = work.paired.iter().enumerate().filter(|(k, _)| *k != j);
+            means.extend(others.map(|(_, [d, _])| PairMean::new(e, d)));
         }
         Self { swaps: swaps.to_vec(), means }
     }
@@ -92,14 +71,16 @@ impl PairMoments {
 }
 
 impl PairMean {
-    fn new(e: &Difference, d: &Difference) -> Self {
-        let n = match (&e.succeeded[..], &d.succeeded[..]) {
-            ([], []) => e.values.len() as u64,
-            ([], some) | (some, []) => some.iter().sum::<f64>() as u64,
-            (some, others) => centred_product((some, 0.0), (others, 0.0)) as u64,
-        };
-        let sum = centred_product((&e.values, 0.0), (&d.values, 0.0));
-        Self { n, mean: if n == 0 { 0.0 } else { sum / n as f64 } }
+    fn new(e: &[f64], d: &[f64]) -> Self {
+        let (mut n, mut sum) = (e.len(), centred_product((e, 0.0), (d, 0.0)));
+        if !sum.is_finite() {
+            // Base points that failed count as 0 in the sum, and not at all in their number.
+            n = e.iter().zip(d).filter(|(e, d)| e.is_finite() && d.is_finite()).count();
+            let [e, d] =
+                [e, d].map(|column| column.iter().map(|y| if y.is_finite() { *y } else { 0.0 }).collect::<Vec<f64>>());
+            sum = centred_product((&e, 0.0), (&d, 0.0));
+        }
+        Self { n: n as u64, mean: if n == 0 { 0.0 } else { sum / n as f64 } }
     }
 
     fn merge(&mut self, other: &Self) {

@@ -5,6 +5,7 @@
 
 use super::pair_moments::PairMoments;
 use super::swap_moments::BaMoments;
+use super::workspace::difference;
 use super::{BaseMoments, BlockOutputs, Moments, SwapMoments};
 
 /// The letters that form products: 1 at a base point that counts, and the outputs and differences of [`SwapMoments`]
@@ -142,8 +143,7 @@ impl Products {
         differences.resize_with(self.own.len(), Default::default);
         for (swap, [d, e]) in differences.iter_mut().enumerate() {
             for (into, row, origin) in [(d, block.ab[swap], block.a), (e, block.ba[swap], block.b)] {
-                into.clear();
-                into.extend(row.iter().zip(origin).map(|(y, origin)| y - origin));
+                difference(row, origin, into);
             }
         }
         for (j, k, own) in &self.pairs {

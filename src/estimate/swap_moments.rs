@@ -1,7 +1,7 @@
 //! The sums used to compute the indices of one swap.
 
 use super::base_moments::{BaseMoments, Shift};
-use super::workspace::Workspace;
+use super::workspace::{Workspace, difference};
 use crate::sum::{centred_product, centred_products, mean};
 
 /// Means and sums of centred products of the outputs of one swap s, over the base points at which all of its rows have
@@ -72,8 +72,12 @@ impl SwapMoments {
         let Columns { a, b, ab, ba } = columns;
         let [buffer_d, buffer_e] = &mut work.differences;
         let (a, b) = ((a, base.mean_a), (b, base.mean_b));
-        let d = difference(ab, a.0, buffer_d);
-        let e = ba.map(|ba| difference(ba, b.0, buffer_e));
+        difference(ab, a.0, buffer_d);
+        let d = (&buffer_d[..], mean(buffer_d));
+        let e = ba.map(|ba| {
+            difference(ba, b.0, buffer_e);
+            (&buffer_e[..], mean(buffer_e))
+        });
         let ba = e.map(|e| {
             let [ae, be, ee] = centred_products(a, b, e);
             BaMoments { mean_e: e.1, ee, ae, be, de: centred_product(d, e) }
@@ -152,11 +156,4 @@ impl<'a> Columns<'a> {
         let [a, b, ab, ba] = &*kept;
         Columns { a, b, ab, ba: self.ba.map(|_| &ba[..]) }
     }
-}
-
-/// Writes the differences `y - origin` to `buffer`, and returns them with their mean.
-fn difference<'a>(y: &[f64], origin: &[f64], buffer: &'a mut Vec<f64>) -> (&'a [f64], f64) {
-    buffer.clear();
-    buffer.extend(y.iter().zip(origin).map(|(y, origin)| y - origin));
-    (buffer, mean(buffer))
 }

@@ -7,22 +7,14 @@ pub struct Workspace {
     pub(super) differences: [Vec<f64>; 2],
     /// Columns of A, B and the rows of a swap without the base points that failed.
     pub(super) kept: [Vec<f64>; 4],
-    /// Differences of all paired swaps.
-    pub(super) paired: Vec<PairedColumns>,
+    /// D and E of all paired swaps.
+    pub(super) paired: Vec<[Vec<f64>; 2]>,
 }
 
-/// D and E of one swap, with 0 at the base points that failed; if any did, also a mask of 0 there and 1 elsewhere.
-#[derive(Debug, Default)]
-pub(super) struct PairedColumns {
-    pub d: Difference,
-    pub e: Difference,
-}
-
-#[derive(Debug, Default)]
-pub(super) struct Difference {
-    pub values: Vec<f64>,
-    /// Empty if no base point failed.
-    pub succeeded: Vec<f64>,
+/// Writes the differences `y - origin` to `buffer`.
+pub(super) fn difference(y: &[f64], origin: &[f64], buffer: &mut Vec<f64>) {
+    buffer.clear();
+    buffer.extend(y.iter().zip(origin).map(|(y, origin)| y - origin));
 }
 
 impl Workspace {

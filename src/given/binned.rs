@@ -3,8 +3,6 @@
 use serde::{Deserialize, Serialize};
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
-use super::centred;
-use super::column::NoVariance;
 use super::order::{Order, Partition};
 use crate::sum::rescaled;
 use crate::uncertainty::{Estimate, Interval, LEVEL};
@@ -30,7 +28,7 @@ pub fn bins_for(rows: usize) -> usize {
     (rows * 9 / 25).isqrt().max((rows / 6).min(6)).max(2)
 }
 
-/// Estimates the first-order index of `y` with respect to `x` by lines in bins of equal probability:
+/// Estimates the first-order index of centred outputs with respect to an input by lines in bins of equal probability:
 ///
 /// S = (sum of g^2 - noise) / SST,
 ///
@@ -45,19 +43,7 @@ pub fn bins_for(rows: usize) -> usize {
 /// squares)^2 over the sum of fourth powers; and it includes the estimate of half as many bins, which shows the error
 /// of the lines. Its coverage: `docs/existing-runs.md` (`cargo bench --bench given`).
 ///
-/// # Errors
-/// [`NoVariance`] if `y` is constant, up to rounding errors. A constant `x` has index 0 without an interval.
-///
-/// # Panics
-/// If the slices differ in length.
-pub fn binned_first_order(x: &[f64], y: &[f64]) -> Result<Binned, NoVariance> {
-    assert_eq!(x.len(), y.len(), "one output per input value");
-    Ok(of_order(&Order::from_values(x), x, &centred(y)?, true))
-}
-
-/// Does the same for centred outputs `z` and the order of the input `x`.
-///
-/// Without `independent` rows, as on quasi-random points, lines contain little noise: none is subtracted. There is no
+/// A constant input has index 0 without an interval. `order` is that of the input `x`, and `z` are the outputs. Without `independent` rows, as on quasi-random points, lines contain little noise: none is subtracted. There is no
 /// interval.
 pub(super) fn of_order(order: &Order, x: &[f64], z: &[f64], independent: bool) -> Binned {
     let wanted = bins_for(z.len());
@@ -180,12 +166,16 @@ impl Lines {
 mod tests {
     use super::*;
 
+    fn binned_first_order(x: &[f64], y: &[f64]) -> Binned {
+        of_order(&Order::from_values(x), x, &crate::given::centred(y).unwrap(), true)
+    }
+
     #[test]
     fn two_groups_by_hand() {
         // Means 0 and 10, one degree of freedom between; within each group 0.25 x 20 x 2 squares, on 38 degrees.
         let x: Vec<f64> = (0..40).map(|k| f64::from(k % 2)).collect();
         let y: Vec<f64> = (0..40).map(|k| f64::from(k % 2) * 10.0 + if k % 4 < 2 { 0.5 } else { -0.5 }).collect();
-        let got = binned_first_order(&x, &y).unwrap();
+        let got = binned_first_order(&x, &y);
         assert_eq!(got.bins, 2);
         let expected = (1000.0 - 10.0 / 38.0) / 1010.0;
         assert!((got.estimate.estimate - expected).abs() < 1e-14);
@@ -198,7 +188,7 @@ mod tests {
         let a: Vec<f64> = (0..1000).map(|k| quantile((f64::from(k) + 0.5) / 1000.0)).collect();
         let y: Vec<f64> =
             (0..1000).map(|k| 3.0 * a[k as usize] + quantile((f64::from(k * 371 % 1000) + 0.5) / 1000.0)).collect();
-        let found = binned_first_order(&a, &y).unwrap().estimate;
+        let found = binned_first_order(&a, &y).estimate;
         let interval = found.interval.unwrap();
         assert!((found.estimate - 0.9).abs() < 0.02 && interval.low < 0.9 && 0.9 < interval.high, "{found:?}");
         assert!(interval.high - interval.low < 0.3, "{found:?}");
@@ -209,13 +199,5 @@ mod tests {
         for (rows, bins) in [(30, 5), (40, 6), (100, 6), (200, 8), (1000, 18), (10_000, 60)] {
             assert_eq!(bins_for(rows), bins);
         }
-    }
-
-    #[test]
-    fn degenerate_columns_have_a_name() {
-        let x: Vec<f64> = (0..40).map(f64::from).collect();
-        assert_eq!(binned_first_order(&x, &[3.0; 40]), Err(NoVariance::Constant));
-        let constant = binned_first_order(&[3.0; 40], &x).unwrap();
-        assert_eq!((constant.estimate.estimate, constant.estimate.interval, constant.bins), (0.0, None, 1));
     }
 }

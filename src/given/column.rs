@@ -64,14 +64,6 @@ mod tests {
         // The smallest positive numbers.
         assert!(centred(&[5e-324, 0.0]).is_ok());
     }
-
-    #[test]
-    fn no_variance_has_a_name() {
-        assert_eq!(centred(&[4.0; 9]), Err(NoVariance::Constant));
-        assert_eq!(centred(&[0.0; 9]), Err(NoVariance::Constant));
-        assert_eq!(centred(&[1.0, 1.0 + f64::EPSILON, 1.0]), Err(NoVariance::Rounding));
-        assert!(centred(&[1.0, 1.0 + 1e-12, 1.0]).is_ok());
-    }
 }
 
 /// A column that cannot be an input because its cells are not numbers.

@@ -1,8 +1,8 @@
 //! Sobol' indices from existing data: a table of inputs and outputs, from any source.
 //!
 //! There is no design, and rows must be independent draws. [`analyse`] checks the rows first ([`PointSet`]) and refuses
-//! those that would give wrong numbers; then it estimates S_j = V(E[Y|X_j])/V(Y) by [`rank`](rank_first_order) and by
-//! [`bins`](binned_first_order), two methods that share only the data. [`surrogate_indices`] adds total indices, and
+//! those that would give wrong numbers; then it estimates S_j = V(E[Y|X_j])/V(Y) by ranks and by bins,
+//! two methods that share only the data. [`surrogate_indices`] adds total indices, and
 //! more accurate first-order ones if the model is smooth and the inputs are independent of each other. [`measures`]
 //! uses more than the variance.
 
@@ -17,7 +17,7 @@ mod rank;
 mod repeats;
 mod surrogate;
 
-pub use binned::{Binned, binned_first_order, bins_for};
+pub use binned::{Binned, bins_for};
 pub(crate) use column::centred;
 pub use column::{Column, NoVariance, TextColumn};
 pub use dependence::{Dependence, PairDependence};
@@ -28,7 +28,6 @@ use order::Order;
 pub use outcome::{InputIndices, OutputIndices};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-pub use rank::rank_first_order;
 pub use surrogate::{
     MIN_EXPLAINED, SurrogateIndices, SurrogateOutput, SurrogateRefusal, Surrogates, surrogate_indices,
 };
@@ -171,12 +170,16 @@ pub fn analyse(inputs: &[Column], outputs: &[Column], seed: u64) -> Result<Given
 /// Returns the indices of `most` of `rows` rows, or of all if there are no more, in random order.
 fn drawn_rows(rows: usize, most: usize, seed: u64) -> Vec<usize> {
     let mut all: Vec<usize> = (0..rows).collect();
-    let mut rng = ChaCha8Rng::seed_from_u64(seed);
-    for k in (1..rows).rev() {
-        all.swap(k, rng.random_range(0..=k as u64) as usize);
-    }
+    shuffle(&mut all, &mut ChaCha8Rng::seed_from_u64(seed));
     all.truncate(most);
     all
+}
+
+/// Puts rows in random order, in the same way on every platform.
+fn shuffle(rows: &mut [usize], rng: &mut ChaCha8Rng) {
+    for k in (1..rows.len()).rev() {
+        rows.swap(k, rng.random_range(0..=k as u64) as usize);
+    }
 }
 
 /// Returns the number of rows, if the table can be analysed.

@@ -1,7 +1,9 @@
 //! The rows of a table in the order of one column.
 
-use rand::{RngExt, SeedableRng};
+use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
+
+use super::shuffle;
 
 /// For every row the index of its class, and the number of classes.
 pub(super) type Partition = (Vec<usize>, usize);
@@ -83,10 +85,7 @@ impl Order {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
         rng.set_stream(stream);
         for ends in self.starts.windows(2) {
-            let group = &mut rows[ends[0]..ends[1]];
-            for k in (1..group.len()).rev() {
-                group.swap(k, rng.random_range(0..=k as u64) as usize);
-            }
+            shuffle(&mut rows[ends[0]..ends[1]], &mut rng);
         }
         rows
     }

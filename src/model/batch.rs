@@ -4,7 +4,6 @@ use std::fmt;
 use std::sync::Arc;
 
 use super::{Counts, Model};
-use crate::binary::{Binary, Reader, binary_fields};
 
 /// Why a row has no value of an output, as a message of its model. Equal reasons are counted together, so a reason
 /// should not contain values of the row; cheap to clone.
@@ -28,16 +27,6 @@ impl RowFailure {
     }
 }
 
-impl Binary for RowFailure {
-    fn write(&self, out: &mut Vec<u8>) {
-        self.0.to_string().write(out);
-    }
-
-    fn read(from: &mut Reader<'_>) -> Option<Self> {
-        Some(Self::new(&String::read(from)?))
-    }
-}
-
 impl fmt::Display for RowFailure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.0)
@@ -52,8 +41,6 @@ pub struct GiveUp {
     /// Whether the model must be changed before any run: an error in the input, not a failed run.
     pub is_bad_input: bool,
 }
-
-binary_fields!(GiveUp { reason, is_bad_input });
 
 impl From<RowFailure> for GiveUp {
     fn from(reason: RowFailure) -> Self {
@@ -146,11 +133,6 @@ impl Batch {
         self.given_up.as_ref()
     }
 
-    /// Counts one raised validity flag.
-    pub fn raise(&mut self, flag: usize) {
-        self.raise_by(flag, 1);
-    }
-
     /// Counts a validity flag raised by `rows` rows.
     pub fn raise_by(&mut self, flag: usize, rows: u64) {
         self.flags[flag] += rows;
@@ -235,16 +217,5 @@ mod tests {
         batch.fail(2, 1, reason.clone());
         batch.settle();
         assert_eq!(batch.failures(), [(0, 1, RowFailure::not_finite()), (1, 2, reason)]);
-    }
-
-    #[test]
-    fn a_row_that_was_never_set_is_a_failure() {
-        let mut batch = Batch { columns: vec![Vec::new()], ..Batch::default() };
-        batch.reset(2);
-        batch.set(0, 0, 1.0);
-        batch.settle();
-        assert_eq!(batch.failures(), [(0, 1, RowFailure::not_finite())]);
-        batch.reset(1);
-        assert!(batch.failures().is_empty());
     }
 }

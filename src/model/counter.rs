@@ -2,8 +2,6 @@
 
 use std::borrow::Cow;
 
-use crate::binary::{Binary, Reader, binary_fields};
-
 /// Prefix of the names of counters of rows evaluated by a rung of the ladder of fidelities.
 pub const RUNGS: &str = "rungs.";
 /// Name of the counter of evaluations of the right-hand side.
@@ -29,72 +27,43 @@ pub enum CounterKind {
     Maximum,
 }
 
-/// The counts of some rows, in the order of the model's [counters](super::Model::counters).
+/// The counts of some rows, in the order of the model's [counters](super::Model::counters), each with its kind.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Counts {
-    entries: Vec<Count>,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Count {
-    kind: CounterKind,
-    value: f64,
-}
-
-binary_fields!(Counts { entries });
-binary_fields!(Count { kind, value });
-
-impl Binary for CounterKind {
-    fn write(&self, out: &mut Vec<u8>) {
-        (*self == Self::Maximum).write(out);
-    }
-
-    fn read(from: &mut Reader<'_>) -> Option<Self> {
-        Some(if bool::read(from)? { Self::Maximum } else { Self::Sum })
-    }
-}
+pub struct Counts(pub(crate) Vec<(CounterKind, f64)>);
 
 impl Counts {
     /// Returns zero counts for `counters`.
     pub fn new(counters: &[Counter]) -> Self {
-        Self::from_values(counters.iter().map(|counter| (counter.kind, 0.0)))
-    }
-
-    /// Creates counts of these kinds and values.
-    pub(crate) fn from_values(values: impl IntoIterator<Item = (CounterKind, f64)>) -> Self {
-        Self { entries: values.into_iter().map(|(kind, value)| Count { kind, value }).collect() }
+        Self(counters.iter().map(|counter| (counter.kind, 0.0)).collect())
     }
 
     /// Iterates over the values, in order.
     pub fn values(&self) -> impl ExactSizeIterator<Item = f64> {
-        self.entries.iter().map(|count| count.value)
+        self.0.iter().map(|(_, value)| *value)
     }
 
     /// Returns whether nothing was counted.
     pub fn is_zero(&self) -> bool {
-        self.entries.iter().all(|count| count.value == 0.0)
+        self.values().all(|value| value == 0.0)
     }
 
     /// Adds `amount` to the counter with that index, or takes the maximum of both.
     pub fn add(&mut self, counter: usize, amount: f64) {
-        self.entries[counter].add(amount);
+        let (kind, value) = &mut self.0[counter];
+        *value = match kind {
+            CounterKind::Sum => *value + amount,
+            CounterKind::Maximum => value.max(amount),
+        };
     }
 
-    /// Adds the counts of other rows.
+    /// Adds the counts of other rows; no counts are as many zeros as the others.
     pub fn merge(&mut self, other: &Self) {
-        self.entries.iter_mut().zip(&other.entries).for_each(|(mine, theirs)| mine.add(theirs.value));
+        let zeros = other.0.iter().skip(self.0.len()).map(|(kind, _)| (*kind, 0.0));
+        self.0.extend(zeros);
+        (0..self.0.len()).zip(other.values()).for_each(|(counter, amount)| self.add(counter, amount));
     }
 
     pub(super) fn clear(&mut self) {
-        self.entries.iter_mut().for_each(|count| count.value = 0.0);
-    }
-}
-
-impl Count {
-    fn add(&mut self, amount: f64) {
-        match self.kind {
-            CounterKind::Sum => self.value += amount,
-            CounterKind::Maximum => self.value = self.value.max(amount),
-        }
+        self.0.iter_mut().for_each(|(_, value)| *value = 0.0);
     }
 }

@@ -14,6 +14,15 @@ pub struct FunctionModel<F> {
     function: F,
 }
 
+impl FunctionModel<fn(&[f64], &mut [f64]) -> Result<(), RowFailure>> {
+    /// Creates a model that runs outside of this program: every row evaluated by it fails. Its outputs are read from a
+    /// file, into a [`Store`](crate::run::Store).
+    pub(crate) fn elsewhere(outputs: Vec<Output>, series: Vec<OutputSeries>) -> Self {
+        const UNREAD: &str = "the model runs outside of this program, and the row's outputs have not been read";
+        Self { outputs, series, function: |_, _| Err(RowFailure::new(UNREAD)) }
+    }
+}
+
 impl<F> FunctionModel<F>
 where
     F: Fn(&[f64], &mut [f64]) -> Result<(), RowFailure> + Send + Sync,

@@ -8,20 +8,17 @@ mod batch;
 mod context;
 mod counter;
 pub mod expression;
-mod external;
 mod function;
 mod known;
 mod repeated;
 mod series;
 
 use std::borrow::Cow;
-use std::sync::Arc;
 
 pub use batch::{Batch, GiveUp, RowFailure};
 pub use context::{Messages, RunContext};
 pub use counter::{Counter, CounterKind, Counts, EVALUATIONS, LARGEST_ERROR, RUNGS};
 pub use expression::{Expression, ExpressionError, ExpressionModel, ExpressionProblem, Symbol};
-pub use external::ExternalModel;
 pub use function::{FunctionModel, function_model};
 pub use known::{
     Basis, Exact, ExactIndices, KnownAnswer, KnownFunction, KnownInput, MAX_INPUTS, ParameterError, ParameterInfo,
@@ -127,40 +124,6 @@ pub trait Model: Send + Sync {
 
     /// Creates a worker for one thread of the run of `context`.
     fn worker<'a>(&'a self, context: &'a RunContext<'a>) -> Box<dyn Worker + 'a>;
-}
-
-impl<M: Model + ?Sized> Model for Arc<M> {
-    fn outputs(&self) -> &[Output] {
-        (**self).outputs()
-    }
-
-    fn series(&self) -> &[OutputSeries] {
-        (**self).series()
-    }
-
-    fn flags(&self) -> &[Flag] {
-        (**self).flags()
-    }
-
-    fn counters(&self) -> &[Counter] {
-        (**self).counters()
-    }
-
-    fn concurrency(&self) -> Option<usize> {
-        (**self).concurrency()
-    }
-
-    fn may_be_random(&self) -> bool {
-        (**self).may_be_random()
-    }
-
-    fn is_slow(&self) -> bool {
-        (**self).is_slow()
-    }
-
-    fn worker<'a>(&'a self, context: &'a RunContext<'a>) -> Box<dyn Worker + 'a> {
-        (**self).worker(context)
-    }
 }
 
 /// The part of a model that one thread owns.

@@ -1,8 +1,6 @@
 //! Warnings about results: their kinds, codes and words.
 
-use std::ops::{Deref, DerefMut};
-
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use thiserror::Error;
 
 use super::RareLevel;
@@ -295,16 +293,9 @@ impl PartialEq for Warning {
     }
 }
 
-/// The warnings of an output: in JSON their sentences, and in the same order their codes.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(with = "WarningKeys"))]
-#[serde(from = "WarningKeys", into = "WarningKeys")]
-pub struct Warnings(pub Vec<Warning>);
-
-/// The keys of warnings in JSON.
-#[derive(Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-struct WarningKeys {
+/// The keys of the warnings of an output in JSON.
+#[derive(Serialize, Deserialize, schemars::JsonSchema)]
+pub(super) struct WarningKeys {
     /// The warnings in sentences.
     warnings: Vec<String>,
     /// The kind of each warning, a stable name.
@@ -312,34 +303,18 @@ struct WarningKeys {
     warning_codes: Vec<String>,
 }
 
-impl From<WarningKeys> for Warnings {
-    fn from(keys: WarningKeys) -> Self {
-        let codes = keys.warning_codes.into_iter().chain(std::iter::repeat(String::new()));
-        Self(keys.warnings.into_iter().zip(codes).map(|(text, code)| Warning::Recorded { code, text }).collect())
-    }
+/// Writes warnings as [`WarningKeys`].
+pub(super) fn serialize<S: Serializer>(all: &[Warning], serializer: S) -> Result<S::Ok, S::Error> {
+    let warnings = all.iter().map(Warning::to_string).collect();
+    let warning_codes = all.iter().map(|warning| warning.code().to_owned()).collect();
+    WarningKeys { warnings, warning_codes }.serialize(serializer)
 }
 
-impl From<Warnings> for WarningKeys {
-    fn from(Warnings(all): Warnings) -> Self {
-        Self {
-            warnings: all.iter().map(Warning::to_string).collect(),
-            warning_codes: all.iter().map(|warning| warning.code().to_owned()).collect(),
-        }
-    }
-}
-
-impl Deref for Warnings {
-    type Target = Vec<Warning>;
-
-    fn deref(&self) -> &Vec<Warning> {
-        &self.0
-    }
-}
-
-impl DerefMut for Warnings {
-    fn deref_mut(&mut self) -> &mut Vec<Warning> {
-        &mut self.0
-    }
+/// Reads warnings from [`WarningKeys`]; those of the first versions have no codes.
+pub(super) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<Warning>, D::Error> {
+    let WarningKeys { warnings, warning_codes } = WarningKeys::deserialize(deserializer)?;
+    let codes = warning_codes.into_iter().chain(std::iter::repeat(String::new()));
+    Ok(warnings.into_iter().zip(codes).map(|(text, code)| Warning::Recorded { code, text }).collect())
 }
 
 impl Warning {

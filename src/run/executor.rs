@@ -7,6 +7,8 @@ use std::collections::VecDeque;
 use std::ops::Range;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
+use serde::{Deserialize, Serialize};
+
 use super::remote::{Remote, Reply, Talk};
 use super::rows::{MissingRows, RowValues};
 use super::tracker::Tracker;
@@ -31,7 +33,7 @@ const BATCHES_AHEAD: usize = 2;
 const STACK: usize = 1 << 19;
 
 /// Consecutive rows of one replicate, or of a table.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct RowRange {
     pub replicate: u64,
     pub rows: Range<u64>,
@@ -67,10 +69,10 @@ pub(crate) trait RowSource: Sync {
 /// [Remote workers](super::RemoteWorkers) (MPI ranks, an executor of another language) join in
 /// [`execute`](Self::execute): each has a thread that takes batches for it and returns its outputs.
 pub(crate) struct Executor<'a> {
-    model: &'a dyn Model,
+    pub model: &'a dyn Model,
     context: &'a RunContext<'a>,
     workers: usize,
-    remote: Option<Remote<'a>>,
+    pub remote: Option<Remote<'a>>,
     idle: Mutex<Vec<Box<dyn Worker + 'a>>>,
 }
 
@@ -84,20 +86,6 @@ impl<'a> Executor<'a> {
             (Some(workers), threads) => workers.clamp(1, threads),
         };
         Self { model, context, workers, remote: None, idle: Mutex::default() }
-    }
-
-    /// Adds remote workers.
-    pub fn with_remote(self, remote: Option<Remote<'a>>) -> Self {
-        Self { remote, ..self }
-    }
-
-    /// Returns whether there are remote workers.
-    pub fn has_remote(&self) -> bool {
-        self.remote.is_some()
-    }
-
-    pub fn model(&self) -> &'a dyn Model {
-        self.model
     }
 
     /// Runs the rows of `source` to their end. `before` is the progress so far; its total is that of the whole run.

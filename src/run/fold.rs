@@ -111,9 +111,9 @@ impl<'f> Fold<'f> {
             keeps_outputs: self.keeps_outputs,
         };
         if !self.store.is_some_and(|store| scratch.recall(store, place, count)) {
-            stretch.base.fill(points.start, scratch.unit_columns(count));
             let worker = worker.get_or_insert_with(|| self.job.model.worker(self.context));
-            scratch.run_rows(self.job, &mut **worker, self.context).map_err(RunError::GaveUp)?;
+            let all = (&stretch.base, points.start, count);
+            scratch.run_rows(self.job, all, &mut **worker, self.context).map_err(RunError::GaveUp)?;
             if let Some(sink) = self.sink.filter(|sink| sink.is_open()) {
                 let first = points.start * self.job.design.rows_per_point();
                 let piece = Piece::from_batches(stretch.replicate, first, scratch.batches());

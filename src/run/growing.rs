@@ -65,8 +65,9 @@ impl<'a> GrowingRun<'a> {
 
     /// Adds remote workers.
     #[must_use]
-    pub(crate) fn with_remote(self, remote: Option<Remote<'a>>) -> Self {
-        Self { executor: self.executor.with_remote(remote), ..self }
+    pub(crate) fn with_remote(mut self, remote: Option<Remote<'a>>) -> Self {
+        self.executor.remote = remote;
+        self
     }
 
     /// Keeps outputs in `store`: rows that it already has are not evaluated.
@@ -95,7 +96,7 @@ impl<'a> GrowingRun<'a> {
 
     /// Returns whether rows go through a store.
     fn needs_store(&self) -> bool {
-        self.store.is_some() || self.job.model.is_slow() || self.executor.has_remote()
+        self.store.is_some() || self.job.model.is_slow() || self.executor.remote.is_some()
     }
 
     /// Checks that the outputs of `points` base points of every replicate fit in memory, if they are to be kept.
@@ -143,7 +144,7 @@ impl<'a> GrowingRun<'a> {
         }
         self.room_for(points)?;
         if self.store.is_none() && self.own_store.is_none() && self.needs_store() {
-            self.own_store = Some(Store::new(design, self.job.model));
+            self.own_store = Some(Store::new(self.job.model));
         }
         let store = self.store.or(self.own_store.as_ref());
         let replicates = design.settings().replicates;

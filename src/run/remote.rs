@@ -7,12 +7,14 @@ use std::io;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
+use serde::{Deserialize, Serialize};
+use serde_json::json;
+
 use super::executor::RowRange;
-use super::journal::{record, write_record};
+use super::journal::{Reader, record, write_record};
 use super::{Piece, STOP_POLL_INTERVAL};
-use crate::binary::{Binary, Reader, binary_fields};
-use crate::design::{Design, DesignSettings, Rows, Sampler};
-use crate::model::{GiveUp, RunContext};
+use crate::design::{Design, DesignSettings, Rows};
+use crate::model::{GiveUp, RowFailure, RunContext};
 
 /// Workers in other processes, which [`serve`](crate::WorkerStudy::serve) a study there.
 ///
@@ -53,34 +55,26 @@ impl<'a> Remote<'a> {
 }
 
 /// The fields in which designs of one study differ.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct DesignKey {
-    sampler: u64,
-    base_samples: u64,
-    replicates: u64,
-    seed: u64,
-    plain_rows: u64,
+    settings: DesignSettings,
+    plain_rows: u32,
 }
-
-binary_fields!(DesignKey { sampler, base_samples, replicates, seed, plain_rows });
 
 impl DesignKey {
     pub fn new(design: &Design) -> Self {
-        let DesignSettings { sampler, base_samples, replicates, seed } = *design.settings();
-        let sampler = Sampler::ALL.iter().position(|known| *known == sampler).unwrap_or_default() as u64;
-        Self { sampler, base_samples, replicates, seed, plain_rows: design.plain_rows().into() }
+        Self { settings: design.settings().clone(), plain_rows: design.plain_rows() }
     }
 
     /// Returns the design that differs from `like` in these fields.
-    pub fn design(self, like: &Design) -> Option<Design> {
-        let Self { sampler, base_samples, replicates, seed, plain_rows } = self;
-        let sampler = *Sampler::ALL.get(usize::try_from(sampler).ok()?)?;
-        let rows = Rows { plain_rows: u32::try_from(plain_rows).ok()?, ..like.asked().clone() };
-        Design::new(DesignSettings { sampler, base_samples, replicates, seed }, like.factors(), rows).ok()
+    pub fn design(&self, like: &Design) -> Option<Design> {
+        let rows = Rows { plain_rows: self.plain_rows, ..like.asked().clone() };
+        Design::new(self.settings.clone(), like.factors(), rows).ok()
     }
 }
 
 /// Rows that a worker is to evaluate.
+#[derive(Serialize, Deserialize)]
 pub(crate) struct Request {
     /// Index of the model: see [`Remote::subject`].
     pub subject: u64,
@@ -89,21 +83,9 @@ pub(crate) struct Request {
 }
 
 impl Request {
-    fn write(&self) -> Vec<u8> {
-        let mut out = Vec::new();
-        let Self { subject, design, range: RowRange { replicate, rows } } = self;
-        subject.write(&mut out);
-        design.write(&mut out);
-        [*replicate, rows.start, rows.end].iter().for_each(|number| number.write(&mut out));
-        out
-    }
-
     /// Reads a request; returns `None` if the bytes are invalid.
     pub fn read(bytes: &[u8]) -> Option<Self> {
-        let mut from = Reader { bytes };
-        let (subject, design) = (u64::read(&mut from)?, DesignKey::read(&mut from)?);
-        let (replicate, rows) = (u64::read(&mut from)?, u64::read(&mut from)?..u64::read(&mut from)?);
-        from.bytes.is_empty().then_some(Self { subject, design, range: RowRange { replicate, rows } })
+        serde_json::from_slice(bytes).ok()
     }
 }
 
@@ -112,28 +94,31 @@ pub(crate) struct Reply {
     /// Evaluation time of the rows.
     pub seconds: f64,
     pub given_up: Option<GiveUp>,
-    /// Outputs, encoded as in the journal.
+    /// Outputs, encoded as in the journal, after a line of JSON with the other fields.
     pub pieces: Vec<Piece>,
 }
 
 impl Reply {
     pub fn write(&self) -> Vec<u8> {
-        let mut out = Vec::new();
-        self.seconds.write(&mut out);
-        self.given_up.write(&mut out);
+        let given_up = self.given_up.as_ref().map(|why| (why.reason.to_string(), why.is_bad_input));
+        let mut out = format!("{}\n", json!([self.seconds, given_up])).into_bytes();
         self.pieces.iter().for_each(|piece| write_record(&mut out, piece));
         out
     }
 
     /// Reads the reply to a request for rows of `outputs` outputs each; returns `None` if the bytes are invalid.
     fn read(bytes: &[u8], range: &RowRange, outputs: usize) -> Option<Self> {
+        let (head, bytes) = bytes.split_at_checked(bytes.iter().position(|byte| *byte == b'\n')? + 1)?;
+        let (seconds, given_up): (f64, Option<(String, bool)>) = serde_json::from_slice(head).ok()?;
+        let given_up = given_up.map(|(reason, is_bad_input)| GiveUp { reason: RowFailure::new(&reason), is_bad_input });
         let mut from = Reader { bytes };
-        let (seconds, given_up) = (f64::read(&mut from)?, Option::read(&mut from)?);
         let mut pieces = Vec::new();
         while !from.bytes.is_empty() {
             let piece = record(&mut from)?;
             let end = piece.first.checked_add(piece.rows(outputs))?;
-            if piece.replicate != range.replicate || piece.first < range.rows.start || end > range.rows.end {
+            let is_asked =
+                piece.replicate == range.replicate && range.rows.start <= piece.first && end <= range.rows.end;
+            if !is_asked || !piece.is_whole(outputs) {
                 return None;
             }
             pieces.push(piece);
@@ -158,7 +143,7 @@ impl Talk<'_> {
     /// Sends a request for rows.
     pub fn send(&self, design: DesignKey, range: &RowRange) -> io::Result<()> {
         let request = Request { subject: self.remote.subject, design, range: range.clone() };
-        self.remote.workers.send(self.worker, request.write())
+        self.remote.workers.send(self.worker, serde_json::to_vec(&request)?)
     }
 
     /// Waits for the reply to the oldest open request, which was for `range`. Stops the workers if the run is to stop.

@@ -70,10 +70,8 @@ impl<'a> MissingRows<'a> {
         for piece in pieces {
             self.sink.map_or(Ok(()), |sink| sink.append(piece)).map_err(|source| RunError::NotKept { source })?;
             self.store.insert(piece);
-            let mut failed_rows: Vec<u32> = piece.failures.iter().map(|(row, ..)| *row).collect();
-            failed_rows.dedup();
             rows += piece.rows(self.store.outputs());
-            failed += failed_rows.len() as u64;
+            failed += piece.failed_rows().len() as u64;
             if let (FailurePolicy::Fail, Some((row, _, reason))) = (self.failures, piece.failures.first()) {
                 let (row, per_point) = (piece.first + u64::from(*row), self.job.design.rows_per_point());
                 let row = Place { replicate: piece.replicate, point: row / per_point, run: row % per_point };
@@ -117,24 +115,36 @@ impl RowSource for MissingRows<'_> {
 pub(super) fn answered(range: &RowRange, batch: &Batch) -> Vec<Piece> {
     let piece = Piece::from_batches(range.replicate, range.rows.start, std::slice::from_ref(batch));
     let Some(reason) = batch.given_up().map(|give_up| &give_up.reason) else { return vec![piece] };
-    let outputs = batch.outputs();
-    let open: Vec<u32> = piece.failures.iter().filter(|(.., why)| why == reason).map(|(row, ..)| *row).collect();
-    let mut pieces: Vec<Piece> = Vec::new();
-    let mut counted = Some((piece.flags, piece.counts));
-    for row in (0..piece.values.len() / outputs.max(1)).filter(|row| !open.contains(&(*row as u32))) {
-        let at = piece.first + row as u64;
-        if pieces.last().is_none_or(|last| last.first + last.rows(outputs) != at) {
-            let (flags, counts) = counted.take().unwrap_or_default();
-            let (replicate, first) = (piece.replicate, at);
-            pieces.push(Piece { replicate, first, flags, counts, ..Piece::default() });
-        }
-        let Some(last) = pieces.last_mut() else { continue };
-        let here = last.rows(outputs) as u32;
-        last.values.extend_from_slice(&piece.values[row * outputs..][..outputs]);
-        let of_row = piece.failures.iter().filter(|(failed, ..)| *failed == row as u32);
-        last.failures.extend(of_row.map(|(_, output, why)| (here, *output, why.clone())));
+    let mut open: Vec<u32> = piece.failures.iter().filter(|(.., why)| why == reason).map(|(row, ..)| *row).collect();
+    open.dedup();
+    let mut pieces = piece.without(open, batch.outputs());
+    if let Some(first) = pieces.first_mut() {
+        (first.flags, first.counts) = (piece.flags, piece.counts);
     }
     pieces
+}
+
+/// The columns of some base points.
+#[derive(Debug, Default)]
+pub(super) struct BaseColumns {
+    /// In the unit cube.
+    unit: Vec<Vec<f64>>,
+    /// The same in SI units.
+    pub values: Vec<Vec<f64>>,
+}
+
+impl BaseColumns {
+    /// Computes `count` points from `first` on of `base`, a replicate of `design`.
+    pub fn fill(&mut self, space: &Space, design: &Design, base: &BasePoints, first: u64, count: usize) {
+        for columns in [&mut self.unit, &mut self.values] {
+            columns.resize(design.columns(), Vec::new());
+            columns.iter_mut().for_each(|column| column.resize(count, 0.0));
+        }
+        base.fill(first, &mut self.unit);
+        for (k, (unit, values)) in self.unit.iter().zip(&mut self.values).enumerate() {
+            space.factors()[design.factor_of(k)].fill_si(unit, values);
+        }
+    }
 }
 
 /// Computes the values of any rows of a design.
@@ -142,9 +152,7 @@ pub(super) fn answered(range: &RowRange, batch: &Batch) -> Vec<Piece> {
 pub struct RowValues {
     /// The replicate to which the points belong.
     points: Option<(u64, BasePoints)>,
-    /// Columns of A, B and C over the base points.
-    unit: Vec<Vec<f64>>,
-    values: Vec<Vec<f64>>,
+    columns: BaseColumns,
     /// One column of each factor over the rows.
     inputs: Vec<Vec<f64>>,
 }
@@ -155,24 +163,16 @@ impl RowValues {
     pub fn values(&mut self, space: &Space, design: &Design, replicate: u64, rows: Range<u64>) -> &[Vec<f64>] {
         let per_point = design.rows_per_point();
         let points = rows.start / per_point..rows.end.div_ceil(per_point);
-        self.unit.resize(design.columns(), Vec::new());
-        self.values.resize(design.columns(), Vec::new());
         self.inputs.resize(design.factors(), Vec::new());
-        let length = (points.end - points.start) as usize;
-        self.unit.iter_mut().for_each(|column| column.resize(length, 0.0));
         if self.points.as_ref().is_none_or(|(of, _)| *of != replicate) {
             self.points = Some((replicate, design.replicate(replicate)));
         }
         if let Some((_, base)) = &self.points {
-            base.fill(points.start, &mut self.unit);
-        }
-        for (k, (unit, values)) in self.unit.iter().zip(&mut self.values).enumerate() {
-            values.resize(length, 0.0);
-            space.factors()[design.factor_of(k)].fill_si(unit, values);
+            self.columns.fill(space, design, base, points.start, (points.end - points.start) as usize);
         }
         for (factor, input) in self.inputs.iter_mut().enumerate() {
             input.clear();
-            let column = |run| &self.values[design.column(run, factor)];
+            let column = |run| &self.columns.values[design.column(run, factor)];
             let columns: Vec<&Vec<f64>> = design.runs().iter().map(column).collect();
             input.extend(rows.clone().map(|row| {
                 let (point, run) = (row / per_point - points.start, row % per_point);

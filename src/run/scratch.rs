@@ -1,18 +1,16 @@
 //! The outputs of a block of base points in one thread, and their totals.
 
 use super::failures::{Place, Tally};
+use super::rows::BaseColumns;
 use super::totals::{OutputTotals, Totals};
 use super::{Job, Store};
-use crate::design::{Design, Matrix};
+use crate::design::{BasePoints, Design};
 use crate::estimate::{BlockOutputs, CentralMoments, MomentParts, Moments, PointOutputs, Workspace};
 use crate::model::{Batch, GiveUp, RowFailure, RunContext, Worker};
 
 /// Buffers for the evaluation of blocks, reused from block to block.
 pub(super) struct Scratch {
-    /// The columns of the base points, in the unit cube.
-    unit: Vec<Vec<f64>>,
-    /// The same columns in SI units.
-    values: Vec<Vec<f64>>,
+    columns: BaseColumns,
     /// Outputs of every run of the design.
     batches: Vec<Batch>,
     workspace: Workspace,
@@ -21,21 +19,8 @@ pub(super) struct Scratch {
 impl Scratch {
     /// Creates empty buffers.
     pub fn new(job: Job<'_>) -> Self {
-        let (columns, runs) = (job.design.columns(), job.design.runs().len());
-        Self {
-            unit: vec![Vec::new(); columns],
-            values: vec![Vec::new(); columns],
-            batches: vec![Batch::new(job.model); runs],
-            workspace: Workspace::default(),
-        }
-    }
-
-    /// Returns the unit-cube columns for `rows` base points, to be filled.
-    pub fn unit_columns(&mut self, rows: usize) -> &mut [Vec<f64>] {
-        for column in &mut self.unit {
-            column.resize(rows, 0.0);
-        }
-        &mut self.unit
+        let batches = vec![Batch::new(job.model); job.design.runs().len()];
+        Self { columns: BaseColumns::default(), batches, workspace: Workspace::default() }
     }
 
     /// Sets the outputs of `points` base points at `place` to those in `store`; returns false if a row is missing.
@@ -69,32 +54,27 @@ impl Scratch {
         &self.batches
     }
 
-    /// Evaluates the base points in the unit columns.
+    /// Evaluates `count` base points from `first` on of `base`, a replicate of the design.
     ///
     /// # Errors
     /// [`GiveUp`] if the model gives up.
-    pub fn run_rows(&mut self, job: Job<'_>, worker: &mut dyn Worker, context: &RunContext<'_>) -> Result<(), GiveUp> {
-        let factors = job.design.factors();
-        for (k, (unit, values)) in self.unit.iter().zip(&mut self.values).enumerate() {
-            values.resize(unit.len(), 0.0);
-            job.space.factors()[job.design.factor_of(k)].fill_si(unit, values);
-        }
-        let values = &self.values;
-        let columns_of = |matrix: Matrix| &values[job.design.first_column(matrix)..][..factors];
-        let mut inputs: Vec<&[f64]> = Vec::with_capacity(factors);
-        for (run, batch) in job.design.runs().iter().zip(&mut self.batches) {
+    pub fn run_rows(
+        &mut self,
+        Job { design, space, .. }: Job<'_>,
+        (base, first, count): (&BasePoints, u64, usize),
+        worker: &mut dyn Worker,
+        context: &RunContext<'_>,
+    ) -> Result<(), GiveUp> {
+        self.columns.fill(space, design, base, first, count);
+        let values = &self.columns.values;
+        let mut inputs: Vec<&[f64]> = Vec::with_capacity(design.factors());
+        for (run, batch) in design.runs().iter().zip(&mut self.batches) {
             if context.is_stopped() {
                 return Err(RowFailure::interrupted().into());
             }
             inputs.clear();
-            inputs.extend(columns_of(run.base).iter().map(Vec::as_slice));
-            for &column in &run.columns {
-                inputs[column] = &columns_of(run.from)[column];
-            }
-            for &(factor, column) in &run.mixed {
-                inputs[factor] = &values[column];
-            }
-            batch.reset(inputs[0].len());
+            inputs.extend((0..design.factors()).map(|factor| values[design.column(run, factor)].as_slice()));
+            batch.reset(count);
             worker.run(&inputs, batch);
             batch.settle();
             if let Some(reason) = batch.given_up() {

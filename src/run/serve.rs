@@ -34,7 +34,7 @@ impl<'a> RemoteServer<'a> {
     pub fn reply(&mut self, design: &Design, request: &Request) -> Reply {
         if self.current.as_ref().is_none_or(|(key, ..)| *key != request.design) {
             let Some(design) = request.design.design(design) else { return refusal("an unknown design") };
-            self.current = Some((request.design, design, RowValues::default()));
+            self.current = Some((request.design.clone(), design, RowValues::default()));
         }
         let Some((_, design, values)) = &mut self.current else { return refusal("no design") };
         let (Request { range, .. }, rows) = (request, design.points_per_replicate() * design.rows_per_point());

@@ -4,8 +4,6 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use super::BLOCK;
-use crate::design::Design;
 use crate::model::{Batch, Counts, Model, RowFailure};
 
 /// Outputs of consecutive rows of one replicate. Rows are counted within the replicate, base point by base point (row =
@@ -42,18 +40,20 @@ impl Piece {
             for (output, point, why) in batch.failures() {
                 piece.failures.push(((point * runs + run) as u32, *output as u32, why.clone()));
             }
-            if run == 0 {
-                (piece.flags, piece.counts) = (batch.flags().to_vec(), batch.counts().clone());
-            } else {
-                piece.flags.iter_mut().zip(batch.flags()).for_each(|(mine, theirs)| *mine += theirs);
-                piece.counts.merge(batch.counts());
-            }
+            piece.add_counts(batch.flags(), batch.counts());
         }
         piece.failures.sort_unstable();
         for (row, output, _) in &piece.failures {
             piece.values[*row as usize * outputs + *output as usize] = f64::NAN;
         }
         piece
+    }
+
+    /// Adds flags and counts of more rows.
+    fn add_counts(&mut self, flags: &[u64], counts: &Counts) {
+        self.flags.resize(self.flags.len().max(flags.len()), 0);
+        self.flags.iter_mut().zip(flags).for_each(|(mine, theirs)| *mine += theirs);
+        self.counts.merge(counts);
     }
 
     /// Returns whether flags were raised or anything counted over its rows: such a piece cannot be divided.
@@ -65,6 +65,39 @@ impl Piece {
     pub fn rows(&self, outputs: usize) -> u64 {
         (self.values.len() / outputs.max(1)) as u64
     }
+
+    /// Returns whether its values are those of whole rows, and its failures among them.
+    pub(crate) fn is_whole(&self, outputs: usize) -> bool {
+        let rows = self.rows(outputs);
+        let fits = |(row, output, _): &(u32, u32, _)| u64::from(*row) < rows && (*output as usize) < outputs;
+        rows as usize * outputs == self.values.len() && self.failures.iter().all(fits)
+    }
+
+    /// Returns the rows that failed in an output, counted from the first one.
+    pub(super) fn failed_rows(&self) -> Vec<u32> {
+        let mut rows: Vec<u32> = self.failures.iter().map(|(row, ..)| *row).collect();
+        rows.dedup();
+        rows
+    }
+
+    /// Returns all rows except `failed`, which are counted from the first one and rise, without flags and counts.
+    pub(super) fn without(&self, failed: impl IntoIterator<Item = u32>, outputs: usize) -> Vec<Self> {
+        let failed = failed.into_iter().map(|row| self.first + u64::from(row));
+        let mut next = self.first;
+        let between = failed.chain([self.first + self.rows(outputs)]);
+        let between = between.map(|row| std::mem::replace(&mut next, row + 1)..row).filter(|rows| !rows.is_empty());
+        between.map(|rows| self.part(rows, outputs)).collect()
+    }
+
+    /// Returns the rows `rows`, all of them its own, without flags and counts.
+    fn part(&self, rows: Range<u64>, outputs: usize) -> Self {
+        let (from, end) = ((rows.start - self.first) as usize, (rows.end - self.first) as usize);
+        let is_here = |(row, ..): &&(u32, u32, RowFailure)| (from..end).contains(&(*row as usize));
+        let failures = self.failures.iter().filter(is_here);
+        let failures = failures.map(|(row, output, why)| (row - from as u32, *output, why.clone())).collect();
+        let values = self.values[from * outputs..end * outputs].to_vec();
+        Self { replicate: self.replicate, first: rows.start, values, failures, ..Self::default() }
+    }
 }
 
 /// The existing outputs of a design that may still grow, shared between threads. A run with a
@@ -72,41 +105,16 @@ impl Piece {
 #[derive(Debug)]
 pub struct Store {
     outputs: usize,
-    rows_per_point: u64,
-    held: Mutex<Held>,
+    pieces: Mutex<Pieces>,
 }
 
-#[derive(Debug, Default)]
-struct Held {
-    /// By replicate and block of base points.
-    chunks: BTreeMap<(u64, u64), Chunk>,
-    /// Counts over consecutive rows, by replicate and first row. They do not overlap, and all their rows exist: a count
-    /// cannot be divided, so it is removed with the first of its rows that is removed.
-    counted: BTreeMap<(u64, u64), Counted>,
-}
-
-/// Flags and counts of the rows of one piece.
-#[derive(Debug)]
-struct Counted {
-    /// One past the last row.
-    end: u64,
-    flags: Vec<u64>,
-    counts: Counts,
-}
-
-/// Outputs of the rows of one block.
-#[derive(Debug)]
-struct Chunk {
-    values: Vec<f64>,
-    present: Vec<bool>,
-    failures: BTreeMap<(u32, u32), RowFailure>,
-}
+/// Pieces by replicate and first row. They do not overlap.
+type Pieces = BTreeMap<(u64, u64), Piece>;
 
 impl Store {
-    /// Creates an empty store for the rows of `design` through `model`.
-    pub fn new(design: &Design, model: &dyn Model) -> Self {
-        let (outputs, rows_per_point) = (model.outputs().len(), design.rows_per_point());
-        Self { outputs, rows_per_point, held: Mutex::default() }
+    /// Creates an empty store for the rows of a design through `model`.
+    pub fn new(model: &dyn Model) -> Self {
+        Self { outputs: model.outputs().len(), pieces: Mutex::default() }
     }
 
     /// Returns the number of outputs of every row.
@@ -114,246 +122,139 @@ impl Store {
         self.outputs
     }
 
-    fn held(&self) -> MutexGuard<'_, Held> {
-        // A thread that panicked has ended the run; half-changed chunks do not matter then.
-        self.held.lock().unwrap_or_else(PoisonError::into_inner)
+    fn held(&self) -> MutexGuard<'_, Pieces> {
+        // A thread that panicked has ended the run; what it has inserted does not matter then.
+        self.pieces.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    fn chunk_rows(&self) -> u64 {
-        BLOCK * self.rows_per_point
+    /// Returns the pieces that contain any of the rows `rows` of `replicate`, in order, each with those of its rows.
+    fn overlapping<'p>(&self, held: &'p Pieces, replicate: u64, rows: &Range<u64>) -> Vec<(&'p Piece, Range<u64>)> {
+        let before = held.range((replicate, 0)..(replicate, rows.end)).rev();
+        let common = |(_, piece): (_, &'p Piece)| {
+            let end = piece.first + piece.rows(self.outputs);
+            (piece, piece.first.max(rows.start)..end.min(rows.end))
+        };
+        let mut found: Vec<_> = before.map(common).take_while(|(_, common)| !common.is_empty()).collect();
+        found.reverse();
+        found
     }
 
     /// Saves the rows of `piece` in the store, replacing existing ones; returns the number of new rows. Rows that were
     /// counted together with a replaced one become missing, unless `piece` has them too.
     pub fn insert(&self, piece: &Piece) -> u64 {
-        let rows = piece.rows(self.outputs);
-        let mut new = 0;
+        let rows = piece.first..piece.first + piece.rows(self.outputs);
         let mut held = self.held();
-        let all = piece.first..piece.first + rows;
-        for counted in held.take_counted(piece.replicate, all.clone()) {
-            for beside in [counted.start..all.start, all.end..counted.end] {
-                self.remove(&mut held, piece.replicate, beside);
-            }
+        let replaced = self.overlapping(&held, piece.replicate, &rows);
+        let existing: u64 = replaced.iter().map(|(_, common)| common.end - common.start).sum();
+        let replaced: Vec<Piece> = replaced.into_iter().map(|(old, _)| old.clone()).collect();
+        for old in replaced {
+            held.remove(&(old.replicate, old.first));
+            let is_replaced = |row: &u32| rows.contains(&(old.first + u64::from(*row)));
+            self.keep_without(&mut held, &old, (0..old.rows(self.outputs) as u32).filter(is_replaced));
         }
-        if piece.is_counted() && rows > 0 {
-            let (flags, counts) = (piece.flags.clone(), piece.counts.clone());
-            held.counted.insert((piece.replicate, all.start), Counted { end: all.end, flags, counts });
+        if !rows.is_empty() {
+            held.insert((piece.replicate, piece.first), piece.clone());
         }
-        for (block, range) in self.by_block(all) {
-            let length = self.chunk_rows() as usize;
-            let chunk =
-                held.chunks.entry((piece.replicate, block)).or_insert_with(|| Chunk::empty(length, self.outputs));
-            let at = (range.start - block * self.chunk_rows()) as usize;
-            let (from, count) = ((range.start - piece.first) as usize, (range.end - range.start) as usize);
-            new += chunk.present[at..at + count].iter().filter(|present| !**present).count() as u64;
-            chunk.present[at..at + count].fill(true);
-            let values = &piece.values[from * self.outputs..][..count * self.outputs];
-            chunk.values[at * self.outputs..][..values.len()].copy_from_slice(values);
-            chunk.forget_failures(at..at + count);
-            let here = |row: u32| (from..from + count).contains(&(row as usize));
-            for (row, output, why) in piece.failures.iter().filter(|(row, ..)| here(*row)) {
-                chunk.failures.insert(((*row as usize - from + at) as u32, *output), why.clone());
-            }
-        }
-        new
+        rows.end - rows.start - existing
     }
 
-    /// Removes the rows `rows` of `replicate`; an empty range, however it came about, removes none.
-    fn remove(&self, held: &mut Held, replicate: u64, rows: Range<u64>) {
-        for (block, range) in self.by_block(rows) {
-            let Some(chunk) = held.chunks.get_mut(&(replicate, block)) else { continue };
-            let start = block * self.chunk_rows();
-            let here = (range.start - start) as usize..(range.end - start) as usize;
-            chunk.present[here.clone()].fill(false);
-            chunk.forget_failures(here);
+    /// Keeps the rows of a removed piece except `failed`, unless counts over it, which cannot be divided, go with these.
+    fn keep_without(&self, held: &mut Pieces, piece: &Piece, failed: impl IntoIterator<Item = u32>) {
+        if !piece.is_counted() {
+            let parts = piece.without(failed, self.outputs).into_iter();
+            held.extend(parts.map(|part| ((part.replicate, part.first), part)));
         }
     }
 
-    /// Splits the rows `rows` of `replicate` at the ends of blocks.
-    fn by_block(&self, rows: Range<u64>) -> impl Iterator<Item = (u64, Range<u64>)> + use<> {
-        let length = self.chunk_rows();
-        let blocks = if rows.is_empty() { 0..0 } else { rows.start / length..rows.end.div_ceil(length) };
-        blocks.map(move |block| (block, rows.start.max(block * length)..rows.end.min((block + 1) * length)))
-    }
-
-    /// Returns the missing rows among `rows` of `replicate` as ranges in order, each within one block.
+    /// Returns the missing rows among `rows` of `replicate` as ranges in order.
     pub fn missing(&self, replicate: u64, rows: Range<u64>) -> Vec<Range<u64>> {
         let held = self.held();
-        let mut missing: Vec<Range<u64>> = Vec::new();
-        for (block, range) in self.by_block(rows) {
-            let Some(chunk) = held.chunks.get(&(replicate, block)) else {
-                missing.push(range);
-                continue;
-            };
-            let start = block * self.chunk_rows();
-            let absent = |row: &u64| !chunk.present[(row - start) as usize];
-            let mut row = range.start;
-            while let Some(first) = (row..range.end).find(absent) {
-                let end = (first..range.end).find(|row| !absent(row)).unwrap_or(range.end);
-                missing.push(first..end);
-                row = end;
-            }
-        }
-        missing
+        let existing = self.overlapping(&held, replicate, &rows).into_iter().map(|(_, common)| common);
+        let mut next = rows.start;
+        let gaps = existing
+            .chain(std::iter::once(rows.end..rows.end))
+            .map(|common| std::mem::replace(&mut next, common.end)..common.start);
+        gaps.filter(|gap| !gap.is_empty()).collect()
     }
 
     /// Returns the number of existing rows of `replicate` among `rows`, and how many of them failed in an output.
     pub fn count(&self, replicate: u64, rows: Range<u64>) -> (u64, u64) {
         let held = self.held();
-        let (mut present, mut failed) = (0, 0);
-        for (block, range) in self.by_block(rows) {
-            let Some(chunk) = held.chunks.get(&(replicate, block)) else { continue };
-            let start = block * self.chunk_rows();
-            let here = (range.start - start) as usize..(range.end - start) as usize;
-            present += chunk.present[here.clone()].iter().filter(|present| **present).count() as u64;
-            failed += chunk.failed_rows(here);
-        }
-        (present, failed)
+        let counts = self.overlapping(&held, replicate, &rows).into_iter().map(|(piece, common)| {
+            let failed =
+                piece.failed_rows().into_iter().filter(|row| common.contains(&(piece.first + u64::from(*row))));
+            (common.end - common.start, failed.count() as u64)
+        });
+        counts.fold((0, 0), |(present, failed), (rows, more)| (present + rows, failed + more))
     }
 
     /// Returns the number of existing rows of all replicates.
     pub fn rows(&self) -> u64 {
-        let present = |chunk: &Chunk| chunk.present.iter().filter(|present| **present).count() as u64;
-        self.held().chunks.values().map(present).sum()
+        self.held().values().map(|piece| piece.rows(self.outputs)).sum()
     }
 
     /// Removes the rows that failed in an output, and those that were counted together with one of them, so that they
     /// are missing; returns how many failed.
     pub fn forget_failures(&self) -> u64 {
         let mut held = self.held();
-        let mut failed: Vec<(u64, u64)> = Vec::new();
-        for ((replicate, block), chunk) in &held.chunks {
-            let row = |row: &u32| (*replicate, block * self.chunk_rows() + u64::from(*row));
-            failed.extend(chunk.failures.keys().map(|(at, _)| row(at)));
+        let failing: Vec<Piece> =
+            held.extract_if(.., |_, piece| !piece.failures.is_empty()).map(|(_, piece)| piece).collect();
+        let mut count = 0;
+        for piece in failing {
+            let failed = piece.failed_rows();
+            count += failed.len() as u64;
+            self.keep_without(&mut held, &piece, failed);
         }
-        failed.dedup();
-        for (replicate, row) in &failed {
-            for rows in held.take_counted(*replicate, *row..row + 1) {
-                self.remove(&mut held, *replicate, rows);
-            }
-            self.remove(&mut held, *replicate, *row..row + 1);
-        }
-        failed.len() as u64
+        count
     }
 
     /// Returns the rows `rows` of `replicate` as one piece; `None` if one of them is missing. Flags and counts are
     /// those of the pieces that begin among them.
     pub fn piece(&self, replicate: u64, rows: Range<u64>) -> Option<Piece> {
         let held = self.held();
-        let mut piece = Piece { replicate, first: rows.start, ..Piece::default() };
-        for (block, range) in self.by_block(rows.clone()) {
-            let chunk = held.chunks.get(&(replicate, block))?;
-            let start = block * self.chunk_rows();
-            let here = (range.start - start) as usize..(range.end - start) as usize;
-            if chunk.present[here.clone()].contains(&false) {
+        let mut whole = Piece { replicate, first: rows.start, ..Piece::default() };
+        let mut next = rows.start;
+        for (piece, common) in self.overlapping(&held, replicate, &rows) {
+            if common.start != next {
                 return None;
             }
-            piece.values.extend_from_slice(&chunk.values[here.start * self.outputs..here.end * self.outputs]);
-            for ((row, output), why) in chunk.failures_among(here.clone()) {
-                piece.failures.push(((start + u64::from(row) - rows.start) as u32, output, why.clone()));
+            next = common.end;
+            let (begins, before) = (piece.first >= rows.start, (common.start - rows.start) as u32);
+            let part = piece.part(common, self.outputs);
+            whole.values.extend(part.values);
+            whole.failures.extend(part.failures.into_iter().map(|(row, output, why)| (before + row, output, why)));
+            if begins {
+                whole.add_counts(&piece.flags, &piece.counts);
             }
         }
-        for Counted { flags, counts, .. } in held.counted_from(replicate, rows) {
-            if piece.flags.is_empty() {
-                (piece.flags, piece.counts) = (flags.clone(), counts.clone());
-            } else {
-                piece.flags.iter_mut().zip(flags).for_each(|(mine, theirs)| *mine += theirs);
-                piece.counts.merge(counts);
-            }
-        }
-        Some(piece)
+        (next == rows.end).then_some(whole)
     }
 
-    /// Returns all existing rows as pieces in order, each within one block.
+    /// Returns all existing rows as pieces in order.
     pub fn pieces(&self) -> Vec<Piece> {
-        let length = self.chunk_rows();
-        let blocks: Vec<(u64, u64)> = self.held().chunks.keys().copied().collect();
-        let present = |(replicate, block): (u64, u64)| {
-            let rows = block * length..(block + 1) * length;
-            let mut first = rows.start;
-            let mut found = Vec::new();
-            for missing in self.missing(replicate, rows.clone()) {
-                found.extend((first < missing.start).then_some((replicate, first..missing.start)));
-                first = missing.end;
-            }
-            found.extend((first < rows.end).then_some((replicate, first..rows.end)));
-            found
-        };
-        blocks.into_iter().flat_map(present).filter_map(|(replicate, rows)| self.piece(replicate, rows)).collect()
+        self.held().values().cloned().collect()
     }
 
-    /// Sets `batches`, one for each run, to the base points from `point` on, as many as the batches have rows, all in
-    /// one block. Returns false, with undefined batches, if a row is missing.
+    /// Sets `batches`, one for each run, to the base points from `point` on, as many as the batches have rows. Returns
+    /// false, with undefined batches, if a row is missing.
     pub(super) fn recall(&self, replicate: u64, point: u64, batches: &mut [Batch]) -> bool {
-        let held = self.held();
-        let Some(chunk) = held.chunks.get(&(replicate, point / BLOCK)) else { return false };
-        let runs = batches.len();
-        let points = batches.first().map_or(0, Batch::rows);
-        let first = (point % BLOCK) as usize * runs;
-        let here = first..first + points * runs;
-        if chunk.present[here.clone()].contains(&false) {
-            return false;
-        }
-        let rows = &chunk.values[here.start * self.outputs..here.end * self.outputs];
+        let (runs, points) = (batches.len(), batches.first().map_or(0, Batch::rows));
+        let first = point * runs as u64;
+        let Some(piece) = self.piece(replicate, first..first + (points * runs) as u64) else { return false };
         for (run, batch) in batches.iter_mut().enumerate() {
             for output in 0..self.outputs {
-                let column = batch.column_mut(output);
-                for (point, value) in column.iter_mut().enumerate() {
-                    *value = rows[(point * runs + run) * self.outputs + output];
+                for (point, value) in batch.column_mut(output).iter_mut().enumerate() {
+                    *value = piece.values[(point * runs + run) * self.outputs + output];
                 }
             }
         }
-        for ((row, output), why) in chunk.failures_among(here) {
-            let row = row as usize - first;
-            batches[row % runs].fail(row / runs, output as usize, why.clone());
+        for (row, output, why) in piece.failures {
+            batches[row as usize % runs].fail(row as usize / runs, output as usize, why);
         }
         // Counts are summed over all runs of a block, so any batch may hold them.
-        let rows = point * self.rows_per_point;
-        for Counted { flags, counts, .. } in held.counted_from(replicate, rows..rows + (points * runs) as u64) {
-            batches[0].add_counts(flags, counts);
-        }
+        batches[0].add_counts(&piece.flags, &piece.counts);
         batches.iter_mut().for_each(Batch::settle);
         true
-    }
-}
-
-impl Chunk {
-    fn empty(rows: usize, outputs: usize) -> Self {
-        let (values, present) = (vec![f64::NAN; rows * outputs], vec![false; rows]);
-        Self { values, present, failures: BTreeMap::new() }
-    }
-
-    fn forget_failures(&mut self, rows: Range<usize>) {
-        if !self.failures.is_empty() {
-            self.failures.retain(|(row, _), _| !rows.contains(&(*row as usize)));
-        }
-    }
-
-    fn failures_among(&self, rows: Range<usize>) -> impl Iterator<Item = ((u32, u32), &RowFailure)> {
-        self.failures.range((rows.start as u32, 0)..(rows.end as u32, 0)).map(|(place, why)| (*place, why))
-    }
-
-    fn failed_rows(&self, rows: Range<usize>) -> u64 {
-        let mut last = None;
-        self.failures_among(rows).filter(|((row, _), _)| last.replace(*row) != Some(*row)).count() as u64
-    }
-}
-
-impl Held {
-    /// Iterates over the counts that start among the rows `rows` of `replicate`.
-    fn counted_from(&self, replicate: u64, rows: Range<u64>) -> impl Iterator<Item = &Counted> {
-        self.counted.range((replicate, rows.start)..(replicate, rows.end)).map(|(_, counted)| counted)
-    }
-
-    /// Removes the counts that cover any of the rows `rows` of `replicate`; returns their ranges.
-    fn take_counted(&mut self, replicate: u64, rows: Range<u64>) -> Vec<Range<u64>> {
-        let before = self.counted.range((replicate, 0)..(replicate, rows.end)).rev();
-        let found = before.map(|((_, first), counted)| *first..counted.end);
-        let found: Vec<Range<u64>> = found.take_while(|counted| counted.end > rows.start).collect();
-        for counted in &found {
-            self.counted.remove(&(replicate, counted.start));
-        }
-        found
     }
 }
 

@@ -37,7 +37,7 @@ impl<'a> TableRun<'a> {
 
     /// Returns the recommended number of rows per call.
     pub fn rows_at_once(&self) -> usize {
-        if self.0.model().concurrency().is_some() { 1 << 16 } else { 1 << 14 }
+        if self.0.model.concurrency().is_some() { 1 << 16 } else { 1 << 14 }
     }
 
     /// Evaluates rows as [`Worker::run`](crate::model::Worker::run) does, and settles the batch. The number of workers
@@ -51,7 +51,7 @@ impl<'a> TableRun<'a> {
             return Ok(());
         }
         let before = Progress { done: 0, recalled: 0, total, failed: 0, elapsed: Duration::ZERO };
-        let is_quick = self.0.model().concurrency().is_none();
+        let is_quick = self.0.model.concurrency().is_none();
         let table = Table { inputs, is_quick, sink: Mutex::new((0, batch)) };
         self.0.execute(&table, before, Instant::now(), &|_| ()).map_err(|error| match error {
             RunError::GaveUp(give_up) => Halt::GaveUp(give_up),

@@ -44,7 +44,7 @@ pub(super) fn run_accurately(runner: &Runner<'_>, context: &RunContext<'_>) -> R
         return Ok(attempt.plain()?.0);
     }
     let trial = attempt.variant(TRIAL_POINTS, 0, SurrogateChoice::Off)?;
-    let store = Store::new(&trial.design.longest(), trial.model().as_ref());
+    let store = Store::new(trial.model().as_ref());
     let lows = if study.lows.is_empty() { study.subject.cheaper() } else { study.lows.clone() };
     let (first, reason) = if lows.is_empty() { attempt.split(&store)? } else { attempt.fitted(lows, &store)? };
     let is_ours = |reason| matches!(reason, StopReason::MaxRuns { .. }) && study.target.max_runs != attempt.max_runs();
@@ -117,7 +117,7 @@ impl Attempt<'_> {
         if study.target.max_runs.is_some_and(|most| trial_runs > most) {
             return self.fitted(Vec::new(), unsplit);
         }
-        let store = Store::new(&study.design.longest(), study.model().as_ref());
+        let store = Store::new(study.model().as_ref());
         let mut trial = study.clone();
         trial.target = Target { max_runs: Some(trial_runs), ..study.target };
         let (mut first, reason) = self.run(&trial, Some("split"), Some(&store))?;

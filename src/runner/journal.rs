@@ -1,16 +1,13 @@
 //! The journal of a study's run: located, checked against the study, and resumed or replaced.
 
-mod recall;
-
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, OnceLock, PoisonError};
 use std::time::Duration;
 
-pub(super) use recall::{recorded, rows_on_record};
 use serde_json::{Value, json};
 
-use super::Resume;
 use super::model_files::{differing, digests};
+use super::{Resume, Runner};
 use crate::model::Messages;
 use crate::run::journal::{Contents, Journal, JournalError, differences, read_journal_file, with_ending};
 use crate::run::{OutputSink, Piece, Progress, RunError, Shard, Store};
@@ -21,16 +18,6 @@ const LONG_RUN: Duration = Duration::from_secs(10);
 
 /// Time that a run must have taken before its duration is estimated.
 const MIN_ELAPSED: Duration = Duration::from_millis(200);
-
-/// The journal that a run requests.
-#[derive(Clone, Copy)]
-pub(super) struct JournalRequest<'a> {
-    pub path: &'a Path,
-    pub resume: Resume,
-    pub shard: Option<Shard>,
-    /// Whether a journal is created only when the run is expected to be long.
-    pub only_if_long: bool,
-}
 
 /// The recorded runs of a study, and where new ones are recorded.
 pub(super) struct RunJournal {
@@ -47,7 +34,7 @@ impl RunJournal {
     /// Returns a run without a journal.
     pub fn none(study: &Study) -> Self {
         Self {
-            store: Store::new(&study.design, study.model().as_ref()),
+            store: Store::new(study.model().as_ref()),
             open: OnceLock::new(),
             waiting: Mutex::new(None),
             began: Mutex::default(),
@@ -129,9 +116,14 @@ pub(super) fn open_for_parts(
     }
 }
 
-/// Opens the journal that `request` describes. A journal of another study, or an unwanted one, is moved aside.
-pub(super) fn open(study: &Study, request: JournalRequest<'_>, messages: &Messages) -> Result<RunJournal, RunError> {
-    let JournalRequest { path, resume, shard, only_if_long } = request;
+/// Opens the journal of `runner` at `path`. A journal of another study, or an unwanted one, is moved aside.
+pub(super) fn open(
+    runner: &Runner<'_>,
+    path: &Path,
+    shard: Option<Shard>,
+    messages: &Messages,
+) -> Result<RunJournal, RunError> {
+    let Runner { study, resume, only_if_long, .. } = *runner;
     let files = digests(study);
     let fresh = || {
         // Even a few runs of a slow model may have cost much.
@@ -261,4 +253,22 @@ pub(super) fn recorded_runs(study: &Study, path: &Path) -> Result<u64, RunError>
         return Err(refused(path, why));
     }
     Ok(rows_on_record(study, &recorded(study, &contents)))
+}
+
+/// Returns a store of the runs of `study` in a journal; of duplicates, the later one counts.
+pub(super) fn recorded(study: &Study, contents: &Contents) -> Store {
+    let store = Store::new(study.model().as_ref());
+    let outputs = store.outputs();
+    for piece in &contents.pieces {
+        if piece.replicate < study.design.settings().replicates && piece.is_whole(outputs) {
+            store.insert(piece);
+        }
+    }
+    store
+}
+
+/// Counts the rows of the design that are in `store`.
+pub(super) fn rows_on_record(study: &Study, store: &Store) -> u64 {
+    let rows = study.design.points_per_replicate() * study.design.rows_per_point();
+    (0..study.design.settings().replicates).map(|replicate| store.count(replicate, 0..rows).0).sum()
 }

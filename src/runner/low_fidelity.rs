@@ -1,6 +1,7 @@
 //! The runs of low-fidelity models: at the rows of the model, and at points of their own.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use super::journal::{self, RunJournal};
 use super::{Resume, Runner};
@@ -41,7 +42,7 @@ pub(super) struct LowStudy {
 
 struct LowPart {
     study: Study,
-    model: Box<dyn Model>,
+    model: Arc<dyn Model>,
     longest: Design,
     journal: RunJournal,
 }
@@ -86,7 +87,8 @@ impl LowPart {
             None => RunJournal::none(&study),
             Some(path) => {
                 let resume = if runner.resume == Resume::Require { Resume::IfThere } else { runner.resume };
-                journal::open(&study, runner.request(&sibling_path(path, kind), resume, None), context.messages())?
+                let part = Runner { study: &study, resume, ..runner.clone() };
+                journal::open(&part, &sibling_path(path, kind), None, context.messages())?
             }
         };
         Ok(Self { study, model, longest, journal })

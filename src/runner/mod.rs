@@ -14,7 +14,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 use growth::Grown;
-use journal::{JournalRequest, RunJournal};
+use journal::RunJournal;
 use low_fidelity::{LowRun, LowStudy};
 pub use worker::WorkerStudy;
 
@@ -254,12 +254,8 @@ impl<'a> Runner<'a> {
         }
         match &self.journal {
             None => Ok(RunJournal::none(self.study)),
-            Some(path) => journal::open(self.study, self.request(path, self.resume, shard), messages),
+            Some(path) => journal::open(self, path, shard, messages),
         }
-    }
-
-    fn request<'p>(&self, path: &'p Path, resume: Resume, shard: Option<Shard>) -> JournalRequest<'p> {
-        JournalRequest { path, resume, shard, only_if_long: self.only_if_long }
     }
 
     fn journal_for(&self, what: &'static str) -> Result<&Path, RunError> {

@@ -1,7 +1,7 @@
 //! A study in a worker process.
 
 use std::collections::BTreeMap;
-use std::sync::OnceLock;
+use std::sync::Arc;
 
 use crate::model::{Model, RunContext};
 use crate::run::{RemoteServer, Request, Requests, refusal};
@@ -11,8 +11,8 @@ use crate::study::Study;
 /// [`RemoteWorkers`](crate::run::RemoteWorkers).
 pub struct WorkerStudy {
     study: Study,
-    /// The model of the study, then its low-fidelity models, each created on first use.
-    models: Vec<OnceLock<Box<dyn Model>>>,
+    /// The model of the study, then its low-fidelity models.
+    models: Vec<Arc<dyn Model>>,
 }
 
 impl std::fmt::Debug for WorkerStudy {
@@ -27,7 +27,8 @@ impl WorkerStudy {
         if study.lows.is_empty() {
             study.lows = study.subject.cheaper();
         }
-        let models = (0..=study.lows.len()).map(|_| OnceLock::new()).collect();
+        let lows = study.lows.iter().map(|low| low.subject.model(&study.space));
+        let models = std::iter::once(study.model()).chain(lows).collect();
         Self { study, models }
     }
 
@@ -48,12 +49,6 @@ impl WorkerStudy {
     }
 
     fn model(&self, number: u64) -> Option<&dyn Model> {
-        let number = usize::try_from(number).ok()?;
-        let made = self.models.get(number)?;
-        let make = || match number.checked_sub(1).and_then(|low| self.study.lows.get(low)) {
-            None => self.study.model(),
-            Some(low) => low.subject.model(&self.study.space),
-        };
-        Some(made.get_or_init(make).as_ref())
+        self.models.get(usize::try_from(number).ok()?).map(Arc::as_ref)
     }
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::{SalibLayout, SalibProblem};
 use crate::design::{Design, RowKind, Sampler};
 use crate::given::Column;
-use crate::model::{ExternalModel, Output, RowFailure};
+use crate::model::{FunctionModel, Output, RowFailure};
 use crate::quantity::Unit;
 use crate::run::{Piece, Store};
 use crate::space::Distribution;
@@ -58,7 +58,7 @@ pub fn salib_study(
     if resamples > 0 {
         (analysis.intervals, analysis.resamples) = (IntervalMethod::Percentile, resamples);
     }
-    let builder = Study::builder(name, ExternalModel::new(stated.clone()))
+    let builder = Study::builder(name, FunctionModel::elsewhere(stated.clone(), Vec::new()))
         .sampler(Sampler::Random)
         .base_samples((rows / step) as u64)
         .replicates(1)
@@ -83,7 +83,7 @@ pub fn salib_study(
             piece.values.push(if value.is_finite() { value } else { f64::NAN });
         }
     }
-    let store = Store::new(&study.design, study.model().as_ref());
+    let store = Store::new(study.model().as_ref());
     store.insert(&piece);
     Ok((study, store))
 }

@@ -8,19 +8,6 @@ use crate::uncertainty::{Estimate, jackknife};
 /// A factor could be fixed if the upper bound of mu* is below this part of the largest mu*.
 pub const FIXABLE: f64 = 0.05;
 
-/// The measures of one factor, in units of the output per full range of the factor.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Measures {
-    /// mu: the mean of the elementary effects (Morris 1991). Effects of both signs cancel in it.
-    pub mu: Estimate,
-    /// mu*: the mean of their absolute values (Campolongo, Cariboni and Saltelli 2007).
-    pub mu_star: Estimate,
-    /// sigma: their standard deviation, with n - 1.
-    pub sigma: Estimate,
-    /// sigma / mu*; `None` if mu* is 0.
-    pub ratio: Option<Estimate>,
-}
-
 /// The interpretation of sigma / mu* (Garcia Sanchez, Lacarriere, Musy and Bourges 2014, Energy and Buildings 68,
 /// 741-750).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
@@ -61,28 +48,25 @@ impl Reading {
     }
 }
 
-/// Number of quantities in the flat list for the jackknife.
-const QUANTITIES: usize = 4;
-
-/// Computes the measures from `effects` (NaN if missing), which consist of `parts` independent parts of equal length;
-/// `None` with fewer than two effects, or if they overflow.
+/// Computes mu (the mean of the elementary effects, Morris 1991), mu* (that of their absolute values, Campolongo,
+/// Cariboni and Saltelli 2007), sigma (their standard deviation, with n - 1) and sigma / mu*, which is not finite if mu*
+/// is 0, from `effects` (NaN if missing), which consist of `parts` independent parts of equal length; `None` with fewer
+/// than two effects, or if they overflow.
 ///
 /// Intervals are the delete-one jackknife over the parts with Student's t, for mu and mu* the classical t-interval of a
 /// mean if no effect is missing; there is none if leaving out a part leaves too few effects.
-pub(super) fn measures(effects: &[f64], parts: usize) -> Option<Measures> {
+pub(super) fn measures(effects: &[f64], parts: usize) -> Option<[Estimate; 4]> {
     let whole = quantities(effects.iter().copied())?;
     let part = effects.len() / parts.max(1);
     let without = |p: usize| {
         quantities(effects[..p * part].iter().chain(&effects[(p + 1) * part..]).copied()).map(|list| list.to_vec())
     };
     let without: Option<Vec<Vec<f64>>> = (0..parts).map(without).collect();
-    let estimates = jackknife(&whole, &without.unwrap_or_default());
-    let &[mu, mu_star, sigma, ratio] = &estimates[..] else { return None };
-    Some(Measures { mu, mu_star, sigma, ratio: Some(ratio).filter(|ratio| ratio.estimate.is_finite()) })
+    jackknife(&whole, &without.unwrap_or_default()).try_into().ok()
 }
 
 /// Computes mu, mu*, sigma and sigma / mu*, the last NaN if mu* is 0; `None` for too few effects or overflow.
-fn quantities(effects: impl Iterator<Item = f64>) -> Option<[f64; QUANTITIES]> {
+fn quantities(effects: impl Iterator<Item = f64>) -> Option<[f64; 4]> {
     let effects: Vec<f64> = effects.filter(|effect| effect.is_finite()).collect();
     if effects.len() < 2 {
         return None;

@@ -127,7 +127,7 @@ pub struct ScreeningFailure {
 /// use std::f64::consts::PI;
 ///
 /// use apportion::screening::{Reading, ScreeningJob, ScreeningSettings, screen};
-/// use apportion::{Distribution, Study, function_model};
+/// use apportion::{Distribution, RunContext, Study, function_model};
 ///
 /// // Ishigami's function.
 /// let y = |x: &[f64]| x[0].sin() + 7.0 * x[1].sin().powi(2) + 0.1 * x[2].powi(4) * x[0].sin();
@@ -140,28 +140,16 @@ pub struct ScreeningFailure {
 /// let model = study.model();
 /// let settings = ScreeningSettings::default();
 /// let job = ScreeningJob { space: study.space(), model: model.as_ref(), settings };
-/// let screening = screen(job, 0, &|_| ())?;
+/// let screening = screen(job, 0, &|_| (), &RunContext::default())?;
 /// assert_eq!(screening.runs, 32 * 4);
 /// assert!(screening.outputs[0].factors.iter().all(|x| x.reading == Some(Reading::NonLinearOrInteracting)));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
 /// # Errors
-/// [`ScreeningError`] if the settings are invalid, the threads cannot be started or the model gives up. Failed runs are
-/// part of the result.
+/// [`ScreeningError`] if the settings are invalid, the threads cannot be started, the model gives up or the run of
+/// `context` is to stop. Failed runs are part of the result.
 pub fn screen(
-    job: ScreeningJob<'_>,
-    threads: usize,
-    on_progress: &(dyn Fn(Progress) + Sync),
-) -> Result<Screening, ScreeningError> {
-    screen_in(job, threads, on_progress, &RunContext::default())
-}
-
-/// Does the same as the run of `context`, which may stop it.
-///
-/// # Errors
-/// As for [`screen`], and [`RunError::Interrupted`](crate::run::RunError::Interrupted) if the run is to stop.
-pub fn screen_in(
     job: ScreeningJob<'_>,
     threads: usize,
     on_progress: &(dyn Fn(Progress) + Sync),
@@ -225,13 +213,14 @@ fn screened(output: &Output, number: usize, outcome: &Outcome, space: &[Factor],
         let own: Vec<f64> = effects.map(|effect| output.unit.span_from_si(*effect)).collect();
         let effects = own.iter().filter(|effect| effect.is_finite()).count() as u64;
         let measures = measures::measures(&own, parts);
-        let ratio = measures.and_then(|m| m.ratio);
+        let [mu, mu_star, sigma, ratio] = std::array::from_fn(|place| measures.map(|measures| measures[place]));
+        let ratio = ratio.filter(|ratio: &Estimate| ratio.estimate.is_finite());
         ScreenedFactor {
             factor: factor.name.clone(),
             rank: 0,
-            mu_star: measures.map(|m| m.mu_star),
-            mu: measures.map(|m| m.mu),
-            sigma: measures.map(|m| m.sigma),
+            mu_star,
+            mu,
+            sigma,
             ratio,
             reading: ratio.map(|ratio| Reading::from_ratio(ratio.estimate)),
             could_be_fixed: None,

@@ -42,69 +42,43 @@ pub(super) fn run(
     let block = (run.rows_at_once() / rows).max(1) as u64;
     let start = Instant::now();
     let total = trajectories * rows as u64;
-    let columns = vec![Vec::new(); job.space.factors().len()];
-    let outcome = Outcome {
+    let factors = job.space.factors();
+    let (mut batch, mut columns) = (Batch::new(job.model), vec![Vec::new(); factors.len()]);
+    let mut outcome = Outcome {
         effects: vec![Vec::new(); job.model.outputs().len()],
         values: vec![Vec::new(); job.model.outputs().len()],
-        idle: vec![0; job.space.factors().len()],
+        idle: vec![0; factors.len()],
         flags: vec![0; job.model.flags().len()],
         ..Outcome::default()
     };
-    let mut bench = Bench { run, batch: Batch::new(job.model), columns, rows, outcome };
     for first in (0..trajectories).step_by(block as usize) {
         let last = (first + block).min(trajectories);
-        bench.block(job, points, first..last).map_err(|halt| match halt {
-            Halt::GaveUp(give_up) => RunError::GaveUp(give_up),
-            Halt::Interrupted => RunError::Interrupted { done: first * rows as u64, total },
-        })?;
-        let (done, failed) = (last * rows as u64, bench.outcome.failed);
-        on_progress(Progress { done, recalled: 0, total, failed, elapsed: start.elapsed() });
-    }
-    Ok(bench.outcome)
-}
-
-/// The state for the evaluation of blocks.
-struct Bench<'a> {
-    run: TableRun<'a>,
-    batch: Batch,
-    columns: Vec<Vec<f64>>,
-    rows: usize,
-    outcome: Outcome,
-}
-
-impl Bench<'_> {
-    fn block(
-        &mut self,
-        job: ScreeningJob<'_>,
-        points: &Trajectories,
-        numbers: std::ops::Range<u64>,
-    ) -> Result<(), Halt> {
-        let outcome = &mut self.outcome;
-        let moves: Vec<Vec<Move>> = numbers.map(|number| points.moves(number)).collect();
-        let rows = self.rows * moves.len();
-        for (j, (column, factor)) in self.columns.iter_mut().zip(job.space.factors()).enumerate() {
-            column.resize(rows, 0.0);
-            for (moves, column) in moves.iter().zip(column.chunks_exact_mut(self.rows)) {
+        let moves: Vec<Vec<Move>> = (first..last).map(|number| points.moves(number)).collect();
+        for (j, (column, factor)) in columns.iter_mut().zip(factors).enumerate() {
+            column.resize(rows * moves.len(), 0.0);
+            for (moves, column) in moves.iter().zip(column.chunks_exact_mut(rows)) {
                 let values = values_at(factor, &moves[j].u);
                 outcome.idle[j] += u64::from(values[0] == values[1]);
                 points.fill(&moves[j], values, column);
             }
         }
-        self.batch.reset(rows);
-        let inputs: Vec<&[f64]> = self.columns.iter().map(Vec::as_slice).collect();
-        self.run.run(&inputs, &mut self.batch)?;
-        for (output, effects) in outcome.effects.iter_mut().enumerate() {
-            let values = self.batch.column(output).chunks_exact(self.rows);
-            for (moves, values) in moves.iter().zip(values) {
+        batch.reset(rows * moves.len());
+        let inputs: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
+        run.run(&inputs, &mut batch).map_err(|halt| match halt {
+            Halt::GaveUp(give_up) => RunError::GaveUp(give_up),
+            Halt::Interrupted => RunError::Interrupted { done: first * rows as u64, total },
+        })?;
+        for (output, (effects, values)) in outcome.effects.iter_mut().zip(&mut outcome.values).enumerate() {
+            for (moves, values) in moves.iter().zip(batch.column(output).chunks_exact(rows)) {
                 effects.extend(moves.iter().map(|a_move| effect(a_move, values)));
             }
+            values.extend(batch.column(output));
         }
-        for (output, values) in outcome.values.iter_mut().enumerate() {
-            values.extend(self.batch.column(output));
-        }
-        outcome.note(&self.batch, &inputs);
-        Ok(())
+        outcome.note(&batch, &inputs);
+        let (done, failed) = (last * rows as u64, outcome.failed);
+        on_progress(Progress { done, recalled: 0, total, failed, elapsed: start.elapsed() });
     }
+    Ok(outcome)
 }
 
 /// Returns the SI values at two coordinates. Quantiles are for the open interval: its ends are those of the range.

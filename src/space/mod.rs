@@ -20,8 +20,7 @@ use crate::quantity::Unit;
 
 named! {
 /// What has indices of its own.
-#[derive(Default, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Default, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum IndicesOf {
     /// Every factor, and the groups in addition.

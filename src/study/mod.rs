@@ -22,8 +22,8 @@ use crate::design::{Design, DesignError, DesignSettings};
 use crate::model::Model;
 pub use crate::names::nearest;
 use crate::space::Space;
-use crate::surrogate::{MIN_NETS, fewest_points};
-use crate::uncertainty::{IntervalMethod, Layout, NoiseLayout};
+use crate::surrogate::fewest_points;
+use crate::uncertainty::{Layout, NoiseLayout};
 
 /// A checked study: a subject, the space of its factors, and the design that explores it.
 #[derive(Debug, Clone)]
@@ -103,16 +103,16 @@ impl Study {
     ///
     /// # Errors
     /// [`BuildError`] if its outputs, by name and unit, differ from those of the study.
-    pub fn with_model(self, model: impl Model + 'static, version: &str) -> Result<Self, BuildError> {
+    pub fn with_model(self, model: Arc<dyn Model>, version: &str) -> Result<Self, BuildError> {
         let words = |model: &dyn Model| {
             let outputs = model.outputs().iter().map(|output| format!("{} ({})", output.name, output.unit));
             outputs.collect::<Vec<_>>().join(", ")
         };
-        let (found, expected) = (words(&model), words(&*self.model()));
+        let (found, expected) = (words(&*model), words(&*self.model()));
         if found != expected {
             return rules::wrong("outputs", format!("those of the study, {expected}"), found);
         }
-        let subject = CustomSubject { model: Arc::new(model), version: Some(version.to_owned()) };
+        let subject = CustomSubject { model, version: Some(version.to_owned()) };
         Ok(Self { subject: Arc::new(subject), ..self })
     }
 
@@ -227,7 +227,7 @@ impl Study {
     }
 
     /// Creates the model, ready to run on this study's factors.
-    pub fn model(&self) -> Box<dyn Model> {
+    pub fn model(&self) -> Arc<dyn Model> {
         self.subject.model(&self.space)
     }
 
@@ -250,12 +250,8 @@ impl Study {
     /// Returns whether surrogates correct the indices of a run of `design`, which may be longer than that of the study.
     pub fn uses_surrogate(&self, design: &Design) -> bool {
         let has_points = self.target.grows() || design.points_per_replicate() >= fewest_points(design) as u64;
-        // Their polynomials are orthogonal only for independent factors, and do not give Shapley effects.
-        let is_plain = self.space.copula().is_none() && !self.analysis.has_shapley(&self.space);
-        let fits = has_points
-            && is_plain
-            && self.analysis.intervals == IntervalMethod::Nets
-            && design.settings().replicates >= MIN_NETS as u64;
+        let DesignSettings { sampler, replicates, .. } = *design.settings();
+        let fits = has_points && self.analysis.takes_surrogates(sampler, replicates, &self.space);
         fits && match self.analysis.surrogate {
             SurrogateChoice::Off => false,
             SurrogateChoice::On => true,

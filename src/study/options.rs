@@ -110,7 +110,8 @@ impl AnalysisOptions {
         warnings
     }
 
-    /// Returns whether surrogates may correct the indices, at points of `sampler` in `replicates` replicates.
+    /// Returns whether surrogates may correct the indices (their polynomials are orthogonal only for independent factors,
+    /// and do not give Shapley effects), at points of `sampler` in `replicates` replicates.
     pub(crate) fn takes_surrogates(&self, sampler: Sampler, replicates: u64, space: &Space) -> bool {
         self.surrogate != SurrogateChoice::Off
             && self.intervals == IntervalMethod::Nets

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use serde_json::Value;
 
-use crate::model::{ExternalModel, Model, Output, OutputSeries, RepeatedModel};
+use crate::model::{FunctionModel, Model, Output, OutputSeries, RepeatedModel};
 use crate::space::{Factor, Space};
 
 /// A model with its choices made, ready to be run on the factors of any space.
@@ -16,7 +16,7 @@ pub trait Subject: fmt::Debug + Send + Sync + Any {
     fn name(&self) -> &'static str;
 
     /// Creates the model on the factors of `space`.
-    fn model(&self, space: &Space) -> Box<dyn Model>;
+    fn model(&self, space: &Space) -> Arc<dyn Model>;
 
     /// Returns the current choices, with the keys of the study file.
     fn settings(&self) -> Vec<(&'static str, Value)> {
@@ -132,9 +132,8 @@ impl Subject for RepeatedSubject {
         self.subject.name()
     }
 
-    fn model(&self, space: &Space) -> Box<dyn Model> {
-        let model = Arc::from(self.subject.model(space));
-        Box::new(RepeatedModel::new(model, self.seed, self.repetitions))
+    fn model(&self, space: &Space) -> Arc<dyn Model> {
+        Arc::new(RepeatedModel::new(self.subject.model(space), self.seed, self.repetitions))
     }
 
     fn settings(&self) -> Vec<(&'static str, Value)> {
@@ -174,8 +173,8 @@ impl Subject for CustomSubject {
         "custom"
     }
 
-    fn model(&self, _space: &Space) -> Box<dyn Model> {
-        Box::new(Arc::clone(&self.model))
+    fn model(&self, _space: &Space) -> Arc<dyn Model> {
+        Arc::clone(&self.model)
     }
 
     fn settings(&self) -> Vec<(&'static str, Value)> {
@@ -197,8 +196,8 @@ impl Subject for ExternalSubject {
         "external"
     }
 
-    fn model(&self, _space: &Space) -> Box<dyn Model> {
-        Box::new(ExternalModel::new(self.outputs.clone()).with_series(self.series.clone()))
+    fn model(&self, _space: &Space) -> Arc<dyn Model> {
+        Arc::new(FunctionModel::elsewhere(self.outputs.clone(), self.series.clone()))
     }
 
     fn is_external(&self) -> bool {

@@ -177,26 +177,24 @@ pub fn sweep(
         flags: vec![0; model.flags().len()],
     };
     let first = space.factors().first().map_or(f64::NAN, |factor| factor.nominal);
-    let nominal: Vec<NominalOutput> = bench.curve(0, &[first])?.into_iter().map(NominalOutput::new).collect();
+    let at_nominal = |curve: SweptOutput| {
+        let value = curve.values.into_iter().next().flatten();
+        let failure = curve.gaps.into_iter().next().map(|gap| gap.reason);
+        let reason = value.is_none().then(|| failure.unwrap_or_else(|| RowFailure::not_finite().to_string()));
+        NominalOutput { output: curve.name, unit: curve.unit, value, reason }
+    };
+    let nominal: Vec<NominalOutput> = bench.curve(0, &[first])?.into_iter().map(at_nominal).collect();
     let one = |&number: &usize| {
         let factor = &space.factors()[number];
         let values = values_over_range(factor.distribution(), points)?;
         let mut outputs = bench.curve(number, &values)?;
         for ((swept, nominal), output) in outputs.iter_mut().zip(&nominal).zip(model.outputs()) {
-            swept.percent =
-                nominal.value.filter(|_| !output.unit.has_offset()).and_then(|value| swept.percent_of(value));
+            let width = swept.high.zip(swept.low).map(|(high, low)| high - low).filter(|_| !output.unit.has_offset());
+            let percent = nominal.value.zip(width).map(|(value, width)| 100.0 * (width / value.abs()));
+            swept.percent = percent.filter(|percent| percent.is_finite());
         }
-        Ok(Sweep::new(factor, values, outputs))
-    };
-    let sweeps = factors.iter().map(one).collect::<Result<_, SweepError>>()?;
-    context.messages().finish();
-    Ok(Sweeps { nominal, sweeps, runs: bench.runs, flags: bench.flags })
-}
-
-impl Sweep {
-    fn new(factor: &Factor, values: Vec<f64>, outputs: Vec<SweptOutput>) -> Self {
         let law = factor.distribution();
-        Self {
+        Ok(Sweep {
             factor: factor.name.clone(),
             unit: factor.unit().to_string(),
             nominal: factor.nominal,
@@ -204,28 +202,17 @@ impl Sweep {
             labels: values.iter().map(|value| law.label(*value).map(str::to_owned)).collect(),
             values,
             outputs,
-        }
-    }
-}
-
-impl NominalOutput {
-    fn new(curve: SweptOutput) -> Self {
-        let value = curve.values.into_iter().next().flatten();
-        let failure = curve.gaps.into_iter().next().map(|gap| gap.reason);
-        let reason = value.is_none().then(|| failure.unwrap_or_else(|| RowFailure::not_finite().to_string()));
-        Self { output: curve.name, unit: curve.unit, value, reason }
-    }
+        })
+    };
+    let sweeps = factors.iter().map(one).collect::<Result<_, SweepError>>()?;
+    context.messages().finish();
+    Ok(Sweeps { nominal, sweeps, runs: bench.runs, flags: bench.flags })
 }
 
 impl SweptOutput {
     fn new(output: &Output) -> Self {
         let (name, unit) = (output.name.to_string(), output.unit.to_string());
         Self { name, unit, values: Vec::new(), gaps: Vec::new(), low: None, high: None, percent: None }
-    }
-
-    fn percent_of(&self, nominal: f64) -> Option<f64> {
-        let width = self.high? - self.low?;
-        Some(100.0 * (width / nominal.abs())).filter(|percent| percent.is_finite())
     }
 }
 

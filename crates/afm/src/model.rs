@@ -305,7 +305,7 @@ impl AfmWorker<'_> {
         self.spent.evaluations += critical.cost.evaluations;
         self.spent.largest_error = self.spent.largest_error.max(critical.error_estimate);
         // So is `Flag::ALL`.
-        critical.flags.iter().for_each(|flag| batch.raise(flag as usize));
+        critical.flags.iter().for_each(|flag| batch.raise_by(flag as usize, 1));
     }
 }
 

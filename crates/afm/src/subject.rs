@@ -39,7 +39,7 @@ impl Subject for AfmSubject {
         "afm"
     }
 
-    fn model(&self, space: &Space) -> Box<dyn Model> {
+    fn model(&self, space: &Space) -> Arc<dyn Model> {
         let of_space = space.factors().iter().filter_map(|factor| Some((Parameter::from_name(&factor.name)?, factor)));
         let mut nominal = self.scene;
         of_space
@@ -47,7 +47,7 @@ impl Subject for AfmSubject {
             .for_each(|(parameter, factor)| (parameter.set)(&mut nominal, factor.unit().to_si(factor.nominal)));
         let factors = of_space.map(|(parameter, _)| parameter).collect();
         let model = AfmModel::new(self.scene, self.options, factors, self.outputs.clone()).with_nominal(&nominal);
-        Box::new(model.with_histories(&self.histories, &self.moments))
+        Arc::new(model.with_histories(&self.histories, &self.moments))
     }
 
     fn settings(&self) -> Vec<(&'static str, Value)> {

@@ -136,20 +136,3 @@ fn an_estimator_gives_an_index_exactly_if_it_has_the_rows_that_it_needs() {
         }
     }
 }
-
-#[test]
-fn runs_are_those_of_a_design_for_the_estimator() {
-    use crate::design::{Design, DesignSettings, Rows};
-    let runs = |ba, d: usize| {
-        let rows = Rows { swaps: (0..d).map(|j| vec![j]).collect(), ba, ..Rows::default() };
-        Design::new(DesignSettings::default(), d, rows).unwrap().rows_per_point()
-    };
-    for d in [3, 7] {
-        for estimator in FirstOrder::ALL {
-            assert_eq!(estimator.runs_per_point(d as u64), runs(estimator.needs_ba(), d), "{estimator:?}");
-        }
-        for estimator in Total::ALL {
-            assert_eq!(estimator.runs_per_point(d as u64), runs(estimator.needs_ba(), d), "{estimator:?}");
-        }
-    }
-}

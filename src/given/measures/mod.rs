@@ -20,14 +20,13 @@ use serde::{Deserialize, Serialize};
 
 use super::column::{Column, NoVariance};
 use super::order::{Order, Partition};
-use super::{GivenIndices, PointSet, centred};
+use super::{GivenIndices, PointSet, centred, shuffle};
 use crate::names::named;
 use crate::uncertainty::{Estimate, Interval, NORMAL_QUANTILE};
 
 named! {
 /// A measure of the influence of an input on an output.
-#[derive(PartialOrd, Ord, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(PartialOrd, Ord, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Measure {
     /// First-order index from the spectrum of the output in the order of the input: EASI, Plischke (2010), Reliab. Eng.
@@ -64,8 +63,8 @@ impl Measure {
 }
 
 /// A measure of one input.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(rename = "MeasuredRecord"))]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[schemars(rename = "MeasuredRecord")]
 #[non_exhaustive]
 pub struct Measured {
     /// The measure, with its interval if there is one: for delta, of independent rows and those of a run.
@@ -79,8 +78,8 @@ pub struct Measured {
 }
 
 /// The measures of one input.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(rename = "GivenMeasuresRecord"))]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[schemars(rename = "GivenMeasuresRecord")]
 #[non_exhaustive]
 pub struct InputMeasures {
     /// The input.
@@ -134,11 +133,10 @@ pub fn measures(
     indices: &GivenIndices,
     seed: u64,
 ) -> Vec<Result<Vec<InputMeasures>, NoVariance>> {
-    let orders: Vec<Order> = inputs.iter().map(|input| Order::from_values(&input.values)).collect();
     let is_random = indices.points == PointSet::Independent;
+    let known = Known { has_p_values: is_random, has_intervals: is_random };
     let of_output = |(number, output): (usize, &Column)| {
-        let job = Job::new(&output.values, &Measure::ALL, [seed, number as u64])?;
-        Ok(job.measures(inputs, &orders, Known { has_p_values: is_random, has_intervals: is_random }))
+        Ok(Job::new(&output.values, &Measure::ALL, [seed, number as u64])?.measures(inputs, known))
     };
     outputs.iter().enumerate().map(of_output).collect()
 }
@@ -153,10 +151,8 @@ pub(crate) fn measures_of_rows(
     seed: [u64; 2],
     independent: bool,
 ) -> Result<Vec<InputMeasures>, NoVariance> {
-    let job = Job::new(output, wanted, seed)?;
-    let orders: Vec<Order> = inputs.iter().map(|input| Order::from_values(&input.values)).collect();
     let known = Known { has_p_values: independent, has_intervals: true };
-    Ok(job.measures(inputs, &orders, known))
+    Ok(Job::new(output, wanted, seed)?.measures(inputs, known))
 }
 
 /// Known properties of the rows.
@@ -234,7 +230,8 @@ impl<'a> Job<'a> {
         random
     }
 
-    fn measures(&self, inputs: &[Column], orders: &[Order], known: Known) -> Vec<InputMeasures> {
+    fn measures(&self, inputs: &[Column], known: Known) -> Vec<InputMeasures> {
+        let orders: Vec<Order> = inputs.iter().map(|input| Order::from_values(&input.values)).collect();
         let has_atoms = self.distribution.has_atoms();
         let classes: Vec<Classes> = orders.iter().map(|order| Classes::new(order, self.z.len(), has_atoms)).collect();
         let has_interval = known.has_intervals && self.wants(Measure::Delta);
@@ -305,9 +302,7 @@ impl<'a> Job<'a> {
         let permutation = |number: usize| {
             let mut random = self.random(1 << 16 | number as u64);
             let mut rows: Vec<usize> = (0..self.z.len()).collect();
-            for k in (1..rows.len()).rev() {
-                rows.swap(k, random.random_range(0..=k as u64) as usize);
-            }
+            shuffle(&mut rows, &mut random);
             let classes = classes.permuted(&rows);
             let finer = number < FINER_PERMUTATIONS && self.wants(Measure::Delta);
             let finer = finer.then(|| self.plain_delta(&classes.delta[1], NARROWER));

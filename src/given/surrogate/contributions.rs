@@ -60,12 +60,20 @@ pub(super) struct Folded {
     pub parts: Vec<f64>,
 }
 
+/// What rows contribute to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum To {
+    /// V.
+    Variance,
+    /// V S of an input.
+    FirstOrder(usize),
+    /// V ST of an input.
+    Total(usize),
+}
+
 /// The contributions of every row of a fold, for the inputs of the expansion.
 pub(super) struct Contributions {
-    /// Contributions to V.
-    pub variance: Contribution,
-    first_order: BTreeMap<usize, Contribution>,
-    total: BTreeMap<usize, Contribution>,
+    contributions: BTreeMap<To, Contribution>,
     left: Vec<f64>,
 }
 
@@ -73,12 +81,8 @@ pub(super) struct Contributions {
 pub(super) struct FoldSums {
     /// Rows.
     pub rows: usize,
-    /// V, with the mean square of the residual.
-    pub variance: Folded,
-    /// V S.
-    pub first_order: BTreeMap<usize, Folded>,
-    /// V ST.
-    pub total: BTreeMap<usize, Folded>,
+    /// Those to V with the mean square of the residual.
+    pub sums: BTreeMap<To, Folded>,
     /// Sum and sum of squares of the residuals.
     pub left: (f64, f64),
 }
@@ -86,58 +90,41 @@ pub(super) struct FoldSums {
 impl Contributions {
     /// Computes them for the rows of `net`, one run of one matrix.
     pub fn new(net: &Net, expansion: &Expansion) -> Self {
-        let rows = net.points();
         let mut left = net.outputs[0].clone();
         let mut values = Vec::new();
         for (term, b) in expansion.terms.iter().zip(&expansion.coefficients) {
             net.fill(term, 0, &mut values);
             left.iter_mut().zip(&values).for_each(|(e, p)| *e -= b * p);
         }
-        let mut all = Self {
-            variance: Contribution::zeros(rows),
-            first_order: BTreeMap::new(),
-            total: BTreeMap::new(),
-            left: Vec::new(),
-        };
+        let squares: Vec<f64> = left.iter().map(|e| e * e).collect();
+        let mut all = Self { contributions: BTreeMap::new(), left };
         for (term, &b) in expansion.terms.iter().zip(&expansion.coefficients).filter(|(term, _)| !term.is_empty()) {
             net.fill(term, 0, &mut values);
             let of_row = |(p, e): (&f64, &f64)| b * b + 2.0 * b * p * e;
-            let contributions: Vec<f64> = values.iter().zip(&left).map(of_row).collect();
-            all.variance.add(&contributions);
+            let contributions: Vec<f64> = values.iter().zip(&all.left).map(of_row).collect();
+            all.to(To::Variance).add(&contributions);
             if let [(input, _)] = term[..] {
-                all.first_order_of(input).add(&contributions);
+                all.to(To::FirstOrder(input)).add(&contributions);
             }
             for (input, _) in term {
-                all.total_of(*input).add(&contributions);
+                all.to(To::Total(*input)).add(&contributions);
             }
         }
-        let squares: Vec<f64> = left.iter().map(|e| e * e).collect();
-        all.variance.add(&squares);
-        all.left = left;
+        all.to(To::Variance).add(&squares);
         all
     }
 
-    /// Returns the contribution to V S of an input.
-    pub fn first_order_of(&mut self, input: usize) -> &mut Contribution {
-        let rows = self.variance.rows.len();
-        self.first_order.entry(input).or_insert_with(|| Contribution::zeros(rows))
-    }
-
-    /// Returns the contribution to V ST of an input.
-    pub fn total_of(&mut self, input: usize) -> &mut Contribution {
-        let rows = self.variance.rows.len();
-        self.total.entry(input).or_insert_with(|| Contribution::zeros(rows))
+    /// Returns one of the contributions; those of an input that is in no term are 0.
+    pub fn to(&mut self, to: To) -> &mut Contribution {
+        let rows = self.left.len();
+        self.contributions.entry(to).or_insert_with(|| Contribution::zeros(rows))
     }
 
     /// Returns the sums in parts, as the intervals need them.
     pub fn in_parts(&self) -> FoldSums {
-        let of =
-            |list: &BTreeMap<usize, Contribution>| list.iter().map(|(input, of)| (*input, of.in_parts())).collect();
         FoldSums {
             rows: self.left.len(),
-            variance: self.variance.in_parts(),
-            first_order: of(&self.first_order),
-            total: of(&self.total),
+            sums: self.contributions.iter().map(|(to, of)| (*to, of.in_parts())).collect(),
             left: (self.left.iter().sum(), self.left.iter().map(|e| e * e).sum()),
         }
     }

@@ -1,6 +1,6 @@
 //! Indices and intervals from the contributions of all folds.
 
-use super::contributions::{FoldSums, Folded};
+use super::contributions::{FoldSums, To};
 use super::{Fitted, MIN_EXPLAINED, SurrogateIndices, SurrogateOutput, leading_terms};
 use crate::uncertainty::{Estimate, Influenced, Interval, Noise};
 
@@ -9,7 +9,7 @@ pub(super) fn surrogate_output(fitted: &Fitted, names: &[&str]) -> SurrogateOutp
     let Fitted { folds, expansions, beyond, polynomials_of } = fitted;
     let rows = folds.iter().map(|fold| fold.rows).sum::<usize>() as f64;
     let left_mean = folds.iter().map(|fold| fold.left.0).sum::<f64>() / rows;
-    let mut variance = gathered(folds, rows, beyond.variance, |fold| Some(&fold.variance));
+    let mut variance = gathered(folds, rows, beyond.variance, To::Variance);
     variance.estimate -= left_mean * left_mean;
     if !(variance.estimate > 0.0 && variance.estimate.is_finite()) {
         // The residual is then larger than the total; the outputs have variance 1.
@@ -19,9 +19,8 @@ pub(super) fn surrogate_output(fitted: &Fitted, names: &[&str]) -> SurrogateOutp
         let (estimate, scale) = (numerator.estimate / variance.estimate, 1.0 / variance.estimate);
         Influenced { estimate, ..Influenced::combined(&[(scale, numerator), (-estimate * scale, &variance)]) }
     };
-    let of_first_order =
-        |input: usize| gathered(folds, rows, beyond.first_order[input], |fold| fold.first_order.get(&input));
-    let of_total = |input: usize| gathered(folds, rows, beyond.total[input], |fold| fold.total.get(&input));
+    let of_first_order = |input: usize| gathered(folds, rows, beyond.first_order[input], To::FirstOrder(input));
+    let of_total = |input: usize| gathered(folds, rows, beyond.total[input], To::Total(input));
     let first_order: Vec<Influenced> = (0..names.len()).map(|input| index(&of_first_order(input))).collect();
     let total: Vec<Influenced> = (0..names.len()).map(|input| index(&of_total(input))).collect();
     let left = fitted.left_square() / variance.estimate;
@@ -55,16 +54,11 @@ pub(super) fn surrogate_output(fitted: &Fitted, names: &[&str]) -> SurrogateOutp
 }
 
 /// Returns the mean over all rows, with the influences of the parts of every fold and the error `beyond` the rows.
-fn gathered<'a>(
-    folds: &'a [FoldSums],
-    rows: f64,
-    beyond: f64,
-    of: impl Fn(&'a FoldSums) -> Option<&'a Folded>,
-) -> Influenced {
-    let estimate = folds.iter().filter_map(&of).map(|fold| fold.sum).sum::<f64>() / rows;
-    let parts = |fold: &'a FoldSums| match of(fold) {
+fn gathered(folds: &[FoldSums], rows: f64, beyond: f64, to: To) -> Influenced {
+    let estimate = folds.iter().filter_map(|fold| fold.sums.get(&to)).map(|fold| fold.sum).sum::<f64>() / rows;
+    let parts = |fold: &FoldSums| match fold.sums.get(&to) {
         Some(folded) => folded.parts.iter().map(|x| x - estimate).collect(),
-        None => vec![-estimate; fold.variance.parts.len()],
+        None => vec![-estimate; fold.sums[&To::Variance].parts.len()],
     };
     Influenced { estimate, parts: folds.iter().map(parts).collect(), low: Vec::new(), beyond }
 }

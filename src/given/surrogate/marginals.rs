@@ -13,7 +13,7 @@
 
 use std::collections::BTreeMap;
 
-use super::contributions::Contributions;
+use super::contributions::{Contributions, To};
 use crate::surrogate::basis::Term;
 use crate::surrogate::fit::Expansion;
 use crate::surrogate::net::Net;
@@ -57,14 +57,14 @@ pub(super) fn add(net: &Net, expansion: &Expansion, contributions: &mut Contribu
         let squares: Vec<f64> = sums.iter().map(|h| h * h - variance).collect();
         let products: Vec<f64> = sums.iter().map(|h| 2.0 * group.without * h).collect();
         let both: Vec<f64> = squares.iter().zip(&products).map(|(a, b)| a + b).collect();
-        contributions.variance.move_by(&both);
-        contributions.total_of(*input).move_by(&squares);
+        contributions.to(To::Variance).move_by(&both);
+        contributions.to(To::Total(*input)).move_by(&squares);
         for (other, _) in &group.rest {
-            contributions.total_of(*other).move_by(&both);
+            contributions.to(To::Total(*other)).move_by(&both);
         }
         match group.rest[..] {
-            [] => contributions.first_order_of(*input).move_by(&squares),
-            [(other, _)] => contributions.first_order_of(other).move_by(&products),
+            [] => contributions.to(To::FirstOrder(*input)).move_by(&squares),
+            [(other, _)] => contributions.to(To::FirstOrder(other)).move_by(&products),
             _ => {}
         }
     }
@@ -107,9 +107,8 @@ mod tests {
         let net = Net::of_rows(columns.clone(), vec![0.0; 8]);
         let mut contributions = Contributions::new(&net, &expansion);
         add(&net, &expansion, &mut contributions);
-        let mut found: Vec<Vec<f64>> = vec![contributions.variance.moves().to_vec()];
-        found.extend((0..2).map(|input| contributions.first_order_of(input).moves().to_vec()));
-        found.extend((0..2).map(|input| contributions.total_of(input).moves().to_vec()));
+        let all = [To::Variance, To::FirstOrder(0), To::FirstOrder(1), To::Total(0), To::Total(1)];
+        let found = all.map(|to| contributions.to(to).moves().to_vec());
         for row in 0..8 {
             let step = 1e-4;
             let moved = |step: f64| -> Vec<f64> {

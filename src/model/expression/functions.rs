@@ -1,5 +1,7 @@
 //! The functions of the formula language. All return NaN if an argument is NaN.
 
+use std::ops::RangeInclusive;
+
 /// A function of one argument.
 #[derive(Clone, Copy, Debug)]
 pub struct OfOne {
@@ -28,31 +30,16 @@ pub(super) enum Function {
 }
 
 impl Function {
-    /// Returns the number of arguments it takes, in words.
-    pub fn arity(self) -> &'static str {
+    /// Returns the numbers of arguments it takes, those numbers in words, and its arguments as they are written.
+    pub fn arguments(self) -> (RangeInclusive<usize>, &'static str, &'static str) {
         match self {
-            Self::One(_) => "one argument",
-            Self::Two(_) => "two arguments",
-            Self::Several(_) => "two arguments or more",
-            Self::Select => "three arguments (condition, value if it is not 0, value if it is)",
-        }
-    }
-
-    /// Returns its arguments, as they are written.
-    pub fn arguments(self) -> &'static str {
-        match self {
-            Self::One(_) => "x",
-            Self::Two(_) | Self::Several(_) => "x, y",
-            Self::Select => "condition, x, y",
-        }
-    }
-
-    pub fn takes(self, count: usize) -> bool {
-        match self {
-            Self::One(_) => count == 1,
-            Self::Two(_) => count == 2,
-            Self::Several(_) => count >= 2,
-            Self::Select => count == 3,
+            Self::One(_) => (1..=1, "one argument", "x"),
+            Self::Two(_) => (2..=2, "two arguments", "x, y"),
+            Self::Several(_) => (2..=usize::MAX, "two arguments or more", "x, y"),
+            Self::Select => {
+                let words = "three arguments (condition, value if it is not 0, value if it is)";
+                (3..=3, words, "condition, x, y")
+            }
         }
     }
 }

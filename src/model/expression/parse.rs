@@ -21,9 +21,22 @@ pub(super) fn parse(text: &str, symbol: &dyn Fn(&str) -> Option<Symbol>) -> Resu
     parser.comparison()?;
     match parser.peek() {
         Token::End => Ok(parser.program),
-        Token::Sign("<" | "<=" | ">" | ">=" | "==" | "!=") => Err(parser.wrong(ExpressionProblem::SecondComparison)),
+        Token::Sign(sign) if comparison(sign).is_some() => Err(parser.wrong(ExpressionProblem::SecondComparison)),
         _ => Err(parser.expected("an operator or the end of the formula")),
     }
+}
+
+/// Returns the comparison of that sign.
+fn comparison(sign: &str) -> Option<Comparison> {
+    const SIGNS: [(&str, Comparison); 6] = [
+        ("<", Comparison::Less),
+        ("<=", Comparison::LessOrEqual),
+        (">", Comparison::Greater),
+        (">=", Comparison::GreaterOrEqual),
+        ("==", Comparison::Equal),
+        ("!=", Comparison::NotEqual),
+    ];
+    SIGNS.into_iter().find(|(known, _)| *known == sign).map(|(_, comparison)| comparison)
 }
 
 struct Parser<'a> {
@@ -84,47 +97,32 @@ impl Parser<'_> {
 
     fn comparison(&mut self) -> Parsed {
         self.sum()?;
-        let comparison = match self.peek() {
-            Token::Sign("<") => Comparison::Less,
-            Token::Sign("<=") => Comparison::LessOrEqual,
-            Token::Sign(">") => Comparison::Greater,
-            Token::Sign(">=") => Comparison::GreaterOrEqual,
-            Token::Sign("==") => Comparison::Equal,
-            Token::Sign("!=") => Comparison::NotEqual,
-            _ => return Ok(()),
-        };
-        self.advance();
-        self.sum()?;
-        self.program.push(Step::Compare(comparison));
+        if let Token::Sign(sign) = *self.peek()
+            && let Some(comparison) = comparison(sign)
+        {
+            self.advance();
+            self.sum()?;
+            self.program.push(Step::Compare(comparison));
+        }
         Ok(())
     }
 
     fn sum(&mut self) -> Parsed {
-        self.product()?;
-        loop {
-            let step = match self.peek() {
-                Token::Sign("+") => Step::Add,
-                Token::Sign("-") => Step::Subtract,
-                _ => return Ok(()),
-            };
-            self.advance();
-            self.product()?;
-            self.program.push(step);
-        }
+        self.left_to_right(Self::product, [("+", Step::Add), ("-", Step::Subtract)])
     }
 
     fn product(&mut self) -> Parsed {
-        self.signed()?;
-        loop {
-            let step = match self.peek() {
-                Token::Sign("*") => Step::Multiply,
-                Token::Sign("/") => Step::Divide,
-                _ => return Ok(()),
-            };
-            self.advance();
-            self.signed()?;
+        self.left_to_right(Self::signed, [("*", Step::Multiply), ("/", Step::Divide)])
+    }
+
+    /// Parses operands joined by the signs of `steps`, which are evaluated from left to right.
+    fn left_to_right(&mut self, operand: fn(&mut Self) -> Parsed, steps: [(&str, Step); 2]) -> Parsed {
+        operand(self)?;
+        while let Some((_, step)) = steps.into_iter().find(|(sign, _)| self.take(sign)) {
+            operand(self)?;
             self.program.push(step);
         }
+        Ok(())
     }
 
     fn signed(&mut self) -> Parsed {
@@ -145,8 +143,8 @@ impl Parser<'_> {
             return Ok(());
         }
         self.deeper(Self::signed)?;
-        match self.program.last_number() {
-            Some(power) if power.fract() == 0.0 && (2.0..=LARGEST_POWER).contains(&power.abs()) => {
+        match self.program.steps().last() {
+            Some(&Step::Number(power)) if power.fract() == 0.0 && (2.0..=LARGEST_POWER).contains(&power.abs()) => {
                 self.program.pop();
                 self.program.push(Step::Power(power as i32));
             }
@@ -191,7 +189,7 @@ impl Parser<'_> {
                 return Ok(());
             }
             (None, Some(function)) => {
-                ExpressionProblem::NoArguments { name: name.to_owned(), arguments: function.arguments() }
+                ExpressionProblem::NoArguments { name: name.to_owned(), arguments: function.arguments().2 }
             }
             (None, None) => ExpressionProblem::UnknownName(name.to_owned()),
         };
@@ -230,8 +228,9 @@ impl Parser<'_> {
                 }
             }
         }
-        if !function.takes(count) {
-            let (name, expected) = (name.to_owned(), function.arity());
+        let (counts, expected, _) = function.arguments();
+        if !counts.contains(&count) {
+            let name = name.to_owned();
             return Err(ExpressionError {
                 problem: ExpressionProblem::Arity { name, expected, found: count },
                 place: place.start..self.tokens[self.at - 1].1.end,

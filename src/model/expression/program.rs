@@ -79,14 +79,6 @@ impl Program {
         }
     }
 
-    /// Returns the number that was pushed last, if it is one.
-    pub fn last_number(&self) -> Option<f64> {
-        match self.steps.last() {
-            Some(Step::Number(number)) => Some(*number),
-            _ => None,
-        }
-    }
-
     pub fn pop(&mut self) {
         self.steps.pop();
     }
@@ -101,13 +93,8 @@ impl Program {
 
     /// Returns the numbers in the program, by their bits.
     pub fn numbers(&self) -> Vec<u64> {
-        self.steps
-            .iter()
-            .filter_map(|step| match step {
-                Step::Number(number) => Some(number.to_bits()),
-                _ => None,
-            })
-            .collect()
+        let number = |step: &Step| if let Step::Number(number) = step { Some(number.to_bits()) } else { None };
+        self.steps.iter().filter_map(number).collect()
     }
 
     /// Computes the values of up to [`TILE`] rows, those of `inputs` from row `first` on.

@@ -36,6 +36,7 @@ use parameters::Given;
 pub use parameters::{MAX_INPUTS, ParameterError, ParameterInfo, ParameterValue};
 
 /// An entry of the list of functions.
+#[derive(Debug)]
 struct Entry {
     name: &'static str,
     summary: &'static str,
@@ -66,7 +67,7 @@ const ENTRIES: [&Entry; 17] = [
 ];
 
 /// A function of the list, before its parameters are chosen.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub struct KnownAnswer(&'static Entry);
 
 impl KnownAnswer {
@@ -142,20 +143,6 @@ impl KnownAnswer {
     }
 }
 
-impl PartialEq for KnownAnswer {
-    fn eq(&self, other: &Self) -> bool {
-        self.name() == other.name()
-    }
-}
-
-impl Eq for KnownAnswer {}
-
-impl fmt::Debug for KnownAnswer {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
-    }
-}
-
 /// A function with its parameters chosen. Cheap to clone.
 #[derive(Clone)]
 pub struct KnownFunction {
@@ -199,7 +186,7 @@ impl KnownFunction {
 
 impl PartialEq for KnownFunction {
     fn eq(&self, other: &Self) -> bool {
-        self.answer == other.answer && self.parameters() == other.parameters()
+        self.answer.name() == other.answer.name() && self.parameters() == other.parameters()
     }
 }
 

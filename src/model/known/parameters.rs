@@ -105,12 +105,6 @@ impl<'a> Given<'a> {
         }
     }
 
-    fn number_of_inputs(&self, default: usize, range: Range) -> Result<usize, ParameterError> {
-        let value = within("dimension", self.one_number("dimension", default as f64, range)?, INPUTS)?;
-        // An integer up to 4096.
-        Ok(value as usize)
-    }
-
     /// Reads one number.
     pub(super) fn number(
         &mut self,
@@ -125,9 +119,9 @@ impl<'a> Given<'a> {
 
     /// Reads only the parameter `dimension`.
     pub(super) fn dimension(&mut self, default: usize, range: Range) -> Result<usize, ParameterError> {
-        let inputs = self.number_of_inputs(default, range)?;
-        self.in_force.push(("dimension", ParameterValue::Number(inputs as f64)));
-        Ok(inputs)
+        let value = within("dimension", self.number("dimension", default as f64, range)?, INPUTS)?;
+        // An integer up to 4096.
+        Ok(value as usize)
     }
 
     /// Reads numbers per input, all of one length: `dimension`, else that of the first list, else of the default.
@@ -144,7 +138,7 @@ impl<'a> Given<'a> {
             (None, Some((parameter, entries))) => {
                 return Err(refused(parameter, format!("has {entries} entries, but must have 1 to {MAX_INPUTS}")));
             }
-            _ => self.number_of_inputs(all.first().map_or(1, |(_, default, _)| default.len()), INPUTS)?,
+            _ => self.one_number("dimension", all[0].1.len() as f64, INPUTS)? as usize,
         };
         let mut columns = [const { Vec::new() }; N];
         for (column, (parameter, default, range)) in columns.iter_mut().zip(all) {

@@ -145,7 +145,7 @@ fn references_are_those_of_the_quadrature_and_of_the_oracle() {
 fn indices_of_every_function_are_consistent() {
     for answer in KnownAnswer::all() {
         let function = answer.default_function();
-        assert_eq!(KnownAnswer::from_name(answer.name()), Some(answer));
+        assert_eq!(KnownAnswer::from_name(answer.name()).map(KnownAnswer::name), Some(answer.name()));
         let named: Vec<_> = function.parameters().iter().map(|(name, _)| *name).collect();
         for name in &named {
             assert!(answer.parameters().iter().any(|parameter| parameter.name == *name), "{answer:?} {name}");

@@ -1,6 +1,5 @@
 //! The distribution of an output: moments, quantiles, histogram, and their chart.
 
-mod histogram;
 mod quantile;
 
 pub use quantile::{PERCENTS, quantile};
@@ -10,11 +9,10 @@ use crate::quantity::Unit;
 use crate::sum::{mean, rescaled};
 
 /// The distribution of one output over a sample, as in result files. Numbers are in `unit`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 pub struct OutputDistribution {
     /// The unit of the numbers.
-    #[cfg_attr(feature = "schema", schemars(with = "String"))]
+    #[schemars(with = "String")]
     pub unit: Unit,
     /// Number of values n.
     pub count: u64,
@@ -37,8 +35,7 @@ pub struct OutputDistribution {
 }
 
 /// A quantile.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 pub struct QuantileRecord {
     /// Its probability in percent.
     pub percent: f64,
@@ -52,8 +49,7 @@ pub struct QuantileRecord {
 /// otherwise a few far values would leave all others in one bin. They are counted in `below` and `above`. The width is
 /// that of Freedman and Diaconis (1981), 2 IQR n^(-1/3), or if the IQR is 0 that of Scott (1979), 3.49 sd n^(-1/3), and
 /// at least a hundredth of the whole.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 pub struct Histogram {
     /// Edges of the bins, ascending, one more than bins. A value on an inner edge belongs to the bin above it.
     pub edges: Vec<f64>,
@@ -88,25 +84,25 @@ impl OutputDistribution {
         let (mut sorted, exponent) = rescaled(values);
         sorted.sort_unstable_by(f64::total_cmp);
         let (min, max) = (*sorted.first()?, *sorted.last()?);
-        let scale = Scale { exponent, unit };
-        let moments = Moments::from_values(&sorted);
+        let value = |x: f64| unit.from_si(libm::scalbn(x, exponent));
+        let [mean, sd, skewness, excess_kurtosis] = moments(&sorted);
         let varied = max - min > ROUNDING;
-        let sample = varied.then(|| Sample::new(&sorted, moments.sd));
-        let histogram = sample.as_ref().map(|sample| histogram::histogram(sample));
         Some(Self {
             unit: unit.clone(),
             count: sorted.len() as u64,
-            mean: scale.value(moments.mean.clamp(min, max)),
-            sd: (sorted.len() > 1).then(|| scale.span(moments.sd)).filter(|sd| sd.is_finite()),
-            skewness: varied.then_some(moments.skewness),
-            excess_kurtosis: varied.then_some(moments.excess_kurtosis),
-            min: scale.value(min),
-            max: scale.value(max),
+            mean: value(mean.clamp(min, max)),
+            sd: (sorted.len() > 1).then(|| unit.span_from_si(libm::scalbn(sd, exponent))).filter(|sd| sd.is_finite()),
+            skewness: varied.then_some(skewness),
+            excess_kurtosis: varied.then_some(excess_kurtosis),
+            min: value(min),
+            max: value(max),
             quantiles: PERCENTS
                 .iter()
-                .map(|&percent| QuantileRecord { percent, value: scale.value(quantile(&sorted, percent / 100.0)) })
+                .map(|&percent| QuantileRecord { percent, value: value(quantile(&sorted, percent / 100.0)) })
                 .collect(),
-            histogram: histogram.map(|h| Histogram { edges: h.edges.iter().map(|&x| scale.value(x)).collect(), ..h }),
+            histogram: varied
+                .then(|| histogram(&sorted, sd))
+                .map(|histogram| Histogram { edges: histogram.edges.iter().map(|&x| value(x)).collect(), ..histogram }),
         })
     }
 
@@ -135,82 +131,41 @@ impl OutputDistribution {
 /// A spread below this, for values whose largest is between 1 and 2, is rounding error: the sample counts as constant.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
-/// Conversion from the working scale, in which the largest value is between 1 and 2, to the unit of the record.
-struct Scale<'a> {
-    exponent: i32,
-    unit: &'a Unit,
+/// Returns mean, standard deviation, skewness and excess kurtosis of values of order one.
+fn moments(values: &[f64]) -> [f64; 4] {
+    let n = values.len() as f64;
+    let mean = mean(values);
+    let (centred, exponent) = rescaled(&values.iter().map(|v| v - mean).collect::<Vec<f64>>());
+    let moment = |k: i32| centred.iter().map(|c| c.powi(k)).sum::<f64>() / n;
+    let m2 = moment(2);
+    let sd = libm::scalbn((m2 * n / (n - 1.0).max(1.0)).sqrt(), exponent);
+    [mean, sd, moment(3) / libm::pow(m2, 1.5), moment(4) / (m2 * m2) - 3.0]
 }
 
-impl Scale<'_> {
-    fn value(&self, x: f64) -> f64 {
-        self.unit.from_si(libm::scalbn(x, self.exponent))
-    }
-
-    /// Converts a difference of two values.
-    fn span(&self, x: f64) -> f64 {
-        self.unit.span_from_si(libm::scalbn(x, self.exponent))
-    }
-}
-
-/// Moments of values of order one.
-struct Moments {
-    mean: f64,
-    sd: f64,
-    skewness: f64,
-    excess_kurtosis: f64,
-}
-
-impl Moments {
-    fn from_values(values: &[f64]) -> Self {
-        let n = values.len() as f64;
-        let mean = mean(values);
-        let (centred, exponent) = rescaled(&values.iter().map(|v| v - mean).collect::<Vec<f64>>());
-        let moment = |k: i32| centred.iter().map(|c| c.powi(k)).sum::<f64>() / n;
-        let m2 = moment(2);
-        Self {
-            mean,
-            sd: libm::scalbn((m2 * n / (n - 1.0).max(1.0)).sqrt(), exponent),
-            skewness: moment(3) / libm::pow(m2, 1.5),
-            excess_kurtosis: moment(4) / (m2 * m2) - 3.0,
-        }
-    }
-}
-
-/// A sorted sample that varies, with the quantities for its histogram.
-struct Sample<'a> {
-    sorted: &'a [f64],
-    sd: f64,
-    iqr: f64,
-    /// The ends of the histogram.
-    reach: (f64, f64),
-}
-
-impl<'a> Sample<'a> {
-    fn new(sorted: &'a [f64], sd: f64) -> Self {
-        /// In interquartile ranges beyond the quartiles.
-        const REACH: f64 = 6.0;
-        let (lower, upper) = (quantile(sorted, 0.25), quantile(sorted, 0.75));
-        let iqr = upper - lower;
-        let (min, max) = (sorted[0], sorted[sorted.len() - 1]);
-        // An IQR of rounding errors would leave no value within reach.
-        let (iqr, reach) = if iqr > ROUNDING {
-            (iqr, (min.max(lower - REACH * iqr), max.min(upper + REACH * iqr)))
-        } else {
-            (0.0, (min, max))
-        };
-        Self { sorted, sd, iqr, reach }
-    }
-
-    fn n(&self) -> f64 {
-        self.sorted.len() as f64
-    }
-
-    /// Returns the values within reach, and the numbers of those below and above.
-    fn within(&self) -> (&'a [f64], usize, usize) {
-        let from = self.sorted.partition_point(|&v| v < self.reach.0);
-        let to = self.sorted.partition_point(|&v| v <= self.reach.1);
-        (&self.sorted[from..to], from, self.sorted.len() - to)
-    }
+/// Returns the histogram of a sorted sample that varies with this standard deviation, in the scale of its values.
+fn histogram(sorted: &[f64], sd: f64) -> Histogram {
+    /// In interquartile ranges beyond the quartiles.
+    const REACH: f64 = 6.0;
+    const MAX_BINS: f64 = 100.0;
+    let (lower, upper) = (quantile(sorted, 0.25), quantile(sorted, 0.75));
+    let (min, max) = (sorted[0], sorted[sorted.len() - 1]);
+    let root = libm::cbrt(sorted.len() as f64);
+    let iqr = upper - lower;
+    // An IQR of rounding errors would leave no value within reach.
+    let (low, high, width) = if iqr > ROUNDING {
+        (min.max(lower - REACH * iqr), max.min(upper + REACH * iqr), 2.0 * iqr / root)
+    } else {
+        (min, max, 3.49 * sd / root)
+    };
+    let bins = ((high - low) / width).ceil().clamp(1.0, MAX_BINS) as usize;
+    let mut edges: Vec<f64> = (0..=bins).map(|k| low + (high - low) * k as f64 / bins as f64).collect();
+    edges[bins] = high;
+    // Values are sorted: each inner edge divides them, and equal values go up.
+    let inner = edges[1..bins].iter().map(|edge| sorted.partition_point(|v| v < edge));
+    let (first, last) = (sorted.partition_point(|&v| v < low), sorted.partition_point(|&v| v <= high));
+    let ends: Vec<usize> = std::iter::once(first).chain(inner).chain([last]).collect();
+    let counts = ends.windows(2).map(|ends| (ends[1] - ends[0]) as u64).collect();
+    Histogram { edges, counts, below: first as u64, above: (sorted.len() - last) as u64 }
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 use serde_json::Value;
 
 use crate::names::{LONGEST_NAME, LONGEST_STUDY_NAME};
-use crate::result::{OutputResult, PlainIndexRecord, SeriesRecord, StudyResult};
+use crate::result::{SeriesRecord, StudyResult};
 
 /// A key, and the error there.
 type Fault = (String, String);
@@ -17,7 +17,9 @@ pub(super) fn check(result: &StudyResult) -> Result<(), Fault> {
         if result.outputs[..place].iter().any(|other| other.name == output.name) {
             return Err((format!("{key}.name"), format!("the output {:?} is listed twice", output.name)));
         }
-        indices(&key, result, output)?;
+        if let Some(indices) = &output.indices {
+            of_factors(&key, result, indices.iter().map(|index| &index.factor))?;
+        }
     }
     result.series.iter().enumerate().try_for_each(|(place, of)| series(&format!("series[{place}]"), result, of))
 }
@@ -31,12 +33,17 @@ fn series(key: &str, result: &StudyResult, series: &SeriesRecord) -> Result<(), 
         let problem = "expected rising numbers, one for each output from number `first_output` on";
         return Err((format!("{key}.positions"), problem.to_owned()));
     }
-    let factors = |of: &[PlainIndexRecord]| of.iter().map(|index| index.factor.as_str()).eq(result.indexed_names());
-    if !series.indices.as_ref().is_none_or(|indices| factors(indices)) {
-        let problem = "expected one entry for each of the factors, in their order, or null";
-        return Err((format!("{key}.indices"), problem.to_owned()));
+    match &series.indices {
+        None => Ok(()),
+        Some(indices) => of_factors(key, result, indices.iter().map(|index| &index.factor)),
     }
-    Ok(())
+}
+
+/// Checks that there is an index for each factor.
+fn of_factors<'a>(key: &str, result: &StudyResult, names: impl Iterator<Item = &'a String>) -> Result<(), Fault> {
+    let problem = "expected one entry for each of the factors, in their order, or null";
+    let is_each = names.map(String::as_str).eq(result.indexed_names());
+    if is_each && !result.factors.is_empty() { Ok(()) } else { Err((format!("{key}.indices"), problem.to_owned())) }
 }
 
 /// Checks a name used in file names (those of the study and its outputs): it must not lead to another folder.
@@ -78,15 +85,4 @@ pub(super) fn counts(value: &Value, key: &str) -> Result<(), Fault> {
 
 fn joined(key: &str, name: &str) -> String {
     if key.is_empty() { name.to_owned() } else { format!("{key}.{name}") }
-}
-
-/// Checks that there is an index for each factor, or none at all.
-fn indices(key: &str, result: &StudyResult, output: &OutputResult) -> Result<(), Fault> {
-    let Some(indices) = &output.indices else { return Ok(()) };
-    let names = indices.iter().map(|index| index.factor.as_str());
-    if indices.is_empty() || !names.eq(result.indexed_names()) {
-        let problem = "expected one entry for each of the factors, in their order, or null";
-        return Err((format!("{key}.indices"), problem.to_owned()));
-    }
-    Ok(())
 }

@@ -71,11 +71,11 @@ fn every_code_is_one_of_a_kind_and_documented() {
 
 #[test]
 fn warnings_that_were_read_are_those_that_were_written() {
-    let written = Warnings(examples());
-    let json = serde_json::to_string(&written).unwrap();
-    assert_eq!(serde_json::from_str::<Warnings>(&json).unwrap(), written);
-    let without_codes: Warnings = serde_json::from_str(r#"{"warnings": ["few rows"]}"#).unwrap();
-    assert_eq!(without_codes.0, [Warning::Recorded { code: String::new(), text: text("few rows") }]);
+    let written = examples();
+    let json = serialize(&written, serde_json::value::Serializer).unwrap();
+    assert_eq!(deserialize(json).unwrap(), written);
+    let without_codes = deserialize(serde_json::json!({ "warnings": ["few rows"] })).unwrap();
+    assert_eq!(without_codes, [Warning::Recorded { code: String::new(), text: text("few rows") }]);
 }
 
 #[test]

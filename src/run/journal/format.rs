@@ -8,14 +8,35 @@ use std::path::Path;
 use serde_json::Value;
 
 use super::error::JournalError;
-use crate::binary::{Binary, Reader};
-use crate::model::{Counts, RowFailure};
+use crate::model::{CounterKind, Counts, RowFailure};
 use crate::run::Piece;
 
 const MAGIC: &[u8] = b"apportion journal";
 const VERSION: u32 = 1;
 /// Written in every record in place of the model's effort, a field from before models had counters.
 const LEGACY_EFFORT: [u8; 20] = [0; 20];
+
+/// Bytes that remain to be read.
+pub(in crate::run) struct Reader<'a> {
+    pub bytes: &'a [u8],
+}
+
+impl<'a> Reader<'a> {
+    /// Returns the next `count` bytes, or `None` if fewer remain.
+    fn take(&mut self, count: usize) -> Option<&'a [u8]> {
+        let (taken, rest) = self.bytes.split_at_checked(count)?;
+        self.bytes = rest;
+        Some(taken)
+    }
+
+    fn u32(&mut self) -> Option<u32> {
+        Some(u32::from_le_bytes(self.take(4)?.try_into().ok()?))
+    }
+
+    fn u64(&mut self) -> Option<u64> {
+        Some(u64::from_le_bytes(self.take(8)?.try_into().ok()?))
+    }
+}
 
 /// The contents of a journal.
 #[derive(Debug, Clone, PartialEq)]
@@ -56,9 +77,13 @@ pub(in crate::run) fn write_record(out: &mut Vec<u8>, piece: &Piece) {
         out.extend_from_slice(why.as_bytes());
     }
     out.extend_from_slice(&(piece.flags.len() as u32).to_le_bytes());
-    piece.flags.iter().for_each(|raised| raised.write(out));
+    piece.flags.iter().for_each(|raised| out.extend_from_slice(&raised.to_le_bytes()));
     out.extend_from_slice(&LEGACY_EFFORT);
-    piece.counts.write(out);
+    out.extend_from_slice(&(piece.counts.0.len() as u64).to_le_bytes());
+    for (kind, value) in &piece.counts.0 {
+        out.push(u8::from(*kind == CounterKind::Maximum));
+        out.extend_from_slice(&value.to_le_bytes());
+    }
     let length = ((out.len() - begin - 8) as u32).to_le_bytes();
     out[begin..begin + 4].copy_from_slice(&length);
     let checksum = checksum(&length, &out[begin + 8..]).to_le_bytes();
@@ -119,7 +144,7 @@ pub(in crate::run) fn record(reader: &mut Reader<'_>) -> Option<Piece> {
 const MAX_ROWS: u64 = 1 << 60;
 
 fn piece(reader: &mut Reader<'_>) -> Option<Piece> {
-    let (replicate, first, count) = (u64::read(reader)?, u64::read(reader)?, u64::read(reader)?);
+    let (replicate, first, count) = (reader.u64()?, reader.u64()?, reader.u64()?);
     if first > MAX_ROWS {
         return None;
     }
@@ -131,13 +156,22 @@ fn piece(reader: &mut Reader<'_>) -> Option<Piece> {
         let why = std::str::from_utf8(reader.take(length as usize)?).ok()?;
         failures.push((row, output, RowFailure::new(why)));
     }
-    let flags = list(reader)?;
+    let flags = (0..reader.u32()?).map(|_| reader.u64()).collect::<Option<_>>()?;
     reader.take(LEGACY_EFFORT.len()).filter(|effort| *effort == LEGACY_EFFORT)?;
     // Records of older versions end here.
-    let counts = if reader.bytes.is_empty() { Counts::default() } else { Counts::read(reader)? };
+    let counts = if reader.bytes.is_empty() { Counts::default() } else { counts(reader)? };
     Some(Piece { replicate, first, values, failures, flags, counts })
 }
 
-fn list(reader: &mut Reader<'_>) -> Option<Vec<u64>> {
-    (0..reader.u32()?).map(|_| u64::read(reader)).collect()
+fn counts(reader: &mut Reader<'_>) -> Option<Counts> {
+    let length = reader.u64()?;
+    let mut count = || {
+        let kind = match reader.take(1)? {
+            [0] => CounterKind::Sum,
+            [1] => CounterKind::Maximum,
+            _ => return None,
+        };
+        Some((kind, f64::from_bits(reader.u64()?)))
+    };
+    (0..length).map(|_| count()).collect::<Option<_>>().map(Counts)
 }

@@ -19,7 +19,7 @@ use std::time::Duration;
 
 pub use error::JournalError;
 pub use format::{Contents, read_journal};
-pub(super) use format::{record, write_record};
+pub(super) use format::{Reader, record, write_record};
 pub use identity::differences;
 use serde_json::Value;
 
@@ -36,7 +36,6 @@ const LOCK_PATIENCE: Duration = Duration::from_millis(500);
 /// A journal open for appending, by one process at a time.
 #[derive(Debug)]
 pub struct Journal {
-    path: PathBuf,
     writer: Mutex<Writer>,
 }
 
@@ -46,7 +45,6 @@ struct Writer {
     /// Number of bytes in complete records.
     length: u64,
     synced: Instant,
-    buffer: Vec<u8>,
 }
 
 impl Journal {
@@ -58,7 +56,7 @@ impl Journal {
         refuse_no_file(path)?;
         // Truncate only once the lock is held: the file may belong to another run.
         let file = open_locked(path, true)?;
-        let journal = Self::writing(path, file, 0);
+        let journal = Self::writing(file, 0);
         let mut buffer = Vec::new();
         format::write_header(&mut buffer, header);
         journal
@@ -78,17 +76,12 @@ impl Journal {
         let mut file = open_locked(path, false)?;
         let bytes = read_opened(&mut file).map_err(|source| JournalError::unreadable(path, source))?;
         let contents = read_journal(path, &bytes)?;
-        Ok((Self::writing(path, file, contents.length), contents))
+        Ok((Self::writing(file, contents.length), contents))
     }
 
-    fn writing(path: &Path, file: File, length: u64) -> Self {
-        let writer = Writer { file, length, synced: Instant::now(), buffer: Vec::new() };
-        Self { path: path.to_owned(), writer: Mutex::new(writer) }
-    }
-
-    /// Returns the path of the file.
-    pub fn path(&self) -> &Path {
-        &self.path
+    fn writing(file: File, length: u64) -> Self {
+        let writer = Writer { file, length, synced: Instant::now() };
+        Self { writer: Mutex::new(writer) }
     }
 
     /// Appends a piece, by one write: when this returns, the piece survives the death of the program.
@@ -96,13 +89,9 @@ impl Journal {
     /// # Errors
     /// The error of the operating system; the journal then ends with the previous record.
     pub fn append(&self, piece: &Piece) -> std::io::Result<()> {
-        let mut writer = self.writer.lock().unwrap_or_else(PoisonError::into_inner);
-        let mut buffer = std::mem::take(&mut writer.buffer);
-        buffer.clear();
-        format::write_record(&mut buffer, piece);
-        let written = writer.append(&buffer);
-        writer.buffer = buffer;
-        written
+        let mut record = Vec::new();
+        format::write_record(&mut record, piece);
+        self.write(&record)
     }
 
     fn write(&self, bytes: &[u8]) -> std::io::Result<()> {

@@ -8,7 +8,7 @@ fn piece(first: u64, rows: usize) -> Piece {
     let values = (0..rows).map(|row| if row == 2 { f64::NAN } else { (first as f64 + row as f64).sqrt() }).collect();
     let failures = if rows > 2 { vec![(2, 0, RowFailure::new("the tip slipped: \u{3bc} < 0"))] } else { Vec::new() };
     let counts = [(CounterKind::Sum, rows as f64), (CounterKind::Sum, 7.0), (CounterKind::Maximum, 1e-9)];
-    let counts = Counts::from_values(counts);
+    let counts = Counts(counts.to_vec());
     Piece { replicate: 3, first, values, failures, flags: vec![1, 2], counts }
 }
 

@@ -1,8 +1,7 @@
 use proptest::prelude::*;
 
 use super::*;
-use crate::design::{DesignSettings, Rows};
-use crate::model::{Output, RunContext};
+use crate::model::{CounterKind, Output, RunContext};
 use crate::quantity::Unit;
 
 /// Two outputs, one validity flag; never run.
@@ -28,12 +27,6 @@ fn described() -> Described {
     Described([output("y"), output("z")], [flag])
 }
 
-/// Three factors: five rows a base point.
-fn design() -> Design {
-    let settings = DesignSettings { base_samples: 1024, replicates: 1, ..DesignSettings::default() };
-    Design::new(settings, 3, Rows::plain(vec![vec![0], vec![1], vec![2]])).unwrap()
-}
-
 /// Outputs that identify their row; every 7th row fails in its second output, with a flag for every row.
 fn piece(rows: Range<u64>) -> Piece {
     let values = |row: u64| [row as f64, if row.is_multiple_of(7) { f64::NAN } else { -(row as f64) }];
@@ -54,7 +47,7 @@ proptest! {
     /// For any pieces the stored rows are returned, and the others are missing.
     #[test]
     fn pieces_of_any_size_come_back(cuts in prop::collection::btree_set(1_u64..4000, 0..12), lost in 0_usize..13) {
-        let store = Store::new(&design(), &described());
+        let store = Store::new(&described());
         let ends: Vec<u64> = cuts.iter().copied().chain([4000]).collect();
         let mut first = 0;
         let pieces: Vec<Range<u64>> = ends.iter().map(|end| std::mem::replace(&mut first, *end)..*end).collect();
@@ -82,7 +75,7 @@ proptest! {
 
 #[test]
 fn the_runs_of_base_points_are_recalled_as_batches() {
-    let (store, model) = (Store::new(&design(), &described()), described());
+    let (store, model) = (Store::new(&described()), described());
     store.insert(&piece(0..2000));
     let mut batches = vec![Batch::new(&model); 5];
     // Base points 100 to 110 are rows 500 to 550.
@@ -106,7 +99,7 @@ fn the_runs_of_base_points_are_recalled_as_batches() {
 
 #[test]
 fn failures_can_be_forgotten_and_rows_replaced() {
-    let store = Store::new(&design(), &described());
+    let store = Store::new(&described());
     store.insert(&Piece { flags: vec![0], ..piece(1270..1300) });
     let failing: Vec<u64> = (1270..1300).filter(|row| row % 7 == 0).collect();
     assert_eq!(store.forget_failures(), failing.len() as u64);
@@ -127,7 +120,7 @@ fn failures_can_be_forgotten_and_rows_replaced() {
 #[test]
 fn every_row_is_counted_once() {
     let raised = |store: &Store| store.pieces().iter().flat_map(|piece| piece.flags.clone()).sum::<u64>();
-    let store = Store::new(&design(), &described());
+    let store = Store::new(&described());
     // The second piece has no row that fails.
     for rows in [0..100, 100..104, 104..300] {
         store.insert(&piece(rows));
@@ -146,9 +139,20 @@ fn every_row_is_counted_once() {
     (0..300).step_by(7).for_each(|row| _ = store.insert(&piece(row..row + 1)));
     assert_eq!((store.rows(), raised(&store), store.count(0, 0..300).1), (43, 43, 43));
     // Over the end of a block, and by a piece over which nothing was counted.
-    let store = Store::new(&design(), &described());
+    let store = Store::new(&described());
     store.insert(&piece(1200..1400));
     let alone = Piece { first: 1390, values: vec![1.0, 2.0], ..Piece::default() };
     store.insert(&alone);
     assert_eq!((store.rows(), raised(&store), store.count(0, 1200..1400)), (1, 0, (1, 0)));
+}
+
+#[test]
+fn counts_of_pieces_without_flags_are_added() {
+    let store = Store::new(&described());
+    for first in [0, 2] {
+        let counts = Counts(vec![(CounterKind::Sum, 2.0), (CounterKind::Maximum, first as f64)]);
+        store.insert(&Piece { first, values: vec![0.0; 4], counts, ..Piece::default() });
+    }
+    let counts = store.piece(0, 0..4).unwrap().counts;
+    assert_eq!(counts, Counts(vec![(CounterKind::Sum, 4.0), (CounterKind::Maximum, 2.0)]));
 }

@@ -43,9 +43,13 @@ fn pearson(stated: f64, a: &Factor, b: &Factor) -> Result<f64, DependenceError> 
     if stated == 0.0 || matches!((x, y), (Distribution::Normal(_), Distribution::Normal(_))) {
         return Ok(stated);
     }
-    let standard = |law: &Distribution, score: f64| (law.quantile(from_score(score)) - law.mean()) / law.sd();
+    let standardised = |law: &'_ Distribution| {
+        let (law, mean, sd) = (law.clone(), law.mean(), law.sd());
+        move |score: f64| (law.quantile(from_score(score)) - mean) / sd
+    };
+    let [x, y] = [x, y].map(standardised);
     let line = nodes(LINE);
-    let extreme = |sign: f64| line.iter().map(|(z, w)| w * standard(x, *z) * standard(y, sign * z)).sum::<f64>();
+    let extreme = |sign: f64| line.iter().map(|(z, w)| w * x(*z) * y(sign * z)).sum::<f64>();
     let (low, high) = (extreme(-1.0), extreme(1.0));
     if !(low < stated && stated < high) {
         return refused(format!(
@@ -54,10 +58,10 @@ fn pearson(stated: f64, a: &Factor, b: &Factor) -> Result<f64, DependenceError> 
         ));
     }
     let plane = nodes(PLANE);
-    let of_x: Vec<f64> = plane.iter().map(|(z, _)| standard(x, *z)).collect();
+    let of_x: Vec<f64> = plane.iter().map(|(z, _)| x(*z)).collect();
     let correlation = |r: f64| {
         let rest = (1.0 - r * r).sqrt();
-        let inner = |z: f64| plane.iter().map(|(v, w)| w * standard(y, r * z + rest * v)).sum::<f64>();
+        let inner = |z: f64| plane.iter().map(|(v, w)| w * y(r * z + rest * v)).sum::<f64>();
         plane.iter().zip(&of_x).map(|((z, w), x)| w * x * inner(*z)).sum::<f64>()
     };
     // The correlation rises with r (Lancaster 1957): a secant that keeps its bracket, the end that stays twice counting half.

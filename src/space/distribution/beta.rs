@@ -115,13 +115,12 @@ impl Family for Beta {
         }
     }
 
-    fn mean(&self) -> f64 {
-        self.min + self.width * (self.alpha / (self.alpha + self.beta))
-    }
-
-    fn sd(&self) -> f64 {
+    fn moments(&self) -> (f64, f64) {
         let sum = self.alpha + self.beta;
-        self.width * (self.alpha * self.beta / (sum + 1.0)).sqrt() / sum
+        (
+            self.min + self.width * (self.alpha / (self.alpha + self.beta)),
+            self.width * (self.alpha * self.beta / (sum + 1.0)).sqrt() / sum,
+        )
     }
 
     fn support(&self) -> (f64, f64) {

@@ -43,12 +43,8 @@ impl Family for Constant {
         if x < self.value { (0.0, 1.0) } else { (1.0, 0.0) }
     }
 
-    fn mean(&self) -> f64 {
-        self.value
-    }
-
-    fn sd(&self) -> f64 {
-        0.0
+    fn moments(&self) -> (f64, f64) {
+        (self.value, 0.0)
     }
 
     fn support(&self) -> (f64, f64) {

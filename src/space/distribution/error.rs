@@ -4,69 +4,37 @@ use crate::quantity::Unit;
 
 /// Why a distribution was refused; the text contains what is wrong and what is allowed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum DistributionError {
-    /// An invalid parameter, or several that are invalid together.
-    #[error("{message}")]
-    Refused {
-        /// The key of the parameter, if it is a single one.
-        key: Option<&'static str>,
-        /// What is wrong.
-        message: String,
-        /// What is allowed, if the message does not contain it.
-        help: Option<String>,
-    },
-    /// A key that the family needs is missing.
-    #[error("the {distribution} distribution needs {needed}")]
-    Missing {
-        /// The name of the family.
-        distribution: &'static str,
-        /// What is missing.
-        needed: String,
-        /// The keys that determine it, in words.
-        takes: String,
-    },
-    /// Next to no probability is left by a truncation.
-    #[error(
-        "truncation leaves nothing of this {distribution} distribution: almost none of its values lie between {min} and {max}"
-    )]
-    NothingLeft {
-        /// The name of the family.
-        distribution: &'static str,
-        /// The lower bound.
-        min: f64,
-        /// The upper bound.
-        max: f64,
-    },
+#[error("{message}")]
+pub struct DistributionError {
+    /// The key of the invalid parameter, if it is a single one.
+    pub key: Option<&'static str>,
+    /// What is allowed, if the message does not contain it.
+    pub help: Option<String>,
+    /// Whether a key that the family needs is missing.
+    pub is_incomplete: bool,
+    message: String,
 }
 
 impl DistributionError {
-    /// Returns the key of the invalid parameter, if it is a single one.
-    pub fn key(&self) -> Option<&'static str> {
-        match self {
-            Self::Refused { key, .. } => *key,
-            Self::NothingLeft { .. } => Some("truncate"),
-            Self::Missing { .. } => None,
-        }
+    fn new(key: Option<&'static str>, message: impl Into<String>) -> Self {
+        Self { key, help: None, is_incomplete: false, message: message.into() }
     }
 
-    /// Returns what is allowed, if the message does not contain it.
-    pub fn help(&self) -> Option<String> {
-        match self {
-            Self::Refused { help, .. } => help.clone(),
-            Self::Missing { takes, .. } => Some(format!("it takes {takes}")),
-            Self::NothingLeft { .. } => None,
-        }
+    /// Adds what is allowed.
+    pub(super) fn with_help(self, help: String) -> Self {
+        Self { help: Some(help), ..self }
     }
+}
+
+/// Returns an error for keys that `distribution`, which takes those of `help`, needs.
+pub(super) fn missing(distribution: &str, needed: &str, help: String) -> DistributionError {
+    let error = DistributionError::new(None, format!("the {distribution} distribution needs {needed}"));
+    DistributionError { is_incomplete: true, ..error.with_help(help) }
 }
 
 /// Returns an error for the parameter `key`.
 pub(super) fn refused(key: &'static str, message: impl Into<String>) -> DistributionError {
-    DistributionError::Refused { key: Some(key), message: message.into(), help: None }
-}
-
-/// Returns an error for several parameters together.
-fn refused_together(message: String) -> DistributionError {
-    DistributionError::Refused { key: None, message, help: None }
+    DistributionError::new(Some(key), message)
 }
 
 /// Returns an error for two numbers that are equal or in the wrong order.
@@ -74,16 +42,17 @@ pub(super) fn order(lower: &'static str, low: f64, upper: &'static str, high: f6
     let message = format!("`{lower}` is {low} and `{upper}` is {high}, but `{lower}` must be below `{upper}`");
     let is_fixed = lower == "min" && low == high;
     let help = is_fixed.then(|| format!("for a fixed value: distribution = \"constant\", value = {low}"));
-    DistributionError::Refused { key: Some(lower), message, help }
+    DistributionError { help, ..refused(lower, message) }
 }
 
 /// Returns an error for parameters that are valid one by one, but exceed the range of `f64`.
 pub(super) fn overflow(distribution: &str) -> DistributionError {
-    refused_together(format!(
+    let message = format!(
         "{} distribution with these parameters has values, a mean or a standard deviation beyond 1.8e308: choose a narrower one, \
          or a larger unit",
         named(distribution)
-    ))
+    );
+    DistributionError::new(None, message)
 }
 
 /// Returns an error for a mean and standard deviation, or quantiles, outside the family; `key` is the first one.
@@ -99,7 +68,7 @@ fn named(distribution: &str) -> String {
 
 /// Returns an error for a unit in which values of the family have no meaning; `right` is what is allowed, and why.
 pub(super) fn wrong_unit(distribution: &str, unit: &Unit, right: &str) -> DistributionError {
-    refused_together(format!("{} distribution cannot be in {unit}{right}", named(distribution)))
+    DistributionError::new(None, format!("{} distribution cannot be in {unit}{right}", named(distribution)))
 }
 
 /// Refuses labels and seeds, for `what` under `key`, which needs an order.

@@ -67,12 +67,8 @@ impl Family for Exponential {
         (-libm::expm1(-z), libm::exp(-z))
     }
 
-    fn mean(&self) -> f64 {
-        self.location + self.scale
-    }
-
-    fn sd(&self) -> f64 {
-        self.scale
+    fn moments(&self) -> (f64, f64) {
+        (self.location + self.scale, self.scale)
     }
 
     fn support(&self) -> (f64, f64) {

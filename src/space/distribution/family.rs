@@ -57,8 +57,8 @@ impl From<&[f64]> for Parameter {
 pub(super) trait Family {
     /// Returns P(X <= x) and P(X > x), each to full precision if the distribution is continuous.
     fn tails(&self, x: f64) -> (f64, f64);
-    fn mean(&self) -> f64;
-    fn sd(&self) -> f64;
+    /// Returns mean and standard deviation.
+    fn moments(&self) -> (f64, f64);
     fn parameters(&self) -> Vec<(&'static str, Parameter)>;
 
     fn support(&self) -> (f64, f64) {

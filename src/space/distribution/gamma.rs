@@ -75,12 +75,8 @@ impl Family for Gamma {
         self.split.tails((x - self.location) / self.scale)
     }
 
-    fn mean(&self) -> f64 {
-        self.location + self.shape * self.scale
-    }
-
-    fn sd(&self) -> f64 {
-        self.scale * self.shape.sqrt()
+    fn moments(&self) -> (f64, f64) {
+        (self.location + self.shape * self.scale, self.scale * self.shape.sqrt())
     }
 
     fn support(&self) -> (f64, f64) {

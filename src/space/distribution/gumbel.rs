@@ -69,12 +69,8 @@ impl Family for Gumbel {
         self.location - self.scale * libm::log(-libm::log1p(-v))
     }
 
-    fn mean(&self) -> f64 {
-        self.location + EULER_GAMMA * self.scale
-    }
-
-    fn sd(&self) -> f64 {
-        PI / 6f64.sqrt() * self.scale
+    fn moments(&self) -> (f64, f64) {
+        (self.location + EULER_GAMMA * self.scale, PI / 6f64.sqrt() * self.scale)
     }
 
     fn parameters(&self) -> Vec<(&'static str, Parameter)> {

@@ -151,17 +151,13 @@ impl Family for Histogram {
         (bin.before + bin.probability * low, bin.after + bin.probability * high)
     }
 
-    fn mean(&self) -> f64 {
-        self.bins.iter().map(|bin| bin.probability * (0.5 * bin.min + 0.5 * bin.max)).sum()
-    }
-
-    fn sd(&self) -> f64 {
-        let mean = self.mean();
+    fn moments(&self) -> (f64, f64) {
+        let mean = self.bins.iter().map(|bin| bin.probability * (0.5 * bin.min + 0.5 * bin.max)).sum::<f64>();
         let variance = |bin: &Bin| {
             let (deviation, width) = (0.5 * bin.min + 0.5 * bin.max - mean, bin.max - bin.min);
             bin.probability * (deviation * deviation + width * width / 12.0)
         };
-        self.bins.iter().map(variance).sum::<f64>().sqrt()
+        (mean, self.bins.iter().map(variance).sum::<f64>().sqrt())
     }
 
     fn support(&self) -> (f64, f64) {

@@ -82,12 +82,8 @@ impl Family for Integer {
         (below / self.count, (self.count - below) / self.count)
     }
 
-    fn mean(&self) -> f64 {
-        self.min + (self.count - 1.0) / 2.0
-    }
-
-    fn sd(&self) -> f64 {
-        ((self.count - 1.0) * (self.count + 1.0) / 12.0).sqrt()
+    fn moments(&self) -> (f64, f64) {
+        (self.min + (self.count - 1.0) / 2.0, ((self.count - 1.0) * (self.count + 1.0) / 12.0).sqrt())
     }
 
     fn support(&self) -> (f64, f64) {

@@ -1,7 +1,7 @@
 //! The keys of distributions, and the families that use them: one table each, which defines the reader of study files,
 //! the JSON schema and the messages.
 
-use super::error::{finite, wrong_unit};
+use super::error::{finite, missing, refused, wrong_unit};
 use super::family::Parameter;
 use super::solved::{Shape, solved};
 use super::{Distribution, DistributionError, ENTRIES};
@@ -248,7 +248,7 @@ impl<'a> Given<'a> {
     }
 
     pub fn missing(&self, needed: String) -> DistributionError {
-        DistributionError::Missing { distribution: self.entry.name, needed, takes: Kind(self.entry).takes() }
+        missing(self.entry.name, &needed, Kind(self.entry).help())
     }
 }
 
@@ -313,6 +313,10 @@ impl Kind {
         if ways == [""] { "no keys".to_owned() } else { ways.join("; or ") }
     }
 
+    fn help(self) -> String {
+        format!("it takes {}", self.takes())
+    }
+
     /// Returns the distribution that these parameters by key determine, as in a study file: its own parameters, or a
     /// mean and a standard deviation, or two quantiles; truncated if `truncate` is given.
     ///
@@ -362,11 +366,7 @@ impl Kind {
         let beside = if is_known { keys().find(|key| nearest.is_some_and(|way| way.takes(key))) } else { None };
         let beside = beside.map_or_else(String::new, |key| format!(" together with `{key}`"));
         let message = format!("the {} distribution has no `{foreign}`{beside}", self.0.name);
-        Err(DistributionError::Refused {
-            key: Some(foreign),
-            message,
-            help: Some(format!("it takes {}", self.takes())),
-        })
+        Err(refused(foreign, message).with_help(self.help()))
     }
 }
 

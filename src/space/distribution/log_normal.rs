@@ -101,18 +101,11 @@ impl Family for LogNormal {
         libm::exp(self.log_mean - self.log_sd * normal_quantile(v))
     }
 
-    fn mean(&self) -> f64 {
-        match self.moments {
-            Some((mean, _)) => mean,
-            None => libm::exp(self.log_mean + 0.5 * self.log_sd * self.log_sd),
-        }
-    }
-
-    fn sd(&self) -> f64 {
-        match self.moments {
-            Some((_, sd)) => sd,
-            None => self.mean() * libm::expm1(self.log_sd * self.log_sd).sqrt(),
-        }
+    fn moments(&self) -> (f64, f64) {
+        self.moments.unwrap_or_else(|| {
+            let mean = libm::exp(self.log_mean + 0.5 * self.log_sd * self.log_sd);
+            (mean, mean * libm::expm1(self.log_sd * self.log_sd).sqrt())
+        })
     }
 
     fn support(&self) -> (f64, f64) {

@@ -70,11 +70,7 @@ impl Family for LogUniform {
         (part(self.min, x).min(1.0), part(x, self.max).min(1.0))
     }
 
-    fn mean(&self) -> f64 {
-        self.centre * (libm::sinh(self.half) / self.half)
-    }
-
-    fn sd(&self) -> f64 {
+    fn moments(&self) -> (f64, f64) {
         // E[x^2] - mean^2 = c^2 (sinh h / h) (cosh h - sinh h / h)
         let h = self.half;
         let mean_ratio = libm::sinh(h) / h;
@@ -89,7 +85,10 @@ impl Family for LogUniform {
             }
             false => libm::cosh(h) - mean_ratio,
         };
-        (self.centre * mean_ratio).sqrt() * (self.centre * excess).sqrt()
+        (
+            self.centre * (libm::sinh(self.half) / self.half),
+            (self.centre * mean_ratio).sqrt() * (self.centre * excess).sqrt(),
+        )
     }
 
     fn support(&self) -> (f64, f64) {

@@ -62,12 +62,8 @@ impl Family for Logistic {
         (1.0 / (1.0 + libm::exp(-z)), 1.0 / (1.0 + libm::exp(z)))
     }
 
-    fn mean(&self) -> f64 {
-        self.location
-    }
-
-    fn sd(&self) -> f64 {
-        PI / 3f64.sqrt() * self.scale
+    fn moments(&self) -> (f64, f64) {
+        (self.location, PI / 3f64.sqrt() * self.scale)
     }
 
     fn parameters(&self) -> Vec<(&'static str, Parameter)> {

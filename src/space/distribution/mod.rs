@@ -148,12 +148,12 @@ impl Distribution {
 
     /// Returns the mean.
     pub fn mean(&self) -> f64 {
-        self.family().mean()
+        self.family().moments().0
     }
 
     /// Returns the standard deviation.
     pub fn sd(&self) -> f64 {
-        self.family().sd()
+        self.family().moments().1
     }
 
     /// Returns the median.

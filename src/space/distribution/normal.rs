@@ -64,12 +64,8 @@ impl Family for Normal {
         self.mean - self.sd * normal_quantile(v)
     }
 
-    fn mean(&self) -> f64 {
-        self.mean
-    }
-
-    fn sd(&self) -> f64 {
-        self.sd
+    fn moments(&self) -> (f64, f64) {
+        (self.mean, self.sd)
     }
 
     fn parameters(&self) -> Vec<(&'static str, Parameter)> {

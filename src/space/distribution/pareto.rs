@@ -5,7 +5,7 @@ use super::prelude::*;
 /// A power law above a minimum: sizes, incomes, losses.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pareto {
-    shape: f64,
+    pub(super) shape: f64,
     min: f64,
 }
 
@@ -40,11 +40,6 @@ impl Pareto {
     pub(crate) fn new(shape: f64, min: f64) -> Result<Self, DistributionError> {
         Ok(Self { shape: positive("shape", shape)?, min: positive("min", min)? })
     }
-
-    /// Returns the part from `min` on, which is Pareto too.
-    pub(super) fn beginning_at(&self, min: f64) -> Result<Distribution, DistributionError> {
-        Distribution::pareto(self.shape, min)
-    }
 }
 
 pub(super) const ENTRIES: &[Entry] = &[Entry {
@@ -76,12 +71,11 @@ impl Family for Pareto {
         (-libm::expm1(log), libm::exp(log))
     }
 
-    fn mean(&self) -> f64 {
-        self.min * (self.shape / (self.shape - 1.0))
-    }
-
-    fn sd(&self) -> f64 {
-        self.min / (self.shape - 1.0) * (self.shape / (self.shape - 2.0)).sqrt()
+    fn moments(&self) -> (f64, f64) {
+        (
+            self.min * (self.shape / (self.shape - 1.0)),
+            self.min / (self.shape - 1.0) * (self.shape / (self.shape - 2.0)).sqrt(),
+        )
     }
 
     fn support(&self) -> (f64, f64) {

@@ -1,6 +1,7 @@
 //! The Poisson distribution.
 
 use std::fmt;
+use std::iter::successors;
 use std::sync::Arc;
 
 use super::prelude::*;
@@ -92,27 +93,13 @@ impl Table {
         const MIN_RATIO: f64 = 1e-300;
         let mode = mean.floor();
         // Up and down from the most probable number, whose own probability follows from the sum.
-        let mut falling = vec![1.0];
-        let mut k = mode;
-        while k > 0.0 {
-            let next = falling[falling.len() - 1] * (k / mean);
-            if next < MIN_RATIO {
-                break;
-            }
-            falling.push(next);
-            k -= 1.0;
-        }
-        let first = k;
-        let mut probabilities: Vec<f64> = falling.into_iter().rev().collect();
-        k = mode;
-        loop {
-            let next = probabilities[probabilities.len() - 1] * (mean / (k + 1.0));
-            if next < MIN_RATIO {
-                break;
-            }
-            probabilities.push(next);
-            k += 1.0;
-        }
+        let down = successors(Some((1.0, mode)), |(ratio, k)| (*k > 0.0).then_some((ratio * (k / mean), k - 1.0)));
+        let up = successors(Some((1.0, mode)), |(ratio, k)| Some((ratio * (mean / (k + 1.0)), k + 1.0)));
+        let mut falling: Vec<(f64, f64)> = down.take_while(|(ratio, _)| *ratio >= MIN_RATIO).collect();
+        let first = falling[falling.len() - 1].1;
+        falling.reverse();
+        let rising = up.skip(1).take_while(|(ratio, _)| *ratio >= MIN_RATIO);
+        let probabilities: Vec<f64> = falling.into_iter().chain(rising).map(|(ratio, _)| ratio).collect();
         // From the small ones on either side.
         let sums = |all: &mut dyn Iterator<Item = &f64>| -> Vec<f64> {
             all.scan(0.0, |sum, probability| {
@@ -163,12 +150,8 @@ impl Family for Poisson {
         count.checked_sub(1).map_or((0.0, 1.0), |place| (below[place], above[place]))
     }
 
-    fn mean(&self) -> f64 {
-        self.mean
-    }
-
-    fn sd(&self) -> f64 {
-        self.mean.sqrt()
+    fn moments(&self) -> (f64, f64) {
+        (self.mean, self.mean.sqrt())
     }
 
     fn support(&self) -> (f64, f64) {

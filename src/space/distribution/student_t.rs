@@ -124,12 +124,8 @@ impl Family for StudentT {
         if z < 0.0 { (tail, 1.0 - tail) } else { (1.0 - tail, tail) }
     }
 
-    fn mean(&self) -> f64 {
-        self.location
-    }
-
-    fn sd(&self) -> f64 {
-        self.scale * (self.df / (self.df - 2.0)).sqrt()
+    fn moments(&self) -> (f64, f64) {
+        (self.location, self.scale * (self.df / (self.df - 2.0)).sqrt())
     }
 
     fn parameters(&self) -> Vec<(&'static str, Parameter)> {

@@ -98,13 +98,9 @@ impl Family for Triangular {
         (self.max - self.width * (v * self.above).sqrt()).max(self.mode)
     }
 
-    fn mean(&self) -> f64 {
-        self.min + self.width * ((1.0 + self.below) / 3.0)
-    }
-
-    fn sd(&self) -> f64 {
+    fn moments(&self) -> (f64, f64) {
         let (p, q) = (self.below, self.above);
-        self.width * ((p * p + p * q + q * q) / 18.0).sqrt()
+        (self.min + self.width * ((1.0 + self.below) / 3.0), self.width * ((p * p + p * q + q * q) / 18.0).sqrt())
     }
 
     fn support(&self) -> (f64, f64) {

@@ -93,7 +93,15 @@ impl Distribution {
             return Err(refused("truncate", message));
         }
         let (min, max) = (min.max(low), max.min(high));
-        let nothing = || DistributionError::NothingLeft { distribution, min, max };
+        let nothing = || {
+            refused(
+                "truncate",
+                format!(
+                    "truncation leaves nothing of this {distribution} distribution: almost none of its values lie between {min} \
+                     and {max}"
+                ),
+            )
+        };
         if min >= max {
             return Err(nothing());
         }
@@ -101,7 +109,7 @@ impl Distribution {
             Self::Uniform(_) => Self::uniform(min, max),
             Self::LogUniform(_) => Self::log_uniform(min, max),
             Self::Truncated(truncated) => truncated.law.truncated(min, max),
-            Self::Pareto(pareto) if max == f64::INFINITY => pareto.beginning_at(min),
+            Self::Pareto(pareto) if max == f64::INFINITY => Self::pareto(pareto.shape, min),
             law => {
                 if let Self::StudentT(student) = law {
                     student.refuse_one_long_tail((min, max))?;
@@ -212,7 +220,7 @@ impl Truncated {
         let (below, above) = (law.tails(min).0, law.tails(max).1);
         let law = Box::new(law.clone());
         let mut truncated = Self { law, min, max, below, above, mass, quantiles, mean: 0.0, sd: 0.0 };
-        (truncated.mean, truncated.sd) = truncated.moments();
+        (truncated.mean, truncated.sd) = truncated.integrated();
         Some(truncated)
     }
 
@@ -222,7 +230,7 @@ impl Truncated {
     }
 
     /// Computes mean and standard deviation by quadrature: formulas cancel if the bounds are far out or close together.
-    fn moments(&self) -> (f64, f64) {
+    fn integrated(&self) -> (f64, f64) {
         let Self { min, max, mass, .. } = *self;
         match &*self.law {
             Distribution::Triangular(triangular) => {
@@ -362,12 +370,8 @@ impl Family for Truncated {
         }
     }
 
-    fn mean(&self) -> f64 {
-        self.mean
-    }
-
-    fn sd(&self) -> f64 {
-        self.sd
+    fn moments(&self) -> (f64, f64) {
+        (self.mean, self.sd)
     }
 
     fn support(&self) -> (f64, f64) {

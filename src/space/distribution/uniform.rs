@@ -54,12 +54,8 @@ impl Family for Uniform {
         (((x - self.min) / self.width).clamp(0.0, 1.0), ((self.max - x) / self.width).clamp(0.0, 1.0))
     }
 
-    fn mean(&self) -> f64 {
-        0.5 * self.min + 0.5 * self.max
-    }
-
-    fn sd(&self) -> f64 {
-        self.width / 12f64.sqrt()
+    fn moments(&self) -> (f64, f64) {
+        (0.5 * self.min + 0.5 * self.max, self.width / 12f64.sqrt())
     }
 
     fn support(&self) -> (f64, f64) {

@@ -335,13 +335,9 @@ impl Family for Values {
         (below, 1.0 - below)
     }
 
-    fn mean(&self) -> f64 {
-        self.expectation(|value| value)
-    }
-
-    fn sd(&self) -> f64 {
-        let mean = self.mean();
-        self.expectation(|value| (value - mean) * (value - mean)).sqrt()
+    fn moments(&self) -> (f64, f64) {
+        let mean = self.expectation(|value| value);
+        (mean, self.expectation(|value| (value - mean) * (value - mean)).sqrt())
     }
 
     fn support(&self) -> (f64, f64) {

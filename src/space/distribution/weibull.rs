@@ -70,12 +70,8 @@ impl Family for Weibull {
         self.location + self.scale * libm::pow(-libm::log(v), 1.0 / self.shape)
     }
 
-    fn mean(&self) -> f64 {
-        self.location + self.scale * libm::tgamma(1.0 + 1.0 / self.shape)
-    }
-
-    fn sd(&self) -> f64 {
-        self.scale * unit_sd(1.0 / self.shape)
+    fn moments(&self) -> (f64, f64) {
+        (self.location + self.scale * libm::tgamma(1.0 + 1.0 / self.shape), self.scale * unit_sd(1.0 / self.shape))
     }
 
     fn support(&self) -> (f64, f64) {

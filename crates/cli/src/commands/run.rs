@@ -104,7 +104,7 @@ pub fn run(arguments: &Arguments, others: Option<&dyn Ranks>) -> Result<(), Fail
         }
     };
     let journal = (!asked.no_journal).then(|| journal_path(&folder, study.name(), asked.shard));
-    let store = saved.as_ref().map(|_| Store::new(study.design(), study.model().as_ref()));
+    let store = saved.as_ref().map(|_| Store::new(study.model().as_ref()));
     let meter = Meter::new(study.name(), study.design().rows());
     let runner = study.runner().threads(arguments.threads.number()).on_progress(|progress| meter.update(progress));
     let runner = match others {

@@ -7,7 +7,7 @@ use apportion::model::RunContext;
 use apportion::result::RunFacts;
 use apportion::run::threads_in_force;
 use apportion::screening::{
-    MAX_LEVELS, MIN_TRAJECTORIES, ScreeningDesign, ScreeningError, ScreeningJob, ScreeningSettings, screen_in,
+    self, MAX_LEVELS, MIN_TRAJECTORIES, ScreeningDesign, ScreeningError, ScreeningJob, ScreeningSettings,
 };
 use apportion::study::Study;
 use apportion_report::screening::{build_screening, screening_document};
@@ -82,7 +82,7 @@ pub fn screen(arguments: &Arguments) -> Result<(), Failure> {
     let start = Instant::now();
     let job = ScreeningJob { space: study.space(), model: model.as_ref(), settings };
     let context = RunContext::new(Some(on_signal()), say);
-    let screening = screen_in(job, arguments.threads.number(), &|progress| meter.update(progress), &context)?;
+    let screening = screening::screen(job, arguments.threads.number(), &|progress| meter.update(progress), &context)?;
     let threads = threads_in_force(arguments.threads.number());
     let facts = RunFacts { threads, wall_seconds: start.elapsed().as_secs_f64() };
     meter.finish(screening.runs, facts.wall_seconds);

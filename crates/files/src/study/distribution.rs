@@ -29,17 +29,14 @@ pub(super) fn of_factor(context: &Context<'_>, section: &At<FactorSection>) -> R
     let values = values.collect::<Result<Vec<_>, Fault>>()?;
     kind.make(&values).map_err(|source| {
         let first = || fields.keys.first().map(|typed| typed.span.clone());
-        let of_key = match source {
-            DistributionError::Missing { .. } => None,
-            _ => source.key().and_then(|key| fields.place(key)).or_else(first),
-        };
+        let of_key = source.key.and_then(|key| fields.place(key)).or_else(first).filter(|_| !source.is_incomplete);
         context.fault(of_key.unwrap_or(fields.name.span()), refused(factor, &source))
     })
 }
 
 /// Returns the problem of a factor with an invalid distribution.
 pub(super) fn refused(factor: &str, error: &DistributionError) -> Problem {
-    Problem::Refused { message: format!("factor `{factor}`: {error}"), help: error.help() }
+    Problem::Refused { message: format!("factor `{factor}`: {error}"), help: error.help.clone() }
 }
 
 /// Returns the family, by default the first.

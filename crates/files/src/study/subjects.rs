@@ -1,6 +1,7 @@
 //! The configured models that a study file can name.
 
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use apportion::model::{
     Expression, ExpressionModel, Input, KnownFunction, Model, Output, ParameterValue, known_inputs, known_model,
@@ -68,11 +69,11 @@ impl Subject for ExpressionSubject {
         ModelKind::EXPRESSION.name
     }
 
-    fn model(&self, _space: &Space) -> Box<dyn Model> {
+    fn model(&self, _space: &Space) -> Arc<dyn Model> {
         let output = |formula: &Formula| {
             (Output::new(formula.name.clone(), formula.unit.clone(), "a formula"), formula.expression.clone())
         };
-        Box::new(ExpressionModel::new(self.formulas.iter().map(output).collect()))
+        Arc::new(ExpressionModel::new(self.formulas.iter().map(output).collect()))
     }
 
     fn settings(&self) -> Vec<(&'static str, Value)> {
@@ -91,8 +92,8 @@ impl Subject for CommandSubject {
         ModelKind::COMMAND.name
     }
 
-    fn model(&self, space: &Space) -> Box<dyn Model> {
-        Box::new(CommandModel::new(self.settings.clone(), space.factors().to_vec()))
+    fn model(&self, space: &Space) -> Arc<dyn Model> {
+        Arc::new(CommandModel::new(self.settings.clone(), space.factors().to_vec()))
     }
 
     fn settings(&self) -> Vec<(&'static str, Value)> {
@@ -117,12 +118,12 @@ impl Subject for KnownSubject {
         self.function.answer().name()
     }
 
-    fn model(&self, space: &Space) -> Box<dyn Model> {
+    fn model(&self, space: &Space) -> Arc<dyn Model> {
         let inputs = known_inputs(&self.function);
         let place = |factor: &Factor| inputs.iter().position(|input| input.name == factor.name);
         let base = inputs.iter().map(|input| input.nominal).collect();
         let factors = space.factors().iter().filter_map(place).collect();
-        Box::new(known_model(self.function.clone(), base, factors))
+        Arc::new(known_model(self.function.clone(), base, factors))
     }
 
     fn exact_indices(&self, space: &Space) -> Option<(Vec<f64>, Vec<f64>)> {

@@ -63,7 +63,7 @@ pub fn read_answers(reader: &mut dyn RowReader, request: &AnswersRequest<'_>) ->
     let own = subject(&study, &columns.outputs, request)?;
     study = study.with_subject(own);
     let model = study.model();
-    let store = Store::new(study.design(), model.as_ref());
+    let store = Store::new(model.as_ref());
     let wanted = columns.wanted(study.space());
     let mut reading = Reading { reader, study: &study, model: model.as_ref(), columns: &columns, wanted, row: 0 };
     let sha256 = reading.all(&store, request.missing)?;

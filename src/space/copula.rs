@@ -2,7 +2,8 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::{from_score, normal_scores};
+use super::distribution::{LARGEST_U, SMALLEST_U};
+use crate::special::{normal_below, normal_quantile};
 
 /// A Gaussian copula of all factors of a space: the normal scores Phi^-1(u) of the factors have a joint normal distribution.
 ///
@@ -109,6 +110,16 @@ impl GaussianCopula {
     }
 }
 
+/// Returns the normal scores of coordinates of the unit cube.
+pub(crate) fn normal_scores(u: &[f64]) -> Vec<f64> {
+    u.iter().map(|&u| normal_quantile(u)).collect()
+}
+
+/// Returns the coordinate of the unit cube with this normal score, inside the range of all coordinates.
+pub(crate) fn from_score(score: f64) -> f64 {
+    normal_below(score).clamp(SMALLEST_U, LARGEST_U)
+}
+
 fn part(matrix: &DMatrix<f64>, rows: &[usize], columns: &[usize]) -> DMatrix<f64> {
     DMatrix::from_fn(rows.len(), columns.len(), |i, j| matrix[(rows[i], columns[j])])
 }
@@ -156,30 +167,6 @@ mod tests {
             (matrix[(i, j)], matrix[(j, i)]) = (*r, *r);
         }
         matrix
-    }
-
-    #[test]
-    fn coordinates_get_their_correlations_and_keep_their_uniform_law() {
-        let correlation = matrix(4, &[0.5, 0.0, -0.3, 0.0, 0.6, 0.0]);
-        let copula = GaussianCopula::new(correlation.clone()).unwrap();
-        assert_eq!(copula.dependent(), [0, 1, 3]);
-        let n = 1 << 14;
-        let points = crate::design::SobolSequence::scrambled(4, 1, 0);
-        let mut columns = vec![vec![0.0; n]; 4];
-        columns.iter_mut().enumerate().for_each(|(j, column)| points.fill(j, 0, column));
-        let before = columns.clone();
-        copula.correlate(&mut columns);
-        // The first one and the independent one keep their bits.
-        assert_eq!((&columns[0], &columns[2]), (&before[0], &before[2]));
-        let scores: Vec<Vec<f64>> = columns.iter().map(|column| normal_scores(column)).collect();
-        for i in 0..4 {
-            let mean: f64 = columns[i].iter().sum::<f64>() / n as f64;
-            assert!((mean - 0.5).abs() < 1e-3, "{mean}");
-            for j in 0..4 {
-                let found = scores[i].iter().zip(&scores[j]).map(|(a, b)| a * b).sum::<f64>() / n as f64;
-                assert!((found - correlation[(i, j)]).abs() < 3e-3, "{i} {j}: {found}");
-            }
-        }
     }
 
     #[test]
