@@ -5,7 +5,8 @@ use serde::{Deserialize, Serialize};
 use crate::uncertainty::{EffectEstimates, Estimate, LowFidelityUse, NamedTerm};
 
 /// The indices of one factor, or of a group in place of its factors.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct IndexRecord {
     /// The factor or group.
     pub factor: String,
@@ -15,7 +16,8 @@ pub struct IndexRecord {
 }
 
 /// First-order and total index of one factor at a stage of a run, or over several outputs together.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct PlainIndexRecord {
     /// The factor.
     pub factor: String,
@@ -26,7 +28,8 @@ pub struct PlainIndexRecord {
 }
 
 /// The indices of one group of factors.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct GroupRecord {
     /// The group.
     pub group: String,
@@ -38,7 +41,8 @@ pub struct GroupRecord {
 }
 
 /// The joint indices of a subset of the factors that the study lists.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct SubsetRecord {
     /// Its factors.
     pub factors: Vec<String>,
@@ -48,7 +52,8 @@ pub struct SubsetRecord {
 }
 
 /// The second-order index of two factors.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct PairRecord {
     /// The two factors.
     pub factors: [String; 2],
@@ -57,7 +62,8 @@ pub struct PairRecord {
 }
 
 /// Indices by one estimator in addition to the default ones.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct EstimatorRecord {
     /// Its name in study files.
     pub estimator: String,
@@ -70,7 +76,8 @@ pub struct EstimatorRecord {
 }
 
 /// Indices of one factor, group or subset in addition to the default ones, or of the mean over the noise.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct OtherIndexRecord {
     /// The factor, the group, or the factors of the subset joined by " + ".
     pub name: String,
@@ -81,7 +88,8 @@ pub struct OtherIndexRecord {
 }
 
 /// The noise of a stochastic model: its indices, relative to the variance of a single run, and those of the mean.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct NoiseRecord {
     /// The name under which the model receives its seed.
     pub name: String,
@@ -95,7 +103,8 @@ pub struct NoiseRecord {
 }
 
 /// The surrogates of an output: polynomials fitted to all replicates but one, which correct the indices of that one.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct SurrogateRecord {
     /// Share of the variance that they explain of runs to which they were not fitted, Q^2.
     pub explained: f64,

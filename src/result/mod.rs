@@ -8,6 +8,7 @@ mod indices;
 mod output;
 mod rare_level;
 mod read;
+#[cfg(feature = "schema")]
 mod schema;
 mod setup;
 mod warning;
@@ -21,6 +22,7 @@ pub use output::*;
 pub(crate) use rare_level::PAIRS_OF_POINT;
 pub use rare_level::RareLevel;
 pub use read::{ReadError, ReadProblem, parse_result, read_result};
+#[cfg(feature = "schema")]
 pub use schema::result_schema;
 use serde::{Deserialize, Serialize};
 pub use setup::{RunFacts, StudySetup, json};
@@ -45,14 +47,15 @@ use crate::space::IndicesOf;
 /// assert!(total.interval.is_some_and(|interval| interval.low < total.estimate));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
-#[schemars(title = "apportion result")]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", schemars(title = "apportion result"))]
 pub struct StudyResult {
     /// Always `apportion-result`.
-    #[schemars(extend("const" = "apportion-result"))]
+    #[cfg_attr(feature = "schema", schemars(extend("const" = "apportion-result")))]
     pub format: String,
     /// Version of the format.
-    #[schemars(extend("const" = 1))]
+    #[cfg_attr(feature = "schema", schemars(extend("const" = 1)))]
     pub version: u32,
     /// The question.
     pub study: StudyRecord,
@@ -127,7 +130,8 @@ impl StudyResult {
 }
 
 /// The question.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct StudyRecord {
     /// Name of the study.
     pub name: String,
@@ -149,7 +153,8 @@ pub struct StudyRecord {
 }
 
 /// Factors that depend on each other, by a Gaussian copula.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct CorrelationRecord {
     /// The factors.
     pub factors: Vec<String>,
@@ -160,7 +165,8 @@ pub struct CorrelationRecord {
 }
 
 /// An input fixed in the study.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ConstantRecord {
     /// The input.
     pub name: String,
@@ -173,7 +179,8 @@ pub struct ConstantRecord {
 /// How the result was computed. A result is cited by `apportion_version`, `seed` and `study_sha256`, and by the
 /// `overrides` of its study if there are any: they give the same numbers again. `CITATION.cff` in the sources of the
 /// program describes how to cite the program itself.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Provenance {
     /// Version of the program.
     pub apportion_version: String,
@@ -214,7 +221,8 @@ pub struct Provenance {
 }
 
 /// A factor.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct FactorRecord {
     /// Its name.
     pub name: String,
@@ -232,7 +240,8 @@ pub struct FactorRecord {
 }
 
 /// Indices over several outputs together.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct AggregateRecord {
     /// The outputs.
     pub outputs: Vec<String>,
@@ -248,7 +257,8 @@ pub struct AggregateRecord {
 }
 
 /// A validity flag.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ValidityRecord {
     /// Its name.
     pub flag: String,
@@ -261,7 +271,8 @@ pub struct ValidityRecord {
 }
 
 /// Consecutive outputs that are the values of one quantity along an axis.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct SeriesRecord {
     /// Its name.
     pub name: String,
@@ -289,7 +300,8 @@ impl SeriesRecord {
 }
 
 /// The choices of a run with a target accuracy, and their reasons.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct SpendingRecord {
     /// The requested half width.
     pub accuracy: f64,
@@ -305,7 +317,8 @@ pub struct SpendingRecord {
 }
 
 /// Why a growing run ended.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct StoppingRecord {
     /// The reason in words.
     pub reason: String,
@@ -320,7 +333,8 @@ pub struct StoppingRecord {
 }
 
 /// The effort of a model with a ladder of fidelities.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct EffortRecord {
     /// The rungs used, and the number of runs of each.
     pub rungs: Vec<RungRecord>,
@@ -331,7 +345,8 @@ pub struct EffortRecord {
 }
 
 /// The number of runs evaluated by a rung.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct RungRecord {
     /// The rung.
     pub rung: String,
@@ -340,8 +355,8 @@ pub struct RungRecord {
 }
 
 /// The runs of a low-fidelity model in addition to those of the model.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
-#[schemars(rename = "LowRecord")]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(rename = "LowRecord"))]
 #[non_exhaustive]
 pub struct LowRuns {
     /// Its name.

@@ -12,7 +12,8 @@ use crate::given::InputMeasures;
 use crate::uncertainty::{EffectEstimates, Estimate, Interval, largest_half_width};
 
 /// All results for one output.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct OutputResult {
     /// Its name.
     pub name: String,
@@ -79,7 +80,7 @@ pub struct OutputResult {
     pub reason: Option<String>,
     /// Warnings: in JSON the sentences in `warnings`, and their codes in `warning_codes`.
     #[serde(flatten, with = "super::warning")]
-    #[schemars(with = "super::warning::WarningKeys")]
+    #[cfg_attr(feature = "schema", schemars(with = "super::warning::WarningKeys"))]
     pub warnings: Vec<Warning>,
 }
 
@@ -139,7 +140,8 @@ pub(super) fn find<'a, T>(
 }
 
 /// The distribution of the values of an output, from the rows A and B.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct DistributionRecord {
     /// Number of values for mean, standard deviation, skewness, kurtosis and range: those of all rows A and B.
     pub values: u64,
@@ -149,7 +151,8 @@ pub struct DistributionRecord {
 }
 
 /// The indices at a stage of the run, with the given number of base points.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct StageRecord {
     /// Total number of base points.
     pub base_samples: u64,
@@ -162,7 +165,8 @@ pub struct StageRecord {
 }
 
 /// The relation of an output to the factors with the largest total indices.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ScatterRecord {
     /// At most six factors, the largest total index first.
     pub factors: Vec<String>,
@@ -175,7 +179,8 @@ pub struct ScatterRecord {
 
 /// Means of the output over slices of a factor: an estimate of E[Y | X_i], whose variance is the numerator of the
 /// first-order index. They describe the scatter of the kept rows A and B; no index is computed from them.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ConditionalMeansRecord {
     /// The factor.
     pub factor: String,
@@ -191,7 +196,8 @@ pub struct ConditionalMeansRecord {
 }
 
 /// A trial of surrogates on the first runs of a quick model: all runs are corrected if it gains enough.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct SurrogateTrial {
     /// Number of its model runs.
@@ -203,8 +209,8 @@ pub struct SurrogateTrial {
 }
 
 /// A reason for which runs failed.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
-#[schemars(rename = "FailureRecord")]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(rename = "FailureRecord"))]
 #[non_exhaustive]
 pub struct FailureCount {
     /// The reason.
@@ -218,8 +224,8 @@ pub struct FailureCount {
 }
 
 /// Other measures of one output.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
-#[schemars(rename = "MeasuresRecord")]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(rename = "MeasuresRecord"))]
 #[non_exhaustive]
 pub struct RunMeasures {
     /// Number of rows A and B with a value: at most [`MAX_ROWS_OF_MEASURES`](crate::analysis::MAX_ROWS_OF_MEASURES).

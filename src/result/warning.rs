@@ -294,7 +294,8 @@ impl PartialEq for Warning {
 }
 
 /// The keys of the warnings of an output in JSON.
-#[derive(Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub(super) struct WarningKeys {
     /// The warnings in sentences.
     warnings: Vec<String>,

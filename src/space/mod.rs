@@ -20,7 +20,8 @@ use crate::quantity::Unit;
 
 named! {
 /// What has indices of its own.
-#[derive(Default, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum IndicesOf {
     /// Every factor, and the groups in addition.

@@ -48,8 +48,8 @@ impl OutputIndices {
 }
 
 /// The indices of one factor, group or subset, and their percentages of the sum over all factors (or groups).
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
-#[schemars(rename = "EffectRecord")]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(rename = "EffectRecord"))]
 pub struct EffectEstimates {
     /// First-order index (of several factors: closed first-order index).
     pub first_order: Estimate,
@@ -103,8 +103,8 @@ pub struct EffectChecks {
 /// others on X_i, and the total index E Var(Y | all but X_i)/V, which excludes the dependence of X_i on others and so
 /// may be smaller (Kucherenko, Tarantola and Annoni 2012, Comput. Phys. Commun. 183, 937-946); these two are those of
 /// Mara, Tarantola and Annoni (2015), Environ. Model. Softw. 72, 173-183.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
-#[schemars(rename = "DependentRecord")]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(rename = "DependentRecord"))]
 pub struct DependentEstimates {
     /// First-order index of the part of the factor that is independent of all others.
     pub independent_first_order: Estimate,

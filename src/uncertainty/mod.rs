@@ -52,8 +52,8 @@ pub const LEVEL: f64 = 0.95;
 pub(crate) const NORMAL_QUANTILE: f64 = 1.959_963_984_540_054;
 
 /// A two-sided confidence interval.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
-#[schemars(rename = "IntervalRecord")]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(rename = "IntervalRecord"))]
 pub struct Interval {
     /// Lower bound.
     pub low: f64,
@@ -84,8 +84,9 @@ impl Interval {
 }
 
 /// A number with its interval, if there is one. Files contain `estimate`, `low` and `high`.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(from = "EstimateRecord", into = "EstimateRecord")]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Estimate {
     /// The estimate.
     pub estimate: f64,
@@ -101,7 +102,8 @@ impl Estimate {
 }
 
 /// An estimate with its interval.
-#[derive(Clone, Copy, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Clone, Copy, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 struct EstimateRecord {
     /// The estimate.
     estimate: f64,

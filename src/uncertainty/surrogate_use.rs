@@ -23,8 +23,8 @@ pub enum Refusal {
 }
 
 /// The use of a low-fidelity model.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
-#[schemars(rename = "LowUseRecord")]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(rename = "LowUseRecord"))]
 #[non_exhaustive]
 pub struct LowFidelityUse {
     /// Its name.
@@ -75,7 +75,8 @@ impl SurrogateTerm {
 }
 
 /// A term of the surrogates.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct NamedTerm {
     /// The degree of its polynomial of each factor in it.
     pub degrees: BTreeMap<String, usize>,

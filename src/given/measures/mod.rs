@@ -26,7 +26,8 @@ use crate::uncertainty::{Estimate, Interval, NORMAL_QUANTILE};
 
 named! {
 /// A measure of the influence of an input on an output.
-#[derive(PartialOrd, Ord, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(PartialOrd, Ord, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Measure {
     /// First-order index from the spectrum of the output in the order of the input: EASI, Plischke (2010), Reliab. Eng.
@@ -63,8 +64,8 @@ impl Measure {
 }
 
 /// A measure of one input.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
-#[schemars(rename = "MeasuredRecord")]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(rename = "MeasuredRecord"))]
 #[non_exhaustive]
 pub struct Measured {
     /// The measure, with its interval if there is one: for delta, of independent rows and those of a run.
@@ -78,8 +79,8 @@ pub struct Measured {
 }
 
 /// The measures of one input.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
-#[schemars(rename = "GivenMeasuresRecord")]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(rename = "GivenMeasuresRecord"))]
 #[non_exhaustive]
 pub struct InputMeasures {
     /// The input.

@@ -9,10 +9,11 @@ use crate::quantity::Unit;
 use crate::sum::{mean, rescaled};
 
 /// The distribution of one output over a sample, as in result files. Numbers are in `unit`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct OutputDistribution {
     /// The unit of the numbers.
-    #[schemars(with = "String")]
+    #[cfg_attr(feature = "schema", schemars(with = "String"))]
     pub unit: Unit,
     /// Number of values n.
     pub count: u64,
@@ -35,7 +36,8 @@ pub struct OutputDistribution {
 }
 
 /// A quantile.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct QuantileRecord {
     /// Its probability in percent.
     pub percent: f64,
@@ -49,7 +51,8 @@ pub struct QuantileRecord {
 /// otherwise a few far values would leave all others in one bin. They are counted in `below` and `above`. The width is
 /// that of Freedman and Diaconis (1981), 2 IQR n^(-1/3), or if the IQR is 0 that of Scott (1979), 3.49 sd n^(-1/3), and
 /// at least a hundredth of the whole.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Histogram {
     /// Edges of the bins, ascending, one more than bins. A value on an inner edge belongs to the bin above it.
     pub edges: Vec<f64>,
