@@ -135,13 +135,5 @@ mod tests {
             let ratio = torsion_constant(width, thickness, Torsion::Rectangle) / exact_torsion_constant(width, thickness);
             prop_assert!((ratio - 1.0).abs() < 5e-3, "{ratio}");
         }
-
-        #[test]
-        fn rectangle_does_not_care_which_side_is_called_width(width in 1e-6..1e-4_f64, thickness in 1e-7..1e-4_f64) {
-            prop_assert_eq!(
-                torsion_constant(width, thickness, Torsion::Rectangle),
-                torsion_constant(thickness, width, Torsion::Rectangle)
-            );
-        }
     }
 }

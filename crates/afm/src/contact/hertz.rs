@@ -35,10 +35,4 @@ mod tests {
         assert!((contact.radius / 7.368_063_0e-9 - 1.0).abs() < 1e-8);
         assert!((contact.indentation / 1.085_767_1e-9 - 1.0).abs() < 1e-7);
     }
-
-    #[test]
-    fn any_pull_separates() {
-        assert_eq!(contact(&PAIR, -5e-324), Err(Failure::BeyondPullOff));
-        assert_eq!(contact(&PAIR, 0.0), Ok(Contact { radius: 0.0, indentation: 0.0 }));
-    }
 }
