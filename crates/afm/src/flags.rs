@@ -36,11 +36,6 @@ impl Flag {
             }
         }
     }
-
-    #[inline]
-    const fn bit(self) -> u8 {
-        1 << self as u8
-    }
 }
 
 /// A set of [`Flag`]s.
@@ -55,24 +50,13 @@ impl Flags {
     #[inline(always)]
     #[must_use]
     pub const fn with(self, flag: Flag, raised: bool) -> Self {
-        Self(self.0 | if raised { flag.bit() } else { 0 })
+        Self(self.0 | (raised as u8) << flag as u8)
     }
 
     /// Returns whether `flag` is in the set.
     #[inline]
     pub const fn contains(self, flag: Flag) -> bool {
-        self.0 & flag.bit() != 0
-    }
-
-    /// Returns whether the set is empty.
-    #[inline]
-    pub const fn is_empty(self) -> bool {
-        self.0 == 0
-    }
-
-    /// Returns the set as bits: bit `i` is `Flag::ALL[i]`.
-    pub const fn bits(self) -> u8 {
-        self.0
+        self.0 >> flag as u8 & 1 != 0
     }
 
     /// Iterates over the flags in the set, in the order of [`Flag::ALL`].
@@ -84,14 +68,6 @@ impl Flags {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn bits_follow_the_order_of_all() {
-        for (index, &flag) in Flag::ALL.iter().enumerate() {
-            assert_eq!(Flags::NONE.with(flag, true).bits(), 1 << index);
-            assert!(Flags::NONE.with(flag, false).is_empty());
-        }
-    }
 
     #[test]
     fn flags_of_a_set_are_listed() {
