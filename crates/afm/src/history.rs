@@ -173,7 +173,7 @@ impl<'a> Stage<'a> {
 
     /// Returns the travel of the substrate (m) in equilibrium at a twist.
     fn travel(&self, twist: f64) -> f64 {
-        let lateral_force = self.statics.lateral_moment(twist) / libm::cos(twist);
+        let lateral_force = self.statics.lateral_force(twist);
         self.statics.travel(twist, lateral_force) + self.creep(lateral_force)
     }
 
@@ -197,17 +197,16 @@ impl<'a> Stage<'a> {
     }
 
     fn sticking(&self, twist: f64) -> Result<Sample, Failure> {
-        let &Scene { particle_radius, tip_radius, equivalent_modulus: modulus, adhesion, .. } = self.scene;
-        let separation = self.scene.equilibrium_separation;
+        let &Scene { particle_radius, tip_radius, .. } = self.scene;
         let theory = self.options.contact;
         let normal_force = self.statics.normal_force(twist);
-        let lateral_force = self.statics.lateral_moment(twist) / libm::cos(twist);
+        let lateral_force = self.statics.lateral_force(twist);
         let particle = self.statics.travel(twist, lateral_force);
         let crept = self.creep(lateral_force);
         let substrate = particle + crept;
         let tip_force = libm::hypot(normal_force, lateral_force);
         let force_angle = libm::atan2(lateral_force, normal_force);
-        let on_substrate = Pair { radius: particle_radius, modulus, adhesion, separation };
+        let on_substrate = Pair::substrate(self.scene);
         let at_tip = Pair { radius: particle_radius * tip_radius / (particle_radius + tip_radius), ..on_substrate };
         let pressing = tip_force * libm::cos(force_angle - self.scene.contact_angle);
         let tip_contact = match theory.contact(&at_tip, pressing) {

@@ -47,7 +47,7 @@ pub mod scene;
 pub use contact::ContactTheory;
 pub use failure::Failure;
 pub use flags::{Flag, Flags};
-pub use force::{Cost, Critical, Fidelity, Options, critical_force};
+pub use force::{Critical, Fidelity, Options, critical_force};
 pub use friction::{FrictionLaw, LuGreParameters};
 pub use model::{AfmHistory, AfmModel, AfmMoments, AfmOutput, afm_choices, afm_inputs, afm_outputs, edge_unit};
 pub use parameter::Parameter;

@@ -37,20 +37,19 @@ pub fn edge_unit(parameter: &Parameter) -> Unit {
 
 /// Returns the parameters of the scene as inputs of the model.
 pub fn afm_inputs() -> Vec<Input> {
-    Parameter::ALL.iter().map(afm_input).collect()
-}
-
-fn afm_input(parameter: &Parameter) -> Input {
-    let unit = edge_unit(parameter);
-    Input {
-        name: parameter.name.to_owned(),
-        symbol: parameter.symbol.to_owned(),
-        nominal: unit.from_si((parameter.get)(&Scene::default())),
-        unit,
-        domain: Some(parameter.domain),
-        distribution: None,
-        description: parameter.description.to_owned(),
-    }
+    let input = |parameter: &Parameter| {
+        let unit = edge_unit(parameter);
+        Input {
+            name: parameter.name.to_owned(),
+            symbol: parameter.symbol.to_owned(),
+            nominal: unit.from_si((parameter.get)(&Scene::default())),
+            unit,
+            domain: Some(parameter.domain),
+            distribution: None,
+            description: parameter.description.to_owned(),
+        }
+    };
+    Parameter::ALL.iter().map(input).collect()
 }
 
 /// Returns every output, then every history.
@@ -171,7 +170,7 @@ impl Model for AfmModel {
     fn worker<'a>(&'a self, context: &'a RunContext<'a>) -> Box<dyn Worker + 'a> {
         let forms = ClosedForms::new(&self.scene, &self.options, &self.factors).map(Box::new);
         let scene = self.scene;
-        Box::new(AfmWorker { model: self, context, scene, forms, reasons: Vec::new(), spent: Spent::default() })
+        Box::new(AfmWorker { model: self, context, scene, forms })
     }
 }
 
@@ -181,22 +180,10 @@ struct AfmWorker<'a> {
     scene: Scene,
     /// Computes many rows in closed form at once.
     forms: Option<Box<ClosedForms>>,
-    /// The failures so far, in words: there are few, and each is formatted once.
-    reasons: Vec<(Failure, RowFailure)>,
-    spent: Spent,
-}
-
-/// The cost of the rows of a batch.
-#[derive(Default)]
-struct Spent {
-    rungs: [u64; Fidelity::ALL.len()],
-    evaluations: u64,
-    largest_error: f64,
 }
 
 impl Worker for AfmWorker<'_> {
     fn run(&mut self, inputs: &[&[f64]], batch: &mut Batch) {
-        self.spent = Spent::default();
         let is_quick = self.forms.is_some() && self.model.histories.is_empty();
         let step = if is_quick { AT_ONCE } else { ROWS_BETWEEN_LOOKS };
         for first in (0..batch.rows()).step_by(step) {
@@ -213,11 +200,6 @@ impl Worker for AfmWorker<'_> {
                 rows.for_each(|row| self.run_histories(inputs, row, batch));
             }
         }
-        let Spent { rungs, evaluations, largest_error } = &self.spent;
-        for (counter, rows) in rungs.iter().chain([evaluations]).enumerate() {
-            batch.count(counter, *rows as f64);
-        }
-        batch.count(rungs.len() + 1, *largest_error);
     }
 }
 
@@ -232,7 +214,7 @@ impl AfmWorker<'_> {
         self.set_scene(inputs, row);
         match critical_force(&self.scene, &self.model.options) {
             Err(failure) => {
-                let reason = self.reason(failure);
+                let reason = reason(failure);
                 (0..self.model.which.len()).for_each(|column| batch.fail(row, column, reason.clone()));
             }
             Ok(critical) => self.write(row, &critical, batch),
@@ -243,7 +225,7 @@ impl AfmWorker<'_> {
         self.set_scene(inputs, row);
         let model = self.model;
         if let Err(failure) = model.histories.write(&self.scene, &model.options, row, batch) {
-            let reason = self.reason(failure);
+            let reason = reason(failure);
             model.histories.columns().for_each(|column| batch.fail(row, column, reason.clone()));
         }
     }
@@ -270,43 +252,41 @@ impl AfmWorker<'_> {
             for (i, row) in rows.clone().enumerate() {
                 match output.of_many(i, &forms) {
                     Ok(value) => batch.set(row, column, value),
-                    Err(failure) => batch.fail(row, column, self.reason(failure)),
+                    Err(failure) => batch.fail(row, column, reason(failure)),
                 }
             }
         }
         let slips = forms.slips();
-        self.spent.rungs[Fidelity::ClosedForm as usize] += rows.len() as u64;
-        self.spent.evaluations += rows.len() as u64;
-        self.spent.largest_error =
-            slips.error_estimate[..rows.len()].iter().fold(self.spent.largest_error, |a, b| a.max(*b));
+        let largest_error = slips.error_estimate[..rows.len()].iter().fold(0.0_f64, |a, b| a.max(*b));
+        count(batch, Fidelity::ClosedForm, rows.len() as u64, rows.len() as u64, largest_error);
         forms.count_flags(rows.len(), |flag, raised| batch.raise_by(flag, raised));
         forms
     }
 
-    fn reason(&mut self, failure: Failure) -> RowFailure {
-        if let Some((_, reason)) = self.reasons.iter().find(|(known, _)| *known == failure) {
-            return reason.clone();
-        }
-        let reason = RowFailure::new(&failure.to_string());
-        self.reasons.push((failure, reason.clone()));
-        reason
-    }
-
-    fn write(&mut self, row: usize, critical: &Critical, batch: &mut Batch) {
+    fn write(&self, row: usize, critical: &Critical, batch: &mut Batch) {
         let model = self.model;
         for (column, output) in model.which.iter().enumerate() {
             match output.value(critical) {
                 Ok(value) => batch.set(row, column, value),
-                Err(failure) => batch.fail(row, column, self.reason(failure)),
+                Err(failure) => batch.fail(row, column, reason(failure)),
             }
         }
-        // `Fidelity::ALL` is in the order of the declaration.
-        self.spent.rungs[critical.rung as usize] += 1;
-        self.spent.evaluations += critical.cost.evaluations;
-        self.spent.largest_error = self.spent.largest_error.max(critical.error_estimate);
-        // So is `Flag::ALL`.
+        count(batch, critical.rung, 1, critical.evaluations, critical.error_estimate);
+        // `Flag::ALL` is in the order of the declaration.
         critical.flags.iter().for_each(|flag| batch.raise_by(flag as usize, 1));
     }
+}
+
+fn reason(failure: Failure) -> RowFailure {
+    RowFailure::new(&failure.to_string())
+}
+
+/// Adds rows of one rung to the counters of the model, with all of their evaluations and their largest error.
+fn count(batch: &mut Batch, rung: Fidelity, rows: u64, evaluations: u64, largest_error: f64) {
+    // `Fidelity::ALL` is in the order of the declaration.
+    batch.count(rung as usize, rows as f64);
+    batch.count(Fidelity::ALL.len(), evaluations as f64);
+    batch.count(Fidelity::ALL.len() + 1, largest_error);
 }
 
 #[cfg(test)]

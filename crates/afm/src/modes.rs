@@ -181,17 +181,6 @@ impl Pushing {
         Ok(first_true(moves)?.map_or(Onset::Never, Onset::At))
     }
 
-    /// Returns every mode with its onset, the earliest first. Simultaneous modes keep the order of [`Mode::ALL`].
-    ///
-    /// # Errors
-    /// Those of [`balance`](Self::balance).
-    pub fn order(&self, normal: f64) -> Result<Vec<(Mode, Onset)>, Failure> {
-        let mut onsets =
-            Mode::ALL.iter().map(|&mode| Ok((mode, self.onset(mode, normal)?))).collect::<Result<Vec<_>, Failure>>()?;
-        onsets.sort_by(|(_, one), (_, other)| one.partial_cmp(other).unwrap_or(std::cmp::Ordering::Equal));
-        Ok(onsets)
-    }
-
     /// Returns the least tip force F_T (N) at the angle psi = `angle` (rad) that starts `mode`, as in the mode diagram;
     /// `None` if the resistance grows with the force as fast as the drive.
     ///

@@ -1,6 +1,6 @@
 //! The lowest rung that is accurate enough.
 
-use super::{Cost, Critical, Options, closed_form, dynamic, quasi_static};
+use super::{Critical, Options, closed_form, dynamic, quasi_static};
 use crate::{Failure, Scene};
 
 /// Tries the rungs from the closed form up until an error estimate meets the tolerance, or no higher rung is better;
@@ -10,11 +10,11 @@ pub(super) fn critical_force(scene: &Scene, options: &Options) -> Result<Critica
     if closed.error_estimate <= options.tolerance {
         return Ok(closed);
     }
-    let spent = closed.cost.evaluations;
+    let spent = closed.evaluations;
     let (exact, shared) = quasi_static::with_swing(scene, options)?;
     // At rest there are no dynamics.
     let best = exact.error_estimate <= options.tolerance + shared || scene.velocity == 0.0;
     let (found, spent) =
-        if best { (exact, spent) } else { (dynamic::critical_force(scene, options)?, spent + exact.cost.evaluations) };
-    Ok(Critical { cost: Cost { evaluations: spent + found.cost.evaluations }, ..found })
+        if best { (exact, spent) } else { (dynamic::critical_force(scene, options)?, spent + exact.evaluations) };
+    Ok(Critical { evaluations: spent + found.evaluations, ..found })
 }

@@ -4,7 +4,7 @@ use super::presliding::Presliding;
 use super::slip::{Error, Slip};
 use super::substrate::Substrate;
 use super::swing::Swing;
-use super::{Cost, Critical, Options};
+use super::{Critical, Options};
 use crate::contact::Contact;
 use crate::friction::{LuGre, LuGreForm};
 use crate::probe::Probe;
@@ -23,7 +23,7 @@ pub(super) fn critical_force(scene: &Scene, options: &Options) -> Result<Critica
     Ok(Critical {
         flags: flags(&slip, scene, options),
         error_estimate: error(&substrate, &probe, (&slip, presliding.as_ref()), of_law),
-        cost: Cost { evaluations: hold.evaluations },
+        evaluations: hold.evaluations,
         ..slip.critical(&substrate, Fidelity::ClosedForm)
     })
 }

@@ -17,7 +17,7 @@ use super::quasi_static::{self, Statics};
 use super::slip::{Error, Slip};
 use super::substrate::Substrate;
 use super::swing::Swing;
-use super::{Cost, Critical, Options};
+use super::{Critical, Options};
 use crate::friction::LuGreForm;
 use crate::ode::{Control, DormandPrince, End, March, Outcome, Rodas};
 use crate::probe::Probe;
@@ -71,7 +71,7 @@ pub(super) fn critical_force(scene: &Scene, options: &Options) -> Result<Critica
     let critical = slip.critical(&substrate, Fidelity::Dynamic);
     let of_time = if options.accurate_time { of_time.min(1.0) } else { 0.0 };
     // NaN if nothing holds the particle, which `max` ignores.
-    Ok(Critical { error_estimate: error.value(&slip).max(of_time), cost: Cost { evaluations }, ..critical })
+    Ok(Critical { error_estimate: error.value(&slip).max(of_time), evaluations, ..critical })
 }
 
 /// Returns whether friction certainly holds the tip, without evaluating the law: its force is below that of the

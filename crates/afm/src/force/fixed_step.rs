@@ -5,7 +5,7 @@ use super::motion::Motion;
 use super::quasi_static::Statics;
 use super::slip::{Error, Slip};
 use super::substrate::Substrate;
-use super::{Cost, Critical, Options};
+use super::{Critical, Options};
 use crate::friction::LuGreForm;
 use crate::ode::{Method, Problem, Rodas, State};
 use crate::probe::Probe;
@@ -36,7 +36,7 @@ pub(super) fn critical_force(scene: &Scene, options: &Options) -> Result<Critica
     // The particle creeps as on the quasi-static rung, and the slip is detected at the end of a step.
     let of_step = options.step * scene.velocity / (slip.travel + slip.advance);
     let of_time = if options.accurate_time { (of_creep + of_step).min(1.0) } else { 0.0 };
-    Ok(Critical { error_estimate: error.value(&slip).max(of_time), cost: Cost { evaluations }, ..critical })
+    Ok(Critical { error_estimate: error.value(&slip).max(of_time), evaluations, ..critical })
 }
 
 fn march(motion: &Motion, substrate: &Substrate, limit: &Slip) -> Result<(Slip, u64), Failure> {

@@ -104,13 +104,6 @@ impl Options {
     }
 }
 
-/// Cost of a run.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Cost {
-    /// Number of evaluations of the contact's friction and of rates of change.
-    pub evaluations: u64,
-}
-
 /// The scene at the instant of slip.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Critical {
@@ -140,8 +133,8 @@ pub struct Critical {
     /// the laws themselves. At most 1, which claims nothing. On LuGre bristles it includes the swing of the tip at
     /// every rung. With [`Options::accurate_time`] it holds for the critical time too.
     pub error_estimate: f64,
-    /// The cost of the computation.
-    pub cost: Cost,
+    /// Number of evaluations of the contact's friction and of rates of change.
+    pub evaluations: u64,
     /// The rung of the result; never `auto`.
     pub rung: Fidelity,
 }

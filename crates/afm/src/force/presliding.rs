@@ -23,7 +23,7 @@ use crate::{Failure, FrictionLaw};
 pub(crate) const REACHED: f64 = 0.999;
 
 /// The creep of a particle before it slips.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Presliding {
     /// p*/sigma0 (m), the deflection of the bristles at the peak.
     length: f64,
@@ -49,15 +49,6 @@ impl Presliding {
     pub fn new(substrate: &Substrate, slip: &Slip, probe: &Probe, spring: f64) -> Result<Option<Self>, Failure> {
         let &Substrate { scene, options, .. } = substrate;
         let (velocity, load) = (scene.velocity, slip.normal_force + substrate.adhesive_load);
-        let none = Self {
-            length: 0.0,
-            exponent: 0.0,
-            stiffness: 0.0,
-            damping: 0.0,
-            viscosity: 0.0,
-            drop: 0.0,
-            weakening: 0.0,
-        };
         let (stiffness, way) = match options.friction {
             FrictionLaw::Coulomb | FrictionLaw::HurtadoKim | FrictionLaw::Stribeck => return Ok(None),
             FrictionLaw::LuGre => {
@@ -69,14 +60,14 @@ impl Presliding {
                     damping: law.damping * velocity / strength,
                     viscosity: law.viscous_friction * velocity / strength,
                     weakening: (law.stribeck(load, 0.0) - moving).abs() / moving,
-                    ..none
+                    ..Self::default()
                 };
                 (law.stiffness, way)
             }
-            FrictionLaw::Dahl => (scene.bristle_stiffness, Self { exponent: scene.dahl_exponent, ..none }),
-            FrictionLaw::Armstrong => (scene.bristle_stiffness, none),
+            FrictionLaw::Dahl => (scene.bristle_stiffness, Self { exponent: scene.dahl_exponent, ..Self::default() }),
+            FrictionLaw::Armstrong => (scene.bristle_stiffness, Self::default()),
             // A linear spring with the shear stiffness of the layer.
-            FrictionLaw::LemaitreCarlson => (substrate.layer_stiffness(slip)?, none),
+            FrictionLaw::LemaitreCarlson => (substrate.layer_stiffness(slip)?, Self::default()),
         };
         let drop = (probe.preload_force - slip.normal_force) / load;
         let strength = slip.lateral_force / (1.0 + way.viscosity);

@@ -21,7 +21,7 @@ use super::presliding::Presliding;
 use super::slip::{Error, Slip};
 use super::substrate::{Hold, Substrate};
 use super::swing::Swing;
-use super::{Cost, Critical, Options};
+use super::{Critical, Options};
 use crate::friction::{LuGre, LuGreForm};
 use crate::probe::Probe;
 use crate::root::{self, Point};
@@ -71,7 +71,7 @@ fn solve(scene: &Scene, options: &Options, swings: bool) -> Result<(Critical, f6
     };
     let critical = slip.critical(&substrate, Fidelity::QuasiStatic);
     // NaN if nothing holds the particle, which `max` ignores.
-    Ok((Critical { error_estimate: of_forces.max(of_time), cost: Cost { evaluations }, ..critical }, shared))
+    Ok((Critical { error_estimate: of_forces.max(of_time), evaluations, ..critical }, shared))
 }
 
 /// Returns the possible effect of inertia on the forces of the quasi-static `slip`.

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 use std::ops::{Add, RangeInclusive};
 
 use super::substrate::Substrate;
-use super::{Cost, Critical, Fidelity, Options};
+use super::{Critical, Fidelity, Options};
 use crate::contact::{Contact, Pair};
 use crate::{Failure, Flag, Flags, Scene};
 
@@ -117,7 +117,7 @@ impl Slip {
         substrate.slope(self.lateral_force, self.normal_force).abs()
     }
 
-    /// Creates the result of a rung, without error and cost.
+    /// Creates the result of a rung, without error and number of evaluations.
     #[inline]
     pub fn critical(&self, substrate: &Substrate, rung: Fidelity) -> Critical {
         let &Slip { normal_force, lateral_force, twist, contact, .. } = self;
@@ -133,7 +133,7 @@ impl Slip {
             twist,
             flags: self.flags(substrate.scene, substrate.options),
             error_estimate: 0.0,
-            cost: Cost::default(),
+            evaluations: 0,
             rung,
         }
     }

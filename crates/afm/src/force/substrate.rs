@@ -3,7 +3,7 @@
 use super::presliding::REACHED;
 use super::slip::Slip;
 use crate::contact::{Contact, Pair};
-use crate::friction::{Drive, LemaitreCarlson, LuGreForm, Pressed, Stribeck, particle_mass};
+use crate::friction::{Drive, LemaitreCarlson, LuGreForm, Pressed, Stribeck};
 use crate::probe::Probe;
 use crate::{Failure, FrictionLaw, Options, Scene};
 
@@ -38,14 +38,12 @@ impl<'a> Substrate<'a> {
         // With longer steps a Lemaitre-Carlson layer that is sheared slowly loses a tenth of its first peak.
         let coarsest = if options.friction == FrictionLaw::LemaitreCarlson { 1e-6 } else { f64::INFINITY };
         let drive = Drive {
-            velocity: scene.velocity,
-            stiffness: probe.apex,
-            mass: particle_mass(scene),
             lugre: options.lugre,
             form,
             // The errors of the laws are small compared with the tolerance of a run.
             tolerance: (0.01 * options.tolerance).max(1e-10).min(coarsest),
             step_budget: options.step_budget,
+            ..Drive::from_scene(scene, probe.apex)
         };
         Self { scene, options, pair, adhesive_load, support, drive }
     }

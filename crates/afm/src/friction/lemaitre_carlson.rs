@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::{Drive, Held, Pressed};
-use crate::ode::{Control, March, Outcome, Problem, Rodas};
+use crate::ode::{Control, End, March, Outcome, Problem, Rodas};
 use crate::root::{self, Point};
 use crate::{Failure, Scene};
 
@@ -43,30 +43,38 @@ impl<'a> LemaitreCarlson<'a> {
         if area == 0.0 {
             return Ok(Held { force: 0.0, evaluations: 0 });
         }
-        let layer = self.sheared(area, drive.velocity, drive.stiffness);
-        let mut march = March::<Rodas, _, 2>::new(&layer, (0.0, [0.0, self.0.initial_disorder]), layer.control(drive));
         // So close to gam' = V/(2h) that the remaining rise is below the tolerance, reached or only approached.
-        let near = drive.tolerance * (1.0 / layer.modulus).min(1.0);
-        let (Outcome::Event(end) | Outcome::Horizon(end)) =
-            march.until(f64::MAX, |_, y| Ok(layer.plastic_rate(y) - 1.0 + near))?;
-        Ok(Held { force: area * self.0.layer_stress * end.y[0], evaluations: march.evaluations() })
+        let near = |layer: &Sheared<'_>| drive.tolerance * (1.0 / layer.modulus).min(1.0);
+        let (end, evaluations) = self.pull(area, drive, |layer, y| layer.plastic_rate(y) - 1.0 + near(layer))?;
+        Ok(Held { force: area * self.0.layer_stress * end.y[0], evaluations })
     }
 
     /// Returns the travel (m) of the far end of the spring when the force on a contact of `radius` (m) first reaches
-    /// `force` (N), which is below the first peak.
+    /// `force` (N), which is below the first peak, at a velocity above zero.
     ///
     /// # Errors
-    /// As [`capacity`](Self::capacity).
+    /// Those of [`March`].
     pub(crate) fn travel(&self, radius: f64, force: f64, drive: &Drive) -> Result<f64, Failure> {
-        if drive.velocity == 0.0 {
-            return Err(Failure::VelocityZero);
-        }
         let area = PI * radius * radius;
+        let stress = force / (area * self.0.layer_stress);
+        let (end, _) = self.pull(area, drive, |_, y| y[0] - stress)?;
+        Ok(2.0 * self.0.layer_half_thickness * end.t)
+    }
+
+    /// Integrates the layer over the area (m2), pulled at a velocity above zero, until `event` rises through zero; also returns the evaluations.
+    ///
+    /// # Errors
+    /// Those of [`March`].
+    fn pull(
+        &self,
+        area: f64,
+        drive: &Drive,
+        event: impl Fn(&Sheared<'_>, &[f64; 2]) -> f64,
+    ) -> Result<(End<2>, u64), Failure> {
         let layer = self.sheared(area, drive.velocity, drive.stiffness);
         let mut march = March::<Rodas, _, 2>::new(&layer, (0.0, [0.0, self.0.initial_disorder]), layer.control(drive));
-        let stress = force / (area * self.0.layer_stress);
-        let (Outcome::Event(end) | Outcome::Horizon(end)) = march.until(f64::MAX, |_, y| Ok(y[0] - stress))?;
-        Ok(2.0 * self.0.layer_half_thickness * end.t)
+        let (Outcome::Event(end) | Outcome::Horizon(end)) = march.until(f64::MAX, |_, y| Ok(event(&layer, y)))?;
+        Ok((end, march.evaluations()))
     }
 
     /// Returns the stress of steady sliding at `velocity` (m/s), > 0 (Pa): the disorder at which ageing balances

@@ -15,7 +15,7 @@ mod stribeck;
 mod tests;
 
 use apportion::names::named;
-pub use armstrong::{Armstrong, Loading};
+pub use armstrong::Armstrong;
 pub use coulomb::Coulomb;
 pub use dahl::Dahl;
 pub use hurtado_kim::HurtadoKim;
@@ -94,16 +94,6 @@ pub struct Held {
     pub evaluations: u64,
 }
 
-impl Held {
-    /// Returns this force, if it is in `range`.
-    ///
-    /// # Errors
-    /// [`Failure::StepTooSmall`] for an integration that has missed its limit.
-    fn within(self, range: std::ops::RangeInclusive<f64>) -> Result<Self, Failure> {
-        if range.contains(&self.force) { Ok(self) } else { Err(Failure::StepTooSmall) }
-    }
-}
-
 impl Drive {
     /// Creates a drive at the velocity of `scene` through a spring of `stiffness` (N/m): frozen LuGre parameters, fast
     /// form, a tolerance of 1e-8 and a million steps.
@@ -136,8 +126,8 @@ impl FrictionLaw {
     pub fn capacity(self, scene: &Scene, pressed: Pressed, drive: &Drive) -> Result<Held, Failure> {
         let load = pressed.load;
         let force = match self {
-            Self::Coulomb => Coulomb::from_scene(scene).capacity(pressed),
-            Self::HurtadoKim => HurtadoKim::from_scene(scene).capacity(pressed.radius),
+            Self::Coulomb => Coulomb(scene).capacity(pressed),
+            Self::HurtadoKim => HurtadoKim(scene).capacity(pressed.radius),
             Self::LuGre => match drive.form {
                 LuGreForm::Fast => LuGre::from_scene(scene).steady_force(load, drive.velocity),
                 LuGreForm::Ramp => {
@@ -148,7 +138,7 @@ impl FrictionLaw {
             Self::Stribeck => Stribeck(scene).capacity(load, drive.velocity)?,
             Self::Armstrong => {
                 let stiffness = 1.0 / (1.0 / drive.stiffness + 1.0 / scene.bristle_stiffness);
-                Armstrong(scene).break_away(load, Loading { rate: stiffness * drive.velocity, rest: scene.rest_time })
+                Armstrong(scene).break_away(load, stiffness * drive.velocity)
             }
             Self::LemaitreCarlson => return LemaitreCarlson(scene).capacity(pressed, drive),
         };

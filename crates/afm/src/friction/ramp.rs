@@ -49,8 +49,10 @@ pub(super) fn peak(law: &LuGre, load: f64, drive: &Drive) -> Result<Held, Failur
     let near = drive.tolerance * ramp.stiffness.min(1.0);
     let (end, evaluations) =
         ramp.climb(drive, |ramp, y| if ramp.force(y) > 0.1 * ramp.unit { y[2] - 1.0 + near } else { -1.0 })?;
-    let climbed = Held { force: ramp.force(&end.y), evaluations };
-    climbed.within(UNDERSHOOT * steady..=OVERSHOOT * most)
+    let force = ramp.force(&end.y);
+    // Outside, the integration has missed its limit.
+    let is_plausible = (UNDERSHOOT * steady..=OVERSHOOT * most).contains(&force);
+    if is_plausible { Ok(Held { force, evaluations }) } else { Err(Failure::StepTooSmall) }
 }
 
 /// Returns the travel V t (m) of the spring's far end when the force first reaches `force` (N), and the evaluations.

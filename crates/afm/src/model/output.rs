@@ -30,19 +30,10 @@ pub enum AfmOutput {
 }
 
 impl AfmOutput {
-    /// Returns the unit in which it is reported.
-    pub fn unit(self) -> Unit {
-        edge(self.row().0)
-    }
-
-    /// Returns a description in one line.
-    pub fn description(self) -> &'static str {
-        self.row().1
-    }
-
-    /// Returns the same for a [`Model`](apportion::Model).
+    /// Returns its description as an output.
     pub fn info(self) -> Output {
-        Output::new(self.name(), self.unit(), self.description())
+        let (unit, description) = self.row();
+        Output::new(self.name(), edge(unit), description)
     }
 
     /// Returns unit and description.

@@ -99,7 +99,7 @@ impl<'a, M: Method, P: Problem<N>, const N: usize> March<'a, M, P, N> {
                 // A step cut short by the horizon says little about the length of the next one.
                 let next = h * factor.clamp(0.2, 6.0);
                 self.h = if last { next.max(self.h) } else { next };
-                let t = if last { horizon } else { attempt.step.end() };
+                let t = if last { horizon } else { self.state.t + h };
                 self.state = State { t, y: end, rate: attempt.rate };
                 return Ok(attempt.step);
             }

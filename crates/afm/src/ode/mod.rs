@@ -81,11 +81,6 @@ pub struct Step<const N: usize> {
 }
 
 impl<const N: usize> Step<N> {
-    /// Returns the time at the end.
-    pub fn end(&self) -> f64 {
-        self.t + self.h
-    }
-
     /// Returns the unknowns at the fraction `s` of the step, 0 to 1.
     pub fn at(&self, s: f64) -> [f64; N] {
         let [c0, c1, c2, c3, c4] = &self.coefficients;

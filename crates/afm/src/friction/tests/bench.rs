@@ -55,8 +55,8 @@ pub(super) fn against_velocity(specimen: &Specimen, velocity: f64) -> Result<f64
     let &Specimen { law, scene, pressed, .. } = specimen;
     let load = pressed.load;
     Ok(match law {
-        FrictionLaw::Coulomb => Coulomb::from_scene(scene).capacity(pressed),
-        FrictionLaw::HurtadoKim => HurtadoKim::from_scene(scene).capacity(pressed.radius),
+        FrictionLaw::Coulomb => Coulomb(scene).capacity(pressed),
+        FrictionLaw::HurtadoKim => HurtadoKim(scene).capacity(pressed.radius),
         FrictionLaw::LuGre => LuGre::from_scene(scene).steady_force(load, velocity),
         FrictionLaw::Dahl => Dahl(scene).capacity(load),
         FrictionLaw::Stribeck => Stribeck(scene).force(load, velocity),
