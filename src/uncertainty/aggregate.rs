@@ -124,7 +124,7 @@ impl AggregateIndices {
                 let number = &of(output)[swap];
                 [(weight(output), number), ((number.estimate - estimate) / largest / all, &output.variance)]
             });
-            Influenced { estimate, ..Influenced::combined(&terms.collect::<Vec<_>>()) }
+            Influenced::linear(estimate, &terms.collect::<Vec<_>>())
         };
         let list = |of: fn(&SurrogateEstimates) -> &[Influenced]| (0..swaps).map(|swap| index(swap, of)).collect();
         Some((list(|of| &of.first_order), list(|of| &of.total)))

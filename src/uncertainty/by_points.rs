@@ -1,7 +1,7 @@
 //! Intervals from the outputs of every base point of a random design.
 
 use super::bootstrap::resampled;
-use super::delta::{InfluenceSums, influence_sums};
+use super::delta::delta_errors;
 use super::method::IntervalMethod;
 use super::net_decay::StandardError;
 use super::points::KeptPoints;
@@ -34,11 +34,11 @@ impl ByPoints<'_> {
         let products = Products::new(whole);
         let none = (StandardError { error: f64::NAN, freedom: 0.0 }, None);
         if self.method == IntervalMethod::Delta {
-            let sums = influence_sums(self.points, &products, quantities).unwrap_or_default();
-            let bounds = |(estimate, sums): (&f64, &InfluenceSums)| (sums.error(), t_interval(*estimate, sums.error()));
-            let mut all: Vec<Bounds> = estimates.iter().zip(&sums).map(bounds).collect();
-            all.resize(estimates.len(), none);
-            return all;
+            let Some(errors) = delta_errors(self.points, &products, quantities) else {
+                return vec![none; estimates.len()];
+            };
+            let bounds = |(estimate, error): (&f64, StandardError)| (error, t_interval(*estimate, error));
+            return estimates.iter().zip(errors).map(bounds).collect();
         }
         let values = resampled(self.points, &products, self.seed, self.resamples, quantities);
         let freedom = self.points.count() as f64 - 1.0;

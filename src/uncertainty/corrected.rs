@@ -165,8 +165,7 @@ impl SurrogateEstimates {
             first_order: corrects_first_order.then_some((&first_order, first)),
             total: corrects_total.then_some((&all_total, total)),
         };
-        let plain_first = |swap| plain[layout.place(Quantity::Swap(swap, Number::FirstOrder))];
-        mean::corrected(layout, &kinds, plain, errors, &plain_first, &mut |place, of| replacements.push((place, of)));
+        mean::corrected(layout, &kinds, plain, errors, &mut |place, of| replacements.push((place, of)));
         if self.is_heavy_tailed || self.misses_levels || gaps.is_doubt() {
             for (place, (estimate, error, parts)) in &mut replacements {
                 estimate.interval = hull(estimate.interval, plain[*place].interval);
@@ -200,7 +199,7 @@ impl SurrogateEstimates {
             let influences = of.parts.iter().chain(&of.low).flatten();
             let largest = influences.fold(0.0, |largest: f64, x| largest.max(x.abs()));
             let size = if largest > 0.0 { largest } else { 1.0 };
-            let scaled = Influenced { estimate: of.estimate / size, ..Influenced::combined(&[(1.0 / size, of)]) };
+            let scaled = Influenced::linear(of.estimate / size, &[(1.0 / size, of)]);
             let (estimate, error, _) = Noise::of_moment(&scaled.parts, skewed).replacement(&scaled);
             let interval = estimate.interval.map(|i| Interval { low: i.low * size, high: i.high * size });
             let error = StandardError { error: error.error * size, ..error };
@@ -221,7 +220,7 @@ fn indices(
 ) {
     let factors = 0..layout.factors;
     let sum_of = if index == Number::Total { Quantity::SumTotal } else { Quantity::SumFirstOrder };
-    put(layout.place(sum_of), false, &sum(&list[factors.clone()]));
+    put(layout.place(sum_of), false, &sum(list[factors.clone()].iter()));
     for (swap, of) in list.iter().enumerate().filter(|(swap, _)| !settled[*swap]) {
         put(layout.place(Quantity::Swap(swap, index)), false, of);
     }
@@ -229,7 +228,7 @@ fn indices(
         // The noise of a stochastic model has no share.
         let noise = layout.noise.as_ref().map(|noise| noise.factor);
         let sharing = range.filter(|swap| Some(*swap) != noise);
-        let all = Influenced::combined(&sharing.clone().map(|swap| (1.0, &list[swap])).collect::<Vec<_>>());
+        let all = sum(sharing.clone().map(|swap| &list[swap]));
         if all.estimate > 0.0 {
             let moving = sharing.filter(|swap| !settled[*swap]);
             moving.for_each(|swap| put(layout.place(Quantity::Swap(swap, share_of)), true, &share(&list[swap], &all)));
@@ -275,17 +274,14 @@ fn gap(plain: Estimate, corrected: Estimate) -> f64 {
     if allowed > 0.0 { (upper.estimate - lower.estimate) / allowed } else { 0.0 }
 }
 
-fn sum(list: &[Influenced]) -> Influenced {
-    Influenced::combined(&list.iter().map(|of| (1.0, of)).collect::<Vec<_>>())
+fn sum<'a>(list: impl Iterator<Item = &'a Influenced>) -> Influenced {
+    Influenced::combined(&list.map(|of| (1.0, of)).collect::<Vec<_>>())
 }
 
 /// Returns 100 part/all.
 fn share(part: &Influenced, all: &Influenced) -> Influenced {
     let percent = 100.0 * part.estimate / all.estimate;
-    Influenced {
-        estimate: percent,
-        ..Influenced::combined(&[(100.0 / all.estimate, part), (-percent / all.estimate, all)])
-    }
+    Influenced::linear(percent, &[(100.0 / all.estimate, part), (-percent / all.estimate, all)])
 }
 
 /// Returns the interval that contains both, or `None` if one of them is unknown.

@@ -7,39 +7,17 @@ use super::net_decay::StandardError;
 use super::points::KeptPoints;
 use crate::estimate::{Moments, Products};
 
-/// Power sums of the influences of all points on one quantity.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct InfluenceSums {
-    /// Number of points.
-    points: f64,
-    /// The unit of the sums, so that none of them underflows or overflows; 0 if no point has any influence.
-    unit: f64,
-    sum: f64,
-    squares: f64,
-}
-
-impl InfluenceSums {
-    /// Returns the standard error sqrt(sum (U - mean)^2/(n (n - 1))) of the quantity, with n - 1 degrees of freedom
-    /// (van der Vaart 1998, Asymptotic Statistics, chapter 3, with the variance of the sample).
-    pub fn error(&self) -> StandardError {
-        let n = self.points;
-        if n < 2.0 || !self.squares.is_finite() {
-            return StandardError { error: f64::NAN, freedom: 0.0 };
-        }
-        let squares = (self.squares - self.sum * self.sum / n).max(0.0);
-        StandardError { error: self.unit * (squares / (n * (n - 1.0))).sqrt(), freedom: n - 1.0 }
-    }
-}
-
-/// Computes the influences of the points on the results of `quantities`; `None` if these are undefined on all points.
+/// Returns the standard errors sqrt(sum (U - mean)^2/(n (n - 1))) of the results of `quantities`, with n - 1 degrees of
+/// freedom (van der Vaart 1998, Asymptotic Statistics, chapter 3, with the variance of the sample), U the influences of
+/// the n points; `None` if they are undefined on all points.
 ///
 /// The influence function of a function of sums over points is n times its gradient in the sums times the products of
 /// the point. The gradient is computed numerically.
-pub(super) fn influence_sums(
+pub(super) fn delta_errors(
     points: KeptPoints<'_>,
     products: &Products,
     quantities: &(dyn Fn(&Moments) -> Option<Vec<f64>> + Sync),
-) -> Option<Vec<InfluenceSums>> {
+) -> Option<Vec<StandardError>> {
     let chunks = points.chunks();
     let sums_of = |matrix: &DMatrix<f64>| -> Vec<(f64, f64)> {
         matrix.column_iter().map(|column| (column.sum(), column.lp_norm(1))).collect()
@@ -49,7 +27,7 @@ pub(super) fn influence_sums(
     let total = |c: usize| sums.iter().fold((0.0, 0.0), |(sum, size), chunk| (sum + chunk[c].0, size + chunk[c].1));
     let total: Vec<(f64, f64)> = (0..products.columns()).map(total).collect();
     let gradient = gradient(products, &total, quantities)?;
-    // In units of the joint size of the products.
+    // In units of the joint size of the products, so that no sum underflows or overflows; 0 without any influence.
     let n = points.count() as f64;
     let unit =
         |g: nalgebra::DVectorView<'_, f64>| g.iter().zip(&total).map(|(g, (_, size))| g.abs() * size).sum::<f64>();
@@ -69,7 +47,12 @@ pub(super) fn influence_sums(
         chunks.par_iter().map(|chunk| powers_of(&chunk.products(points.design, products))).collect();
     let of_quantity = |(q, unit): (usize, &f64)| {
         let sum = |power: usize| powers.iter().map(|chunk| chunk[q][power]).sum::<f64>();
-        InfluenceSums { points: n, unit: *unit, sum: sum(0), squares: sum(1) }
+        let (sum, squares) = (sum(0), sum(1));
+        if n < 2.0 || !squares.is_finite() {
+            return StandardError { error: f64::NAN, freedom: 0.0 };
+        }
+        let squares = (squares - sum * sum / n).max(0.0);
+        StandardError { error: unit * (squares / (n * (n - 1.0))).sqrt(), freedom: n - 1.0 }
     };
     Some(units.iter().enumerate().map(of_quantity).collect())
 }

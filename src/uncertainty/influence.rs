@@ -24,7 +24,17 @@ impl Influenced {
 
     /// Returns a weighted sum of numbers.
     pub fn combined(list: &[(f64, &Self)]) -> Self {
-        let estimate = list.iter().map(|(weight, of)| weight * of.estimate).sum();
+        Self::linear(list.iter().map(|(weight, of)| weight * of.estimate).sum(), list)
+    }
+
+    /// Returns its quotient by `whole`.
+    pub fn over(&self, whole: &Self) -> Self {
+        let (estimate, scale) = (self.estimate / whole.estimate, 1.0 / whole.estimate);
+        Self::linear(estimate, &[(scale, self), (-estimate * scale, whole)])
+    }
+
+    /// Returns the number `estimate`, which changes by a weighted sum of the changes of others.
+    pub fn linear(estimate: f64, list: &[(f64, &Self)]) -> Self {
         let of = |parts: fn(&Self) -> &PartInfluences| {
             let mut sums = list.first().map_or_else(Vec::new, |(_, of)| zeros(parts(of)));
             for (weight, of) in list {

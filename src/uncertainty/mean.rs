@@ -4,7 +4,7 @@
 //! since the noise adds nothing to the variance of E[y|x_s]; its total indices are (ST_sn - ST_n)/(1 - ST_n), since all
 //! effects of the other factors without s and the noise have the variance V (1 - ST_sn).
 
-use super::estimates::{Layout, Quantity, SwapNoise};
+use super::estimates::{Layout, Number, Quantity, SwapNoise};
 use super::influence::Influenced;
 use super::noise::{Noise, Replacement};
 use super::{Estimate, Interval, StandardError};
@@ -39,14 +39,12 @@ pub(super) struct Corrected<'a> {
     pub total: Option<(&'a [Influenced], Noise)>,
 }
 
-/// Calls `put` with the replacements of the indices of the mean among the `plain` numbers of `layout`; `plain_first`
-/// returns the plain first-order index of a swap.
+/// Calls `put` with the replacements of the indices of the mean among the `plain` numbers of `layout`.
 pub(super) fn corrected(
     layout: &Layout,
     corrected: &Corrected<'_>,
     plain: &[Estimate],
     errors: &[StandardError],
-    plain_first: &dyn Fn(usize) -> Estimate,
     put: &mut dyn FnMut(usize, Replacement),
 ) {
     let Some(noise) = &layout.noise else { return };
@@ -55,7 +53,7 @@ pub(super) fn corrected(
     let share = match &of_noise {
         None => plain[share_place],
         Some((of_noise, of_kind)) => {
-            let share = Influenced { estimate: 1.0 - of_noise.estimate, ..Influenced::combined(&[(-1.0, *of_noise)]) };
+            let share = Influenced::linear(1.0 - of_noise.estimate, &[(-1.0, *of_noise)]);
             let new = of_kind.replacement(&share);
             let estimate = new.0;
             put(share_place, new);
@@ -81,12 +79,15 @@ pub(super) fn corrected(
                 let of = &first[swap];
                 let index = of.estimate / share.estimate;
                 let terms = [(1.0 / share.estimate, of), (index / share.estimate, *of_noise)];
-                put(place, of_kind.replacement(&Influenced { estimate: index, ..Influenced::combined(&terms) }));
+                put(place, of_kind.replacement(&Influenced::linear(index, &terms)));
             }
             (Some((first, of_kind)), None) => {
                 put_narrower(quotient(of_kind.estimate(&first[swap]), share));
             }
-            (None, Some(_)) => put_narrower(quotient(plain_first(swap), share)),
+            (None, Some(_)) => {
+                let first = plain[layout.place(Quantity::Swap(swap, Number::FirstOrder))];
+                put_narrower(quotient(first, share));
+            }
         }
         let (SwapNoise::With(joined), Some((of_noise, of_kind)), Some((total, _))) =
             (*beside, &of_noise, &corrected.total)
@@ -99,7 +100,7 @@ pub(super) fn corrected(
         }
         let index = (total[joined].estimate - of_noise.estimate) / share.estimate;
         let terms = [(1.0 / share.estimate, &total[joined]), ((index - 1.0) / share.estimate, *of_noise)];
-        put(total_place, of_kind.replacement(&Influenced { estimate: index, ..Influenced::combined(&terms) }));
+        put(total_place, of_kind.replacement(&Influenced::linear(index, &terms)));
     }
 }
 

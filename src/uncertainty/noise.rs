@@ -90,21 +90,12 @@ impl Noise {
     pub fn new(quantities: &[&PartInfluences], skewed: bool) -> Self {
         let moving: Vec<&PartInfluences> =
             quantities.iter().copied().filter(|parts| variances(parts).0 > 0.0).collect();
-        let count = moving.len() as f64;
-        if moving.is_empty() {
-            let concentration = [0.0; 2];
-            return Self {
-                common: 1.0,
-                common_freedom: COMMON_FREEDOM,
-                prudent: 1.0,
-                concentration,
-                skewed,
-                unit: 1.0,
-            };
-        }
-        let ratio =
-            moving.iter().map(|parts| variances(parts)).map(|(within, between)| between / within).sum::<f64>() / count;
-        let direct = |dependence: f64| (moving[0].len() as f64 - 1.0) * (count / dependence).max(1.0);
+        // Without any, the factors are 1, as before any spread is known.
+        let count = moving.len().max(1) as f64;
+        let nets = moving.first().map_or(1, |parts| parts.len()) as f64;
+        let ratios = moving.iter().map(|parts| variances(parts)).map(|(within, between)| between / within);
+        let ratio = ratios.sum::<f64>() / count;
+        let direct = |dependence: f64| (nets - 1.0) * (count / dependence).max(1.0);
         let factor = |direct: f64, prior: f64| (direct * ratio + prior) / (direct + prior);
         let common_freedom = direct(DEPENDENCE) + COMMON_FREEDOM;
         let common = factor(direct(DEPENDENCE), COMMON_FREEDOM);

@@ -129,7 +129,7 @@ fn influences_are_what_another_copy_of_the_point_does() {
         let replicates = [&kept];
         let points = KeptPoints::all(&sample.design, &replicates).unwrap();
         let list = |moments: &Moments| quantities(&sample.layout, moments);
-        let sums = influence_sums(points, &Products::new(sample.whole()), &list).unwrap();
+        let errors = delta_errors(points, &Products::new(sample.whole()), &list).unwrap();
         let whole = list(&sample.whole()).unwrap();
         let n = sample.columns[0].len();
         let without = |point: usize| {
@@ -143,7 +143,7 @@ fn influences_are_what_another_copy_of_the_point_does() {
             let mean = deviations.iter().sum::<f64>() / n as f64;
             let squares: f64 = deviations.iter().map(|d| (d - mean).powi(2)).sum();
             let expected = (squares * (n as f64 - 1.0) / n as f64).sqrt();
-            let got = sums[q].error();
+            let got = errors[q];
             if expected.is_nan() {
                 assert!(got.error.is_nan(), "{q}");
             } else {
@@ -163,7 +163,7 @@ fn the_error_of_a_mean_is_the_textbook_one() {
         let points = KeptPoints::all(&sample.design, &replicates).unwrap();
         let mean = |moments: &Moments| Some(vec![moments.mean()]);
         let whole = sample.whole().without_swaps();
-        let got = influence_sums(points, &Products::new(whole), &mean).unwrap()[0].error();
+        let got = delta_errors(points, &Products::new(whole), &mean).unwrap()[0];
         let halves: Vec<f64> = sample.columns[0].iter().zip(&sample.columns[1]).map(|(a, b)| (a + b) / 2.0).collect();
         let centre = halves.iter().sum::<f64>() / 1000.0;
         let variance = halves.iter().map(|y| (y - centre).powi(2)).sum::<f64>() / 999.0;
