@@ -13,7 +13,7 @@ use apportion::estimate::{FirstOrder, Moments, SecondOrder, Total, Workspace};
 use apportion::run::BLOCK;
 use apportion::surrogate::basis::{Caps, Family};
 use apportion::surrogate::carried::Carried;
-use apportion::surrogate::fit::{NetSums, Training, first_candidates, fit, selection_rows};
+use apportion::surrogate::fit::{MAX_ROUNDS, NetSums, Training, first_candidates, fit, selection_rows};
 use apportion::surrogate::net::Net;
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use outputs::{Outputs, design, function};
@@ -77,7 +77,7 @@ fn surrogate(criterion: &mut Criterion) {
             bencher.iter(|| {
                 pool.install(|| {
                     let net = |(design, outputs): (&Design, &Vec<Vec<f64>>)| {
-                        Net::new(design, 0, &families, caps.degree, outputs)
+                        Net::new(design, 0, 0, &families, caps.degree, outputs)
                     };
                     let nets: Vec<Net> = designs.iter().zip(black_box(&outputs)).map(net).collect();
                     let carried = Carried::new(&nets, caps);
@@ -86,7 +86,7 @@ fn surrogate(criterion: &mut Criterion) {
                     let nets: Vec<Training> = nets.iter().map(Training::new).collect();
                     let sums: Vec<NetSums> = nets.iter().map(|net| NetSums::new(net, &candidates, most)).collect();
                     let all: Vec<&Training> = nets.iter().collect();
-                    fit(&all, (&candidates, &sums.iter().collect::<Vec<_>>()), &carried)
+                    fit(&all, (&candidates, &sums.iter().collect::<Vec<_>>()), &carried, MAX_ROUNDS)
                 })
             });
         });

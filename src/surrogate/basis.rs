@@ -1,5 +1,6 @@
 //! Orthonormal polynomials of the factors: the terms of a surrogate.
 
+use super::add_to;
 use super::knots::Knotted;
 use super::own::{OwnPolynomials, Recurrence};
 use crate::space::Distribution;
@@ -278,11 +279,7 @@ fn leading_factors(active: &[Term], coefficients: &[f64], order: &[usize]) -> Ve
     let mut variances: Vec<(usize, f64)> = Vec::new();
     for &place in order {
         for (factor, _) in &active[place] {
-            let square = coefficients[place] * coefficients[place];
-            match variances.iter_mut().find(|(known, _)| known == factor) {
-                Some((_, variance)) => *variance += square,
-                None => variances.push((*factor, square)),
-            }
+            add_to(&mut variances, *factor, coefficients[place] * coefficients[place]);
         }
     }
     let all: f64 = variances.iter().map(|(_, variance)| variance).sum();
@@ -295,35 +292,37 @@ fn leading_factors(active: &[Term], coefficients: &[f64], order: &[usize]) -> Ve
 /// Returns the orthonormal polynomials of degrees 1 to `degree` of one factor at `u`, a column for each degree: at the
 /// quantiles of the factor, or at the values of a [`Family::Column`].
 pub fn polynomials(family: &Family, u: &[f64], degree: usize) -> Vec<Vec<f64>> {
-    let mut columns: Vec<Vec<f64>> = Vec::with_capacity(degree);
     match family {
-        Family::Own(own) => columns = own.columns(u),
-        Family::Knotted(own) => columns = own.columns(polynomials(own.base(), u, own.degree()), degree),
-        Family::Column(own) => columns = own.columns(u, degree),
+        Family::Own(own) => own.columns(u),
+        Family::Knotted(own) => own.columns(polynomials(own.base(), u, own.degree()), degree),
+        Family::Column(own) => own.columns(u, degree),
         Family::Legendre => {
             let x: Vec<f64> = u.iter().map(|u| 2.0 * u - 1.0).collect();
-            let (mut before, mut now) = (vec![1.0; u.len()], x.clone());
-            for k in 1..=degree {
-                let n = k as f64;
-                let scale = (2.0 * n + 1.0).sqrt();
-                columns.push(now.iter().map(|p| p * scale).collect());
-                let next = |((p, q), x): ((&f64, &f64), &f64)| ((2.0 * n + 1.0) * x * p - n * q) / (n + 1.0);
-                let following: Vec<f64> = now.iter().zip(&before).zip(&x).map(next).collect();
-                before = std::mem::replace(&mut now, following);
-            }
+            let next = |n: f64, x: f64, p: f64, q: f64| ((2.0 * n + 1.0) * x * p - n * q) / (n + 1.0);
+            recurred(x, degree, |n| (2.0 * n + 1.0).sqrt(), next)
         }
         Family::Hermite => {
             let x: Vec<f64> = u.iter().map(|&u| normal_quantile(u)).collect();
-            let (mut before, mut now) = (vec![1.0; u.len()], x.clone());
-            for k in 1..=degree {
-                let n = k as f64;
-                let next = |((p, q), x): ((&f64, &f64), &f64)| (x * p - n.sqrt() * q) / (n + 1.0).sqrt();
-                let following: Vec<f64> = now.iter().zip(&before).zip(&x).map(next).collect();
-                columns.push(std::mem::take(&mut now));
-                before = columns[k - 1].clone();
-                now = following;
-            }
+            let next = |n: f64, x: f64, p: f64, q: f64| (x * p - n.sqrt() * q) / (n + 1.0).sqrt();
+            recurred(x, degree, |_| 1.0, next)
         }
+    }
+}
+
+/// Returns polynomials p_1 = x, p_2, ..., p_n times their `scale`(n); `next`(n, x, p_n, p_(n-1)) is p_(n+1).
+fn recurred(
+    x: Vec<f64>,
+    degree: usize,
+    scale: impl Fn(f64) -> f64,
+    next: impl Fn(f64, f64, f64, f64) -> f64,
+) -> Vec<Vec<f64>> {
+    let (mut before, mut now) = (vec![1.0; x.len()], x.clone());
+    let mut columns = Vec::with_capacity(degree);
+    for n in (1..=degree).map(|n| n as f64) {
+        let scale = scale(n);
+        columns.push(now.iter().map(|p| p * scale).collect());
+        let following = now.iter().zip(&before).zip(&x).map(|((p, q), x)| next(n, *x, *p, *q)).collect();
+        before = std::mem::replace(&mut now, following);
     }
     columns
 }

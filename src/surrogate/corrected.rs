@@ -58,6 +58,13 @@ pub(super) fn mean_power(columns: &[Vec<f64>], power: i32) -> f64 {
     columns.iter().flatten().map(|e| e.powi(power)).sum::<f64>() / count.max(1) as f64
 }
 
+/// Returns the contribution of base point `p` to V S_jk by the outputs `y` of every run.
+pub(super) fn interaction(design: &Design, y: &[Vec<f64>], (j, k): (usize, usize), p: usize) -> f64 {
+    let (ab, ba) = (design.ab_runs(), design.ba_runs());
+    let product = |j: usize, k: usize| (y[ba[j]][p] - y[1][p]) * (y[ab[k]][p] - y[0][p]);
+    (product(j, k) + product(k, j)) / 2.0
+}
+
 /// Returns the values of `expansion` at every run and point of `net`, and the residuals of the outputs.
 pub(super) fn values_and_rest(net: &Net, expansion: &Expansion) -> (Vec<Vec<f64>>, Vec<Vec<f64>>) {
     let mut values = Vec::new();
@@ -225,11 +232,7 @@ impl Contributions {
         pairs: &[(usize, usize)],
     ) {
         let points = net.points();
-        let mean = |columns: &[&Vec<f64>]| {
-            let sum: f64 = columns.iter().flat_map(|column| column.iter()).sum();
-            sum / (points * columns.len()).max(1) as f64
-        };
-        let (of_all, of_a_b) = (mean(&e.iter().collect::<Vec<_>>()), mean(&[&e[0], &e[1]]));
+        let (of_all, of_a_b) = (mean_power(e, 1), mean_power(&e[..2], 1));
         for (p, variance) in self.variance.iter_mut().enumerate() {
             *variance += e.iter().map(|run| (run[p] - of_all).powi(2)).sum::<f64>() / e.len() as f64;
         }
@@ -243,12 +246,8 @@ impl Contributions {
             }
         }
         // The swaps with pairs come first.
-        for (column, &(j, k)) in self.pairs.iter_mut().zip(pairs) {
-            let (ab, ba) = (design.ab_runs(), design.ba_runs());
-            let product = |j: usize, k: usize, p: usize| (e[ba[j]][p] - e[1][p]) * (e[ab[k]][p] - e[0][p]);
-            for (p, sum) in column.iter_mut().enumerate() {
-                *sum += (product(j, k, p) + product(k, j, p)) / 2.0;
-            }
+        for (column, &pair) in self.pairs.iter_mut().zip(pairs) {
+            column.iter_mut().enumerate().for_each(|(p, sum)| *sum += interaction(design, e, pair, p));
         }
     }
 }

@@ -4,6 +4,7 @@ use super::basis::{Term, first_terms, neighbours};
 use super::carried::Carried;
 use super::gram::{Path, Square, lower_factor, solve};
 use super::net::Net;
+use super::without;
 use crate::sum::product;
 
 /// Maximum number of terms of a surrogate.
@@ -17,6 +18,9 @@ const SELECTION_ROWS_OF_NET: usize = 64;
 
 /// Maximum number of terms for each row by which they are chosen.
 const TERMS_PER_ROW: f64 = 0.6;
+
+/// Maximum number of rounds in which terms are chosen, with few factors.
+pub const MAX_ROUNDS: usize = 3;
 
 /// An expansion in orthonormal terms.
 #[derive(Debug, Clone, PartialEq)]
@@ -101,20 +105,16 @@ impl Expansions {
 }
 
 /// Fits expansions to the nets `training`; `first` holds the candidates of the first round and their sums over each of
-/// these nets. Terms are chosen for all outputs together, and their number for each output.
-pub fn fit(training: &[&Training<'_>], first: (&[Term], &[&NetSums]), carried: &Carried<'_>) -> Expansions {
-    let rounds = if carried.caps().families.len() <= 10 { 3 } else { 2 };
-    fit_in_rounds(training, first, carried, rounds)
-}
-
-/// Does the same in `rounds` rounds, each with the neighbours of the terms chosen by the best previous one.
-pub fn fit_in_rounds(
+/// these nets. Terms are chosen for all outputs together, and their number for each output, in at most `max_rounds` rounds,
+/// each with the neighbours of the terms chosen by the best previous one.
+pub fn fit(
     training: &[&Training<'_>],
     first: (&[Term], &[&NetSums]),
     carried: &Carried<'_>,
-    rounds: usize,
+    max_rounds: usize,
 ) -> Expansions {
     let caps = carried.caps();
+    let rounds = max_rounds.min(if caps.families.len() <= 10 { MAX_ROUNDS } else { 2 });
     let rows = selection_rows(training.len());
     let mut found = vec![chosen(first.0, first.1)];
     let mut candidates = first.0.to_vec();
@@ -177,8 +177,7 @@ fn chosen(candidates: &[Term], nets: &[&NetSums]) -> Chosen {
     let outputs = nets.first().map_or(0, |net| net.right.len());
     let mut errors = vec![vec![0.0; most]; outputs];
     for (left_out, net) in nets.iter().enumerate() {
-        let others: Vec<&NetSums> =
-            nets.iter().enumerate().filter(|(place, _)| *place != left_out).map(|(_, net)| *net).collect();
+        let others: Vec<&NetSums> = without(nets, left_out).into_iter().copied().collect();
         let (gram, right) = joined(&others);
         let held_out = Path::new(&gram, right, most).held_out(&net.gram, &net.right, &net.squares);
         for ((errors, held_out), square) in errors.iter_mut().zip(held_out).zip(&net.squares) {

@@ -15,12 +15,12 @@
 use rayon::prelude::*;
 
 use super::basis::{Caps, Family, Term};
-use super::corrected::{Contributions, mean_power, values_and_rest};
+use super::corrected::{Contributions, interaction, mean_power, values_and_rest};
 use super::fit::Expansion;
 use super::net::Net;
 use super::{
-    Corrected, MAX_FITTED_ROWS, SAFE_HERMITE_DEGREES, cross_fitted, estimates, expansion_without, fewest_points,
-    in_chunks, scaled, sorted_swaps, takes_surrogates,
+    Corrected, MAX_FITTED_ROWS, SAFE_HERMITE_DEGREES, add_to, cross_fitted, estimates, expansion_without,
+    fewest_points, in_chunks, scaled, sorted_swaps, takes_surrogates,
 };
 use crate::design::Design;
 use crate::estimate::PointOutputs;
@@ -62,7 +62,7 @@ impl OwnOutputs {
         let caps = Caps::new(families, SAFE_HERMITE_DEGREES);
         let mut nets = Vec::new();
         if design.rows() <= MAX_FITTED_ROWS {
-            let net = |(number, outputs)| Net::new(design, number as u64, families, caps.degree, outputs);
+            let net = |(number, outputs)| Net::new(design, number as u64, 0, families, caps.degree, outputs);
             nets = outputs.par_iter().enumerate().map(|(number, outputs)| net((number, outputs))).collect::<Vec<Net>>();
         }
         let is_fitted = !nets.is_empty() && nets.iter().all(|net| net.points() >= fewest_points(design));
@@ -102,7 +102,7 @@ pub fn low_fidelity_estimates(
     let caps = Caps::new(families, SAFE_HERMITE_DEGREES);
     let net = |number: usize| {
         let (f, g) = (&f[number], &g[number]);
-        let of_dear = Net::new(design, number as u64, families, caps.degree, f);
+        let of_dear = Net::new(design, number as u64, 0, families, caps.degree, f);
         let good = |run: usize| f[run].iter().zip(&g[run]).filter(|(f, _)| f.is_finite()).map(|(_, g)| *g).collect();
         let of_cheap = of_dear.with_outputs((0..runs).map(good).collect());
         (of_dear, of_cheap)
@@ -189,13 +189,8 @@ fn differences(
     let (_, e) = values_and_rest(&left, expansion);
     let f = &expensive.outputs;
     let h: Vec<Vec<f64>> = f.iter().zip(&e).map(|(f, e)| f.iter().zip(e).map(|(f, e)| f - e).collect()).collect();
-    let mean = |columns: &[&Vec<f64>]| {
-        let count = columns.iter().map(|column| column.len()).sum::<usize>().max(1);
-        columns.iter().flat_map(|column| column.iter()).sum::<f64>() / count as f64
-    };
-    let of_runs = |columns: &[Vec<f64>]| mean(&columns.iter().collect::<Vec<_>>());
-    let (mean_f, mean_h) = (of_runs(f), of_runs(&h));
-    let ([f_ab, h_ab], runs) = ([f, &h].map(|of| mean(&[&of[0], &of[1]])), f.len() as f64);
+    let (mean_f, mean_h) = (mean_power(f, 1), mean_power(&h, 1));
+    let ([f_ab, h_ab], runs) = ([f, &h].map(|of| mean_power(&of[..2], 1)), f.len() as f64);
     let mut all = Contributions::zeros(swaps.len(), pairs.len(), expensive);
     all.residual = (mean_power(&e, 2), mean_power(&e, 4));
     for p in 0..expensive.points() {
@@ -211,11 +206,9 @@ fn differences(
             all.total[0][swap][p] = half_square(f, p) - half_square(&h, p);
         }
     }
-    let (ab, ba) = (design.ab_runs(), design.ba_runs());
-    for (column, &(j, k)) in all.pairs.iter_mut().zip(pairs) {
-        let product = |y: &[Vec<f64>], j: usize, k: usize, p: usize| (y[ba[j]][p] - y[1][p]) * (y[ab[k]][p] - y[0][p]);
-        let both = |y: &[Vec<f64>], p: usize| (product(y, j, k, p) + product(y, k, j, p)) / 2.0;
-        column.iter_mut().enumerate().for_each(|(p, sum)| *sum = both(f, p) - both(&h, p));
+    for (column, &pair) in all.pairs.iter_mut().zip(pairs) {
+        let of_point = |p: usize| interaction(design, f, pair, p) - interaction(design, &h, pair, p);
+        column.iter_mut().enumerate().for_each(|(p, sum)| *sum = of_point(p));
     }
     all.total[1] = all.total[0].clone();
     for (term, b) in expansion.terms.iter().zip(&expansion.coefficients) {
@@ -244,10 +237,7 @@ fn own_contributions(
     for of in stand_ins {
         for (term, b) in of.rest.terms.iter().zip(&of.rest.coefficients).filter(|(term, _)| !term.is_empty()) {
             let weight = 2.0 * of.slope * b / count;
-            match crossed.iter_mut().find(|(known, _)| *known == term) {
-                Some((_, sum)) => *sum += weight,
-                None => crossed.push((term, weight)),
-            }
+            add_to(&mut crossed, term, weight);
         }
     }
     let of_chunk = |net: &Net, expansion: &Expansion| {
@@ -279,7 +269,7 @@ fn own_contributions(
     let of_net = |(number, outputs): (usize, &Vec<Vec<f64>>)| {
         in_chunks(outputs.first().map_or(0, Vec::len), |points| {
             let part: Vec<&[f64]> = outputs.iter().map(|run| &run[points.clone()]).collect();
-            let net = Net::of_points(&own.design, number as u64, points.start as u64, families, degree, &part);
+            let net = Net::new(&own.design, number as u64, points.start as u64, families, degree, &part);
             of_chunk(&net, &nothing)
         })
     };

@@ -20,7 +20,7 @@ use basis::{Caps, Family, Term};
 use beyond::Beyond;
 use carried::Carried;
 use corrected::Contributions;
-use fit::{Expansion, Expansions, NetSums, Training, first_candidates, fit, fit_in_rounds, selection_rows};
+use fit::{Expansion, Expansions, MAX_ROUNDS, NetSums, Training, first_candidates, fit, selection_rows};
 use net::Net;
 use rayon::prelude::*;
 pub use together::surrogates_together;
@@ -198,46 +198,54 @@ fn residual_powers(nets: &[Contributions]) -> (f64, f64) {
 /// Returns for every net the expansion fitted to the others.
 pub fn cross_fitted(nets: &[Net], caps: Caps<'_>) -> Vec<Expansion> {
     let training: Vec<Training<'_>> = nets.iter().map(Training::new).collect();
-    fitted_to_others(nets, &training, caps).iter().map(|expansions| expansions.of_output(0)).collect()
+    fitted_to_others(nets, &training, caps, None).iter().map(|expansions| expansions.of_output(0)).collect()
 }
 
-/// Returns for every net the expansions fitted to the `training` runs of the others.
-fn fitted_to_others(nets: &[Net], training: &[Training<'_>], caps: Caps<'_>) -> Vec<Expansions> {
+/// Returns for every net the expansions fitted to the `training` runs of the others; in one round of few candidates if a
+/// longer run has `chosen` terms for each net.
+fn fitted_to_others(
+    nets: &[Net],
+    training: &[Training<'_>],
+    caps: Caps<'_>,
+    chosen: Option<&[Vec<Term>]>,
+) -> Vec<Expansions> {
     let carried = Carried::new(nets, caps);
-    let (candidates, rows) = first_round(nets, &carried);
+    if let Some(chosen) = chosen {
+        let of_net = |k: usize| fitted_without(training, k, &carried.retain(chosen[k].clone()), &carried, 1);
+        return (0..nets.len()).into_par_iter().map(of_net).collect();
+    }
+    let (candidates, rows) = (first_round(nets, &carried), selection_rows(nets.len() - 1));
     let sums: Vec<NetSums> = training.par_iter().map(|net| NetSums::new(net, &candidates, rows)).collect();
-    let of_net = |k: usize| fit(&without(training, k), (&candidates, &without(&sums, k)), &carried);
+    let of_net = |k: usize| fit(&without(training, k), (&candidates, &without(&sums, k)), &carried, MAX_ROUNDS);
     (0..nets.len()).into_par_iter().map(of_net).collect()
 }
 
-/// Does the same in some of the terms that a longer run has `chosen` for each net: one round of few candidates.
-fn fitted_among(nets: &[Net], training: &[Training<'_>], caps: Caps<'_>, chosen: &[Vec<Term>]) -> Vec<Expansions> {
-    let carried = Carried::new(nets, caps);
-    let rows = selection_rows(nets.len() - 1);
-    let of_net = |k: usize| {
-        let (terms, others) = (carried.retain(chosen[k].clone()), without(training, k));
-        let sums: Vec<NetSums> = others.iter().map(|net| NetSums::new(net, &terms, rows)).collect();
-        fit_in_rounds(&others, (&terms, &sums.iter().collect::<Vec<_>>()), &carried, 1)
-    };
-    (0..nets.len()).into_par_iter().map(of_net).collect()
-}
-
-/// Returns the candidates of the first round, and the number of rows of each net that choose among them.
-fn first_round(nets: &[Net], carried: &Carried<'_>) -> (Vec<Term>, usize) {
-    let training = nets.len() - 1;
-    let rows = selection_rows(training);
-    let all_rows = nets.iter().map(|net| rows.min(net.points() * net.runs())).sum::<usize>() * training / nets.len();
-    (first_candidates(carried, all_rows), rows)
+/// Returns the expansions fitted to all nets except number `k` in at most `max_rounds` rounds, from these `candidates` on.
+fn fitted_without(
+    training: &[Training<'_>],
+    k: usize,
+    candidates: &[Term],
+    carried: &Carried<'_>,
+    max_rounds: usize,
+) -> Expansions {
+    let (others, rows) = (without(training, k), selection_rows(training.len() - 1));
+    let sums: Vec<NetSums> = others.iter().map(|net| NetSums::new(net, candidates, rows)).collect();
+    fit(&others, (candidates, &sums.iter().collect::<Vec<_>>()), carried, max_rounds)
 }
 
 /// Returns the expansion fitted to all nets except number `k`.
 fn expansion_without(nets: &[Net], k: usize, caps: Caps<'_>) -> Expansion {
     let carried = Carried::new(nets, caps);
-    let (candidates, rows) = first_round(nets, &carried);
-    let others: Vec<Training<'_>> = without(nets, k).into_iter().map(Training::new).collect();
-    let sums: Vec<NetSums> = others.iter().map(|net| NetSums::new(net, &candidates, rows)).collect();
-    let (others, sums): (Vec<&Training<'_>>, Vec<&NetSums>) = (others.iter().collect(), sums.iter().collect());
-    fit(&others, (&candidates, &sums), &carried).of_output(0)
+    let training: Vec<Training<'_>> = nets.iter().map(Training::new).collect();
+    fitted_without(&training, k, &first_round(nets, &carried), &carried, MAX_ROUNDS).of_output(0)
+}
+
+/// Returns the candidates of the first round.
+fn first_round(nets: &[Net], carried: &Carried<'_>) -> Vec<Term> {
+    let training = nets.len() - 1;
+    let rows = selection_rows(training);
+    let all_rows = nets.iter().map(|net| rows.min(net.points() * net.runs())).sum::<usize>() * training / nets.len();
+    first_candidates(carried, all_rows)
 }
 
 /// Returns the factors of every swap in rising order.
@@ -297,28 +305,18 @@ fn estimates(corrected: &Corrected, low: &[Contributions], (mean, sd): (f64, f64
         Influenced { estimate: mean + of_low, parts, low, beyond }
     };
     let variance = gathered(&|net| &net.variance, beyond.variance);
-    let index = |numerator: &Influenced| {
-        let estimate = numerator.estimate / variance.estimate;
-        let scale = 1.0 / variance.estimate;
-        Influenced { estimate, ..Influenced::combined(&[(scale, numerator), (-estimate * scale, &variance)]) }
+    let indices = |column: &dyn Fn(&Contributions) -> &Vec<Vec<f64>>, beyond: &[f64]| -> Vec<Influenced> {
+        let index = |(k, &beyond): (usize, &f64)| gathered(&|net| &column(net)[k], beyond).over(&variance);
+        beyond.iter().enumerate().map(index).collect()
     };
-    let first_order: Vec<Influenced> = (0..nets[0].first_order.len())
-        .map(|swap| index(&gathered(&|net| &net.first_order[swap], beyond.first_order[swap])))
-        .collect();
-    let second_order: Vec<Influenced> =
-        (0..nets[0].pairs.len()).map(|pair| index(&gathered(&|net| &net.pairs[pair], beyond.pairs[pair]))).collect();
-    let forms: [Vec<Influenced>; 2] = [0, 1].map(|form| {
-        (0..nets[0].total[form].len())
-            .map(|swap| index(&gathered(&|net| &net.total[form][swap], beyond.total[swap])))
-            .collect()
-    });
+    let first_order = indices(&|net| &net.first_order, &beyond.first_order);
+    let second_order = indices(&|net| &net.pairs, &beyond.pairs);
+    let forms = [0, 1].map(|form| indices(&|net| &net.total[form], &beyond.total));
     let weight = weight_of_second(&forms);
     let mixed = |(a, b): (&Influenced, &Influenced)| Influenced::combined(&[(1.0 - weight, a), (weight, b)]);
     let total = forms[0].iter().zip(&forms[1]).map(mixed).collect();
-    let scaled = |of: Influenced, offset: f64, scale: f64| Influenced {
-        estimate: offset + scale * of.estimate,
-        ..Influenced::combined(&[(scale, &of)])
-    };
+    let scaled =
+        |of: Influenced, offset: f64, scale: f64| Influenced::linear(offset + scale * of.estimate, &[(scale, &of)]);
     SurrogateEstimates {
         first_order,
         total,
@@ -365,16 +363,21 @@ fn weight_of_second([first, second]: &[Vec<Influenced>; 2]) -> f64 {
     if variance > 0.0 { (-covariance / variance).clamp(0.0, 1.0) } else { 0.0 }
 }
 
+/// Adds `more` to the number of `key` in `list`, which has its keys in the order in which they came.
+fn add_to<K: PartialEq>(list: &mut Vec<(K, f64)>, key: K, more: f64) {
+    match list.iter_mut().find(|(known, _)| *known == key) {
+        Some((_, sum)) => *sum += more,
+        None => list.push((key, more)),
+    }
+}
+
 /// Returns the terms of all surrogates by their mean share of the variance.
 pub fn leading_terms(expansions: &[Expansion], variance: f64) -> Vec<SurrogateTerm> {
     let mut terms: Vec<(&Term, f64)> = Vec::new();
     for expansion in expansions {
         for (term, b) in expansion.terms.iter().zip(&expansion.coefficients).filter(|(term, _)| !term.is_empty()) {
             let share = b * b / variance / expansions.len() as f64;
-            match terms.iter_mut().find(|(known, _)| *known == term) {
-                Some((_, sum)) => *sum += share,
-                None => terms.push((term, share)),
-            }
+            add_to(&mut terms, term, share);
         }
     }
     terms.sort_by(|a, b| b.1.total_cmp(&a.1).then_with(|| a.0.cmp(b.0)));

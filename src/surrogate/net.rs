@@ -8,86 +8,69 @@ use crate::design::{Design, Run};
 /// One scrambled net: its base points by their polynomials, and an output at each of their runs. Base points at which a
 /// run failed are left out.
 pub struct Net {
-    /// For each matrix and factor a column for each degree from 1.
-    columns: Arc<Vec<Vec<Vec<f64>>>>,
-    /// For each matrix and factor the quantiles.
-    quantiles: Arc<Vec<Vec<f64>>>,
-    factors: usize,
+    rows: Arc<NetRows>,
     /// For each run its standardised outputs.
     pub outputs: Vec<Vec<f64>>,
+}
+
+/// The base points of a net, and the matrices of its runs.
+struct NetRows {
+    /// For each matrix and factor a column for each degree from 1.
+    columns: Vec<Vec<Vec<f64>>>,
+    /// For each matrix and factor the quantiles.
+    quantiles: Vec<Vec<f64>>,
+    factors: usize,
     /// For each run and factor the matrix of its column.
-    matrices: Arc<Vec<Vec<usize>>>,
+    matrices: Vec<Vec<usize>>,
     points: usize,
 }
 
 impl Net {
-    /// Creates a net of the first base points of `replicate` whose `outputs`, a column for each run, are all finite.
-    pub fn new(design: &Design, replicate: u64, families: &[Family], degree: usize, outputs: &[Vec<f64>]) -> Self {
-        let outputs: Vec<&[f64]> = outputs.iter().map(Vec::as_slice).collect();
-        Self::of_points(design, replicate, 0, families, degree, &outputs)
-    }
-
-    /// Does the same from base point number `first` on.
-    pub fn of_points(
+    /// Creates a net of the base points of `replicate` from number `first` on whose `outputs`, a column for each run,
+    /// are all finite.
+    pub fn new(
         design: &Design,
         replicate: u64,
         first: u64,
         families: &[Family],
         degree: usize,
-        outputs: &[&[f64]],
+        outputs: &[impl AsRef<[f64]>],
     ) -> Self {
+        let outputs: Vec<&[f64]> = outputs.iter().map(AsRef::as_ref).collect();
         let count = outputs.first().map_or(0, |run| run.len());
         let good: Vec<usize> = (0..count).filter(|&p| outputs.iter().all(|run| run[p].is_finite())).collect();
         let mut base = vec![vec![0.0; count]; design.columns()];
         design.replicate(replicate).fill(first, &mut base);
         let factors = design.factors();
-        let base: Vec<Vec<f64>> = base.iter().map(|u| good.iter().map(|&p| u[p]).collect()).collect();
+        let quantiles: Vec<Vec<f64>> = base.iter().map(|u| good.iter().map(|&p| u[p]).collect()).collect();
         let of_column = |(number, u): (usize, &Vec<f64>)| polynomials(&families[number % factors], u, degree);
         let matrix = |run: &Run, factor: usize| {
             design.first_column(if run.columns.binary_search(&factor).is_ok() { run.from } else { run.base }) / factors
         };
+        let columns = quantiles.iter().enumerate().map(of_column).collect();
+        let matrices = design.runs().iter().map(|run| (0..factors).map(|f| matrix(run, f)).collect()).collect();
         Self {
-            columns: Arc::new(base.iter().enumerate().map(of_column).collect()),
-            quantiles: Arc::new(base),
-            factors,
+            rows: Arc::new(NetRows { columns, quantiles, factors, matrices, points: good.len() }),
             outputs: outputs.iter().map(|run| good.iter().map(|&p| run[p]).collect()).collect(),
-            matrices: Arc::new(
-                design.runs().iter().map(|run| (0..factors).map(|f| matrix(run, f)).collect()).collect(),
-            ),
-            points: good.len(),
         }
     }
 
     /// Creates a net of plain rows, one run of one matrix: `columns` has a column for each factor and degree from 1.
     pub fn of_rows(columns: Vec<Vec<Vec<f64>>>, outputs: Vec<f64>) -> Self {
         let (factors, points) = (columns.len(), outputs.len());
-        let matrices = Arc::new(vec![vec![0; factors]]);
-        Self {
-            columns: Arc::new(columns),
-            quantiles: Arc::default(),
-            factors,
-            outputs: vec![outputs],
-            matrices,
-            points,
-        }
+        let matrices = vec![vec![0; factors]];
+        let rows = NetRows { columns, quantiles: Vec::new(), factors, matrices, points };
+        Self { rows: Arc::new(rows), outputs: vec![outputs] }
     }
 
     /// Returns the net with other `outputs` at the same rows.
     pub fn with_outputs(&self, outputs: Vec<Vec<f64>>) -> Self {
-        let Self { columns, quantiles, factors, matrices, points, .. } = self;
-        Self {
-            columns: Arc::clone(columns),
-            quantiles: Arc::clone(quantiles),
-            factors: *factors,
-            outputs,
-            matrices: Arc::clone(matrices),
-            points: *points,
-        }
+        Self { rows: Arc::clone(&self.rows), outputs }
     }
 
     /// Returns the number of base points.
     pub fn points(&self) -> usize {
-        self.points
+        self.rows.points
     }
 
     /// Returns the number of runs of each of them.
@@ -97,28 +80,29 @@ impl Net {
 
     /// Returns the polynomial of `degree` of `factor` at the base points of `run`.
     fn column(&self, run: usize, factor: usize, degree: usize) -> &[f64] {
-        &self.columns[self.matrices[run][factor] * self.factors + factor][degree - 1]
+        &self.rows.columns[self.rows.matrices[run][factor] * self.rows.factors + factor][degree - 1]
     }
 
     /// Returns the quantiles of `factor` at the base points of `run`.
     pub fn quantiles(&self, run: usize, factor: usize) -> &[f64] {
-        &self.quantiles[self.matrices[run][factor] * self.factors + factor]
+        &self.rows.quantiles[self.rows.matrices[run][factor] * self.rows.factors + factor]
     }
 
     /// Returns mean and mean square of the polynomials of each degree of `factor` over the columns of all matrices.
     pub fn spreads(&self, factor: usize) -> Vec<(f64, f64)> {
-        let matrices = self.columns.len() / self.factors;
-        let columns = |degree: usize| (0..matrices).map(move |m| &self.columns[m * self.factors + factor][degree]);
-        let count = (matrices * self.points).max(1) as f64;
+        let matrices = self.rows.columns.len() / self.rows.factors;
+        let columns =
+            |degree: usize| (0..matrices).map(move |m| &self.rows.columns[m * self.rows.factors + factor][degree]);
+        let count = (matrices * self.rows.points).max(1) as f64;
         let mean = |degree: usize, of: fn(&f64) -> f64| columns(degree).flatten().map(of).sum::<f64>() / count;
-        (0..self.columns[factor].len()).map(|k| (mean(k, |x| *x), mean(k, |x| x * x))).collect()
+        (0..self.rows.columns[factor].len()).map(|k| (mean(k, |x| *x), mean(k, |x| x * x))).collect()
     }
 
     /// Writes the values of `term` at every base point of `run` to `values`.
     pub fn fill(&self, term: &Term, run: usize, values: &mut Vec<f64>) {
         values.clear();
         let Some(((factor, degree), others)) = term.split_first() else {
-            values.resize(self.points, 1.0);
+            values.resize(self.rows.points, 1.0);
             return;
         };
         values.extend_from_slice(self.column(run, *factor, *degree));
@@ -131,7 +115,7 @@ impl Net {
     /// Returns at most `most` rows (run, base point) in the order of the runs: one at a pseudo-random place in each of
     /// as many equal stretches. Points at equal distances near a power of two are not a net, and miss rare levels.
     pub fn spaced_rows(&self, most: usize) -> Vec<(usize, usize)> {
-        let all = self.points * self.runs();
+        let all = self.rows.points * self.runs();
         let count = all.min(most);
         let row = |k: usize| {
             let (first, next) = (k * all / count, (k + 1) * all / count);
@@ -139,7 +123,7 @@ impl Net {
             let within = (k as u32).wrapping_mul(0x9e37_79b9);
             first + (((next - first) * (within >> 16) as usize) >> 16)
         };
-        (0..count).map(row).map(|row| (row / self.points, row % self.points)).collect()
+        (0..count).map(row).map(|row| (row / self.rows.points, row % self.rows.points)).collect()
     }
 
     /// Returns the values of `term` at some rows, in the order of the runs.

@@ -12,8 +12,8 @@ use super::fit::{Expansion, Expansions, Training};
 use super::knots::{Knotted, MAX_MOVED, knots};
 use super::net::Net;
 use super::{
-    Corrected, MAX_HERMITE_DEGREES, Scaled, Trial, estimates, fewest_points, fitted_among, fitted_design,
-    fitted_to_others, in_chunks, scaled, sorted_swaps, surrogate_estimates, takes_surrogates, trials,
+    Corrected, MAX_HERMITE_DEGREES, Scaled, Trial, estimates, fewest_points, fitted_design, fitted_to_others,
+    in_chunks, scaled, sorted_swaps, surrogate_estimates, takes_surrogates, trials,
 };
 use crate::design::Design;
 use crate::estimate::PointOutputs;
@@ -122,7 +122,7 @@ pub(super) fn of_neighbours(
                 }
                 in_chunks(all, |chunk| {
                     let rows: Vec<&[f64]> = outputs[number].0[k].iter().map(|run| &run[chunk.clone()]).collect();
-                    of(&Net::of_points(design, k as u64, chunk.start as u64, families, *degree, &rows), &expansions[k])
+                    of(&Net::new(design, k as u64, chunk.start as u64, families, *degree, &rows), &expansions[k])
                 })
             };
             let nets = (0..nets.len()).into_par_iter().map(of_net).collect();
@@ -150,8 +150,7 @@ pub(super) fn of_neighbours(
                     break;
                 }
                 // The second time with the terms of the first, and with the knots where these place them.
-                let of_found = |of: &Expansion| of.terms.clone();
-                terms = Some(found.expansions.iter().map(of_found).collect::<Vec<Vec<Term>>>());
+                terms = Some(terms_of(&found.expansions));
                 let placed = if is_last { Vec::new() } else { fit.placed(&fitted, outputs[0], &found.expansions) };
                 if found.unknown() <= ratio * best.unknown() {
                     (knots, best) = (next, found);
@@ -159,15 +158,14 @@ pub(super) fn of_neighbours(
                 next = placed;
             }
         }
-        let terms = |of: &Expansion| of.terms.clone();
-        let chosen = (outputs.len() == 1).then(|| ChosenTerms {
-            kind,
-            knots,
-            of_nets: best.expansions.iter().map(terms).collect(),
-        });
+        let chosen = (outputs.len() == 1).then(|| ChosenTerms { kind, knots, of_nets: terms_of(&best.expansions) });
         Some(SurrogateEstimates { chosen, ..estimates(&best, &[], outputs[number].1) })
     };
     (0..outputs.len()).into_par_iter().map(of_output).collect()
+}
+
+fn terms_of(expansions: &[Expansion]) -> Vec<Vec<Term>> {
+    expansions.iter().map(|expansion| expansion.terms.clone()).collect()
 }
 
 /// Returns functions of all factors with these `knots`: the trial for an output with large residuals of polynomials.
@@ -203,23 +201,18 @@ impl Fit {
         let points = design.points_per_replicate() as usize;
         let net = |(number, outputs): (usize, &Vec<Vec<f64>>)| {
             let outputs: Vec<&[f64]> = outputs.iter().map(|run| &run[..points]).collect();
-            Net::of_points(design, number as u64, 0, &trial.families, caps.degree, &outputs)
+            Net::new(design, number as u64, 0, &trial.families, caps.degree, &outputs)
         };
         let nets: Vec<Net> = first.0.par_iter().enumerate().map(net).collect();
         let of_net = |number: usize| runs.iter().map(|of_output| of_output[number].as_slice()).collect();
         let training = nets.iter().enumerate().map(|(number, net)| Training::of_outputs(net, of_net(number)));
         let training: Vec<Training<'_>> = training.collect();
-        let expansions = match chosen {
-            Some(chosen) => fitted_among(&nets, &training, caps, chosen),
-            None => fitted_to_others(&nets, &training, caps),
-        };
+        let expansions = fitted_to_others(&nets, &training, caps, chosen);
         drop(training);
         let degree = caps.degree;
         Self { nets, families: trial.families, degree, expansions, ratio: trial.ratio }
     }
-}
 
-impl Fit {
     /// Finds the knots of every factor, with polynomials in `families`, in the residuals of these expansions.
     fn knots(&self, families: &[Family], expansions: &[Expansion]) -> Vec<Vec<Knot>> {
         let nets = self.nets.iter().zip(expansions);
@@ -239,7 +232,7 @@ impl Fit {
             let families: Vec<Family> = self.families.iter().map(of_factor).collect();
             let of_net = |(k, expansion): (usize, &Expansion)| {
                 let runs: Vec<&[f64]> = output.0[k].iter().map(|run| &run[..points]).collect();
-                values_and_rest(&Net::of_points(design, k as u64, 0, &families, self.degree, &runs), expansion).0
+                values_and_rest(&Net::new(design, k as u64, 0, &families, self.degree, &runs), expansion).0
             };
             expansions.par_iter().enumerate().map(of_net).collect()
         };

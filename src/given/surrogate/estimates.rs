@@ -15,14 +15,10 @@ pub(super) fn surrogate_output(fitted: &Fitted, names: &[&str]) -> SurrogateOutp
         // The residual is then larger than the total; the outputs have variance 1.
         variance.estimate = 1.0;
     }
-    let index = |numerator: &Influenced| {
-        let (estimate, scale) = (numerator.estimate / variance.estimate, 1.0 / variance.estimate);
-        Influenced { estimate, ..Influenced::combined(&[(scale, numerator), (-estimate * scale, &variance)]) }
-    };
     let of_first_order = |input: usize| gathered(folds, rows, beyond.first_order[input], To::FirstOrder(input));
     let of_total = |input: usize| gathered(folds, rows, beyond.total[input], To::Total(input));
-    let first_order: Vec<Influenced> = (0..names.len()).map(|input| index(&of_first_order(input))).collect();
-    let total: Vec<Influenced> = (0..names.len()).map(|input| index(&of_total(input))).collect();
+    let first_order: Vec<Influenced> = (0..names.len()).map(|input| of_first_order(input).over(&variance)).collect();
+    let total: Vec<Influenced> = (0..names.len()).map(|input| of_total(input).over(&variance)).collect();
     let left = fitted.left_square() / variance.estimate;
     let unknown = left.clamp(0.0, 1.0);
     let noise = |list: &[Influenced], skewed: bool| {
