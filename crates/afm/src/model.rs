@@ -113,7 +113,7 @@ impl AfmModel {
         let rungs = Fidelity::ALL.iter().map(|rung| counter(format!("{RUNGS}{}", rung.name()), CounterKind::Sum));
         let cost = [(EVALUATIONS, CounterKind::Sum), (LARGEST_ERROR, CounterKind::Maximum)];
         let counters = rungs.chain(cost.map(|(name, kind)| counter(name.to_owned(), kind))).collect();
-        Self { scene, options, factors, outputs, which, histories: Histories::none(), flags, counters }
+        Self { scene, options, factors, outputs, which, histories: Histories::default(), flags, counters }
     }
 
     /// Adds to the flag of the Tabor parameter what a suitable contact theory would change at the point `nominal`.

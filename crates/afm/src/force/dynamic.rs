@@ -4,7 +4,7 @@
 //! take some 1e7 steps. If the swing excited by the start is below the tolerance (at the nominal scene it is 1e-7 of
 //! F_Y) the stiff method ([`Rodas`], L-stable) steps over it. The error of theta' is then weighted by the swing it
 //! would cause, theta'/omega, otherwise the start alone, with a relative error of theta' of k_lat/K_y, would require
-//! steps of 1/omega throughout; and the event is located by steps, not by dense output. If the swing matters, a stuck
+//! steps of 1/omega throughout; and the event is located by steps, not by interpolation. If the swing matters, a stuck
 //! tip is [extrapolated](super::carried) to just before the slip and followed from there. On LuGre bristles, which
 //! change it as they give way, the swing is left to the damping of the method, and counted as an error.
 

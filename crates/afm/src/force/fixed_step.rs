@@ -51,7 +51,7 @@ fn march(motion: &Motion, substrate: &Substrate, limit: &Slip) -> Result<(Slip, 
     for i in 0..options.step_budget {
         let t = i as f64 * h;
         let attempt = Rodas::step(motion, &State { t, y, rate: motion.rate(t, &y) }, h);
-        y = attempt.step.at(1.0);
+        y = attempt.end;
         let travel = (i + 1) as f64 * h;
         let tip = motion.tip(travel, &y);
         evaluations += attempt.evaluations;

@@ -82,7 +82,7 @@ impl AfmMoments {
 }
 
 /// The histories of a model, whose values are its last outputs.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct Histories {
     which: Vec<AfmHistory>,
     times: Vec<f64>,
@@ -90,10 +90,6 @@ pub(super) struct Histories {
 }
 
 impl Histories {
-    pub fn none() -> Self {
-        Self { which: Vec::new(), times: Vec::new(), series: Vec::new() }
-    }
-
     /// Creates the histories of a model with `first` other outputs.
     pub fn new(which: &[AfmHistory], moments: &AfmMoments, first: usize) -> Self {
         let times = moments.times().to_vec();

@@ -2,7 +2,7 @@
 
 use std::marker::PhantomData;
 
-use super::{Failure, Method, Problem, State, Step};
+use super::{Failure, Method, Problem, State};
 use crate::root::{self, Point};
 
 /// Accuracy and limits of an integration.
@@ -76,7 +76,7 @@ impl<'a, M: Method, P: Problem<N>, const N: usize> March<'a, M, P, N> {
     /// # Errors
     /// [`Failure::StepBudget`] once the budget is spent, [`Failure::StepTooSmall`] if no step that moves the time is
     /// accurate enough.
-    pub fn advance(&mut self, horizon: f64) -> Result<Step<N>, Failure> {
+    pub fn advance(&mut self, horizon: f64) -> Result<(), Failure> {
         loop {
             let left = horizon - self.state.t;
             let last = self.h >= left * (1.0 - 1e-12);
@@ -91,7 +91,7 @@ impl<'a, M: Method, P: Problem<N>, const N: usize> March<'a, M, P, N> {
             self.steps += 1;
             let attempt = M::step(self.problem, &self.state, h);
             self.evaluations += attempt.evaluations;
-            let end = attempt.step.at(1.0);
+            let end = attempt.end;
             let error = self.size_of(&attempt.error, &end);
             let usable = error.is_finite() && attempt.rate.iter().all(|value| value.is_finite());
             let factor = if usable { 0.9 * libm::pow(error, -1.0 / f64::from(M::ERROR_ORDER)) } else { 0.1 };
@@ -101,7 +101,7 @@ impl<'a, M: Method, P: Problem<N>, const N: usize> March<'a, M, P, N> {
                 self.h = if last { next.max(self.h) } else { next };
                 let t = if last { horizon } else { self.state.t + h };
                 self.state = State { t, y: end, rate: attempt.rate };
-                return Ok(attempt.step);
+                return Ok(());
             }
             self.h = h * factor.clamp(0.1, 0.9);
         }
@@ -109,7 +109,7 @@ impl<'a, M: Method, P: Problem<N>, const N: usize> March<'a, M, P, N> {
 
     /// Integrates until `event` rises through zero, or to `horizon`.
     ///
-    /// The event is located by steps of other lengths from the same start, not by the dense output: on a slow motion
+    /// The event is located by steps of other lengths from the same start, not by interpolation: on a slow motion
     /// between fast modes the ends of the steps are far more accurate than anything between them.
     ///
     /// # Errors
@@ -142,7 +142,7 @@ impl<'a, M: Method, P: Problem<N>, const N: usize> March<'a, M, P, N> {
         let mut to = |t: f64| {
             let attempt = M::step(self.problem, start, t - start.t);
             self.evaluations += attempt.evaluations;
-            attempt.step.at(1.0)
+            attempt.end
         };
         let t = root::between(low, high, |t| event(t, &to(t)))?;
         // The ends of the bracket are known, and a step of zero length has no end.

@@ -1,5 +1,5 @@
-//! Initial value problems of a few unknowns: one explicit method, one for stiff problems, both with dense output and
-//! the location of events.
+//! Initial value problems of a few unknowns: one explicit method, one for stiff problems, both with the location of
+//! events.
 //!
 //! [`March`] takes adaptive steps; [`March::until`] stops where an event function rises through zero. Every cause of an
 //! early stop has its own [`Failure`], and a budget limits the work.
@@ -59,34 +59,14 @@ pub struct State<const N: usize> {
 /// A step, accepted or not.
 #[derive(Clone, Copy, Debug)]
 pub struct Attempt<const N: usize> {
-    /// The step.
-    pub step: Step<N>,
+    /// Unknowns at the end.
+    pub end: [f64; N],
     /// f at the end.
     pub rate: [f64; N],
     /// Estimated local error.
     pub error: [f64; N],
     /// Number of evaluations of f.
     pub evaluations: u64,
-}
-
-/// One step as a polynomial in time.
-#[derive(Clone, Copy, Debug)]
-pub struct Step<const N: usize> {
-    /// Time at the start.
-    pub t: f64,
-    /// Length in time.
-    pub h: f64,
-    /// c of y = c0 + s (c1 + (1 - s) (c2 + s (c3 + (1 - s) c4))), s from 0 to 1 (Hairer, Norsett & Wanner 1993, II.6).
-    pub coefficients: [[f64; N]; 5],
-}
-
-impl<const N: usize> Step<N> {
-    /// Returns the unknowns at the fraction `s` of the step, 0 to 1.
-    pub fn at(&self, s: f64) -> [f64; N] {
-        let [c0, c1, c2, c3, c4] = &self.coefficients;
-        let r = 1.0 - s;
-        std::array::from_fn(|i| c0[i] + s * (c1[i] + r * (c2[i] + s * (c3[i] + r * c4[i]))))
-    }
 }
 
 /// Checks the Jacobian of `problem` against central differences over `step`, to 1e-6 for their curvature.

@@ -1,11 +1,10 @@
 //! A Rosenbrock method for stiff problems.
 
 use super::linear::Factors;
-use super::{Attempt, Method, Problem, State, Step};
+use super::{Attempt, Method, Problem, State};
 
 /// RODAS4 of Hairer & Wanner 1996 (Solving Ordinary Differential Equations II, section IV.7 and VI.4): order 4(3), six
-/// stages, stiffly accurate, L-stable, for ordinary and index-1 differential-algebraic problems; third-order dense
-/// output. One Jacobian, one factorisation and six evaluations per step, no iteration, so that a step cannot stall.
+/// stages, stiffly accurate, L-stable, for ordinary and index-1 differential-algebraic problems. One Jacobian, one factorisation and six evaluations per step, no iteration, so that a step cannot stall.
 #[derive(Clone, Copy, Debug)]
 pub struct Rodas;
 
@@ -31,23 +30,6 @@ const C: [[f64; 5]; 5] = [
 ];
 const TIMES: [f64; 6] = [0.0, 0.386, 0.21, 0.63, 1.0, 1.0];
 const TIME_RATES: [f64; 6] = [0.25, -0.1043, 0.1035, -0.036_2, 0.0, 0.0];
-const DENSE: [[f64; 5]; 2] = [
-    [
-        10.126_235_083_445_86,
-        -7.487_995_877_610_167,
-        -34.800_918_615_557_47,
-        -7.992_771_707_568_823,
-        1.025_137_723_295_662,
-    ],
-    [
-        -0.676_280_339_280_125_3,
-        6.087_714_651_680_015,
-        16.430_843_208_924_78,
-        24.767_225_114_183_86,
-        -6.594_389_125_716_872,
-    ],
-];
-
 impl Method for Rodas {
     const ERROR_ORDER: i32 = 4;
 
@@ -76,15 +58,13 @@ impl Method for Rodas {
             }
             k[stage] = factors.solve(&b);
         }
-        let end: [f64; N] = std::array::from_fn(|i| y[i] + k[5][i]);
-        let rise = std::array::from_fn(|i| end[i] - start.y[i]);
-        let [bend, twist] = DENSE.map(|weights| shifted(&[0.0; N], &weights, &k));
-        Attempt {
-            step: Step { t: start.t, h, coefficients: [start.y, rise, bend, twist, [0.0; N]] },
-            rate: problem.rate(start.t + h, &end),
-            error: k[5],
-            evaluations: 6,
-        }
+        let last: [f64; N] = std::array::from_fn(|i| y[i] + k[5][i]);
+        let end = std::array::from_fn(|i| {
+            // The bits of all results rest on this form.
+            let rise = last[i] - start.y[i];
+            start.y[i] + rise
+        });
+        Attempt { end, rate: problem.rate(start.t + h, &last), error: k[5], evaluations: 6 }
     }
 }
 
