@@ -63,16 +63,16 @@ pub fn afm_outputs() -> Vec<Output> {
 
 /// Returns the choices of `[afm]`.
 pub fn afm_choices() -> Vec<Choice> {
-    fn names<T: Copy>(all: &[T], name: fn(T) -> &'static str) -> Vec<&'static str> {
-        all.iter().map(|&choice| name(choice)).collect()
-    }
     vec![
-        ("friction", names(&FrictionLaw::ALL, FrictionLaw::name)),
-        ("contact", names(&ContactTheory::ALL, ContactTheory::name)),
-        ("fidelity", names(&Fidelity::ALL, Fidelity::name)),
-        ("torsion", names(&Torsion::ALL, Torsion::name)),
+        ("friction", FrictionLaw::ALL.map(FrictionLaw::name).to_vec()),
+        ("contact", ContactTheory::ALL.map(ContactTheory::name).to_vec()),
+        ("fidelity", Fidelity::ALL.map(Fidelity::name).to_vec()),
+        ("torsion", Torsion::ALL.map(Torsion::name).to_vec()),
         ("adhesion_in_load", vec!["false", "true"]),
-        ("lugre_parameters (lugre at quasi-static and above)", names(&LuGreParameters::ALL, LuGreParameters::name)),
+        (
+            "lugre_parameters (lugre at quasi-static and above)",
+            LuGreParameters::ALL.map(LuGreParameters::name).to_vec(),
+        ),
         ("tolerance (quasi-static and above)", vec!["a number, 1e-6"]),
         ("step (fixed-step)", vec!["a time, \"10 ms\""]),
         ("step_budget (marched rungs)", vec!["a whole number, 1000000"]),

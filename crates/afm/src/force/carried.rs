@@ -13,13 +13,8 @@ use super::quasi_static::Statics;
 use super::slip::Slip;
 use super::substrate::Substrate;
 use crate::Failure;
+use crate::ode::End;
 use crate::root::{self, Point};
-
-/// The unknowns of [`Motion`] at a time.
-pub(super) struct Eve {
-    pub t: f64,
-    pub y: [f64; 2],
-}
 
 impl Motion<'_> {
     /// Returns the relative change of omega from the start to the twist `theta`, plus theta^2 for the other terms of
@@ -32,12 +27,12 @@ impl Motion<'_> {
     ///
     /// # Errors
     /// None: the search for the equilibrium cannot fail.
-    pub fn carried_to(&self, t: f64, last: f64) -> Result<Eve, Failure> {
+    pub fn carried_to(&self, t: f64, last: f64) -> Result<End<2>, Failure> {
         let statics = self.statics;
         let travel = |theta: f64| statics.travel(theta, statics.lateral_force(theta)) - t * self.length;
         let (start, end) = (Point { x: 0.0, y: travel(0.0) }, Point { x: last, y: travel(last) });
         let theta = root::between(start, end, |theta| Ok(travel(theta)))?;
-        Ok(Eve { t, y: self.swung(theta, self.phase(theta)) })
+        Ok(End { t, y: self.swung(theta, self.phase(theta)) })
     }
 
     /// Returns phi at the equilibrium at the twist `theta` (rad), the integral of omega dt from the start.

@@ -114,7 +114,7 @@ fn twisting(substrate: &Substrate, probe: &Probe, slip: &Slip) -> Error {
     // A twentieth more, for the terms of higher order.
     let normal = 1.05 * 0.5 * probe.normal * height * twist * twist;
     // Otherwise it tips the probe over, or lifts the tip until nothing holds the particle down.
-    let holds = (softened > 0.0) & (normal < slip.normal_force - substrate.least_normal_force());
+    let holds = (softened > 0.0) & (normal < slip.normal_force + substrate.support);
     let lateral = normal * substrate.slope(slip.lateral_force, slip.normal_force);
     Error { normal: if holds { normal } else { f64::INFINITY }, lateral: if holds { lateral } else { 0.0 } }
 }

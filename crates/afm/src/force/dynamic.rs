@@ -11,7 +11,6 @@
 use std::f64::consts::TAU;
 
 use super::bristles::Bristles;
-use super::carried::Eve;
 use super::motion::{FINEST, Motion, Tip, local_tolerance};
 use super::quasi_static::{self, Statics};
 use super::slip::{Error, Slip};
@@ -137,7 +136,7 @@ fn swinging(motion: &Motion, substrate: &Substrate, limit: &Slip, swing: f64) ->
     let lead = 2.0 * swing + 2.0 * TAU / frequency;
     let kept = 10.0 * swing * motion.drift(limit.twist) / frequency < 0.05 * tolerance;
     let start =
-        if kept && lead < 0.5 { motion.carried_to(1.0 - lead, limit.twist)? } else { Eve { t: 0.0, y: [0.0, 1.0] } };
+        if kept && lead < 0.5 { motion.carried_to(1.0 - lead, limit.twist)? } else { End { t: 0.0, y: [0.0, 1.0] } };
     let budget = substrate.options.step_budget;
     if (1.0 - start.t) * frequency / RESOLVED > budget as f64 {
         return Err(Failure::StepBudget);

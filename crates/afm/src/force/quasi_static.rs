@@ -188,7 +188,7 @@ impl<'a> Statics<'a> {
     /// down, before the particle slips; those of the law of friction.
     pub(super) fn slip(&self, substrate: &Substrate) -> Result<(Slip, u64), Failure> {
         let mut evaluations = 0;
-        let least = substrate.least_normal_force();
+        let least = -substrate.support;
         let rounding = 16.0 * f64::EPSILON * self.probe.preload_force;
         let mut hold = |theta: f64| -> Result<(Hold, f64), Failure> {
             let force = self.normal_force(theta);

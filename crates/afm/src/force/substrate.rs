@@ -16,7 +16,7 @@ pub(crate) struct Substrate<'a> {
     /// Contribution of adhesion to the load of friction (N).
     pub adhesive_load: f64,
     /// Contribution of adhesion to the load that holds the particle down (N): the same, or the pull-off force for laws
-    /// that depend on the area of contact.
+    /// that depend on the area of contact. Minus it is the least normal force.
     pub support: f64,
     pub drive: Drive,
 }
@@ -109,13 +109,6 @@ impl<'a> Substrate<'a> {
         let ageing = if law == FrictionLaw::Armstrong { 1.05 } else { 1.0 };
         let of_area = (capacity - viscous - of_load * (normal_force + self.adhesive_load)).max(0.0);
         of_load + if of_area > 0.0 { ageing * of_area / (normal_force + self.support) } else { 0.0 }
-    }
-
-    /// Returns the least normal force (N) with a contact that friction can hold: minus the pull-off force, or the force
-    /// at which the load of friction vanishes for laws that depend on it. At most zero.
-    #[inline(always)]
-    pub fn least_normal_force(&self) -> f64 {
-        -self.support
     }
 }
 
