@@ -52,12 +52,6 @@ pub struct SurrogateEstimates {
     pub low: Option<LowFidelityUse>,
 }
 
-/// The places of quantities in a list, and their replacements.
-pub(super) struct Corrections {
-    pub replacements: Vec<(usize, Replacement)>,
-    pub used: SurrogateUse,
-}
-
 impl SurrogateEstimates {
     /// Returns the sum of the squared errors of all first-order and total indices.
     pub fn squared_error(&self) -> f64 {
@@ -81,29 +75,26 @@ impl SurrogateEstimates {
         (self.growth > MAX_GROWTH).then_some(Refusal::Growth { times: self.growth })
     }
 
-    /// Returns the replacements of the `plain` numbers of `layout` with their `errors`, except for `settled` swaps.
+    /// Returns the replacements of the `plain` numbers of `layout` with their `errors` and places, except for `settled`
+    /// swaps; and the use of the surrogates.
     pub(super) fn corrections(
         &self,
         layout: &Layout,
         plain: &[Estimate],
         errors: &[StandardError],
         settled: &[bool],
-    ) -> Corrections {
+    ) -> (Vec<(usize, Replacement)>, SurrogateUse) {
         let real = layout.swaps() - usize::from(layout.dummy);
+        let moving: Vec<usize> = (0..real).filter(|swap| !settled[*swap]).collect();
+        let place = |swap: usize, number: Number| layout.place(Quantity::Swap(swap, number));
         let kind = |index: Number, list: &[Influenced]| {
             let known = |(swap, of): (usize, &Influenced)| {
-                if settled[swap] {
-                    of.settled(plain[layout.place(Quantity::Swap(swap, index))].estimate)
-                } else {
-                    of.clone()
-                }
+                if settled[swap] { of.settled(plain[place(swap, index)].estimate) } else { of.clone() }
             };
             let list: Vec<Influenced> = list.iter().enumerate().map(known).collect();
-            let moving: Vec<usize> = (0..real).filter(|swap| !settled[*swap]).collect();
             let noise =
                 Noise::new(&moving.iter().map(|swap| &list[*swap].parts).collect::<Vec<_>>(), index == Number::Total);
-            let plain: f64 =
-                moving.iter().map(|swap| errors[layout.place(Quantity::Swap(*swap, index))].error.powi(2)).sum();
+            let plain: f64 = moving.iter().map(|swap| errors[place(*swap, index)].error.powi(2)).sum();
             let prudent = noise.prudent();
             let corrected: f64 = moving.iter().map(|swap| prudent.error(&list[*swap]).error.powi(2)).sum();
             let is_known = !moving.is_empty() && plain.is_finite() && corrected.is_finite();
@@ -112,10 +103,7 @@ impl SurrogateEstimates {
         let (first_order, first, gain_first_order) = kind(Number::FirstOrder, &self.first_order);
         let (all_total, total, gain_total) = kind(Number::Total, &self.total);
         let gaps = |number: Number, list: &[Influenced], noise: Noise| -> Vec<f64> {
-            let moving = (0..real).filter(|swap| !settled[*swap]);
-            moving
-                .map(|swap| gap(plain[layout.place(Quantity::Swap(swap, number))], noise.estimate(&list[swap])))
-                .collect()
+            moving.iter().map(|&swap| gap(plain[place(swap, number)], noise.estimate(&list[swap]))).collect()
         };
         let gaps = Gaps::new(&[gaps(Number::FirstOrder, &first_order, first), gaps(Number::Total, &all_total, total)]);
         let refusal = self.refusal().or_else(|| gaps.refusal());
@@ -140,10 +128,10 @@ impl SurrogateEstimates {
             });
         }
         for swap in (0..layout.swaps()).filter(|swap| !settled[*swap]) {
-            let place = layout.place(Quantity::Swap(swap, Number::Interaction));
-            let (of_first, of_total) = (&first_order[swap], &all_total[swap]);
             let [plain_first, plain_total] =
-                [Number::FirstOrder, Number::Total].map(|number| plain[layout.place(Quantity::Swap(swap, number))]);
+                [Number::FirstOrder, Number::Total].map(|number| plain[place(swap, number)]);
+            let place = place(swap, Number::Interaction);
+            let (of_first, of_total) = (&first_order[swap], &all_total[swap]);
             match (corrects_first_order, corrects_total) {
                 (true, true) => {
                     let interaction = Influenced::combined(&[(1.0, of_total), (-1.0, of_first)]);
@@ -172,8 +160,7 @@ impl SurrogateEstimates {
                 (*error, *parts) = (errors[*place], Vec::new());
             }
         }
-        let plain_of =
-            |number| (0..layout.swaps()).map(|swap| plain[layout.place(Quantity::Swap(swap, number))]).collect();
+        let plain_of = |number| (0..layout.swaps()).map(|swap| plain[place(swap, number)]).collect();
         let used = SurrogateUse {
             explained: self.explained,
             term_count: self.term_count,
@@ -189,7 +176,7 @@ impl SurrogateEstimates {
             plain_total: plain_of(Number::Total),
             low: self.low.clone(),
         };
-        Corrections { replacements, used }
+        (replacements, used)
     }
 
     /// Returns the mean and variance with their errors.

@@ -55,20 +55,16 @@ impl IntervalMethod {
 
     /// Describes an interval of this kind in a sentence.
     pub fn words(self, replicates: u64, resamples: usize) -> String {
-        let nets = if replicates == 1 {
-            "one scrambled net".to_owned()
-        } else {
-            format!("{replicates} independently scrambled nets")
-        };
         match self {
-            Self::Nets if replicates == 1 => format!(
-                "95 % t-interval around the estimate from {nets}; its standard error is extrapolated from how nested parts of the net \
-                 differ, and rests on that trend alone"
-            ),
+            Self::Nets if replicates == 1 => {
+                "95 % t-interval around the estimate from one scrambled net; its standard error is extrapolated from how nested \
+                 parts of the net differ, and rests on that trend alone"
+                    .to_owned()
+            }
             Self::Nets => format!(
-                "95 % t-interval around the estimate from {nets} together, longer above it where few rows carry it; its \
-                 standard error combines the spread of the nets with how \
-                 nested parts of each differ (moderated t)"
+                "95 % t-interval around the estimate from {replicates} independently scrambled nets together, longer \
+                 above it where few rows carry it; its standard error combines the spread of the nets with how nested parts of \
+                 each differ (moderated t)"
             ),
             Self::Replicates => format!(
                 "95 % t-interval (delete-one jackknife) from {replicates} independent randomisations of the design; the estimate \
@@ -93,12 +89,7 @@ impl IntervalMethod {
     pub fn errors(self, quantities: &[PartInfluences], pooled: &[bool]) -> Vec<StandardError> {
         let unknown = |parts: &PartInfluences| parts.iter().flatten().any(|influence| !influence.is_finite());
         let errors = match self {
-            Self::Nets => {
-                let silent = |parts: &PartInfluences| parts.iter().map(|net| vec![0.0; net.len()]).collect();
-                let known: Vec<PartInfluences> =
-                    quantities.iter().map(|parts| if unknown(parts) { silent(parts) } else { parts.clone() }).collect();
-                net_errors(&known, pooled)
-            }
+            Self::Nets => net_errors(quantities, pooled),
             Self::Replicates => quantities.iter().map(|parts| spread(&means(parts))).collect(),
             Self::Batches | Self::Delta | Self::Percentile => {
                 quantities.iter().map(|parts| spread(&complete(parts))).collect()

@@ -58,7 +58,8 @@ pub type PartInfluences = Vec<Vec<f64>>;
 /// Computes standard errors of quantities estimated from all nets together. The quantities for which `pooled` is true
 /// (the indices) determine the common rate and factor; the others only use them.
 ///
-/// All quantities have the same nets and parts. A quantity that no part influences has error 0.
+/// All quantities have the same nets and parts. A quantity that no part influences has error 0. One with an influence
+/// that is not finite determines nothing; [`IntervalMethod::errors`](super::IntervalMethod::errors) replaces its error.
 pub fn net_errors(quantities: &[PartInfluences], pooled: &[bool]) -> Vec<StandardError> {
     let Some(first) = quantities.first() else { return Vec::new() };
     let shape = Shape::new(first);
@@ -112,10 +113,10 @@ struct Levels {
 }
 
 impl Levels {
-    /// Computes the statistics; `None` if no part has any influence.
+    /// Computes the statistics; `None` if no part has any influence, or one of them is unknown.
     fn new(quantity: &PartInfluences, shape: &Shape) -> Option<Self> {
         let size = quantity.iter().flatten().fold(0.0, |largest: f64, x| largest.max(x.abs()));
-        if size == 0.0 || !size.is_finite() {
+        if size == 0.0 || quantity.iter().flatten().any(|x| !x.is_finite()) {
             return None;
         }
         // In units of the largest influence, so that squares neither underflow nor overflow.
@@ -236,22 +237,16 @@ fn incomplete(shape: &Shape, rho: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use rand::{RngExt, SeedableRng};
+    use rand_chacha::ChaCha8Rng;
+
     use super::*;
     use crate::uncertainty::t_interval;
 
     /// Returns pseudo-random numbers about 0 with variance 1/12.
-    fn noise(n: usize, salt: u64) -> Vec<f64> {
-        let mut x = salt.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
-        let mut next = || {
-            x ^= x << 13;
-            x ^= x >> 7;
-            x ^= x << 17;
-            (x >> 11) as f64 / (1u64 << 53) as f64 - 0.5
-        };
-        (0..16).for_each(|_| {
-            next();
-        });
-        (0..n).map(|_| next()).collect()
+    fn noise(n: usize, seed: u64) -> Vec<f64> {
+        let mut random = ChaCha8Rng::seed_from_u64(seed);
+        (0..n).map(|_| random.random_range(-0.5..0.5)).collect()
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use super::by_points::{Bounds, ByPoints};
 use super::concentration::{Side, interval};
-use super::corrected::{Corrections, SurrogateEstimates};
+use super::corrected::SurrogateEstimates;
 use super::effects::{EffectChecks, EffectEstimates, OtherEstimates, OutputIndices, OutputMoments};
 use super::estimates::{ErrorKind, Layout, Number, OtherNumber, Quantity, SwapNoise, quantities};
 use super::influence::Influences;
@@ -207,7 +207,7 @@ impl Judged {
     /// Replaces the plain estimates by those corrected by the surrogate where their errors are smaller; the indices of
     /// `settled` swaps stay.
     fn correct(&mut self, layout: &Layout, surrogate: &SurrogateEstimates, settled: &[bool]) -> SurrogateUse {
-        let Corrections { replacements, used } = surrogate.corrections(layout, &self.estimates, &self.errors, settled);
+        let (replacements, used) = surrogate.corrections(layout, &self.estimates, &self.errors, settled);
         for (place, (estimate, error, parts)) in replacements {
             self.estimates[place] = estimate;
             self.errors[place] = error;
