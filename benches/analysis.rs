@@ -77,7 +77,7 @@ fn surrogate(criterion: &mut Criterion) {
             bencher.iter(|| {
                 pool.install(|| {
                     let net = |(design, outputs): (&Design, &Vec<Vec<f64>>)| {
-                        Net::new(design, 0, 0, &families, caps.degree, outputs)
+                        Net::new(design, 0, 0..outputs[0].len(), &families, caps.degree, outputs)
                     };
                     let nets: Vec<Net> = designs.iter().zip(black_box(&outputs)).map(net).collect();
                     let carried = Carried::new(&nets, caps);

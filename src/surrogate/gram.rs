@@ -301,18 +301,15 @@ pub fn solve(lower: &[Vec<f64>], right: &[f64]) -> Vec<f64> {
 
 #[cfg(test)]
 mod tests {
+    use rand::{RngExt, SeedableRng};
+    use rand_chacha::ChaCha8Rng;
+
     use super::*;
 
     /// Returns pseudo-random numbers between -1/2 and 1/2.
     fn columns(count: usize, rows: usize) -> Vec<Vec<f64>> {
-        let mut x = 88_172_645_463_325_252_u64;
-        let mut next = || {
-            x ^= x << 13;
-            x ^= x >> 7;
-            x ^= x << 17;
-            (x >> 11) as f64 / (1u64 << 53) as f64 - 0.5
-        };
-        (0..count).map(|_| (0..rows).map(|_| next()).collect()).collect()
+        let mut random = ChaCha8Rng::seed_from_u64(1);
+        (0..count).map(|_| (0..rows).map(|_| random.random_range(-0.5..0.5)).collect()).collect()
     }
 
     fn gram(columns: &[Vec<f64>]) -> Square {

@@ -12,6 +12,8 @@
 //! and similarly for total indices and the variance. alpha and P of a net are fitted to the others, and the runs at
 //! points of their own are independent of both: a poor low-fidelity model costs accuracy, but intervals stay valid.
 
+use std::ops::Range;
+
 use rayon::prelude::*;
 
 use super::basis::{Caps, Family, Term};
@@ -62,7 +64,8 @@ impl OwnOutputs {
         let caps = Caps::new(families, SAFE_HERMITE_DEGREES);
         let mut nets = Vec::new();
         if design.rows() <= MAX_FITTED_ROWS {
-            let net = |(number, outputs)| Net::new(design, number as u64, 0, families, caps.degree, outputs);
+            let net =
+                |(number, outputs)| Net::new(design, number as u64, points_of(outputs), families, caps.degree, outputs);
             nets = outputs.par_iter().enumerate().map(|(number, outputs)| net((number, outputs))).collect::<Vec<Net>>();
         }
         let is_fitted = !nets.is_empty() && nets.iter().all(|net| net.points() >= fewest_points(design));
@@ -102,7 +105,7 @@ pub fn low_fidelity_estimates(
     let caps = Caps::new(families, SAFE_HERMITE_DEGREES);
     let net = |number: usize| {
         let (f, g) = (&f[number], &g[number]);
-        let of_dear = Net::new(design, number as u64, 0, families, caps.degree, f);
+        let of_dear = Net::new(design, number as u64, points_of(f), families, caps.degree, f);
         let good = |run: usize| f[run].iter().zip(&g[run]).filter(|(f, _)| f.is_finite()).map(|(_, g)| *g).collect();
         let of_cheap = of_dear.with_outputs((0..runs).map(good).collect());
         (of_dear, of_cheap)
@@ -134,11 +137,15 @@ pub fn low_fidelity_estimates(
     Some(all)
 }
 
+/// Returns all base points of a replicate, given its outputs of every run.
+fn points_of(outputs: &[Vec<f64>]) -> Range<usize> {
+    0..outputs.first().map_or(0, Vec::len)
+}
+
 /// Sets those points of `f` to not finite at which a run of `g` failed.
 fn leave_out_points_that_failed(f: &mut [Vec<Vec<f64>>], g: &[Vec<Vec<f64>>]) {
     for (f, g) in f.iter_mut().zip(g) {
-        let points = f.first().map_or(0, Vec::len);
-        for p in 0..points {
+        for p in points_of(f) {
             if !f.iter().chain(g).all(|run| run.get(p).is_some_and(|y| y.is_finite())) {
                 f.iter_mut().for_each(|run| run[p] = f64::NAN);
             }
@@ -267,10 +274,8 @@ fn own_contributions(
     let degree = crossed.iter().flat_map(|(term, _)| term.iter().map(|(_, degree)| *degree)).max().unwrap_or(1);
     let nothing = Expansion { terms: vec![Vec::new()], coefficients: vec![0.0] };
     let of_net = |(number, outputs): (usize, &Vec<Vec<f64>>)| {
-        in_chunks(outputs.first().map_or(0, Vec::len), |points| {
-            let part: Vec<&[f64]> = outputs.iter().map(|run| &run[points.clone()]).collect();
-            let net = Net::new(&own.design, number as u64, points.start as u64, families, degree, &part);
-            of_chunk(&net, &nothing)
+        in_chunks(points_of(outputs).end, |points| {
+            of_chunk(&Net::new(&own.design, number as u64, points, families, degree, outputs), &nothing)
         })
     };
     outputs.par_iter().enumerate().map(of_net).collect()

@@ -1,5 +1,6 @@
 //! The runs of one replicate as used in the fit: polynomials of the base points, and the outputs of every run.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use super::basis::{Family, Term, polynomials};
@@ -26,21 +27,20 @@ struct NetRows {
 }
 
 impl Net {
-    /// Creates a net of the base points of `replicate` from number `first` on whose `outputs`, a column for each run,
-    /// are all finite.
+    /// Creates a net of those base points of `replicate` among `points` whose `outputs`, a column for each run, are all
+    /// finite.
     pub fn new(
         design: &Design,
         replicate: u64,
-        first: u64,
+        points: Range<usize>,
         families: &[Family],
         degree: usize,
-        outputs: &[impl AsRef<[f64]>],
+        outputs: &[Vec<f64>],
     ) -> Self {
-        let outputs: Vec<&[f64]> = outputs.iter().map(AsRef::as_ref).collect();
-        let count = outputs.first().map_or(0, |run| run.len());
-        let good: Vec<usize> = (0..count).filter(|&p| outputs.iter().all(|run| run[p].is_finite())).collect();
-        let mut base = vec![vec![0.0; count]; design.columns()];
-        design.replicate(replicate).fill(first, &mut base);
+        let outputs: Vec<&[f64]> = outputs.iter().map(|run| &run[points.clone()]).collect();
+        let good: Vec<usize> = (0..points.len()).filter(|&p| outputs.iter().all(|run| run[p].is_finite())).collect();
+        let mut base = vec![vec![0.0; points.len()]; design.columns()];
+        design.replicate(replicate).fill(points.start as u64, &mut base);
         let factors = design.factors();
         let quantiles: Vec<Vec<f64>> = base.iter().map(|u| good.iter().map(|&p| u[p]).collect()).collect();
         let of_column = |(number, u): (usize, &Vec<f64>)| polynomials(&families[number % factors], u, degree);

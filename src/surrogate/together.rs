@@ -121,8 +121,7 @@ pub(super) fn of_neighbours(
                     return of(&nets[k].with_outputs(runs[number][k].clone()), &expansions[k]);
                 }
                 in_chunks(all, |chunk| {
-                    let rows: Vec<&[f64]> = outputs[number].0[k].iter().map(|run| &run[chunk.clone()]).collect();
-                    of(&Net::new(design, k as u64, chunk.start as u64, families, *degree, &rows), &expansions[k])
+                    of(&Net::new(design, k as u64, chunk, families, *degree, &outputs[number].0[k]), &expansions[k])
                 })
             };
             let nets = (0..nets.len()).into_par_iter().map(of_net).collect();
@@ -200,8 +199,7 @@ impl Fit {
         let caps = Caps::new(&trial.families, trial.hermite_degree);
         let points = design.points_per_replicate() as usize;
         let net = |(number, outputs): (usize, &Vec<Vec<f64>>)| {
-            let outputs: Vec<&[f64]> = outputs.iter().map(|run| &run[..points]).collect();
-            Net::new(design, number as u64, 0, &trial.families, caps.degree, &outputs)
+            Net::new(design, number as u64, 0..points, &trial.families, caps.degree, outputs)
         };
         let nets: Vec<Net> = first.0.par_iter().enumerate().map(net).collect();
         let of_net = |number: usize| runs.iter().map(|of_output| of_output[number].as_slice()).collect();
@@ -231,8 +229,8 @@ impl Fit {
             };
             let families: Vec<Family> = self.families.iter().map(of_factor).collect();
             let of_net = |(k, expansion): (usize, &Expansion)| {
-                let runs: Vec<&[f64]> = output.0[k].iter().map(|run| &run[..points]).collect();
-                values_and_rest(&Net::new(design, k as u64, 0, &families, self.degree, &runs), expansion).0
+                let net = Net::new(design, k as u64, 0..points, &families, self.degree, &output.0[k]);
+                values_and_rest(&net, expansion).0
             };
             expansions.par_iter().enumerate().map(of_net).collect()
         };
