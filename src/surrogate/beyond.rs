@@ -12,7 +12,7 @@
 use std::collections::BTreeMap;
 
 use super::basis::{Family, Term, polynomials};
-use super::corrected::{is_interaction, touches, within};
+use super::corrected::{Effects, is_interaction, touches, within};
 use super::fit::Expansion;
 use crate::uncertainty::Knot;
 
@@ -129,20 +129,13 @@ pub struct Beyond {
 impl Beyond {
     /// Computes the errors of the mean of `expansions` in polynomials of `families`, fitted to runs at `points` points
     /// with a mean square residual of `rest`.
-    pub fn new(
-        expansions: &[Expansion],
-        families: &[Family],
-        points: u64,
-        rest: f64,
-        swaps: &[Vec<usize>],
-        pairs: &[(usize, usize)],
-    ) -> Self {
+    pub fn new(expansions: &[Expansion], families: &[Family], points: u64, rest: f64, effects: &Effects) -> Self {
         let mut all = Self {
             mean: 0.0,
             variance: 0.0,
-            first_order: vec![0.0; swaps.len()],
-            total: vec![0.0; swaps.len()],
-            pairs: vec![0.0; pairs.len()],
+            first_order: vec![0.0; effects.swaps.len()],
+            total: vec![0.0; effects.swaps.len()],
+            pairs: vec![0.0; effects.pairs.len()],
         };
         let mass = 1.0 / points.max(2) as f64;
         let rest = rest.max(0.0).sqrt();
@@ -169,14 +162,14 @@ impl Beyond {
                     if others.is_empty() {
                         all.mean += of_mean;
                     }
-                    all.add(&with(&others, factor), of_square, swaps, pairs);
+                    all.add(&with(&others, factor), of_square, effects);
                 }
             }
         }
         all
     }
 
-    fn add(&mut self, term: &[(usize, usize)], error: f64, swaps: &[Vec<usize>], pairs: &[(usize, usize)]) {
+    fn add(&mut self, term: &[(usize, usize)], error: f64, Effects { swaps, pairs }: &Effects) {
         self.variance += error;
         for (number, swap) in swaps.iter().enumerate() {
             self.first_order[number] += if within(term, swap) { error } else { 0.0 };
@@ -238,7 +231,8 @@ mod tests {
 
     fn beyond(family: Family, terms: Vec<Term>, coefficients: Vec<f64>, rest: f64) -> Beyond {
         let families = [family, Family::Legendre];
-        Beyond::new(&[Expansion { terms, coefficients }], &families, 100, rest, &[vec![0], vec![1]], &[(0, 1)])
+        let effects = Effects { swaps: vec![vec![0], vec![1]], pairs: vec![(0, 1)] };
+        Beyond::new(&[Expansion { terms, coefficients }], &families, 100, rest, &effects)
     }
 
     #[test]

@@ -15,6 +15,7 @@
 use super::fit::Expansion;
 use super::net::Net;
 use crate::design::Design;
+use crate::uncertainty::Layout;
 
 /// The contribution of every base point of a net to the numbers of an output; each number is the mean over the points.
 pub struct Contributions {
@@ -35,6 +36,23 @@ pub struct Contributions {
     pub claims: Vec<[f64; 2]>,
     /// Rows.
     pub rows: usize,
+}
+
+/// The effects whose numbers are corrected.
+pub struct Effects {
+    /// The factors of every swap, in rising order.
+    pub swaps: Vec<Vec<usize>>,
+    /// The pairs of swaps with second-order indices, in the order of the layout.
+    pub pairs: Vec<(usize, usize)>,
+}
+
+impl Effects {
+    /// Returns those of the swaps of `design` in `layout`.
+    pub fn new(design: &Design, layout: &Layout) -> Self {
+        let mut swaps: Vec<Vec<usize>> = design.swaps().to_vec();
+        swaps.iter_mut().for_each(|swap| swap.sort_unstable());
+        Self { swaps, pairs: if layout.second_order { layout.pair_list() } else { Vec::new() } }
+    }
 }
 
 /// Returns whether all factors of a term are in a swap.
@@ -109,8 +127,9 @@ fn claims(net: &Net, expansion: &Expansion, swaps: &[Vec<usize>]) -> Vec<[f64; 2
 }
 
 impl Contributions {
-    /// Returns zero contributions of `swaps` swaps and `pairs` pairs at the points of `net`.
-    pub(super) fn zeros(swaps: usize, pairs: usize, net: &Net) -> Self {
+    /// Returns zero contributions to `effects` at the points of `net`.
+    pub(super) fn zeros(effects: &Effects, net: &Net) -> Self {
+        let (swaps, pairs) = (effects.swaps.len(), effects.pairs.len());
         let points = net.points();
         let columns = |count: usize| vec![vec![0.0; points]; count];
         Self {
@@ -125,32 +144,19 @@ impl Contributions {
         }
     }
 
-    /// Corrects `net` by the surrogate `expansion` of other nets; factors of `swaps` and `pairs` are in rising order.
-    pub fn new(
-        design: &Design,
-        net: &Net,
-        expansion: &Expansion,
-        swaps: &[Vec<usize>],
-        pairs: &[(usize, usize)],
-    ) -> Self {
+    /// Corrects `net` by the surrogate `expansion` of other nets.
+    pub fn new(design: &Design, net: &Net, expansion: &Expansion, effects: &Effects) -> Self {
         let (surrogate, e) = values_and_rest(net, expansion);
-        let mut all = Self::zeros(swaps.len(), pairs.len(), net);
+        let mut all = Self::zeros(effects, net);
         all.residual = (mean_power(&e, 2), mean_power(&e, 4));
-        all.claims = claims(net, expansion, swaps);
-        all.add_surrogate(net, expansion, &e, swaps, pairs);
-        all.add_residual(design, net, &surrogate, &e, swaps.len(), pairs);
+        all.claims = claims(net, expansion, &effects.swaps);
+        all.add_surrogate(net, expansion, &e, effects);
+        all.add_residual(design, net, &surrogate, &e, effects);
         all
     }
 
     /// Adds the terms that are constant or linear in `e`.
-    fn add_surrogate(
-        &mut self,
-        net: &Net,
-        expansion: &Expansion,
-        e: &[Vec<f64>],
-        swaps: &[Vec<usize>],
-        pairs: &[(usize, usize)],
-    ) {
+    fn add_surrogate(&mut self, net: &Net, expansion: &Expansion, e: &[Vec<f64>], effects: &Effects) {
         let runs = net.runs() as f64;
         let mut values = Vec::new();
         for (term, &b) in expansion.terms.iter().zip(&expansion.coefficients) {
@@ -164,7 +170,7 @@ impl Contributions {
                 continue;
             }
             let contributions: Vec<f64> = products.iter().map(|sum| b * b + 2.0 * b * sum / runs).collect();
-            self.add_term(swaps, pairs, term, [&|p| contributions[p], &|_| b * b]);
+            self.add_term(effects, term, [&|p| contributions[p], &|_| b * b]);
         }
     }
 
@@ -172,8 +178,7 @@ impl Contributions {
     /// second form of the total indices.
     pub(super) fn add_term(
         &mut self,
-        swaps: &[Vec<usize>],
-        pairs: &[(usize, usize)],
+        Effects { swaps, pairs }: &Effects,
         term: &[(usize, usize)],
         [first, second]: [&dyn Fn(usize) -> f64; 2],
     ) {
@@ -228,8 +233,7 @@ impl Contributions {
         net: &Net,
         surrogate: &[Vec<f64>],
         e: &[Vec<f64>],
-        swaps: usize,
-        pairs: &[(usize, usize)],
+        Effects { swaps, pairs }: &Effects,
     ) {
         let points = net.points();
         let (of_all, of_a_b) = (mean_power(e, 1), mean_power(&e[..2], 1));
@@ -237,7 +241,7 @@ impl Contributions {
             *variance += e.iter().map(|run| (run[p] - of_all).powi(2)).sum::<f64>() / e.len() as f64;
         }
         let half_square = |column: &[Vec<f64>], run: usize, p: usize| (column[0][p] - column[run][p]).powi(2) / 2.0;
-        for swap in 0..swaps {
+        for swap in 0..swaps.len() {
             let ab = design.ab_runs()[swap];
             for p in 0..points {
                 self.first_order[swap][p] += (e[1][p] - of_a_b) * (e[ab][p] - e[0][p]);

@@ -17,12 +17,12 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use super::basis::{Caps, Family, Term};
-use super::corrected::{Contributions, interaction, mean_power, values_and_rest};
+use super::corrected::{Contributions, Effects, interaction, mean_power, values_and_rest};
 use super::fit::Expansion;
 use super::net::Net;
 use super::{
     Corrected, MAX_FITTED_ROWS, SAFE_HERMITE_DEGREES, add_to, cross_fitted, estimates, expansion_without,
-    fewest_points, in_chunks, scaled, sorted_swaps, takes_surrogates,
+    fewest_points, in_chunks, scaled, takes_surrogates,
 };
 use crate::design::Design;
 use crate::estimate::PointOutputs;
@@ -115,15 +115,14 @@ pub fn low_fidelity_estimates(
     if expensive.iter().any(|net| net.points() < fewest_points(design)) {
         return None;
     }
-    let pairs = if layout.second_order { layout.pair_list() } else { Vec::new() };
-    let swaps = sorted_swaps(design);
+    let effects = Effects::new(design, layout);
     let stand_ins: Vec<StandIn> =
         (0..expensive.len()).into_par_iter().map(|k| stand_in(&expensive, &cheap, k, caps)).collect();
     let nets: Vec<Contributions> = (0..expensive.len())
         .into_par_iter()
-        .map(|k| differences(design, &expensive[k], &cheap[k], &stand_ins[k], &swaps, &pairs))
+        .map(|k| differences(design, &expensive[k], &cheap[k], &stand_ins[k], &effects))
         .collect();
-    let of_low = own_contributions(low.own, families, &stand_ins, &swaps, &pairs);
+    let of_low = own_contributions(low.own, families, &stand_ins, &effects);
     let slope = stand_ins.iter().map(|of| of.slope).sum::<f64>() / stand_ins.len() as f64;
     let used = LowFidelityUse {
         name: low.name.to_owned(),
@@ -131,7 +130,7 @@ pub fn low_fidelity_estimates(
         explained: 1.0 - alone(&expensive, &cheap, &stand_ins),
     };
     let expansions = stand_ins.into_iter().map(|of| of.rest).collect();
-    let corrected = Corrected::new(design, nets, expansions, families, &pairs);
+    let corrected = Corrected::new(design, nets, expansions, families, &effects);
     let mut all = estimates(&corrected, &of_low, scale);
     all.low = Some(used);
     Some(all)
@@ -183,14 +182,7 @@ fn alone(expensive: &[Net], cheap: &[Net], stand_ins: &[StandIn]) -> f64 {
 }
 
 /// Returns the contributions of every base point of a net to Q(f) - Q(h), and the exact part of Q(h).
-fn differences(
-    design: &Design,
-    expensive: &Net,
-    cheap: &Net,
-    stand_in: &StandIn,
-    swaps: &[Vec<usize>],
-    pairs: &[(usize, usize)],
-) -> Contributions {
+fn differences(design: &Design, expensive: &Net, cheap: &Net, stand_in: &StandIn, effects: &Effects) -> Contributions {
     let StandIn { slope, offset, rest: expansion } = stand_in;
     let left = expensive.with_outputs(rest(expensive, cheap, *slope, *offset));
     let (_, e) = values_and_rest(&left, expansion);
@@ -198,7 +190,7 @@ fn differences(
     let h: Vec<Vec<f64>> = f.iter().zip(&e).map(|(f, e)| f.iter().zip(e).map(|(f, e)| f - e).collect()).collect();
     let (mean_f, mean_h) = (mean_power(f, 1), mean_power(&h, 1));
     let ([f_ab, h_ab], runs) = ([f, &h].map(|of| mean_power(&of[..2], 1)), f.len() as f64);
-    let mut all = Contributions::zeros(swaps.len(), pairs.len(), expensive);
+    let mut all = Contributions::zeros(effects, expensive);
     all.residual = (mean_power(&e, 2), mean_power(&e, 4));
     for p in 0..expensive.points() {
         let square = |(f, h): (&Vec<f64>, &Vec<f64>)| (f[p] - mean_f).powi(2) - (h[p] - mean_h).powi(2);
@@ -213,7 +205,7 @@ fn differences(
             all.total[0][swap][p] = half_square(f, p) - half_square(&h, p);
         }
     }
-    for (column, &pair) in all.pairs.iter_mut().zip(pairs) {
+    for (column, &pair) in all.pairs.iter_mut().zip(&effects.pairs) {
         let of_point = |p: usize| interaction(design, f, pair, p) - interaction(design, &h, pair, p);
         column.iter_mut().enumerate().for_each(|(p, sum)| *sum = of_point(p));
     }
@@ -222,7 +214,7 @@ fn differences(
         if term.is_empty() {
             all.mean.iter_mut().for_each(|mean| *mean += b);
         } else {
-            all.add_term(swaps, pairs, term, [&|_| b * b; 2]);
+            all.add_term(effects, term, [&|_| b * b; 2]);
         }
     }
     all
@@ -233,8 +225,7 @@ fn own_contributions(
     own: &OwnOutputs,
     families: &[Family],
     stand_ins: &[StandIn],
-    swaps: &[Vec<usize>],
-    pairs: &[(usize, usize)],
+    effects: &Effects,
 ) -> Vec<Contributions> {
     let count = stand_ins.len() as f64;
     let square_of_slope = stand_ins.iter().map(|of| of.slope * of.slope).sum::<f64>() / count;
@@ -248,7 +239,7 @@ fn own_contributions(
         }
     }
     let of_chunk = |net: &Net, expansion: &Expansion| {
-        let mut all = Contributions::new(&own.design, net, expansion, swaps, pairs);
+        let mut all = Contributions::new(&own.design, net, expansion, effects);
         all.scale(square_of_slope);
         let (values, e) = values_and_rest(net, expansion);
         let runs = net.runs() as f64;
@@ -263,7 +254,7 @@ fn own_contributions(
                 net.fill(term, run, &mut column);
                 means.iter_mut().zip(&column).zip(e).for_each(|((sum, phi), e)| *sum += phi * e / runs);
             }
-            all.add_term(swaps, pairs, term, [&|p| weight * means[p]; 2]);
+            all.add_term(effects, term, [&|p| weight * means[p]; 2]);
         }
         all
     };

@@ -19,7 +19,7 @@ mod together;
 use basis::{Caps, Family, Term};
 use beyond::Beyond;
 use carried::Carried;
-use corrected::Contributions;
+use corrected::{Contributions, Effects};
 use fit::{Expansion, Expansions, MAX_ROUNDS, NetSums, Training, first_candidates, fit, selection_rows};
 use net::Net;
 use rayon::prelude::*;
@@ -144,11 +144,10 @@ impl Corrected {
         nets: Vec<Contributions>,
         expansions: Vec<Expansion>,
         families: &[Family],
-        pairs: &[(usize, usize)],
+        effects: &Effects,
     ) -> Self {
         let (rest, _) = residual_powers(&nets);
-        let points = design.settings().base_samples;
-        let beyond = Beyond::new(&expansions, families, points, rest, &sorted_swaps(design), pairs);
+        let beyond = Beyond::new(&expansions, families, design.settings().base_samples, rest, effects);
         Self { nets, expansions, beyond }
     }
 
@@ -246,13 +245,6 @@ fn first_round(nets: &[Net], carried: &Carried<'_>) -> Vec<Term> {
     let rows = selection_rows(training);
     let all_rows = nets.iter().map(|net| rows.min(net.points() * net.runs())).sum::<usize>() * training / nets.len();
     first_candidates(carried, all_rows)
-}
-
-/// Returns the factors of every swap in rising order.
-fn sorted_swaps(design: &Design) -> Vec<Vec<usize>> {
-    let mut swaps: Vec<Vec<usize>> = design.swaps().to_vec();
-    swaps.iter_mut().for_each(|swap| swap.sort_unstable());
-    swaps
 }
 
 fn without<T>(list: &[T], left_out: usize) -> Vec<&T> {

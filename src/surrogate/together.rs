@@ -7,13 +7,13 @@ use std::collections::BTreeMap;
 use rayon::prelude::*;
 
 use super::basis::{Caps, Family, Term};
-use super::corrected::{Contributions, values_and_rest};
+use super::corrected::{Contributions, Effects, values_and_rest};
 use super::fit::{Expansion, Expansions, Training};
 use super::knots::{Knotted, MAX_MOVED, knots};
 use super::net::Net;
 use super::{
     Corrected, MAX_HERMITE_DEGREES, Scaled, Trial, estimates, fewest_points, fitted_design, fitted_to_others,
-    in_chunks, scaled, sorted_swaps, surrogate_estimates, takes_surrogates, trials,
+    in_chunks, scaled, surrogate_estimates, takes_surrogates, trials,
 };
 use crate::design::Design;
 use crate::estimate::PointOutputs;
@@ -111,11 +111,11 @@ pub(super) fn of_neighbours(
     let of_nets = chosen.map(|chosen| chosen.of_nets.as_slice());
     let fits: Vec<(usize, Fit)> =
         trials.map(|(kind, trial)| (kind, Fit::new(&fitted, trial, outputs[0], &runs, of_nets))).collect();
-    let (swaps, pairs) = (sorted_swaps(design), if layout.second_order { layout.pair_list() } else { Vec::new() });
+    let effects = Effects::new(design, layout);
     let of_output = |number: usize| {
         let corrected = |Fit { nets, families, degree, expansions, .. }: &Fit| {
             let expansions: Vec<_> = expansions.iter().map(|of_net| of_net.of_output(number)).collect();
-            let of = |net: &Net, expansion: &Expansion| Contributions::new(design, net, expansion, &swaps, &pairs);
+            let of = |net: &Net, expansion: &Expansion| Contributions::new(design, net, expansion, &effects);
             let of_net = |k: usize| {
                 if points == all {
                     return of(&nets[k].with_outputs(runs[number][k].clone()), &expansions[k]);
@@ -125,7 +125,7 @@ pub(super) fn of_neighbours(
                 })
             };
             let nets = (0..nets.len()).into_par_iter().map(of_net).collect();
-            Corrected::new(&fitted, nets, expansions, families, &pairs)
+            Corrected::new(&fitted, nets, expansions, families, &effects)
         };
         let mut best: Option<(usize, Corrected)> = None;
         for (kind, fit) in &fits {

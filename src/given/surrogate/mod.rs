@@ -21,6 +21,7 @@ use super::{Column, Dependence, GivenIndices, NoVariance, centred, drawn_rows};
 use crate::space::Distribution;
 use crate::surrogate::basis::{Caps, polynomials};
 use crate::surrogate::beyond::Beyond;
+use crate::surrogate::corrected::Effects;
 use crate::surrogate::fit::Expansion;
 use crate::surrogate::net::Net;
 use crate::surrogate::{cross_fitted, leading_terms};
@@ -250,10 +251,9 @@ impl Job<'_> {
             contributions.in_parts()
         };
         let folds: Vec<FoldSums> = nets.par_iter().zip(&expansions).map(of_fold).collect();
-        let (rows, inputs) =
-            (self.folds.iter().sum::<usize>() as u64, (0..caps.families.len()).map(|input| vec![input]));
-        let beyond =
-            Beyond::new(&expansions, caps.families, rows, left_square(&folds), &inputs.collect::<Vec<_>>(), &[]);
+        let rows = self.folds.iter().sum::<usize>() as u64;
+        let effects = Effects { swaps: (0..caps.families.len()).map(|input| vec![input]).collect(), pairs: Vec::new() };
+        let beyond = Beyond::new(&expansions, caps.families, rows, left_square(&folds), &effects);
         Fitted { folds, expansions, beyond, polynomials_of: coordinates.name }
     }
 }
