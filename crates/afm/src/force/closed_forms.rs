@@ -9,7 +9,7 @@ use apportion::quantity::Domain;
 use multiversion::multiversion;
 
 use super::presliding::Presliding;
-use super::slip::{ORDINARY_SQUARES, critical_time};
+use super::slip::{ORDINARY_SQUARES, Slip, critical_time};
 use super::substrate::{Substrate, adhesion};
 use super::{Fidelity, Options, closed_form};
 use crate::contact::{Contact, Pair};
@@ -31,6 +31,7 @@ pub struct ClosedForms {
     columns: Columns,
     probes: Probes,
     slips: Slips,
+    flags: [Flags; AT_ONCE],
 }
 
 /// The results of each scene.
@@ -49,8 +50,6 @@ pub struct Slips {
     pub twist: Column,
     /// Estimated relative error of the critical force.
     pub error_estimate: Column,
-    /// Violated assumptions.
-    flags: [Flags; AT_ONCE],
 }
 
 /// Intermediate stiffnesses and forces of each scene.
@@ -108,8 +107,8 @@ impl ClosedForms {
         }
         let probe = Probe::new(scene, options.torsion);
         let drive = Substrate::new(scene, options, &probe, LuGreForm::Fast).drive;
-        let (probes, slips) = (Probes::none(), Slips::none());
-        Some(Self { scene: *scene, options: *options, drive, columns, probes, slips })
+        let (probes, slips, flags) = (Probes::none(), Slips::none(), [Flags::NONE; AT_ONCE]);
+        Some(Self { scene: *scene, options: *options, drive, columns, probes, slips, flags })
     }
 
     /// Sets `parameter` of the first scenes, at most [`AT_ONCE`], to these values. Returns false if one of them
@@ -129,12 +128,13 @@ impl ClosedForms {
 
     /// Computes the slips of all scenes.
     pub fn solve(&mut self) {
-        let Self { scene, options, drive, columns, probes, slips } = self;
+        let Self { scene, options, drive, columns, probes, slips, .. } = self;
         press(scene, options, columns, probes, &mut slips.contact_radius);
         slide(scene, options, drive, columns, probes, slips);
         if options.accurate_time {
             creep(scene, options, drive, columns, probes, slips);
         }
+        doubt(scene, options, columns, slips, &mut self.flags);
     }
 
     /// Returns whether the results of the first `scenes` are valid. Otherwise use
@@ -155,8 +155,7 @@ impl ClosedForms {
     pub fn count_flags(&self, scenes: usize, mut add: impl FnMut(usize, u64)) {
         for (number, &flag) in Flag::ALL.iter().enumerate() {
             // At most `AT_ONCE`, which fits into eight bits.
-            let raised =
-                self.slips.flags[..scenes].iter().fold(0, |raised, flags| raised + u8::from(flags.contains(flag)));
+            let raised = self.flags[..scenes].iter().fold(0, |raised, flags| raised + u8::from(flags.contains(flag)));
             add(number, raised.into());
         }
     }
@@ -224,7 +223,6 @@ impl Slips {
             contact_radius: none,
             twist: none,
             error_estimate: none,
-            flags: [Flags::NONE; AT_ONCE],
         }
     }
 }
@@ -316,13 +314,6 @@ fn hold(rest: &Scene, options: &Options, drive: &Drive, columns: &Columns, probe
         slips.twist[i] = slip.twist;
         slips.error_estimate[i] = closed_form::left_out(&substrate, &probe, &slip, probes.of_law[i]).of_ordinary(&slip);
     }
-    // Another one, whose results are narrower.
-    for i in 0..AT_ONCE {
-        let scene = columns.scene(i, rest);
-        let contact = Contact { radius: slips.contact_radius[i], indentation: 0.0 };
-        let slip = closed_form::slip(&probes.probe(i), scene.height, slips.lateral_force[i], contact);
-        slips.flags[i] = closed_form::flags(&slip, &scene, options);
-    }
 }
 
 /// Adds the creep before the slips, which affects only their times.
@@ -338,5 +329,31 @@ fn creep(rest: &Scene, options: &Options, drive: &Drive, columns: &Columns, prob
         slips.travel[i] = slip.travel + slip.advance;
         slips.error_estimate[i] =
             closed_form::error(&substrate, &probe, (&slip, presliding.as_ref()), probes.of_law[i]);
+    }
+}
+
+#[multiversion(targets("x86_64+avx512f", "x86_64+avx2"))]
+fn doubt(rest: &Scene, options: &Options, columns: &Columns, slips: &Slips, flags: &mut [Flags; AT_ONCE]) {
+    match options.contact {
+        ContactTheory::Jkr => look(rest, &Options { contact: ContactTheory::Jkr, ..*options }, columns, slips, flags),
+        _ => look(rest, options, columns, slips, flags),
+    }
+}
+
+#[inline(always)]
+fn look(rest: &Scene, options: &Options, columns: &Columns, slips: &Slips, flags: &mut [Flags; AT_ONCE]) {
+    for (i, flags) in flags.iter_mut().enumerate() {
+        let scene = columns.scene(i, rest);
+        let contact = Contact { radius: slips.contact_radius[i], indentation: 0.0 };
+        let slip = Slip {
+            normal_force: slips.normal_force[i],
+            lateral_force: slips.lateral_force[i],
+            travel: slips.travel[i],
+            twist: slips.twist[i],
+            contact,
+            advance: 0.0,
+            slowdown: 1.0,
+        };
+        *flags = closed_form::flags(&slip, &scene, options);
     }
 }
