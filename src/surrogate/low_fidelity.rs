@@ -62,12 +62,11 @@ impl OwnOutputs {
         }
         let (outputs, scale) = scaled(replicates, design.runs().len(), None)?;
         let caps = Caps::new(families, SAFE_HERMITE_DEGREES);
-        let mut nets = Vec::new();
-        if design.rows() <= MAX_FITTED_ROWS {
-            let net =
-                |(number, outputs)| Net::new(design, number as u64, points_of(outputs), families, caps.degree, outputs);
-            nets = outputs.par_iter().enumerate().map(|(number, outputs)| net((number, outputs))).collect::<Vec<Net>>();
-        }
+        let net = |(number, outputs): (usize, &Vec<Vec<f64>>)| {
+            Net::new(design, number as u64, points_of(outputs), families, caps.degree, outputs)
+        };
+        let is_small = design.rows() <= MAX_FITTED_ROWS;
+        let nets: Vec<Net> = if is_small { outputs.par_iter().enumerate().map(net).collect() } else { Vec::new() };
         let is_fitted = !nets.is_empty() && nets.iter().all(|net| net.points() >= fewest_points(design));
         let nets = if is_fitted {
             let expansions = cross_fitted(&nets, caps);
@@ -110,8 +109,7 @@ pub fn low_fidelity_estimates(
         let of_cheap = of_dear.with_outputs((0..runs).map(good).collect());
         (of_dear, of_cheap)
     };
-    let (expensive, cheap): (Vec<Net>, Vec<Net>) =
-        (0..f.len()).into_par_iter().map(net).collect::<Vec<_>>().into_iter().unzip();
+    let (expensive, cheap): (Vec<Net>, Vec<Net>) = (0..f.len()).into_par_iter().map(net).unzip();
     if expensive.iter().any(|net| net.points() < fewest_points(design)) {
         return None;
     }
