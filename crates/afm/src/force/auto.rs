@@ -11,7 +11,7 @@ pub(super) fn critical_force(scene: &Scene, options: &Options) -> Result<Critica
         return Ok(closed);
     }
     let spent = closed.evaluations;
-    let (exact, shared) = quasi_static::with_swing(scene, options)?;
+    let (exact, shared) = quasi_static::critical_force(scene, options, options.accurate_time)?;
     // At rest there are no dynamics.
     let best = exact.error_estimate <= options.tolerance + shared || scene.velocity == 0.0;
     let (found, spent) =

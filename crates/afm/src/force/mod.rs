@@ -169,7 +169,7 @@ pub fn critical_force(scene: &Scene, options: &Options) -> Result<Critical, Fail
     options.check()?;
     let critical = match options.fidelity {
         Fidelity::ClosedForm => closed_form::critical_force(scene, options)?,
-        Fidelity::QuasiStatic => quasi_static::critical_force(scene, options)?,
+        Fidelity::QuasiStatic => quasi_static::critical_force(scene, options, false)?.0,
         Fidelity::Dynamic => dynamic::critical_force(scene, options)?,
         Fidelity::FixedStep => fixed_step::critical_force(scene, options)?,
         Fidelity::Auto => auto::critical_force(scene, options)?,
