@@ -1,6 +1,5 @@
 //! Orthonormal polynomials of the factors: the terms of a surrogate.
 
-use super::add_to;
 use super::knots::Knotted;
 use super::own::{OwnPolynomials, Recurrence};
 use crate::space::Distribution;
@@ -263,6 +262,14 @@ pub fn neighbours(active: &[Term], coefficients: &[f64], caps: Caps<'_>) -> Vec<
         }
     }
     terms
+}
+
+/// Adds `more` to the number of `key` in `list`, which has its keys in the order in which they came.
+pub(super) fn add_to<K: PartialEq>(list: &mut Vec<(K, f64)>, key: K, more: f64) {
+    match list.iter_mut().find(|(known, _)| *known == key) {
+        Some((_, sum)) => *sum += more,
+        None => list.push((key, more)),
+    }
 }
 
 /// Returns the degree of the first term with only `factor`.

@@ -4,7 +4,6 @@ use super::basis::{Term, first_terms, neighbours};
 use super::carried::Carried;
 use super::gram::{Path, Square, lower_factor, solve};
 use super::net::Net;
-use super::without;
 use crate::sum::product;
 
 /// Maximum number of terms of a surrogate.
@@ -166,6 +165,11 @@ impl Chosen {
     fn error(&self) -> f64 {
         self.errors.iter().sum()
     }
+}
+
+/// Returns the members of `list` except number `left_out`.
+pub(super) fn without<T>(list: &[T], left_out: usize) -> Vec<&T> {
+    list.iter().enumerate().filter(|(place, _)| *place != left_out).map(|(_, item)| item).collect()
 }
 
 /// Chooses the best terms among `candidates`.

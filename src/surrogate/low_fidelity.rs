@@ -16,13 +16,13 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use super::basis::{Caps, Family, Term};
+use super::basis::{Caps, Family, Term, add_to};
 use super::corrected::{Contributions, Effects, interaction, mean_power, values_and_rest};
 use super::fit::Expansion;
 use super::net::Net;
 use super::{
-    Corrected, MAX_FITTED_ROWS, SAFE_HERMITE_DEGREES, add_to, cross_fitted, estimates, expansion_without,
-    fewest_points, in_chunks, scaled, takes_surrogates,
+    Corrected, MAX_FITTED_ROWS, SAFE_HERMITE_DEGREES, cross_fitted, estimates, expansion_without, fewest_points,
+    in_chunks, scaled, takes_surrogates,
 };
 use crate::design::Design;
 use crate::estimate::PointOutputs;

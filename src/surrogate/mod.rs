@@ -16,11 +16,11 @@ pub mod net;
 mod own;
 mod together;
 
-use basis::{Caps, Family, Term};
+use basis::{Caps, Family, Term, add_to};
 use beyond::Beyond;
 use carried::Carried;
 use corrected::{Contributions, Effects};
-use fit::{Expansion, Expansions, MAX_ROUNDS, NetSums, Training, first_candidates, fit, selection_rows};
+use fit::{Expansion, Expansions, MAX_ROUNDS, NetSums, Training, first_candidates, fit, selection_rows, without};
 use net::Net;
 use rayon::prelude::*;
 pub use together::surrogates_together;
@@ -247,10 +247,6 @@ fn first_round(nets: &[Net], carried: &Carried<'_>) -> Vec<Term> {
     first_candidates(carried, all_rows)
 }
 
-fn without<T>(list: &[T], left_out: usize) -> Vec<&T> {
-    list.iter().enumerate().filter(|(place, _)| *place != left_out).map(|(_, item)| item).collect()
-}
-
 /// Returns the outputs of every run, a column for each.
 fn columns(kept: &PointOutputs, runs: usize) -> Vec<Vec<f64>> {
     let mut columns = vec![Vec::with_capacity(kept.points() as usize); runs];
@@ -353,14 +349,6 @@ fn weight_of_second([first, second]: &[Vec<Influenced>; 2]) -> f64 {
         }
     }
     if variance > 0.0 { (-covariance / variance).clamp(0.0, 1.0) } else { 0.0 }
-}
-
-/// Adds `more` to the number of `key` in `list`, which has its keys in the order in which they came.
-fn add_to<K: PartialEq>(list: &mut Vec<(K, f64)>, key: K, more: f64) {
-    match list.iter_mut().find(|(known, _)| *known == key) {
-        Some((_, sum)) => *sum += more,
-        None => list.push((key, more)),
-    }
 }
 
 /// Returns the terms of all surrogates by their mean share of the variance.
