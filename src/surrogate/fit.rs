@@ -104,8 +104,8 @@ impl Expansions {
 }
 
 /// Fits expansions to the nets `training`; `first` holds the candidates of the first round and their sums over each of
-/// these nets. Terms are chosen for all outputs together, and their number for each output, in at most `max_rounds` rounds,
-/// each with the neighbours of the terms chosen by the best previous one.
+/// these nets. Terms are chosen for all outputs together, and their number for each output, in at most `max_rounds`
+/// rounds, each with the neighbours of the terms chosen by the best previous one.
 pub fn fit(
     training: &[&Training<'_>],
     first: (&[Term], &[&NetSums]),

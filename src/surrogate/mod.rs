@@ -200,8 +200,8 @@ pub fn cross_fitted(nets: &[Net], caps: Caps<'_>) -> Vec<Expansion> {
     fitted_to_others(nets, &training, caps, None).iter().map(|expansions| expansions.of_output(0)).collect()
 }
 
-/// Returns for every net the expansions fitted to the `training` runs of the others; in one round of few candidates if a
-/// longer run has `chosen` terms for each net.
+/// Returns for every net the expansions fitted to the `training` runs of the others; in one round of few candidates if
+/// a longer run has `chosen` terms for each net.
 fn fitted_to_others(
     nets: &[Net],
     training: &[Training<'_>],
@@ -219,7 +219,8 @@ fn fitted_to_others(
     (0..nets.len()).into_par_iter().map(of_net).collect()
 }
 
-/// Returns the expansions fitted to all nets except number `k` in at most `max_rounds` rounds, from these `candidates` on.
+/// Returns the expansions fitted to all nets except number `k` in at most `max_rounds` rounds, from these `candidates`
+/// on.
 fn fitted_without(
     training: &[Training<'_>],
     k: usize,

@@ -57,14 +57,14 @@ impl IntervalMethod {
     pub fn words(self, replicates: u64, resamples: usize) -> String {
         match self {
             Self::Nets if replicates == 1 => {
-                "95 % t-interval around the estimate from one scrambled net; its standard error is extrapolated from how nested \
-                 parts of the net differ, and rests on that trend alone"
+                "95 % t-interval around the estimate from one scrambled net; its standard error is extrapolated from \
+                 how nested parts of the net differ, and rests on that trend alone"
                     .to_owned()
             }
             Self::Nets => format!(
                 "95 % t-interval around the estimate from {replicates} independently scrambled nets together, longer \
-                 above it where few rows carry it; its standard error combines the spread of the nets with how nested parts of \
-                 each differ (moderated t)"
+                 above it where few rows carry it; its standard error combines the spread of the nets with how nested \
+                 parts of each differ (moderated t)"
             ),
             Self::Replicates => format!(
                 "95 % t-interval (delete-one jackknife) from {replicates} independent randomisations of the design; the estimate \

@@ -27,8 +27,8 @@ use crate::probe::Probe;
 use crate::root::{self, Point};
 use crate::{Failure, Fidelity, FrictionLaw, Scene};
 
-/// Computes the critical force, under LuGre friction from the peak of its ramp; with the effect of the swing on the time
-/// of the slip if it matters and `swings`. Also returns the error that is common to this rung and the dynamic one: on
+/// Computes the critical force, under LuGre friction from the peak of its ramp; if `swings`, with the effect of the swing
+/// on the time of the slip where it matters. Also returns the error that is common to this rung and the dynamic one: on
 /// bristles, neither follows a fast swing or the slip that it triggers, and both treat the bristles of laws other than
 /// LuGre's in the same way.
 pub(super) fn critical_force(scene: &Scene, options: &Options, swings: bool) -> Result<(Critical, f64), Failure> {

@@ -28,8 +28,8 @@ impl Armstrong<'_> {
     }
 
     /// Returns the force (N) at which a sticking contact breaks away when the force grows at `rate` (N/s), >= 0, after
-    /// the rest t_r: static friction after the rest and the loading itself, F = static_force(t_r + F/rate), the positive
-    /// root of a quadratic.
+    /// the rest t_r: static friction after the rest and the loading itself, F = static_force(t_r + F/rate). It is the
+    /// positive root of a quadratic.
     pub fn break_away(&self, load: f64, rate: f64) -> f64 {
         let rest = self.0.rest_time;
         let fresh = self.0.fresh_friction * load;

@@ -61,7 +61,8 @@ impl<'a> LemaitreCarlson<'a> {
         Ok(2.0 * self.0.layer_half_thickness * end.t)
     }
 
-    /// Integrates the layer over the area (m2), pulled at a velocity above zero, until `event` rises through zero; also returns the evaluations.
+    /// Integrates the layer over the area (m2), pulled at a velocity above zero, until `event` rises through zero; also
+    /// returns the number of evaluations.
     ///
     /// # Errors
     /// Those of [`March`].

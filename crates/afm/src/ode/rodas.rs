@@ -4,7 +4,8 @@ use super::linear::Factors;
 use super::{Attempt, Method, Problem, State};
 
 /// RODAS4 of Hairer & Wanner 1996 (Solving Ordinary Differential Equations II, section IV.7 and VI.4): order 4(3), six
-/// stages, stiffly accurate, L-stable, for ordinary and index-1 differential-algebraic problems. One Jacobian, one factorisation and six evaluations per step, no iteration, so that a step cannot stall.
+/// stages, stiffly accurate, L-stable, for ordinary and index-1 differential-algebraic problems. One Jacobian, one
+/// factorisation and six evaluations per step, no iteration, so that a step cannot stall.
 #[derive(Clone, Copy, Debug)]
 pub struct Rodas;
 
