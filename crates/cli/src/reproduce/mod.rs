@@ -1,6 +1,6 @@
 //! The papers reproduced: their studies, figures, claims and percentages.
 //!
-//! [`reproduce()`] computes; [`document()`] builds the page, its files and the text for a terminal.
+//! [`document()`] builds the page, its files and the text for a terminal of a [`Reproduction`].
 
 pub mod claims;
 mod document;
@@ -8,19 +8,19 @@ pub mod figures;
 mod order;
 mod papers;
 pub mod percentages;
-mod reproduction;
 mod shares;
 
 use apportion::result::StudyResult;
 use apportion::run::RunError;
 use apportion::study::Study;
-use apportion::sweep::SweepError;
 use apportion_afm::{Failure, FrictionLaw};
 use apportion_files::StudyError;
 use apportion_report::chart::{Colour, Stroke};
+use claims::Claim;
 pub use document::document;
+use figures::{Animation, PaperFigure};
 pub use papers::{Published, published};
-pub use reproduction::{Event, Reproduction, Request, Topic, reproduce};
+use percentages::Percentages;
 use thiserror::Error;
 
 use crate::scene::law_colour;
@@ -95,7 +95,7 @@ const STUDIES: [(&str, &str); 9] = [
 ];
 
 /// The settings of every study in a quick reproduction, unless the overrides say otherwise.
-const QUICK: [&str; 1] = ["design.base_samples=2048"];
+pub const QUICK: [&str; 1] = ["design.base_samples=2048"];
 
 /// Why a reproduction failed.
 #[derive(Debug, Error)]
@@ -109,18 +109,6 @@ pub enum ReproduceError {
     /// A scene has no solution. At the defaults of the papers this does not happen.
     #[error("a scene of the papers has no answer: {0}")]
     Scene(#[from] Failure),
-    /// A factor cannot be swept.
-    #[error(transparent)]
-    Sweep(#[from] SweepError),
-    /// The model has no such input.
-    #[error("the nanoparticle model has no parameter `{name}`")]
-    NoParameter {
-        /// Its name.
-        name: &'static str,
-    },
-    /// The general study does not have a factor that a claim is about.
-    #[error("the general study does not give the range of every factor that the claims are about")]
-    NoRanges,
     /// A study that a claim is about has not been run, or has no indices.
     #[error("claims 17 to 20 need the {group} study under {friction} friction, with its indices")]
     NoIndices {
@@ -128,14 +116,6 @@ pub enum ReproduceError {
         group: &'static str,
         /// The name of its friction model.
         friction: &'static str,
-    },
-    /// A study has no shares to compare with the printed percentages.
-    #[error("the study {study} has no shares of {measure}: its indices have no positive sum")]
-    NoPercentages {
-        /// The study.
-        study: String,
-        /// `S_1` or `S_T`.
-        measure: &'static str,
     },
 }
 
@@ -148,6 +128,23 @@ pub struct Reproduced {
     pub group: StudyGroup,
     /// Its result.
     pub result: StudyResult,
+}
+
+/// A reproduction that has taken place.
+#[derive(Debug, Clone, Default)]
+pub struct Reproduction {
+    /// How much was computed.
+    pub effort: Effort,
+    /// The nine studies, group by group.
+    pub studies: Vec<Reproduced>,
+    /// The figures of the papers, if asked for.
+    pub figures: Vec<PaperFigure>,
+    /// The animation, if figures were asked for.
+    pub animation: Option<Animation>,
+    /// The claims with their verdicts, if asked for.
+    pub claims: Vec<Claim>,
+    /// Our shares and the printed percentages, if claims were asked for.
+    pub percentages: Vec<Percentages>,
 }
 
 /// Returns the nine studies, read and checked, after applying `overrides` to each; group by group. The overrides should
@@ -168,8 +165,8 @@ fn study(friction: &str, group: &str, overrides: &[String]) -> Result<Study, Stu
 }
 
 /// Returns the study that has all factors with their ranges.
-fn general_study() -> Result<Study, StudyError> {
-    study("coulomb", "general", &[])
+fn general_study() -> Study {
+    study("coulomb", "general", &[]).expect("a part of this program")
 }
 
 /// Groups the names by equal statements, in the order of the first of each.

@@ -52,13 +52,14 @@ pub struct StudyShares {
 }
 
 impl StudyShares {
-    /// Returns the shares of an output; `None` without any.
-    fn new(group: &'static str, output: &OutputResult, share: fn(&EffectEstimates) -> Option<f64>) -> Option<Self> {
-        let indices = output.indices.as_ref().filter(|indices| !indices.is_empty())?;
-        let shares = indices.iter().map(|index| Some((index.factor.clone(), share(&index.effect)?)));
-        let shares: Vec<(String, f64)> = shares.collect::<Option<_>>()?;
+    /// Returns the shares of an output.
+    fn new(group: &'static str, output: &OutputResult, share: fn(&EffectEstimates) -> Option<f64>) -> Self {
+        let indices = output.indices.iter().flatten();
+        // The design does not depend on the user: with it every output of these studies has shares.
+        let share = |effect| share(effect).expect("a study with shares");
+        let shares: Vec<(String, f64)> = indices.map(|i| (i.factor.clone(), share(&i.effect))).collect();
         let distance = distance(group, shares.iter().map(|(factor, share)| (factor.as_str(), *share)));
-        Some(Self { group, shares, distance })
+        Self { group, shares, distance }
     }
 
     fn share(&self, factor: &str) -> Option<f64> {
@@ -106,7 +107,7 @@ pub fn distance<'a>(group: &str, shares: impl IntoIterator<Item = (&'a str, f64)
 /// both outputs by both measures.
 ///
 /// # Errors
-/// [`ReproduceError`] if a study cannot be run or its indices have no positive sum.
+/// [`ReproduceError`] if a study cannot be run.
 pub fn percentages(effort: Effort, threads: usize) -> Result<Vec<Percentages>, ReproduceError> {
     let viscous = ("viscous LuGre", PRINTED, &[VISCOUS][..]);
     let models = FRICTIONS.iter().map(|friction| (friction.name, friction.key, &[][..])).chain([viscous]);
@@ -118,9 +119,8 @@ pub fn percentages(effort: Effort, threads: usize) -> Result<Vec<Percentages>, R
             for (measure, share) in MEASURES {
                 let of_group = |(group, result): (StudyGroup, &StudyResult)| {
                     StudyShares::new(group.key, &result.outputs[place], share)
-                        .ok_or_else(|| ReproduceError::NoPercentages { study: result.study.name.clone(), measure })
                 };
-                let studies = GROUPS.into_iter().zip(&results).map(of_group).collect::<Result<_, _>>()?;
+                let studies = GROUPS.into_iter().zip(&results).map(of_group).collect();
                 rows.push(Percentages { friction, measure, output, studies });
             }
         }

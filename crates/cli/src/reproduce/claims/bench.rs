@@ -12,7 +12,7 @@ use super::curve::{Curve, grid};
 use super::judge::{Holding, Share};
 use super::numbers::number;
 use crate::reproduce::papers::Words;
-use crate::reproduce::{Effort, Friction, ReproduceError, Reproduced, general_study};
+use crate::reproduce::{Effort, Friction, Reproduced, general_study};
 
 /// Seed of every sample of the box.
 const SEED: u64 = 5;
@@ -86,15 +86,6 @@ impl Sweep {
     }
 }
 
-/// The factors that vary over their ranges; the others are at their nominal values.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Region {
-    /// All eight.
-    General,
-    /// Those of this group of the general study.
-    Group(&'static str),
-}
-
 /// The data for the checks of all claims.
 pub(super) struct Bench<'a> {
     pub physics: Physics<'a>,
@@ -107,12 +98,10 @@ pub(super) struct Bench<'a> {
 
 impl<'a> Bench<'a> {
     /// Creates a bench with the ranges of the general study.
-    pub fn new(physics: Physics<'a>, effort: Effort, studies: &'a [Reproduced]) -> Result<Self, ReproduceError> {
-        let study = general_study()?;
-        let parameters = study.space().factors().iter().map(|factor| Parameter::from_name(&factor.name)).collect();
-        let parameters: Option<Vec<_>> = parameters;
-        let parameters = parameters.ok_or(ReproduceError::NoRanges)?;
-        Ok(Self { physics, sizes: Sizes::new(effort), studies, space: study.space().clone(), parameters })
+    pub fn new(physics: Physics<'a>, effort: Effort, studies: &'a [Reproduced]) -> Self {
+        let space = general_study().space().clone();
+        let parameters = space.factors().iter().map(|factor| parameter(&factor.name)).collect();
+        Self { physics, sizes: Sizes::new(effort), studies, space, parameters }
     }
 
     /// Returns F_cr (N).
@@ -121,12 +110,11 @@ impl<'a> Bench<'a> {
     }
 
     /// Returns a sweep of a factor over its range in the general study.
-    pub fn over(&self, name: &str) -> Result<Sweep, ReproduceError> {
-        let mut factors = self.space.factors().iter().zip(&self.parameters);
-        let (factor, parameter) = factors.find(|(factor, _)| factor.name == name).ok_or(ReproduceError::NoRanges)?;
+    pub fn over(&self, name: &str) -> Sweep {
+        let factor = self.space.factors().iter().find(|factor| factor.name == name).expect("a factor of the study");
         let (low, high) = factor.distribution().support();
         let range = (factor.unit().to_si(low), factor.unit().to_si(high));
-        Ok(Sweep { parameter, range, count: self.sizes.curve })
+        Sweep { parameter: parameter(name), range, count: self.sizes.curve }
     }
 
     /// Returns F_cr along a sweep of one constant of `scene`.
@@ -152,10 +140,10 @@ impl<'a> Bench<'a> {
     }
 
     /// Returns the share of `count` points of a box where `rule` holds: Sobol' points, in independent scrambles for the
-    /// interval.
+    /// interval. The factors of `group` vary, or all; the others are at their nominal values.
     pub fn share(
         &self,
-        which: Region,
+        group: Option<&str>,
         count: u64,
         rule: &dyn Fn(&Scene) -> Result<bool, Failure>,
     ) -> Result<Share, Failure> {
@@ -163,7 +151,7 @@ impl<'a> Bench<'a> {
         let mut shares = Vec::new();
         for replicate in 0..REPLICATES {
             let mut held = 0_u64;
-            for scene in self.scenes(which, replicate, each) {
+            for scene in self.scenes(group, replicate, each) {
                 held += u64::from(rule(&scene)?);
             }
             shares.push(held as f64 / each as f64);
@@ -174,7 +162,7 @@ impl<'a> Bench<'a> {
         let error = (spread / (replicates * (replicates - 1.0))).sqrt();
         let interval = t_interval(value, StandardError { error, freedom: replicates - 1.0 });
         let interval = interval.map(|i| Interval { low: i.low.max(0.0), high: i.high.min(1.0) });
-        Ok(Share { value, interval, points: each * REPLICATES })
+        Ok(Share { value, interval })
     }
 
     /// Returns whether `rule` holds at the nominal scene, and on what share of the general box.
@@ -185,7 +173,7 @@ impl<'a> Bench<'a> {
         rule: &dyn Fn(&Scene) -> Result<bool, Failure>,
     ) -> Result<Holding, Failure> {
         let nominal = rule(&Scene::default())?;
-        Ok(Holding { what: what.into(), nominal, share: self.share(Region::General, count, rule)? })
+        Ok(Holding { what: what.into(), nominal, share: self.share(None, count, rule)? })
     }
 
     /// Returns the same under each of these friction laws, with its name after `label`.
@@ -202,14 +190,12 @@ impl<'a> Bench<'a> {
         frictions.iter().map(under).collect()
     }
 
-    fn scenes(&self, which: Region, replicate: u64, count: u64) -> Vec<Scene> {
+    fn scenes(&self, group: Option<&str>, replicate: u64, count: u64) -> Vec<Scene> {
         let mut scenes = vec![Scene::default(); count as usize];
         let sequence = SobolSequence::scrambled(self.parameters.len(), SEED, replicate);
         let (mut u, mut si) = (vec![0.0; scenes.len()], vec![0.0; scenes.len()]);
         for (place, (factor, parameter)) in self.space.factors().iter().zip(&self.parameters).enumerate() {
-            if let Region::Group(group) = which
-                && factor.group.as_deref() != Some(group)
-            {
+            if group.is_some() && factor.group.as_deref() != group {
                 continue;
             }
             sequence.fill(place, 0, &mut u);
@@ -218,6 +204,11 @@ impl<'a> Bench<'a> {
         }
         scenes
     }
+}
+
+/// Returns a parameter of the nanoparticle model.
+pub(super) fn parameter(name: &str) -> &'static Parameter {
+    Parameter::from_name(name).expect("a parameter of the model")
 }
 
 /// Options of the closed formulas under `friction`, otherwise as in the papers and in the nine studies.

@@ -31,7 +31,7 @@ fn shaped(
     shape: fn(&Curve) -> bool,
     words: CurveWords<'_>,
 ) -> Result<Answer, ReproduceError> {
-    let sweep = bench.over(factor)?;
+    let sweep = bench.over(factor);
     let rule = |law, scene: &Scene| Ok(shape(&bench.curve(&sweep, scene, &closed(law))?));
     let holdings = bench.holding_under(&FRICTIONS, "", |_| bench.sizes.points, rule)?;
     let words = [
@@ -117,7 +117,7 @@ pub(super) fn thickness(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
 
 /// Checks claim 11. The closed form does not contain the height, so only exact geometry can decide.
 pub(super) fn height(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
-    without_effect(bench, &Sweep { count: 4, ..bench.over("height")? }, exact)
+    without_effect(bench, &Sweep { count: 4, ..bench.over("height") }, exact)
 }
 
 /// Checks the claim that a sweep does not change F_cr.

@@ -23,7 +23,7 @@ const VISCOUS: f64 = 0.3;
 
 /// Checks claim 12. Only the equations of motion depend on the velocity under every friction model.
 pub(super) fn velocity(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
-    let whole = Sweep { count: 5, ..bench.over("velocity")? };
+    let whole = Sweep { count: 5, ..bench.over("velocity") };
     let slow = Sweep { range: (0.0, SLOW), count: 4, ..whole };
     let mut answer = without_effect(bench, &slow, in_motion)?;
     let nominal = Scene::default();
@@ -45,7 +45,7 @@ pub(super) fn velocity(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
 
 /// Checks claim 13.
 pub(super) fn elastic_modulus(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
-    let sweep = bench.over("elastic_modulus")?;
+    let sweep = bench.over("elastic_modulus");
     let points = bench.sizes.points;
     let rise = |law, scene: &Scene| Ok(is_linear_rise(&bench.curve(&sweep, scene, &closed(law))?));
     let mut holdings = bench.holding_under(&FRICTIONS, "linear rise under ", |_| points, rise)?;
@@ -69,7 +69,7 @@ fn gap(bench: &Bench<'_>, scene: &Scene, coulomb: &Options) -> Result<f64, Failu
 
 /// Checks claim 14.
 pub(super) fn contact_modulus(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
-    let sweep = bench.over("equivalent_modulus")?;
+    let sweep = bench.over("equivalent_modulus");
     let points = bench.sizes.points;
     let (coulomb, hurtado_kim) = (closed(FrictionLaw::Coulomb), closed(FrictionLaw::HurtadoKim));
     let unmoved = |scene: &Scene| Ok(bench.curve(&sweep, scene, &coulomb)?.spread() < UNMOVED);
@@ -92,7 +92,7 @@ pub(super) fn contact_modulus(bench: &Bench<'_>) -> Result<Answer, ReproduceErro
 
 /// Checks claim 15.
 pub(super) fn adhesion(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
-    let sweep = bench.over("adhesion")?;
+    let sweep = bench.over("adhesion");
     let points = bench.sizes.points;
     let rises = |law, scene: &Scene| Ok(bench.curve(&sweep, scene, &closed(law))?.rises());
     let mut holdings = bench.holding_under(&FRICTIONS[..2], "rise under ", |_| points, rises)?;
@@ -123,7 +123,7 @@ pub(super) fn constant_parameters(bench: &Bench<'_>) -> Result<Answer, Reproduce
     let mut holdings = Vec::new();
     let mut findings = Vec::new();
     for (name, symbol) in [("equivalent_modulus", "K"), ("adhesion", "ω")] {
-        let sweep = bench.over(name)?;
+        let sweep = bench.over(name);
         let rule = |scene: &Scene| Ok(bench.curve(&sweep, scene, &options)?.spread() < NO_EFFECT);
         holdings.push(bench.holding(format!("{symbol} invisible"), bench.sizes.points, &rule)?);
         let few = Sweep { count: 4, ..sweep };

@@ -2,10 +2,10 @@
 
 use apportion_afm::contact::Contact;
 use apportion_afm::history::{History, Sample};
-use apportion_afm::{Failure, FrictionLaw, Parameter, Scene};
+use apportion_afm::{Failure, FrictionLaw, Scene};
 
 use super::Verdict;
-use super::bench::{Bench, Sweep, closed};
+use super::bench::{Bench, Sweep, closed, parameter};
 use super::judge::Answer;
 use super::numbers::{change, nano, number};
 use crate::reproduce::{FRICTIONS, ReproduceError};
@@ -109,8 +109,7 @@ fn ends(samples: &[Sample]) -> (&Sample, &Sample) {
 
 /// Checks claim 3.
 pub(super) fn delay(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
-    let parameter = Parameter::from_name("static_friction").ok_or(ReproduceError::NoRanges)?;
-    let sweep = Sweep { parameter, range: (0.1, 1.2), count: bench.sizes.curve };
+    let sweep = Sweep { parameter: parameter("static_friction"), range: (0.1, 1.2), count: bench.sizes.curve };
     let options = closed(FrictionLaw::Coulomb);
     let slip_time = |scene: &Scene| (bench.physics.force)(scene, &options)?.critical_time;
     let rule = |scene: &Scene| Ok(bench.curve_of(&sweep, scene, &slip_time)?.rises());

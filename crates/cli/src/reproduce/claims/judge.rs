@@ -7,24 +7,15 @@ use super::numbers::percent_of;
 use crate::reproduce::named_together;
 use crate::reproduce::papers::Words;
 
-/// Share of the box from which on a rule holds everywhere: the rest is a corner that no chart of the papers shows.
-const EVERYWHERE: f64 = 0.999;
-
 /// The share of a box where a rule holds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Share {
     pub value: f64,
     /// Its interval at the common level; `None` if the error is unknown.
     pub interval: Option<Interval>,
-    /// Number of points.
-    pub points: u64,
 }
 
 impl Share {
-    pub fn everywhere(&self) -> bool {
-        self.value >= EVERYWHERE
-    }
-
     /// Formats it as in `83.2 % [82.9, 83.5] of the box`; `all of the box` only if no point failed.
     pub fn words_of(&self, whole: &str) -> String {
         match (self.value, self.interval) {
@@ -86,7 +77,7 @@ mod tests {
 
     fn holding(what: &str, nominal: bool, value: f64) -> Holding {
         let interval = Some(Interval { low: value - 0.001, high: value + 0.001 });
-        Holding { what: what.into(), nominal, share: Share { value, interval, points: 1024 } }
+        Holding { what: what.into(), nominal, share: Share { value, interval } }
     }
 
     #[test]

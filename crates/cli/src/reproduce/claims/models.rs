@@ -2,7 +2,7 @@
 
 use apportion_afm::{FrictionLaw, Scene};
 
-use super::bench::{Bench, Region, closed};
+use super::bench::{Bench, closed};
 use super::judge::{Answer, Holding};
 use super::numbers::nano;
 use crate::reproduce::ReproduceError;
@@ -12,9 +12,9 @@ pub(super) fn weaker_law(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
     let below = |scene: &Scene| Ok(bench.force(scene, &hurtado_kim)? < bench.force(scene, &coulomb)?);
     // All samples of a box share the scrambles, so that they differ only by their factors.
     let points = bench.sizes.points;
-    let general = bench.share(Region::General, points, &below)?;
-    let dimensional = bench.share(Region::Group("dimensional"), points, &below)?;
-    let environmental = bench.share(Region::Group("environmental"), points, &below)?;
+    let general = bench.share(None, points, &below)?;
+    let dimensional = bench.share(Some("dimensional"), points, &below)?;
+    let environmental = bench.share(Some("environmental"), points, &below)?;
     let nominal = Scene::default();
     let holding =
         Holding { what: "F_cr(Hurtado-Kim) < F_cr(Coulomb)".to_owned(), nominal: below(&nominal)?, share: general };

@@ -3,9 +3,9 @@
 use std::f64::consts::FRAC_PI_2;
 
 use apportion_afm::modes::{Mode, Onset, TipForce};
-use apportion_afm::{Failure, FrictionLaw, Parameter, Scene};
+use apportion_afm::{Failure, FrictionLaw, Scene};
 
-use super::bench::{Bench, Sweep, closed, exact};
+use super::bench::{Bench, Sweep, closed, exact, parameter};
 use super::curve::grid;
 use super::judge::{Answer, judge, over_ranges};
 use super::numbers::{change, nano, number};
@@ -25,8 +25,7 @@ fn diagram(bench: &Bench<'_>, scene: &Scene, adhesion_in_load: bool) -> Result<V
 
 /// Checks claim 4.
 pub(super) fn angle(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
-    let parameter = Parameter::from_name("contact_angle").ok_or(ReproduceError::NoRanges)?;
-    let sweep = Sweep { parameter, range: (0.0, FRAC_PI_2), count: 5 };
+    let sweep = Sweep { parameter: parameter("contact_angle"), range: (0.0, FRAC_PI_2), count: 5 };
     let options = exact(FrictionLaw::Coulomb);
     let against_force_angle = |scene: &Scene| {
         let mut falls = true;

@@ -31,23 +31,22 @@ pub(super) fn section() -> Section {
     let caption = "Constants whose printed and used values differ, or that no paper prints. All others are \
                    used as printed.";
     let words = used();
-    let rows = Table::from_rows(caption, &papers().constants)
+    let constants = Table::from_rows(caption, &papers().constants)
         .text("constant", |constant| constant.name)
         .text("printed", |constant| constant.printed)
         .text("used", |constant| filled(constant.used, &words))
         .text("why", |constant| constant.why);
-    let mut parts = vec![rows.into()];
-    if let Ok(study) = general_study() {
-        let range = |factor: &Factor| {
-            let (low, high) = factor.distribution().support();
-            format!("{low} to {high} {}", factor.unit())
-        };
-        let caption = "The ranges of the factors, uniform, as CHK prints them in its tables 1 to 3.";
-        let table = Table::from_rows(caption, study.space().factors())
-            .text("factor", |factor| factor.name.replace('_', " "))
-            .text("range", range)
-            .text("group", |factor| factor.group.as_deref().unwrap_or_default());
-        parts.push(Part::Details { summary: "The ranges of the factors".to_owned(), parts: vec![table.into()] });
-    }
+    let range = |factor: &Factor| {
+        let (low, high) = factor.distribution().support();
+        format!("{low} to {high} {}", factor.unit())
+    };
+    let caption = "The ranges of the factors, uniform, as CHK prints them in its tables 1 to 3.";
+    let study = general_study();
+    let ranges = Table::from_rows(caption, study.space().factors())
+        .text("factor", |factor| factor.name.replace('_', " "))
+        .text("range", range)
+        .text("group", |factor| factor.group.as_deref().unwrap_or_default());
+    let ranges = Part::Details { summary: "The ranges of the factors".to_owned(), parts: vec![ranges.into()] };
+    let parts = vec![constants.into(), ranges];
     Section::new("constants", "Constants: printed, used, and why", vec![Part::OnPage(parts)])
 }

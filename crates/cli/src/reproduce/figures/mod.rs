@@ -41,11 +41,11 @@ pub struct PaperFigure {
 /// # Errors
 /// [`ReproduceError`] if a scene has no solution.
 pub fn figures(studies: &[Reproduced], effort: Effort) -> Result<Vec<PaperFigure>, ReproduceError> {
-    let general = general_study()?;
+    let general = general_study();
     let draw = |figure: &'static PrintedFigure| {
         let stem = figure.stem;
         let drawn = match (figure.factor, figure.shares) {
-            (Some(factor), _) => sweep::drawn(figure, factor, general.space(), effort).map(Some),
+            (Some(factor), _) => Ok(Some(sweep::drawn(figure, factor, general.space(), effort))),
             (None, Some(group)) => Ok(shares::drawn(group, stem, studies)),
             (None, None) => SCENES.iter().find(|(scene, _)| *scene == stem).map(|(_, drawn)| drawn()).transpose(),
         };

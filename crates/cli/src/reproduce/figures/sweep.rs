@@ -1,7 +1,7 @@
 //! The critical force against one factor, all others at their defaults.
 
 use apportion::space::{Factor, Space};
-use apportion::sweep::{find, values_over_range};
+use apportion::sweep::values_over_range;
 use apportion::text::{capitalised, listed};
 use apportion_afm::{Fidelity, FrictionLaw, Options, Parameter, Scene, critical_force};
 use apportion_report::chart::{Axis, Chart, Colour, Mark, Panel, Series, Stroke};
@@ -11,7 +11,7 @@ use rayon::prelude::*;
 
 use super::curve::{Curve, crossing};
 use crate::reproduce::papers::PrintedFigure;
-use crate::reproduce::{Effort, FRICTIONS, Friction, ReproduceError};
+use crate::reproduce::{Effort, FRICTIONS, Friction};
 
 const NANO: f64 = 1e9;
 /// Difference from the closed form, as a part of the force's range, from which the quasi-static rung is drawn too.
@@ -83,12 +83,7 @@ fn line(key: &'static str) -> Line {
 }
 
 /// Draws the critical force against `factor` over its range in `space`.
-pub(super) fn drawn(
-    figure: &PrintedFigure,
-    factor: &'static str,
-    space: &Space,
-    effort: Effort,
-) -> Result<super::Drawn, ReproduceError> {
+pub(super) fn drawn(figure: &PrintedFigure, factor: &str, space: &Space, effort: Effort) -> super::Drawn {
     let points = match effort {
         Effort::Full => 201,
         Effort::Quick => 41,
@@ -97,12 +92,12 @@ pub(super) fn drawn(
     // The sawtooth of the fixed-step integration needs a finer grid.
     let is_marched = lines.iter().any(Line::is_marched);
     let points = if is_marched { 4 * points - 3 } else { points };
-    let number = find(space, &[factor])?[0];
-    let values = values_over_range(space.factors()[number].distribution(), points)?;
-    let parameter = Parameter::from_name(factor).ok_or(ReproduceError::NoParameter { name: factor })?;
-    let swept = Swept { gap: figure.gap, factor: &space.factors()[number], parameter, values };
+    let parameter = Parameter::from_name(factor).expect("a parameter of the model");
+    let factor = space.factors().iter().find(|known| known.name == factor).expect("a factor of the study");
+    let values = values_over_range(factor.distribution(), points).expect("a distribution with bounds");
+    let swept = Swept { gap: figure.gap, factor, parameter, values };
     let lines: Vec<Drawn> = lines.iter().map(|line| swept.line(line)).collect();
-    Ok((swept.chart(&lines), swept.csv(&lines)))
+    (swept.chart(&lines), swept.csv(&lines))
 }
 
 /// A factor with its values.
