@@ -9,7 +9,7 @@ use super::bench::{Bench, closed};
 use super::dimensions::NO_EFFECT;
 use super::judge::Answer;
 use super::numbers::{change, nano};
-use crate::reproduce::order::{Agreement, OrderVerdict, Standing, VISIBLE, order_of, outweighing};
+use crate::reproduce::order::{OrderVerdict, Standing, VISIBLE, order_of, outweighing};
 use crate::reproduce::papers::{CLOSE, PRINTED};
 use crate::reproduce::{FRICTIONS, Friction, GROUPS, Published, ReproduceError, Reproduced, named_together, published};
 
@@ -58,7 +58,7 @@ pub(super) fn order(bench: &Bench<'_>, group: &'static str) -> Result<Answer, Re
     for friction in FRICTIONS {
         let (study, indices) = study(bench, group, friction)?;
         let order = order_of(study);
-        is_same &= order.agreement() == Agreement::Same;
+        is_same &= order.is_kept(false);
         phrases.push((verdict_of_order(&order), friction.name));
         shares.push(format!("under {} friction {}", friction.name, shares_in_words(indices, &order)));
     }
@@ -73,23 +73,21 @@ pub(super) fn order(bench: &Bench<'_>, group: &'static str) -> Result<Answer, Re
 
 /// Says in a phrase how an order agrees with the published one.
 fn verdict_of_order(order: &OrderVerdict<'_>) -> String {
-    let pairs = |wanted| {
-        let words = order.pairs_that_are(wanted).into_iter().map(|(one, other)| format!("{one} before {other}"));
-        words.collect::<Vec<_>>().join(" and ")
-    };
-    let phrase = match order.agreement() {
-        Agreement::Same => "the whole order".to_owned(),
-        Agreement::Beginning => {
+    let broken = order.pairs_that_are(Standing::Broken).join(" and ");
+    let intruders = order.intruders.join(" and ");
+    let of_intruders = format!("a visible share of {intruders}, which the paper does not rank");
+    let phrase = match (&*broken, &*intruders) {
+        ("", "") if order.is_kept(false) => "the whole order".to_owned(),
+        ("", "") if order.is_kept(true) => {
             format!("the order of the visible shares, which {} do not have", order.unseen.join(" and "))
         }
-        Agreement::Undecided => format!("not decided at this sample size: {}", pairs(Standing::Undecided)),
-        Agreement::Other => {
-            let broken = Some(pairs(Standing::Broken)).filter(|text| !text.is_empty());
-            let broken = broken.map(|text| format!("not {text}"));
-            let intruders = Some(order.intruders.join(" and ")).filter(|text| !text.is_empty());
-            let intruders = intruders.map(|text| format!("a visible share of {text}, which the paper does not rank"));
-            format!("another order: {}", broken.into_iter().chain(intruders).collect::<Vec<_>>().join(", "))
+        ("", "") => {
+            let pairs = order.pairs_that_are(Standing::Undecided).join(" and ");
+            format!("not decided at this sample size: {pairs}")
         }
+        ("", _) => format!("another order: {of_intruders}"),
+        (_, "") => format!("another order: not {broken}"),
+        _ => format!("another order: not {broken}, {of_intruders}"),
     };
     phrase.replace('_', " ")
 }
