@@ -13,13 +13,12 @@ pub(super) fn indices(study: &Reproduced) -> &[IndexRecord] {
     study.result.outputs.first().and_then(|output| output.indices.as_deref()).unwrap_or_default()
 }
 
-/// Returns the positions of a study's factors in its [`indices`], the largest total share first.
-pub(super) fn ranked(study: &Reproduced) -> Vec<usize> {
-    let shares = indices(study).iter().enumerate();
-    let mut ranked: Vec<(usize, f64)> =
-        shares.filter_map(|(place, index)| Some((place, index.effect.share_total?))).collect();
-    ranked.sort_by(|a, b| b.1.total_cmp(&a.1));
-    ranked.into_iter().map(|(place, _)| place).collect()
+/// Returns the indices of a study's factors with their positions in [`indices`], the largest total share first.
+pub(super) fn ranked(study: &Reproduced) -> Vec<(usize, &IndexRecord)> {
+    let share = |index: &IndexRecord| index.effect.share_total.unwrap_or(f64::NAN);
+    let mut ranked: Vec<_> = indices(study).iter().enumerate().filter(|(_, index)| !share(index).is_nan()).collect();
+    ranked.sort_by(|(_, a), (_, b)| share(b).total_cmp(&share(a)));
+    ranked
 }
 
 /// Builds the table of every index and share of every study with the printed percentage, by falling total share in
@@ -28,11 +27,12 @@ pub(super) fn shares_table<'a>(studies: &[&'a Reproduced]) -> Table {
     let (mut rows, mut printed) = (Vec::new(), Vec::new());
     for study in studies {
         let ranked = ranked(study);
-        printed.extend(ranked.iter().map(|place| rows.len() + place));
+        printed.extend(ranked.iter().map(|(place, _)| rows.len() + place));
         let print = published(study.group.key, study.friction.key);
         // Only the first row of a study names it.
+        let first = ranked.first().map(|(place, _)| *place);
         let row = |(place, index): (usize, &'a IndexRecord)| {
-            (*study, index, ranked.first() == Some(&place), print.share(&index.factor))
+            (*study, index, first == Some(place), print.share(&index.factor))
         };
         rows.extend(indices(study).iter().enumerate().map(row));
     }

@@ -9,61 +9,47 @@ const SMALL: f64 = 1e-2;
 /// Distance from the chord, as a part of the change, up to which a curve is called straight.
 const STRAIGHT: f64 = 0.02;
 
-/// A curve y(x) in the units of its chart, x rising; a missing y is not finite.
-pub(super) struct Curve<'a> {
-    /// The abscissae.
-    pub x: &'a [f64],
-    /// One ordinate for each.
-    pub y: &'a [f64],
-    /// Unit of the abscissae, with a leading space.
-    pub x_unit: &'a str,
-    /// Unit of the ordinates, likewise.
-    pub y_unit: &'a str,
+/// Describes a force (nN) over rising `x` (in `x_unit`, with a leading space), such as "falls from 9 to 1 nN (half of the
+/// way by 3 um)", for use after the name of the force. A missing force is not finite. `whom`, such as " under Coulomb
+/// friction", follows the values.
+pub(super) fn course(x: &[f64], force: &[f64], x_unit: &str, whom: &str) -> String {
+    let points = x.iter().copied().zip(force.iter().copied());
+    let points: Vec<(f64, f64)> = points.filter(|(_, force)| force.is_finite()).collect();
+    let (Some(&(_, first)), Some(&(_, last))) = (points.first(), points.last()) else {
+        return format!("does not exist{whom}");
+    };
+    let (low, high) = points.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), p| (l.min(p.1), h.max(p.1)));
+    let size = low.abs().max(high.abs());
+    if high - low <= ROUNDING * size {
+        return format!("stays at {} nN{whom}", short(first));
+    }
+    let slack = ROUNDING * (high - low);
+    let rises = points.windows(2).all(|p| p[1].1 >= p[0].1 - slack);
+    let falls = points.windows(2).all(|p| p[1].1 <= p[0].1 + slack);
+    let verb = if rises { "rises" } else { "falls" };
+    if !rises && !falls {
+        return format!("lies between {} and {} nN{whom}", short(low), short(high));
+    }
+    if high - low <= SMALL * size {
+        return format!("{verb} by {} % from {} nN{whom}", short(100.0 * (high - low) / size), short(first));
+    }
+    format!("{verb} from {} to {} nN{whom}{}", short(first), short(last), shape(&points, x_unit))
 }
 
-impl Curve<'_> {
-    /// Describes the curve from its first to its last point, such as "falls from 9 to 1 nN (half of the way by 3 um)",
-    /// for use after the name of the quantity. `whom`, such as " under Coulomb friction", follows the values.
-    pub fn course(&self, whom: &str) -> String {
-        let points: Vec<(f64, f64)> =
-            self.x.iter().copied().zip(self.y.iter().copied()).filter(|(_, y)| y.is_finite()).collect();
-        let (Some(&(_, first)), Some(&(_, last))) = (points.first(), points.last()) else {
-            return format!("does not exist{whom}");
-        };
-        let unit = self.y_unit;
-        let (low, high) = points.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), p| (l.min(p.1), h.max(p.1)));
-        let size = low.abs().max(high.abs());
-        if high - low <= ROUNDING * size {
-            return format!("stays at {}{unit}{whom}", short(first));
-        }
-        let slack = ROUNDING * (high - low);
-        let rises = points.windows(2).all(|p| p[1].1 >= p[0].1 - slack);
-        let falls = points.windows(2).all(|p| p[1].1 <= p[0].1 + slack);
-        let verb = if rises { "rises" } else { "falls" };
-        if !rises && !falls {
-            return format!("lies between {} and {}{unit}{whom}", short(low), short(high));
-        }
-        if high - low <= SMALL * size {
-            return format!("{verb} by {} % from {}{unit}{whom}", short(100.0 * (high - low) / size), short(first));
-        }
-        format!("{verb} from {} to {}{unit}{whom}{}", short(first), short(last), self.shape(&points))
+/// Describes how the change of a monotonic curve is distributed over the points.
+fn shape(points: &[(f64, f64)], x_unit: &str) -> String {
+    let ((x0, y0), (x1, y1)) = (points[0], points[points.len() - 1]);
+    let chord = |x: f64| y0 + (y1 - y0) * (x - x0) / (x1 - x0);
+    let bend = points.iter().map(|(x, y)| ((y - chord(*x)) / (y1 - y0)).abs()).fold(0.0, f64::max);
+    if bend <= ROUNDING {
+        return " (in a straight line)".to_owned();
     }
-
-    /// Describes how the change of a monotonic curve is distributed over the points.
-    fn shape(&self, points: &[(f64, f64)]) -> String {
-        let ((x0, y0), (x1, y1)) = (points[0], points[points.len() - 1]);
-        let chord = |x: f64| y0 + (y1 - y0) * (x - x0) / (x1 - x0);
-        let bend = points.iter().map(|(x, y)| ((y - chord(*x)) / (y1 - y0)).abs()).fold(0.0, f64::max);
-        if bend <= ROUNDING {
-            return " (in a straight line)".to_owned();
-        }
-        if bend <= STRAIGHT {
-            return format!(" (in a straight line to within {} % of the change)", short(100.0 * bend));
-        }
-        match crossing(points, 0.5 * (y0 + y1)) {
-            Some(x) => format!(" (half of the way by {}{})", short(x), self.x_unit),
-            None => String::new(),
-        }
+    if bend <= STRAIGHT {
+        return format!(" (in a straight line to within {} % of the change)", short(100.0 * bend));
+    }
+    match crossing(points, 0.5 * (y0 + y1)) {
+        Some(x) => format!(" (half of the way by {}{})", short(x), x_unit),
+        None => String::new(),
     }
 }
 
@@ -85,7 +71,7 @@ mod tests {
     fn course(f: impl Fn(f64) -> f64) -> String {
         let x: Vec<f64> = (0..=1000).map(|i| 1.0 + f64::from(i) / 1000.0).collect();
         let y: Vec<f64> = x.iter().map(|x| f(*x)).collect();
-        Curve { x: &x, y: &y, x_unit: " um", y_unit: " nN" }.course("")
+        super::course(&x, &y, " um", "")
     }
 
     #[test]

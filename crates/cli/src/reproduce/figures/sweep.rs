@@ -9,7 +9,7 @@ use apportion_report::document::Table;
 use apportion_report::format::{three_digits as short, unit};
 use rayon::prelude::*;
 
-use super::curve::{Curve, crossing};
+use super::curve::{course, crossing};
 use crate::reproduce::papers::PrintedFigure;
 use crate::reproduce::{Effort, FRICTIONS, Friction};
 
@@ -120,34 +120,27 @@ struct Drawn<'a> {
 
 impl Swept<'_> {
     fn line<'a>(&self, line: &'a Line) -> Drawn<'a> {
-        let (scene, options) = (line.scene, line.options);
         let force = |options: &Options| -> Vec<f64> {
             let at = |value: &f64| {
-                let mut scene = scene;
+                let mut scene = line.scene;
                 (self.parameter.set)(&mut scene, self.factor.unit().to_si(*value));
                 critical_force(&scene, options).map_or(f64::NAN, |critical| NANO * critical.critical_force)
             };
             self.values.par_iter().map(at).collect()
         };
-        let is_checked = !line.is_marched();
-        Drawn {
-            line,
-            force: force(&options),
-            quasi_static: is_checked.then(|| force(&Options { fidelity: Fidelity::QuasiStatic, ..options })),
-        }
+        let quasi_static = || force(&Options { fidelity: Fidelity::QuasiStatic, ..line.options });
+        Drawn { line, force: force(&line.options), quasi_static: (!line.is_marched()).then(quasi_static) }
     }
 
     fn csv(&self, lines: &[Drawn]) -> String {
         let unit = self.factor.unit().symbol().replace('/', "_per_");
         let name = format!("{}_{unit}", self.factor.name);
-        let mut rows = Table::from_rows("", 0..self.values.len()).file(name, |row| self.values[row]);
-        for drawn in lines {
-            rows = rows.file(format!("{}_nN", drawn.line.key), |row| drawn.force[row]);
-        }
-        for (drawn, force) in lines.iter().filter_map(|drawn| Some((drawn, drawn.quasi_static.as_ref()?))) {
-            rows = rows.file(format!("{}_quasi_static_nN", drawn.line.key), |row| force[row]);
-        }
-        rows.csv()
+        let rows = Table::from_rows("", 0..self.values.len()).file(name, |row| self.values[row]);
+        let own = lines.iter().map(|drawn| (format!("{}_nN", drawn.line.key), &drawn.force));
+        let quasi_static = lines
+            .iter()
+            .filter_map(|drawn| Some((format!("{}_quasi_static_nN", drawn.line.key), drawn.quasi_static.as_ref()?)));
+        own.chain(quasi_static).fold(rows, |rows, (name, force)| rows.file(name, |row| force[row])).csv()
     }
 
     fn chart(&self, lines: &[Drawn]) -> Chart {
@@ -160,7 +153,7 @@ impl Swept<'_> {
         for drawn in marched.into_iter().chain(rest) {
             let (colour, stroke) = drawn.line.look;
             all.push(Series::new(&drawn.line.name, colour).stroke(stroke).line(points(&drawn.force)));
-            if let Some(force) = drawn.quasi_static.as_ref().filter(|_| drawn.difference() > VISIBLE * range) {
+            if let Some(force) = drawn.quasi_static.as_ref().filter(|_| drawn.differs(range)) {
                 let name = format!("{}, quasi-static", drawn.line.name);
                 all.push(Series::new(name, colour).stroke(Stroke::Dotted).line(points(force)));
             }
@@ -177,11 +170,11 @@ impl Swept<'_> {
     fn caption(&self, lines: &[Drawn], range: f64) -> String {
         let unit = format!(" {}", unit(self.factor.unit().symbol()));
         let (Some(from), Some(to)) = (self.values.first(), self.values.last()) else { return String::new() };
-        let course = |drawn: &Drawn| match drawn.line.is_marched() {
+        let said = |drawn: &Drawn| match drawn.line.is_marched() {
             true => overshoot(drawn, &lines[0]),
-            false => Curve { x: &self.values, y: &drawn.force, x_unit: &unit, y_unit: " nN" }.course(&drawn.line.said),
+            false => course(&self.values, &drawn.force, &unit, &drawn.line.said),
         };
-        let courses: Vec<String> = lines.iter().map(course).collect();
+        let courses: Vec<String> = lines.iter().map(said).collect();
         let mut text = format!(
             "From {from} to {to}{unit} of {}, the critical force {}",
             self.parameter.description,
@@ -215,18 +208,14 @@ impl Swept<'_> {
 }
 
 impl Drawn<'_> {
-    /// Returns the largest distance of the two rungs as `of` their forces: in nN, or as a part of the force.
-    fn largest(&self, of: fn(f64, f64) -> f64) -> f64 {
-        let both = self.quasi_static.iter().flat_map(|other| self.force.iter().zip(other));
-        largest(both.map(|(formula, geometry)| of(*formula, *geometry)))
+    /// Returns the forces of the line with those by the quasi-static rung, if it has them.
+    fn both(&self) -> impl Iterator<Item = (&f64, &f64)> {
+        self.quasi_static.iter().flat_map(|other| self.force.iter().zip(other))
     }
 
-    fn difference(&self) -> f64 {
-        self.largest(|formula, geometry| (formula - geometry).abs())
-    }
-
-    fn relative_difference(&self) -> f64 {
-        self.largest(|formula, geometry| (geometry / formula - 1.0).abs())
+    /// Returns whether the two rungs differ visibly on an axis with this range of forces (nN).
+    fn differs(&self, range: f64) -> bool {
+        largest(self.both().map(|(formula, geometry)| (formula - geometry).abs())) > VISIBLE * range
     }
 }
 
@@ -251,10 +240,11 @@ fn overshoot(naive: &Drawn, right: &Drawn) -> String {
 /// Compares the quasi-static rung with the closed form if they differ by 0.01 % or more: the page says once that all
 /// others agree.
 fn agreement(lines: &[Drawn], range: f64) -> String {
-    let most = largest(lines.iter().map(Drawn::relative_difference));
+    let both = lines.iter().flat_map(Drawn::both);
+    let most = largest(both.map(|(formula, geometry)| (geometry / formula - 1.0).abs()));
     if most < 1e-4 {
         return String::new();
     }
-    let drawn = if lines.iter().any(|line| line.difference() > VISIBLE * range) { " (dotted)" } else { "" };
+    let drawn = if lines.iter().any(|line| line.differs(range)) { " (dotted)" } else { "" };
     format!("; the quasi-static rung{drawn} differs from the closed forms by at most {} %", short(100.0 * most))
 }
