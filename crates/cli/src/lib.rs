@@ -4,6 +4,7 @@
 #![cfg_attr(not(test), deny(clippy::disallowed_methods))]
 
 mod commands;
+mod failure;
 mod live;
 mod reproduce;
 mod scene;

@@ -4,51 +4,15 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 
 use apportion::result::StudyResult;
-use apportion::run::RunError;
 use apportion::study::Study;
-use apportion_files::{ModelKind, StudyError, edited};
+use apportion_files::{ModelKind, edited};
 use apportion_report::document::{DataFile, Document, Link, Part, Section, symbols};
 use apportion_report::{TRY, one_output, run_document};
 use askama::Template;
 use serde_json::json;
-use thiserror::Error;
 use toml_edit::DocumentMut;
 
-/// Why a page cannot be made.
-#[derive(Debug, Error)]
-pub enum LiveError {
-    /// The model is a program, or external.
-    #[error("a page cannot run the study {study}: its model is neither afm nor a formula nor a known function")]
-    Model {
-        /// The name of the study.
-        study: String,
-    },
-    /// The study has more factors than a page has points for.
-    #[error("a page cannot run the study {study}: it has {factors} factors, more than {MAX_FACTORS}")]
-    Factors {
-        /// The name of the study.
-        study: String,
-        /// The number of its factors.
-        factors: usize,
-    },
-    /// The study needs other files.
-    #[error("a page cannot run the study {study}: it needs other files ({source})")]
-    Files {
-        /// The name of the study.
-        study: String,
-        /// The error without them.
-        source: Box<StudyError>,
-    },
-    /// The study cannot be changed.
-    #[error(transparent)]
-    Study(#[from] StudyError),
-    /// The first run failed or was stopped.
-    #[error(transparent)]
-    Run(#[from] RunError),
-    /// The template cannot be rendered.
-    #[error("cannot make the page: {0}")]
-    Template(#[from] askama::Error),
-}
+use crate::failure::bad_input;
 
 /// The engine, compiled to WebAssembly by `web/build.sh`: gzip in base64.
 const ENGINE: &str = include_str!("../../../assets/web/engine.b64");
@@ -96,8 +60,8 @@ struct SectionView<'a> {
 /// Builds the page of `study`, with its initial result computed on `threads` threads, unless `stop` is set.
 ///
 /// # Errors
-/// [`LiveError`] if a page cannot run the study, or its first run fails.
-pub fn live_page(study: &Study, threads: usize, stop: &AtomicBool) -> Result<String, LiveError> {
+/// An error if a page cannot run the study, or its first run fails.
+pub fn live_page(study: &Study, threads: usize, stop: &AtomicBool) -> anyhow::Result<String> {
     let text = own_text(study)?;
     let study = apportion_files::parse_study(&text, Path::new(&format!("{}.toml", study.name())), &[])?;
     let result = study.runner().threads(threads).stop(stop).run()?;
@@ -108,8 +72,8 @@ pub fn live_page(study: &Study, threads: usize, stop: &AtomicBool) -> Result<Str
 /// that the study names is read: `document`, that of the result, has a section on ranges only if the study names none.
 ///
 /// # Errors
-/// [`LiveError`] if the page cannot be built.
-pub fn page_of_result(document: &Document, result: &StudyResult) -> Result<Option<String>, LiveError> {
+/// An error if the page cannot be built.
+pub fn page_of_result(document: &Document, result: &StudyResult) -> anyhow::Result<Option<String>> {
     if document.sections.iter().all(|section| section.id != TRY) {
         return Ok(None);
     }
@@ -142,24 +106,26 @@ pub fn place_next_to(document: &mut Document, name: &str, page: String) {
 /// Returns the text of a study with all changes made, for a page: with any number of base samples, without files.
 ///
 /// # Errors
-/// [`LiveError`] if the study cannot be used in a page.
-pub fn own_text(study: &Study) -> Result<String, LiveError> {
+/// An error if the study cannot be used in a page.
+pub fn own_text(study: &Study) -> anyhow::Result<String> {
     let kind = ModelKind::from_name(study.subject().name());
     let computes = |kind: ModelKind| kind == ModelKind::AFM || kind == ModelKind::EXPRESSION || kind.known.is_some();
+    let unfit = |why: &str| Err(bad_input(format!("a page cannot run the study {}: {why}", study.name())));
     if !kind.is_some_and(computes) {
-        return Err(LiveError::Model { study: study.name().to_owned() });
+        return unfit("its model is neither afm nor a formula nor a known function");
     }
     let factors = study.space().factors().len();
     if factors > MAX_FACTORS {
-        return Err(LiveError::Factors { study: study.name().to_owned(), factors });
+        return unfit(&format!("it has {factors} factors, more than {MAX_FACTORS}"));
     }
     let text = edited(study.source(), study.overrides())?;
     let text = without_target(&text).unwrap_or(text);
     // Without any files next to it.
     let alone = Path::new("no-such-folder-of-a-page").join(format!("{}.toml", study.name()));
-    apportion_files::parse_study(&text, &alone, &[])
-        .map_err(|source| LiveError::Files { study: study.name().to_owned(), source: Box::new(source) })?;
-    Ok(text)
+    match apportion_files::parse_study(&text, &alone, &[]) {
+        Ok(_) => Ok(text),
+        Err(error) => unfit(&format!("it needs other files ({error})")),
+    }
 }
 
 /// Removes the keys that determine the length of a run.
@@ -174,7 +140,7 @@ fn without_target(text: &str) -> Option<String> {
     Some(document.to_string())
 }
 
-fn page(study: &Study, text: &str, result: &StudyResult) -> Result<String, LiveError> {
+fn page(study: &Study, text: &str, result: &StudyResult) -> anyhow::Result<String> {
     // One output at a time.
     let result = one_output(result, None);
     let document = run_document(&result);

@@ -15,7 +15,7 @@ use super::check_plan::plan;
 use super::output::default_folder;
 use super::run::journal_path;
 use super::stop::on_signal;
-use super::{DesignChanges, Failure, StudyArguments, counted, print, say, say_notes};
+use super::{DesignChanges, StudyArguments, counted, print, say, say_notes};
 
 #[derive(clap::Args)]
 pub struct Arguments {
@@ -28,7 +28,7 @@ pub struct Arguments {
     out: Option<PathBuf>,
 }
 
-pub fn check(arguments: &Arguments) -> Result<(), Failure> {
+pub fn check(arguments: &Arguments) -> anyhow::Result<()> {
     let study = arguments.study.load_any(&arguments.design.overrides())?;
     say_notes(&study);
     let folder = arguments.out.clone().unwrap_or_else(|| default_folder(study.name()));
@@ -47,12 +47,12 @@ pub fn check(arguments: &Arguments) -> Result<(), Failure> {
         None => Ok(()),
         Some(Pilot { runs: number, reason, .. }) => {
             let (number, reason) = (counted(number, "run"), reason.unwrap_or_default());
-            Err(Failure::Run(anyhow!("every one of the first runs failed ({number}): {reason}")))
+            Err(anyhow!("every one of the first runs failed ({number}): {reason}"))
         }
     }
 }
 
-fn pilot(study: &Study) -> Result<Pilot, Failure> {
+fn pilot(study: &Study) -> anyhow::Result<Pilot> {
     let model = study.model();
     let context = RunContext::new(Some(on_signal()), say);
     Ok(Pilot::new(Job { design: study.design(), space: study.space(), model: model.as_ref() }, &context)?)

@@ -2,7 +2,7 @@
 
 use clap_complete::{Shell, generate};
 
-use super::{Failure, print_raw};
+use super::print_raw;
 
 #[derive(clap::Args)]
 #[command(after_help = "Where to put it:
@@ -16,7 +16,7 @@ pub struct Arguments {
     shell: Shell,
 }
 
-pub fn completions(arguments: &Arguments) -> Result<(), Failure> {
+pub fn completions(arguments: &Arguments) -> anyhow::Result<()> {
     let mut script = Vec::new();
     generate(arguments.shell, &mut super::command(), "apportion", &mut script);
     print_raw(&script)

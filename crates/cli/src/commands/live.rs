@@ -8,8 +8,8 @@ use apportion_report::{prepare_file, prepare_folder, write_atomically};
 
 use super::output::default_folder;
 use super::stop::on_signal;
-use super::{DesignChanges, Failure, StudyArguments, Threads, say};
-use crate::live::{LiveError, file_name, live_page, own_text, page_of_result, place_next_to};
+use super::{DesignChanges, StudyArguments, Threads, say};
+use crate::live::{file_name, live_page, own_text, page_of_result, place_next_to};
 
 #[derive(clap::Args)]
 pub struct Arguments {
@@ -46,19 +46,7 @@ impl LiveArguments {
     }
 }
 
-impl From<LiveError> for Failure {
-    fn from(error: LiveError) -> Self {
-        match error {
-            LiveError::Model { .. } | LiveError::Factors { .. } | LiveError::Files { .. } | LiveError::Study(_) => {
-                Self::Input(error.into())
-            }
-            LiveError::Run(error) => error.into(),
-            LiveError::Template(_) => Self::Run(error.into()),
-        }
-    }
-}
-
-pub fn live(arguments: &Arguments) -> Result<(), Failure> {
+pub fn live(arguments: &Arguments) -> anyhow::Result<()> {
     let study = arguments.study.load_with(&arguments.design.overrides())?;
     own_text(&study)?;
     let name = study.name();

@@ -6,7 +6,8 @@ use apportion::study::nearest;
 use apportion_files::{ModelKind, Problem, model_guide};
 use apportion_report::{significant, table};
 
-use super::{Failure, print};
+use super::print;
+use crate::failure::bad_input;
 
 #[derive(clap::Args)]
 pub struct Arguments {
@@ -17,7 +18,7 @@ pub struct Arguments {
     estimators: bool,
 }
 
-pub fn models(arguments: &Arguments) -> Result<(), Failure> {
+pub fn models(arguments: &Arguments) -> anyhow::Result<()> {
     if arguments.estimators {
         return print(&estimators());
     }
@@ -69,11 +70,11 @@ fn estimators() -> String {
 }
 
 /// The model of that name, or the names that there are.
-pub fn find_model(name: &str) -> Result<ModelKind, Failure> {
+pub fn find_model(name: &str) -> anyhow::Result<ModelKind> {
     ModelKind::from_name(name).ok_or_else(|| unknown(name))
 }
 
-fn unknown(name: &str) -> Failure {
+fn unknown(name: &str) -> anyhow::Error {
     let names = ModelKind::all().into_iter().map(|kind| kind.name);
     let problem = Problem::UnknownName {
         what: "model",
@@ -82,7 +83,7 @@ fn unknown(name: &str) -> Failure {
         expected: names.map(str::to_owned).collect(),
     };
     let help = problem.help().map(|help| format!("\n{help}")).unwrap_or_default();
-    Failure::Input(anyhow::anyhow!("{problem}{help}"))
+    bad_input(format!("{problem}{help}"))
 }
 
 fn list() -> String {

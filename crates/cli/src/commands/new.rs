@@ -2,12 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use anyhow::anyhow;
 use apportion_files::{ModelKind, NEW_PROGRAM, Problem, TemplateRequest, new_program, template};
 use apportion_report::{prepare_file, write_atomically};
 
 use super::models::find_model;
-use super::{Failure, quoted, say};
+use super::{quoted, say};
+use crate::failure::bad_input;
 
 #[derive(clap::Args)]
 #[command(after_help = "Example: apportion new my-study.toml --factors thickness,velocity --outputs critical_force")]
@@ -31,12 +31,12 @@ pub struct Arguments {
     force: bool,
 }
 
-pub fn new(arguments: &Arguments) -> Result<(), Failure> {
+pub fn new(arguments: &Arguments) -> anyhow::Result<()> {
     let path = &arguments.study;
     let model = find_model(&arguments.model)?;
     for (option, names) in [("--factors", &arguments.factors), ("--outputs", &arguments.outputs)] {
         if names.iter().any(|name| name.trim().is_empty()) {
-            return Err(Failure::Input(anyhow!("{option}: a name is empty: expected names separated by commas")));
+            return Err(bad_input(format!("{option}: a name is empty: expected names separated by commas")));
         }
     }
     let request = TemplateRequest {
@@ -48,7 +48,7 @@ pub fn new(arguments: &Arguments) -> Result<(), Failure> {
     let text = template(&request).map_err(|problem| wrong(&problem, model))?;
     let study = apportion_files::parse_study(&text, path, &[])?;
     if !arguments.force && path.exists() {
-        return Err(Failure::Input(anyhow!("{} exists already: give another name, or add --force", path.display())));
+        return Err(bad_input(format!("{} exists already: give another name, or add --force", path.display())));
     }
     prepare_file(path)?;
     write_atomically(path, text.as_bytes())?;
@@ -67,7 +67,7 @@ pub fn new(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 /// Writes the program next to its study, unless there is one: it may be somebody's work.
-fn write_program(path: &Path, text: &str) -> Result<(), Failure> {
+fn write_program(path: &Path, text: &str) -> anyhow::Result<()> {
     if path.exists() {
         say(&format!("{} exists already and is not changed", path.display()));
         return Ok(());
@@ -77,11 +77,11 @@ fn write_program(path: &Path, text: &str) -> Result<(), Failure> {
     Ok(())
 }
 
-fn wrong(problem: &Problem, model: ModelKind) -> Failure {
+fn wrong(problem: &Problem, model: ModelKind) -> anyhow::Error {
     let option = match problem {
         Problem::UnknownName { what: "output", .. } | Problem::Repeated { what: "output", .. } => "--outputs",
         _ => "--factors",
     };
     let help = problem.help().map(|help| format!("\n{help}")).unwrap_or_default();
-    Failure::Input(anyhow!("{option}: {problem} (model {}){help}", model.name))
+    bad_input(format!("{option}: {problem} (model {}){help}", model.name))
 }

@@ -4,10 +4,10 @@ use std::path::{Path, PathBuf};
 
 use apportion_report::chart::{ChartWidth, PaperWidth};
 use apportion_report::document::Document;
-use apportion_report::{ArtefactError, Artefacts, ChartFormat};
+use apportion_report::{Artefacts, ChartFormat};
 
 use super::stop::on_signal;
-use super::{Failure, counted, print, say};
+use super::{counted, print, say};
 
 #[derive(clap::Args)]
 pub struct ChartArguments {
@@ -68,16 +68,6 @@ impl ChartArguments {
     }
 }
 
-impl From<ArtefactError> for Failure {
-    fn from(error: ArtefactError) -> Self {
-        match error {
-            ArtefactError::Input { .. } => Self::Input(error.into()),
-            ArtefactError::Write(error) => error.into(),
-            _ => Self::Run(error.into()),
-        }
-    }
-}
-
 /// The folder for results of the study called `name`.
 pub fn default_folder(name: &str) -> PathBuf {
     Path::new("results").join(name)
@@ -89,7 +79,7 @@ pub fn stem(table: &Path) -> String {
 }
 
 /// Writes the files of `document`, prints it as text, and says where the files are.
-pub fn deliver(artefacts: &Artefacts, document: &Document) -> Result<(), Failure> {
+pub fn deliver(artefacts: &Artefacts, document: &Document) -> anyhow::Result<()> {
     let written = artefacts.write_until(document, on_signal())?;
     print(&document.text())?;
     let ends_with = |path: &Path, ending: &str| path.extension().is_some_and(|of| of == ending);

@@ -5,12 +5,12 @@ use std::path::{Path, PathBuf};
 use super::output::{ChartArguments, deliver};
 use super::progress::Meter;
 use super::stop::on_signal;
-use super::{DesignChanges, Failure, Threads};
+use super::{DesignChanges, Threads};
 use crate::live::{live_page, place_next_to};
 use crate::reproduce::claims::claims;
 use crate::reproduce::figures::{animation, figures};
 use crate::reproduce::percentages::percentages;
-use crate::reproduce::{Effort, QUICK, ReproduceError, Reproduced, Reproduction, document, studies};
+use crate::reproduce::{Effort, QUICK, Reproduced, Reproduction, document, studies};
 
 /// The file of the live page.
 const LIVE: &str = "live.html";
@@ -34,12 +34,6 @@ pub struct Arguments {
     threads: Threads,
 }
 
-impl From<ReproduceError> for Failure {
-    fn from(error: ReproduceError) -> Self {
-        Self::input_if(matches!(error, ReproduceError::Study(_)), error)
-    }
-}
-
 /// A part of the reproduction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 enum Topic {
@@ -49,7 +43,7 @@ enum Topic {
     Claims,
 }
 
-pub fn reproduce(arguments: &Arguments) -> Result<(), Failure> {
+pub fn reproduce(arguments: &Arguments) -> anyhow::Result<()> {
     let artefacts = arguments.charts.artefacts(&arguments.out);
     artefacts.prepare()?;
     let threads = arguments.threads.number();
@@ -76,7 +70,7 @@ pub fn reproduce(arguments: &Arguments) -> Result<(), Failure> {
     deliver(&artefacts, &document)
 }
 
-fn run_studies(overrides: &[String], threads: usize) -> Result<Vec<Reproduced>, ReproduceError> {
+fn run_studies(overrides: &[String], threads: usize) -> anyhow::Result<Vec<Reproduced>> {
     let studies = studies(overrides)?;
     let count = studies.len();
     let mut reproduced = Vec::with_capacity(count);

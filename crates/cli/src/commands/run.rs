@@ -17,7 +17,8 @@ use super::output::{self, OutputArguments};
 use super::progress::Meter;
 use super::ranks::{self, Ranks};
 use super::stop::Stoppable;
-use super::{DesignChanges, Failure, StudyArguments, Threads, say, stop};
+use super::{DesignChanges, StudyArguments, Threads, say, stop};
+use crate::failure::{OfFile, bad_input};
 
 #[derive(clap::Args)]
 pub struct Arguments {
@@ -78,7 +79,7 @@ impl RecordArguments {
     }
 }
 
-pub fn run(arguments: &Arguments, others: Option<&dyn Ranks>) -> Result<(), Failure> {
+pub fn run(arguments: &Arguments, others: Option<&dyn Ranks>) -> anyhow::Result<()> {
     if arguments.record.shard.is_none() {
         ranks::refuse_copies()?;
     }
@@ -88,17 +89,16 @@ pub fn run(arguments: &Arguments, others: Option<&dyn Ranks>) -> Result<(), Fail
     let asked = &arguments.record;
     artefacts.prepare()?;
     if asked.shard.is_some() && study.target().grows() {
-        return Err(Failure::Input(anyhow!("--shard: {}", RunError::NoSize)));
+        return Err(bad_input(format!("--shard: {}", RunError::NoSize)));
     }
     let saved = match &arguments.save_outputs {
         None => None,
         Some(_) if study.target().accuracy.is_some() => {
             let why = "with `accuracy` the run chooses its rows: run again with the lines that the result shows";
-            return Err(Failure::Input(anyhow!("--save-outputs: {why}")));
+            return Err(bad_input(format!("--save-outputs: {why}")));
         }
         Some(path) => {
-            let format =
-                Format::from_path(path).map_err(|error| Failure::Input(anyhow!("{}: {error}", path.display())))?;
+            let format = Format::from_path(path).of(path)?;
             prepare_file(path)?;
             Some((path.as_path(), format))
         }
@@ -157,17 +157,17 @@ pub fn journal_path(folder: &Path, name: &str, shard: Option<Shard>) -> PathBuf 
 }
 
 /// Writes points and outputs of all runs, which may be more than the study began with.
-fn save(study: &Study, result: &StudyResult, store: &Store, path: &Path, format: Format) -> Result<(), Failure> {
+fn save(study: &Study, result: &StudyResult, store: &Store, path: &Path, format: Format) -> anyhow::Result<()> {
     let settings = study.design().settings();
     let points = result.provenance.base_samples / settings.replicates;
-    let design = study.design().with_points(points).map_err(|error| Failure::Run(error.into()))?;
+    let design = study.design().with_points(points)?;
     stream_atomically(path, |out| save_outputs(study, &design, store, format, &mut Stoppable::new(out)))?;
     say(&format!("wrote the points and outputs of {} runs to {}", design.rows(), path.display()));
     Ok(())
 }
 
 /// The study, with the changes that the command line makes to it.
-fn study_of(arguments: &Arguments) -> Result<Study, Failure> {
+fn study_of(arguments: &Arguments) -> anyhow::Result<Study> {
     let changes = arguments.design.overrides();
     let study = arguments.study.load_with(&changes)?;
     let RecordArguments { double, retry_failed, .. } = arguments.record;
@@ -178,7 +178,7 @@ fn study_of(arguments: &Arguments) -> Result<Study, Failure> {
     let result = match read_result(&json) {
         Ok(result) => result,
         Err(_) if !double => return Ok(study),
-        Err(error) => return Err(Failure::Input(anyhow!("--double: there is no result to double: {error}"))),
+        Err(error) => return Err(bad_input(format!("--double: there is no result to double: {error}"))),
     };
     let (base_samples, plain_rows) = (result.provenance.base_samples, result.provenance.plain_rows);
     let wanted = if double { base_samples.saturating_mul(2) } else { base_samples };
@@ -190,7 +190,7 @@ fn study_of(arguments: &Arguments) -> Result<Study, Failure> {
         Some(spending) => {
             let (option, accuracy) =
                 if double { ("--double", spending.accuracy / 2.0) } else { ("--retry-failed", spending.accuracy) };
-            return Err(Failure::Input(anyhow!(
+            return Err(bad_input(format!(
                 "{option}: {} is from a run with an accuracy, which chose its own design: use \
                  --accuracy {accuracy} instead, which continues with its runs",
                 json.display()
@@ -199,36 +199,31 @@ fn study_of(arguments: &Arguments) -> Result<Study, Failure> {
         None => (),
     }
     if plain_rows != study.design().plain_rows() {
-        return Err(Failure::Input(anyhow!(
+        return Err(bad_input(format!(
             "{}: the result has another design than the study: run the study again",
             json.display()
         )));
     }
-    study.with_base_samples(wanted).map_err(|error| Failure::Input(error.into()))
+    Ok(study.with_base_samples(wanted)?)
 }
 
 /// Writes the files of a result, and says what came out.
-pub fn deliver(
-    study: &Study,
-    artefacts: &Artefacts,
-    result: &StudyResult,
-    live: &LiveArguments,
-) -> Result<(), Failure> {
+pub fn deliver(study: &Study, artefacts: &Artefacts, result: &StudyResult, live: &LiveArguments) -> anyhow::Result<()> {
     let mut document = run_document(result);
     live.place_next_to(&mut document, result);
     output::deliver(artefacts, &document)?;
     let lost: Vec<&OutputResult> = result.outputs.iter().filter(|output| lost(study, output)).collect();
     let Some(first) = lost.first() else { return Ok(()) };
     let others = if lost.len() > 1 { format!(" and of {} more outputs", lost.len() - 1) } else { String::new() };
-    Err(Failure::Run(anyhow!(
+    Err(anyhow!(
         "no indices of {}{others}: too many runs failed (max_failed = {} in [analysis]; the result lists them with their reasons)",
         first.name,
         study.analysis().max_failed
-    )))
+    ))
 }
 
 /// What was done before an error is of use to the user.
-fn with_journal(study: &Study, error: RunError, journal: Option<&Path>) -> Failure {
+fn with_journal(study: &Study, error: RunError, journal: Option<&Path>) -> anyhow::Error {
     if matches!(&error, RunError::GaveUp(give_up) if give_up.is_bad_input) {
         return error.into();
     }
@@ -247,7 +242,7 @@ fn with_journal(study: &Study, error: RunError, journal: Option<&Path>) -> Failu
         (RunError::Interrupted { .. }, _) => "\nno journal was kept: the runs are lost".to_owned(),
         _ => return with_inputs(study, error),
     };
-    Failure::Run(anyhow!("{error}{kept}"))
+    anyhow!("{error}{kept}")
 }
 
 /// Whether an output has no indices because runs failed, and not because it does not vary.
@@ -258,10 +253,10 @@ fn lost(study: &Study, output: &OutputResult) -> bool {
 }
 
 /// A row that failed is of use to the user by its inputs.
-pub fn with_inputs(study: &Study, error: RunError) -> Failure {
+pub fn with_inputs(study: &Study, error: RunError) -> anyhow::Error {
     match &error {
         RunError::RowFailed { row, .. } => {
-            Failure::Run(anyhow!("{error}\nthe run's inputs: {}", inputs_in_words(study, *row)))
+            anyhow!("{error}\nthe run's inputs: {}", inputs_in_words(study, *row))
         }
         _ => error.into(),
     }

@@ -2,9 +2,9 @@
 
 use apportion::quantity::{Dimension, Quantity};
 
+use super::StudyArguments;
 use super::output::{OutputArguments, deliver};
-use super::{Failure, StudyArguments};
-use crate::scene::simulation::{SimulationError, mode_diagram, simulate as simulate_scene};
+use crate::scene::simulation::{mode_diagram, simulate as simulate_scene};
 use crate::scene::{mode_document, scene_document};
 
 #[derive(clap::Args)]
@@ -29,14 +29,8 @@ fn parse_time(text: &str) -> Result<f64, String> {
     Ok(quantity.to_si())
 }
 
-impl From<SimulationError> for Failure {
-    fn from(error: SimulationError) -> Self {
-        Self::input_if(matches!(error, SimulationError::NoScene(_)), error)
-    }
-}
-
 /// Simulates the scene with every factor at its nominal value.
-pub fn simulate(arguments: &Arguments) -> Result<(), Failure> {
+pub fn simulate(arguments: &Arguments) -> anyhow::Result<()> {
     let study = arguments.study.load()?;
     let artefacts = arguments.output.artefacts(study.name());
     let document = if arguments.mode_diagram {

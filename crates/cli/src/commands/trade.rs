@@ -4,13 +4,14 @@ use std::time::Instant;
 
 use anyhow::anyhow;
 use apportion::Study;
-use apportion::run::{RunError, threads_in_force};
+use apportion::run::threads_in_force;
 use apportion_report::Artefacts;
 
 use super::output::{OutputArguments, deliver};
 use super::progress::Meter;
 use super::stop::on_signal;
-use super::{Failure, StudyArguments, Threads, say, whole_number};
+use super::{StudyArguments, Threads, say, whole_number};
+use crate::failure::bad_input;
 use crate::trade::extremes::{ExtremesJob, ExtremesSettings, build_extremes, extremes, extremes_document};
 use crate::trade::settings::{SettingsJob, build_settings, compare_settings, settings_document};
 
@@ -51,10 +52,10 @@ fn parse_seconds(text: &str) -> Result<f64, String> {
     seconds.ok_or_else(|| "expected a number of seconds above 0, as in 60".to_owned())
 }
 
-pub fn trade(arguments: &Arguments) -> Result<(), Failure> {
+pub fn trade(arguments: &Arguments) -> anyhow::Result<()> {
     let study = arguments.study.load()?;
     if !study.space().dependences().is_empty() {
-        return Err(Failure::Input(anyhow!(
+        return Err(bad_input(format!(
             "factors of this study depend on each other, but this command compares surrogates, cheaper models and samplers, \
              which need independent factors: expected a study without [[dependence]]"
         )));
@@ -69,7 +70,7 @@ pub fn trade(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 /// The settings of the study against each other.
-fn trade_settings(study: &Study, arguments: &Arguments, artefacts: &Artefacts) -> Result<(), Failure> {
+fn trade_settings(study: &Study, arguments: &Arguments, artefacts: &Artefacts) -> anyhow::Result<()> {
     let usual = if arguments.quick { QUICK_SECONDS } else { SECONDS };
     let job = SettingsJob {
         study,
@@ -79,13 +80,13 @@ fn trade_settings(study: &Study, arguments: &Arguments, artefacts: &Artefacts) -
         stop: Some(on_signal()),
         on_progress: &|what, share| say(&format!("{:3.0} % of the time: {what}", 100.0 * share)),
     };
-    let comparison = compare_settings(&job).map_err(|error: RunError| Failure::from(error))?;
+    let comparison = compare_settings(&job)?;
     let threads = threads_in_force(arguments.threads.number());
     deliver(artefacts, &settings_document(&build_settings(study, threads, comparison)))
 }
 
 /// What becomes of the study at its extremes.
-fn trade_extremes(study: &Study, arguments: &Arguments, artefacts: &Artefacts) -> Result<(), Failure> {
+fn trade_extremes(study: &Study, arguments: &Arguments, artefacts: &Artefacts) -> anyhow::Result<()> {
     let own = ExtremesSettings::for_study(study);
     let settings =
         ExtremesSettings { points: arguments.cells.unwrap_or(own.points), seed: arguments.seed.unwrap_or(own.seed) };
@@ -104,6 +105,6 @@ fn trade_extremes(study: &Study, arguments: &Arguments, artefacts: &Artefacts) -
     deliver(artefacts, &extremes_document(&build_extremes(study, settings.seed, &map)))?;
     match map.counts.wrong {
         0 => Ok(()),
-        wrong => Err(Failure::Run(anyhow!("{wrong} numbers are silently wrong: see the table of reasons"))),
+        wrong => Err(anyhow!("{wrong} numbers are silently wrong: see the table of reasons")),
     }
 }

@@ -11,9 +11,8 @@ pub mod percentages;
 mod shares;
 
 use apportion::result::StudyResult;
-use apportion::run::RunError;
 use apportion::study::Study;
-use apportion_afm::{Failure, FrictionLaw};
+use apportion_afm::FrictionLaw;
 use apportion_files::StudyError;
 use apportion_report::chart::{Colour, Stroke};
 use claims::Claim;
@@ -21,7 +20,6 @@ pub use document::document;
 use figures::{Animation, PaperFigure};
 pub use papers::{Published, published};
 use percentages::Percentages;
-use thiserror::Error;
 
 use crate::scene::law_colour;
 
@@ -96,28 +94,6 @@ const STUDIES: [(&str, &str); 9] = [
 
 /// The settings of every study in a quick reproduction, unless the overrides say otherwise.
 pub const QUICK: [&str; 1] = ["design.base_samples=2048"];
-
-/// Why a reproduction failed.
-#[derive(Debug, Error)]
-pub enum ReproduceError {
-    /// A study cannot be read, for example because of an override.
-    #[error(transparent)]
-    Study(#[from] StudyError),
-    /// A study cannot be run.
-    #[error(transparent)]
-    Run(#[from] RunError),
-    /// A scene has no solution. At the defaults of the papers this does not happen.
-    #[error("a scene of the papers has no answer: {0}")]
-    Scene(#[from] Failure),
-    /// A study that a claim is about has not been run, or has no indices.
-    #[error("claims 17 to 20 need the {group} study under {friction} friction, with its indices")]
-    NoIndices {
-        /// The study's group.
-        group: &'static str,
-        /// The name of its friction model.
-        friction: &'static str,
-    },
-}
 
 /// A study with its result.
 #[derive(Debug, Clone)]

@@ -6,12 +6,13 @@
 
 use apportion::EffectEstimates;
 use apportion::result::{OutputResult, StudyResult};
+use apportion::run::RunError;
 use apportion_report::document::{Part, Table};
 use apportion_report::fixed;
 use apportion_report::format::words;
 
 use super::papers::{PRINTED, Words, filled, papers};
-use super::{Effort, FRICTIONS, GROUPS, QUICK, ReproduceError, StudyGroup, published, study};
+use super::{Effort, FRICTIONS, GROUPS, QUICK, StudyGroup, published, study};
 
 /// Distance in percentage points up to which a percentage agrees: three times the rounding of the printed numbers.
 const MET: f64 = 1.5;
@@ -107,8 +108,8 @@ pub fn distance<'a>(group: &str, shares: impl IntoIterator<Item = (&'a str, f64)
 /// both outputs by both measures.
 ///
 /// # Errors
-/// [`ReproduceError`] if a study cannot be run.
-pub fn percentages(effort: Effort, threads: usize) -> Result<Vec<Percentages>, ReproduceError> {
+/// [`RunError`] if a study cannot be run.
+pub fn percentages(effort: Effort, threads: usize) -> Result<Vec<Percentages>, RunError> {
     let viscous = ("viscous LuGre", PRINTED, &[VISCOUS][..]);
     let models = FRICTIONS.iter().map(|friction| (friction.name, friction.key, &[][..])).chain([viscous]);
     let mut rows = Vec::new();
@@ -135,13 +136,12 @@ fn run(
     settings: &[&str],
     effort: Effort,
     threads: usize,
-) -> Result<StudyResult, ReproduceError> {
+) -> Result<StudyResult, RunError> {
     let names = OUTPUTS.map(|(output, _)| format!("{output:?}")).join(", ");
     let own = [format!("outputs=[{names}]"), "analysis.convergence=false".to_owned()].into_iter();
     let quick = if effort == Effort::Quick { &QUICK[..] } else { &[] };
     let overrides: Vec<String> = own.chain(settings.iter().chain(quick).map(|&setting| setting.to_owned())).collect();
-    let study = study(friction, group, &overrides)?;
-    Ok(study.runner().threads(threads).run()?)
+    study(friction, group, &overrides).expect("a part of this program").runner().threads(threads).run()
 }
 
 /// Summarises the percentages: LG does not define its own and they contradict each other; which of ours are nearest;

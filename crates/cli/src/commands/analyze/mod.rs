@@ -4,7 +4,6 @@ mod salib;
 
 use std::path::{Path, PathBuf};
 
-use anyhow::anyhow;
 use apportion::Warning;
 use apportion::analysis::unlikely_outputs;
 use apportion::files::read_text;
@@ -17,7 +16,8 @@ use super::live::LiveArguments;
 use super::output::OutputArguments;
 use super::run::{deliver, with_inputs};
 use super::table::{TableArguments, say_of_table};
-use super::{Failure, Threads, say, say_notes};
+use super::{Threads, say, say_notes};
+use crate::failure::{OfFile, bad_input};
 
 #[derive(clap::Args)]
 #[command(after_help = "Examples:\n  apportion analyze outputs.csv --design design.csv\n  \
@@ -69,7 +69,7 @@ struct Read {
     unlikely: Vec<Option<String>>,
 }
 
-pub fn analyze(arguments: &Arguments) -> Result<(), Failure> {
+pub fn analyze(arguments: &Arguments) -> anyhow::Result<()> {
     let read = if arguments.layout.is_some() { salib::study(arguments)? } else { of_design(arguments)? };
     let Read { study, store, unlikely } = read;
     say_notes(&study);
@@ -84,17 +84,14 @@ pub fn analyze(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 /// The outputs of a design that `sample` wrote.
-fn of_design(arguments: &Arguments) -> Result<Read, Failure> {
-    let data = arguments.data.display();
+fn of_design(arguments: &Arguments) -> anyhow::Result<Read> {
     let path = manifest_path(arguments)?;
-    let of_manifest = |error: &dyn std::fmt::Display| Failure::Input(anyhow!("{}: {error}", path.display()));
-    let text = read_text(&path).map_err(|error| of_manifest(&format!("cannot read the manifest: {error}")))?;
-    let manifest = Manifest::parse(&text).map_err(|error| of_manifest(&error))?;
+    let text = read_text(&path).map_err(|error| format!("cannot read the manifest: {error}")).of(&path)?;
+    let manifest = Manifest::parse(&text).of(&path)?;
     let missing = if arguments.missing_as_failed { MissingOutputs::Failed } else { MissingOutputs::Refuse };
     let request = AnswersRequest { manifest: &manifest, outputs: &arguments.outputs, units: &arguments.units, missing };
-    let wrong = |error: &dyn std::fmt::Display| Failure::Input(anyhow!("{data}: {error}"));
-    let mut reader = open_table(&arguments.data, &arguments.table.options(&[])).map_err(|error| wrong(&error))?;
-    let answers = read_answers(reader.as_mut(), &request).map_err(|error| wrong(&error))?;
+    let mut reader = open_table(&arguments.data, &arguments.table.options(&[])).of(&arguments.data)?;
+    let answers = read_answers(reader.as_mut(), &request).of(&arguments.data)?;
     say_of_table(&arguments.data, &[], reader.is_unended());
     match answers.compared.len() {
         0 => say("note: the file has no points: its rows are assumed to be in the order of the design"),
@@ -105,7 +102,7 @@ fn of_design(arguments: &Arguments) -> Result<Read, Failure> {
 }
 
 /// The manifest that was named, or the one next to the points.
-fn manifest_path(arguments: &Arguments) -> Result<PathBuf, Failure> {
+fn manifest_path(arguments: &Arguments) -> anyhow::Result<PathBuf> {
     if let Some(manifest) = &arguments.manifest {
         return Ok(manifest.clone());
     }
@@ -114,7 +111,7 @@ fn manifest_path(arguments: &Arguments) -> Result<PathBuf, Failure> {
     if beside.exists() {
         return Ok(beside);
     }
-    Err(Failure::Input(anyhow!(
+    Err(bad_input(format!(
         "{}: there is no {} that describes these points: give the file that `apportion sample` wrote (--design) \
          or its manifest (--manifest); for points made by SALib, --layout salib",
         arguments.data.display(),

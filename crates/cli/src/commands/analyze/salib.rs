@@ -1,8 +1,7 @@
 //! `apportion analyze --layout salib`: outputs at points from SALib.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use anyhow::anyhow;
 use apportion::Unlikely;
 use apportion::files::read_text;
 use apportion::given::Column;
@@ -11,7 +10,8 @@ use apportion_files::exchange::{ColumnKind, RowReader, first_output, open_table,
 
 use super::super::output::stem;
 use super::super::table::say_of_table;
-use super::super::{Failure, number_in, say};
+use super::super::{number_in, say};
+use crate::failure::{OfFile, bad_input};
 
 #[derive(clap::Args)]
 pub struct SalibArguments {
@@ -48,8 +48,7 @@ struct Table {
 }
 
 /// The outputs in a table in SALib's order, as the runs of a study.
-pub fn study(arguments: &super::Arguments) -> Result<super::Read, Failure> {
-    let wrong = |error: &dyn std::fmt::Display| Failure::Input(anyhow!("{}: {error}", arguments.data.display()));
+pub fn study(arguments: &super::Arguments) -> anyhow::Result<super::Read> {
     let Table { problem, inputs, outputs } = table(arguments)?;
     let rows = outputs[0].values.len();
     let SalibArguments { second_order, first_order_only, resamples, seed, .. } = arguments.salib;
@@ -58,58 +57,56 @@ pub fn study(arguments: &super::Arguments) -> Result<super::Read, Failure> {
         (_, true) => Some(SalibLayout::FirstOrder),
         _ => None,
     };
-    let layout = recognise(rows, &problem.members, asked, inputs.as_deref()).map_err(|error| wrong(&error))?;
+    let layout = recognise(rows, &problem.members, asked, inputs.as_deref()).of(&arguments.data)?;
     match inputs {
         Some(_) => say("the points in the file have the layout of SALib"),
         None => say("note: the file has no points: its rows are assumed to be in the order of SALib"),
     }
     let made = salib_study(&stem(&arguments.data), &problem, &outputs, layout, (resamples, seed));
-    let (study, store) = made.map_err(|error| wrong(&error))?;
+    let (study, store) = made.of(&arguments.data)?;
     let unlikely = |output: &Column| Unlikely::find(&output.values).map(|found| found.in_table(found.first + 1));
     Ok(super::Read { study, store, unlikely: outputs.iter().map(unlikely).collect() })
 }
 
 /// What the problem file says, if there is one.
-fn problem(arguments: &SalibArguments) -> Result<Option<SalibProblem>, Failure> {
-    let wrong = |path: &Path, error: &dyn std::fmt::Display| Failure::Input(anyhow!("{}: {error}", path.display()));
+fn problem(arguments: &SalibArguments) -> anyhow::Result<Option<SalibProblem>> {
     let Some(path) = &arguments.problem else {
         if arguments.names.is_empty() {
             return Ok(None);
         }
         let names = arguments.names.iter().map(|name| name.trim().to_owned()).collect();
-        let problem = SalibProblem::of_inputs(names);
-        return problem.map(Some).map_err(|error| Failure::Input(anyhow!("--names: {error}")));
+        return SalibProblem::of_inputs(names).map(Some).map_err(|error| bad_input(format!("--names: {error}")));
     };
     if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml")) {
         let study = apportion_files::load_study(path, &[])?;
         let names = study.space().factors().iter().map(|factor| factor.name.clone()).collect();
-        return SalibProblem::of_inputs(names).map(Some).map_err(|error| wrong(path, &error));
+        return SalibProblem::of_inputs(names).map(Some).of(path);
     }
-    let text = read_text(path).map_err(|error| wrong(path, &format!("cannot read the problem: {error}")))?;
-    SalibProblem::parse(&text).map(Some).map_err(|error| wrong(path, &error))
+    let text = read_text(path).map_err(|error| format!("cannot read the problem: {error}")).of(path)?;
+    SalibProblem::parse(&text).map(Some).of(path)
 }
 
-fn table(arguments: &super::Arguments) -> Result<Table, Failure> {
-    let wrong = |error: &dyn std::fmt::Display| Failure::Input(anyhow!("{}: {error}", arguments.data.display()));
-    let mut reader = open_table(&arguments.data, &arguments.table.options(&[])).map_err(|error| wrong(&error))?;
+fn table(arguments: &super::Arguments) -> anyhow::Result<Table> {
+    let path = &*arguments.data;
+    let mut reader = open_table(path, &arguments.table.options(&[])).of(path)?;
     let problem = problem(&arguments.salib)?;
     let known = problem.as_ref().map(|problem| problem.inputs.clone());
-    let (inputs, outputs) = columns(reader.as_ref(), known, &arguments.outputs).map_err(|error| wrong(&error))?;
+    let (inputs, outputs) = columns(reader.as_ref(), known, &arguments.outputs).of(path)?;
     let input_names: Vec<String> = inputs.iter().map(|(_, name)| name.clone()).collect();
     let problem = match problem {
         Some(problem) => problem,
-        None => SalibProblem::of_inputs(input_names).map_err(|error| wrong(&error))?,
+        None => SalibProblem::of_inputs(input_names).of(path)?,
     };
     let wanted: Vec<(usize, ColumnKind)> =
         inputs.iter().chain(&outputs).map(|(place, name)| (*place, ColumnKind::numbers(name))).collect();
     let (mut all, mut part) = (vec![Vec::new(); wanted.len()], vec![Vec::new(); wanted.len()]);
-    while reader.read(&wanted, 1 << 13, &mut part).map_err(|error| wrong(&error))? > 0 {
+    while reader.read(&wanted, 1 << 13, &mut part).of(path)? > 0 {
         all.iter_mut().zip(&part).for_each(|(all, part)| all.extend_from_slice(part));
     }
-    say_of_table(&arguments.data, &[], reader.is_unended());
+    say_of_table(path, &[], reader.is_unended());
     for ((_, kind), column) in wanted.iter().zip(&all).take(inputs.len()) {
         if let Some(row) = column.iter().position(|value| !value.is_finite()) {
-            return Err(wrong(&format!("row {}, column `{}`: the input is missing", row + 1, kind.name)));
+            return Err(format!("row {}, column `{}`: the input is missing", row + 1, kind.name)).of(path);
         }
     }
     let values = all.split_off(inputs.len());

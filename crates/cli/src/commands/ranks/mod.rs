@@ -5,11 +5,9 @@ pub mod mpi;
 
 use std::path::Path;
 
-use anyhow::anyhow;
+use crate::failure::{Silent, bad_input};
 use apportion::RemoteWorkers;
 use apportion::study::Study;
-
-use super::Failure;
 
 /// The other ranks of the job, as rank 0 sees them.
 pub trait Ranks: RemoteWorkers {
@@ -44,15 +42,15 @@ pub fn job() -> Option<(usize, usize)> {
 /// Refuses to run a study once on every rank, all at the same files.
 ///
 /// # Errors
-/// [`Failure::Silent`] on all ranks but the first, which has said why.
-pub fn refuse_copies() -> Result<(), Failure> {
+/// [`Silent`] on all ranks but the first, which has said why.
+pub fn refuse_copies() -> anyhow::Result<()> {
     match job().filter(|_| cfg!(not(feature = "mpi"))) {
         None => Ok(()),
-        Some((size, 0)) => Err(Failure::Input(anyhow!(
+        Some((size, 0)) => Err(bad_input(format!(
             "started as {size} ranks of an MPI job, but this program was built without MPI: every rank would run the whole study \
              and write the same files. Build it with `cargo install --path . --features mpi` (needs an MPI library and \
              libclang), or divide the run with `--shard I/N`. ({SWITCH}=off lets every rank run the whole study)"
         ))),
-        Some(_) => Err(Failure::Silent),
+        Some(_) => Err(Silent.into()),
     }
 }

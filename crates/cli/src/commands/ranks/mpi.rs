@@ -23,7 +23,7 @@ use apportion::{RemoteWorkers, Requests, RunContext, WorkerStudy};
 use serde::{Deserialize, Serialize};
 
 use super::Ranks;
-use crate::commands::{Failure, exit_code, say, stop};
+use crate::commands::{exit_code, say, stop};
 
 /// Times between two looks at messages: after one, and when nothing has come for long.
 const SHORT: Duration = Duration::from_micros(20);
@@ -53,7 +53,7 @@ struct Setup {
 pub fn main(size: usize, command: impl FnOnce(&dyn Ranks) -> ExitCode + Send) -> ExitCode {
     let joined = ::mpi::initialize_with_threading(::mpi::Threading::Funneled);
     let Some((universe, _)) = joined else {
-        return exit_code(Err(Failure::Run(anyhow!("MPI is initialised already"))));
+        return exit_code(Err(anyhow!("MPI is initialised already")));
     };
     let world = universe.world();
     if world.size() as usize != size {
@@ -61,7 +61,7 @@ pub fn main(size: usize, command: impl FnOnce(&dyn Ranks) -> ExitCode + Send) ->
         let why = format!(
             "started as one of {size} ranks, but its MPI finds {found}: mpirun and the program use different MPI libraries"
         );
-        return exit_code(Err(Failure::Run(anyhow!(why))));
+        return exit_code(Err(anyhow!(why)));
     }
     if world.rank() == 0 { lead(&world, command) } else { work(&world) }
 }

@@ -8,7 +8,7 @@ use super::dimensions::{
 };
 use super::judge::Answer;
 use super::numbers::{change, nano};
-use crate::reproduce::{FRICTIONS, ReproduceError};
+use crate::reproduce::FRICTIONS;
 
 /// Velocity up to which CHK and LG see no effect (m/s).
 const SLOW: f64 = 600e-9;
@@ -22,7 +22,7 @@ const UNMOVED: f64 = 0.05;
 const VISCOUS: f64 = 0.3;
 
 /// Checks claim 12. Only the equations of motion depend on the velocity under every friction model.
-pub(super) fn velocity(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
+pub(super) fn velocity(bench: &Bench<'_>) -> anyhow::Result<Answer> {
     let whole = Sweep { count: 5, ..bench.over("velocity") };
     let slow = Sweep { range: (0.0, SLOW), count: 4, ..whole };
     let mut answer = without_effect(bench, &slow, in_motion)?;
@@ -44,7 +44,7 @@ pub(super) fn velocity(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
 }
 
 /// Checks claim 13.
-pub(super) fn elastic_modulus(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
+pub(super) fn elastic_modulus(bench: &Bench<'_>) -> anyhow::Result<Answer> {
     let sweep = bench.over("elastic_modulus");
     let points = bench.sizes.points;
     let rise = |law, scene: &Scene| Ok(is_linear_rise(&bench.curve(&sweep, scene, &closed(law))?));
@@ -68,7 +68,7 @@ fn gap(bench: &Bench<'_>, scene: &Scene, coulomb: &Options) -> Result<f64, Failu
 }
 
 /// Checks claim 14.
-pub(super) fn contact_modulus(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
+pub(super) fn contact_modulus(bench: &Bench<'_>) -> anyhow::Result<Answer> {
     let sweep = bench.over("equivalent_modulus");
     let points = bench.sizes.points;
     let (coulomb, hurtado_kim) = (closed(FrictionLaw::Coulomb), closed(FrictionLaw::HurtadoKim));
@@ -91,7 +91,7 @@ pub(super) fn contact_modulus(bench: &Bench<'_>) -> Result<Answer, ReproduceErro
 }
 
 /// Checks claim 15.
-pub(super) fn adhesion(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
+pub(super) fn adhesion(bench: &Bench<'_>) -> anyhow::Result<Answer> {
     let sweep = bench.over("adhesion");
     let points = bench.sizes.points;
     let rises = |law, scene: &Scene| Ok(bench.curve(&sweep, scene, &closed(law))?.rises());
@@ -115,7 +115,7 @@ pub(super) fn adhesion(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
 }
 
 /// Checks claim 16.
-pub(super) fn constant_parameters(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
+pub(super) fn constant_parameters(bench: &Bench<'_>) -> anyhow::Result<Answer> {
     let options = closed(FrictionLaw::LuGre);
     let nominal = Scene::default();
     let from_contact = Options { lugre: LuGreParameters::Contact, ..exact(FrictionLaw::LuGre) };

@@ -25,7 +25,7 @@ use judge::Answer;
 use serde::Serialize;
 
 use super::papers::{PaperClaim, filled, papers};
-use super::{Effort, ReproduceError, Reproduced};
+use super::{Effort, Reproduced};
 
 /// A claim of the papers with our verdict.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
@@ -89,7 +89,7 @@ impl Verdict {
 }
 
 /// A function that checks a claim.
-type Check = fn(&Bench<'_>) -> Result<Answer, ReproduceError>;
+type Check = fn(&Bench<'_>) -> anyhow::Result<Answer>;
 
 /// The checks by their names in `papers.toml`.
 const CHECKS: [(&str, Check); 25] = [
@@ -124,13 +124,13 @@ const CHECKS: [(&str, Check); 25] = [
 /// claims 17 to 20 depend on them. The same studies and effort give the same claims, to the last letter.
 ///
 /// # Errors
-/// [`ReproduceError`] if a study is missing or has no indices, or a scene has no critical force.
-pub fn claims(studies: &[Reproduced], effort: Effort) -> Result<Vec<Claim>, ReproduceError> {
+/// An error if a study is missing or has no indices, or a scene has no critical force.
+pub fn claims(studies: &[Reproduced], effort: Effort) -> anyhow::Result<Vec<Claim>> {
     answered(&Bench::new(Physics::ours(), effort, studies), &(1..=20))
 }
 
 /// Checks the claims whose numbers are in `numbers`.
-fn answered(bench: &Bench<'_>, numbers: &std::ops::RangeInclusive<usize>) -> Result<Vec<Claim>, ReproduceError> {
+fn answered(bench: &Bench<'_>, numbers: &std::ops::RangeInclusive<usize>) -> anyhow::Result<Vec<Claim>> {
     let asked = papers().claims.iter().filter(|claim| numbers.contains(&claim.number));
     let claim = |claim: &'static PaperClaim| {
         let (_, check) = CHECKS.iter().find(|(name, _)| *name == claim.check).expect("a check for every claim");

@@ -5,9 +5,8 @@ use apportion_afm::{FrictionLaw, Scene};
 use super::bench::{Bench, closed};
 use super::judge::{Answer, Holding};
 use super::numbers::nano;
-use crate::reproduce::ReproduceError;
 
-pub(super) fn weaker_law(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
+pub(super) fn weaker_law(bench: &Bench<'_>) -> anyhow::Result<Answer> {
     let (coulomb, hurtado_kim) = (closed(FrictionLaw::Coulomb), closed(FrictionLaw::HurtadoKim));
     let below = |scene: &Scene| Ok(bench.force(scene, &hurtado_kim)? < bench.force(scene, &coulomb)?);
     // All samples of a box share the scrambles, so that they differ only by their factors.

@@ -9,7 +9,6 @@ use super::bench::{Bench, Sweep, closed, exact, parameter};
 use super::curve::grid;
 use super::judge::{Answer, judge, over_ranges};
 use super::numbers::{change, nano, number};
-use crate::reproduce::ReproduceError;
 
 /// Distance of the start of the mode diagram above the angle of friction (rad): at that angle F* is unbounded.
 const ABOVE_FRICTION: f64 = 0.05;
@@ -24,7 +23,7 @@ fn diagram(bench: &Bench<'_>, scene: &Scene, adhesion_in_load: bool) -> Result<V
 }
 
 /// Checks claim 4.
-pub(super) fn angle(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
+pub(super) fn angle(bench: &Bench<'_>) -> anyhow::Result<Answer> {
     let sweep = Sweep { parameter: parameter("contact_angle"), range: (0.0, FRAC_PI_2), count: 5 };
     let options = exact(FrictionLaw::Coulomb);
     let against_force_angle = |scene: &Scene| {
@@ -64,7 +63,7 @@ pub(super) fn angle(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
 /// Checks claim 6. TS04 prints no criterion for rolling: the moment criterion is ours. Between a resting tip and a
 /// moving substrate the particle can only roll if it slips or rolls at the tip too, so rolling starts where the moment
 /// criterion holds and the tip slips.
-pub(super) fn rolling(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
+pub(super) fn rolling(bench: &Bench<'_>) -> anyhow::Result<Answer> {
     let options = closed(FrictionLaw::Coulomb);
     let normal = |scene: &Scene| Ok::<f64, Failure>((bench.physics.force)(scene, &options)?.normal_force);
     let later = |one: Onset, other: Onset| if one > other { one } else { other };

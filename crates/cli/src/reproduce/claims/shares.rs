@@ -1,5 +1,6 @@
 //! Claims about the shares of the variance: 17 to 20. They depend on the nine studies.
 
+use anyhow::anyhow;
 use apportion::result::IndexRecord;
 use apportion_afm::{Failure, FrictionLaw, Scene};
 use apportion_report::{fixed, give_or_take, share};
@@ -11,7 +12,7 @@ use super::judge::Answer;
 use super::numbers::{change, nano};
 use crate::reproduce::order::{OrderVerdict, Standing, VISIBLE, order_of, outweighing};
 use crate::reproduce::papers::{CLOSE, PRINTED};
-use crate::reproduce::{FRICTIONS, Friction, GROUPS, Published, ReproduceError, Reproduced, named_together, published};
+use crate::reproduce::{FRICTIONS, Friction, GROUPS, Published, Reproduced, named_together, published};
 
 /// Maximum relative deviation of F_cr from a product of a function of the dimensions and one of the environment: a
 /// thousandth changes no percentage by more than a tenth.
@@ -28,20 +29,23 @@ fn study<'a>(
     bench: &Bench<'a>,
     group: &'static str,
     friction: Friction,
-) -> Result<(&'a Reproduced, &'a [IndexRecord]), ReproduceError> {
+) -> anyhow::Result<(&'a Reproduced, &'a [IndexRecord])> {
     let study = bench.studies.iter().find(|study| study.group.key == group && study.friction == friction);
     let indices = |study: &'a Reproduced| Some((study, study.result.outputs.first()?.indices.as_deref()?));
-    study.and_then(indices).ok_or(ReproduceError::NoIndices { group, friction: friction.name })
+    study.and_then(indices).ok_or_else(|| no_indices(group, friction))
+}
+
+fn no_indices(group: &str, friction: Friction) -> anyhow::Error {
+    anyhow!("claims 17 to 20 need the {group} study under {} friction, with its indices", friction.name)
 }
 
 /// Returns the study of a group whose percentages are printed, with its indices.
-fn printed<'a>(bench: &Bench<'a>, group: &'static str) -> Result<(&'a Reproduced, &'a [IndexRecord]), ReproduceError> {
-    let friction = FRICTIONS.into_iter().find(|friction| friction.key == PRINTED);
-    study(bench, group, friction.ok_or(ReproduceError::NoIndices { group, friction: PRINTED })?)
+fn printed<'a>(bench: &Bench<'a>, group: &'static str) -> anyhow::Result<(&'a Reproduced, &'a [IndexRecord])> {
+    study(bench, group, FRICTIONS.into_iter().find(|friction| friction.key == PRINTED).expect("a friction model"))
 }
 
 /// Returns the studies of a group and their design.
-fn studies(bench: &Bench<'_>, group: &'static str) -> Result<(&'static str, String), ReproduceError> {
+fn studies(bench: &Bench<'_>, group: &'static str) -> anyhow::Result<(&'static str, String)> {
     let (study, _) = study(bench, group, FRICTIONS[0])?;
     let provenance = &study.result.provenance;
     let figures = GROUPS.iter().find(|known| known.key == group).map_or("", |known| known.figures);
@@ -53,7 +57,7 @@ fn studies(bench: &Bench<'_>, group: &'static str) -> Result<(&'static str, Stri
 }
 
 /// Checks the first halves of claims 17 to 19: an order of factors.
-pub(super) fn order(bench: &Bench<'_>, group: &'static str) -> Result<Answer, ReproduceError> {
+pub(super) fn order(bench: &Bench<'_>, group: &'static str) -> anyhow::Result<Answer> {
     let (mut phrases, mut shares, mut is_same) = (Vec::new(), Vec::new(), true);
     for friction in FRICTIONS {
         let (study, indices) = study(bench, group, friction)?;
@@ -113,7 +117,7 @@ fn printed_percentages(
     bench: &Bench<'_>,
     group: &'static str,
     contradicted_by: Option<String>,
-) -> Result<Answer, ReproduceError> {
+) -> anyhow::Result<Answer> {
     let (_, indices) = printed(bench, group)?;
     let ours = published(group, PRINTED).shares.iter().map(|(factor, percent)| {
         let effect = indices.iter().find(|index| index.factor == *factor).map(|index| index.effect);
@@ -143,12 +147,12 @@ fn printed_percentages(
 }
 
 /// Checks the second half of claim 17.
-pub(super) fn dimensional_percentage(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
+pub(super) fn dimensional_percentage(bench: &Bench<'_>) -> anyhow::Result<Answer> {
     printed_percentages(bench, "dimensional", None)
 }
 
 /// Checks LG's statement on the width in claim 17. A printed percentage above half is that of the main factor.
-pub(super) fn most_effective(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
+pub(super) fn most_effective(bench: &Bench<'_>) -> anyhow::Result<Answer> {
     let (study, indices) = printed(bench, "dimensional")?;
     let order = order_of(study);
     let printed = published("dimensional", PRINTED);
@@ -166,11 +170,11 @@ pub(super) fn most_effective(bench: &Bench<'_>) -> Result<Answer, ReproduceError
 }
 
 /// Checks the second half of claim 18.
-pub(super) fn environmental_percentages(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
+pub(super) fn environmental_percentages(bench: &Bench<'_>) -> anyhow::Result<Answer> {
     let published = published("environmental", PRINTED);
     let percent = |name: &str| published.share(name).unwrap_or(f64::NAN);
     let (nominal, options) = (Scene::default(), closed(FrictionLaw::LuGre));
-    let over = |name: &str| -> Result<f64, ReproduceError> {
+    let over = |name: &str| -> anyhow::Result<f64> {
         let curve = bench.curve(&bench.over(name), &nominal, &options)?;
         Ok((curve.last() - curve.first()).abs())
     };
@@ -212,7 +216,7 @@ fn thickness_among(printed: &Published) -> (f64, (f64, f64)) {
 }
 
 /// Checks the second half of claim 19.
-pub(super) fn general_percentages(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
+pub(super) fn general_percentages(bench: &Bench<'_>) -> anyhow::Result<Answer> {
     let alone = published("dimensional", PRINTED).share("thickness").unwrap_or(f64::NAN);
     let (among, (low, high)) = thickness_among(&published("general", PRINTED));
     let is_product = is_product(bench)?;
@@ -237,12 +241,12 @@ pub(super) fn general_percentages(bench: &Bench<'_>) -> Result<Answer, Reproduce
 }
 
 /// Checks claim 20.
-pub(super) fn outweigh(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
+pub(super) fn outweigh(bench: &Bench<'_>) -> anyhow::Result<Answer> {
     let (mut holds, mut each, mut totals) = (true, Vec::new(), Vec::new());
     for friction in FRICTIONS {
         let (study, _) = study(bench, "general", friction)?;
-        let missing = ReproduceError::NoIndices { group: "general", friction: friction.name };
-        let (dimensional, environmental, standing) = outweighing(study).ok_or(missing)?;
+        let totals_of = outweighing(study).ok_or_else(|| no_indices("general", friction))?;
+        let (dimensional, environmental, standing) = totals_of;
         holds &= standing == Standing::Kept;
         let word = match standing {
             Standing::Kept => "so",

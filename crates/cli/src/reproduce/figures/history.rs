@@ -7,7 +7,6 @@ use apportion_report::document::{Rows, Table};
 use apportion_report::format::{force, length, time};
 
 use super::Drawn;
-use crate::reproduce::ReproduceError;
 use crate::scene::charts::{contacts, forces, positions, pushing};
 use crate::scene::simulation::scene_story;
 use crate::scene::{SceneSample, SceneStory, player_page, scene_json, scene_number, scene_table};
@@ -43,20 +42,20 @@ const FORCES: [&str; 3] = ["tip_force_nN", "lateral_force_nN", "normal_force_nN"
 const RELATIVE: &str = "relative_position_nm";
 
 /// Draws tS04 figure 8.
-pub(super) fn forces_in_time() -> Result<Drawn, ReproduceError> {
+pub(super) fn forces_in_time() -> Result<Drawn, Failure> {
     let story = coulomb()?;
     Ok((forces(&story), table("", &[("", &story)], &FORCES).csv()))
 }
 
 /// Draws tS04 figure 9.
-pub(super) fn tip_force() -> Result<Drawn, ReproduceError> {
+pub(super) fn tip_force() -> Result<Drawn, Failure> {
     let story = coulomb()?;
     let critical = NANO * story.critical.critical_force;
     Ok((pushing(&story), table("", &[("", &story)], &FORCES[..1]).file("critical_force_nN", |_| critical).csv()))
 }
 
 /// Draws tS04 figure 13.
-pub(super) fn contact_areas() -> Result<Drawn, ReproduceError> {
+pub(super) fn contact_areas() -> Result<Drawn, Failure> {
     let story = coulomb()?;
     let columns =
         ["tip_contact_radius_nm", "substrate_contact_radius_nm", "tip_indentation_nm", "substrate_indentation_nm"];
@@ -86,7 +85,7 @@ fn slip(story: &SceneStory) -> String {
 }
 
 /// Draws CHK figure 5.
-pub(super) fn two_laws() -> Result<Drawn, ReproduceError> {
+pub(super) fn two_laws() -> Result<Drawn, Failure> {
     let (coulomb, hk) = (coulomb()?, story(FrictionLaw::HurtadoKim, |_| ())?);
     let printed = [printed(FrictionLaw::HurtadoKim)?, printed(FrictionLaw::Coulomb)?];
     let laws = [(&coulomb, "Coulomb", Stroke::Solid), (&hk, "Hurtado-Kim", Stroke::Dashed)];
@@ -120,7 +119,7 @@ pub(super) fn two_laws() -> Result<Drawn, ReproduceError> {
 }
 
 /// Draws TS04 figure 10, with the relative position at the printed shear modulus in addition to ours.
-pub(super) fn displacement() -> Result<Drawn, ReproduceError> {
+pub(super) fn displacement() -> Result<Drawn, Failure> {
     let (story, printed) = (coulomb()?, printed(FrictionLaw::Coulomb)?);
     let ours = positions(&story);
     let modulus = PRINTED_SHEAR_MODULUS / 1e9;
@@ -146,7 +145,7 @@ pub(super) fn displacement() -> Result<Drawn, ReproduceError> {
 }
 
 /// Draws tS04 figure 11.
-pub(super) fn coefficients() -> Result<Drawn, ReproduceError> {
+pub(super) fn coefficients() -> Result<Drawn, Failure> {
     // All follow one line until they slip: in this order each is visible.
     let runs = COEFFICIENTS.map(|coefficient| story(FrictionLaw::Coulomb, |scene| scene.static_friction = coefficient));
     let runs = runs.into_iter().collect::<Result<Vec<_>, _>>()?;
@@ -195,8 +194,8 @@ pub struct Animation {
 /// [`figures`](super::figures).
 ///
 /// # Errors
-/// [`ReproduceError`] if the scene has no solution, or the page cannot be rendered.
-pub fn animation() -> Result<Animation, ReproduceError> {
+/// [`Failure`] if the scene has no solution.
+pub fn animation() -> Result<Animation, Failure> {
     let story = story(FrictionLaw::Coulomb, |_| ())?;
     Ok(Animation { html: player_page(&story), csv: scene_table(&story).csv(), json: scene_json(&story) })
 }

@@ -12,12 +12,13 @@ mod sweep;
 #[cfg(test)]
 mod tests;
 
+use apportion_afm::Failure;
 use apportion_report::chart::Chart;
 pub use history::{ANIMATION_STEM, Animation, animation};
 use rayon::prelude::*;
 
 use super::papers::{PrintedFigure, papers};
-use super::{Effort, ReproduceError, Reproduced, general_study};
+use super::{Effort, Reproduced, general_study};
 
 /// One figure of the papers, from our results.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,8 +40,8 @@ pub struct PaperFigure {
 /// same on every run and any number of threads.
 ///
 /// # Errors
-/// [`ReproduceError`] if a scene has no solution.
-pub fn figures(studies: &[Reproduced], effort: Effort) -> Result<Vec<PaperFigure>, ReproduceError> {
+/// [`Failure`] if a scene has no solution.
+pub fn figures(studies: &[Reproduced], effort: Effort) -> Result<Vec<PaperFigure>, Failure> {
     let general = general_study();
     let draw = |figure: &'static PrintedFigure| {
         let stem = figure.stem;
@@ -58,7 +59,7 @@ pub fn figures(studies: &[Reproduced], effort: Effort) -> Result<Vec<PaperFigure
 /// A chart with its data as CSV.
 type Drawn = (Chart, String);
 /// A function that draws a figure of the nominal scene.
-type Draw = fn() -> Result<Drawn, ReproduceError>;
+type Draw = fn() -> Result<Drawn, Failure>;
 
 /// The figures of the nominal scene by their stems.
 const SCENES: [(&str, Draw); 8] = [

@@ -7,7 +7,6 @@ use apportion_report::document::Table;
 use apportion_report::format::{force, three_digits as short};
 
 use super::Drawn;
-use crate::reproduce::ReproduceError;
 use crate::scene::simulation::{pushing, scene_modes};
 use crate::scene::{ModeDiagram, law_colour, mode_diagram_chart};
 
@@ -18,7 +17,7 @@ const CONTACT_ANGLES: (f64, f64) = (40.0, 70.0);
 const STEPS: u32 = 120;
 
 /// Draws tS04 figure 12.
-pub(super) fn against_force_angle() -> Result<Drawn, ReproduceError> {
+pub(super) fn against_force_angle() -> Result<Drawn, Failure> {
     let diagram = scene_modes(&Scene::default(), &Options::default())?;
     let mut chart = mode_diagram_chart(&diagram);
     if let Some(said) = sliding(&diagram) {
@@ -63,7 +62,7 @@ struct Against {
 }
 
 /// Draws the same against the angle of the contact.
-pub(super) fn against_contact_angle() -> Result<Drawn, ReproduceError> {
+pub(super) fn against_contact_angle() -> Result<Drawn, Failure> {
     let (from, to) = CONTACT_ANGLES;
     let degrees: Vec<f64> = (0..=STEPS).map(|i| from + (to - from) * f64::from(i) / f64::from(STEPS)).collect();
     let over = |read: &dyn Fn(Scene) -> Result<Option<f64>, Failure>| {
