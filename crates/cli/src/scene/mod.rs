@@ -21,7 +21,7 @@ use apportion_report::format;
 pub use charts::{law_colour, scene_charts};
 pub use columns::{scene_json, scene_number, scene_table};
 pub use document::{mode_document, scene_document};
-pub use mode_diagram::{ModeDiagram, ModeLine, mode_diagram_chart};
+pub use mode_diagram::{ModeDiagram, ModeLine, mode_axis, mode_diagram_chart};
 pub use player::player_page;
 
 /// One scene, from the start of the push through sticking and slipping.
@@ -39,7 +39,7 @@ pub struct SceneStory {
     pub critical_time: f64,
     /// The colour of the pushing force: that of the friction law, see [`law_colour`].
     pub colour: Colour,
-    /// The states in the order of time, possibly unevenly spaced, possibly one or none.
+    /// The states in the order of time, from 0 on, unevenly spaced; at the slip there are two.
     pub samples: Vec<SceneSample>,
 }
 
@@ -77,16 +77,24 @@ impl SceneSample {
 }
 
 impl SceneStory {
-    /// Returns the critical time if the samples reach it: otherwise it cannot be drawn.
-    fn slip(&self) -> Option<f64> {
-        let time = self.critical_time;
-        let (first, last) = (self.samples.first()?.time, self.samples.last()?.time);
-        (first <= time && time <= last).then_some(time)
+    /// Returns the first sample.
+    pub fn start(&self) -> &SceneSample {
+        &self.samples[0]
     }
 
-    /// Returns the sample nearest to a time.
-    fn nearest(&self, time: f64) -> Option<&SceneSample> {
-        self.samples.iter().min_by(|a, b| (a.time - time).abs().total_cmp(&(b.time - time).abs()))
+    /// Returns the last sample.
+    pub fn end(&self) -> &SceneSample {
+        &self.samples[self.samples.len() - 1]
+    }
+
+    /// Returns the last sample that sticks: that of the slip, if the samples reach it.
+    fn held(&self) -> &SceneSample {
+        self.samples.iter().rfind(|sample| sample.sticking).unwrap_or(self.start())
+    }
+
+    /// Returns the critical time if the samples reach it: otherwise it cannot be drawn.
+    fn slip(&self) -> Option<f64> {
+        (self.critical_time <= self.end().time).then_some(self.critical_time)
     }
 
     /// States the outcome in one sentence.

@@ -5,7 +5,7 @@ use apportion::study::Study;
 use apportion_afm::history::{Sample, history};
 use apportion_afm::modes::{Mode, Pushing, TipForce};
 use apportion_afm::{AfmSubject, Failure, Fidelity, Options, Parameter, Scene, critical_force, edge_unit};
-use apportion_report::chart::Colour;
+use apportion_report::chart::{Colour, Stroke};
 use apportion_report::with_unit;
 
 use crate::failure::bad_input;
@@ -135,7 +135,7 @@ pub fn scene_modes(scene: &Scene, options: &Options) -> Result<ModeDiagram, Fail
     for (&mode, colour) in Mode::ALL.iter().zip(colours) {
         let sets_in = |&psi: &f64| pushing.critical_tip_force(mode, psi);
         let force = angle.iter().map(sets_in).collect::<Result<Vec<_>, Failure>>()?;
-        lines.push(ModeLine { mode: mode.name().to_owned(), colour, force });
+        lines.push(ModeLine { name: mode.name().to_owned(), look: (colour, Stroke::Solid), force });
     }
-    Ok(ModeDiagram { angle, forces: lines, current: (critical.force_angle(), critical.critical_force) })
+    Ok(ModeDiagram { angle, forces: lines, slip: (critical.force_angle(), critical.critical_force) })
 }

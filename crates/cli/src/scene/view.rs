@@ -90,11 +90,4 @@ mod tests {
         assert_eq!(factor(0.02), "reduced 50 times");
         assert_eq!(factor(2e9), "exaggerated 2e9 times");
     }
-
-    #[test]
-    fn a_story_without_motion_is_to_scale() {
-        let mut story = nominal_story();
-        story.samples.clear();
-        assert_eq!(View::new(&story), View { probe: 1.0, travel: 1.0 });
-    }
 }

@@ -106,7 +106,7 @@ pub(super) fn two_laws() -> Result<Drawn, Failure> {
     let caption = format!(
         "The tip force rises from {} until the particle slips, at {} and at {}; with the shear modulus of {} GPa that \
          the papers print it slips {} and {}.",
-        coulomb.samples.first().map_or_else(String::new, |start| force(start.tip_force)),
+        force(coulomb.start().tip_force),
         reached(&hk, "Hurtado-Kim"),
         reached(&coulomb, "Coulomb"),
         PRINTED_SHEAR_MODULUS / 1e9,
@@ -125,11 +125,10 @@ pub(super) fn displacement() -> Result<Drawn, Failure> {
     let modulus = PRINTED_SHEAR_MODULUS / 1e9;
     let look = (Colour::Series(4), Stroke::Dashed);
     let other = line(format!("the same with G = {modulus} GPa as printed"), look, curve(&printed, RELATIVE));
-    let end = printed.samples.last().map_or(f64::NAN, |end| end.relative);
     let caption = format!(
         "{}, and {} if the shear modulus is the {modulus} GPa that the papers print, with which it slips {}.",
         ours.caption().trim_end_matches('.'),
-        length(end),
+        length(printed.end().relative),
         slip(&printed)
     );
     let mut panels = ours.all_panels().to_vec();
