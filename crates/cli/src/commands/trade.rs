@@ -4,7 +4,6 @@ use std::time::Instant;
 
 use anyhow::anyhow;
 use apportion::Study;
-use apportion::run::threads_in_force;
 use apportion_report::Artefacts;
 
 use super::output::{OutputArguments, deliver};
@@ -13,7 +12,7 @@ use super::stop::on_signal;
 use super::{StudyArguments, Threads, say, whole_number};
 use crate::failure::bad_input;
 use crate::trade::extremes::{ExtremesJob, ExtremesSettings, build_extremes, extremes, extremes_document};
-use crate::trade::settings::{SettingsJob, build_settings, compare_settings, settings_document};
+use crate::trade::settings::{SettingsJob, compare_settings, settings_document};
 
 /// Seconds that a comparison takes, and a quick one.
 const SECONDS: f64 = 300.0;
@@ -80,9 +79,7 @@ fn trade_settings(study: &Study, arguments: &Arguments, artefacts: &Artefacts) -
         stop: Some(on_signal()),
         on_progress: &|what, share| say(&format!("{:3.0} % of the time: {what}", 100.0 * share)),
     };
-    let comparison = compare_settings(&job)?;
-    let threads = threads_in_force(arguments.threads.number());
-    deliver(artefacts, &settings_document(&build_settings(study, threads, comparison)))
+    deliver(artefacts, &settings_document(&compare_settings(&job)?))
 }
 
 /// What becomes of the study at its extremes.

@@ -2,23 +2,22 @@
 //!
 //! The reference is the exact result of a function that has one, else the indices by the finest model, as accurate as a
 //! part of the time allows; its own error is part of every reported error. Times are measured, so they differ between
-//! comparisons; the indices do not.
+//! comparisons; the indices do not. The comparison is written as JSON that other programs can rely on, see `docs/trade.md`.
 
 mod curve;
 mod document;
-mod record;
 mod truth;
 
 use std::sync::atomic::AtomicBool;
 
+use apportion::analysis::study_setup;
 use apportion::clock::Instant;
-use apportion::result::StudyResult;
-use apportion::run::RunError;
+use apportion::result::{StudyResult, StudySetup};
+use apportion::run::{RunError, threads_in_force};
 use apportion::study::Study;
 pub use curve::Axis;
 use curve::{Curve, SURROGATES};
 pub use document::settings_document;
-pub use record::{SettingsFile, build_settings};
 use serde::{Deserialize, Serialize};
 use truth::Truth;
 
@@ -66,15 +65,37 @@ impl SettingsJob<'_> {
     }
 }
 
-/// The result of a comparison.
+/// A comparison, in the format `apportion-trade`, version 1. Later versions of the program only add keys. A number that
+/// does not exist is `null`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Comparison {
+    /// Always `apportion-trade`.
+    pub format: String,
+    /// Version of the format.
+    pub version: u32,
+    /// The study.
+    pub study: StudySetup,
+    /// Version of the program.
+    pub apportion_version: String,
+    /// Number of threads of the runs.
+    pub threads: usize,
     /// The reference for the errors.
     pub truth: TruthFound,
     /// The curve of the study's own model and sampler, without surrogates.
     pub own: String,
     /// All measured settings.
     pub settings: Vec<Measured>,
+    /// The cheapest setting for each accuracy.
+    pub advice: Vec<Advice>,
+}
+
+/// The cheapest setting for an accuracy.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Advice {
+    /// The accuracy.
+    pub accuracy: f64,
+    /// Number of the setting, from 0; `null` if none reaches it.
+    pub setting: Option<usize>,
 }
 
 /// The reference for the errors.
@@ -120,45 +141,31 @@ pub struct Measured {
     pub lines: String,
 }
 
-impl Comparison {
-    fn new(truth: TruthFound, own: String, settings: Vec<Measured>) -> Self {
-        let mut comparison = Self { truth, own, settings };
-        for place in comparison.front() {
-            comparison.settings[place].is_on_front = true;
-        }
-        comparison
-    }
+/// Returns the Pareto-optimal settings in time and error, by number, the quickest first. Errors below that of the
+/// reference are equal.
+fn front(settings: &[Measured], truth_error: f64) -> Vec<usize> {
+    let error = |k: usize| settings[k].error.map(|error| error.max(truth_error));
+    let mut order: Vec<usize> = (0..settings.len()).collect();
+    order.sort_by(|&a, &b| settings[a].seconds.total_cmp(&settings[b].seconds));
+    let mut best = f64::INFINITY;
+    order.retain(|&k| {
+        let is_better = error(k).is_some_and(|error| error < best);
+        best = best.min(error(k).unwrap_or(best));
+        is_better
+    });
+    order
+}
 
-    /// Returns the Pareto-optimal settings in time and error, by number, the quickest first. Errors below that of the
-    /// reference are equal.
-    pub fn front(&self) -> Vec<usize> {
-        let mut order: Vec<usize> = (0..self.settings.len()).filter(|&k| self.settings[k].error.is_some()).collect();
-        order.sort_by(|&a, &b| self.settings[a].seconds.total_cmp(&self.settings[b].seconds));
-        let mut best = f64::INFINITY;
-        order.retain(|&k| {
-            let error = self.settings[k].error.unwrap_or(f64::INFINITY).max(self.truth_error());
-            let is_better = error < best;
-            best = best.min(error);
-            is_better
-        });
-        order
-    }
-
-    fn truth_error(&self) -> f64 {
-        self.truth.error.unwrap_or(f64::INFINITY)
-    }
-
-    /// Returns the cheapest setting with an error of at most `accuracy`, including the error of the reference; the
-    /// study's own model and sampler instead, if that differs from that by no more than the noise of time and error.
-    pub fn cheapest(&self, accuracy: f64) -> Option<usize> {
-        let reaches = |error: Option<f64>| error.is_some_and(|error| error + self.truth_error() <= accuracy);
-        let quickest = self.front().into_iter().find(|&k| reaches(self.settings[k].error))?;
-        let best = &self.settings[quickest];
-        let is_alike = |of: &Measured| of.seconds <= best.usual_seconds && reaches(of.least_error);
-        let is_own = |of: &Measured| of.curve.trim_end_matches(SURROGATES) == self.own;
-        let own = self.settings.iter().position(|of| !is_own(best) && is_own(of) && is_alike(of));
-        own.or(Some(quickest))
-    }
+/// Returns the cheapest setting with an error of at most `accuracy`, including the error of the reference; the study's
+/// `own` model and sampler instead, if that differs from that by no more than the noise of time and error.
+fn cheapest(settings: &[Measured], truth_error: f64, own: &str, accuracy: f64) -> Option<usize> {
+    let reaches = |error: Option<f64>| error.is_some_and(|error| error + truth_error <= accuracy);
+    let quickest = front(settings, truth_error).into_iter().find(|&k| reaches(settings[k].error))?;
+    let best = &settings[quickest];
+    let is_alike = |of: &Measured| of.seconds <= best.usual_seconds && reaches(of.least_error);
+    let is_own = |of: &Measured| of.curve.trim_end_matches(SURROGATES) == own;
+    let own = settings.iter().position(|of| !is_own(best) && is_own(of) && is_alike(of));
+    own.or(Some(quickest))
 }
 
 /// Measures the settings of a study.
@@ -177,7 +184,23 @@ pub fn compare_settings(job: &SettingsJob<'_>) -> Result<Comparison, RunError> {
         let share = (job.seconds - done).max(0.0) / (curves.len() - number) as f64;
         settings.extend(measured(job, curve, &truth, share)?);
     }
-    Ok(Comparison::new(truth.found, job.study.subject().rung_name(), settings))
+    let (truth, own) = (truth.found, job.study.subject().rung_name());
+    let truth_error = truth.error.unwrap_or(f64::INFINITY);
+    for place in front(&settings, truth_error) {
+        settings[place].is_on_front = true;
+    }
+    let advice = |accuracy| Advice { accuracy, setting: cheapest(&settings, truth_error, &own, accuracy) };
+    Ok(Comparison {
+        format: "apportion-trade".to_owned(),
+        version: 1,
+        study: study_setup(job.study),
+        apportion_version: env!("CARGO_PKG_VERSION").to_owned(),
+        threads: threads_in_force(job.threads),
+        advice: ACCURACIES.map(advice).to_vec(),
+        truth,
+        own,
+        settings,
+    })
 }
 
 /// Measures the points of `curve` that fit into so many seconds, at least the first.
@@ -272,33 +295,28 @@ mod tests {
         }
     }
 
-    fn comparison(error_of_truth: f64, settings: &[(f64, f64)]) -> Comparison {
-        let truth = TruthFound { words: String::new(), error: Some(error_of_truth), runs: 0, seconds: 0.0 };
-        let known = |error: f64| Some(error).filter(|error| error.is_finite());
-        Comparison::new(
-            truth,
-            "own".to_owned(),
-            settings.iter().map(|&(seconds, error)| measured(seconds, known(error))).collect(),
-        )
+    fn settings(all: &[(f64, f64)]) -> Vec<Measured> {
+        all.iter().map(|&(seconds, error)| measured(seconds, Some(error).filter(|error| error.is_finite()))).collect()
     }
 
     #[test]
     fn the_front_is_not_beaten_in_both_time_and_error() {
         let all = [(3.0, 0.01), (1.0, 0.5), (2.0, 0.6), (2.5, 0.2), (4.0, f64::INFINITY), (5.0, 1e-9), (6.0, 1e-12)];
-        assert_eq!(comparison(0.0, &all).front(), [1, 3, 0, 5, 6]);
+        assert_eq!(front(&settings(&all), 0.0), [1, 3, 0, 5, 6]);
         // Differences below the error of the reference count as equal.
-        assert_eq!(comparison(1e-6, &all).front(), [1, 3, 0, 5]);
+        assert_eq!(front(&settings(&all), 1e-6), [1, 3, 0, 5]);
     }
 
     #[test]
     fn the_cheapest_setting_includes_the_error_of_the_reference() {
-        let all = [(1.0, 0.09), (2.0, 0.02), (3.0, 0.001)];
-        assert_eq!(comparison(0.0, &all).cheapest(0.1), Some(0));
-        assert_eq!(comparison(0.02, &all).cheapest(0.1), Some(1));
-        assert_eq!(comparison(0.02, &all).cheapest(0.02), None);
+        let all = settings(&[(1.0, 0.09), (2.0, 0.02), (3.0, 0.001)]);
+        assert_eq!(cheapest(&all, 0.0, "own", 0.1), Some(0));
+        assert_eq!(cheapest(&all, 0.02, "own", 0.1), Some(1));
+        assert_eq!(cheapest(&all, 0.02, "own", 0.02), None);
         // The study's own counts as equal to what is quicker and better by less than the noise.
-        let mut own = comparison(0.0, &[(1.0, 0.09), (1.4, 0.15), (1.6, 0.01)]);
-        own.settings[1..].iter_mut().for_each(|of| of.curve.push_str("own"));
-        assert_eq!([0.1, 0.08, 0.07].map(|accuracy| own.cheapest(accuracy)), [Some(1), Some(2), Some(2)]);
+        let mut all = settings(&[(1.0, 0.09), (1.4, 0.15), (1.6, 0.01)]);
+        all[1..].iter_mut().for_each(|of| of.curve.push_str("own"));
+        let found = [0.1, 0.08, 0.07].map(|accuracy| cheapest(&all, 0.0, "own", accuracy));
+        assert_eq!(found, [Some(1), Some(2), Some(2)]);
     }
 }
