@@ -11,7 +11,7 @@ use super::progress::Meter;
 use super::stop::on_signal;
 use super::{StudyArguments, Threads, say, whole_number};
 use crate::failure::bad_input;
-use crate::trade::extremes::{ExtremesJob, ExtremesSettings, build_extremes, extremes, extremes_document};
+use crate::trade::extremes::{ExtremesJob, ExtremesSettings, extremes, extremes_document};
 use crate::trade::settings::{SettingsJob, compare_settings, settings_document};
 
 /// Seconds that a comparison takes, and a quick one.
@@ -76,7 +76,7 @@ fn trade_settings(study: &Study, arguments: &Arguments, artefacts: &Artefacts) -
         seconds: arguments.seconds.unwrap_or(usual),
         seeds: arguments.seeds,
         threads: arguments.threads.number(),
-        stop: Some(on_signal()),
+        stop: on_signal(),
         on_progress: &|what, share| say(&format!("{:3.0} % of the time: {what}", 100.0 * share)),
     };
     deliver(artefacts, &settings_document(&compare_settings(&job)?))
@@ -99,9 +99,10 @@ fn trade_extremes(study: &Study, arguments: &Arguments, artefacts: &Artefacts) -
     };
     let map = extremes(&job)?;
     meter.finish(map.points, start.elapsed().as_secs_f64());
-    deliver(artefacts, &extremes_document(&build_extremes(study, settings.seed, &map)))?;
-    match map.counts.wrong {
+    let wrong = map.counts.wrong;
+    deliver(artefacts, &extremes_document(study, settings.seed, map))?;
+    match wrong {
         0 => Ok(()),
-        wrong => Err(anyhow!("{wrong} numbers are silently wrong: see the table of reasons")),
+        _ => Err(anyhow!("{wrong} numbers are silently wrong: see the table of reasons")),
     }
 }

@@ -19,12 +19,12 @@ use apportion::space::Space;
 use apportion::study::{Study, Subject};
 use apportion_afm::{AfmSubject, Parameter};
 use apportion_files::ExpressionSubject;
-pub use document::{ExtremesFile, build_extremes, extremes_document};
+pub use document::{ExtremesFile, extremes_document};
 use map::Reasons;
 pub use map::{Extremes, Grid, Kind, Outcome, Reason, Tally};
 use points::{Point, grids, points};
-use precise::PreciseFormulas;
-use second::{Answered, Reference, SecondCalculation, Unchecked};
+use precise::reference;
+use second::{Reference, SecondCalculation, Unchecked};
 
 /// The size of the search.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -114,7 +114,7 @@ pub fn extremes(job: &ExtremesJob<'_>) -> Result<Extremes, RunError> {
     if let Some(reason) = gave_up.into_inner() {
         return Err(RunError::GaveUp(reason));
     }
-    let name = second.map(|second| second.name()).map_err(str::to_owned);
+    let name = second.map(|second| second.name).map_err(str::to_owned);
     let mut map = Extremes::new(name, points.len() as u64, grids(&space));
     let mut reasons = Reasons::new();
     for (point, findings) in points.iter().zip(found) {
@@ -165,7 +165,7 @@ fn evaluate(
     model: &dyn Model,
     worker: &mut dyn Worker,
     x: &[f64],
-    second: &Result<Box<dyn SecondCalculation>, &'static str>,
+    second: &Result<SecondCalculation, &'static str>,
 ) -> (Vec<Finding>, Option<GiveUp>) {
     let mut batch = Batch::new(model);
     batch.reset(1);
@@ -182,9 +182,9 @@ fn evaluate(
     let flags: Vec<&str> = raised.map(|(flag, _)| &*flag.name).collect();
     let counter = model.counters().iter().position(|counter| counter.name == LARGEST_ERROR);
     let error_estimate = counter.and_then(|number| batch.counts().values().nth(number));
-    let answered = values.iter().map(|value| value.as_ref().ok().copied()).collect();
+    let answered: Vec<Option<f64>> = values.iter().map(|value| value.as_ref().ok().copied()).collect();
     let references = match second {
-        Ok(second) => second.calculate(x, &Answered { values: answered, error_estimate }),
+        Ok(second) => (second.calculate)(x, (&answered, error_estimate)),
         Err(why) => outputs.map(|_| Err(Unchecked::NotAvailable((*why).to_owned()))).collect(),
     };
     let judged = values.into_iter().zip(&references).map(|(value, reference)| judge(value, &flags, reference));
@@ -220,18 +220,23 @@ fn judge(value: Result<f64, RowFailure>, flags: &[&str], second: &Result<Referen
 ///
 /// # Errors
 /// Why there is none, in a few words.
-fn second_calculation(subject: &dyn Subject, space: &Space) -> Result<Box<dyn SecondCalculation>, &'static str> {
+fn second_calculation(subject: &dyn Subject, space: &Space) -> Result<SecondCalculation, &'static str> {
     let subject: &dyn Any = subject;
     if let Some(formulas) = subject.downcast_ref::<ExpressionSubject>() {
-        let formulas = formulas.formulas.iter().map(|formula| formula.expression.clone());
-        return Ok(Box::new(PreciseFormulas(formulas.collect())));
+        let formulas = formulas.formulas.clone();
+        return Ok(SecondCalculation {
+            name: "the formula in 320 bits".to_owned(),
+            calculate: Box::new(move |x, _| formulas.iter().map(|formula| reference(&formula.expression, x)).collect()),
+        });
     }
     let afm = subject.downcast_ref::<AfmSubject>().ok_or("there is no second calculation of this model")?;
     if !afm.histories.is_empty() {
         return Err("there is no second calculation of a history");
     }
     let factors = space.factors().iter().filter_map(|factor| Parameter::from_name(&factor.name)).collect();
-    Ok(Box::new(AfmSecond::new(afm.scene, afm.options, factors, afm.outputs.clone())))
+    let afm = AfmSecond::new(afm.scene, afm.options, factors, afm.outputs.clone());
+    let name = afm.name();
+    Ok(SecondCalculation { name, calculate: Box::new(move |x, (values, error)| afm.calculate(x, values, error)) })
 }
 
 #[cfg(test)]

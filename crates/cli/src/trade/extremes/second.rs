@@ -1,23 +1,15 @@
 //! A second calculation of a model's outputs, by another method or with more digits, to check the first.
 
-/// Computes the outputs of a model in another way.
-pub trait SecondCalculation: Send + Sync {
-    /// Returns its name, in a few words.
-    fn name(&self) -> String;
-
-    /// Computes every output at the point `x`, the SI values of the factors in the order of the space, to compare with
-    /// the model's outputs there.
-    fn calculate(&self, x: &[f64], answer: &Answered) -> Vec<Result<Reference, Unchecked>>;
+/// Another way to compute the outputs of a model.
+pub struct SecondCalculation {
+    /// Its name, in a few words.
+    pub name: String,
+    /// Computes every output at a point, the SI values of the factors in the order of the space, to compare with the
+    /// model's outputs there: in SI units, `None` for a missing one, and the relative error that it estimates for them.
+    pub calculate: Box<Calculate>,
 }
 
-/// The result of a model at a point.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Answered {
-    /// Its outputs in SI units; `None` for a missing one.
-    pub values: Vec<Option<f64>>,
-    /// The relative error that it estimates for them, if it does.
-    pub error_estimate: Option<f64>,
-}
+type Calculate = dyn Fn(&[f64], (&[Option<f64>], Option<f64>)) -> Vec<Result<Reference, Unchecked>> + Send + Sync;
 
 /// An output by a second calculation.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -52,7 +52,7 @@ pub struct SettingsJob<'a> {
     /// Threads; 0 for one per core.
     pub threads: usize,
     /// Stops it soon after it is set.
-    pub stop: Option<&'a AtomicBool>,
+    pub stop: &'a AtomicBool,
     /// Receives the next measurement, and the completed part of the whole.
     pub on_progress: &'a dyn Fn(&str, f64),
 }
@@ -60,8 +60,7 @@ pub struct SettingsJob<'a> {
 impl SettingsJob<'_> {
     /// Runs a variant of the study.
     fn run(&self, study: &Study) -> Result<StudyResult, RunError> {
-        let runner = study.runner().threads(self.threads);
-        self.stop.into_iter().fold(runner, |runner, stop| runner.stop(stop)).run()
+        study.runner().threads(self.threads).stop(self.stop).run()
     }
 }
 
