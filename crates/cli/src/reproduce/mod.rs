@@ -173,10 +173,4 @@ mod tests {
             assert_eq!(study.space().groups().len(), if group.key == "general" { 2 } else { 0 });
         }
     }
-
-    #[test]
-    fn overrides_reach_every_study() {
-        let studies = studies(&["design.base_samples=64".to_owned()]).unwrap();
-        assert!(studies.iter().all(|(_, _, study)| study.design().settings().base_samples == 64));
-    }
 }

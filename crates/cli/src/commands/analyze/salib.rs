@@ -39,31 +39,47 @@ fn resamples(text: &str) -> Result<usize, String> {
     if text == "0" { Ok(0) } else { number_in(text, 100..=1_000_000).map_err(|error| format!("{error}, or 0")) }
 }
 
-/// The columns of a file.
-struct Table {
-    problem: SalibProblem,
-    /// The inputs, if the file holds them.
-    inputs: Option<Vec<(String, Vec<f64>)>>,
-    outputs: Vec<Column>,
-}
-
 /// The outputs in a table in SALib's order, as the runs of a study.
 pub fn study(arguments: &super::Arguments) -> anyhow::Result<super::Read> {
-    let Table { problem, inputs, outputs } = table(arguments)?;
-    let rows = outputs[0].values.len();
+    let path = &*arguments.data;
+    let mut reader = open_table(path, &arguments.table.options(&[])).of(path)?;
+    let problem = problem(&arguments.salib)?;
+    let known = problem.as_ref().map(|problem| problem.inputs.clone());
+    let (inputs, outputs) = columns(reader.as_ref(), known, &arguments.outputs).of(path)?;
+    let problem = match problem {
+        Some(problem) => problem,
+        None => SalibProblem::of_inputs(inputs.iter().map(|(_, name)| name.clone()).collect()).of(path)?,
+    };
+    let wanted: Vec<(usize, ColumnKind)> =
+        inputs.iter().chain(&outputs).map(|(place, name)| (*place, ColumnKind::numbers(name))).collect();
+    let (mut all, mut part) = (vec![Vec::new(); wanted.len()], vec![Vec::new(); wanted.len()]);
+    while reader.read(&wanted, 1 << 13, &mut part).of(path)? > 0 {
+        all.iter_mut().zip(&part).for_each(|(all, part)| all.extend_from_slice(part));
+    }
+    say_of_table(path, &[], reader.is_unended());
+    let values = all.split_off(inputs.len());
+    let outputs: Vec<Column> =
+        outputs.into_iter().zip(values).map(|((_, name), values)| Column { name, values }).collect();
+    let inputs: Vec<(String, Vec<f64>)> = inputs.into_iter().map(|(_, name)| name).zip(all).collect();
+    for (name, column) in &inputs {
+        if let Some(row) = column.iter().position(|value| !value.is_finite()) {
+            return Err(format!("row {}, column `{name}`: the input is missing", row + 1)).of(path);
+        }
+    }
     let SalibArguments { second_order, first_order_only, resamples, seed, .. } = arguments.salib;
     let asked = match (second_order, first_order_only) {
         (true, _) => Some(SalibLayout::SecondOrder),
         (_, true) => Some(SalibLayout::FirstOrder),
         _ => None,
     };
-    let layout = recognise(rows, &problem.members, asked, inputs.as_deref()).of(&arguments.data)?;
-    match inputs {
+    // None if the file does not hold the inputs.
+    let points = Some(&*inputs).filter(|inputs| !inputs.is_empty());
+    let layout = recognise(outputs[0].values.len(), &problem.members, asked, points).of(path)?;
+    match points {
         Some(_) => say("the points in the file have the layout of SALib"),
         None => say("note: the file has no points: its rows are assumed to be in the order of SALib"),
     }
-    let made = salib_study(&stem(&arguments.data), &problem, &outputs, layout, (resamples, seed));
-    let (study, store) = made.of(&arguments.data)?;
+    let (study, store) = salib_study(&stem(path), &problem, &outputs, layout, (resamples, seed)).of(path)?;
     let unlikely = |output: &Column| Unlikely::find(&output.values).map(|found| found.in_table(found.first + 1));
     Ok(super::Read { study, store, unlikely: outputs.iter().map(unlikely).collect() })
 }
@@ -84,35 +100,6 @@ fn problem(arguments: &SalibArguments) -> anyhow::Result<Option<SalibProblem>> {
     }
     let text = read_text(path).map_err(|error| format!("cannot read the problem: {error}")).of(path)?;
     SalibProblem::parse(&text).map(Some).of(path)
-}
-
-fn table(arguments: &super::Arguments) -> anyhow::Result<Table> {
-    let path = &*arguments.data;
-    let mut reader = open_table(path, &arguments.table.options(&[])).of(path)?;
-    let problem = problem(&arguments.salib)?;
-    let known = problem.as_ref().map(|problem| problem.inputs.clone());
-    let (inputs, outputs) = columns(reader.as_ref(), known, &arguments.outputs).of(path)?;
-    let input_names: Vec<String> = inputs.iter().map(|(_, name)| name.clone()).collect();
-    let problem = match problem {
-        Some(problem) => problem,
-        None => SalibProblem::of_inputs(input_names).of(path)?,
-    };
-    let wanted: Vec<(usize, ColumnKind)> =
-        inputs.iter().chain(&outputs).map(|(place, name)| (*place, ColumnKind::numbers(name))).collect();
-    let (mut all, mut part) = (vec![Vec::new(); wanted.len()], vec![Vec::new(); wanted.len()]);
-    while reader.read(&wanted, 1 << 13, &mut part).of(path)? > 0 {
-        all.iter_mut().zip(&part).for_each(|(all, part)| all.extend_from_slice(part));
-    }
-    say_of_table(path, &[], reader.is_unended());
-    for ((_, kind), column) in wanted.iter().zip(&all).take(inputs.len()) {
-        if let Some(row) = column.iter().position(|value| !value.is_finite()) {
-            return Err(format!("row {}, column `{}`: the input is missing", row + 1, kind.name)).of(path);
-        }
-    }
-    let values = all.split_off(inputs.len());
-    let outputs = outputs.into_iter().zip(values).map(|((_, name), values)| Column { name, values }).collect();
-    let inputs: Vec<(String, Vec<f64>)> = inputs.into_iter().map(|(_, name)| name).zip(all).collect();
-    Ok(Table { problem, inputs: (!inputs.is_empty()).then_some(inputs), outputs })
 }
 
 /// Columns with their names.

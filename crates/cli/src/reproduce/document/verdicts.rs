@@ -80,36 +80,3 @@ pub(super) fn sentence(claims: &[Claim]) -> String {
         count("contradicted")
     )
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn claims_are_read_back_from_their_file() {
-        let own = "\"here\", not there".to_owned();
-        let claim = Claim {
-            number: 3,
-            source: "TS04 fig. 11",
-            statement: "A statement, with a comma.",
-            verdict: Verdict::Contradicted { own },
-            range: "all of the box".into(),
-            finding: "Two\nlines.".into(),
-            setting: "S".into(),
-            figures: &["ts04-11", "chk-5"],
-        };
-        let both = [claim.clone(), Claim { verdict: Verdict::NotReproduced, ..claim }];
-        let Part::Table(table) = table(&both) else { panic!("a table") };
-        let text = table.csv();
-        let mut reader = csv::Reader::from_reader(text.as_bytes());
-        let rows: Vec<csv::StringRecord> = reader.records().map(Result::unwrap).collect();
-        assert_eq!(rows.len(), 2);
-        let first: Vec<&str> = rows[0].iter().collect();
-        assert_eq!(first[..3], ["3", "TS04 fig. 11", "A statement, with a comma."]);
-        assert_eq!(
-            first[3..],
-            ["contradicted", "\"here\", not there", "all of the box", "Two\nlines.", "S", "ts04-11 chk-5"]
-        );
-        assert_eq!((&rows[1][3], &rows[1][4]), ("not reproduced", ""));
-    }
-}
