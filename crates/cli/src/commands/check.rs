@@ -15,7 +15,7 @@ use super::check_plan::plan;
 use super::output::default_folder;
 use super::run::journal_path;
 use super::stop::on_signal;
-use super::{DesignChanges, StudyArguments, counted, print, say, say_notes};
+use super::{DesignChanges, StudyArguments, counted, print, say};
 
 #[derive(clap::Args)]
 pub struct Arguments {
@@ -30,7 +30,6 @@ pub struct Arguments {
 
 pub fn check(arguments: &Arguments) -> anyhow::Result<()> {
     let study = arguments.study.load_any(&arguments.design.overrides())?;
-    say_notes(&study);
     let folder = arguments.out.clone().unwrap_or_else(|| default_folder(study.name()));
     let pilot = if study.subject().is_external() { None } else { Some(pilot(&study)?) };
     let mut text = subject(&study);

@@ -32,8 +32,7 @@ pub fn merge(arguments: &Arguments) -> anyhow::Result<()> {
     let folder = arguments.output.folder(study.name());
     let journals =
         if arguments.journals.is_empty() { in_folder(&folder, study.name())? } else { arguments.journals.clone() };
-    let artefacts = arguments.output.artefacts(study.name());
-    artefacts.prepare()?;
+    let artefacts = arguments.output.prepared(study.name())?;
     let path = journal_path(&folder, study.name(), None);
     let runner = study.runner().threads(arguments.threads.number()).on_message(say).journal(&path);
     let result = runner.merge(&journals).map_err(|error| match error {

@@ -149,13 +149,14 @@ impl StudyArguments {
                 self.study.display()
             )));
         }
-        say_notes(&study);
         Ok(study)
     }
 
     /// The study with the changes of `--set`, then `more`, whether or not its model can be run.
     fn load_any(&self, more: &[String]) -> anyhow::Result<Study> {
-        Ok(apportion_files::load_study(&self.study, &[&self.set, more].concat())?)
+        let study = apportion_files::load_study(&self.study, &[&self.set, more].concat())?;
+        say_notes(&study);
+        Ok(study)
     }
 }
 

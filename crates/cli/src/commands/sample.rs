@@ -10,7 +10,7 @@ use apportion_files::exchange::{
 use apportion_report::{prepare_file, stream_atomically, write_atomically};
 
 use super::stop::Stoppable;
-use super::{DesignChanges, StudyArguments, counted, say, say_notes};
+use super::{DesignChanges, StudyArguments, counted, say};
 use crate::failure::{OfFile, bad_input};
 
 /// Most random points.
@@ -37,7 +37,6 @@ pub struct Arguments {
 
 pub fn sample(arguments: &Arguments) -> anyhow::Result<()> {
     let study = arguments.study.load_any(&arguments.design.overrides())?;
-    say_notes(&study);
     let kind = if arguments.random.is_some() { "random" } else { "design" };
     let default = || PathBuf::from(format!("{}-{kind}.csv", study.name()));
     let path = arguments.output.clone().unwrap_or_else(default);

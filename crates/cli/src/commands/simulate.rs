@@ -32,16 +32,11 @@ fn parse_time(text: &str) -> Result<f64, String> {
 /// Simulates the scene with every factor at its nominal value.
 pub fn simulate(arguments: &Arguments) -> anyhow::Result<()> {
     let study = arguments.study.load()?;
-    let artefacts = arguments.output.artefacts(study.name());
+    let artefacts = arguments.output.prepared(study.name())?;
     let document = if arguments.mode_diagram {
-        let diagram = mode_diagram(&study)?;
-        artefacts.prepare()?;
-        let title = study.title().unwrap_or(study.name());
-        mode_document(&diagram, study.name(), title)
+        mode_document(&mode_diagram(&study)?, study.name(), study.title().unwrap_or(study.name()))
     } else {
-        artefacts.prepare()?;
-        let story = simulate_scene(&study, arguments.duration)?;
-        scene_document(&story, study.name())
+        scene_document(&simulate_scene(&study, arguments.duration)?, study.name())
     };
     deliver(&artefacts, &document)
 }

@@ -59,8 +59,7 @@ pub fn trade(arguments: &Arguments) -> anyhow::Result<()> {
              which need independent factors: expected a study without [[dependence]]"
         )));
     }
-    let artefacts = arguments.output.artefacts(study.name());
-    artefacts.prepare()?;
+    let artefacts = arguments.output.prepared(study.name())?;
     if arguments.extremes {
         trade_extremes(&study, arguments, &artefacts)
     } else {

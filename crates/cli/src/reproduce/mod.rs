@@ -156,21 +156,3 @@ fn named_together<'a, T: PartialEq>(said: impl IntoIterator<Item = (T, &'a str)>
     }
     groups
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn all_nine_studies_are_there_with_their_own_factors() {
-        let studies = studies(&[]).unwrap();
-        assert_eq!(studies.len(), 9);
-        for (group, friction, study) in &studies {
-            assert_eq!(study.name(), format!("{}-{}", friction.key, group.key));
-            assert_eq!(study.design().settings().base_samples, 1 << 12);
-            let factors = study.space().factors().len();
-            assert_eq!(factors, if group.key == "general" { 8 } else { 4 });
-            assert_eq!(study.space().groups().len(), if group.key == "general" { 2 } else { 0 });
-        }
-    }
-}

@@ -63,15 +63,3 @@ pub fn mode_document(diagram: &ModeDiagram, study: &str, title: &str) -> Documen
     }
     .document()
 }
-
-#[cfg(test)]
-mod tests {
-    use super::super::nominal_story;
-    use super::*;
-
-    #[test]
-    fn a_scene_has_a_page() {
-        let document = scene_document(&nominal_story(), "s");
-        assert!(document.lead[1].contains("lateral") && document.html().contains("srcdoc="));
-    }
-}

@@ -114,17 +114,3 @@ fn nominal_story() -> SceneStory {
     let title = "A gold particle pushed on silicon oxide".to_owned();
     simulation::scene_story(title, &Scene::default(), &Default::default(), 0.4).expect("a scene with an answer")
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_outcome_is_said_for_every_story() {
-        let story = nominal_story();
-        assert_eq!(story.outcome(), "The particle slips after 0.131 s, at a tip force of 631 nN.");
-        let mut early = story;
-        early.samples.retain(|sample| sample.time < 0.1);
-        assert!(early.outcome().contains("0.131 s, outside the time shown"), "{}", early.outcome());
-    }
-}

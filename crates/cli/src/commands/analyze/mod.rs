@@ -73,8 +73,7 @@ pub fn analyze(arguments: &Arguments) -> anyhow::Result<()> {
     let read = if arguments.layout.is_some() { salib::study(arguments)? } else { of_design(arguments)? };
     let Read { study, store, unlikely } = read;
     say_notes(&study);
-    let artefacts = arguments.output.artefacts(study.name()).next_to_input(&arguments.data);
-    artefacts.prepare()?;
+    let artefacts = arguments.output.prepared(study.name())?.next_to_input(&arguments.data);
     let runner = study.runner().threads(arguments.threads.number()).store(&store);
     let mut result = runner.run().map_err(|error| with_inputs(&study, error))?;
     for (output, unlikely) in result.outputs.iter_mut().zip(unlikely) {

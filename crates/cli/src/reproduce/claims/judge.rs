@@ -82,10 +82,9 @@ mod tests {
 
     #[test]
     fn verdicts_use_the_scene_of_the_paper_and_ranges_the_box() {
-        let (all, half) = (holding("Coulomb", true, 1.0), holding("LuGre", true, 0.5));
-        assert_eq!(judge(&[all.clone(), half.clone()]), Verdict::Reproduced);
-        assert_eq!(over_ranges(&[all.clone(), all.clone()]), "all of the box");
-        assert_eq!(over_ranges(&[all, half]), "Coulomb: all of the box; LuGre: 50 % [49.9, 50.1] of the box");
+        let holdings = [holding("Coulomb", true, 1.0), holding("LuGre", true, 0.5)];
+        assert_eq!(judge(&holdings), Verdict::Reproduced);
+        assert_eq!(over_ranges(&holdings), "Coulomb: all of the box; LuGre: 50 % [49.9, 50.1] of the box");
         // Everywhere in the box but not at the nominal scene does not reproduce a chart drawn there.
         assert_eq!(judge(&[holding("Coulomb", false, 1.0)]), Verdict::NotReproduced);
     }
