@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use anyhow::anyhow;
 use apportion::model::{Output, RunContext};
 use apportion::run::{Job, Pilot};
+use apportion::space::Distribution;
 use apportion::space::distribution::Parameter;
-use apportion::space::{Distribution, Factor};
 use apportion::study::Study;
 use apportion_files::ModelKind;
 use apportion_report::{significant, table, two_digits, with_unit};
@@ -31,17 +31,22 @@ pub struct Arguments {
 pub fn check(arguments: &Arguments) -> anyhow::Result<()> {
     let study = arguments.study.load_any(&arguments.design.overrides())?;
     let folder = arguments.out.clone().unwrap_or_else(|| default_folder(study.name()));
-    let pilot = if study.subject().is_external() { None } else { Some(pilot(&study)?) };
-    let mut text = subject(&study);
-    text.push_str(&factors(&study));
-    text.push_str(&plan(&study, &arguments.study.study, pilot.as_ref()));
-    text.push_str(&past_runs(&study, &folder));
-    text.push_str(&format!(
-        "\nwill be written to {}: the page {}.html, tables, charts\n",
+    let mut pilot = None;
+    if !study.subject().is_external() {
+        let model = study.model();
+        let context = RunContext::new(Some(on_signal()), say);
+        let job = Job { design: study.design(), space: study.space(), model: model.as_ref() };
+        pilot = Some(Pilot::new(job, &context)?);
+    }
+    print(&format!(
+        "{}{}{}{}\nwill be written to {}: the page {}.html, tables, charts\n",
+        subject(&study),
+        factors(&study),
+        plan(&study, &arguments.study.study, pilot.as_ref()),
+        past_runs(&study, &folder),
         folder.display(),
         study.name()
-    ));
-    print(&text)?;
+    ))?;
     match pilot.filter(|pilot| pilot.failed == pilot.runs) {
         None => Ok(()),
         Some(Pilot { runs: number, reason, .. }) => {
@@ -51,28 +56,17 @@ pub fn check(arguments: &Arguments) -> anyhow::Result<()> {
     }
 }
 
-fn pilot(study: &Study) -> anyhow::Result<Pilot> {
-    let model = study.model();
-    let context = RunContext::new(Some(on_signal()), say);
-    Ok(Pilot::new(Job { design: study.design(), space: study.space(), model: model.as_ref() }, &context)?)
-}
-
-fn file_names_of(files: &[PathBuf]) -> String {
-    let name = |file: &PathBuf| file.file_name().map(|name| name.to_string_lossy().into_owned());
-    files.iter().filter_map(name).collect::<Vec<_>>().join(", ")
-}
-
 fn subject(study: &Study) -> String {
-    let mut text = format!("study {}", study.name());
-    if let Some(title) = &study.title() {
-        text.push_str(&format!(": {title}"));
-    }
-    let about =
-        ModelKind::from_name(study.subject().name()).map_or_else(String::new, |kind| format!(": {}", kind.description));
-    text.push_str(&format!("\nmodel {}{about}\n", study.subject().name()));
-    let files = study.subject().files();
-    if study.subject().name() == ModelKind::COMMAND.name {
-        let names = if files.is_empty() { "none".to_owned() } else { file_names_of(&files) };
+    let model_name = study.subject().name();
+    let after_colon = |text: &str| format!(": {text}");
+    let title = study.title().map(after_colon).unwrap_or_default();
+    let about = ModelKind::from_name(model_name).map(|kind| after_colon(kind.description)).unwrap_or_default();
+    let mut text = format!("study {}{title}\nmodel {model_name}{about}\n", study.name());
+    if model_name == ModelKind::COMMAND.name {
+        let files = study.subject().files();
+        let names = files.iter().filter_map(|file| Some(file.file_name()?.to_string_lossy()));
+        let names = names.collect::<Vec<_>>().join(", ");
+        let names = if names.is_empty() { "none" } else { &names };
         text.push_str(&format!("files that a journal depends on: {names}\n"));
     }
     for (name, value) in study.settings() {
@@ -96,11 +90,9 @@ fn subject(study: &Study) -> String {
     };
     let outputs: Vec<String> = model.outputs().iter().enumerate().filter_map(output).collect();
     text.push_str(&format!("outputs: {}\n", outputs.join(", ")));
-    let constants: Vec<String> = study
-        .constants()
-        .into_iter()
-        .map(|(name, value, unit)| format!("{name} = {}", with_unit(value, &unit)))
-        .collect();
+    let constants = study.constants().into_iter();
+    let constants: Vec<String> =
+        constants.map(|(name, value, unit)| format!("{name} = {}", with_unit(value, &unit))).collect();
     if !constants.is_empty() {
         text.push_str(&format!("fixed: {}\n", constants.join(", ")));
     }
@@ -141,7 +133,14 @@ fn factors(study: &Study) -> String {
         }
         let is_truncated = law.parameters().iter().any(|(_, value)| matches!(value, Parameter::Bounds(..)));
         if factor.determined || is_truncated {
-            below.push_str(&format!("{}: {} with {}\n", factor.name, law.name(), parameters(factor)));
+            // With all their digits.
+            let parameters = law.parameters().into_iter().filter_map(|(name, value)| match value {
+                Parameter::Number(number) => Some(format!("{name} = {number}")),
+                Parameter::Bounds(min, max) => Some(format!("{name} = [{min}, {max}]")),
+                _ => None,
+            });
+            let parameters = parameters.collect::<Vec<_>>().join(", ");
+            below.push_str(&format!("{}: {} with {parameters}\n", factor.name, law.name()));
         }
         table.add_row([
             factor.name.clone(),
@@ -159,31 +158,17 @@ fn factors(study: &Study) -> String {
     format!("{table}\n{below}")
 }
 
-/// The parameters of a factor's distribution with all their digits.
-fn parameters(factor: &Factor) -> String {
-    let parameters = factor.distribution().parameters();
-    let words = parameters.iter().filter_map(|(name, value)| match value {
-        Parameter::Number(number) => Some(format!("{name} = {number}")),
-        Parameter::Bounds(min, max) => Some(format!("{name} = [{min}, {max}]")),
-        _ => None,
-    });
-    words.collect::<Vec<_>>().join(", ")
-}
-
 /// The lines on the journal in the folder of the results.
 fn past_runs(study: &Study, folder: &Path) -> String {
     let path = journal_path(folder, study.name(), None);
-    let runner = study.runner().journal(&path);
-    let megabytes = study.design().rows() as f64 * study.model().outputs().len() as f64 * 8e-6;
+    let total = study.design().rows();
+    let megabytes = total as f64 * study.model().outputs().len() as f64 * 8e-6;
     let (size, path_text) = (two_digits(megabytes.max(0.01)), path.display());
     let when = if study.model().is_slow() { "" } else { ", if the run takes longer than 10 s" };
     let mut text = format!("disk: about {size} MB for the journal {path_text}{when}\n");
     if path.exists() {
-        text.push_str(&match runner.recorded_runs() {
-            Ok(rows) => {
-                let total = study.design().rows();
-                format!("already saved: {} of {total} runs, which are not repeated\n", rows.min(total))
-            }
+        text.push_str(&match study.runner().journal(&path).recorded_runs() {
+            Ok(rows) => format!("already saved: {} of {total} runs, which are not repeated\n", rows.min(total)),
             Err(error) => format!("already saved: no usable runs: {error}\n"),
         });
     }

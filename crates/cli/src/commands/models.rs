@@ -46,8 +46,7 @@ fn estimators() -> String {
         };
         let cost = (2 + FACTORS * count).to_string();
         rows.add_row([estimator.name(), first, all, &format!("2 + {times}d"), &cost]);
-        let (first, all) = (first_order.map(FirstOrder::source), total.map(Total::source));
-        let named = match (first, all) {
+        let named = match (first_order.map(FirstOrder::source), total.map(Total::source)) {
             (Some(first), Some(total)) if first != total => format!("{first}; total: {total}"),
             (Some(source), _) | (None, Some(source)) => source.to_owned(),
             (None, None) => {
@@ -71,19 +70,17 @@ fn estimators() -> String {
 
 /// The model of that name, or the names that there are.
 pub fn find_model(name: &str) -> anyhow::Result<ModelKind> {
-    ModelKind::from_name(name).ok_or_else(|| unknown(name))
-}
-
-fn unknown(name: &str) -> anyhow::Error {
-    let names = ModelKind::all().into_iter().map(|kind| kind.name);
-    let problem = Problem::UnknownName {
-        what: "model",
-        name: name.to_owned(),
-        nearest: nearest(name, names.clone()),
-        expected: names.map(str::to_owned).collect(),
-    };
-    let help = problem.help().map(|help| format!("\n{help}")).unwrap_or_default();
-    bad_input(format!("{problem}{help}"))
+    ModelKind::from_name(name).ok_or_else(|| {
+        let names = ModelKind::all().into_iter().map(|kind| kind.name);
+        let problem = Problem::UnknownName {
+            what: "model",
+            name: name.to_owned(),
+            nearest: nearest(name, names.clone()),
+            expected: names.map(str::to_owned).collect(),
+        };
+        let help = problem.help().map(|help| format!("\n{help}")).unwrap_or_default();
+        bad_input(format!("{problem}{help}"))
+    })
 }
 
 fn list() -> String {
@@ -102,15 +99,8 @@ fn inputs_and_outputs(kind: ModelKind) -> String {
     }
     let mut inputs = table(&["factor", "symbol", "nominal", "unit", "must be", "meaning"], &[0, 1, 3, 4, 5]);
     for input in kind.inputs() {
-        let unit = input.unit.to_string();
-        inputs.add_row([
-            &*input.name,
-            &input.symbol,
-            &significant(input.nominal),
-            &unit,
-            &domain(&input),
-            &input.description,
-        ]);
+        let (nominal, unit, domain) = (significant(input.nominal), input.unit.to_string(), domain(&input));
+        inputs.add_row([&*input.name, &input.symbol, &nominal, &unit, &domain, &input.description]);
     }
     text.push_str(&format!("{inputs}\n"));
     let mut outputs = table(&["output", "unit", "meaning"], &[0, 1, 2]);
@@ -165,17 +155,13 @@ fn inputs(function: &KnownFunction) -> String {
 }
 
 fn exact(function: &KnownFunction) -> String {
-    let exact = function.exact();
-    let basis = match exact.basis {
+    let Exact { mean, variance, indices, basis } = function.exact();
+    let basis = match basis {
         Basis::ClosedForm => "by formula".to_owned(),
         Basis::Quadrature { error } => format!("by quadrature, error {error:e} of the variance"),
     };
-    let Exact { mean, variance, indices, .. } = exact;
     let mut text = format!("\nmean {mean}, variance {variance} ({basis})\n");
-    let Some(indices) = indices else {
-        text.push_str("no indices: the variance is 0\n");
-        return text;
-    };
+    let Some(indices) = indices else { return text + "no indices: the variance is 0\n" };
     let mut rows = table(&["factor", "first order S", "total ST"], &[0]);
     for (input, (first, total)) in known_inputs(function).iter().zip(indices.first_order.iter().zip(&indices.total)) {
         rows.add_row([input.name.clone(), significant(*first), significant(*total)]);

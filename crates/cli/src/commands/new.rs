@@ -6,7 +6,7 @@ use apportion_files::{ModelKind, NEW_PROGRAM, Problem, TemplateRequest, new_prog
 use apportion_report::{prepare_file, write_atomically};
 
 use super::models::find_model;
-use super::{quoted, say};
+use super::{counted, quoted, say};
 use crate::failure::bad_input;
 
 #[derive(clap::Args)]
@@ -53,8 +53,7 @@ pub fn new(arguments: &Arguments) -> anyhow::Result<()> {
     prepare_file(path)?;
     write_atomically(path, text.as_bytes())?;
     let (factors, runs) = (study.space().factors().len(), study.design().rows());
-    let factors = if factors == 1 { "1 factor".to_owned() } else { format!("{factors} factors") };
-    say(&format!("wrote {}: {factors}, {runs} runs", path.display()));
+    say(&format!("wrote {}: {}, {runs} runs", path.display(), counted(factors as u64, "factor")));
     if let Some(program) = new_program(&request) {
         write_program(&path.with_file_name(NEW_PROGRAM), &program)?;
     }
