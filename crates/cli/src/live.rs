@@ -157,20 +157,18 @@ fn page(study: &Study, text: &str, result: &StudyResult) -> anyhow::Result<Strin
         }
     }
     let ranges = ranges(&document);
-    let mut sections = Vec::new();
     let document = document.excerpt(&SECTIONS);
-    for id in SECTIONS {
-        let body = document.section_html(id);
-        let title = document.sections.iter().find(|section| section.id == id).map(|section| symbols(&section.title));
-        sections.extend(body.zip(title).map(|(body, title)| SectionView { id, title, body }));
-    }
+    let section = |id| {
+        let section = document.sections.iter().find(|section| section.id == id)?;
+        Some(SectionView { id, title: symbols(&section.title), body: document.section_html(id)? })
+    };
     let page = Page {
         page_title: title,
         title: symbols(title),
         lead: document.lead.iter().map(|text| symbols(text)).collect(),
         state: format!("{} runs of the model by the program.", result.provenance.model_runs),
         ranges,
-        sections,
+        sections: SECTIONS.into_iter().filter_map(section).collect(),
         footer: symbols(&document.footer),
         // A title may contain the end of the element.
         study: json!({ "presets": presets }).to_string().replace('<', "\\u003c"),

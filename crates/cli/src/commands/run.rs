@@ -35,13 +35,6 @@ pub struct Arguments {
     save_outputs: Option<PathBuf>,
     #[command(flatten)]
     live: LiveArguments,
-    #[command(flatten)]
-    record: RecordArguments,
-}
-
-/// What becomes of runs that are on record.
-#[derive(clap::Args)]
-struct RecordArguments {
     /// Resume an interrupted run; an error if its journal is missing or of another study. (Without this option a journal
     /// of the same study is used if it exists)
     #[arg(long, conflicts_with_all = ["restart", "no_journal"])]
@@ -66,7 +59,8 @@ struct RecordArguments {
     shard: Option<Shard>,
 }
 
-impl RecordArguments {
+impl Arguments {
+    /// What becomes of runs that are on record.
     fn resume(&self, has_journal: bool) -> Resume {
         match self {
             Self { retry_failed: true, .. } => Resume::RetryFailed,
@@ -80,30 +74,26 @@ impl RecordArguments {
 }
 
 pub fn run(arguments: &Arguments, others: Option<&dyn Ranks>) -> anyhow::Result<()> {
-    if arguments.record.shard.is_none() {
+    if arguments.shard.is_none() {
         ranks::refuse_copies()?;
     }
     let study = study_of(arguments)?;
     let folder = arguments.output.folder(study.name());
     let artefacts = arguments.output.prepared(study.name())?;
-    let asked = &arguments.record;
-    if asked.shard.is_some() && study.target().grows() {
+    if arguments.shard.is_some() && study.target().grows() {
         return Err(bad_input(format!("--shard: {}", RunError::NoSize)));
     }
-    let saved = match &arguments.save_outputs {
-        None => None,
-        Some(_) if study.target().accuracy.is_some() => {
+    let mut saved = None;
+    if let Some(path) = &arguments.save_outputs {
+        if study.target().accuracy.is_some() {
             let why = "with `accuracy` the run chooses its rows: run again with the lines that the result shows";
             return Err(bad_input(format!("--save-outputs: {why}")));
         }
-        Some(path) => {
-            let format = Format::from_path(path).of(path)?;
-            prepare_file(path)?;
-            Some((path.as_path(), format))
-        }
-    };
-    let journal = (!asked.no_journal).then(|| journal_path(&folder, study.name(), asked.shard));
-    let store = saved.as_ref().map(|_| Store::new(study.design(), study.model().as_ref()));
+        let format = Format::from_path(path).of(path)?;
+        prepare_file(path)?;
+        saved = Some((path, format, Store::new(study.design(), study.model().as_ref())));
+    }
+    let journal = (!arguments.no_journal).then(|| journal_path(&folder, study.name(), arguments.shard));
     let meter = Meter::new(study.name(), study.design().rows());
     let runner = study.runner().threads(arguments.threads.number()).on_progress(|progress| meter.update(progress));
     let runner = match others {
@@ -120,15 +110,15 @@ pub fn run(arguments: &Arguments, others: Option<&dyn Ranks>) -> anyhow::Result<
     // Installed only here, so that an earlier wait for input that never arrives can be interrupted at once.
     let stop = stop::on_signal();
     let mut runner =
-        runner.on_message(say).stop(stop).resume(asked.resume(journal.as_ref().is_some_and(|path| path.exists())));
+        runner.on_message(say).stop(stop).resume(arguments.resume(journal.as_ref().is_some_and(|path| path.exists())));
     if let Some(journal) = &journal {
-        runner = if asked.journal { runner.journal(journal) } else { runner.journal_if_long(journal) };
+        runner = if arguments.journal { runner.journal(journal) } else { runner.journal_if_long(journal) };
     }
-    if let Some(store) = &store {
+    if let Some((_, _, store)) = &saved {
         runner = runner.store(store);
     }
     let failed = |error| with_journal(&study, error, journal.as_deref());
-    if let Some((shard, journal)) = asked.shard.zip(journal.as_ref()) {
+    if let Some((shard, journal)) = arguments.shard.zip(journal.as_ref()) {
         let begun = Instant::now();
         let rows = runner.run_shard(shard).map_err(failed)?;
         meter.finish(rows, begun.elapsed().as_secs_f64());
@@ -141,8 +131,8 @@ pub fn run(arguments: &Arguments, others: Option<&dyn Ranks>) -> anyhow::Result<
         Some(spending) => meter.finish_after(spending.runs.saturating_sub(runs), runs, seconds),
         None => meter.finish(runs, seconds),
     }
-    if let Some(((path, format), store)) = saved.zip(store.as_ref()) {
-        save(&study, &result, store, path, format)?;
+    if let Some((path, format, store)) = &saved {
+        save(&study, &result, store, path, *format)?;
     }
     deliver(&study, &artefacts, &result, &arguments.live)
 }
@@ -169,7 +159,7 @@ fn save(study: &Study, result: &StudyResult, store: &Store, path: &Path, format:
 fn study_of(arguments: &Arguments) -> anyhow::Result<Study> {
     let changes = arguments.design.overrides();
     let study = arguments.study.load_with(&changes)?;
-    let RecordArguments { double, retry_failed, .. } = arguments.record;
+    let &Arguments { double, retry_failed, .. } = arguments;
     if !double && !retry_failed || arguments.design.base_samples.is_some() {
         return Ok(study);
     }

@@ -18,7 +18,7 @@ use apportion_report::chart::{Colour, Stroke};
 use claims::Claim;
 pub use document::document;
 use figures::{Animation, PaperFigure};
-pub use papers::{Published, published};
+pub use papers::published;
 use percentages::Percentages;
 
 use crate::scene::law_colour;

@@ -75,7 +75,7 @@ impl Percentages {
 }
 
 /// Returns the part of the thickness among thickness, length and width, in percent.
-fn thickness_part(share: impl Fn(&str) -> Option<f64>) -> Option<f64> {
+pub(super) fn thickness_part(share: impl Fn(&str) -> Option<f64>) -> Option<f64> {
     let [t, l, w] = ["thickness", "length", "width"].map(share);
     Some(100.0 * t? / (t? + l? + w?))
 }

@@ -57,11 +57,10 @@ pub fn main(size: usize, command: impl FnOnce(&dyn Ranks) -> ExitCode + Send) ->
     };
     let world = universe.world();
     if world.size() as usize != size {
-        let found = world.size();
-        let why = format!(
-            "started as one of {size} ranks, but its MPI finds {found}: mpirun and the program use different MPI libraries"
-        );
-        return exit_code(Err(anyhow!(why)));
+        return exit_code(Err(anyhow!(
+            "started as one of {size} ranks, but its MPI finds {}: mpirun and the program use different MPI libraries",
+            world.size()
+        )));
     }
     if world.rank() == 0 { lead(&world, command) } else { work(&world) }
 }

@@ -129,14 +129,12 @@ impl<'a> Bench<'a> {
         scene: &Scene,
         quantity: &dyn Fn(&Scene) -> Result<f64, Failure>,
     ) -> Result<Curve, Failure> {
-        let x = grid(sweep.range, sweep.count);
-        let mut scene = *scene;
-        let mut y = Vec::with_capacity(x.len());
-        for &value in &x {
+        let (x, mut scene) = (grid(sweep.range, sweep.count), *scene);
+        let y = x.iter().map(|&value| {
             (sweep.parameter.set)(&mut scene, value);
-            y.push(quantity(&scene)?);
-        }
-        Ok(Curve { x, y })
+            quantity(&scene)
+        });
+        Ok(Curve { y: y.collect::<Result<_, _>>()?, x })
     }
 
     /// Returns the share of `count` points of a box where `rule` holds: Sobol' points, in independent scrambles for the

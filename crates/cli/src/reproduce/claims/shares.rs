@@ -12,7 +12,8 @@ use super::judge::Answer;
 use super::numbers::{change, nano};
 use crate::reproduce::order::{OrderVerdict, Standing, VISIBLE, order_of, outweighing};
 use crate::reproduce::papers::{CLOSE, PRINTED};
-use crate::reproduce::{FRICTIONS, Friction, GROUPS, Published, Reproduced, named_together, published};
+use crate::reproduce::percentages::thickness_part;
+use crate::reproduce::{FRICTIONS, Friction, GROUPS, Reproduced, named_together, published};
 
 /// Maximum relative deviation of F_cr from a product of a function of the dimensions and one of the environment: a
 /// thousandth changes no percentage by more than a tenth.
@@ -206,19 +207,15 @@ fn is_product(bench: &Bench<'_>) -> Result<bool, Failure> {
     Ok(bench.share(None, bench.sizes.points, &rule)?.value >= EVERYWHERE)
 }
 
-/// Returns the share in percent of the thickness among thickness, length and width, as printed for the general study,
-/// and its bounds by rounding.
-fn thickness_among(printed: &Published) -> (f64, (f64, f64)) {
-    let percent = |name: &str| printed.share(name).unwrap_or(0.0);
-    let (thickness, others) = (percent("thickness"), percent("length") + percent("width"));
-    let share = |by: f64| 100.0 * (thickness + by) / ((thickness + by) + (others - 2.0 * by));
-    (share(0.0), (share(-ROUNDED), share(ROUNDED)))
-}
-
 /// Checks the second half of claim 19.
 pub(super) fn general_percentages(bench: &Bench<'_>) -> anyhow::Result<Answer> {
     let alone = published("dimensional", PRINTED).share("thickness").unwrap_or(f64::NAN);
-    let (among, (low, high)) = thickness_among(&published("general", PRINTED));
+    // As printed for the general study, and its bounds by rounding.
+    let printed = published("general", PRINTED);
+    let [among, low, high] = [0.0, -ROUNDED, ROUNDED].map(|by| {
+        let share = |factor: &str| Some(printed.share(factor)? + if factor == "thickness" { by } else { -by });
+        thickness_part(share).unwrap_or(f64::NAN)
+    });
     let is_product = is_product(bench)?;
     let is_apart = low > alone + ROUNDED || high < alone - ROUNDED;
     let own = format!("{alone} % for the thickness among the dimensions (LG fig. 4a)");

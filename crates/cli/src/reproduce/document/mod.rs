@@ -20,32 +20,33 @@ use super::{Effort, Reproduced, Reproduction};
 /// are the same for every run of the same version.
 pub fn document(reproduction: &Reproduction) -> Document {
     let (studies, claims) = (&reproduction.studies, &reproduction.claims);
-    let mut then = vec![figures::overview(&reproduction.figures)];
-    then.push(Section::new("answers", "Which factor matters most", when(studies, || answers::parts(studies))));
-    then.push(constants::section());
-    let of_claims = || vec![verdicts::table(claims), verdicts::details(claims, &reproduction.figures)];
-    then.push(Section::new("claims", "Are the papers right?", when(claims, of_claims)));
+    let mut then = vec![
+        figures::overview(&reproduction.figures),
+        Section::new("answers", "Which factor matters most", answers::parts(studies)),
+        constants::section(),
+    ];
+    if !claims.is_empty() {
+        let parts = vec![verdicts::table(claims), verdicts::details(claims, &reproduction.figures)];
+        then.push(Section::new("claims", "Are the papers right?", parts));
+    }
     then.extend(figures::sections(reproduction));
     let rows = &reproduction.percentages;
-    let of_percentages = || vec![Part::List(percentages::summary(rows)), percentages::table(rows)];
-    then.push(Section::new("percentages", "The percentages that LG prints", when(rows, of_percentages)));
-    then.push(Section::new("shares", "All indices and shares", when(studies, || shares(studies))));
+    if !rows.is_empty() {
+        let parts = vec![Part::List(percentages::summary(rows)), percentages::table(rows)];
+        then.push(Section::new("percentages", "The percentages that LG prints", parts));
+    }
+    then.push(Section::new("shares", "All indices and shares", shares(studies)));
     then.push(Section::new("papers", "The papers", vec![Part::Text(papers().cited.to_owned())]));
     let report = Report {
         name: "index".to_owned(),
         kicker: "Reproduction of three papers",
         title: "Which factor decides the force that pushes a nanoparticle?".to_owned(),
-        lead: lead(reproduction),
+        lead: answers::lead(studies).into_iter().chain(verdicts::sentence(claims)).collect(),
         then,
         provenance: provenance(reproduction),
         ..Report::default()
     };
     Document { charts: figures::files(&reproduction.figures), files: files(reproduction), ..report.document() }
-}
-
-/// Returns the parts of a section about `all`; empty if `all` is.
-fn when<T>(all: &[T], parts: impl FnOnce() -> Vec<Part>) -> Vec<Part> {
-    if all.is_empty() { Vec::new() } else { parts() }
 }
 
 /// Builds the data files: results, claims and percentages, and the numbers of every figure. Two tables of the page are
@@ -76,14 +77,6 @@ fn chart_file(stem: &str, ending: &str) -> String {
     format!("charts/{stem}.{ending}")
 }
 
-fn lead(reproduction: &Reproduction) -> Vec<String> {
-    let mut lead: Vec<String> = answers::lead(&reproduction.studies).into_iter().collect();
-    if !reproduction.claims.is_empty() {
-        lead.push(verdicts::sentence(&reproduction.claims));
-    }
-    lead
-}
-
 /// Builds the tables of all indices, then the warnings.
 fn shares(studies: &[Reproduced]) -> Vec<Part> {
     let table = shares_table(&studies.iter().collect::<Vec<&Reproduced>>());
@@ -104,28 +97,26 @@ fn provenance(reproduction: &Reproduction) -> Vec<(&'static str, String)> {
         Effort::Quick => "quick: fewer points and repetitions, wider intervals",
     };
     let numbers = "the same on every machine and for any number of threads; only the times differ";
-    let mut rows = vec![("effort", effort.to_owned()), ("numbers", numbers.to_owned())];
-    if let Some(study) = reproduction.studies.first() {
-        let of = &study.result.provenance;
-        rows.extend([
-            (
-                "design",
-                format!(
-                    "{} points, {} base samples in {} replicates, seed {}",
-                    of.sampler, of.base_samples, of.replicates, of.seed
-                ),
-            ),
-            ("first-order estimator", of.first_order_estimator.clone()),
-            ("total estimator", of.total_estimator.clone()),
-        ]);
-        rows.extend(of.interval.clone().map(|words| ("95 % intervals", words)));
-        if !study.result.study.overrides.is_empty() {
-            rows.push(("changes on the command line", study.result.study.overrides.join(", ")));
-        }
-        let all = || reproduction.studies.iter().map(|study| &study.result.provenance);
-        let (runs, seconds) = (all().map(|of| of.model_runs).sum(), all().map(|of| of.wall_seconds).sum::<f64>());
-        let cost = format!("{} model runs in {seconds:.2} s on {} threads", grouped(runs), of.threads);
-        rows.push(("cost of the studies", cost));
+    let of = &reproduction.studies[0].result.provenance;
+    let design = format!(
+        "{} points, {} base samples in {} replicates, seed {}",
+        of.sampler, of.base_samples, of.replicates, of.seed
+    );
+    let mut rows = vec![
+        ("effort", effort.to_owned()),
+        ("numbers", numbers.to_owned()),
+        ("design", design),
+        ("first-order estimator", of.first_order_estimator.clone()),
+        ("total estimator", of.total_estimator.clone()),
+    ];
+    rows.extend(of.interval.clone().map(|words| ("95 % intervals", words)));
+    let overrides = &reproduction.studies[0].result.study.overrides;
+    if !overrides.is_empty() {
+        rows.push(("changes on the command line", overrides.join(", ")));
     }
+    let all = || reproduction.studies.iter().map(|study| &study.result.provenance);
+    let (runs, seconds) = (all().map(|of| of.model_runs).sum(), all().map(|of| of.wall_seconds).sum::<f64>());
+    let cost = format!("{} model runs in {seconds:.2} s on {} threads", grouped(runs), of.threads);
+    rows.push(("cost of the studies", cost));
     rows
 }

@@ -6,16 +6,6 @@ use super::figures::{anchor, label};
 use crate::reproduce::claims::{Claim, Verdict};
 use crate::reproduce::figures::PaperFigure;
 
-/// Formats a verdict as a badge.
-fn badge(verdict: &Verdict) -> Cell {
-    let mark = match verdict {
-        Verdict::Reproduced => Mark::Good,
-        Verdict::NotReproduced => Mark::Mixed,
-        Verdict::Contradicted { .. } => Mark::Bad,
-    };
-    Cell::marked(verdict.word(), mark)
-}
-
 /// Returns the number of a claim, with a letter if it has several parts: `17a`.
 fn part(claims: &[Claim], claim: &Claim) -> String {
     let parts: Vec<&Claim> = claims.iter().filter(|other| other.number == claim.number).collect();
@@ -26,9 +16,12 @@ fn part(claims: &[Claim], claim: &Claim) -> String {
 /// Builds the table of verdicts, a line or two each; the CSV file has all of every claim.
 pub(super) fn table(claims: &[Claim]) -> Part {
     let verdict = |claim: &Claim| {
-        let own = claim.verdict.own();
-        let note = if own.is_empty() { String::new() } else { format!("by the paper's own {own}") };
-        Cell { note, ..badge(&claim.verdict) }
+        let (mark, note) = match &claim.verdict {
+            Verdict::Reproduced => (Mark::Good, String::new()),
+            Verdict::NotReproduced => (Mark::Mixed, String::new()),
+            Verdict::Contradicted { own } => (Mark::Bad, format!("by the paper's own {own}")),
+        };
+        Cell { note, ..Cell::marked(claim.verdict.word(), mark) }
     };
     let caption = "Each claim of the papers, and our answer, as the paper shows it (at its figure's scene, with its \
                    constants) and over the whole ranges of the general study.";
@@ -68,15 +61,15 @@ pub(super) fn details(claims: &[Claim], figures: &[PaperFigure]) -> Part {
 
 /// Counts the verdicts:
 /// `Of 25 answers to the papers' 20 claims, 14 are reproduced, 8 are not, and 3 are contradicted ...`.
-pub(super) fn sentence(claims: &[Claim]) -> String {
+pub(super) fn sentence(claims: &[Claim]) -> Option<String> {
     let count = |word: &str| claims.iter().filter(|claim| claim.verdict.word() == word).count();
-    format!(
+    Some(format!(
         "Of {} answers to the papers' {} claims, {} are reproduced, {} are not reproduced, and {} are contradicted by the \
          same paper.",
         claims.len(),
-        claims.last().map_or(0, |claim| claim.number),
+        claims.last()?.number,
         count("reproduced"),
         count("not reproduced"),
         count("contradicted")
-    )
+    ))
 }
