@@ -10,7 +10,6 @@ mod document;
 pub(crate) mod mode_diagram;
 mod player;
 pub mod simulation;
-mod view;
 
 use std::ops::Deref;
 

@@ -9,8 +9,7 @@ use apportion_afm::modes::Pushing;
 use apportion_afm::{Critical, Failure, Fidelity, FrictionLaw, Options, Parameter, Scene, critical_force, edge_unit};
 
 use super::curve::{Curve, grid};
-use super::judge::{Holding, Share};
-use super::numbers::number;
+use super::judge::{Holding, Share, number};
 use crate::reproduce::papers::Words;
 use crate::reproduce::{Effort, Friction, Reproduced, general_study};
 

@@ -4,8 +4,7 @@ use apportion_afm::{Failure, FrictionLaw, Options, Scene};
 
 use super::bench::{Bench, Sizes, Sweep, closed, exact};
 use super::curve::Curve;
-use super::judge::Answer;
-use super::numbers::{change, nano, number};
+use super::judge::{Answer, change, nano, number};
 use crate::reproduce::FRICTIONS;
 
 /// Maximum increase of steepness of a flattening curve from one step to the next, as a share of the mean steepness: it

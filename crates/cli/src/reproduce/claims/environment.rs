@@ -1,4 +1,4 @@
-//! Claims about velocity, moduli and adhesion: 12 to 16.
+//! Claims about the friction model, velocity, moduli and adhesion: 7, 12 to 16.
 
 use apportion_afm::{Failure, Fidelity, FrictionLaw, LuGreParameters, Options, Scene};
 
@@ -6,8 +6,7 @@ use super::bench::{Bench, Sweep, closed, exact, in_motion};
 use super::dimensions::{
     NO_EFFECT, STRAIGHT, closed_setting, from_to, is_linear_rise, nominal_curves, straightness, without_effect,
 };
-use super::judge::Answer;
-use super::numbers::{change, nano};
+use super::judge::{Answer, Holding, change, nano};
 use crate::reproduce::FRICTIONS;
 
 /// Velocity up to which CHK and LG see no effect (m/s).
@@ -20,6 +19,29 @@ const UNMOVED: f64 = 0.05;
 
 /// The viscous friction that brings LuGre friction to the percentages of LG fig. 4b (N s/m).
 const VISCOUS: f64 = 0.3;
+
+/// Checks claim 7: which friction model holds the particle less.
+pub(super) fn weaker_law(bench: &Bench<'_>) -> anyhow::Result<Answer> {
+    let (coulomb, hurtado_kim) = (closed(FrictionLaw::Coulomb), closed(FrictionLaw::HurtadoKim));
+    let below = |scene: &Scene| Ok(bench.force(scene, &hurtado_kim)? < bench.force(scene, &coulomb)?);
+    // All samples of a box share the scrambles, so that they differ only by their factors.
+    let points = bench.sizes.points;
+    let general = bench.share(None, points, &below)?;
+    let dimensional = bench.share(Some("dimensional"), points, &below)?;
+    let environmental = bench.share(Some("environmental"), points, &below)?;
+    let nominal = Scene::default();
+    let holding =
+        Holding { what: "F_cr(Hurtado-Kim) < F_cr(Coulomb)".to_owned(), nominal: below(&nominal)?, share: general };
+    let words = [
+        ("hurtado_kim", nano(bench.force(&nominal, &hurtado_kim)?, "N")),
+        ("coulomb", nano(bench.force(&nominal, &coulomb)?, "N")),
+        ("general", general.words_of("the box of the general study")),
+        ("dimensional", dimensional.words_of("that of the dimensional study")),
+        ("environmental", environmental.words_of("that of the environmental study")),
+        ("each", (points / 8).to_string()),
+    ];
+    Ok(Answer::judged(&[holding], words))
+}
 
 /// Checks claim 12. Only the equations of motion depend on the velocity under every friction model.
 pub(super) fn velocity(bench: &Bench<'_>) -> anyhow::Result<Answer> {

@@ -6,8 +6,7 @@ use apportion_afm::{Failure, FrictionLaw, Scene};
 
 use super::Verdict;
 use super::bench::{Bench, Sweep, closed, parameter};
-use super::judge::Answer;
-use super::numbers::{change, nano, number};
+use super::judge::{Answer, change, nano, number};
 use crate::reproduce::FRICTIONS;
 
 /// The duration of TS04's run (s).

@@ -11,9 +11,7 @@ mod dimensions;
 mod environment;
 mod in_time;
 mod judge;
-mod models;
 mod modes;
-mod numbers;
 mod shares;
 
 #[cfg(test)]
@@ -100,7 +98,7 @@ const CHECKS: [(&str, Check); 25] = [
     ("contacts", in_time::contacts),
     ("angle", modes::angle),
     ("rolling", modes::rolling),
-    ("weaker_law", models::weaker_law),
+    ("weaker_law", environment::weaker_law),
     ("length", dimensions::length),
     ("width", dimensions::width),
     ("thickness", dimensions::thickness),

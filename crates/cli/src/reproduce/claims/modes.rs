@@ -7,8 +7,7 @@ use apportion_afm::{Failure, FrictionLaw, Scene};
 
 use super::bench::{Bench, Sweep, closed, exact, parameter};
 use super::curve::grid;
-use super::judge::{Answer, judge, over_ranges};
-use super::numbers::{change, nano, number};
+use super::judge::{Answer, change, judge, nano, number, over_ranges};
 
 /// Distance of the start of the mode diagram above the angle of friction (rad): at that angle F* is unbounded.
 const ABOVE_FRICTION: f64 = 0.05;

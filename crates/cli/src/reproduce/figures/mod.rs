@@ -7,7 +7,6 @@
 mod curve;
 mod history;
 mod modes;
-mod shares;
 mod sweep;
 #[cfg(test)]
 mod tests;
@@ -18,7 +17,7 @@ pub use history::{ANIMATION_STEM, Animation, animation};
 use rayon::prelude::*;
 
 use super::papers::{PrintedFigure, papers};
-use super::{Effort, Reproduced, general_study};
+use super::{Effort, Reproduced, general_study, shares};
 
 /// One figure of the papers, from our results.
 #[derive(Clone, Debug, PartialEq)]

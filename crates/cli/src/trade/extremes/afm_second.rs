@@ -8,7 +8,7 @@ use apportion_afm::{
 };
 
 use super::precise::reference;
-use super::second::{Reference, Unchecked};
+use super::{Reference, Unchecked};
 
 /// Relative deviation below which two rungs agree.
 const FLOOR: f64 = 1e-6;

@@ -6,7 +6,7 @@ use apportion::model::expression::{OfOne, OfTwo};
 use astro_float_num::RoundingMode::ToEven;
 use astro_float_num::{BigFloat, Consts, Sign, WORD_BIT_SIZE};
 
-use super::second::{Reference, Unchecked};
+use super::{Reference, Unchecked};
 
 /// Precision in bits; large compared with the 53 bits of doubles, so that cancellation of all 53 is harmless.
 const BITS: usize = 320;
