@@ -12,8 +12,8 @@ use super::{counted, print, say};
 #[derive(clap::Args)]
 pub struct ChartArguments {
     /// Formats of the charts in the folder `charts`, separated by commas: svg, png, pdf; or none. The page contains its own charts
-    #[arg(long, value_name = "FORMATS", default_value = "svg,png", value_parser = formats)]
-    charts: Formats,
+    #[arg(long, value_name = "FORMATS", default_value = "svg,png", value_delimiter = ',', value_parser = chart_format)]
+    charts: Vec<Option<ChartFormat>>,
     /// Width of the charts in the folder `charts` for print, such as 88mm or 180mm: without title and caption, which belong into the
     /// text of a paper; letters of 7 to 9 pt, PNG with 600 dpi, PDF in this size [default: a page column, with title and caption]
     #[arg(long, value_name = "WIDTH")]
@@ -49,29 +49,18 @@ impl OutputArguments {
     }
 }
 
-#[derive(Clone)]
-struct Formats(Vec<ChartFormat>);
-
-fn formats(text: &str) -> Result<Formats, String> {
-    if text == "none" {
-        return Ok(Formats(Vec::new()));
-    }
-    let mut formats = Vec::new();
-    for name in text.split(',').map(str::trim) {
-        match ChartFormat::ALL.into_iter().find(|format| format.ending() == name) {
-            Some(format) if formats.contains(&format) => (),
-            Some(format) => formats.push(format),
-            None => return Err("expected svg, png and pdf, separated by commas, or none".to_owned()),
-        }
-    }
-    Ok(Formats(formats))
+fn chart_format(name: &str) -> Result<Option<ChartFormat>, String> {
+    let format = ChartFormat::ALL.into_iter().find(|format| format.ending() == name.trim());
+    let wrong = || "expected svg, png and pdf, separated by commas, or none".to_owned();
+    if name == "none" { Ok(None) } else { format.map(Some).ok_or_else(wrong) }
 }
 
 impl ChartArguments {
     /// The files of a document in `folder`.
     pub fn artefacts(&self, folder: impl Into<PathBuf>) -> Artefacts {
         let width = self.chart_width.map_or(ChartWidth::Wide, ChartWidth::Paper);
-        Artefacts::new(folder).with_charts(&self.charts.0).with_width(width)
+        let formats: Vec<ChartFormat> = self.charts.iter().flatten().copied().collect();
+        Artefacts::new(folder).with_charts(&formats).with_width(width)
     }
 }
 
@@ -110,19 +99,4 @@ pub fn deliver(artefacts: &Artefacts, document: &Document) -> anyhow::Result<()>
         say(&format!("wrote {} to {}", counted(*charts as u64, "chart"), folder.display()));
     }
     Ok(())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn formats_are_a_list_or_none() {
-        let read = |text: &str| formats(text).map(|formats| formats.0);
-        assert_eq!(read("none"), Ok(Vec::new()));
-        assert_eq!(read("svg, png,svg"), Ok(vec![ChartFormat::Svg, ChartFormat::Png]));
-        for wrong in ["", "gif", "svg,", "none,svg"] {
-            assert!(read(wrong).is_err(), "{wrong}");
-        }
-    }
 }

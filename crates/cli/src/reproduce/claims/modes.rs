@@ -42,13 +42,11 @@ pub(super) fn angle(bench: &Bench<'_>) -> anyhow::Result<Answer> {
     let nominal = Scene::default();
     let ends = |adhesion_in_load| -> Result<String, Failure> {
         let points = diagram(bench, &nominal, adhesion_in_load)?;
-        let words = |point: Option<&(f64, Option<f64>)>| {
-            point.map_or_else(String::new, |(angle, force)| {
-                let force = force.map_or_else(|| "no bound".to_owned(), |force| nano(force, "N"));
-                format!("{force} at {}°", number(angle.to_degrees(), ""))
-            })
-        };
-        Ok(format!("{} to {}", words(points.first()), words(points.last())))
+        let [first, last] = [points[0], points[points.len() - 1]].map(|(angle, force)| {
+            let force = force.map_or_else(|| "no bound".to_owned(), |force| nano(force, "N"));
+            format!("{force} at {}°", number(angle.to_degrees(), ""))
+        });
+        Ok(format!("{first} to {last}"))
     };
     let words = [
         ("ends", ends(false)?),

@@ -8,6 +8,7 @@ mod points;
 mod precise;
 
 use std::any::Any;
+use std::cmp::Reverse;
 use std::sync::OnceLock;
 use std::sync::atomic::AtomicBool;
 
@@ -112,30 +113,36 @@ pub fn extremes(job: &ExtremesJob<'_>) -> Result<Extremes, RunError> {
     if let Some(reason) = gave_up.into_inner() {
         return Err(RunError::GaveUp(reason));
     }
-    let name = second.map(|second| second.name).map_err(str::to_owned);
-    let mut map = Extremes::new(name, points.len() as u64, grids(&space));
+    let mut map = Extremes {
+        second_calculation: second.as_ref().ok().map(|second| second.name.clone()),
+        unchecked: second.err().map(str::to_owned),
+        points: points.len() as u64,
+        counts: Tally::default(),
+        kinds: Kind::ALL.map(|kind| (kind, Tally::default())).to_vec(),
+        grids: grids(&space),
+        reasons: Vec::new(),
+    };
     let mut reasons = Reasons::new();
     for (point, findings) in points.iter().zip(found) {
         for (output, finding) in model.outputs().iter().zip(findings) {
             let in_unit = |value: Option<f64>| value.map(|value| output.unit.from_si(value));
-            map.add(
-                point.cell,
-                Reason {
-                    kind: point.kind,
-                    outcome: finding.outcome,
-                    reason: finding.reason,
-                    count: 1,
-                    place: point.place.clone(),
-                    inputs: inputs(&space, point),
-                    output: output.name.to_string(),
-                    value: in_unit(finding.value),
-                    reference: in_unit(finding.reference.filter(|value| value.is_finite())),
-                },
-                &mut reasons,
-            );
+            let reason = Reason {
+                kind: point.kind,
+                outcome: finding.outcome,
+                reason: finding.reason,
+                count: 0,
+                place: point.place.clone(),
+                inputs: inputs(&space, point),
+                output: output.name.to_string(),
+                value: in_unit(finding.value),
+                reference: in_unit(finding.reference.filter(|value| value.is_finite())),
+            };
+            map.add(point.cell, reason, &mut reasons);
         }
     }
-    Ok(map.with_reasons(reasons))
+    map.reasons = reasons.into_values().collect();
+    map.reasons.sort_by_key(|reason| (reason.outcome != Outcome::Wrong, reason.kind, Reverse(reason.count)));
+    Ok(map)
 }
 
 fn inputs(space: &Space, point: &Point) -> serde_json::Map<String, serde_json::Value> {
