@@ -5,7 +5,6 @@
 
 mod commands;
 mod failure;
-mod live;
 mod reproduce;
 mod scene;
 pub mod trade;

@@ -2,7 +2,6 @@
 
 mod analyze;
 mod check;
-mod check_plan;
 mod compare;
 mod completions;
 mod evaluate;

@@ -35,8 +35,12 @@ pub fn report(arguments: &Arguments) -> anyhow::Result<()> {
     let name = format!("{}.json", result.study.name);
     // The page links to the result, so an exact copy of it must be next to the page.
     let json = folder.join(&name);
-    if !same_file(&json, path) {
-        refuse_another(&json, &bytes)?;
+    // Charts of one result must not be mixed with the JSON of another.
+    if !same_file(&json, path) && read_whole(&json).is_ok_and(|existing| existing != bytes) {
+        return Err(bad_input(format!(
+            "{} is another result, and its page and charts would be overwritten: give another folder with --out",
+            json.display()
+        )));
     }
     let text = String::from_utf8(bytes).map_err(|_| bad_input(format!("{}: not text", path.display())))?;
     document.files.iter_mut().filter(|file| file.name == name).for_each(|file| file.text.clone_from(&text));
@@ -46,16 +50,4 @@ pub fn report(arguments: &Arguments) -> anyhow::Result<()> {
         say(&format!("note: the numbers are from apportion {version}; only the page and charts are from this version"));
     }
     deliver(&arguments.charts.artefacts(folder), &document)
-}
-
-/// Charts of one result must not be mixed with the JSON of another.
-fn refuse_another(json: &Path, bytes: &[u8]) -> anyhow::Result<()> {
-    match read_whole(json) {
-        Ok(there) if there != bytes => {
-            let message =
-                "is another result, and its page and charts would be overwritten: give another folder with --out";
-            Err(bad_input(format!("{} {message}", json.display())))
-        }
-        _ => Ok(()),
-    }
 }

@@ -2,11 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
+use super::live::{live_page, place_next_to};
 use super::output::{ChartArguments, deliver};
 use super::progress::Meter;
 use super::stop::on_signal;
 use super::{DesignChanges, Threads};
-use crate::live::{live_page, place_next_to};
 use crate::reproduce::claims::claims;
 use crate::reproduce::figures::{animation, figures};
 use crate::reproduce::percentages::percentages;

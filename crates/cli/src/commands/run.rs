@@ -101,9 +101,9 @@ pub fn run(arguments: &Arguments, others: Option<&dyn Ranks>) -> anyhow::Result<
         Some(others) => {
             // A job has a rank for every core by default.
             let threads = arguments.threads.number().max(1);
-            others.begin(&study, &arguments.study.study, threads);
+            let ranks = others.begin(&study, &arguments.study.study, threads);
             let workers = if threads == 1 { "a worker".to_owned() } else { format!("{threads} workers") };
-            say(&format!("note: {} ranks with {workers} each", others.count_all()));
+            say(&format!("note: {ranks} ranks with {workers} each"));
             runner.threads(threads).remote_workers(others)
         }
     };

@@ -6,7 +6,6 @@
 
 pub(crate) mod charts;
 mod columns;
-mod document;
 pub(crate) mod mode_diagram;
 mod player;
 pub mod simulation;
@@ -16,10 +15,10 @@ use std::ops::Deref;
 use apportion_afm::history::Sample;
 use apportion_afm::{Critical, Scene};
 use apportion_report::chart::Colour;
-use apportion_report::format;
+use apportion_report::document::{Document, Figure, Part, Report, Section, Table};
+use apportion_report::format::{self, minus, with_unit};
 pub use charts::{law_colour, scene_charts};
 pub use columns::{scene_json, scene_number, scene_table};
-pub use document::{mode_document, scene_document};
 pub use mode_diagram::{ModeDiagram, ModeLine, mode_axis, mode_diagram_chart};
 pub use player::player_page;
 
@@ -105,6 +104,65 @@ impl SceneStory {
             None => format!("The particle slips at {time}, outside the time shown, at a tip force of {at}."),
         }
     }
+}
+
+/// Builds the document of a scene of the study `study`.
+pub fn scene_document(story: &SceneStory, study: &str) -> Document {
+    let animation = Part::Frame { title: "The scene as an animation".to_owned(), html: player_page(story) };
+    let charts = scene_charts(story).map(|(stem, chart)| Figure::unnumbered(chart, format!("{study}-{stem}")).into());
+    let table = Part::Table(Table::pairs("Every constant of the scene.", story.setting.iter().cloned()));
+    let setting = Part::Details { summary: "Every constant of the scene".to_owned(), parts: vec![table] };
+    Report {
+        name: format!("{study}-scene"),
+        kicker: "A scene in time",
+        title: story.title.clone(),
+        lead: vec![story.outcome(), numbers(story)],
+        then: vec![
+            Section::new("animation", "The scene", vec![animation]),
+            Section::new("charts", "Charts", charts.to_vec()),
+            Section::new("setting", "Setting", vec![Part::OnPage(vec![setting])]),
+        ],
+        json: scene_json(story),
+        csv: Some(scene_table(story)),
+        ..Report::default()
+    }
+    .document()
+}
+
+/// States the forces at the slip, and the final position of the particle.
+fn numbers(story: &SceneStory) -> String {
+    let (critical, end) = (&story.critical, story.end());
+    let value = |x: f64, unit: &str| minus(&with_unit(x, unit));
+    let force = |newtons: f64| value(newtons * 1e9, "nN");
+    format!(
+        "The critical tip force is {} (lateral {}, normal {}), reached after {}; after {} the particle has moved {} \
+         relative to the substrate.",
+        force(critical.critical_force),
+        force(critical.lateral_force),
+        force(critical.normal_force),
+        value(story.critical_time, "s"),
+        value(end.time, "s"),
+        value(end.relative * 1e9, "nm")
+    )
+}
+
+/// Builds the document of the modes of motion in the study `study`, whose title is `title`.
+pub fn mode_document(diagram: &ModeDiagram, study: &str, title: &str) -> Document {
+    let (name, chart) = (format!("{study}-modes"), mode_diagram_chart(diagram));
+    let mut csv = Table::from_rows("", 0..diagram.angle.len()).file("angle_rad", |row| diagram.angle[row]);
+    for line in &diagram.forces {
+        csv = csv.file(format!("{}_N", line.name), |row| line.force[row]);
+    }
+    Report {
+        kicker: "Modes of motion",
+        title: title.to_owned(),
+        lead: vec![chart.caption().to_owned()],
+        then: vec![Section::new("diagram", "Mode diagram", vec![Figure::unnumbered(chart, &name).into()])],
+        csv: Some(csv.into()),
+        name,
+        ..Report::default()
+    }
+    .document()
 }
 
 /// The nominal scene under Coulomb friction, for tests.

@@ -11,11 +11,9 @@ use apportion::study::Study;
 
 /// The other ranks of the job, as rank 0 sees them.
 pub trait Ranks: RemoteWorkers {
-    /// How many there are, rank 0 included.
-    fn count_all(&self) -> usize;
-
-    /// Lets the other ranks work for the run of `study`, whose file is at `path`, each with so many workers.
-    fn begin(&self, study: &Study, path: &Path, threads: usize);
+    /// Lets the other ranks work for the run of `study`, whose file is at `path`, each with so many workers; returns how
+    /// many ranks there are, rank 0 included.
+    fn begin(&self, study: &Study, path: &Path, threads: usize) -> usize;
 }
 
 /// Set to `off`, this lets every process of a job be a program by itself.

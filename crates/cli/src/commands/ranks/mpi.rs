@@ -119,11 +119,7 @@ impl RemoteWorkers for Others {
 }
 
 impl Ranks for Others {
-    fn count_all(&self) -> usize {
-        self.size
-    }
-
-    fn begin(&self, study: &Study, path: &Path, threads: usize) {
+    fn begin(&self, study: &Study, path: &Path, threads: usize) -> usize {
         let setup = Setup {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             source: study.source().to_owned(),
@@ -137,6 +133,7 @@ impl Ranks for Others {
         if self.answers.set(answers.into_iter().map(Mutex::new).collect()).is_ok() {
             let _ = self.letters.send(Letter::Begin { setup, threads, inboxes });
         }
+        self.size
     }
 }
 

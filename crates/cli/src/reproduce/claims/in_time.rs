@@ -123,19 +123,19 @@ pub(super) fn contacts(bench: &Bench<'_>) -> anyhow::Result<Answer> {
     let options = closed(FrictionLaw::Coulomb);
     let history = |scene: &Scene| (bench.physics.history)(scene, &options, FOREVER);
     // At every step, and by more than nothing from the start to the slip.
-    let always = |grows: fn(&Sample, &Sample, f64) -> Option<bool>| {
+    let always = |grows: fn(&Sample, &Sample, f64) -> bool| {
         move |scene: &Scene| -> Result<bool, Failure> {
             let samples = history(scene)?.samples;
-            let rises = |before: &Sample, after: &Sample, least: f64| grows(before, after, least).unwrap_or(false);
             let (start, held) = ends(&samples);
             let mut steps = samples.windows(2).filter(|p| p[1].sticking);
-            Ok(steps.all(|p| rises(&p[0], &p[1], 0.0)) && rises(start, held, AS_GOOD_AS_NONE))
+            Ok(steps.all(|p| grows(&p[0], &p[1], 0.0)) && grows(start, held, AS_GOOD_AS_NONE))
         }
     };
     let points = bench.sizes.slow_points;
-    let tip = always(|before, after, least| Some(is_larger(after.tip_contact?, before.tip_contact?, least)));
-    let substrate =
-        always(|before, after, least| Some(is_larger(before.substrate_contact, after.substrate_contact, least)));
+    let tip = always(|before, after, least| {
+        after.tip_contact.zip(before.tip_contact).is_some_and(|(after, before)| is_larger(after, before, least))
+    });
+    let substrate = always(|before, after, least| is_larger(before.substrate_contact, after.substrate_contact, least));
     let holdings = [
         bench.holding("growth at the tip", points, &tip)?,
         bench.holding("shrinkage on the substrate", points, &substrate)?,

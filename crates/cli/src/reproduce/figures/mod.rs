@@ -4,7 +4,6 @@
 //! the ranges of the papers' studies and the defaults for everything else; the histories are those of the nominal
 //! scene. Only the papers' statements are entered by hand: captions are computed from the drawn data.
 
-mod curve;
 mod history;
 mod modes;
 mod sweep;

@@ -107,18 +107,11 @@ fn advice_table(file: &Comparison) -> Part {
 
 fn lines(file: &Comparison) -> Vec<Part> {
     let mut parts = Vec::new();
-    let mut before = None;
-    for advice in &file.advice {
-        let Some(of) = setting(file, advice) else { continue };
-        if before != advice.setting {
-            parts.push(Part::Text(format!(
-                "For an accuracy of {}: {}.",
-                significant(advice.accuracy),
-                describe_setting(of)
-            )));
-            parts.push(Part::Code(of.lines.clone()));
-        }
-        before = advice.setting;
+    for alike in file.advice.chunk_by(|a, b| a.setting == b.setting) {
+        let Some(of) = setting(file, &alike[0]) else { continue };
+        let (accuracy, setting) = (significant(alike[0].accuracy), describe_setting(of));
+        parts.push(Part::Text(format!("For an accuracy of {accuracy}: {setting}.")));
+        parts.push(Part::Code(of.lines.clone()));
     }
     let text = "Alternatively, with the line `accuracy = 0.01` a run chooses its settings and continues until its intervals reach \
                 the accuracy.";
