@@ -1,8 +1,9 @@
 //! `apportion completions`: shell completions of commands and options.
 
+use clap::CommandFactory;
 use clap_complete::{Shell, generate};
 
-use super::print_raw;
+use super::{Cli, print_raw};
 
 #[derive(clap::Args)]
 #[command(after_help = "Where to put it:
@@ -18,6 +19,6 @@ pub struct Arguments {
 
 pub fn completions(arguments: &Arguments) -> anyhow::Result<()> {
     let mut script = Vec::new();
-    generate(arguments.shell, &mut super::command(), "apportion", &mut script);
+    generate(arguments.shell, &mut Cli::command(), "apportion", &mut script);
     print_raw(&script)
 }

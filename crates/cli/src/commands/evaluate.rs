@@ -50,11 +50,10 @@ pub fn evaluate(arguments: &Arguments) -> anyhow::Result<()> {
     let context = RunContext::new(Some(on_signal()), say);
     let mut outcome = None;
     let written = stream_atomically(&arguments.output, |out| {
-        let result = evaluate_in(&study, rows.as_mut(), &mut Stoppable::new(out), arguments.with_points, &context);
-        let complete = result.is_ok();
-        outcome = Some(result);
+        let out = &mut Stoppable::new(out);
+        let result = outcome.insert(evaluate_in(&study, rows.as_mut(), out, arguments.with_points, &context));
         // After any error, an incomplete file must not replace the target.
-        if complete { Ok(()) } else { Err(std::io::Error::other("incomplete")) }
+        result.as_ref().map(drop).map_err(|_| std::io::Error::other("incomplete"))
     });
     match outcome {
         Some(Err(EvaluateError::Points(error))) => Err(error).of(&arguments.points),

@@ -41,12 +41,17 @@ pub struct LiveArguments {
 impl LiveArguments {
     /// Adds the page to the `document` of `result`, if there is to be one. Without it the result is whole still.
     pub fn place_next_to(&self, document: &mut Document, result: &StudyResult) {
-        if self.no_live {
+        // No file that the study names is read: the document has a section on ranges only if the study names none.
+        if self.no_live || document.sections.iter().all(|section| section.id != TRY) {
             return;
         }
-        match page_of_result(document, result) {
-            Ok(Some(page)) => place_next_to(document, &file_name(&result.study.name), page),
-            Ok(None) => (),
+        let setup = &result.study;
+        let path = PathBuf::from(format!("{}.toml", setup.name));
+        let study = apportion_files::parse_study(&setup.source, &path, &setup.overrides);
+        let Some(text) = study.ok().and_then(|study| own_text(&study).ok()) else { return };
+        let study = apportion_files::parse_study(&text, &path, &[]).map_err(Into::into);
+        match study.and_then(|study| page(&study, &text, result)) {
+            Ok(page) => place_next_to(document, &file_name(&setup.name), page),
             Err(error) => say(&format!("note: no interactive page: {error}")),
         }
     }
@@ -119,21 +124,6 @@ pub fn live_page(study: &Study, threads: usize, stop: &AtomicBool) -> anyhow::Re
     let study = apportion_files::parse_study(&text, Path::new(&format!("{}.toml", study.name())), &[])?;
     let result = study.runner().threads(threads).stop(stop).run()?;
     page(&study, &text, &result)
-}
-
-/// Builds the page of the study in `result`, with this initial result; `None` if a page cannot run the study. No file
-/// that the study names is read: `document`, that of the result, has a section on ranges only if the study names none.
-///
-/// # Errors
-/// An error if the page cannot be built.
-pub fn page_of_result(document: &Document, result: &StudyResult) -> anyhow::Result<Option<String>> {
-    if document.sections.iter().all(|section| section.id != TRY) {
-        return Ok(None);
-    }
-    let path = PathBuf::from(format!("{}.toml", result.study.name));
-    let text = apportion_files::parse_study(&result.study.source, &path, &result.study.overrides);
-    let Some(text) = text.ok().and_then(|study| own_text(&study).ok()) else { return Ok(None) };
-    page(&apportion_files::parse_study(&text, &path, &[])?, &text, result).map(Some)
 }
 
 /// Returns the file name of the live page of the study `name`.

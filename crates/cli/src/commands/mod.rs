@@ -31,7 +31,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use apportion::study::Study;
-use clap::{Args, CommandFactory, Parser, Subcommand};
+use clap::{Args, Parser, Subcommand};
 use ranks::Ranks;
 
 use crate::failure::{self, Silent, bad_input};
@@ -255,11 +255,6 @@ fn quoted(text: &str) -> String {
     } else {
         format!("'{}'", text.replace('\'', r"'\''"))
     }
-}
-
-/// The command line as clap knows it.
-fn command() -> clap::Command {
-    Cli::command()
 }
 
 /// Writes what the program itself has made, for other programs, to standard output.

@@ -131,11 +131,10 @@ pub fn scene_modes(scene: &Scene, options: &Options) -> Result<ModeDiagram, Fail
     let mut angle: Vec<f64> = grid.chain([critical.force_angle()]).collect();
     angle.sort_by(f64::total_cmp);
     let colours = [law_colour(options.friction), Colour::Series(1), Colour::Series(4), Colour::Series(5)];
-    let mut lines = Vec::new();
-    for (&mode, colour) in Mode::ALL.iter().zip(colours) {
-        let sets_in = |&psi: &f64| pushing.critical_tip_force(mode, psi);
-        let force = angle.iter().map(sets_in).collect::<Result<Vec<_>, Failure>>()?;
-        lines.push(ModeLine { name: mode.name().to_owned(), look: (colour, Stroke::Solid), force });
-    }
-    Ok(ModeDiagram { angle, forces: lines, slip: (critical.force_angle(), critical.critical_force) })
+    let line = |(&mode, colour): (&Mode, Colour)| {
+        let force = angle.iter().map(|psi| pushing.critical_tip_force(mode, *psi)).collect::<Result<_, Failure>>()?;
+        Ok(ModeLine { name: mode.name().to_owned(), look: (colour, Stroke::Solid), force })
+    };
+    let forces = Mode::ALL.iter().zip(colours).map(line).collect::<Result<_, Failure>>()?;
+    Ok(ModeDiagram { angle, forces, slip: (critical.force_angle(), critical.critical_force) })
 }

@@ -157,7 +157,7 @@ fn lead(world: &SimpleCommunicator, command: impl FnOnce(&dyn Ranks) -> ExitCode
 /// Sends letters, and passes answers on, until there are no more letters.
 fn carry(world: &SimpleCommunicator, outbox: &Receiver<Letter>) {
     let (mut pause, mut inboxes, mut per_rank) = (SHORT, Vec::new(), 1);
-    let mut counted = Counted::default();
+    let (mut messages, mut bytes_in_all) = (0_u64, 0);
     loop {
         match outbox.recv_timeout(pause) {
             Ok(letter) => {
@@ -169,7 +169,7 @@ fn carry(world: &SimpleCommunicator, outbox: &Receiver<Letter>) {
                         broadcast(world, &mut setup.clone()[..]);
                     }
                     Letter::Request { worker, bytes } => {
-                        counted.add(&bytes);
+                        (messages, bytes_in_all) = (messages + 1, bytes_in_all + bytes.len());
                         let rank = (1 + worker / per_rank) as i32;
                         world.process_at_rank(rank).send_with_tag(&bytes[..], (worker % per_rank) as Tag);
                     }
@@ -181,7 +181,7 @@ fn carry(world: &SimpleCommunicator, outbox: &Receiver<Letter>) {
         }
         while let Some(found) = world.any_process().immediate_matched_probe() {
             let (bytes, status) = found.matched_receive_vec::<u8>();
-            counted.add(&bytes);
+            (messages, bytes_in_all) = (messages + 1, bytes_in_all + bytes.len());
             let worker = (status.source_rank() as usize - 1) * per_rank + status.tag() as usize;
             // A run that has ended receives no more messages.
             let _ = inboxes.get(worker).map(|inbox: &Sender<Vec<u8>>| inbox.send(bytes));
@@ -193,26 +193,9 @@ fn carry(world: &SimpleCommunicator, outbox: &Receiver<Letter>) {
     } else {
         tell_all(world, END);
     }
-    counted.say();
-}
-
-/// Messages between ranks, for those who ask: `APPORTION_MPI=count`.
-#[derive(Default)]
-struct Counted {
-    messages: u64,
-    bytes: u64,
-}
-
-impl Counted {
-    fn add(&mut self, bytes: &[u8]) {
-        self.messages += 1;
-        self.bytes += bytes.len() as u64;
-    }
-
-    fn say(&self) {
-        if std::env::var(super::SWITCH).is_ok_and(|switch| switch == "count") {
-            say(&format!("note: {} messages of {} bytes in all between the ranks", self.messages, self.bytes));
-        }
+    // For those who ask.
+    if std::env::var(super::SWITCH).is_ok_and(|switch| switch == "count") {
+        say(&format!("note: {messages} messages of {bytes_in_all} bytes in all between the ranks"));
     }
 }
 

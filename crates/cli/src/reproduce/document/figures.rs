@@ -17,11 +17,6 @@ pub(super) fn anchor(stem: &str) -> &str {
     figure.and_then(|figure| figure.shares).unwrap_or(stem)
 }
 
-/// Returns the label of the figure that shows the one with a stem.
-pub(super) fn label<'a>(figures: &'a [PaperFigure], stem: &str) -> Option<&'a str> {
-    figures.iter().find(|figure| figure.stem == stem).map(|figure| figure.label.as_str())
-}
-
 /// Builds the section of the indices under every friction model: of all factors together, then of each group.
 pub(super) fn overview(figures: &[PaperFigure]) -> Section {
     let groups = [GROUPS[2], GROUPS[0], GROUPS[1]];

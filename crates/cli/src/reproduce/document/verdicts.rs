@@ -2,7 +2,7 @@
 
 use apportion_report::document::{Cell, Link, Mark, OnPhone, Part, Table};
 
-use super::figures::{anchor, label};
+use super::figures::anchor;
 use crate::reproduce::claims::{Claim, Verdict};
 use crate::reproduce::figures::PaperFigure;
 
@@ -45,8 +45,8 @@ pub(super) fn table(claims: &[Claim]) -> Part {
 /// Lists our results for every claim, their setting, and their figures on the page.
 pub(super) fn details(claims: &[Claim], figures: &[PaperFigure]) -> Part {
     let links = |claim: &Claim| {
-        let shown = claim.figures.iter().filter_map(|stem| Some((label(figures, stem)?, anchor(stem))));
-        shown.map(|(label, anchor)| Link::new(label, format!("#{anchor}"))).collect()
+        let shown = claim.figures.iter().filter_map(|stem| figures.iter().find(|figure| figure.stem == *stem));
+        shown.map(|figure| Link::new(&figure.label, format!("#{}", anchor(figure.stem)))).collect()
     };
     let rows = Table::from_rows("Basis of the verdicts.", claims)
         .text("claim", |claim| Cell { links: links(claim), ..Cell::from(part(claims, claim)) })
