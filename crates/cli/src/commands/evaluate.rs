@@ -35,7 +35,7 @@ pub struct Arguments {
 }
 
 pub fn evaluate(arguments: &Arguments) -> anyhow::Result<()> {
-    let study = arguments.study.load()?;
+    let study = arguments.study.load_with(&[])?;
     let options = arguments.table.options(&arguments.names);
     let mut rows = open_table(&arguments.points, &options).of(&arguments.points)?;
     for input in [&arguments.points, &arguments.study.study] {

@@ -133,11 +133,6 @@ impl DesignChanges {
 }
 
 impl StudyArguments {
-    /// The study as in its file, with the changes of `--set`.
-    fn load(&self) -> anyhow::Result<Study> {
-        self.load_with(&[])
-    }
-
     /// The study with the changes of `--set`, then `more`; its model can be run.
     fn load_with(&self, more: &[String]) -> anyhow::Result<Study> {
         let study = self.load_any(more)?;

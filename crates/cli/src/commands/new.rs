@@ -1,6 +1,6 @@
 //! `apportion new`: writes a new study file.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use apportion_files::{ModelKind, NEW_PROGRAM, Problem, TemplateRequest, new_program, template};
 use apportion_report::{prepare_file, write_atomically};
@@ -45,7 +45,14 @@ pub fn new(arguments: &Arguments) -> anyhow::Result<()> {
         factors: arguments.factors.clone(),
         outputs: arguments.outputs.clone(),
     };
-    let text = template(&request).map_err(|problem| wrong(&problem, model))?;
+    let text = template(&request).map_err(|problem| {
+        let option = match problem {
+            Problem::UnknownName { what: "output", .. } | Problem::Repeated { what: "output", .. } => "--outputs",
+            _ => "--factors",
+        };
+        let help = problem.help().map(|help| format!("\n{help}")).unwrap_or_default();
+        bad_input(format!("{option}: {problem} (model {}){help}", model.name))
+    })?;
     let study = apportion_files::parse_study(&text, path, &[])?;
     if !arguments.force && path.exists() {
         return Err(bad_input(format!("{} exists already: give another name, or add --force", path.display())));
@@ -55,7 +62,14 @@ pub fn new(arguments: &Arguments) -> anyhow::Result<()> {
     let (factors, runs) = (study.space().factors().len(), study.design().rows());
     say(&format!("wrote {}: {}, {runs} runs", path.display(), counted(factors as u64, "factor")));
     if let Some(program) = new_program(&request) {
-        write_program(&path.with_file_name(NEW_PROGRAM), &program)?;
+        // An existing program may be somebody's work.
+        let path = path.with_file_name(NEW_PROGRAM);
+        if path.exists() {
+            say(&format!("{} exists already and is not changed", path.display()));
+        } else {
+            write_atomically(&path, program.as_bytes())?;
+            say(&format!("wrote {}: the model, a sum for you to replace", path.display()));
+        }
     }
     let step = if model == ModelKind::EXTERNAL { "sample" } else { "run" };
     say(&format!(
@@ -63,24 +77,4 @@ pub fn new(arguments: &Arguments) -> anyhow::Result<()> {
         quoted(&path.display().to_string())
     ));
     Ok(())
-}
-
-/// Writes the program next to its study, unless there is one: it may be somebody's work.
-fn write_program(path: &Path, text: &str) -> anyhow::Result<()> {
-    if path.exists() {
-        say(&format!("{} exists already and is not changed", path.display()));
-        return Ok(());
-    }
-    write_atomically(path, text.as_bytes())?;
-    say(&format!("wrote {}: the model, a sum for you to replace", path.display()));
-    Ok(())
-}
-
-fn wrong(problem: &Problem, model: ModelKind) -> anyhow::Error {
-    let option = match problem {
-        Problem::UnknownName { what: "output", .. } | Problem::Repeated { what: "output", .. } => "--outputs",
-        _ => "--factors",
-    };
-    let help = problem.help().map(|help| format!("\n{help}")).unwrap_or_default();
-    bad_input(format!("{option}: {problem} (model {}){help}", model.name))
 }

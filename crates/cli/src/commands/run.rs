@@ -201,7 +201,13 @@ pub fn deliver(study: &Study, artefacts: &Artefacts, result: &StudyResult, live:
     let mut document = run_document(result);
     live.place_next_to(&mut document, result);
     output::deliver(artefacts, &document)?;
-    let lost: Vec<&OutputResult> = result.outputs.iter().filter(|output| lost(study, output)).collect();
+    // An output without indices because runs failed, and not because it does not vary.
+    let is_lost = |output: &&OutputResult| {
+        let share = output.runs_failed as f64 / (output.runs_ok + output.runs_failed) as f64;
+        let too_many = share > study.analysis().max_failed || output.base_points_used < 2;
+        output.indices.is_none() && output.runs_failed > 0 && too_many
+    };
+    let lost: Vec<&OutputResult> = result.outputs.iter().filter(is_lost).collect();
     let Some(first) = lost.first() else { return Ok(()) };
     let others = if lost.len() > 1 { format!(" and of {} more outputs", lost.len() - 1) } else { String::new() };
     Err(anyhow!(
@@ -232,13 +238,6 @@ fn with_journal(study: &Study, error: RunError, journal: Option<&Path>) -> anyho
         _ => return with_inputs(study, error),
     };
     anyhow!("{error}{kept}")
-}
-
-/// Whether an output has no indices because runs failed, and not because it does not vary.
-fn lost(study: &Study, output: &OutputResult) -> bool {
-    let share = output.runs_failed as f64 / (output.runs_ok + output.runs_failed) as f64;
-    let too_many = share > study.analysis().max_failed || output.base_points_used < 2;
-    output.indices.is_none() && output.runs_failed > 0 && too_many
 }
 
 /// A row that failed is of use to the user by its inputs.

@@ -52,11 +52,10 @@ pub fn sample(arguments: &Arguments) -> anyhow::Result<()> {
         say("note: a run of this study adds points until its target is met: these are its first points");
     }
     // A manifest of other points must not stay after they are replaced.
-    match std::fs::remove_file(&beside) {
-        Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
-            return Err(anyhow!("cannot replace {}: {error}", beside.display()));
-        }
-        _ => (),
+    if let Err(error) = std::fs::remove_file(&beside)
+        && error.kind() != std::io::ErrorKind::NotFound
+    {
+        return Err(anyhow!("cannot replace {}: {error}", beside.display()));
     }
     let factors = counted(study.space().factors().len() as u64, "factor");
     if let Some(rows) = arguments.random {

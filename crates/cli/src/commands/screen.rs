@@ -59,7 +59,7 @@ impl Arguments {
 }
 
 pub fn screen(arguments: &Arguments) -> anyhow::Result<()> {
-    let study = arguments.study.load()?;
+    let study = arguments.study.load_with(&[])?;
     let settings = arguments.settings(&study)?;
     let (in_force, _) = settings.in_force(study.space().factors().len())?;
     if in_force.trajectories != settings.trajectories {

@@ -23,7 +23,7 @@ pub struct Arguments {
 }
 
 pub fn sweep(arguments: &Arguments) -> anyhow::Result<()> {
-    let study = arguments.study.load()?;
+    let study = arguments.study.load_with(&[])?;
     let factors = find(study.space(), &arguments.factors)?;
     let model = study.model();
     let artefacts = arguments.output.prepared(study.name())?;

@@ -52,7 +52,7 @@ fn parse_seconds(text: &str) -> Result<f64, String> {
 }
 
 pub fn trade(arguments: &Arguments) -> anyhow::Result<()> {
-    let study = arguments.study.load()?;
+    let study = arguments.study.load_with(&[])?;
     if !study.space().dependences().is_empty() {
         return Err(bad_input(format!(
             "factors of this study depend on each other, but this command compares surrogates, cheaper models and samplers, \

@@ -52,7 +52,7 @@ pub fn player_page(story: &SceneStory) -> String {
         style: include_str!("../../templates/scene/player.css"),
         script: SCRIPT,
         data: script_json(&scene_value(story)),
-        view: script_json(&view.value()),
+        view: script_json(&json!({ "probe_factor": view.probe, "travel_factor": view.travel })),
         version: env!("CARGO_PKG_VERSION"),
     };
     page.render().expect("texts and numbers, into memory")
@@ -90,11 +90,6 @@ impl View {
         let particle = largest(|s| s.particle);
         let travel = if particle > 0.0 { particle } else { largest(|s| s.substrate) };
         Self { probe: round_below(0.25 / lean), travel: round_below(0.8 * story.scene.particle_radius / travel) }
-    }
-
-    /// Returns the factors for the page's script.
-    fn value(self) -> Value {
-        json!({ "probe_factor": self.probe, "travel_factor": self.travel })
     }
 
     /// States the factors in a sentence.

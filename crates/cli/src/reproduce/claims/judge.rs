@@ -48,16 +48,12 @@ pub(super) struct Answer {
 }
 
 impl Answer {
-    /// Creates the verdict on a claim decided at the scene of the paper, with the part of the box where it holds.
+    /// Creates the verdict on a claim: reproduced if every part holds at the nominal scene, which is that of the papers'
+    /// figures. With it comes the part of the box where it holds.
     pub fn judged(holdings: &[Holding], words: impl Into<Words>) -> Self {
-        Self { verdict: judge(holdings), range: over_ranges(holdings), words: words.into() }
+        let verdict = Verdict::reproduced_if(holdings.iter().all(|holding| holding.nominal));
+        Self { verdict, range: over_ranges(holdings), words: words.into() }
     }
-}
-
-/// Returns the verdict on a claim as in its paper: reproduced if every part holds at the nominal scene, which is that
-/// of the papers' figures.
-pub(super) fn judge(holdings: &[Holding]) -> Verdict {
-    Verdict::reproduced_if(holdings.iter().all(|holding| holding.nominal))
 }
 
 /// Says on what share of the whole ranges each part holds, in one line; parts with the same share are named together.
@@ -119,10 +115,11 @@ mod tests {
     #[test]
     fn verdicts_use_the_scene_of_the_paper_and_ranges_the_box() {
         let holdings = [holding("Coulomb", true, 1.0), holding("LuGre", true, 0.5)];
-        assert_eq!(judge(&holdings), Verdict::Reproduced);
+        assert_eq!(Answer::judged(&holdings, []).verdict, Verdict::Reproduced);
         assert_eq!(over_ranges(&holdings), "Coulomb: all of the box; LuGre: 50 % [49.9, 50.1] of the box");
         // Everywhere in the box but not at the nominal scene does not reproduce a chart drawn there.
-        assert_eq!(judge(&[holding("Coulomb", false, 1.0)]), Verdict::NotReproduced);
+        let elsewhere = Answer::judged(&[holding("Coulomb", false, 1.0)], []);
+        assert_eq!(elsewhere.verdict, Verdict::NotReproduced);
     }
 
     #[test]

@@ -5,9 +5,10 @@ use std::f64::consts::FRAC_PI_2;
 use apportion_afm::modes::{Mode, Onset, TipForce};
 use apportion_afm::{Failure, FrictionLaw, Scene};
 
+use super::Verdict;
 use super::bench::{Bench, Sweep, closed, exact, parameter};
 use super::curve::grid;
-use super::judge::{Answer, change, judge, nano, number, over_ranges};
+use super::judge::{Answer, change, nano, number, over_ranges};
 
 /// Distance of the start of the mode diagram above the angle of friction (rad): at that angle F* is unbounded.
 const ABOVE_FRICTION: f64 = 0.05;
@@ -88,7 +89,7 @@ pub(super) fn rolling(bench: &Bench<'_>) -> anyhow::Result<Answer> {
         Onset::Never => "at no F_Y".to_owned(),
     };
     Ok(Answer {
-        verdict: judge(&holdings[..1]),
+        verdict: Verdict::reproduced_if(holdings[0].nominal),
         range: format!("by our criterion; {}", over_ranges(&holdings)),
         words: vec![
             ("roll", at(roll)),
