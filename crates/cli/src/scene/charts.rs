@@ -71,18 +71,15 @@ pub(crate) fn forces(story: &SceneStory) -> Chart {
 
 fn forces_caption(story: &SceneStory) -> String {
     let first = story.start();
-    let changes = |what: &str, parts: &mut dyn Iterator<Item = f64>| {
-        spread(parts).map(|spread| format!("{what} by {}", bound(spread))).unwrap_or_default()
-    };
-    let mut normal = story.samples.iter().map(|s| s.normal_force / first.normal_force - 1.0);
-    let normal = changes("; the normal force changes", &mut normal);
+    let normal = story.samples.iter().map(|s| s.normal_force / first.normal_force - 1.0);
+    let normal = changes("; the normal force changes", normal);
     let begins = format!("The tip force goes from {} to", force(first.tip_force));
     let Some(slip) = story.slip() else {
         return format!("{begins} {} without a slip in the time shown{normal}.", force(story.end().tip_force));
     };
     let critical = story.critical.critical_force;
-    let mut after = story.samples.iter().filter(|s| s.time > slip).map(|s| s.tip_force / critical - 1.0);
-    let after = changes(", and then differs from it", &mut after);
+    let after = story.samples.iter().filter(|s| s.time > slip).map(|s| s.tip_force / critical - 1.0);
+    let after = changes(", and then differs from it", after);
     let (critical, slip) = (force(critical), time(slip));
     format!("{begins} {critical}, at which the particle slips after {slip}{after}{normal}.")
 }
@@ -178,14 +175,13 @@ fn contacts_caption(story: &SceneStory) -> String {
     )
 }
 
-/// Formats a relative size.
-fn bound(spread: f64) -> String {
-    if spread < 1e-4 { "less than 0.01 %".to_owned() } else { format!("at most {} %", short(100.0 * spread)) }
-}
-
-/// Returns the largest magnitude of the finite values, if there are any.
-fn spread(values: impl Iterator<Item = f64>) -> Option<f64> {
-    values.map(f64::abs).filter(|size| size.is_finite()).reduce(f64::max)
+/// Says by how much a quantity changes, at most; nothing if no relative change is finite.
+fn changes(what: &str, parts: impl Iterator<Item = f64>) -> String {
+    match parts.map(f64::abs).filter(|size| size.is_finite()).reduce(f64::max) {
+        None => String::new(),
+        Some(size) if size < 1e-4 => format!("{what} by less than 0.01 %"),
+        Some(size) => format!("{what} by at most {} %", short(100.0 * size)),
+    }
 }
 
 #[cfg(test)]

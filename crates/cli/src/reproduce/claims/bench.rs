@@ -24,6 +24,9 @@ pub(super) type ForceOf<'a> = &'a dyn Fn(&Scene, &Options) -> Result<Critical, F
 /// A function for a scene in time, such as [`history`].
 pub(super) type HistoryOf<'a> = &'a dyn Fn(&Scene, &Options, f64) -> Result<History, Failure>;
 
+/// A function for a number of a scene, or for whether a rule holds there.
+pub(super) type OfScene<'a, T> = &'a dyn Fn(&Scene) -> Result<T, Failure>;
+
 /// The physics of the checks: ours, or a modified one in a test.
 #[derive(Clone, Copy)]
 pub(super) struct Physics<'a> {
@@ -122,12 +125,7 @@ impl<'a> Bench<'a> {
     }
 
     /// Returns any quantity along a sweep of one constant of `scene`.
-    pub fn curve_of(
-        &self,
-        sweep: &Sweep,
-        scene: &Scene,
-        quantity: &dyn Fn(&Scene) -> Result<f64, Failure>,
-    ) -> Result<Curve, Failure> {
+    pub fn curve_of(&self, sweep: &Sweep, scene: &Scene, quantity: OfScene<'_, f64>) -> Result<Curve, Failure> {
         let (x, mut scene) = (grid(sweep.range, sweep.count), *scene);
         let y = x.iter().map(|&value| {
             (sweep.parameter.set)(&mut scene, value);
@@ -138,12 +136,7 @@ impl<'a> Bench<'a> {
 
     /// Returns the share of `count` points of a box where `rule` holds: Sobol' points, in independent scrambles for the
     /// interval. The factors of `group` vary, or all; the others are at their nominal values.
-    pub fn share(
-        &self,
-        group: Option<&str>,
-        count: u64,
-        rule: &dyn Fn(&Scene) -> Result<bool, Failure>,
-    ) -> Result<Share, Failure> {
+    pub fn share(&self, group: Option<&str>, count: u64, rule: OfScene<'_, bool>) -> Result<Share, Failure> {
         let each = (count / REPLICATES).max(1);
         let mut shares = Vec::new();
         for replicate in 0..REPLICATES {
@@ -163,14 +156,9 @@ impl<'a> Bench<'a> {
     }
 
     /// Returns whether `rule` holds at the nominal scene, and on what share of the general box.
-    pub fn holding(
-        &self,
-        what: impl Into<String>,
-        count: u64,
-        rule: &dyn Fn(&Scene) -> Result<bool, Failure>,
-    ) -> Result<Holding, Failure> {
+    pub fn holding(&self, what: &str, count: u64, rule: OfScene<'_, bool>) -> Result<Holding, Failure> {
         let nominal = rule(&Scene::default())?;
-        Ok(Holding { what: what.into(), nominal, share: self.share(None, count, rule)? })
+        Ok(Holding { what: what.to_owned(), nominal, share: self.share(None, count, rule)? })
     }
 
     /// Returns the same under each of these friction laws, with its name after `label`.
@@ -182,7 +170,7 @@ impl<'a> Bench<'a> {
         rule: impl Fn(FrictionLaw, &Scene) -> Result<bool, Failure>,
     ) -> Result<Vec<Holding>, Failure> {
         let under = |&Friction { law, name, .. }: &Friction| {
-            self.holding(format!("{label}{name}"), count(law), &|scene| rule(law, scene))
+            self.holding(&format!("{label}{name}"), count(law), &|scene| rule(law, scene))
         };
         frictions.iter().map(under).collect()
     }

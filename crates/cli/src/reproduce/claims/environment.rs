@@ -147,7 +147,7 @@ pub(super) fn constant_parameters(bench: &Bench<'_>) -> anyhow::Result<Answer> {
     for (name, symbol) in [("equivalent_modulus", "K"), ("adhesion", "ω")] {
         let sweep = bench.over(name);
         let rule = |scene: &Scene| Ok(bench.curve(&sweep, scene, &options)?.spread() < NO_EFFECT);
-        holdings.push(bench.holding(format!("{symbol} invisible"), bench.sizes.points, &rule)?);
+        holdings.push(bench.holding(&format!("{symbol} invisible"), bench.sizes.points, &rule)?);
         let few = Sweep { count: 4, ..sweep };
         findings.push(format!(
             "{symbol} of {} changes F_cr by {} (by {} with bristles that follow the contact, by {} with the pull-off force \

@@ -13,9 +13,9 @@ use apportion::analysis::study_setup;
 use apportion::clock::Instant;
 use apportion::result::{OutputResult, StudyResult, StudySetup};
 use apportion::run::{RunError, threads_in_force};
-use apportion::study::{AnalysisOptions, Study, Target};
+use apportion::study::{Study, SurrogateChoice, Target};
 pub use curve::Axis;
-use curve::{Curve, SURROGATES, rungs};
+use curve::{Curve, SURROGATES, indices_only, rungs};
 pub use document::settings_document;
 use serde::{Deserialize, Serialize};
 
@@ -195,8 +195,7 @@ impl Truth {
         let subject = rung.map_or_else(|| study.subject().clone(), |rung| rung.subject);
         let max_time = study.target().max_time.map_or(seconds, |limit| limit.min(seconds));
         let target = Target::accuracy(FINEST).max_time(max_time);
-        let analysis = study.analysis().clone();
-        let analysis = AnalysisOptions { pictures: false, second_order: false, estimators: Vec::new(), ..analysis };
+        let analysis = indices_only(study);
         let finest = study.clone().with_subject(subject).with_target(target);
         // A design with fewer swaps always exists.
         let finest = finest.clone().with_design(study.design().settings().clone(), analysis).unwrap_or(finest);
@@ -287,7 +286,7 @@ fn measured(job: &SettingsJob<'_>, curve: &Curve, truth: &Truth, seconds: f64) -
         all.extend(last.map(|of| Measured {
             curve: curve.name(),
             axis: curve.axis,
-            has_surrogate: curve.has_surrogate,
+            has_surrogate: curve.surrogate == SurrogateChoice::On,
             base_samples: of.base_samples,
             runs: of.model_runs,
             seconds: times[0],
