@@ -53,13 +53,9 @@ fn is_bad_input(error: &anyhow::Error) -> bool {
     let is_bad_model = |halt: &Halt| matches!(halt, Halt::GaveUp(give_up) if give_up.is_bad_input);
     if let Some(error) = error.downcast_ref::<RunError>() {
         match error {
-            RunError::Refused { .. } => true,
             RunError::GaveUp(give_up) => give_up.is_bad_input,
-            RunError::Journal(error) => matches!(
-                error,
-                JournalError::NotAJournal { .. } | JournalError::OtherVersion { .. } | JournalError::NoFile { .. }
-            ),
-            _ => false,
+            RunError::Journal(JournalError::NotAJournal { .. } | JournalError::OtherVersion { .. }) => true,
+            _ => matches!(error, RunError::Refused { .. } | RunError::Journal(JournalError::NoFile { .. })),
         }
     } else if let Some(error) = error.downcast_ref::<ArtefactError>() {
         match error {

@@ -131,15 +131,9 @@ fn function(answer: KnownAnswer) -> String {
         }
         text.push_str(&format!("\n{parameters}\n"));
     }
-    text.push_str(&inputs(&function));
-    text.push_str(&exact(&function));
-    text
-}
-
-fn inputs(function: &KnownFunction) -> String {
     let mut inputs =
         table(&["factor", "distribution", "mean", "sd", "where no factor", "must be", "meaning"], &[0, 1, 5, 6]);
-    for input in known_inputs(function) {
+    for input in known_inputs(&function) {
         let Some(law) = &input.distribution else { continue };
         inputs.add_row([
             input.name.clone(),
@@ -151,7 +145,8 @@ fn inputs(function: &KnownFunction) -> String {
             input.description.clone(),
         ]);
     }
-    format!("\n{inputs}\n")
+    text.push_str(&format!("\n{inputs}\n{}", exact(&function)));
+    text
 }
 
 fn exact(function: &KnownFunction) -> String {

@@ -8,7 +8,7 @@ use super::progress::Meter;
 use super::stop::on_signal;
 use super::{DesignChanges, Threads};
 use crate::reproduce::claims::claims;
-use crate::reproduce::figures::{animation, figures};
+use crate::reproduce::figures::{coulomb, figures};
 use crate::reproduce::percentages::percentages;
 use crate::reproduce::{Effort, QUICK, Reproduced, Reproduction, document, studies};
 
@@ -54,7 +54,7 @@ pub fn reproduce(arguments: &Arguments) -> anyhow::Result<()> {
         Reproduction { effort, studies: run_studies(&overrides, threads)?, ..Reproduction::default() };
     if arguments.only != Some(Topic::Claims) {
         reproduction.figures = figures(&reproduction.studies, effort)?;
-        reproduction.animation = Some(animation()?);
+        reproduction.animation = Some(coulomb()?);
     }
     if arguments.only != Some(Topic::Figures) {
         reproduction.claims = claims(&reproduction.studies, effort)?;

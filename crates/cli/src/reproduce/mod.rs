@@ -17,11 +17,11 @@ use apportion_files::StudyError;
 use apportion_report::chart::{Colour, Stroke};
 use claims::Claim;
 pub use document::document;
-use figures::{Animation, PaperFigure};
+use figures::PaperFigure;
 pub use papers::published;
 use percentages::Percentages;
 
-use crate::scene::law_colour;
+use crate::scene::{SceneStory, law_colour};
 
 /// How much is computed.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -115,8 +115,8 @@ pub struct Reproduction {
     pub studies: Vec<Reproduced>,
     /// The figures of the papers, if asked for.
     pub figures: Vec<PaperFigure>,
-    /// The animation, if figures were asked for.
-    pub animation: Option<Animation>,
+    /// The animated scene, if figures were asked for.
+    pub animation: Option<SceneStory>,
     /// The claims with their verdicts, if asked for.
     pub claims: Vec<Claim>,
     /// Our shares and the printed percentages, if claims were asked for.

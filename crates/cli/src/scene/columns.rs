@@ -62,6 +62,15 @@ pub fn scene_json(story: &SceneStory) -> String {
 pub(super) fn scene_value(story: &SceneStory) -> Value {
     let setting: Vec<Value> =
         story.setting.iter().map(|(label, value)| json!({ "label": label, "value": value })).collect();
+    let numbers = COLUMNS.iter().map(|(name, factor, read)| {
+        let values: Vec<f64> = story.samples.iter().map(|sample| factor * read(sample)).collect();
+        ((*name).to_owned(), json!(values))
+    });
+    let flags = FLAGS.iter().map(|(name, read)| {
+        let values: Vec<bool> = story.samples.iter().map(read).collect();
+        ((*name).to_owned(), json!(values))
+    });
+    let samples: Map<String, Value> = numbers.chain(flags).collect();
     let (scene, critical) = (&story.scene, &story.critical);
     let nano = |value: f64| json!(NANO * value);
     json!({
@@ -84,20 +93,8 @@ pub(super) fn scene_value(story: &SceneStory) -> Value {
             "lateral_force_nN": nano(critical.lateral_force),
             "normal_force_nN": nano(critical.normal_force),
         },
-        "samples": samples(&story.samples),
+        "samples": samples,
     })
-}
-
-fn samples(samples: &[SceneSample]) -> Map<String, Value> {
-    let numbers = COLUMNS.iter().map(|(name, factor, read)| {
-        let values: Vec<f64> = samples.iter().map(|sample| factor * read(sample)).collect();
-        ((*name).to_owned(), json!(values))
-    });
-    let flags = FLAGS.iter().map(|(name, read)| {
-        let values: Vec<bool> = samples.iter().map(read).collect();
-        ((*name).to_owned(), json!(values))
-    });
-    numbers.chain(flags).collect()
 }
 
 #[cfg(test)]

@@ -73,10 +73,8 @@ enum Letter {
         threads: usize,
         inboxes: Vec<Sender<Vec<u8>>>,
     },
-    Request {
-        worker: usize,
-        bytes: Vec<u8>,
-    },
+    /// Bytes for a worker.
+    Request(usize, Vec<u8>),
     Stop,
 }
 
@@ -98,7 +96,7 @@ impl RemoteWorkers for Others {
     }
 
     fn send(&self, worker: usize, bytes: Vec<u8>) -> io::Result<()> {
-        self.letters.send(Letter::Request { worker, bytes }).map_err(|_| lost())
+        self.letters.send(Letter::Request(worker, bytes)).map_err(|_| lost())
     }
 
     fn receive(&self, worker: usize, patience: Duration) -> io::Result<Option<Vec<u8>>> {
@@ -168,7 +166,7 @@ fn carry(world: &SimpleCommunicator, outbox: &Receiver<Letter>) {
                         broadcast(world, &mut [setup.len() as u64][..]);
                         broadcast(world, &mut setup.clone()[..]);
                     }
-                    Letter::Request { worker, bytes } => {
+                    Letter::Request(worker, bytes) => {
                         (messages, bytes_in_all) = (messages + 1, bytes_in_all + bytes.len());
                         let rank = (1 + worker / per_rank) as i32;
                         world.process_at_rank(rank).send_with_tag(&bytes[..], (worker % per_rank) as Tag);

@@ -1,4 +1,4 @@
-//! The basis of the checks: the physics, the nominal scene, and the box of the papers' general study.
+//! The basis of the checks: the physics, the nominal scene, the box of the papers' general study, and the shape of curves.
 
 use apportion::design::SobolSequence;
 use apportion::space::Space;
@@ -8,7 +8,6 @@ use apportion_afm::history::{History, history};
 use apportion_afm::modes::Pushing;
 use apportion_afm::{Critical, Failure, Fidelity, FrictionLaw, Options, Parameter, Scene, critical_force, edge_unit};
 
-use super::curve::{Curve, grid};
 use super::judge::{Holding, Share, number};
 use crate::reproduce::papers::Words;
 use crate::reproduce::{Effort, Friction, Reproduced, general_study};
@@ -209,4 +208,101 @@ pub(super) fn exact(friction: FrictionLaw) -> Options {
 /// Options of the equations of motion, to 1e-6 of the force.
 pub(super) fn in_motion(friction: FrictionLaw) -> Options {
     Options { friction, fidelity: Fidelity::Dynamic, ..Options::default() }
+}
+
+/// A quantity over a rising grid.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Curve {
+    pub x: Vec<f64>,
+    pub y: Vec<f64>,
+}
+
+/// Returns `count` evenly spaced values from `low` to `high`, both included.
+pub(super) fn grid((low, high): (f64, f64), count: usize) -> Vec<f64> {
+    let last = (count - 1) as f64;
+    (0..count).map(|i| low + (high - low) * (i as f64 / last)).collect()
+}
+
+impl Curve {
+    pub fn first(&self) -> f64 {
+        self.y[0]
+    }
+
+    pub fn last(&self) -> f64 {
+        self.y[self.y.len() - 1]
+    }
+
+    /// Returns whether every value is higher than the one before.
+    pub fn rises(&self) -> bool {
+        self.y.windows(2).all(|pair| pair[1] > pair[0])
+    }
+
+    /// Returns whether every value is lower than the one before.
+    pub fn falls(&self) -> bool {
+        self.y.windows(2).all(|pair| pair[1] < pair[0])
+    }
+
+    /// Returns the largest value minus the smallest, in units of the mean.
+    pub fn spread(&self) -> f64 {
+        let mean = sum::mean(&self.y);
+        self.extent() / mean.abs()
+    }
+
+    fn extent(&self) -> f64 {
+        let (low, high) = self.y.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &y| (l.min(y), h.max(y)));
+        high - low
+    }
+
+    /// Returns the largest increase of steepness from one step to the next, in units of the mean steepness; 0 if the
+    /// curve flattens everywhere.
+    pub fn steepens(&self) -> f64 {
+        let steps: Vec<f64> =
+            self.x.windows(2).zip(self.y.windows(2)).map(|(x, y)| ((y[1] - y[0]) / (x[1] - x[0])).abs()).collect();
+        let mean = ((self.last() - self.first()) / (self.x[self.x.len() - 1] - self.x[0])).abs();
+        steps.windows(2).fold(0.0, |most: f64, pair| most.max((pair[1] - pair[0]) / mean))
+    }
+
+    /// Returns the largest distance from the least-squares line, in units of the whole change, and R^2 of that line.
+    pub fn bend(&self) -> (f64, f64) {
+        let x = (&self.x[..], sum::mean(&self.x));
+        let y = (&self.y[..], sum::mean(&self.y));
+        let slope = sum::centred_product(x, y) / sum::centred_product(x, x);
+        let off: Vec<f64> = self.x.iter().zip(&self.y).map(|(x_i, y_i)| y_i - y.1 - slope * (x_i - x.1)).collect();
+        let rest = sum::centred_product((&off, 0.0), (&off, 0.0));
+        let farthest = off.iter().fold(0.0, |far: f64, off| far.max(off.abs()));
+        (farthest / self.extent(), 1.0 - rest / sum::centred_product(y, y))
+    }
+
+    /// Returns the mean elasticity, ln(y_n/y_0)/ln(x_n/x_0): the power of x that joins the ends.
+    pub fn elasticity(&self) -> f64 {
+        libm::log(self.last() / self.first()) / libm::log(self.x[self.x.len() - 1] / self.x[0])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn curve(range: (f64, f64), f: impl Fn(f64) -> f64) -> Curve {
+        let x = grid(range, 21);
+        Curve { y: x.iter().map(|&x| f(x)).collect(), x }
+    }
+
+    #[test]
+    fn shapes_are_distinguishable() {
+        let line = curve((1.0, 3.0), |x| 2.0 * x + 1.0);
+        assert!(line.rises() && !line.falls());
+        // Rounding alone bends a straight line.
+        assert!(line.bend().0 < 1e-14 && line.bend().1 > 1.0 - 1e-14 && line.steepens() < 1e-12);
+        let inverse = curve((1.0, 3.0), |x| 1.0 / (x * x));
+        assert!(inverse.falls() && inverse.steepens() == 0.0 && inverse.bend().0 > 0.05);
+        // x^3 has the elasticity 3 between any ends.
+        let cubic = curve((1.0, 3.0), |x| x * x * x);
+        assert!((cubic.elasticity() - 3.0).abs() < 1e-14 && cubic.steepens() > 0.1);
+        let flat = curve((0.0, 1.0), |x| 1.0 + 1e-6 * x);
+        assert!((flat.spread() - 1e-6).abs() < 1e-11);
+        let wave = curve((0.0, 6.0), libm::sin);
+        assert!(!wave.rises() && !wave.falls());
+        assert_eq!(grid((0.0, 1.0), 3), [0.0, 0.5, 1.0]);
+    }
 }

@@ -2,8 +2,7 @@
 
 use apportion_afm::{Failure, FrictionLaw, Options, Scene};
 
-use super::bench::{Bench, Sizes, Sweep, closed, exact};
-use super::curve::Curve;
+use super::bench::{Bench, Curve, Sizes, Sweep, closed, exact};
 use super::judge::{Answer, change, nano, number};
 use crate::reproduce::FRICTIONS;
 

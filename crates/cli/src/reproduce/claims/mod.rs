@@ -6,7 +6,6 @@
 //! verdicts change.
 
 mod bench;
-mod curve;
 mod dimensions;
 mod environment;
 mod in_time;
@@ -76,14 +75,6 @@ impl Verdict {
             Self::Contradicted { .. } => "contradicted",
         }
     }
-
-    /// Returns what in the same paper contradicts it; empty for other verdicts.
-    pub fn own(&self) -> &str {
-        match self {
-            Self::Contradicted { own } => own,
-            Self::Reproduced | Self::NotReproduced => "",
-        }
-    }
 }
 
 /// A function that checks a claim.
@@ -109,7 +100,7 @@ const CHECKS: [(&str, Check); 25] = [
     ("adhesion", environment::adhesion),
     ("constant_parameters", environment::constant_parameters),
     ("dimensional_order", |bench| shares::order(bench, "dimensional")),
-    ("dimensional_percentage", shares::dimensional_percentage),
+    ("dimensional_percentage", |bench| shares::printed_percentages(bench, "dimensional", None)),
     ("most_effective", shares::most_effective),
     ("environmental_order", |bench| shares::order(bench, "environmental")),
     ("environmental_percentages", shares::environmental_percentages),

@@ -6,8 +6,7 @@ use apportion_afm::modes::{Mode, Onset, TipForce};
 use apportion_afm::{Failure, FrictionLaw, Scene};
 
 use super::Verdict;
-use super::bench::{Bench, Sweep, closed, exact, parameter};
-use super::curve::grid;
+use super::bench::{Bench, Sweep, closed, exact, grid, parameter};
 use super::judge::{Answer, change, nano, number, over_ranges};
 
 /// Distance of the start of the mode diagram above the angle of friction (rad): at that angle F* is unbounded.

@@ -111,9 +111,9 @@ fn shares_in_words(indices: &[IndexRecord], order: &OrderVerdict<'_>) -> String 
     format!("{}{rest}", visible.join(", "))
 }
 
-/// Checks a claim about printed percentages: all must agree with ours under one meaning. A statement of the same paper
+/// Checks a claim about printed percentages, such as the second half of claim 17: all must agree with ours under one meaning. A statement of the same paper
 /// may contradict the others.
-fn printed_percentages(
+pub(super) fn printed_percentages(
     bench: &Bench<'_>,
     group: &'static str,
     contradicted_by: Option<String>,
@@ -144,11 +144,6 @@ fn printed_percentages(
     };
     let words = vec![("shares", shares), studies(bench, group)?, ("close", CLOSE.to_string())];
     Ok(Answer { verdict, range: range.to_owned(), words })
-}
-
-/// Checks the second half of claim 17.
-pub(super) fn dimensional_percentage(bench: &Bench<'_>) -> anyhow::Result<Answer> {
-    printed_percentages(bench, "dimensional", None)
 }
 
 /// Checks LG's statement on the width in claim 17. A printed percentage above half is that of the main factor.

@@ -3,9 +3,10 @@
 use apportion_report::document::{Figure, Link, Part, Section};
 
 use super::chart_file;
-use crate::reproduce::figures::{ANIMATION_STEM, Animation, PaperFigure};
+use crate::reproduce::figures::{ANIMATION_STEM, PaperFigure};
 use crate::reproduce::papers::papers;
 use crate::reproduce::{GROUPS, Reproduction};
+use crate::scene::{SceneStory, player_page};
 
 /// The common sentences of the captions of all sweeps.
 const RUNGS: &str = "The curves of CHK and LG are those of the closed formulas. Unless a caption states otherwise, the quasi-static \
@@ -80,8 +81,8 @@ fn shown_together(figures: &[PaperFigure], group: &str) -> Option<Figure> {
 }
 
 /// Embeds the animation of the push.
-fn moving(animation: &Animation) -> Part {
-    let html = animation.html.clone();
+fn moving(story: &SceneStory) -> Part {
+    let html = player_page(story);
     let frame = Part::Frame { title: "TS04 fig. 14 as an animation".to_owned(), html };
     let file = |ending: &str| chart_file(ANIMATION_STEM, ending);
     let links = Part::Links(vec![

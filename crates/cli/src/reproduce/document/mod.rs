@@ -17,6 +17,7 @@ use super::papers::{Words, filled, papers};
 use super::percentages::{self, percentages_csv};
 use super::shares::shares_table;
 use super::{Effort, Reproduced, Reproduction, general_study};
+use crate::scene::{player_page, scene_json, scene_table};
 
 /// Builds the document about `reproduction`; missing parts are omitted. Except for the times in the results, its files
 /// are the same for every run of the same version.
@@ -63,10 +64,10 @@ fn files(reproduction: &Reproduction) -> Vec<DataFile> {
         add("claims.json".to_owned(), claims_json(&reproduction.claims));
         add("percentages.csv".to_owned(), percentages_csv(&reproduction.percentages));
     }
-    if let Some(animation) = &reproduction.animation {
-        for (ending, text) in [("html", &animation.html), ("csv", &animation.csv), ("json", &animation.json)] {
-            add(chart_file(ANIMATION_STEM, ending), text.clone());
-        }
+    if let Some(story) = &reproduction.animation {
+        add(chart_file(ANIMATION_STEM, "html"), player_page(story));
+        add(chart_file(ANIMATION_STEM, "csv"), scene_table(story).csv());
+        add(chart_file(ANIMATION_STEM, "json"), scene_json(story));
     }
     for figure in &reproduction.figures {
         add(chart_file(figure.stem, "csv"), figure.csv.clone());

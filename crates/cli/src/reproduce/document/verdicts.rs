@@ -33,7 +33,7 @@ pub(super) fn table(claims: &[Claim]) -> Part {
         .value("statement", |claim| claim.statement)
         .text("as the paper shows it", verdict)
         .named("verdict")
-        .file("own", |claim| claim.verdict.own())
+        .file("own", |claim| if let Verdict::Contradicted { own } = &claim.verdict { own } else { "" })
         .text("over the whole ranges", |claim| &claim.range)
         .named("range")
         .file("finding", |claim| &claim.finding)

@@ -9,7 +9,7 @@ use apportion_report::format::{force, length, time};
 use super::Drawn;
 use crate::scene::charts::{contacts, forces, positions, pushing};
 use crate::scene::simulation::scene_story;
-use crate::scene::{SceneSample, SceneStory, player_page, scene_json, scene_number, scene_table};
+use crate::scene::{SceneSample, SceneStory, scene_number};
 
 /// Duration of the scene in the papers (s).
 pub(super) const DURATION: f64 = 0.4;
@@ -27,7 +27,11 @@ pub(super) fn story(law: FrictionLaw, change: impl FnOnce(&mut Scene)) -> Result
     scene_story("Pushing a gold particle on silicon oxide".to_owned(), &scene, &options, DURATION)
 }
 
-fn coulomb() -> Result<SceneStory, Failure> {
+/// Returns the nominal scene under Coulomb friction, also the animation of TS04 figure 14.
+///
+/// # Errors
+/// [`Failure`] if the scene has no solution.
+pub fn coulomb() -> Result<SceneStory, Failure> {
     story(FrictionLaw::Coulomb, |_| ())
 }
 
@@ -177,24 +181,3 @@ pub(super) fn coefficients() -> Result<Drawn, Failure> {
 
 /// Name of the animation's files without extension.
 pub const ANIMATION_STEM: &str = "ts04-14-animation";
-
-/// The animation of TS04 figure 14, with its data.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Animation {
-    /// A self-contained page.
-    pub html: String,
-    /// Every state.
-    pub csv: String,
-    /// The same, with setting and geometry, in the format `apportion-scene`.
-    pub json: String,
-}
-
-/// Builds the animation of the nominal scene under Coulomb friction as a page. Its charts are among the
-/// [`figures`](super::figures).
-///
-/// # Errors
-/// [`Failure`] if the scene has no solution.
-pub fn animation() -> Result<Animation, Failure> {
-    let story = story(FrictionLaw::Coulomb, |_| ())?;
-    Ok(Animation { html: player_page(&story), csv: scene_table(&story).csv(), json: scene_json(&story) })
-}

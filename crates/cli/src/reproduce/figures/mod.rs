@@ -1,6 +1,6 @@
 //! Every computed figure of the papers, drawn from our results.
 //!
-//! [`figures`] draws all of them, each with its data; [`animation`] builds the page of the animated one. The sweeps use
+//! [`figures`] draws all of them, each with its data; [`coulomb`] returns the animated one. The sweeps use
 //! the ranges of the papers' studies and the defaults for everything else; the histories are those of the nominal
 //! scene. Only the papers' statements are entered by hand: captions are computed from the drawn data.
 
@@ -12,7 +12,7 @@ mod tests;
 
 use apportion_afm::Failure;
 use apportion_report::chart::Chart;
-pub use history::{ANIMATION_STEM, Animation, animation};
+pub use history::{ANIMATION_STEM, coulomb};
 use rayon::prelude::*;
 
 use super::papers::{PrintedFigure, papers};

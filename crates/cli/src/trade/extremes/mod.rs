@@ -22,8 +22,9 @@ use apportion_files::ExpressionSubject;
 pub use document::{ExtremesFile, extremes_document};
 use map::Reasons;
 pub use map::{Extremes, Grid, Kind, Outcome, Reason, Tally};
-use points::{Point, grids, points};
+use points::{grids, points};
 use precise::reference;
+use serde_json::{Map, Value};
 
 /// The size of the search.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -124,6 +125,9 @@ pub fn extremes(job: &ExtremesJob<'_>) -> Result<Extremes, RunError> {
     };
     let mut reasons = Reasons::new();
     for (point, findings) in points.iter().zip(found) {
+        let inputs = space.factors().iter().zip(&point.x);
+        let inputs: Map<String, Value> =
+            inputs.map(|(factor, &x)| (factor.name.clone(), factor.unit().from_si(x).into())).collect();
         for (output, finding) in model.outputs().iter().zip(findings) {
             let in_unit = |value: Option<f64>| value.map(|value| output.unit.from_si(value));
             let reason = Reason {
@@ -132,7 +136,7 @@ pub fn extremes(job: &ExtremesJob<'_>) -> Result<Extremes, RunError> {
                 reason: finding.reason,
                 count: 0,
                 place: point.place.clone(),
-                inputs: inputs(&space, point),
+                inputs: inputs.clone(),
                 output: output.name.to_string(),
                 value: in_unit(finding.value),
                 reference: in_unit(finding.reference.filter(|value| value.is_finite())),
@@ -143,11 +147,6 @@ pub fn extremes(job: &ExtremesJob<'_>) -> Result<Extremes, RunError> {
     map.reasons = reasons.into_values().collect();
     map.reasons.sort_by_key(|reason| (reason.outcome != Outcome::Wrong, reason.kind, Reverse(reason.count)));
     Ok(map)
-}
-
-fn inputs(space: &Space, point: &Point) -> serde_json::Map<String, serde_json::Value> {
-    let inputs = space.factors().iter().zip(&point.x);
-    inputs.map(|(factor, &x)| (factor.name.clone(), factor.unit().from_si(x).into())).collect()
 }
 
 /// The outcome of an output at a point; its numbers in SI units.

@@ -182,12 +182,8 @@ impl Truth {
         let study = job.study;
         if let Some((first, total)) = study.subject().exact_indices(study.space()) {
             let indices = first.into_iter().zip(total).map(|(first, total)| [first, total]).collect();
-            let found = TruthFound {
-                words: "the exact indices of the function".to_owned(),
-                error: Some(0.0),
-                runs: 0,
-                seconds: 0.0,
-            };
+            let words = "the exact indices of the function".to_owned();
+            let found = TruthFound { words, error: Some(0.0), runs: 0, seconds: 0.0 };
             return Ok(Self { outputs: vec![Some(indices)], found });
         }
         let rung = rungs(study).into_iter().rfind(|rung| rung.is_finest);
