@@ -33,11 +33,11 @@ pub fn bad_input(reason: impl Display) -> anyhow::Error {
 /// Results that depend on a file of the user.
 pub trait OfFile<T> {
     /// Says which file was wrong.
-    fn of(self, file: &Path) -> anyhow::Result<T>;
+    fn in_file(self, file: &Path) -> anyhow::Result<T>;
 }
 
 impl<T, E: Display> OfFile<T> for Result<T, E> {
-    fn of(self, file: &Path) -> anyhow::Result<T> {
+    fn in_file(self, file: &Path) -> anyhow::Result<T> {
         self.map_err(|error| bad_input(format!("{}: {error}", file.display())))
     }
 }

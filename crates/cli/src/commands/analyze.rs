@@ -88,12 +88,12 @@ pub fn analyze(arguments: &Arguments) -> anyhow::Result<()> {
 /// The outputs of a design that `sample` wrote.
 fn of_design(arguments: &Arguments) -> anyhow::Result<Read> {
     let path = manifest_path(arguments)?;
-    let text = read_text(&path).map_err(|error| format!("cannot read the manifest: {error}")).of(&path)?;
-    let manifest = Manifest::parse(&text).of(&path)?;
+    let text = read_text(&path).map_err(|error| format!("cannot read the manifest: {error}")).in_file(&path)?;
+    let manifest = Manifest::parse(&text).in_file(&path)?;
     let missing = if arguments.missing_as_failed { MissingOutputs::Failed } else { MissingOutputs::Refuse };
     let request = AnswersRequest { manifest: &manifest, outputs: &arguments.outputs, units: &arguments.units, missing };
-    let mut reader = open_table(&arguments.data, &arguments.table.options(&[])).of(&arguments.data)?;
-    let answers = read_answers(reader.as_mut(), &request).of(&arguments.data)?;
+    let mut reader = open_table(&arguments.data, &arguments.table.options(&[])).in_file(&arguments.data)?;
+    let answers = read_answers(reader.as_mut(), &request).in_file(&arguments.data)?;
     say_of_table(&arguments.data, &[], reader.is_unended());
     match answers.compared.len() {
         0 => say("note: the file has no points: its rows are assumed to be in the order of the design"),
@@ -150,18 +150,18 @@ fn resamples(text: &str) -> Result<usize, String> {
 /// The outputs in a table in SALib's order, as the runs of a study.
 fn of_salib(arguments: &Arguments) -> anyhow::Result<Read> {
     let path = &*arguments.data;
-    let mut reader = open_table(path, &arguments.table.options(&[])).of(path)?;
+    let mut reader = open_table(path, &arguments.table.options(&[])).in_file(path)?;
     let problem = problem(&arguments.salib)?;
     let known = problem.as_ref().map(|problem| problem.inputs.clone());
-    let (inputs, outputs) = columns(reader.as_ref(), known, &arguments.outputs).of(path)?;
+    let (inputs, outputs) = columns(reader.as_ref(), known, &arguments.outputs).in_file(path)?;
     let problem = match problem {
         Some(problem) => problem,
-        None => SalibProblem::of_inputs(inputs.iter().map(|(_, name)| name.clone()).collect()).of(path)?,
+        None => SalibProblem::of_inputs(inputs.iter().map(|(_, name)| name.clone()).collect()).in_file(path)?,
     };
     let wanted: Vec<(usize, ColumnKind)> =
         inputs.iter().chain(&outputs).map(|(place, name)| (*place, ColumnKind::numbers(name))).collect();
     let (mut all, mut part) = (vec![Vec::new(); wanted.len()], vec![Vec::new(); wanted.len()]);
-    while reader.read(&wanted, 1 << 13, &mut part).of(path)? > 0 {
+    while reader.read(&wanted, 1 << 13, &mut part).in_file(path)? > 0 {
         all.iter_mut().zip(&part).for_each(|(all, part)| all.extend_from_slice(part));
     }
     say_of_table(path, &[], reader.is_unended());
@@ -171,7 +171,7 @@ fn of_salib(arguments: &Arguments) -> anyhow::Result<Read> {
     let inputs: Vec<(String, Vec<f64>)> = inputs.into_iter().map(|(_, name)| name).zip(all).collect();
     for (name, column) in &inputs {
         if let Some(row) = column.iter().position(|value| !value.is_finite()) {
-            return Err(format!("row {}, column `{name}`: the input is missing", row + 1)).of(path);
+            return Err(format!("row {}, column `{name}`: the input is missing", row + 1)).in_file(path);
         }
     }
     let SalibArguments { second_order, first_order_only, resamples, seed, .. } = arguments.salib;
@@ -182,12 +182,12 @@ fn of_salib(arguments: &Arguments) -> anyhow::Result<Read> {
     };
     // None if the file does not hold the inputs.
     let points = Some(&*inputs).filter(|inputs| !inputs.is_empty());
-    let layout = recognise(outputs[0].values.len(), &problem.members, asked, points).of(path)?;
+    let layout = recognise(outputs[0].values.len(), &problem.members, asked, points).in_file(path)?;
     match points {
         Some(_) => say("the points in the file have the layout of SALib"),
         None => say("note: the file has no points: its rows are assumed to be in the order of SALib"),
     }
-    let (study, store) = salib_study(&stem(path), &problem, &outputs, layout, (resamples, seed)).of(path)?;
+    let (study, store) = salib_study(&stem(path), &problem, &outputs, layout, (resamples, seed)).in_file(path)?;
     let unlikely = |output: &Column| Unlikely::find(&output.values).map(|found| found.in_table(found.first + 1));
     Ok(Read { study, store, unlikely: outputs.iter().map(unlikely).collect() })
 }
@@ -204,10 +204,10 @@ fn problem(arguments: &SalibArguments) -> anyhow::Result<Option<SalibProblem>> {
     if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml")) {
         let study = apportion_files::load_study(path, &[])?;
         let names = study.space().factors().iter().map(|factor| factor.name.clone()).collect();
-        return SalibProblem::of_inputs(names).map(Some).of(path);
+        return SalibProblem::of_inputs(names).map(Some).in_file(path);
     }
-    let text = read_text(path).map_err(|error| format!("cannot read the problem: {error}")).of(path)?;
-    SalibProblem::parse(&text).map(Some).of(path)
+    let text = read_text(path).map_err(|error| format!("cannot read the problem: {error}")).in_file(path)?;
+    SalibProblem::parse(&text).map(Some).in_file(path)
 }
 
 /// Columns with their names.

@@ -37,7 +37,7 @@ pub struct Arguments {
 pub fn evaluate(arguments: &Arguments) -> anyhow::Result<()> {
     let study = arguments.study.load_with(&[])?;
     let options = arguments.table.options(&arguments.names);
-    let mut rows = open_table(&arguments.points, &options).of(&arguments.points)?;
+    let mut rows = open_table(&arguments.points, &options).in_file(&arguments.points)?;
     for input in [&arguments.points, &arguments.study.study] {
         if same_file(input, &arguments.output) {
             let output = arguments.output.display();
@@ -56,7 +56,7 @@ pub fn evaluate(arguments: &Arguments) -> anyhow::Result<()> {
         result.as_ref().map(drop).map_err(|_| std::io::Error::other("incomplete"))
     });
     match outcome {
-        Some(Err(EvaluateError::Points(error))) => Err(error).of(&arguments.points),
+        Some(Err(EvaluateError::Points(error))) => Err(error).in_file(&arguments.points),
         Some(Err(error @ EvaluateError::Halted { .. })) => Err(error.into()),
         Some(Err(error)) => Err(anyhow!("{}: {error}", arguments.output.display())),
         Some(Ok(evaluated)) => {

@@ -57,18 +57,18 @@ fn column_name(text: &str) -> Result<String, String> {
 
 pub fn given_data(arguments: &Arguments) -> anyhow::Result<()> {
     let path = &*arguments.table;
-    let bytes = read_whole(path).map_err(|error| format!("cannot read the table: {error}")).of(path)?;
+    let bytes = read_whole(path).map_err(|error| format!("cannot read the table: {error}")).in_file(path)?;
     let missing = if arguments.drop_missing { Missing::Drop } else { Missing::Refuse };
     let study = arguments.study.as_deref().map(|study| apportion_files::load_study(study, &[])).transpose()?;
     let kinds: Vec<ColumnKind> =
         study.iter().flat_map(|study| study.space().factors().iter().map(factor_column)).collect();
     let selection = Selection { outputs: &arguments.outputs, inputs: &arguments.inputs, missing, kinds: &kinds };
     let sha256 = sha256(&bytes);
-    let mut rows = table_of_bytes(bytes, &arguments.reading.options(&arguments.names)).of(path)?;
-    let Table { inputs, outputs, dropped, skipped } = read_table(rows.as_mut(), &selection).of(path)?;
+    let mut rows = table_of_bytes(bytes, &arguments.reading.options(&arguments.names)).in_file(path)?;
+    let Table { inputs, outputs, dropped, skipped } = read_table(rows.as_mut(), &selection).in_file(path)?;
     let names: Vec<String> = skipped.iter().map(|column| column.name.clone()).collect();
     say_of_table(path, &names, rows.is_unended());
-    let indices = analyse(&inputs, &outputs, arguments.seed).of(path)?;
+    let indices = analyse(&inputs, &outputs, arguments.seed).in_file(path)?;
     let known = study.as_ref().filter(|_| arguments.surrogate);
     let distributions = known.map(|study| distributions(study, &inputs)).transpose()?;
     let fit = || surrogate_indices(&inputs, &outputs, &indices, distributions.as_deref());

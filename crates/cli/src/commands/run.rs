@@ -89,7 +89,7 @@ pub fn run(arguments: &Arguments, others: Option<&dyn Ranks>) -> anyhow::Result<
             let why = "with `accuracy` the run chooses its rows: run again with the lines that the result shows";
             return Err(bad_input(format!("--save-outputs: {why}")));
         }
-        let format = Format::from_path(path).of(path)?;
+        let format = Format::from_path(path).in_file(path)?;
         prepare_file(path)?;
         saved = Some((path, format, Store::new(study.design(), study.model().as_ref())));
     }

@@ -40,7 +40,7 @@ pub fn sample(arguments: &Arguments) -> anyhow::Result<()> {
     let kind = if arguments.random.is_some() { "random" } else { "design" };
     let default = || PathBuf::from(format!("{}-{kind}.csv", study.name()));
     let path = arguments.output.clone().unwrap_or_else(default);
-    let format = Format::from_path(&path).of(&path)?;
+    let format = Format::from_path(&path).in_file(&path)?;
     let beside = Manifest::path_for(&path);
     if !arguments.force && path.is_file() && !is_own(&path, study.name()) {
         let what = "exists already, and is not a design that `sample` wrote of this study";

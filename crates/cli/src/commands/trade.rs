@@ -54,10 +54,10 @@ fn parse_seconds(text: &str) -> Result<f64, String> {
 pub fn trade(arguments: &Arguments) -> anyhow::Result<()> {
     let study = arguments.study.load_with(&[])?;
     if !study.space().dependences().is_empty() {
-        return Err(bad_input(format!(
+        return Err(bad_input(
             "factors of this study depend on each other, but this command compares surrogates, cheaper models and samplers, \
-             which need independent factors: expected a study without [[dependence]]"
-        )));
+             which need independent factors: expected a study without [[dependence]]",
+        ));
     }
     let artefacts = arguments.output.prepared(study.name())?;
     if arguments.extremes {
