@@ -102,7 +102,6 @@ fn a_second_time_gives_the_same() {
     for (one, other) in again.iter().zip(QUICK.iter()) {
         assert!(one.csv == other.csv && one.chart.svg() == other.chart.svg(), "{}", one.stem);
     }
-    assert!(animation().unwrap() == animation().unwrap());
 }
 
 /// Under LuGre friction F_cr is c E w t^3 L^-2; Coulomb friction also has the shear term tau pi a^2.
@@ -161,12 +160,4 @@ fn data_have_a_row_for_every_point_drawn() {
         let cells = header.split(',').count();
         assert!(figure.csv.lines().all(|line| line.split(',').count() == cells), "{}", figure.stem);
     }
-}
-
-#[test]
-fn the_animation_is_one_page_next_to_its_data() {
-    let animation = animation().unwrap();
-    assert!(!animation.html.contains("<h2>Charts</h2>"));
-    assert!(animation.csv.starts_with("time_s,"));
-    assert!(animation.json.contains("apportion-scene"));
 }
