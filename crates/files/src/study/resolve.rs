@@ -84,28 +84,12 @@ fn model_kind(context: &Context<'_>, model: Option<&At<String>>) -> Result<Model
         let problem = match name.contains(['.', '/', '\\']) {
             true => Problem::with_help(
                 format!("unknown model `{name}`: a program of your own is a `command`"),
-                format!("write model = \"command\" and command = [{}]", words_of_program(name)),
+                "write model = \"command\" and command = [\"python3\", \"my_model.py\"]",
             ),
             false => unknown_name("model", name, all.iter().map(|kind| kind.name)),
         };
         context.fault(model.span(), problem)
     })
-}
-
-/// Suggests the list that starts a program file.
-fn words_of_program(file: &str) -> String {
-    let ending = file.rsplit_once('.').map_or("", |(_, ending)| ending).to_lowercase();
-    let interpreter = match ending.as_str() {
-        "py" => "\"python3\", ",
-        "r" => "\"Rscript\", ",
-        "jl" => "\"julia\", ",
-        "sh" => "\"bash\", ",
-        _ => "",
-    };
-    // A shell command line is a list of words here.
-    let words: Vec<String> = file.split_whitespace().map(|word| format!("{word:?}")).collect();
-    let interpreter = if words.len() > 1 { "" } else { interpreter };
-    format!("{interpreter}{}", words.join(", "))
 }
 
 /// Refuses tables of other models: `[afm]`, `[function]`, `[expression]` and `command` belong to one kind each.

@@ -236,7 +236,7 @@ fn refuse_repeated(what: &'static str, names: &[String]) -> Result<(), Problem> 
 
 /// Formats a key of TOML, in quotes if it needs them.
 fn bare_or_quoted(key: &str) -> String {
-    if super::forms::is_bare(key) { key.to_owned() } else { toml::Value::String(key.to_owned()).to_string() }
+    toml_edit::Key::new(key).display_repr().into_owned()
 }
 
 #[cfg(test)]
