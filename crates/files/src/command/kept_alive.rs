@@ -7,17 +7,16 @@
 mod rows;
 mod session;
 
-use std::process::ExitStatus;
 use std::sync::atomic::Ordering;
 use std::time::Duration;
 
 use apportion::model::{Batch, GiveUp, RowFailure, RunContext, Worker};
-use apportion::text::{masked, seconds};
+use apportion::text::seconds;
 use rows::Rows;
 use session::{LONGEST, Lookup, Session};
 
 use super::process::{Ending, Event, Process};
-use super::program::status_in_words;
+use super::program::ended_in_words;
 use super::protocol::{is_answer_without_number, parse_answer};
 use super::row::RowWriter;
 use super::{CommandModel, Protocol, State};
@@ -217,17 +216,13 @@ impl<'a> KeptAliveWorker<'a> {
 
     fn reason(&self, fault: Fault, session: &mut Session) -> String {
         match fault {
-            Fault::Closed(ending) if ending.by_itself && session.is_closed && is_success(ending.status) => {
+            Fault::Closed(ending) if ending.by_itself && session.is_closed && ending.is_success() => {
                 match &session.stray {
                     Some(words) => format!("not an answer: {words}"),
                     None => "the program gave no answer to the row".to_owned(),
                 }
             }
-            Fault::Closed(ending) if ending.by_itself => {
-                let last = masked(&ending.last_words);
-                let last = if last.is_empty() { last } else { format!(": {last}") };
-                format!("the program ended with {}{last}", status_in_words(ending.status))
-            }
+            Fault::Closed(ending) if ending.by_itself => ended_in_words(ending.status, &ending.last_words),
             Fault::Closed(_) => "the program closed its standard output".to_owned(),
             Fault::Silent => {
                 session.process.end(false);
@@ -242,10 +237,6 @@ impl<'a> KeptAliveWorker<'a> {
             Fault::GiveUp(give_up) => give_up.reason.to_string(),
         }
     }
-}
-
-fn is_success(status: Option<ExitStatus>) -> bool {
-    status.is_some_and(|status| status.success())
 }
 
 impl Worker for KeptAliveWorker<'_> {

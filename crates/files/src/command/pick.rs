@@ -7,8 +7,10 @@ use apportion::text::masked;
 use regex_lite::Regex;
 use serde_json::Value;
 
+use crate::exchange::number;
+
 /// The source of a number, and how it is extracted.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct Pick {
     /// The text that is read.
     pub source: Source,
@@ -76,17 +78,6 @@ pub enum Way {
     Column(String, Match),
     /// A JSON pointer (RFC 6901).
     Pointer(String),
-}
-
-impl PartialEq for Way {
-    fn eq(&self, other: &Self) -> bool {
-        match (self, other) {
-            (Self::Regex(a, m), Self::Regex(b, n)) => a.as_str() == b.as_str() && m == n,
-            (Self::Column(a, m), Self::Column(b, n)) => a == b && m == n,
-            (Self::Pointer(a), Self::Pointer(b)) => a == b,
-            _ => false,
-        }
-    }
 }
 
 /// Maximum number of bytes read from a file.
@@ -197,14 +188,8 @@ impl Way {
                 }
             }
         };
-        number(&found).ok_or_else(|| format!("the text found in {of} is not a number: `{}`", masked(&found)))
+        number(found.trim()).ok_or_else(|| format!("the text found in {of} is not a number: `{}`", masked(&found)))
     }
-}
-
-/// Parses a number as programs write it, including Fortran's `1.5D+03`.
-fn number(text: &str) -> Option<f64> {
-    let text = text.trim();
-    text.parse().ok().or_else(|| text.replace(['D', 'd'], "e").parse().ok())
 }
 
 /// Returns the cell of a column in one row of a CSV table.

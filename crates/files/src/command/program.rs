@@ -5,6 +5,8 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, ExitStatus};
 use std::time::{Duration, Instant};
 
+use apportion::text::masked;
+
 /// A program with its arguments.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Program {
@@ -173,8 +175,14 @@ impl Running {
     }
 }
 
-/// Describes how a program ended.
-pub(super) fn status_in_words(status: Option<ExitStatus>) -> String {
+/// Says how a program ended, with the last line of its standard error.
+pub(super) fn ended_in_words(status: Option<ExitStatus>, last_words: &str) -> String {
+    let last = masked(last_words);
+    let last = if last.is_empty() { last } else { format!(": {last}") };
+    format!("the program ended with {}{last}", status_in_words(status))
+}
+
+fn status_in_words(status: Option<ExitStatus>) -> String {
     let Some(status) = status else { return "an unknown exit status".to_owned() };
     #[cfg(unix)]
     if let Some(signal) = std::os::unix::process::ExitStatusExt::signal(&status) {

@@ -202,23 +202,4 @@ mod tests {
             assert_eq!(is_answer_without_number(protocol, &names(2), line.as_bytes()), is_one, "{line}");
         }
     }
-
-    proptest::proptest! {
-        /// Every line of a program gives a reply with all its values, or none.
-        #[test]
-        fn no_line_panics(
-            line in proptest::collection::vec(proptest::prelude::any::<u8>(), 0..60),
-            near in r#"[\[\]{}",:a-zA-Z0-9.+\\-]{0,40}"#,
-            outputs in 1usize..4,
-        ) {
-            for line in [&line[..], near.as_bytes()] {
-                for protocol in Protocol::ALL {
-                    if let Ok((_, Ok(values))) = parse_answer(protocol, &names(outputs), line) {
-                        proptest::prop_assert_eq!(values.len(), outputs);
-                    }
-                    is_answer_without_number(protocol, &names(outputs), line);
-                }
-            }
-        }
-    }
 }

@@ -19,6 +19,7 @@ pub use answers::{AnswersRequest, MissingOutputs, read_answers};
 pub use error::TableError;
 pub use evaluate::{EvaluateError, Evaluated, evaluate};
 pub use manifest::Manifest;
+pub(crate) use rows::number;
 pub use rows::{Format, ReadOptions, RowReader, open_table};
 pub use sample::{random_design, sample, write_rows};
 pub use save::save_outputs;

@@ -40,7 +40,7 @@ pub struct Formula {
 }
 
 /// A program of the user's own.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct CommandSubject {
     /// The program and how it receives rows.
     pub settings: CommandSettings,

@@ -91,7 +91,7 @@ impl ColumnKind {
         Self { name: name.to_owned(), ..Self::default() }
     }
 
-    fn label(&self, value: f64) -> Option<&str> {
+    pub(crate) fn label(&self, value: f64) -> Option<&str> {
         self.labels.iter().find(|(_, number)| *number == value).map(|(label, _)| label.as_str())
     }
 
@@ -129,7 +129,7 @@ impl ColumnKind {
 }
 
 /// Parses a number as programs print it, including Fortran's `D` before the exponent.
-fn number(cell: &str) -> Option<f64> {
+pub(crate) fn number(cell: &str) -> Option<f64> {
     let of_fortran = || {
         let is_plain = cell.bytes().all(|byte| byte.is_ascii_digit() || b"+-.dD".contains(&byte));
         if is_plain { cell.replace(['d', 'D'], "e").parse().ok() } else { None }

@@ -81,6 +81,7 @@ pub(super) fn subject(
     stated.retain(|(_, value)| !matches!(value, Value::Null) && *value != json!([]) && *value != json!({}));
     let depends_on =
         section.depends_on.iter().map(|typed| existing_file(context, section, typed)).collect::<Result<_, _>>()?;
+    let timeout = section.timeout.as_ref().map(|typed| seconds(context, "timeout", typed)).transpose()?;
     let settings = CommandSettings {
         program: Program { arguments, directory, environment },
         form,
@@ -88,7 +89,7 @@ pub(super) fn subject(
         outputs: all.outputs,
         series: all.series,
         workers: whole(context, "workers", section.workers.as_ref(), 1..=1024)?.map(|number| number as usize),
-        timeout: timeout(context, section)?,
+        timeout: timeout.map(|seconds| Duration::try_from_secs_f64(seconds).unwrap_or(Duration::MAX)),
         retries: whole(context, "retries", section.retries.as_ref(), 0..=100)?.map_or(1, |number| number as u32),
     };
     Ok((CommandSubject { settings, stated, depends_on }, notes))
@@ -177,13 +178,4 @@ fn whole(
     }
     let expected = format!("a whole number from {} to {}", range.start(), range.end());
     context.refuse(typed, key, &expected, typed.get_ref().to_string())
-}
-
-fn timeout(context: &Context<'_>, section: &CommandSection) -> Result<Option<Duration>, Fault> {
-    let Some(typed) = &section.timeout else { return Ok(None) };
-    let seconds = seconds(context, "timeout", typed)?;
-    match Duration::try_from_secs_f64(seconds).ok().filter(|time| *time > Duration::ZERO) {
-        Some(duration) => Ok(Some(duration)),
-        None => context.refuse(typed, "timeout", "a time above 0, as in \"30 s\"", format!("{:?}", typed.get_ref())),
-    }
 }
