@@ -80,7 +80,12 @@ pub struct Written {
 impl Artefacts {
     /// Creates the destination `folder`, with charts as SVG and PNG.
     pub fn new(folder: impl Into<PathBuf>) -> Self {
-        Self { folder: folder.into(), formats: ChartFormat::USUAL.to_vec(), width: ChartWidth::Wide, input: None }
+        Self {
+            folder: folder.into(),
+            formats: vec![ChartFormat::Svg, ChartFormat::Png],
+            width: ChartWidth::Wide,
+            input: None,
+        }
     }
 
     /// Sets the formats of the chart files; an empty list means no charts.
@@ -138,7 +143,7 @@ impl Artefacts {
             }
             let svg = figure.chart.svg_at(self.width);
             self.formats.iter().try_for_each(|format| {
-                let file = format!("{CHARTS}/{}.{}", figure.stem, format.ending());
+                let file = format!("{CHARTS}/{}.{}", figure.stem, format.name());
                 let failed = |source| ArtefactError::Chart { file: figure.stem.clone(), source };
                 self.put(&file, stop, || picture(&svg, *format).map_err(failed)).map(|_| ())
             })
@@ -174,11 +179,11 @@ fn picture(svg: &str, format: ChartFormat) -> Result<Cow<'_, [u8]>, Box<dyn std:
     match format {
         ChartFormat::Svg => Ok(Cow::Borrowed(svg.as_bytes())),
         #[cfg(feature = "png")]
-        ChartFormat::Png => Ok(Cow::Owned(png(svg)?.bytes)),
+        ChartFormat::Png => Ok(Cow::Owned(png(svg)?)),
         #[cfg(feature = "pdf")]
         ChartFormat::Pdf => Ok(Cow::Owned(pdf(svg)?)),
         #[cfg(not(all(feature = "png", feature = "pdf")))]
-        other => Err(format!("this build lacks the feature `{}`", other.ending()).into()),
+        other => Err(format!("this build lacks the feature `{}`", other.name()).into()),
     }
 }
 

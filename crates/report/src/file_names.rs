@@ -2,35 +2,20 @@
 
 use std::collections::HashSet;
 
-use apportion::names::file_part;
+use apportion::names::{file_part, named};
 
 /// The folder of the charts, below that of the page.
 pub(super) const CHARTS: &str = "charts";
 
-/// A format of charts.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ChartFormat {
-    /// Vector graphics.
-    Svg,
-    /// Pixels.
-    Png,
-    /// A page of vectors and text, for papers.
-    Pdf,
-}
-
-impl ChartFormat {
-    /// All formats.
-    pub const ALL: [Self; 3] = [Self::Svg, Self::Png, Self::Pdf];
-    /// The default formats.
-    pub const USUAL: [Self; 2] = [Self::Svg, Self::Png];
-
-    /// Returns the file extension.
-    pub fn ending(self) -> &'static str {
-        match self {
-            Self::Svg => "svg",
-            Self::Png => "png",
-            Self::Pdf => "pdf",
-        }
+named! {
+    /// A format of charts, whose name is the ending of its files.
+    pub enum ChartFormat {
+        /// Vector graphics.
+        Svg = "svg",
+        /// Pixels.
+        Png = "png",
+        /// A page of vectors and text, for papers.
+        Pdf = "pdf",
     }
 }
 

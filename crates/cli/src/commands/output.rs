@@ -51,7 +51,7 @@ fn formats(text: &str) -> Result<Formats, String> {
     }
     let mut formats = Vec::new();
     for name in text.split(',').map(str::trim) {
-        match ChartFormat::ALL.into_iter().find(|format| format.ending() == name) {
+        match ChartFormat::ALL.into_iter().find(|format| format.name() == name) {
             Some(format) if formats.contains(&format) => (),
             Some(format) => formats.push(format),
             None => return Err("expected svg, png and pdf, separated by commas, or none".to_owned()),

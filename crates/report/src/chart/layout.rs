@@ -65,7 +65,7 @@ pub(super) struct Rows {
 
 impl<'a> Layout<'a> {
     pub fn new(chart: &'a Chart, page: ChartWidth) -> Self {
-        let panels = chart.all_panels();
+        let panels = &chart.panels[..];
         let columns = columns(chart, page);
         let rows = Rows::new(panels, page);
         let heights: Vec<f64> = panels.iter().map(|panel| height(panel, panels.len() == 1, rows, page)).collect();
@@ -195,7 +195,7 @@ impl Bar {
 
 /// Returns the number of panels side by side.
 fn columns(chart: &Chart, page: ChartWidth) -> usize {
-    let panels = chart.all_panels();
+    let panels = &chart.panels[..];
     let count = panels.len().max(1);
     if chart.arrangement == Arrangement::Stacked {
         return 1;
@@ -221,7 +221,7 @@ fn height(panel: &Panel, alone: bool, rows: Rows, page: ChartWidth) -> f64 {
 
 /// Returns the scale of each panel's horizontal axis: one for all if they are stacked or have equal axes.
 fn x_scales(chart: &Chart, width: f64) -> Vec<Scale> {
-    let panels = chart.all_panels();
+    let panels = &chart.panels[..];
     let shared = chart.arrangement == Arrangement::Stacked || panels.windows(2).all(|pair| pair[0].x == pair[1].x);
     match panels.first() {
         Some(first) if shared => vec![x_scale(first, panels, width); panels.len()],
@@ -266,7 +266,7 @@ fn room_for_labels(panels: &[Panel], values: &[f64], width: f64) -> Option<f64> 
 
 /// Returns the scale of each panel's vertical axis: one for all if they are side by side.
 fn y_scales(chart: &Chart, heights: &[f64]) -> Vec<Scale> {
-    let panels = chart.all_panels();
+    let panels = &chart.panels[..];
     match (chart.arrangement, panels.first(), heights.first()) {
         (Arrangement::SideBySide, Some(first), Some(height)) => {
             vec![y_scale(first, panels, *height); panels.len()]

@@ -115,17 +115,17 @@ impl ChartWidth {
 }
 
 /// The medium of a chart.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Medium {
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Medium<'a> {
     pub width: ChartWidth,
-    /// Whether it is part of a page, which sets title and caption as text and scales the picture.
-    pub inline: bool,
+    /// Its identifier if it is part of a page, which sets title and caption as text and scales the picture.
+    pub id: Option<&'a str>,
 }
 
-impl Medium {
+impl Medium<'_> {
     /// Returns whether the picture contains title and caption.
     pub fn has_words(self) -> bool {
-        !self.inline && self.width.paper().is_none()
+        self.id.is_none() && self.width.paper().is_none()
     }
 }
 

@@ -10,7 +10,6 @@
 //! file.
 
 mod anchors;
-mod drawing;
 mod html;
 mod report;
 mod symbols;
@@ -194,14 +193,22 @@ impl Document {
     #[must_use]
     pub fn excerpt(mut self, ids: &[&str]) -> Self {
         self.sections.retain(|section| ids.contains(&&*section.id));
+        self.number_figures();
+        self
+    }
+
+    /// Numbers the figures in order, except those with a label of their own.
+    pub(crate) fn number_figures(&mut self) {
         let mut number = 0;
         self.visit_mut(&mut |part| {
             for figure in figures_mut(part).iter_mut().filter(|figure| figure.label.starts_with("Figure ")) {
                 number += 1;
                 figure.label = format!("Figure {number}");
+                if figure.id == UNNUMBERED {
+                    figure.id = format!("figure-{number}");
+                }
             }
         });
-        self
     }
 
     fn visit<'a>(&'a self, see: &mut dyn FnMut(&'a Part)) {
@@ -242,33 +249,26 @@ fn figures_mut(part: &mut Part) -> &mut [Figure] {
     }
 }
 
+/// The anchor of a figure that has no number yet.
+const UNNUMBERED: &str = "figure-0";
+
 impl Figure {
-    /// Creates figure `number` of a document: `chart`, with files named `stem` and numbers in the file `data`.
-    pub fn new(number: usize, chart: Chart, stem: impl Into<String>, data: impl Into<String>) -> Self {
+    /// Creates a figure that its document numbers: `chart`, with files named `stem`.
+    pub fn unnumbered(chart: Chart, stem: impl Into<String>) -> Self {
         Self {
-            id: format!("figure-{number}"),
-            label: format!("Figure {number}"),
+            id: UNNUMBERED.to_owned(),
+            label: "Figure ".to_owned(),
             title: None,
             beside: String::new(),
             chart,
             stem: stem.into(),
-            data: data.into(),
+            data: String::new(),
         }
     }
 
-    /// Creates a figure of a [`Report`], which numbers it: `chart`, with files named `stem`.
-    pub fn unnumbered(chart: Chart, stem: impl Into<String>) -> Self {
-        Self::new(0, chart, stem, "")
-    }
-
-    /// Removes the title of the document from the start of the title of the chart.
-    pub(crate) fn below(self, title: &str) -> Self {
-        Self { title: self.own_title(title), ..self }
-    }
-
     /// Returns the part of the chart's title after that of the document.
-    fn own_title(&self, title: &str) -> Option<String> {
-        let own = self.chart.title().strip_prefix(title).and_then(|rest| rest.strip_prefix(": "));
+    pub(crate) fn own_title(&self, title: &str) -> Option<String> {
+        let own = self.chart.title.strip_prefix(title).and_then(|rest| rest.strip_prefix(": "));
         own.map(apportion::text::capitalised)
     }
 }

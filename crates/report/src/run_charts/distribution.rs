@@ -15,8 +15,7 @@ pub fn distribution_chart(result: &StudyResult, output: &OutputResult) -> Chart 
         let sample = &distribution.sample;
         let mut chart = histogram_chart(sample, &title, &output_words);
         if sample.count < distribution.values {
-            let caption = format!("{} They were kept of all {}.", chart.caption(), grouped(distribution.values));
-            chart.set_caption(caption);
+            chart.caption.push_str(&format!(" They were kept of all {}.", grouped(distribution.values)));
         }
         return chart;
     }

@@ -36,7 +36,7 @@ pub(super) const SERIES_SUFFIXES: [&str; 2] = ["-along", "-together"];
 /// Prefixes of the files of the charts.
 pub(super) struct Stems {
     /// Of each output that is in no series, if they are few.
-    single: Vec<String>,
+    pub single: Vec<String>,
     /// Of each series, with its suffixes.
     pub series: Vec<[String; SERIES_SUFFIXES.len()]>,
 }
@@ -61,15 +61,16 @@ impl Stems {
     }
 }
 
-/// Draws the figures of the outputs in turn.
+/// The outputs whose figures are drawn.
+#[derive(Clone, Copy)]
 pub(super) struct Figures<'a> {
     pub result: &'a StudyResult,
     /// File names of each output.
-    stems: Vec<String>,
-    /// Prefix of the anchors of its figures.
-    prefix: String,
-    /// Number of figures so far, including the earlier ones.
-    count: usize,
+    pub stems: &'a [String],
+    /// The number of the series whose values they are, from 1.
+    pub series: Option<usize>,
+    /// Whether the document is on a single output, whose topics are its sections.
+    pub is_only: bool,
 }
 
 /// An output, and its number from 1.
@@ -86,40 +87,27 @@ impl Numbered<'_> {
     }
 }
 
-impl<'a> Figures<'a> {
-    /// Creates the figures of the outputs of `result`, after so many figures.
-    pub fn new(result: &'a StudyResult, stems: Stems, before: usize) -> Self {
-        Self { result, stems: stems.single, prefix: String::new(), count: before }
-    }
-
-    /// Creates the figures of the values of series number `number`, from 1.
-    pub fn of_series(result: &'a StudyResult, number: usize, before: usize) -> Self {
-        Self { result, stems: Vec::new(), prefix: format!("series-{number}-"), count: before }
-    }
-
-    /// Returns the number of figures so far, including the earlier ones.
-    pub fn count(&self) -> usize {
-        self.count
-    }
-
-    /// Adds a figure of several outputs, with the anchor `name` and its files named `stem`.
-    pub fn add(&mut self, chart: Chart, name: &str, stem: &str) -> Part {
-        let data = format!("{}.csv", self.result.study.name);
-        self.numbered(chart, name, (stem, data)).into()
+impl Figures<'_> {
+    /// Returns a figure of several outputs, with the anchor `name` and its files named `stem`.
+    pub fn of_all(&self, chart: Chart, name: &str, stem: &str) -> Part {
+        self.figure(chart, name, stem.to_owned(), ".csv")
     }
 
     /// Draws the figure of that kind of an output.
-    pub fn draw(&mut self, of: Numbered<'_>, Kind { suffix, name, draw, data }: Kind) -> Part {
+    pub fn draw(&self, of: Numbered<'_>, Kind { suffix, name, draw, data }: Kind) -> Part {
         let stem = self.stems.get(of.number - 1).map_or_else(String::new, |stem| format!("{stem}{suffix}"));
-        let data = if data.is_empty() { String::new() } else { format!("{}{data}", self.result.study.name) };
-        let chart = draw(self.result, of.output);
-        self.numbered(chart, &format!("{}-{name}", of.number), (&stem, data)).into()
+        self.figure(draw(self.result, of.output), &format!("{}-{name}", of.number), stem, data)
     }
 
-    fn numbered(&mut self, chart: Chart, name: &str, (stem, data): (&str, String)) -> Figure {
-        self.count += 1;
-        let figure = Figure::new(self.count, chart, stem, data);
-        let figure = Figure { id: format!("figure-{}{name}", self.prefix), ..figure };
-        figure.below(self.result.study.headline())
+    fn figure(&self, chart: Chart, name: &str, stem: String, data: &str) -> Part {
+        let study = &self.result.study;
+        let series = self.series.map_or_else(String::new, |number| format!("series-{number}-"));
+        let mut figure = Figure::unnumbered(chart, stem);
+        figure.id = format!("figure-{series}{name}");
+        figure.title = figure.own_title(study.headline());
+        if !data.is_empty() {
+            figure.data = format!("{}{data}", study.name);
+        }
+        figure.into()
     }
 }

@@ -46,13 +46,14 @@ use super::validity;
 /// ```
 pub fn run_document(result: &StudyResult) -> Document {
     let stems = Stems::new(result);
-    let (mut sections, drawn) = series::sections(result, &stems.series);
+    let mut sections = series::sections(result, &stems.series);
     // Series have sections of their own.
     let others = (!result.series.is_empty()).then(|| series::single_outputs(result));
     let single = others.as_ref().unwrap_or(result);
-    let mut figures = Figures::new(single, stems, drawn);
+    let is_only = result.series.is_empty() && result.outputs.len() == 1;
+    let figures = Figures { result: single, stems: &stems.single, series: None, is_only };
     let is_many = single.outputs.len() >= MIN_OUTPUTS_TOGETHER;
-    sections.extend(if is_many { overview::sections(&mut figures) } else { of_outputs(&mut figures) });
+    sections.extend(if is_many { overview::sections(figures) } else { of_outputs(figures) });
     let figure = |of: &Section| of.parts.iter().position(|part| matches!(part, Part::Figure(_)));
     let first = sections.iter_mut().find_map(|of| Some((figure(of)?, of)));
     if let (Some(callout), Some((figure, of))) = (validity::callout(result), first) {
@@ -88,21 +89,21 @@ pub fn run_document(result: &StudyResult) -> Document {
         put("-estimators.csv", tables::estimators_csv(result));
     }
     put("-convergence.csv", tables::convergence_csv(result));
+    document.number_figures();
     document
 }
 
 /// Builds the sections of a few outputs: one for each, then those of all together.
-fn of_outputs(figures: &mut Figures<'_>) -> Vec<Section> {
+fn of_outputs(figures: Figures<'_>) -> Vec<Section> {
     let result = figures.result;
     let mut sections = Vec::new();
-    let single = result.outputs.len() == 1 && figures.count() == 0;
-    if !single {
+    if !figures.is_only {
         let warnings = Part::warnings(&grouped_warnings(&result.outputs));
         sections.extend(warnings.map(|part| Section::new("warnings", "Warnings", vec![part])));
     }
     for (place, output) in result.outputs.iter().enumerate() {
         let topics = output::topics(figures, Numbered { output, number: place + 1 });
-        if single {
+        if figures.is_only {
             sections.extend(topics.into_iter().map(|Topic { id, title, parts }| Section::new(id, title, parts)));
         } else {
             let heading = super::format::heading(&output.name, &output.unit);

@@ -21,11 +21,10 @@ pub(super) struct Topic {
 }
 
 /// Returns all topics of an output; empty ones are omitted.
-pub(super) fn topics(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Topic> {
-    let (result, output) = (figures.result, of.output);
+pub(super) fn topics(figures: Figures<'_>, of: Numbered<'_>) -> Vec<Topic> {
+    let output = of.output;
     let topic = |id, title, parts| Topic { id, title, parts };
-    let is_only = result.outputs.len() == 1 && figures.count() == 0;
-    let mut topics = vec![topic("warnings", "Warnings", mind(output, is_only))];
+    let mut topics = vec![topic("warnings", "Warnings", mind(output, figures.is_only))];
     if output.indices.is_some() {
         topics.push(topic("indices", "Indices", indices(figures, of)));
         topics.push(topic("shares", "Shares", shares(figures, of)));
@@ -99,7 +98,7 @@ fn surrogate(output: &OutputResult) -> Vec<Part> {
     [vec![Part::Text(text)], values::surrogate(output, record)].concat()
 }
 
-fn shares(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
+fn shares(figures: Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
     let any = |asked: fn(&IndexRecord) -> bool| of.output.indices.iter().flatten().any(asked);
     let has_shapley = of.output.shapley_groups.is_some() || any(|index| index.effect.shapley.is_some());
     let text = match has_shapley {
@@ -118,7 +117,7 @@ fn shares(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
     text.into_iter().chain([figures.draw(of, SHARES)]).chain(tables::players(of.output)).collect()
 }
 
-fn indices(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
+fn indices(figures: Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
     let result = figures.result;
     let mut parts = vec![figures.draw(of, INDICES)];
     if of.is_first() {
@@ -130,7 +129,7 @@ fn indices(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
     parts
 }
 
-fn interactions(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
+fn interactions(figures: Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
     let output = of.output;
     let Some(text) = lead::interactions(output).filter(|_| output.indices.iter().flatten().count() > 1) else {
         return Vec::new();
@@ -142,7 +141,7 @@ fn interactions(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
     parts
 }
 
-fn convergence(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
+fn convergence(figures: Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
     if of.output.convergence.is_empty() {
         return Vec::new();
     }
@@ -153,7 +152,7 @@ fn convergence(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
     width.into_iter().chain([figures.draw(of, CONVERGENCE)]).collect()
 }
 
-fn distribution(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
+fn distribution(figures: Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
     let Some(table) = values::moments(of.output) else {
         return vec![Part::Text(format!("There are no values of {} to show.", name(&of.output.name)))];
     };
