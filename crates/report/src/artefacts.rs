@@ -135,7 +135,7 @@ impl Artefacts {
             prepare_folder(&charts)?;
         }
         let data = document.data_files();
-        let data = data.into_iter().map(|file| self.put(&file.name, stop, || Ok(Cow::Borrowed(file.text.as_bytes()))));
+        let data = data.iter().map(|file| self.put(&file.name, stop, file.text.as_bytes()));
         let data = data.collect::<Result<_, _>>()?;
         figures.par_iter().try_for_each(|figure| {
             if self.formats.is_empty() || stop.load(Ordering::SeqCst) {
@@ -145,22 +145,16 @@ impl Artefacts {
             self.formats.iter().try_for_each(|format| {
                 let file = format!("{CHARTS}/{}.{}", figure.stem, format.name());
                 let failed = |source| ArtefactError::Chart { file: figure.stem.clone(), source };
-                self.put(&file, stop, || picture(&svg, *format).map_err(failed)).map(|_| ())
+                self.put(&file, stop, &picture(&svg, *format).map_err(failed)?).map(drop)
             })
         })?;
-        let page = self.put(&format!("{}.html", document.name), stop, || {
-            Ok(Cow::Owned(document.html_in_folder(&self.formats).into_bytes()))
-        })?;
+        let page = document.html_in_folder(&self.formats);
+        let page = self.put(&format!("{}.html", document.name), stop, page.as_bytes())?;
         Ok(Written { page, data, charts: has_charts.then_some((charts, figures.len())) })
     }
 
     /// Writes the file at `path` below the folder and returns its location.
-    fn put<'b>(
-        &self,
-        path: &str,
-        stop: &AtomicBool,
-        bytes: impl FnOnce() -> Result<Cow<'b, [u8]>, ArtefactError>,
-    ) -> Result<PathBuf, ArtefactError> {
+    fn put(&self, path: &str, stop: &AtomicBool, bytes: &[u8]) -> Result<PathBuf, ArtefactError> {
         if stop.load(Ordering::SeqCst) {
             return Err(ArtefactError::Stopped);
         }
@@ -169,7 +163,7 @@ impl Artefacts {
         if self.input.as_ref().is_some_and(|input| real(input).is_some() && real(input) == real(&path)) {
             return Err(ArtefactError::Input { path });
         }
-        write_atomically(&path, &bytes()?)?;
+        write_atomically(&path, bytes)?;
         Ok(path)
     }
 }

@@ -16,51 +16,31 @@ pub fn histogram_chart(distribution: &OutputDistribution, title: &str, output: &
         product => format!("1/({product})"),
     };
     let panel = Panel::new(Axis::new(output, symbol.as_str()), Axis::new("probability density", per_unit));
-    let panel = panel.with(curves(distribution)).with(rules(distribution));
-    Chart::new(title, caption(distribution, output, symbol)).panels([panel])
+    Chart::new(title, caption(distribution, output, symbol)).panels([panel.with(marks(distribution))])
 }
 
-fn curves(distribution: &OutputDistribution) -> Vec<Mark> {
-    if distribution.histogram.is_none() {
+fn marks(distribution: &OutputDistribution) -> Vec<Mark> {
+    let mean = distribution.mean;
+    let Some(histogram) = &distribution.histogram else {
         let series = Series::new("all values", Colour::Series(0)).stroke(Stroke::Points);
-        return vec![series.line(vec![(distribution.mean, 0.0)])];
-    }
-    vec![Series::new("histogram", Colour::Series(0)).band(histogram_steps(distribution))]
-}
-
-/// Returns both upper corners of every bin over its lower ones.
-fn histogram_steps(distribution: &OutputDistribution) -> Vec<(f64, f64, f64)> {
-    let Some(histogram) = &distribution.histogram else { return Vec::new() };
-    let bins = histogram.edges.windows(2).zip(&histogram.counts);
-    bins.flat_map(|(ends, &count)| {
+        return vec![series.line(vec![(mean, 0.0)]), Mark::rule(mean, format!("all values {}", significant(mean)))];
+    };
+    // Both upper corners of every bin over its lower ones.
+    let corners = |(ends, &count): (&[f64], &u64)| {
         let height = count as f64 / distribution.count as f64 / (ends[1] - ends[0]);
         [(ends[0], 0.0, height), (ends[1], 0.0, height)]
-    })
-    .collect()
-}
-
-fn rules(distribution: &OutputDistribution) -> Vec<Mark> {
-    if distribution.histogram.is_none() {
-        return vec![Mark::rule(distribution.mean, format!("all values {}", significant(distribution.mean)))];
-    }
-    let edges = distribution.histogram.as_ref().map_or(&[][..], |histogram| &histogram.edges);
-    let ends = distribution.central().unzip();
-    let places = [
-        (ends.0, "2.5 %"),
-        (distribution.quantile(50.0), "median"),
-        (Some(distribution.mean), "mean"),
-        (ends.1, "97.5 %"),
-    ];
+    };
+    let steps = histogram.edges.windows(2).zip(&histogram.counts).flat_map(corners).collect();
+    let (low, high) = distribution.central().unzip();
+    let places = [(low, "2.5 %"), (distribution.quantile(50.0), "median"), (Some(mean), "mean"), (high, "97.5 %")];
+    // Marks outside the histogram would compress it.
+    let ends = histogram.edges.first().zip(histogram.edges.last());
     let rule = |(x, name): (Option<f64>, &str)| {
-        let x = x.filter(|x| inside(*x, edges))?;
+        let x = x.filter(|x| ends.is_some_and(|(low, high)| (low..=high).contains(&x)))?;
         Some(Mark::rule(x, format!("{name} {}", short(x, distribution))))
     };
-    places.into_iter().filter_map(rule).collect()
-}
-
-/// Returns whether a mark is inside the histogram: marks outside would compress it.
-fn inside(x: f64, edges: &[f64]) -> bool {
-    edges.first().is_some_and(|low| *low <= x) && edges.last().is_some_and(|high| x <= *high)
+    let histogram = Series::new("histogram", Colour::Series(0)).band(steps);
+    std::iter::once(histogram).chain(places.into_iter().filter_map(rule)).collect()
 }
 
 /// Formats with the digits that distinguish the values, and a true minus sign.

@@ -43,13 +43,20 @@ pub(super) fn by_total(output: &OutputResult) -> Option<Vec<(usize, &IndexRecord
     (!order.is_empty()).then_some(order)
 }
 
+/// Returns the positions of `keys`, the largest key first.
+pub(super) fn falling(keys: &[f64]) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..keys.len()).collect();
+    order.sort_by(|&a, &b| keys[b].total_cmp(&keys[a]));
+    order
+}
+
 /// Returns the numbers of the contenders that may be the largest, the largest estimate first. One alone is the largest
 /// with a probability of 0.95 or more, or the errors are unknown; several are tied. A contender is tied with the largest
 /// estimate if its own probability is 0.05 or more, or, where probabilities are unknown, if the intervals overlap. Every
 /// contender with a larger estimate is tied too.
 pub(super) fn leaders(contenders: &[Contender]) -> Vec<usize> {
-    let mut order: Vec<usize> = (0..contenders.len()).collect();
-    order.sort_by(|&a, &b| contenders[b].total.estimate.total_cmp(&contenders[a].total.estimate));
+    let estimates: Vec<f64> = contenders.iter().map(|contender| contender.total.estimate).collect();
+    let mut order = falling(&estimates);
     let Some((&lead, rest)) = order.split_first() else { return order };
     let rivals = match (contenders[lead].probability, contenders[lead].total.interval) {
         (Some(probability), _) if probability >= SURE => 0,

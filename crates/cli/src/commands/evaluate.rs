@@ -6,7 +6,7 @@ use anyhow::anyhow;
 use apportion::model::{GiveUp, RunContext};
 use apportion::run::Halt;
 use apportion::space::Space;
-use apportion_files::exchange::{EvaluateError, Evaluated, evaluate_in, open_table};
+use apportion_files::exchange::{EvaluateError, Evaluated, evaluate as evaluate_points, open_table};
 use apportion_report::format::count;
 use apportion_report::{prepare_file, significant, stream_atomically};
 
@@ -52,7 +52,8 @@ pub fn evaluate(arguments: &Arguments) -> Result<(), Failure> {
     let context = RunContext::new(Some(on_signal()), say);
     let mut outcome = None;
     let written = stream_atomically(&arguments.output, |out| {
-        let result = evaluate_in(&study, rows.as_mut(), &mut Stoppable::new(out), arguments.with_points, &context);
+        let mut out = Stoppable::new(out);
+        let result = evaluate_points(&study, rows.as_mut(), &mut out, arguments.with_points, &context);
         let complete = result.is_ok();
         outcome = Some(result);
         // After any error, an incomplete file must not replace the target.

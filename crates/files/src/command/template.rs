@@ -138,11 +138,4 @@ mod tests {
         assert_eq!(fault("{{").problem, TemplateProblem::Open);
         assert_eq!(fault("{{}}").problem, unknown(""));
     }
-
-    proptest::proptest! {
-        #[test]
-        fn no_text_panics(text in "[{}a-c \\nµ]{0,30}") {
-            let _ = filled(&text);
-        }
-    }
 }

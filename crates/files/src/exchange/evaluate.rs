@@ -55,22 +55,12 @@ pub struct Evaluated {
 /// Uses constant memory, and as many workers as the model [asks for](apportion::model::Model::concurrency); the outputs
 /// are in the order of the points. Numbers are written with as many digits as it takes to read the same bits back.
 ///
-/// # Errors
-/// [`EvaluateError`] if the points are wrong, the outputs cannot be written, or the model gives up.
-pub fn evaluate(
-    study: &Study,
-    points: &mut dyn RowReader,
-    outputs: &mut dyn Write,
-) -> Result<Evaluated, EvaluateError> {
-    evaluate_in(study, points, outputs, false, &RunContext::default())
-}
-
-/// Does the same as the run of `context`, which may stop it, and with the points before their outputs in every line if
-/// `with_points`: a column for each factor, in its unit.
+/// The run of `context` may stop it. If `with_points`, the points are before their outputs in every line: a column for
+/// each factor, in its unit.
 ///
 /// # Errors
-/// As for [`evaluate`], and [`Halt::Interrupted`] if the run is stopped.
-pub fn evaluate_in(
+/// [`EvaluateError`] if the points are wrong, the outputs cannot be written, the model gives up, or the run is stopped.
+pub fn evaluate(
     study: &Study,
     points: &mut dyn RowReader,
     outputs: &mut dyn Write,

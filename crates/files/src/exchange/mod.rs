@@ -28,7 +28,6 @@ pub use table::{Missing, Selection, Table, read_table};
 pub use {
     answers::{Answers, first_output, output_columns},
     design_rows::{DesignRows, RowBlock, factor_column},
-    evaluate::evaluate_in,
     manifest::{ManifestDesign, ManifestFactor, ManifestRun, ManifestStudy},
     points::PointsReader,
     rows::{ColumnKind, RowWriter, row_writer, table_of_bytes},

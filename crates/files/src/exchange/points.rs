@@ -74,13 +74,7 @@ impl<'a> PointsReader<'a> {
     /// # Errors
     /// [`TableError`] with the place of the first cell that is not a finite number.
     pub fn read(&mut self, factors: &[Factor], rows: usize, columns: &mut [Vec<f64>]) -> Result<usize, TableError> {
-        let count = self.rows.read(&self.wanted, rows, &mut self.cells).map_err(|error| match error {
-            TableError::WrongCell { row, line, column, found, .. } => {
-                let k = self.wanted.iter().position(|(place, _)| place + 1 == column).unwrap_or_default();
-                wrong_cell(&factors[self.factors[k]], place_in_words(line, row), column, format!("{found:?}"))
-            }
-            error => error,
-        })?;
+        let count = self.rows.read(&self.wanted, rows, &mut self.cells)?;
         for (column, factor) in columns.iter_mut().zip(factors) {
             column.clear();
             column.resize(count, factor.nominal);
@@ -89,20 +83,17 @@ impl<'a> PointsReader<'a> {
             if let Some(row) = cells.iter().position(|value| !value.is_finite()) {
                 let found = if cells[row].is_nan() { "an empty cell".to_owned() } else { cells[row].to_string() };
                 let at = place_in_words(self.rows.line(row), self.read + row as u64 + 1);
-                return Err(wrong_cell(&factors[*factor], at, place + 1, found));
+                let (column, factor) = (place + 1, &factors[*factor]);
+                let expected = match factor.distribution().labels() {
+                    Some(labels) => format!("one of {}", labels.join(", ")),
+                    None => format!("a finite number in {}", factor.unit()),
+                };
+                let name = &factor.name;
+                return refused(format!("{at}: column {column} (`{name}`): expected {expected}, not {found}"));
             }
             columns[*factor].copy_from_slice(cells);
         }
         self.read += count as u64;
         Ok(count)
     }
-}
-
-fn wrong_cell(factor: &Factor, place: String, column: usize, found: String) -> TableError {
-    let expected = match factor.distribution().labels() {
-        Some(labels) => format!("one of {}", labels.join(", ")),
-        None => format!("a finite number in {}", factor.unit()),
-    };
-    let name = &factor.name;
-    TableError::Refused(format!("{place}: column {column} (`{name}`): expected {expected}, not {found}"))
 }

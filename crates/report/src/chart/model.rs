@@ -232,16 +232,3 @@ impl Mark {
         Series::default().mark(Shape::Rule(x, label.into()))
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn axis_titles_carry_unit_and_power() {
-        assert_eq!(Axis::new("Time", "ms").title(0), "Time (ms)");
-        assert_eq!(Axis::new("Force", "N").title(-9), "Force (10⁻⁹ N)");
-        assert_eq!(Axis::new("Rows", "").title(6), "Rows (×10⁶)");
-        assert_eq!(Axis::new("Rows", " ").title(0), "Rows");
-    }
-}

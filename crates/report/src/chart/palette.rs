@@ -93,16 +93,6 @@ mod tests {
     use super::*;
     use crate::chart::style::MUTED;
 
-    #[test]
-    fn series_have_distinct_colours() {
-        let mut colours: Vec<_> = (0..COLOURS.len()).map(|number| Colour::Series(number).hex()).collect();
-        colours.push(Colour::Reference.hex());
-        colours.sort_unstable();
-        colours.dedup();
-        assert_eq!(colours.len(), COLOURS.len() + 1);
-        assert!(colours.contains(&Colour::Series(usize::MAX).hex()));
-    }
-
     /// Returns the lightness (CIE 1976), 0 to 100.
     fn lightness(hex: &str) -> f64 {
         116.0 * libm::cbrt(luminance(hex, 1.0)) - 16.0

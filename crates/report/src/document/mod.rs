@@ -173,14 +173,8 @@ impl Document {
                 tables.push(table);
             }
         });
-        let mut files: Vec<(&str, Vec<&Table>)> = Vec::new();
-        for table in tables.into_iter().filter(|table| self.files.iter().all(|file| file.name != table.file)) {
-            match files.iter_mut().find(|(name, _)| *name == table.file) {
-                Some((_, of_file)) => of_file.push(table),
-                None => files.push((&table.file, vec![table])),
-            }
-        }
-        files
+        let tables = tables.into_iter().filter(|table| self.files.iter().all(|file| file.name != table.file));
+        grouped_by_key(tables.map(|table| (table.file.as_str(), table)))
     }
 
     /// Returns the names of the data files.
@@ -218,6 +212,18 @@ impl Document {
     fn visit_mut(&mut self, change: &mut dyn FnMut(&mut Part)) {
         self.sections.iter_mut().for_each(|section| visit_mut(&mut section.parts, change));
     }
+}
+
+/// Groups items by their keys, in the order of first occurrence.
+pub(crate) fn grouped_by_key<K: PartialEq, V>(items: impl IntoIterator<Item = (K, V)>) -> Vec<(K, Vec<V>)> {
+    let mut groups: Vec<(K, Vec<V>)> = Vec::new();
+    for (key, item) in items {
+        match groups.iter_mut().find(|(known, _)| *known == key) {
+            Some((_, group)) => group.push(item),
+            None => groups.push((key, vec![item])),
+        }
+    }
+    groups
 }
 
 /// Calls `see` for every part, nested ones included.

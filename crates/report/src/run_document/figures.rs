@@ -30,35 +30,21 @@ pub(super) const CONVERGENCE: Kind =
     Kind { suffix: "-convergence", name: "convergence", draw: convergence_chart, data: "-convergence.csv" };
 pub(super) const PAIRS: Kind = Kind { suffix: "-pairs", name: "pairs", draw: pairs_chart, data: "-second-order.csv" };
 
-/// Suffixes of the charts of a series: its indices along the axis, and those of the whole.
-pub(super) const SERIES_SUFFIXES: [&str; 2] = ["-along", "-together"];
-
-/// Prefixes of the files of the charts.
-pub(super) struct Stems {
-    /// Of each output that is in no series, if they are few.
-    pub single: Vec<String>,
-    /// Of each series, with its suffixes.
-    pub series: Vec<[String; SERIES_SUFFIXES.len()]>,
-}
-
-impl Stems {
-    pub fn new(result: &StudyResult) -> Self {
-        let is_single = |place: usize| !result.series.iter().any(|series| series.places().contains(&place));
-        let single = result.outputs.iter().enumerate().filter(|(place, _)| is_single(*place));
-        let mut names: Vec<&str> = single.map(|(_, output)| output.name.as_str()).collect();
-        // Charts of many outputs together have the names of a single series.
-        let is_many = names.len() >= MIN_OUTPUTS_TOGETHER;
-        if is_many {
-            names = vec!["outputs"];
-        }
-        let count = names.len();
-        names.extend(result.series.iter().map(|series| series.name.as_str()));
-        let kinds = [SHARES, INDICES, SCATTER, DISTRIBUTION, CONVERGENCE, PAIRS].map(|kind| kind.suffix);
-        let mut single = file_stems(&result.study.name, &names, &[&kinds[..], &SERIES_SUFFIXES[..]].concat());
-        let series = single.split_off(count);
-        let series = series.iter().map(|stem| SERIES_SUFFIXES.map(|suffix| format!("{stem}{suffix}")));
-        Self { single: if is_many { Vec::new() } else { single }, series: series.collect() }
+/// Returns the prefixes of the files of the charts: of each of the outputs of `single`, which are in no series, if they
+/// are few, and of each series of `result`.
+pub(super) fn stems(result: &StudyResult, single: &StudyResult) -> (Vec<String>, Vec<String>) {
+    let mut names: Vec<&str> = single.outputs.iter().map(|output| output.name.as_str()).collect();
+    // Charts of many outputs together have the names of a single series.
+    let is_many = names.len() >= MIN_OUTPUTS_TOGETHER;
+    if is_many {
+        names = vec!["outputs"];
     }
+    let count = names.len();
+    names.extend(result.series.iter().map(|series| series.name.as_str()));
+    let kinds = [SHARES, INDICES, SCATTER, DISTRIBUTION, CONVERGENCE, PAIRS].map(|kind| kind.suffix);
+    let mut outputs = file_stems(&result.study.name, &names, &[&kinds[..], &["-along", "-together"]].concat());
+    let series = outputs.split_off(count);
+    (if is_many { Vec::new() } else { outputs }, series)
 }
 
 /// The outputs whose figures are drawn.
@@ -73,30 +59,21 @@ pub(super) struct Figures<'a> {
     pub is_only: bool,
 }
 
-/// An output, and its number from 1.
-#[derive(Clone, Copy)]
-pub(super) struct Numbered<'a> {
-    pub output: &'a OutputResult,
-    pub number: usize,
-}
-
-impl Numbered<'_> {
-    /// Returns whether it is the first output, where statements on all outputs are made.
-    pub fn is_first(self) -> bool {
-        self.number == 1
+impl<'a> Figures<'a> {
+    /// Returns output number `number`, from 1.
+    pub fn output(&self, number: usize) -> &'a OutputResult {
+        &self.result.outputs[number - 1]
     }
-}
 
-impl Figures<'_> {
     /// Returns a figure of several outputs, with the anchor `name` and its files named `stem`.
     pub fn of_all(&self, chart: Chart, name: &str, stem: &str) -> Part {
         self.figure(chart, name, stem.to_owned(), ".csv")
     }
 
-    /// Draws the figure of that kind of an output.
-    pub fn draw(&self, of: Numbered<'_>, Kind { suffix, name, draw, data }: Kind) -> Part {
-        let stem = self.stems.get(of.number - 1).map_or_else(String::new, |stem| format!("{stem}{suffix}"));
-        self.figure(draw(self.result, of.output), &format!("{}-{name}", of.number), stem, data)
+    /// Draws the figure of that kind of output number `number`.
+    pub fn draw(&self, number: usize, Kind { suffix, name, draw, data }: Kind) -> Part {
+        let stem = self.stems.get(number - 1).map_or_else(String::new, |stem| format!("{stem}{suffix}"));
+        self.figure(draw(self.result, self.output(number)), &format!("{number}-{name}"), stem, data)
     }
 
     fn figure(&self, chart: Chart, name: &str, stem: String, data: &str) -> Part {

@@ -15,7 +15,7 @@ mod warnings;
 use apportion::model::MIN_OUTPUTS_TOGETHER;
 use apportion::result::{AggregateRecord, LowRuns, SpendingRecord, StudyRecord, StudyResult};
 use apportion::text::{capitalised, listed};
-use figures::{Figures, Numbered, Stems};
+use figures::Figures;
 use output::Topic;
 pub use series::one_output;
 pub(crate) use tables::{FACTORS, IN_CSV};
@@ -45,13 +45,13 @@ use super::validity;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn run_document(result: &StudyResult) -> Document {
-    let stems = Stems::new(result);
-    let mut sections = series::sections(result, &stems.series);
     // Series have sections of their own.
     let others = (!result.series.is_empty()).then(|| series::single_outputs(result));
     let single = others.as_ref().unwrap_or(result);
+    let (stems, of_series) = figures::stems(result, single);
+    let mut sections = series::sections(result, &of_series);
     let is_only = result.series.is_empty() && result.outputs.len() == 1;
-    let figures = Figures { result: single, stems: &stems.single, series: None, is_only };
+    let figures = Figures { result: single, stems: &stems, series: None, is_only };
     let is_many = single.outputs.len() >= MIN_OUTPUTS_TOGETHER;
     sections.extend(if is_many { overview::sections(figures) } else { of_outputs(figures) });
     let figure = |of: &Section| of.parts.iter().position(|part| matches!(part, Part::Figure(_)));
@@ -101,13 +101,13 @@ fn of_outputs(figures: Figures<'_>) -> Vec<Section> {
         let warnings = Part::warnings(&grouped_warnings(&result.outputs));
         sections.extend(warnings.map(|part| Section::new("warnings", "Warnings", vec![part])));
     }
-    for (place, output) in result.outputs.iter().enumerate() {
-        let topics = output::topics(figures, Numbered { output, number: place + 1 });
+    for (number, output) in (1..).zip(&result.outputs) {
+        let topics = output::topics(figures, number);
         if figures.is_only {
             sections.extend(topics.into_iter().map(|Topic { id, title, parts }| Section::new(id, title, parts)));
         } else {
             let heading = super::format::heading(&output.name, &output.unit);
-            sections.push(Section::new(&format!("output-{}", place + 1), &heading, under_headings(topics)));
+            sections.push(Section::new(&format!("output-{number}"), &heading, under_headings(topics)));
         }
     }
     let together = result

@@ -10,7 +10,7 @@ use super::warnings::grouped_warnings;
 use crate::document::{Part, Section, Table, largest};
 use crate::format::{name, or_dash, short, value};
 use crate::leading::{Contender, by_total, leader_of_all, leaders, of_which};
-use crate::run_charts::{map_chart, overall_order, together_chart};
+use crate::run_charts::{map_chart, overall_order, together, together_chart};
 
 /// Maximum numbers of factors and of outputs in the table of outputs.
 const COLUMNS: usize = 8;
@@ -64,8 +64,7 @@ fn leads(result: &StudyResult) -> Vec<usize> {
 /// Tabulates the effect of each factor on all outputs.
 pub(super) fn factors(result: &StudyResult) -> Table {
     let leads = leads(result);
-    let together = result.aggregate.as_ref().and_then(|aggregate| aggregate.indices.as_deref()).unwrap_or_default();
-    let all = |factor: usize| together.iter().find(|index| index.factor == result.factors[factor].name);
+    let all = |factor: usize| together(result).iter().find(|index| index.factor == result.factors[factor].name);
     let totals = |&factor: &usize| {
         let total = |output: &'_ OutputResult| Some(output.indices.as_ref()?.get(factor)?.effect.total);
         let mut totals: Vec<_> =
@@ -142,7 +141,6 @@ pub(super) fn answers(result: &StudyResult) -> Vec<String> {
         true => format!("No factor is sure to matter most for any of {all} outputs."),
         false => format!("Matters most of {all} outputs, by the total index S_T: {}.", listed(&counted)),
     }];
-    let together = result.aggregate.as_ref().and_then(|aggregate| aggregate.indices.as_deref());
-    answers.extend(together.and_then(|indices| leader_of_all(indices, "For all outputs together")));
+    answers.extend(leader_of_all(together(result), "For all outputs together"));
     answers
 }

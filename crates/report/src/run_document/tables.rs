@@ -8,7 +8,7 @@ use apportion::uncertainty::{EffectEstimates, Estimate, Interval};
 
 use crate::document::{Cell, Part, Rows, Table, csv};
 use crate::format::{chance, name};
-use crate::leading::{by_total, surely_interact};
+use crate::leading::{by_total, falling, surely_interact};
 
 /// Maximum number of factors in a table; the files have all of them.
 pub(crate) const FACTORS: usize = 50;
@@ -216,8 +216,7 @@ pub(super) fn players(output: &OutputResult) -> Option<Part> {
 /// Tabulates the largest second-order indices.
 pub(super) fn pairs(output: &OutputResult) -> Option<Table> {
     let pairs = output.second_order.as_ref().filter(|pairs| !pairs.is_empty())?;
-    let mut order: Vec<usize> = (0..pairs.len()).collect();
-    order.sort_by(|&a, &b| pairs[b].index.estimate.total_cmp(&pairs[a].index.estimate));
+    let order = falling(&pairs.iter().map(|pair| pair.index.estimate).collect::<Vec<_>>());
     let rows = pairs_table(&output.name, pairs.iter().zip(surely_interact(pairs)).collect());
     Some(rows.largest(order, PAIRS, "pairs, all in the CSV file").into())
 }
@@ -269,8 +268,7 @@ pub(super) fn aggregate_of(result: &StudyResult, record: &AggregateRecord, indic
     let noise = record.noise.iter().map(|noise| Line::plain(of_noise(&noise.factor), noise));
     let lines: Vec<Line<'_>> =
         indices.iter().map(|index| Line::plain(name(&index.factor), index)).chain(noise).collect();
-    let mut order: Vec<usize> = (0..lines.len()).collect();
-    order.sort_by(|&a, &b| lines[b].total.estimate.total_cmp(&lines[a].total.estimate));
+    let order = falling(&lines.iter().map(|line| line.total.estimate).collect::<Vec<_>>());
     // The names of hundreds of outputs, in every line, would be most of the file.
     let outputs = match record.outputs.len() {
         ..MIN_OUTPUTS_TOGETHER => record.outputs.join(" + "),

@@ -14,9 +14,6 @@ use super::error::{TableError, refused};
 use super::manifest::Manifest;
 use super::rows::{ColumnKind, RowReader};
 
-/// Number of rows counted at a time.
-const COUNTED: usize = 1 << 13;
-
 /// How a row without a finite output is treated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum MissingOutputs {
@@ -103,14 +100,14 @@ impl Reading<'_> {
             let (answers, found) = cells.split_at(self.columns.outputs.len());
             self.compare(&points, found, count)?;
             if count < block.rows {
-                return self.refuse_row_count(self.row + count as u64);
+                let found = self.row + count as u64;
+                return refused(format!("the file has {found} rows, but the design has {}", design.rows()));
             }
             store.insert(&self.piece(block, answers, missing)?);
             self.row += count as u64;
         }
-        let more = self.count_rest()?;
-        if more > 0 {
-            return self.refuse_row_count(self.row + more);
+        if self.reader.read(&self.wanted, 1, &mut cells)? > 0 {
+            return refused(format!("the file has more rows than the design, which has {}", design.rows()));
         }
         Ok(digest.finish())
     }
@@ -164,20 +161,5 @@ impl Reading<'_> {
             "row {row}, column `{name}`: found {found}, but the design has {expected}: rows are missing, repeated or in another \
              order, or the points were changed, were printed with less than ten digits, or belong to another design"
         ))
-    }
-
-    fn refuse_row_count<T>(&self, found: u64) -> Result<T, TableError> {
-        refused(format!("the file has {found} rows, but the design has {}", self.study.design().rows()))
-    }
-
-    /// Counts the rows of the file that have not been read.
-    fn count_rest(&mut self) -> Result<u64, TableError> {
-        let (mut rest, mut cells) = (0, vec![Vec::new(); self.wanted.len()]);
-        loop {
-            match self.reader.read(&self.wanted, COUNTED, &mut cells)? {
-                0 => return Ok(rest),
-                rows => rest += rows as u64,
-            }
-        }
     }
 }

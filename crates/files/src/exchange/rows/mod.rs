@@ -250,7 +250,7 @@ pub trait RowWriter {
     /// Writes the remaining data.
     ///
     /// # Errors
-    /// Any error of the file system, or a number of rows other than announced.
+    /// Any error of the file system.
     fn finish(self: Box<Self>) -> std::io::Result<()>;
 }
 
