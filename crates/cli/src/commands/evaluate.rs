@@ -52,8 +52,7 @@ pub fn evaluate(arguments: &Arguments) -> Result<(), Failure> {
     let context = RunContext::new(Some(on_signal()), say);
     let mut outcome = None;
     let written = stream_atomically(&arguments.output, |out| {
-        let mut out = Stoppable::new(out);
-        let result = evaluate_points(&study, rows.as_mut(), &mut out, arguments.with_points, &context);
+        let result = evaluate_points(&study, rows.as_mut(), &mut Stoppable::new(out), arguments.with_points, &context);
         let complete = result.is_ok();
         outcome = Some(result);
         // After any error, an incomplete file must not replace the target.

@@ -272,12 +272,4 @@ mod tests {
         assert_eq!(value(&pointer, 1, "{\"y\": [1, 2]}"), Ok(2.0));
         assert_eq!(value(&pointer, 2, "{\"y\": [1, 2]}").unwrap_err(), "it has no value at `/y/2`");
     }
-
-    #[test]
-    fn a_missing_file_is_named() {
-        let folder = tempfile::tempdir().unwrap();
-        let pick = Pick { source: Source::File("out.txt".to_owned()), way: regex("1", Match::First) };
-        let error = pick.number(&mut Texts::new(folder.path(), Path::new("stdout"))).unwrap_err();
-        assert_eq!(error.to_string(), "the run wrote no file `out.txt`");
-    }
 }

@@ -166,15 +166,6 @@ mod tests {
     }
 
     #[test]
-    fn a_program_says_that_a_row_failed() {
-        let failed = |protocol, line: &str| read(protocol, 2, line).unwrap().1.unwrap_err();
-        assert_eq!(failed(Protocol::Csv, "7,error: no root"), "no root");
-        assert_eq!(failed(Protocol::JsonLines, r#"{"id": 7, "error": "no root"}"#), "no root");
-        assert!(!failed(Protocol::Csv, "7,error:").is_empty());
-        assert_eq!(read(Protocol::JsonLines, 1, r#"{"id": 7, "error": null, "y1": 2}"#), Some((7, Ok(vec![2.0]))));
-    }
-
-    #[test]
     fn invalid_answers_after_a_row_number_are_reported() {
         let words = |protocol, line: &str| read(protocol, 2, line).unwrap().1.unwrap_err();
         let cells = "not an answer: expected the row's number and 2 numbers, separated by commas, found";

@@ -75,8 +75,8 @@ pub fn evaluate(
     let mut batch = Batch::new(model.as_ref());
     let mut columns = vec![Vec::with_capacity(most); factors.len()];
     let mut evaluated = Evaluated {
-        skipped: reader.skipped().to_vec(),
-        nominal: reader.missing(factors.len()),
+        skipped: reader.skipped.clone(),
+        nominal: (0..factors.len()).filter(|factor| !reader.factors.contains(factor)).collect(),
         ..Evaluated::default()
     };
     let copied: &[Factor] = if with_points { factors } else { &[] };
@@ -106,7 +106,7 @@ pub fn evaluate(
     }
     writer.finish()?;
     context.messages().finish();
-    evaluated.unended = reader.is_unended();
+    evaluated.unended = reader.rows.is_unended();
     Ok(evaluated)
 }
 

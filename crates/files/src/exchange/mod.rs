@@ -29,7 +29,6 @@ pub use {
     answers::{Answers, first_output, output_columns},
     design_rows::{DesignRows, RowBlock, factor_column},
     manifest::{ManifestDesign, ManifestFactor, ManifestRun, ManifestStudy},
-    points::PointsReader,
     rows::{ColumnKind, RowWriter, row_writer, table_of_bytes},
     table::DroppedRows,
 };

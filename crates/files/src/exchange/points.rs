@@ -8,12 +8,13 @@ use super::error::{TableError, place_in_words, refused};
 use super::rows::{ColumnKind, RowReader};
 
 /// Reads points block by block.
-pub struct PointsReader<'a> {
-    rows: &'a mut dyn RowReader,
+pub(super) struct PointsReader<'a> {
+    pub rows: &'a mut dyn RowReader,
     /// For each column that is read: its position in the file with its content, and the number of its factor.
     wanted: Vec<(usize, ColumnKind)>,
-    factors: Vec<usize>,
-    skipped: Vec<String>,
+    pub factors: Vec<usize>,
+    /// The names of the text columns that are not read.
+    pub skipped: Vec<String>,
     cells: Vec<Vec<f64>>,
     /// Number of rows read.
     read: u64,
@@ -51,21 +52,6 @@ impl<'a> PointsReader<'a> {
         }
         let cells = vec![Vec::new(); wanted.len()];
         Ok(Self { rows, wanted, factors, skipped, cells, read: 0 })
-    }
-
-    /// Returns the names of the text columns that are not read.
-    pub fn skipped(&self) -> &[String] {
-        &self.skipped
-    }
-
-    /// Returns which of the first `factors` factors have no column.
-    pub fn missing(&self, factors: usize) -> Vec<usize> {
-        (0..factors).filter(|factor| !self.factors.contains(factor)).collect()
-    }
-
-    /// Returns whether the last line of the file, read to its end, has no line end.
-    pub fn is_unended(&self) -> bool {
-        self.rows.is_unended()
     }
 
     /// Reads up to `rows` points into `columns` (one per factor of the space, in its unit) and returns how many there

@@ -66,19 +66,4 @@ mod tests {
         let axis = read("length = 2\naxis = \"time\"\naxis_unit = \"ms\"").unwrap().unwrap();
         assert_eq!((axis.label(), axis.unit()), ("time", "ms"));
     }
-
-    #[test]
-    fn invalid_series_are_refused_with_advice() {
-        let messages = [
-            "length = 1",
-            "length = 10000000",
-            "axis = \"day\"",
-            "positions = [0, 1]",
-            "length = 3\npositions = [0, 1, 1]",
-            "length = 3\npositions = [0, -1]",
-            "length = 4\npositions = [0, 1, 2]",
-        ]
-        .map(|text| read(text).unwrap_err());
-        insta::assert_snapshot!(messages.join("\n"));
-    }
 }

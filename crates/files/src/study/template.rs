@@ -278,14 +278,4 @@ mod tests {
             }
         }
     }
-
-    #[test]
-    fn names_are_written_as_toml_has_them() {
-        for model in [ModelKind::EXPRESSION, ModelKind::COMMAND, ModelKind::EXTERNAL] {
-            let outputs = ["y 1", "\"y\"", "\u{3bc}"].map(str::to_owned).to_vec();
-            let study = studied(&TemplateRequest { outputs: outputs.clone(), ..request(model) });
-            let found: Vec<String> = study.model().outputs().iter().map(|output| output.name.to_string()).collect();
-            assert_eq!(found, outputs, "{model:?}");
-        }
-    }
 }

@@ -1,7 +1,9 @@
 //! Plain text as HTML: symbols with subscripts, numbers joined to their units, and everything escaped.
 
 use apportion::quantity::Unit;
-use apportion::text::{is_letter as letter, subscript};
+use apportion::text::symbol;
+
+use crate::format::split_word;
 
 /// Converts `text` to HTML that may be used in an element or in a quoted attribute.
 ///
@@ -36,51 +38,30 @@ fn code_span(text: &str) -> Option<(&str, &str, &str)> {
 }
 
 fn prose(text: &str) -> String {
-    let letters: Vec<char> = joined(&clean(text)).chars().collect();
-    let mut html = String::with_capacity(letters.len() + 16);
-    let mut at = 0;
-    while at < letters.len() {
-        match symbol(&letters, at) {
-            Some(end) => {
-                let below: String = letters[at + 2..end].iter().collect();
-                html.push_str(&format!("<var>{}</var><sub>{}</sub>", letters[at], subscript(&below).unwrap_or(&below)));
-                at = end;
-            }
-            None => {
-                escape_into(&mut html, letters[at]);
-                at += 1;
-            }
+    let text = joined(&clean(text));
+    let mut html = String::with_capacity(text.len() + 16);
+    let mut rest = &text[..];
+    while !rest.is_empty() {
+        let before = &text[..text.len() - rest.len()];
+        let (word, after) = split_word(rest);
+        match symbol(word).filter(|_| !is_in_name(before, after)) {
+            Some((letter, below)) => html.push_str(&format!("<var>{letter}</var><sub>{below}</sub>")),
+            None => html.push_str(&escaped(word)),
         }
+        rest = after;
     }
     html
 }
 
-/// Returns the end of the symbol that begins at `at`, if there is one.
-fn symbol(letters: &[char], at: usize) -> Option<usize> {
-    let base = letters[at];
-    let in_name = |c: &char| c.is_alphanumeric() || matches!(c, '_' | '.' | '\\' | '~' | '@' | '#' | '$');
-    let before = at.checked_sub(1).map(|place| letters[place]);
-    let hyphenated = before == Some('-') && at.checked_sub(2).is_some_and(|place| letters[place].is_alphanumeric());
-    if !letter(base) || before.as_ref().is_some_and(in_name) || hyphenated || letters.get(at + 1) != Some(&'_') {
-        return None;
-    }
-    let length = letters[at + 2..].iter().take_while(|c| letter(**c) || c.is_ascii_digit()).count();
-    let end = at + 2 + length;
-    let below: String = letters[at + 2..end].iter().collect();
-    let short = subscript(&below).is_some();
-    let continued = match letters.get(end) {
-        None => false,
-        Some('.' | '-' | '/' | '\\') => {
-            letters.get(end + 1).is_some_and(|next| next.is_alphabetic() && !slash_symbol(letters, end))
-        }
-        Some(c) => c.is_alphanumeric() || *c == '_',
-    };
-    (short && !continued).then_some(end)
-}
-
-/// Returns whether a slash at `at` divides by another symbol, as in `S_1/S_T`.
-fn slash_symbol(letters: &[char], at: usize) -> bool {
-    letters[at] == '/' && letters.get(at + 2) == Some(&'_')
+/// Returns whether the word between these texts is a part of a longer name, such as that of a file.
+fn is_in_name(before: &str, after: &str) -> bool {
+    let hyphenated = before.strip_suffix('-').is_some_and(|start| start.ends_with(char::is_alphanumeric));
+    let mut next = after.chars();
+    let joint = next.next().filter(|c| matches!(c, '.' | '-' | '/' | '\\'));
+    let is_continued = joint.is_some() && next.next().is_some_and(char::is_alphabetic);
+    // A slash may divide by another symbol, as in `S_1/S_T`.
+    let is_quotient = joint == Some('/') && next.next() == Some('_');
+    before.ends_with(['.', '\\', '~', '@', '#', '$']) || hyphenated || (is_continued && !is_quotient)
 }
 
 /// Joins numbers to their units, and `±` to both its sides, by no-break spaces.
@@ -136,20 +117,12 @@ pub(super) fn clean(text: &str) -> String {
 
 /// Cleans the text and escapes the characters that have a meaning in HTML.
 pub(super) fn escaped(text: &str) -> String {
-    let mut html = String::with_capacity(text.len());
-    clean(text).chars().for_each(|c| escape_into(&mut html, c));
-    html
-}
-
-fn escape_into(html: &mut String, c: char) {
-    match c {
-        '&' => html.push_str("&amp;"),
-        '<' => html.push_str("&lt;"),
-        '>' => html.push_str("&gt;"),
-        '"' => html.push_str("&quot;"),
-        '\'' => html.push_str("&#39;"),
-        _ => html.push(c),
-    }
+    clean(text)
+        .replace('&', "&amp;")
+        .replace('<', "&lt;")
+        .replace('>', "&gt;")
+        .replace('"', "&quot;")
+        .replace('\'', "&#39;")
 }
 
 #[cfg(test)]

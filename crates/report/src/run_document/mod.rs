@@ -22,7 +22,7 @@ pub(crate) use tables::{FACTORS, IN_CSV};
 use warnings::grouped_warnings;
 
 use super::document::{DataFile, Document, Mark, Part, Section, Table};
-use super::format::{grouped, name, significant};
+use super::format::{grouped, name, printed, significant};
 use super::study_sections::{study_section, validity_section};
 use super::validity;
 
@@ -143,7 +143,7 @@ fn cost(result: &StudyResult) -> Vec<Part> {
     let mut rows = vec![
         ("model runs", grouped(provenance.model_runs)),
         ("base points", format!("{} in {} replicates", grouped(provenance.base_samples), provenance.replicates)),
-        ("time", format!("{} s", significant(format!("{seconds:.2e}").parse().unwrap_or(seconds)))),
+        ("time", format!("{} s", printed(seconds))),
         ("threads", provenance.threads.to_string()),
     ];
     if provenance.plain_rows > 0 {

@@ -50,11 +50,7 @@ impl<'a> Line<'a> {
         Self { kind: "aggregate", label, name: factor.clone(), first_order, total, effect: None, shapley: None }
     }
 
-    fn estimate(&self, of: fn(&EffectEstimates) -> Option<Estimate>) -> Option<Estimate> {
-        self.effect.and_then(of)
-    }
-
-    fn probability(&self, of: fn(&EffectEstimates) -> Option<f64>) -> Option<f64> {
+    fn get<T>(&self, of: fn(&EffectEstimates) -> Option<T>) -> Option<T> {
         self.effect.and_then(of)
     }
 }
@@ -87,27 +83,25 @@ fn effects<'a>(
             total => Cell::from(total),
         })
         .estimate("total", |line| Some(line.total))
-        .file_estimate("share_first_order", |line| line.estimate(EffectEstimates::first_order_percent))
-        .file_estimate("share_total", |line| line.estimate(EffectEstimates::total_percent))
-        .index("S_T − S_1", "interaction", |line| line.estimate(|effect| effect.interaction))
+        .file_estimate("share_first_order", |line| line.get(EffectEstimates::first_order_percent))
+        .file_estimate("share_total", |line| line.get(EffectEstimates::total_percent))
+        .index("S_T − S_1", "interaction", |line| line.get(|effect| effect.interaction))
         .shown(is_independent)
-        .number("P(largest)", |line| chance(line.probability(|effect| effect.probability_first)))
-        .value("probability_first", |line| line.probability(|effect| effect.probability_first))
+        .number("P(largest)", |line| chance(line.get(|effect| effect.probability_first)))
+        .value("probability_first", |line| line.get(|effect| effect.probability_first))
         .shown(is_independent)
         .number(format!("P(S_T > {})", result.provenance.threshold), |line| {
-            chance(line.probability(|effect| effect.probability_above_threshold))
+            chance(line.get(|effect| effect.probability_above_threshold))
         })
-        .value("probability_above_threshold", |line| line.probability(|effect| effect.probability_above_threshold))
+        .value("probability_above_threshold", |line| line.get(|effect| effect.probability_above_threshold))
         .shown(is_independent);
     if is_dependent {
         rows = rows
             .index("S_1 given the others", "independent_first_order", |line| {
-                line.estimate(|effect| Some(effect.dependent?.independent_first_order))
+                line.get(|effect| Some(effect.dependent?.independent_first_order))
             })
             .shown(is_of_one)
-            .index("S_T with the others", "full_total", |line| {
-                line.estimate(|effect| Some(effect.dependent?.full_total))
-            })
+            .index("S_T with the others", "full_total", |line| line.get(|effect| Some(effect.dependent?.full_total)))
             .shown(is_of_one);
     }
     let has_players = result.outputs.iter().any(|output| output.shapley_groups.is_some());
