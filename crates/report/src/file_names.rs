@@ -31,9 +31,9 @@ pub fn file_stems(study: &str, names: &[&str], suffixes: &[&str]) -> Vec<String>
     if names.len() == 1 {
         return vec![study.to_owned()];
     }
-    let parts: Vec<String> = names.iter().map(|name| file_part(name)).collect();
     let mut taken: HashSet<String> = HashSet::new();
-    let mut free = |number: usize, part: &str| {
+    let free = |(number, name): (usize, &&str)| {
+        let part = file_part(name);
         let numbered = (number + 1..).map(|n| format!("{study}-{part}-{n}"));
         let mut candidates = std::iter::once(format!("{study}-{part}")).chain(numbered);
         let files =
@@ -43,7 +43,7 @@ pub fn file_stems(study: &str, names: &[&str], suffixes: &[&str]) -> Vec<String>
         taken.extend(files(&stem));
         stem
     };
-    parts.iter().enumerate().map(|(number, part)| free(number, part)).collect()
+    names.iter().enumerate().map(free).collect()
 }
 
 #[cfg(test)]

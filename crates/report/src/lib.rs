@@ -21,8 +21,6 @@ pub mod sweep;
 mod text_table;
 mod validity;
 
-pub use apportion::names::{file_part, refused_name};
-pub use apportion::text::{capitalised, listed};
 pub use artefacts::{ArtefactError, Artefacts, Written};
 pub use atomic_write::{WriteError, prepare_file, prepare_folder, stream_atomically, write_atomically};
 pub use chart::Chart;

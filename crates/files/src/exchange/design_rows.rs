@@ -2,6 +2,7 @@
 
 use apportion::design::Design;
 use apportion::digest::Sha256;
+use apportion::model::Output;
 use apportion::quantity::Unit;
 use apportion::run::RowValues;
 use apportion::space::{Factor, Space};
@@ -74,6 +75,11 @@ pub fn factor_column(factor: &Factor) -> ColumnKind {
     let labels = law.labels().unwrap_or_default().iter();
     let labels = labels.filter_map(|label| Some((label.clone(), law.value_of(label)?))).collect();
     ColumnKind { labels, whole: law.is_whole(), ..ColumnKind::numbers(&factor.name) }
+}
+
+/// Returns the columns of files with points and outputs.
+pub(super) fn columns(factors: &[Factor], outputs: &[Output]) -> Vec<ColumnKind> {
+    factors.iter().map(factor_column).chain(outputs.iter().map(|output| ColumnKind::numbers(&output.name))).collect()
 }
 
 /// SHA-256 of the numbers of rows, row by row, each as the eight bytes of a little-endian double.

@@ -9,10 +9,9 @@ use apportion::space::Factor;
 use apportion::study::Study;
 use thiserror::Error;
 
-use super::design_rows::factor_column;
 use super::error::TableError;
 use super::points::PointsReader;
-use super::rows::{ColumnKind, Format, RowReader, row_writer};
+use super::rows::{Format, RowReader, row_writer};
 
 /// Why points could not be evaluated.
 #[derive(Debug, Error)]
@@ -80,9 +79,7 @@ pub fn evaluate(
         ..Evaluated::default()
     };
     let copied: &[Factor] = if with_points { factors } else { &[] };
-    let kinds = copied.iter().map(factor_column);
-    let kinds = kinds.chain(model.outputs().iter().map(|output| ColumnKind::numbers(&output.name))).collect();
-    let mut writer = row_writer(Format::Csv, outputs, kinds, 0)?;
+    let mut writer = row_writer(Format::Csv, outputs, super::design_rows::columns(copied, model.outputs()), 0)?;
     loop {
         let rows = reader.read(factors, most, &mut columns)?;
         if rows == 0 {

@@ -97,10 +97,8 @@ impl<'a> Layout<'a> {
 impl Rows {
     fn new(panels: &[Panel], page: ChartWidth) -> Self {
         let bars = || panels.iter().flat_map(Panel::bars);
-        let lane = match () {
-            () if bars().any(|(_, bar)| !bar.label.is_empty() || bar.diamond().is_some()) => LABELLED_LANE,
-            () => LANE,
-        };
+        let is_labelled = bars().any(|(_, bar)| !bar.label.is_empty() || bar.diamond().is_some());
+        let lane = if is_labelled { LABELLED_LANE } else { LANE };
         let in_row = |panel: &Panel, row| panel.bars().filter(|(_, bar)| bar.row == row).count();
         let most = panels.iter().flat_map(|panel| (0..panel.y.names.len()).map(move |row| in_row(panel, row))).max();
         let bars = (most.unwrap_or(0) as f64 * lane).max(MIN_BARS);
@@ -240,8 +238,7 @@ fn x_scale(first: &Panel, panels: &[Panel], width: f64) -> Scale {
         () if panels.iter().any(Panel::has_rows) => 0.03,
         () if panels.iter().any(Panel::has_points) => 0.06,
         // Points need free room at the ends; lines run from edge to edge.
-        () if marks().any(|mark| matches!(mark.shape, Shape::Dots(_))) => 0.02,
-        () if marks().any(|mark| mark.series.stroke.has_points()) => 0.02,
+        () if marks().any(|mark| matches!(mark.shape, Shape::Dots(_)) || mark.series.stroke.has_points()) => 0.02,
         () => 0.0,
     };
     let options = ScaleOptions { spacing: first.x.spacing, air, steps: steps(width, 50.0, 7) };

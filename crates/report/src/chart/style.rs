@@ -153,12 +153,4 @@ mod tests {
         assert!(ChartWidth::Paper("88mm".parse().unwrap()).is_narrow());
         assert!(!ChartWidth::Paper("180mm".parse().unwrap()).is_narrow());
     }
-
-    #[test]
-    fn only_numbers_that_can_be_placed_are_drawable() {
-        for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, f64::MAX] {
-            assert_eq!(drawable(value), None);
-        }
-        assert_eq!(drawable(-LARGEST), Some(-LARGEST));
-    }
 }
