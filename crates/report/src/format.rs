@@ -260,11 +260,6 @@ mod tests {
     }
 
     #[test]
-    fn names_read_as_words_and_symbols_stay() {
-        assert_eq!((name("critical_force"), name("F_cr")), ("critical force".to_owned(), "F_cr".to_owned()));
-    }
-
-    #[test]
     fn three_digits_are_three() {
         let cases = [
             (0.0, "0"),

@@ -111,9 +111,9 @@ impl<'a> Figure<'a> {
         page.content("title", &of_element(0), &self.chart.title);
         page.content("desc", &of_element(1), &format!("{} {}", self.chart.caption, self.chart.axes()));
         page.leaf("rect", &[("width", &width), ("height", &height), ("fill", &PAPER)]);
-        page.append(self.canvas);
+        page.out.push_str(&self.canvas.out);
         page.close("svg");
-        page.into_string()
+        page.out
     }
 
     /// Draws the caption and returns its last baseline.

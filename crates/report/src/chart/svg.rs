@@ -79,20 +79,11 @@ impl<'a> Text<'a> {
 /// A buffer of SVG.
 #[derive(Debug, Default)]
 pub(super) struct Canvas {
-    out: String,
+    /// The elements written so far.
+    pub out: String,
 }
 
 impl Canvas {
-    /// Returns the elements written so far.
-    pub fn into_string(self) -> String {
-        self.out
-    }
-
-    /// Adds the elements of another piece.
-    pub fn append(&mut self, other: Canvas) {
-        self.out.push_str(&other.out);
-    }
-
     /// Opens an element; `close` ends it.
     pub fn open(&mut self, name: &str, attributes: Attributes) {
         self.start(name, attributes);
@@ -216,7 +207,7 @@ mod tests {
         let said = |text: &str| {
             let mut canvas = Canvas::default();
             canvas.text(&Text::new(text, (0.0, 0.0), Face::regular(10.0)));
-            canvas.into_string().split_once('>').map(|(_, rest)| rest.to_owned()).unwrap_or_default()
+            canvas.out.split_once('>').map(|(_, rest)| rest.to_owned()).unwrap_or_default()
         };
         let lowered = |text: &str| format!("<tspan dy=\"2.2\" font-size=\"7.5\">{text}</tspan>");
         let raised = |text: &str| format!("<tspan dy=\"-2.2\">{text}</tspan>");
@@ -243,7 +234,7 @@ mod tests {
             canvas.open("g", &[("class", &text)]);
             canvas.text(&Text::new(&text, (0.0, 1.0), Face::bold(9.0)).turn(-90.0).halo().whole("all"));
             canvas.close("g");
-            let xml = canvas.into_string();
+            let xml = canvas.out;
             let document = Document::parse(&xml).expect("well-formed");
             let read = document.descendants().find(|n| n.has_tag_name("text")).unwrap().text().unwrap_or("");
             let expected: String = text

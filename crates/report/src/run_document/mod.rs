@@ -129,7 +129,9 @@ fn together(result: &StudyResult, aggregate: &AggregateRecord) -> Vec<Part> {
     let names: Vec<String> = aggregate.outputs.iter().map(|output| name(output)).collect();
     let mut parts = vec![Part::Text(format!("Of {}: {}.", listed(&names), aggregate.weighting))];
     match (&aggregate.indices, &aggregate.reason) {
-        (Some(indices), _) => parts.push(tables::aggregate_of(result, aggregate, indices).into()),
+        (Some(indices), _) => {
+            parts.push(tables::aggregate_of(result, &aggregate.outputs, indices, aggregate.noise.as_ref()).into())
+        }
         (None, Some(reason)) => parts.push(Part::no_indices(format!("There are no such indices: {reason}."))),
         (None, None) => (),
     }

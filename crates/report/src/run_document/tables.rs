@@ -1,9 +1,7 @@
 //! The tables of one output, and the CSV files, which hold more.
 
 use apportion::model::MIN_OUTPUTS_TOGETHER;
-use apportion::result::{
-    AggregateRecord, OtherIndexRecord, OutputResult, PairRecord, PlainIndexRecord, PlayerRecord, StudyResult,
-};
+use apportion::result::{OtherIndexRecord, OutputResult, PairRecord, PlainIndexRecord, PlayerRecord, StudyResult};
 use apportion::uncertainty::{EffectEstimates, Estimate, Interval};
 
 use crate::document::{Cell, Part, Rows, Table, csv};
@@ -145,12 +143,10 @@ pub(super) fn indices_csv(result: &StudyResult) -> String {
     let first = outputs().flat_map(|output| indices(result, output).into_iter().chain(groups(result, output)));
     let then = outputs().filter_map(|output| subsets(result, output));
     let aggregate = result.aggregate.iter().filter_map(|record| Some((record, record.indices.as_ref()?)));
-    let aggregate = aggregate.map(|(record, indices)| aggregate_of(result, record, indices));
+    let aggregate =
+        aggregate.map(|(record, indices)| aggregate_of(result, &record.outputs, indices, record.noise.as_ref()));
     let series = result.series.iter().filter_map(|series| {
-        let indices = series.indices.as_ref()?;
-        let (outputs, weighting) = (vec![series.name.clone()], String::new());
-        let record = AggregateRecord { outputs, weighting, indices: None, noise: None, reason: None };
-        Some(aggregate_of(result, &record, indices))
+        Some(aggregate_of(result, std::slice::from_ref(&series.name), series.indices.as_ref()?, None))
     });
     let header = std::iter::once(effects(result, "", "", "", &[]).into());
     csv(header.chain(first).chain(then).chain(aggregate).chain(series))
@@ -257,15 +253,20 @@ pub(super) fn estimators(output: &OutputResult) -> Vec<Part> {
 }
 
 /// Tabulates indices over all outputs together.
-pub(super) fn aggregate_of(result: &StudyResult, record: &AggregateRecord, indices: &[PlainIndexRecord]) -> Table {
+pub(super) fn aggregate_of(
+    result: &StudyResult,
+    outputs: &[String],
+    indices: &[PlainIndexRecord],
+    noise: Option<&PlainIndexRecord>,
+) -> Table {
     // The noise is one more line.
-    let noise = record.noise.iter().map(|noise| Line::plain(of_noise(&noise.factor), noise));
+    let noise = noise.into_iter().map(|noise| Line::plain(of_noise(&noise.factor), noise));
     let lines: Vec<Line<'_>> =
         indices.iter().map(|index| Line::plain(name(&index.factor), index)).chain(noise).collect();
     let order = falling(&lines.iter().map(|line| line.total.estimate).collect::<Vec<_>>());
     // The names of hundreds of outputs, in every line, would be most of the file.
-    let outputs = match record.outputs.len() {
-        ..MIN_OUTPUTS_TOGETHER => record.outputs.join(" + "),
+    let outputs = match outputs.len() {
+        ..MIN_OUTPUTS_TOGETHER => outputs.join(" + "),
         all if all == result.outputs.len() => "all outputs".to_owned(),
         _ => "all outputs that are not series".to_owned(),
     };
