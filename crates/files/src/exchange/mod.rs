@@ -15,7 +15,7 @@ mod sample;
 mod save;
 mod table;
 
-pub use answers::{AnswersRequest, MissingOutputs, read_answers};
+pub use answers::{AnswersRequest, read_answers};
 pub use error::TableError;
 pub use evaluate::{EvaluateError, Evaluated, evaluate};
 pub use manifest::Manifest;

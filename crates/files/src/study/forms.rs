@@ -11,12 +11,17 @@ use super::error::Problem;
 use super::sections::{At, FactorSection, StudyFile};
 
 /// Converts `root`, a study file, to the form of `StudyFile`: `noise = "seed"` is `noise.name = "seed"`.
-pub(super) fn normalise(root: &mut DeTable<'_>) {
+pub(super) fn normalise(context: &Context<'_>, root: &mut DeTable<'_>) -> Result<(), Fault> {
+    if let Some((key, _)) = root.get_key_value("factor").filter(|(_, value)| value.get_ref().is_table()) {
+        let right = "factors are lines of the table `[factors]`, or tables `[[factor]]`";
+        return Err(context.fault(key.span(), Problem::misplaced("factor", right)));
+    }
     if let Some(noise) = root.get_mut("noise").filter(|noise| noise.get_ref().is_str()) {
         let key = Spanned::new(noise.span(), Cow::Borrowed("name"));
         let name = Spanned::new(noise.span(), noise.get_ref().clone());
         *noise.get_mut() = DeValue::Table(DeTable::from_iter([(key, name)]));
     }
+    Ok(())
 }
 
 /// Joins the factors in one list, each with its name: those of `[[factor]]`, or of the lines of `[factors]` in the

@@ -15,7 +15,7 @@ use super::sections::StudyFile;
 /// Parses the text of `context`.
 pub(super) fn study_file(context: &Context<'_>) -> Result<StudyFile, Fault> {
     let mut root = DeTable::parse(context.text).map_err(|error| syntax(context, &error))?;
-    normalise(root.get_mut());
+    normalise(context, root.get_mut())?;
     let mut file = StudyFile::deserialize(Deserializer::from(root)).map_err(|error| syntax(context, &error))?;
     join_factors(context, &mut file)?;
     // Before any of them is processed.

@@ -59,10 +59,6 @@ pub struct ExpressionConstant {
     pub quantity: Quantity,
 }
 
-fn is_factor(space: &Space, name: &str) -> bool {
-    space.factors().iter().any(|factor| factor.name == name)
-}
-
 impl Subject for ExpressionSubject {
     fn name(&self) -> &'static str {
         ModelKind::EXPRESSION.name
@@ -141,7 +137,8 @@ impl Subject for KnownSubject {
     }
 
     fn constants(&self, space: &Space) -> Vec<(String, f64, String)> {
-        let inputs = known_inputs(&self.function).into_iter().filter(|input| !is_factor(space, &input.name));
+        let is_fixed = |input: &Input| space.factors().iter().all(|factor| factor.name != input.name);
+        let inputs = known_inputs(&self.function).into_iter().filter(is_fixed);
         inputs.map(|input| (input.name, input.nominal, input.unit.to_string())).collect()
     }
 }

@@ -11,7 +11,7 @@ use apportion::files::read_text;
 use apportion::quantity::Unit;
 use apportion::run::Store;
 use apportion::study::Study;
-use apportion_files::exchange::{AnswersRequest, Manifest, MissingOutputs, open_table, read_answers};
+use apportion_files::exchange::{AnswersRequest, Manifest, Missing, open_table, read_answers};
 
 use super::live::LiveArguments;
 use super::output::OutputArguments;
@@ -90,7 +90,7 @@ fn of_design(arguments: &Arguments) -> Result<Read, Failure> {
     let of_manifest = |error: &dyn std::fmt::Display| Failure::Input(anyhow!("{}: {error}", path.display()));
     let text = read_text(&path).map_err(|error| of_manifest(&format!("cannot read the manifest: {error}")))?;
     let manifest = Manifest::parse(&text).map_err(|error| of_manifest(&error))?;
-    let missing = if arguments.missing_as_failed { MissingOutputs::Failed } else { MissingOutputs::Refuse };
+    let missing = if arguments.missing_as_failed { Missing::Drop } else { Missing::Refuse };
     let request = AnswersRequest { manifest: &manifest, outputs: &arguments.outputs, units: &arguments.units, missing };
     let wrong = |error: &dyn std::fmt::Display| Failure::Input(anyhow!("{data}: {error}"));
     let mut reader = open_table(&arguments.data, &arguments.table.options(&[])).map_err(|error| wrong(&error))?;

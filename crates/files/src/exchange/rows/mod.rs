@@ -50,15 +50,7 @@ impl Format {
         if let Some(format) = Self::ALL.into_iter().find(known) {
             return Ok(format);
         }
-        let found = match ending.as_deref() {
-            None => String::new(),
-            Some("parquet") => {
-                ", not .parquet: in Python `pandas.read_csv(\"FILE.csv\").to_parquet(\"FILE.parquet\")` makes one \
-                                of a CSV file"
-                    .to_owned()
-            }
-            Some(ending) => format!(", not .{ending}"),
-        };
+        let found = ending.map_or_else(String::new, |ending| format!(", not .{ending}"));
         refused(format!("the ending of the name gives the format: expected .csv or .npy{found}"))
     }
 }
@@ -193,9 +185,6 @@ pub trait RowReader {
 pub fn open_table(path: &Path, options: &ReadOptions) -> Result<Box<dyn RowReader>, TableError> {
     let mut file = File::open(path)?;
     let about = file.metadata()?;
-    if about.is_dir() {
-        return Err(std::io::Error::from(std::io::ErrorKind::IsADirectory).into());
-    }
     let mut begin = Vec::new();
     (&mut file).take(8).read_to_end(&mut begin)?;
     if !begin.starts_with(npy::MAGIC) {
