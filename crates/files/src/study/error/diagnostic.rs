@@ -105,17 +105,4 @@ mod tests {
         let diagnostic = Diagnostic::new(Path::new("s.toml"), text, start..start + 3, Problem::new("no"));
         assert_eq!(diagnostic.to_string(), "s.toml:2:5: no\n  |\n2 | µ = 'x'\n  |     ^^^");
     }
-
-    #[test]
-    fn of_a_long_line_the_part_around_the_place_is_shown() {
-        let text = format!("a = \"{}\", b = 7, c = \"{}\"\n", "x".repeat(1000), "y".repeat(1000));
-        let start = text.find('7').unwrap_or(0);
-        let shown = Diagnostic::new(Path::new("s"), &text, start..start + 1, Problem::no_factors()).to_string();
-        let lines: Vec<&str> = shown.lines().collect();
-        assert!(lines[0].starts_with(&format!("s:1:{}: ", start + 1)) && shown.len() < 600, "{shown}");
-        let caret = lines[3].find('^').unwrap_or(0);
-        assert_eq!((&lines[2][caret..=caret], lines[2].starts_with("1 | xxx")), ("7", true));
-        let all = Diagnostic::new(Path::new("s"), &text, 0..text.len(), Problem::no_factors()).to_string();
-        assert!(all.len() < 600, "{all}");
-    }
 }
