@@ -24,8 +24,10 @@ pub(super) fn read(
     };
     let bytes = read_whole(&path).map_err(|error| wrong(&format!("cannot read the measured values: {error}")))?;
     let sha256 = sha256(&bytes);
-    let is_number = |line: &str| number(line.trim()).is_some();
-    let no_header = std::str::from_utf8(&bytes).is_ok_and(|text| text.lines().next().is_some_and(is_number));
+    let is_number = |text: &str| {
+        text.trim_start_matches('\u{feff}').trim_start().lines().next().and_then(|line| number(line.trim())).is_some()
+    };
+    let no_header = std::str::from_utf8(&bytes).is_ok_and(is_number);
     let options = ReadOptions { no_header, ..ReadOptions::default() };
     let mut reader = table_of_bytes(bytes, &options).map_err(|error| wrong(&error))?;
     let names = reader.names().map(<[String]>::to_vec).unwrap_or_default();
