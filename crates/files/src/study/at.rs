@@ -13,9 +13,9 @@ use serde::{Deserialize, Serialize};
 use toml::Spanned;
 
 /// A value with its byte range in the file; to the schema of study files it is the value alone.
-#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(transparent)]
-pub(super) struct At<T>(#[schemars(with = "T")] Spanned<T>);
+pub(super) struct At<T>(Spanned<T>);
 
 impl<T> At<T> {
     /// Creates a value at `span`.
@@ -36,6 +36,24 @@ impl<T> At<T> {
     /// Returns its byte range in the file.
     pub fn span(&self) -> Range<usize> {
         self.0.span()
+    }
+}
+
+impl<T: JsonSchema> JsonSchema for At<T> {
+    fn inline_schema() -> bool {
+        T::inline_schema()
+    }
+
+    fn schema_name() -> Cow<'static, str> {
+        T::schema_name()
+    }
+
+    fn schema_id() -> Cow<'static, str> {
+        T::schema_id()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        T::json_schema(generator)
     }
 }
 
