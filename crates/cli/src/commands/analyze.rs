@@ -11,8 +11,7 @@ use apportion::salib::{SalibLayout, SalibProblem, recognise, salib_study};
 use apportion::study::Study;
 use apportion::{Unlikely, Warning};
 use apportion_files::exchange::{
-    AnswersRequest, ColumnKind, Manifest, MissingOutputs, RowReader, first_output, open_table, output_columns,
-    read_answers,
+    AnswersRequest, ColumnKind, Manifest, Missing, RowReader, first_output, open_table, output_columns, read_answers,
 };
 
 use super::live::LiveArguments;
@@ -90,7 +89,7 @@ fn of_design(arguments: &Arguments) -> anyhow::Result<Read> {
     let path = manifest_path(arguments)?;
     let text = read_text(&path).map_err(|error| format!("cannot read the manifest: {error}")).in_file(&path)?;
     let manifest = Manifest::parse(&text).in_file(&path)?;
-    let missing = if arguments.missing_as_failed { MissingOutputs::Failed } else { MissingOutputs::Refuse };
+    let missing = if arguments.missing_as_failed { Missing::Drop } else { Missing::Refuse };
     let request = AnswersRequest { manifest: &manifest, outputs: &arguments.outputs, units: &arguments.units, missing };
     let mut reader = open_table(&arguments.data, &arguments.table.options(&[])).in_file(&arguments.data)?;
     let answers = read_answers(reader.as_mut(), &request).in_file(&arguments.data)?;

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use anyhow::anyhow;
 use apportion::model::RunContext;
 use apportion::space::Space;
-use apportion_files::exchange::{EvaluateError, Evaluated, evaluate_in, open_table};
+use apportion_files::exchange::{EvaluateError, Evaluated, evaluate as evaluate_points, open_table};
 use apportion_report::format::count;
 use apportion_report::{prepare_file, significant, stream_atomically};
 
@@ -51,7 +51,7 @@ pub fn evaluate(arguments: &Arguments) -> anyhow::Result<()> {
     let mut outcome = None;
     let written = stream_atomically(&arguments.output, |out| {
         let out = &mut Stoppable::new(out);
-        let result = outcome.insert(evaluate_in(&study, rows.as_mut(), out, arguments.with_points, &context));
+        let result = outcome.insert(evaluate_points(&study, rows.as_mut(), out, arguments.with_points, &context));
         // After any error, an incomplete file must not replace the target.
         result.as_ref().map(drop).map_err(|_| std::io::Error::other("incomplete"))
     });

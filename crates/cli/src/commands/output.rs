@@ -50,7 +50,7 @@ impl OutputArguments {
 }
 
 fn chart_format(name: &str) -> Result<Option<ChartFormat>, String> {
-    let format = ChartFormat::ALL.into_iter().find(|format| format.ending() == name.trim());
+    let format = ChartFormat::ALL.into_iter().find(|format| format.name() == name.trim());
     let wrong = || "expected svg, png and pdf, separated by commas, or none".to_owned();
     if name == "none" { Ok(None) } else { format.map(Some).ok_or_else(wrong) }
 }

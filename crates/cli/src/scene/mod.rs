@@ -156,7 +156,7 @@ pub fn mode_document(diagram: &ModeDiagram, study: &str, title: &str) -> Documen
     Report {
         kicker: "Modes of motion",
         title: title.to_owned(),
-        lead: vec![chart.caption().to_owned()],
+        lead: vec![chart.caption.clone()],
         then: vec![Section::new("diagram", "Mode diagram", vec![Figure::unnumbered(chart, &name).into()])],
         csv: Some(csv.into()),
         name,

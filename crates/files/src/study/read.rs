@@ -1,12 +1,13 @@
 //! Conversion of the text of a study file to [`StudyFile`], with the TOML reader's errors in the words of studies.
 
 use apportion::design::{DesignError, MAX_FACTORS};
+use apportion::names::nearest;
 use apportion::study::BuildError;
 use serde::Deserialize;
 use toml::de::{DeTable, Deserializer};
 
 use super::context::{self, Context, Fault};
-use super::error::{Problem, meant};
+use super::error::Problem;
 use super::forms::{join_factors, normalise};
 use super::schema::study_schema;
 use super::sections::StudyFile;
@@ -42,21 +43,13 @@ pub(super) fn problem(error: &toml::de::Error) -> Problem {
     }
 }
 
-/// Returns the problem of a key that its table does not have: it may be in another table, or have another name.
+/// Returns the problem of a key that its table does not have: it may belong to another one.
 fn unknown_key(name: &str, expected: &[&str]) -> Problem {
-    if meant(name, expected.iter().copied()).is_none() {
-        let tables = keys_of_tables();
-        let all = tables.iter().flat_map(|(place, keys)| keys.iter().map(move |key| (place, key.as_str())));
-        let ours = meant(name, all.clone().map(|(_, key)| key));
-        if let Some((place, key)) = ours.and_then(|ours| all.clone().find(|(_, key)| *key == ours)) {
-            let right = match key == name {
-                true => format!("it belongs {place}"),
-                false => format!("did you mean `{key}`, which belongs {place}?"),
-            };
-            return Problem::misplaced(name, &right);
-        }
+    let other = keys_of_tables().into_iter().find(|(_, keys)| keys.iter().any(|key| key == name));
+    match other.filter(|_| nearest(name, expected.iter().copied()).is_none()) {
+        Some((place, _)) => Problem::misplaced(name, &format!("it belongs {place}")),
+        None => context::unknown_key(name, expected.iter().copied()),
     }
-    context::unknown_key(name, expected.iter().copied())
 }
 
 /// Lists the tables of a study file, in words, with their keys, from the schema.

@@ -131,11 +131,11 @@ pub(super) fn displacement() -> Result<Drawn, Failure> {
     let other = line(format!("the same with G = {modulus} GPa as printed"), look, curve(&printed, RELATIVE));
     let caption = format!(
         "{}, and {} if the shear modulus is the {modulus} GPa that the papers print, with which it slips {}.",
-        ours.caption().trim_end_matches('.'),
+        ours.caption.trim_end_matches('.'),
         length(printed.end().relative),
         slip(&printed)
     );
-    let mut panels = ours.all_panels().to_vec();
+    let mut panels = ours.panels;
     if let Some(panel) = panels.first_mut() {
         // After its own line, the third of the chart.
         panel.marks.insert(panel.marks.len().min(3), other);
@@ -144,7 +144,7 @@ pub(super) fn displacement() -> Result<Drawn, Failure> {
     let both = [("E/(2(1+nu))", &story), (&as_printed, &printed)];
     let rows = table("shear_modulus", &both, &["substrate_position_nm", "particle_position_nm", RELATIVE]);
     let rows = rows.file("tip_base_position_nm", |(_, sample)| NANO * sample.lateral_deflection);
-    Ok((Chart::new(ours.title(), caption).panels(panels), rows.csv()))
+    Ok((Chart::new(ours.title, caption).panels(panels), rows.csv()))
 }
 
 /// Draws tS04 figure 11.

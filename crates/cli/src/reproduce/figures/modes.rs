@@ -21,7 +21,7 @@ pub(super) fn against_force_angle() -> Result<Drawn, Failure> {
     let diagram = scene_modes(&Scene::default(), &Options::default())?;
     let mut chart = mode_diagram_chart(&diagram);
     if let Some(said) = sliding(&diagram) {
-        chart.set_caption(format!("{}; {said}.", chart.caption().trim_end_matches('.')));
+        chart.caption = format!("{}; {said}.", chart.caption.trim_end_matches('.'));
     }
     let angle = |row: usize| diagram.angle[row].to_degrees();
     let mut rows = Table::from_rows("", 0..diagram.angle.len()).file("force_angle_deg", angle);
