@@ -2,6 +2,7 @@
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 use tempfile::NamedTempFile;
 use thiserror::Error;
@@ -54,7 +55,7 @@ pub fn stream_atomically(
 }
 
 /// Creates the folder and checks that files can be created in it, so that a run fails in its first second and not in
-/// its last.
+/// its last. Removes the partial files of killed runs.
 ///
 /// # Errors
 /// [`WriteError`] if the folder cannot be made or written to.
@@ -64,12 +65,14 @@ pub fn prepare_folder(folder: &Path) -> Result<(), WriteError> {
             return Err(no_folder(format!("{} is a file, and a folder is needed", file.display())));
         }
         std::fs::create_dir_all(folder)?;
+        remove_left_overs(folder);
         temporary_in(folder)?.close()
     };
     attempt().map_err(|source| WriteError { path: folder.to_owned(), source })
 }
 
-/// Checks that `path` can be written: a file can be created in its folder, and it is not a folder.
+/// Checks that `path` can be written: a file can be created in its folder, and it is not a folder. Removes the partial
+/// files of killed runs there.
 ///
 /// # Errors
 /// [`WriteError`] with the reason.
@@ -82,6 +85,7 @@ pub fn prepare_file(path: &Path) -> Result<(), WriteError> {
             if !folder.exists() {
                 return Err(no_folder(format!("the folder {} does not exist", folder.display())));
             }
+            remove_left_overs(folder);
             temporary_in(folder)?.close()
         }
     };
@@ -100,6 +104,24 @@ fn folder_of(path: &Path) -> &Path {
 /// Prefix of the names of temporary files.
 const TEMPORARY: &str = ".apportion-";
 
+/// Age from which an unlocked temporary file belongs to a killed run: a file is locked some microseconds after its
+/// creation.
+const ABANDONED: Duration = Duration::from_secs(1);
+
+/// Removes the temporary files in `folder` that no run is writing.
+fn remove_left_overs(folder: &Path) {
+    for entry in std::fs::read_dir(folder).into_iter().flatten().flatten() {
+        let is_temporary = entry.file_name().to_string_lossy().starts_with(TEMPORARY);
+        let age = entry.metadata().and_then(|about| about.modified()).ok().and_then(|time| time.elapsed().ok());
+        if is_temporary
+            && age.is_some_and(|age| age >= ABANDONED)
+            && std::fs::File::open(entry.path()).is_ok_and(|file| file.try_lock().is_ok())
+        {
+            let _ = std::fs::remove_file(entry.path());
+        }
+    }
+}
+
 /// Creates a temporary file that becomes a result: readable by others as far as the user's mask allows, which the
 /// private files of `tempfile` are not by default.
 fn temporary_in(folder: &Path) -> std::io::Result<NamedTempFile> {
@@ -110,12 +132,15 @@ fn temporary_in(folder: &Path) -> std::io::Result<NamedTempFile> {
         use std::os::unix::fs::PermissionsExt;
         builder.permissions(std::fs::Permissions::from_mode(0o666));
     }
-    builder.tempfile_in(folder).map_err(|error| {
+    let made = builder.tempfile_in(folder).map_err(|error| {
         // `tempfile` adds the name of the temporary file, which means nothing to the user.
         let text = error.to_string();
         let reason = text.split_once(" at path ").map_or(text.as_str(), |(reason, _)| reason);
         std::io::Error::new(error.kind(), reason)
-    })
+    })?;
+    // The lock tells other runs that the file is being written; some file systems have no locks.
+    let _ = made.as_file().try_lock();
+    Ok(made)
 }
 
 #[cfg(test)]

@@ -3,12 +3,12 @@
 use std::ops::Range;
 use std::path::PathBuf;
 
-use apportion::names::{Named, nearest};
+use apportion::names::Named;
 use apportion::study::did_you_mean;
 use toml::Value;
 
 use super::at::At;
-use super::error::{Diagnostic, Problem};
+use super::error::{Diagnostic, Problem, meant};
 
 /// A boxed diagnostic.
 pub(super) type Fault = Box<Diagnostic>;
@@ -43,14 +43,14 @@ pub(super) fn unknown_name<'a>(
     Problem::UnknownName {
         what,
         name: name.to_owned(),
-        nearest: nearest(name, known.clone()),
+        nearest: meant(name, known.clone()),
         expected: known.map(str::to_owned).collect(),
     }
 }
 
 /// Returns the error for a key that the table does not have.
 pub(super) fn unknown_key<'a>(name: &str, known: impl Iterator<Item = &'a str> + Clone) -> Problem {
-    let hint = did_you_mean(&nearest(name, known.clone()));
+    let hint = did_you_mean(&meant(name, known.clone()));
     let help = format!("keys allowed here: {}", known.collect::<Vec<_>>().join(", "));
     Problem::with_help(format!("unknown key `{name}`{hint}"), help)
 }

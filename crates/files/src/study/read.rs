@@ -1,13 +1,12 @@
 //! Conversion of the text of a study file to [`StudyFile`], with the TOML reader's errors in the words of studies.
 
 use apportion::design::{DesignError, MAX_FACTORS};
-use apportion::names::nearest;
 use apportion::study::BuildError;
 use serde::Deserialize;
 use toml::de::{DeTable, Deserializer};
 
 use super::context::{self, Context, Fault};
-use super::error::Problem;
+use super::error::{Problem, meant};
 use super::forms::{join_factors, normalise};
 use super::schema::study_schema;
 use super::sections::StudyFile;
@@ -46,7 +45,7 @@ pub(super) fn problem(error: &toml::de::Error) -> Problem {
 /// Returns the problem of a key that its table does not have: it may belong to another one.
 fn unknown_key(name: &str, expected: &[&str]) -> Problem {
     let other = keys_of_tables().into_iter().find(|(_, keys)| keys.iter().any(|key| key == name));
-    match other.filter(|_| nearest(name, expected.iter().copied()).is_none()) {
+    match other.filter(|_| meant(name, expected.iter().copied()).is_none()) {
         Some((place, _)) => Problem::misplaced(name, &format!("it belongs {place}")),
         None => context::unknown_key(name, expected.iter().copied()),
     }

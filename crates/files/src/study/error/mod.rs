@@ -2,11 +2,13 @@
 
 mod diagnostic;
 mod problem;
+mod synonyms;
 
 use std::path::PathBuf;
 
 pub use diagnostic::Diagnostic;
 pub use problem::Problem;
+pub(super) use synonyms::meant;
 use thiserror::Error;
 
 /// A study that cannot be read or is invalid.
