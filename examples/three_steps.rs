@@ -7,7 +7,7 @@ use std::fmt::Write;
 use std::path::Path;
 
 use apportion_files::exchange::{
-    AnswersRequest, Format, Manifest, MissingOutputs, ReadOptions, open_table, read_answers, sample,
+    AnswersRequest, Format, Manifest, Missing, ReadOptions, open_table, read_answers, sample,
 };
 use apportion_report::{run_document, stream_atomically, write_atomically};
 
@@ -61,7 +61,7 @@ pub fn main() -> Result<(), Box<dyn Error>> {
 
     // The third: outputs that are not those of the points in the manifest are refused, with the first place that shows it.
     let manifest = Manifest::parse(&std::fs::read_to_string(Manifest::path_for(&points))?)?;
-    let request = AnswersRequest { manifest: &manifest, outputs: &[], units: &[], missing: MissingOutputs::Refuse };
+    let request = AnswersRequest { manifest: &manifest, outputs: &[], units: &[], missing: Missing::Refuse };
     let answers = read_answers(open_table(&outputs, &ReadOptions::default())?.as_mut(), &request)?;
     let result = answers.study.runner().store(&answers.store).run()?;
     print!("{}", run_document(&result).text());

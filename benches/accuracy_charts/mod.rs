@@ -100,6 +100,6 @@ pub fn write(all: &[Curve]) {
     for (name, chart) in charts {
         let svg = chart.svg();
         super::write(&format!("{name}.svg"), svg.as_bytes());
-        super::write(&format!("{name}.png"), &png(&svg).expect("our own SVG").bytes);
+        super::write(&format!("{name}.png"), &png(&svg).expect("our own SVG"));
     }
 }

@@ -63,6 +63,6 @@ pub fn errors(cells: &[Cell]) -> Chart {
 /// The chart as SVG, and as PNG.
 pub fn files(cells: &[Cell]) -> [(&'static str, Vec<u8>); 2] {
     let svg = errors(cells).svg();
-    let png = png(&svg).expect("our own SVG").bytes;
+    let png = png(&svg).expect("our own SVG");
     [("surrogate.svg", svg.into_bytes()), ("surrogate.png", png)]
 }

@@ -81,7 +81,7 @@ fn collect(parts: &[Part], charts: &mut Vec<(String, String)>) -> PyResult<()> {
     for part in parts {
         match part {
             Part::Figure(figure) => {
-                charts.push((figure.chart.title().to_owned(), figure.chart.svg()));
+                charts.push((figure.chart.title.clone(), figure.chart.svg()));
             }
             Part::Details { parts, .. } | Part::OnPage(parts) => collect(parts, charts)?,
             _ => (),

@@ -7,7 +7,8 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use crate::model::{Batch, Counts, Model, RowFailure};
 
 /// Outputs of consecutive rows of one replicate. Rows are counted within the replicate, base point by base point (row =
-/// point * [`Design::rows_per_point`] + run), so that their numbers stay the same when the design grows.
+/// point * [`rows_per_point`](crate::design::Design::rows_per_point) + run), so that their numbers stay the same when the
+/// design grows.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Piece {
     /// The replicate.

@@ -341,6 +341,9 @@ CASES = [
     ("triangular", dict(min=a, mode=m, max=b), stats.triang((m - a) / (b - a), a, b - a))
     for a, m, b in [(0, 1, 4), (-1, -1, 1), (2, 5, 5), (1e9, 1.5e9, 3e9)]
 ] + [
+    ("pert", dict(min=a, mode=m, max=b), stats.beta(1 + 4 * (m - a) / (b - a), 1 + 4 * (b - m) / (b - a), a, b - a))
+    for a, m, b in [(0, 1, 8), (-1, -1, 1), (5, 7, 9)]
+] + [
     ("beta", dict(alpha=p, beta=q, min=a, max=b), stats.beta(p, q, a, b - a))
     for p, q, a, b in [
         (2, 5, 0, 1),

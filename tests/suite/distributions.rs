@@ -20,6 +20,7 @@ fn from_json(case: &Value) -> Distribution {
         "log-normal" if p("mean").is_nan() => Distribution::log_normal_of_logs(p("log_mean"), p("log_sd")),
         "log-normal" => Distribution::log_normal(p("mean"), p("sd")),
         "triangular" => Distribution::triangular(p("min"), p("mode"), p("max")),
+        "pert" => Distribution::pert(p("min"), p("mode"), p("max")),
         "beta" => Distribution::beta(p("alpha"), p("beta"), p("min"), p("max")),
         "weibull" => Distribution::weibull(p("shape"), p("scale"), p("location")),
         "gumbel" => Distribution::gumbel(p("location"), p("scale")),

@@ -164,11 +164,11 @@ fn measured_values_are_refused_with_their_line() {
     messages.spoilt(&folder, STUDY, &changes);
     folder.with("study.toml", STUDY);
     for (case, measured, place) in [
-        ("no number", &b"radius\n1\n\nnan\n"[..], ":4: "),
-        ("too few cells", b"radius,b\n1,2\n3\n", ":3: "),
-        ("a header alone", b"radius\n", ":1: "),
+        ("no number", &b"radius\n1\n\nnan\n"[..], ": line 4: "),
+        ("too few cells", b"radius,b\n1,2\n3\n", ": line 3: "),
+        ("a header alone", b"radius\n", ": "),
         ("nothing", b"", ": "),
-        ("no UTF-8", b"radius\n\xff\n", ": "),
+        ("no UTF-8", b"radius\n\xff\n", ": line 2: "),
     ] {
         folder.with("measured.csv", measured);
         let message = messages.refused_as(case, &["check", text(&study)]);

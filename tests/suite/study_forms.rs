@@ -54,7 +54,7 @@ fn other_forms_are_refused_with_todays_lines() {
         (&format!("{list}[factors.b]\nmin = 0\nmax = 1\n")[..], "7:10"),
         ("[factor]\nname = \"a\"\nmin = 0\nmax = 1\n", "3:2"),
         ("[factor.a]\nmin = 0\nmax = 1\n", "3:2"),
-        ("factors = [{ name = \"a\", min = 0, max = 1 }]\n", "3:1"),
+        ("factors = [{ name = \"a\", min = 0, max = 1 }]\n", "3:11"),
         ("[factors.a]\nname = \"b\"\nmin = 0\n", "4:8"),
         ("[factors.a]\nmin = 0\n", "3:10"),
     ] {

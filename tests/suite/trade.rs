@@ -1,11 +1,11 @@
 //! `apportion trade`: comparison of settings.
 
-use apportion_cli::trade::settings::SettingsFile;
+use apportion_cli::trade::settings::Comparison;
 
 use crate::common::{Folder, all_files, study_path, succeed, text};
 use crate::messages::messages;
 
-fn compared(study: &std::path::Path, out: &std::path::Path, more: &[&str]) -> SettingsFile {
+fn compared(study: &std::path::Path, out: &std::path::Path, more: &[&str]) -> Comparison {
     let arguments = ["trade", text(study), "--seconds", "4", "--seeds", "1", "--out", text(out)];
     succeed(&[&arguments[..], more].concat());
     let name = study.file_stem().unwrap().to_str().unwrap();

@@ -4,7 +4,7 @@
 #![cfg_attr(not(test), deny(clippy::disallowed_methods))]
 
 mod commands;
-mod live;
+mod failure;
 mod reproduce;
 mod scene;
 pub mod trade;

@@ -1,13 +1,11 @@
 //! The catalogue of models with their inputs and outputs, for study files and for readers. One entry for each kind; the
 //! registry of the study files says how their tables become a model.
 
-use std::fmt;
-
 use apportion::model::{Choice, Input, KnownAnswer, Output, known_inputs, known_output};
 use apportion_afm::model::{afm_choices, afm_inputs, afm_outputs};
 
 /// A model that a study can name, and its description without a study.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub struct ModelKind {
     /// The name in study files.
     pub name: &'static str,
@@ -118,9 +116,3 @@ impl PartialEq for ModelKind {
 }
 
 impl Eq for ModelKind {}
-
-impl fmt::Debug for ModelKind {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_tuple("ModelKind").field(&self.name).finish()
-    }
-}

@@ -80,7 +80,12 @@ pub struct Written {
 impl Artefacts {
     /// Creates the destination `folder`, with charts as SVG and PNG.
     pub fn new(folder: impl Into<PathBuf>) -> Self {
-        Self { folder: folder.into(), formats: ChartFormat::USUAL.to_vec(), width: ChartWidth::Wide, input: None }
+        Self {
+            folder: folder.into(),
+            formats: vec![ChartFormat::Svg, ChartFormat::Png],
+            width: ChartWidth::Wide,
+            input: None,
+        }
     }
 
     /// Sets the formats of the chart files; an empty list means no charts.
@@ -130,7 +135,7 @@ impl Artefacts {
             prepare_folder(&charts)?;
         }
         let data = document.data_files();
-        let data = data.into_iter().map(|file| self.put(&file.name, stop, || Ok(Cow::Borrowed(file.text.as_bytes()))));
+        let data = data.iter().map(|file| self.put(&file.name, stop, file.text.as_bytes()));
         let data = data.collect::<Result<_, _>>()?;
         figures.par_iter().try_for_each(|figure| {
             if self.formats.is_empty() || stop.load(Ordering::SeqCst) {
@@ -138,24 +143,18 @@ impl Artefacts {
             }
             let svg = figure.chart.svg_at(self.width);
             self.formats.iter().try_for_each(|format| {
-                let file = format!("{CHARTS}/{}.{}", figure.stem, format.ending());
+                let file = format!("{CHARTS}/{}.{}", figure.stem, format.name());
                 let failed = |source| ArtefactError::Chart { file: figure.stem.clone(), source };
-                self.put(&file, stop, || picture(&svg, *format).map_err(failed)).map(|_| ())
+                self.put(&file, stop, &picture(&svg, *format).map_err(failed)?).map(drop)
             })
         })?;
-        let page = self.put(&format!("{}.html", document.name), stop, || {
-            Ok(Cow::Owned(document.html_in_folder(&self.formats).into_bytes()))
-        })?;
+        let page = document.html_in_folder(&self.formats);
+        let page = self.put(&format!("{}.html", document.name), stop, page.as_bytes())?;
         Ok(Written { page, data, charts: has_charts.then_some((charts, figures.len())) })
     }
 
     /// Writes the file at `path` below the folder and returns its location.
-    fn put<'b>(
-        &self,
-        path: &str,
-        stop: &AtomicBool,
-        bytes: impl FnOnce() -> Result<Cow<'b, [u8]>, ArtefactError>,
-    ) -> Result<PathBuf, ArtefactError> {
+    fn put(&self, path: &str, stop: &AtomicBool, bytes: &[u8]) -> Result<PathBuf, ArtefactError> {
         if stop.load(Ordering::SeqCst) {
             return Err(ArtefactError::Stopped);
         }
@@ -164,7 +163,7 @@ impl Artefacts {
         if self.input.as_ref().is_some_and(|input| real(input).is_some() && real(input) == real(&path)) {
             return Err(ArtefactError::Input { path });
         }
-        write_atomically(&path, &bytes()?)?;
+        write_atomically(&path, bytes)?;
         Ok(path)
     }
 }
@@ -174,11 +173,11 @@ fn picture(svg: &str, format: ChartFormat) -> Result<Cow<'_, [u8]>, Box<dyn std:
     match format {
         ChartFormat::Svg => Ok(Cow::Borrowed(svg.as_bytes())),
         #[cfg(feature = "png")]
-        ChartFormat::Png => Ok(Cow::Owned(png(svg)?.bytes)),
+        ChartFormat::Png => Ok(Cow::Owned(png(svg)?)),
         #[cfg(feature = "pdf")]
         ChartFormat::Pdf => Ok(Cow::Owned(pdf(svg)?)),
         #[cfg(not(all(feature = "png", feature = "pdf")))]
-        other => Err(format!("this build lacks the feature `{}`", other.ending()).into()),
+        other => Err(format!("this build lacks the feature `{}`", other.name()).into()),
     }
 }
 

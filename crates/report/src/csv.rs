@@ -9,63 +9,17 @@ pub enum Value {
     /// The text that is printed.
     #[default]
     Printed,
-    /// Nothing.
-    Empty,
-    /// A text.
-    Text(String),
-    /// A number, written so that the same bits are read back; one that is not finite is left empty.
-    Number(f64),
-    /// A whole number.
-    Count(u64),
-    /// Yes or no.
-    Flag(bool),
-    /// An estimate and the bounds of its interval, in three columns.
-    Estimate(Option<Estimate>),
-}
-
-/// The name of a column, or of the three columns of an estimate.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Field {
-    name: String,
-    is_estimate: bool,
-}
-
-impl Field {
-    /// Creates a column.
-    pub fn new(name: impl Into<String>) -> Self {
-        Self { name: name.into(), is_estimate: false }
-    }
-
-    /// Creates the columns `name`, `name_low` and `name_high`.
-    pub fn estimate(name: impl Into<String>) -> Self {
-        Self { name: name.into(), is_estimate: true }
-    }
-}
-
-impl Field {
-    /// Returns the headers of its columns.
-    pub(super) fn names(&self) -> Vec<String> {
-        let suffixes = if self.is_estimate { &["", "_low", "_high"][..] } else { &[""] };
-        suffixes.iter().map(|suffix| inert(format!("{}{suffix}", self.name))).collect()
-    }
+    /// These cells: one, or three of an estimate and the bounds of its interval.
+    Cells(Vec<String>),
 }
 
 impl Value {
     /// Returns the cells of its columns, where `printed` is the printed text.
     pub(super) fn cells(&self, printed: &str) -> Vec<String> {
-        vec![match self {
-            Self::Printed => inert(printed.to_owned()),
-            Self::Empty => String::new(),
-            Self::Text(text) => inert(text.clone()),
-            Self::Number(number) => exact(Some(*number)),
-            Self::Count(count) => count.to_string(),
-            Self::Flag(flag) => flag.to_string(),
-            Self::Estimate(estimate) => {
-                let interval = estimate.and_then(|estimate| estimate.interval);
-                let bounds = [interval.map(|i| i.low), interval.map(|i| i.high)];
-                return [estimate.map(|e| e.estimate)].into_iter().chain(bounds).map(exact).collect();
-            }
-        }]
+        match self {
+            Self::Printed => vec![inert(printed.to_owned())],
+            Self::Cells(cells) => cells.clone(),
+        }
     }
 }
 
@@ -81,29 +35,34 @@ fn exact(value: Option<f64>) -> String {
     value.filter(|value| value.is_finite()).map_or_else(String::new, |value| value.to_string())
 }
 
+fn of_estimate(estimate: Option<Estimate>) -> Vec<String> {
+    let interval = estimate.and_then(|estimate| estimate.interval);
+    [estimate.map(|of| of.estimate), interval.map(|of| of.low), interval.map(|of| of.high)].map(exact).to_vec()
+}
+
 /// Declares how a value of each type is written in a table.
 macro_rules! values {
-    ($($type:ty => $value:expr;)+) => {
+    ($($type:ty => $cells:expr;)+) => {
         $(impl From<$type> for Value {
             fn from(of: $type) -> Self {
-                $value(of)
+                Self::Cells($cells(of))
             }
         })+
     };
 }
 
 values! {
-    &str => |text: &str| Self::Text(text.to_owned());
-    &String => |text: &String| Self::Text(text.clone());
-    String => Self::Text;
-    f64 => Self::Number;
-    u64 => Self::Count;
-    bool => Self::Flag;
-    Estimate => |estimate| Self::Estimate(Some(estimate));
-    Option<Estimate> => Self::Estimate;
-    Option<f64> => |number: Option<f64>| number.map_or(Self::Empty, Self::Number);
-    Option<&str> => |text: Option<&str>| text.map_or(Self::Empty, Self::from);
-    Option<bool> => |flag: Option<bool>| flag.map_or(Self::Empty, Self::Flag);
+    &str => |text: &str| vec![inert(text.to_owned())];
+    &String => |text: &String| vec![inert(text.clone())];
+    String => |text| vec![inert(text)];
+    f64 => |number| vec![exact(Some(number))];
+    u64 => |count: u64| vec![count.to_string()];
+    bool => |flag: bool| vec![flag.to_string()];
+    Estimate => |estimate| of_estimate(Some(estimate));
+    Option<Estimate> => of_estimate;
+    Option<f64> => |number| vec![exact(number)];
+    Option<&str> => |text: Option<&str>| vec![text.map_or_else(String::new, |text| inert(text.to_owned()))];
+    Option<bool> => |flag: Option<bool>| vec![flag.map_or_else(String::new, |flag| flag.to_string())];
 }
 
 #[cfg(test)]

@@ -2,35 +2,20 @@
 
 use std::collections::HashSet;
 
-use apportion::names::file_part;
+use apportion::names::{file_part, named};
 
 /// The folder of the charts, below that of the page.
 pub(super) const CHARTS: &str = "charts";
 
-/// A format of charts.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ChartFormat {
-    /// Vector graphics.
-    Svg,
-    /// Pixels.
-    Png,
-    /// A page of vectors and text, for papers.
-    Pdf,
-}
-
-impl ChartFormat {
-    /// All formats.
-    pub const ALL: [Self; 3] = [Self::Svg, Self::Png, Self::Pdf];
-    /// The default formats.
-    pub const USUAL: [Self; 2] = [Self::Svg, Self::Png];
-
-    /// Returns the file extension.
-    pub fn ending(self) -> &'static str {
-        match self {
-            Self::Svg => "svg",
-            Self::Png => "png",
-            Self::Pdf => "pdf",
-        }
+named! {
+    /// A format of charts, whose name is the ending of its files.
+    pub enum ChartFormat {
+        /// Vector graphics.
+        Svg = "svg",
+        /// Pixels.
+        Png = "png",
+        /// A page of vectors and text, for papers.
+        Pdf = "pdf",
     }
 }
 
@@ -46,9 +31,9 @@ pub fn file_stems(study: &str, names: &[&str], suffixes: &[&str]) -> Vec<String>
     if names.len() == 1 {
         return vec![study.to_owned()];
     }
-    let parts: Vec<String> = names.iter().map(|name| file_part(name)).collect();
     let mut taken: HashSet<String> = HashSet::new();
-    let mut free = |number: usize, part: &str| {
+    let free = |(number, name): (usize, &&str)| {
+        let part = file_part(name);
         let numbered = (number + 1..).map(|n| format!("{study}-{part}-{n}"));
         let mut candidates = std::iter::once(format!("{study}-{part}")).chain(numbered);
         let files =
@@ -58,7 +43,7 @@ pub fn file_stems(study: &str, names: &[&str], suffixes: &[&str]) -> Vec<String>
         taken.extend(files(&stem));
         stem
     };
-    parts.iter().enumerate().map(|(number, part)| free(number, part)).collect()
+    names.iter().enumerate().map(free).collect()
 }
 
 #[cfg(test)]

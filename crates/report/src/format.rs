@@ -4,6 +4,7 @@ mod estimates;
 mod units;
 
 use apportion::text::symbol;
+use apportion::uncertainty::Estimate;
 pub use estimates::{give_or_take, index, is_above_zero, percent, printed_half_width, share, two_digits};
 pub use units::unit;
 
@@ -189,6 +190,11 @@ pub fn minus(text: &str) -> String {
     signed
 }
 
+/// Formats an estimate with its error and its unit, if it has one.
+pub(crate) fn index_with_unit(record: Estimate, unit: &str) -> String {
+    format!("{} {}", index(record), axis_unit(unit)).trim_end().to_owned()
+}
+
 /// Converts a name of the study to words; a symbol such as `F_cr` is kept.
 pub fn name(name: &str) -> String {
     if is_symbol(name) { name.to_owned() } else { words(name) }
@@ -197,6 +203,13 @@ pub fn name(name: &str) -> String {
 /// Converts any name to words.
 pub fn words(name: &str) -> String {
     name.replace('_', " ")
+}
+
+/// Splits a text after its first word, or before it if it does not begin with one.
+pub(crate) fn split_word(text: &str) -> (&str, &str) {
+    let is_word = |c: char| c.is_alphanumeric() || c == '_';
+    let end = if text.starts_with(is_word) { text.find(|c| !is_word(c)) } else { text.find(is_word) };
+    text.split_at(end.unwrap_or(text.len()))
 }
 
 fn is_symbol(name: &str) -> bool {
@@ -244,11 +257,6 @@ mod tests {
         assert_eq!(grouped(655_360), "655\u{202f}360");
         assert_eq!((grouped(1024), grouped(1_048_576)), ("1024".to_owned(), "1\u{202f}048\u{202f}576".to_owned()));
         assert_eq!((count(1, "run", "runs"), count(2, "run", "runs")), ("one run".to_owned(), "2 runs".to_owned()));
-    }
-
-    #[test]
-    fn names_read_as_words_and_symbols_stay() {
-        assert_eq!((name("critical_force"), name("F_cr")), ("critical force".to_owned(), "F_cr".to_owned()));
     }
 
     #[test]

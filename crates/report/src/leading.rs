@@ -43,49 +43,36 @@ pub(super) fn by_total(output: &OutputResult) -> Option<Vec<(usize, &IndexRecord
     (!order.is_empty()).then_some(order)
 }
 
-/// Which contender is the largest according to estimates and intervals, by number.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) enum Verdict {
-    /// There is no contender.
-    None,
-    /// It is the largest with a probability of 0.95 or more, or the errors are unknown.
-    Leads(usize),
-    /// These are indistinguishable within their errors, the largest estimate first.
-    Tied(Vec<usize>),
+/// Returns the positions of `keys`, the largest key first.
+pub(super) fn falling(keys: &[f64]) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..keys.len()).collect();
+    order.sort_by(|&a, &b| keys[b].total_cmp(&keys[a]));
+    order
 }
 
-impl Verdict {
-    /// Ranks the contenders. A contender is tied with the largest estimate if its own probability is 0.05 or more, or,
-    /// where probabilities are unknown, if the intervals overlap. Every contender with a larger estimate is tied too.
-    pub fn new(contenders: &[Contender]) -> Self {
-        let mut order: Vec<usize> = (0..contenders.len()).collect();
-        order.sort_by(|&a, &b| contenders[b].total.estimate.total_cmp(&contenders[a].total.estimate));
-        let Some((&lead, rest)) = order.split_first() else { return Self::None };
-        let rivals = match (contenders[lead].probability, contenders[lead].total.interval) {
-            (Some(probability), _) if probability >= SURE => 0,
-            (Some(_), _) => {
-                let is_likely = |&k: &usize| contenders[k].probability.is_some_and(|chance| chance >= 1.0 - SURE);
-                // Not certain, and no other one is likely: the next one.
-                rest.iter().rposition(is_likely).map_or(1, |last| last + 1)
-            }
-            (None, Some(Interval { low, .. })) => {
-                let reaches = |&k: &usize| contenders[k].total.interval.is_some_and(|interval| interval.high >= low);
-                rest.iter().rposition(reaches).map_or(0, |last| last + 1)
-            }
-            (None, None) => 0,
-        };
-        order.truncate(1 + rivals);
-        if order.len() == 1 { Self::Leads(lead) } else { Self::Tied(order) }
-    }
-
-    /// Returns those that may be the largest, the largest estimate first.
-    pub fn leaders(&self) -> &[usize] {
-        match self {
-            Self::None => &[],
-            Self::Leads(lead) => std::slice::from_ref(lead),
-            Self::Tied(tied) => tied,
+/// Returns the numbers of the contenders that may be the largest, the largest estimate first. One alone is the largest
+/// with a probability of 0.95 or more, or the errors are unknown; several are tied. A contender is tied with the largest
+/// estimate if its own probability is 0.05 or more, or, where probabilities are unknown, if the intervals overlap. Every
+/// contender with a larger estimate is tied too.
+pub(super) fn leaders(contenders: &[Contender]) -> Vec<usize> {
+    let estimates: Vec<f64> = contenders.iter().map(|contender| contender.total.estimate).collect();
+    let mut order = falling(&estimates);
+    let Some((&lead, rest)) = order.split_first() else { return order };
+    let rivals = match (contenders[lead].probability, contenders[lead].total.interval) {
+        (Some(probability), _) if probability >= SURE => 0,
+        (Some(_), _) => {
+            let is_likely = |&k: &usize| contenders[k].probability.is_some_and(|chance| chance >= 1.0 - SURE);
+            // Not certain, and no other one is likely: the next one.
+            rest.iter().rposition(is_likely).map_or(1, |last| last + 1)
         }
-    }
+        (None, Some(Interval { low, .. })) => {
+            let reaches = |&k: &usize| contenders[k].total.interval.is_some_and(|interval| interval.high >= low);
+            rest.iter().rposition(reaches).map_or(0, |last| last + 1)
+        }
+        (None, None) => 0,
+    };
+    order.truncate(1 + rivals);
+    order
 }
 
 /// Returns which of these interactions exist, tested together: one in forty 95 % intervals excludes 0 from below by
@@ -108,26 +95,21 @@ pub(super) fn measure(output: &OutputResult) -> &'static str {
 /// Says which contender leads by a `measure`, in a sentence that begins with `of`, such as `For y`; `None` for none.
 pub(super) fn leader(contenders: &[Contender], of: &str, measure: &str, unit: &str) -> Option<String> {
     let size = |contender: &Contender| format!("{} {unit}", index(contender.total)).trim_end().to_owned();
-    let verdict = Verdict::new(contenders);
-    let largest = &contenders[*verdict.leaders().first()?];
+    let leaders = leaders(contenders);
+    let largest = &contenders[*leaders.first()?];
     if largest.total.estimate <= 0.0 {
         return Some(format!("{of}, no {measure} is greater than 0."));
     }
-    Some(match verdict {
-        Verdict::None | Verdict::Leads(_) => {
-            // An estimated probability is never certain.
-            let chance = |p: f64| chance(Some(p)).replace("> ", "more than ");
-            let sure = largest.probability.map(|p| format!(", the largest with a probability of {}", chance(p)));
-            let sure = sure.unwrap_or_default();
-            format!("{of}, {} matters most: its {measure} is {}{sure}.", largest.label, size(largest))
-        }
-        Verdict::Tied(tied) => {
-            let shown = tied.iter().take(NAMES).map(|&k| &contenders[k]);
-            let mut all: Vec<String> = shown.map(|one| format!("{} ({})", one.label, size(one))).collect();
-            all.extend((tied.len() > NAMES).then(|| format!("{} more", tied.len() - NAMES)));
-            format!("{of}, the most important factors cannot be distinguished by the {measure}: {}.", listed(&all))
-        }
-    })
+    if leaders.len() == 1 {
+        // An estimated probability is never certain.
+        let chance = |p: f64| chance(Some(p)).replace("> ", "more than ");
+        let sure = largest.probability.map(|p| format!(", the largest with a probability of {}", chance(p)));
+        let sure = sure.unwrap_or_default();
+        return Some(format!("{of}, {} matters most: its {measure} is {}{sure}.", largest.label, size(largest)));
+    }
+    let tied = leaders.iter().map(|&k| format!("{} ({})", contenders[k].label, size(&contenders[k])));
+    let tied = first_names(tied);
+    Some(format!("{of}, the most important factors cannot be distinguished by the {measure}: {tied}."))
 }
 
 /// Says the same for the indices of an output, or why it has none.
@@ -158,14 +140,20 @@ pub(super) fn first_answers(mut answers: Vec<String>) -> Vec<String> {
     answers
 }
 
+/// Lists names as in prose, the first ones of many.
+fn first_names(mut names: impl ExactSizeIterator<Item = String>) -> String {
+    let mut shown: Vec<String> = names.by_ref().take(NAMES).collect();
+    shown.extend((names.len() > 0).then(|| format!("{} more", names.len())));
+    listed(&shown)
+}
+
 /// Lists the outputs at these positions by name, the first ones of many.
 pub(super) fn of_which(outputs: &[&str], places: &[usize]) -> String {
-    let mut names: Vec<String> = places.iter().take(NAMES).map(|&place| name(outputs[place])).collect();
-    names.extend((places.len() > NAMES).then(|| format!("{} more", places.len() - NAMES)));
+    let names = first_names(places.iter().map(|&place| name(outputs[place])));
     match places.len() {
-        1 => names.concat(),
+        1 => names,
         all if all == outputs.len() => format!("all {all} outputs"),
-        several => format!("{several} outputs: {}", listed(&names)),
+        several => format!("{several} outputs: {names}"),
     }
 }
 
@@ -188,16 +176,16 @@ mod tests {
             contender("b", (0.42, 0.6), Some(0.53)),
             contender("c", (0.0, 0.1), Some(0.02)),
         ];
-        assert_eq!(Verdict::new(&tie), Verdict::Tied(vec![1, 0]));
+        assert_eq!(leaders(&tie), [1, 0]);
         let mut unknown = tie.to_vec();
         unknown.iter_mut().for_each(|contender| contender.probability = None);
-        assert_eq!(Verdict::new(&unknown), Verdict::Tied(vec![1, 0]));
+        assert_eq!(leaders(&unknown), [1, 0]);
         unknown.iter_mut().for_each(|contender| contender.total.interval = None);
-        assert_eq!(Verdict::new(&unknown), Verdict::Leads(1));
-        assert_eq!(Verdict::new(&[]), Verdict::None);
+        assert_eq!(leaders(&unknown), [1]);
+        assert!(leaders(&[]).is_empty());
         // Not certain, and no other one is likely: the next one.
         let unsure = [contender("a", (0.5, 0.6), Some(0.93)), contender("b", (0.4, 0.5), Some(0.04))];
-        assert_eq!(Verdict::new(&unsure), Verdict::Tied(vec![0, 1]));
+        assert_eq!(leaders(&unsure), [0, 1]);
     }
 
     #[test]
@@ -208,14 +196,14 @@ mod tests {
             .zip(probabilities)
             .map(|(total, probability)| contender("x", total, probability))
             .collect();
-        assert_eq!(Verdict::new(&contenders), Verdict::Tied(vec![0, 1, 2]));
+        assert_eq!(leaders(&contenders), [0, 1, 2]);
         // By intervals: that of the second is below, that of the third is not.
         let mut by_interval = contenders.clone();
         by_interval.iter_mut().for_each(|contender| contender.probability = None);
         for (contender, high) in by_interval[1..].iter_mut().zip([0.99, 1.2]) {
             contender.total.interval = contender.total.interval.map(|interval| Interval { high, ..interval });
         }
-        assert_eq!(Verdict::new(&by_interval), Verdict::Tied(vec![0, 1, 2]));
+        assert_eq!(leaders(&by_interval), [0, 1, 2]);
     }
 
     #[test]

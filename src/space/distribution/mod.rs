@@ -23,6 +23,7 @@ mod log_uniform;
 mod logistic;
 mod normal;
 mod pareto;
+mod pert;
 mod poisson;
 mod quadrature;
 mod seed;
@@ -108,6 +109,7 @@ families! {
     LogNormal(LogNormal) = log_normal::ENTRIES,
     Triangular(Triangular) = triangular::ENTRIES,
     Beta(Beta) = beta::ENTRIES,
+    Pert(Pert) = pert::ENTRIES,
     Weibull(Weibull) = weibull::ENTRIES,
     Gumbel(Gumbel) = gumbel::ENTRIES,
     Gamma(Gamma) = gamma::ENTRIES,

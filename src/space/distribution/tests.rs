@@ -24,6 +24,7 @@ fn samples() -> Vec<Distribution> {
         Distribution::log_normal_of_logs(1.0, 0.25),
         Distribution::triangular(1.0, 2.0, 4.0),
         Distribution::beta(2.0, 0.5, 1.0, 3.0),
+        Distribution::pert(1.0, 2.0, 4.0),
         Distribution::weibull(1.5, 2.0, 0.25),
         Distribution::gumbel(1.0, 2.0),
         Distribution::truncated_gumbel(1.0, 2.0, 0.5, 6.0),
@@ -119,7 +120,7 @@ fn a_poisson_distribution_has_its_exact_shares() {
 fn names_are_those_of_study_files() {
     let mut names: Vec<_> = samples().iter().map(Distribution::name).collect();
     names.dedup();
-    let expected = "uniform log-uniform normal truncated-normal log-normal triangular beta weibull gumbel truncated-gumbel gamma exponential poisson student-t logistic pareto histogram gamma discrete integer categorical boolean empirical constant";
+    let expected = "uniform log-uniform normal truncated-normal log-normal triangular beta pert weibull gumbel truncated-gumbel gamma exponential poisson student-t logistic pareto histogram gamma discrete integer categorical boolean empirical constant";
     assert_eq!(names.join(" "), expected);
 }
 
@@ -136,6 +137,7 @@ fn json_holds_the_name_and_the_parameters_as_given() {
     {"name":"log-normal","log_mean":1.0,"log_sd":0.25}
     {"name":"triangular","min":1.0,"mode":2.0,"max":4.0}
     {"name":"beta","alpha":2.0,"beta":0.5,"min":1.0,"max":3.0}
+    {"name":"pert","min":1.0,"mode":2.0,"max":4.0}
     {"name":"weibull","shape":1.5,"scale":2.0,"location":0.25}
     {"name":"gumbel","location":1.0,"scale":2.0}
     {"name":"truncated-gumbel","location":1.0,"scale":2.0,"min":0.5,"max":6.0}

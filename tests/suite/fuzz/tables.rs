@@ -4,6 +4,7 @@ use std::path::Path;
 use std::sync::LazyLock;
 
 use apportion::given::analyse;
+use apportion::model::RunContext;
 use apportion::study::Study;
 use apportion_files::exchange::{
     Missing, ReadOptions, RowReader, Selection, Table, evaluate, read_table, table_of_bytes,
@@ -51,7 +52,9 @@ pub fn run(bytes: &[u8]) {
     for names in [&given[..0], &given] {
         let Some(mut rows) = rows(csv, names) else { continue };
         let mut values = Vec::new();
-        let Ok(evaluated) = evaluate(&STUDY, rows.as_mut(), &mut values) else { continue };
+        let Ok(evaluated) = evaluate(&STUDY, rows.as_mut(), &mut values, false, &RunContext::default()) else {
+            continue;
+        };
         // A header, and a line for each point.
         let lines = values.iter().filter(|byte| **byte == b'\n').count() as u64;
         assert_eq!(lines, evaluated.points + 1);

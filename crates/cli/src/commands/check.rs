@@ -1,21 +1,22 @@
-//! `apportion check`: the meaning of a study and its cost, without running it.
+//! `apportion check`: the meaning of a study, and the plan of a run: its rows, their cost, and its duration.
 
 use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
+use apportion::design::Design;
+use apportion::estimate::{FirstOrder, Total};
 use apportion::model::{Output, RunContext};
-use apportion::run::{Job, Pilot};
+use apportion::run::{BLOCK, FailurePolicy, Job, Pilot};
 use apportion::space::distribution::Parameter;
-use apportion::space::{Distribution, Factor};
-use apportion::study::Study;
+use apportion::space::{Distribution, IndicesOf};
+use apportion::study::{Study, Target};
 use apportion_files::ModelKind;
-use apportion_report::{significant, table, two_digits, with_unit};
+use apportion_report::{grouped, significant, table, two_digits, with_unit};
 
-use super::check_plan::plan;
 use super::output::default_folder;
 use super::run::journal_path;
 use super::stop::on_signal;
-use super::{DesignChanges, Failure, StudyArguments, counted, print, say, say_notes};
+use super::{DesignChanges, StudyArguments, counted, print, say};
 
 #[derive(clap::Args)]
 pub struct Arguments {
@@ -28,52 +29,45 @@ pub struct Arguments {
     out: Option<PathBuf>,
 }
 
-pub fn check(arguments: &Arguments) -> Result<(), Failure> {
+pub fn check(arguments: &Arguments) -> anyhow::Result<()> {
     let study = arguments.study.load_any(&arguments.design.overrides())?;
-    say_notes(&study);
     let folder = arguments.out.clone().unwrap_or_else(|| default_folder(study.name()));
-    let pilot = if study.subject().is_external() { None } else { Some(pilot(&study)?) };
-    let mut text = subject(&study);
-    text.push_str(&factors(&study));
-    text.push_str(&plan(&study, &arguments.study.study, pilot.as_ref()));
-    text.push_str(&past_runs(&study, &folder));
-    text.push_str(&format!(
-        "\nwill be written to {}: the page {}.html, tables, charts\n",
+    let mut pilot = None;
+    if !study.subject().is_external() {
+        let model = study.model();
+        let context = RunContext::new(Some(on_signal()), say);
+        let job = Job { design: study.design(), space: study.space(), model: model.as_ref() };
+        pilot = Some(Pilot::new(job, &context)?);
+    }
+    print(&format!(
+        "{}{}{}{}\nwill be written to {}: the page {}.html, tables, charts\n",
+        subject(&study),
+        factors(&study),
+        plan(&study, &arguments.study.study, pilot.as_ref()),
+        past_runs(&study, &folder),
         folder.display(),
         study.name()
-    ));
-    print(&text)?;
+    ))?;
     match pilot.filter(|pilot| pilot.failed == pilot.runs) {
         None => Ok(()),
         Some(Pilot { runs: number, reason, .. }) => {
             let (number, reason) = (counted(number, "run"), reason.unwrap_or_default());
-            Err(Failure::Run(anyhow!("every one of the first runs failed ({number}): {reason}")))
+            Err(anyhow!("every one of the first runs failed ({number}): {reason}"))
         }
     }
 }
 
-fn pilot(study: &Study) -> Result<Pilot, Failure> {
-    let model = study.model();
-    let context = RunContext::new(Some(on_signal()), say);
-    Ok(Pilot::new(Job { design: study.design(), space: study.space(), model: model.as_ref() }, &context)?)
-}
-
-fn file_names_of(files: &[PathBuf]) -> String {
-    let name = |file: &PathBuf| file.file_name().map(|name| name.to_string_lossy().into_owned());
-    files.iter().filter_map(name).collect::<Vec<_>>().join(", ")
-}
-
 fn subject(study: &Study) -> String {
-    let mut text = format!("study {}", study.name());
-    if let Some(title) = &study.title() {
-        text.push_str(&format!(": {title}"));
-    }
-    let about =
-        ModelKind::from_name(study.subject().name()).map_or_else(String::new, |kind| format!(": {}", kind.description));
-    text.push_str(&format!("\nmodel {}{about}\n", study.subject().name()));
-    let files = study.subject().files();
-    if study.subject().name() == ModelKind::COMMAND.name {
-        let names = if files.is_empty() { "none".to_owned() } else { file_names_of(&files) };
+    let model_name = study.subject().name();
+    let after_colon = |text: &str| format!(": {text}");
+    let title = study.title().map(after_colon).unwrap_or_default();
+    let about = ModelKind::from_name(model_name).map(|kind| after_colon(kind.description)).unwrap_or_default();
+    let mut text = format!("study {}{title}\nmodel {model_name}{about}\n", study.name());
+    if model_name == ModelKind::COMMAND.name {
+        let files = study.subject().files();
+        let names = files.iter().filter_map(|file| Some(file.file_name()?.to_string_lossy()));
+        let names = names.collect::<Vec<_>>().join(", ");
+        let names = if names.is_empty() { "none" } else { &names };
         text.push_str(&format!("files that a journal depends on: {names}\n"));
     }
     for (name, value) in study.settings() {
@@ -97,11 +91,9 @@ fn subject(study: &Study) -> String {
     };
     let outputs: Vec<String> = model.outputs().iter().enumerate().filter_map(output).collect();
     text.push_str(&format!("outputs: {}\n", outputs.join(", ")));
-    let constants: Vec<String> = study
-        .constants()
-        .into_iter()
-        .map(|(name, value, unit)| format!("{name} = {}", with_unit(value, &unit)))
-        .collect();
+    let constants = study.constants().into_iter();
+    let constants: Vec<String> =
+        constants.map(|(name, value, unit)| format!("{name} = {}", with_unit(value, &unit))).collect();
     if !constants.is_empty() {
         text.push_str(&format!("fixed: {}\n", constants.join(", ")));
     }
@@ -142,7 +134,14 @@ fn factors(study: &Study) -> String {
         }
         let is_truncated = law.parameters().iter().any(|(_, value)| matches!(value, Parameter::Bounds(..)));
         if factor.determined || is_truncated {
-            below.push_str(&format!("{}: {} with {}\n", factor.name, law.name(), parameters(factor)));
+            // With all their digits.
+            let parameters = law.parameters().into_iter().filter_map(|(name, value)| match value {
+                Parameter::Number(number) => Some(format!("{name} = {number}")),
+                Parameter::Bounds(min, max) => Some(format!("{name} = [{min}, {max}]")),
+                _ => None,
+            });
+            let parameters = parameters.collect::<Vec<_>>().join(", ");
+            below.push_str(&format!("{}: {} with {parameters}\n", factor.name, law.name()));
         }
         table.add_row([
             factor.name.clone(),
@@ -160,33 +159,193 @@ fn factors(study: &Study) -> String {
     format!("{table}\n{below}")
 }
 
-/// The parameters of a factor's distribution with all their digits.
-fn parameters(factor: &Factor) -> String {
-    let parameters = factor.distribution().parameters();
-    let words = parameters.iter().filter_map(|(name, value)| match value {
-        Parameter::Number(number) => Some(format!("{name} = {number}")),
-        Parameter::Bounds(min, max) => Some(format!("{name} = [{min}, {max}]")),
-        _ => None,
-    });
-    words.collect::<Vec<_>>().join(", ")
-}
-
 /// The lines on the journal in the folder of the results.
 fn past_runs(study: &Study, folder: &Path) -> String {
     let path = journal_path(folder, study.name(), None);
-    let runner = study.runner().journal(&path);
-    let megabytes = study.design().rows() as f64 * study.model().outputs().len() as f64 * 8e-6;
+    let total = study.design().rows();
+    let megabytes = total as f64 * study.model().outputs().len() as f64 * 8e-6;
     let (size, path_text) = (two_digits(megabytes.max(0.01)), path.display());
     let when = if study.model().is_slow() { "" } else { ", if the run takes longer than 10 s" };
     let mut text = format!("disk: about {size} MB for the journal {path_text}{when}\n");
     if path.exists() {
-        text.push_str(&match runner.recorded_runs() {
-            Ok(rows) => {
-                let total = study.design().rows();
-                format!("already saved: {} of {total} runs, which are not repeated\n", rows.min(total))
-            }
+        text.push_str(&match study.runner().journal(&path).recorded_runs() {
+            Ok(rows) => format!("already saved: {} of {total} runs, which are not repeated\n", rows.min(total)),
             Err(error) => format!("already saved: no usable runs: {error}\n"),
         });
     }
     text
+}
+
+/// The rows of the design, what is asked of them, and what they cost by the first runs.
+fn plan(study: &Study, file: &Path, pilot: Option<&Pilot>) -> String {
+    let design = study.design();
+    let settings = design.settings();
+    let size = if study.target().grows() { "begins with " } else { "" };
+    let base_samples = grouped(settings.base_samples);
+    let mut lines = vec![
+        String::new(),
+        format!(
+            "design: {} points, {size}{base_samples} base samples in {} of {}, seed {}",
+            settings.sampler.name(),
+            counted(settings.replicates, "replicate"),
+            design.points_per_replicate(),
+            settings.seed
+        ),
+    ];
+    for dependence in study.space().dependences() {
+        let measure = dependence.measure_in_force().name();
+        lines.push(format!("dependent: {} (correlations: {measure})", dependence.factors().join(", ")));
+    }
+    lines.push(format!("asked: {}", asked(study).join(", ")));
+    let has_ba = design.has_ba();
+    lines.push(format!(
+        "estimators: first order {}, total {}",
+        FirstOrder::default_for(has_ba).name(),
+        Total::default_for(has_ba).name()
+    ));
+    let analysis = study.analysis();
+    lines.push(format!("intervals: {}", analysis.intervals.words(settings.replicates, analysis.resamples)));
+    lines.push(match analysis.failures {
+        FailurePolicy::Fail => "failed runs: the first one stops the run".to_owned(),
+        FailurePolicy::DropBlock => {
+            let share = significant(100.0 * analysis.max_failed);
+            format!("failed runs: left out, up to {share} % of all runs; beyond that no indices are estimated")
+        }
+    });
+    lines.push(format!("rows of a base sample: {}", rows(study).join(" + ")));
+    lines.push(format!(
+        "cost: {size}{base_samples} base samples x {} = {} model runs, {}",
+        design.rows_per_point(),
+        grouped(design.rows()),
+        time(pilot)
+    ));
+    lines.extend(stopping(study));
+    lines.extend(memory(study));
+    if pilot.is_none_or(|pilot| pilot.seconds > SLOW_RUN * design.rows() as f64) {
+        let file = file.display();
+        lines.push(format!(
+            "fewer runs: --runs N, or apportion screen {file} (docs/which-method.md compares the methods by the number of runs)"
+        ));
+    }
+    let warnings = pilot.into_iter().flat_map(|pilot| pilot_warnings(study, pilot));
+    let warnings = warnings
+        .chain(analysis.design_warnings(design).into_iter().map(|warning| warning.to_string()))
+        .chain(correlated_pairs(design));
+    lines.extend(warnings.map(|warning| format!("warning: {warning}")));
+    lines.join("\n") + "\n"
+}
+
+/// Seconds of a run above which its number is worth a word.
+const SLOW_RUN: f64 = 1e-3;
+
+fn time(pilot: Option<&Pilot>) -> String {
+    match pilot {
+        None => "outside this program".to_owned(),
+        Some(pilot) if pilot.failed == pilot.runs => "in an unknown time (every pilot run failed)".to_owned(),
+        Some(pilot) => {
+            format!("about {} on this machine (from {})", duration(pilot.seconds), counted(pilot.runs, "run"))
+        }
+    }
+}
+
+/// What the first runs have shown.
+fn pilot_warnings(study: &Study, pilot: &Pilot) -> Vec<String> {
+    let mut warnings = Vec::new();
+    if let Some(reason) = &pilot.reason {
+        warnings.push(format!("{} of {} failed: {reason}", pilot.failed, counted(pilot.runs, "run")));
+    }
+    let has_noise = study.space().noise().is_some();
+    let of_output = |differing: &u64| pilot.repeats.as_ref()?.warning(*differing, has_noise);
+    warnings.extend(pilot.repeats.iter().flat_map(|repeats| &repeats.differing).find_map(of_output));
+    warnings
+}
+
+/// What is estimated.
+fn asked(study: &Study) -> Vec<String> {
+    let (analysis, space) = (study.analysis(), study.space());
+    let several = |number: usize, what: &str| (number > 0).then(|| counted(number as u64, what));
+    let names = |what: &str, names: Vec<&str>| (!names.is_empty()).then(|| format!("{what} {}", names.join(", ")));
+    let of = match analysis.indices_of {
+        IndicesOf::Factors => "the factors",
+        IndicesOf::Groups => "the groups, and of the factors without one",
+    };
+    let parts = [
+        Some(format!("first-order and total indices of {of}")),
+        several(study.layout().groups, "group"),
+        several(analysis.subsets.len(), "subset"),
+        analysis.dummy.then(|| "a dummy factor".to_owned()),
+        analysis.second_order.then(|| format!("second order of {} pairs", study.layout().pair_list().len())),
+        analysis.has_shapley(space).then(|| "Shapley effects".to_owned()),
+        names("measures", analysis.measures.iter().map(|measure| measure.name()).collect()),
+        space.noise().map(|noise| format!("the noise ({}) and the mean over it", space.factors()[noise].name)),
+        (analysis.aggregate && study.model().outputs().len() > 1).then(|| "all outputs together".to_owned()),
+        names("other estimators", analysis.estimators.iter().map(|estimator| estimator.name()).collect()),
+        study.uses_surrogate(study.design()).then(|| "correction by surrogates".to_owned()),
+        names("cheaper models", study.low_fidelities().iter().map(|low| low.name.as_str()).collect()),
+    ];
+    parts.into_iter().flatten().collect()
+}
+
+/// Which rows every base sample has.
+fn rows(study: &Study) -> Vec<String> {
+    let design = study.design();
+    let swaps = design.swaps().len() as u64;
+    let row = |number: u64, what: &str| (number > 0).then(|| format!("{} {what}", counted(number, "row")));
+    let parts = [
+        Some("A and B".to_owned()),
+        row(swaps, "AB"),
+        row(if design.has_ba() { swaps } else { 0 }, "BA"),
+        row(design.plain_rows().into(), "only for surrogates"),
+    ];
+    parts.into_iter().flatten().collect()
+}
+
+/// How a growing run goes on and when it ends.
+fn stopping(study: &Study) -> Option<String> {
+    let Target { accuracy, max_time, max_runs } = study.target();
+    let ends = [
+        accuracy.map(|width| format!("every first-order and total index is known to {width} (half its interval)")),
+        max_time.map(|seconds| format!("twice the runs would take longer than {}", duration(seconds))),
+        max_runs.map(|runs| format!("twice the runs would be more than {runs}")),
+    ];
+    let ends: Vec<String> = ends.into_iter().flatten().collect();
+    (!ends.is_empty()).then(|| format!("growth: runs are added, and all are used, until {}", ends.join(", or ")))
+}
+
+/// Columns of the factors (unit cube and SI, A and B) and of every output of every row kind; and outputs that are kept.
+fn memory(study: &Study) -> Vec<String> {
+    let (design, outputs) = (study.design(), study.model().outputs().len() as u64);
+    let columns = 2 * design.columns() as u64 + design.rows_per_point() * (outputs + 1);
+    let kilobytes = (columns * BLOCK * 8) as f64 / 1e3;
+    let mut lines = vec![format!("memory: about {kilobytes:.0} kB per thread, for any number of samples")];
+    if study.needs_outputs() {
+        let bytes = design.rows() as f64 * outputs as f64 * 8.0;
+        lines.push(format!("        and {:.1} MB for the outputs of all runs", bytes / 1e6));
+    }
+    lines
+}
+
+fn duration(seconds: f64) -> String {
+    match seconds {
+        s if s < 0.1 => "0.1 s or less".to_owned(),
+        s if s < 120.0 => format!("{s:.1} s"),
+        s if s < 7200.0 => format!("{:.0} minutes", s / 60.0),
+        s => format!("{:.1} hours", s / 3600.0),
+    }
+}
+
+/// Sobol' points of many factors have pairs of dimensions that are correlated until there are points enough
+/// (see `SobolSequence`).
+fn correlated_pairs(design: &Design) -> Option<String> {
+    /// More factors than the first number need as many points a replicate as the second.
+    const NEEDED: [(usize, u64); 3] = [(100, 1 << 14), (50, 1 << 12), (30, 1 << 11)];
+    let points = design.points_per_replicate();
+    let (_, needed) = *NEEDED.iter().find(|(factors, _)| design.factors() > *factors)?;
+    (design.settings().sampler.is_digital() && points < needed).then(|| {
+        format!(
+            "{} factors at {points} points a replicate: some pairs of dimensions of Sobol' points are still correlated, \
+             which widens the errors; use {needed} points a replicate or more",
+            design.factors()
+        )
+    })
 }

@@ -2,13 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use anyhow::anyhow;
 use apportion::names::{file_part, refused_name};
 use apportion::result::read_result;
 use apportion_report::comparison::{NamedResult, compare_results, comparison_document};
 
-use super::Failure;
 use super::output::{OutputArguments, deliver};
+use crate::failure::bad_input;
 
 #[derive(clap::Args)]
 pub struct Arguments {
@@ -28,12 +27,12 @@ pub struct Arguments {
     output: OutputArguments,
 }
 
-pub fn compare(arguments: &Arguments) -> Result<(), Failure> {
+pub fn compare(arguments: &Arguments) -> anyhow::Result<()> {
     let (a, b) = (read_result(&arguments.a)?, read_result(&arguments.b)?);
     let [told_a, told_b] = told_apart([(&a.study.name, &arguments.a), (&b.study.name, &arguments.b)]);
     for label in [&arguments.label_a, &arguments.label_b].into_iter().flatten() {
         if let Some(expected) = refused_name(label) {
-            return Err(Failure::Input(anyhow!("--label-a, --label-b: expected {expected}")));
+            return Err(bad_input(format!("--label-a, --label-b: expected {expected}")));
         }
     }
     let label_a = arguments.label_a.as_deref().unwrap_or(&told_a);
@@ -41,8 +40,8 @@ pub fn compare(arguments: &Arguments) -> Result<(), Failure> {
     let files = [&arguments.a, &arguments.b].map(|path| path.display().to_string());
     let a = NamedResult { result: &a, label: label_a, file: &files[0] };
     let b = NamedResult { result: &b, label: label_b, file: &files[1] };
-    let file = compare_results(&a, &b)
-        .map_err(|error| Failure::Input(anyhow!("A is {}, B is {}: {error}", files[0], files[1])))?;
+    let file =
+        compare_results(&a, &b).map_err(|error| bad_input(format!("A is {}, B is {}: {error}", files[0], files[1])))?;
     let name = format!("{}-vs-{}", file_part(&told_a), file_part(&told_b));
     deliver(&arguments.output.artefacts(&name), &comparison_document(&file, &name))
 }

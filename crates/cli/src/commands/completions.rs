@@ -1,8 +1,9 @@
 //! `apportion completions`: shell completions of commands and options.
 
+use clap::CommandFactory;
 use clap_complete::{Shell, generate};
 
-use super::{Failure, print_raw};
+use super::{Cli, print_raw};
 
 #[derive(clap::Args)]
 #[command(after_help = "Where to put it:
@@ -16,8 +17,8 @@ pub struct Arguments {
     shell: Shell,
 }
 
-pub fn completions(arguments: &Arguments) -> Result<(), Failure> {
+pub fn completions(arguments: &Arguments) -> anyhow::Result<()> {
     let mut script = Vec::new();
-    generate(arguments.shell, &mut super::command(), "apportion", &mut script);
+    generate(arguments.shell, &mut Cli::command(), "apportion", &mut script);
     print_raw(&script)
 }

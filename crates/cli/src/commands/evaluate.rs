@@ -3,16 +3,16 @@
 use std::path::PathBuf;
 
 use anyhow::anyhow;
-use apportion::model::{GiveUp, RunContext};
-use apportion::run::Halt;
+use apportion::model::RunContext;
 use apportion::space::Space;
-use apportion_files::exchange::{EvaluateError, Evaluated, evaluate_in, open_table};
+use apportion_files::exchange::{EvaluateError, Evaluated, evaluate as evaluate_points, open_table};
 use apportion_report::format::count;
 use apportion_report::{prepare_file, significant, stream_atomically};
 
 use super::stop::{Stoppable, on_signal};
 use super::table::{TableArguments, say_of_table};
-use super::{Failure, StudyArguments, same_file, say};
+use super::{StudyArguments, same_file, say};
+use crate::failure::{OfFile, bad_input};
 
 #[derive(clap::Args)]
 pub struct Arguments {
@@ -34,16 +34,14 @@ pub struct Arguments {
     output: PathBuf,
 }
 
-pub fn evaluate(arguments: &Arguments) -> Result<(), Failure> {
-    let study = arguments.study.load()?;
-    let points = arguments.points.display();
+pub fn evaluate(arguments: &Arguments) -> anyhow::Result<()> {
+    let study = arguments.study.load_with(&[])?;
     let options = arguments.table.options(&arguments.names);
-    let rows = open_table(&arguments.points, &options);
-    let mut rows = rows.map_err(|error| Failure::Input(anyhow!("{points}: {error}")))?;
+    let mut rows = open_table(&arguments.points, &options).in_file(&arguments.points)?;
     for input in [&arguments.points, &arguments.study.study] {
         if same_file(input, &arguments.output) {
             let output = arguments.output.display();
-            return Err(Failure::Input(anyhow!(
+            return Err(bad_input(format!(
                 "--output {output}: this is the input file, and it would be overwritten: give another name"
             )));
         }
@@ -52,19 +50,15 @@ pub fn evaluate(arguments: &Arguments) -> Result<(), Failure> {
     let context = RunContext::new(Some(on_signal()), say);
     let mut outcome = None;
     let written = stream_atomically(&arguments.output, |out| {
-        let result = evaluate_in(&study, rows.as_mut(), &mut Stoppable::new(out), arguments.with_points, &context);
-        let complete = result.is_ok();
-        outcome = Some(result);
+        let out = &mut Stoppable::new(out);
+        let result = outcome.insert(evaluate_points(&study, rows.as_mut(), out, arguments.with_points, &context));
         // After any error, an incomplete file must not replace the target.
-        if complete { Ok(()) } else { Err(std::io::Error::other("incomplete")) }
+        result.as_ref().map(drop).map_err(|_| std::io::Error::other("incomplete"))
     });
     match outcome {
-        Some(Err(EvaluateError::Points(error))) => Err(Failure::Input(anyhow!("{points}: {error}"))),
-        Some(Err(error @ EvaluateError::Halted { halt: Halt::GaveUp(GiveUp { is_bad_input: true, .. }), .. })) => {
-            Err(Failure::Input(error.into()))
-        }
-        Some(Err(error @ EvaluateError::Halted { .. })) => Err(Failure::Run(error.into())),
-        Some(Err(error)) => Err(Failure::Run(anyhow!("{}: {error}", arguments.output.display()))),
+        Some(Err(EvaluateError::Points(error))) => Err(error).in_file(&arguments.points),
+        Some(Err(error @ EvaluateError::Halted { .. })) => Err(error.into()),
+        Some(Err(error)) => Err(anyhow!("{}: {error}", arguments.output.display())),
         Some(Ok(evaluated)) => {
             written?;
             report(&evaluated, arguments, study.space());

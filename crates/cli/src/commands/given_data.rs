@@ -2,7 +2,6 @@
 
 use std::path::PathBuf;
 
-use anyhow::anyhow;
 use apportion::digest::sha256;
 use apportion::files::read_whole;
 use apportion::given::{Column, analyse, measures, surrogate_indices};
@@ -10,9 +9,9 @@ use apportion::{Distribution, Study};
 use apportion_files::exchange::{ColumnKind, Missing, Selection, Table, factor_column, read_table, table_of_bytes};
 use apportion_report::given::{GivenFacts, build_given, given_document};
 
-use super::Failure;
 use super::output::{OutputArguments, deliver, stem};
 use super::table::{TableArguments, say_of_table};
+use crate::failure::{OfFile, bad_input};
 
 #[derive(clap::Args)]
 pub struct Arguments {
@@ -56,31 +55,28 @@ fn column_name(text: &str) -> Result<String, String> {
     if name.is_empty() { Err("expected names of columns, separated by commas".to_owned()) } else { Ok(name.to_owned()) }
 }
 
-pub fn given_data(arguments: &Arguments) -> Result<(), Failure> {
-    let path = arguments.table.display();
-    let wrong = |error: &dyn std::fmt::Display| Failure::Input(anyhow!("{path}: {error}"));
-    let bytes = read_whole(&arguments.table).map_err(|error| wrong(&format!("cannot read the table: {error}")))?;
+pub fn given_data(arguments: &Arguments) -> anyhow::Result<()> {
+    let path = &*arguments.table;
+    let bytes = read_whole(path).map_err(|error| format!("cannot read the table: {error}")).in_file(path)?;
     let missing = if arguments.drop_missing { Missing::Drop } else { Missing::Refuse };
     let study = arguments.study.as_deref().map(|study| apportion_files::load_study(study, &[])).transpose()?;
     let kinds: Vec<ColumnKind> =
         study.iter().flat_map(|study| study.space().factors().iter().map(factor_column)).collect();
     let selection = Selection { outputs: &arguments.outputs, inputs: &arguments.inputs, missing, kinds: &kinds };
     let sha256 = sha256(&bytes);
-    let mut rows =
-        table_of_bytes(bytes, &arguments.reading.options(&arguments.names)).map_err(|error| wrong(&error))?;
-    let table = read_table(rows.as_mut(), &selection).map_err(|error| wrong(&error))?;
-    let Table { inputs, outputs, dropped, skipped } = table;
+    let mut rows = table_of_bytes(bytes, &arguments.reading.options(&arguments.names)).in_file(path)?;
+    let Table { inputs, outputs, dropped, skipped } = read_table(rows.as_mut(), &selection).in_file(path)?;
     let names: Vec<String> = skipped.iter().map(|column| column.name.clone()).collect();
-    say_of_table(&arguments.table, &names, rows.is_unended());
-    let indices = analyse(&inputs, &outputs, arguments.seed).map_err(|error| wrong(&error))?;
+    say_of_table(path, &names, rows.is_unended());
+    let indices = analyse(&inputs, &outputs, arguments.seed).in_file(path)?;
     let known = study.as_ref().filter(|_| arguments.surrogate);
     let distributions = known.map(|study| distributions(study, &inputs)).transpose()?;
     let fit = || surrogate_indices(&inputs, &outputs, &indices, distributions.as_deref());
     let surrogates = arguments.surrogate.then(fit);
-    let name = stem(&arguments.table);
-    let artefacts = arguments.output.artefacts(&name).next_to_input(&arguments.table);
+    let name = stem(path);
+    let artefacts = arguments.output.artefacts(&name).next_to_input(path);
     let facts = GivenFacts {
-        file: path.to_string(),
+        file: path.display().to_string(),
         sha256,
         dropped: dropped.map(|dropped| (dropped.rows, dropped.first_line)),
         seed: arguments.seed,
@@ -93,12 +89,12 @@ pub fn given_data(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 /// The distributions that the study has for the `inputs`.
-fn distributions(study: &Study, inputs: &[Column]) -> Result<Vec<Distribution>, Failure> {
+fn distributions(study: &Study, inputs: &[Column]) -> anyhow::Result<Vec<Distribution>> {
     let of_input = |input: &Column| {
         let factor = study.space().factors().iter().find(|factor| factor.name == input.name);
         factor.map(|factor| factor.distribution().clone()).ok_or_else(|| {
             let known: Vec<&str> = study.space().factors().iter().map(|factor| factor.name.as_str()).collect();
-            Failure::Input(anyhow!(
+            bad_input(format!(
                 "--study: the input `{}` is not a factor of the study; its factors are {}; choose the inputs with --inputs",
                 input.name,
                 known.join(", ")

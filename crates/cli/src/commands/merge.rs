@@ -8,7 +8,8 @@ use apportion::run::RunError;
 use super::live::LiveArguments;
 use super::output::OutputArguments;
 use super::run::{deliver, journal_path};
-use super::{DesignChanges, Failure, StudyArguments, Threads, counted, say};
+use super::{DesignChanges, StudyArguments, Threads, counted, say};
+use crate::failure::bad_input;
 
 #[derive(clap::Args)]
 pub struct Arguments {
@@ -26,21 +27,20 @@ pub struct Arguments {
     threads: Threads,
 }
 
-pub fn merge(arguments: &Arguments) -> Result<(), Failure> {
+pub fn merge(arguments: &Arguments) -> anyhow::Result<()> {
     let study = arguments.study.load_with(&arguments.design.overrides())?;
     let folder = arguments.output.folder(study.name());
     let journals =
         if arguments.journals.is_empty() { in_folder(&folder, study.name())? } else { arguments.journals.clone() };
-    let artefacts = arguments.output.artefacts(study.name());
-    artefacts.prepare()?;
+    let artefacts = arguments.output.prepared(study.name())?;
     let path = journal_path(&folder, study.name(), None);
     let runner = study.runner().threads(arguments.threads.number()).on_message(say).journal(&path);
     let result = runner.merge(&journals).map_err(|error| match error {
-        RunError::Incomplete { .. } => Failure::Run(anyhow!(
+        RunError::Incomplete { .. } => anyhow!(
             "{error}\nthe merged runs are saved in {}: merge again with the missing shards, or evaluate the others here with the same \
              arguments for `apportion run` and --resume",
             path.display(),
-        )),
+        ),
         error => error.into(),
     })?;
     say(&format!(
@@ -54,7 +54,7 @@ pub fn merge(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 /// The journals of shards in `folder`, in the order of their names.
-fn in_folder(folder: &Path, name: &str) -> Result<Vec<PathBuf>, Failure> {
+fn in_folder(folder: &Path, name: &str) -> anyhow::Result<Vec<PathBuf>> {
     let begin = format!("{name}-shard-");
     let is_part = |path: &PathBuf| {
         let file = path.file_name().and_then(|file| file.to_str()).unwrap_or_default();
@@ -65,7 +65,7 @@ fn in_folder(folder: &Path, name: &str) -> Result<Vec<PathBuf>, Failure> {
     found.sort();
     if found.is_empty() {
         let what = format!("found no {begin}I-of-N.journal: `apportion run STUDY --shard I/N` writes these files");
-        return Err(Failure::Input(anyhow!("{}: {what}", folder.display())));
+        return Err(bad_input(format!("{}: {what}", folder.display())));
     }
     Ok(found)
 }

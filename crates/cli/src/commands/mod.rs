@@ -2,7 +2,6 @@
 
 mod analyze;
 mod check;
-mod check_plan;
 mod compare;
 mod completions;
 mod evaluate;
@@ -31,15 +30,11 @@ use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use apportion::model::GiveUp;
-use apportion::result::ReadError;
-use apportion::run::RunError;
-use apportion::run::journal::JournalError;
 use apportion::study::Study;
-use apportion_files::StudyError;
-use apportion_report::WriteError;
-use clap::{Args, CommandFactory, Parser, Subcommand};
+use clap::{Args, Parser, Subcommand};
 use ranks::Ranks;
+
+use crate::failure::{self, Silent, bad_input};
 
 /// Sobol' global sensitivity analysis: which factors drive an output, and by how many percent.
 ///
@@ -138,28 +133,24 @@ impl DesignChanges {
 }
 
 impl StudyArguments {
-    /// The study as in its file, with the changes of `--set`.
-    fn load(&self) -> Result<Study, Failure> {
-        self.load_with(&[])
-    }
-
     /// The study with the changes of `--set`, then `more`; its model can be run.
-    fn load_with(&self, more: &[String]) -> Result<Study, Failure> {
+    fn load_with(&self, more: &[String]) -> anyhow::Result<Study> {
         let study = self.load_any(more)?;
         if study.subject().is_external() {
-            return Err(Failure::Input(anyhow::anyhow!(
+            return Err(bad_input(format!(
                 "{}: its model runs outside this program: write the points with `apportion sample`, and read its outputs \
                  with `apportion analyze`",
                 self.study.display()
             )));
         }
-        say_notes(&study);
         Ok(study)
     }
 
     /// The study with the changes of `--set`, then `more`, whether or not its model can be run.
-    fn load_any(&self, more: &[String]) -> Result<Study, Failure> {
-        Ok(apportion_files::load_study(&self.study, &[&self.set, more].concat())?)
+    fn load_any(&self, more: &[String]) -> anyhow::Result<Study> {
+        let study = apportion_files::load_study(&self.study, &[&self.set, more].concat())?;
+        say_notes(&study);
+        Ok(study)
     }
 }
 
@@ -188,64 +179,6 @@ impl Threads {
 fn number_in(text: &str, range: RangeInclusive<usize>) -> Result<usize, String> {
     let number = text.parse().ok().filter(|number| range.contains(number));
     number.ok_or_else(|| format!("expected a whole number from {} to {}", range.start(), range.end()))
-}
-
-/// Why a command failed, with its exit code.
-enum Failure {
-    /// The input was wrong: exit code 2.
-    Input(anyhow::Error),
-    /// The run failed: exit code 1.
-    Run(anyhow::Error),
-    /// The input was wrong, and another process has reported it: exit code 2.
-    Silent,
-}
-
-impl Failure {
-    /// The input was wrong, or else the run failed.
-    fn input_if(is_input: bool, error: impl Into<anyhow::Error>) -> Self {
-        if is_input { Self::Input(error.into()) } else { Self::Run(error.into()) }
-    }
-}
-
-impl From<StudyError> for Failure {
-    fn from(error: StudyError) -> Self {
-        Self::Input(error.into())
-    }
-}
-
-impl From<ReadError> for Failure {
-    fn from(error: ReadError) -> Self {
-        Self::Input(error.into())
-    }
-}
-
-impl From<RunError> for Failure {
-    fn from(error: RunError) -> Self {
-        match error {
-            RunError::Refused { .. }
-            | RunError::GaveUp(GiveUp { is_bad_input: true, .. })
-            | RunError::Journal(
-                JournalError::NotAJournal { .. } | JournalError::OtherVersion { .. } | JournalError::NoFile { .. },
-            ) => Self::Input(error.into()),
-            _ => Self::Run(error.into()),
-        }
-    }
-}
-
-impl From<WriteError> for Failure {
-    fn from(error: WriteError) -> Self {
-        // The path as given, not as resolved.
-        match error.source.kind() {
-            ErrorKind::NotADirectory => Self::Input(error.into()),
-            _ => Self::Run(error.into()),
-        }
-    }
-}
-
-impl From<std::io::Error> for Failure {
-    fn from(error: std::io::Error) -> Self {
-        Self::Run(error.into())
-    }
 }
 
 /// Runs the program and returns its exit code.
@@ -292,24 +225,16 @@ fn command_line(others: Option<&dyn Ranks>) -> ExitCode {
 }
 
 /// Returns the exit code of `outcome`, and prints its error.
-fn exit_code(outcome: Result<(), Failure>) -> ExitCode {
-    match outcome {
-        Ok(()) => ExitCode::SUCCESS,
-        // A reader that closes the pipe early has read what it needs.
-        Err(Failure::Run(error)) if is_broken_pipe(&error) => ExitCode::SUCCESS,
-        Err(Failure::Run(error)) => fail(&error, 1),
-        Err(Failure::Input(error)) => fail(&error, 2),
-        Err(Failure::Silent) => ExitCode::from(2),
+fn exit_code(outcome: anyhow::Result<()>) -> ExitCode {
+    let Err(error) = outcome else { return ExitCode::SUCCESS };
+    // A reader that closes the pipe early has read what it needs.
+    if error.downcast_ref::<Error>().is_some_and(|error| error.kind() == ErrorKind::BrokenPipe) {
+        return ExitCode::SUCCESS;
     }
-}
-
-fn fail(error: &anyhow::Error, code: u8) -> ExitCode {
-    say(&format!("error: {error}"));
-    ExitCode::from(code)
-}
-
-fn is_broken_pipe(error: &anyhow::Error) -> bool {
-    error.downcast_ref::<Error>().is_some_and(|e| e.kind() == ErrorKind::BrokenPipe)
+    if !error.is::<Silent>() {
+        say(&format!("error: {error}"));
+    }
+    ExitCode::from(failure::exit_code(&error))
 }
 
 /// Whether two paths lead to one file.
@@ -327,25 +252,15 @@ fn quoted(text: &str) -> String {
     }
 }
 
-/// The command line as clap knows it.
-fn command() -> clap::Command {
-    Cli::command()
-}
-
 /// Writes what the program itself has made, for other programs, to standard output.
-fn print_raw(bytes: &[u8]) -> Result<(), Failure> {
-    std::io::stdout().write_all(bytes).map_err(unprinted)?;
-    Ok(())
+fn print_raw(bytes: &[u8]) -> anyhow::Result<()> {
+    let unprinted = |error: Error| Error::new(error.kind(), format!("cannot write to standard output: {error}"));
+    Ok(std::io::stdout().write_all(bytes).map_err(unprinted)?)
 }
 
 /// Writes `text` to standard output without panicking when its reader is gone.
-fn print(text: &str) -> Result<(), Failure> {
+fn print(text: &str) -> anyhow::Result<()> {
     print_raw(printable(text).as_bytes())
-}
-
-/// An error of standard output, which the operating system does not name.
-fn unprinted(error: Error) -> Error {
-    Error::new(error.kind(), format!("cannot write to standard output: {error}"))
 }
 
 /// Writes a line to standard error; there is nowhere to complain if that fails.

@@ -6,7 +6,8 @@ use apportion::study::nearest;
 use apportion_files::{ModelKind, Problem, model_guide};
 use apportion_report::{significant, table};
 
-use super::{Failure, print};
+use super::print;
+use crate::failure::bad_input;
 
 #[derive(clap::Args)]
 pub struct Arguments {
@@ -17,7 +18,7 @@ pub struct Arguments {
     estimators: bool,
 }
 
-pub fn models(arguments: &Arguments) -> Result<(), Failure> {
+pub fn models(arguments: &Arguments) -> anyhow::Result<()> {
     if arguments.estimators {
         return print(&estimators());
     }
@@ -45,8 +46,7 @@ fn estimators() -> String {
         };
         let cost = (2 + FACTORS * count).to_string();
         rows.add_row([estimator.name(), first, all, &format!("2 + {times}d"), &cost]);
-        let (first, all) = (first_order.map(FirstOrder::source), total.map(Total::source));
-        let named = match (first, all) {
+        let named = match (first_order.map(FirstOrder::source), total.map(Total::source)) {
             (Some(first), Some(total)) if first != total => format!("{first}; total: {total}"),
             (Some(source), _) | (None, Some(source)) => source.to_owned(),
             (None, None) => {
@@ -69,20 +69,18 @@ fn estimators() -> String {
 }
 
 /// The model of that name, or the names that there are.
-pub fn find_model(name: &str) -> Result<ModelKind, Failure> {
-    ModelKind::from_name(name).ok_or_else(|| unknown(name))
-}
-
-fn unknown(name: &str) -> Failure {
-    let names = ModelKind::all().into_iter().map(|kind| kind.name);
-    let problem = Problem::UnknownName {
-        what: "model",
-        name: name.to_owned(),
-        nearest: nearest(name, names.clone()),
-        expected: names.map(str::to_owned).collect(),
-    };
-    let help = problem.help().map(|help| format!("\n{help}")).unwrap_or_default();
-    Failure::Input(anyhow::anyhow!("{problem}{help}"))
+pub fn find_model(name: &str) -> anyhow::Result<ModelKind> {
+    ModelKind::from_name(name).ok_or_else(|| {
+        let names = ModelKind::all().into_iter().map(|kind| kind.name);
+        let problem = Problem::UnknownName {
+            what: "model",
+            name: name.to_owned(),
+            nearest: nearest(name, names.clone()),
+            expected: names.map(str::to_owned).collect(),
+        };
+        let help = problem.help().map(|help| format!("\n{help}")).unwrap_or_default();
+        bad_input(format!("{problem}{help}"))
+    })
 }
 
 fn list() -> String {
@@ -101,15 +99,8 @@ fn inputs_and_outputs(kind: ModelKind) -> String {
     }
     let mut inputs = table(&["factor", "symbol", "nominal", "unit", "must be", "meaning"], &[0, 1, 3, 4, 5]);
     for input in kind.inputs() {
-        let unit = input.unit.to_string();
-        inputs.add_row([
-            &*input.name,
-            &input.symbol,
-            &significant(input.nominal),
-            &unit,
-            &domain(&input),
-            &input.description,
-        ]);
+        let (nominal, unit, domain) = (significant(input.nominal), input.unit.to_string(), domain(&input));
+        inputs.add_row([&*input.name, &input.symbol, &nominal, &unit, &domain, &input.description]);
     }
     text.push_str(&format!("{inputs}\n"));
     let mut outputs = table(&["output", "unit", "meaning"], &[0, 1, 2]);
@@ -140,15 +131,9 @@ fn function(answer: KnownAnswer) -> String {
         }
         text.push_str(&format!("\n{parameters}\n"));
     }
-    text.push_str(&inputs(&function));
-    text.push_str(&exact(&function));
-    text
-}
-
-fn inputs(function: &KnownFunction) -> String {
     let mut inputs =
         table(&["factor", "distribution", "mean", "sd", "where no factor", "must be", "meaning"], &[0, 1, 5, 6]);
-    for input in known_inputs(function) {
+    for input in known_inputs(&function) {
         let Some(law) = &input.distribution else { continue };
         inputs.add_row([
             input.name.clone(),
@@ -160,21 +145,18 @@ fn inputs(function: &KnownFunction) -> String {
             input.description.clone(),
         ]);
     }
-    format!("\n{inputs}\n")
+    text.push_str(&format!("\n{inputs}\n{}", exact(&function)));
+    text
 }
 
 fn exact(function: &KnownFunction) -> String {
-    let exact = function.exact();
-    let basis = match exact.basis {
+    let Exact { mean, variance, indices, basis } = function.exact();
+    let basis = match basis {
         Basis::ClosedForm => "by formula".to_owned(),
         Basis::Quadrature { error } => format!("by quadrature, error {error:e} of the variance"),
     };
-    let Exact { mean, variance, indices, .. } = exact;
     let mut text = format!("\nmean {mean}, variance {variance} ({basis})\n");
-    let Some(indices) = indices else {
-        text.push_str("no indices: the variance is 0\n");
-        return text;
-    };
+    let Some(indices) = indices else { return text + "no indices: the variance is 0\n" };
     let mut rows = table(&["factor", "first order S", "total ST"], &[0]);
     for (input, (first, total)) in known_inputs(function).iter().zip(indices.first_order.iter().zip(&indices.total)) {
         rows.add_row([input.name.clone(), significant(*first), significant(*total)]);

@@ -1,13 +1,13 @@
 //! `apportion new`: writes a new study file.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use anyhow::anyhow;
 use apportion_files::{ModelKind, NEW_PROGRAM, Problem, TemplateRequest, new_program, template};
 use apportion_report::{prepare_file, write_atomically};
 
 use super::models::find_model;
-use super::{Failure, quoted, say};
+use super::{counted, quoted, say};
+use crate::failure::bad_input;
 
 #[derive(clap::Args)]
 #[command(after_help = "Example: apportion new my-study.toml --factors thickness,velocity --outputs critical_force")]
@@ -31,12 +31,12 @@ pub struct Arguments {
     force: bool,
 }
 
-pub fn new(arguments: &Arguments) -> Result<(), Failure> {
+pub fn new(arguments: &Arguments) -> anyhow::Result<()> {
     let path = &arguments.study;
     let model = find_model(&arguments.model)?;
     for (option, names) in [("--factors", &arguments.factors), ("--outputs", &arguments.outputs)] {
         if names.iter().any(|name| name.trim().is_empty()) {
-            return Err(Failure::Input(anyhow!("{option}: a name is empty: expected names separated by commas")));
+            return Err(bad_input(format!("{option}: a name is empty: expected names separated by commas")));
         }
     }
     let request = TemplateRequest {
@@ -45,18 +45,31 @@ pub fn new(arguments: &Arguments) -> Result<(), Failure> {
         factors: arguments.factors.clone(),
         outputs: arguments.outputs.clone(),
     };
-    let text = template(&request).map_err(|problem| wrong(&problem, model))?;
+    let text = template(&request).map_err(|problem| {
+        let option = match problem {
+            Problem::UnknownName { what: "output", .. } | Problem::Repeated { what: "output", .. } => "--outputs",
+            _ => "--factors",
+        };
+        let help = problem.help().map(|help| format!("\n{help}")).unwrap_or_default();
+        bad_input(format!("{option}: {problem} (model {}){help}", model.name))
+    })?;
     let study = apportion_files::parse_study(&text, path, &[])?;
     if !arguments.force && path.exists() {
-        return Err(Failure::Input(anyhow!("{} exists already: give another name, or add --force", path.display())));
+        return Err(bad_input(format!("{} exists already: give another name, or add --force", path.display())));
     }
     prepare_file(path)?;
     write_atomically(path, text.as_bytes())?;
     let (factors, runs) = (study.space().factors().len(), study.design().rows());
-    let factors = if factors == 1 { "1 factor".to_owned() } else { format!("{factors} factors") };
-    say(&format!("wrote {}: {factors}, {runs} runs", path.display()));
+    say(&format!("wrote {}: {}, {runs} runs", path.display(), counted(factors as u64, "factor")));
     if let Some(program) = new_program(&request) {
-        write_program(&path.with_file_name(NEW_PROGRAM), &program)?;
+        // An existing program may be somebody's work.
+        let path = path.with_file_name(NEW_PROGRAM);
+        if path.exists() {
+            say(&format!("{} exists already and is not changed", path.display()));
+        } else {
+            write_atomically(&path, program.as_bytes())?;
+            say(&format!("wrote {}: the model, a sum for you to replace", path.display()));
+        }
     }
     let step = if model == ModelKind::EXTERNAL { "sample" } else { "run" };
     say(&format!(
@@ -64,24 +77,4 @@ pub fn new(arguments: &Arguments) -> Result<(), Failure> {
         quoted(&path.display().to_string())
     ));
     Ok(())
-}
-
-/// Writes the program next to its study, unless there is one: it may be somebody's work.
-fn write_program(path: &Path, text: &str) -> Result<(), Failure> {
-    if path.exists() {
-        say(&format!("{} exists already and is not changed", path.display()));
-        return Ok(());
-    }
-    write_atomically(path, text.as_bytes())?;
-    say(&format!("wrote {}: the model, a sum for you to replace", path.display()));
-    Ok(())
-}
-
-fn wrong(problem: &Problem, model: ModelKind) -> Failure {
-    let option = match problem {
-        Problem::UnknownName { what: "output", .. } | Problem::Repeated { what: "output", .. } => "--outputs",
-        _ => "--factors",
-    };
-    let help = problem.help().map(|help| format!("\n{help}")).unwrap_or_default();
-    Failure::Input(anyhow!("{option}: {problem} (model {}){help}", model.name))
 }

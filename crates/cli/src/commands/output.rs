@@ -4,16 +4,16 @@ use std::path::{Path, PathBuf};
 
 use apportion_report::chart::{ChartWidth, PaperWidth};
 use apportion_report::document::Document;
-use apportion_report::{ArtefactError, Artefacts, ChartFormat};
+use apportion_report::{Artefacts, ChartFormat};
 
 use super::stop::on_signal;
-use super::{Failure, counted, print, say};
+use super::{counted, print, say};
 
 #[derive(clap::Args)]
 pub struct ChartArguments {
     /// Formats of the charts in the folder `charts`, separated by commas: svg, png, pdf; or none. The page contains its own charts
-    #[arg(long, value_name = "FORMATS", default_value = "svg,png", value_parser = formats)]
-    charts: Formats,
+    #[arg(long, value_name = "FORMATS", default_value = "svg,png", value_delimiter = ',', value_parser = chart_format)]
+    charts: Vec<Option<ChartFormat>>,
     /// Width of the charts in the folder `charts` for print, such as 88mm or 180mm: without title and caption, which belong into the
     /// text of a paper; letters of 7 to 9 pt, PNG with 600 dpi, PDF in this size [default: a page column, with title and caption]
     #[arg(long, value_name = "WIDTH")]
@@ -40,41 +40,27 @@ impl OutputArguments {
     pub fn artefacts(&self, name: &str) -> Artefacts {
         self.charts.artefacts(self.folder(name))
     }
+
+    /// The same, in a folder that exists and can be written to, so that a run fails at its start and not at its end.
+    pub fn prepared(&self, name: &str) -> anyhow::Result<Artefacts> {
+        let artefacts = self.artefacts(name);
+        artefacts.prepare()?;
+        Ok(artefacts)
+    }
 }
 
-#[derive(Clone)]
-struct Formats(Vec<ChartFormat>);
-
-fn formats(text: &str) -> Result<Formats, String> {
-    if text == "none" {
-        return Ok(Formats(Vec::new()));
-    }
-    let mut formats = Vec::new();
-    for name in text.split(',').map(str::trim) {
-        match ChartFormat::ALL.into_iter().find(|format| format.ending() == name) {
-            Some(format) if formats.contains(&format) => (),
-            Some(format) => formats.push(format),
-            None => return Err("expected svg, png and pdf, separated by commas, or none".to_owned()),
-        }
-    }
-    Ok(Formats(formats))
+fn chart_format(name: &str) -> Result<Option<ChartFormat>, String> {
+    let format = ChartFormat::ALL.into_iter().find(|format| format.name() == name.trim());
+    let wrong = || "expected svg, png and pdf, separated by commas, or none".to_owned();
+    if name == "none" { Ok(None) } else { format.map(Some).ok_or_else(wrong) }
 }
 
 impl ChartArguments {
     /// The files of a document in `folder`.
     pub fn artefacts(&self, folder: impl Into<PathBuf>) -> Artefacts {
         let width = self.chart_width.map_or(ChartWidth::Wide, ChartWidth::Paper);
-        Artefacts::new(folder).with_charts(&self.charts.0).with_width(width)
-    }
-}
-
-impl From<ArtefactError> for Failure {
-    fn from(error: ArtefactError) -> Self {
-        match error {
-            ArtefactError::Input { .. } => Self::Input(error.into()),
-            ArtefactError::Write(error) => error.into(),
-            _ => Self::Run(error.into()),
-        }
+        let formats: Vec<ChartFormat> = self.charts.iter().flatten().copied().collect();
+        Artefacts::new(folder).with_charts(&formats).with_width(width)
     }
 }
 
@@ -89,15 +75,17 @@ pub fn stem(table: &Path) -> String {
 }
 
 /// Writes the files of `document`, prints it as text, and says where the files are.
-pub fn deliver(artefacts: &Artefacts, document: &Document) -> Result<(), Failure> {
+pub fn deliver(artefacts: &Artefacts, document: &Document) -> anyhow::Result<()> {
     let written = artefacts.write_until(document, on_signal())?;
     print(&document.text())?;
-    let ends_with = |path: &Path, ending: &str| path.extension().is_some_and(|of| of == ending);
+    // A page to try other ranges in, and not an animation.
+    let is_live = |path: &Path| path.to_string_lossy().ends_with("live.html");
     let (live, data): (Vec<&PathBuf>, Vec<&PathBuf>) = written.data.iter().partition(|path| is_live(path));
     let names = live.iter().filter_map(|path| path.file_name()).map(|name| name.to_string_lossy());
     let live: String = names.map(|name| format!(", and the interactive page {name}")).collect();
     say(&format!("wrote {}{live}", written.page.display()));
-    let (json, others): (Vec<&PathBuf>, Vec<&PathBuf>) = data.into_iter().partition(|path| ends_with(path, "json"));
+    let (json, others): (Vec<&PathBuf>, Vec<&PathBuf>) =
+        data.into_iter().partition(|path| path.extension().is_some_and(|ending| ending == "json"));
     match (&json[..], others.len()) {
         ([], 0) => (),
         ([], tables) => say(&format!("wrote {} next to it", counted(tables as u64, "table"))),
@@ -111,32 +99,4 @@ pub fn deliver(artefacts: &Artefacts, document: &Document) -> Result<(), Failure
         say(&format!("wrote {} to {}", counted(*charts as u64, "chart"), folder.display()));
     }
     Ok(())
-}
-
-/// Whether a file is a page to try other ranges in, and not an animation.
-fn is_live(path: &Path) -> bool {
-    path.file_name().is_some_and(|name| name.to_string_lossy().ends_with("live.html"))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn live_pages_are_distinguished_from_animations() {
-        assert!(is_live(Path::new("out/ishigami-live.html")) && is_live(Path::new("live.html")));
-        assert!(!is_live(Path::new("charts/ts04-14-animation.html")) && !is_live(Path::new("alive.json")));
-    }
-
-    #[test]
-    fn formats_are_a_list_or_none() {
-        let read = |text: &str| formats(text).map(|formats| formats.0);
-        assert_eq!(read("none"), Ok(Vec::new()));
-        assert_eq!(read("png"), Ok(vec![ChartFormat::Png]));
-        assert_eq!(read("svg, png,svg"), Ok(vec![ChartFormat::Svg, ChartFormat::Png]));
-        assert_eq!(read("pdf,svg"), Ok(vec![ChartFormat::Pdf, ChartFormat::Svg]));
-        for wrong in ["", "gif", "svg,", "none,svg"] {
-            assert!(read(wrong).is_err(), "{wrong}");
-        }
-    }
 }

@@ -14,12 +14,10 @@ pub struct Meter {
     label: String,
     /// Runs that were on record when the run began.
     recalled: AtomicU64,
-    display: Display,
-}
-
-enum Display {
-    Bar(ProgressBar),
-    Lines(Mutex<Instant>),
+    /// On a terminal.
+    bar: Option<ProgressBar>,
+    /// When the last line was written elsewhere.
+    last_line: Mutex<Instant>,
 }
 
 /// Time between plain lines.
@@ -28,42 +26,36 @@ const LINE_INTERVAL: Duration = Duration::from_secs(5);
 impl Meter {
     /// A meter for a run of `total` model runs, named `label`.
     pub fn new(label: &str, total: u64) -> Self {
-        let display = if std::io::stderr().is_terminal() {
+        let bar = std::io::stderr().is_terminal().then(|| {
             // Drawn from the first progress on: earlier messages would leave a copy of it behind.
             let bar = ProgressBar::with_draw_target(Some(total), ProgressDrawTarget::hidden());
             let template = "{prefix} {wide_bar} {percent:>3} %  {human_pos} of {human_len} runs  {eta} left{msg}";
             bar.set_style(ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar()));
             bar.set_prefix(label.to_owned());
-            Display::Bar(bar)
-        } else {
-            Display::Lines(Mutex::new(Instant::now()))
-        };
-        Self { label: label.to_owned(), recalled: AtomicU64::new(0), display }
+            bar
+        });
+        Self { label: label.to_owned(), recalled: AtomicU64::new(0), bar, last_line: Mutex::new(Instant::now()) }
     }
 
     /// Takes note of progress; may be called from any thread.
     pub fn update(&self, progress: Progress) {
         self.recalled.store(progress.recalled, Ordering::Relaxed);
-        match &self.display {
-            Display::Bar(bar) => {
-                if bar.is_hidden() {
-                    bar.set_draw_target(ProgressDrawTarget::stderr());
-                }
-                // The length of a growing run changes during it.
-                bar.set_length(progress.total);
-                if progress.failed > 0 {
-                    bar.set_message(format!("  {} failed", progress.failed));
-                }
-                bar.set_position(progress.done);
+        if let Some(bar) = &self.bar {
+            if bar.is_hidden() {
+                bar.set_draw_target(ProgressDrawTarget::stderr());
             }
-            Display::Lines(last) => {
-                // Another thread with the lock is about to write the line: this one need not wait.
-                let Ok(mut last) = last.try_lock() else { return };
-                if last.elapsed() >= LINE_INTERVAL {
-                    *last = Instant::now();
-                    super::say(&self.line(progress));
-                }
+            // The length of a growing run changes during it.
+            bar.set_length(progress.total);
+            if progress.failed > 0 {
+                bar.set_message(format!("  {} failed", progress.failed));
             }
+            bar.set_position(progress.done);
+        } else if let Ok(mut last) = self.last_line.try_lock()
+            // Another thread with the lock is about to write the line: this one need not wait.
+            && last.elapsed() >= LINE_INTERVAL
+        {
+            *last = Instant::now();
+            super::say(&self.line(progress));
         }
     }
 
@@ -81,9 +73,7 @@ impl Meter {
     }
 
     fn end(&self, line: &str) {
-        if let Display::Bar(bar) = &self.display {
-            bar.finish_and_clear();
-        }
+        self.bar.iter().for_each(ProgressBar::finish_and_clear);
         super::say(&format!("{}: {line}", self.label));
     }
 
@@ -107,9 +97,7 @@ impl Meter {
 /// A run that ends early leaves no bar behind.
 impl Drop for Meter {
     fn drop(&mut self) {
-        if let Display::Bar(bar) = &self.display {
-            bar.finish_and_clear();
-        }
+        self.bar.iter().for_each(ProgressBar::finish_and_clear);
     }
 }
 

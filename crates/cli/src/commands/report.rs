@@ -2,14 +2,14 @@
 
 use std::path::{Path, PathBuf};
 
-use anyhow::anyhow;
 use apportion::files::read_whole;
 use apportion::result::{ReadError, ReadProblem, parse_result};
 use apportion_report::run_document;
 
 use super::live::LiveArguments;
 use super::output::{ChartArguments, deliver};
-use super::{Failure, same_file, say};
+use super::{same_file, say};
+use crate::failure::bad_input;
 
 #[derive(clap::Args)]
 pub struct Arguments {
@@ -24,7 +24,7 @@ pub struct Arguments {
     live: LiveArguments,
 }
 
-pub fn report(arguments: &Arguments) -> Result<(), Failure> {
+pub fn report(arguments: &Arguments) -> anyhow::Result<()> {
     let path = &arguments.result;
     let wrong = |problem: ReadProblem| ReadError { path: path.clone(), problem };
     let bytes = read_whole(path).map_err(|error| wrong(error.into()))?;
@@ -35,10 +35,14 @@ pub fn report(arguments: &Arguments) -> Result<(), Failure> {
     let name = format!("{}.json", result.study.name);
     // The page links to the result, so an exact copy of it must be next to the page.
     let json = folder.join(&name);
-    if !same_file(&json, path) {
-        refuse_another(&json, &bytes)?;
+    // Charts of one result must not be mixed with the JSON of another.
+    if !same_file(&json, path) && read_whole(&json).is_ok_and(|existing| existing != bytes) {
+        return Err(bad_input(format!(
+            "{} is another result, and its page and charts would be overwritten: give another folder with --out",
+            json.display()
+        )));
     }
-    let text = String::from_utf8(bytes).map_err(|_| Failure::Input(anyhow!("{}: not text", path.display())))?;
+    let text = String::from_utf8(bytes).map_err(|_| bad_input(format!("{}: not text", path.display())))?;
     document.files.iter_mut().filter(|file| file.name == name).for_each(|file| file.text.clone_from(&text));
     arguments.live.place_next_to(&mut document, &result);
     if result.provenance.apportion_version != env!("CARGO_PKG_VERSION") {
@@ -46,16 +50,4 @@ pub fn report(arguments: &Arguments) -> Result<(), Failure> {
         say(&format!("note: the numbers are from apportion {version}; only the page and charts are from this version"));
     }
     deliver(&arguments.charts.artefacts(folder), &document)
-}
-
-/// Charts of one result must not be mixed with the JSON of another.
-fn refuse_another(json: &Path, bytes: &[u8]) -> Result<(), Failure> {
-    match read_whole(json) {
-        Ok(there) if there != bytes => {
-            let message =
-                "is another result, and its page and charts would be overwritten: give another folder with --out";
-            Err(Failure::Input(anyhow!("{} {message}", json.display())))
-        }
-        _ => Ok(()),
-    }
 }

@@ -1,16 +1,16 @@
 //! `apportion reproduce`: the papers' figures and claims, on one page.
 
 use std::path::{Path, PathBuf};
-use std::sync::Mutex;
 
-use apportion::study::Study;
-
+use super::live::{live_page, place_next_to};
 use super::output::{ChartArguments, deliver};
 use super::progress::Meter;
 use super::stop::on_signal;
-use super::{DesignChanges, Failure, Threads};
-use crate::live::{live_page, place_next_to};
-use crate::reproduce::{Effort, Event, ReproduceError, Request, Topic, document, reproduce as run};
+use super::{DesignChanges, Threads};
+use crate::reproduce::claims::claims;
+use crate::reproduce::figures::{coulomb, figures};
+use crate::reproduce::percentages::percentages;
+use crate::reproduce::{Effort, QUICK, Reproduced, Reproduction, document, studies};
 
 /// The file of the live page.
 const LIVE: &str = "live.html";
@@ -34,49 +34,51 @@ pub struct Arguments {
     threads: Threads,
 }
 
-impl From<ReproduceError> for Failure {
-    fn from(error: ReproduceError) -> Self {
-        Self::input_if(matches!(error, ReproduceError::Study(_)), error)
-    }
+/// A part of the reproduction.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+enum Topic {
+    /// The figures of the papers.
+    Figures,
+    /// The verdicts on their claims, and their percentages with ours.
+    Claims,
 }
 
-pub fn reproduce(arguments: &Arguments) -> Result<(), Failure> {
-    let overrides = arguments.design.overrides();
+pub fn reproduce(arguments: &Arguments) -> anyhow::Result<()> {
     let artefacts = arguments.charts.artefacts(&arguments.out);
     artefacts.prepare()?;
-    let request = Request {
-        effort: if arguments.quick { Effort::Quick } else { Effort::Full },
-        only: arguments.only,
-        overrides,
-        threads: arguments.threads.number(),
-    };
-    let current = Mutex::new(None);
-    let reproduction = run(&request, &|event| show(&current, &event))?;
+    let threads = arguments.threads.number();
+    let (effort, quick) = if arguments.quick { (Effort::Quick, &QUICK[..]) } else { (Effort::Full, &[][..]) };
+    let overrides: Vec<String> =
+        quick.iter().map(|&setting| setting.to_owned()).chain(arguments.design.overrides()).collect();
+    let mut reproduction =
+        Reproduction { effort, studies: run_studies(&overrides, threads)?, ..Reproduction::default() };
+    if arguments.only != Some(Topic::Claims) {
+        reproduction.figures = figures(&reproduction.studies, effort)?;
+        reproduction.animation = Some(coulomb()?);
+    }
+    if arguments.only != Some(Topic::Figures) {
+        reproduction.claims = claims(&reproduction.studies, effort)?;
+        reproduction.percentages = percentages(effort, threads)?;
+    }
     let mut document = document(&reproduction);
-    if request.only.is_none() {
-        let page = live_page(&live_study()?, request.threads, on_signal())?;
-        place_next_to(&mut document, LIVE, page);
+    if arguments.only.is_none() {
+        // The live page begins with all eight factors.
+        let text = include_str!("../../../../studies/coulomb-general.toml");
+        let study = apportion_files::parse_study(text, Path::new("coulomb-general.toml"), &[])?;
+        place_next_to(&mut document, LIVE, live_page(&study, threads, on_signal())?);
     }
     deliver(&artefacts, &document)
 }
 
-/// The study that the live page begins with: all eight factors.
-fn live_study() -> Result<Study, Failure> {
-    Ok(apportion_files::parse_study(
-        include_str!("../../../../studies/coulomb-general.toml"),
-        Path::new("coulomb-general.toml"),
-        &[],
-    )?)
-}
-
-/// Shows how far the current study has come.
-fn show(current: &Mutex<Option<Meter>>, event: &Event<'_>) {
-    let Ok(mut current) = current.lock() else { return };
-    match event {
-        Event::Begins { number: (number, count), name, runs } => {
-            *current = Some(Meter::new(&format!("{number} of {count} {name:<21}"), *runs));
-        }
-        Event::Progresses(progress) => current.iter().for_each(|meter| meter.update(*progress)),
-        Event::Ends { runs, seconds } => current.iter().for_each(|meter| meter.finish(*runs, *seconds)),
+fn run_studies(overrides: &[String], threads: usize) -> anyhow::Result<Vec<Reproduced>> {
+    let studies = studies(overrides)?;
+    let count = studies.len();
+    let mut reproduced = Vec::with_capacity(count);
+    for (number, (group, friction, study)) in (1..).zip(studies) {
+        let meter = Meter::new(&format!("{number} of {count} {:<21}", study.name()), study.design().rows());
+        let result = study.runner().threads(threads).on_progress(|progress| meter.update(progress)).run()?;
+        meter.finish(result.provenance.model_runs, result.provenance.wall_seconds);
+        reproduced.push(Reproduced { friction, group, result });
     }
+    Ok(reproduced)
 }

@@ -17,7 +17,8 @@ use super::output::{self, OutputArguments};
 use super::progress::Meter;
 use super::ranks::{self, Ranks};
 use super::stop::Stoppable;
-use super::{DesignChanges, Failure, StudyArguments, Threads, say, stop};
+use super::{DesignChanges, StudyArguments, Threads, say, stop};
+use crate::failure::{OfFile, bad_input};
 
 #[derive(clap::Args)]
 pub struct Arguments {
@@ -34,13 +35,6 @@ pub struct Arguments {
     save_outputs: Option<PathBuf>,
     #[command(flatten)]
     live: LiveArguments,
-    #[command(flatten)]
-    record: RecordArguments,
-}
-
-/// What becomes of runs that are on record.
-#[derive(clap::Args)]
-struct RecordArguments {
     /// Resume an interrupted run; an error if its journal is missing or of another study. (Without this option a journal
     /// of the same study is used if it exists)
     #[arg(long, conflicts_with_all = ["restart", "no_journal"])]
@@ -65,7 +59,8 @@ struct RecordArguments {
     shard: Option<Shard>,
 }
 
-impl RecordArguments {
+impl Arguments {
+    /// What becomes of runs that are on record.
     fn resume(&self, has_journal: bool) -> Resume {
         match self {
             Self { retry_failed: true, .. } => Resume::RetryFailed,
@@ -78,33 +73,27 @@ impl RecordArguments {
     }
 }
 
-pub fn run(arguments: &Arguments, others: Option<&dyn Ranks>) -> Result<(), Failure> {
-    if arguments.record.shard.is_none() {
+pub fn run(arguments: &Arguments, others: Option<&dyn Ranks>) -> anyhow::Result<()> {
+    if arguments.shard.is_none() {
         ranks::refuse_copies()?;
     }
     let study = study_of(arguments)?;
     let folder = arguments.output.folder(study.name());
-    let artefacts = arguments.output.artefacts(study.name());
-    let asked = &arguments.record;
-    artefacts.prepare()?;
-    if asked.shard.is_some() && study.target().grows() {
-        return Err(Failure::Input(anyhow!("--shard: {}", RunError::NoSize)));
+    let artefacts = arguments.output.prepared(study.name())?;
+    if arguments.shard.is_some() && study.target().grows() {
+        return Err(bad_input(format!("--shard: {}", RunError::NoSize)));
     }
-    let saved = match &arguments.save_outputs {
-        None => None,
-        Some(_) if study.target().accuracy.is_some() => {
+    let mut saved = None;
+    if let Some(path) = &arguments.save_outputs {
+        if study.target().accuracy.is_some() {
             let why = "with `accuracy` the run chooses its rows: run again with the lines that the result shows";
-            return Err(Failure::Input(anyhow!("--save-outputs: {why}")));
+            return Err(bad_input(format!("--save-outputs: {why}")));
         }
-        Some(path) => {
-            let format =
-                Format::from_path(path).map_err(|error| Failure::Input(anyhow!("{}: {error}", path.display())))?;
-            prepare_file(path)?;
-            Some((path.as_path(), format))
-        }
-    };
-    let journal = (!asked.no_journal).then(|| journal_path(&folder, study.name(), asked.shard));
-    let store = saved.as_ref().map(|_| Store::new(study.model().as_ref()));
+        let format = Format::from_path(path).in_file(path)?;
+        prepare_file(path)?;
+        saved = Some((path, format, Store::new(study.model().as_ref())));
+    }
+    let journal = (!arguments.no_journal).then(|| journal_path(&folder, study.name(), arguments.shard));
     let meter = Meter::new(study.name(), study.design().rows());
     let runner = study.runner().threads(arguments.threads.number()).on_progress(|progress| meter.update(progress));
     let runner = match others {
@@ -112,24 +101,24 @@ pub fn run(arguments: &Arguments, others: Option<&dyn Ranks>) -> Result<(), Fail
         Some(others) => {
             // A job has a rank for every core by default.
             let threads = arguments.threads.number().max(1);
-            others.begin(&study, &arguments.study.study, threads);
+            let ranks = others.begin(&study, &arguments.study.study, threads);
             let workers = if threads == 1 { "a worker".to_owned() } else { format!("{threads} workers") };
-            say(&format!("note: {} ranks with {workers} each", others.count_all()));
+            say(&format!("note: {ranks} ranks with {workers} each"));
             runner.threads(threads).remote_workers(others)
         }
     };
     // Installed only here, so that an earlier wait for input that never arrives can be interrupted at once.
     let stop = stop::on_signal();
     let mut runner =
-        runner.on_message(say).stop(stop).resume(asked.resume(journal.as_ref().is_some_and(|path| path.exists())));
+        runner.on_message(say).stop(stop).resume(arguments.resume(journal.as_ref().is_some_and(|path| path.exists())));
     if let Some(journal) = &journal {
-        runner = if asked.journal { runner.journal(journal) } else { runner.journal_if_long(journal) };
+        runner = if arguments.journal { runner.journal(journal) } else { runner.journal_if_long(journal) };
     }
-    if let Some(store) = &store {
+    if let Some((_, _, store)) = &saved {
         runner = runner.store(store);
     }
     let failed = |error| with_journal(&study, error, journal.as_deref());
-    if let Some((shard, journal)) = asked.shard.zip(journal.as_ref()) {
+    if let Some((shard, journal)) = arguments.shard.zip(journal.as_ref()) {
         let begun = Instant::now();
         let rows = runner.run_shard(shard).map_err(failed)?;
         meter.finish(rows, begun.elapsed().as_secs_f64());
@@ -142,8 +131,8 @@ pub fn run(arguments: &Arguments, others: Option<&dyn Ranks>) -> Result<(), Fail
         Some(spending) => meter.finish_after(spending.runs.saturating_sub(runs), runs, seconds),
         None => meter.finish(runs, seconds),
     }
-    if let Some(((path, format), store)) = saved.zip(store.as_ref()) {
-        save(&study, &result, store, path, format)?;
+    if let Some((path, format, store)) = &saved {
+        save(&study, &result, store, path, *format)?;
     }
     deliver(&study, &artefacts, &result, &arguments.live)
 }
@@ -157,20 +146,20 @@ pub fn journal_path(folder: &Path, name: &str, shard: Option<Shard>) -> PathBuf 
 }
 
 /// Writes points and outputs of all runs, which may be more than the study began with.
-fn save(study: &Study, result: &StudyResult, store: &Store, path: &Path, format: Format) -> Result<(), Failure> {
+fn save(study: &Study, result: &StudyResult, store: &Store, path: &Path, format: Format) -> anyhow::Result<()> {
     let settings = study.design().settings();
     let points = result.provenance.base_samples / settings.replicates;
-    let design = study.design().with_points(points).map_err(|error| Failure::Run(error.into()))?;
+    let design = study.design().with_points(points)?;
     stream_atomically(path, |out| save_outputs(study, &design, store, format, &mut Stoppable::new(out)))?;
     say(&format!("wrote the points and outputs of {} runs to {}", design.rows(), path.display()));
     Ok(())
 }
 
 /// The study, with the changes that the command line makes to it.
-fn study_of(arguments: &Arguments) -> Result<Study, Failure> {
+fn study_of(arguments: &Arguments) -> anyhow::Result<Study> {
     let changes = arguments.design.overrides();
     let study = arguments.study.load_with(&changes)?;
-    let RecordArguments { double, retry_failed, .. } = arguments.record;
+    let &Arguments { double, retry_failed, .. } = arguments;
     if !double && !retry_failed || arguments.design.base_samples.is_some() {
         return Ok(study);
     }
@@ -178,7 +167,7 @@ fn study_of(arguments: &Arguments) -> Result<Study, Failure> {
     let result = match read_result(&json) {
         Ok(result) => result,
         Err(_) if !double => return Ok(study),
-        Err(error) => return Err(Failure::Input(anyhow!("--double: there is no result to double: {error}"))),
+        Err(error) => return Err(bad_input(format!("--double: there is no result to double: {error}"))),
     };
     let (base_samples, plain_rows) = (result.provenance.base_samples, result.provenance.plain_rows);
     let wanted = if double { base_samples.saturating_mul(2) } else { base_samples };
@@ -190,7 +179,7 @@ fn study_of(arguments: &Arguments) -> Result<Study, Failure> {
         Some(spending) => {
             let (option, accuracy) =
                 if double { ("--double", spending.accuracy / 2.0) } else { ("--retry-failed", spending.accuracy) };
-            return Err(Failure::Input(anyhow!(
+            return Err(bad_input(format!(
                 "{option}: {} is from a run with an accuracy, which chose its own design: use \
                  --accuracy {accuracy} instead, which continues with its runs",
                 json.display()
@@ -199,36 +188,37 @@ fn study_of(arguments: &Arguments) -> Result<Study, Failure> {
         None => (),
     }
     if plain_rows != study.design().plain_rows() {
-        return Err(Failure::Input(anyhow!(
+        return Err(bad_input(format!(
             "{}: the result has another design than the study: run the study again",
             json.display()
         )));
     }
-    study.with_base_samples(wanted).map_err(|error| Failure::Input(error.into()))
+    Ok(study.with_base_samples(wanted)?)
 }
 
 /// Writes the files of a result, and says what came out.
-pub fn deliver(
-    study: &Study,
-    artefacts: &Artefacts,
-    result: &StudyResult,
-    live: &LiveArguments,
-) -> Result<(), Failure> {
+pub fn deliver(study: &Study, artefacts: &Artefacts, result: &StudyResult, live: &LiveArguments) -> anyhow::Result<()> {
     let mut document = run_document(result);
     live.place_next_to(&mut document, result);
     output::deliver(artefacts, &document)?;
-    let lost: Vec<&OutputResult> = result.outputs.iter().filter(|output| lost(study, output)).collect();
+    // An output without indices because runs failed, and not because it does not vary.
+    let is_lost = |output: &&OutputResult| {
+        let share = output.runs_failed as f64 / (output.runs_ok + output.runs_failed) as f64;
+        let too_many = share > study.analysis().max_failed || output.base_points_used < 2;
+        output.indices.is_none() && output.runs_failed > 0 && too_many
+    };
+    let lost: Vec<&OutputResult> = result.outputs.iter().filter(is_lost).collect();
     let Some(first) = lost.first() else { return Ok(()) };
     let others = if lost.len() > 1 { format!(" and of {} more outputs", lost.len() - 1) } else { String::new() };
-    Err(Failure::Run(anyhow!(
+    Err(anyhow!(
         "no indices of {}{others}: too many runs failed (max_failed = {} in [analysis]; the result lists them with their reasons)",
         first.name,
         study.analysis().max_failed
-    )))
+    ))
 }
 
 /// What was done before an error is of use to the user.
-fn with_journal(study: &Study, error: RunError, journal: Option<&Path>) -> Failure {
+fn with_journal(study: &Study, error: RunError, journal: Option<&Path>) -> anyhow::Error {
     if matches!(&error, RunError::GaveUp(give_up) if give_up.is_bad_input) {
         return error.into();
     }
@@ -247,21 +237,14 @@ fn with_journal(study: &Study, error: RunError, journal: Option<&Path>) -> Failu
         (RunError::Interrupted { .. }, _) => "\nno journal was kept: the runs are lost".to_owned(),
         _ => return with_inputs(study, error),
     };
-    Failure::Run(anyhow!("{error}{kept}"))
-}
-
-/// Whether an output has no indices because runs failed, and not because it does not vary.
-fn lost(study: &Study, output: &OutputResult) -> bool {
-    let share = output.runs_failed as f64 / (output.runs_ok + output.runs_failed) as f64;
-    let too_many = share > study.analysis().max_failed || output.base_points_used < 2;
-    output.indices.is_none() && output.runs_failed > 0 && too_many
+    anyhow!("{error}{kept}")
 }
 
 /// A row that failed is of use to the user by its inputs.
-pub fn with_inputs(study: &Study, error: RunError) -> Failure {
+pub fn with_inputs(study: &Study, error: RunError) -> anyhow::Error {
     match &error {
         RunError::RowFailed { row, .. } => {
-            Failure::Run(anyhow!("{error}\nthe run's inputs: {}", inputs_in_words(study, *row)))
+            anyhow!("{error}\nthe run's inputs: {}", inputs_in_words(study, *row))
         }
         _ => error.into(),
     }

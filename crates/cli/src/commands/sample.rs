@@ -10,7 +10,8 @@ use apportion_files::exchange::{
 use apportion_report::{prepare_file, stream_atomically, write_atomically};
 
 use super::stop::Stoppable;
-use super::{DesignChanges, Failure, StudyArguments, counted, say, say_notes};
+use super::{DesignChanges, StudyArguments, counted, say};
+use crate::failure::{OfFile, bad_input};
 
 /// Most random points.
 const MAX_RANDOM: u64 = 2 * apportion::design::MAX_POINTS;
@@ -34,17 +35,16 @@ pub struct Arguments {
     output: Option<PathBuf>,
 }
 
-pub fn sample(arguments: &Arguments) -> Result<(), Failure> {
+pub fn sample(arguments: &Arguments) -> anyhow::Result<()> {
     let study = arguments.study.load_any(&arguments.design.overrides())?;
-    say_notes(&study);
     let kind = if arguments.random.is_some() { "random" } else { "design" };
     let default = || PathBuf::from(format!("{}-{kind}.csv", study.name()));
     let path = arguments.output.clone().unwrap_or_else(default);
-    let format = Format::from_path(&path).map_err(|error| Failure::Input(anyhow!("{}: {error}", path.display())))?;
+    let format = Format::from_path(&path).in_file(&path)?;
     let beside = Manifest::path_for(&path);
     if !arguments.force && path.is_file() && !is_own(&path, study.name()) {
         let what = "exists already, and is not a design that `sample` wrote of this study";
-        return Err(Failure::Input(anyhow!("{} {what}: give another name, or add --force", path.display())));
+        return Err(bad_input(format!("{} {what}: give another name, or add --force", path.display())));
     }
     prepare_file(&path)?;
     prepare_file(&beside)?;
@@ -52,15 +52,14 @@ pub fn sample(arguments: &Arguments) -> Result<(), Failure> {
         say("note: a run of this study adds points until its target is met: these are its first points");
     }
     // A manifest of other points must not stay after they are replaced.
-    match std::fs::remove_file(&beside) {
-        Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
-            return Err(Failure::Run(anyhow!("cannot replace {}: {error}", beside.display())));
-        }
-        _ => (),
+    if let Err(error) = std::fs::remove_file(&beside)
+        && error.kind() != std::io::ErrorKind::NotFound
+    {
+        return Err(anyhow!("cannot replace {}: {error}", beside.display()));
     }
     let factors = counted(study.space().factors().len() as u64, "factor");
     if let Some(rows) = arguments.random {
-        let design = random_design(&study, rows).map_err(|error| Failure::Input(error.into()))?;
+        let design = random_design(&study, rows)?;
         stream_atomically(&path, |out| write_rows(&study, &design, rows, format, &mut Stoppable::new(out)).map(drop))?;
         say(&format!("wrote {rows} random points of {factors} to {}", path.display()));
         return Ok(());

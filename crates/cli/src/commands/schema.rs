@@ -3,7 +3,7 @@
 use apportion::result::result_schema;
 use apportion_files::study_schema;
 
-use super::{Failure, print_raw};
+use super::print_raw;
 
 #[derive(clap::Args)]
 #[command(
@@ -25,7 +25,7 @@ enum Kind {
     Result,
 }
 
-pub fn schema(arguments: &Arguments) -> Result<(), Failure> {
+pub fn schema(arguments: &Arguments) -> anyhow::Result<()> {
     let schema = match arguments.kind {
         Kind::Study => study_schema(),
         Kind::Result => result_schema(),

@@ -2,20 +2,18 @@
 
 use std::time::Instant;
 
-use anyhow::anyhow;
 use apportion::model::RunContext;
 use apportion::result::RunFacts;
 use apportion::run::threads_in_force;
-use apportion::screening::{
-    self, MAX_LEVELS, MIN_TRAJECTORIES, ScreeningDesign, ScreeningError, ScreeningJob, ScreeningSettings,
-};
+use apportion::screening::{self, MAX_LEVELS, MIN_TRAJECTORIES, ScreeningDesign, ScreeningJob, ScreeningSettings};
 use apportion::study::Study;
 use apportion_report::screening::{build_screening, screening_document};
 
 use super::output::{OutputArguments, deliver};
 use super::progress::Meter;
 use super::stop::on_signal;
-use super::{Failure, StudyArguments, Threads, say, whole_number};
+use super::{StudyArguments, Threads, say, whole_number};
+use crate::failure::bad_input;
 
 #[derive(clap::Args)]
 pub struct Arguments {
@@ -39,25 +37,19 @@ pub struct Arguments {
     threads: Threads,
 }
 
-impl From<ScreeningError> for Failure {
-    fn from(error: ScreeningError) -> Self {
-        Self::input_if(!matches!(error, ScreeningError::Run(_)), error)
-    }
-}
-
 fn trajectories(text: &str) -> Result<u64, String> {
     let number = text.parse().ok().filter(|number| *number >= MIN_TRAJECTORIES);
     number.ok_or_else(|| format!("expected a whole number, at least {MIN_TRAJECTORIES}"))
 }
 
 impl Arguments {
-    fn settings(&self, study: &Study) -> Result<ScreeningSettings, Failure> {
+    fn settings(&self, study: &Study) -> anyhow::Result<ScreeningSettings> {
         let in_study = study.design().settings();
         let design = match (&*self.design, self.levels) {
             ("trajectory", levels) => ScreeningDesign::Trajectory { levels: levels.unwrap_or(4) },
             (_, Some(levels)) => {
                 let message = "--levels has no effect on the radial design: add --design trajectory";
-                return Err(Failure::Input(anyhow!("--levels {levels}: {message}")));
+                return Err(bad_input(format!("--levels {levels}: {message}")));
             }
             _ => ScreeningDesign::Radial { sampler: in_study.sampler },
         };
@@ -66,8 +58,8 @@ impl Arguments {
     }
 }
 
-pub fn screen(arguments: &Arguments) -> Result<(), Failure> {
-    let study = arguments.study.load()?;
+pub fn screen(arguments: &Arguments) -> anyhow::Result<()> {
+    let study = arguments.study.load_with(&[])?;
     let settings = arguments.settings(&study)?;
     let (in_force, _) = settings.in_force(study.space().factors().len())?;
     if in_force.trajectories != settings.trajectories {
@@ -75,8 +67,7 @@ pub fn screen(arguments: &Arguments) -> Result<(), Failure> {
         say(&format!("note: {asked} trajectories do not make equal parts for the intervals: {used} are used"));
     }
     let model = study.model();
-    let artefacts = arguments.output.artefacts(study.name());
-    artefacts.prepare()?;
+    let artefacts = arguments.output.prepared(study.name())?;
     let runs = in_force.trajectories * (study.space().factors().len() as u64 + 1);
     let meter = Meter::new(study.name(), runs);
     let start = Instant::now();

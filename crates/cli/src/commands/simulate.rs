@@ -2,9 +2,9 @@
 
 use apportion::quantity::{Dimension, Quantity};
 
+use super::StudyArguments;
 use super::output::{OutputArguments, deliver};
-use super::{Failure, StudyArguments};
-use crate::scene::simulation::{SimulationError, mode_diagram, simulate as simulate_scene};
+use crate::scene::simulation::{mode_diagram, simulate as simulate_scene};
 use crate::scene::{mode_document, scene_document};
 
 #[derive(clap::Args)]
@@ -29,25 +29,14 @@ fn parse_time(text: &str) -> Result<f64, String> {
     Ok(quantity.to_si())
 }
 
-impl From<SimulationError> for Failure {
-    fn from(error: SimulationError) -> Self {
-        Self::input_if(matches!(error, SimulationError::NoScene(_)), error)
-    }
-}
-
 /// Simulates the scene with every factor at its nominal value.
-pub fn simulate(arguments: &Arguments) -> Result<(), Failure> {
-    let study = arguments.study.load()?;
-    let artefacts = arguments.output.artefacts(study.name());
+pub fn simulate(arguments: &Arguments) -> anyhow::Result<()> {
+    let study = arguments.study.load_with(&[])?;
+    let artefacts = arguments.output.prepared(study.name())?;
     let document = if arguments.mode_diagram {
-        let diagram = mode_diagram(&study)?;
-        artefacts.prepare()?;
-        let title = study.title().unwrap_or(study.name());
-        mode_document(&diagram, study.name(), title)
+        mode_document(&mode_diagram(&study)?, study.name(), study.title().unwrap_or(study.name()))
     } else {
-        artefacts.prepare()?;
-        let story = simulate_scene(&study, arguments.duration)?;
-        scene_document(&story, study.name())
+        scene_document(&simulate_scene(&study, arguments.duration)?, study.name())
     };
     deliver(&artefacts, &document)
 }

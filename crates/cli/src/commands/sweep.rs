@@ -1,13 +1,12 @@
 //! `apportion sweep`: one factor at a time around the nominal point.
 
-use apportion::model::{GiveUp, RunContext};
-use apportion::run::Halt;
-use apportion::sweep::{MAX_POINTS, SweepError, find};
+use apportion::model::RunContext;
+use apportion::sweep::{MAX_POINTS, find};
 use apportion_report::sweep::{build_sweep, sweep_document};
 
 use super::output::{OutputArguments, deliver};
 use super::stop::on_signal;
-use super::{Failure, StudyArguments, number_in, say};
+use super::{StudyArguments, number_in, say};
 
 #[derive(clap::Args)]
 pub struct Arguments {
@@ -23,22 +22,11 @@ pub struct Arguments {
     output: OutputArguments,
 }
 
-impl From<SweepError> for Failure {
-    fn from(error: SweepError) -> Self {
-        let is_input = match &error {
-            SweepError::Halted(halt) => matches!(halt, Halt::GaveUp(GiveUp { is_bad_input: true, .. })),
-            _ => true,
-        };
-        Self::input_if(is_input, error)
-    }
-}
-
-pub fn sweep(arguments: &Arguments) -> Result<(), Failure> {
-    let study = arguments.study.load()?;
+pub fn sweep(arguments: &Arguments) -> anyhow::Result<()> {
+    let study = arguments.study.load_with(&[])?;
     let factors = find(study.space(), &arguments.factors)?;
     let model = study.model();
-    let artefacts = arguments.output.artefacts(study.name());
-    artefacts.prepare()?;
+    let artefacts = arguments.output.prepared(study.name())?;
     let context = RunContext::new(Some(on_signal()), say);
     let sweeps = apportion::sweep::sweep(study.space(), model.as_ref(), &factors, arguments.points, &context)?;
     deliver(&artefacts, &sweep_document(&build_sweep(&study, model.as_ref(), sweeps)))

@@ -4,15 +4,15 @@ use std::time::Instant;
 
 use anyhow::anyhow;
 use apportion::Study;
-use apportion::run::{RunError, threads_in_force};
 use apportion_report::Artefacts;
 
 use super::output::{OutputArguments, deliver};
 use super::progress::Meter;
 use super::stop::on_signal;
-use super::{Failure, StudyArguments, Threads, say, whole_number};
-use crate::trade::extremes::{ExtremesJob, ExtremesSettings, build_extremes, extremes, extremes_document};
-use crate::trade::settings::{SettingsJob, build_settings, compare_settings, settings_document};
+use super::{StudyArguments, Threads, say, whole_number};
+use crate::failure::bad_input;
+use crate::trade::extremes::{ExtremesJob, ExtremesSettings, extremes, extremes_document};
+use crate::trade::settings::{SettingsJob, compare_settings, settings_document};
 
 /// Seconds that a comparison takes, and a quick one.
 const SECONDS: f64 = 300.0;
@@ -51,16 +51,15 @@ fn parse_seconds(text: &str) -> Result<f64, String> {
     seconds.ok_or_else(|| "expected a number of seconds above 0, as in 60".to_owned())
 }
 
-pub fn trade(arguments: &Arguments) -> Result<(), Failure> {
-    let study = arguments.study.load()?;
+pub fn trade(arguments: &Arguments) -> anyhow::Result<()> {
+    let study = arguments.study.load_with(&[])?;
     if !study.space().dependences().is_empty() {
-        return Err(Failure::Input(anyhow!(
+        return Err(bad_input(
             "factors of this study depend on each other, but this command compares surrogates, cheaper models and samplers, \
-             which need independent factors: expected a study without [[dependence]]"
-        )));
+             which need independent factors: expected a study without [[dependence]]",
+        ));
     }
-    let artefacts = arguments.output.artefacts(study.name());
-    artefacts.prepare()?;
+    let artefacts = arguments.output.prepared(study.name())?;
     if arguments.extremes {
         trade_extremes(&study, arguments, &artefacts)
     } else {
@@ -69,23 +68,21 @@ pub fn trade(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 /// The settings of the study against each other.
-fn trade_settings(study: &Study, arguments: &Arguments, artefacts: &Artefacts) -> Result<(), Failure> {
+fn trade_settings(study: &Study, arguments: &Arguments, artefacts: &Artefacts) -> anyhow::Result<()> {
     let usual = if arguments.quick { QUICK_SECONDS } else { SECONDS };
     let job = SettingsJob {
         study,
         seconds: arguments.seconds.unwrap_or(usual),
         seeds: arguments.seeds,
         threads: arguments.threads.number(),
-        stop: Some(on_signal()),
+        stop: on_signal(),
         on_progress: &|what, share| say(&format!("{:3.0} % of the time: {what}", 100.0 * share)),
     };
-    let comparison = compare_settings(&job).map_err(|error: RunError| Failure::from(error))?;
-    let threads = threads_in_force(arguments.threads.number());
-    deliver(artefacts, &settings_document(&build_settings(study, threads, comparison)))
+    deliver(artefacts, &settings_document(&compare_settings(&job)?))
 }
 
 /// What becomes of the study at its extremes.
-fn trade_extremes(study: &Study, arguments: &Arguments, artefacts: &Artefacts) -> Result<(), Failure> {
+fn trade_extremes(study: &Study, arguments: &Arguments, artefacts: &Artefacts) -> anyhow::Result<()> {
     let own = ExtremesSettings::for_study(study);
     let settings =
         ExtremesSettings { points: arguments.cells.unwrap_or(own.points), seed: arguments.seed.unwrap_or(own.seed) };
@@ -101,9 +98,10 @@ fn trade_extremes(study: &Study, arguments: &Arguments, artefacts: &Artefacts) -
     };
     let map = extremes(&job)?;
     meter.finish(map.points, start.elapsed().as_secs_f64());
-    deliver(artefacts, &extremes_document(&build_extremes(study, settings.seed, &map)))?;
-    match map.counts.wrong {
+    let wrong = map.counts.wrong;
+    deliver(artefacts, &extremes_document(study, settings.seed, map))?;
+    match wrong {
         0 => Ok(()),
-        wrong => Err(Failure::Run(anyhow!("{wrong} numbers are silently wrong: see the table of reasons"))),
+        _ => Err(anyhow!("{wrong} numbers are silently wrong: see the table of reasons")),
     }
 }

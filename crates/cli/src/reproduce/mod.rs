@@ -1,6 +1,6 @@
 //! The papers reproduced: their studies, figures, claims and percentages.
 //!
-//! [`reproduce()`] computes; [`document()`] builds the page, its files and the text for a terminal.
+//! [`document()`] builds the page, its files and the text for a terminal of a [`Reproduction`].
 
 pub mod claims;
 mod document;
@@ -8,22 +8,20 @@ pub mod figures;
 mod order;
 mod papers;
 pub mod percentages;
-mod reproduction;
 mod shares;
 
 use apportion::result::StudyResult;
-use apportion::run::RunError;
 use apportion::study::Study;
-use apportion::sweep::SweepError;
-use apportion_afm::{Failure, FrictionLaw};
+use apportion_afm::FrictionLaw;
 use apportion_files::StudyError;
 use apportion_report::chart::{Colour, Stroke};
+use claims::Claim;
 pub use document::document;
-pub use papers::{Published, published};
-pub use reproduction::{Event, Reproduction, Request, Topic, reproduce};
-use thiserror::Error;
+use figures::PaperFigure;
+pub use papers::published;
+use percentages::Percentages;
 
-use crate::scene::law_colour;
+use crate::scene::{SceneStory, law_colour};
 
 /// How much is computed.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -95,49 +93,7 @@ const STUDIES: [(&str, &str); 9] = [
 ];
 
 /// The settings of every study in a quick reproduction, unless the overrides say otherwise.
-const QUICK: [&str; 1] = ["design.base_samples=2048"];
-
-/// Why a reproduction failed.
-#[derive(Debug, Error)]
-pub enum ReproduceError {
-    /// A study cannot be read, for example because of an override.
-    #[error(transparent)]
-    Study(#[from] StudyError),
-    /// A study cannot be run.
-    #[error(transparent)]
-    Run(#[from] RunError),
-    /// A scene has no solution. At the defaults of the papers this does not happen.
-    #[error("a scene of the papers has no answer: {0}")]
-    Scene(#[from] Failure),
-    /// A factor cannot be swept.
-    #[error(transparent)]
-    Sweep(#[from] SweepError),
-    /// The model has no such input.
-    #[error("the nanoparticle model has no parameter `{name}`")]
-    NoParameter {
-        /// Its name.
-        name: &'static str,
-    },
-    /// The general study does not have a factor that a claim is about.
-    #[error("the general study does not give the range of every factor that the claims are about")]
-    NoRanges,
-    /// A study that a claim is about has not been run, or has no indices.
-    #[error("claims 17 to 20 need the {group} study under {friction} friction, with its indices")]
-    NoIndices {
-        /// The study's group.
-        group: &'static str,
-        /// The name of its friction model.
-        friction: &'static str,
-    },
-    /// A study has no shares to compare with the printed percentages.
-    #[error("the study {study} has no shares of {measure}: its indices have no positive sum")]
-    NoPercentages {
-        /// The study.
-        study: String,
-        /// `S_1` or `S_T`.
-        measure: &'static str,
-    },
-}
+pub const QUICK: [&str; 1] = ["design.base_samples=2048"];
 
 /// A study with its result.
 #[derive(Debug, Clone)]
@@ -148,6 +104,23 @@ pub struct Reproduced {
     pub group: StudyGroup,
     /// Its result.
     pub result: StudyResult,
+}
+
+/// A reproduction that has taken place.
+#[derive(Debug, Clone, Default)]
+pub struct Reproduction {
+    /// How much was computed.
+    pub effort: Effort,
+    /// The nine studies, group by group.
+    pub studies: Vec<Reproduced>,
+    /// The figures of the papers, if asked for.
+    pub figures: Vec<PaperFigure>,
+    /// The animated scene, if figures were asked for.
+    pub animation: Option<SceneStory>,
+    /// The claims with their verdicts, if asked for.
+    pub claims: Vec<Claim>,
+    /// Our shares and the printed percentages, if claims were asked for.
+    pub percentages: Vec<Percentages>,
 }
 
 /// Returns the nine studies, read and checked, after applying `overrides` to each; group by group. The overrides should
@@ -168,8 +141,8 @@ fn study(friction: &str, group: &str, overrides: &[String]) -> Result<Study, Stu
 }
 
 /// Returns the study that has all factors with their ranges.
-fn general_study() -> Result<Study, StudyError> {
-    study("coulomb", "general", &[])
+fn general_study() -> Study {
+    study("coulomb", "general", &[]).expect("a part of this program")
 }
 
 /// Groups the names by equal statements, in the order of the first of each.
@@ -182,28 +155,4 @@ fn named_together<'a, T: PartialEq>(said: impl IntoIterator<Item = (T, &'a str)>
         }
     }
     groups
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn all_nine_studies_are_there_with_their_own_factors() {
-        let studies = studies(&[]).unwrap();
-        assert_eq!(studies.len(), 9);
-        for (group, friction, study) in &studies {
-            assert_eq!(study.name(), format!("{}-{}", friction.key, group.key));
-            assert_eq!(study.design().settings().base_samples, 1 << 12);
-            let factors = study.space().factors().len();
-            assert_eq!(factors, if group.key == "general" { 8 } else { 4 });
-            assert_eq!(study.space().groups().len(), if group.key == "general" { 2 } else { 0 });
-        }
-    }
-
-    #[test]
-    fn overrides_reach_every_study() {
-        let studies = studies(&["design.base_samples=64".to_owned()]).unwrap();
-        assert!(studies.iter().all(|(_, _, study)| study.design().settings().base_samples == 64));
-    }
 }

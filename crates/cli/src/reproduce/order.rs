@@ -1,7 +1,6 @@
 //! Comparison of our order of the factors with the published one, as far as our intervals decide it.
 
 use apportion::Estimate;
-use apportion::result::IndexRecord;
 use apportion::uncertainty::Interval;
 
 use super::shares::indices;
@@ -12,11 +11,7 @@ use super::{Reproduced, published};
 pub(super) const VISIBLE: f64 = 0.5;
 
 /// A factor with its share in percent.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct FactorShare<'a> {
-    pub factor: &'a str,
-    pub share: Estimate,
-}
+type FactorShare<'a> = (&'a str, Estimate);
 
 /// Returns the interval of a share; the whole range if its error is unknown.
 fn bounds(share: Estimate) -> Interval {
@@ -42,7 +37,7 @@ pub(super) enum Standing {
 }
 
 /// Compares our shares with the order of `first` before `second`.
-pub(super) fn standing(first: Estimate, second: Estimate) -> Standing {
+fn standing(first: Estimate, second: Estimate) -> Standing {
     if unseen(first) && unseen(second) {
         return Standing::Unseen;
     }
@@ -54,19 +49,6 @@ pub(super) fn standing(first: Estimate, second: Estimate) -> Standing {
     } else {
         Standing::Undecided
     }
-}
-
-/// The agreement of our order with the published one.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Agreement {
-    /// Every factor is before the next.
-    Same,
-    /// Every factor is before the next, up to a rest without visible shares.
-    Beginning,
-    /// Not decided by this sample: no pair is reversed, but some intervals overlap.
-    Undecided,
-    /// Some pair is reversed, or a factor that is not in the published order has a visible share.
-    Other,
 }
 
 /// The comparison of our order with a published one.
@@ -83,47 +65,38 @@ pub(super) struct OrderVerdict<'a> {
 }
 
 /// Compares the shares with the published order, whose factors are among them.
-pub(super) fn order_verdict<'a>(shares: &[FactorShare<'a>], published: &[&str]) -> OrderVerdict<'a> {
-    let mut ranked: Vec<&FactorShare<'a>> = shares.iter().filter(|one| !unseen(one.share)).collect();
-    ranked.sort_by(|a, b| b.share.estimate.total_cmp(&a.share.estimate));
-    let known: Vec<&FactorShare<'a>> =
-        published.iter().filter_map(|name| shares.iter().find(|share| share.factor == *name)).collect();
-    let pair = |pair: &[&FactorShare<'a>]| (pair[0].factor, pair[1].factor, standing(pair[0].share, pair[1].share));
-    let stranger = |one: &&&FactorShare<'a>| bounds(one.share).low >= VISIBLE && !published.contains(&one.factor);
+fn order_verdict<'a>(mut shares: Vec<FactorShare<'a>>, published: &[&str]) -> OrderVerdict<'a> {
+    shares.sort_by(|(_, a), (_, b)| b.estimate.total_cmp(&a.estimate));
+    let known = published.iter().filter_map(|name| shares.iter().find(|(factor, _)| factor == name));
+    let known: Vec<FactorShare<'a>> = known.copied().collect();
+    let is_intruder = |(factor, share): &&FactorShare<'a>| bounds(*share).low >= VISIBLE && !published.contains(factor);
     OrderVerdict {
-        ours: ranked.iter().map(|share| share.factor).collect(),
-        pairs: known.windows(2).map(pair).collect(),
-        intruders: ranked.iter().filter(stranger).map(|share| share.factor).collect(),
-        unseen: known.iter().filter(|one| unseen(one.share)).map(|share| share.factor).collect(),
+        ours: shares.iter().filter(|(_, share)| !unseen(*share)).map(|(factor, _)| *factor).collect(),
+        pairs: known.windows(2).map(|pair| (pair[0].0, pair[1].0, standing(pair[0].1, pair[1].1))).collect(),
+        intruders: shares.iter().filter(is_intruder).map(|(factor, _)| *factor).collect(),
+        unseen: known.iter().filter(|(_, share)| unseen(*share)).map(|(factor, _)| *factor).collect(),
     }
 }
 
-impl<'a> OrderVerdict<'a> {
-    pub fn agreement(&self) -> Agreement {
-        let any = |wanted: Standing| self.pairs.iter().any(|(.., standing)| *standing == wanted);
-        if any(Standing::Broken) || !self.intruders.is_empty() {
-            Agreement::Other
-        } else if any(Standing::Undecided) {
-            Agreement::Undecided
-        } else if any(Standing::Unseen) {
-            Agreement::Beginning
-        } else {
-            Agreement::Same
-        }
+impl OrderVerdict<'_> {
+    /// Returns whether every factor is before the next, up to a rest without visible shares if `allows_unseen`, and no
+    /// other factor has a visible share.
+    pub fn is_kept(&self, allows_unseen: bool) -> bool {
+        let is_kept = |standing| standing == Standing::Kept || allows_unseen && standing == Standing::Unseen;
+        self.intruders.is_empty() && self.pairs.iter().all(|(.., standing)| is_kept(*standing))
     }
 
-    /// Returns the pairs with this standing, as in `length and width`.
-    pub fn pairs_that_are(&self, wanted: Standing) -> Vec<(&'a str, &'a str)> {
-        self.pairs.iter().filter(|(.., standing)| *standing == wanted).map(|&(one, other, _)| (one, other)).collect()
+    /// Lists the pairs with this standing, as in `length before width`.
+    pub fn pairs_that_are(&self, wanted: Standing) -> Vec<String> {
+        let pairs = self.pairs.iter().filter(|(.., standing)| *standing == wanted);
+        pairs.map(|(one, other, _)| format!("{one} before {other}")).collect()
     }
 }
 
 /// Compares the order of a study's factors by total shares with the published one.
-pub(super) fn order_of<'a>(member: &'a Reproduced) -> OrderVerdict<'a> {
-    let share =
-        |index: &'a IndexRecord| Some(FactorShare { factor: &index.factor, share: index.effect.total_percent()? });
-    let shares: Vec<FactorShare<'a>> = indices(member).iter().filter_map(share).collect();
-    order_verdict(&shares, published(member.group.key, member.friction.key).ranking)
+pub(super) fn order_of(member: &Reproduced) -> OrderVerdict<'_> {
+    let shares = indices(member).iter().filter_map(|index| Some((&*index.factor, index.effect.total_percent()?)));
+    order_verdict(shares.collect(), published(member.group.key, member.friction.key).ranking)
 }
 
 /// Returns the total indices of the dimensional and the environmental factors of a general study, and whether the first
@@ -145,52 +118,46 @@ mod tests {
 
     fn share(factor: &str, share: f64, half_width: f64) -> FactorShare<'_> {
         let interval = Some(Interval { low: share - half_width, high: share + half_width });
-        FactorShare { factor, share: Estimate { estimate: share, interval } }
+        (factor, Estimate { estimate: share, interval })
     }
 
     const PUBLISHED: [&str; 4] = ["thickness", "length", "width", "height"];
 
-    fn agreement(shares: &[FactorShare<'_>]) -> Agreement {
-        order_verdict(shares, &PUBLISHED).agreement()
-    }
-
     #[test]
     fn an_order_holds_if_neighbours_differ() {
         let shares = [share("length", 34.0, 1.0), share("width", 19.0, 1.0), share("thickness", 47.0, 1.0)];
-        let with = |height| [&shares[..], &[height]].concat();
-        assert_eq!(agreement(&with(share("height", 3.0, 1.0))), Agreement::Same);
-        assert_eq!(agreement(&with(share("height", 0.0, 0.0))), Agreement::Same, "nothing is less than something");
-        assert_eq!(agreement(&with(share("height", 25.0, 1.0))), Agreement::Other);
-        let verdict = order_verdict(&with(share("height", 0.0, 0.0)), &PUBLISHED);
+        let with = |height| order_verdict([&shares[..], &[height]].concat(), &PUBLISHED);
+        assert!(with(share("height", 3.0, 1.0)).is_kept(false));
+        let verdict = with(share("height", 0.0, 0.0));
+        assert!(verdict.is_kept(false), "nothing is less than something");
         assert_eq!((verdict.ours, verdict.unseen), (vec!["thickness", "length", "width"], vec!["height"]));
+        let verdict = with(share("height", 25.0, 1.0));
+        assert_eq!(verdict.pairs_that_are(Standing::Broken), ["width before height"]);
     }
 
     /// With few points the intervals of length and thickness overlap: that decides nothing.
     #[test]
     fn overlapping_neighbours_are_undecided() {
-        let shares = [
-            share("length", 42.3, 3.9),
-            share("width", 17.5, 3.4),
-            share("thickness", 38.4, 3.9),
-            share("height", 0.0, 0.0),
-        ];
-        let verdict = order_verdict(&shares, &PUBLISHED);
-        assert_eq!(verdict.agreement(), Agreement::Undecided);
-        assert_eq!(verdict.pairs_that_are(Standing::Undecided), [("thickness", "length")]);
-        let unknown = shares.map(|one| FactorShare { share: Estimate { interval: None, ..one.share }, ..one });
-        assert_eq!(agreement(&unknown), Agreement::Undecided);
+        let shares = vec![share("length", 42.3, 3.9), share("width", 17.5, 3.4), share("thickness", 38.4, 3.9)];
+        let verdict = order_verdict(shares.clone(), &PUBLISHED);
+        assert!(!verdict.is_kept(true));
+        assert_eq!(verdict.pairs_that_are(Standing::Undecided), ["thickness before length"]);
+        let unknown = shares.into_iter().map(|(name, share)| (name, Estimate { interval: None, ..share }));
+        assert_eq!(order_verdict(unknown.collect(), &PUBLISHED).pairs_that_are(Standing::Undecided).len(), 2);
     }
 
     #[test]
     fn invisible_shares_have_no_order_and_unpublished_ones_must_be_invisible() {
-        let tail = [share("thickness", 99.0, 0.5), share("length", 0.1, 0.01), share("width", 0.3, 0.01)];
-        let verdict = order_verdict(&tail, &PUBLISHED[..3]);
-        assert_eq!((verdict.agreement(), verdict.unseen), (Agreement::Beginning, vec!["length", "width"]));
-        let stranger = [share("thickness", 60.0, 1.0), share("length", 10.0, 1.0), share("velocity", 30.0, 1.0)];
-        assert_eq!(order_verdict(&stranger, &PUBLISHED[..2]).agreement(), Agreement::Other);
-        let faint = [share("thickness", 60.0, 1.0), share("length", 39.0, 1.0), share("velocity", 1.0, 0.8)];
-        assert_eq!(order_verdict(&faint, &PUBLISHED[..2]).agreement(), Agreement::Same);
+        let tail = vec![share("thickness", 99.0, 0.5), share("length", 0.1, 0.01), share("width", 0.3, 0.01)];
+        let verdict = order_verdict(tail, &PUBLISHED[..3]);
+        assert!(verdict.is_kept(true) && !verdict.is_kept(false));
+        assert_eq!(verdict.unseen, ["length", "width"]);
+        let with = |length, velocity| {
+            order_verdict(vec![share("thickness", 60.0, 1.0), share("length", length, 1.0), velocity], &PUBLISHED[..2])
+        };
+        assert_eq!(with(10.0, share("velocity", 30.0, 1.0)).intruders, ["velocity"]);
+        assert!(with(39.0, share("velocity", 1.0, 0.8)).is_kept(false));
         // It is unknown whether a share is visible.
-        assert_eq!(standing(share("a", 0.0, 0.0).share, share("b", 0.5, 0.2).share), Standing::Undecided);
+        assert_eq!(standing(share("a", 0.0, 0.0).1, share("b", 0.5, 0.2).1), Standing::Undecided);
     }
 }

@@ -6,12 +6,13 @@
 
 use apportion::EffectEstimates;
 use apportion::result::{OutputResult, StudyResult};
+use apportion::run::RunError;
 use apportion_report::document::{Part, Table};
 use apportion_report::fixed;
 use apportion_report::format::words;
 
 use super::papers::{PRINTED, Words, filled, papers};
-use super::{Effort, FRICTIONS, GROUPS, QUICK, ReproduceError, StudyGroup, published, study};
+use super::{Effort, FRICTIONS, GROUPS, QUICK, StudyGroup, published, study};
 
 /// Distance in percentage points up to which a percentage agrees: three times the rounding of the printed numbers.
 const MET: f64 = 1.5;
@@ -52,13 +53,14 @@ pub struct StudyShares {
 }
 
 impl StudyShares {
-    /// Returns the shares of an output; `None` without any.
-    fn new(group: &'static str, output: &OutputResult, share: fn(&EffectEstimates) -> Option<f64>) -> Option<Self> {
-        let indices = output.indices.as_ref().filter(|indices| !indices.is_empty())?;
-        let shares = indices.iter().map(|index| Some((index.factor.clone(), share(&index.effect)?)));
-        let shares: Vec<(String, f64)> = shares.collect::<Option<_>>()?;
+    /// Returns the shares of an output.
+    fn new(group: &'static str, output: &OutputResult, share: fn(&EffectEstimates) -> Option<f64>) -> Self {
+        let indices = output.indices.iter().flatten();
+        // The design does not depend on the user: with it every output of these studies has shares.
+        let share = |effect| share(effect).expect("a study with shares");
+        let shares: Vec<(String, f64)> = indices.map(|i| (i.factor.clone(), share(&i.effect))).collect();
         let distance = distance(group, shares.iter().map(|(factor, share)| (factor.as_str(), *share)));
-        Some(Self { group, shares, distance })
+        Self { group, shares, distance }
     }
 
     fn share(&self, factor: &str) -> Option<f64> {
@@ -70,16 +72,10 @@ impl Percentages {
     fn mean_distance(&self) -> f64 {
         self.studies.iter().map(|study| study.distance).sum::<f64>() / self.studies.len() as f64
     }
-
-    /// Returns the part of the thickness among thickness, length and width in one study, in percent.
-    fn thickness_part(&self, group: &str) -> Option<f64> {
-        let study = self.studies.iter().find(|study| study.group == group)?;
-        thickness_part(|factor| study.share(factor))
-    }
 }
 
 /// Returns the part of the thickness among thickness, length and width, in percent.
-fn thickness_part(share: impl Fn(&str) -> Option<f64>) -> Option<f64> {
+pub(super) fn thickness_part(share: impl Fn(&str) -> Option<f64>) -> Option<f64> {
     let [t, l, w] = ["thickness", "length", "width"].map(share);
     Some(100.0 * t? / (t? + l? + w?))
 }
@@ -106,8 +102,8 @@ pub fn distance<'a>(group: &str, shares: impl IntoIterator<Item = (&'a str, f64)
 /// both outputs by both measures.
 ///
 /// # Errors
-/// [`ReproduceError`] if a study cannot be run or its indices have no positive sum.
-pub fn percentages(effort: Effort, threads: usize) -> Result<Vec<Percentages>, ReproduceError> {
+/// [`RunError`] if a study cannot be run.
+pub fn percentages(effort: Effort, threads: usize) -> Result<Vec<Percentages>, RunError> {
     let viscous = ("viscous LuGre", PRINTED, &[VISCOUS][..]);
     let models = FRICTIONS.iter().map(|friction| (friction.name, friction.key, &[][..])).chain([viscous]);
     let mut rows = Vec::new();
@@ -118,9 +114,8 @@ pub fn percentages(effort: Effort, threads: usize) -> Result<Vec<Percentages>, R
             for (measure, share) in MEASURES {
                 let of_group = |(group, result): (StudyGroup, &StudyResult)| {
                     StudyShares::new(group.key, &result.outputs[place], share)
-                        .ok_or_else(|| ReproduceError::NoPercentages { study: result.study.name.clone(), measure })
                 };
-                let studies = GROUPS.into_iter().zip(&results).map(of_group).collect::<Result<_, _>>()?;
+                let studies = GROUPS.into_iter().zip(&results).map(of_group).collect();
                 rows.push(Percentages { friction, measure, output, studies });
             }
         }
@@ -135,13 +130,12 @@ fn run(
     settings: &[&str],
     effort: Effort,
     threads: usize,
-) -> Result<StudyResult, ReproduceError> {
+) -> Result<StudyResult, RunError> {
     let names = OUTPUTS.map(|(output, _)| format!("{output:?}")).join(", ");
     let own = [format!("outputs=[{names}]"), "analysis.convergence=false".to_owned()].into_iter();
     let quick = if effort == Effort::Quick { &QUICK[..] } else { &[] };
     let overrides: Vec<String> = own.chain(settings.iter().chain(quick).map(|&setting| setting.to_owned())).collect();
-    let study = study(friction, group, &overrides)?;
-    Ok(study.runner().threads(threads).run()?)
+    study(friction, group, &overrides).expect("a part of this program").runner().threads(threads).run()
 }
 
 /// Summarises the percentages: LG does not define its own and they contradict each other; which of ours are nearest;
@@ -153,28 +147,26 @@ pub fn summary(rows: &[Percentages]) -> Vec<String> {
 
 fn in_words(rows: &[Percentages]) -> Option<Words> {
     let [dimensional, environmental, general] = GROUPS.map(|group| group.key);
-    let by_first_order =
-        |friction| rows.iter().find(|row| (row.friction, row.measure, row.output) == (friction, "S_1", "F_cr"));
-    let velocity = |friction| {
-        let row: &Percentages = by_first_order(friction)?;
-        row.studies.iter().find(|study| study.group == environmental)?.share("velocity")
+    let by_first_order = |friction| {
+        let row = rows.iter().find(|row| (row.friction, row.measure, row.output) == (friction, "S_1", "F_cr"));
+        row.map(|row| &row.studies[..])
     };
-    let ours = by_first_order("LuGre")?;
+    let [ours, viscous] = [by_first_order("LuGre")?, by_first_order("viscous LuGre")?];
     let nearest = rows.iter().min_by(|a, b| a.mean_distance().total_cmp(&b.mean_distance()))?;
     let meets_all = nearest.studies.iter().all(|study| study.distance <= MET);
     let distances = nearest.studies.iter().map(|study| format!("{} {}", study.group, fixed(study.distance, 1)));
     Some(vec![
         ("dimensional", fixed(printed(dimensional, "thickness")?, 0)),
         ("general", fixed(thickness_part(|factor| printed(general, factor))?, 1)),
-        ("ours_dimensional", fixed(ours.thickness_part(dimensional)?, 1)),
-        ("ours_general", fixed(ours.thickness_part(general)?, 1)),
+        ("ours_dimensional", fixed(thickness_part(|factor| ours[0].share(factor))?, 1)),
+        ("ours_general", fixed(thickness_part(|factor| ours[2].share(factor))?, 1)),
         ("meets", if meets_all { "One reading meets" } else { "No reading meets" }.to_owned()),
         ("met", MET.to_string()),
         ("nearest", format!("{} of {} under {} friction", nearest.measure, nearest.output, nearest.friction)),
         ("distances", distances.collect::<Vec<_>>().join(", ")),
         ("velocity", printed(environmental, "velocity")?.to_string()),
-        ("viscous", fixed(velocity("viscous LuGre")?, 1)),
-        ("lugre", fixed(velocity("LuGre")?, 1)),
+        ("viscous", fixed(viscous[1].share("velocity")?, 1)),
+        ("lugre", fixed(ours[1].share("velocity")?, 1)),
     ])
 }
 
@@ -188,19 +180,12 @@ pub fn table(rows: &[Percentages]) -> Part {
         .text("friction", |row| row.map_or("printed", |row| row.friction))
         .text("output", |row| row.map_or("", |row| row.output))
         .text("share of the sum of", |row| row.map_or("", |row| row.measure));
-    for StudyGroup { key, .. } in GROUPS {
-        let of = |row: Option<&Percentages>, read: &dyn Fn(&StudyShares) -> Option<f64>| {
-            read(row?.studies.iter().find(|study| study.group == key)?)
-        };
+    for (place, StudyGroup { key, .. }) in GROUPS.into_iter().enumerate() {
         for (factor, percent) in published(key, PRINTED).shares {
-            let heading = format!("{key}: {}", words(factor));
-            let share = |row: Option<&Percentages>| match row {
-                None => Some(*percent),
-                row => of(row, &|study| study.share(factor)),
-            };
-            table = table.number(heading, |row| number(share(row)));
+            let share = |row: &Percentages| row.studies[place].share(factor);
+            table = table.number(format!("{key}: {}", words(factor)), |row| number(row.map_or(Some(*percent), share)));
         }
-        table = table.number(format!("{key}: distance"), |row| number(of(row, &|study| Some(study.distance))));
+        table = table.number(format!("{key}: distance"), |row| number(row.map(|row| row.studies[place].distance)));
     }
     table.into()
 }
@@ -224,15 +209,6 @@ pub fn percentages_csv(rows: &[Percentages]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn equal_shares_have_distance_zero_however_the_rest_is_spread() {
-        for group in GROUPS {
-            let printed = published(group.key, PRINTED).shares.iter().copied();
-            let rest = 100.0 - printed.clone().map(|(_, share)| share).sum::<f64>();
-            assert_eq!(distance(group.key, printed.chain([("height", rest - 5.0), ("adhesion", 5.0)])), 0.0);
-        }
-    }
 
     #[test]
     fn a_distance_is_a_root_mean_square() {

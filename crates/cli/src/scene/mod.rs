@@ -6,22 +6,20 @@
 
 pub(crate) mod charts;
 mod columns;
-mod document;
 pub(crate) mod mode_diagram;
 mod player;
 pub mod simulation;
-mod view;
 
 use std::ops::Deref;
 
 use apportion_afm::history::Sample;
 use apportion_afm::{Critical, Scene};
 use apportion_report::chart::Colour;
-use apportion_report::format;
+use apportion_report::document::{Document, Figure, Part, Report, Section, Table};
+use apportion_report::format::{self, minus, with_unit};
 pub use charts::{law_colour, scene_charts};
 pub use columns::{scene_json, scene_number, scene_table};
-pub use document::{mode_document, scene_document};
-pub use mode_diagram::{ModeDiagram, ModeLine, mode_diagram_chart};
+pub use mode_diagram::{ModeDiagram, ModeLine, mode_axis, mode_diagram_chart};
 pub use player::player_page;
 
 /// One scene, from the start of the push through sticking and slipping.
@@ -39,7 +37,7 @@ pub struct SceneStory {
     pub critical_time: f64,
     /// The colour of the pushing force: that of the friction law, see [`law_colour`].
     pub colour: Colour,
-    /// The states in the order of time, possibly unevenly spaced, possibly one or none.
+    /// The states in the order of time, from 0 on, unevenly spaced; at the slip there are two.
     pub samples: Vec<SceneSample>,
 }
 
@@ -77,16 +75,24 @@ impl SceneSample {
 }
 
 impl SceneStory {
-    /// Returns the critical time if the samples reach it: otherwise it cannot be drawn.
-    fn slip(&self) -> Option<f64> {
-        let time = self.critical_time;
-        let (first, last) = (self.samples.first()?.time, self.samples.last()?.time);
-        (first <= time && time <= last).then_some(time)
+    /// Returns the first sample.
+    pub fn start(&self) -> &SceneSample {
+        &self.samples[0]
     }
 
-    /// Returns the sample nearest to a time.
-    fn nearest(&self, time: f64) -> Option<&SceneSample> {
-        self.samples.iter().min_by(|a, b| (a.time - time).abs().total_cmp(&(b.time - time).abs()))
+    /// Returns the last sample.
+    pub fn end(&self) -> &SceneSample {
+        &self.samples[self.samples.len() - 1]
+    }
+
+    /// Returns the last sample that sticks: that of the slip, if the samples reach it.
+    fn held(&self) -> &SceneSample {
+        self.samples.iter().rfind(|sample| sample.sticking).unwrap_or(self.start())
+    }
+
+    /// Returns the critical time if the samples reach it: otherwise it cannot be drawn.
+    fn slip(&self) -> Option<f64> {
+        (self.critical_time <= self.end().time).then_some(self.critical_time)
     }
 
     /// States the outcome in one sentence.
@@ -100,23 +106,68 @@ impl SceneStory {
     }
 }
 
+/// Builds the document of a scene of the study `study`.
+pub fn scene_document(story: &SceneStory, study: &str) -> Document {
+    let animation = Part::Frame { title: "The scene as an animation".to_owned(), html: player_page(story) };
+    let charts = scene_charts(story).map(|(stem, chart)| Figure::unnumbered(chart, format!("{study}-{stem}")).into());
+    let table = Part::Table(Table::pairs("Every constant of the scene.", story.setting.iter().cloned()));
+    let setting = Part::Details { summary: "Every constant of the scene".to_owned(), parts: vec![table] };
+    Report {
+        name: format!("{study}-scene"),
+        kicker: "A scene in time",
+        title: story.title.clone(),
+        lead: vec![story.outcome(), numbers(story)],
+        then: vec![
+            Section::new("animation", "The scene", vec![animation]),
+            Section::new("charts", "Charts", charts.to_vec()),
+            Section::new("setting", "Setting", vec![Part::OnPage(vec![setting])]),
+        ],
+        json: scene_json(story),
+        csv: Some(scene_table(story)),
+        ..Report::default()
+    }
+    .document()
+}
+
+/// States the forces at the slip, and the final position of the particle.
+fn numbers(story: &SceneStory) -> String {
+    let (critical, end) = (&story.critical, story.end());
+    let value = |x: f64, unit: &str| minus(&with_unit(x, unit));
+    let force = |newtons: f64| value(newtons * 1e9, "nN");
+    format!(
+        "The critical tip force is {} (lateral {}, normal {}), reached after {}; after {} the particle has moved {} \
+         relative to the substrate.",
+        force(critical.critical_force),
+        force(critical.lateral_force),
+        force(critical.normal_force),
+        value(story.critical_time, "s"),
+        value(end.time, "s"),
+        value(end.relative * 1e9, "nm")
+    )
+}
+
+/// Builds the document of the modes of motion in the study `study`, whose title is `title`.
+pub fn mode_document(diagram: &ModeDiagram, study: &str, title: &str) -> Document {
+    let (name, chart) = (format!("{study}-modes"), mode_diagram_chart(diagram));
+    let mut csv = Table::from_rows("", 0..diagram.angle.len()).file("angle_rad", |row| diagram.angle[row]);
+    for line in &diagram.forces {
+        csv = csv.file(format!("{}_N", line.name), |row| line.force[row]);
+    }
+    Report {
+        kicker: "Modes of motion",
+        title: title.to_owned(),
+        lead: vec![chart.caption.clone()],
+        then: vec![Section::new("diagram", "Mode diagram", vec![Figure::unnumbered(chart, &name).into()])],
+        csv: Some(csv.into()),
+        name,
+        ..Report::default()
+    }
+    .document()
+}
+
 /// The nominal scene under Coulomb friction, for tests.
 #[cfg(test)]
 fn nominal_story() -> SceneStory {
     let title = "A gold particle pushed on silicon oxide".to_owned();
     simulation::scene_story(title, &Scene::default(), &Default::default(), 0.4).expect("a scene with an answer")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_outcome_is_said_for_every_story() {
-        let story = nominal_story();
-        assert_eq!(story.outcome(), "The particle slips after 0.131 s, at a tip force of 631 nN.");
-        let mut early = story;
-        early.samples.retain(|sample| sample.time < 0.1);
-        assert!(early.outcome().contains("0.131 s, outside the time shown"), "{}", early.outcome());
-    }
 }

@@ -1,34 +1,27 @@
 //! Simulation of one scene of a study in time, and of the diagram of other motions of the particle.
 
+use anyhow::anyhow;
 use apportion::study::Study;
 use apportion_afm::history::{Sample, history};
 use apportion_afm::modes::{Mode, Pushing, TipForce};
 use apportion_afm::{AfmSubject, Failure, Fidelity, Options, Parameter, Scene, critical_force, edge_unit};
-use apportion_report::chart::Colour;
+use apportion_report::chart::{Colour, Stroke};
 use apportion_report::with_unit;
-use thiserror::Error;
 
+use crate::failure::bad_input;
 use crate::scene::{ModeDiagram, ModeLine, SceneSample, SceneStory, law_colour};
-
-/// Why a scene cannot be simulated.
-#[derive(Debug, Clone, PartialEq, Error)]
-pub enum SimulationError {
-    /// The study has another model.
-    #[error("only the nanoparticle model (model = \"afm\") has a scene in time, but the model of this study is `{0}`")]
-    NoScene(&'static str),
-    /// The scene has no solution.
-    #[error("the scene cannot be simulated: {0}")]
-    Failed(#[from] Failure),
-}
 
 /// Returns the scene of a study: its constants, with every factor at its nominal value.
 ///
 /// # Errors
-/// [`SimulationError::NoScene`] if the study does not use the nanoparticle model.
-fn scene_of(study: &Study) -> Result<(Scene, Options), SimulationError> {
-    let Some(afm) = study.subject().downcast_ref::<AfmSubject>() else {
-        return Err(SimulationError::NoScene(study.subject().name()));
-    };
+/// An error if the study does not use the nanoparticle model.
+fn scene_of(study: &Study) -> anyhow::Result<(Scene, Options)> {
+    let afm = study.subject().downcast_ref::<AfmSubject>().ok_or_else(|| {
+        bad_input(format!(
+            "only the nanoparticle model (model = \"afm\") has a scene in time, but the model of this study is `{}`",
+            study.subject().name()
+        ))
+    })?;
     let mut scene = afm.scene;
     for factor in study.space().factors() {
         if let Some(parameter) = Parameter::from_name(&factor.name) {
@@ -41,15 +34,18 @@ fn scene_of(study: &Study) -> Result<(Scene, Options), SimulationError> {
 /// Simulates the scene of `study`, for `duration` seconds; by default for twice the critical time.
 ///
 /// # Errors
-/// [`SimulationError`] if the study has no scene, or the scene no solution, as at velocity 0.
-pub fn simulate(study: &Study, duration: Option<f64>) -> Result<SceneStory, SimulationError> {
+/// An error if the study has no scene, or the scene no solution, as at velocity 0.
+pub fn simulate(study: &Study, duration: Option<f64>) -> anyhow::Result<SceneStory> {
     let (scene, options) = scene_of(study)?;
-    let duration = match duration {
-        Some(duration) => duration,
-        None => 2.0 * critical_force(&scene, &Options { fidelity: Fidelity::QuasiStatic, ..options })?.critical_time?,
-    };
+    let quasi_static = Options { fidelity: Fidelity::QuasiStatic, ..options };
+    let usual = || Ok(2.0 * critical_force(&scene, &quasi_static)?.critical_time?);
     let title = study.title().unwrap_or(study.name()).to_owned();
-    Ok(scene_story(title, &scene, &options, duration)?)
+    let story = duration.map_or_else(usual, Ok).and_then(|duration| scene_story(title, &scene, &options, duration));
+    story.map_err(failed)
+}
+
+fn failed(failure: Failure) -> anyhow::Error {
+    anyhow!("the scene cannot be simulated: {failure}")
 }
 
 /// Simulates a scene, for `duration` seconds, by the quasi-static rung for any fidelity of the options.
@@ -117,10 +113,10 @@ const ANGLES: usize = 180;
 /// from the vertical (Tafazzoli and Sitti 2004, fig. 12).
 ///
 /// # Errors
-/// [`SimulationError`] if the study has no scene, or the scene no solution.
-pub fn mode_diagram(study: &Study) -> Result<ModeDiagram, SimulationError> {
+/// An error if the study has no scene, or the scene no solution.
+pub fn mode_diagram(study: &Study) -> anyhow::Result<ModeDiagram> {
     let (scene, options) = scene_of(study)?;
-    Ok(scene_modes(&scene, &options)?)
+    scene_modes(&scene, &options).map_err(failed)
 }
 
 /// Returns the mode diagram of a scene, like [`mode_diagram`] for a study.
@@ -135,11 +131,10 @@ pub fn scene_modes(scene: &Scene, options: &Options) -> Result<ModeDiagram, Fail
     let mut angle: Vec<f64> = grid.chain([critical.force_angle()]).collect();
     angle.sort_by(f64::total_cmp);
     let colours = [law_colour(options.friction), Colour::Series(1), Colour::Series(4), Colour::Series(5)];
-    let mut lines = Vec::new();
-    for (&mode, colour) in Mode::ALL.iter().zip(colours) {
-        let sets_in = |&psi: &f64| pushing.critical_tip_force(mode, psi);
-        let force = angle.iter().map(sets_in).collect::<Result<Vec<_>, Failure>>()?;
-        lines.push(ModeLine { mode: mode.name().to_owned(), colour, force });
-    }
-    Ok(ModeDiagram { angle, forces: lines, current: (critical.force_angle(), critical.critical_force) })
+    let line = |(&mode, colour): (&Mode, Colour)| {
+        let force = angle.iter().map(|psi| pushing.critical_tip_force(mode, *psi)).collect::<Result<_, Failure>>()?;
+        Ok(ModeLine { name: mode.name().to_owned(), look: (colour, Stroke::Solid), force })
+    };
+    let forces = Mode::ALL.iter().zip(colours).map(line).collect::<Result<_, Failure>>()?;
+    Ok(ModeDiagram { angle, forces, slip: (critical.force_angle(), critical.critical_force) })
 }

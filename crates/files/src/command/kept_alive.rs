@@ -7,17 +7,16 @@
 mod rows;
 mod session;
 
-use std::process::ExitStatus;
 use std::sync::atomic::Ordering;
 use std::time::Duration;
 
 use apportion::model::{Batch, GiveUp, RowFailure, RunContext, Worker};
-use apportion::text::{masked, seconds};
+use apportion::text::seconds;
 use rows::Rows;
 use session::{LONGEST, Lookup, Session};
 
 use super::process::{Ending, Event, Process};
-use super::program::status_in_words;
+use super::program::ended_in_words;
 use super::protocol::{is_answer_without_number, parse_answer};
 use super::row::RowWriter;
 use super::{CommandModel, Protocol, State};
@@ -62,27 +61,28 @@ impl<'a> KeptAliveWorker<'a> {
                 drop(self.session.take().map(|mut session| session.process.end(false)));
                 return Err(RowFailure::interrupted().into());
             }
-            if self.session.is_none() {
-                let program = &self.model.settings.program;
-                let process = Process::start(program, self.context.messages())
-                    .map_err(|error| RowFailure::new(&program.refusal(&error)))?;
-                self.session = Some(Session::new(process));
-            }
-            self.send(rows);
-            match self.step(rows) {
-                Ok(()) => (),
+            let mut session = match self.session.take() {
+                Some(session) => session,
+                None => {
+                    let program = &self.model.settings.program;
+                    let process = Process::start(program, self.context.messages());
+                    Session::new(process.map_err(|error| RowFailure::new(&program.refusal(&error)))?)
+                }
+            };
+            self.send(&mut session, rows);
+            match self.step(&mut session, rows) {
+                Ok(()) => self.session = Some(session),
                 Err(Fault::GiveUp(give_up)) => return Err(give_up),
-                Err(fault) => self.end(fault, rows)?,
+                Err(fault) => self.end(session, fault, rows)?,
             }
         }
         Ok(())
     }
 
     /// Sends as many rows as allowed: one before the first reply of the program and while rows are suspected.
-    fn send(&mut self, rows: &mut Rows<'_>) {
-        let Some(session) = self.session.as_mut().filter(|session| !session.is_closed) else { return };
+    fn send(&self, session: &mut Session, rows: &mut Rows<'_>) {
         let is_ahead = self.model.state.has_answered() && rows.suspects.is_empty();
-        while session.credit > 0 {
+        while session.credit > 0 && !session.is_closed {
             let mut text = String::new();
             while text.len() < TEXT
                 && (is_ahead && session.has_room() || session.asked.is_empty())
@@ -102,36 +102,28 @@ impl<'a> KeptAliveWorker<'a> {
     }
 
     /// Handles the next event.
-    fn step(&mut self, rows: &mut Rows<'_>) -> Result<(), Fault> {
-        let Some(session) = &mut self.session else { return Ok(()) };
+    fn step(&self, session: &mut Session, rows: &mut Rows<'_>) -> Result<(), Fault> {
         let left = self.model.settings.timeout.map(|timeout| timeout.saturating_sub(session.silent_for()));
         match session.process.event(left.map_or(ATTENTION, |left| left.min(ATTENTION))) {
             Some(Event::Output(bytes)) => {
                 for line in session.lines(&bytes) {
-                    self.hear(&line, rows)?;
+                    self.hear(session, &line, rows)?;
                 }
-                match &self.session {
-                    Some(session) if session.unfinished() > LONGEST => Err(Fault::LongLine),
-                    _ => Ok(()),
+                if session.unfinished() > LONGEST {
+                    return Err(Fault::LongLine);
                 }
             }
-            Some(Event::Sent) => {
-                session.credit += 1;
-                Ok(())
-            }
-            Some(Event::Closed) => Err(Fault::Closed(session.process.end(true))),
-            None if left == Some(Duration::ZERO) => Err(Fault::Silent),
-            None => {
-                self.wait();
-                Ok(())
-            }
+            Some(Event::Sent) => session.credit += 1,
+            Some(Event::Closed) => return Err(Fault::Closed(session.process.end(true))),
+            None if left == Some(Duration::ZERO) => return Err(Fault::Silent),
+            None => self.wait(session),
         }
+        Ok(())
     }
 
     /// Handles a line that the process has printed.
-    fn hear(&mut self, line: &[u8], rows: &mut Rows<'_>) -> Result<(), Fault> {
+    fn hear(&self, session: &mut Session, line: &[u8], rows: &mut Rows<'_>) -> Result<(), Fault> {
         let (model, protocol) = (self.model, self.protocol);
-        let Some(session) = &mut self.session else { return Ok(()) };
         let words = match parse_answer(protocol, &model.names, line) {
             Err(words) => words,
             Ok((number, answer)) => match session.find(number) {
@@ -177,9 +169,8 @@ impl<'a> KeptAliveWorker<'a> {
     }
 
     /// Handles a timeout without events.
-    fn wait(&mut self) {
+    fn wait(&self, session: &mut Session) {
         let state = &self.model.state;
-        let Some(session) = &mut self.session else { return };
         // Other processes that it has started may hold its output open.
         session.process.clear_away();
         let silent_for = session.silent_for();
@@ -201,8 +192,7 @@ impl<'a> KeptAliveWorker<'a> {
     }
 
     /// Ends the process, and decides what happens to its pending rows.
-    fn end(&mut self, fault: Fault, rows: &mut Rows<'_>) -> Result<(), GiveUp> {
-        let Some(mut session) = self.session.take() else { return Ok(()) };
+    fn end(&self, mut session: Session, fault: Fault, rows: &mut Rows<'_>) -> Result<(), GiveUp> {
         let reason = self.reason(fault, &mut session);
         let is_own = session.sent == 1;
         for row in session.asked.into_values() {
@@ -217,17 +207,13 @@ impl<'a> KeptAliveWorker<'a> {
 
     fn reason(&self, fault: Fault, session: &mut Session) -> String {
         match fault {
-            Fault::Closed(ending) if ending.by_itself && session.is_closed && is_success(ending.status) => {
+            Fault::Closed(ending) if ending.by_itself && session.is_closed && ending.is_success() => {
                 match &session.stray {
                     Some(words) => format!("not an answer: {words}"),
                     None => "the program gave no answer to the row".to_owned(),
                 }
             }
-            Fault::Closed(ending) if ending.by_itself => {
-                let last = masked(&ending.last_words);
-                let last = if last.is_empty() { last } else { format!(": {last}") };
-                format!("the program ended with {}{last}", status_in_words(ending.status))
-            }
+            Fault::Closed(ending) if ending.by_itself => ended_in_words(ending.status, &ending.last_words),
             Fault::Closed(_) => "the program closed its standard output".to_owned(),
             Fault::Silent => {
                 session.process.end(false);
@@ -242,10 +228,6 @@ impl<'a> KeptAliveWorker<'a> {
             Fault::GiveUp(give_up) => give_up.reason.to_string(),
         }
     }
-}
-
-fn is_success(status: Option<ExitStatus>) -> bool {
-    status.is_some_and(|status| status.success())
 }
 
 impl Worker for KeptAliveWorker<'_> {

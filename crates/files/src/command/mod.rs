@@ -31,7 +31,7 @@ pub use protocol::{Protocol, parse_answer};
 pub use template::{InputTemplate, TemplateError, TemplateProblem};
 
 /// How a program receives rows.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub enum Form {
     /// It is kept alive, reads rows and writes replies, each with the number of its row.
     KeptAlive(Protocol),
@@ -40,7 +40,7 @@ pub enum Form {
 }
 
 /// An output of a program.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct CommandOutput {
     /// Its name.
     pub name: String,
@@ -51,7 +51,7 @@ pub struct CommandOutput {
 }
 
 /// The settings of a program as a model.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct CommandSettings {
     /// The program.
     pub program: Program,

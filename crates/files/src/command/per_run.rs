@@ -9,12 +9,12 @@ use std::time::{Duration, Instant, SystemTime};
 
 use apportion::digest::sha256;
 use apportion::model::{Batch, RowFailure, RunContext, Worker};
-use apportion::text::{masked, seconds};
+use apportion::text::seconds;
 use tempfile::TempDir;
 
 use super::pick::{MAX_BYTES, Source, Texts};
-use super::program::{Running, status_in_words};
-use super::row::ValueWriter;
+use super::program::{Running, ended_in_words};
+use super::row::{Column, columns, table};
 use super::standard_error::listen;
 use super::template::InputTemplate;
 use super::{CommandModel, not_a_value};
@@ -46,7 +46,7 @@ pub(super) struct PerRunWorker<'a> {
     model: &'a CommandModel,
     context: &'a RunContext<'a>,
     form: &'a PerRun,
-    values: ValueWriter,
+    columns: Vec<Column>,
 }
 
 /// Why a run has no outputs.
@@ -59,7 +59,7 @@ enum Fault {
 
 impl<'a> PerRunWorker<'a> {
     pub(super) fn new(model: &'a CommandModel, context: &'a RunContext<'a>, form: &'a PerRun) -> Self {
-        Self { model, context, form, values: ValueWriter::new(&model.factors) }
+        Self { model, context, form, columns: columns(&model.factors, &str::to_owned) }
     }
 
     /// Runs the program on one row, retries if it fails, and sets its outputs.
@@ -89,7 +89,7 @@ impl<'a> PerRunWorker<'a> {
             let temporary = tempfile::Builder::new().prefix("apportion-run-").tempdir()?;
             return Ok((temporary.path().to_owned(), Some(temporary)));
         };
-        let text = self.values.table(inputs, row);
+        let text = table(&self.columns, inputs, row);
         // The same point has the same directory in any order of runs.
         let path = keep.join(format!("run-{}", &sha256(text.as_bytes())[..16]));
         match std::fs::remove_dir_all(&path) {
@@ -110,7 +110,7 @@ impl<'a> PerRunWorker<'a> {
                 let _ = File::options().write(true).open(&copy).and_then(|file| file.set_modified(BEFORE));
             }
         }
-        let text = self.form.template.fill(|factor, out| self.values.write(factor, inputs[factor][row], out));
+        let text = self.form.template.fill(|factor, out| self.columns[factor].write(inputs[factor][row], out));
         std::fs::write(directory.join(&self.form.input), text)?;
         Ok((File::create(directory.join(STDOUT))?, File::create(directory.join(STDERR))?))
     }
@@ -140,9 +140,7 @@ impl<'a> PerRunWorker<'a> {
         if status.is_some_and(|status| status.success()) {
             return Ok(());
         }
-        let last = masked(&last_words.into_inner().unwrap_or_default());
-        let last = if last.is_empty() { last } else { format!(": {last}") };
-        Err(Fault::Run(format!("the program ended with {}{last}", status_in_words(status))))
+        Err(Fault::Run(ended_in_words(status, &last_words.into_inner().unwrap_or_default())))
     }
 
     /// Waits until the program has ended, or must be stopped.

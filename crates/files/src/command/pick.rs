@@ -7,8 +7,10 @@ use apportion::text::masked;
 use regex_lite::Regex;
 use serde_json::Value;
 
+use crate::exchange::number;
+
 /// The source of a number, and how it is extracted.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct Pick {
     /// The text that is read.
     pub source: Source,
@@ -76,17 +78,6 @@ pub enum Way {
     Column(String, Match),
     /// A JSON pointer (RFC 6901).
     Pointer(String),
-}
-
-impl PartialEq for Way {
-    fn eq(&self, other: &Self) -> bool {
-        match (self, other) {
-            (Self::Regex(a, m), Self::Regex(b, n)) => a.as_str() == b.as_str() && m == n,
-            (Self::Column(a, m), Self::Column(b, n)) => a == b && m == n,
-            (Self::Pointer(a), Self::Pointer(b)) => a == b,
-            _ => false,
-        }
-    }
 }
 
 /// Maximum number of bytes read from a file.
@@ -197,14 +188,8 @@ impl Way {
                 }
             }
         };
-        number(&found).ok_or_else(|| format!("the text found in {of} is not a number: `{}`", masked(&found)))
+        number(found.trim()).ok_or_else(|| format!("the text found in {of} is not a number: `{}`", masked(&found)))
     }
-}
-
-/// Parses a number as programs write it, including Fortran's `1.5D+03`.
-fn number(text: &str) -> Option<f64> {
-    let text = text.trim();
-    text.parse().ok().or_else(|| text.replace(['D', 'd'], "e").parse().ok())
 }
 
 /// Returns the cell of a column in one row of a CSV table.
@@ -286,13 +271,5 @@ mod tests {
         let pointer = pick(Way::Pointer("/y".to_owned()));
         assert_eq!(value(&pointer, 1, "{\"y\": [1, 2]}"), Ok(2.0));
         assert_eq!(value(&pointer, 2, "{\"y\": [1, 2]}").unwrap_err(), "it has no value at `/y/2`");
-    }
-
-    #[test]
-    fn a_missing_file_is_named() {
-        let folder = tempfile::tempdir().unwrap();
-        let pick = Pick { source: Source::File("out.txt".to_owned()), way: regex("1", Match::First) };
-        let error = pick.number(&mut Texts::new(folder.path(), Path::new("stdout"))).unwrap_err();
-        assert_eq!(error.to_string(), "the run wrote no file `out.txt`");
     }
 }

@@ -34,6 +34,12 @@ pub(super) struct Ending {
     pub last_words: String,
 }
 
+impl Ending {
+    pub(super) fn is_success(&self) -> bool {
+        self.status.is_some_and(|status| status.success())
+    }
+}
+
 /// A process that is kept alive. When dropped, its input is closed and it has a moment to end by itself.
 pub(super) struct Process {
     running: Running,

@@ -5,6 +5,8 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, ExitStatus};
 use std::time::{Duration, Instant};
 
+use apportion::text::masked;
+
 /// A program with its arguments.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Program {
@@ -173,21 +175,12 @@ impl Running {
     }
 }
 
-/// Describes how a program ended.
-pub(super) fn status_in_words(status: Option<ExitStatus>) -> String {
-    let Some(status) = status else { return "an unknown exit status".to_owned() };
-    #[cfg(unix)]
-    if let Some(signal) = std::os::unix::process::ExitStatusExt::signal(&status) {
-        let name = match signal {
-            4 => " (SIGILL)",
-            6 => " (SIGABRT)",
-            8 => " (SIGFPE)",
-            9 => " (SIGKILL)",
-            11 => " (SIGSEGV)",
-            15 => " (SIGTERM)",
-            _ => "",
-        };
-        return format!("signal {signal}{name}");
-    }
-    status.code().map_or_else(|| "an unknown exit status".to_owned(), |code| format!("exit status {code}"))
+/// Says how a program ended, with the last line of its standard error.
+pub(super) fn ended_in_words(status: Option<ExitStatus>, last_words: &str) -> String {
+    // Such as "exit status: 1" or "signal: 11 (SIGSEGV) (core dumped)".
+    let status = status.map_or_else(|| "an unknown exit status".to_owned(), |status| status.to_string());
+    let status = status.replacen(": ", " ", 1).replace(" (core dumped)", "");
+    let last = masked(last_words);
+    let last = if last.is_empty() { last } else { format!(": {last}") };
+    format!("the program ended with {status}{last}")
 }

@@ -3,133 +3,99 @@
 use std::fmt::Write;
 
 use apportion::quantity::Unit;
-use apportion::space::{Distribution, Factor};
+use apportion::space::Factor;
 
 use super::protocol::Protocol;
+use crate::exchange::{ColumnKind, factor_column};
+
+/// The name of the row number.
+const ROW_NUMBER: &str = "id";
 
 /// Writes rows as a program reads them. Numbers have the fewest digits that are read as the same `f64`.
-#[derive(Debug, Clone, PartialEq)]
 pub(super) struct RowWriter {
     protocol: Protocol,
     columns: Vec<Column>,
 }
 
-#[derive(Debug, Clone, PartialEq)]
-struct Column {
-    name: String,
-    unit: Unit,
-    cells: Cells,
-}
-
-#[derive(Debug, Clone, PartialEq)]
-enum Cells {
-    Numbers,
-    WholeNumbers,
-    /// Each value with the label that is written instead.
-    Labels(Vec<(f64, String)>),
-}
-
-/// The name of the row number.
-pub(super) const ROW_NUMBER: &str = "id";
-
 impl RowWriter {
     pub(super) fn new(protocol: Protocol, factors: &[Factor]) -> Self {
-        let quoted = |text: &str| match protocol {
-            Protocol::Csv => in_csv(text),
-            Protocol::JsonLines => in_json(text),
+        let quoted = match protocol {
+            Protocol::Csv => in_csv,
+            Protocol::JsonLines => in_json,
         };
-        let columns = factors.iter().map(|factor| Column::new(factor, &quoted)).collect();
-        Self { protocol, columns }
+        Self { protocol, columns: columns(factors, &quoted) }
     }
 
     /// Returns the text before the first row.
     pub(super) fn header(&self) -> String {
         match self.protocol {
-            Protocol::Csv => {
-                let names = self.columns.iter().map(|column| column.name.as_str());
-                let names: Vec<&str> = std::iter::once(ROW_NUMBER).chain(names).collect();
-                names.join(",") + "\n"
-            }
+            Protocol::Csv => format!(
+                "{ROW_NUMBER},{}\n",
+                self.columns.iter().map(|column| column.kind.name.as_str()).collect::<Vec<_>>().join(",")
+            ),
             Protocol::JsonLines => String::new(),
         }
     }
 
     /// Writes one row of SI values as a line that begins with its number.
     pub(super) fn write(&self, inputs: &[&[f64]], row: usize, number: u64, out: &mut String) {
-        let (open, close) = if self.protocol == Protocol::JsonLines { ("{", "}\n") } else { ("", "\n") };
-        out.push_str(open);
-        // Writing to a string cannot fail.
-        let _ = match self.protocol {
-            Protocol::Csv => write!(out, "{number}"),
-            Protocol::JsonLines => write!(out, "\"{ROW_NUMBER}\":{number}"),
-        };
+        let is_json = self.protocol == Protocol::JsonLines;
+        out.push_str(&if is_json { format!("{{\"{ROW_NUMBER}\":{number}") } else { number.to_string() });
         for (column, values) in self.columns.iter().zip(inputs) {
             out.push(',');
-            if self.protocol == Protocol::JsonLines {
-                out.push_str(&column.name);
+            if is_json {
+                out.push_str(&column.kind.name);
                 out.push(':');
             }
             column.write(values[row], out);
         }
-        out.push_str(close);
+        out.push_str(if is_json { "}\n" } else { "\n" });
     }
 }
 
-/// Writes single values into texts, labels without quotes.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct ValueWriter(Vec<Column>);
+/// A factor as text; its name and its labels are quoted.
+pub(super) struct Column {
+    kind: ColumnKind,
+    unit: Unit,
+}
 
-impl ValueWriter {
-    pub(super) fn new(factors: &[Factor]) -> Self {
-        Self(factors.iter().map(|factor| Column::new(factor, &str::to_owned)).collect())
-    }
-
-    /// Writes a row of SI values as a table of CSV with a header.
-    pub(super) fn table(&self, inputs: &[&[f64]], row: usize) -> String {
-        let values = self.0.iter().zip(inputs).map(|(column, values)| {
-            let mut cell = String::new();
-            column.write(values[row], &mut cell);
-            in_csv(&cell)
-        });
-        let names = self.0.iter().map(|column| in_csv(&column.name));
-        format!("{}\n{}\n", names.collect::<Vec<_>>().join(","), values.collect::<Vec<_>>().join(","))
-    }
-
-    /// Writes the SI value of the factor of that number.
-    pub(super) fn write(&self, factor: usize, value: f64, out: &mut String) {
-        self.0[factor].write(value, out);
-    }
+/// Returns the columns of `factors`, with texts as `quoted` writes them.
+pub(super) fn columns(factors: &[Factor], quoted: &dyn Fn(&str) -> String) -> Vec<Column> {
+    let column = |factor: &Factor| {
+        let mut kind = factor_column(factor);
+        kind.name = quoted(&kind.name);
+        // `true` and `false` are values in JSON.
+        if factor.distribution().name() != "boolean" {
+            kind.labels.iter_mut().for_each(|(label, _)| *label = quoted(label));
+        }
+        Column { kind, unit: factor.unit().clone() }
+    };
+    factors.iter().map(column).collect()
 }
 
 impl Column {
-    fn new(factor: &Factor, quoted: &dyn Fn(&str) -> String) -> Self {
-        let law = factor.distribution();
-        let is_truth = law.name() == "boolean";
-        let cells = match law {
-            whole if whole.is_whole() => Cells::WholeNumbers,
-            Distribution::Categorical(categories) => Cells::Labels(
-                categories
-                    .categories()
-                    .map(|(label, value, _)| (value, if is_truth { label.to_owned() } else { quoted(label) }))
-                    .collect(),
-            ),
-            _ => Cells::Numbers,
-        };
-        Self { name: quoted(&factor.name), unit: factor.unit().clone(), cells }
-    }
-
-    fn write(&self, si: f64, out: &mut String) {
+    /// Writes an SI value in the unit of the factor.
+    pub(super) fn write(&self, si: f64, out: &mut String) {
         let value = self.unit.from_si(si);
         // Writing to a string cannot fail. `{:?}` uses an exponent if the number would be long without one.
-        let _ = match &self.cells {
-            Cells::WholeNumbers if value.fract() == 0.0 => write!(out, "{value:.0}"),
-            Cells::Labels(labels) => match labels.iter().find(|(number, _)| *number == value) {
-                Some((_, label)) => out.write_str(label),
-                None => write!(out, "{value:?}"),
-            },
-            _ => write!(out, "{value:?}"),
+        let _ = match self.kind.label(value) {
+            Some(label) => out.write_str(label),
+            None if self.kind.whole && value.fract() == 0.0 => write!(out, "{value:.0}"),
+            None => write!(out, "{value:?}"),
         };
     }
+}
+
+/// Formats a row of SI values of `columns` without quotes as a table of CSV with a header.
+pub(super) fn table(columns: &[Column], inputs: &[&[f64]], row: usize) -> String {
+    let cell = |(column, values): (&Column, &&[f64])| {
+        let mut cell = String::new();
+        column.write(values[row], &mut cell);
+        in_csv(&cell)
+    };
+    let cells: Vec<String> = columns.iter().zip(inputs).map(cell).collect();
+    let names: Vec<String> = columns.iter().map(|column| in_csv(&column.kind.name)).collect();
+    format!("{}\n{}\n", names.join(","), cells.join(","))
 }
 
 /// Formats a cell of CSV, in quotes if it needs them.
@@ -144,6 +110,8 @@ fn in_json(text: &str) -> String {
 
 #[cfg(test)]
 mod tests {
+    use apportion::space::Distribution;
+
     use super::*;
 
     fn factors() -> Vec<Factor> {
@@ -179,11 +147,11 @@ mod tests {
             "{\"id\":100000,\"length\":225.0,\"n\":3,\"made of\":\"steel\",\"wet\":true}\n\
              {\"id\":100001,\"length\":1e-7,\"n\":4,\"made of\":\"glass, thin\",\"wet\":false}\n"
         );
-        let (mut text, values) = (String::new(), ValueWriter::new(&factors()));
-        values.write(2, 1.0, &mut text);
+        let (mut text, columns) = (String::new(), columns(&factors(), &str::to_owned));
+        columns[2].write(1.0, &mut text);
         assert_eq!(text, "glass, thin");
         let inputs: [&[f64]; 4] = [&[1e-13], &[4.0], &[1.0], &[0.0]];
-        assert_eq!(values.table(&inputs, 0), "length,n,made of,wet\n1e-7,4,\"glass, thin\",false\n");
+        assert_eq!(table(&columns, &inputs, 0), "length,n,made of,wet\n1e-7,4,\"glass, thin\",false\n");
     }
 
     proptest::proptest! {

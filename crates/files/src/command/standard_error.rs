@@ -41,22 +41,3 @@ fn take(messages: &Messages, line: &mut Vec<u8>, last: &Mutex<String>) {
         text.trim().clone_into(&mut last.lock().unwrap_or_else(PoisonError::into_inner));
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_last_line_with_words_is_kept() {
-        let (messages, last) = (Messages::default(), Mutex::new(String::new()));
-        listen(&messages, &b"Traceback:\n  x\nValueError: \xff no\n\n  "[..], &last);
-        assert_eq!(*last.lock().unwrap(), "ValueError: \u{fffd} no");
-    }
-
-    #[test]
-    fn a_flood_without_lines_takes_little_memory() {
-        let (messages, last) = (Messages::default(), Mutex::new(String::new()));
-        listen(&messages, std::io::repeat(b'x').take(10_000_000), &last);
-        assert_eq!(last.lock().unwrap().len(), 4096);
-    }
-}

@@ -128,21 +128,4 @@ mod tests {
             assert_eq!(filled(text).as_deref(), Ok(expected), "{text}");
         }
     }
-
-    #[test]
-    fn faults_have_their_place() {
-        let fault = |text| filled(text).unwrap_err();
-        let unknown = |name: &str| TemplateProblem::Unknown(name.to_owned());
-        assert_eq!(fault("a\nµ {{ d }}"), TemplateError { line: 2, column: 6, problem: unknown("d") });
-        assert_eq!(fault("{{a}} {{a\n}}"), TemplateError { line: 1, column: 7, problem: TemplateProblem::Open });
-        assert_eq!(fault("{{").problem, TemplateProblem::Open);
-        assert_eq!(fault("{{}}").problem, unknown(""));
-    }
-
-    proptest::proptest! {
-        #[test]
-        fn no_text_panics(text in "[{}a-c \\nµ]{0,30}") {
-            let _ = filled(&text);
-        }
-    }
 }

@@ -2,6 +2,7 @@
 
 use apportion::design::Design;
 use apportion::digest::Sha256;
+use apportion::model::Output;
 use apportion::quantity::Unit;
 use apportion::run::RowValues;
 use apportion::space::{Factor, Space};
@@ -76,6 +77,11 @@ pub fn factor_column(factor: &Factor) -> ColumnKind {
     ColumnKind { labels, whole: law.is_whole(), ..ColumnKind::numbers(&factor.name) }
 }
 
+/// Returns the columns of files with points and outputs.
+pub(super) fn columns(factors: &[Factor], outputs: &[Output]) -> Vec<ColumnKind> {
+    factors.iter().map(factor_column).chain(outputs.iter().map(|output| ColumnKind::numbers(&output.name))).collect()
+}
+
 /// SHA-256 of the numbers of rows, row by row, each as the eight bytes of a little-endian double.
 #[derive(Default)]
 pub(super) struct RowsDigest(Sha256);
@@ -94,45 +100,5 @@ impl RowsDigest {
     /// Returns the digest in hexadecimal.
     pub fn finish(self) -> String {
         self.0.finish()
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    const STUDY: &str = r#"
-        model = "expression"
-        outputs.y = "a + b"
-        design = { base_samples = 2400, replicates = 3, seed = 5 }
-        analysis = { second_order = true }
-        factor = [
-            { name = "a", min = 1, max = 3, unit = "um", group = "both" },
-            { name = "b", distribution = "normal", mean = 0, sd = 1, group = "both" },
-            { name = "c", min = 0, max = 90, unit = "deg" },
-        ]
-    "#;
-
-    #[test]
-    fn rows_are_those_of_the_design_in_its_order() {
-        let study = crate::parse_study(STUDY, "s.toml".as_ref(), &[]).unwrap();
-        let (space, design) = (&study.space(), &study.design());
-        let mut rows = DesignRows::new(space, design);
-        let mut columns = vec![Vec::new(); 3];
-        let (mut number, mut u) = (0, [0.0; 3]);
-        while let Some(block) = rows.next_block(&mut columns) {
-            assert_eq!(block.replicate * design.rows() / 3 + block.first, number);
-            for row in 0..block.rows {
-                design.point(number + row as u64, &mut u);
-                for ((factor, column), u) in space.factors().iter().zip(&columns).zip(&u) {
-                    let (mut si, typed) = ([0.0], column[row]);
-                    factor.fill_si(std::slice::from_ref(u), &mut si);
-                    // One rounding if no number of the unit converts to this SI value.
-                    assert!((factor.unit().to_si(typed) - si[0]).abs() <= f64::EPSILON * si[0].abs());
-                }
-            }
-            number += block.rows as u64;
-        }
-        assert_eq!(number, design.rows());
     }
 }

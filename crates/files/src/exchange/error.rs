@@ -9,7 +9,7 @@ pub enum TableError {
     #[error("cannot read the file: {0}")]
     Unreadable(#[from] std::io::Error),
     /// A cell that is neither a number nor a known label of its column.
-    #[error("row {row}: column `{name}`: expected {expected}, not {found:?}")]
+    #[error("{place}: column {column} (`{name}`): expected {expected}, not {found:?}", place = place_in_words(*line, *row))]
     WrongCell {
         /// Row of the table, from 1, the header not counted.
         row: u64,

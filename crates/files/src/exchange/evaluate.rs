@@ -9,10 +9,9 @@ use apportion::space::Factor;
 use apportion::study::Study;
 use thiserror::Error;
 
-use super::design_rows::factor_column;
 use super::error::TableError;
 use super::points::PointsReader;
-use super::rows::{ColumnKind, Format, RowReader, row_writer};
+use super::rows::{Format, RowReader, row_writer};
 
 /// Why points could not be evaluated.
 #[derive(Debug, Error)]
@@ -55,22 +54,12 @@ pub struct Evaluated {
 /// Uses constant memory, and as many workers as the model [asks for](apportion::model::Model::concurrency); the outputs
 /// are in the order of the points. Numbers are written with as many digits as it takes to read the same bits back.
 ///
-/// # Errors
-/// [`EvaluateError`] if the points are wrong, the outputs cannot be written, or the model gives up.
-pub fn evaluate(
-    study: &Study,
-    points: &mut dyn RowReader,
-    outputs: &mut dyn Write,
-) -> Result<Evaluated, EvaluateError> {
-    evaluate_in(study, points, outputs, false, &RunContext::default())
-}
-
-/// Does the same as the run of `context`, which may stop it, and with the points before their outputs in every line if
-/// `with_points`: a column for each factor, in its unit.
+/// The run of `context` may stop it. If `with_points`, the points are before their outputs in every line: a column for
+/// each factor, in its unit.
 ///
 /// # Errors
-/// As for [`evaluate`], and [`Halt::Interrupted`] if the run is stopped.
-pub fn evaluate_in(
+/// [`EvaluateError`] if the points are wrong, the outputs cannot be written, the model gives up, or the run is stopped.
+pub fn evaluate(
     study: &Study,
     points: &mut dyn RowReader,
     outputs: &mut dyn Write,
@@ -85,14 +74,12 @@ pub fn evaluate_in(
     let mut batch = Batch::new(model.as_ref());
     let mut columns = vec![Vec::with_capacity(most); factors.len()];
     let mut evaluated = Evaluated {
-        skipped: reader.skipped().to_vec(),
-        nominal: reader.missing(factors.len()),
+        skipped: reader.skipped.clone(),
+        nominal: (0..factors.len()).filter(|factor| !reader.factors.contains(factor)).collect(),
         ..Evaluated::default()
     };
     let copied: &[Factor] = if with_points { factors } else { &[] };
-    let kinds = copied.iter().map(factor_column);
-    let kinds = kinds.chain(model.outputs().iter().map(|output| ColumnKind::numbers(&output.name))).collect();
-    let mut writer = row_writer(Format::Csv, outputs, kinds, 0)?;
+    let mut writer = row_writer(Format::Csv, outputs, super::design_rows::columns(copied, model.outputs()), 0)?;
     loop {
         let rows = reader.read(factors, most, &mut columns)?;
         if rows == 0 {
@@ -116,7 +103,7 @@ pub fn evaluate_in(
     }
     writer.finish()?;
     context.messages().finish();
-    evaluated.unended = reader.is_unended();
+    evaluated.unended = reader.rows.is_unended();
     Ok(evaluated)
 }
 

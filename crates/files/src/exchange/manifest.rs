@@ -153,22 +153,15 @@ impl Manifest {
     /// # Errors
     /// [`TableError`] if it is not a manifest, or of a later version.
     pub fn parse(text: &str) -> Result<Self, TableError> {
-        #[derive(Deserialize)]
-        struct Head {
-            format: String,
-            version: u32,
+        let not_one = |reason: &dyn std::fmt::Display| format!("not a manifest of a design: {reason}");
+        let manifest: Self = serde_json::from_str(text).map_err(|error| TableError::Refused(not_one(&error)))?;
+        match (manifest.format.as_str(), manifest.version) {
+            (FORMAT, ..=VERSION) => Ok(manifest),
+            (FORMAT, later) => refused(format!(
+                "format version {later} of the manifest is unknown: this program reads versions up to {VERSION}"
+            )),
+            (other, _) => refused(not_one(&format!("its format is {other:?}, expected \"{FORMAT}\""))),
         }
-        let not_one = |error| TableError::Refused(format!("not a manifest of a design: {error}"));
-        let Head { format, version } = serde_json::from_str(text).map_err(not_one)?;
-        if format != FORMAT {
-            return refused(format!("not a manifest of a design: its format is {format:?}, expected \"{FORMAT}\""));
-        }
-        if version > VERSION {
-            return refused(format!(
-                "format version {version} of the manifest is unknown: this program reads versions up to {VERSION}"
-            ));
-        }
-        serde_json::from_str(text).map_err(not_one)
     }
 
     /// Formats the manifest as JSON, ending in a line feed.

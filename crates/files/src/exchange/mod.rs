@@ -15,10 +15,11 @@ mod sample;
 mod save;
 mod table;
 
-pub use answers::{AnswersRequest, MissingOutputs, read_answers};
+pub use answers::{AnswersRequest, read_answers};
 pub use error::TableError;
 pub use evaluate::{EvaluateError, Evaluated, evaluate};
 pub use manifest::Manifest;
+pub(crate) use rows::number;
 pub use rows::{Format, ReadOptions, RowReader, open_table};
 pub use sample::{random_design, sample, write_rows};
 pub use save::save_outputs;
@@ -27,9 +28,7 @@ pub use table::{Missing, Selection, Table, read_table};
 pub use {
     answers::{Answers, first_output, output_columns},
     design_rows::{DesignRows, RowBlock, factor_column},
-    evaluate::evaluate_in,
     manifest::{ManifestDesign, ManifestFactor, ManifestRun, ManifestStudy},
-    points::PointsReader,
     rows::{ColumnKind, RowWriter, row_writer, table_of_bytes},
     table::DroppedRows,
 };

@@ -8,12 +8,13 @@ use super::error::{TableError, place_in_words, refused};
 use super::rows::{ColumnKind, RowReader};
 
 /// Reads points block by block.
-pub struct PointsReader<'a> {
-    rows: &'a mut dyn RowReader,
+pub(super) struct PointsReader<'a> {
+    pub rows: &'a mut dyn RowReader,
     /// For each column that is read: its position in the file with its content, and the number of its factor.
     wanted: Vec<(usize, ColumnKind)>,
-    factors: Vec<usize>,
-    skipped: Vec<String>,
+    pub factors: Vec<usize>,
+    /// The names of the text columns that are not read.
+    pub skipped: Vec<String>,
     cells: Vec<Vec<f64>>,
     /// Number of rows read.
     read: u64,
@@ -53,34 +54,13 @@ impl<'a> PointsReader<'a> {
         Ok(Self { rows, wanted, factors, skipped, cells, read: 0 })
     }
 
-    /// Returns the names of the text columns that are not read.
-    pub fn skipped(&self) -> &[String] {
-        &self.skipped
-    }
-
-    /// Returns which of the first `factors` factors have no column.
-    pub fn missing(&self, factors: usize) -> Vec<usize> {
-        (0..factors).filter(|factor| !self.factors.contains(factor)).collect()
-    }
-
-    /// Returns whether the last line of the file, read to its end, has no line end.
-    pub fn is_unended(&self) -> bool {
-        self.rows.is_unended()
-    }
-
     /// Reads up to `rows` points into `columns` (one per factor of the space, in its unit) and returns how many there
     /// were; 0 at the end of the file. A factor without a column is at its nominal value.
     ///
     /// # Errors
     /// [`TableError`] with the place of the first cell that is not a finite number.
     pub fn read(&mut self, factors: &[Factor], rows: usize, columns: &mut [Vec<f64>]) -> Result<usize, TableError> {
-        let count = self.rows.read(&self.wanted, rows, &mut self.cells).map_err(|error| match error {
-            TableError::WrongCell { row, line, column, found, .. } => {
-                let k = self.wanted.iter().position(|(place, _)| place + 1 == column).unwrap_or_default();
-                wrong_cell(&factors[self.factors[k]], place_in_words(line, row), column, format!("{found:?}"))
-            }
-            error => error,
-        })?;
+        let count = self.rows.read(&self.wanted, rows, &mut self.cells)?;
         for (column, factor) in columns.iter_mut().zip(factors) {
             column.clear();
             column.resize(count, factor.nominal);
@@ -89,20 +69,17 @@ impl<'a> PointsReader<'a> {
             if let Some(row) = cells.iter().position(|value| !value.is_finite()) {
                 let found = if cells[row].is_nan() { "an empty cell".to_owned() } else { cells[row].to_string() };
                 let at = place_in_words(self.rows.line(row), self.read + row as u64 + 1);
-                return Err(wrong_cell(&factors[*factor], at, place + 1, found));
+                let (column, factor) = (place + 1, &factors[*factor]);
+                let expected = match factor.distribution().labels() {
+                    Some(labels) => format!("one of {}", labels.join(", ")),
+                    None => format!("a finite number in {}", factor.unit()),
+                };
+                let name = &factor.name;
+                return refused(format!("{at}: column {column} (`{name}`): expected {expected}, not {found}"));
             }
             columns[*factor].copy_from_slice(cells);
         }
         self.read += count as u64;
         Ok(count)
     }
-}
-
-fn wrong_cell(factor: &Factor, place: String, column: usize, found: String) -> TableError {
-    let expected = match factor.distribution().labels() {
-        Some(labels) => format!("one of {}", labels.join(", ")),
-        None => format!("a finite number in {}", factor.unit()),
-    };
-    let name = &factor.name;
-    TableError::Refused(format!("{place}: column {column} (`{name}`): expected {expected}, not {found}"))
 }

@@ -6,7 +6,7 @@ use std::path::Path;
 use apportion::design::{Design, DesignError, DesignSettings, Rows, Sampler};
 use apportion::study::Study;
 
-use super::design_rows::{DesignRows, RowsDigest, factor_column};
+use super::design_rows::{DesignRows, RowsDigest, columns};
 use super::manifest::Manifest;
 use super::rows::{Format, row_writer};
 
@@ -50,18 +50,17 @@ pub fn write_rows(
     out: &mut dyn Write,
 ) -> std::io::Result<String> {
     let space = study.space();
-    let kinds = space.factors().iter().map(factor_column).collect();
-    let mut writer = row_writer(format, out, kinds, most)?;
+    let mut writer = row_writer(format, out, columns(space.factors(), &[]), most)?;
     let mut rows = DesignRows::new(space, design);
-    let mut columns = vec![Vec::new(); design.factors()];
+    let mut points = vec![Vec::new(); design.factors()];
     let (mut digest, mut left) = (RowsDigest::default(), most);
-    while let Some(block) = rows.next_block(&mut columns) {
+    while let Some(block) = rows.next_block(&mut points) {
         if left < block.rows as u64 {
-            columns.iter_mut().for_each(|column| column.truncate(left as usize));
+            points.iter_mut().for_each(|column| column.truncate(left as usize));
         }
         left = left.saturating_sub(block.rows as u64);
-        digest.add(&columns);
-        let slices: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
+        digest.add(&points);
+        let slices: Vec<&[f64]> = points.iter().map(Vec::as_slice).collect();
         writer.write(&slices)?;
     }
     writer.finish()?;

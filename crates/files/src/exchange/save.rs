@@ -6,8 +6,8 @@ use apportion::design::Design;
 use apportion::run::Store;
 use apportion::study::Study;
 
-use super::design_rows::{DesignRows, factor_column};
-use super::rows::{ColumnKind, Format, row_writer};
+use super::design_rows::{DesignRows, columns};
+use super::rows::{Format, row_writer};
 
 /// Writes the rows of `design` with their outputs in `store`: the factors of `study`, then its outputs, each in its
 /// unit, in the order of [`Design::locate`]. A failed output is an empty cell (CSV) or NaN (NPY). Uses constant
@@ -23,9 +23,7 @@ pub fn save_outputs(
 ) -> std::io::Result<()> {
     let (space, model) = (study.space(), study.model());
     let outputs = model.outputs();
-    let kinds = space.factors().iter().map(factor_column);
-    let kinds = kinds.chain(outputs.iter().map(|output| ColumnKind::numbers(&output.name))).collect();
-    let mut writer = row_writer(format, out, kinds, design.rows())?;
+    let mut writer = row_writer(format, out, columns(space.factors(), outputs), design.rows())?;
     let mut rows = DesignRows::new(space, design);
     let mut points = vec![Vec::new(); design.factors()];
     let mut answers = vec![Vec::new(); outputs.len()];

@@ -135,13 +135,11 @@ pub fn read_table(reader: &mut dyn RowReader, selection: &Selection<'_>) -> Resu
 
 /// Returns the position of the column of that name.
 pub(super) fn column_of(names: &[String], name: &str) -> Result<usize, TableError> {
-    names.iter().position(|other| other == name).map_or_else(
-        || {
-            let (nearest, known) = (nearest(name, names.iter().map(String::as_str)), names.join(", "));
-            refused(format!("no column is called `{name}`{}; the columns are {known}", did_you_mean(&nearest)))
-        },
-        Ok,
-    )
+    if let Some(place) = names.iter().position(|other| other == name) {
+        return Ok(place);
+    }
+    let (nearest, known) = (nearest(name, names.iter().map(String::as_str)), names.join(", "));
+    refused(format!("no column is called `{name}`{}; the columns are {known}", did_you_mean(&nearest)))
 }
 
 /// Returns the positions of the inputs and of the outputs in the header.

@@ -24,45 +24,49 @@ pub(super) fn afm(
     let (mut scene, mut options) = (Scene::default(), Options::default());
     for (key, value) in table {
         let name = key.get_ref().as_str();
-        let fault = |problem| context.fault(value.span(), problem);
-        let found = || shown(value.get_ref());
-        match name {
-            "friction" => options.friction = choice(value, name, "friction law").map_err(fault)?,
-            "contact" => options.contact = choice(value, name, "contact theory").map_err(fault)?,
-            "fidelity" => options.fidelity = choice(value, name, "fidelity").map_err(fault)?,
-            "torsion" => options.torsion = choice(value, name, "torsion formula").map_err(fault)?,
-            "lugre_parameters" => {
-                options.lugre = choice(value, name, "source of LuGre parameters").map_err(fault)?;
-            }
-            "tolerance" => options.tolerance = positive(name, "1e-6", value.get_ref()).map_err(fault)?,
-            "step" => options.step = positive(name, "\"10 ms\"", value.get_ref()).map_err(fault)?,
-            "step_budget" => {
-                let budget = value.get_ref().as_integer().and_then(|steps| u64::try_from(steps).ok());
-                let budget = budget.filter(|&steps| steps > 0);
-                options.step_budget = budget.ok_or_else(|| fault(wrong(name, "a whole number from 1", found())))?;
-            }
-            "adhesion_in_load" => {
-                let typed = value.get_ref().as_bool();
-                options.adhesion_in_load = typed.ok_or_else(|| fault(wrong(name, "true or false", found())))?;
-            }
-            // See `moments`.
-            "history" => (),
-            _ => {
-                let Some(parameter) = Parameter::from_name(name) else {
-                    let choices: Vec<&str> = afm_choices().map(|(key, _)| key).collect();
-                    let known = choices.into_iter().chain(Parameter::ALL.iter().map(|parameter| parameter.name));
-                    return Err(context.fault(key.span(), unknown_key(name, known)));
-                };
-                if is_factor(name) {
-                    let problem = format!("`{name}` is a factor of this study, so it cannot be fixed in [afm]");
-                    let help = format!("remove `{name}` here, or from the factors");
-                    return Err(context.fault(key.span(), Problem::with_help(problem, help)));
-                }
-                (parameter.set)(&mut scene, constant(parameter, value).map_err(fault)?);
-            }
+        if context.at(value, set_option(&mut options, name, value))? {
+            continue;
         }
+        let Some(parameter) = Parameter::from_name(name) else {
+            let choices: Vec<&str> = afm_choices().map(|(key, _)| key).collect();
+            let known = choices.into_iter().chain(Parameter::ALL.iter().map(|parameter| parameter.name));
+            return Err(context.fault(key.span(), unknown_key(name, known)));
+        };
+        if is_factor(name) {
+            let problem = format!("`{name}` is a factor of this study, so it cannot be fixed in [afm]");
+            let help = format!("remove `{name}` here, or from the factors");
+            return Err(context.fault(key.span(), Problem::with_help(problem, help)));
+        }
+        (parameter.set)(&mut scene, context.at(value, constant(parameter, value))?);
     }
     Ok((scene, options))
+}
+
+/// Sets the option of that name, and returns whether it is one.
+fn set_option(options: &mut Options, name: &str, value: &At<Value>) -> Result<bool, Problem> {
+    let found = || shown(value.get_ref());
+    match name {
+        "friction" => options.friction = choice(value, name, "friction law")?,
+        "contact" => options.contact = choice(value, name, "contact theory")?,
+        "fidelity" => options.fidelity = choice(value, name, "fidelity")?,
+        "torsion" => options.torsion = choice(value, name, "torsion formula")?,
+        "lugre_parameters" => options.lugre = choice(value, name, "source of LuGre parameters")?,
+        "tolerance" => options.tolerance = positive(name, "1e-6", value.get_ref())?,
+        "step" => options.step = positive(name, "\"10 ms\"", value.get_ref())?,
+        "step_budget" => {
+            let budget = value.get_ref().as_integer().and_then(|steps| u64::try_from(steps).ok());
+            let budget = budget.filter(|&steps| steps > 0);
+            options.step_budget = budget.ok_or_else(|| wrong(name, "a whole number from 1", found()))?;
+        }
+        "adhesion_in_load" => {
+            let typed = value.get_ref().as_bool();
+            options.adhesion_in_load = typed.ok_or_else(|| wrong(name, "true or false", found()))?;
+        }
+        // See `moments`.
+        "history" => (),
+        _ => return Ok(false),
+    }
+    Ok(true)
 }
 
 /// Default duration in seconds and number of moments of a history: those of the papers' scene in time.

@@ -8,11 +8,6 @@ use super::error::Problem;
 use super::measured;
 use super::sections::{At, FactorSection, TypedKey, TypedValue};
 
-/// Returns whether a factor's table has no key of a distribution.
-pub(super) fn is_unsaid(fields: &FactorSection) -> bool {
-    fields.distribution.is_none() && fields.keys.is_empty()
-}
-
 /// Returns whether a factor's distribution is given by something else than its own parameters.
 pub(super) fn is_determined(fields: &FactorSection, distribution: &Distribution) -> bool {
     let parameters = distribution.parameters();

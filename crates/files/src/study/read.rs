@@ -42,21 +42,13 @@ pub(super) fn problem(error: &toml::de::Error) -> Problem {
     }
 }
 
-/// Returns the problem of a key that its table does not have: it may be in another table, or have another name.
+/// Returns the problem of a key that its table does not have: it may belong to another one.
 fn unknown_key(name: &str, expected: &[&str]) -> Problem {
-    if meant(name, expected.iter().copied()).is_none() {
-        let tables = keys_of_tables();
-        let all = tables.iter().flat_map(|(place, keys)| keys.iter().map(move |key| (place, key.as_str())));
-        let ours = meant(name, all.clone().map(|(_, key)| key));
-        if let Some((place, key)) = ours.and_then(|ours| all.clone().find(|(_, key)| *key == ours)) {
-            let right = match key == name {
-                true => format!("it belongs {place}"),
-                false => format!("did you mean `{key}`, which belongs {place}?"),
-            };
-            return Problem::misplaced(name, &right);
-        }
+    let other = keys_of_tables().into_iter().find(|(_, keys)| keys.iter().any(|key| key == name));
+    match other.filter(|_| meant(name, expected.iter().copied()).is_none()) {
+        Some((place, _)) => Problem::misplaced(name, &format!("it belongs {place}")),
+        None => context::unknown_key(name, expected.iter().copied()),
     }
-    context::unknown_key(name, expected.iter().copied())
 }
 
 /// Lists the tables of a study file, in words, with their keys, from the schema.

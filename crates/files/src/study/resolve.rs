@@ -15,7 +15,7 @@ use toml::de::DeTable;
 use super::context::{Context, Fault, unknown_name};
 use super::error::Problem;
 use super::models::{ModelTable, Reading, TABLES, table_of};
-use super::sections::{At, FactorSection, StudyFile};
+use super::sections::{At, FactorSection, Nominal, StudyFile};
 use super::units::{in_words_of_units, refuse_unit_of_own, unit_of_factor, with_unit};
 use super::{analysis, distribution, noise, nominal, read};
 use crate::ModelKind;
@@ -29,7 +29,9 @@ pub(super) fn study(context: &Context<'_>) -> Result<(Study, Vec<String>), Fault
     let space = space(context, &(table.inputs)(&reading)?, &file.factor)?;
     let (subject, unused) = (table.subject)(&reading, &space)?;
     let subject = noise::repeated(context, &file, subject, &space)?;
-    let name = file.name.as_ref().map(|name| name.get_ref().clone()).unwrap_or_else(|| file_stem(context));
+    let stem =
+        || context.path.file_stem().map_or_else(|| "study".to_owned(), |stem| file_part(&stem.to_string_lossy()));
+    let name = file.name.as_ref().map(|name| name.get_ref().clone()).unwrap_or_else(stem);
     let mut builder = analysis::settled(context, &file, &space, StudyBuilder::new(&name, Arc::clone(&subject)))?;
     builder.title = file.title.as_ref().map(|title| title.get_ref().clone());
     builder.factors = space.factors().iter().cloned().map(Ok).collect();
@@ -38,10 +40,6 @@ pub(super) fn study(context: &Context<'_>) -> Result<(Study, Vec<String>), Fault
     let study =
         builder.checked().map_err(|error| context.fault(place(context, &file, &error), Problem::Build(error)))?;
     Ok((study, unused))
-}
-
-fn file_stem(context: &Context<'_>) -> String {
-    context.path.file_stem().map_or_else(|| "study".to_owned(), |stem| file_part(&stem.to_string_lossy()))
 }
 
 /// Returns the position in the file that `error` is about.
@@ -84,28 +82,12 @@ fn model_kind(context: &Context<'_>, model: Option<&At<String>>) -> Result<Model
         let problem = match name.contains(['.', '/', '\\']) {
             true => Problem::with_help(
                 format!("unknown model `{name}`: a program of your own is a `command`"),
-                format!("write model = \"command\" and command = [{}]", words_of_program(name)),
+                "write model = \"command\" and command = [\"python3\", \"my_model.py\"]",
             ),
             false => unknown_name("model", name, all.iter().map(|kind| kind.name)),
         };
         context.fault(model.span(), problem)
     })
-}
-
-/// Suggests the list that starts a program file.
-fn words_of_program(file: &str) -> String {
-    let ending = file.rsplit_once('.').map_or("", |(_, ending)| ending).to_lowercase();
-    let interpreter = match ending.as_str() {
-        "py" => "\"python3\", ",
-        "r" => "\"Rscript\", ",
-        "jl" => "\"julia\", ",
-        "sh" => "\"bash\", ",
-        _ => "",
-    };
-    // A shell command line is a list of words here.
-    let words: Vec<String> = file.split_whitespace().map(|word| format!("{word:?}")).collect();
-    let interpreter = if words.len() > 1 { "" } else { interpreter };
-    format!("{interpreter}{}", words.join(", "))
 }
 
 /// Refuses tables of other models: `[afm]`, `[function]`, `[expression]` and `command` belong to one kind each.
@@ -125,7 +107,7 @@ fn refuse_tables_of_others(context: &Context<'_>, kind: ModelKind, file: &StudyF
 fn space(context: &Context<'_>, inputs: &[Input], sections: &[At<FactorSection>]) -> Result<Space, Fault> {
     if sections.is_empty() {
         // All inputs with their own distributions, if they have one.
-        let own = |input: &Input| Some(own_factor(input, input.distribution.clone()?));
+        let own = |input: &Input| Some(made(input, input.unit.clone(), input.distribution.clone()?));
         let Some(factors) = inputs.iter().map(own).collect::<Option<Result<Vec<Factor>, Problem>>>() else {
             return Err(context.fault(0..0, Problem::no_factors()));
         };
@@ -141,16 +123,13 @@ fn space(context: &Context<'_>, inputs: &[Input], sections: &[At<FactorSection>]
     Ok(Space::new(factors))
 }
 
-/// Creates a factor that varies as the model's input does by default.
-fn own_factor(input: &Input, distribution: Distribution) -> Result<Factor, Problem> {
-    let nominal = default_nominal(input, &input.unit, &distribution);
-    let mut factor = made(input, input.unit.clone(), distribution)?;
+/// Creates a factor with the default nominal value.
+fn made(input: &Input, unit: Unit, distribution: Distribution) -> Result<Factor, Problem> {
+    let nominal = default_nominal(input, &unit, &distribution);
+    let made = Factor::new(&input.name, unit, distribution);
+    let mut factor = made.map_err(|error| distribution::refused(&input.name, &error))?;
     factor.nominal = nominal;
     Ok(factor)
-}
-
-fn made(input: &Input, unit: Unit, distribution: Distribution) -> Result<Factor, Problem> {
-    Factor::new(&input.name, unit, distribution).map_err(|error| distribution::refused(&input.name, &error))
 }
 
 fn factor(context: &Context<'_>, section: &At<FactorSection>, input: &Input) -> Result<Factor, Fault> {
@@ -158,7 +137,7 @@ fn factor(context: &Context<'_>, section: &At<FactorSection>, input: &Input) -> 
     let fields = section.get_ref();
     let unit = unit_of_factor(context, fields, input)?;
     let distribution = match &input.distribution {
-        Some(own) if distribution::is_unsaid(fields) => {
+        Some(own) if fields.distribution.is_none() && fields.keys.is_empty() => {
             refuse_unit_of_own(context, fields, &unit, input)?;
             own.clone()
         }
@@ -178,18 +157,14 @@ fn factor(context: &Context<'_>, section: &At<FactorSection>, input: &Input) -> 
             return Err(outside(span, format!("its values reach {}", with_unit(bound, unit.symbol()))));
         }
     }
-    let nominal = match &fields.nominal {
-        None => default_nominal(input, &unit, &distribution),
-        Some(typed) => {
-            let value = context.at(typed, nominal::value(&input.name, &distribution, typed.get_ref()))?;
-            if !in_domain(value) || !value.is_finite() {
-                return Err(outside(typed.span(), format!("its nominal value is {}", with_unit(value, unit.symbol()))));
-            }
-            value
-        }
+    let stated = |typed: &At<Nominal>| {
+        let value = context.at(typed, nominal::value(&input.name, &distribution, typed.get_ref()))?;
+        let found = || outside(typed.span(), format!("its nominal value is {}", with_unit(value, unit.symbol())));
+        Some(value).filter(|value| in_domain(*value) && value.is_finite()).ok_or_else(found)
     };
-    let mut factor = made(input, unit, distribution).map_err(|problem| context.fault(place, problem))?;
-    factor.nominal = nominal;
+    let nominal = fields.nominal.as_ref().map(stated).transpose()?;
+    let mut factor = made(input, unit.clone(), distribution).map_err(|problem| context.fault(place, problem))?;
+    factor.nominal = nominal.unwrap_or(factor.nominal);
     factor.group = fields.group.as_ref().map(|group| group.get_ref().clone());
     factor.determined = distribution::is_determined(fields, factor.distribution());
     Ok(factor)

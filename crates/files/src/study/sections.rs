@@ -81,7 +81,7 @@ pub(super) struct StudyFile {
     /// The same, one line for each factor.
     #[serde(default)]
     #[schemars(skip)]
-    pub factors: BTreeMap<At<String>, At<LineSection>>,
+    pub factors: BTreeMap<At<String>, At<FactorSection>>,
 }
 
 /// Names of outputs, or a table with one entry for each.
@@ -276,18 +276,7 @@ impl FactorSection {
 
 impl<'de> Deserialize<'de> for FactorSection {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let fields = deserializer.deserialize_map(FactorVisitor)?;
-        if fields.name.span().is_empty() { Err(D::Error::missing_field("name")) } else { Ok(fields) }
-    }
-}
-
-/// A factor whose name is the key before its table.
-#[derive(Debug)]
-pub(super) struct LineSection(pub FactorSection);
-
-impl<'de> Deserialize<'de> for LineSection {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_map(FactorVisitor).map(Self)
+        deserializer.deserialize_map(FactorVisitor)
     }
 }
 

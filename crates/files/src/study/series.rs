@@ -46,39 +46,3 @@ pub(super) fn axis(key: &str, table: &OutputTable) -> Result<Option<SeriesAxis>,
     };
     axis.map(Some).map_err(refused)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn read(text: &str) -> Result<Option<SeriesAxis>, String> {
-        axis("outputs.y", &toml::from_str(text).unwrap()).map_err(|problem| problem.to_string())
-    }
-
-    #[test]
-    fn positions_are_counted_stepped_or_listed() {
-        let positions = |text: &str| read(text).unwrap().unwrap().positions().to_vec();
-        assert_eq!(read("unit = \"nN\"").unwrap(), None);
-        assert_eq!(positions("length = 3"), [0.0, 1.0, 2.0]);
-        assert_eq!(positions("length = 3\npositions = [1, 0.5]"), [1.0, 1.5, 2.0]);
-        assert_eq!(positions("positions = [1, 2.5, 7]"), [1.0, 2.5, 7.0]);
-        assert_eq!(positions("length = 3\npositions = [1, 2.5, 7]"), [1.0, 2.5, 7.0]);
-        let axis = read("length = 2\naxis = \"time\"\naxis_unit = \"ms\"").unwrap().unwrap();
-        assert_eq!((axis.label(), axis.unit()), ("time", "ms"));
-    }
-
-    #[test]
-    fn invalid_series_are_refused_with_advice() {
-        let messages = [
-            "length = 1",
-            "length = 10000000",
-            "axis = \"day\"",
-            "positions = [0, 1]",
-            "length = 3\npositions = [0, 1, 1]",
-            "length = 3\npositions = [0, -1]",
-            "length = 4\npositions = [0, 1, 2]",
-        ]
-        .map(|text| read(text).unwrap_err());
-        insta::assert_snapshot!(messages.join("\n"));
-    }
-}

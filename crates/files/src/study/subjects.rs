@@ -41,7 +41,7 @@ pub struct Formula {
 }
 
 /// A program of the user's own.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct CommandSubject {
     /// The program and how it receives rows.
     pub settings: CommandSettings,
@@ -58,10 +58,6 @@ pub struct ExpressionConstant {
     pub name: String,
     /// Its value as typed; formulas use it in SI.
     pub quantity: Quantity,
-}
-
-fn is_factor(space: &Space, name: &str) -> bool {
-    space.factors().iter().any(|factor| factor.name == name)
 }
 
 impl Subject for ExpressionSubject {
@@ -148,7 +144,8 @@ impl Subject for KnownSubject {
     }
 
     fn constants(&self, space: &Space) -> Vec<(String, f64, String)> {
-        let inputs = known_inputs(&self.function).into_iter().filter(|input| !is_factor(space, &input.name));
+        let is_fixed = |input: &Input| space.factors().iter().all(|factor| factor.name != input.name);
+        let inputs = known_inputs(&self.function).into_iter().filter(is_fixed);
         inputs.map(|input| (input.name, input.nominal, input.unit.to_string())).collect()
     }
 }

@@ -13,10 +13,8 @@ use super::sections::{At, FactorSection};
 pub(super) fn own_inputs(context: &Context<'_>, factors: &[At<FactorSection>]) -> Result<Vec<Input>, Fault> {
     let input = |section: &At<FactorSection>| {
         let fields = section.get_ref();
-        let unit = match &fields.unit {
-            None => Unit::dimensionless(),
-            Some(typed) => context.at(typed, Unit::parse(typed.get_ref()))?,
-        };
+        let parse = |typed: &At<String>| context.at(typed, Unit::parse(typed.get_ref()));
+        let unit = fields.unit.as_ref().map_or(Ok(Unit::dimensionless()), parse)?;
         let (name, symbol) = (fields.name.get_ref().clone(), fields.name.get_ref().clone());
         // Not a number: only the study has a nominal value.
         let (nominal, description) = (f64::NAN, "a factor of the study".to_owned());

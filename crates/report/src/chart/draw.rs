@@ -28,12 +28,12 @@ impl Chart {
 
     /// Draws the chart as an SVG document for `width`.
     pub fn svg_at(&self, width: ChartWidth) -> String {
-        self.drawn(Medium { width, inline: false })
+        self.drawn(Medium { width, id: None })
     }
 
     /// Draws the chart as an SVG element for a page that sets [`title`](Self::title) and [`caption`](Self::caption) as
     /// text: it has a `viewBox` but no size, so that the style of the page scales it; an `aria-label`, and title and
-    /// description for screen readers; and no `id`, so that a page may hold any number of them.
+    /// description for screen readers, whose identifiers begin with `id`.
     ///
     /// ```
     /// use apportion_report::chart::{Axis, Bar, Chart, ChartWidth, Colour, Panel, Series, Shape};
@@ -42,14 +42,14 @@ impl Chart {
     /// let bar = Series::new("effect", Colour::Series(0)).mark(Shape::Bar(Bar { to: 4.0, ..Bar::default() }));
     /// let chart = Chart::new("Effects", "x1 matters.")
     ///     .panels([Panel::new(Axis::new("effect", "nN"), rows).with([bar])]);
-    /// let svg = chart.inline(ChartWidth::Narrow);
+    /// let svg = chart.inline(ChartWidth::Narrow, "effects");
     /// assert!(svg.starts_with("<svg") && svg.contains("viewBox=\"0 0 360 "));
     /// ```
-    pub fn inline(&self, width: ChartWidth) -> String {
-        self.drawn(Medium { width, inline: true })
+    pub fn inline(&self, width: ChartWidth, id: &str) -> String {
+        self.drawn(Medium { width, id: Some(id) })
     }
 
-    fn drawn(&self, medium: Medium) -> String {
+    fn drawn(&self, medium: Medium<'_>) -> String {
         let mut figure = Figure::begin(medium, self);
         let bottom = self.draw_panels(&mut figure, medium.width);
         figure.finish(bottom)

@@ -51,12 +51,12 @@ pub(super) struct Figure<'a> {
     /// The upper edge of the free room, px.
     pub top: f64,
     width: f64,
-    medium: Medium,
+    medium: Medium<'a>,
     chart: &'a Chart,
 }
 
 impl<'a> Figure<'a> {
-    pub fn begin(medium: Medium, chart: &'a Chart) -> Self {
+    pub fn begin(medium: Medium<'a>, chart: &'a Chart) -> Self {
         let top = if medium.has_words() { MARGIN } else { 0.0 };
         let mut figure = Self { canvas: Canvas::default(), top, width: medium.width.px(), medium, chart };
         if medium.has_words() {
@@ -90,20 +90,30 @@ impl<'a> Figure<'a> {
             Some(millimetres) => format!("{}mm", Px(length * millimetres / width)),
             None => length.to_string(),
         });
-        let size: &[(&str, &dyn Display)] = &[("width", &sizes[0]), ("height", &sizes[1])];
-        let label: &[(&str, &dyn Display)] = &[("aria-label", &self.chart.title)];
-        let mut attributes: Vec<(&str, &dyn Display)> = vec![("xmlns", &"http://www.w3.org/2000/svg")];
-        attributes.extend_from_slice(if self.medium.inline { &[] } else { size });
+        // Not every browser links a picture to its title and description by itself.
+        let ids = self.medium.id.map(|id| ["title", "desc"].map(|element| format!("{id}-{element}")));
+        let of_element =
+            |element: usize| ids.iter().map(|ids| ("id", &ids[element] as &dyn Display)).collect::<Vec<_>>();
+        let mut attributes: Vec<(&str, &dyn Display)> = Vec::new();
+        if let Some([title, description]) = &ids {
+            attributes.extend_from_slice(&[("aria-labelledby", title), ("aria-describedby", description)]);
+        }
+        attributes.push(("xmlns", &"http://www.w3.org/2000/svg"));
+        if ids.is_none() {
+            attributes.extend_from_slice(&[("width", &sizes[0]), ("height", &sizes[1])]);
+        }
         attributes.extend_from_slice(&[("viewBox", &view), ("role", &"img")]);
-        attributes.extend_from_slice(if self.medium.inline { label } else { &[] });
+        if ids.is_some() {
+            attributes.push(("aria-label", &self.chart.title));
+        }
         attributes.extend_from_slice(&[("font-family", &FAMILIES), ("fill", &INK)]);
         page.open("svg", &attributes);
-        page.content("title", &[], &self.chart.title);
-        page.content("desc", &[], &format!("{} {}", self.chart.caption, self.chart.axes()));
+        page.content("title", &of_element(0), &self.chart.title);
+        page.content("desc", &of_element(1), &format!("{} {}", self.chart.caption, self.chart.axes()));
         page.leaf("rect", &[("width", &width), ("height", &height), ("fill", &PAPER)]);
-        page.append(self.canvas);
+        page.out.push_str(&self.canvas.out);
         page.close("svg");
-        page.into_string()
+        page.out
     }
 
     /// Draws the caption and returns its last baseline.

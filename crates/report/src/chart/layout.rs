@@ -65,7 +65,7 @@ pub(super) struct Rows {
 
 impl<'a> Layout<'a> {
     pub fn new(chart: &'a Chart, page: ChartWidth) -> Self {
-        let panels = chart.all_panels();
+        let panels = &chart.panels[..];
         let columns = columns(chart, page);
         let rows = Rows::new(panels, page);
         let heights: Vec<f64> = panels.iter().map(|panel| height(panel, panels.len() == 1, rows, page)).collect();
@@ -97,10 +97,8 @@ impl<'a> Layout<'a> {
 impl Rows {
     fn new(panels: &[Panel], page: ChartWidth) -> Self {
         let bars = || panels.iter().flat_map(Panel::bars);
-        let lane = match () {
-            () if bars().any(|(_, bar)| !bar.label.is_empty() || bar.diamond().is_some()) => LABELLED_LANE,
-            () => LANE,
-        };
+        let is_labelled = bars().any(|(_, bar)| !bar.label.is_empty() || bar.diamond().is_some());
+        let lane = if is_labelled { LABELLED_LANE } else { LANE };
         let in_row = |panel: &Panel, row| panel.bars().filter(|(_, bar)| bar.row == row).count();
         let most = panels.iter().flat_map(|panel| (0..panel.y.names.len()).map(move |row| in_row(panel, row))).max();
         let bars = (most.unwrap_or(0) as f64 * lane).max(MIN_BARS);
@@ -195,7 +193,7 @@ impl Bar {
 
 /// Returns the number of panels side by side.
 fn columns(chart: &Chart, page: ChartWidth) -> usize {
-    let panels = chart.all_panels();
+    let panels = &chart.panels[..];
     let count = panels.len().max(1);
     if chart.arrangement == Arrangement::Stacked {
         return 1;
@@ -221,7 +219,7 @@ fn height(panel: &Panel, alone: bool, rows: Rows, page: ChartWidth) -> f64 {
 
 /// Returns the scale of each panel's horizontal axis: one for all if they are stacked or have equal axes.
 fn x_scales(chart: &Chart, width: f64) -> Vec<Scale> {
-    let panels = chart.all_panels();
+    let panels = &chart.panels[..];
     let shared = chart.arrangement == Arrangement::Stacked || panels.windows(2).all(|pair| pair[0].x == pair[1].x);
     match panels.first() {
         Some(first) if shared => vec![x_scale(first, panels, width); panels.len()],
@@ -240,8 +238,7 @@ fn x_scale(first: &Panel, panels: &[Panel], width: f64) -> Scale {
         () if panels.iter().any(Panel::has_rows) => 0.03,
         () if panels.iter().any(Panel::has_points) => 0.06,
         // Points need free room at the ends; lines run from edge to edge.
-        () if marks().any(|mark| matches!(mark.shape, Shape::Dots(_))) => 0.02,
-        () if marks().any(|mark| mark.series.stroke.has_points()) => 0.02,
+        () if marks().any(|mark| matches!(mark.shape, Shape::Dots(_)) || mark.series.stroke.has_points()) => 0.02,
         () => 0.0,
     };
     let options = ScaleOptions { spacing: first.x.spacing, air, steps: steps(width, 50.0, 7) };
@@ -266,7 +263,7 @@ fn room_for_labels(panels: &[Panel], values: &[f64], width: f64) -> Option<f64> 
 
 /// Returns the scale of each panel's vertical axis: one for all if they are side by side.
 fn y_scales(chart: &Chart, heights: &[f64]) -> Vec<Scale> {
-    let panels = chart.all_panels();
+    let panels = &chart.panels[..];
     match (chart.arrangement, panels.first(), heights.first()) {
         (Arrangement::SideBySide, Some(first), Some(height)) => {
             vec![y_scale(first, panels, *height); panels.len()]

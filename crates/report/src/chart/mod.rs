@@ -37,9 +37,9 @@ pub use bar::Bar;
 pub use model::{Arrangement, Axis, Chart, Mark, Panel, Point, Shape, Tile};
 pub use palette::Colour;
 #[cfg(feature = "pdf")]
-pub use pdf::{PdfError, pdf};
+pub use pdf::pdf;
 #[cfg(feature = "png")]
-pub use png::{PNG_SCALE, Png, PngError, png};
+pub use png::{PictureError, png};
 pub use scale::Spacing;
 pub use series::{Series, Stroke};
 pub use style::{ChartWidth, PaperWidth};

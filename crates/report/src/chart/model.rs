@@ -20,9 +20,12 @@ use super::text::power_of_ten;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Chart {
-    pub(super) title: String,
-    pub(super) caption: String,
-    pub(super) panels: Vec<Panel>,
+    /// The headline.
+    pub title: String,
+    /// The sentence under the chart.
+    pub caption: String,
+    /// The panels.
+    pub panels: Vec<Panel>,
     pub(super) arrangement: Arrangement,
 }
 
@@ -132,34 +135,9 @@ impl Chart {
         Self { arrangement: Arrangement::SideBySide, ..self }
     }
 
-    /// Returns the headline of the chart.
-    pub fn title(&self) -> &str {
-        &self.title
-    }
-
-    /// Returns the sentence under the chart.
-    pub fn caption(&self) -> &str {
-        &self.caption
-    }
-
-    /// Replaces the headline.
-    pub fn set_title(&mut self, title: impl Into<String>) {
-        self.title = title.into();
-    }
-
-    /// Replaces the caption.
-    pub fn set_caption(&mut self, caption: impl Into<String>) {
-        self.caption = caption.into();
-    }
-
-    /// Returns the panels.
-    pub fn all_panels(&self) -> &[Panel] {
-        &self.panels
-    }
-
     /// Iterates over all marks of all panels.
     pub(super) fn marks(&self) -> impl Iterator<Item = &Mark> {
-        self.all_panels().iter().flat_map(|panel| &panel.marks)
+        self.panels.iter().flat_map(|panel| &panel.marks)
     }
 }
 
@@ -252,18 +230,5 @@ impl Mark {
     /// Creates a vertical line with a label.
     pub fn rule(x: f64, label: impl Into<String>) -> Self {
         Series::default().mark(Shape::Rule(x, label.into()))
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn axis_titles_carry_unit_and_power() {
-        assert_eq!(Axis::new("Time", "ms").title(0), "Time (ms)");
-        assert_eq!(Axis::new("Force", "N").title(-9), "Force (10⁻⁹ N)");
-        assert_eq!(Axis::new("Rows", "").title(6), "Rows (×10⁶)");
-        assert_eq!(Axis::new("Rows", " ").title(0), "Rows");
     }
 }

@@ -12,15 +12,9 @@ const VISIBLE: f64 = 0.05;
 
 /// Returns the unbroken runs of a sequence with gaps.
 pub(super) fn runs<T: Copy>(points: impl IntoIterator<Item = Option<T>>) -> Vec<Vec<T>> {
-    let mut runs = vec![Vec::new()];
-    for point in points {
-        match (point, runs.last_mut()) {
-            (Some(point), Some(run)) => run.push(point),
-            _ => runs.push(Vec::new()),
-        }
-    }
-    runs.retain(|run| !run.is_empty());
-    runs
+    let points: Vec<Option<T>> = points.into_iter().collect();
+    let runs = points.split(Option::is_none).filter(|run| !run.is_empty());
+    runs.map(|run| run.iter().copied().flatten().collect()).collect()
 }
 
 /// Removes points that make no visible difference to the line through a run.

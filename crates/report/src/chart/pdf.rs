@@ -1,39 +1,27 @@
 //! SVG to PDF: the same picture as vectors and text, in its size on paper.
 
-use resvg::usvg::{self, Tree};
+use resvg::usvg::Tree;
 use svg2pdf::{ConversionOptions, PageOptions, to_pdf};
-use thiserror::Error;
 
-use super::png::{CSS_DPI, options};
-
-/// Why an SVG could not be converted to PDF.
-#[derive(Debug, Error)]
-pub enum PdfError {
-    /// The text is not an SVG.
-    #[error("the chart is not a drawable SVG: {0}")]
-    Svg(#[from] usvg::Error),
-    /// The SVG cannot be converted to a page.
-    #[error("the chart cannot be written as PDF: {0}")]
-    Pdf(svg2pdf::ConversionError),
-}
+use super::png::{CSS_DPI, PictureError, options};
 
 /// Converts an SVG chart of this crate to a PDF of one page of the size of the picture: 72 points are 96 px, or the
 /// millimetres that the SVG gives. Marks are vectors; texts can be searched and copied, in subsets of the embedded
 /// faces.
 ///
 /// # Errors
-/// [`PdfError`] if the text is not an SVG, or holds something that cannot be drawn on a page.
+/// [`PictureError`] if the text is not an SVG, or holds something that cannot be drawn on a page.
 ///
 /// # Example
 /// ```
 /// let svg = r#"<svg xmlns="http://www.w3.org/2000/svg" width="96" height="48"><path d="M0 0L96 48" stroke="black"/></svg>"#;
 /// let pdf = apportion_report::chart::pdf(svg)?;
 /// assert!(pdf.starts_with(b"%PDF-1."));
-/// # Ok::<(), apportion_report::chart::PdfError>(())
+/// # Ok::<(), apportion_report::chart::PictureError>(())
 /// ```
-pub fn pdf(svg: &str) -> Result<Vec<u8>, PdfError> {
+pub fn pdf(svg: &str) -> Result<Vec<u8>, PictureError> {
     let tree = Tree::from_str(svg, &options())?;
-    to_pdf(&tree, ConversionOptions::default(), PageOptions { dpi: CSS_DPI as f32 }).map_err(PdfError::Pdf)
+    to_pdf(&tree, ConversionOptions::default(), PageOptions { dpi: CSS_DPI as f32 }).map_err(PictureError::Pdf)
 }
 
 #[cfg(test)]
@@ -48,6 +36,6 @@ mod tests {
         let file = String::from_utf8_lossy(&file);
         // 88 mm are 249.45 points.
         assert!(file.contains("/MediaBox [0 0 249.4") && file.contains("/FontFile2 "), "{file}");
-        assert!(matches!(pdf("<svg"), Err(PdfError::Svg(_))));
+        assert!(matches!(pdf("<svg"), Err(PictureError::Svg(_))));
     }
 }

@@ -4,39 +4,22 @@ use std::sync::{Arc, LazyLock};
 
 use png::{BitDepth, ColorType, DeflateCompression, Encoder, EncodingError, Filter, PixelDimensions, Unit};
 use resvg::tiny_skia::{Color, Pixmap, Transform};
-use resvg::usvg::{Options, Tree, fontdb, roxmltree};
+use resvg::usvg::{self, Options, Tree, fontdb, roxmltree};
 use thiserror::Error;
 
-use super::font::{BOLD, FAMILY, REGULAR, covers};
+use super::font::{BOLD, FAMILY, REGULAR};
 
 /// Pixels per px of the SVG: sharp on dense screens and in print.
-pub const PNG_SCALE: u32 = 2;
+const PNG_SCALE: f64 = 2.0;
 /// Maximum number of pixels of a picture: 256 MB while it is drawn.
 const MAX_PIXELS: f64 = 64.0e6;
 
-/// A PNG picture.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Png {
-    /// The file.
-    pub bytes: Vec<u8>,
-    /// Width in pixels.
-    pub width: u32,
-    /// Height in pixels.
-    pub height: u32,
-    /// Characters of the chart's texts that the embedded faces lack, each once, in order of appearance: they show as
-    /// empty boxes here, while the SVG shows them if a font has them.
-    pub missing: Vec<char>,
-}
-
-/// Why an SVG could not be converted to PNG.
+/// Why a chart could not be converted to another format.
 #[derive(Debug, Error)]
-pub enum PngError {
-    /// Not well-formed XML.
-    #[error("the chart is not well-formed XML: {0}")]
-    Xml(String),
-    /// Well-formed, but not an SVG picture.
+pub enum PictureError {
+    /// The text is not an SVG.
     #[error("the chart is not a drawable SVG: {0}")]
-    Svg(String),
+    Svg(#[from] usvg::Error),
     /// More pixels than are allowed.
     #[error("a picture of {width:.0} x {height:.0} pixels is too large, at most 64 million pixels can be drawn")]
     TooLarge {
@@ -47,7 +30,11 @@ pub enum PngError {
     },
     /// The encoder failed.
     #[error("the picture could not be encoded as PNG: {0}")]
-    Encode(String),
+    Encode(#[from] EncodingError),
+    /// The SVG cannot be converted to a page.
+    #[cfg(feature = "pdf")]
+    #[error("the chart cannot be written as PDF: {0}")]
+    Pdf(svg2pdf::ConversionError),
 }
 
 static FONTS: LazyLock<Arc<fontdb::Database>> = LazyLock::new(|| {
@@ -73,36 +60,34 @@ const PAPER_DPI: f64 = 600.0;
 /// Pixels per inch of 1 px of an SVG (CSS).
 pub(super) const CSS_DPI: f64 = 96.0;
 
-/// Draws an SVG chart of this crate as a PNG picture on white: [`PNG_SCALE`] pixels per px, or 600 per inch where the
+/// Draws an SVG chart of this crate as a PNG picture on white: 2 pixels per px, or 600 per inch where the
 /// chart has its width on paper. The file holds the resolution, so that it is set in its size.
 ///
 /// # Errors
-/// [`PngError`] if the text is not an SVG or the picture would be too large.
+/// [`PictureError`] if the text is not an SVG or the picture would be too large.
 ///
 /// # Example
 /// ```
 /// let svg = r#"<svg xmlns="http://www.w3.org/2000/svg" width="30" height="20"/>"#;
 /// let png = apportion_report::chart::png(svg)?;
-/// assert_eq!((png.width, png.height), (60, 40));
-/// # Ok::<(), apportion_report::chart::PngError>(())
+/// assert!(png.starts_with(b"\x89PNG"));
+/// # Ok::<(), apportion_report::chart::PictureError>(())
 /// ```
-pub fn png(svg: &str) -> Result<Png, PngError> {
-    let document = roxmltree::Document::parse(svg).map_err(|error| PngError::Xml(error.to_string()))?;
-    let missing = missing(&document);
-    let tree = Tree::from_xmltree(&document, &options()).map_err(|error| PngError::Svg(error.to_string()))?;
+pub fn png(svg: &str) -> Result<Vec<u8>, PictureError> {
+    let document = roxmltree::Document::parse(svg).map_err(usvg::Error::ParsingFailed)?;
+    let tree = Tree::from_xmltree(&document, &options())?;
     let is_paper = document.root_element().attribute("width").is_some_and(|width| width.ends_with("mm"));
-    let scale = if is_paper { PAPER_DPI / CSS_DPI } else { f64::from(PNG_SCALE) };
+    let scale = if is_paper { PAPER_DPI / CSS_DPI } else { PNG_SCALE };
     let width = (f64::from(tree.size().width()) * scale).ceil();
     let height = (f64::from(tree.size().height()) * scale).ceil();
-    let too_large = || PngError::TooLarge { width, height };
+    let too_large = || PictureError::TooLarge { width, height };
     if width * height > MAX_PIXELS {
         return Err(too_large());
     }
     let mut pixels = Pixmap::new(width as u32, height as u32).ok_or_else(too_large)?;
     pixels.fill(Color::WHITE);
     resvg::render(&tree, Transform::from_scale(scale as f32, scale as f32), &mut pixels.as_mut());
-    let bytes = encoded(&pixels, scale * CSS_DPI).map_err(|error| PngError::Encode(error.to_string()))?;
-    Ok(Png { bytes, width: pixels.width(), height: pixels.height(), missing })
+    Ok(encoded(&pixels, scale * CSS_DPI)?)
 }
 
 /// Encodes an opaque picture with its pixels per inch. Charts are mostly repeated lines: PNG filters, which predict a
@@ -125,34 +110,19 @@ fn encoded(pixels: &Pixmap, dpi: f64) -> Result<Vec<u8>, EncodingError> {
     Ok(file)
 }
 
-/// Returns the characters of drawn text without a glyph.
-fn missing(document: &roxmltree::Document) -> Vec<char> {
-    let mut missing = Vec::new();
-    // Subscripts are parts of a text.
-    let drawn = |node: &roxmltree::Node| node.has_tag_name("text") || node.has_tag_name("tspan");
-    for node in document.descendants().filter(drawn) {
-        for c in node.children().filter_map(|child| child.text().filter(|_| child.is_text())).flat_map(str::chars) {
-            if !covers(c) && !c.is_whitespace() && !missing.contains(&c) {
-                missing.push(c);
-            }
-        }
-    }
-    missing
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn picture(body: &str) -> Png {
-        let svg = format!(r#"<svg xmlns="http://www.w3.org/2000/svg" width="100" height="40">{body}</svg>"#);
-        png(&svg).expect("a valid SVG")
+    /// Returns the number of dark pixels, and the width.
+    fn dark(svg: &str) -> (usize, u32) {
+        let pixels = Pixmap::decode_png(&png(svg).expect("a valid SVG")).expect("a PNG");
+        (pixels.pixels().iter().filter(|p| p.red() < 100 && p.alpha() == 255).count(), pixels.width())
     }
 
-    fn dark(png: &Png) -> usize {
-        let pixels = Pixmap::decode_png(&png.bytes).expect("a PNG");
-        assert_eq!((pixels.width(), pixels.height()), (png.width, png.height));
-        pixels.pixels().iter().filter(|p| p.red() < 100 && p.alpha() == 255).count()
+    fn standard(attributes: &str) -> usize {
+        let head = r#"<svg xmlns="http://www.w3.org/2000/svg" width="100" height="40">"#;
+        dark(&format!(r#"{head}<text x="5" y="25" font-size="20" {attributes}>Standard</text></svg>"#)).0
     }
 
     #[test]
@@ -166,22 +136,18 @@ mod tests {
             "'No such family', sans-serif",
             super::super::font::FAMILIES,
         ];
-        let mut counts = Vec::new();
-        for family in families {
-            let text = format!(r#"<text x="5" y="25" font-size="20" font-family="{family}">Standard</text>"#);
-            counts.push(dark(&picture(&text)));
-        }
+        let counts = families.map(|family| standard(&format!(r#"font-family="{family}""#)));
         assert!(counts[0] > 300 && counts.iter().all(|count| *count == counts[0]), "{counts:?}");
-        let bold = dark(&picture(r#"<text x="5" y="25" font-size="20" font-weight="bold">Standard</text>"#));
+        let bold = standard(r#"font-weight="bold""#);
         assert!(bold > counts[0] * 6 / 5, "{bold} of {}", counts[0]);
     }
 
     #[test]
     fn files_say_how_large_they_are_on_paper() {
         let density = |svg: &str| {
-            let png = png(svg).expect("a valid SVG");
-            assert!(dark(&png) == 0 && &png.bytes[37..41] == b"pHYs", "{:?}", &png.bytes[..60]);
-            (u32::from_be_bytes([png.bytes[41], png.bytes[42], png.bytes[43], png.bytes[44]]), png.width)
+            let (bytes, (dark, width)) = (png(svg).expect("a valid SVG"), dark(svg));
+            assert!(dark == 0 && &bytes[37..41] == b"pHYs", "{:?}", &bytes[..60]);
+            (u32::from_be_bytes([bytes[41], bytes[42], bytes[43], bytes[44]]), width)
         };
         let svg = |size: &str| format!(r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 10 5" {size}/>"#);
         assert_eq!(density(&svg(r#"width="25.4mm" height="12.7mm""#)), (23_622, 600));
@@ -189,17 +155,10 @@ mod tests {
     }
 
     #[test]
-    fn missing_glyphs_are_named_once() {
-        let png = picture(r#"<title>字</title><text x="5" y="25">粒子 force 粒</text>"#);
-        assert_eq!(png.missing, ['粒', '子']);
-        assert!(dark(&png) > 0);
-    }
-
-    #[test]
     fn invalid_pictures_are_refused() {
-        assert!(matches!(png("<svg"), Err(PngError::Xml(_))));
-        assert!(matches!(png("<html/>"), Err(PngError::Svg(_))));
+        assert!(matches!(png("<svg"), Err(PictureError::Svg(_))));
+        assert!(matches!(png("<html/>"), Err(PictureError::Svg(_))));
         let huge = r#"<svg xmlns="http://www.w3.org/2000/svg" width="9000" height="9000"/>"#;
-        assert!(matches!(png(huge), Err(PngError::TooLarge { width: 18000.0, height: 18000.0 })));
+        assert!(matches!(png(huge), Err(PictureError::TooLarge { width: 18000.0, height: 18000.0 })));
     }
 }

@@ -1,5 +1,7 @@
 //! The style of all charts: colours, faces and lengths.
 
+use apportion::quantity::{Dimension, Quantity};
+
 use super::font::Face;
 
 /// Margin at every edge of a figure, px.
@@ -62,22 +64,12 @@ impl std::str::FromStr for PaperWidth {
 
     /// Parses a length with its unit, such as `88mm`, `8.8 cm` or `3.5 in`.
     fn from_str(text: &str) -> Result<Self, String> {
-        let refused =
-            || format!("{text:?} is not a width of a chart: expected 60mm to 300mm, such as 88mm, 18cm or 3.5in");
-        let text = text.trim();
-        let end = text.find(|c: char| c.is_alphabetic()).ok_or_else(refused)?;
-        let number: f64 = text[..end].trim().parse().map_err(|_| refused())?;
-        let unit = match &text[end..] {
-            "mm" => 1.0,
-            "cm" => 10.0,
-            "in" | "inch" => 25.4,
-            _ => return Err(refused()),
-        };
-        let millimetres = number * unit;
-        match (60.0..=300.0).contains(&millimetres) {
-            true => Ok(Self { micrometres: (1e3 * millimetres).round() as u32 }),
-            false => Err(refused()),
-        }
+        let length = Quantity::parse(text).ok().filter(|length| length.unit.dimension() == Dimension::LENGTH);
+        let micrometres = length.map(|length| (1e6 * length.to_si()).round());
+        let fitting = micrometres.filter(|width| (60e3..=300e3).contains(width));
+        fitting.map(|width| Self { micrometres: width as u32 }).ok_or_else(|| {
+            format!("{text:?} is not a width of a chart: expected 60mm to 300mm, such as 88mm, 18cm or 3.5in")
+        })
     }
 }
 
@@ -115,17 +107,17 @@ impl ChartWidth {
 }
 
 /// The medium of a chart.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Medium {
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Medium<'a> {
     pub width: ChartWidth,
-    /// Whether it is part of a page, which sets title and caption as text and scales the picture.
-    pub inline: bool,
+    /// Its identifier if it is part of a page, which sets title and caption as text and scales the picture.
+    pub id: Option<&'a str>,
 }
 
-impl Medium {
+impl Medium<'_> {
     /// Returns whether the picture contains title and caption.
     pub fn has_words(self) -> bool {
-        !self.inline && self.width.paper().is_none()
+        self.id.is_none() && self.width.paper().is_none()
     }
 }
 
@@ -152,13 +144,5 @@ mod tests {
         }
         assert!(ChartWidth::Paper("88mm".parse().unwrap()).is_narrow());
         assert!(!ChartWidth::Paper("180mm".parse().unwrap()).is_narrow());
-    }
-
-    #[test]
-    fn only_numbers_that_can_be_placed_are_drawable() {
-        for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, f64::MAX] {
-            assert_eq!(drawable(value), None);
-        }
-        assert_eq!(drawable(-LARGEST), Some(-LARGEST));
     }
 }

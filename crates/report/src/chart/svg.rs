@@ -6,6 +6,7 @@ use apportion::text::symbol;
 
 use super::font::{Face, Weight};
 use super::style::{INK, PAPER};
+use crate::format::split_word;
 
 /// Size of a subscript, and its offset downwards, relative to the size of the text.
 const SUBSCRIPT: f64 = 0.75;
@@ -78,20 +79,11 @@ impl<'a> Text<'a> {
 /// A buffer of SVG.
 #[derive(Debug, Default)]
 pub(super) struct Canvas {
-    out: String,
+    /// The elements written so far.
+    pub out: String,
 }
 
 impl Canvas {
-    /// Returns the elements written so far.
-    pub fn into_string(self) -> String {
-        self.out
-    }
-
-    /// Adds the elements of another piece.
-    pub fn append(&mut self, other: Canvas) {
-        self.out.push_str(&other.out);
-    }
-
     /// Opens an element; `close` ends it.
     pub fn open(&mut self, name: &str, attributes: Attributes) {
         self.start(name, attributes);
@@ -111,13 +103,13 @@ impl Canvas {
     /// Writes an element with text as content.
     pub fn content(&mut self, name: &str, attributes: Attributes, text: &str) {
         self.start(name, attributes);
-        self.push(format_args!(">{}</{name}>\n", Escaped(text)));
+        self.push(format_args!(">{}</{name}>\n", escaped(text)));
     }
 
     /// Writes an element with the tooltip `tip`.
     pub fn tipped(&mut self, name: &str, attributes: Attributes, tip: &str) {
         self.start(name, attributes);
-        self.push(format_args!("><title>{}</title></{name}>\n", Escaped(tip)));
+        self.push(format_args!("><title>{}</title></{name}>\n", escaped(tip)));
     }
 
     pub fn line(&mut self, from: (f64, f64), to: (f64, f64)) {
@@ -152,33 +144,27 @@ impl Canvas {
         self.out.push('>');
         self.words(text);
         if let Some(whole) = text.whole {
-            self.push(format_args!("<title>{}</title>", Escaped(whole)));
+            self.push(format_args!("<title>{}</title>", escaped(whole)));
         }
         self.out.push_str("</text>\n");
     }
 
     /// Writes the content of a text; symbols such as `F_cr` have a lowered subscript.
     fn words(&mut self, text: &Text) {
-        let is_word = |c: char| c.is_alphanumeric() || c == '_';
         let (size, drop) = (SUBSCRIPT * text.face.size, LOWERED * text.face.size);
         let (mut rest, mut is_lowered) = (text.content, false);
         while !rest.is_empty() {
-            let end = match rest.find(is_word) {
-                Some(0) => rest.find(|c| !is_word(c)).unwrap_or(rest.len()),
-                Some(start) => start,
-                None => rest.len(),
-            };
-            let (word, after) = rest.split_at(end);
+            let (word, after) = split_word(rest);
             let (letter, below) = symbol(word).unwrap_or((word, ""));
             if is_lowered {
-                self.push(format_args!("<tspan dy=\"-{}\">{}</tspan>", Px(drop), Escaped(letter)));
+                self.push(format_args!("<tspan dy=\"-{}\">{}</tspan>", Px(drop), escaped(letter)));
             } else {
-                self.push(format_args!("{}", Escaped(letter)));
+                self.push(format_args!("{}", escaped(letter)));
             }
             is_lowered = !below.is_empty();
             if is_lowered {
                 let (drop, size) = (Px(drop), Px(size));
-                self.push(format_args!("<tspan dy=\"{drop}\" font-size=\"{size}\">{}</tspan>", Escaped(below)));
+                self.push(format_args!("<tspan dy=\"{drop}\" font-size=\"{size}\">{}</tspan>", escaped(below)));
             }
             rest = after;
         }
@@ -188,7 +174,7 @@ impl Canvas {
         self.push(format_args!("<{name}"));
         for (key, value) in attributes {
             let value = value.to_string();
-            self.push(format_args!(" {key}=\"{}\"", Escaped(&value)));
+            self.push(format_args!(" {key}=\"{}\"", escaped(&value)));
         }
     }
 
@@ -198,25 +184,15 @@ impl Canvas {
     }
 }
 
-/// Text as XML content or attribute value; characters that XML forbids become U+FFFD.
-struct Escaped<'a>(&'a str);
-
-impl Display for Escaped<'_> {
-    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
-        for c in self.0.chars() {
-            match c {
-                '&' => f.write_str("&amp;")?,
-                '<' => f.write_str("&lt;")?,
-                '>' => f.write_str("&gt;")?,
-                '"' => f.write_str("&quot;")?,
-                '\'' => f.write_str("&apos;")?,
-                '\t' | '\n' => f.write_char(c)?,
-                '\0'..'\u{20}' | '\u{fffe}' | '\u{ffff}' => f.write_char('\u{fffd}')?,
-                _ => f.write_char(c)?,
-            }
-        }
-        Ok(())
-    }
+/// Formats text as XML content or attribute value; characters that XML forbids become U+FFFD.
+fn escaped(text: &str) -> String {
+    let allowed = |c: char| match c {
+        '\t' | '\n' => c,
+        '\0'..'\u{20}' | '\u{fffe}' | '\u{ffff}' => char::REPLACEMENT_CHARACTER,
+        _ => c,
+    };
+    let text = text.chars().map(allowed).collect::<String>().replace('&', "&amp;").replace('<', "&lt;");
+    text.replace('>', "&gt;").replace('"', "&quot;").replace('\'', "&apos;")
 }
 
 #[cfg(test)]
@@ -231,7 +207,7 @@ mod tests {
         let said = |text: &str| {
             let mut canvas = Canvas::default();
             canvas.text(&Text::new(text, (0.0, 0.0), Face::regular(10.0)));
-            canvas.into_string().split_once('>').map(|(_, rest)| rest.to_owned()).unwrap_or_default()
+            canvas.out.split_once('>').map(|(_, rest)| rest.to_owned()).unwrap_or_default()
         };
         let lowered = |text: &str| format!("<tspan dy=\"2.2\" font-size=\"7.5\">{text}</tspan>");
         let raised = |text: &str| format!("<tspan dy=\"-2.2\">{text}</tspan>");
@@ -258,7 +234,7 @@ mod tests {
             canvas.open("g", &[("class", &text)]);
             canvas.text(&Text::new(&text, (0.0, 1.0), Face::bold(9.0)).turn(-90.0).halo().whole("all"));
             canvas.close("g");
-            let xml = canvas.into_string();
+            let xml = canvas.out;
             let document = Document::parse(&xml).expect("well-formed");
             let read = document.descendants().find(|n| n.has_tag_name("text")).unwrap().text().unwrap_or("");
             let expected: String = text

@@ -8,7 +8,7 @@ use super::charts::{differences, side_by_side};
 use super::record::{ComparedFactor, ComparedIndex, ComparedOutput, ComparedSide, ComparisonFile};
 use crate::document::{Document, OutputReport, Part, Report, Section, Table};
 use crate::format::{give_or_take, name, or_dash, significant};
-use crate::leading::{Contender, Verdict};
+use crate::leading::{self, Contender};
 
 /// Builds the document of a comparison, whose files begin with `files`. A star marks intervals that exclude 0.
 pub fn comparison_document(file: &ComparisonFile, files: &str) -> Document {
@@ -96,8 +96,7 @@ fn leaders(output: &ComparedOutput) -> String {
     let leaders = |of: fn(&ComparedFactor) -> Option<Estimate>| -> Option<String> {
         let contender = |factor: &ComparedFactor| Some(Contender::new(name(&factor.name), of(factor)?));
         let known: Vec<Contender> = output.factors.iter().filter(|f| !f.group).filter_map(contender).collect();
-        let names: Vec<&str> =
-            Verdict::new(&known).leaders().iter().map(|&place| known[place].label.as_str()).collect();
+        let names: Vec<&str> = leading::leaders(&known).iter().map(|&place| known[place].label.as_str()).collect();
         match &names[..] {
             [] => None,
             [one] => Some(format!("{one} has the largest total index")),

@@ -1,7 +1,5 @@
 //! Targets of links: anchors of the page, and files in its folder.
 
-use std::fmt::Write as _;
-
 /// Returns `to` as a reference that can only be an anchor of this page, or a file next to it or below it.
 pub(super) fn href(to: &str) -> String {
     if let Some(anchor) = to.strip_prefix('#') {
@@ -12,17 +10,12 @@ pub(super) fn href(to: &str) -> String {
 
 /// Percent-encodes everything but letters, digits, `-`, `_`, `.`, `~` and the characters in `kept` (RFC 3986).
 fn encoded(text: &str, kept: &str) -> String {
-    let mut encoded = String::with_capacity(text.len());
-    for byte in text.bytes() {
+    let letter = |byte: u8| {
         let c = char::from(byte);
-        if c.is_ascii_alphanumeric() || "-_.~".contains(c) || kept.contains(c) {
-            encoded.push(c);
-        } else {
-            // Writing to a string does not fail.
-            let _ = write!(encoded, "%{byte:02X}");
-        }
-    }
-    encoded
+        let is_kept = c.is_ascii_alphanumeric() || "-_.~".contains(c) || kept.contains(c);
+        if is_kept { c.to_string() } else { format!("%{byte:02X}") }
+    };
+    text.bytes().map(letter).collect()
 }
 
 #[cfg(test)]

@@ -3,7 +3,6 @@
 use askama::Template;
 
 use super::anchors::href;
-use super::drawing::drawn;
 use super::symbols::{clean, escaped, symbols};
 use super::{Document, Figure, Link, Mark, OnPhone, Part, Section, Table};
 use crate::chart::ChartWidth;
@@ -118,9 +117,8 @@ impl Surroundings<'_> {
 
     /// Renders a figure, drawn for a column and for a phone, or a small one.
     fn figure(&self, figure: &Figure, is_small: bool) -> String {
-        let drawn = |width| drawn(&figure.id, &figure.chart, width);
         let picture = |format: &ChartFormat| {
-            let ending = format.ending();
+            let ending = format.name();
             Link::new(ending.to_uppercase(), format!("{CHARTS}/{}.{ending}", figure.stem))
         };
         let mut links = Vec::new();
@@ -130,14 +128,15 @@ impl Surroundings<'_> {
         if self.has_files && !figure.data.is_empty() {
             links.push(Link::new("CSV", &figure.data));
         }
-        let wide = (!is_small).then(|| drawn(ChartWidth::Wide));
-        rendered(&FigureView { figure, wide, narrow: drawn(ChartWidth::Narrow), links })
+        let wide = (!is_small).then(|| figure.chart.inline(ChartWidth::Wide, &format!("{}-wide", figure.id)));
+        let narrow = figure.chart.inline(ChartWidth::Narrow, &format!("{}-narrow", figure.id));
+        rendered(&FigureView { figure, wide, narrow, links })
     }
 }
 
 impl FigureView<'_> {
     fn title(&self) -> &str {
-        self.figure.title.as_deref().unwrap_or(self.figure.chart.title())
+        self.figure.title.as_deref().unwrap_or(&self.figure.chart.title)
     }
 }
 

@@ -10,7 +10,6 @@
 //! file.
 
 mod anchors;
-mod drawing;
 mod html;
 mod report;
 mod symbols;
@@ -174,14 +173,8 @@ impl Document {
                 tables.push(table);
             }
         });
-        let mut files: Vec<(&str, Vec<&Table>)> = Vec::new();
-        for table in tables.into_iter().filter(|table| self.files.iter().all(|file| file.name != table.file)) {
-            match files.iter_mut().find(|(name, _)| *name == table.file) {
-                Some((_, of_file)) => of_file.push(table),
-                None => files.push((&table.file, vec![table])),
-            }
-        }
-        files
+        let tables = tables.into_iter().filter(|table| self.files.iter().all(|file| file.name != table.file));
+        grouped_by_key(tables.map(|table| (table.file.as_str(), table)))
     }
 
     /// Returns the names of the data files.
@@ -194,14 +187,22 @@ impl Document {
     #[must_use]
     pub fn excerpt(mut self, ids: &[&str]) -> Self {
         self.sections.retain(|section| ids.contains(&&*section.id));
+        self.number_figures();
+        self
+    }
+
+    /// Numbers the figures in order, except those with a label of their own.
+    pub(crate) fn number_figures(&mut self) {
         let mut number = 0;
         self.visit_mut(&mut |part| {
             for figure in figures_mut(part).iter_mut().filter(|figure| figure.label.starts_with("Figure ")) {
                 number += 1;
                 figure.label = format!("Figure {number}");
+                if figure.id == UNNUMBERED {
+                    figure.id = format!("figure-{number}");
+                }
             }
         });
-        self
     }
 
     fn visit<'a>(&'a self, see: &mut dyn FnMut(&'a Part)) {
@@ -211,6 +212,18 @@ impl Document {
     fn visit_mut(&mut self, change: &mut dyn FnMut(&mut Part)) {
         self.sections.iter_mut().for_each(|section| visit_mut(&mut section.parts, change));
     }
+}
+
+/// Groups items by their keys, in the order of first occurrence.
+pub(crate) fn grouped_by_key<K: PartialEq, V>(items: impl IntoIterator<Item = (K, V)>) -> Vec<(K, Vec<V>)> {
+    let mut groups: Vec<(K, Vec<V>)> = Vec::new();
+    for (key, item) in items {
+        match groups.iter_mut().find(|(known, _)| *known == key) {
+            Some((_, group)) => group.push(item),
+            None => groups.push((key, vec![item])),
+        }
+    }
+    groups
 }
 
 /// Calls `see` for every part, nested ones included.
@@ -242,33 +255,26 @@ fn figures_mut(part: &mut Part) -> &mut [Figure] {
     }
 }
 
+/// The anchor of a figure that has no number yet.
+const UNNUMBERED: &str = "figure-0";
+
 impl Figure {
-    /// Creates figure `number` of a document: `chart`, with files named `stem` and numbers in the file `data`.
-    pub fn new(number: usize, chart: Chart, stem: impl Into<String>, data: impl Into<String>) -> Self {
+    /// Creates a figure that its document numbers: `chart`, with files named `stem`.
+    pub fn unnumbered(chart: Chart, stem: impl Into<String>) -> Self {
         Self {
-            id: format!("figure-{number}"),
-            label: format!("Figure {number}"),
+            id: UNNUMBERED.to_owned(),
+            label: "Figure ".to_owned(),
             title: None,
             beside: String::new(),
             chart,
             stem: stem.into(),
-            data: data.into(),
+            data: String::new(),
         }
     }
 
-    /// Creates a figure of a [`Report`], which numbers it: `chart`, with files named `stem`.
-    pub fn unnumbered(chart: Chart, stem: impl Into<String>) -> Self {
-        Self::new(0, chart, stem, "")
-    }
-
-    /// Removes the title of the document from the start of the title of the chart.
-    pub(crate) fn below(self, title: &str) -> Self {
-        Self { title: self.own_title(title), ..self }
-    }
-
     /// Returns the part of the chart's title after that of the document.
-    fn own_title(&self, title: &str) -> Option<String> {
-        let own = self.chart.title().strip_prefix(title).and_then(|rest| rest.strip_prefix(": "));
+    pub(crate) fn own_title(&self, title: &str) -> Option<String> {
+        let own = self.chart.title.strip_prefix(title).and_then(|rest| rest.strip_prefix(": "));
         own.map(apportion::text::capitalised)
     }
 }

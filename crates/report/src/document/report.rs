@@ -3,7 +3,7 @@
 use apportion::model::MIN_OUTPUTS_TOGETHER;
 use apportion::result::{StudySetup, ValidityRecord};
 
-use super::{DataFile, Document, Figure, Part, Section, Table, figures_mut};
+use super::{DataFile, Document, Figure, Part, Section, Table, UNNUMBERED, figures_mut};
 use crate::chart::Chart;
 use crate::format::heading;
 use crate::leading::first_answers;
@@ -101,7 +101,7 @@ impl Report<'_> {
             title: self.title,
             charts: Vec::new(),
         };
-        let (title, mut number) = (document.title.clone(), 0);
+        let title = document.title.clone();
         document.visit_mut(&mut |part| {
             if let Part::Table(table) = part
                 && table.file.is_empty()
@@ -109,12 +109,11 @@ impl Report<'_> {
             {
                 table.file.clone_from(&data);
             }
-            for figure in figures_mut(part).iter_mut().filter(|figure| figure.id == "figure-0") {
-                number += 1;
-                (figure.id, figure.label) = (format!("figure-{number}"), format!("Figure {number}"));
+            for figure in figures_mut(part).iter_mut().filter(|figure| figure.id == UNNUMBERED) {
                 (figure.title, figure.data) = (figure.own_title(&title), data.clone());
             }
         });
+        document.number_figures();
         document
     }
 

@@ -2,10 +2,11 @@
 
 use std::borrow::Borrow;
 
+use apportion::text::inert;
 use apportion::uncertainty::Estimate;
 
 use super::Link;
-use crate::csv::{Field, Value, lines};
+use crate::csv::{Value, lines};
 use crate::format::give_or_take;
 
 /// A table. Pages and terminals print its cells; a CSV file holds the values behind them.
@@ -34,8 +35,8 @@ pub struct Column {
     heading: Option<String>,
     /// Whether it holds numbers, which are aligned right.
     numeric: bool,
-    /// Its names in the file; a column without them is only printed.
-    field: Option<Field>,
+    /// Its names in the file, three of an estimate; a column without them is only printed.
+    names: Vec<String>,
 }
 
 /// The layout of a table on a phone.
@@ -116,7 +117,7 @@ impl Table {
 
     /// Returns whether any of its columns is in a file.
     pub(super) fn has_fields(&self) -> bool {
-        self.columns.iter().any(|column| column.field.is_some())
+        self.columns.iter().any(|column| !column.names.is_empty())
     }
 
     /// Returns the printed columns, with their headings and whether they hold numbers.
@@ -141,12 +142,11 @@ impl Table {
 pub(crate) fn csv<T: Borrow<Table>>(tables: impl IntoIterator<Item = T>) -> String {
     let mut tables = tables.into_iter().peekable();
     let Some(first) = tables.peek() else { return String::new() };
-    let fields = first.borrow().columns.iter().filter_map(|column| column.field.as_ref());
-    let header: Vec<String> = fields.flat_map(Field::names).collect();
+    let header: Vec<String> = first.borrow().columns.iter().flat_map(|column| column.names.clone()).collect();
     let rows = tables.flat_map(|table| {
         let table = table.borrow();
         let row = |row: &Vec<Cell>| -> Vec<String> {
-            let in_file = table.columns.iter().zip(row).filter(|(column, _)| column.field.is_some());
+            let in_file = table.columns.iter().zip(row).filter(|(column, _)| !column.names.is_empty());
             in_file.flat_map(|(_, cell)| cell.value.cells(&cell.text)).collect()
         };
         table.rows.iter().map(row).collect::<Vec<_>>()
@@ -175,7 +175,7 @@ impl<R: Copy> Rows<R> {
 
     /// Adds a column of numbers.
     pub fn number<C: Into<Cell>>(self, heading: impl Into<String>, cell: impl Fn(R) -> C) -> Self {
-        self.column(Column { heading: Some(heading.into()), numeric: true, field: None }, cell)
+        self.column(Column { heading: Some(heading.into()), numeric: true, names: Vec::new() }, cell)
     }
 
     /// Adds a column of estimates, printed with their errors, and with their bounds in the file.
@@ -205,17 +205,20 @@ impl<R: Copy> Rows<R> {
 
     /// Writes the last column to the file under `name`, with this value.
     pub fn value<V: Into<Value>>(self, name: impl Into<String>, value: impl Fn(R) -> V) -> Self {
-        self.field(Field::new(name), value)
+        self.in_file(vec![inert(name.into())], value)
     }
 
     /// Writes the last column to the file as an estimate with its bounds.
     pub fn estimate(self, name: impl Into<String>, value: impl Fn(R) -> Option<Estimate>) -> Self {
-        self.field(Field::estimate(name), value)
+        let name = name.into();
+        self.in_file(["", "_low", "_high"].map(|suffix| inert(format!("{name}{suffix}"))).to_vec(), value)
     }
 
     /// Prints the last column only `if_shown`.
     pub fn shown(mut self, if_shown: bool) -> Self {
-        self.table.columns.last_mut().filter(|_| !if_shown).into_iter().for_each(|column| column.heading = None);
+        if let Some(column) = self.table.columns.last_mut().filter(|_| !if_shown) {
+            column.heading = None;
+        }
         self
     }
 
@@ -257,8 +260,10 @@ impl<R: Copy> Rows<R> {
         self
     }
 
-    fn field<V: Into<Value>>(mut self, field: Field, value: impl Fn(R) -> V) -> Self {
-        self.table.columns.last_mut().into_iter().for_each(|column| column.field = Some(field.clone()));
+    fn in_file<V: Into<Value>>(mut self, names: Vec<String>, value: impl Fn(R) -> V) -> Self {
+        if let Some(column) = self.table.columns.last_mut() {
+            column.names = names;
+        }
         let cells = self.table.rows.iter_mut().filter_map(|cells| cells.last_mut());
         cells.zip(&self.rows).for_each(|(cell, row)| cell.value = value(*row).into());
         self
@@ -313,7 +318,7 @@ impl From<&str> for Cell {
 /// Formats an index with the half width of its interval, a dash for `None`.
 impl From<Option<Estimate>> for Cell {
     fn from(estimate: Option<Estimate>) -> Self {
-        Self::valued(estimate.map_or_else(|| "–".to_owned(), give_or_take), Value::Estimate(estimate))
+        Self::valued(estimate.map_or_else(|| "–".to_owned(), give_or_take), estimate.into())
     }
 }
 

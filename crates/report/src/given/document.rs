@@ -7,7 +7,7 @@ use apportion::text::listed;
 use apportion::uncertainty::Estimate;
 
 use super::{GivenFile, GivenOutputRecord, given_chart, measures, sentences};
-use crate::document::{Document, OutputReport, Part, Report, Section, Table, Value};
+use crate::document::{Document, OutputReport, Part, Report, Section, Table};
 use crate::format::{index, significant};
 
 /// Builds the document of a result from given data, whose files begin with `name`.
@@ -18,7 +18,7 @@ pub fn given_document(result: &GivenFile, name: &str) -> Document {
             name: &output.name,
             unit: "",
             warnings: &output.warnings,
-            answer: chart.caption().to_owned(),
+            answer: chart.caption.clone(),
             parts: output_parts(output, index_table(result, output)),
             charts: vec![("", chart)],
         }
@@ -133,7 +133,7 @@ fn index_table(result: &GivenFile, output: &GivenOutputRecord) -> Table {
         .number("S_1, by bins", |(index, _)| self::index(index.binned.estimate))
         .estimate("binned", |(index, _)| Some(index.binned.estimate))
         .sum(sum(!ranks))
-        .file("bins", |(index, _)| Value::Count(index.binned.bins as u64));
+        .file("bins", |(index, _)| index.binned.bins as u64);
     if result.surrogate.is_none() {
         return rows.into();
     }

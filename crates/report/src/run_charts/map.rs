@@ -6,6 +6,7 @@ use apportion::uncertainty::Estimate;
 use super::super::chart::{Axis, Chart, Colour, Panel, Series, Shape, Tile};
 use super::super::factor_bars::{MAX_BARS, not_drawn, pair_panel};
 use super::super::format::{fixed, index, name};
+use super::super::leading::falling;
 
 /// Maximum number of outputs of a map; of more, an even selection is drawn.
 const ROWS: usize = 40;
@@ -53,17 +54,19 @@ pub(crate) fn map_chart(result: &StudyResult) -> Chart {
 /// Returns the positions of the factors by falling total index over all outputs together, or by their sum if there is
 /// none: the order of all tables and charts of many outputs.
 pub(crate) fn overall_order(result: &StudyResult) -> Vec<usize> {
-    let together = result.aggregate.as_ref().and_then(|aggregate| aggregate.indices.as_deref()).unwrap_or_default();
+    let together = together(result);
     let known = result.outputs.iter().filter_map(|output| output.indices.as_ref());
     let sum = |factor: usize| known.clone().filter_map(|all| Some(all.get(factor)?.effect.total.estimate)).sum::<f64>();
     let key = |(factor, name): (usize, &str)| {
         let own = together.iter().find(|index| index.factor == name);
         own.map_or_else(|| sum(factor), |index| index.total.estimate)
     };
-    let keys: Vec<f64> = result.indexed_names().into_iter().enumerate().map(key).collect();
-    let mut order: Vec<usize> = (0..keys.len()).collect();
-    order.sort_by(|&a, &b| keys[b].total_cmp(&keys[a]));
-    order
+    falling(&result.indexed_names().into_iter().enumerate().map(key).collect::<Vec<f64>>())
+}
+
+/// Returns the indices of all outputs together, if there are any.
+pub(crate) fn together(result: &StudyResult) -> &[PlainIndexRecord] {
+    result.aggregate.as_ref().and_then(|aggregate| aggregate.indices.as_deref()).unwrap_or_default()
 }
 
 pub(super) fn class(index: f64) -> usize {
@@ -94,8 +97,7 @@ pub(super) fn short(index: f64) -> String {
 /// Draws first-order and total indices of all outputs together, the largest total index on top; of more than 20
 /// factors, the first 20.
 pub(crate) fn together_chart(result: &StudyResult) -> Chart {
-    let indices = result.aggregate.as_ref().and_then(|aggregate| aggregate.indices.as_deref()).unwrap_or_default();
-    let names = result.indexed_names();
+    let (indices, names) = (together(result), result.indexed_names());
     let factors: Vec<String> = names.iter().map(|of| name(of)).collect();
     let of = |which: fn(&PlainIndexRecord) -> Estimate| -> Vec<Option<Estimate>> {
         let find = |name: &str| indices.iter().find(|index| index.factor == name).map(which);

@@ -13,7 +13,7 @@ mod series;
 pub use convergence::convergence_chart;
 pub use distribution::distribution_chart;
 pub use indices::indices_chart;
-pub(super) use map::{map_chart, overall_order, together_chart};
+pub(super) use map::{map_chart, overall_order, together, together_chart};
 pub use pairs::pairs_chart;
 pub use scatter::scatter_chart;
 pub(super) use series::{SeriesOf, along_chart};

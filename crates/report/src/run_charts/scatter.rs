@@ -4,7 +4,7 @@ use apportion::result::{FactorRecord, OutputResult, ScatterRecord, StudyResult};
 
 use super::super::chart::{Axis, Chart, Colour, Panel, Series, Shape, Spacing, Stroke};
 use super::super::factor_bars::not_drawn;
-use super::super::format::{axis_unit, name, words};
+use super::super::format::{axis_unit, fixed, minus, name, words};
 use super::super::leading::no_indices;
 use super::categories::Categories;
 
@@ -31,7 +31,8 @@ fn panels(result: &StudyResult, output: &OutputResult, scatter: &ScatterRecord, 
         let record = result.factors.iter().find(|factor| factor.name == *name);
         let index = output.indices.iter().flatten().find(|index| index.factor == *name);
         let title = index.map_or_else(String::new, |index| {
-            let [first_order, total] = [index.effect.first_order, index.effect.total].map(|i| two(i.estimate));
+            let [first_order, total] =
+                [index.effect.first_order, index.effect.total].map(|i| minus(&fixed(i.estimate, 2)));
             format!("S_1 {first_order}, S_T {total}")
         });
         let dots = scatter.points.iter().filter_map(|point| Some((*point.get(place)?, *point.last()?)));
@@ -57,12 +58,6 @@ fn panels(result: &StudyResult, output: &OutputResult, scatter: &ScatterRecord, 
         Panel::new(x, y.clone()).titled(title).with([runs.mark(Shape::Dots(dots))]).with(means.collect::<Vec<_>>())
     };
     scatter.factors.iter().enumerate().map(panel).collect()
-}
-
-/// Formats an index with two decimals and a true minus sign.
-fn two(index: f64) -> String {
-    let text = format!("{index:.2}");
-    if text == "-0.00" { "0.00".to_owned() } else { text.replace('-', "\u{2212}") }
 }
 
 fn factor_spacing(factor: &FactorRecord) -> Spacing {

@@ -6,6 +6,7 @@ use apportion::uncertainty::Estimate;
 use super::super::chart::{Axis, Chart, Colour, Mark, Panel, Series};
 use super::super::factor_bars::{INDEX, not_drawn};
 use super::super::format::{axis_unit, name};
+use super::super::leading::falling;
 
 /// Maximum number of factors with lines: those with the largest mean total index.
 const LINES: usize = 8;
@@ -36,10 +37,7 @@ impl<'a> SeriesOf<'a> {
             Some(indices) => indices.get(factor).map_or(0.0, |index| index.total.estimate),
             None => self.values().iter().map(|value| total(value, factor)).sum(),
         };
-        let keys: Vec<f64> = (0..self.result.indexed_names().len()).map(key).collect();
-        let mut order: Vec<usize> = (0..keys.len()).collect();
-        order.sort_by(|&a, &b| keys[b].total_cmp(&keys[a]));
-        order
+        falling(&(0..self.result.indexed_names().len()).map(key).collect::<Vec<f64>>())
     }
 }
 

@@ -36,8 +36,8 @@ fn charts_of_any_result_are_drawn_from_its_json_alone() {
         let read: StudyResult = serde_json::from_str(&result.json()).expect("our own JSON");
         for draw in CHARTS {
             let chart = draw(&result, &result.outputs[0]);
-            assert!(chart.caption().ends_with('.'), "{}", chart.caption());
-            assert_eq!(draw(&read, &read.outputs[0]).caption(), chart.caption());
+            assert!(chart.caption.ends_with('.'), "{}", chart.caption);
+            assert_eq!(draw(&read, &read.outputs[0]).caption, chart.caption);
             for width in [ChartWidth::Wide, ChartWidth::Narrow] {
                 let svg = chart.svg_at(width);
                 assert_eq!(draw(&read, &read.outputs[0]).svg_at(width), svg);
@@ -53,7 +53,7 @@ fn pairs_stand_below_the_diagonal_in_the_order_of_all_charts() {
     // S_13 = 0.2437; the order by S_T is x1, x2, x3.
     let result = analysed("model = \"ishigami\"\n[design]\nbase_samples = 4096\n[analysis]\nsecond_order = true");
     let chart = pairs_chart(&result, &result.outputs[0]);
-    let panel = &chart.all_panels()[0];
+    let panel = &chart.panels[0];
     assert_eq!(panel.y.names, ["x1 (1)", "x2 (2)", "x3 (3)"]);
     let tiles: Vec<(usize, usize, &str, &str)> = panel
         .marks

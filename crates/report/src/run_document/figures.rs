@@ -30,96 +30,61 @@ pub(super) const CONVERGENCE: Kind =
     Kind { suffix: "-convergence", name: "convergence", draw: convergence_chart, data: "-convergence.csv" };
 pub(super) const PAIRS: Kind = Kind { suffix: "-pairs", name: "pairs", draw: pairs_chart, data: "-second-order.csv" };
 
-/// Suffixes of the charts of a series: its indices along the axis, and those of the whole.
-pub(super) const SERIES_SUFFIXES: [&str; 2] = ["-along", "-together"];
-
-/// Prefixes of the files of the charts.
-pub(super) struct Stems {
-    /// Of each output that is in no series, if they are few.
-    single: Vec<String>,
-    /// Of each series, with its suffixes.
-    pub series: Vec<[String; SERIES_SUFFIXES.len()]>,
-}
-
-impl Stems {
-    pub fn new(result: &StudyResult) -> Self {
-        let is_single = |place: usize| !result.series.iter().any(|series| series.places().contains(&place));
-        let single = result.outputs.iter().enumerate().filter(|(place, _)| is_single(*place));
-        let mut names: Vec<&str> = single.map(|(_, output)| output.name.as_str()).collect();
-        // Charts of many outputs together have the names of a single series.
-        let is_many = names.len() >= MIN_OUTPUTS_TOGETHER;
-        if is_many {
-            names = vec!["outputs"];
-        }
-        let count = names.len();
-        names.extend(result.series.iter().map(|series| series.name.as_str()));
-        let kinds = [SHARES, INDICES, SCATTER, DISTRIBUTION, CONVERGENCE, PAIRS].map(|kind| kind.suffix);
-        let mut single = file_stems(&result.study.name, &names, &[&kinds[..], &SERIES_SUFFIXES[..]].concat());
-        let series = single.split_off(count);
-        let series = series.iter().map(|stem| SERIES_SUFFIXES.map(|suffix| format!("{stem}{suffix}")));
-        Self { single: if is_many { Vec::new() } else { single }, series: series.collect() }
+/// Returns the prefixes of the files of the charts: of each of the outputs of `single`, which are in no series, if they
+/// are few, and of each series of `result`.
+pub(super) fn stems(result: &StudyResult, single: &StudyResult) -> (Vec<String>, Vec<String>) {
+    let mut names: Vec<&str> = single.outputs.iter().map(|output| output.name.as_str()).collect();
+    // Charts of many outputs together have the names of a single series.
+    let is_many = names.len() >= MIN_OUTPUTS_TOGETHER;
+    if is_many {
+        names = vec!["outputs"];
     }
+    let count = names.len();
+    names.extend(result.series.iter().map(|series| series.name.as_str()));
+    let kinds = [SHARES, INDICES, SCATTER, DISTRIBUTION, CONVERGENCE, PAIRS].map(|kind| kind.suffix);
+    let mut outputs = file_stems(&result.study.name, &names, &[&kinds[..], &["-along", "-together"]].concat());
+    let series = outputs.split_off(count);
+    (if is_many { Vec::new() } else { outputs }, series)
 }
 
-/// Draws the figures of the outputs in turn.
+/// The outputs whose figures are drawn.
+#[derive(Clone, Copy)]
 pub(super) struct Figures<'a> {
     pub result: &'a StudyResult,
     /// File names of each output.
-    stems: Vec<String>,
-    /// Prefix of the anchors of its figures.
-    prefix: String,
-    /// Number of figures so far, including the earlier ones.
-    count: usize,
-}
-
-/// An output, and its number from 1.
-#[derive(Clone, Copy)]
-pub(super) struct Numbered<'a> {
-    pub output: &'a OutputResult,
-    pub number: usize,
-}
-
-impl Numbered<'_> {
-    /// Returns whether it is the first output, where statements on all outputs are made.
-    pub fn is_first(self) -> bool {
-        self.number == 1
-    }
+    pub stems: &'a [String],
+    /// The number of the series whose values they are, from 1.
+    pub series: Option<usize>,
+    /// Whether the document is on a single output, whose topics are its sections.
+    pub is_only: bool,
 }
 
 impl<'a> Figures<'a> {
-    /// Creates the figures of the outputs of `result`, after so many figures.
-    pub fn new(result: &'a StudyResult, stems: Stems, before: usize) -> Self {
-        Self { result, stems: stems.single, prefix: String::new(), count: before }
+    /// Returns output number `number`, from 1.
+    pub fn output(&self, number: usize) -> &'a OutputResult {
+        &self.result.outputs[number - 1]
     }
 
-    /// Creates the figures of the values of series number `number`, from 1.
-    pub fn of_series(result: &'a StudyResult, number: usize, before: usize) -> Self {
-        Self { result, stems: Vec::new(), prefix: format!("series-{number}-"), count: before }
+    /// Returns a figure of several outputs, with the anchor `name` and its files named `stem`.
+    pub fn of_all(&self, chart: Chart, name: &str, stem: &str) -> Part {
+        self.figure(chart, name, stem.to_owned(), ".csv")
     }
 
-    /// Returns the number of figures so far, including the earlier ones.
-    pub fn count(&self) -> usize {
-        self.count
+    /// Draws the figure of that kind of output number `number`.
+    pub fn draw(&self, number: usize, Kind { suffix, name, draw, data }: Kind) -> Part {
+        let stem = self.stems.get(number - 1).map_or_else(String::new, |stem| format!("{stem}{suffix}"));
+        self.figure(draw(self.result, self.output(number)), &format!("{number}-{name}"), stem, data)
     }
 
-    /// Adds a figure of several outputs, with the anchor `name` and its files named `stem`.
-    pub fn add(&mut self, chart: Chart, name: &str, stem: &str) -> Part {
-        let data = format!("{}.csv", self.result.study.name);
-        self.numbered(chart, name, (stem, data)).into()
-    }
-
-    /// Draws the figure of that kind of an output.
-    pub fn draw(&mut self, of: Numbered<'_>, Kind { suffix, name, draw, data }: Kind) -> Part {
-        let stem = self.stems.get(of.number - 1).map_or_else(String::new, |stem| format!("{stem}{suffix}"));
-        let data = if data.is_empty() { String::new() } else { format!("{}{data}", self.result.study.name) };
-        let chart = draw(self.result, of.output);
-        self.numbered(chart, &format!("{}-{name}", of.number), (&stem, data)).into()
-    }
-
-    fn numbered(&mut self, chart: Chart, name: &str, (stem, data): (&str, String)) -> Figure {
-        self.count += 1;
-        let figure = Figure::new(self.count, chart, stem, data);
-        let figure = Figure { id: format!("figure-{}{name}", self.prefix), ..figure };
-        figure.below(self.result.study.headline())
+    fn figure(&self, chart: Chart, name: &str, stem: String, data: &str) -> Part {
+        let study = &self.result.study;
+        let series = self.series.map_or_else(String::new, |number| format!("series-{number}-"));
+        let mut figure = Figure::unnumbered(chart, stem);
+        figure.id = format!("figure-{series}{name}");
+        figure.title = figure.own_title(study.headline());
+        if !data.is_empty() {
+            figure.data = format!("{}{data}", study.name);
+        }
+        figure.into()
     }
 }

@@ -8,7 +8,7 @@ use super::overview;
 use super::shared::complement;
 use crate::format::{grouped, index, is_above_zero, name, percent, two_digits};
 use crate::interval_widths::{WIDE, indices_measured, widest_interval};
-use crate::leading::{Contender, Verdict, by_total, first_answers, leader_of};
+use crate::leading::{self, Contender, by_total, first_answers, leader_of};
 
 /// Returns the paragraphs at the top of the page: on every series, then on the `single` outputs outside series.
 pub(super) fn lead(result: &StudyResult, single: &StudyResult) -> Vec<String> {
@@ -25,7 +25,7 @@ pub(super) fn lead(result: &StudyResult, single: &StudyResult) -> Vec<String> {
 pub(super) fn answer(output: &OutputResult) -> String {
     let order = by_total(output).unwrap_or_default();
     let contenders: Vec<Contender> = order.iter().map(|(_, index)| Contender::from_index(index)).collect();
-    let leaders = Verdict::new(&contenders).leaders().len();
+    let leaders = leading::leaders(&contenders).len();
     let next = order.iter().skip(leaders).take(2);
     let next: Vec<String> =
         next.map(|(_, next)| format!("{} ({})", name(&next.factor), index(next.effect.weight()))).collect();

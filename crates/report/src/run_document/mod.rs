@@ -15,14 +15,14 @@ mod warnings;
 use apportion::model::MIN_OUTPUTS_TOGETHER;
 use apportion::result::{AggregateRecord, LowRuns, SpendingRecord, StudyRecord, StudyResult};
 use apportion::text::{capitalised, listed};
-use figures::{Figures, Numbered, Stems};
+use figures::Figures;
 use output::Topic;
 pub use series::one_output;
 pub(crate) use tables::{FACTORS, IN_CSV};
 use warnings::grouped_warnings;
 
 use super::document::{DataFile, Document, Mark, Part, Section, Table};
-use super::format::{grouped, name, significant};
+use super::format::{grouped, name, printed, significant};
 use super::study_sections::{study_section, validity_section};
 use super::validity;
 
@@ -45,14 +45,15 @@ use super::validity;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn run_document(result: &StudyResult) -> Document {
-    let stems = Stems::new(result);
-    let (mut sections, drawn) = series::sections(result, &stems.series);
     // Series have sections of their own.
     let others = (!result.series.is_empty()).then(|| series::single_outputs(result));
     let single = others.as_ref().unwrap_or(result);
-    let mut figures = Figures::new(single, stems, drawn);
+    let (stems, of_series) = figures::stems(result, single);
+    let mut sections = series::sections(result, &of_series);
+    let is_only = result.series.is_empty() && result.outputs.len() == 1;
+    let figures = Figures { result: single, stems: &stems, series: None, is_only };
     let is_many = single.outputs.len() >= MIN_OUTPUTS_TOGETHER;
-    sections.extend(if is_many { overview::sections(&mut figures) } else { of_outputs(&mut figures) });
+    sections.extend(if is_many { overview::sections(figures) } else { of_outputs(figures) });
     let figure = |of: &Section| of.parts.iter().position(|part| matches!(part, Part::Figure(_)));
     let first = sections.iter_mut().find_map(|of| Some((figure(of)?, of)));
     if let (Some(callout), Some((figure, of))) = (validity::callout(result), first) {
@@ -88,25 +89,25 @@ pub fn run_document(result: &StudyResult) -> Document {
         put("-estimators.csv", tables::estimators_csv(result));
     }
     put("-convergence.csv", tables::convergence_csv(result));
+    document.number_figures();
     document
 }
 
 /// Builds the sections of a few outputs: one for each, then those of all together.
-fn of_outputs(figures: &mut Figures<'_>) -> Vec<Section> {
+fn of_outputs(figures: Figures<'_>) -> Vec<Section> {
     let result = figures.result;
     let mut sections = Vec::new();
-    let single = result.outputs.len() == 1 && figures.count() == 0;
-    if !single {
+    if !figures.is_only {
         let warnings = Part::warnings(&grouped_warnings(&result.outputs));
         sections.extend(warnings.map(|part| Section::new("warnings", "Warnings", vec![part])));
     }
-    for (place, output) in result.outputs.iter().enumerate() {
-        let topics = output::topics(figures, Numbered { output, number: place + 1 });
-        if single {
+    for (number, output) in (1..).zip(&result.outputs) {
+        let topics = output::topics(figures, number);
+        if figures.is_only {
             sections.extend(topics.into_iter().map(|Topic { id, title, parts }| Section::new(id, title, parts)));
         } else {
             let heading = super::format::heading(&output.name, &output.unit);
-            sections.push(Section::new(&format!("output-{}", place + 1), &heading, under_headings(topics)));
+            sections.push(Section::new(&format!("output-{number}"), &heading, under_headings(topics)));
         }
     }
     let together = result
@@ -128,7 +129,9 @@ fn together(result: &StudyResult, aggregate: &AggregateRecord) -> Vec<Part> {
     let names: Vec<String> = aggregate.outputs.iter().map(|output| name(output)).collect();
     let mut parts = vec![Part::Text(format!("Of {}: {}.", listed(&names), aggregate.weighting))];
     match (&aggregate.indices, &aggregate.reason) {
-        (Some(indices), _) => parts.push(tables::aggregate_of(result, aggregate, indices).into()),
+        (Some(indices), _) => {
+            parts.push(tables::aggregate_of(result, &aggregate.outputs, indices, aggregate.noise.as_ref()).into())
+        }
         (None, Some(reason)) => parts.push(Part::no_indices(format!("There are no such indices: {reason}."))),
         (None, None) => (),
     }
@@ -142,7 +145,7 @@ fn cost(result: &StudyResult) -> Vec<Part> {
     let mut rows = vec![
         ("model runs", grouped(provenance.model_runs)),
         ("base points", format!("{} in {} replicates", grouped(provenance.base_samples), provenance.replicates)),
-        ("time", format!("{} s", significant(format!("{seconds:.2e}").parse().unwrap_or(seconds)))),
+        ("time", format!("{} s", printed(seconds))),
         ("threads", provenance.threads.to_string()),
     ];
     if provenance.plain_rows > 0 {

@@ -2,7 +2,7 @@
 
 use apportion::result::{IndexRecord, OutputResult, SurrogateTrial};
 
-use super::figures::{CONVERGENCE, DISTRIBUTION, Figures, INDICES, Numbered, PAIRS, SCATTER, SHARES};
+use super::figures::{CONVERGENCE, DISTRIBUTION, Figures, INDICES, PAIRS, SCATTER, SHARES};
 use super::measures::measures;
 use super::noise::noise;
 use super::shared::{definitions, failed_runs};
@@ -21,22 +21,21 @@ pub(super) struct Topic {
 }
 
 /// Returns all topics of an output; empty ones are omitted.
-pub(super) fn topics(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Topic> {
-    let (result, output) = (figures.result, of.output);
+pub(super) fn topics(figures: Figures<'_>, number: usize) -> Vec<Topic> {
+    let output = figures.output(number);
     let topic = |id, title, parts| Topic { id, title, parts };
-    let is_only = result.outputs.len() == 1 && figures.count() == 0;
-    let mut topics = vec![topic("warnings", "Warnings", mind(output, is_only))];
+    let mut topics = vec![topic("warnings", "Warnings", mind(output, figures.is_only))];
     if output.indices.is_some() {
-        topics.push(topic("indices", "Indices", indices(figures, of)));
-        topics.push(topic("shares", "Shares", shares(figures, of)));
+        topics.push(topic("indices", "Indices", indices(figures, number)));
+        topics.push(topic("shares", "Shares", shares(figures, number)));
         topics.push(topic("noise", "The noise", noise(output)));
-        topics.push(topic("interactions", "Interactions", interactions(figures, of)));
+        topics.push(topic("interactions", "Interactions", interactions(figures, number)));
         topics.push(topic("measures", "Other measures", measures(output)));
-        topics.push(topic("convergence", "Convergence", convergence(figures, of)));
+        topics.push(topic("convergence", "Convergence", convergence(figures, number)));
     }
-    topics.push(topic("distribution", "Distribution of the output", distribution(figures, of)));
+    topics.push(topic("distribution", "Distribution of the output", distribution(figures, number)));
     if output.scatter.is_some() {
-        topics.push(topic("scatter", "Scatter plots", vec![figures.draw(of, SCATTER)]));
+        topics.push(topic("scatter", "Scatter plots", vec![figures.draw(number, SCATTER)]));
     }
     topics.push(topic("surrogate", "Surrogate", surrogate(output)));
     topics.push(topic("estimators", "Other estimators", estimators(output)));
@@ -99,8 +98,8 @@ fn surrogate(output: &OutputResult) -> Vec<Part> {
     [vec![Part::Text(text)], values::surrogate(output, record)].concat()
 }
 
-fn shares(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
-    let any = |asked: fn(&IndexRecord) -> bool| of.output.indices.iter().flatten().any(asked);
+fn shares(figures: Figures<'_>, number: usize) -> Vec<Part> {
+    let any = |asked: fn(&IndexRecord) -> bool| figures.output(number).indices.iter().flatten().any(asked);
     let text = match any(|index| index.effect.shapley.is_some()) {
         true => {
             "Shapley effects divide the variance of the output among the factors, even if they depend on each other: each is the mean, \
@@ -113,50 +112,53 @@ fn shares(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
         }
         false => return Vec::new(),
     };
-    let text = of.is_first().then(|| Part::OnPage(vec![Part::Text(text.to_owned())]));
-    text.into_iter().chain([figures.draw(of, SHARES)]).collect()
+    let text = (number == 1).then(|| Part::OnPage(vec![Part::Text(text.to_owned())]));
+    text.into_iter().chain([figures.draw(number, SHARES)]).collect()
 }
 
-fn indices(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
+fn indices(figures: Figures<'_>, number: usize) -> Vec<Part> {
     let result = figures.result;
-    let mut parts = vec![figures.draw(of, INDICES)];
-    if of.is_first() {
+    let mut parts = vec![figures.draw(number, INDICES)];
+    if number == 1 {
         parts.extend(definitions(result));
     }
-    let tables =
-        [tables::indices(result, of.output), tables::groups(result, of.output), tables::subsets(result, of.output)];
+    let tables = [
+        tables::indices(result, figures.output(number)),
+        tables::groups(result, figures.output(number)),
+        tables::subsets(result, figures.output(number)),
+    ];
     parts.extend(tables.into_iter().flatten().map(Part::Table));
     parts
 }
 
-fn interactions(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
-    let output = of.output;
+fn interactions(figures: Figures<'_>, number: usize) -> Vec<Part> {
+    let output = figures.output(number);
     let Some(text) = lead::interactions(output).filter(|_| output.indices.iter().flatten().count() > 1) else {
         return Vec::new();
     };
     let mut parts = vec![Part::Text(text)];
     if let Some(table) = tables::pairs(output) {
-        parts.extend([figures.draw(of, PAIRS), table.into()]);
+        parts.extend([figures.draw(number, PAIRS), table.into()]);
     }
     parts
 }
 
-fn convergence(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
-    if of.output.convergence.is_empty() {
+fn convergence(figures: Figures<'_>, number: usize) -> Vec<Part> {
+    if figures.output(number).convergence.is_empty() {
         return Vec::new();
     }
-    let width = widest_of(of.output).filter(|width| *width < WIDE).map(|width| {
-        let which = indices_measured(std::slice::from_ref(of.output));
+    let width = widest_of(figures.output(number)).filter(|width| *width < WIDE).map(|width| {
+        let which = indices_measured(std::slice::from_ref(figures.output(number)));
         Part::Text(format!("At the end {which} is known to ± {} or better.", two_digits(width)))
     });
-    width.into_iter().chain([figures.draw(of, CONVERGENCE)]).collect()
+    width.into_iter().chain([figures.draw(number, CONVERGENCE)]).collect()
 }
 
-fn distribution(figures: &mut Figures<'_>, of: Numbered<'_>) -> Vec<Part> {
-    let Some(table) = values::moments(of.output) else {
-        return vec![Part::Text(format!("There are no values of {} to show.", name(&of.output.name)))];
+fn distribution(figures: Figures<'_>, number: usize) -> Vec<Part> {
+    let Some(table) = values::moments(figures.output(number)) else {
+        return vec![Part::Text(format!("There are no values of {} to show.", name(&figures.output(number).name)))];
     };
-    vec![Part::Text(range(of.output)), figures.draw(of, DISTRIBUTION), Part::OnPage(vec![table])]
+    vec![Part::Text(range(figures.output(number))), figures.draw(number, DISTRIBUTION), Part::OnPage(vec![table])]
 }
 
 /// Describes mean, standard deviation, and the range of most values.

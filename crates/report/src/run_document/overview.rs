@@ -9,8 +9,8 @@ use super::tables::{FACTORS, IN_CSV};
 use super::warnings::grouped_warnings;
 use crate::document::{Part, Section, Table, largest};
 use crate::format::{name, or_dash, short, value};
-use crate::leading::{Contender, Verdict, by_total, leader_of_all, of_which};
-use crate::run_charts::{map_chart, overall_order, together_chart};
+use crate::leading::{Contender, by_total, leader_of_all, leaders, of_which};
+use crate::run_charts::{map_chart, overall_order, together, together_chart};
 
 /// Maximum numbers of factors and of outputs in the table of outputs.
 const COLUMNS: usize = 8;
@@ -19,7 +19,7 @@ const OUTPUTS: usize = 200;
 const WARNINGS: usize = 10;
 
 /// Builds the sections of all outputs.
-pub(super) fn sections(figures: &mut Figures<'_>) -> Vec<Section> {
+pub(super) fn sections(figures: Figures<'_>) -> Vec<Section> {
     let result = figures.result;
     let mut sections = vec![
         Section::new("overview", "All outputs at a glance", overview(figures)),
@@ -30,7 +30,7 @@ pub(super) fn sections(figures: &mut Figures<'_>) -> Vec<Section> {
     sections
 }
 
-fn overview(figures: &mut Figures<'_>) -> Vec<Part> {
+fn overview(figures: Figures<'_>) -> Vec<Part> {
     let result = figures.result;
     let mut parts = definitions(result).to_vec();
     let study = &result.study.name;
@@ -39,9 +39,9 @@ fn overview(figures: &mut Figures<'_>) -> Vec<Part> {
         text.push_str(&format!(" In those of all outputs together, {}.", aggregate.weighting));
     }
     parts.push(Part::Text(text));
-    parts.push(figures.add(together_chart(result), "together", &format!("{study}-together")));
+    parts.push(figures.of_all(together_chart(result), "together", &format!("{study}-together")));
     parts.push(factors(result).into());
-    parts.push(figures.add(map_chart(result), "map", &format!("{study}-map")));
+    parts.push(figures.of_all(map_chart(result), "map", &format!("{study}-map")));
     parts
 }
 
@@ -51,7 +51,7 @@ fn sure_leader(output: &OutputResult) -> Option<usize> {
     let contenders: Vec<Contender> = order.iter().map(|(_, index)| Contender::from_index(index)).collect();
     // Without intervals nothing is certain.
     let is_known = contenders.len() == 1 || contenders[0].total.interval.is_some();
-    (is_known && matches!(Verdict::new(&contenders), Verdict::Leads(_))).then_some(order[0].0)
+    (is_known && leaders(&contenders).len() == 1).then_some(order[0].0)
 }
 
 /// Counts for how many outputs each factor matters most with certainty.
@@ -64,8 +64,7 @@ fn leads(result: &StudyResult) -> Vec<usize> {
 /// Tabulates the effect of each factor on all outputs.
 pub(super) fn factors(result: &StudyResult) -> Table {
     let (leads, names) = (leads(result), result.indexed_names());
-    let together = result.aggregate.as_ref().and_then(|aggregate| aggregate.indices.as_deref()).unwrap_or_default();
-    let all = |factor: usize| together.iter().find(|index| index.factor == names[factor]);
+    let all = |factor: usize| together(result).iter().find(|index| index.factor == names[factor]);
     let totals = |&factor: &usize| {
         let total = |output: &'_ OutputResult| Some(output.indices.as_ref()?.get(factor)?.effect.total);
         let mut totals: Vec<_> =
@@ -140,7 +139,6 @@ pub(super) fn answers(result: &StudyResult) -> Vec<String> {
         true => format!("No factor is sure to matter most for any of {all} outputs."),
         false => format!("Matters most of {all} outputs, by the total index S_T: {}.", listed(&counted)),
     }];
-    let together = result.aggregate.as_ref().and_then(|aggregate| aggregate.indices.as_deref());
-    answers.extend(together.and_then(|indices| leader_of_all(indices, "For all outputs together")));
+    answers.extend(leader_of_all(together(result), "For all outputs together"));
     answers
 }

@@ -2,7 +2,7 @@
 
 use apportion::result::{AggregateRecord, OutputResult, SeriesRecord, StudyResult};
 
-use super::figures::{Figures, SERIES_SUFFIXES};
+use super::figures::Figures;
 use super::overview;
 use super::shared::definitions;
 use crate::document::{Part, Section, Table};
@@ -76,43 +76,38 @@ fn with_outputs(result: &StudyResult, outputs: Vec<OutputResult>, aggregate: Opt
     }
 }
 
-/// Builds the sections of all series of `result`, and returns the number of their figures.
-pub(super) fn sections(result: &StudyResult, stems: &[[String; SERIES_SUFFIXES.len()]]) -> (Vec<Section>, usize) {
-    let (mut sections, mut figures) = (Vec::new(), 0);
-    for (number, series) in result.series.iter().enumerate() {
+/// Builds the sections of all series of `result`.
+pub(super) fn sections(result: &StudyResult, stems: &[String]) -> Vec<Section> {
+    let section = |(place, (series, stem)): (usize, (&SeriesRecord, &String))| {
         let of = SeriesOf { result, series };
-        let alone = values_alone(of);
-        let mut drawn = Figures::of_series(&alone, number + 1, figures);
-        let parts = match number {
-            ..IN_FULL => in_full(of, &mut drawn, &stems[number], number == 0),
+        let (alone, number) = (values_alone(of), place + 1);
+        let parts = match place {
+            ..IN_FULL => {
+                let figures = Figures { result: &alone, stems: &[], series: Some(number), is_only: false };
+                in_full(of, figures, stem, place == 0)
+            }
             _ => vec![overview::factors(&alone).into()],
         };
-        figures = drawn.count();
         let title = format!("{} along {}", heading(&series.name, &series.unit), name(&series.axis));
-        sections.push(Section::new(&format!("series-{}", number + 1), &title, parts));
-    }
-    (sections, figures)
+        Section::new(&format!("series-{number}"), &title, parts)
+    };
+    result.series.iter().zip(stems).enumerate().map(section).collect()
 }
 
-fn in_full(
-    of: SeriesOf<'_>,
-    figures: &mut Figures<'_>,
-    [along, together]: &[String; SERIES_SUFFIXES.len()],
-    is_first: bool,
-) -> Vec<Part> {
+fn in_full(of: SeriesOf<'_>, figures: Figures<'_>, stem: &str, is_first: bool) -> Vec<Part> {
     let (alone, study) = (figures.result, &of.result.study.name);
     let mut parts = overview::mind(alone);
     if is_first {
         parts.extend(definitions(of.result));
         parts.push(Part::Text(format!("The indices of every value are in `{study}.csv`, all else in `{study}.json`.")));
     }
-    parts.push(figures.add(along_chart(of), "along", along));
+    parts.push(figures.of_all(along_chart(of), "along", &format!("{stem}-along")));
     parts.push(Part::Heading("As a whole".to_owned()));
     let reason = of.series.reason.as_ref();
     parts.extend(reason.map(|reason| Part::no_indices(format!("There are no indices of the whole series: {reason}."))));
     let mut chart = together_chart(alone);
-    chart.set_title(chart.title().replace("all outputs together", &format!("{} as a whole", name(&of.series.name))));
-    parts.push(figures.add(chart, "together", together));
+    chart.title = chart.title.replace("all outputs together", &format!("{} as a whole", name(&of.series.name)));
+    parts.push(figures.of_all(chart, "together", &format!("{stem}-together")));
     let caption = "Indices of the whole series, the number of its values for which a factor surely matters most, and the median and \
                    largest of its total indices.";
     parts.push(Table { caption: caption.to_owned(), ..overview::factors(alone) }.into());

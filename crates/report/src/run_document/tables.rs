@@ -1,12 +1,12 @@
 //! The tables of one output, and the CSV files, which hold more.
 
 use apportion::model::MIN_OUTPUTS_TOGETHER;
-use apportion::result::{AggregateRecord, OtherIndexRecord, OutputResult, PairRecord, PlainIndexRecord, StudyResult};
+use apportion::result::{OtherIndexRecord, OutputResult, PairRecord, PlainIndexRecord, StudyResult};
 use apportion::uncertainty::{EffectEstimates, Estimate, Interval};
 
 use crate::document::{Cell, Part, Rows, Table, csv};
 use crate::format::{chance, name};
-use crate::leading::{by_total, surely_interact};
+use crate::leading::{by_total, falling, surely_interact};
 
 /// Maximum number of factors in a table; the files have all of them.
 pub(crate) const FACTORS: usize = 50;
@@ -40,11 +40,7 @@ impl<'a> Line<'a> {
         Self { kind: "aggregate", label, name: factor.clone(), first_order, total, effect: None }
     }
 
-    fn estimate(&self, of: fn(&EffectEstimates) -> Option<Estimate>) -> Option<Estimate> {
-        self.effect.and_then(of)
-    }
-
-    fn probability(&self, of: fn(&EffectEstimates) -> Option<f64>) -> Option<f64> {
+    fn get<T>(&self, of: fn(&EffectEstimates) -> Option<T>) -> Option<T> {
         self.effect.and_then(of)
     }
 }
@@ -77,31 +73,29 @@ fn effects<'a>(
             total => Cell::from(total),
         })
         .estimate("total", |line| Some(line.total))
-        .file_estimate("share_first_order", |line| line.estimate(EffectEstimates::first_order_percent))
-        .file_estimate("share_total", |line| line.estimate(EffectEstimates::total_percent))
-        .index("S_T − S_1", "interaction", |line| line.estimate(|effect| effect.interaction))
+        .file_estimate("share_first_order", |line| line.get(EffectEstimates::first_order_percent))
+        .file_estimate("share_total", |line| line.get(EffectEstimates::total_percent))
+        .index("S_T − S_1", "interaction", |line| line.get(|effect| effect.interaction))
         .shown(is_independent)
-        .number("P(largest)", |line| chance(line.probability(|effect| effect.probability_first)))
-        .value("probability_first", |line| line.probability(|effect| effect.probability_first))
+        .number("P(largest)", |line| chance(line.get(|effect| effect.probability_first)))
+        .value("probability_first", |line| line.get(|effect| effect.probability_first))
         .shown(is_independent)
         .number(format!("P(S_T > {})", result.provenance.threshold), |line| {
-            chance(line.probability(|effect| effect.probability_above_threshold))
+            chance(line.get(|effect| effect.probability_above_threshold))
         })
-        .value("probability_above_threshold", |line| line.probability(|effect| effect.probability_above_threshold))
+        .value("probability_above_threshold", |line| line.get(|effect| effect.probability_above_threshold))
         .shown(is_independent);
     if is_dependent {
         rows = rows
             .index("S_1 given the others", "independent_first_order", |line| {
-                line.estimate(|effect| Some(effect.dependent?.independent_first_order))
+                line.get(|effect| Some(effect.dependent?.independent_first_order))
             })
             .shown(is_of_one)
-            .index("S_T with the others", "full_total", |line| {
-                line.estimate(|effect| Some(effect.dependent?.full_total))
-            })
+            .index("S_T with the others", "full_total", |line| line.get(|effect| Some(effect.dependent?.full_total)))
             .shown(is_of_one);
     }
     if index.is_some_and(|index| index.effect.shapley.is_some()) {
-        rows = rows.index("Shapley effect", "shapley", |line| line.estimate(|effect| effect.shapley)).shown(is_of_one);
+        rows = rows.index("Shapley effect", "shapley", |line| line.get(|effect| effect.shapley)).shown(is_of_one);
     }
     rows
 }
@@ -138,12 +132,10 @@ pub(super) fn indices_csv(result: &StudyResult) -> String {
     let first = outputs().flat_map(|output| indices(result, output).into_iter().chain(groups(result, output)));
     let then = outputs().filter_map(|output| subsets(result, output));
     let aggregate = result.aggregate.iter().filter_map(|record| Some((record, record.indices.as_ref()?)));
-    let aggregate = aggregate.map(|(record, indices)| aggregate_of(result, record, indices));
+    let aggregate =
+        aggregate.map(|(record, indices)| aggregate_of(result, &record.outputs, indices, record.noise.as_ref()));
     let series = result.series.iter().filter_map(|series| {
-        let indices = series.indices.as_ref()?;
-        let (outputs, weighting) = (vec![series.name.clone()], String::new());
-        let record = AggregateRecord { outputs, weighting, indices: None, noise: None, reason: None };
-        Some(aggregate_of(result, &record, indices))
+        Some(aggregate_of(result, std::slice::from_ref(&series.name), series.indices.as_ref()?, None))
     });
     let header = std::iter::once(effects(result, "", "", "", &[]).into());
     csv(header.chain(first).chain(then).chain(aggregate).chain(series))
@@ -191,8 +183,7 @@ fn joint(result: &StudyResult, output: &OutputResult, caption: &str, lines: Vec<
 /// Tabulates the largest second-order indices.
 pub(super) fn pairs(output: &OutputResult) -> Option<Table> {
     let pairs = output.second_order.as_ref().filter(|pairs| !pairs.is_empty())?;
-    let mut order: Vec<usize> = (0..pairs.len()).collect();
-    order.sort_by(|&a, &b| pairs[b].index.estimate.total_cmp(&pairs[a].index.estimate));
+    let order = falling(&pairs.iter().map(|pair| pair.index.estimate).collect::<Vec<_>>());
     let rows = pairs_table(&output.name, pairs.iter().zip(surely_interact(pairs)).collect());
     Some(rows.largest(order, PAIRS, "pairs, all in the CSV file").into())
 }
@@ -239,16 +230,20 @@ pub(super) fn estimators(output: &OutputResult) -> Vec<Part> {
 }
 
 /// Tabulates indices over all outputs together.
-pub(super) fn aggregate_of(result: &StudyResult, record: &AggregateRecord, indices: &[PlainIndexRecord]) -> Table {
+pub(super) fn aggregate_of(
+    result: &StudyResult,
+    outputs: &[String],
+    indices: &[PlainIndexRecord],
+    noise: Option<&PlainIndexRecord>,
+) -> Table {
     // The noise is one more line.
-    let noise = record.noise.iter().map(|noise| Line::plain(of_noise(&noise.factor), noise));
+    let noise = noise.into_iter().map(|noise| Line::plain(of_noise(&noise.factor), noise));
     let lines: Vec<Line<'_>> =
         indices.iter().map(|index| Line::plain(name(&index.factor), index)).chain(noise).collect();
-    let mut order: Vec<usize> = (0..lines.len()).collect();
-    order.sort_by(|&a, &b| lines[b].total.estimate.total_cmp(&lines[a].total.estimate));
+    let order = falling(&lines.iter().map(|line| line.total.estimate).collect::<Vec<_>>());
     // The names of hundreds of outputs, in every line, would be most of the file.
-    let outputs = match record.outputs.len() {
-        ..MIN_OUTPUTS_TOGETHER => record.outputs.join(" + "),
+    let outputs = match outputs.len() {
+        ..MIN_OUTPUTS_TOGETHER => outputs.join(" + "),
         all if all == result.outputs.len() => "all outputs".to_owned(),
         _ => "all outputs that are not series".to_owned(),
     };

@@ -5,7 +5,7 @@ use apportion::uncertainty::{Estimate, Interval, NamedTerm};
 
 use super::tables::FACTORS_OF_ESTIMATORS;
 use crate::document::{Part, Table};
-use crate::format::{among_with_unit, axis_unit, grouped, index, minus, name, significant, value};
+use crate::format::{among_with_unit, grouped, index_with_unit, minus, name, printed, significant, value};
 use crate::leading::by_total;
 
 /// Quantiles in the table, in percent; the JSON file has more.
@@ -59,11 +59,10 @@ pub(super) fn sd(output: &OutputResult) -> Option<String> {
 }
 
 fn of_unit(estimate: f64, interval: Option<Interval>, unit: &str) -> String {
-    let number = match interval {
-        Some(i) if (i.low..=i.high).contains(&estimate) => index(Estimate { estimate, interval }),
-        _ => value(estimate, ""),
-    };
-    format!("{number} {}", axis_unit(unit)).trim_end().to_owned()
+    match interval {
+        Some(i) if (i.low..=i.high).contains(&estimate) => index_with_unit(Estimate { estimate, interval }, unit),
+        _ => value(estimate, unit),
+    }
 }
 
 /// Describes the leading terms of the surrogates, and compares the plain indices with the corrected ones.
@@ -79,7 +78,7 @@ pub(super) fn surrogate(output: &OutputResult, record: &SurrogateRecord) -> Vec<
     let caption = "The terms with most of the variance, by the degree in each factor (steps and kinks count too).";
     let terms = Table::from_rows(caption, terms)
         .text("term", label)
-        .number("of the variance", |term| format!("{} %", significant(rounded(term.share))));
+        .number("of the variance", |term| format!("{} %", printed(term.share)));
     let mut parts = vec![terms.into()];
     if let Some(order) = by_total(output) {
         let plain = |number: usize| record.plain.get(number);
@@ -92,9 +91,4 @@ pub(super) fn surrogate(output: &OutputResult, record: &SurrogateRecord) -> Vec<
         parts.push(table.first(FACTORS_OF_ESTIMATORS, "factors").into());
     }
     parts
-}
-
-/// Rounds to three significant digits.
-fn rounded(value: f64) -> f64 {
-    format!("{value:.2e}").parse().unwrap_or(value)
 }

@@ -2,23 +2,17 @@
 
 use apportion::result::{OutputResult, Warning};
 
+use crate::document::grouped_by_key;
 use crate::leading::of_which;
 
 /// Returns the warnings, a sentence for each kind in the order of first occurrence: the first warning of a kind, its
 /// outputs if there are several in all, and the number of further ones of the kind in the file.
 pub(super) fn grouped_warnings(outputs: &[OutputResult]) -> Vec<String> {
-    type Group<'a> = (&'a str, Vec<(usize, &'a Warning)>);
-    let mut groups: Vec<Group<'_>> = Vec::new();
-    for (place, output) in outputs.iter().enumerate() {
-        for warning in output.warnings.iter() {
-            match groups.iter_mut().find(|(known, _)| *known == warning.code()) {
-                Some((_, all)) => all.push((place, warning)),
-                None => groups.push((warning.code(), vec![(place, warning)])),
-            }
-        }
-    }
+    let places = outputs.iter().enumerate();
+    let warnings = places.flat_map(|(place, output)| output.warnings.iter().map(move |warning| (place, warning)));
+    let groups = grouped_by_key(warnings.map(|(place, warning)| (warning.code(), (place, warning))));
     let names: Vec<&str> = outputs.iter().map(|output| output.name.as_str()).collect();
-    let sentence = |(_, all): &Group<'_>| {
+    let sentence = |(_, all): &(&str, Vec<(usize, &Warning)>)| {
         let mut text = all[0].1.to_string();
         let mut places: Vec<usize> = all.iter().map(|(place, _)| *place).collect();
         places.dedup();

@@ -1,11 +1,10 @@
 //! The charts of a screening: mu* against sigma, and mu* with its intervals.
 
 use apportion::screening::{FIXABLE, Reading, ScreenedFactor, ScreenedOutput};
-use apportion::uncertainty::Estimate;
 
 use super::super::chart::{Axis, Bar, Chart, Colour, Panel, Point, Series, Shape, Stroke};
 use super::super::factor_bars::{MAX_BARS, not_drawn};
-use super::super::format::{axis_unit, index, name, words};
+use super::super::format::{axis_unit, index_with_unit, name, words};
 use super::super::leading::{self, Contender};
 use super::ScreeningFile;
 
@@ -73,7 +72,7 @@ pub(super) fn bars(file: &ScreeningFile, output: &ScreenedOutput) -> Chart {
         own.filter_map(move |(row, factor)| {
             let mu_star = factor.mu_star?;
             let fixed = if factor.could_be_fixed == Some(true) { ", could be fixed" } else { "" };
-            let label = of_unit(mu_star, &output.unit) + fixed;
+            let label = index_with_unit(mu_star, &output.unit) + fixed;
             let (to, interval, said) = (mu_star.estimate, mu_star.interval.map(|i| (i.low, i.high)), label.clone());
             let bar = Bar { row, to, interval, label, said, ..Bar::default() };
             // A bar of zero length would still add a colour to the legend.
@@ -92,11 +91,6 @@ pub(super) fn bars(file: &ScreeningFile, output: &ScreenedOutput) -> Chart {
     let rows = Axis::from_names("", output.factors.iter().map(|factor| words(&factor.factor)).collect());
     let keys: Vec<f64> = output.factors.iter().map(|factor| -(factor.rank as f64)).collect();
     Chart::new(title(file, output), caption).panels([Panel::new(x, rows).with(bars).ranked(&keys, MAX_BARS)])
-}
-
-/// Formats an effect with its error and unit.
-fn of_unit(effect: Estimate, unit: &str) -> String {
-    format!("{} {}", index(effect), axis_unit(unit)).trim_end().to_owned()
 }
 
 /// Says which factor matters most.

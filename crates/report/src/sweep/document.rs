@@ -8,7 +8,7 @@ use super::charts::figures;
 use super::record::{value_in_words, width};
 use super::{SweepFile, gap_lines};
 use crate::document::{Document, Mark, OutputReport, Part, Report, Section, Table, Value};
-use crate::format::{axis_unit, grouped, name, or_dash, short, short_with_unit, value};
+use crate::format::{grouped, heading, name, or_dash, short, short_with_unit, value};
 
 /// Builds the document of sweeps.
 pub fn sweep_document(file: &SweepFile) -> Document {
@@ -87,10 +87,7 @@ fn at_nominal(nominal: &NominalOutput) -> String {
 
 /// Tabulates how far each factor changes an output, the widest first.
 fn effects(file: &SweepFile, nominal: &NominalOutput, number: usize) -> Part {
-    let in_unit = |what: &str| match axis_unit(&nominal.unit).as_str() {
-        "" => what.to_owned(),
-        unit => format!("{what} ({unit})"),
-    };
+    let in_unit = |what: &str| heading(what, &nominal.unit);
     let caption = format!(
         "Effect of each factor alone on {}, with all others nominal, the widest range first.",
         name(&nominal.output)

@@ -22,6 +22,7 @@ fn invalid_settings_are_refused_by_name() {
         Distribution::log_normal_of_logs(0.0, 30.0),
         Distribution::triangular(0.0, 1.5, 1.0),
         Distribution::triangular(0.0, 0.0, 0.0),
+        Distribution::pert(0.0, 1.5, 1.0),
         Distribution::weibull(0.0, 1.0, 0.0),
         Distribution::weibull(0.005, 1.0, 0.0),
         Distribution::weibull(1.0, 1.0, -infinite),

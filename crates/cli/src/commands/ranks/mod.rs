@@ -5,19 +5,15 @@ pub mod mpi;
 
 use std::path::Path;
 
-use anyhow::anyhow;
+use crate::failure::{Silent, bad_input};
 use apportion::RemoteWorkers;
 use apportion::study::Study;
 
-use super::Failure;
-
 /// The other ranks of the job, as rank 0 sees them.
 pub trait Ranks: RemoteWorkers {
-    /// How many there are, rank 0 included.
-    fn count_all(&self) -> usize;
-
-    /// Lets the other ranks work for the run of `study`, whose file is at `path`, each with so many workers.
-    fn begin(&self, study: &Study, path: &Path, threads: usize);
+    /// Lets the other ranks work for the run of `study`, whose file is at `path`, each with so many workers; returns how
+    /// many ranks there are, rank 0 included.
+    fn begin(&self, study: &Study, path: &Path, threads: usize) -> usize;
 }
 
 /// Set to `off`, this lets every process of a job be a program by itself.
@@ -44,15 +40,15 @@ pub fn job() -> Option<(usize, usize)> {
 /// Refuses to run a study once on every rank, all at the same files.
 ///
 /// # Errors
-/// [`Failure::Silent`] on all ranks but the first, which has said why.
-pub fn refuse_copies() -> Result<(), Failure> {
+/// [`Silent`] on all ranks but the first, which has said why.
+pub fn refuse_copies() -> anyhow::Result<()> {
     match job().filter(|_| cfg!(not(feature = "mpi"))) {
         None => Ok(()),
-        Some((size, 0)) => Err(Failure::Input(anyhow!(
+        Some((size, 0)) => Err(bad_input(format!(
             "started as {size} ranks of an MPI job, but this program was built without MPI: every rank would run the whole study \
              and write the same files. Build it with `cargo install --path . --features mpi` (needs an MPI library and \
              libclang), or divide the run with `--shard I/N`. ({SWITCH}=off lets every rank run the whole study)"
         ))),
-        Some(_) => Err(Failure::Silent),
+        Some(_) => Err(Silent.into()),
     }
 }

@@ -23,7 +23,7 @@ use apportion::{RemoteWorkers, Requests, RunContext, WorkerStudy};
 use serde::{Deserialize, Serialize};
 
 use super::Ranks;
-use crate::commands::{Failure, exit_code, say, stop};
+use crate::commands::{exit_code, say, stop};
 
 /// Times between two looks at messages: after one, and when nothing has come for long.
 const SHORT: Duration = Duration::from_micros(20);
@@ -53,15 +53,14 @@ struct Setup {
 pub fn main(size: usize, command: impl FnOnce(&dyn Ranks) -> ExitCode + Send) -> ExitCode {
     let joined = ::mpi::initialize_with_threading(::mpi::Threading::Funneled);
     let Some((universe, _)) = joined else {
-        return exit_code(Err(Failure::Run(anyhow!("MPI is initialised already"))));
+        return exit_code(Err(anyhow!("MPI is initialised already")));
     };
     let world = universe.world();
     if world.size() as usize != size {
-        let found = world.size();
-        let why = format!(
-            "started as one of {size} ranks, but its MPI finds {found}: mpirun and the program use different MPI libraries"
-        );
-        return exit_code(Err(Failure::Run(anyhow!(why))));
+        return exit_code(Err(anyhow!(
+            "started as one of {size} ranks, but its MPI finds {}: mpirun and the program use different MPI libraries",
+            world.size()
+        )));
     }
     if world.rank() == 0 { lead(&world, command) } else { work(&world) }
 }
@@ -74,10 +73,8 @@ enum Letter {
         threads: usize,
         inboxes: Vec<Sender<Vec<u8>>>,
     },
-    Request {
-        worker: usize,
-        bytes: Vec<u8>,
-    },
+    /// Bytes for a worker.
+    Request(usize, Vec<u8>),
     Stop,
 }
 
@@ -99,7 +96,7 @@ impl RemoteWorkers for Others {
     }
 
     fn send(&self, worker: usize, bytes: Vec<u8>) -> io::Result<()> {
-        self.letters.send(Letter::Request { worker, bytes }).map_err(|_| lost())
+        self.letters.send(Letter::Request(worker, bytes)).map_err(|_| lost())
     }
 
     fn receive(&self, worker: usize, patience: Duration) -> io::Result<Option<Vec<u8>>> {
@@ -120,11 +117,7 @@ impl RemoteWorkers for Others {
 }
 
 impl Ranks for Others {
-    fn count_all(&self) -> usize {
-        self.size
-    }
-
-    fn begin(&self, study: &Study, path: &Path, threads: usize) {
+    fn begin(&self, study: &Study, path: &Path, threads: usize) -> usize {
         let setup = Setup {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             source: study.source().to_owned(),
@@ -138,6 +131,7 @@ impl Ranks for Others {
         if self.answers.set(answers.into_iter().map(Mutex::new).collect()).is_ok() {
             let _ = self.letters.send(Letter::Begin { setup, threads, inboxes });
         }
+        self.size
     }
 }
 
@@ -161,7 +155,7 @@ fn lead(world: &SimpleCommunicator, command: impl FnOnce(&dyn Ranks) -> ExitCode
 /// Sends letters, and passes answers on, until there are no more letters.
 fn carry(world: &SimpleCommunicator, outbox: &Receiver<Letter>) {
     let (mut pause, mut inboxes, mut per_rank) = (SHORT, Vec::new(), 1);
-    let mut counted = Counted::default();
+    let (mut messages, mut bytes_in_all) = (0_u64, 0);
     loop {
         match outbox.recv_timeout(pause) {
             Ok(letter) => {
@@ -172,8 +166,8 @@ fn carry(world: &SimpleCommunicator, outbox: &Receiver<Letter>) {
                         broadcast(world, &mut [setup.len() as u64][..]);
                         broadcast(world, &mut setup.clone()[..]);
                     }
-                    Letter::Request { worker, bytes } => {
-                        counted.add(&bytes);
+                    Letter::Request(worker, bytes) => {
+                        (messages, bytes_in_all) = (messages + 1, bytes_in_all + bytes.len());
                         let rank = (1 + worker / per_rank) as i32;
                         world.process_at_rank(rank).send_with_tag(&bytes[..], (worker % per_rank) as Tag);
                     }
@@ -185,7 +179,7 @@ fn carry(world: &SimpleCommunicator, outbox: &Receiver<Letter>) {
         }
         while let Some(found) = world.any_process().immediate_matched_probe() {
             let (bytes, status) = found.matched_receive_vec::<u8>();
-            counted.add(&bytes);
+            (messages, bytes_in_all) = (messages + 1, bytes_in_all + bytes.len());
             let worker = (status.source_rank() as usize - 1) * per_rank + status.tag() as usize;
             // A run that has ended receives no more messages.
             let _ = inboxes.get(worker).map(|inbox: &Sender<Vec<u8>>| inbox.send(bytes));
@@ -197,26 +191,9 @@ fn carry(world: &SimpleCommunicator, outbox: &Receiver<Letter>) {
     } else {
         tell_all(world, END);
     }
-    counted.say();
-}
-
-/// Messages between ranks, for those who ask: `APPORTION_MPI=count`.
-#[derive(Default)]
-struct Counted {
-    messages: u64,
-    bytes: u64,
-}
-
-impl Counted {
-    fn add(&mut self, bytes: &[u8]) {
-        self.messages += 1;
-        self.bytes += bytes.len() as u64;
-    }
-
-    fn say(&self) {
-        if std::env::var(super::SWITCH).is_ok_and(|switch| switch == "count") {
-            say(&format!("note: {} messages of {} bytes in all between the ranks", self.messages, self.bytes));
-        }
+    // For those who ask.
+    if std::env::var(super::SWITCH).is_ok_and(|switch| switch == "count") {
+        say(&format!("note: {messages} messages of {bytes_in_all} bytes in all between the ranks"));
     }
 }
 

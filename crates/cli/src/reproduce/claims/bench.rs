@@ -1,4 +1,4 @@
-//! The basis of the checks: the physics, the nominal scene, and the box of the papers' general study.
+//! The basis of the checks: the physics, the nominal scene, the box of the papers' general study, and the shape of curves.
 
 use apportion::design::SobolSequence;
 use apportion::space::Space;
@@ -8,11 +8,9 @@ use apportion_afm::history::{History, history};
 use apportion_afm::modes::Pushing;
 use apportion_afm::{Critical, Failure, Fidelity, FrictionLaw, Options, Parameter, Scene, critical_force, edge_unit};
 
-use super::curve::{Curve, grid};
-use super::judge::{Holding, Share};
-use super::numbers::number;
+use super::judge::{Holding, Share, number};
 use crate::reproduce::papers::Words;
-use crate::reproduce::{Effort, Friction, ReproduceError, Reproduced, general_study};
+use crate::reproduce::{Effort, Friction, Reproduced, general_study};
 
 /// Seed of every sample of the box.
 const SEED: u64 = 5;
@@ -24,6 +22,9 @@ const REPLICATES: u64 = 8;
 pub(super) type ForceOf<'a> = &'a dyn Fn(&Scene, &Options) -> Result<Critical, Failure>;
 /// A function for a scene in time, such as [`history`].
 pub(super) type HistoryOf<'a> = &'a dyn Fn(&Scene, &Options, f64) -> Result<History, Failure>;
+
+/// A function for a number of a scene, or for whether a rule holds there.
+pub(super) type OfScene<'a, T> = &'a dyn Fn(&Scene) -> Result<T, Failure>;
 
 /// The physics of the checks: ours, or a modified one in a test.
 #[derive(Clone, Copy)]
@@ -86,15 +87,6 @@ impl Sweep {
     }
 }
 
-/// The factors that vary over their ranges; the others are at their nominal values.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Region {
-    /// All eight.
-    General,
-    /// Those of this group of the general study.
-    Group(&'static str),
-}
-
 /// The data for the checks of all claims.
 pub(super) struct Bench<'a> {
     pub physics: Physics<'a>,
@@ -107,12 +99,10 @@ pub(super) struct Bench<'a> {
 
 impl<'a> Bench<'a> {
     /// Creates a bench with the ranges of the general study.
-    pub fn new(physics: Physics<'a>, effort: Effort, studies: &'a [Reproduced]) -> Result<Self, ReproduceError> {
-        let study = general_study()?;
-        let parameters = study.space().factors().iter().map(|factor| Parameter::from_name(&factor.name)).collect();
-        let parameters: Option<Vec<_>> = parameters;
-        let parameters = parameters.ok_or(ReproduceError::NoRanges)?;
-        Ok(Self { physics, sizes: Sizes::new(effort), studies, space: study.space().clone(), parameters })
+    pub fn new(physics: Physics<'a>, effort: Effort, studies: &'a [Reproduced]) -> Self {
+        let space = general_study().space().clone();
+        let parameters = space.factors().iter().map(|factor| parameter(&factor.name)).collect();
+        Self { physics, sizes: Sizes::new(effort), studies, space, parameters }
     }
 
     /// Returns F_cr (N).
@@ -121,12 +111,11 @@ impl<'a> Bench<'a> {
     }
 
     /// Returns a sweep of a factor over its range in the general study.
-    pub fn over(&self, name: &str) -> Result<Sweep, ReproduceError> {
-        let mut factors = self.space.factors().iter().zip(&self.parameters);
-        let (factor, parameter) = factors.find(|(factor, _)| factor.name == name).ok_or(ReproduceError::NoRanges)?;
+    pub fn over(&self, name: &str) -> Sweep {
+        let factor = self.space.factors().iter().find(|factor| factor.name == name).expect("a factor of the study");
         let (low, high) = factor.distribution().support();
         let range = (factor.unit().to_si(low), factor.unit().to_si(high));
-        Ok(Sweep { parameter, range, count: self.sizes.curve })
+        Sweep { parameter: parameter(name), range, count: self.sizes.curve }
     }
 
     /// Returns F_cr along a sweep of one constant of `scene`.
@@ -135,35 +124,23 @@ impl<'a> Bench<'a> {
     }
 
     /// Returns any quantity along a sweep of one constant of `scene`.
-    pub fn curve_of(
-        &self,
-        sweep: &Sweep,
-        scene: &Scene,
-        quantity: &dyn Fn(&Scene) -> Result<f64, Failure>,
-    ) -> Result<Curve, Failure> {
-        let x = grid(sweep.range, sweep.count);
-        let mut scene = *scene;
-        let mut y = Vec::with_capacity(x.len());
-        for &value in &x {
+    pub fn curve_of(&self, sweep: &Sweep, scene: &Scene, quantity: OfScene<'_, f64>) -> Result<Curve, Failure> {
+        let (x, mut scene) = (grid(sweep.range, sweep.count), *scene);
+        let y = x.iter().map(|&value| {
             (sweep.parameter.set)(&mut scene, value);
-            y.push(quantity(&scene)?);
-        }
-        Ok(Curve { x, y })
+            quantity(&scene)
+        });
+        Ok(Curve { y: y.collect::<Result<_, _>>()?, x })
     }
 
     /// Returns the share of `count` points of a box where `rule` holds: Sobol' points, in independent scrambles for the
-    /// interval.
-    pub fn share(
-        &self,
-        which: Region,
-        count: u64,
-        rule: &dyn Fn(&Scene) -> Result<bool, Failure>,
-    ) -> Result<Share, Failure> {
+    /// interval. The factors of `group` vary, or all; the others are at their nominal values.
+    pub fn share(&self, group: Option<&str>, count: u64, rule: OfScene<'_, bool>) -> Result<Share, Failure> {
         let each = (count / REPLICATES).max(1);
         let mut shares = Vec::new();
         for replicate in 0..REPLICATES {
             let mut held = 0_u64;
-            for scene in self.scenes(which, replicate, each) {
+            for scene in self.scenes(group, replicate, each) {
                 held += u64::from(rule(&scene)?);
             }
             shares.push(held as f64 / each as f64);
@@ -174,18 +151,13 @@ impl<'a> Bench<'a> {
         let error = (spread / (replicates * (replicates - 1.0))).sqrt();
         let interval = t_interval(value, StandardError { error, freedom: replicates - 1.0 });
         let interval = interval.map(|i| Interval { low: i.low.max(0.0), high: i.high.min(1.0) });
-        Ok(Share { value, interval, points: each * REPLICATES })
+        Ok(Share { value, interval })
     }
 
     /// Returns whether `rule` holds at the nominal scene, and on what share of the general box.
-    pub fn holding(
-        &self,
-        what: impl Into<String>,
-        count: u64,
-        rule: &dyn Fn(&Scene) -> Result<bool, Failure>,
-    ) -> Result<Holding, Failure> {
+    pub fn holding(&self, what: &str, count: u64, rule: OfScene<'_, bool>) -> Result<Holding, Failure> {
         let nominal = rule(&Scene::default())?;
-        Ok(Holding { what: what.into(), nominal, share: self.share(Region::General, count, rule)? })
+        Ok(Holding { what: what.to_owned(), nominal, share: self.share(None, count, rule)? })
     }
 
     /// Returns the same under each of these friction laws, with its name after `label`.
@@ -197,19 +169,17 @@ impl<'a> Bench<'a> {
         rule: impl Fn(FrictionLaw, &Scene) -> Result<bool, Failure>,
     ) -> Result<Vec<Holding>, Failure> {
         let under = |&Friction { law, name, .. }: &Friction| {
-            self.holding(format!("{label}{name}"), count(law), &|scene| rule(law, scene))
+            self.holding(&format!("{label}{name}"), count(law), &|scene| rule(law, scene))
         };
         frictions.iter().map(under).collect()
     }
 
-    fn scenes(&self, which: Region, replicate: u64, count: u64) -> Vec<Scene> {
+    fn scenes(&self, group: Option<&str>, replicate: u64, count: u64) -> Vec<Scene> {
         let mut scenes = vec![Scene::default(); count as usize];
         let sequence = SobolSequence::scrambled(self.parameters.len(), SEED, replicate);
         let (mut u, mut si) = (vec![0.0; scenes.len()], vec![0.0; scenes.len()]);
         for (place, (factor, parameter)) in self.space.factors().iter().zip(&self.parameters).enumerate() {
-            if let Region::Group(group) = which
-                && factor.group.as_deref() != Some(group)
-            {
+            if group.is_some() && factor.group.as_deref() != group {
                 continue;
             }
             sequence.fill(place, 0, &mut u);
@@ -218,6 +188,11 @@ impl<'a> Bench<'a> {
         }
         scenes
     }
+}
+
+/// Returns a parameter of the nanoparticle model.
+pub(super) fn parameter(name: &str) -> &'static Parameter {
+    Parameter::from_name(name).expect("a parameter of the model")
 }
 
 /// Options of the closed formulas under `friction`, otherwise as in the papers and in the nine studies.
@@ -233,4 +208,101 @@ pub(super) fn exact(friction: FrictionLaw) -> Options {
 /// Options of the equations of motion, to 1e-6 of the force.
 pub(super) fn in_motion(friction: FrictionLaw) -> Options {
     Options { friction, fidelity: Fidelity::Dynamic, ..Options::default() }
+}
+
+/// A quantity over a rising grid.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Curve {
+    pub x: Vec<f64>,
+    pub y: Vec<f64>,
+}
+
+/// Returns `count` evenly spaced values from `low` to `high`, both included.
+pub(super) fn grid((low, high): (f64, f64), count: usize) -> Vec<f64> {
+    let last = (count - 1) as f64;
+    (0..count).map(|i| low + (high - low) * (i as f64 / last)).collect()
+}
+
+impl Curve {
+    pub fn first(&self) -> f64 {
+        self.y[0]
+    }
+
+    pub fn last(&self) -> f64 {
+        self.y[self.y.len() - 1]
+    }
+
+    /// Returns whether every value is higher than the one before.
+    pub fn rises(&self) -> bool {
+        self.y.windows(2).all(|pair| pair[1] > pair[0])
+    }
+
+    /// Returns whether every value is lower than the one before.
+    pub fn falls(&self) -> bool {
+        self.y.windows(2).all(|pair| pair[1] < pair[0])
+    }
+
+    /// Returns the largest value minus the smallest, in units of the mean.
+    pub fn spread(&self) -> f64 {
+        let mean = sum::mean(&self.y);
+        self.extent() / mean.abs()
+    }
+
+    fn extent(&self) -> f64 {
+        let (low, high) = self.y.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &y| (l.min(y), h.max(y)));
+        high - low
+    }
+
+    /// Returns the largest increase of steepness from one step to the next, in units of the mean steepness; 0 if the
+    /// curve flattens everywhere.
+    pub fn steepens(&self) -> f64 {
+        let steps: Vec<f64> =
+            self.x.windows(2).zip(self.y.windows(2)).map(|(x, y)| ((y[1] - y[0]) / (x[1] - x[0])).abs()).collect();
+        let mean = ((self.last() - self.first()) / (self.x[self.x.len() - 1] - self.x[0])).abs();
+        steps.windows(2).fold(0.0, |most: f64, pair| most.max((pair[1] - pair[0]) / mean))
+    }
+
+    /// Returns the largest distance from the least-squares line, in units of the whole change, and R^2 of that line.
+    pub fn bend(&self) -> (f64, f64) {
+        let x = (&self.x[..], sum::mean(&self.x));
+        let y = (&self.y[..], sum::mean(&self.y));
+        let slope = sum::centred_product(x, y) / sum::centred_product(x, x);
+        let off: Vec<f64> = self.x.iter().zip(&self.y).map(|(x_i, y_i)| y_i - y.1 - slope * (x_i - x.1)).collect();
+        let rest = sum::centred_product((&off, 0.0), (&off, 0.0));
+        let farthest = off.iter().fold(0.0, |far: f64, off| far.max(off.abs()));
+        (farthest / self.extent(), 1.0 - rest / sum::centred_product(y, y))
+    }
+
+    /// Returns the mean elasticity, ln(y_n/y_0)/ln(x_n/x_0): the power of x that joins the ends.
+    pub fn elasticity(&self) -> f64 {
+        libm::log(self.last() / self.first()) / libm::log(self.x[self.x.len() - 1] / self.x[0])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn curve(range: (f64, f64), f: impl Fn(f64) -> f64) -> Curve {
+        let x = grid(range, 21);
+        Curve { y: x.iter().map(|&x| f(x)).collect(), x }
+    }
+
+    #[test]
+    fn shapes_are_distinguishable() {
+        let line = curve((1.0, 3.0), |x| 2.0 * x + 1.0);
+        assert!(line.rises() && !line.falls());
+        // Rounding alone bends a straight line.
+        assert!(line.bend().0 < 1e-14 && line.bend().1 > 1.0 - 1e-14 && line.steepens() < 1e-12);
+        let inverse = curve((1.0, 3.0), |x| 1.0 / (x * x));
+        assert!(inverse.falls() && inverse.steepens() == 0.0 && inverse.bend().0 > 0.05);
+        // x^3 has the elasticity 3 between any ends.
+        let cubic = curve((1.0, 3.0), |x| x * x * x);
+        assert!((cubic.elasticity() - 3.0).abs() < 1e-14 && cubic.steepens() > 0.1);
+        let flat = curve((0.0, 1.0), |x| 1.0 + 1e-6 * x);
+        assert!((flat.spread() - 1e-6).abs() < 1e-11);
+        let wave = curve((0.0, 6.0), libm::sin);
+        assert!(!wave.rises() && !wave.falls());
+        assert_eq!(grid((0.0, 1.0), 3), [0.0, 0.5, 1.0]);
+    }
 }

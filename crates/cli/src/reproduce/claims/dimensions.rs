@@ -2,11 +2,9 @@
 
 use apportion_afm::{Failure, FrictionLaw, Options, Scene};
 
-use super::bench::{Bench, Sizes, Sweep, closed, exact};
-use super::curve::Curve;
-use super::judge::Answer;
-use super::numbers::{change, nano, number};
-use crate::reproduce::{FRICTIONS, ReproduceError};
+use super::bench::{Bench, Curve, Sizes, Sweep, closed, exact};
+use super::judge::{Answer, change, nano, number};
+use crate::reproduce::FRICTIONS;
 
 /// Maximum increase of steepness of a flattening curve from one step to the next, as a share of the mean steepness: it
 /// would not be visible in a chart.
@@ -25,13 +23,8 @@ type OptionsOf = fn(FrictionLaw) -> Options;
 type CurveWords<'a> = &'a dyn Fn(&Curve) -> String;
 
 /// Checks a claim about the shape of the curves of the closed formulas along a factor, and describes the curves.
-fn shaped(
-    bench: &Bench<'_>,
-    factor: &str,
-    shape: fn(&Curve) -> bool,
-    words: CurveWords<'_>,
-) -> Result<Answer, ReproduceError> {
-    let sweep = bench.over(factor)?;
+fn shaped(bench: &Bench<'_>, factor: &str, shape: fn(&Curve) -> bool, words: CurveWords<'_>) -> anyhow::Result<Answer> {
+    let sweep = bench.over(factor);
     let rule = |law, scene: &Scene| Ok(shape(&bench.curve(&sweep, scene, &closed(law))?));
     let holdings = bench.holding_under(&FRICTIONS, "", |_| bench.sizes.points, rule)?;
     let words = [
@@ -88,7 +81,7 @@ pub(super) fn from_to(curve: &Curve) -> String {
 }
 
 /// Checks claim 8.
-pub(super) fn length(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
+pub(super) fn length(bench: &Bench<'_>) -> anyhow::Result<Answer> {
     shaped(bench, "length", |curve| curve.falls() && curve.steepens() <= STEEPENING, &from_to)
 }
 
@@ -98,7 +91,7 @@ pub(super) fn is_linear_rise(curve: &Curve) -> bool {
 }
 
 /// Checks claim 9.
-pub(super) fn width(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
+pub(super) fn width(bench: &Bench<'_>) -> anyhow::Result<Answer> {
     shaped(bench, "width", is_linear_rise, &straightness)
 }
 
@@ -110,18 +103,18 @@ pub(super) fn straightness(curve: &Curve) -> String {
 }
 
 /// Checks claim 10.
-pub(super) fn thickness(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
+pub(super) fn thickness(bench: &Bench<'_>) -> anyhow::Result<Answer> {
     let words = |curve: &Curve| format!("{}, as t^{}", from_to(curve), number(curve.elasticity(), ""));
     shaped(bench, "thickness", |curve| curve.rises() && curve.elasticity() > 1.0, &words)
 }
 
 /// Checks claim 11. The closed form does not contain the height, so only exact geometry can decide.
-pub(super) fn height(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
-    without_effect(bench, &Sweep { count: 4, ..bench.over("height")? }, exact)
+pub(super) fn height(bench: &Bench<'_>) -> anyhow::Result<Answer> {
+    without_effect(bench, &Sweep { count: 4, ..bench.over("height") }, exact)
 }
 
 /// Checks the claim that a sweep does not change F_cr.
-pub(super) fn without_effect(bench: &Bench<'_>, sweep: &Sweep, options: OptionsOf) -> Result<Answer, ReproduceError> {
+pub(super) fn without_effect(bench: &Bench<'_>, sweep: &Sweep, options: OptionsOf) -> anyhow::Result<Answer> {
     let rule = |law, scene: &Scene| Ok(bench.curve(sweep, scene, &options(law))?.spread() < NO_EFFECT);
     // Computations without a closed formula are slow, the ramps of LuGre friction most of all.
     let Sizes { slow_points, ramp_points, .. } = bench.sizes;

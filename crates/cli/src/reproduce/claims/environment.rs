@@ -1,4 +1,4 @@
-//! Claims about velocity, moduli and adhesion: 12 to 16.
+//! Claims about the friction model, velocity, moduli and adhesion: 7, 12 to 16.
 
 use apportion_afm::{Failure, Fidelity, FrictionLaw, LuGreParameters, Options, Scene};
 
@@ -6,9 +6,8 @@ use super::bench::{Bench, Sweep, closed, exact, in_motion};
 use super::dimensions::{
     NO_EFFECT, STRAIGHT, closed_setting, from_to, is_linear_rise, nominal_curves, straightness, without_effect,
 };
-use super::judge::Answer;
-use super::numbers::{change, nano};
-use crate::reproduce::{FRICTIONS, ReproduceError};
+use super::judge::{Answer, Holding, change, nano};
+use crate::reproduce::FRICTIONS;
 
 /// Velocity up to which CHK and LG see no effect (m/s).
 const SLOW: f64 = 600e-9;
@@ -21,9 +20,32 @@ const UNMOVED: f64 = 0.05;
 /// The viscous friction that brings LuGre friction to the percentages of LG fig. 4b (N s/m).
 const VISCOUS: f64 = 0.3;
 
+/// Checks claim 7: which friction model holds the particle less.
+pub(super) fn weaker_law(bench: &Bench<'_>) -> anyhow::Result<Answer> {
+    let (coulomb, hurtado_kim) = (closed(FrictionLaw::Coulomb), closed(FrictionLaw::HurtadoKim));
+    let below = |scene: &Scene| Ok(bench.force(scene, &hurtado_kim)? < bench.force(scene, &coulomb)?);
+    // All samples of a box share the scrambles, so that they differ only by their factors.
+    let points = bench.sizes.points;
+    let general = bench.share(None, points, &below)?;
+    let dimensional = bench.share(Some("dimensional"), points, &below)?;
+    let environmental = bench.share(Some("environmental"), points, &below)?;
+    let nominal = Scene::default();
+    let holding =
+        Holding { what: "F_cr(Hurtado-Kim) < F_cr(Coulomb)".to_owned(), nominal: below(&nominal)?, share: general };
+    let words = [
+        ("hurtado_kim", nano(bench.force(&nominal, &hurtado_kim)?, "N")),
+        ("coulomb", nano(bench.force(&nominal, &coulomb)?, "N")),
+        ("general", general.words_of("the box of the general study")),
+        ("dimensional", dimensional.words_of("that of the dimensional study")),
+        ("environmental", environmental.words_of("that of the environmental study")),
+        ("each", (points / 8).to_string()),
+    ];
+    Ok(Answer::judged(&[holding], words))
+}
+
 /// Checks claim 12. Only the equations of motion depend on the velocity under every friction model.
-pub(super) fn velocity(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
-    let whole = Sweep { count: 5, ..bench.over("velocity")? };
+pub(super) fn velocity(bench: &Bench<'_>) -> anyhow::Result<Answer> {
+    let whole = Sweep { count: 5, ..bench.over("velocity") };
     let slow = Sweep { range: (0.0, SLOW), count: 4, ..whole };
     let mut answer = without_effect(bench, &slow, in_motion)?;
     let nominal = Scene::default();
@@ -44,8 +66,8 @@ pub(super) fn velocity(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
 }
 
 /// Checks claim 13.
-pub(super) fn elastic_modulus(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
-    let sweep = bench.over("elastic_modulus")?;
+pub(super) fn elastic_modulus(bench: &Bench<'_>) -> anyhow::Result<Answer> {
+    let sweep = bench.over("elastic_modulus");
     let points = bench.sizes.points;
     let rise = |law, scene: &Scene| Ok(is_linear_rise(&bench.curve(&sweep, scene, &closed(law))?));
     let mut holdings = bench.holding_under(&FRICTIONS, "linear rise under ", |_| points, rise)?;
@@ -68,8 +90,8 @@ fn gap(bench: &Bench<'_>, scene: &Scene, coulomb: &Options) -> Result<f64, Failu
 }
 
 /// Checks claim 14.
-pub(super) fn contact_modulus(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
-    let sweep = bench.over("equivalent_modulus")?;
+pub(super) fn contact_modulus(bench: &Bench<'_>) -> anyhow::Result<Answer> {
+    let sweep = bench.over("equivalent_modulus");
     let points = bench.sizes.points;
     let (coulomb, hurtado_kim) = (closed(FrictionLaw::Coulomb), closed(FrictionLaw::HurtadoKim));
     let unmoved = |scene: &Scene| Ok(bench.curve(&sweep, scene, &coulomb)?.spread() < UNMOVED);
@@ -91,8 +113,8 @@ pub(super) fn contact_modulus(bench: &Bench<'_>) -> Result<Answer, ReproduceErro
 }
 
 /// Checks claim 15.
-pub(super) fn adhesion(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
-    let sweep = bench.over("adhesion")?;
+pub(super) fn adhesion(bench: &Bench<'_>) -> anyhow::Result<Answer> {
+    let sweep = bench.over("adhesion");
     let points = bench.sizes.points;
     let rises = |law, scene: &Scene| Ok(bench.curve(&sweep, scene, &closed(law))?.rises());
     let mut holdings = bench.holding_under(&FRICTIONS[..2], "rise under ", |_| points, rises)?;
@@ -115,7 +137,7 @@ pub(super) fn adhesion(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
 }
 
 /// Checks claim 16.
-pub(super) fn constant_parameters(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
+pub(super) fn constant_parameters(bench: &Bench<'_>) -> anyhow::Result<Answer> {
     let options = closed(FrictionLaw::LuGre);
     let nominal = Scene::default();
     let from_contact = Options { lugre: LuGreParameters::Contact, ..exact(FrictionLaw::LuGre) };
@@ -123,9 +145,9 @@ pub(super) fn constant_parameters(bench: &Bench<'_>) -> Result<Answer, Reproduce
     let mut holdings = Vec::new();
     let mut findings = Vec::new();
     for (name, symbol) in [("equivalent_modulus", "K"), ("adhesion", "ω")] {
-        let sweep = bench.over(name)?;
+        let sweep = bench.over(name);
         let rule = |scene: &Scene| Ok(bench.curve(&sweep, scene, &options)?.spread() < NO_EFFECT);
-        holdings.push(bench.holding(format!("{symbol} invisible"), bench.sizes.points, &rule)?);
+        holdings.push(bench.holding(&format!("{symbol} invisible"), bench.sizes.points, &rule)?);
         let few = Sweep { count: 4, ..sweep };
         findings.push(format!(
             "{symbol} of {} changes F_cr by {} (by {} with bristles that follow the contact, by {} with the pull-off force \

@@ -2,13 +2,12 @@
 
 use apportion_afm::contact::Contact;
 use apportion_afm::history::{History, Sample};
-use apportion_afm::{Failure, FrictionLaw, Parameter, Scene};
+use apportion_afm::{Failure, FrictionLaw, Scene};
 
 use super::Verdict;
-use super::bench::{Bench, Sweep, closed};
-use super::judge::Answer;
-use super::numbers::{change, nano, number};
-use crate::reproduce::{FRICTIONS, ReproduceError};
+use super::bench::{Bench, Sweep, closed, parameter};
+use super::judge::{Answer, change, nano, number};
+use crate::reproduce::FRICTIONS;
 
 /// The duration of TS04's run (s).
 const DURATION: f64 = 0.4;
@@ -41,7 +40,7 @@ fn half(
     (low, high): (f64, f64),
     quantity: fn(&History) -> Result<f64, Failure>,
     said: fn(f64) -> String,
-) -> Result<Answer, ReproduceError> {
+) -> anyhow::Result<Answer> {
     let nominal = Scene::default();
     let other = Scene { shear_modulus: Some(PRINTED_SHEAR_MODULUS), ..nominal };
     let of = |scene| quantity(&(bench.physics.history)(scene, &closed(FrictionLaw::Coulomb), DURATION)?);
@@ -57,14 +56,14 @@ fn half(
 }
 
 /// Checks the first half of claim 1.
-pub(super) fn slip_time(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
+pub(super) fn slip_time(bench: &Bench<'_>) -> anyhow::Result<Answer> {
     let mut answer = half(bench, SLIP_TIME, |history| history.critical.critical_time, |time| number(time, "s"))?;
     answer.words.extend([("from", SLIP_TIME.0.to_string()), ("to", SLIP_TIME.1.to_string())]);
     Ok(answer)
 }
 
 /// Checks the second half of claim 1.
-pub(super) fn displacement(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
+pub(super) fn displacement(bench: &Bench<'_>) -> anyhow::Result<Answer> {
     let moved = |history: &History| Ok(history.samples.last().map_or(0.0, |end| end.relative));
     let mut answer = half(bench, DISPLACEMENT, moved, |moved| nano(moved, "m"))?;
     let needed = DURATION + (DISPLACEMENT.0 + DISPLACEMENT.1) / 2.0 / Scene::default().velocity;
@@ -73,7 +72,7 @@ pub(super) fn displacement(bench: &Bench<'_>) -> Result<Answer, ReproduceError> 
 }
 
 /// Checks claim 2.
-pub(super) fn forces(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
+pub(super) fn forces(bench: &Bench<'_>) -> anyhow::Result<Answer> {
     let rule = |law, scene: &Scene| Ok(rises_and_stays(&(bench.physics.history)(scene, &closed(law), FOREVER)?));
     let holdings = bench.holding_under(&FRICTIONS[..2], "", |_| bench.sizes.slow_points, rule)?;
     let nominal = (bench.physics.history)(&Scene::default(), &closed(FrictionLaw::Coulomb), DURATION)?;
@@ -108,9 +107,8 @@ fn ends(samples: &[Sample]) -> (&Sample, &Sample) {
 }
 
 /// Checks claim 3.
-pub(super) fn delay(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
-    let parameter = Parameter::from_name("static_friction").ok_or(ReproduceError::NoRanges)?;
-    let sweep = Sweep { parameter, range: (0.1, 1.2), count: bench.sizes.curve };
+pub(super) fn delay(bench: &Bench<'_>) -> anyhow::Result<Answer> {
+    let sweep = Sweep { parameter: parameter("static_friction"), range: (0.1, 1.2), count: bench.sizes.curve };
     let options = closed(FrictionLaw::Coulomb);
     let slip_time = |scene: &Scene| (bench.physics.force)(scene, &options)?.critical_time;
     let rule = |scene: &Scene| Ok(bench.curve_of(&sweep, scene, &slip_time)?.rises());
@@ -121,23 +119,23 @@ pub(super) fn delay(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
 }
 
 /// Checks claim 5.
-pub(super) fn contacts(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
+pub(super) fn contacts(bench: &Bench<'_>) -> anyhow::Result<Answer> {
     let options = closed(FrictionLaw::Coulomb);
     let history = |scene: &Scene| (bench.physics.history)(scene, &options, FOREVER);
     // At every step, and by more than nothing from the start to the slip.
-    let always = |grows: fn(&Sample, &Sample, f64) -> Option<bool>| {
+    let always = |grows: fn(&Sample, &Sample, f64) -> bool| {
         move |scene: &Scene| -> Result<bool, Failure> {
             let samples = history(scene)?.samples;
-            let rises = |before: &Sample, after: &Sample, least: f64| grows(before, after, least).unwrap_or(false);
             let (start, held) = ends(&samples);
             let mut steps = samples.windows(2).filter(|p| p[1].sticking);
-            Ok(steps.all(|p| rises(&p[0], &p[1], 0.0)) && rises(start, held, AS_GOOD_AS_NONE))
+            Ok(steps.all(|p| grows(&p[0], &p[1], 0.0)) && grows(start, held, AS_GOOD_AS_NONE))
         }
     };
     let points = bench.sizes.slow_points;
-    let tip = always(|before, after, least| Some(is_larger(after.tip_contact?, before.tip_contact?, least)));
-    let substrate =
-        always(|before, after, least| Some(is_larger(before.substrate_contact, after.substrate_contact, least)));
+    let tip = always(|before, after, least| {
+        after.tip_contact.zip(before.tip_contact).is_some_and(|(after, before)| is_larger(after, before, least))
+    });
+    let substrate = always(|before, after, least| is_larger(before.substrate_contact, after.substrate_contact, least));
     let holdings = [
         bench.holding("growth at the tip", points, &tip)?,
         bench.holding("shrinkage on the substrate", points, &substrate)?,

@@ -1,14 +1,12 @@
-//! Verdicts from where the parts of a claim hold.
+//! Verdicts from where the parts of a claim hold, and the numbers in them.
 
 use apportion::uncertainty::Interval;
+use apportion_report::format::minus;
+use apportion_report::{fixed, significant, with_unit};
 
 use super::Verdict;
-use super::numbers::percent_of;
 use crate::reproduce::named_together;
 use crate::reproduce::papers::Words;
-
-/// Share of the box from which on a rule holds everywhere: the rest is a corner that no chart of the papers shows.
-const EVERYWHERE: f64 = 0.999;
 
 /// The share of a box where a rule holds.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,15 +14,9 @@ pub(super) struct Share {
     pub value: f64,
     /// Its interval at the common level; `None` if the error is unknown.
     pub interval: Option<Interval>,
-    /// Number of points.
-    pub points: u64,
 }
 
 impl Share {
-    pub fn everywhere(&self) -> bool {
-        self.value >= EVERYWHERE
-    }
-
     /// Formats it as in `83.2 % [82.9, 83.5] of the box`; `all of the box` only if no point failed.
     pub fn words_of(&self, whole: &str) -> String {
         match (self.value, self.interval) {
@@ -56,16 +48,12 @@ pub(super) struct Answer {
 }
 
 impl Answer {
-    /// Creates the verdict on a claim decided at the scene of the paper, with the part of the box where it holds.
+    /// Creates the verdict on a claim: reproduced if every part holds at the nominal scene, which is that of the papers'
+    /// figures. With it comes the part of the box where it holds.
     pub fn judged(holdings: &[Holding], words: impl Into<Words>) -> Self {
-        Self { verdict: judge(holdings), range: over_ranges(holdings), words: words.into() }
+        let verdict = Verdict::reproduced_if(holdings.iter().all(|holding| holding.nominal));
+        Self { verdict, range: over_ranges(holdings), words: words.into() }
     }
-}
-
-/// Returns the verdict on a claim as in its paper: reproduced if every part holds at the nominal scene, which is that
-/// of the papers' figures.
-pub(super) fn judge(holdings: &[Holding]) -> Verdict {
-    Verdict::reproduced_if(holdings.iter().all(|holding| holding.nominal))
 }
 
 /// Says on what share of the whole ranges each part holds, in one line; parts with the same share are named together.
@@ -80,22 +68,70 @@ pub(super) fn over_ranges(holdings: &[Holding]) -> String {
     }
 }
 
+/// Rounds to three significant digits: the scene's constants justify no more.
+fn rounded(value: f64) -> f64 {
+    format!("{value:.2e}").parse().unwrap_or(value)
+}
+
+/// Formats an SI value in nano-units, with the unit: `631 nN`.
+pub(super) fn nano(value: f64, unit: &str) -> String {
+    number(value * 1e9, &format!("n{unit}"))
+}
+
+/// Formats a plain number to three significant digits, with its unit if any; a tiny one to two as a power of ten.
+pub(super) fn number(value: f64, unit: &str) -> String {
+    const TINY: f64 = 1e-4;
+    if value != 0.0 && value.abs() < TINY {
+        return minus(format!("{value:.1e} {unit}").trim_end());
+    }
+    minus(&with_unit(rounded(value), unit))
+}
+
+/// Formats a share in percent without the sign, to one decimal; two if it is close to 0 or 100 but neither.
+pub(super) fn percent_of(share: f64) -> String {
+    let close = share > 0.0 && share < 1.0 && !(0.01..=0.99).contains(&share);
+    significant(fixed(100.0 * share, if close { 2 } else { 1 }).parse().unwrap_or(f64::NAN))
+}
+
+/// Formats a relative change in percent, `1.9 %`; as a power of ten if it is too small.
+pub(super) fn change(relative: f64) -> String {
+    let percent = 100.0 * relative;
+    if percent != 0.0 && percent.abs() < 1e-3 {
+        minus(&format!("{percent:.0e} %"))
+    } else {
+        minus(&with_unit(rounded(percent), "%"))
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     fn holding(what: &str, nominal: bool, value: f64) -> Holding {
         let interval = Some(Interval { low: value - 0.001, high: value + 0.001 });
-        Holding { what: what.into(), nominal, share: Share { value, interval, points: 1024 } }
+        Holding { what: what.into(), nominal, share: Share { value, interval } }
     }
 
     #[test]
     fn verdicts_use_the_scene_of_the_paper_and_ranges_the_box() {
-        let (all, half) = (holding("Coulomb", true, 1.0), holding("LuGre", true, 0.5));
-        assert_eq!(judge(&[all.clone(), half.clone()]), Verdict::Reproduced);
-        assert_eq!(over_ranges(&[all.clone(), all.clone()]), "all of the box");
-        assert_eq!(over_ranges(&[all, half]), "Coulomb: all of the box; LuGre: 50 % [49.9, 50.1] of the box");
+        let holdings = [holding("Coulomb", true, 1.0), holding("LuGre", true, 0.5)];
+        assert_eq!(Answer::judged(&holdings, []).verdict, Verdict::Reproduced);
+        assert_eq!(over_ranges(&holdings), "Coulomb: all of the box; LuGre: 50 % [49.9, 50.1] of the box");
         // Everywhere in the box but not at the nominal scene does not reproduce a chart drawn there.
-        assert_eq!(judge(&[holding("Coulomb", false, 1.0)]), Verdict::NotReproduced);
+        let elsewhere = Answer::judged(&[holding("Coulomb", false, 1.0)], []);
+        assert_eq!(elsewhere.verdict, Verdict::NotReproduced);
+    }
+
+    #[test]
+    fn findings_have_few_digits() {
+        assert_eq!(nano(631.3456e-9, "N"), "631 nN");
+        assert_eq!(nano(-19.044e-9, "m"), "−19 nm");
+        assert_eq!(number(0.209_47, "s"), "0.209 s");
+        assert_eq!((number(2.99, ""), number(3.0411e-5, "nN")), ("2.99".into(), "3.0e-5 nN".into()));
+        assert_eq!(
+            (percent_of(0.8324), percent_of(0.99951), percent_of(1.0)),
+            ("83.2".into(), "99.95".into(), "100".into())
+        );
+        assert_eq!((change(0.019_04), change(0.0), change(3.2e-9)), ("1.9 %".into(), "0 %".into(), "3e-7 %".into()));
     }
 }

@@ -1,21 +1,25 @@
 //! Claims about the shares of the variance: 17 to 20. They depend on the nine studies.
 
+use anyhow::anyhow;
 use apportion::result::IndexRecord;
 use apportion_afm::{Failure, FrictionLaw, Scene};
 use apportion_report::{fixed, give_or_take, share};
 
 use super::Verdict;
-use super::bench::{Bench, Region, closed};
+use super::bench::{Bench, closed};
 use super::dimensions::NO_EFFECT;
-use super::judge::Answer;
-use super::numbers::{change, nano};
-use crate::reproduce::order::{Agreement, OrderVerdict, Standing, VISIBLE, order_of, outweighing};
+use super::judge::{Answer, change, nano};
+use crate::reproduce::order::{OrderVerdict, Standing, VISIBLE, order_of, outweighing};
 use crate::reproduce::papers::{CLOSE, PRINTED};
-use crate::reproduce::{FRICTIONS, Friction, GROUPS, Published, ReproduceError, Reproduced, named_together, published};
+use crate::reproduce::percentages::thickness_part;
+use crate::reproduce::{FRICTIONS, Friction, GROUPS, Reproduced, named_together, published};
 
 /// Maximum relative deviation of F_cr from a product of a function of the dimensions and one of the environment: a
 /// thousandth changes no percentage by more than a tenth.
 const PRODUCT: f64 = 1e-3;
+
+/// Share of the box from which on a rule holds everywhere: the rest is a corner that no chart of the papers shows.
+const EVERYWHERE: f64 = 0.999;
 
 /// Rounding error of a percentage in whole numbers.
 const ROUNDED: f64 = 0.5;
@@ -25,20 +29,23 @@ fn study<'a>(
     bench: &Bench<'a>,
     group: &'static str,
     friction: Friction,
-) -> Result<(&'a Reproduced, &'a [IndexRecord]), ReproduceError> {
+) -> anyhow::Result<(&'a Reproduced, &'a [IndexRecord])> {
     let study = bench.studies.iter().find(|study| study.group.key == group && study.friction == friction);
     let indices = |study: &'a Reproduced| Some((study, study.result.outputs.first()?.indices.as_deref()?));
-    study.and_then(indices).ok_or(ReproduceError::NoIndices { group, friction: friction.name })
+    study.and_then(indices).ok_or_else(|| no_indices(group, friction))
+}
+
+fn no_indices(group: &str, friction: Friction) -> anyhow::Error {
+    anyhow!("claims 17 to 20 need the {group} study under {} friction, with its indices", friction.name)
 }
 
 /// Returns the study of a group whose percentages are printed, with its indices.
-fn printed<'a>(bench: &Bench<'a>, group: &'static str) -> Result<(&'a Reproduced, &'a [IndexRecord]), ReproduceError> {
-    let friction = FRICTIONS.into_iter().find(|friction| friction.key == PRINTED);
-    study(bench, group, friction.ok_or(ReproduceError::NoIndices { group, friction: PRINTED })?)
+fn printed<'a>(bench: &Bench<'a>, group: &'static str) -> anyhow::Result<(&'a Reproduced, &'a [IndexRecord])> {
+    study(bench, group, FRICTIONS.into_iter().find(|friction| friction.key == PRINTED).expect("a friction model"))
 }
 
 /// Returns the studies of a group and their design.
-fn studies(bench: &Bench<'_>, group: &'static str) -> Result<(&'static str, String), ReproduceError> {
+fn studies(bench: &Bench<'_>, group: &'static str) -> anyhow::Result<(&'static str, String)> {
     let (study, _) = study(bench, group, FRICTIONS[0])?;
     let provenance = &study.result.provenance;
     let figures = GROUPS.iter().find(|known| known.key == group).map_or("", |known| known.figures);
@@ -50,12 +57,12 @@ fn studies(bench: &Bench<'_>, group: &'static str) -> Result<(&'static str, Stri
 }
 
 /// Checks the first halves of claims 17 to 19: an order of factors.
-pub(super) fn order(bench: &Bench<'_>, group: &'static str) -> Result<Answer, ReproduceError> {
+pub(super) fn order(bench: &Bench<'_>, group: &'static str) -> anyhow::Result<Answer> {
     let (mut phrases, mut shares, mut is_same) = (Vec::new(), Vec::new(), true);
     for friction in FRICTIONS {
         let (study, indices) = study(bench, group, friction)?;
         let order = order_of(study);
-        is_same &= order.agreement() == Agreement::Same;
+        is_same &= order.is_kept(false);
         phrases.push((verdict_of_order(&order), friction.name));
         shares.push(format!("under {} friction {}", friction.name, shares_in_words(indices, &order)));
     }
@@ -70,23 +77,21 @@ pub(super) fn order(bench: &Bench<'_>, group: &'static str) -> Result<Answer, Re
 
 /// Says in a phrase how an order agrees with the published one.
 fn verdict_of_order(order: &OrderVerdict<'_>) -> String {
-    let pairs = |wanted| {
-        let words = order.pairs_that_are(wanted).into_iter().map(|(one, other)| format!("{one} before {other}"));
-        words.collect::<Vec<_>>().join(" and ")
-    };
-    let phrase = match order.agreement() {
-        Agreement::Same => "the whole order".to_owned(),
-        Agreement::Beginning => {
+    let broken = order.pairs_that_are(Standing::Broken).join(" and ");
+    let intruders = order.intruders.join(" and ");
+    let of_intruders = format!("a visible share of {intruders}, which the paper does not rank");
+    let phrase = match (&*broken, &*intruders) {
+        ("", "") if order.is_kept(false) => "the whole order".to_owned(),
+        ("", "") if order.is_kept(true) => {
             format!("the order of the visible shares, which {} do not have", order.unseen.join(" and "))
         }
-        Agreement::Undecided => format!("not decided at this sample size: {}", pairs(Standing::Undecided)),
-        Agreement::Other => {
-            let broken = Some(pairs(Standing::Broken)).filter(|text| !text.is_empty());
-            let broken = broken.map(|text| format!("not {text}"));
-            let intruders = Some(order.intruders.join(" and ")).filter(|text| !text.is_empty());
-            let intruders = intruders.map(|text| format!("a visible share of {text}, which the paper does not rank"));
-            format!("another order: {}", broken.into_iter().chain(intruders).collect::<Vec<_>>().join(", "))
+        ("", "") => {
+            let pairs = order.pairs_that_are(Standing::Undecided).join(" and ");
+            format!("not decided at this sample size: {pairs}")
         }
+        ("", _) => format!("another order: {of_intruders}"),
+        (_, "") => format!("another order: not {broken}"),
+        _ => format!("another order: not {broken}, {of_intruders}"),
     };
     phrase.replace('_', " ")
 }
@@ -106,13 +111,13 @@ fn shares_in_words(indices: &[IndexRecord], order: &OrderVerdict<'_>) -> String 
     format!("{}{rest}", visible.join(", "))
 }
 
-/// Checks a claim about printed percentages: all must agree with ours under one meaning. A statement of the same paper
+/// Checks a claim about printed percentages, such as the second half of claim 17: all must agree with ours under one meaning. A statement of the same paper
 /// may contradict the others.
-fn printed_percentages(
+pub(super) fn printed_percentages(
     bench: &Bench<'_>,
     group: &'static str,
     contradicted_by: Option<String>,
-) -> Result<Answer, ReproduceError> {
+) -> anyhow::Result<Answer> {
     let (_, indices) = printed(bench, group)?;
     let ours = published(group, PRINTED).shares.iter().map(|(factor, percent)| {
         let effect = indices.iter().find(|index| index.factor == *factor).map(|index| index.effect);
@@ -141,13 +146,8 @@ fn printed_percentages(
     Ok(Answer { verdict, range: range.to_owned(), words })
 }
 
-/// Checks the second half of claim 17.
-pub(super) fn dimensional_percentage(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
-    printed_percentages(bench, "dimensional", None)
-}
-
 /// Checks LG's statement on the width in claim 17. A printed percentage above half is that of the main factor.
-pub(super) fn most_effective(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
+pub(super) fn most_effective(bench: &Bench<'_>) -> anyhow::Result<Answer> {
     let (study, indices) = printed(bench, "dimensional")?;
     let order = order_of(study);
     let printed = published("dimensional", PRINTED);
@@ -165,12 +165,12 @@ pub(super) fn most_effective(bench: &Bench<'_>) -> Result<Answer, ReproduceError
 }
 
 /// Checks the second half of claim 18.
-pub(super) fn environmental_percentages(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
+pub(super) fn environmental_percentages(bench: &Bench<'_>) -> anyhow::Result<Answer> {
     let published = published("environmental", PRINTED);
     let percent = |name: &str| published.share(name).unwrap_or(f64::NAN);
     let (nominal, options) = (Scene::default(), closed(FrictionLaw::LuGre));
-    let over = |name: &str| -> Result<f64, ReproduceError> {
-        let curve = bench.curve(&bench.over(name)?, &nominal, &options)?;
+    let over = |name: &str| -> anyhow::Result<f64> {
+        let curve = bench.curve(&bench.over(name), &nominal, &options)?;
         Ok((curve.last() - curve.first()).abs())
     };
     let (by_modulus, by_velocity) = (over("elastic_modulus")?, over("velocity")?);
@@ -198,22 +198,18 @@ fn is_product(bench: &Bench<'_>) -> Result<bool, Failure> {
         let ratio = force(scene)? / force(&dimensions)? * (force(&nominal)? / force(&environment)?);
         Ok((ratio - 1.0).abs() <= PRODUCT)
     };
-    Ok(bench.share(Region::General, bench.sizes.points, &rule)?.everywhere())
-}
-
-/// Returns the share in percent of the thickness among thickness, length and width, as printed for the general study,
-/// and its bounds by rounding.
-fn thickness_among(printed: &Published) -> (f64, (f64, f64)) {
-    let percent = |name: &str| printed.share(name).unwrap_or(0.0);
-    let (thickness, others) = (percent("thickness"), percent("length") + percent("width"));
-    let share = |by: f64| 100.0 * (thickness + by) / ((thickness + by) + (others - 2.0 * by));
-    (share(0.0), (share(-ROUNDED), share(ROUNDED)))
+    Ok(bench.share(None, bench.sizes.points, &rule)?.value >= EVERYWHERE)
 }
 
 /// Checks the second half of claim 19.
-pub(super) fn general_percentages(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
+pub(super) fn general_percentages(bench: &Bench<'_>) -> anyhow::Result<Answer> {
     let alone = published("dimensional", PRINTED).share("thickness").unwrap_or(f64::NAN);
-    let (among, (low, high)) = thickness_among(&published("general", PRINTED));
+    // As printed for the general study, and its bounds by rounding.
+    let printed = published("general", PRINTED);
+    let [among, low, high] = [0.0, -ROUNDED, ROUNDED].map(|by| {
+        let share = |factor: &str| Some(printed.share(factor)? + if factor == "thickness" { by } else { -by });
+        thickness_part(share).unwrap_or(f64::NAN)
+    });
     let is_product = is_product(bench)?;
     let is_apart = low > alone + ROUNDED || high < alone - ROUNDED;
     let own = format!("{alone} % for the thickness among the dimensions (LG fig. 4a)");
@@ -236,12 +232,12 @@ pub(super) fn general_percentages(bench: &Bench<'_>) -> Result<Answer, Reproduce
 }
 
 /// Checks claim 20.
-pub(super) fn outweigh(bench: &Bench<'_>) -> Result<Answer, ReproduceError> {
+pub(super) fn outweigh(bench: &Bench<'_>) -> anyhow::Result<Answer> {
     let (mut holds, mut each, mut totals) = (true, Vec::new(), Vec::new());
     for friction in FRICTIONS {
         let (study, _) = study(bench, "general", friction)?;
-        let missing = ReproduceError::NoIndices { group: "general", friction: friction.name };
-        let (dimensional, environmental, standing) = outweighing(study).ok_or(missing)?;
+        let totals_of = outweighing(study).ok_or_else(|| no_indices("general", friction))?;
+        let (dimensional, environmental, standing) = totals_of;
         holds &= standing == Standing::Kept;
         let word = match standing {
             Standing::Kept => "so",

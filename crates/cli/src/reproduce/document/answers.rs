@@ -8,7 +8,7 @@ use apportion_report::format::{chance, words};
 use apportion_report::{fixed, share_of_runs};
 
 use crate::reproduce::order::VISIBLE;
-use crate::reproduce::shares::{indices, ranked};
+use crate::reproduce::shares::ranked;
 use crate::reproduce::{FRICTIONS, GROUPS, Reproduced, named_together};
 
 /// Formats an index in percent of the variance, to a whole percent; one decimal below 10 % and near 100 %.
@@ -22,19 +22,10 @@ fn explained(effect: &EffectEstimates) -> (String, String) {
     (percent(effect.first_order.estimate), percent(effect.total.estimate))
 }
 
-/// Says with which certainty the leading factor leads.
-fn certainty(effect: &EffectEstimates) -> String {
-    match effect.probability_first {
-        Some(_) => format!("largest with probability {}", chance(effect.probability_first)),
-        None => "one replicate gives no probability".to_owned(),
-    }
-}
-
 /// Builds the table of the leading factors, and a notice where the model does not hold.
 pub(super) fn parts(studies: &[Reproduced]) -> Vec<Part> {
-    let texts: Vec<String> = where_it_holds(studies).into_iter().collect();
-    let validity = Part::Notice { mark: Mark::Mixed, kind: "Model validity".to_owned(), texts };
-    vec![table(studies), validity]
+    let texts = where_it_holds(studies).into_iter().collect();
+    vec![table(studies), Part::Notice { mark: Mark::Mixed, kind: "Model validity".to_owned(), texts }]
 }
 
 /// Builds a row for each group of studies, a column for each friction model: the leading factor, its shares, the
@@ -53,15 +44,19 @@ fn table(studies: &[Reproduced]) -> Part {
 }
 
 fn leader(study: &Reproduced) -> Cell {
-    let mut ranked = ranked(study).into_iter().map(|place| &indices(study)[place]);
+    let mut ranked = ranked(study).into_iter().map(|(_, index)| index);
     let Some(IndexRecord { factor, effect }) = ranked.next() else { return "no indices".into() };
     let others = ranked.filter(|index| index.effect.share_total.is_some_and(|share| share >= VISIBLE));
     let others: Vec<String> =
         others.map(|index| format!("{} ({})", words(&index.factor), percent(index.effect.total.estimate))).collect();
     let followed = if others.is_empty() { "nothing else".to_owned() } else { others.join(", ") };
     let (alone, together) = explained(effect);
+    let certainty = match effect.probability_first {
+        Some(_) => format!("largest with probability {}", chance(effect.probability_first)),
+        None => "one replicate gives no probability".to_owned(),
+    };
     Cell {
-        note: format!("{alone} alone, {together} with interactions; {}; then {followed}", certainty(effect)),
+        note: format!("{alone} alone, {together} with interactions; {certainty}; then {followed}"),
         ..Cell::marked(words(factor), Mark::Strong)
     }
 }
@@ -85,20 +80,20 @@ fn where_it_holds(studies: &[Reproduced]) -> Option<String> {
 pub(super) fn lead(studies: &[Reproduced]) -> Option<String> {
     let of_group = studies.iter().filter(|study| study.group == GROUPS[2]);
     let leaders = of_group.filter_map(|study| {
-        let IndexRecord { factor, effect } = &indices(study)[*ranked(study).first()?];
+        let (_, IndexRecord { factor, effect }) = *ranked(study).first()?;
         Some(((factor, explained(effect)), study.friction.name))
     });
-    let mut said: Vec<String> = Vec::new();
-    for ((factor, (alone, together)), frictions) in named_together(leaders) {
-        let (factor, under) = (words(factor), listed(&frictions));
-        said.push(match said.is_empty() {
-            true => format!(
+    let said = named_together(leaders).into_iter().enumerate().map(|(place, ((factor, explained), frictions))| {
+        let ((alone, together), factor, under) = (explained, words(factor), listed(&frictions));
+        match place {
+            0 => format!(
                 "{factor} explains {alone} of the variance of the critical force alone and {together} with its \
                  interactions under {under} friction"
             ),
-            false => format!("{factor} {alone} and {together} under {under} friction"),
-        });
-    }
+            _ => format!("{factor} {alone} and {together} under {under} friction"),
+        }
+    });
+    let said: Vec<String> = said.collect();
     (!said.is_empty()).then(|| format!("{}.", capitalised(&said.join("; "))))
 }
 

@@ -3,9 +3,10 @@
 use apportion_report::document::{Figure, Link, Part, Section};
 
 use super::chart_file;
-use crate::reproduce::figures::{ANIMATION_STEM, Animation, PaperFigure};
+use crate::reproduce::figures::{ANIMATION_STEM, PaperFigure};
 use crate::reproduce::papers::papers;
 use crate::reproduce::{GROUPS, Reproduction};
+use crate::scene::{SceneStory, player_page};
 
 /// The common sentences of the captions of all sweeps.
 const RUNGS: &str = "The curves of CHK and LG are those of the closed formulas. Unless a caption states otherwise, the quasi-static \
@@ -15,11 +16,6 @@ const RUNGS: &str = "The curves of CHK and LG are those of the closed formulas. 
 pub(super) fn anchor(stem: &str) -> &str {
     let figure = papers().figures.iter().find(|figure| figure.stem == stem);
     figure.and_then(|figure| figure.shares).unwrap_or(stem)
-}
-
-/// Returns the label of the figure that shows the one with a stem.
-pub(super) fn label<'a>(figures: &'a [PaperFigure], stem: &str) -> Option<&'a str> {
-    figures.iter().find(|figure| figure.stem == stem).map(|figure| figure.label.as_str())
 }
 
 /// Builds the section of the indices under every friction model: of all factors together, then of each group.
@@ -85,8 +81,8 @@ fn shown_together(figures: &[PaperFigure], group: &str) -> Option<Figure> {
 }
 
 /// Embeds the animation of the push.
-fn moving(animation: &Animation) -> Part {
-    let html = animation.html.clone();
+fn moving(story: &SceneStory) -> Part {
+    let html = player_page(story);
     let frame = Part::Frame { title: "TS04 fig. 14 as an animation".to_owned(), html };
     let file = |ending: &str| chart_file(ANIMATION_STEM, ending);
     let links = Part::Links(vec![

@@ -1,51 +1,55 @@
 //! The document of the reproduction: verdicts, figures, percentages, tables and provenance.
 
 mod answers;
-mod constants;
 mod figures;
 mod verdicts;
 
 pub(super) use answers::percent;
+use apportion::space::Factor;
+use apportion_afm::Scene;
+use apportion_afm::modes::ModeConstants;
 use apportion_report::document::{DataFile, Document, Part, Report, Section, Table};
-use apportion_report::grouped;
+use apportion_report::{grouped, with_unit};
 
 use super::claims::claims_json;
 use super::figures::ANIMATION_STEM;
-use super::papers::papers;
+use super::papers::{Words, filled, papers};
 use super::percentages::{self, percentages_csv};
 use super::shares::shares_table;
-use super::{Effort, Reproduced, Reproduction};
+use super::{Effort, Reproduced, Reproduction, general_study};
+use crate::scene::{player_page, scene_json, scene_table};
 
 /// Builds the document about `reproduction`; missing parts are omitted. Except for the times in the results, its files
 /// are the same for every run of the same version.
 pub fn document(reproduction: &Reproduction) -> Document {
     let (studies, claims) = (&reproduction.studies, &reproduction.claims);
-    let mut then = vec![figures::overview(&reproduction.figures)];
-    then.push(Section::new("answers", "Which factor matters most", when(studies, || answers::parts(studies))));
-    then.push(constants::section());
-    let of_claims = || vec![verdicts::table(claims), verdicts::details(claims, &reproduction.figures)];
-    then.push(Section::new("claims", "Are the papers right?", when(claims, of_claims)));
+    let mut then = vec![
+        figures::overview(&reproduction.figures),
+        Section::new("answers", "Which factor matters most", answers::parts(studies)),
+        constants(),
+    ];
+    if !claims.is_empty() {
+        let parts = vec![verdicts::table(claims), verdicts::details(claims, &reproduction.figures)];
+        then.push(Section::new("claims", "Are the papers right?", parts));
+    }
     then.extend(figures::sections(reproduction));
     let rows = &reproduction.percentages;
-    let of_percentages = || vec![Part::List(percentages::summary(rows)), percentages::table(rows)];
-    then.push(Section::new("percentages", "The percentages that LG prints", when(rows, of_percentages)));
-    then.push(Section::new("shares", "All indices and shares", when(studies, || shares(studies))));
+    if !rows.is_empty() {
+        let parts = vec![Part::List(percentages::summary(rows)), percentages::table(rows)];
+        then.push(Section::new("percentages", "The percentages that LG prints", parts));
+    }
+    then.push(Section::new("shares", "All indices and shares", shares(studies)));
     then.push(Section::new("papers", "The papers", vec![Part::Text(papers().cited.to_owned())]));
     let report = Report {
         name: "index".to_owned(),
         kicker: "Reproduction of three papers",
         title: "Which factor decides the force that pushes a nanoparticle?".to_owned(),
-        lead: lead(reproduction),
+        lead: answers::lead(studies).into_iter().chain(verdicts::sentence(claims)).collect(),
         then,
         provenance: provenance(reproduction),
         ..Report::default()
     };
     Document { charts: figures::files(&reproduction.figures), files: files(reproduction), ..report.document() }
-}
-
-/// Returns the parts of a section about `all`; empty if `all` is.
-fn when<T>(all: &[T], parts: impl FnOnce() -> Vec<Part>) -> Vec<Part> {
-    if all.is_empty() { Vec::new() } else { parts() }
 }
 
 /// Builds the data files: results, claims and percentages, and the numbers of every figure. Two tables of the page are
@@ -60,10 +64,10 @@ fn files(reproduction: &Reproduction) -> Vec<DataFile> {
         add("claims.json".to_owned(), claims_json(&reproduction.claims));
         add("percentages.csv".to_owned(), percentages_csv(&reproduction.percentages));
     }
-    if let Some(animation) = &reproduction.animation {
-        for (ending, text) in [("html", &animation.html), ("csv", &animation.csv), ("json", &animation.json)] {
-            add(chart_file(ANIMATION_STEM, ending), text.clone());
-        }
+    if let Some(story) = &reproduction.animation {
+        add(chart_file(ANIMATION_STEM, "html"), player_page(story));
+        add(chart_file(ANIMATION_STEM, "csv"), scene_table(story).csv());
+        add(chart_file(ANIMATION_STEM, "json"), scene_json(story));
     }
     for figure in &reproduction.figures {
         add(chart_file(figure.stem, "csv"), figure.csv.clone());
@@ -74,14 +78,6 @@ fn files(reproduction: &Reproduction) -> Vec<DataFile> {
 /// Returns the path of a file next to those of the chart `stem`.
 fn chart_file(stem: &str, ending: &str) -> String {
     format!("charts/{stem}.{ending}")
-}
-
-fn lead(reproduction: &Reproduction) -> Vec<String> {
-    let mut lead: Vec<String> = answers::lead(&reproduction.studies).into_iter().collect();
-    if !reproduction.claims.is_empty() {
-        lead.push(verdicts::sentence(&reproduction.claims));
-    }
-    lead
 }
 
 /// Builds the tables of all indices, then the warnings.
@@ -104,28 +100,68 @@ fn provenance(reproduction: &Reproduction) -> Vec<(&'static str, String)> {
         Effort::Quick => "quick: fewer points and repetitions, wider intervals",
     };
     let numbers = "the same on every machine and for any number of threads; only the times differ";
-    let mut rows = vec![("effort", effort.to_owned()), ("numbers", numbers.to_owned())];
-    if let Some(study) = reproduction.studies.first() {
-        let of = &study.result.provenance;
-        rows.extend([
-            (
-                "design",
-                format!(
-                    "{} points, {} base samples in {} replicates, seed {}",
-                    of.sampler, of.base_samples, of.replicates, of.seed
-                ),
-            ),
-            ("first-order estimator", of.first_order_estimator.clone()),
-            ("total estimator", of.total_estimator.clone()),
-        ]);
-        rows.extend(of.interval.clone().map(|words| ("95 % intervals", words)));
-        if !study.result.study.overrides.is_empty() {
-            rows.push(("changes on the command line", study.result.study.overrides.join(", ")));
-        }
-        let all = || reproduction.studies.iter().map(|study| &study.result.provenance);
-        let (runs, seconds) = (all().map(|of| of.model_runs).sum(), all().map(|of| of.wall_seconds).sum::<f64>());
-        let cost = format!("{} model runs in {seconds:.2} s on {} threads", grouped(runs), of.threads);
-        rows.push(("cost of the studies", cost));
+    let of = &reproduction.studies[0].result.provenance;
+    let design = format!(
+        "{} points, {} base samples in {} replicates, seed {}",
+        of.sampler, of.base_samples, of.replicates, of.seed
+    );
+    let mut rows = vec![
+        ("effort", effort.to_owned()),
+        ("numbers", numbers.to_owned()),
+        ("design", design),
+        ("first-order estimator", of.first_order_estimator.clone()),
+        ("total estimator", of.total_estimator.clone()),
+    ];
+    rows.extend(of.interval.clone().map(|words| ("95 % intervals", words)));
+    let overrides = &reproduction.studies[0].result.study.overrides;
+    if !overrides.is_empty() {
+        rows.push(("changes on the command line", overrides.join(", ")));
     }
+    let all = || reproduction.studies.iter().map(|study| &study.result.provenance);
+    let (runs, seconds) = (all().map(|of| of.model_runs).sum(), all().map(|of| of.wall_seconds).sum::<f64>());
+    let cost = format!("{} model runs in {seconds:.2} s on {} threads", grouped(runs), of.threads);
+    rows.push(("cost of the studies", cost));
     rows
+}
+
+/// Returns the values of the scene that the studies use.
+fn used() -> Words {
+    let (scene, modes) = (Scene::default(), ModeConstants::default());
+    let giga = |pascals: f64| with_unit((pascals / 1e7).round() / 100.0, "GPa");
+    vec![
+        ("shear_strength", with_unit(scene.shear_strength / 1e6, "MPa")),
+        ("shear_modulus", giga(scene.effective_shear_modulus())),
+        ("elastic_modulus", giga(scene.elastic_modulus)),
+        ("viscous_friction", format!("{:e}", scene.viscous_friction)),
+        ("tip_friction", modes.tip_friction.to_string()),
+        ("rolling_shift", with_unit(modes.rolling_shift * 1e9, "nm")),
+        ("offset", with_unit((modes.offset * 1e10).round() / 10.0, "nm")),
+        ("particle_ratio", scene.particle_poisson_ratio.to_string()),
+        ("substrate_ratio", scene.substrate_poisson_ratio.to_string()),
+    ]
+}
+
+/// Builds the section of the constants that the papers print, those that are used, and the reasons; and the ranges.
+fn constants() -> Section {
+    let caption = "Constants whose printed and used values differ, or that no paper prints. All others are \
+                   used as printed.";
+    let words = used();
+    let constants = Table::from_rows(caption, &papers().constants)
+        .text("constant", |constant| constant.name)
+        .text("printed", |constant| constant.printed)
+        .text("used", |constant| filled(constant.used, &words))
+        .text("why", |constant| constant.why);
+    let range = |factor: &Factor| {
+        let (low, high) = factor.distribution().support();
+        format!("{low} to {high} {}", factor.unit())
+    };
+    let caption = "The ranges of the factors, uniform, as CHK prints them in its tables 1 to 3.";
+    let study = general_study();
+    let ranges = Table::from_rows(caption, study.space().factors())
+        .text("factor", |factor| factor.name.replace('_', " "))
+        .text("range", range)
+        .text("group", |factor| factor.group.as_deref().unwrap_or_default());
+    let ranges = Part::Details { summary: "The ranges of the factors".to_owned(), parts: vec![ranges.into()] };
+    let parts = vec![constants.into(), ranges];
+    Section::new("constants", "Constants: printed, used, and why", vec![Part::OnPage(parts)])
 }

@@ -2,19 +2,9 @@
 
 use apportion_report::document::{Cell, Link, Mark, OnPhone, Part, Table};
 
-use super::figures::{anchor, label};
+use super::figures::anchor;
 use crate::reproduce::claims::{Claim, Verdict};
 use crate::reproduce::figures::PaperFigure;
-
-/// Formats a verdict as a badge.
-fn badge(verdict: &Verdict) -> Cell {
-    let mark = match verdict {
-        Verdict::Reproduced => Mark::Good,
-        Verdict::NotReproduced => Mark::Mixed,
-        Verdict::Contradicted { .. } => Mark::Bad,
-    };
-    Cell::marked(verdict.word(), mark)
-}
 
 /// Returns the number of a claim, with a letter if it has several parts: `17a`.
 fn part(claims: &[Claim], claim: &Claim) -> String {
@@ -26,9 +16,12 @@ fn part(claims: &[Claim], claim: &Claim) -> String {
 /// Builds the table of verdicts, a line or two each; the CSV file has all of every claim.
 pub(super) fn table(claims: &[Claim]) -> Part {
     let verdict = |claim: &Claim| {
-        let own = claim.verdict.own();
-        let note = if own.is_empty() { String::new() } else { format!("by the paper's own {own}") };
-        Cell { note, ..badge(&claim.verdict) }
+        let (mark, note) = match &claim.verdict {
+            Verdict::Reproduced => (Mark::Good, String::new()),
+            Verdict::NotReproduced => (Mark::Mixed, String::new()),
+            Verdict::Contradicted { own } => (Mark::Bad, format!("by the paper's own {own}")),
+        };
+        Cell { note, ..Cell::marked(claim.verdict.word(), mark) }
     };
     let caption = "Each claim of the papers, and our answer, as the paper shows it (at its figure's scene, with its \
                    constants) and over the whole ranges of the general study.";
@@ -40,7 +33,7 @@ pub(super) fn table(claims: &[Claim]) -> Part {
         .value("statement", |claim| claim.statement)
         .text("as the paper shows it", verdict)
         .named("verdict")
-        .file("own", |claim| claim.verdict.own())
+        .file("own", |claim| if let Verdict::Contradicted { own } = &claim.verdict { own } else { "" })
         .text("over the whole ranges", |claim| &claim.range)
         .named("range")
         .file("finding", |claim| &claim.finding)
@@ -52,8 +45,8 @@ pub(super) fn table(claims: &[Claim]) -> Part {
 /// Lists our results for every claim, their setting, and their figures on the page.
 pub(super) fn details(claims: &[Claim], figures: &[PaperFigure]) -> Part {
     let links = |claim: &Claim| {
-        let shown = claim.figures.iter().filter_map(|stem| Some((label(figures, stem)?, anchor(stem))));
-        shown.map(|(label, anchor)| Link::new(label, format!("#{anchor}"))).collect()
+        let shown = claim.figures.iter().filter_map(|stem| figures.iter().find(|figure| figure.stem == *stem));
+        shown.map(|figure| Link::new(&figure.label, format!("#{}", anchor(figure.stem)))).collect()
     };
     let rows = Table::from_rows("Basis of the verdicts.", claims)
         .text("claim", |claim| Cell { links: links(claim), ..Cell::from(part(claims, claim)) })
@@ -68,48 +61,15 @@ pub(super) fn details(claims: &[Claim], figures: &[PaperFigure]) -> Part {
 
 /// Counts the verdicts:
 /// `Of 25 answers to the papers' 20 claims, 14 are reproduced, 8 are not, and 3 are contradicted ...`.
-pub(super) fn sentence(claims: &[Claim]) -> String {
+pub(super) fn sentence(claims: &[Claim]) -> Option<String> {
     let count = |word: &str| claims.iter().filter(|claim| claim.verdict.word() == word).count();
-    format!(
+    Some(format!(
         "Of {} answers to the papers' {} claims, {} are reproduced, {} are not reproduced, and {} are contradicted by the \
          same paper.",
         claims.len(),
-        claims.last().map_or(0, |claim| claim.number),
+        claims.last()?.number,
         count("reproduced"),
         count("not reproduced"),
         count("contradicted")
-    )
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn claims_are_read_back_from_their_file() {
-        let own = "\"here\", not there".to_owned();
-        let claim = Claim {
-            number: 3,
-            source: "TS04 fig. 11",
-            statement: "A statement, with a comma.",
-            verdict: Verdict::Contradicted { own },
-            range: "all of the box".into(),
-            finding: "Two\nlines.".into(),
-            setting: "S".into(),
-            figures: &["ts04-11", "chk-5"],
-        };
-        let both = [claim.clone(), Claim { verdict: Verdict::NotReproduced, ..claim }];
-        let Part::Table(table) = table(&both) else { panic!("a table") };
-        let text = table.csv();
-        let mut reader = csv::Reader::from_reader(text.as_bytes());
-        let rows: Vec<csv::StringRecord> = reader.records().map(Result::unwrap).collect();
-        assert_eq!(rows.len(), 2);
-        let first: Vec<&str> = rows[0].iter().collect();
-        assert_eq!(first[..3], ["3", "TS04 fig. 11", "A statement, with a comma."]);
-        assert_eq!(
-            first[3..],
-            ["contradicted", "\"here\", not there", "all of the box", "Two\nlines.", "S", "ts04-11 chk-5"]
-        );
-        assert_eq!((&rows[1][3], &rows[1][4]), ("not reproduced", ""));
-    }
+    ))
 }

@@ -7,10 +7,9 @@ use apportion_report::document::{Rows, Table};
 use apportion_report::format::{force, length, time};
 
 use super::Drawn;
-use crate::reproduce::ReproduceError;
 use crate::scene::charts::{contacts, forces, positions, pushing};
 use crate::scene::simulation::scene_story;
-use crate::scene::{SceneSample, SceneStory, player_page, scene_json, scene_number, scene_table};
+use crate::scene::{SceneSample, SceneStory, scene_number};
 
 /// Duration of the scene in the papers (s).
 pub(super) const DURATION: f64 = 0.4;
@@ -28,7 +27,11 @@ pub(super) fn story(law: FrictionLaw, change: impl FnOnce(&mut Scene)) -> Result
     scene_story("Pushing a gold particle on silicon oxide".to_owned(), &scene, &options, DURATION)
 }
 
-fn coulomb() -> Result<SceneStory, Failure> {
+/// Returns the nominal scene under Coulomb friction, also the animation of TS04 figure 14.
+///
+/// # Errors
+/// [`Failure`] if the scene has no solution.
+pub fn coulomb() -> Result<SceneStory, Failure> {
     story(FrictionLaw::Coulomb, |_| ())
 }
 
@@ -43,20 +46,20 @@ const FORCES: [&str; 3] = ["tip_force_nN", "lateral_force_nN", "normal_force_nN"
 const RELATIVE: &str = "relative_position_nm";
 
 /// Draws tS04 figure 8.
-pub(super) fn forces_in_time() -> Result<Drawn, ReproduceError> {
+pub(super) fn forces_in_time() -> Result<Drawn, Failure> {
     let story = coulomb()?;
     Ok((forces(&story), table("", &[("", &story)], &FORCES).csv()))
 }
 
 /// Draws tS04 figure 9.
-pub(super) fn tip_force() -> Result<Drawn, ReproduceError> {
+pub(super) fn tip_force() -> Result<Drawn, Failure> {
     let story = coulomb()?;
     let critical = NANO * story.critical.critical_force;
     Ok((pushing(&story), table("", &[("", &story)], &FORCES[..1]).file("critical_force_nN", |_| critical).csv()))
 }
 
 /// Draws tS04 figure 13.
-pub(super) fn contact_areas() -> Result<Drawn, ReproduceError> {
+pub(super) fn contact_areas() -> Result<Drawn, Failure> {
     let story = coulomb()?;
     let columns =
         ["tip_contact_radius_nm", "substrate_contact_radius_nm", "tip_indentation_nm", "substrate_indentation_nm"];
@@ -86,7 +89,7 @@ fn slip(story: &SceneStory) -> String {
 }
 
 /// Draws CHK figure 5.
-pub(super) fn two_laws() -> Result<Drawn, ReproduceError> {
+pub(super) fn two_laws() -> Result<Drawn, Failure> {
     let (coulomb, hk) = (coulomb()?, story(FrictionLaw::HurtadoKim, |_| ())?);
     let printed = [printed(FrictionLaw::HurtadoKim)?, printed(FrictionLaw::Coulomb)?];
     let laws = [(&coulomb, "Coulomb", Stroke::Solid), (&hk, "Hurtado-Kim", Stroke::Dashed)];
@@ -107,7 +110,7 @@ pub(super) fn two_laws() -> Result<Drawn, ReproduceError> {
     let caption = format!(
         "The tip force rises from {} until the particle slips, at {} and at {}; with the shear modulus of {} GPa that \
          the papers print it slips {} and {}.",
-        coulomb.samples.first().map_or_else(String::new, |start| force(start.tip_force)),
+        force(coulomb.start().tip_force),
         reached(&hk, "Hurtado-Kim"),
         reached(&coulomb, "Coulomb"),
         PRINTED_SHEAR_MODULUS / 1e9,
@@ -120,20 +123,19 @@ pub(super) fn two_laws() -> Result<Drawn, ReproduceError> {
 }
 
 /// Draws TS04 figure 10, with the relative position at the printed shear modulus in addition to ours.
-pub(super) fn displacement() -> Result<Drawn, ReproduceError> {
+pub(super) fn displacement() -> Result<Drawn, Failure> {
     let (story, printed) = (coulomb()?, printed(FrictionLaw::Coulomb)?);
     let ours = positions(&story);
     let modulus = PRINTED_SHEAR_MODULUS / 1e9;
     let look = (Colour::Series(4), Stroke::Dashed);
     let other = line(format!("the same with G = {modulus} GPa as printed"), look, curve(&printed, RELATIVE));
-    let end = printed.samples.last().map_or(f64::NAN, |end| end.relative);
     let caption = format!(
         "{}, and {} if the shear modulus is the {modulus} GPa that the papers print, with which it slips {}.",
-        ours.caption().trim_end_matches('.'),
-        length(end),
+        ours.caption.trim_end_matches('.'),
+        length(printed.end().relative),
         slip(&printed)
     );
-    let mut panels = ours.all_panels().to_vec();
+    let mut panels = ours.panels;
     if let Some(panel) = panels.first_mut() {
         // After its own line, the third of the chart.
         panel.marks.insert(panel.marks.len().min(3), other);
@@ -142,11 +144,11 @@ pub(super) fn displacement() -> Result<Drawn, ReproduceError> {
     let both = [("E/(2(1+nu))", &story), (&as_printed, &printed)];
     let rows = table("shear_modulus", &both, &["substrate_position_nm", "particle_position_nm", RELATIVE]);
     let rows = rows.file("tip_base_position_nm", |(_, sample)| NANO * sample.lateral_deflection);
-    Ok((Chart::new(ours.title(), caption).panels(panels), rows.csv()))
+    Ok((Chart::new(ours.title, caption).panels(panels), rows.csv()))
 }
 
 /// Draws tS04 figure 11.
-pub(super) fn coefficients() -> Result<Drawn, ReproduceError> {
+pub(super) fn coefficients() -> Result<Drawn, Failure> {
     // All follow one line until they slip: in this order each is visible.
     let runs = COEFFICIENTS.map(|coefficient| story(FrictionLaw::Coulomb, |scene| scene.static_friction = coefficient));
     let runs = runs.into_iter().collect::<Result<Vec<_>, _>>()?;
@@ -179,24 +181,3 @@ pub(super) fn coefficients() -> Result<Drawn, ReproduceError> {
 
 /// Name of the animation's files without extension.
 pub const ANIMATION_STEM: &str = "ts04-14-animation";
-
-/// The animation of TS04 figure 14, with its data.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Animation {
-    /// A self-contained page.
-    pub html: String,
-    /// Every state.
-    pub csv: String,
-    /// The same, with setting and geometry, in the format `apportion-scene`.
-    pub json: String,
-}
-
-/// Builds the animation of the nominal scene under Coulomb friction as a page. Its charts are among the
-/// [`figures`](super::figures).
-///
-/// # Errors
-/// [`ReproduceError`] if the scene has no solution, or the page cannot be rendered.
-pub fn animation() -> Result<Animation, ReproduceError> {
-    let story = story(FrictionLaw::Coulomb, |_| ())?;
-    Ok(Animation { html: player_page(&story), csv: scene_table(&story).csv(), json: scene_json(&story) })
-}

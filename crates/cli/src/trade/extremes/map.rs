@@ -1,6 +1,5 @@
 //! The map: outcomes, counts, and their reasons. Serialised unchanged, see `docs/extremes.md`.
 
-use std::cmp::Reverse;
 use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
@@ -163,14 +162,6 @@ pub struct Extremes {
 pub(super) type Reasons = BTreeMap<(Kind, Outcome, String), Reason>;
 
 impl Extremes {
-    /// Creates the map without numbers.
-    pub(super) fn new(second: Result<String, String>, points: u64, grids: Vec<Grid>) -> Self {
-        let kinds = Kind::ALL.map(|kind| (kind, Tally::default())).to_vec();
-        let (second_calculation, unchecked) = (second.as_ref().ok().cloned(), second.err());
-        let counts = Tally::default();
-        Self { second_calculation, unchecked, points, counts, kinds, grids, reasons: Vec::new() }
-    }
-
     /// Adds a number, in the cell (grid, row, column) if it belongs to one.
     pub(super) fn add(&mut self, cell: Option<(usize, usize, usize)>, found: Reason, reasons: &mut Reasons) {
         self.counts.add(found.outcome);
@@ -180,14 +171,7 @@ impl Extremes {
         }
         if found.outcome != Outcome::Right {
             let key = (found.kind, found.outcome, found.reason.clone());
-            reasons.entry(key).or_insert(Reason { count: 0, ..found }).count += 1;
+            reasons.entry(key).or_insert(found).count += 1;
         }
-    }
-
-    /// Sets the reasons.
-    pub(super) fn with_reasons(mut self, reasons: Reasons) -> Self {
-        self.reasons = reasons.into_values().collect();
-        self.reasons.sort_by_key(|reason| (reason.outcome != Outcome::Wrong, reason.kind, Reverse(reason.count)));
-        self
     }
 }

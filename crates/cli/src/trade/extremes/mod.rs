@@ -6,9 +6,9 @@ mod document;
 mod map;
 mod points;
 mod precise;
-mod second;
 
 use std::any::Any;
+use std::cmp::Reverse;
 use std::sync::OnceLock;
 use std::sync::atomic::AtomicBool;
 
@@ -19,12 +19,12 @@ use apportion::space::Space;
 use apportion::study::{Study, Subject};
 use apportion_afm::{AfmSubject, Parameter};
 use apportion_files::ExpressionSubject;
-pub use document::{ExtremesFile, build_extremes, extremes_document};
+pub use document::{ExtremesFile, extremes_document};
 use map::Reasons;
 pub use map::{Extremes, Grid, Kind, Outcome, Reason, Tally};
-use points::{Point, grids, points};
-use precise::PreciseFormulas;
-use second::{Answered, Reference, SecondCalculation, Unchecked};
+use points::{grids, points};
+use precise::reference;
+use serde_json::{Map, Value};
 
 /// The size of the search.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -114,35 +114,39 @@ pub fn extremes(job: &ExtremesJob<'_>) -> Result<Extremes, RunError> {
     if let Some(reason) = gave_up.into_inner() {
         return Err(RunError::GaveUp(reason));
     }
-    let name = second.map(|second| second.name()).map_err(str::to_owned);
-    let mut map = Extremes::new(name, points.len() as u64, grids(&space));
+    let mut map = Extremes {
+        second_calculation: second.as_ref().ok().map(|second| second.name.clone()),
+        unchecked: second.err().map(str::to_owned),
+        points: points.len() as u64,
+        counts: Tally::default(),
+        kinds: Kind::ALL.map(|kind| (kind, Tally::default())).to_vec(),
+        grids: grids(&space),
+        reasons: Vec::new(),
+    };
     let mut reasons = Reasons::new();
     for (point, findings) in points.iter().zip(found) {
+        let inputs = space.factors().iter().zip(&point.x);
+        let inputs: Map<String, Value> =
+            inputs.map(|(factor, &x)| (factor.name.clone(), factor.unit().from_si(x).into())).collect();
         for (output, finding) in model.outputs().iter().zip(findings) {
             let in_unit = |value: Option<f64>| value.map(|value| output.unit.from_si(value));
-            map.add(
-                point.cell,
-                Reason {
-                    kind: point.kind,
-                    outcome: finding.outcome,
-                    reason: finding.reason,
-                    count: 1,
-                    place: point.place.clone(),
-                    inputs: inputs(&space, point),
-                    output: output.name.to_string(),
-                    value: in_unit(finding.value),
-                    reference: in_unit(finding.reference.filter(|value| value.is_finite())),
-                },
-                &mut reasons,
-            );
+            let reason = Reason {
+                kind: point.kind,
+                outcome: finding.outcome,
+                reason: finding.reason,
+                count: 0,
+                place: point.place.clone(),
+                inputs: inputs.clone(),
+                output: output.name.to_string(),
+                value: in_unit(finding.value),
+                reference: in_unit(finding.reference.filter(|value| value.is_finite())),
+            };
+            map.add(point.cell, reason, &mut reasons);
         }
     }
-    Ok(map.with_reasons(reasons))
-}
-
-fn inputs(space: &Space, point: &Point) -> serde_json::Map<String, serde_json::Value> {
-    let inputs = space.factors().iter().zip(&point.x);
-    inputs.map(|(factor, &x)| (factor.name.clone(), factor.unit().from_si(x).into())).collect()
+    map.reasons = reasons.into_values().collect();
+    map.reasons.sort_by_key(|reason| (reason.outcome != Outcome::Wrong, reason.kind, Reverse(reason.count)));
+    Ok(map)
 }
 
 /// The outcome of an output at a point; its numbers in SI units.
@@ -165,7 +169,7 @@ fn evaluate(
     model: &dyn Model,
     worker: &mut dyn Worker,
     x: &[f64],
-    second: &Result<Box<dyn SecondCalculation>, &'static str>,
+    second: &Result<SecondCalculation, &'static str>,
 ) -> (Vec<Finding>, Option<GiveUp>) {
     let mut batch = Batch::new(model);
     batch.reset(1);
@@ -182,9 +186,9 @@ fn evaluate(
     let flags: Vec<&str> = raised.map(|(flag, _)| &*flag.name).collect();
     let counter = model.counters().iter().position(|counter| counter.name == LARGEST_ERROR);
     let error_estimate = counter.and_then(|number| batch.counts().values().nth(number));
-    let answered = values.iter().map(|value| value.as_ref().ok().copied()).collect();
+    let answered: Vec<Option<f64>> = values.iter().map(|value| value.as_ref().ok().copied()).collect();
     let references = match second {
-        Ok(second) => second.calculate(x, &Answered { values: answered, error_estimate }),
+        Ok(second) => (second.calculate)(x, (&answered, error_estimate)),
         Err(why) => outputs.map(|_| Err(Unchecked::NotAvailable((*why).to_owned()))).collect(),
     };
     let judged = values.into_iter().zip(&references).map(|(value, reference)| judge(value, &flags, reference));
@@ -216,22 +220,75 @@ fn judge(value: Result<f64, RowFailure>, flags: &[&str], second: &Result<Referen
     Finding { value: Some(value), reference: second.as_ref().ok().map(|reference| reference.value), ..finding }
 }
 
+/// Another way to compute the outputs of a model.
+pub struct SecondCalculation {
+    /// Its name, in a few words.
+    pub name: String,
+    /// Computes every output at a point, the SI values of the factors in the order of the space, to compare with the
+    /// model's outputs there: in SI units, `None` for a missing one, and the relative error that it estimates for them.
+    pub calculate: Box<Calculate>,
+}
+
+type Calculate = dyn Fn(&[f64], (&[Option<f64>], Option<f64>)) -> Vec<Result<Reference, Unchecked>> + Send + Sync;
+
+/// An output by a second calculation.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Reference {
+    /// The value in SI units; infinite beyond the range of doubles.
+    pub value: f64,
+    /// Possible distance of the model's value from it by the stated errors of both calculations; infinite if they claim
+    /// nothing, `None` if no error is stated for this output.
+    pub stated: Option<f64>,
+    /// Maximum relative deviation of a value that is right.
+    pub tolerance: f64,
+    /// Relative deviation that is never wrong for any stated error: that of the arithmetic, or of a solver.
+    pub floor: f64,
+    /// Why a value may deviate by more; a sentence without a full stop.
+    pub covered: &'static str,
+}
+
+impl Reference {
+    /// Returns whether `value` is right; `None` if it deviates by more than is stated.
+    pub fn agrees(&self, value: f64) -> Option<bool> {
+        // Subnormal numbers have no relative precision.
+        let underflow = 2.0 * f64::MIN_POSITIVE * f64::EPSILON;
+        let apart = if value == self.value { 0.0 } else { (value - self.value).abs() };
+        let within = |relative: f64| apart <= underflow || apart.is_finite() && apart <= relative * self.value.abs();
+        let is_covered = within(self.floor) || self.stated.is_none_or(|stated| apart <= stated);
+        is_covered.then(|| within(self.tolerance))
+    }
+}
+
+/// Why an output cannot be checked.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Unchecked {
+    /// The second calculation failed; a sentence without a full stop.
+    NotAvailable(String),
+    /// The second calculation says that there is no value, with the reason.
+    NoValue(String),
+}
+
 /// The outputs of a study's model on the factors of `space` by another way.
 ///
 /// # Errors
 /// Why there is none, in a few words.
-fn second_calculation(subject: &dyn Subject, space: &Space) -> Result<Box<dyn SecondCalculation>, &'static str> {
+fn second_calculation(subject: &dyn Subject, space: &Space) -> Result<SecondCalculation, &'static str> {
     let subject: &dyn Any = subject;
     if let Some(formulas) = subject.downcast_ref::<ExpressionSubject>() {
-        let formulas = formulas.formulas.iter().map(|formula| formula.expression.clone());
-        return Ok(Box::new(PreciseFormulas(formulas.collect())));
+        let formulas = formulas.formulas.clone();
+        return Ok(SecondCalculation {
+            name: "the formula in 320 bits".to_owned(),
+            calculate: Box::new(move |x, _| formulas.iter().map(|formula| reference(&formula.expression, x)).collect()),
+        });
     }
     let afm = subject.downcast_ref::<AfmSubject>().ok_or("there is no second calculation of this model")?;
     if !afm.histories.is_empty() {
         return Err("there is no second calculation of a history");
     }
     let factors = space.factors().iter().filter_map(|factor| Parameter::from_name(&factor.name)).collect();
-    Ok(Box::new(AfmSecond::new(afm.scene, afm.options, factors, afm.outputs.clone())))
+    let afm = AfmSecond::new(afm.scene, afm.options, factors, afm.outputs.clone());
+    let name = afm.name();
+    Ok(SecondCalculation { name, calculate: Box::new(move |x, (values, error)| afm.calculate(x, values, error)) })
 }
 
 #[cfg(test)]

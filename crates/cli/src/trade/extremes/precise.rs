@@ -6,7 +6,7 @@ use apportion::model::expression::{OfOne, OfTwo};
 use astro_float_num::RoundingMode::ToEven;
 use astro_float_num::{BigFloat, Consts, Sign, WORD_BIT_SIZE};
 
-use super::second::{Answered, Reference, SecondCalculation, Unchecked};
+use super::{Reference, Unchecked};
 
 /// Precision in bits; large compared with the 53 bits of doubles, so that cancellation of all 53 is harmless.
 const BITS: usize = 320;
@@ -62,19 +62,6 @@ pub(super) fn rounding(formula: &Expression, x: &[f64]) -> f64 {
     });
     let apart = values.iter().map(|value| (value - values[0]).abs());
     MARGIN * apart.fold(0.0, |largest, apart| if apart.is_finite() { f64::max(largest, apart) } else { f64::INFINITY })
-}
-
-/// Formulas of the factors in 320 bits as a second calculation.
-pub(crate) struct PreciseFormulas(pub Vec<Expression>);
-
-impl SecondCalculation for PreciseFormulas {
-    fn name(&self) -> String {
-        "the formula in 320 bits".to_owned()
-    }
-
-    fn calculate(&self, x: &[f64], _: &Answered) -> Vec<Result<Reference, Unchecked>> {
-        self.0.iter().map(|formula| reference(formula, x)).collect()
-    }
 }
 
 /// Returns a formula at `x`, and how much rounding may move it in doubles.

@@ -29,7 +29,8 @@ pub(super) struct Curve {
     /// The model.
     pub rung: Rung,
     pub sampler: Sampler,
-    pub has_surrogate: bool,
+    /// On or off.
+    pub surrogate: SurrogateChoice,
 }
 
 impl Curve {
@@ -40,9 +41,9 @@ impl Curve {
         let rungs = rungs(study);
         let name = study.subject().rung_name();
         let rung = rungs.iter().find(|rung| rung.name == name).unwrap_or(&rungs[0]).clone();
-        let own = Self { axis: Axis::Fidelity, rung, sampler: settings.sampler, has_surrogate: false };
-        let of_rung =
-            |rung: Rung| [false, true].map(|has_surrogate| Self { rung: rung.clone(), has_surrogate, ..own.clone() });
+        let own = Self { axis: Axis::Fidelity, rung, sampler: settings.sampler, surrogate: SurrogateChoice::Off };
+        const SURROGATE: [SurrogateChoice; 2] = [SurrogateChoice::Off, SurrogateChoice::On];
+        let of_rung = |rung: Rung| SURROGATE.map(|surrogate| Self { rung: rung.clone(), surrogate, ..own.clone() });
         let mut curves: Vec<Self> = rungs.into_iter().flat_map(of_rung).collect();
         let samplers = Sampler::ALL.into_iter().filter(|sampler| *sampler != settings.sampler);
         curves.extend(samplers.map(|sampler| Self { axis: Axis::Sampler, sampler, ..own.clone() }));
@@ -53,7 +54,7 @@ impl Curve {
     pub fn name(&self) -> String {
         let rung = &self.rung.name;
         match self.axis {
-            Axis::Fidelity if self.has_surrogate => format!("{rung}{SURROGATES}"),
+            Axis::Fidelity if self.surrogate == SurrogateChoice::On => format!("{rung}{SURROGATES}"),
             Axis::Fidelity => rung.to_owned(),
             Axis::Sampler => self.sampler.name().to_owned(),
         }
@@ -64,15 +65,7 @@ impl Curve {
         let usual = IntervalMethod::default_for(self.sampler);
         let own = study.analysis().intervals;
         let intervals = if own.serves(self.sampler) { own } else { usual };
-        let surrogate = if self.has_surrogate { SurrogateChoice::On } else { SurrogateChoice::Off };
-        let analysis = AnalysisOptions {
-            intervals,
-            surrogate,
-            estimators: Vec::new(),
-            second_order: false,
-            pictures: false,
-            ..study.analysis().clone()
-        };
+        let analysis = AnalysisOptions { intervals, surrogate: self.surrogate, ..indices_only(study) };
         let replicates = match self.sampler == study.design().settings().sampler {
             true => study.design().settings().replicates,
             false => analysis.intervals.default_replicates(),
@@ -86,10 +79,14 @@ impl Curve {
     pub fn lines(&self, base_samples: u64) -> String {
         let mut lines = self.rung.lines.clone();
         lines.push_str(&format!("[design]\nsampler = \"{}\"\nbase_samples = {base_samples}\n", self.sampler.name()));
-        let surrogate = if self.has_surrogate { SurrogateChoice::On } else { SurrogateChoice::Off };
-        lines.push_str(&format!("[analysis]\nsurrogate = \"{}\"\n", surrogate.name()));
+        lines.push_str(&format!("[analysis]\nsurrogate = \"{}\"\n", self.surrogate.name()));
         lines
     }
+}
+
+/// Returns the options of a study without what takes time and changes no first-order or total index.
+pub(super) fn indices_only(study: &Study) -> AnalysisOptions {
+    AnalysisOptions { estimators: Vec::new(), second_order: false, pictures: false, ..study.analysis().clone() }
 }
 
 /// Returns the rungs of the model, or the model and its low-fidelity ones, the cheapest first.

@@ -5,9 +5,8 @@ use apportion_report::chart::{Axis, Chart, Colour, Panel, Point, Series, Shape, 
 use apportion_report::document::{Document, Figure, Part, Report, Section, Table};
 use apportion_report::format::{count, grouped, significant};
 
-use super::Measured;
 use super::curve::Axis as Varied;
-use super::record::{AdviceRecord, SettingsFile};
+use super::{Advice, Comparison, Measured};
 
 /// Errors below this are drawn at this value.
 const MIN_ERROR: f64 = 1e-6;
@@ -16,7 +15,7 @@ const MIN_ERROR: f64 = 1e-6;
 const CURVES: usize = 6;
 
 /// Builds the document of a comparison.
-pub fn settings_document(file: &SettingsFile) -> Document {
+pub fn settings_document(file: &Comparison) -> Document {
     let (headline, name) = (file.study.headline(), format!("{}-trade", file.study.name));
     let advice = vec![Figure::unnumbered(chart(file, headline), name.clone()).into(), advice_table(file)];
     let truth = &file.truth;
@@ -44,7 +43,7 @@ pub fn settings_document(file: &SettingsFile) -> Document {
     .document()
 }
 
-fn setting<'a>(file: &'a SettingsFile, advice: &AdviceRecord) -> Option<&'a Measured> {
+fn setting<'a>(file: &'a Comparison, advice: &Advice) -> Option<&'a Measured> {
     file.settings.get(advice.setting?)
 }
 
@@ -66,7 +65,7 @@ fn short_error(error: Option<f64>) -> String {
     error.map_or_else(|| "no indices".to_owned(), |error| format!("{error:.1e}"))
 }
 
-fn lead(file: &SettingsFile) -> Vec<String> {
+fn lead(file: &Comparison) -> Vec<String> {
     let truth = match file.truth.error {
         Some(0.0) => format!("Errors are distances from {}.", file.truth.words),
         error => format!(
@@ -75,7 +74,7 @@ fn lead(file: &SettingsFile) -> Vec<String> {
             short_error(error)
         ),
     };
-    let found: Vec<(&AdviceRecord, &Measured)> =
+    let found: Vec<(&Advice, &Measured)> =
         file.advice.iter().filter_map(|advice| Some((advice, setting(file, advice)?))).collect();
     let cheapest = match found.iter().find(|(advice, _)| advice.accuracy <= 0.01).or(found.last()) {
         Some((advice, of)) => format!(
@@ -90,11 +89,11 @@ fn lead(file: &SettingsFile) -> Vec<String> {
     vec![cheapest, truth]
 }
 
-fn advice_table(file: &SettingsFile) -> Part {
+fn advice_table(file: &Comparison) -> Part {
     let caption = "The cheapest setting whose largest error, over all indices and seeds, is no more than the accuracy; the study's \
                    own where it differs from that by no more than the noise of time and error.";
     let of = |said: fn(&Measured) -> String, none: &'static str| {
-        move |advice: &AdviceRecord| setting(file, advice).map_or_else(|| none.to_owned(), said)
+        move |advice: &Advice| setting(file, advice).map_or_else(|| none.to_owned(), said)
     };
     Table::from_rows(caption, &file.advice)
         .number("accuracy", |advice| significant(advice.accuracy))
@@ -106,20 +105,13 @@ fn advice_table(file: &SettingsFile) -> Part {
         .into()
 }
 
-fn lines(file: &SettingsFile) -> Vec<Part> {
+fn lines(file: &Comparison) -> Vec<Part> {
     let mut parts = Vec::new();
-    let mut before = None;
-    for advice in &file.advice {
-        let Some(of) = setting(file, advice) else { continue };
-        if before != advice.setting {
-            parts.push(Part::Text(format!(
-                "For an accuracy of {}: {}.",
-                significant(advice.accuracy),
-                describe_setting(of)
-            )));
-            parts.push(Part::Code(of.lines.clone()));
-        }
-        before = advice.setting;
+    for alike in file.advice.chunk_by(|a, b| a.setting == b.setting) {
+        let Some(of) = setting(file, &alike[0]) else { continue };
+        let (accuracy, setting) = (significant(alike[0].accuracy), describe_setting(of));
+        parts.push(Part::Text(format!("For an accuracy of {accuracy}: {setting}.")));
+        parts.push(Part::Code(of.lines.clone()));
     }
     let text = "Alternatively, with the line `accuracy = 0.01` a run chooses its settings and continues until its intervals reach \
                 the accuracy.";
@@ -128,7 +120,7 @@ fn lines(file: &SettingsFile) -> Vec<Part> {
 }
 
 /// Returns the settings curve by curve.
-fn curves(file: &SettingsFile) -> Vec<&[Measured]> {
+fn curves(file: &Comparison) -> Vec<&[Measured]> {
     file.settings.chunk_by(|a, b| a.curve == b.curve).collect()
 }
 
@@ -138,11 +130,11 @@ fn is_rung(curve: &[Measured]) -> bool {
 }
 
 /// Returns the smallest error that is drawn: that of the reference, below which errors cannot be distinguished.
-fn least_drawn(file: &SettingsFile) -> f64 {
+fn least_drawn(file: &Comparison) -> f64 {
     file.truth.error.unwrap_or(0.0).max(MIN_ERROR)
 }
 
-fn points(file: &SettingsFile, curve: &[Measured]) -> Vec<(f64, f64)> {
+fn points(file: &Comparison, curve: &[Measured]) -> Vec<(f64, f64)> {
     let least = least_drawn(file);
     curve.iter().filter_map(|of| Some((of.seconds, of.error?.max(least)))).collect()
 }
@@ -159,7 +151,7 @@ fn seconds_of_run(curve: &[Measured]) -> Option<f64> {
 }
 
 /// Tabulates the rungs without surrogates; `None` if there is only one.
-fn rung_table(file: &SettingsFile) -> Option<Part> {
+fn rung_table(file: &Comparison) -> Option<Part> {
     let curves = curves(file).into_iter().filter(|curve| is_rung(curve));
     let rungs: Vec<_> = curves.filter_map(|curve| Some((seconds_of_run(curve)?, curve))).collect();
     let cheapest = rungs.iter().map(|(seconds, _)| *seconds).fold(f64::INFINITY, f64::min);
@@ -174,7 +166,7 @@ fn rung_table(file: &SettingsFile) -> Option<Part> {
 }
 
 /// Draws the error of the reference over the range of times.
-fn floor(file: &SettingsFile) -> Option<apportion_report::chart::Mark> {
+fn floor(file: &Comparison) -> Option<apportion_report::chart::Mark> {
     let error = file.truth.error.filter(|error| *error > MIN_ERROR)?;
     let times = file.settings.iter().map(|of| of.seconds);
     let (least, most) = (times.clone().reduce(f64::min)?, times.reduce(f64::max)?);
@@ -182,7 +174,7 @@ fn floor(file: &SettingsFile) -> Option<apportion_report::chart::Mark> {
     Some(series.line(vec![(least, error), (most, error)]))
 }
 
-fn chart(file: &SettingsFile, headline: &str) -> Chart {
+fn chart(file: &Comparison, headline: &str) -> Chart {
     let mut drawn = curves(file);
     let is_chosen = |curve: &str| file.advice.iter().filter_map(|one| setting(file, one)).any(|of| of.curve == curve);
     let is_first = |of: &Measured| of.curve == file.own || is_chosen(&of.curve);
@@ -217,7 +209,7 @@ fn chart(file: &SettingsFile, headline: &str) -> Chart {
     Chart::new(format!("{headline}: error against time"), caption).panels([panel])
 }
 
-fn all(file: &SettingsFile) -> Part {
+fn all(file: &Comparison) -> Part {
     Table::from_rows("Every setting that was measured.", &file.settings)
         .text("setting", |of| &of.curve)
         .named("setting")

@@ -2,25 +2,22 @@
 //!
 //! The reference is the exact result of a function that has one, else the indices by the finest model, as accurate as a
 //! part of the time allows; its own error is part of every reported error. Times are measured, so they differ between
-//! comparisons; the indices do not.
+//! comparisons; the indices do not. The comparison is written as JSON that other programs can rely on, see `docs/trade.md`.
 
 mod curve;
 mod document;
-mod record;
-mod truth;
 
 use std::sync::atomic::AtomicBool;
 
+use apportion::analysis::study_setup;
 use apportion::clock::Instant;
-use apportion::result::StudyResult;
-use apportion::run::RunError;
-use apportion::study::Study;
+use apportion::result::{OutputResult, StudyResult, StudySetup};
+use apportion::run::{RunError, threads_in_force};
+use apportion::study::{Study, SurrogateChoice, Target};
 pub use curve::Axis;
-use curve::{Curve, SURROGATES};
+use curve::{Curve, SURROGATES, indices_only, rungs};
 pub use document::settings_document;
-pub use record::{SettingsFile, build_settings};
 use serde::{Deserialize, Serialize};
-use truth::Truth;
 
 /// Base samples at the start of a curve, and their growth factor.
 const FIRST_BASE_SAMPLES: u64 = 16;
@@ -53,7 +50,7 @@ pub struct SettingsJob<'a> {
     /// Threads; 0 for one per core.
     pub threads: usize,
     /// Stops it soon after it is set.
-    pub stop: Option<&'a AtomicBool>,
+    pub stop: &'a AtomicBool,
     /// Receives the next measurement, and the completed part of the whole.
     pub on_progress: &'a dyn Fn(&str, f64),
 }
@@ -61,20 +58,41 @@ pub struct SettingsJob<'a> {
 impl SettingsJob<'_> {
     /// Runs a variant of the study.
     fn run(&self, study: &Study) -> Result<StudyResult, RunError> {
-        let runner = study.runner().threads(self.threads);
-        self.stop.into_iter().fold(runner, |runner, stop| runner.stop(stop)).run()
+        study.runner().threads(self.threads).stop(self.stop).run()
     }
 }
 
-/// The result of a comparison.
+/// A comparison, in the format `apportion-trade`, version 1. Later versions of the program only add keys. A number that
+/// does not exist is `null`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Comparison {
+    /// Always `apportion-trade`.
+    pub format: String,
+    /// Version of the format.
+    pub version: u32,
+    /// The study.
+    pub study: StudySetup,
+    /// Version of the program.
+    pub apportion_version: String,
+    /// Number of threads of the runs.
+    pub threads: usize,
     /// The reference for the errors.
     pub truth: TruthFound,
     /// The curve of the study's own model and sampler, without surrogates.
     pub own: String,
     /// All measured settings.
     pub settings: Vec<Measured>,
+    /// The cheapest setting for each accuracy.
+    pub advice: Vec<Advice>,
+}
+
+/// The cheapest setting for an accuracy.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Advice {
+    /// The accuracy.
+    pub accuracy: f64,
+    /// Number of the setting, from 0; `null` if none reaches it.
+    pub setting: Option<usize>,
 }
 
 /// The reference for the errors.
@@ -120,44 +138,76 @@ pub struct Measured {
     pub lines: String,
 }
 
-impl Comparison {
-    fn new(truth: TruthFound, own: String, settings: Vec<Measured>) -> Self {
-        let mut comparison = Self { truth, own, settings };
-        for place in comparison.front() {
-            comparison.settings[place].is_on_front = true;
+/// Returns the Pareto-optimal settings in time and error, by number, the quickest first. Errors below that of the
+/// reference are equal.
+fn front(settings: &[Measured], truth_error: f64) -> Vec<usize> {
+    let error = |k: usize| settings[k].error.map(|error| error.max(truth_error));
+    let mut order: Vec<usize> = (0..settings.len()).collect();
+    order.sort_by(|&a, &b| settings[a].seconds.total_cmp(&settings[b].seconds));
+    let mut best = f64::INFINITY;
+    order.retain(|&k| {
+        let is_better = error(k).is_some_and(|error| error < best);
+        best = best.min(error(k).unwrap_or(best));
+        is_better
+    });
+    order
+}
+
+/// Returns the cheapest setting with an error of at most `accuracy`, including the error of the reference; the study's
+/// `own` model and sampler instead, if that differs from that by no more than the noise of time and error.
+fn cheapest(settings: &[Measured], truth_error: f64, own: &str, accuracy: f64) -> Option<usize> {
+    let reaches = |error: Option<f64>| error.is_some_and(|error| error + truth_error <= accuracy);
+    let quickest = front(settings, truth_error).into_iter().find(|&k| reaches(settings[k].error))?;
+    let best = &settings[quickest];
+    let is_alike = |of: &Measured| of.seconds <= best.usual_seconds && reaches(of.least_error);
+    let is_own = |of: &Measured| of.curve.trim_end_matches(SURROGATES) == own;
+    let own = settings.iter().position(|of| !is_own(best) && is_own(of) && is_alike(of));
+    own.or(Some(quickest))
+}
+
+/// Target half width of a reference.
+const FINEST: f64 = 1e-6;
+
+/// First-order and total index of every factor, of every output that has them.
+type Indices = Vec<[f64; 2]>;
+
+struct Truth {
+    outputs: Vec<Option<Indices>>,
+    found: TruthFound,
+}
+
+impl Truth {
+    /// Returns the exact indices if the function has them, else those of a run of the finest model of so many seconds.
+    fn new(job: &SettingsJob<'_>, seconds: f64) -> Result<Self, RunError> {
+        let study = job.study;
+        if let Some((first, total)) = study.subject().exact_indices(study.space()) {
+            let indices = first.into_iter().zip(total).map(|(first, total)| [first, total]).collect();
+            let words = "the exact indices of the function".to_owned();
+            let found = TruthFound { words, error: Some(0.0), runs: 0, seconds: 0.0 };
+            return Ok(Self { outputs: vec![Some(indices)], found });
         }
-        comparison
-    }
-
-    /// Returns the Pareto-optimal settings in time and error, by number, the quickest first. Errors below that of the
-    /// reference are equal.
-    pub fn front(&self) -> Vec<usize> {
-        let mut order: Vec<usize> = (0..self.settings.len()).filter(|&k| self.settings[k].error.is_some()).collect();
-        order.sort_by(|&a, &b| self.settings[a].seconds.total_cmp(&self.settings[b].seconds));
-        let mut best = f64::INFINITY;
-        order.retain(|&k| {
-            let error = self.settings[k].error.unwrap_or(f64::INFINITY).max(self.truth_error());
-            let is_better = error < best;
-            best = best.min(error);
-            is_better
-        });
-        order
-    }
-
-    fn truth_error(&self) -> f64 {
-        self.truth.error.unwrap_or(f64::INFINITY)
-    }
-
-    /// Returns the cheapest setting with an error of at most `accuracy`, including the error of the reference; the
-    /// study's own model and sampler instead, if that differs from that by no more than the noise of time and error.
-    pub fn cheapest(&self, accuracy: f64) -> Option<usize> {
-        let reaches = |error: Option<f64>| error.is_some_and(|error| error + self.truth_error() <= accuracy);
-        let quickest = self.front().into_iter().find(|&k| reaches(self.settings[k].error))?;
-        let best = &self.settings[quickest];
-        let is_alike = |of: &Measured| of.seconds <= best.usual_seconds && reaches(of.least_error);
-        let is_own = |of: &Measured| of.curve.trim_end_matches(SURROGATES) == self.own;
-        let own = self.settings.iter().position(|of| !is_own(best) && is_own(of) && is_alike(of));
-        own.or(Some(quickest))
+        let rung = rungs(study).into_iter().rfind(|rung| rung.is_finest);
+        let name = rung.as_ref().map_or_else(String::new, |rung| rung.name.clone());
+        let subject = rung.map_or_else(|| study.subject().clone(), |rung| rung.subject);
+        let max_time = study.target().max_time.map_or(seconds, |limit| limit.min(seconds));
+        let target = Target::accuracy(FINEST).max_time(max_time);
+        let analysis = indices_only(study);
+        let finest = study.clone().with_subject(subject).with_target(target);
+        // A design with fewer swaps always exists.
+        let finest = finest.clone().with_design(study.design().settings().clone(), analysis).unwrap_or(finest);
+        let start = Instant::now();
+        let result = job.run(&finest)?;
+        let known = result.outputs.iter().filter(|output| output.indices.is_some());
+        let error =
+            known.map(OutputResult::largest_half_width).try_fold(0.0, |largest, width| Some(f64::max(largest, width?)));
+        let of_output = |output: &OutputResult| {
+            let indices = output.indices.as_ref()?;
+            Some(indices.iter().map(|i| [i.effect.first_order.estimate, i.effect.total.estimate]).collect())
+        };
+        let runs = result.spending.as_ref().map_or(result.provenance.model_runs, |spending| spending.runs);
+        let words = format!("a run of {name} with {} base samples", result.provenance.base_samples);
+        let found = TruthFound { words, error, runs, seconds: start.elapsed().as_secs_f64() };
+        Ok(Self { outputs: result.outputs.iter().map(of_output).collect(), found })
     }
 }
 
@@ -177,7 +227,23 @@ pub fn compare_settings(job: &SettingsJob<'_>) -> Result<Comparison, RunError> {
         let share = (job.seconds - done).max(0.0) / (curves.len() - number) as f64;
         settings.extend(measured(job, curve, &truth, share)?);
     }
-    Ok(Comparison::new(truth.found, job.study.subject().rung_name(), settings))
+    let (truth, own) = (truth.found, job.study.subject().rung_name());
+    let truth_error = truth.error.unwrap_or(f64::INFINITY);
+    for place in front(&settings, truth_error) {
+        settings[place].is_on_front = true;
+    }
+    let advice = |accuracy| Advice { accuracy, setting: cheapest(&settings, truth_error, &own, accuracy) };
+    Ok(Comparison {
+        format: "apportion-trade".to_owned(),
+        version: 1,
+        study: study_setup(job.study),
+        apportion_version: env!("CARGO_PKG_VERSION").to_owned(),
+        threads: threads_in_force(job.threads),
+        advice: ACCURACIES.map(advice).to_vec(),
+        truth,
+        own,
+        settings,
+    })
 }
 
 /// Measures the points of `curve` that fit into so many seconds, at least the first.
@@ -216,7 +282,7 @@ fn measured(job: &SettingsJob<'_>, curve: &Curve, truth: &Truth, seconds: f64) -
         all.extend(last.map(|of| Measured {
             curve: curve.name(),
             axis: curve.axis,
-            has_surrogate: curve.has_surrogate,
+            has_surrogate: curve.surrogate == SurrogateChoice::On,
             base_samples: of.base_samples,
             runs: of.model_runs,
             seconds: times[0],
@@ -272,33 +338,28 @@ mod tests {
         }
     }
 
-    fn comparison(error_of_truth: f64, settings: &[(f64, f64)]) -> Comparison {
-        let truth = TruthFound { words: String::new(), error: Some(error_of_truth), runs: 0, seconds: 0.0 };
-        let known = |error: f64| Some(error).filter(|error| error.is_finite());
-        Comparison::new(
-            truth,
-            "own".to_owned(),
-            settings.iter().map(|&(seconds, error)| measured(seconds, known(error))).collect(),
-        )
+    fn settings(all: &[(f64, f64)]) -> Vec<Measured> {
+        all.iter().map(|&(seconds, error)| measured(seconds, Some(error).filter(|error| error.is_finite()))).collect()
     }
 
     #[test]
     fn the_front_is_not_beaten_in_both_time_and_error() {
         let all = [(3.0, 0.01), (1.0, 0.5), (2.0, 0.6), (2.5, 0.2), (4.0, f64::INFINITY), (5.0, 1e-9), (6.0, 1e-12)];
-        assert_eq!(comparison(0.0, &all).front(), [1, 3, 0, 5, 6]);
+        assert_eq!(front(&settings(&all), 0.0), [1, 3, 0, 5, 6]);
         // Differences below the error of the reference count as equal.
-        assert_eq!(comparison(1e-6, &all).front(), [1, 3, 0, 5]);
+        assert_eq!(front(&settings(&all), 1e-6), [1, 3, 0, 5]);
     }
 
     #[test]
     fn the_cheapest_setting_includes_the_error_of_the_reference() {
-        let all = [(1.0, 0.09), (2.0, 0.02), (3.0, 0.001)];
-        assert_eq!(comparison(0.0, &all).cheapest(0.1), Some(0));
-        assert_eq!(comparison(0.02, &all).cheapest(0.1), Some(1));
-        assert_eq!(comparison(0.02, &all).cheapest(0.02), None);
+        let all = settings(&[(1.0, 0.09), (2.0, 0.02), (3.0, 0.001)]);
+        assert_eq!(cheapest(&all, 0.0, "own", 0.1), Some(0));
+        assert_eq!(cheapest(&all, 0.02, "own", 0.1), Some(1));
+        assert_eq!(cheapest(&all, 0.02, "own", 0.02), None);
         // The study's own counts as equal to what is quicker and better by less than the noise.
-        let mut own = comparison(0.0, &[(1.0, 0.09), (1.4, 0.15), (1.6, 0.01)]);
-        own.settings[1..].iter_mut().for_each(|of| of.curve.push_str("own"));
-        assert_eq!([0.1, 0.08, 0.07].map(|accuracy| own.cheapest(accuracy)), [Some(1), Some(2), Some(2)]);
+        let mut all = settings(&[(1.0, 0.09), (1.4, 0.15), (1.6, 0.01)]);
+        all[1..].iter_mut().for_each(|of| of.curve.push_str("own"));
+        let found = [0.1, 0.08, 0.07].map(|accuracy| cheapest(&all, 0.0, "own", accuracy));
+        assert_eq!(found, [Some(1), Some(2), Some(2)]);
     }
 }

@@ -13,19 +13,7 @@ use super::design_rows::{DesignRows, RowBlock, RowsDigest};
 use super::error::{TableError, refused};
 use super::manifest::Manifest;
 use super::rows::{ColumnKind, RowReader};
-
-/// Number of rows counted at a time.
-const COUNTED: usize = 1 << 13;
-
-/// How a row without a finite output is treated.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum MissingOutputs {
-    /// The file is refused.
-    #[default]
-    Refuse,
-    /// The row counts as a run that failed.
-    Failed,
-}
+use super::table::Missing;
 
 /// The request for a file of outputs.
 #[derive(Debug, Clone, Copy)]
@@ -36,8 +24,8 @@ pub struct AnswersRequest<'a> {
     pub outputs: &'a [String],
     /// Units of outputs, by column; others have the study's unit, or none.
     pub units: &'a [(String, Unit)],
-    /// How rows without an output are treated.
-    pub missing: MissingOutputs,
+    /// How rows without a finite output are treated: those that are dropped count as runs that failed.
+    pub missing: Missing,
 }
 
 /// The outputs of all rows of a design.
@@ -92,7 +80,7 @@ struct Reading<'a> {
 
 impl Reading<'_> {
     /// Reads all rows and returns the SHA-256 of the design's numbers.
-    fn all(&mut self, store: &Store, missing: MissingOutputs) -> Result<String, TableError> {
+    fn all(&mut self, store: &Store, missing: Missing) -> Result<String, TableError> {
         let design = &self.study.design();
         let mut cells = vec![Vec::new(); self.wanted.len()];
         let mut points = vec![Vec::new(); design.factors()];
@@ -103,20 +91,20 @@ impl Reading<'_> {
             let (answers, found) = cells.split_at(self.columns.outputs.len());
             self.compare(&points, found, count)?;
             if count < block.rows {
-                return self.refuse_row_count(self.row + count as u64);
+                let found = self.row + count as u64;
+                return refused(format!("the file has {found} rows, but the design has {}", design.rows()));
             }
             store.insert(&self.piece(block, answers, missing)?);
             self.row += count as u64;
         }
-        let more = self.count_rest()?;
-        if more > 0 {
-            return self.refuse_row_count(self.row + more);
+        if self.reader.read(&self.wanted, 1, &mut cells)? > 0 {
+            return refused(format!("the file has more rows than the design, which has {}", design.rows()));
         }
         Ok(digest.finish())
     }
 
     /// Returns the outputs of a block.
-    fn piece(&self, block: RowBlock, answers: &[Vec<f64>], missing: MissingOutputs) -> Result<Piece, TableError> {
+    fn piece(&self, block: RowBlock, answers: &[Vec<f64>], missing: Missing) -> Result<Piece, TableError> {
         let outputs = self.model.outputs();
         let reason = RowFailure::new("the file of outputs has no finite number for it");
         let mut piece = Piece { replicate: block.replicate, first: block.first, ..Piece::default() };
@@ -125,7 +113,7 @@ impl Reading<'_> {
             for (number, (column, output)) in answers.iter().zip(outputs).enumerate() {
                 let si = output.unit.to_si(column[row]);
                 if !si.is_finite() {
-                    if missing == MissingOutputs::Refuse {
+                    if missing == Missing::Refuse {
                         let what = match column[row] {
                             found if found.is_nan() => "the value is missing".to_owned(),
                             found => format!("{found} is not a finite number"),
@@ -164,20 +152,5 @@ impl Reading<'_> {
             "row {row}, column `{name}`: found {found}, but the design has {expected}: rows are missing, repeated or in another \
              order, or the points were changed, were printed with less than ten digits, or belong to another design"
         ))
-    }
-
-    fn refuse_row_count<T>(&self, found: u64) -> Result<T, TableError> {
-        refused(format!("the file has {found} rows, but the design has {}", self.study.design().rows()))
-    }
-
-    /// Counts the rows of the file that have not been read.
-    fn count_rest(&mut self) -> Result<u64, TableError> {
-        let (mut rest, mut cells) = (0, vec![Vec::new(); self.wanted.len()]);
-        loop {
-            match self.reader.read(&self.wanted, COUNTED, &mut cells)? {
-                0 => return Ok(rest),
-                rows => rest += rows as u64,
-            }
-        }
     }
 }

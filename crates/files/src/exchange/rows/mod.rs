@@ -50,15 +50,7 @@ impl Format {
         if let Some(format) = Self::ALL.into_iter().find(known) {
             return Ok(format);
         }
-        let found = match ending.as_deref() {
-            None => String::new(),
-            Some("parquet") => {
-                ", not .parquet: in Python `pandas.read_csv(\"FILE.csv\").to_parquet(\"FILE.parquet\")` makes one \
-                                of a CSV file"
-                    .to_owned()
-            }
-            Some(ending) => format!(", not .{ending}"),
-        };
+        let found = ending.map_or_else(String::new, |ending| format!(", not .{ending}"));
         refused(format!("the ending of the name gives the format: expected .csv or .npy{found}"))
     }
 }
@@ -91,7 +83,7 @@ impl ColumnKind {
         Self { name: name.to_owned(), ..Self::default() }
     }
 
-    fn label(&self, value: f64) -> Option<&str> {
+    pub(crate) fn label(&self, value: f64) -> Option<&str> {
         self.labels.iter().find(|(_, number)| *number == value).map(|(label, _)| label.as_str())
     }
 
@@ -129,7 +121,7 @@ impl ColumnKind {
 }
 
 /// Parses a number as programs print it, including Fortran's `D` before the exponent.
-fn number(cell: &str) -> Option<f64> {
+pub(crate) fn number(cell: &str) -> Option<f64> {
     let of_fortran = || {
         let is_plain = cell.bytes().all(|byte| byte.is_ascii_digit() || b"+-.dD".contains(&byte));
         if is_plain { cell.replace(['d', 'D'], "e").parse().ok() } else { None }
@@ -193,9 +185,6 @@ pub trait RowReader {
 pub fn open_table(path: &Path, options: &ReadOptions) -> Result<Box<dyn RowReader>, TableError> {
     let mut file = File::open(path)?;
     let about = file.metadata()?;
-    if about.is_dir() {
-        return Err(std::io::Error::from(std::io::ErrorKind::IsADirectory).into());
-    }
     let mut begin = Vec::new();
     (&mut file).take(8).read_to_end(&mut begin)?;
     if !begin.starts_with(npy::MAGIC) {
@@ -250,7 +239,7 @@ pub trait RowWriter {
     /// Writes the remaining data.
     ///
     /// # Errors
-    /// Any error of the file system, or a number of rows other than announced.
+    /// Any error of the file system.
     fn finish(self: Box<Self>) -> std::io::Result<()>;
 }
 

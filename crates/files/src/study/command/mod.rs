@@ -4,7 +4,7 @@ pub(super) mod file;
 mod runs;
 
 use std::ops::Range;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Duration;
 
 use apportion::space::Space;
@@ -40,10 +40,14 @@ pub(super) fn subject(
             (section.as_ref(), section.program.as_ref().map_or(&[][..], |program| program.get_ref().as_slice()))
         }
     };
-    let arguments = arguments(context, key, program)?;
+    if program.first().is_none_or(|name| name.get_ref().trim().is_empty()) {
+        let span = program.first().map_or_else(|| key.span(), At::span);
+        return Err(context.fault(span, no_program()));
+    }
+    let arguments: Vec<String> = program.iter().map(|argument| argument.get_ref().clone()).collect();
     let directory = match &section.directory {
         None => folder(context),
-        Some(typed) => existing(context, section, typed, ("directory", Path::is_dir))?,
+        Some(typed) => existing(context, section, typed, "directory")?,
     };
     let environment: Vec<(String, String)> = section.env.clone().into_iter().collect();
     let all = own_outputs(context, outputs)?;
@@ -80,7 +84,8 @@ pub(super) fn subject(
     ];
     stated.retain(|(_, value)| !matches!(value, Value::Null) && *value != json!([]) && *value != json!({}));
     let depends_on =
-        section.depends_on.iter().map(|typed| existing_file(context, section, typed)).collect::<Result<_, _>>()?;
+        section.depends_on.iter().map(|typed| existing(context, section, typed, "file")).collect::<Result<_, _>>()?;
+    let timeout = section.timeout.as_ref().map(|typed| seconds(context, "timeout", typed)).transpose()?;
     let settings = CommandSettings {
         program: Program { arguments, directory, environment },
         form,
@@ -88,18 +93,10 @@ pub(super) fn subject(
         outputs: all.outputs,
         series: all.series,
         workers: whole(context, "workers", section.workers.as_ref(), 1..=1024)?.map(|number| number as usize),
-        timeout: timeout(context, section)?,
+        timeout: timeout.map(|seconds| Duration::try_from_secs_f64(seconds).unwrap_or(Duration::MAX)),
         retries: whole(context, "retries", section.retries.as_ref(), 0..=100)?.map_or(1, |number| number as u32),
     };
     Ok((CommandSubject { settings, stated, depends_on }, notes))
-}
-
-fn arguments(context: &Context<'_>, key: &At<CommandKey>, program: &[At<String>]) -> Result<Vec<String>, Fault> {
-    if program.first().is_none_or(|name| name.get_ref().trim().is_empty()) {
-        let span = program.first().map_or_else(|| key.span(), At::span);
-        return Err(context.fault(span, no_program()));
-    }
-    Ok(program.iter().map(|argument| argument.get_ref().clone()).collect())
 }
 
 /// Returns how far the paths of the study may lead.
@@ -108,19 +105,11 @@ fn reach(section: &CommandSection) -> Reach {
     if is_free { Reach::Anywhere } else { Reach::Inside }
 }
 
-fn existing_file(context: &Context<'_>, section: &CommandSection, typed: &At<String>) -> Result<PathBuf, Fault> {
-    existing(context, section, typed, ("file", Path::is_file))
-}
-
-/// Returns the typed path, which must exist.
-fn existing(
-    context: &Context<'_>,
-    section: &CommandSection,
-    typed: &At<String>,
-    (what, is_there): (&str, fn(&Path) -> bool),
-) -> Result<PathBuf, Fault> {
+/// Returns the typed path of an existing `file` or `directory`.
+fn existing(context: &Context<'_>, section: &CommandSection, typed: &At<String>, what: &str) -> Result<PathBuf, Fault> {
     let path = resolve(context, typed, reach(section))?;
-    if is_there(&path) {
+    let is_there = if what == "file" { path.is_file() } else { path.is_dir() };
+    if is_there {
         return Ok(path);
     }
     let problem = format!("{}: there is no such {what}", path.display());
@@ -177,13 +166,4 @@ fn whole(
     }
     let expected = format!("a whole number from {} to {}", range.start(), range.end());
     context.refuse(typed, key, &expected, typed.get_ref().to_string())
-}
-
-fn timeout(context: &Context<'_>, section: &CommandSection) -> Result<Option<Duration>, Fault> {
-    let Some(typed) = &section.timeout else { return Ok(None) };
-    let seconds = seconds(context, "timeout", typed)?;
-    match Duration::try_from_secs_f64(seconds).ok().filter(|time| *time > Duration::ZERO) {
-        Some(duration) => Ok(Some(duration)),
-        None => context.refuse(typed, "timeout", "a time above 0, as in \"30 s\"", format!("{:?}", typed.get_ref())),
-    }
 }

@@ -8,7 +8,7 @@ use apportion::space::Space;
 use apportion::study::did_you_mean;
 
 use super::file::{CommandKey, CommandSection};
-use super::{Context, Fault, existing_file, reach};
+use super::{Context, Fault, existing, reach};
 use crate::study::at::At;
 use crate::study::context::wrong;
 use crate::study::error::Problem;
@@ -88,7 +88,7 @@ fn refuse_place(key: &str, name: &str) -> Result<(), Problem> {
 fn files(context: &Context<'_>, section: &CommandSection, input: &str) -> Result<Vec<PathBuf>, Fault> {
     let mut paths: Vec<PathBuf> = Vec::with_capacity(section.files.len());
     for typed in &section.files {
-        let path = existing_file(context, section, typed)?;
+        let path = existing(context, section, typed, "file")?;
         let fault = |problem| context.fault(typed.span(), problem);
         let name = path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
         refuse_place("files", &name).map_err(fault)?;

@@ -72,7 +72,7 @@ fn marks_stand_at_their_values(bars: &[Bar], svg: &str) {
 #[test]
 fn bars_whiskers_and_diamonds_are_at_their_values() {
     let svg = sample().svg();
-    let all: Vec<Bar> = sample().all_panels()[0].bars().map(|(_, bar)| bar.clone()).collect();
+    let all: Vec<Bar> = sample().panels[0].bars().map(|(_, bar)| bar.clone()).collect();
     // Row by row.
     marks_stand_at_their_values(&[0, 2, 1, 3].map(|number: usize| all[number].clone()), &svg);
     let document = Document::parse(&svg).expect("well-formed");

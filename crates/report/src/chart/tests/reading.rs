@@ -60,7 +60,7 @@ pub(super) fn x_axis(axis: &Node) -> (f64, f64) {
 /// Dark pixels of the PNG in a band of heights given in px of the SVG.
 pub(super) fn dark_pixels(svg: &str, from: f64, to: f64) -> usize {
     let picture = png(svg).expect("a picture");
-    let pixels = Pixmap::decode_png(&picture.bytes).expect("a PNG");
+    let pixels = Pixmap::decode_png(&picture).expect("a PNG");
     let document = Document::parse(svg).expect("well-formed");
     let root = document.root_element();
     assert_eq!(f64::from(pixels.width()), 2.0 * number(&root, "width"));
@@ -82,7 +82,7 @@ fn extent(svg: &str) -> ([f32; 4], [f32; 2]) {
 /// Asserts that a phone's drawing is 360 px wide and that nothing sticks out of it, as a document and on a page.
 #[track_caller]
 pub(super) fn assert_narrow(chart: &Chart) {
-    let inline = chart.inline(ChartWidth::Narrow);
+    let inline = chart.inline(ChartWidth::Narrow, "narrow");
     let root = inline.split('>').next().expect("a root");
     assert!(root.contains("role=\"img\"") && root.contains("aria-label=") && !root.contains(" width="), "{root}");
     for svg in [chart.svg_at(ChartWidth::Narrow), inline] {

@@ -1,0 +1,81 @@
+//! Why a command failed: exit code 2 if its input was wrong, else 1.
+
+use std::fmt::Display;
+use std::io::ErrorKind;
+use std::path::Path;
+
+use apportion::design::DesignError;
+use apportion::result::ReadError;
+use apportion::run::journal::JournalError;
+use apportion::run::{Halt, RunError};
+use apportion::screening::ScreeningError;
+use apportion::sweep::SweepError;
+use apportion_files::StudyError;
+use apportion_files::exchange::EvaluateError;
+use apportion_report::{ArtefactError, WriteError};
+use thiserror::Error;
+
+/// The input was wrong, for this reason.
+#[derive(Debug, Error)]
+#[error("{0}")]
+struct BadInput(String);
+
+/// The input was wrong, and another process has reported it.
+#[derive(Debug, Error)]
+#[error("reported by another process")]
+pub struct Silent;
+
+/// Returns the error of a wrong input.
+pub fn bad_input(reason: impl Display) -> anyhow::Error {
+    BadInput(reason.to_string()).into()
+}
+
+/// Results that depend on a file of the user.
+pub trait OfFile<T> {
+    /// Says which file was wrong.
+    fn in_file(self, file: &Path) -> anyhow::Result<T>;
+}
+
+impl<T, E: Display> OfFile<T> for Result<T, E> {
+    fn in_file(self, file: &Path) -> anyhow::Result<T> {
+        self.map_err(|error| bad_input(format!("{}: {error}", file.display())))
+    }
+}
+
+/// Returns the exit code of an error.
+pub fn exit_code(error: &anyhow::Error) -> u8 {
+    if is_bad_input(error) { 2 } else { 1 }
+}
+
+fn is_bad_input(error: &anyhow::Error) -> bool {
+    // The path as given, not as resolved.
+    let is_bad_path = |error: &WriteError| error.source.kind() == ErrorKind::NotADirectory;
+    let is_bad_model = |halt: &Halt| matches!(halt, Halt::GaveUp(give_up) if give_up.is_bad_input);
+    if let Some(error) = error.downcast_ref::<RunError>() {
+        match error {
+            RunError::GaveUp(give_up) => give_up.is_bad_input,
+            RunError::Journal(JournalError::NotAJournal { .. } | JournalError::OtherVersion { .. }) => true,
+            _ => matches!(error, RunError::Refused { .. } | RunError::Journal(JournalError::NoFile { .. })),
+        }
+    } else if let Some(error) = error.downcast_ref::<ArtefactError>() {
+        match error {
+            ArtefactError::Input { .. } => true,
+            ArtefactError::Write(error) => is_bad_path(error),
+            _ => false,
+        }
+    } else if let Some(error) = error.downcast_ref::<SweepError>() {
+        if let SweepError::Halted(halt) = error { is_bad_model(halt) } else { true }
+    } else if let Some(EvaluateError::Halted { halt, .. }) = error.downcast_ref() {
+        is_bad_model(halt)
+    } else if let Some(error) = error.downcast_ref::<ScreeningError>() {
+        !matches!(error, ScreeningError::Run(_))
+    } else if let Some(error) = error.downcast_ref::<WriteError>() {
+        is_bad_path(error)
+    } else {
+        error.is::<BadInput>()
+            || error.is::<Silent>()
+            || error.is::<StudyError>()
+            || error.is::<ReadError>()
+            || error.is::<DesignError>()
+    }
+}
