@@ -9,7 +9,7 @@ use crate::format::split_word;
 /// Everything is escaped and control characters are dropped. `X_abc`, a single Latin or Greek letter with a subscript
 /// of at most four letters or digits (or the name of a Greek letter), is set as `<var>X</var><sub>abc</sub>`; a star
 /// may follow. Longer names and file names stay as they are. Text between backticks is set as code. An estimate and its
-/// error are joined by no-break spaces.
+/// error, and a number and its `%`, are joined by no-break spaces.
 ///
 /// ```
 /// use apportion_report::document::symbols;
@@ -37,7 +37,7 @@ fn code_span(text: &str) -> Option<(&str, &str, &str)> {
 }
 
 fn prose(text: &str) -> String {
-    let text = clean(text).replace(" ± ", "\u{a0}±\u{a0}");
+    let text = clean(text).replace(" ± ", "\u{a0}±\u{a0}").replace(" %", "\u{a0}%");
     let mut html = String::with_capacity(text.len() + 16);
     let mut rest = &text[..];
     while !rest.is_empty() {
