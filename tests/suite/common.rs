@@ -83,22 +83,27 @@ impl Folder {
 
 /// Runs the program and returns its output and exit status.
 pub fn apportion(arguments: &[&str]) -> Output {
-    assert_cmd::Command::cargo_bin("apportion").unwrap().args(arguments).output().unwrap()
+    program().args(arguments).output().unwrap()
 }
 
-/// The search path of programs: the usual one, but the interpreter before a script that wraps it, such as pyenv's, which
-/// takes five times as long to start it, some hundred times a test.
+/// The program, which finds the programs of studies by [`search_path`].
+pub fn program() -> assert_cmd::Command {
+    let mut command = assert_cmd::Command::cargo_bin("apportion").unwrap();
+    command.env("PATH", search_path());
+    command
+}
+
+/// The search path of programs. It begins with a Python without packages: those of a machine can take four times as long to
+/// start as the interpreter, some hundred times a test.
 pub fn search_path() -> &'static OsStr {
     static PATH: LazyLock<OsString> = LazyLock::new(|| {
-        let path = std::env::var_os("PATH").unwrap_or_default();
-        let found = std::env::split_paths(&path).map(|folder| folder.join("python3")).find(|file| file.is_file());
-        if !found.is_some_and(|file| std::fs::read(file).is_ok_and(|content| content.starts_with(b"#!"))) {
-            return path;
+        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("python");
+        if !folder.join("bin/python3").is_file() {
+            let made = Command::new("python3").args(["-m", "venv", "--without-pip"]).arg(&folder).status();
+            assert!(made.is_ok_and(|status| status.success()), "python3 makes no environment in {}", folder.display());
         }
-        let asked = Command::new("python3").args(["-c", "import sys; print(sys.executable)"]).output().unwrap();
-        let interpreter = PathBuf::from(String::from_utf8(asked.stdout).unwrap().trim_end());
-        let first = interpreter.parent().map(Path::to_path_buf);
-        std::env::join_paths(first.into_iter().chain(std::env::split_paths(&path))).unwrap()
+        let path = std::env::var_os("PATH").unwrap_or_default();
+        std::env::join_paths([folder.join("bin")].into_iter().chain(std::env::split_paths(&path))).unwrap()
     });
     &PATH
 }

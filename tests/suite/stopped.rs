@@ -6,7 +6,7 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-use crate::common::{Folder, all_files, apportion, stderr, text};
+use crate::common::{Folder, all_files, apportion, program, stderr, text};
 use crate::messages::messages;
 
 /// A study whose charts take a while: four of each of 11 outputs, twice.
@@ -74,8 +74,7 @@ fn a_journal_or_result_is_a_file() {
     std::fs::create_dir(&out).unwrap();
     let run = |more: &[&str]| {
         let arguments = [&["run", text(&study), "--out", text(&out)], more].concat();
-        let mut command = assert_cmd::Command::cargo_bin("apportion").unwrap();
-        command.args(arguments).timeout(Duration::from_secs(120)).output().unwrap()
+        program().args(arguments).timeout(Duration::from_secs(120)).output().unwrap()
     };
     let makers: [fn(&Path); 3] = [
         |path| assert!(Command::new("mkfifo").arg(path).status().unwrap().success()),

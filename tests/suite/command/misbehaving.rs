@@ -130,7 +130,6 @@ impl Trial {
         let (csv, protocol) = if self.csv { ("True", "csv") } else { ("False", "json-lines") };
         let constants = format!("CSV, DELAY = {csv}, {}", self.delay);
         Case::new(&format!("protocol = \"{protocol}\""), &format!("{constants}{HEAD}{before}{EACH}{each}{after}"))
-            .replace("[\"python3\", ", "[\"python3\", \"-S\", \"-E\", ")
             .replace("workers = 2", "workers = 1")
             .replace("base_samples = 32", "base_samples = 4")
     }

@@ -16,7 +16,7 @@ use std::time::Duration;
 use apportion::result::{OutputResult, StudyResult, read_result};
 use tempfile::TempDir;
 
-use crate::common::{search_path, stderr, text};
+use crate::common::{program, stderr, text};
 use crate::messages::Messages;
 
 /// A study of a program in a separate folder.
@@ -88,14 +88,7 @@ impl Case {
     pub fn run_with(&self, more: &[&str]) -> Output {
         let (study, out) = (self.path("study.toml"), self.path("out"));
         let arguments = ["run", text(&study), "--charts", "none", "--out", text(&out)];
-        let mut command = assert_cmd::Command::cargo_bin("apportion").unwrap();
-        command
-            .env("PATH", search_path())
-            .args(arguments)
-            .args(more)
-            .timeout(Duration::from_secs(240))
-            .output()
-            .unwrap()
+        program().args(arguments).args(more).timeout(Duration::from_secs(240)).output().unwrap()
     }
 
     /// The result of a successful run, and its standard error.

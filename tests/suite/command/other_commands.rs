@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use super::Case;
 use super::processes::{is_alive, processes, signal, spawn, within};
-use crate::common::{files, search_path, stderr, text};
+use crate::common::{files, program, stderr, text};
 use crate::messages::messages;
 
 impl Case {
@@ -20,8 +20,7 @@ impl Case {
 
     fn other(&self, command: &str, more: &[&str]) -> Output {
         let arguments = self.arguments(command, more);
-        let mut command = assert_cmd::Command::cargo_bin("apportion").unwrap();
-        command.env("PATH", search_path()).args(arguments).timeout(Duration::from_secs(60)).output().unwrap()
+        program().args(arguments).timeout(Duration::from_secs(60)).output().unwrap()
     }
 
     fn remove_pids(&self) {
