@@ -134,14 +134,14 @@ fn add_kernel(density: &mut [f64; GRID], place: f64, width: f64, weight: f64) {
     let top = weight * libm::exp(-away * away / 2.0);
     // From point to point the kernel changes by a ratio that itself changes by this one.
     let ratio = libm::exp(-step * step);
-    let first = |away: f64| libm::exp(-(2.0 * away + step) * step / 2.0);
-    let (mut height, mut change) = (top, first(away));
+    let [up, down] = [away, -away].map(|away| libm::exp(-(2.0 * away + step) * step / 2.0));
+    let (mut height, mut change) = (top, up);
     for point in &mut density[centre..] {
         *point += height;
         height *= change;
         change *= ratio;
     }
-    (height, change) = (top * first(-away), first(-away) * ratio);
+    (height, change) = (top * down, down * ratio);
     for point in density[..centre].iter_mut().rev() {
         *point += height;
         height *= change;
