@@ -1,7 +1,10 @@
-//! What a user does with results and studies besides running them: report, compare.
+//! What a user does with results and studies besides running them: report, compare, new.
 
 use std::collections::BTreeMap;
 use std::path::Path;
+
+use apportion::study::Study;
+use apportion_files::{ModelKind, TemplateRequest, template};
 
 use crate::common::{all_files, apportion, stderr, study_path, succeed, text};
 use crate::messages::messages;
@@ -219,6 +222,34 @@ fn new_overwrites_no_file_and_names_unknown_inputs() {
     // The suggested next commands work.
     let spaced = folder.path().join("my own.toml");
     messages.ended("a space in the name", 0, &apportion(&["new", text(&spaced), "--model", "expression"]));
+}
+
+fn studied(request: &TemplateRequest) -> Study {
+    let text = template(request).unwrap_or_else(|problem| panic!("{request:?}: {problem}"));
+    let study = apportion_files::parse_study(&text, Path::new("new.toml"), &[]);
+    let study = study.unwrap_or_else(|error| panic!("{request:?}: {error}\n{text}"));
+    assert!(study.notes().is_empty(), "{:?}", study.notes());
+    study
+}
+
+fn request(model: ModelKind) -> TemplateRequest {
+    TemplateRequest { model, title: None, factors: Vec::new(), outputs: Vec::new() }
+}
+
+#[test]
+fn every_input_can_be_a_factor_and_every_output_asked_for() {
+    for model in ModelKind::all() {
+        assert_eq!(studied(&request(model)).subject().name(), model.name);
+        let outputs: Vec<String> = model.outputs().iter().map(|output| output.name.to_string()).collect();
+        for input in model.inputs() {
+            let title = "a \"quoted\" \\ title\nof two lines";
+            let (factors, title) = (vec![input.name.clone()], Some(title.to_owned()));
+            let study =
+                studied(&TemplateRequest { factors, outputs: outputs.clone(), title: title.clone(), ..request(model) });
+            assert_eq!(study.space().factors()[0].name, input.name);
+            assert_eq!(study.title(), title.as_deref());
+        }
+    }
 }
 
 /// A positive input may be log-normal, whose values come close to 0 without reaching it.

@@ -136,7 +136,7 @@ fn words_of_other_programs_are_answered_with_the_keywords_of_this_one() {
         format!("model = \"expression\"\noutputs.y = \"x1\"\n[[factor]]\nname = \"x1\"\n{line}\n[design]\nseed = 1\n")
     };
     let mut messages = messages!();
-    for line in ["dist = \"normal\"", "bounds = [0, 1]", "sigma = 1", "std = 1", "mu = 1", "lower = 1"] {
+    for line in ["dist = \"normal\"", "bounds = [0, 1]", "sigma = 1", "std = 1", "mu = 1", "lower = 1", "N = 1"] {
         messages.unparsed(line, &factor(line), "5:1");
     }
     for name in ["norm", "gaussian", "lognorm", "cauchy"] {
@@ -146,6 +146,8 @@ fn words_of_other_programs_are_answered_with_the_keywords_of_this_one() {
         let study = factor("min = 0\nmax = 1").replace("seed = 1", &format!("{key} = 1"));
         messages.unparsed(key, &study, "8:1");
     }
+    let study = factor("min = 0\nmax = 1").replace("seed = 1", "sampler = \"lhs\"");
+    messages.unparsed("lhs", &study, "8:11");
 }
 
 #[test]
@@ -166,4 +168,13 @@ fn mistyped_keys_and_values_are_reported_at_their_place() {
     for (line, place) in [("a = [0, 1.5]", "4:5"), ("größe = { min = 0, max = 1 }", "4:3")] {
         messages.unparsed(line, &format!("model = \"expression\"\noutputs.y = \"a\"\n[factors]\n{line}\n"), place);
     }
+}
+
+#[test]
+fn a_place_is_shown_with_its_line_and_a_caret() {
+    let study = "model = \"ishigami\"\nfactors.'µ' = { min = 'x' }\n";
+    let error = apportion_files::parse_study(study, Path::new("s.toml"), &[]).unwrap_err().to_string();
+    let lines: Vec<&str> = error.lines().take(4).collect();
+    assert!(lines[0].starts_with("s.toml:2:23: "), "{error}");
+    assert_eq!(lines[1..], ["  |", "2 | factors.'µ' = { min = 'x' }", "  |                       ^^^"]);
 }

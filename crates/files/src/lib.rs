@@ -4,7 +4,7 @@
 //! user's own program, in any language. [`exchange`] writes the points of a study to a file, and reads outputs that
 //! were computed anywhere.
 
-#![cfg_attr(not(test), deny(clippy::disallowed_methods))]
+#![deny(clippy::disallowed_methods)]
 
 mod catalogue;
 mod command;

@@ -1,5 +1,7 @@
 //! Programs that run once for each row, in separate directories.
 
+use apportion_files::{InputTemplate, TemplateError};
+
 use super::{Case, only_reason, rows_where};
 use crate::common::files;
 use crate::messages::messages;
@@ -116,4 +118,24 @@ fn templates_are_checked_when_the_study_is_read() {
     messages.ended("x2 is missing", 0, &case.run());
     case.write("model.in", "x1 = {{x1}}\ny = {{x4}}\n");
     messages.ended("an unknown factor", 2, &case.run());
+}
+
+fn filled(text: &str) -> Result<String, TemplateError> {
+    let number = |name: &str| ["a", "b c"].iter().position(|known| *known == name);
+    let template = InputTemplate::parse(text, &number)?;
+    Ok(template.fill(|factor, out| out.push_str(["1.5", "steel"][factor])))
+}
+
+#[test]
+fn placeholders_are_filled_and_braces_stay() {
+    for (text, expected) in [
+        ("", ""),
+        ("{{a}}", "1.5"),
+        ("x={{ a }};{{b c}}{{a}}\r\n", "x=1.5;steel1.5\r\n"),
+        ("{ \"y\": {\"a\": {{a}}} }", "{ \"y\": {\"a\": 1.5} }"),
+        ("{{{{a}} and }}", "{{a}} and }}"),
+        ("µ{{a}}µ", "µ1.5µ"),
+    ] {
+        assert_eq!(filled(text).as_deref(), Ok(expected), "{text}");
+    }
 }

@@ -108,28 +108,3 @@ fn without_nan(text: &str) -> String {
     }
     out
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn read(outputs: &[&str], text: &str) -> Result<Vec<f64>, String> {
-        let outputs: Vec<String> = outputs.iter().map(|&name| name.to_owned()).collect();
-        json_answer(&outputs, &json(text)?).flatten()
-    }
-
-    #[test]
-    fn a_list_holds_the_values_of_a_series() {
-        let outputs = ["peak", "y[0]", "y[1]", "y[2]", "z[4]"];
-        assert_eq!(read(&outputs, r#"{"y": [1, 2, 3], "z[4]": 5, "peak": 4}"#), Ok(vec![4.0, 1.0, 2.0, 3.0, 5.0]));
-        assert!(read(&outputs, r#"{"y": [1, NaN, 3], "z[4]": 5, "peak": 4}"#).unwrap()[2].is_nan());
-        let one_by_one = r#"{"y[0]": 1, "y[1]": 2, "y[2]": 3, "z[4]": 5, "peak": 4, "y": "anything"}"#;
-        assert_eq!(read(&outputs, one_by_one), Ok(vec![4.0, 1.0, 2.0, 3.0, 5.0]));
-        let refused = |text: &str| read(&outputs[..4], text).unwrap_err();
-        assert_eq!(refused(r#"{"y": [1, 2], "peak": 4}"#), "a list of 2 as `y`");
-        assert_eq!(refused(r#"{"y": [1, "a", 3], "peak": 4}"#), "a text as `y`");
-        assert_eq!(refused(r#"{"y": 3, "peak": 4}"#), "a number as `y`");
-        assert_eq!(refused(r#"{"peak": 4}"#), "an object without `y`");
-        assert_eq!(refused(r#"{"y[0]": 1, "y[2]": 3, "peak": 4}"#), "an object without `y`");
-    }
-}

@@ -240,6 +240,3 @@ impl Worker for KeptAliveWorker<'_> {
         }
     }
 }
-
-#[cfg(test)]
-mod tests;

@@ -104,28 +104,3 @@ fn error(text: &str, place: usize, problem: TemplateProblem) -> TemplateError {
     let line = text[..place].matches('\n').count() + 1;
     TemplateError { line, column: text[start..place].chars().count() + 1, problem }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn filled(text: &str) -> Result<String, TemplateError> {
-        let number = |name: &str| ["a", "b c"].iter().position(|known| *known == name);
-        let template = InputTemplate::parse(text, &number)?;
-        Ok(template.fill(|factor, out| out.push_str(["1.5", "steel"][factor])))
-    }
-
-    #[test]
-    fn placeholders_are_filled_and_braces_stay() {
-        for (text, expected) in [
-            ("", ""),
-            ("{{a}}", "1.5"),
-            ("x={{ a }};{{b c}}{{a}}\r\n", "x=1.5;steel1.5\r\n"),
-            ("{ \"y\": {\"a\": {{a}}} }", "{ \"y\": {\"a\": 1.5} }"),
-            ("{{{{a}} and }}", "{{a}} and }}"),
-            ("µ{{a}}µ", "µ1.5µ"),
-        ] {
-            assert_eq!(filled(text).as_deref(), Ok(expected), "{text}");
-        }
-    }
-}

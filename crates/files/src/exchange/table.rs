@@ -156,6 +156,3 @@ fn places(names: &[String], selection: &Selection<'_>) -> Result<(Vec<usize>, Ve
     }
     Ok((inputs, outputs))
 }
-
-#[cfg(test)]
-mod tests;

@@ -6,8 +6,6 @@
 mod csv_rows;
 mod lines;
 mod npy;
-#[cfg(test)]
-mod tests;
 
 use std::collections::BTreeMap;
 use std::fs::File;

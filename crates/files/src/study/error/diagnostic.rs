@@ -93,16 +93,3 @@ impl fmt::Display for Diagnostic {
         Ok(())
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_place_is_shown_with_its_line_and_a_caret() {
-        let text = "a = 1\nµ = 'x'\n";
-        let start = text.find("'x'").unwrap_or(0);
-        let diagnostic = Diagnostic::new(Path::new("s.toml"), text, start..start + 3, Problem::new("no"));
-        assert_eq!(diagnostic.to_string(), "s.toml:2:5: no\n  |\n2 | µ = 'x'\n  |     ^^^");
-    }
-}
