@@ -1,5 +1,7 @@
 //! Replacement of plain indices by corrected ones, if their errors are smaller.
 
+use std::collections::BTreeSet;
+
 use super::estimates::{Layout, Number, Quantity};
 use super::influence::Influenced;
 use super::net_decay::StandardError;
@@ -82,14 +84,14 @@ impl SurrogateEstimates {
         layout: &Layout,
         plain: &[Estimate],
         errors: &[StandardError],
-        settled: &[bool],
+        settled: &BTreeSet<usize>,
     ) -> (Vec<(usize, Replacement)>, SurrogateUse) {
         let real = layout.swaps() - usize::from(layout.dummy);
-        let moving: Vec<usize> = (0..real).filter(|swap| !settled[*swap]).collect();
+        let moving: Vec<usize> = (0..real).filter(|swap| !settled.contains(swap)).collect();
         let place = |swap: usize, number: Number| layout.place(Quantity::Swap(swap, number));
         let kind = |index: Number, list: &[Influenced]| {
             let known = |(swap, of): (usize, &Influenced)| {
-                if settled[swap] { of.settled(plain[place(swap, index)].estimate) } else { of.clone() }
+                if settled.contains(&swap) { of.settled(plain[place(swap, index)].estimate) } else { of.clone() }
             };
             let list: Vec<Influenced> = list.iter().enumerate().map(known).collect();
             let noise =
@@ -117,7 +119,7 @@ impl SurrogateEstimates {
                 put(place, if is_share { first.even() } else { first }, of);
             });
             let pairs = layout.pair_list().into_iter().zip(&self.second_order).enumerate();
-            for (pair, (_, index)) in pairs.filter(|(_, ((j, k), _))| !settled[*j] && !settled[*k]) {
+            for (pair, (_, index)) in pairs.filter(|(_, ((j, k), _))| !settled.contains(j) && !settled.contains(k)) {
                 put(layout.place(Quantity::Pair(pair)), first, index);
             }
         }
@@ -127,7 +129,7 @@ impl SurrogateEstimates {
                 put(place, if is_share { total.even() } else { total }, of);
             });
         }
-        for swap in (0..layout.swaps()).filter(|swap| !settled[*swap]) {
+        for swap in (0..layout.swaps()).filter(|swap| !settled.contains(swap)) {
             let [plain_first, plain_total] =
                 [Number::FirstOrder, Number::Total].map(|number| plain[place(swap, number)]);
             let place = place(swap, Number::Interaction);
@@ -201,14 +203,14 @@ impl SurrogateEstimates {
 fn indices(
     layout: &Layout,
     list: &[Influenced],
-    settled: &[bool],
+    settled: &BTreeSet<usize>,
     [index, share_of]: [Number; 2],
     put: &mut dyn FnMut(usize, bool, &Influenced),
 ) {
     let factors = 0..layout.factors;
     let sum_of = if index == Number::Total { Quantity::SumTotal } else { Quantity::SumFirstOrder };
     put(layout.place(sum_of), false, &sum(list[factors.clone()].iter()));
-    for (swap, of) in list.iter().enumerate().filter(|(swap, _)| !settled[*swap]) {
+    for (swap, of) in list.iter().enumerate().filter(|(swap, _)| !settled.contains(swap)) {
         put(layout.place(Quantity::Swap(swap, index)), false, of);
     }
     for range in [factors, layout.factors..layout.factors + layout.groups] {
@@ -217,7 +219,7 @@ fn indices(
         let sharing = range.filter(|swap| Some(*swap) != noise);
         let all = sum(sharing.clone().map(|swap| &list[swap]));
         if all.estimate > 0.0 {
-            let moving = sharing.filter(|swap| !settled[*swap]);
+            let moving = sharing.filter(|swap| !settled.contains(swap));
             moving.for_each(|swap| put(layout.place(Quantity::Swap(swap, share_of)), true, &share(&list[swap], &all)));
         }
     }

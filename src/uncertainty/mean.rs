@@ -81,9 +81,7 @@ pub(super) fn corrected(
                 let terms = [(1.0 / share.estimate, of), (index / share.estimate, *of_noise)];
                 put(place, of_kind.replacement(&Influenced::linear(index, &terms)));
             }
-            (Some((first, of_kind)), None) => {
-                put_narrower(quotient(of_kind.estimate(&first[swap]), share));
-            }
+            (Some((first, of_kind)), None) => put_narrower(quotient(of_kind.estimate(&first[swap]), share)),
             (None, Some(_)) => {
                 let first = plain[layout.place(Quantity::Swap(swap, Number::FirstOrder))];
                 put_narrower(quotient(first, share));

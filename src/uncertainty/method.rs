@@ -1,5 +1,6 @@
 //! The kinds of interval.
 
+use super::estimates::ErrorKind;
 use super::net_decay::{PartInfluences, StandardError, net_errors};
 use crate::design::Sampler;
 use crate::names::named;
@@ -7,7 +8,7 @@ use crate::names::named;
 named! {
 /// How the error of an estimate is computed.
 pub enum IntervalMethod {
-    /// From few long scrambled nets: their spread, and the decay of the error inside them ([`net_errors`]).
+    /// From few long scrambled nets: their spread, and the decay of the error inside them.
     Nets = "nets",
     /// Student's t on independent replicates.
     Replicates = "replicates",
@@ -86,10 +87,10 @@ impl IntervalMethod {
     }
 
     /// Computes standard errors from the parts of every replicate; methods on kept outputs are approximated by batches.
-    pub fn errors(self, quantities: &[PartInfluences], pooled: &[bool]) -> Vec<StandardError> {
+    pub(super) fn errors(self, quantities: &[PartInfluences], kinds: &[ErrorKind]) -> Vec<StandardError> {
         let unknown = |parts: &PartInfluences| parts.iter().flatten().any(|influence| !influence.is_finite());
         let errors = match self {
-            Self::Nets => net_errors(quantities, pooled),
+            Self::Nets => net_errors(quantities, kinds),
             Self::Replicates => quantities.iter().map(|parts| spread(&means(parts))).collect(),
             Self::Batches | Self::Delta | Self::Percentile => {
                 quantities.iter().map(|parts| spread(&complete(parts))).collect()

@@ -1,7 +1,7 @@
 //! Confidence intervals of estimates, and quantities derived from them.
 //!
 //! An estimate depends on all runs. [`Influences`] are the influences of each part of them; an [`IntervalMethod`] turns
-//! these into a standard error: for Sobol' points by [`net_errors`], for random points by their batches, or from the
+//! these into a standard error: for Sobol' points by the decay of the error in a net, for random points by their batches, or from the
 //! outputs of every point ([`KeptPoints`]) by the delta method or a bootstrap.
 
 mod aggregate;
@@ -35,7 +35,7 @@ pub use influence::{Influenced, Influences};
 pub use jackknife::jackknife;
 pub use mean::{MeanEstimates, NoiseIndices};
 pub use method::IntervalMethod;
-pub use net_decay::{PartInfluences, StandardError, net_errors};
+pub use net_decay::{PartInfluences, StandardError};
 pub use noise::{Noise, in_parts};
 pub use output::{IntervalOptions, differs_clearly, output_indices, output_moments};
 pub use points::KeptPoints;

@@ -18,6 +18,7 @@
 //! the minimum for which the intervals had a coverage of 92 to 98 % nearly everywhere: in 121 of 126 cells of eighteen
 //! functions at seven sizes, seven of them functions not examined before (`benches/coverage.rs`, `docs/coverage.md`).
 
+use super::estimates::ErrorKind;
 use super::special::{freedom_of_log_variance, log_bias, log_variance};
 
 /// Maximum number of levels of nested parts to which the trend is fitted.
@@ -55,17 +56,17 @@ pub struct StandardError {
 /// equal numbers of points except the last. Their mean over everything is 0.
 pub type PartInfluences = Vec<Vec<f64>>;
 
-/// Computes standard errors of quantities estimated from all nets together. The quantities for which `pooled` is true
-/// (the indices) determine the common rate and factor; the others only use them.
+/// Computes standard errors of quantities estimated from all nets together. The pooled quantities (the indices)
+/// determine the common rate and factor; the others only use them.
 ///
 /// All quantities have the same nets and parts. A quantity that no part influences has error 0. One with an influence
-/// that is not finite determines nothing; [`IntervalMethod::errors`](super::IntervalMethod::errors) replaces its error.
-pub fn net_errors(quantities: &[PartInfluences], pooled: &[bool]) -> Vec<StandardError> {
+/// that is not finite determines nothing; `IntervalMethod::errors` replaces its error.
+pub(super) fn net_errors(quantities: &[PartInfluences], kinds: &[ErrorKind]) -> Vec<StandardError> {
     let Some(first) = quantities.first() else { return Vec::new() };
     let shape = Shape::new(first);
     let levels: Vec<Option<Levels>> = quantities.iter().map(|q| Levels::new(q, &shape)).collect();
-    let is_pooled = |(k, _): &(usize, &Option<Levels>)| pooled.get(*k).copied().unwrap_or(false);
-    let pool: Vec<&Levels> = levels.iter().enumerate().filter(is_pooled).filter_map(|(_, l)| l.as_ref()).collect();
+    let pooled = levels.iter().zip(kinds).filter(|(_, kind)| kind.is_pooled);
+    let pool: Vec<&Levels> = pooled.filter_map(|(levels, _)| levels.as_ref()).collect();
     // If no quantity is to be pooled, all are.
     let pool = if pool.is_empty() { levels.iter().flatten().collect() } else { pool };
     let trend = Trend::fit(&pool, &shape);

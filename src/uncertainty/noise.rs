@@ -59,14 +59,11 @@ pub(super) type Replacement = (Estimate, StandardError, PartInfluences);
 fn variances(parts: &PartInfluences) -> (f64, f64) {
     let nets = parts.len() as f64;
     let means: Vec<f64> = parts.iter().map(|net| net.iter().sum::<f64>() / net.len().max(1) as f64).collect();
-    let within: f64 = parts
-        .iter()
-        .zip(&means)
-        .map(|(net, mean)| {
-            let n = net.len() as f64;
-            net.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / ((n - 1.0).max(1.0) * n)
-        })
-        .sum();
+    let of_net = |(net, mean): (&Vec<f64>, &f64)| {
+        let n = net.len() as f64;
+        net.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / ((n - 1.0).max(1.0) * n)
+    };
+    let within: f64 = parts.iter().zip(&means).map(of_net).sum();
     let centre = means.iter().sum::<f64>() / nets;
     let between = means.iter().map(|mean| (mean - centre).powi(2)).sum::<f64>() / ((nets - 1.0).max(1.0) * nets);
     (within / (nets * nets), between)

@@ -1,5 +1,7 @@
 //! Indices of one output with their intervals, probabilities and checks.
 
+use std::collections::BTreeSet;
+
 use super::by_points::{Bounds, ByPoints};
 use super::concentration::{Side, interval};
 use super::corrected::SurrogateEstimates;
@@ -92,9 +94,8 @@ pub fn output_indices(
     let influences =
         Influences::from_moments(replicates, &|moments| quantities(layout, moments)).ok_or(Undefined::NoRuns)?;
     let unseen = unseen(layout, &whole, &influences.whole);
-    let half_seen: Vec<bool> = (0..layout.swaps()).map(|swap| half_seen(&whole, swap)).collect();
-    let inert: Vec<bool> = (0..layout.swaps()).map(|swap| whole.swap(swap).inert()).collect();
-    let equal: Vec<bool> = unseen.iter().zip(&influences.parts).map(|(unseen, parts)| unseen.applies(parts)).collect();
+    let half_seen: Vec<usize> = (0..layout.swaps()).filter(|&swap| half_seen(&whole, swap)).collect();
+    let inert: BTreeSet<usize> = (0..layout.swaps()).filter(|&swap| whole.swap(swap).inert()).collect();
     let mut judged = match options.by_points() {
         Some(by_points) => {
             let bounds = by_points.bounds(whole, &influences.whole, &|moments| quantities(layout, moments));
@@ -103,22 +104,23 @@ pub fn output_indices(
         None => {
             // Rounding says nothing about the decay of errors.
             let mut kinds = layout.error_kinds();
-            kinds.iter_mut().zip(&equal).for_each(|(kind, equal)| kind.is_pooled &= !equal);
+            for (kind, (unseen, parts)) in kinds.iter_mut().zip(unseen.iter().zip(&influences.parts)) {
+                kind.is_pooled &= !unseen.applies(parts);
+            }
             Judged::from_nets(influences, options.method, &kinds)
         }
     };
-    let allowed = judged.allow_for_unseen(&unseen, &equal);
+    let allowed = judged.allow_for_unseen(&unseen);
     judged.allow_for_half_seen(layout, &half_seen);
     if !layout.dependent {
         judged.allow_for_correlated(layout, options.correlations);
     }
     // If all rows agree, the plain indices have no noise that a surrogate could reduce.
-    let settled: Vec<bool> = (0..layout.swaps())
-        .map(|swap| {
-            let indices = [Number::FirstOrder, Number::Total].map(|number| Quantity::Swap(swap, number));
-            inert[swap] || indices.into_iter().any(|index| allowed[layout.place(index)])
-        })
-        .collect();
+    let is_settled = |swap: &usize| {
+        let mut indices = [Number::FirstOrder, Number::Total].into_iter().map(|number| Quantity::Swap(*swap, number));
+        inert.contains(swap) || indices.any(|index| allowed.contains(&layout.place(index)))
+    };
+    let settled: BTreeSet<usize> = (0..layout.swaps()).filter(is_settled).collect();
     let surrogate = options.surrogate.map(|surrogate| judged.correct(layout, surrogate, &settled));
     let first = if options.ranks { judged.first(layout, options.seed) } else { None };
     let of_swap = |swap: usize| {
@@ -177,8 +179,7 @@ impl Judged {
     /// Computes errors of these kinds from the nets.
     pub fn from_nets(influences: Influences, method: IntervalMethod, kinds: &[ErrorKind]) -> Self {
         let Influences { whole, parts } = influences;
-        let pooled: Vec<bool> = kinds.iter().map(|kind| kind.is_pooled).collect();
-        let errors = method.errors(&parts, &pooled);
+        let errors = method.errors(&parts, kinds);
         let of_quantity = |(place, &estimate): (usize, &f64)| {
             let interval = interval(estimate, errors[place], &parts[place], kinds[place].side);
             Estimate { estimate, interval }
@@ -187,26 +188,27 @@ impl Judged {
         Self { estimates, errors, parts }
     }
 
-    /// Sets the errors that the rows cannot show for the quantities with `equal` parts, and those whose nets agree to
-    /// rounding; returns which.
-    fn allow_for_unseen(&mut self, unseen: &[Unseen], equal: &[bool]) -> Vec<bool> {
-        let mut allowed = vec![false; self.estimates.len()];
+    /// Sets the errors that the rows cannot show for the quantities with equal parts, and those whose nets agree to
+    /// rounding; returns their places.
+    fn allow_for_unseen(&mut self, unseen: &[Unseen]) -> BTreeSet<usize> {
+        let mut allowed = BTreeSet::new();
         for (place, unseen) in unseen.iter().enumerate().filter(|(_, unseen)| unseen.half_width > 0.0) {
             let Estimate { estimate, interval } = &mut self.estimates[place];
             let error = &mut self.errors[place].error;
-            if !estimate.is_finite() || !error.is_finite() || !(equal[place] || *error <= unseen.rounding) {
+            let is_equal = unseen.applies(&self.parts[place]) || *error <= unseen.rounding;
+            if !(estimate.is_finite() && error.is_finite() && is_equal) {
                 continue;
             }
             *interval = Some(Interval::about(*estimate, unseen.half_width));
             *error = unseen.half_width / NORMAL_QUANTILE;
-            allowed[place] = true;
+            allowed.insert(place);
         }
         allowed
     }
 
     /// Replaces the plain estimates by those corrected by the surrogate where their errors are smaller; the indices of
     /// `settled` swaps stay.
-    fn correct(&mut self, layout: &Layout, surrogate: &SurrogateEstimates, settled: &[bool]) -> SurrogateUse {
+    fn correct(&mut self, layout: &Layout, surrogate: &SurrogateEstimates, settled: &BTreeSet<usize>) -> SurrogateUse {
         let (replacements, used) = surrogate.corrections(layout, &self.estimates, &self.errors, settled);
         for (place, (estimate, error, parts)) in replacements {
             self.estimates[place] = estimate;
@@ -228,8 +230,8 @@ impl Judged {
 
     /// Bounds the first-order indices of the swaps that are `half_seen` from above only by their total indices, and the
     /// derived quantities accordingly.
-    fn allow_for_half_seen(&mut self, layout: &Layout, half_seen: &[bool]) {
-        for swap in (0..layout.swaps()).filter(|swap| half_seen[*swap]) {
+    fn allow_for_half_seen(&mut self, layout: &Layout, half_seen: &[usize]) {
+        for &swap in half_seen {
             let [first, total, interaction] = [Number::FirstOrder, Number::Total, Number::Interaction]
                 .map(|number| layout.place(Quantity::Swap(swap, number)));
             let (Some(total), Some(first)) = (self.estimates[total].interval, &mut self.estimates[first].interval)
