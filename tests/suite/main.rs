@@ -44,6 +44,7 @@ mod page;
 mod points;
 mod rare_levels;
 mod remote_workers;
+mod report;
 mod reproduce;
 mod result_reading;
 mod rows;

@@ -180,25 +180,3 @@ fn picture(svg: &str, format: ChartFormat) -> Result<Cow<'_, [u8]>, Box<dyn std:
         other => Err(format!("this build lacks the feature `{}`", other.name()).into()),
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::document::DataFile;
-
-    #[test]
-    fn nothing_is_written_once_it_shall_stop() {
-        let folder = tempfile::tempdir().unwrap();
-        let files = ["s.json", "charts/s.csv"].map(|name| DataFile::new(name, "{}".to_owned()));
-        let document = Document { name: "s".to_owned(), files: files.to_vec(), ..Document::default() };
-        let artefacts = Artefacts::new(folder.path());
-        let stopped = artefacts.write_until(&document, &AtomicBool::new(true)).unwrap_err();
-        assert!(matches!(stopped, ArtefactError::Stopped));
-        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
-        let written = artefacts.write(&document).unwrap();
-        assert_eq!(written.data, ["s.json", "charts/s.csv"].map(|name| folder.path().join(name)));
-        assert!(written.charts.is_none() && written.data.iter().all(|path| path.is_file()));
-        let overwriting = artefacts.next_to_input(folder.path().join("s.json")).write(&document);
-        assert!(matches!(overwriting, Err(ArtefactError::Input { .. })));
-    }
-}

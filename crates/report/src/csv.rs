@@ -64,21 +64,3 @@ values! {
     Option<&str> => |text: Option<&str>| vec![text.map_or_else(String::new, |text| inert(text.to_owned()))];
     Option<bool> => |flag: Option<bool>| vec![flag.map_or_else(String::new, |flag| flag.to_string())];
 }
-
-#[cfg(test)]
-mod tests {
-    use apportion::uncertainty::Interval;
-
-    use super::*;
-    use crate::document::Table;
-
-    #[test]
-    fn values_keep_their_bits_and_gaps_are_empty() {
-        let known = Estimate { estimate: 0.1, interval: Some(Interval { low: -0.5, high: 1e-300 }) };
-        let rows = [("=1+1", 7.0, Some(known)), ("", f64::NAN, None)];
-        let table = Table::from_rows("", rows).file("a,b", |row| row.0).file("n", |row| row.1);
-        let table = table.file_estimate("S", |row| row.2).file("flag", |_| true);
-        let expected = format!("\"a,b\",n,S,S_low,S_high,flag\n'=1+1,7,0.1,-0.5,{},true\n,,,,,true\n", 1e-300);
-        assert_eq!(table.csv(), expected);
-    }
-}

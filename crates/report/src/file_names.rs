@@ -45,23 +45,3 @@ pub fn file_stems(study: &str, names: &[&str], suffixes: &[&str]) -> Vec<String>
     };
     names.iter().enumerate().map(free).collect()
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn stems_of_files_are_unique_whatever_the_names() {
-        let suffixes = ["", "-indices", "-scatter"];
-        let long = "n".repeat(300);
-        let names =
-            ["y", "Y", "y-indices", "y-2", "a/b", "a\\b", "y-scatter-2", "../../x", &long, &long[1..], "É", "é"];
-        let stems = file_stems("s", &names, &suffixes);
-        let files = stems.iter().flat_map(|stem| suffixes.map(|suffix| format!("{stem}{suffix}").to_lowercase()));
-        let unique: HashSet<String> = files.clone().collect();
-        assert_eq!(unique.len(), files.count());
-        assert!(stems.iter().all(|stem| !stem.contains(['/', '\\']) && stem.len() < 120), "{stems:?}");
-        // Names without a conflict are kept.
-        assert_eq!(file_stems("s", &["y", "z"], &suffixes), ["s-y", "s-z"]);
-    }
-}

@@ -132,20 +132,3 @@ fn plain(json: &Value) -> String {
         }
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn distributions_are_described_with_their_units() {
-        let uniform = serde_json::json!({"name": "uniform", "min": 0.25, "max": 2.5});
-        assert_eq!(distribution(&uniform, "um"), "uniform, min 0.25, max 2.5 (µm)");
-        assert_eq!(distribution(&uniform, "1"), "uniform, min 0.25, max 2.5");
-        let many = serde_json::json!({"name": "discrete", "values": [1, 2, 3, 4, 5, 6, 7, 8, 9]});
-        assert_eq!(distribution(&many, "1"), "discrete, values 1; 2; 3; 4; 5; 6; 7; 8; … (9 in all)");
-        assert_eq!(distribution(&Value::Null, "1"), "unknown");
-        let formulas: Map<String, Value> = (0..12).map(|k| (format!("y{k:02}"), Value::from("a"))).collect();
-        assert!(plain(&Value::Object(formulas)).ends_with("; y07 a; … (12 in all)"));
-    }
-}

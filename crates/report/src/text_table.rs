@@ -66,28 +66,3 @@ impl fmt::Display for TextTable {
         f.write_str(&self.drawn(Table::new().width().filter(|width| *width > 0)))
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Seven columns as those of a result: a name of fifteen letters once was broken inside at 80 columns.
-    #[test]
-    fn no_word_or_number_of_a_result_is_broken() {
-        let header = ["factor", "first order S1", "total ST", "share S1 %", "share ST %", "P(first)", "P(ST > 0.01)"];
-        let mut result = table(&header, &[0]);
-        for name in ["static_friction", "contact_modulus", "velocity"] {
-            result.add_row([name, "0.3374 ± 0.0024", "0.4374 ± 0.0124", "33.7 ± 0.2", "33.7 ± 0.2", "0.250", ">0.999"]);
-        }
-        result.add_row(["sum of factors", "0.9374 ± 0.0024"]);
-        let wide = result.drawn(None);
-        assert!(wide.contains("  static_friction   0.3374 ± 0.0024 "), "{wide}");
-        for width in [60, 100] {
-            let drawn = result.drawn(Some(width));
-            for word in ["static_friction", "0.3374 ± 0.0024", "0.4374 ± 0.0124", "P(first)", ">0.999"] {
-                assert!(drawn.contains(word), "no {word} at {width}:\n{drawn}");
-            }
-        }
-        assert_eq!(result.drawn(Some(200)), wide);
-    }
-}

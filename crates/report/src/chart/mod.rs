@@ -30,9 +30,6 @@ mod svg;
 mod symbols;
 mod text;
 
-#[cfg(test)]
-mod tests;
-
 pub use bar::Bar;
 pub use model::{Arrangement, Axis, Chart, Mark, Panel, Point, Shape, Tile};
 pub use palette::Colour;

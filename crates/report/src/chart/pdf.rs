@@ -23,19 +23,3 @@ pub fn pdf(svg: &str) -> Result<Vec<u8>, PictureError> {
     let tree = Tree::from_str(svg, &options())?;
     to_pdf(&tree, ConversionOptions::default(), PageOptions { dpi: CSS_DPI as f32 }).map_err(PictureError::Pdf)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_page_has_the_size_of_the_picture_and_its_faces_inside() {
-        let svg = r#"<svg xmlns="http://www.w3.org/2000/svg" width="88mm" height="44mm" viewBox="0 0 338 169">
-            <text x="5" y="25" font-family="Arial">Größe</text></svg>"#;
-        let file = pdf(svg).expect("a page");
-        let file = String::from_utf8_lossy(&file);
-        // 88 mm are 249.45 points.
-        assert!(file.contains("/MediaBox [0 0 249.4") && file.contains("/FontFile2 "), "{file}");
-        assert!(matches!(pdf("<svg"), Err(PictureError::Svg(_))));
-    }
-}

@@ -125,24 +125,3 @@ impl Medium<'_> {
 pub(super) fn drawable(value: f64) -> Option<f64> {
     (value.abs() <= LARGEST).then_some(value)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn texts_on_paper_have_seven_to_nine_points() {
-        let points = |px: f64| px * MILLIMETRES / 25.4 * 72.0;
-        for face in [TICK, VALUE, BODY, PANEL_TITLE] {
-            assert!((7.0..=9.0).contains(&points(face.size)), "{} pt", points(face.size));
-        }
-        let width = |text: &str| text.parse::<PaperWidth>().map(|width| width.millimetres());
-        assert_eq!(width(" 3.5 in"), Ok(88.9));
-        assert_eq!(width("18cm"), Ok(180.0));
-        for wrong in ["", "88", "mm", "301mm", "-88mm", "NaNmm", "88 mm mm", "1e400mm"] {
-            assert!(width(wrong).unwrap_err().contains("60mm to 300mm"), "{wrong}");
-        }
-        assert!(ChartWidth::Paper("88mm".parse().unwrap()).is_narrow());
-        assert!(!ChartWidth::Paper("180mm".parse().unwrap()).is_narrow());
-    }
-}

@@ -4,8 +4,6 @@ mod charts;
 mod document;
 mod record;
 mod settings;
-#[cfg(test)]
-mod tests;
 
 pub use document::comparison_document;
 pub use record::{

@@ -182,6 +182,3 @@ impl Mark {
 fn rendered(template: &impl Template) -> String {
     template.render().expect("texts, into memory")
 }
-
-#[cfg(test)]
-mod tests;

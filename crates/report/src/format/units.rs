@@ -56,29 +56,3 @@ fn power(text: &str) -> (String, &str) {
     let raised = digits[..end].chars().filter_map(|c| c.to_digit(10)).map(|digit| RAISED[digit as usize]);
     (sign.chars().chain(raised).collect(), &digits[end..])
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn units_are_those_of_print() {
-        let cases = [
-            ("um", "µm"),
-            ("um/s", "µm/s"),
-            ("J/m2", "J/m²"),
-            ("g/cm^3", "g/cm³"),
-            ("N*m", "N·m"),
-            ("s^-1", "s⁻¹"),
-            ("deg", "°"),
-            ("degC", "°C"),
-            ("1", "1"),
-            ("", ""),
-            ("%", "%"),
-            ("umbrellas2", "umbrellas2"),
-        ];
-        for (typed, printed) in cases {
-            assert_eq!(unit(typed), printed, "{typed}");
-        }
-    }
-}

@@ -94,36 +94,3 @@ fn caption(distribution: &OutputDistribution, output: &str, symbol: &str) -> Str
     }
     caption + "."
 }
-
-#[cfg(test)]
-mod tests {
-    use apportion::Unit;
-
-    use super::*;
-    use crate::chart::png;
-
-    fn distribution(values: &[f64]) -> OutputDistribution {
-        OutputDistribution::from_values(values, &Unit::dimensionless()).unwrap()
-    }
-
-    /// The middles of slices of equal probability of a normal distribution.
-    fn normal() -> Vec<f64> {
-        let law = apportion::Distribution::normal(0.0, 1.0).unwrap();
-        (0..500).map(|k| law.quantile((f64::from(k) + 0.5) / 500.0)).collect()
-    }
-
-    #[test]
-    fn charts_draw_every_kind_of_sample() {
-        let cases = [normal(), vec![1e300, -1e300, 3e299], vec![2e-300, 1e-300], vec![0.0; 9], vec![7.0]];
-        for values in cases {
-            let svg = histogram_chart(&distribution(&values), "Distribution", "force").svg();
-            assert!(!svg.contains("NaN") && !svg.contains("inf"), "{svg}");
-            assert!(png(&svg).is_ok());
-        }
-        let svg = histogram_chart(&distribution(&normal()), "Distribution", "force").svg();
-        for text in ["2.5 % \u{2212}1.9", "median", "mean", "97.5 % 1.9", "95 % of the 500 values of force lie between"]
-        {
-            assert!(svg.contains(text), "{text}");
-        }
-    }
-}

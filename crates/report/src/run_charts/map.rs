@@ -118,15 +118,3 @@ pub(crate) fn together_chart(result: &StudyResult) -> Chart {
     };
     Chart::new(format!("{}: all outputs together", result.study.headline()), caption).panels([panel])
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn classes_cover_every_index() {
-        assert_eq!([-0.2, 0.0, 0.01, 0.15, 0.9, 1.3].map(class), [0, 0, 1, 3, 8, 8]);
-        assert_eq!(series(Some(8)).name, "0.9 or more");
-        assert_eq!([0.001, 0.344, 0.999, -0.02, 1.2].map(short), ["0", ".34", "1.00", "\u{2212}0.02", "1.20"]);
-    }
-}

@@ -17,6 +17,3 @@ pub(super) use map::{map_chart, overall_order, together, together_chart};
 pub use pairs::pairs_chart;
 pub use scatter::scatter_chart;
 pub(super) use series::{SeriesOf, along_chart};
-
-#[cfg(test)]
-mod tests;

@@ -256,6 +256,3 @@ fn provenance(result: &StudyResult) -> Vec<Part> {
                 with the digest (SHA-256) for the study file; CITATION.cff in the sources of the program says how to cite the program.";
     vec![Part::Text(text.to_owned()), Table::pairs("How the result was computed.", rows).into()]
 }
-
-#[cfg(test)]
-mod tests;

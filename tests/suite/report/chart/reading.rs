@@ -1,11 +1,58 @@
 //! Reads a chart's SVG back, for tests.
 
-use resvg::tiny_skia::Pixmap;
-use resvg::usvg::Tree;
-use resvg::usvg::roxmltree::{Document, Node};
+use std::sync::{Arc, LazyLock};
 
-use super::super::png::options;
+use resvg::tiny_skia::Pixmap;
+use resvg::usvg::fontdb::Database;
+use resvg::usvg::roxmltree::{Document, Node};
+use resvg::usvg::{Options, Tree};
+
 use super::{Chart, ChartWidth, png};
+
+/// The faces of the charts.
+static FACES: LazyLock<Arc<Database>> = LazyLock::new(|| {
+    let mut faces = Database::new();
+    for face in [
+        &include_bytes!("../../../../crates/report/fonts/ApportionSans-Regular.ttf")[..],
+        include_bytes!("../../../../crates/report/fonts/ApportionSans-Bold.ttf"),
+    ] {
+        faces.load_font_data(face.to_vec());
+    }
+    faces.set_sans_serif_family("Apportion Sans");
+    Arc::new(faces)
+});
+
+/// Reads an SVG with the faces of the charts.
+pub(super) fn tree(svg: &str) -> Tree {
+    let options = Options { font_family: "Apportion Sans".to_owned(), fontdb: FACES.clone(), ..Options::default() };
+    Tree::from_str(svg, &options).expect("an SVG")
+}
+
+/// Width of a line of digits, points, spaces and minus signs in Arial at `size`, px.
+pub(super) fn width(text: &str, size: f64) -> f64 {
+    let units = |c: char| match c {
+        '0'..='9' => 1139.0,
+        '.' | ' ' => 569.0,
+        'W' => 1933.0,
+        '…' => 2048.0,
+        '\u{2212}' => 1196.0,
+        _ => panic!("no width of {c:?}"),
+    };
+    text.chars().map(units).sum::<f64>() / 2048.0 * size
+}
+
+/// The rectangle of the first plot of lines or points as (left, top, right, bottom), px.
+pub(super) fn plot(document: &Document) -> [f64; 4] {
+    let lines = groups(document, "axis-lines")[0];
+    let lines: Vec<Node> = lines.children().filter(Node::is_element).collect();
+    [number(&lines[0], "x1"), number(&lines[0], "y1"), number(&lines[1], "x2"), number(&lines[0], "y2")]
+}
+
+/// The texts of a size below a node, with their nodes.
+pub(super) fn texts_of_size<'a, 'i>(node: Node<'a, 'i>, size: &str) -> Vec<(Node<'a, 'i>, &'a str)> {
+    let texts = node.descendants().filter(|n| n.has_tag_name("text") && n.attribute("font-size") == Some(size));
+    texts.map(|n| (n, n.text().unwrap_or_default())).collect()
+}
 
 /// The groups of a class, in order.
 pub(super) fn groups<'a, 'i>(document: &'a Document<'i>, class: &str) -> Vec<Node<'a, 'i>> {
@@ -70,10 +117,10 @@ pub(super) fn dark_pixels(svg: &str, from: f64, to: f64) -> usize {
     rows.map(|y| (0..pixels.width()).filter(|&x| dark(x, y)).count()).sum()
 }
 
-/// The smallest rectangle that holds every mark and letter, as (left, top, right, bottom), px, and the size of the view.
+/// The smallest rectangle that holds every mark and letter, as (left, top, right, bottom), px, and the size of the
+/// view.
 fn extent(svg: &str) -> ([f32; 4], [f32; 2]) {
-    let document = Document::parse(svg).expect("well-formed");
-    let tree = Tree::from_xmltree(&document, &options()).expect("an SVG");
+    let tree = tree(svg);
     let bounds = tree.root().abs_bounding_box();
     let size = tree.size();
     ([bounds.left(), bounds.top(), bounds.right(), bounds.bottom()], [size.width(), size.height()])

@@ -1,6 +1,8 @@
-use super::*;
-use crate::chart::{Axis, Chart, Colour, Panel, Point, Series, Shape};
-use crate::document::Cell;
+//! Pages of every kind of part.
+
+use apportion_report::chart::{Axis, Chart, Colour, Panel, Point, Series, Shape};
+use apportion_report::document::{Cell, Document, Figure, Link, Mark, OnPhone, Part, Section, Table};
+use apportion_report::{Artefacts, ChartFormat};
 
 fn scatter(title: &str) -> Chart {
     let point = Point { x: 1.0, y: 2.0, label: "a point".to_owned() };
@@ -131,7 +133,9 @@ fn a_page_links_only_to_files_in_its_folder() {
     let document = page(vec![figure("f1", scatter("a"))]);
     let alone = document.html();
     assert!(!alone.contains(".svg\"") && !alone.contains(".csv\""));
-    let beside = document.html_in_folder(&[ChartFormat::Svg]);
+    let folder = tempfile::tempdir().unwrap();
+    let written = Artefacts::new(folder.path()).with_charts(&[ChartFormat::Svg]).write(&document).unwrap();
+    let beside = std::fs::read_to_string(written.page).unwrap();
     assert!(beside.contains("href=\"charts/f1-chart.svg\"") && beside.contains("href=\"data.csv\""), "{beside}");
     assert!(!beside.contains(".png"));
 }

@@ -1,16 +1,13 @@
-use std::path::Path;
+//! Comparisons of two results.
 
 use apportion::result::{StudyResult, json};
-use apportion::uncertainty::{Estimate, Interval, difference};
+use apportion::uncertainty::difference;
+use apportion_report::comparison::{
+    CompareError, ComparedIndex, ComparisonFile, NamedResult, compare_results, comparison_document,
+};
 use proptest::prelude::*;
 
-use super::*;
-
-fn result(text: &str) -> StudyResult {
-    let study =
-        apportion_files::parse_study(text, Path::new("small.toml"), &[]).unwrap_or_else(|error| panic!("{error}"));
-    study.runner().threads(1).run().unwrap()
-}
+use super::{about, result};
 
 fn linear(coefficients: &str, design: &str) -> StudyResult {
     result(&format!("model = \"linear\"\n[function]\nc = {coefficients}\n[design]\nbase_samples = 1024\n{design}"))
@@ -145,7 +142,7 @@ fn a_table_has_no_more_columns_than_a_page_has_room_for() {
 
 #[test]
 fn rounding_does_not_count_as_a_difference() {
-    let record = |estimate: f64| Some(Estimate { estimate, interval: Some(Interval::about(estimate, 0.0)) });
+    let record = |estimate: f64| Some(about(estimate, 0.0));
     assert_eq!(ComparedIndex::new(record(0.0), record(5e-15)).differs, Some(false));
     assert_eq!(ComparedIndex::new(record(0.0), record(5e-9)).differs, Some(true));
     assert_eq!(
@@ -164,11 +161,7 @@ proptest! {
     /// Symmetric intervals: the half widths are those of independent errors, and never smaller than the larger one.
     #[test]
     fn half_widths_add_as_independent_errors(a in -1.0..1.0, b in -1.0..1.0, u in 0.0..0.5, v in 0.0..0.5) {
-        let record = |estimate: f64, half: f64| Estimate {
-            estimate,
-            interval: Some(Interval::about(estimate, half)),
-        };
-        let d = difference(record(a, u), record(b, v));
+        let d = difference(about(a, u), about(b, v));
         let (half, interval) = ((u * u + v * v).sqrt(), d.interval.unwrap());
         // Bounds are rounded to 1e-16 of numbers up to 1.5.
         prop_assert!((interval.high - d.estimate - half).abs() < 1e-14);

@@ -1,15 +1,20 @@
 //! Whole charts, read back from their SVG.
 
+mod axes;
 mod bars;
 mod lines;
+mod pictures;
 mod points;
-pub(super) mod reading;
+mod reading;
+mod rules;
+mod words;
 
+use apportion_report::chart::{
+    Axis, Bar, Chart, ChartWidth, Colour, Mark, Panel, Point, Series, Shape, Spacing, Stroke, png,
+};
 use proptest::prelude::*;
 use reading::{assert_narrow, dark_pixels, groups, only_finite, texts};
 use resvg::usvg::roxmltree::Document;
-
-use super::*;
 
 fn series(number: usize) -> Series {
     Series::new(["model A", "model B", "model C", "model D"][number % 4], Colour::Series(number))

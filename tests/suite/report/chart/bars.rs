@@ -32,16 +32,24 @@ fn sample() -> Chart {
         .panels([panel(vec!["first".to_owned(), "second".to_owned()], marks)])
 }
 
+fn bars(panel: &Panel) -> impl Iterator<Item = &Bar> {
+    panel.marks.iter().filter_map(|mark| match &mark.shape {
+        Shape::Bar(bar) => Some(bar),
+        _ => None,
+    })
+}
+
 fn elements<'a, 'i>(document: &'a Document<'i>, class: &str) -> Vec<Node<'a, 'i>> {
     groups(document, class).into_iter().flat_map(|group| group.children().filter(Node::is_element)).collect()
 }
 
-/// Compares every bar, interval and diamond of a panel of one chart with its numbers; rows are in the order of the marks.
+/// Compares every bar, interval and diamond of a panel of one chart with its numbers; rows are in the order of the
+/// marks.
 fn marks_stand_at_their_values(bars: &[Bar], svg: &str) {
     let document = Document::parse(svg).expect("well-formed");
     let (zero, scale) = x_axis(&groups(&document, "x-axis")[0]);
     let tolerance = |value: f64| 2.0 * PX + 1e-3 * (value * scale).abs();
-    let drawn: Vec<&Bar> = bars.iter().filter(|bar| bar.drawn().is_some()).collect();
+    let drawn: Vec<&Bar> = bars.iter().filter(|bar| bar.to.is_finite()).collect();
     let rects = elements(&document, "bars");
     assert_eq!(rects.len(), drawn.len());
     for (rect, bar) in rects.iter().zip(&drawn) {
@@ -50,7 +58,7 @@ fn marks_stand_at_their_values(bars: &[Bar], svg: &str) {
         let end = if bar.to < bar.from { left } else { left + width };
         assert!((end - zero - bar.to * scale).abs() <= tolerance(bar.to), "{bar:?}");
     }
-    let intervals: Vec<(f64, f64)> = drawn.iter().filter_map(|bar| bar.drawn()?.interval).collect();
+    let intervals: Vec<(f64, f64)> = drawn.iter().filter_map(|bar| bar.interval).collect();
     let whiskers = elements(&document, "whiskers");
     assert_eq!(whiskers.len(), intervals.len());
     for (whisker, (low, high)) in whiskers.iter().zip(intervals) {
@@ -60,7 +68,7 @@ fn marks_stand_at_their_values(bars: &[Bar], svg: &str) {
             assert!((x - zero - bound * scale).abs() <= tolerance(bound), "{numbers:?}");
         }
     }
-    let published: Vec<f64> = bars.iter().filter_map(Bar::diamond).collect();
+    let published: Vec<f64> = bars.iter().filter_map(|bar| bar.published).collect();
     let diamonds = elements(&document, "published");
     assert_eq!(diamonds.len(), published.len());
     for (diamond, value) in diamonds.iter().zip(published) {
@@ -72,7 +80,7 @@ fn marks_stand_at_their_values(bars: &[Bar], svg: &str) {
 #[test]
 fn bars_whiskers_and_diamonds_are_at_their_values() {
     let svg = sample().svg();
-    let all: Vec<Bar> = sample().panels[0].bars().map(|(_, bar)| bar.clone()).collect();
+    let all: Vec<Bar> = bars(&sample().panels[0]).cloned().collect();
     // Row by row.
     marks_stand_at_their_values(&[0, 2, 1, 3].map(|number: usize| all[number].clone()), &svg);
     let document = Document::parse(&svg).expect("well-formed");
@@ -92,7 +100,7 @@ fn rows_are_ranked_and_the_least_left_out() {
     let marks = [bar(0, 0, 10.0, 9.0, 11.0), bar(0, 1, 30.0, 29.0, 31.0), bar(0, 2, 20.0, 19.0, 21.0)];
     let ranked = panel(names(4, "x"), marks).ranked(&[10.0, 30.0, 20.0, f64::NAN], 2);
     assert_eq!(ranked.y.names, ["x 1", "x 2"]);
-    let rows: Vec<(usize, f64)> = ranked.bars().map(|(_, bar)| (bar.row, bar.to)).collect();
+    let rows: Vec<(usize, f64)> = bars(&ranked).map(|bar| (bar.row, bar.to)).collect();
     assert_eq!(rows, [(0, 30.0), (1, 20.0)]);
 }
 

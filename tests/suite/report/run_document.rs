@@ -1,14 +1,12 @@
-use std::path::Path;
+//! The document of a run.
 
-use apportion::result::Warning;
+use apportion::result::{StudyResult, Warning};
+use apportion_report::document::{Document, Part};
+use apportion_report::format::printed_half_width;
+use apportion_report::{one_output, run_document};
 
-use super::*;
-
-fn result(text: &str) -> StudyResult {
-    let study =
-        apportion_files::parse_study(text, Path::new("small.toml"), &[]).unwrap_or_else(|error| panic!("{error}"));
-    study.runner().threads(1).run().unwrap()
-}
+use super::{result, tables};
+use crate::common::study_path;
 
 fn page(result: &StudyResult) -> Document {
     run_document(result)
@@ -69,9 +67,7 @@ fn degenerate_results_have_pages() {
 fn many_factors_are_cut_to_the_largest() {
     let result = result("model = \"sobol-g\"\n[function]\ndimension = 120\n[design]\nbase_samples = 64\n");
     let page = page(&result);
-    let indices = page.sections.iter().find(|section| section.id == "indices").unwrap();
-    let tables: Vec<_> =
-        indices.parts.iter().filter_map(|p| if let Part::Table(t) = p { Some(t) } else { None }).collect();
+    let tables = tables(&page, "indices");
     assert_eq!(tables[0].printed.as_ref().map(Vec::len), Some(50));
     let csv = page.data_files().into_iter().find(|file| file.name == "small.csv").unwrap();
     assert_eq!(csv.text.lines().count(), 121);
@@ -97,8 +93,10 @@ fn a_standard_deviation_has_its_error() {
     let output = &mut result.outputs[0];
     output.variance = Some(4.0);
     output.variance_interval = Some(apportion::uncertainty::Interval { low: 3.96, high: 4.04 });
-    let sd = super::values::sd(output).unwrap();
-    assert!(sd.starts_with("2.0") && sd.contains('±'), "{sd}");
+    let page = page(&result);
+    let moments = tables(&page, "distribution");
+    let sd = moments[0].rows.iter().find(|row| row[0].text == "standard deviation").unwrap();
+    assert!(sd[1].text.starts_with("2.0") && sd[1].text.contains('±'), "{sd:?}");
 }
 
 #[test]
@@ -135,7 +133,7 @@ fn no_index_of_the_table_has_a_larger_error_than_the_lead() {
             let said: f64 = said.split(' ').next().unwrap().parse().unwrap();
             for index in result.outputs[0].indices.iter().flatten() {
                 for record in [index.effect.first_order, index.effect.total] {
-                    let printed = crate::format::printed_half_width(record).unwrap_or(0.0);
+                    let printed = printed_half_width(record).unwrap_or(0.0);
                     assert!(printed <= said, "{model} {samples}: {printed} beside {said}");
                 }
             }
@@ -154,7 +152,7 @@ fn one_output_of_several_or_one_series_is_a_result_of_its_own() {
         assert_eq!(one.outputs.iter().map(|output| output.name.as_str()).collect::<Vec<_>>(), [first]);
         assert!(titles(&page(&one)).contains(&"Indices"));
     }
-    let history = include_str!("../../../../studies/push-history.toml").replace("4096", "64");
+    let history = std::fs::read_to_string(study_path("push-history")).unwrap().replace("4096", "64");
     let history = result(&history);
     for (name, places) in [(Some("force_history"), 1..21), (Some("position_history"), 21..41)] {
         let one = one_output(&history, name);
@@ -175,16 +173,19 @@ fn warnings_of_a_kind_are_one() {
     let result = result(text);
     let few_rows = |place: usize| result.outputs[place].warnings.iter().any(|warning| warning.code() == "few-rows");
     assert!(few_rows(0) && few_rows(1) && result.outputs[2].warnings.is_empty());
-    let grouped = super::warnings::grouped_warnings(&result.outputs);
+    let page = page(&result);
+    assert_eq!(page.sections[0].id, "warnings");
+    let [Part::Notice { texts, .. }] = &page.sections[0].parts[..] else { panic!("{:?}", page.sections[0]) };
     let of_few_rows: Vec<&String> =
-        grouped.iter().filter(|text| text.contains("few rows determine the variance")).collect();
-    assert!(of_few_rows.len() == 1 && of_few_rows[0].contains("(2 outputs: y and z)"), "{grouped:?}");
+        texts.iter().filter(|text| text.contains("ew rows determine the variance")).collect();
+    assert!(of_few_rows.len() == 1 && of_few_rows[0].contains("(2 outputs: y and z)"), "{texts:?}");
 }
 
 #[test]
 fn outputs_of_a_file_that_lack_a_measure_leave_its_columns_empty() {
     let text = "outputs = { y = \"a*b\", z = \"a + b\" }\nmodel = \"expression\"\n[design]\nbase_samples = 64\n\
-                [analysis]\nmeasures = [\"pawn_median\", \"pawn_max\"]\n[factors]\na = { min = 0, max = 1 }\nb = { min = 0, max = 1 }\n";
+                [analysis]\nmeasures = [\"pawn_median\", \"pawn_max\"]\n[factors]\n\
+                a = { min = 0, max = 1 }\nb = { min = 0, max = 1 }\n";
     let mut result = result(text);
     let measures = result.outputs[1].measures.as_mut().unwrap();
     for factor in &mut measures.factors {
