@@ -1,14 +1,9 @@
 //! What a user does with results and studies besides running them: report, compare.
 
-use std::collections::BTreeMap;
 use std::path::Path;
 
-use crate::common::{all_files, apportion, stderr, study_path, succeed, text};
+use crate::common::{apportion, contents, stderr, study_path, succeed, text};
 use crate::messages::messages;
-
-fn contents(folder: &Path) -> BTreeMap<String, Vec<u8>> {
-    all_files(folder).into_iter().map(|name| (name.clone(), std::fs::read(folder.join(name)).unwrap())).collect()
-}
 
 fn run(study: &str, folder: &Path, changes: &[&str]) {
     let path = study_path(study);
@@ -219,6 +214,22 @@ fn new_overwrites_no_file_and_names_unknown_inputs() {
     // The suggested next commands work.
     let spaced = folder.path().join("my own.toml");
     messages.ended("a space in the name", 0, &apportion(&["new", text(&spaced), "--model", "expression"]));
+}
+
+#[test]
+fn arguments_are_typed_as_a_shell_reads_them() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::create_dir(folder.path().join("it's $HOME")).unwrap();
+    for (name, typed) in [
+        ("my-study.toml", "my-study.toml"),
+        ("my study.toml", "'my study.toml'"),
+        ("it's $HOME/study.toml", r"'it'\''s $HOME/study.toml'"),
+    ] {
+        let mut program = assert_cmd::Command::cargo_bin("apportion").unwrap();
+        let output = program.current_dir(folder.path()).args(["new", name, "--model", "ishigami"]).output().unwrap();
+        let next = format!("`apportion check {typed}` and `apportion run {typed}`");
+        assert!(stderr(&output).contains(&next), "{}", stderr(&output));
+    }
 }
 
 /// A positive input may be log-normal, whose values come close to 0 without reaching it.

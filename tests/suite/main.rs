@@ -48,6 +48,7 @@ mod result_reading;
 mod run_measures;
 mod salib;
 mod scatter;
+mod scene_files;
 mod scenes;
 mod screening;
 mod series;
