@@ -1,7 +1,7 @@
 //! The command-line program `apportion`: its commands, the reproduction of the papers, scenes in time, the trade-off of
 //! accuracy and time, and live pages.
 
-#![cfg_attr(not(test), deny(clippy::disallowed_methods))]
+#![deny(clippy::disallowed_methods)]
 
 mod commands;
 mod failure;

@@ -1,12 +1,10 @@
-//! The basis of the checks: the physics, the nominal scene, the box of the papers' general study, and the shape of curves.
+//! The basis of the checks: the nominal scene, the box of the papers' general study, and the shape of curves.
 
 use apportion::design::SobolSequence;
 use apportion::space::Space;
 use apportion::sum;
 use apportion::uncertainty::{Interval, StandardError, t_interval};
-use apportion_afm::history::{History, history};
-use apportion_afm::modes::Pushing;
-use apportion_afm::{Critical, Failure, Fidelity, FrictionLaw, Options, Parameter, Scene, critical_force, edge_unit};
+use apportion_afm::{Failure, Fidelity, FrictionLaw, Options, Parameter, Scene, critical_force, edge_unit};
 
 use super::judge::{Holding, Share, number};
 use crate::reproduce::papers::Words;
@@ -18,27 +16,8 @@ const SEED: u64 = 5;
 /// Number of independent scrambles for the interval of a share: enough degrees of freedom for a t-quantile near 2.
 const REPLICATES: u64 = 8;
 
-/// A function for the critical force of a scene, such as [`critical_force`].
-pub(super) type ForceOf<'a> = &'a dyn Fn(&Scene, &Options) -> Result<Critical, Failure>;
-/// A function for a scene in time, such as [`history`].
-pub(super) type HistoryOf<'a> = &'a dyn Fn(&Scene, &Options, f64) -> Result<History, Failure>;
-
 /// A function for a number of a scene, or for whether a rule holds there.
 pub(super) type OfScene<'a, T> = &'a dyn Fn(&Scene) -> Result<T, Failure>;
-
-/// The physics of the checks: ours, or a modified one in a test.
-#[derive(Clone, Copy)]
-pub(super) struct Physics<'a> {
-    pub force: ForceOf<'a>,
-    pub history: HistoryOf<'a>,
-    pub pushing: &'a dyn Fn(Scene) -> Pushing,
-}
-
-impl Physics<'static> {
-    pub fn ours() -> Self {
-        Self { force: &critical_force, history: &history, pushing: &Pushing::new }
-    }
-}
 
 /// The numbers of points.
 #[derive(Clone, Copy, Debug)]
@@ -89,7 +68,6 @@ impl Sweep {
 
 /// The data for the checks of all claims.
 pub(super) struct Bench<'a> {
-    pub physics: Physics<'a>,
     pub sizes: Sizes,
     /// The studies with their results.
     pub studies: &'a [Reproduced],
@@ -99,15 +77,15 @@ pub(super) struct Bench<'a> {
 
 impl<'a> Bench<'a> {
     /// Creates a bench with the ranges of the general study.
-    pub fn new(physics: Physics<'a>, effort: Effort, studies: &'a [Reproduced]) -> Self {
+    pub fn new(effort: Effort, studies: &'a [Reproduced]) -> Self {
         let space = general_study().space().clone();
         let parameters = space.factors().iter().map(|factor| parameter(&factor.name)).collect();
-        Self { physics, sizes: Sizes::new(effort), studies, space, parameters }
+        Self { sizes: Sizes::new(effort), studies, space, parameters }
     }
 
     /// Returns F_cr (N).
     pub fn force(&self, scene: &Scene, options: &Options) -> Result<f64, Failure> {
-        Ok((self.physics.force)(scene, options)?.critical_force)
+        Ok(critical_force(scene, options)?.critical_force)
     }
 
     /// Returns a sweep of a factor over its range in the general study.
@@ -276,33 +254,5 @@ impl Curve {
     /// Returns the mean elasticity, ln(y_n/y_0)/ln(x_n/x_0): the power of x that joins the ends.
     pub fn elasticity(&self) -> f64 {
         libm::log(self.last() / self.first()) / libm::log(self.x[self.x.len() - 1] / self.x[0])
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn curve(range: (f64, f64), f: impl Fn(f64) -> f64) -> Curve {
-        let x = grid(range, 21);
-        Curve { y: x.iter().map(|&x| f(x)).collect(), x }
-    }
-
-    #[test]
-    fn shapes_are_distinguishable() {
-        let line = curve((1.0, 3.0), |x| 2.0 * x + 1.0);
-        assert!(line.rises() && !line.falls());
-        // Rounding alone bends a straight line.
-        assert!(line.bend().0 < 1e-14 && line.bend().1 > 1.0 - 1e-14 && line.steepens() < 1e-12);
-        let inverse = curve((1.0, 3.0), |x| 1.0 / (x * x));
-        assert!(inverse.falls() && inverse.steepens() == 0.0 && inverse.bend().0 > 0.05);
-        // x^3 has the elasticity 3 between any ends.
-        let cubic = curve((1.0, 3.0), |x| x * x * x);
-        assert!((cubic.elasticity() - 3.0).abs() < 1e-14 && cubic.steepens() > 0.1);
-        let flat = curve((0.0, 1.0), |x| 1.0 + 1e-6 * x);
-        assert!((flat.spread() - 1e-6).abs() < 1e-11);
-        let wave = curve((0.0, 6.0), libm::sin);
-        assert!(!wave.rises() && !wave.falls());
-        assert_eq!(grid((0.0, 1.0), 3), [0.0, 0.5, 1.0]);
     }
 }

@@ -1,8 +1,8 @@
 //! Claims about one scene in time: 1, 2, 3, 5.
 
 use apportion_afm::contact::Contact;
-use apportion_afm::history::{History, Sample};
-use apportion_afm::{Failure, FrictionLaw, Scene};
+use apportion_afm::history::{History, Sample, history};
+use apportion_afm::{Failure, FrictionLaw, Scene, critical_force};
 
 use super::Verdict;
 use super::bench::{Bench, Sweep, closed, parameter};
@@ -36,14 +36,13 @@ const ROUNDING: f64 = 1e-9;
 /// Checks a half of claim 1: whether a quantity of the scene in time is in a range, with the shear modulus of TS04, and
 /// for comparison with that of CHK and LG.
 fn half(
-    bench: &Bench<'_>,
     (low, high): (f64, f64),
     quantity: fn(&History) -> Result<f64, Failure>,
     said: fn(f64) -> String,
 ) -> anyhow::Result<Answer> {
     let nominal = Scene::default();
     let other = Scene { shear_modulus: Some(PRINTED_SHEAR_MODULUS), ..nominal };
-    let of = |scene| quantity(&(bench.physics.history)(scene, &closed(FrictionLaw::Coulomb), DURATION)?);
+    let of = |scene| quantity(&history(scene, &closed(FrictionLaw::Coulomb), DURATION)?);
     let (ours, theirs) = (of(&nominal)?, of(&other)?);
     let verdict = |value: f64| Verdict::reproduced_if((low..=high).contains(&value));
     let [modulus, printed] = [nominal, other].map(|scene| number(scene.effective_shear_modulus() / 1e9, "GPa"));
@@ -56,16 +55,16 @@ fn half(
 }
 
 /// Checks the first half of claim 1.
-pub(super) fn slip_time(bench: &Bench<'_>) -> anyhow::Result<Answer> {
-    let mut answer = half(bench, SLIP_TIME, |history| history.critical.critical_time, |time| number(time, "s"))?;
+pub(super) fn slip_time(_: &Bench<'_>) -> anyhow::Result<Answer> {
+    let mut answer = half(SLIP_TIME, |history| history.critical.critical_time, |time| number(time, "s"))?;
     answer.words.extend([("from", SLIP_TIME.0.to_string()), ("to", SLIP_TIME.1.to_string())]);
     Ok(answer)
 }
 
 /// Checks the second half of claim 1.
-pub(super) fn displacement(bench: &Bench<'_>) -> anyhow::Result<Answer> {
+pub(super) fn displacement(_: &Bench<'_>) -> anyhow::Result<Answer> {
     let moved = |history: &History| Ok(history.samples.last().map_or(0.0, |end| end.relative));
-    let mut answer = half(bench, DISPLACEMENT, moved, |moved| nano(moved, "m"))?;
+    let mut answer = half(DISPLACEMENT, moved, |moved| nano(moved, "m"))?;
     let needed = DURATION + (DISPLACEMENT.0 + DISPLACEMENT.1) / 2.0 / Scene::default().velocity;
     answer.words.push(("needed", number(needed, "s")));
     Ok(answer)
@@ -73,9 +72,9 @@ pub(super) fn displacement(bench: &Bench<'_>) -> anyhow::Result<Answer> {
 
 /// Checks claim 2.
 pub(super) fn forces(bench: &Bench<'_>) -> anyhow::Result<Answer> {
-    let rule = |law, scene: &Scene| Ok(rises_and_stays(&(bench.physics.history)(scene, &closed(law), FOREVER)?));
+    let rule = |law, scene: &Scene| Ok(rises_and_stays(&history(scene, &closed(law), FOREVER)?));
     let holdings = bench.holding_under(&FRICTIONS[..2], "", |_| bench.sizes.slow_points, rule)?;
-    let nominal = (bench.physics.history)(&Scene::default(), &closed(FrictionLaw::Coulomb), DURATION)?;
+    let nominal = history(&Scene::default(), &closed(FrictionLaw::Coulomb), DURATION)?;
     let (start, held) = ends(&nominal.samples);
     let words = [
         ("lateral", nano(start.lateral_force, "N")),
@@ -110,7 +109,7 @@ fn ends(samples: &[Sample]) -> (&Sample, &Sample) {
 pub(super) fn delay(bench: &Bench<'_>) -> anyhow::Result<Answer> {
     let sweep = Sweep { parameter: parameter("static_friction"), range: (0.1, 1.2), count: bench.sizes.curve };
     let options = closed(FrictionLaw::Coulomb);
-    let slip_time = |scene: &Scene| (bench.physics.force)(scene, &options)?.critical_time;
+    let slip_time = |scene: &Scene| critical_force(scene, &options)?.critical_time;
     let rule = |scene: &Scene| Ok(bench.curve_of(&sweep, scene, &slip_time)?.rises());
     let holdings = [bench.holding("later slip with higher μ_s", bench.sizes.points, &rule)?];
     let nominal = bench.curve_of(&sweep, &Scene::default(), &slip_time)?;
@@ -121,7 +120,7 @@ pub(super) fn delay(bench: &Bench<'_>) -> anyhow::Result<Answer> {
 /// Checks claim 5.
 pub(super) fn contacts(bench: &Bench<'_>) -> anyhow::Result<Answer> {
     let options = closed(FrictionLaw::Coulomb);
-    let history = |scene: &Scene| (bench.physics.history)(scene, &options, FOREVER);
+    let history = |scene: &Scene| history(scene, &options, FOREVER);
     // At every step, and by more than nothing from the start to the slip.
     let always = |grows: fn(&Sample, &Sample, f64) -> bool| {
         move |scene: &Scene| -> Result<bool, Failure> {

@@ -2,8 +2,7 @@
 //!
 //! A check evaluates the physics (or uses the studies' results) with explicit criteria. One rule applies to all claims:
 //! the answer at the scene and with the constants of the paper's figure is the [`Verdict`]; the share of the general
-//! study's box where it holds is stated with it. Nothing is entered by hand: if the tests replace the physics, the
-//! verdicts change.
+//! study's box where it holds is stated with it. No verdict is entered by hand.
 
 mod bench;
 mod dimensions;
@@ -13,11 +12,8 @@ mod judge;
 mod modes;
 mod shares;
 
-#[cfg(test)]
-mod tests;
-
 use apportion::result::json;
-use bench::{Bench, Physics};
+use bench::Bench;
 use judge::Answer;
 use serde::Serialize;
 
@@ -115,15 +111,10 @@ const CHECKS: [(&str, Check); 25] = [
 /// # Errors
 /// An error if a study is missing or has no indices, or a scene has no critical force.
 pub fn claims(studies: &[Reproduced], effort: Effort) -> anyhow::Result<Vec<Claim>> {
-    answered(&Bench::new(Physics::ours(), effort, studies), &(1..=20))
-}
-
-/// Checks the claims whose numbers are in `numbers`.
-fn answered(bench: &Bench<'_>, numbers: &std::ops::RangeInclusive<usize>) -> anyhow::Result<Vec<Claim>> {
-    let asked = papers().claims.iter().filter(|claim| numbers.contains(&claim.number));
+    let bench = Bench::new(effort, studies);
     let claim = |claim: &'static PaperClaim| {
         let (_, check) = CHECKS.iter().find(|(name, _)| *name == claim.check).expect("a check for every claim");
-        let Answer { verdict, range, mut words } = check(bench)?;
+        let Answer { verdict, range, mut words } = check(&bench)?;
         words.extend(bench.sizes.words());
         Ok(Claim {
             number: claim.number,
@@ -136,7 +127,7 @@ fn answered(bench: &Bench<'_>, numbers: &std::ops::RangeInclusive<usize>) -> any
             figures: &claim.figures,
         })
     };
-    asked.map(claim).collect()
+    papers().claims.iter().map(claim).collect()
 }
 
 /// Formats the claims as JSON: `format` (`apportion-claims`), `version`, `claims`, each with the fields of [`Claim`],

@@ -2,8 +2,8 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use apportion_afm::modes::{Mode, Onset, TipForce};
-use apportion_afm::{Failure, FrictionLaw, Scene};
+use apportion_afm::modes::{Mode, Onset, Pushing, TipForce};
+use apportion_afm::{Failure, FrictionLaw, Scene, critical_force};
 
 use super::Verdict;
 use super::bench::{Bench, Sweep, closed, exact, grid, parameter};
@@ -14,7 +14,7 @@ const ABOVE_FRICTION: f64 = 0.05;
 
 /// Returns F*_ss (N) at each of the angles of the mode diagram; `None` if no force makes the particle slide.
 fn diagram(bench: &Bench<'_>, scene: &Scene, adhesion_in_load: bool) -> Result<Vec<(f64, Option<f64>)>, Failure> {
-    let mut pushing = (bench.physics.pushing)(*scene);
+    let mut pushing = Pushing::new(*scene);
     pushing.adhesion_in_load = adhesion_in_load;
     let lowest = libm::atan(pushing.scene.static_friction) + ABOVE_FRICTION;
     let angles = grid((lowest, FRAC_PI_2), bench.sizes.curve);
@@ -62,10 +62,10 @@ pub(super) fn angle(bench: &Bench<'_>) -> anyhow::Result<Answer> {
 /// criterion holds and the tip slips.
 pub(super) fn rolling(bench: &Bench<'_>) -> anyhow::Result<Answer> {
     let options = closed(FrictionLaw::Coulomb);
-    let normal = |scene: &Scene| Ok::<f64, Failure>((bench.physics.force)(scene, &options)?.normal_force);
+    let normal = |scene: &Scene| Ok::<f64, Failure>(critical_force(scene, &options)?.normal_force);
     let later = |one: Onset, other: Onset| if one > other { one } else { other };
     let onsets = |scene: &Scene| -> Result<[Onset; 3], Failure> {
-        let (normal, pushing) = (normal(scene)?, (bench.physics.pushing)(*scene));
+        let (normal, pushing) = (normal(scene)?, Pushing::new(*scene));
         let onset = |mode| pushing.onset(mode, normal);
         Ok([onset(Mode::Slide)?, onset(Mode::Roll)?, onset(Mode::TipSlip)?])
     };
@@ -78,7 +78,7 @@ pub(super) fn rolling(bench: &Bench<'_>) -> anyhow::Result<Answer> {
     ];
     let nominal = Scene::default();
     let [slide, roll, tip] = onsets(&nominal)?;
-    let pushing = (bench.physics.pushing)(nominal);
+    let pushing = Pushing::new(nominal);
     let preload = TipForce { normal: normal(&nominal)?, lateral: 0.0 };
     let balance = pushing.balance(Mode::Roll, preload)?;
     let excess = balance.drive / balance.resistance;
