@@ -1,17 +1,12 @@
 //! What a user does with results and studies besides running them: report, compare, new.
 
-use std::collections::BTreeMap;
 use std::path::Path;
 
 use apportion::study::Study;
 use apportion_files::{ModelKind, TemplateRequest, template};
 
-use crate::common::{all_files, apportion, stderr, study_path, succeed, text};
+use crate::common::{apportion, contents, stderr, study_path, succeed, text};
 use crate::messages::messages;
-
-fn contents(folder: &Path) -> BTreeMap<String, Vec<u8>> {
-    all_files(folder).into_iter().map(|name| (name.clone(), std::fs::read(folder.join(name)).unwrap())).collect()
-}
 
 fn run(study: &str, folder: &Path, changes: &[&str]) {
     let path = study_path(study);
@@ -249,6 +244,22 @@ fn every_input_can_be_a_factor_and_every_output_asked_for() {
             assert_eq!(study.space().factors()[0].name, input.name);
             assert_eq!(study.title(), title.as_deref());
         }
+    }
+}
+
+#[test]
+fn arguments_are_typed_as_a_shell_reads_them() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::create_dir(folder.path().join("it's $HOME")).unwrap();
+    for (name, typed) in [
+        ("my-study.toml", "my-study.toml"),
+        ("my study.toml", "'my study.toml'"),
+        ("it's $HOME/study.toml", r"'it'\''s $HOME/study.toml'"),
+    ] {
+        let mut program = assert_cmd::Command::cargo_bin("apportion").unwrap();
+        let output = program.current_dir(folder.path()).args(["new", name, "--model", "ishigami"]).output().unwrap();
+        let next = format!("`apportion check {typed}` and `apportion run {typed}`");
+        assert!(stderr(&output).contains(&next), "{}", stderr(&output));
     }
 }
 

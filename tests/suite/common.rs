@@ -1,6 +1,6 @@
 //! What several test files share.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -142,6 +142,11 @@ pub fn all_files(folder: &Path) -> BTreeSet<String> {
     let charts = if charts.is_dir() { files(&charts) } else { BTreeSet::new() };
     let others = files(folder).into_iter().filter(|name| name != "charts");
     others.chain(charts.into_iter().map(|name| format!("charts/{name}"))).collect()
+}
+
+/// Every such file with its content.
+pub fn contents(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    all_files(folder).into_iter().map(|name| (name.clone(), std::fs::read(folder.join(name)).unwrap())).collect()
 }
 
 /// Runs the study `file` in three parts, each in a folder next to `merged`, and joins them there.

@@ -51,6 +51,7 @@ mod rows;
 mod run_measures;
 mod salib;
 mod scatter;
+mod scene_files;
 mod scenes;
 mod screening;
 mod series;

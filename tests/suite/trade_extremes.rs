@@ -1,9 +1,14 @@
 //! The map of extremes: no study has a number that is silently wrong.
 
+mod formulas;
+mod points;
+
 use std::path::{Path, PathBuf};
 
 use apportion::Study;
-use apportion_cli::trade::extremes::{Extremes, ExtremesFile, ExtremesJob, ExtremesSettings, Outcome, extremes};
+use apportion_cli::trade::extremes::{
+    Extremes, ExtremesFile, ExtremesJob, ExtremesSettings, Outcome, Reference, extremes,
+};
 
 use crate::common::{all_files, study_path, succeed, text};
 use crate::messages::messages;
@@ -154,4 +159,31 @@ fn the_command_writes_a_page_a_file_and_points_that_can_be_evaluated() {
 #[test]
 fn options_of_the_map_need_the_map() {
     messages!().refused(&["trade", text(&study_path("flood")), "--cells", "5"]);
+}
+
+/// A number may differ by what is stated, and is right within the tolerance only.
+#[test]
+fn a_number_agrees_within_what_is_stated() {
+    let reference = Reference { value: 2.0, stated: Some(0.1), tolerance: 1e-3, floor: 1e-6, covered: "" };
+    assert_eq!(reference.agrees(2.001), Some(true));
+    assert_eq!(reference.agrees(2.05), Some(false));
+    assert_eq!(reference.agrees(2.2), None);
+    let certain = Reference { stated: Some(0.0), ..reference };
+    assert_eq!(certain.agrees(2.000_001), Some(true));
+    assert_eq!(certain.agrees(2.000_01), None);
+    assert_eq!(Reference { stated: None, ..reference }.agrees(2.2), Some(false));
+    assert_eq!(Reference { value: f64::INFINITY, ..reference }.agrees(1e300), None);
+    assert_eq!(Reference { value: 1e-323, stated: Some(0.0), ..reference }.agrees(0.0), Some(true));
+}
+
+/// A model with every outcome but a wrong number: flags, refusals and error estimates.
+#[test]
+fn every_outcome_has_its_case() {
+    let map = map_of(&loaded(&study_path("lugre-environmental-viscous")), ExtremesSettings { points: 40, seed: 0 });
+    let of = |outcome| map.reasons.iter().filter(move |reason| reason.outcome == outcome).map(|reason| &*reason.reason);
+    assert!(of(Outcome::FlaggedConfirmed).all(|reason| reason.starts_with("flags of the model: ")));
+    assert!(of(Outcome::Refused).all(|reason| !reason.contains("flags of the model")));
+    assert!(of(Outcome::Flagged).any(|reason| reason.starts_with("flags of the model: ")));
+    let counts = [Outcome::Right, Outcome::FlaggedConfirmed, Outcome::Flagged, Outcome::Refused];
+    assert!(counts.iter().all(|outcome| map.counts.count(*outcome) > 0), "{:?}", map.counts);
 }

@@ -278,21 +278,3 @@ fn printable(text: &str) -> String {
 fn counted(number: u64, what: &str) -> String {
     format!("{number} {what}{}", if number == 1 { "" } else { "s" })
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn arguments_are_typed_as_a_shell_reads_them() {
-        for (text, typed) in [
-            ("studies/my-study.toml", "studies/my-study.toml"),
-            ("design.seed=3", "design.seed=3"),
-            ("my study.toml", "'my study.toml'"),
-            ("it's $HOME.toml", r"'it'\''s $HOME.toml'"),
-            ("", "''"),
-        ] {
-            assert_eq!(quoted(text), typed);
-        }
-    }
-}

@@ -164,10 +164,3 @@ pub fn mode_document(diagram: &ModeDiagram, study: &str, title: &str) -> Documen
     }
     .document()
 }
-
-/// The nominal scene under Coulomb friction, for tests.
-#[cfg(test)]
-fn nominal_story() -> SceneStory {
-    let title = "A gold particle pushed on silicon oxide".to_owned();
-    simulation::scene_story(title, &Scene::default(), &Default::default(), 0.4).expect("a scene with an answer")
-}

@@ -61,33 +61,3 @@ fn caption(diagram: &ModeDiagram) -> String {
     let angle = short(slip_angle.to_degrees());
     format!("At {angle}° set in: {modes}; the scene slips at {angle}° and {}.", force(slip_force))
 }
-
-#[cfg(test)]
-mod tests {
-    use resvg::usvg::roxmltree::Document;
-
-    use super::*;
-
-    #[test]
-    fn the_diagram_is_drawn_with_a_caption() {
-        let line = |name: &str, force: [Option<f64>; 3]| ModeLine {
-            name: name.to_owned(),
-            look: (Colour::Series(0), Stroke::Solid),
-            force: force.to_vec(),
-        };
-        let diagram = ModeDiagram {
-            angle: vec![0.2, 0.7, 1.2],
-            forces: vec![
-                line("sliding", [None, Some(960e-9), Some(10e-9)]),
-                line("rolling", [Some(1e-9), Some(100e-9), Some(2e-9)]),
-                line("spinning", [None; 3]),
-            ],
-            slip: (0.7, 631e-9),
-        };
-        let svg = mode_diagram_chart(&diagram).svg();
-        Document::parse(&svg).unwrap();
-        assert!(!svg.contains("NaN") && !svg.contains("inf"));
-        let expected = "At 40.1° set in: rolling at 100 nN, sliding at 960 nN; the scene slips at 40.1° and 631 nN.";
-        assert_eq!(caption(&diagram), expected);
-    }
-}

@@ -70,7 +70,7 @@ fn script_json(value: &Value) -> String {
 }
 
 /// The factors by which displacements are drawn larger (above 1) or smaller (below 1) than the bodies.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy)]
 struct View {
     /// Twist and lateral displacement in the picture of the probe.
     probe: f64,
@@ -125,55 +125,4 @@ fn round_below(limit: f64) -> f64 {
     let power = 10f64.powi(decade as i32);
     let step = [5.0, 2.0].into_iter().find(|step| step * power <= limit).unwrap_or(1.0);
     step * power
-}
-
-#[cfg(test)]
-mod tests {
-    use super::super::nominal_story;
-    use super::*;
-
-    #[test]
-    fn the_page_needs_no_other_files() {
-        let page = player_page(&nominal_story());
-        let own = page.replace("http://www.w3.org/2000/svg", "");
-        for outside in ["http:", "https:", "src=", "@import", "url(", "//cdn", "fetch("] {
-            assert!(!own.contains(outside), "{outside}");
-        }
-        assert!(page.contains("The particle slips after 0.131\u{a0}s, at a tip force of 631\u{a0}nN."));
-        assert!(page.contains("exaggerated 200 times"));
-        assert!(page.contains("--push:#00527f"));
-    }
-
-    #[test]
-    fn texts_cannot_break_out() {
-        let mut story = nominal_story();
-        let evil = "</script><script>alert('&\"')</script><!--";
-        story.title = evil.to_owned();
-        let page = player_page(&story);
-        assert!(!page.contains("</script><script>alert"));
-        assert!(!page.contains("<!--"));
-        assert_eq!(page.matches("</script>").count(), 3);
-        let (_, rest) = page.split_once("id=\"scene-data\">").unwrap();
-        let data: Value = serde_json::from_str(rest.split_once("</script>").unwrap().0).unwrap();
-        assert_eq!(data["title"], evil);
-    }
-
-    #[test]
-    fn factors_are_round_and_below_their_limit() {
-        for (limit, factor) in [(247.0, 200.0), (3.05, 2.0), (1.0, 1.0), (0.7, 0.5), (0.02, 0.02), (9.99, 5.0)] {
-            assert!((round_below(limit) / factor - 1.0).abs() < 1e-12, "{limit}: {}", round_below(limit));
-        }
-        for limit in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e-200] {
-            assert_eq!(round_below(limit), 1.0, "{limit}");
-        }
-    }
-
-    #[test]
-    fn the_nominal_scene_is_seen() {
-        let view = View::new(&nominal_story());
-        assert_eq!(view, View { probe: 200.0, travel: 2.0 });
-        assert!(view.sentence().contains("exaggerated 200 times"), "{}", view.sentence());
-        assert_eq!(factor(0.02), "reduced 50 times");
-        assert_eq!(factor(2e9), "exaggerated 2e9 times");
-    }
 }

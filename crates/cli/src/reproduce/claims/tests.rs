@@ -1,4 +1,4 @@
-//! The current verdicts, and that they change with the physics.
+//! Verdicts change with the physics and with the studies.
 
 use std::sync::LazyLock;
 
@@ -20,42 +20,6 @@ static NINE_STUDIES: LazyLock<Vec<Reproduced>> = LazyLock::new(|| {
     };
     studies.into_iter().map(run).collect()
 });
-
-fn in_words(claims: &[Claim]) -> String {
-    let line = |claim: &Claim| format!("{} {}: {}", claim.number, claim.source, claim.verdict.word());
-    claims.iter().map(line).collect::<Vec<_>>().join("\n")
-}
-
-/// Every claim with its verdict. A change of the physics that affects the claims changes this.
-#[test]
-fn the_verdicts_are_those_reviewed() {
-    let claims = super::claims(&NINE_STUDIES, Effort::Quick).unwrap();
-    assert_eq!(claims, super::claims(&NINE_STUDIES, Effort::Quick).unwrap());
-    insta::assert_snapshot!(in_words(&claims));
-    for claim in &claims {
-        let Claim { statement, finding, setting, .. } = claim;
-        assert!(
-            [*statement, finding, setting]
-                .iter()
-                .all(|text| text.ends_with('.') && !text.contains("NaN") && !text.contains(['{', '}'])),
-            "{claim:?}"
-        );
-        assert!(!claim.figures.is_empty());
-    }
-    let json: serde_json::Value = serde_json::from_str(&claims_json(&claims)).unwrap();
-    assert_eq!(json["format"], "apportion-claims");
-    for (place, verdict) in [(17, "reproduced"), (18, "not-reproduced"), (19, "contradicted")] {
-        let claim = &json["claims"][place];
-        assert_eq!((claim["verdict"].as_str(), claim.get("own").is_some()), (Some(verdict), verdict == "contradicted"));
-    }
-}
-
-/// More points reduce the errors of the shares of the box; no verdict depends on them.
-#[test]
-fn a_quick_look_gives_the_verdicts_of_the_full_answer() {
-    let full = claims(&NINE_STUDIES, Effort::Full).unwrap();
-    assert_eq!(in_words(&full), in_words(&claims(&NINE_STUDIES, Effort::Quick).unwrap()));
-}
 
 /// The verdicts on claims by this physics.
 fn verdicts(physics: Physics<'_>, numbers: std::ops::RangeInclusive<usize>) -> Vec<(usize, &'static str)> {

@@ -7,8 +7,6 @@
 mod history;
 mod modes;
 mod sweep;
-#[cfg(test)]
-mod tests;
 
 use apportion_afm::Failure;
 use apportion_report::chart::Chart;

@@ -309,33 +309,3 @@ fn crossing(points: &[(f64, f64)], level: f64) -> Option<f64> {
         (a.signum() != b.signum() && a.is_finite() && b.is_finite()).then(|| xa + (xb - xa) * a / (a - b))
     })
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn course(f: impl Fn(f64) -> f64) -> String {
-        let x: Vec<f64> = (0..=1000).map(|i| 1.0 + f64::from(i) / 1000.0).collect();
-        let y: Vec<f64> = x.iter().map(|x| f(*x)).collect();
-        super::course(&x, &y, " um", "")
-    }
-
-    #[test]
-    fn curves_are_described_by_their_course() {
-        assert_eq!(course(|x| 100.0 * x), "rises from 100 to 200 nN (in a straight line)");
-        // Half of the change: x^3 from 1 to 8 at 4.5^(1/3) = 1.651; x^-2 from 1 to 1/4 at 1/sqrt(0.625) = 1.265.
-        assert_eq!(course(|x| x.powi(3)), "rises from 1.00 to 8.00 nN (half of the way by 1.65 um)");
-        assert_eq!(course(|x| x.powi(-2)), "falls from 1.00 to 0.250 nN (half of the way by 1.26 um)");
-        assert_eq!(course(|_| 631.0), "stays at 631 nN");
-        assert_eq!(course(|x| 100.0 + 0.5 * x), "rises by 0.495 % from 100 nN");
-        assert_eq!(course(|x| libm::sin(6.0 * x)), "lies between \u{2212}1.00 and 1.00 nN");
-        assert_eq!(course(|_| f64::NAN), "does not exist");
-        assert!(course(|x| x + 0.02 * x * x).contains("in a straight line to within 0.472 % of the change"));
-    }
-
-    #[test]
-    fn crossings_and_lists() {
-        assert_eq!(crossing(&[(0.0, 1.0), (2.0, 3.0)], 2.0), Some(1.0));
-        assert_eq!(crossing(&[(0.0, 1.0), (1.0, f64::NAN), (2.0, 3.0)], 2.0), None);
-    }
-}

@@ -174,32 +174,3 @@ fn formula(output: AfmOutput, options: &Options) -> Option<Expression> {
     let symbol = |name: &str| Parameter::ALL.iter().position(|p| p.name == name).map(Symbol::Input);
     Expression::parse(&text, &symbol).ok()
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn every_formula_can_be_read_and_is_that_of_the_closed_form() {
-        let mut read = 0;
-        for friction in FrictionLaw::ALL {
-            for contact in ContactTheory::ALL {
-                for adhesion_in_load in [false, true] {
-                    let options = Options { friction, contact, adhesion_in_load, ..Options::default() };
-                    let second = AfmSecond::new(Scene::default(), options, Vec::new(), AfmOutput::ALL.to_vec());
-                    let critical = critical_force(&Scene::default(), &options).unwrap();
-                    let inputs: Vec<f64> = Parameter::ALL.iter().map(|p| (p.get)(&Scene::default())).collect();
-                    for (output, formula) in AfmOutput::ALL.into_iter().zip(&second.formulas) {
-                        let Some(formula) = formula else { continue };
-                        let precise = super::super::precise::precise(formula, &inputs).unwrap();
-                        let value = output.value(&critical).unwrap();
-                        assert!((value / precise - 1.0).abs() < 1e-13, "{output:?} {options:?}");
-                        read += 1;
-                    }
-                }
-            }
-        }
-        // Three laws, three theories, with and without adhesion in the load, seven outputs; LuGre friction has no time.
-        assert_eq!(read, 3 * 3 * 2 * 7 - 3 * 2);
-    }
-}

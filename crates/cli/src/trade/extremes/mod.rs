@@ -290,32 +290,3 @@ fn second_calculation(subject: &dyn Subject, space: &Space) -> Result<SecondCalc
     let name = afm.name();
     Ok(SecondCalculation { name, calculate: Box::new(move |x, (values, error)| afm.calculate(x, values, error)) })
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn every_outcome_has_its_case() {
-        let reference = Reference { value: 2.0, stated: Some(0.1), tolerance: 1e-3, floor: 1e-6, covered: "" };
-        let outcome = |value, flags: &[&str], reference| judge(Ok(value), flags, &Ok(reference)).outcome;
-        assert_eq!(outcome(2.001, &[], reference), Outcome::Right);
-        assert_eq!(outcome(2.001, &["odd"], reference), Outcome::FlaggedConfirmed);
-        assert_eq!(outcome(2.05, &["odd"], reference), Outcome::Flagged);
-        assert_eq!(outcome(2.05, &[], reference), Outcome::Flagged);
-        // A deviation above the stated one is wrong, with or without flags.
-        assert_eq!(outcome(2.2, &["odd"], reference), Outcome::Wrong);
-        assert_eq!(outcome(2.2, &[], reference), Outcome::Wrong);
-        let certain = Reference { stated: Some(0.0), ..reference };
-        assert_eq!(outcome(2.000_001, &[], certain), Outcome::Right);
-        assert_eq!(outcome(2.000_01, &[], certain), Outcome::Wrong);
-        assert_eq!(outcome(2.2, &[], Reference { stated: None, ..reference }), Outcome::Flagged);
-        assert_eq!(outcome(1e300, &[], Reference { value: f64::INFINITY, ..reference }), Outcome::Wrong);
-        assert_eq!(outcome(0.0, &[], Reference { value: 1e-323, stated: Some(0.0), ..reference }), Outcome::Right);
-        let refused = judge(Err(RowFailure::new("no motion")), &["odd"], &Ok(reference));
-        assert_eq!((refused.outcome, refused.reason.as_str()), (Outcome::Refused, "no motion"));
-        let unchecked = |unchecked| judge(Ok(1.0), &[], &Err(unchecked)).outcome;
-        assert_eq!(unchecked(Unchecked::NotAvailable("none".to_owned())), Outcome::Flagged);
-        assert_eq!(unchecked(Unchecked::NoValue("nothing slips".to_owned())), Outcome::Wrong);
-    }
-}

@@ -24,7 +24,7 @@ const MARGIN: f64 = 8.0;
 ///
 /// # Panics
 /// If an input of the formula is missing.
-pub(super) fn precise(formula: &Expression, x: &[f64]) -> Option<f64> {
+fn precise(formula: &Expression, x: &[f64]) -> Option<f64> {
     let constants = &mut Consts::new().ok()?;
     let mut stack: Vec<BigFloat> = Vec::new();
     for step in formula.program().steps() {
@@ -40,7 +40,7 @@ pub(super) fn precise(formula: &Expression, x: &[f64]) -> Option<f64> {
 ///
 /// # Panics
 /// If an input of the formula is missing.
-pub(super) fn rounding(formula: &Expression, x: &[f64]) -> f64 {
+fn rounding(formula: &Expression, x: &[f64]) -> f64 {
     let columns: Vec<[f64; SAMPLES]> = x.iter().map(|x| [*x; SAMPLES]).collect();
     let inputs: Vec<&[f64]> = columns.iter().map(|column| &column[..]).collect();
     let mut values = [f64::NAN; SAMPLES];
@@ -185,6 +185,3 @@ fn to_f64(x: &BigFloat) -> f64 {
     let mantissa = words.iter().fold(0.0, |below, word| (*word as f64 + below) * unit);
     libm::scalbn(if sign.is_negative() { -mantissa } else { mantissa }, exponent)
 }
-
-#[cfg(test)]
-mod tests;
