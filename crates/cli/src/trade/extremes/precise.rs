@@ -14,13 +14,16 @@ const BITS: usize = 320;
 const WIDE: usize = 2 * BITS;
 /// Exponent of x below which exp(x) - 1 and ln(1 + x) equal x to all bits.
 const TINY: i32 = -(BITS as i32);
+/// Exponent of an angle from which on its turns leave no digit of it, and of a power from which on it takes minutes.
+const MAX_EXPONENT_OF_ANGLE: i32 = BITS as i32 - 64;
+const MAX_EXPONENT_OF_POWER: i32 = 40;
 /// Number of evaluations in doubles, each rounded differently.
 const SAMPLES: usize = 32;
 /// Margin on the largest deviation of so many samples.
 const MARGIN: f64 = 8.0;
 
 /// Returns the value at one point in 320 bits and exponents of any size, as the nearest double; `None` if the formula
-/// has a function that is not available there (`erf`, `gamma`).
+/// has a function that is not available there: `erf`, `gamma`, powers and angles out of reach.
 ///
 /// # Panics
 /// If an input of the formula is missing.
@@ -67,8 +70,8 @@ fn rounding(formula: &Expression, x: &[f64]) -> f64 {
 /// Returns a formula at `x`, and how much rounding may move it in doubles.
 pub(crate) fn reference(formula: &Expression, x: &[f64]) -> Result<Reference, Unchecked> {
     let not_available = |why: &str| Unchecked::NotAvailable(why.to_owned());
-    let value = precise(formula, x)
-        .ok_or_else(|| not_available("the formula has a function (erf, gamma) that is not computed in 320 bits"))?;
+    let unreached = "the formula has a function (erf, gamma, a huge angle or power) that is not computed in 320 bits";
+    let value = precise(formula, x).ok_or_else(|| not_available(unreached))?;
     if value.is_nan() {
         return Err(not_available("the formula has no value in 320 bits"));
     }
@@ -110,6 +113,7 @@ fn evaluate(step: Step, operands: &[BigFloat], x: &[f64], c: &mut Consts) -> Opt
         (Step::Subtract, [a, b]) => a.sub(b, BITS, ToEven),
         (Step::Multiply, [a, b]) => a.mul(b, BITS, ToEven),
         (Step::Divide, [a, b]) => a.div(b, BITS, ToEven),
+        (Step::Raise, [_, b]) if b.exponent().is_none_or(|exponent| exponent > MAX_EXPONENT_OF_POWER) => return None,
         (Step::Raise, [a, b]) => a.pow(b, BITS, ToEven, c),
         (Step::Compare(_), [a, b]) if a.is_nan() || b.is_nan() => number(f64::NAN),
         (Step::Compare(comparison), [a, b]) => number(f64::from(comparison.is_true_of(a, b))),
@@ -124,6 +128,7 @@ fn evaluate(step: Step, operands: &[BigFloat], x: &[f64], c: &mut Consts) -> Opt
 fn of_one(name: &str, x: &BigFloat, c: &mut Consts) -> Option<BigFloat> {
     let is_tiny = x.exponent().is_none_or(|exponent| exponent < TINY);
     Some(match name {
+        "sin" | "cos" | "tan" if x.exponent().is_some_and(|exponent| exponent > MAX_EXPONENT_OF_ANGLE) => return None,
         "sin" => x.sin(BITS, ToEven, c),
         "cos" => x.cos(BITS, ToEven, c),
         "tan" => x.tan(BITS, ToEven, c),
