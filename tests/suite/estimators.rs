@@ -38,7 +38,7 @@ fn every_estimator_is_within_its_error_of_every_closed_form_on_every_sampler() {
                 .concat()
                 .concat();
         let uneven = exact.mean.powi(2) / exact.variance + 1.0;
-        let text = format!("model = \"{}\"", answer.name());
+        let text = format!("model = \"{}\"", answer.name);
         let study = apportion_files::parse_study(&text, Path::new("estimators.toml"), &[]).unwrap();
         for sampler in Sampler::ALL {
             for base_samples in [256, 1024] {

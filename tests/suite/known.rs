@@ -47,7 +47,7 @@ fn every_function_has_its_indices() {
         };
         let mut spreads = Vec::new();
         for base_samples in [128, 1024] {
-            let all = estimates(answer.name(), base_samples);
+            let all = estimates(answer.name, base_samples);
             for (place, &expected) in expected.iter().enumerate() {
                 let column: Vec<f64> = all.iter().map(|estimates| estimates[place]).collect();
                 let (mean, sd) = spread(&column);

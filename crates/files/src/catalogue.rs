@@ -16,8 +16,8 @@ pub struct ModelKind {
     /// The inputs that become factors in a new study; empty for all of them.
     pub main_inputs: &'static [&'static str],
     /// The function, if it is one with known indices.
-    pub known: Option<KnownAnswer>,
-    inputs: fn(Option<KnownAnswer>) -> Vec<Input>,
+    pub known: Option<&'static KnownAnswer>,
+    inputs: fn(Option<&'static KnownAnswer>) -> Vec<Input>,
     outputs: fn() -> Vec<Output>,
     choices: fn() -> Vec<Choice>,
 }
@@ -60,10 +60,10 @@ impl ModelKind {
     }
 
     /// Returns a function with known indices.
-    pub fn from_known(answer: KnownAnswer) -> Self {
+    pub fn from_known(answer: &'static KnownAnswer) -> Self {
         Self {
-            name: answer.name(),
-            description: answer.description(),
+            name: answer.name,
+            description: answer.description,
             table: "function",
             main_inputs: &[],
             known: Some(answer),

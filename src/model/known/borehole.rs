@@ -1,24 +1,18 @@
 //! The flow through a borehole.
 
-use super::function::{all_positive, positive, uniform};
-use super::{Entry, Exact, Function, KnownInput, Made};
+use super::function::{positive, uniform};
+use super::{Exact, KnownAnswer, KnownInput, Made};
 use crate::space::Distribution;
 
-pub(super) const ENTRY: Entry = Entry {
+pub(super) const ENTRY: KnownAnswer = KnownAnswer {
     name: "borehole",
-    summary: "flow of water through a borehole between two aquifers (m3/yr)",
+    description: "flow of water through a borehole between two aquifers (m3/yr)",
     formula: "2 pi Tu (Hu - Hl) / (g (1 + 2 L Tu / (g rw^2 Kw) + Tu/Tl)), g = ln(r/rw)",
     source: "Harper and Gupta 1983 (BMI/ONWI-516); Morris, Mitchell and Ylvisaker 1993, Technometrics 35, 243-255; \
              distributions as collected by Surjanovic and Bingham, rw truncated to its range",
     parameters: &[],
-    build: |_| Ok(Made::new(inputs(), Borehole)),
+    build: |_| Ok(Made { inputs: inputs(), exact: exact(), value: Box::new(value) }),
 };
-
-/// The flow 2 pi Tu (Hu - Hl) / (ln(r/rw) (1 + 2 L Tu / (ln(r/rw) rw^2 Kw) + Tu/Tl)) in cubic metres a year.
-///
-/// By tensor quadrature: mean 73.7005, variance 805.037. The radius rw is a normal truncated to the published range 0.05
-/// to 0.15 (3.1 standard deviations), so that it cannot be negative.
-struct Borehole;
 
 fn inputs() -> Vec<KnownInput> {
     let made = |distribution: Result<Distribution, _>| distribution.expect("constants of this file");
@@ -36,33 +30,30 @@ fn inputs() -> Vec<KnownInput> {
     ]
 }
 
-impl Function for Borehole {
-    fn value(&self, x: &[f64]) -> f64 {
-        let &[rw, r, tu, hu, tl, hl, l, kw] = x else { return f64::NAN };
-        if !(all_positive(x) && r > rw) {
-            return f64::NAN;
-        }
-        let g = libm::log(r / rw);
-        2.0 * std::f64::consts::PI * tu * (hu - hl) / (g * (1.0 + 2.0 * l * tu / (g * rw * rw * kw) + tu / tl))
+fn value(x: &[f64]) -> Result<f64, &'static str> {
+    let &[rw, r, tu, hu, tl, hl, l, kw] = x else { return Ok(f64::NAN) };
+    if r <= rw {
+        return Err("the radius of influence does not exceed that of the borehole: r <= rw");
     }
+    let g = libm::log(r / rw);
+    Ok(2.0 * std::f64::consts::PI * tu * (hu - hl) / (g * (1.0 + 2.0 * l * tu / (g * rw * rw * kw) + tu / tl)))
+}
 
-    fn reason(&self, x: &[f64]) -> Option<&'static str> {
-        let radii = "the radius of influence does not exceed that of the borehole: r <= rw";
-        Some(if all_positive(x) { radii } else { "an input is not positive" })
-    }
-
-    fn exact(&self) -> Exact {
-        // S_i and ST_i.
-        let indices = [
-            [0.6594033590162246, 0.6896299348673347],
-            [1.8452834410189019e-06, 2.893408985859754e-06],
-            [5.589581669682095e-12, 8.471785825029443e-12],
-            [0.0962743643893352, 0.10747600052188548],
-            [5.6166991939675995e-06, 8.51150833763442e-06],
-            [0.09627436438933552, 0.10747600052188583],
-            [0.09198335447676283, 0.10410672530697872],
-            [0.022260577436458973, 0.025451166766643767],
-        ];
-        Exact::by_quadrature(73.70054444125132, 805.0372615696715, &indices, 1e-8)
-    }
+/// The flow 2 pi Tu (Hu - Hl) / (ln(r/rw) (1 + 2 L Tu / (ln(r/rw) rw^2 Kw) + Tu/Tl)) in cubic metres a year.
+///
+/// By tensor quadrature: mean 73.7005, variance 805.037. The radius rw is a normal truncated to the published range 0.05
+/// to 0.15 (3.1 standard deviations), so that it cannot be negative.
+fn exact() -> Exact {
+    // S_i and ST_i.
+    let indices = [
+        [0.6594033590162246, 0.6896299348673347],
+        [1.8452834410189019e-06, 2.893408985859754e-06],
+        [5.589581669682095e-12, 8.471785825029443e-12],
+        [0.0962743643893352, 0.10747600052188548],
+        [5.6166991939675995e-06, 8.51150833763442e-06],
+        [0.09627436438933552, 0.10747600052188583],
+        [0.09198335447676283, 0.10410672530697872],
+        [0.022260577436458973, 0.025451166766643767],
+    ];
+    Exact::by_quadrature(73.70054444125132, 805.0372615696715, &indices, 1e-8)
 }

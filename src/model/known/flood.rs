@@ -1,24 +1,17 @@
 //! A river that overflows its dyke.
 
-use super::function::{all_positive, positive, uniform};
-use super::{Entry, Exact, Function, KnownInput, Made};
+use super::function::{positive, uniform};
+use super::{Exact, KnownAnswer, KnownInput, Made};
 use crate::space::Distribution;
 
-pub(super) const ENTRY: Entry = Entry {
+pub(super) const ENTRY: KnownAnswer = KnownAnswer {
     name: "flood",
-    summary: "highest yearly level of a river over its dyke (m), eight inputs of several distributions",
+    description: "highest yearly level of a river over its dyke (m), eight inputs of several distributions",
     formula: "Zv + (Q / (B Ks sqrt((Zm - Zv)/L)))^0.6 - Hd - Cb",
     source: "Iooss and Lemaitre 2015, in: Uncertainty Management in Simulation-Optimization of Complex Systems, 101-122",
     parameters: &[],
-    build: |_| Ok(Made::new(inputs(), Flood)),
+    build: |_| Ok(Made { inputs: inputs(), exact: exact(), value: Box::new(value) }),
 };
-
-/// The overflow S = Zv + H - Hd - Cb in metres, H = (Q / (B Ks sqrt((Zm - Zv)/L)))^0.6 the depth of the river.
-///
-/// The strength Ks is normal above 15 without an upper end; it is truncated at 110, ten standard deviations above its
-/// mean, where the remaining probability is 1e-23. The indices are integrals over one or two inputs, since H is a
-/// product: mean -10.9445, variance 1.17447.
-struct Flood;
 
 fn inputs() -> Vec<KnownInput> {
     let made = |distribution: Result<Distribution, _>| distribution.expect("constants of this file");
@@ -37,31 +30,30 @@ fn inputs() -> Vec<KnownInput> {
     ]
 }
 
-impl Function for Flood {
-    fn value(&self, x: &[f64]) -> f64 {
-        let &[q, ks, zv, zm, hd, cb, l, b] = x else { return f64::NAN };
-        if !(all_positive(x) && zm > zv) {
-            return f64::NAN;
-        }
-        zv + libm::pow(q / (b * ks * ((zm - zv) / l).sqrt()), 0.6) - hd - cb
+fn value(x: &[f64]) -> Result<f64, &'static str> {
+    let &[q, ks, zv, zm, hd, cb, l, b] = x else { return Ok(f64::NAN) };
+    if zm <= zv {
+        return Err("the bed of the river does not fall: Zm <= Zv");
     }
+    Ok(zv + libm::pow(q / (b * ks * ((zm - zv) / l).sqrt()), 0.6) - hd - cb)
+}
 
-    fn reason(&self, x: &[f64]) -> Option<&'static str> {
-        Some(if all_positive(x) { "the bed of the river does not fall: Zm <= Zv" } else { "an input is not positive" })
-    }
-
-    fn exact(&self) -> Exact {
-        // S_i and ST_i.
-        let indices = [
-            [0.34484776605287953, 0.3535919500090886],
-            [0.13377449984526493, 0.14225103588016494],
-            [0.1895781735609111, 0.18992645588252133],
-            [0.003457986851845906, 0.0038062691735180404],
-            [0.2838158814778911, 0.2838158814778911],
-            [0.03547698518473634, 0.03547698518473634],
-            [3.3362875079346094e-07, 3.63303972174208e-07],
-            [9.268857729293293e-05, 0.00010093125647921547],
-        ];
-        Exact::by_quadrature(-10.944493780444837, 1.174470334773354, &indices, 1e-13)
-    }
+/// The overflow S = Zv + H - Hd - Cb in metres, H = (Q / (B Ks sqrt((Zm - Zv)/L)))^0.6 the depth of the river.
+///
+/// The strength Ks is normal above 15 without an upper end; it is truncated at 110, ten standard deviations above its
+/// mean, where the remaining probability is 1e-23. The indices are integrals over one or two inputs, since H is a
+/// product: mean -10.9445, variance 1.17447.
+fn exact() -> Exact {
+    // S_i and ST_i.
+    let indices = [
+        [0.34484776605287953, 0.3535919500090886],
+        [0.13377449984526493, 0.14225103588016494],
+        [0.1895781735609111, 0.18992645588252133],
+        [0.003457986851845906, 0.0038062691735180404],
+        [0.2838158814778911, 0.2838158814778911],
+        [0.03547698518473634, 0.03547698518473634],
+        [3.3362875079346094e-07, 3.63303972174208e-07],
+        [9.268857729293293e-05, 0.00010093125647921547],
+    ];
+    Exact::by_quadrature(-10.944493780444837, 1.174470334773354, &indices, 1e-13)
 }

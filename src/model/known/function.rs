@@ -1,4 +1,4 @@
-//! The interface of a function with known indices.
+//! The parts that functions with known indices are made of.
 
 use super::Exact;
 use crate::quantity::Domain;
@@ -21,29 +21,21 @@ pub struct KnownInput {
     pub distribution: Distribution,
 }
 
-/// A function of independent inputs whose mean, variance and indices are known.
-pub trait Function: Send + Sync {
-    /// Returns the value at `x`, which has one entry per input; NaN if there is none. Does not allocate.
-    fn value(&self, x: &[f64]) -> f64;
+/// The value at a point with one entry per input, all in their domains; or a sentence without a full stop that says why
+/// there is none. Does not allocate.
+pub(super) type Value = dyn Fn(&[f64]) -> Result<f64, &'static str> + Send + Sync;
 
-    /// Returns why there is no value at `x`, if the function can tell: a sentence without a full stop.
-    fn reason(&self, _x: &[f64]) -> Option<&'static str> {
-        None
-    }
-
-    /// Returns mean, variance and indices.
-    fn exact(&self) -> Exact;
-}
-
-/// A function with its inputs, built from its parameters.
+/// A function of independent inputs with its mean, variance and indices, built from its parameters.
 pub(super) struct Made {
     pub inputs: Vec<KnownInput>,
-    pub function: Box<dyn Function>,
+    pub exact: Exact,
+    pub value: Box<Value>,
 }
 
 impl Made {
-    pub fn new(inputs: Vec<KnownInput>, function: impl Function + 'static) -> Self {
-        Self { inputs, function: Box::new(function) }
+    /// Of a function that has a value wherever its inputs are in their domains.
+    pub fn new(inputs: Vec<KnownInput>, exact: Exact, value: impl Fn(&[f64]) -> f64 + Send + Sync + 'static) -> Self {
+        Self { inputs, exact, value: Box::new(move |x| Ok(value(x))) }
     }
 }
 
@@ -75,9 +67,4 @@ pub(super) fn positive(name: &str, description: &str, distribution: Distribution
 /// If they are not in order.
 pub(super) fn uniform(min: f64, max: f64) -> Distribution {
     Distribution::uniform(min, max).expect("bounds in order")
-}
-
-/// Returns whether every entry is finite and greater than 0.
-pub(super) fn all_positive(x: &[f64]) -> bool {
-    x.iter().all(|&x| x > 0.0 && x < f64::INFINITY)
 }

@@ -1,7 +1,7 @@
 //! Functions with known indices, for trials and tests of the engine.
 //!
 //! One file per function or family; each states its formula, its source, its inputs and its exact mean, variance and
-//! indices. To add one: a file with a struct, its [`Function`] and its `Entry`; one line in [`KnownAnswer::all`].
+//! indices. To add one: a file with its value, its exact answer and its `ENTRY`; one line in [`KnownAnswer::all`].
 
 mod borehole;
 mod bratley;
@@ -29,24 +29,13 @@ use std::fmt;
 use std::sync::Arc;
 
 pub use exact::{Basis, Exact, ExactIndices};
-use function::Made;
-pub use function::{Function, KnownInput};
+pub use function::KnownInput;
+use function::{Made, Value};
 pub use model::{known_inputs, known_model, known_output};
 use parameters::Given;
 pub use parameters::{MAX_INPUTS, ParameterError, ParameterInfo, ParameterValue};
 
-/// An entry of the list of functions.
-#[derive(Debug)]
-struct Entry {
-    name: &'static str,
-    summary: &'static str,
-    formula: &'static str,
-    source: &'static str,
-    parameters: &'static [ParameterInfo],
-    build: fn(&mut Given<'_>) -> Result<Made, ParameterError>,
-}
-
-const ENTRIES: [&Entry; 17] = [
+const ENTRIES: [&KnownAnswer; 17] = [
     &ishigami::ENTRY,
     &sobol_g::ENTRY,
     &g_star::ENTRY,
@@ -67,43 +56,30 @@ const ENTRIES: [&Entry; 17] = [
 ];
 
 /// A function of the list, before its parameters are chosen.
-#[derive(Clone, Copy, Debug)]
-pub struct KnownAnswer(&'static Entry);
+#[derive(Debug)]
+pub struct KnownAnswer {
+    /// The name in study files.
+    pub name: &'static str,
+    /// One line for people.
+    pub description: &'static str,
+    /// The formula of the value, in plain characters.
+    pub formula: &'static str,
+    /// The source of the function.
+    pub source: &'static str,
+    /// The parameters, in the order in which they are shown.
+    pub parameters: &'static [ParameterInfo],
+    build: fn(&mut Given<'_>) -> Result<Made, ParameterError>,
+}
 
 impl KnownAnswer {
     /// Iterates over all of them.
-    pub fn all() -> impl Iterator<Item = Self> {
-        ENTRIES.into_iter().map(Self)
+    pub fn all() -> impl Iterator<Item = &'static Self> {
+        ENTRIES.into_iter()
     }
 
     /// Returns the function of that name.
-    pub fn from_name(name: &str) -> Option<Self> {
-        Self::all().find(|function| function.name() == name)
-    }
-
-    /// Returns the name in study files.
-    pub fn name(self) -> &'static str {
-        self.0.name
-    }
-
-    /// Returns one line for people.
-    pub fn description(self) -> &'static str {
-        self.0.summary
-    }
-
-    /// Returns the formula of the value, in plain characters.
-    pub fn formula(self) -> &'static str {
-        self.0.formula
-    }
-
-    /// Returns the source of the function.
-    pub fn source(self) -> &'static str {
-        self.0.source
-    }
-
-    /// Returns the parameters, in the order in which they are shown.
-    pub fn parameters(self) -> &'static [ParameterInfo] {
-        self.0.parameters
+    pub fn from_name(name: &str) -> Option<&'static Self> {
+        Self::all().find(|function| function.name == name)
     }
 
     /// Returns the function with these parameters, and its defaults for the others.
@@ -123,22 +99,22 @@ impl KnownAnswer {
     ///
     /// # Errors
     /// [`ParameterError`] if the function has no such parameter, or the value is invalid.
-    pub fn with(self, parameters: &[(String, ParameterValue)]) -> Result<KnownFunction, ParameterError> {
-        let is_known = |name: &String| self.0.parameters.iter().any(|parameter| parameter.name == name);
+    pub fn with(&'static self, parameters: &[(String, ParameterValue)]) -> Result<KnownFunction, ParameterError> {
+        let is_known = |name: &String| self.parameters.iter().any(|parameter| parameter.name == name);
         if let Some((name, _)) = parameters.iter().find(|(name, _)| !is_known(name)) {
             return Err(ParameterError::unknown(name));
         }
         let mut given = Given::new(parameters);
-        let Made { inputs, function } = (self.0.build)(&mut given)?;
+        let Made { inputs, exact, value } = (self.build)(&mut given)?;
         let (inputs, parameters) = (inputs.into(), given.in_force.into());
-        Ok(KnownFunction { answer: self, inputs, parameters, function: function.into() })
+        Ok(KnownFunction { answer: self, inputs, parameters, exact: exact.into(), value: value.into() })
     }
 
     /// Returns the function with its default parameters.
     ///
     /// # Panics
     /// Never: a test covers all of them.
-    pub fn default_function(self) -> KnownFunction {
+    pub fn default_function(&'static self) -> KnownFunction {
         self.with(&[]).expect("the defaults make sense")
     }
 }
@@ -146,15 +122,16 @@ impl KnownAnswer {
 /// A function with its parameters chosen. Cheap to clone.
 #[derive(Clone)]
 pub struct KnownFunction {
-    answer: KnownAnswer,
+    answer: &'static KnownAnswer,
     inputs: Arc<[KnownInput]>,
     parameters: Arc<[(&'static str, ParameterValue)]>,
-    function: Arc<dyn Function>,
+    exact: Arc<Exact>,
+    value: Arc<Value>,
 }
 
 impl KnownFunction {
     /// Returns its entry in the list.
-    pub fn answer(&self) -> KnownAnswer {
+    pub fn answer(&self) -> &'static KnownAnswer {
         self.answer
     }
 
@@ -170,29 +147,33 @@ impl KnownFunction {
 
     /// Returns the value at `x`, which has one entry per input; NaN if there is none.
     pub fn value(&self, x: &[f64]) -> f64 {
-        self.function.value(x)
+        self.checked_value(x).unwrap_or(f64::NAN)
     }
 
-    /// Returns why there is no value at `x`, if the function can tell.
-    pub fn reason(&self, x: &[f64]) -> Option<&'static str> {
-        self.function.reason(x)
+    /// Returns the value at `x`.
+    ///
+    /// # Errors
+    /// Why there is none, if the function can tell.
+    pub fn checked_value(&self, x: &[f64]) -> Result<f64, &'static str> {
+        let is_outside = |(input, x): (&KnownInput, &f64)| input.domain.is_some_and(|domain| !domain.contains(*x));
+        if self.inputs.iter().zip(x).any(is_outside) { Err("an input is not positive") } else { (self.value)(x) }
     }
 
     /// Returns mean, variance and indices for independent inputs with their own distributions.
     pub fn exact(&self) -> Exact {
-        self.function.exact()
+        Exact::clone(&self.exact)
     }
 }
 
 impl PartialEq for KnownFunction {
     fn eq(&self, other: &Self) -> bool {
-        self.answer.name() == other.answer.name() && self.parameters() == other.parameters()
+        self.answer.name == other.answer.name && self.parameters() == other.parameters()
     }
 }
 
 impl fmt::Debug for KnownFunction {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct(self.answer.name()).field("parameters", &self.parameters()).finish()
+        f.debug_struct(self.answer.name).field("parameters", &self.parameters()).finish()
     }
 }
 

@@ -19,11 +19,8 @@ pub fn known_model(function: KnownFunction, base: Vec<f64>, factors: Vec<usize>)
             factors.iter().zip(x).for_each(|(input, value)| all[*input] = *value);
         }
         let x = if drives_all { x } else { &all };
-        y[0] = function.value(x);
-        match y[0].is_nan().then(|| function.reason(x)).flatten() {
-            Some(reason) => Err(RowFailure::new(reason)),
-            None => Ok(()),
-        }
+        y[0] = function.checked_value(x).map_err(RowFailure::new)?;
+        Ok(())
     })
 }
 

@@ -1,12 +1,12 @@
 //! A product of normal inputs.
 
 use super::parameters::{DIMENSION, FINITE, POSITIVE};
-use super::{Entry, Exact, Function, KnownInput, Made, ParameterError, ParameterInfo};
+use super::{Exact, KnownAnswer, KnownInput, Made, ParameterError, ParameterInfo};
 use crate::space::Distribution;
 
-pub(super) const ENTRY: Entry = Entry {
+pub(super) const ENTRY: KnownAnswer = KnownAnswer {
     name: "product",
-    summary: "product of normal inputs; with mu = 0 only interactions",
+    description: "product of normal inputs; with mu = 0 only interactions",
     formula: "prod_i x_i, x_i normal of mean mu_i and standard deviation sigma_i",
     source: "textbook: moments of a product of independent inputs",
     parameters: &[
@@ -26,9 +26,13 @@ pub(super) const ENTRY: Entry = Entry {
             })
         };
         let inputs = mu.iter().zip(&sigma).enumerate().map(input).collect::<Result<_, _>>()?;
-        Ok(Made::new(inputs, Product { mu, sigma }))
+        Ok(Made::new(inputs, exact(&mu, &sigma), value))
     },
 };
+
+fn value(x: &[f64]) -> f64 {
+    x.iter().product()
+}
 
 /// prod x_i, x_i normal of mean mu_i and standard deviation sigma_i.
 ///
@@ -37,32 +41,21 @@ pub(super) const ENTRY: Entry = Entry {
 /// t_j prod_{k != i, j} c_k / (1 - prod c_k), which are the rules of a product with r_i = (sigma_i / mu_i)^2 and also
 /// hold for mu_i = 0. For mu = (1, 2, 3), sigma = 0.5: mean 6, variance 13.1406, S = (0.6849, 0.1712, 0.0761), ST =
 /// (0.7479, 0.2200, 0.1011).
-struct Product {
-    mu: Vec<f64>,
-    sigma: Vec<f64>,
-}
-
-impl Function for Product {
-    fn value(&self, x: &[f64]) -> f64 {
-        x.iter().product()
-    }
-
-    fn exact(&self) -> Exact {
-        let r: Vec<f64> = self.sigma.iter().zip(&self.mu).map(|(sigma, mu)| (sigma / mu).powi(2)).collect();
-        let t: Vec<f64> = r.iter().map(|&r| if r.is_infinite() { 1.0 } else { r / (1.0 + r) }).collect();
-        // prod c_j over all but one input, by a count of zeros and the logarithm of the others.
-        let log = |r: f64| if r.is_infinite() { 0.0 } else { -libm::log1p(r) };
-        let zeros = r.iter().filter(|r| r.is_infinite()).count();
-        let logs: f64 = r.iter().map(|&r| log(r)).sum();
-        let others = |i: usize| {
-            let zeros = zeros - usize::from(r[i].is_infinite());
-            if zeros > 0 { 0.0 } else { libm::exp(logs - log(r[i])) }
-        };
-        let varying = if zeros > 0 { 1.0 } else { -libm::expm1(logs) };
-        let squares: f64 = self.sigma.iter().zip(&self.mu).map(|(sigma, mu)| mu * mu + sigma * sigma).product();
-        let mean = self.mu.iter().product();
-        let first = (0..r.len()).map(|i| t[i] * others(i) / varying).collect();
-        let total = t.iter().map(|t| t / varying).collect();
-        Exact::closed(mean, squares * varying, first, total)
-    }
+fn exact(mu: &[f64], sigma: &[f64]) -> Exact {
+    let r: Vec<f64> = sigma.iter().zip(mu).map(|(sigma, mu)| (sigma / mu).powi(2)).collect();
+    let t: Vec<f64> = r.iter().map(|&r| if r.is_infinite() { 1.0 } else { r / (1.0 + r) }).collect();
+    // prod c_j over all but one input, by a count of zeros and the logarithm of the others.
+    let log = |r: f64| if r.is_infinite() { 0.0 } else { -libm::log1p(r) };
+    let zeros = r.iter().filter(|r| r.is_infinite()).count();
+    let logs: f64 = r.iter().map(|&r| log(r)).sum();
+    let others = |i: usize| {
+        let zeros = zeros - usize::from(r[i].is_infinite());
+        if zeros > 0 { 0.0 } else { libm::exp(logs - log(r[i])) }
+    };
+    let varying = if zeros > 0 { 1.0 } else { -libm::expm1(logs) };
+    let squares: f64 = sigma.iter().zip(mu).map(|(sigma, mu)| mu * mu + sigma * sigma).product();
+    let mean = mu.iter().product();
+    let first = (0..r.len()).map(|i| t[i] * others(i) / varying).collect();
+    let total = t.iter().map(|t| t / varying).collect();
+    Exact::closed(mean, squares * varying, first, total)
 }

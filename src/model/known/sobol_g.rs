@@ -2,11 +2,11 @@
 
 use super::function::unit_cube;
 use super::parameters::{DIMENSION, NOT_NEGATIVE};
-use super::{Entry, Exact, Function, Made, ParameterInfo};
+use super::{Exact, KnownAnswer, Made, ParameterInfo};
 
-pub(super) const ENTRY: Entry = Entry {
+pub(super) const ENTRY: KnownAnswer = KnownAnswer {
     name: "sobol-g",
-    summary: "kinked product; input i matters the less the larger a_i is",
+    description: "kinked product; input i matters the less the larger a_i is",
     formula: "prod_i (|4 x_i - 2| + a_i) / (1 + a_i)",
     source: "Saltelli and Sobol' 1995, Reliab. Eng. Syst. Saf. 50, 225-239",
     parameters: &[
@@ -19,25 +19,19 @@ pub(super) const ENTRY: Entry = Entry {
     build: |given| {
         let default = [0.0, 1.0, 4.5, 9.0, 99.0, 99.0, 99.0, 99.0];
         let [a] = given.per_input([("a", &default, NOT_NEGATIVE)])?;
-        Ok(Made::new(unit_cube(a.len()), SobolG { a }))
+        Ok(Made::new(unit_cube(a.len()), exact(&a), move |x| value(&a, x)))
     },
 };
+
+fn value(a: &[f64], x: &[f64]) -> f64 {
+    x.iter().zip(a).map(|(x, a)| ((4.0 * x - 2.0).abs() + a) / (1.0 + a)).product()
+}
 
 /// prod (|4 x_i - 2| + a_i) / (1 + a_i), x uniform on (0, 1)^d.
 ///
 /// Mean 1, r_i = 1 / (3 (1 + a_i)^2), D = prod (1 + r_i) - 1, S_i = r_i / D, S_ij = r_i r_j / D,
 /// ST_i = r_i prod_{j != i} (1 + r_j) / D. For the default a: variance 0.4654, S_1 = 0.7162, ST_1 = 0.7871.
-struct SobolG {
-    a: Vec<f64>,
-}
-
-impl Function for SobolG {
-    fn value(&self, x: &[f64]) -> f64 {
-        x.iter().zip(&self.a).map(|(x, a)| ((4.0 * x - 2.0).abs() + a) / (1.0 + a)).product()
-    }
-
-    fn exact(&self) -> Exact {
-        let r: Vec<f64> = self.a.iter().map(|a| 1.0 / (3.0 * (1.0 + a) * (1.0 + a))).collect();
-        Exact::of_product(1.0, &r)
-    }
+fn exact(a: &[f64]) -> Exact {
+    let r: Vec<f64> = a.iter().map(|a| 1.0 / (3.0 * (1.0 + a) * (1.0 + a))).collect();
+    Exact::of_product(1.0, &r)
 }

@@ -2,11 +2,11 @@
 
 use super::function::unit_cube;
 use super::parameters::{DIMENSION, FINITE, PORTION};
-use super::{Entry, Exact, Function, Made, ParameterInfo};
+use super::{Exact, KnownAnswer, Made, ParameterInfo};
 
-pub(super) const ENTRY: Entry = Entry {
+pub(super) const ENTRY: KnownAnswer = KnownAnswer {
     name: "steps",
-    summary: "product of steps: discontinuous along every axis",
+    description: "product of steps: discontinuous along every axis",
     formula: "prod_i (1 + c_i (H(x_i - t_i) - 1 + t_i)), H(z) = 1 if z > 0, else 0",
     source: "this program; the rules of a product (Sobol' 1993)",
     parameters: &[
@@ -20,28 +20,21 @@ pub(super) const ENTRY: Entry = Entry {
     build: |given| {
         let (c, t) = ([2.0, 1.0, 1.0, 0.5], [0.4, 0.3, 0.85, 0.1]);
         let [c, t] = given.per_input([("c", &c[..], FINITE), ("t", &t, PORTION)])?;
-        Ok(Made::new(unit_cube(c.len()), Steps { c, t }))
+        Ok(Made::new(unit_cube(c.len()), exact(&c, &t), move |x| value(&c, &t, x)))
     },
 };
+
+fn value(c: &[f64], t: &[f64], x: &[f64]) -> f64 {
+    let step = |x: f64, c: f64, t: f64| 1.0 + if x > t { c * t } else { c * (t - 1.0) };
+    x.iter().zip(c).zip(t).map(|((&x, &c), &t)| step(x, c, t)).product()
+}
 
 /// prod (1 + c_i (H(x_i - t_i) - 1 + t_i)), x uniform on (0, 1)^d.
 ///
 /// Mean 1; a product with r_i = c_i^2 t_i (1 - t_i): S_i = r_i / D, S_ij = r_i r_j / D,
 /// ST_i = r_i prod_{j != i} (1 + r_j) / D, D = prod (1 + r_i) - 1. For the defaults: D = 1.7343, S = (0.5535, 0.1211,
 /// 0.0735, 0.0130), ST = (0.7723, 0.2736, 0.1783, 0.0347).
-struct Steps {
-    c: Vec<f64>,
-    t: Vec<f64>,
-}
-
-impl Function for Steps {
-    fn value(&self, x: &[f64]) -> f64 {
-        let step = |x: f64, c: f64, t: f64| 1.0 + if x > t { c * t } else { c * (t - 1.0) };
-        x.iter().zip(&self.c).zip(&self.t).map(|((&x, &c), &t)| step(x, c, t)).product()
-    }
-
-    fn exact(&self) -> Exact {
-        let r: Vec<f64> = self.c.iter().zip(&self.t).map(|(c, t)| c * c * t * (1.0 - t)).collect();
-        Exact::of_product(1.0, &r)
-    }
+fn exact(c: &[f64], t: &[f64]) -> Exact {
+    let r: Vec<f64> = c.iter().zip(t).map(|(c, t)| c * c * t * (1.0 - t)).collect();
+    Exact::of_product(1.0, &r)
 }

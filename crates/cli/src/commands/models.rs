@@ -115,18 +115,13 @@ fn domain(input: &Input) -> String {
     input.domain.map_or_else(|| "any number".to_owned(), |domain| domain.to_string())
 }
 
-fn function(answer: KnownAnswer) -> String {
+fn function(answer: &'static KnownAnswer) -> String {
     let function = answer.default_function();
-    let mut text = format!(
-        "{}: {}\n\n  y = {}\n\n  source: {}\n",
-        answer.name(),
-        answer.description(),
-        answer.formula(),
-        answer.source()
-    );
-    if !answer.parameters().is_empty() {
+    let mut text =
+        format!("{}: {}\n\n  y = {}\n\n  source: {}\n", answer.name, answer.description, answer.formula, answer.source);
+    if !answer.parameters.is_empty() {
         let mut parameters = table(&["[function]", "meaning [default]"], &[0, 1]);
-        for parameter in answer.parameters() {
+        for parameter in answer.parameters {
             parameters.add_row([parameter.name, parameter.description]);
         }
         text.push_str(&format!("\n{parameters}\n"));

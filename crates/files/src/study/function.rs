@@ -10,14 +10,14 @@ use super::sections::{At, Choices};
 /// Returns the function with the parameters of the table.
 pub(super) fn known(
     context: &Context<'_>,
-    answer: KnownAnswer,
+    answer: &'static KnownAnswer,
     table: Option<&At<Choices>>,
 ) -> Result<KnownFunction, Fault> {
     let Some(table) = table else { return Ok(answer.default_function()) };
     let mut parameters = Vec::new();
     for (key, value) in table.get_ref() {
         let name = key.get_ref();
-        if answer.parameters().iter().all(|parameter| parameter.name != name) {
+        if answer.parameters.iter().all(|parameter| parameter.name != name) {
             return Err(context.fault(key.span(), unknown_key(answer, name)));
         }
         let found = || wrong(name, "a number or a list of numbers", shown(value.get_ref()));
@@ -30,11 +30,11 @@ pub(super) fn known(
     })
 }
 
-fn unknown_key(answer: KnownAnswer, name: &str) -> Problem {
-    if answer.parameters().is_empty() {
+fn unknown_key(answer: &'static KnownAnswer, name: &str) -> Problem {
+    if answer.parameters.is_empty() {
         return Problem::new(ParameterError::unknown(name).to_string());
     }
-    super::context::unknown_key(name, answer.parameters().iter().map(|parameter| parameter.name))
+    super::context::unknown_key(name, answer.parameters.iter().map(|parameter| parameter.name))
 }
 
 fn number_or_list(value: &Value) -> Option<ParameterValue> {

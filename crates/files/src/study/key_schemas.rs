@@ -73,7 +73,7 @@ pub(super) fn name_or_table<T: JsonSchema>(generator: &mut SchemaGenerator) -> S
 pub(super) fn function(_: &mut SchemaGenerator) -> Schema {
     let number_or_list = || json!([{ "type": "number" }, { "type": "array", "items": { "type": "number" } }]);
     let mut properties = Map::new();
-    for parameter in KnownAnswer::all().flat_map(KnownAnswer::parameters) {
+    for parameter in KnownAnswer::all().flat_map(|answer| answer.parameters) {
         properties
             .entry(parameter.name)
             .or_insert_with(|| json!({ "anyOf": number_or_list(), "description": parameter.description }));

@@ -185,7 +185,7 @@ fn afm_table() -> String {
 /// Lists the current parameters of a function, as comments.
 fn function_table(model: ModelKind) -> String {
     let Some(answer) = model.known else { return String::new() };
-    let about = |name: &str| answer.parameters().iter().find(|p| p.name == name).map_or("", |p| p.description);
+    let about = |name: &str| answer.parameters.iter().find(|p| p.name == name).map_or("", |p| p.description);
     let function = answer.default_function();
     let lines: String = function
         .parameters()
@@ -193,7 +193,7 @@ fn function_table(model: ModelKind) -> String {
         .map(|(name, value)| format!("# {name} = {value}    # {}\n", about(name)))
         .collect();
     let table = if lines.is_empty() { "" } else { "[function]\n" };
-    format!("\n# {}\n{table}{lines}", answer.formula())
+    format!("\n# {}\n{table}{lines}", answer.formula)
 }
 
 /// Formats a factor with its description.
