@@ -26,31 +26,16 @@ use points::{grids, points};
 use precise::reference;
 use serde_json::{Map, Value};
 
-/// The size of the search.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct ExtremesSettings {
-    /// Approximate number of points at which the model is evaluated. All steps of every factor past its bounds are
-    /// included, even if there are more.
-    pub points: u64,
-    /// Seed of the random points.
-    pub seed: u64,
-}
-
-impl ExtremesSettings {
-    /// Returns settings that take some seconds: fewer points for a program.
-    pub fn for_study(study: &Study) -> Self {
-        let points = if study.model().concurrency().is_some() { 160 } else { 600 };
-        Self { points, seed: study.design().settings().seed }
-    }
-}
-
 /// A search for the extremes of a study.
 #[derive(Clone, Copy)]
 pub struct ExtremesJob<'a> {
     /// The study.
     pub study: &'a Study,
-    /// The size of the search.
-    pub settings: ExtremesSettings,
+    /// Approximate number of points at which the model is evaluated. All steps of every factor past its bounds are
+    /// included, even if there are more.
+    pub points: u64,
+    /// Seed of the random points.
+    pub seed: u64,
     /// Threads; 0 for one per core. The result is bitwise the same for any number.
     pub threads: usize,
     /// Stops the search soon after it is set.
@@ -62,10 +47,11 @@ pub struct ExtremesJob<'a> {
 }
 
 impl<'a> ExtremesJob<'a> {
-    /// Uses the settings of [`ExtremesSettings::for_study`], one thread per core, and no messages.
+    /// Uses points for some seconds, fewer for a program, one thread per core, and no messages.
     pub fn new(study: &'a Study) -> Self {
-        let settings = ExtremesSettings::for_study(study);
-        Self { study, settings, threads: 0, stop: None, on_message: |_| (), on_progress: &|_| () }
+        let points = if study.model().concurrency().is_some() { 160 } else { 600 };
+        let seed = study.design().settings().seed;
+        Self { study, points, seed, threads: 0, stop: None, on_message: |_| (), on_progress: &|_| () }
     }
 }
 
@@ -93,7 +79,7 @@ pub fn extremes(job: &ExtremesJob<'_>) -> Result<Extremes, RunError> {
     let space = Space::new(factors.chain(study.subject().further_inputs(study.space())).collect());
     let model = study.subject().model(&space);
     let second = second_calculation(&**study.subject(), &space);
-    let points = points(&space, job.settings.points, job.settings.seed);
+    let points = points(&space, job.points, job.seed);
     let gave_up = OnceLock::new();
     let found = run_each(
         model.as_ref(),
