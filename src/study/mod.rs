@@ -45,17 +45,11 @@ pub struct Study {
     pub(crate) target: Target,
     /// Low-fidelity models of the same outputs.
     pub(crate) lows: Vec<LowFidelity>,
-    /// Changes made to the file on the command line, as given.
-    pub(crate) overrides: Vec<String>,
-    /// The text of the file.
-    pub(crate) source: String,
-    /// SHA-256 of the file in hexadecimal.
-    pub(crate) sha256: String,
-    /// Notes on values that were read differently from how they were written, in sentences.
-    pub(crate) notes: Vec<String>,
+    /// Where it is from.
+    pub(crate) source: StudySource,
 }
 
-/// The file that a study was read from.
+/// The file that a study was read from, or a description of a study built in code.
 #[derive(Debug, Clone, Default)]
 pub struct StudySource {
     /// The text of the file.
@@ -175,7 +169,7 @@ impl Study {
 
     /// Adds a note on how the study was read, in a sentence.
     pub fn note(&mut self, note: String) {
-        self.notes.push(note);
+        self.source.notes.push(note);
     }
 
     /// Returns the study with another target; one that does not grow has the default target.
@@ -201,29 +195,29 @@ impl Study {
 
     /// Returns the study as one that was read from a file.
     #[must_use]
-    pub fn with_source(mut self, source: StudySource) -> Self {
-        self.notes.extend(source.notes);
-        Self { source: source.text, sha256: source.sha256, overrides: source.overrides, ..self }
+    pub fn with_source(self, source: StudySource) -> Self {
+        let notes = [self.source.notes, source.notes].concat();
+        Self { source: StudySource { notes, ..source }, ..self }
     }
 
     /// Returns the changes made to the file on the command line, as given.
     pub fn overrides(&self) -> &[String] {
-        &self.overrides
+        &self.source.overrides
     }
 
     /// Returns the text of the file.
     pub fn source(&self) -> &str {
-        &self.source
+        &self.source.text
     }
 
     /// Returns the SHA-256 of the file in hexadecimal.
     pub fn sha256(&self) -> &str {
-        &self.sha256
+        &self.source.sha256
     }
 
     /// Returns notes on values that were read differently from how they were written, in sentences.
     pub fn notes(&self) -> &[String] {
-        &self.notes
+        &self.source.notes
     }
 
     /// Creates the model, ready to run on this study's factors.
