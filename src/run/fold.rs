@@ -15,7 +15,7 @@ use super::tracker::Tracker;
 use super::{BLOCK, FailurePolicy, Job, OutputSink, Piece, RunError, SAMPLE, Store, Totals};
 use crate::design::BasePoints;
 use crate::estimate::part_length;
-use crate::model::{RunContext, Worker};
+use crate::model::RunContext;
 
 /// Turns the base points of a run into totals.
 pub(super) struct Fold<'f> {
@@ -28,14 +28,8 @@ pub(super) struct Fold<'f> {
     /// Receives the outputs of blocks that are evaluated here.
     pub sink: Option<&'f dyn OutputSink>,
     pub tracker: &'f Tracker<'f>,
-    /// Workers and scratch space that no thread is using.
-    pub idle: Mutex<Vec<Bench<'f>>>,
-}
-
-/// What a thread needs for a block.
-pub(super) struct Bench<'f> {
-    worker: Option<Box<dyn Worker + 'f>>,
-    scratch: Scratch,
+    /// What no thread is using.
+    pub idle: Mutex<Vec<Scratch<'f>>>,
 }
 
 /// A replicate, with the range of its base points that are folded.
@@ -75,19 +69,15 @@ impl<'f> Fold<'f> {
         }
         let _guard = self.tracker.end_if_panicking();
         let idle = self.idle.lock().unwrap_or_else(PoisonError::into_inner).pop();
-        let mut bench = idle.unwrap_or_else(|| Bench { worker: None, scratch: Scratch::new(self.job) });
+        let mut scratch = idle.unwrap_or_else(|| Scratch::new(self.job));
         let all = &stretch.points;
         let points = (number * BLOCK).max(all.start)..((number + 1) * BLOCK).min(all.end);
-        let outcome = self.totals(&mut bench, stretch, points);
-        self.idle.lock().unwrap_or_else(PoisonError::into_inner).push(bench);
+        let outcome = self.totals(&mut scratch, stretch, points);
+        self.idle.lock().unwrap_or_else(PoisonError::into_inner).push(scratch);
         match outcome {
             Ok(totals) => {
                 self.tracker.add(totals.runs, totals.failed_runs);
                 Some(totals)
-            }
-            Err(RunError::GaveUp(give_up)) => {
-                self.tracker.give_up(give_up);
-                None
             }
             Err(error) => {
                 self.tracker.end(error);
@@ -96,12 +86,7 @@ impl<'f> Fold<'f> {
         }
     }
 
-    fn totals(
-        &self,
-        Bench { worker, scratch }: &mut Bench<'f>,
-        stretch: &Stretch,
-        points: Range<u64>,
-    ) -> Result<Totals, RunError> {
+    fn totals(&self, scratch: &mut Scratch<'f>, stretch: &Stretch, points: Range<u64>) -> Result<Totals, RunError> {
         let count = (points.end - points.start) as usize;
         let sampled = (SAMPLE / self.job.design.settings().replicates).max(1);
         let place = BlockPlace {
@@ -111,12 +96,10 @@ impl<'f> Fold<'f> {
             keeps_outputs: self.keeps_outputs,
         };
         if !self.store.is_some_and(|store| scratch.recall(store, place, count)) {
-            let worker = worker.get_or_insert_with(|| self.job.model.worker(self.context));
-            let all = (&stretch.base, points.start, count);
-            scratch.run_rows(self.job, all, &mut **worker, self.context).map_err(RunError::GaveUp)?;
+            scratch.run_rows(self.job, (&stretch.base, points.start, count), self.context)?;
             if let Some(sink) = self.sink.filter(|sink| sink.is_open()) {
                 let first = points.start * self.job.design.rows_per_point();
-                let piece = Piece::from_batches(stretch.replicate, first, scratch.batches());
+                let piece = Piece::from_batches(stretch.replicate, first, &scratch.batches);
                 sink.append(&piece).map_err(|source| RunError::NotKept { source })?;
             }
         }

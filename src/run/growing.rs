@@ -17,8 +17,8 @@ use crate::model::RunContext;
 
 /// A run that can be extended: every replicate has the same number of base points, and can grow.
 ///
-/// Blocks of base points of fast models are evaluated and folded at once. The rows of slow models, and those shared by
-/// remote workers, go through a store in batches of any size, and are folded from there.
+/// Blocks of base points are evaluated and folded at once. In a run with a [store](Self::with_store), as slow models and
+/// remote workers need, rows are evaluated in batches of any size, and are folded from there.
 pub struct GrowingRun<'a> {
     job: Job<'a>,
     context: &'a RunContext<'a>,
@@ -29,12 +29,10 @@ pub struct GrowingRun<'a> {
     failures: FailurePolicy,
     keeps_outputs: bool,
     store: Option<&'a Store>,
-    /// The store of a run that needs one and was given none.
-    own_store: Option<Store>,
     sink: Option<&'a dyn OutputSink>,
     /// Base points of every replicate evaluated so far.
     points: u64,
-    totals: Vec<Totals>,
+    pub(super) totals: Vec<Totals>,
 }
 
 impl<'a> GrowingRun<'a> {
@@ -56,14 +54,13 @@ impl<'a> GrowingRun<'a> {
             failures: FailurePolicy::DropBlock,
             keeps_outputs: false,
             store: None,
-            own_store: None,
             sink: None,
             points: 0,
             totals: Vec::new(),
         })
     }
 
-    /// Adds remote workers.
+    /// Adds remote workers, which evaluate rows of a run with a store.
     #[must_use]
     pub(crate) fn with_remote(mut self, remote: Option<Remote<'a>>) -> Self {
         self.executor.remote = remote;
@@ -94,11 +91,6 @@ impl<'a> GrowingRun<'a> {
         Self { keeps_outputs, ..self }
     }
 
-    /// Returns whether rows go through a store.
-    fn needs_store(&self) -> bool {
-        self.store.is_some() || self.job.model.is_slow() || self.executor.remote.is_some()
-    }
-
     /// Checks that the outputs of `points` base points of every replicate fit in memory, if they are to be kept.
     ///
     /// # Errors
@@ -108,7 +100,7 @@ impl<'a> GrowingRun<'a> {
         let runs = points.saturating_mul(design.settings().replicates).saturating_mul(design.rows_per_point());
         let numbers = runs.saturating_mul(self.job.model.outputs().len() as u64);
         let bytes = numbers.saturating_mul(size_of::<f64>() as u64);
-        if (self.keeps_outputs || self.needs_store()) && bytes > MAX_STORED_BYTES {
+        if (self.keeps_outputs || self.store.is_some()) && bytes > MAX_STORED_BYTES {
             return Err(RunError::TooManyOutputs { runs, bytes });
         }
         Ok(())
@@ -143,13 +135,9 @@ impl<'a> GrowingRun<'a> {
             return Ok(());
         }
         self.room_for(points)?;
-        if self.store.is_none() && self.own_store.is_none() && self.needs_store() {
-            self.own_store = Some(Store::new(self.job.model));
-        }
-        let store = self.store.or(self.own_store.as_ref());
         let replicates = design.settings().replicates;
         let silent: &(dyn Fn(Progress) + Sync) = &|_| ();
-        let on_progress = match store {
+        let on_progress = match self.store {
             None => on_progress,
             Some(store) => {
                 let rows = points * design.rows_per_point();
@@ -168,7 +156,7 @@ impl<'a> GrowingRun<'a> {
             context: self.context,
             failures: self.failures,
             keeps_outputs: self.keeps_outputs,
-            store,
+            store: self.store,
             sink: self.sink,
             tracker: &tracker,
             idle: Mutex::default(),
@@ -215,10 +203,6 @@ impl<'a> GrowingRun<'a> {
     /// Returns the number of base points of every replicate that have been run.
     pub fn points_per_replicate(&self) -> u64 {
         self.points
-    }
-
-    pub(super) fn into_totals(self) -> Vec<Totals> {
-        self.totals
     }
 
     /// Returns the totals of each replicate, in order; empty before the first base point has been run.

@@ -39,6 +39,7 @@ pub(crate) use remote::{Remote, Request};
 pub use repeats::{Irreproducible, Repeats};
 pub(crate) use repeats::{repeat_rows, rows_to_repeat};
 pub use rows::RowValues;
+pub(crate) use scratch::failed_rows;
 pub use serve::Requests;
 pub(crate) use serve::{RemoteServer, refusal};
 pub use shard::{Shard, ShardError};
@@ -99,7 +100,7 @@ pub fn run(job: Job<'_>, threads: usize, on_progress: &(dyn Fn(Progress) + Sync)
     let context = RunContext::default();
     let mut run = GrowingRun::new(job, &context, threads)?;
     run.grow_to(job.design.points_per_replicate(), on_progress)?;
-    Ok(run.into_totals())
+    Ok(run.totals)
 }
 
 /// A receiver of every piece of evaluated outputs, called by the evaluating thread before its rows count as done.

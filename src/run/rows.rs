@@ -6,7 +6,6 @@ use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
 use super::executor::{RowRange, RowSource};
-use super::remote::DesignKey;
 use super::store::{Piece, Store};
 use super::{FailurePolicy, Job, OutputSink, Place, Progress, RunError};
 use crate::design::{BasePoints, Design};
@@ -15,8 +14,8 @@ use crate::space::Space;
 
 /// The rows of some replicates that are missing in a store.
 pub(crate) struct MissingRows<'a> {
-    job: Job<'a>,
-    store: &'a Store,
+    pub job: Job<'a>,
+    pub store: &'a Store,
     /// Receives every piece before the store does.
     sink: Option<&'a dyn OutputSink>,
     failures: FailurePolicy,
@@ -52,16 +51,6 @@ impl<'a> MissingRows<'a> {
         known.recalled = known.done;
         let waiting = Mutex::new(Waiting { ranges, rows: known.total - known.done });
         (Self { job, store, sink, failures, waiting }, known)
-    }
-
-    /// Returns the fields that distinguish the design from others of the study.
-    pub fn design_key(&self) -> DesignKey {
-        DesignKey::new(self.job.design)
-    }
-
-    /// Returns the number of outputs of every row.
-    pub fn outputs(&self) -> usize {
-        self.store.outputs()
     }
 
     /// Saves pieces in the sink and the store; returns the number of their rows, and how many of them failed.

@@ -75,8 +75,8 @@ impl Runner<'_> {
             if let ([low], false) = (&mut lows[..], stopped.as_ref().is_some_and(is_met)) {
                 let [shared, cost] = low.seconds();
                 let pays = of_low * (seconds + shared) > own * cost && of_low > ENOUGH * own;
-                if pays && low.can_double() {
-                    low.double()?;
+                if let Some(points) = low.doubled().filter(|_| pays) {
+                    low.grow_own(points)?;
                     continue;
                 }
             }

@@ -119,15 +119,15 @@ impl<'a> LowRun<'a> {
         studies: &'a [LowStudy],
         context: &'a RunContext<'a>,
     ) -> Result<Vec<Self>, RunError> {
-        let run = |subject: u64, part: &'a LowPart| {
+        let run = |subject: usize, part: &'a LowPart| {
             let job = Job { design: &part.longest, space: &part.study.space, model: part.model.as_ref() };
             let run = GrowingRun::new(job, context, runner.threads)?;
             let run = run.with_outputs_kept(true).with_remote(runner.remote_for(subject)).with_sink(&part.journal);
-            let is_stored = part.model.is_slow() || part.journal.is_open();
+            let is_stored = part.model.is_slow() || part.journal.is_open() || runner.remote.is_some();
             Ok::<_, RunError>((if is_stored { run.with_store(&part.journal.store) } else { run }, 0.0))
         };
         let of_study = |(number, study): (usize, &'a LowStudy)| {
-            let subject = number as u64 + 1;
+            let subject = number + 1;
             let [shared, own] = &study.parts;
             let runs = [run(subject, shared)?, run(subject, own)?];
             Ok(Self { study, runs, own: (own.study.design.clone(), Vec::new()) })
@@ -166,12 +166,8 @@ impl<'a> LowRun<'a> {
         self.grow_own(points)
     }
 
-    /// Doubles its own runs.
-    pub fn double(&mut self) -> Result<(), RunError> {
-        self.grow_own(self.runs[1].0.points_per_replicate() * 2)
-    }
-
-    fn grow_own(&mut self, points: u64) -> Result<(), RunError> {
+    /// Evaluates its own runs for `points` base points of every replicate.
+    pub fn grow_own(&mut self, points: u64) -> Result<(), RunError> {
         self.grow(1, points)?;
         let (run, study) = (&self.runs[1].0, &self.study.parts[1].study);
         let design = run.design().with_points(run.points_per_replicate()).unwrap_or_else(|_| run.design().clone());
@@ -183,12 +179,13 @@ impl<'a> LowRun<'a> {
         Ok(())
     }
 
-    /// Returns whether its own runs can be doubled.
-    pub fn can_double(&self) -> bool {
+    /// Returns twice the base points of its own runs, if these can be doubled.
+    pub fn doubled(&self) -> Option<u64> {
         let points = self.runs[1].0.points_per_replicate() * 2;
         let design = &self.study.parts[1].longest;
         let rows = points * design.settings().replicates * design.rows_per_point();
-        self.study.base_samples.is_none() && rows <= MAX_OWN_ROWS && points <= design.points_per_replicate()
+        let is_possible = rows <= MAX_OWN_ROWS && points <= design.points_per_replicate();
+        (self.study.base_samples.is_none() && is_possible).then_some(points)
     }
 
     /// Returns the seconds of a run at the rows of the model; 0 before any.

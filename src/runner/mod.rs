@@ -8,7 +8,6 @@ mod merge;
 mod model_files;
 mod worker;
 
-use std::fmt;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -123,15 +122,6 @@ pub struct Runner<'a> {
     only_if_long: bool,
     resume: Resume,
     store: Option<&'a Store>,
-}
-
-impl fmt::Debug for Runner<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { study, threads, journal, resume, .. } = self;
-        let mut fields = f.debug_struct("Runner");
-        fields.field("study", &study.name).field("threads", threads).field("journal", journal).field("resume", resume);
-        fields.finish_non_exhaustive()
-    }
 }
 
 impl<'a> Runner<'a> {
@@ -277,7 +267,7 @@ impl<'a> Runner<'a> {
     }
 
     /// Returns the remote workers for the model with that index: see [`Remote::subject`].
-    fn remote_for(&self, subject: u64) -> Option<Remote<'a>> {
+    fn remote_for(&self, subject: usize) -> Option<Remote<'a>> {
         self.remote.map(|workers| Remote { workers, subject })
     }
 
@@ -300,7 +290,7 @@ impl<'a> Runner<'a> {
             (self.on_progress)(progress);
         };
         let mut run = self.set_up(job, context)?.with_sink(&journal);
-        let own = Some(&journal.store).filter(|_| journal.is_open() || model.is_slow());
+        let own = Some(&journal.store).filter(|_| journal.is_open() || model.is_slow() || self.remote.is_some());
         let store = self.store.or(own);
         if let Some(store) = store {
             run = run.with_store(store);

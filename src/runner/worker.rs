@@ -15,12 +15,6 @@ pub struct WorkerStudy {
     models: Vec<Arc<dyn Model>>,
 }
 
-impl std::fmt::Debug for WorkerStudy {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("WorkerStudy").field("study", &self.study.name).finish_non_exhaustive()
-    }
-}
-
 impl WorkerStudy {
     /// Creates the models of `study`, which must be the same as that of the run in the other process.
     pub fn new(mut study: Study) -> Self {
@@ -34,21 +28,18 @@ impl WorkerStudy {
 
     /// Replies to the requests to one worker until there are no more. Its programs live as long.
     pub fn serve(&self, context: &RunContext<'_>, requests: &mut dyn Requests) {
-        let mut servers: BTreeMap<u64, RemoteServer<'_>> = BTreeMap::new();
+        let mut servers: BTreeMap<usize, RemoteServer<'_>> = BTreeMap::new();
         while let Some(bytes) = requests.next() {
-            let reply = match Request::read(&bytes).and_then(|request| Some((self.model(request.subject)?, request))) {
+            let request = serde_json::from_slice::<Request>(&bytes).ok();
+            let reply = match request.and_then(|request| Some((self.models.get(request.subject)?, request))) {
                 None => refusal("a model that is not in the study"),
                 Some((model, request)) => {
-                    let new = || RemoteServer::new(&self.study.space, model, context);
+                    let new = || RemoteServer::new(&self.study.space, model.as_ref(), context);
                     servers.entry(request.subject).or_insert_with(new).reply(&self.study.design, &request)
                 }
             };
             requests.reply(reply.write());
         }
         context.messages().finish();
-    }
-
-    fn model(&self, number: u64) -> Option<&dyn Model> {
-        self.models.get(usize::try_from(number).ok()?).map(Arc::as_ref)
     }
 }
