@@ -246,31 +246,30 @@ impl Study {
         let has_points = self.target.grows() || design.points_per_replicate() >= fewest_points(design) as u64;
         let DesignSettings { sampler, replicates, .. } = *design.settings();
         let fits = has_points && self.analysis.takes_surrogates(sampler, replicates, &self.space);
-        fits && match self.analysis.surrogate {
-            SurrogateChoice::Off => false,
-            SurrogateChoice::On => true,
-            SurrogateChoice::Auto if design.plain_rows() > 0 || !self.lows.is_empty() => true,
-            SurrogateChoice::Auto => {
-                let model = self.subject.model(&self.space);
-                let values = design.rows().saturating_mul(model.outputs().len() as u64);
-                if model.concurrency().is_some() {
-                    values <= MAX_AUTOMATIC_VALUES_OF_PROGRAMS
-                } else {
-                    values <= MAX_AUTOMATIC_VALUES_AFTER_TRIAL
-                        && (self.target.accuracy.is_some() || !self.target.grows())
-                }
+        fits && match self.automatic_values(design) {
+            None => true,
+            Some((values, true)) => values <= MAX_AUTOMATIC_VALUES_OF_PROGRAMS,
+            Some((values, false)) => {
+                let has_size = self.target.accuracy.is_some() || !self.target.grows();
+                values <= MAX_AUTOMATIC_VALUES_AFTER_TRIAL && has_size
             }
         }
+    }
+
+    /// Returns the rows times outputs of a run of `design`, and whether the model is a program, if these determine
+    /// whether surrogates are fitted.
+    fn automatic_values(&self, design: &Design) -> Option<(u64, bool)> {
+        let is_automatic = self.analysis.surrogate == SurrogateChoice::Auto;
+        let model = self.model();
+        let values = design.rows().saturating_mul(model.outputs().len() as u64);
+        (is_automatic && design.plain_rows() == 0 && self.lows.is_empty())
+            .then(|| (values, model.concurrency().is_some()))
     }
 
     /// Returns whether surrogates are tried on a part of a run of `design` before they are fitted to it: for fast
     /// models, which could do more runs in that time.
     pub(crate) fn tries_surrogates(&self, design: &Design) -> bool {
-        let is_chosen =
-            self.analysis.surrogate != SurrogateChoice::Auto || design.plain_rows() > 0 || !self.lows.is_empty();
-        let model = self.subject.model(&self.space);
-        let values = design.rows().saturating_mul(model.outputs().len() as u64);
-        !is_chosen && model.concurrency().is_none() && values > MAX_AUTOMATIC_VALUES
+        matches!(self.automatic_values(design), Some((values, false)) if values > MAX_AUTOMATIC_VALUES)
     }
 
     /// Returns whether the estimates need the outputs of every run, not only their sums.

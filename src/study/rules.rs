@@ -125,10 +125,8 @@ pub(super) fn checked_options(
     options.measures.sort_unstable();
     options.measures.dedup();
     // Every result contains the default ones.
-    options.estimators.retain(|estimator| *estimator != Estimator::Default);
-    let all = options.estimators.clone();
-    let is_first = |(place, estimator): &(usize, &Estimator)| !all[..*place].contains(estimator);
-    options.estimators = all.iter().enumerate().filter(is_first).map(|(_, estimator)| *estimator).collect();
+    let mut seen = BTreeSet::from([Estimator::Default.name()]);
+    options.estimators.retain(|estimator| seen.insert(estimator.name()));
     Ok(options)
 }
 
