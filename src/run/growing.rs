@@ -17,19 +17,23 @@ use crate::model::RunContext;
 
 /// A run that can be extended: every replicate has the same number of base points, and can grow.
 ///
-/// Blocks of base points are evaluated and folded at once. In a run with a [store](Self::with_store), as slow models and
+/// Blocks of base points are evaluated and folded at once. In a run with a [store](Self::store), as slow models and
 /// remote workers need, rows are evaluated in batches of any size, and are folded from there.
 pub struct GrowingRun<'a> {
-    job: Job<'a>,
-    context: &'a RunContext<'a>,
+    pub(super) job: Job<'a>,
+    pub(super) context: &'a RunContext<'a>,
     executor: Executor<'a>,
     /// Threads for blocks and for estimates from the totals; `None` to use those of the caller.
     pool: Option<ThreadPool>,
     start: Instant,
-    failures: FailurePolicy,
-    keeps_outputs: bool,
-    store: Option<&'a Store>,
-    sink: Option<&'a dyn OutputSink>,
+    /// What happens when a row fails; by default [`FailurePolicy::DropBlock`].
+    pub failures: FailurePolicy,
+    /// Whether the outputs of every run are kept in `OutputTotals::point_outputs`.
+    pub keeps_outputs: bool,
+    /// Keeps outputs: rows that it already has are not evaluated.
+    pub store: Option<&'a Store>,
+    /// Receives every piece of evaluated outputs before its rows count as done.
+    pub sink: Option<&'a dyn OutputSink>,
     /// Base points of every replicate evaluated so far.
     points: u64,
     pub(super) totals: Vec<Totals>,
@@ -65,30 +69,6 @@ impl<'a> GrowingRun<'a> {
     pub(crate) fn with_remote(mut self, remote: Option<Remote<'a>>) -> Self {
         self.executor.remote = remote;
         self
-    }
-
-    /// Keeps outputs in `store`: rows that it already has are not evaluated.
-    #[must_use]
-    pub fn with_store(self, store: &'a Store) -> Self {
-        Self { store: Some(store), ..self }
-    }
-
-    /// Adds `sink`, which receives every piece of evaluated outputs before its rows count as done.
-    #[must_use]
-    pub fn with_sink(self, sink: &'a dyn OutputSink) -> Self {
-        Self { sink: Some(sink), ..self }
-    }
-
-    /// Sets the failure policy; the default is [`FailurePolicy::DropBlock`].
-    #[must_use]
-    pub fn with_failures(self, failures: FailurePolicy) -> Self {
-        Self { failures, ..self }
-    }
-
-    /// Keeps the outputs of every run in `OutputTotals::kept`, if `keeps_outputs`.
-    #[must_use]
-    pub fn with_outputs_kept(self, keeps_outputs: bool) -> Self {
-        Self { keeps_outputs, ..self }
     }
 
     /// Checks that the outputs of `points` base points of every replicate fit in memory, if they are to be kept.
@@ -151,18 +131,8 @@ impl<'a> GrowingRun<'a> {
         let total = points * replicates * design.rows_per_point();
         let before = Progress { done, recalled: 0, total, failed, elapsed: self.start.elapsed() };
         let tracker = Tracker::new(self.context, before, self.start, on_progress);
-        let fold = Fold {
-            job: self.job,
-            context: self.context,
-            failures: self.failures,
-            keeps_outputs: self.keeps_outputs,
-            store: self.store,
-            sink: self.sink,
-            tracker: &tracker,
-            idle: Mutex::default(),
-        };
+        let fold = Fold { run: self, tracker: &tracker, idle: Mutex::default() };
         let new = self.install(|| fold.run(self.points..points));
-        drop(fold);
         tracker.finish()?;
         let new = new.unwrap_or_default();
         if self.totals.is_empty() {

@@ -101,7 +101,7 @@ impl RowSource for MissingRows<'_> {
 }
 
 /// Returns the evaluated rows of a settled batch as pieces: one, unless the model has given up on some of them.
-pub(super) fn answered(range: &RowRange, batch: &Batch) -> Vec<Piece> {
+pub(crate) fn answered(range: &RowRange, batch: &Batch) -> Vec<Piece> {
     let piece = Piece::from_batches(range.replicate, range.rows.start, std::slice::from_ref(batch));
     let Some(reason) = batch.given_up().map(|give_up| &give_up.reason) else { return vec![piece] };
     let mut open: Vec<u32> = piece.failures.iter().filter(|(.., why)| why == reason).map(|(row, ..)| *row).collect();

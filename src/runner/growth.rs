@@ -62,11 +62,7 @@ impl Runner<'_> {
             }
             self.begin_lows(run, lows)?;
             let best = run.install(|| best_low(self.study, run, lows, seconds));
-            let mut place = 0;
-            lows.retain(|_| {
-                place += 1;
-                best == Some(place - 1)
-            });
+            *lows = best.map(|best| lows.swap_remove(best)).into_iter().collect();
         }
         loop {
             let reached = run.install(|| stage(self.study, run, lows));

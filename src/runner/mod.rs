@@ -15,7 +15,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use growth::Grown;
 use journal::RunJournal;
 use low_fidelity::{LowRun, LowStudy};
-pub use worker::WorkerStudy;
+pub use worker::{Requests, WorkerStudy};
 
 use crate::analysis::{FinishedRun, LowTotals, StopReason, result};
 use crate::model::{Messages, RunContext};
@@ -204,9 +204,9 @@ impl<'a> Runner<'a> {
         let journal = self.open(Some(shard), context.messages())?;
         let (study, model) = (self.study, self.study.model());
         let rows = shard.rows(&study.design);
-        let filled = self
-            .set_up(Job { design: &study.design, space: &study.space, model: model.as_ref() }, &context)
-            .and_then(|run| run.with_sink(&journal).run_missing(&rows, &journal.store, &*self.on_progress));
+        let job = Job { design: &study.design, space: &study.space, model: model.as_ref() };
+        let run = self.set_up(job, &context, &journal)?;
+        let filled = run.run_missing(&rows, &journal.store, &*self.on_progress);
         context.messages().finish();
         filled?;
         journal.sync()?;
@@ -252,7 +252,12 @@ impl<'a> Runner<'a> {
         self.journal.as_deref().ok_or(RunError::NoJournal { what })
     }
 
-    fn set_up<'r>(&self, job: Job<'r>, context: &'r RunContext<'r>) -> Result<GrowingRun<'r>, RunError>
+    fn set_up<'r>(
+        &self,
+        job: Job<'r>,
+        context: &'r RunContext<'r>,
+        journal: &'r RunJournal,
+    ) -> Result<GrowingRun<'r>, RunError>
     where
         'a: 'r,
     {
@@ -262,8 +267,11 @@ impl<'a> Runner<'a> {
             let source = format!("at most {MAX_THREADS}").into();
             return Err(RunError::Threads { threads: self.threads, source });
         }
-        let run = GrowingRun::new(job, context, self.threads)?.with_failures(self.study.analysis.failures);
-        Ok(run.with_outputs_kept(self.study.needs_outputs()).with_remote(self.remote_for(0)))
+        let mut run = GrowingRun::new(job, context, self.threads)?.with_remote(self.remote_for(0));
+        run.failures = self.study.analysis.failures;
+        run.keeps_outputs = self.study.needs_outputs();
+        run.sink = Some(journal);
+        Ok(run)
     }
 
     /// Returns the remote workers for the model with that index: see [`Remote::subject`].
@@ -289,13 +297,12 @@ impl<'a> Runner<'a> {
             journal.watch(progress, outputs, context.messages());
             (self.on_progress)(progress);
         };
-        let mut run = self.set_up(job, context)?.with_sink(&journal);
+        let mut run = self.set_up(job, context, &journal)?;
         let own = Some(&journal.store).filter(|_| journal.is_open() || model.is_slow() || self.remote.is_some());
         let store = self.store.or(own);
-        if let Some(store) = store {
-            run = run.with_store(store);
-        }
-        let low_studies = LowStudy::all(self, context)?;
+        run.store = store;
+        let low_studies = study.lows.iter().map(|low| LowStudy::new(self, low, context));
+        let low_studies = low_studies.collect::<Result<Vec<_>, _>>()?;
         let mut lows = LowRun::all(self, &low_studies, context)?;
         let grown = self.run_all(&mut run, &mut lows, &on_progress);
         // An error of the run takes precedence over one of its journal.

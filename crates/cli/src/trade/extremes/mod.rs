@@ -9,7 +9,6 @@ mod precise;
 
 use std::any::Any;
 use std::cmp::Reverse;
-use std::sync::OnceLock;
 use std::sync::atomic::AtomicBool;
 
 use afm_second::AfmSecond;
@@ -80,26 +79,14 @@ pub fn extremes(job: &ExtremesJob<'_>) -> Result<Extremes, RunError> {
     let model = study.subject().model(&space);
     let second = second_calculation(&**study.subject(), &space);
     let points = points(&space, job.points, job.seed);
-    let gave_up = OnceLock::new();
     let found = run_each(
         model.as_ref(),
         job.threads,
         &context,
         points.len() as u64,
-        |worker, number| {
-            let (findings, given_up) = evaluate(model.as_ref(), worker, &points[number as usize].x, &second);
-            if let Some(reason) = given_up {
-                // It would give up at every other point.
-                let _ = gave_up.set(reason);
-                context.end();
-            }
-            findings
-        },
+        |worker, number| evaluate(model.as_ref(), worker, &points[number as usize].x, &second),
         job.on_progress,
     )?;
-    if let Some(reason) = gave_up.into_inner() {
-        return Err(RunError::GaveUp(reason));
-    }
     let mut map = Extremes {
         second_calculation: second.as_ref().ok().map(|second| second.name.clone()),
         unchecked: second.err().map(str::to_owned),
@@ -150,18 +137,21 @@ impl Finding {
     }
 }
 
-/// Returns the outcome of every output at the point `x`, and why the model gave up if it did.
+/// Returns the outcome of every output at the point `x`, or why the model gave up.
 fn evaluate(
     model: &dyn Model,
     worker: &mut dyn Worker,
     x: &[f64],
     second: &Result<SecondCalculation, &'static str>,
-) -> (Vec<Finding>, Option<GiveUp>) {
+) -> Result<Vec<Finding>, GiveUp> {
     let mut batch = Batch::new(model);
     batch.reset(1);
     let inputs: Vec<&[f64]> = x.iter().map(std::slice::from_ref).collect();
     worker.run(&inputs, &mut batch);
     batch.settle();
+    if let Some(give_up) = batch.given_up() {
+        return Err(give_up.clone());
+    }
     let outputs = 0..model.outputs().len();
     let of_output = |output: usize| match batch.failures().iter().find(|(failed, ..)| *failed == output) {
         Some((.., why)) => Err(why.clone()),
@@ -178,7 +168,7 @@ fn evaluate(
         Err(why) => outputs.map(|_| Err(Unchecked::NotAvailable((*why).to_owned()))).collect(),
     };
     let judged = values.into_iter().zip(&references).map(|(value, reference)| judge(value, &flags, reference));
-    (judged.collect(), batch.given_up().cloned())
+    Ok(judged.collect())
 }
 
 /// Judges an output with a `value` or a reason why it has none, the `flags` that the model raised, and a second
