@@ -20,7 +20,7 @@ pub struct Arguments {
     #[command(flatten)]
     study: StudyArguments,
     /// Number of trajectories; each costs (1 + factors) runs
-    #[arg(long, value_name = "R", default_value_t = 32, value_parser = whole_number, allow_negative_numbers = true)]
+    #[arg(long, value_name = "R", default_value_t = 32, allow_negative_numbers = true)]
     trajectories: u64,
     /// Design of the points: radial (Campolongo et al. 2011, by the study's sampler), or trajectory (Morris 1991)
     #[arg(long, default_value = "radial", value_parser = ["radial", "trajectory"])]
