@@ -1,4 +1,5 @@
-//! The charts of a scene in time, after the figures of Tafazzoli & Sitti 2004.
+//! The charts of a scene in time, after the figures of Tafazzoli & Sitti 2004: quantities against time with the slip
+//! marked. Each caption states the result in one sentence.
 
 use apportion_afm::FrictionLaw;
 use apportion_report::chart::{Axis, Chart, Colour, Mark, Panel, Series, Shape, Stroke};
@@ -16,17 +17,6 @@ const TIP: Colour = Colour::Series(5);
 
 /// Factor from SI to nN and nm.
 const NANO: f64 = 1e9;
-
-/// Draws the charts of a story: forces, pushing against critical force, positions, contacts, each against time with the
-/// slip marked, each with the name of its files. Each caption states the result in one sentence.
-pub fn scene_charts(story: &SceneStory) -> [(&'static str, Chart); 4] {
-    [
-        ("scene-forces", forces(story)),
-        ("scene-pushing", pushing(story)),
-        ("scene-positions", positions(story)),
-        ("scene-contacts", contacts(story)),
-    ]
-}
 
 /// A quantity in a chart: its name, colour, and a function for its value in the chart's unit.
 struct Curve<'a> {
