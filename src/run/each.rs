@@ -1,7 +1,5 @@
 //! A caller's own work, distributed over the workers of a model.
 
-use std::time::Duration;
-
 use rayon::prelude::*;
 
 use super::growing::thread_pool;
@@ -23,7 +21,7 @@ pub fn run_each<T: Send>(
     evaluate: impl Fn(&mut dyn Worker, u64) -> Result<T, GiveUp> + Sync,
     on_progress: &(dyn Fn(Progress) + Sync),
 ) -> Result<Vec<T>, RunError> {
-    let before = Progress { done: 0, recalled: 0, total: count, failed: 0, elapsed: Duration::ZERO };
+    let before = Progress { total: count, ..Progress::default() };
     let tracker = Tracker::new(context, before, Instant::now(), on_progress);
     let evaluate = |worker: &mut Box<dyn Worker + '_>, number| {
         if !tracker.goes_on() {

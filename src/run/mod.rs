@@ -35,8 +35,8 @@ pub use growing::GrowingRun;
 pub use pilot::Pilot;
 pub use remote::RemoteWorkers;
 pub(crate) use remote::{DesignKey, Remote, Reply, Request};
+pub(crate) use repeats::repeat_rows;
 pub use repeats::{Irreproducible, Repeats};
-pub(crate) use repeats::{repeat_rows, rows_to_repeat};
 pub use rows::RowValues;
 pub(crate) use rows::answered;
 pub(crate) use scratch::failed_rows;
@@ -68,7 +68,7 @@ pub struct Job<'a> {
 }
 
 /// The progress of a run.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Progress {
     /// Model runs finished.
     pub done: u64,
@@ -104,21 +104,13 @@ pub fn run(job: Job<'_>, threads: usize, on_progress: &(dyn Fn(Progress) + Sync)
 /// A receiver of every piece of evaluated outputs, called by the evaluating thread before its rows count as done.
 pub trait OutputSink: Sync {
     /// Returns whether it currently accepts outputs.
-    fn is_open(&self) -> bool {
-        true
-    }
+    fn is_open(&self) -> bool;
 
     /// Accepts a piece.
     ///
     /// # Errors
     /// Why the piece cannot be saved, which ends the run.
     fn append(&self, piece: &Piece) -> std::io::Result<()>;
-}
-
-impl<F: Fn(&Piece) -> std::io::Result<()> + Sync> OutputSink for F {
-    fn append(&self, piece: &Piece) -> std::io::Result<()> {
-        self(piece)
-    }
 }
 
 /// Returns the number of threads that a run uses when `threads` are requested.

@@ -3,7 +3,6 @@
 use std::collections::VecDeque;
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
-use std::time::Duration;
 
 use super::executor::{RowRange, RowSource};
 use super::store::{Piece, Store};
@@ -38,7 +37,7 @@ impl<'a> MissingRows<'a> {
         sink: Option<&'a dyn OutputSink>,
         failures: FailurePolicy,
     ) -> (Self, Progress) {
-        let mut known = Progress { done: 0, recalled: 0, total: 0, failed: 0, elapsed: Duration::ZERO };
+        let mut known = Progress::default();
         let mut ranges = VecDeque::new();
         for (replicate, rows) in rows {
             let (present, failed) = store.count(*replicate, rows.clone());

@@ -21,8 +21,8 @@ use crate::analysis::{FinishedRun, LowTotals, StopReason, result};
 use crate::model::{Messages, RunContext};
 use crate::result::{StudyResult, Warning};
 use crate::run::{
-    GrowingRun, Job, OutputSink as _, Progress, Remote, RemoteWorkers, Repeats, RunError, Shard, Store, repeat_rows,
-    rows_to_repeat, threads_in_force,
+    GrowingRun, Job, OutputSink as _, Progress, Remote, RemoteWorkers, RunError, Shard, Store, repeat_rows,
+    threads_in_force,
 };
 use crate::study::Study;
 
@@ -321,7 +321,7 @@ impl<'a> Runner<'a> {
         };
         let mut result = run.install(|| result(&finished, stopped.as_ref()));
         let evaluated = evaluated.into_inner();
-        if let Some(repeats) = repeats_of(Job { design: &design, ..job }, context, evaluated, store) {
+        if let Some(repeats) = repeat_rows(Job { design: &design, ..job }, context, evaluated, store) {
             for (output, differing) in result.outputs.iter_mut().zip(&repeats.differing) {
                 let text = repeats.warning(*differing, study.space.noise().is_some());
                 output.warnings.extend(text.map(|text| Warning::Irreproducible { text }));
@@ -344,12 +344,4 @@ impl<'a> Runner<'a> {
         }
         if target.grows() { self.grow(run, lows, on_progress).map(Some) } else { Ok(None) }
     }
-}
-
-/// Repeats some rows of a run in which `evaluated` rows were evaluated, if its model may be random. A model that no
-/// longer responds does not cost the result.
-fn repeats_of(job: Job<'_>, context: &RunContext<'_>, evaluated: u64, store: Option<&Store>) -> Option<Repeats> {
-    let rows = rows_to_repeat(job.design, evaluated);
-    let is_worth_it = job.model.may_be_random() && !rows.is_empty();
-    if is_worth_it { repeat_rows(job, context, &rows, store).ok() } else { None }
 }

@@ -29,6 +29,16 @@ fn counted(rows: &AtomicU64) -> impl Model + '_ {
     })
 }
 
+impl<F: Fn(&Piece) -> std::io::Result<()> + Sync> OutputSink for F {
+    fn is_open(&self) -> bool {
+        true
+    }
+
+    fn append(&self, piece: &Piece) -> std::io::Result<()> {
+        self(piece)
+    }
+}
+
 fn with_store(design: &Design, model: &dyn Model, store: &Store, points: u64) -> Result<Vec<Totals>, RunError> {
     let space = space();
     let context = RunContext::default();
