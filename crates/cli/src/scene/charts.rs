@@ -5,7 +5,7 @@ use apportion_afm::FrictionLaw;
 use apportion_report::chart::{Axis, Chart, Colour, Mark, Panel, Series, Shape, Stroke};
 use apportion_report::format::{change, force, length, three_digits as short, time};
 
-use super::{SceneSample, SceneStory};
+use super::{NANO, SceneSample, SceneStory};
 
 /// The colours of the quantities, also in the animation: the pushing force has that of the friction law.
 pub(super) const LATERAL: Colour = Colour::Series(4);
@@ -14,9 +14,6 @@ pub(super) const SUBSTRATE: Colour = Colour::Series(6);
 const PARTICLE: Colour = Colour::Series(1);
 const RELATIVE: Colour = Colour::Series(4);
 const TIP: Colour = Colour::Series(5);
-
-/// Factor from SI to nN and nm.
-const NANO: f64 = 1e9;
 
 /// A quantity in a chart: its name, colour, and a function for its value in the chart's unit.
 struct Curve<'a> {

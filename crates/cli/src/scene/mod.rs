@@ -22,6 +22,9 @@ pub use columns::{scene_json, scene_number, scene_table};
 pub use mode_diagram::{ModeDiagram, ModeLine, mode_axis, mode_diagram_chart};
 pub use player::player_page;
 
+/// Factor from SI to nN and nm.
+pub const NANO: f64 = 1e9;
+
 /// One scene, from the start of the push through sticking and slipping.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneStory {
